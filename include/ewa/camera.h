@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Cameras: OpenCV axes (x right, y down, z forward), pixel centres at half integers.
+#ifndef EWA_CAMERA_H
+#define EWA_CAMERA_H
+
+#include "ewa/base.h"
+#include "ewa/cloud.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum ewa_projection {
+    EWA_PERSPECTIVE = 0,
+    EWA_ORTHOGRAPHIC = 1,
+} ewa_projection;
+
+/// A pinhole or orthographic camera.
+///
+/// Camera space p = A w + t for world points w as columns, [A t] the upper three rows of world_to_camera.
+/// Perspective: pixel = (fx px / pz + cx, fy py / pz + cy). Orthographic: pixel = (fx px + cx, fy py + cy).
+/// Pixel (i, j) covers [i, i+1) x [j, j+1) (math.md section 0).
+typedef struct ewa_camera {
+    size_t struct_size;
+    ewa_projection projection;
+    uint32_t width_px, height_px;
+    double fx_px, fy_px; ///< perspective: pixels per unit of slope; orthographic: pixels per world unit
+    double cx_px, cy_px; ///< principal point, honoured exactly, may lie outside the picture
+    /// Row-major, acts on column vectors; its upper left 3x3 is a rotation, possibly times a positive scale.
+    double world_to_camera[16];
+} ewa_camera;
+
+/// Sets 1280x720, 50 degrees vertical field of view, at the origin looking along +z.
+EWA_API void ewa_camera_init(ewa_camera *camera, size_t struct_size);
+
+/// Checks that every number is finite, the size within 1..65536, focal lengths positive, the last row 0 0 0 1 and
+/// the upper left 3x3 a rotation times a positive scale (to 1e-4 relative).
+/// Errors: EWA_ERROR_ARGUMENT with a message that names the member.
+EWA_API ewa_status ewa_camera_check(ewa_context *context, const ewa_camera *camera);
+
+/// Places the camera at `eye_world`, looking at `target_world`, with `up_world` pointing up in the picture; an up
+/// that is parallel to the view is replaced by a coordinate axis. Leaves the intrinsics alone.
+/// Errors: EWA_ERROR_NUMERIC when eye and target coincide or a number is not finite (camera unchanged).
+EWA_API ewa_status ewa_camera_look_at(ewa_camera *camera, const double eye_world[3], const double target_world[3],
+                                      const double up_world[3]);
+
+/// Sets a perspective projection with the given vertical field of view in degrees, in (0, 180), square pixels, the
+/// principal point in the middle.
+EWA_API ewa_status ewa_camera_set_fov(ewa_camera *camera, double vertical_fov_deg);
+
+/// Sets an orthographic projection that shows `height_world` > 0 world units from the bottom to the top.
+EWA_API ewa_status ewa_camera_set_ortho(ewa_camera *camera, double height_world);
+
+/// Returns the position of the eye (perspective) or of the camera plane's origin (orthographic) in the world.
+EWA_API void ewa_camera_eye(const ewa_camera *camera, double eye_world[3]);
+
+/// Moves the camera along its own viewing direction (as placed by `direction_world`, from the eye to the middle of the
+/// box, with `up_world`) so that the whole box is in the picture with `margin` (0.05: 5 %) around it. Perspective keeps
+/// the field of view, orthographic sets the height. A box without extent is framed as if it were of size 1.
+/// Errors: EWA_ERROR_NUMERIC for an empty box or a zero direction.
+EWA_API ewa_status ewa_camera_frame(ewa_camera *camera, const ewa_bounds *bounds, const double direction_world[3],
+                                    const double up_world[3], double margin);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Point clouds as named attribute streams.
+#ifndef EWA_CLOUD_H
+#define EWA_CLOUD_H
+
+#include "ewa/base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum ewa_type {
+    EWA_F32 = 0,
+    EWA_F64,
+    EWA_I8,
+    EWA_U8,
+    EWA_I16,
+    EWA_U16,
+    EWA_I32,
+    EWA_U32,
+} ewa_type;
+
+/// Returns the size of one number of a type, in bytes.
+EWA_API size_t ewa_type_bytes(ewa_type type);
+
+/// Returns "float", "double", "char", "uchar", "short", "ushort", "int", "uint" (the words of PLY).
+EWA_API const char *ewa_type_name(ewa_type type);
+
+/// The attributes that the library gives a meaning to. Every other name is kept and passed through.
+///
+/// | name        | components | meaning                                                                     |
+/// |-------------|-----------:|-----------------------------------------------------------------------------|
+/// | position    | 3 | world units, relative to the cloud's origin; F32 or F64                              |
+/// | normal      | 3 | outward; any length but zero                                                         |
+/// | color       | 3, 4 | red green blue [alpha]; integer types are sRGB over their whole range, floats linear |
+/// | radius      | 1 | support radius of the disc, world units: sigma = radius / cutoff                     |
+/// | tangent_u   | 3 | first axis of the kernel, length = one standard deviation, world units               |
+/// | tangent_v   | 3 | second axis; they win over radius; the normal is u x v unless given                  |
+/// | material    | 1 | index into a material table                                                          |
+/// | clip0, clip1| 3 | clip line (a, b, c): keep a u + b v + c >= 0 at position + u tangent_u + v tangent_v |
+/// | clip_mode   | 1 | 0: both lines hold, 1: either holds                                                  |
+#define EWA_POSITION  "position"
+#define EWA_NORMAL    "normal"
+#define EWA_COLOR     "color"
+#define EWA_RADIUS    "radius"
+#define EWA_TANGENT_U "tangent_u"
+#define EWA_TANGENT_V "tangent_v"
+#define EWA_MATERIAL  "material"
+#define EWA_CLIP0     "clip0"
+#define EWA_CLIP1     "clip1"
+#define EWA_CLIP_MODE "clip_mode"
+
+enum { EWA_NAME_BYTES = 64 };
+
+/// One stream: `component_count` numbers of `type` per point, points `stride_bytes` apart.
+typedef struct ewa_attribute {
+    char name[EWA_NAME_BYTES]; ///< zero-terminated UTF-8
+    ewa_type type;
+    uint32_t component_count; ///< 1 to 4
+    size_t stride_bytes;      ///< component_count * size of the type when the cloud owns the data
+    void *data;               ///< aligned to the type
+    bool borrowed;            ///< true: the caller's memory, which the cloud reads and never frees
+} ewa_attribute;
+
+typedef struct ewa_cloud ewa_cloud;
+
+/// Makes a cloud of `point_count` points without attributes; the caller owns `*cloud`.
+/// Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_cloud_create(ewa_context *context, uint64_t point_count, ewa_cloud **cloud);
+
+/// Frees the cloud and the attributes it owns; sets `*cloud` to NULL; accepts NULL and a pointer to NULL.
+EWA_API void ewa_cloud_destroy(ewa_cloud **cloud);
+
+EWA_API ewa_context *ewa_cloud_context(const ewa_cloud *cloud);
+EWA_API uint64_t ewa_cloud_point_count(const ewa_cloud *cloud);
+
+/// Adds a stream that the cloud owns, uninitialised, replacing one of the same name; `*data` (may be NULL) gets
+/// its first number. Pointers to other attributes of the cloud become invalid; their data does not move.
+/// Errors: EWA_ERROR_ARGUMENT (empty or too long name, component_count outside 1..4), EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_cloud_add(ewa_cloud *cloud, const char *name, ewa_type type, uint32_t component_count,
+                                 void **data);
+
+/// Adds a stream over the caller's memory, which must outlive the cloud; nothing is copied.
+/// `stride_bytes` is the distance of consecutive points, 0 for tightly packed.
+EWA_API ewa_status ewa_cloud_borrow(ewa_cloud *cloud, const char *name, ewa_type type, uint32_t component_count,
+                                    const void *data, size_t stride_bytes);
+
+/// Removes a stream if there is one of that name.
+EWA_API void ewa_cloud_remove(ewa_cloud *cloud, const char *name);
+
+/// Returns the stream of that name or NULL; valid until the next add, borrow or remove.
+EWA_API const ewa_attribute *ewa_cloud_find(const ewa_cloud *cloud, const char *name);
+
+EWA_API uint32_t ewa_cloud_attribute_count(const ewa_cloud *cloud);
+
+/// Returns stream `index` in order of addition, NULL beyond the last.
+EWA_API const ewa_attribute *ewa_cloud_attribute_at(const ewa_cloud *cloud, uint32_t index);
+
+/// Sets what has to be added to "position" to give world coordinates (default 0, 0, 0): georeferenced data keeps
+/// its exact place while the streams stay small numbers.
+EWA_API void ewa_cloud_set_origin(ewa_cloud *cloud, const double origin_world[3]);
+EWA_API void ewa_cloud_origin(const ewa_cloud *cloud, double origin_world[3]);
+
+/// Reads `count` points from point `first` as floats, `component_count` of the attribute each, tightly packed into
+/// `values`. Integers are converted as numbers, not normalised.
+EWA_API void ewa_attribute_read_f32(const ewa_attribute *attribute, uint64_t first, uint64_t count, float *values);
+/// The same in double precision.
+EWA_API void ewa_attribute_read_f64(const ewa_attribute *attribute, uint64_t first, uint64_t count, double *values);
+
+/// An axis-aligned box, world units; empty when low > high.
+typedef struct ewa_bounds {
+    double low_world[3], high_world[3];
+    uint64_t finite_count; ///< points whose three coordinates are finite; only they count
+} ewa_bounds;
+
+/// Measures the box of all finite positions, origin included. Does not depend on the order of the points.
+/// Errors: EWA_ERROR_ARGUMENT when there is no "position" of three components.
+EWA_API ewa_status ewa_cloud_measure(const ewa_cloud *cloud, ewa_bounds *bounds);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

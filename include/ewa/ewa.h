@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// All of libewa.
+#ifndef EWA_EWA_H
+#define EWA_EWA_H
+
+#include "ewa/base.h"
+#include "ewa/camera.h"
+#include "ewa/cloud.h"
+#include "ewa/image.h"
+#include "ewa/io.h"
+#include "ewa/math.h"
+#include "ewa/prepare.h"
+#include "ewa/render.h"
+
+#endif

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Float images, sRGB, comparison.
+#ifndef EWA_IMAGE_H
+#define EWA_IMAGE_H
+
+#include "ewa/base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// A float image: rows from the top down, pixels interleaved, tightly packed. Colour is linear light.
+typedef struct ewa_image {
+    ewa_context *context;
+    uint32_t width_px, height_px;
+    uint32_t channel_count; ///< 1 to 8; colour images: 3 (RGB) or 4 (RGBA, premultiplied)
+    float *pixels;          ///< height * width * channel_count numbers
+} ewa_image;
+
+/// Makes a black (all zero) image; the caller frees it with ewa_image_free().
+/// Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT (side over ewa_limits.max_image_side), EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_image_create(ewa_context *context, uint32_t width_px, uint32_t height_px,
+                                    uint32_t channel_count, ewa_image *image);
+
+/// Frees the pixels and zeroes the struct; accepts NULL and a zeroed struct.
+EWA_API void ewa_image_free(ewa_image *image);
+
+/// Linear light to sRGB and back, the exact piecewise curve of IEC 61966-2-1; input is clamped to [0, 1].
+EWA_API float ewa_srgb_from_linear(float linear);
+EWA_API float ewa_linear_from_srgb(float srgb);
+
+/// How far two images are from each other.
+typedef struct ewa_difference {
+    double mean_absolute; ///< over all numbers of both images
+    double rms;
+    double maximum;
+    double psnr_db; ///< 10 log10(peak^2 / rms^2); infinite for equal images
+    uint64_t over_threshold_count; ///< pixels in which any channel differs by more than the threshold
+} ewa_difference;
+
+/// Compares two images of the same size and channel count; a NaN on one side only counts as infinitely far.
+/// `peak` > 0 is the full scale for the PSNR (1 for colour); `threshold` >= 0; `heat` (may be NULL) receives a new
+/// one-channel image of the largest absolute channel difference per pixel, owned by the caller.
+/// Errors: EWA_ERROR_ARGUMENT when the shapes differ, EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_image_compare(const ewa_image *a, const ewa_image *b, double peak, double threshold,
+                                     ewa_difference *difference, ewa_image *heat);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Files: point clouds, images, cameras. Formats are chosen by content on input and by suffix on output.
+// Output files appear whole or not at all: they are written aside and renamed. Every failure names the file, the
+// place in it and the reason.
+#ifndef EWA_IO_H
+#define EWA_IO_H
+
+#include "ewa/base.h"
+#include "ewa/camera.h"
+#include "ewa/cloud.h"
+#include "ewa/image.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Reads a point cloud: PLY (ascii, binary of both byte orders). "-" reads standard input.
+/// Errors: EWA_ERROR_IO, EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_cloud_load(ewa_context *context, const char *path, ewa_cloud **cloud);
+
+/// The same from `size_bytes` bytes in memory; `name` stands for the file in messages.
+EWA_API ewa_status ewa_cloud_load_memory(ewa_context *context, const void *bytes, size_t size_bytes,
+                                         const char *name, ewa_cloud **cloud);
+
+typedef enum ewa_ply_encoding {
+    EWA_PLY_BINARY_LITTLE_ENDIAN = 0,
+    EWA_PLY_BINARY_BIG_ENDIAN = 1,
+    EWA_PLY_ASCII = 2,
+} ewa_ply_encoding;
+
+typedef struct ewa_cloud_save_options {
+    size_t struct_size;
+    ewa_ply_encoding ply_encoding; ///< default EWA_PLY_BINARY_LITTLE_ENDIAN
+} ewa_cloud_save_options;
+
+EWA_API void ewa_cloud_save_options_init(ewa_cloud_save_options *options, size_t struct_size);
+
+/// Writes a point cloud; the suffix (.ply) chooses the format; "-" writes PLY to standard output. With an origin
+/// other than zero, positions are written as doubles. `options` may be NULL.
+/// Errors: EWA_ERROR_IO, EWA_ERROR_UNSUPPORTED (suffix), EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_cloud_save(const ewa_cloud *cloud, const char *path, const ewa_cloud_save_options *options);
+
+/// What a picture file says beside its pixels. Fill with ewa_image_save_options_init().
+typedef struct ewa_image_save_options {
+    size_t struct_size;
+    /// Names of the image's channels for EXR, comma-separated, such as "R,G,B,A" or "Z"; default NULL: by count,
+    /// 1 Y, 3 RGB, 4 RGBA.
+    const char *channel_names;
+    bool exr_half;                 ///< store half floats; default false: float
+    const double *world_to_camera; ///< 16 numbers as in ewa_camera, or NULL: EXR attribute worldToCamera (M44f)
+    bool srgb_alpha_straight;      ///< PNG: un-premultiply before encoding; default true
+} ewa_image_save_options;
+
+EWA_API void ewa_image_save_options_init(ewa_image_save_options *options, size_t struct_size);
+
+/// Writes a float image by suffix: .png (8-bit sRGB from linear light), .exr (linear), .pfm (linear, rows bottom-up).
+/// `options` may be NULL.
+/// Errors: EWA_ERROR_IO, EWA_ERROR_UNSUPPORTED (suffix, channel count of the format), EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_image_save(const ewa_image *image, const char *path, const ewa_image_save_options *options);
+
+/// Writes 8-bit pixels as PNG: rows from the top, `channel_count` 1 grey, 3 RGB or 4 RGBA straight alpha, sRGB.
+EWA_API ewa_status ewa_png_save(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px,
+                                uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes);
+
+/// Reads .png (sRGB 8 and 16 bit to linear light, alpha premultiplied), .exr, .pfm by content.
+/// EXR gives R G B [A] when present, else its channels in alphabetical order, at most 8.
+EWA_API ewa_status ewa_image_load(ewa_context *context, const char *path, ewa_image *image);
+
+/// Reads a camera file (JSON of docs/files.md). Errors name the member that is missing or wrong.
+EWA_API ewa_status ewa_camera_load(ewa_context *context, const char *path, ewa_camera *camera);
+
+/// Writes a camera file with every digit that a double needs.
+EWA_API ewa_status ewa_camera_save(ewa_context *context, const ewa_camera *camera, const char *path);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

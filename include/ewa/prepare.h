@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// From positions to surfels, and test objects.
+#ifndef EWA_PREPARE_H
+#define EWA_PREPARE_H
+
+#include "ewa/base.h"
+#include "ewa/cloud.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum ewa_orientation {
+    EWA_ORIENT_PROPAGATE = 0, ///< consistent along the neighbour graph, outward for closed surfaces
+    EWA_ORIENT_VIEWPOINT = 1, ///< towards viewpoint_world
+    EWA_ORIENT_NONE = 2,      ///< as the eigenvector comes (sign: largest component positive)
+} ewa_orientation;
+
+typedef enum ewa_surfel_shape {
+    EWA_SHAPE_DISC = 0,    ///< "radius" from the local spacing
+    EWA_SHAPE_ELLIPSE = 1, ///< "tangent_u", "tangent_v" from the local anisotropy of the sampling
+} ewa_surfel_shape;
+
+/// How positions become surfels. Fill with ewa_estimate_options_init().
+typedef struct ewa_estimate_options {
+    size_t struct_size;
+    uint32_t neighbour_count; ///< k, the point itself not counted; 6 to 64; default 16
+    ewa_orientation orientation;
+    double viewpoint_world[3]; ///< for EWA_ORIENT_VIEWPOINT
+    ewa_surfel_shape shape;
+    double radius_scale;   ///< support radius in units of the local spacing 1/sqrt(density); > 0; default by measurement
+    double cutoff;         ///< F: tangent axes are radius / F long; default 2
+    bool keep_normals;     ///< keep "normal" when the cloud has it; default true
+    bool keep_radii;       ///< keep "radius" or tangent axes when the cloud has them; default true
+    double outlier_factor; ///< remove points whose mean neighbour distance exceeds mean + factor * deviation; 0: keep all
+} ewa_estimate_options;
+
+EWA_API void ewa_estimate_options_init(ewa_estimate_options *options, size_t struct_size);
+
+/// Adds what a surfel needs and the cloud lacks: "normal" (PCA of the k nearest neighbours, oriented), and "radius" or
+/// tangent axes from the local density. With outlier removal the cloud is replaced by a smaller one.
+/// Points with coordinates that are not finite get a zero normal and radius. Coplanar, collinear, identical and single
+/// points get finite results; the message callback (info) says how many were degenerate.
+/// The result per point does not depend on the number of threads.
+/// Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_MEMORY, EWA_CANCELLED.
+EWA_API ewa_status ewa_cloud_estimate(ewa_cloud **cloud, const ewa_estimate_options *options);
+
+/// What the neighbourhoods of a cloud say about its sampling; world units.
+typedef struct ewa_spacing {
+    double median_world, mean_world; ///< of 1/sqrt(local density)
+    double low_world, high_world;    ///< 5th and 95th percentile
+    uint64_t duplicate_count;        ///< points with another point at the same place
+} ewa_spacing;
+
+/// Measures the sampling from at most `sample_count` points (0: all), the same ones for every run.
+EWA_API ewa_status ewa_cloud_measure_spacing(const ewa_cloud *cloud, uint64_t sample_count, ewa_spacing *spacing);
+
+typedef enum ewa_object {
+    EWA_OBJECT_PLANE = 0,
+    EWA_OBJECT_CHECKER = 1, ///< checkerboard plane
+    EWA_OBJECT_CUBE,
+    EWA_OBJECT_SPHERE,
+    EWA_OBJECT_TORUS,
+    EWA_OBJECT_TERRAIN, ///< fractal heights, textured
+} ewa_object;
+
+/// What to generate. Fill with ewa_generate_options_init().
+typedef struct ewa_generate_options {
+    size_t struct_size;
+    ewa_object object;
+    uint64_t point_count;   ///< about how many points; exact except for grids, which round; default 100000
+    uint64_t seed;          ///< same seed, same bytes, on every machine; default 1
+    double size_world;      ///< edge of plane, cube, terrain; diameter of sphere; outer diameter of torus; default 2
+    double jitter;          ///< 0: regular grid, 1: anywhere in the cell; default 0.5 (plane, checker, cube, terrain)
+    double checks;          ///< squares along one edge of the checker plane and of the cube's faces; default 16
+    double radius_scale;    ///< support radius in units of the spacing; default as in ewa_estimate_options
+    bool positions_only;    ///< leave out normals and radii
+} ewa_generate_options;
+
+EWA_API void ewa_generate_options_init(ewa_generate_options *options, size_t struct_size);
+
+/// Makes a test object, centred at the origin: position F32, normal F32, color U8, radius F32. Plane, checker and
+/// terrain lie in x-y, z up; the torus's axis is z.
+EWA_API ewa_status ewa_cloud_generate(ewa_context *context, const ewa_generate_options *options, ewa_cloud **cloud);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

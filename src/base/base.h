@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What every room stands on: checked allocation, failure with a message, parallel loops, time, CPU features.
+#ifndef EWA_SRC_BASE_H
+#define EWA_SRC_BASE_H
+
+#include "ewa/base.h"
+
+/// Stable facts of a context that other rooms read.
+const ewa_limits *ewa_context_limits(const ewa_context *context);
+
+/// Returns count * size bytes aligned to 64, uninitialised, or NULL after reporting; a product of zero gives one
+/// byte. Pair with ewa_release() of the same count and size.
+void *ewa_allocate(ewa_context *context, size_t count, size_t size_bytes);
+
+/// Like ewa_allocate(), set to zero.
+void *ewa_allocate_zeroed(ewa_context *context, size_t count, size_t size_bytes);
+
+/// Frees what ewa_allocate() returned; accepts NULL.
+void ewa_release(ewa_context *context, void *memory, size_t count, size_t size_bytes);
+
+/// A buffer that only grows, so that a warm frame allocates nothing. Zero-initialise.
+typedef struct ewa_buffer {
+    void *data;
+    size_t capacity_bytes;
+} ewa_buffer;
+
+/// Makes room for count * size bytes; what was in the buffer is lost when it has to grow.
+ewa_status ewa_buffer_reserve(ewa_context *context, ewa_buffer *buffer, size_t count, size_t size_bytes);
+void ewa_buffer_free(ewa_context *context, ewa_buffer *buffer);
+
+/// Reports "<formatted text>" at EWA_SEVERITY_ERROR and returns `status`, so that `return ewa_fail(...)` reads well.
+ewa_status ewa_fail(ewa_context *context, ewa_status status, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/// Reports a message of another severity; formats nothing when nobody listens at that level.
+void ewa_report(ewa_context *context, ewa_severity severity, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/// Calls `task(data, i, worker)` for every i in [0, count) and waits. Not from inside a task.
+void ewa_parallel(ewa_context *context, ewa_task *task, void *data, uint32_t count);
+
+/// Tells the progress callback; returns EWA_CANCELLED when it wants to stop, else EWA_OK.
+ewa_status ewa_progress(ewa_context *context, const char *stage, double fraction);
+
+/// Monotonic time in seconds.
+double ewa_now_s(void);
+
+/// EWA_CPU_* bits of this machine.
+uint32_t ewa_cpu_detect(void);
+
+/// Splits `count` items into `parts` contiguous ranges; returns the first item of part `part` (part = parts: count).
+static inline uint64_t ewa_split(uint64_t count, uint32_t parts, uint32_t part) {
+    return count / parts * part + count % parts * part / parts;
+}
+
+#endif

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// cmocka with what it needs before it, and a context for tests.
+#ifndef EWA_TESTS_CHECK_H
+#define EWA_TESTS_CHECK_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "ewa/ewa.h"
+
+/// Keeps the last message of a context, for tests that look at it.
+typedef struct check_log {
+    char text[1024];
+    int count;
+} check_log;
+
+static inline void check_log_keep(void *user, ewa_severity severity, const char *text) {
+    check_log *log = user;
+    if (severity > EWA_SEVERITY_WARNING) return;
+    snprintf(log->text, sizeof log->text, "%s", text);
+    log->count++;
+}
+
+/// A context with `threads` workers (0: default) whose messages go to `log` (may be NULL).
+static inline ewa_context *check_context(uint32_t threads, check_log *log) {
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.thread_count = threads;
+    if (log) {
+        options.message = check_log_keep;
+        options.message_user = log;
+    }
+    ewa_context *context = NULL;
+    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+    return context;
+}
+
+/// Path of a file of the shared test data, or NULL (after saying so) when it is not there.
+static inline const char *check_data(const char *relative, char *path, size_t path_bytes) {
+    const char *folder = getenv("EWA_DATA");
+    if (folder) {
+        snprintf(path, path_bytes, "%s/%s", folder, relative);
+        FILE *file = fopen(path, "rb");
+        if (file) {
+            fclose(file);
+            return path;
+        }
+    }
+    print_message("skipped: no test data %s\n", relative);
+    return NULL;
+}
+
+/// A seeded stream of numbers for property tests (splitmix64), the same everywhere.
+typedef struct check_random {
+    uint64_t state;
+} check_random;
+
+static inline uint64_t check_random_u64(check_random *random) {
+    uint64_t z = random->state += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+/// Uniform in [low, high).
+static inline double check_uniform(check_random *random, double low, double high) {
+    return low + (high - low) * (double)(check_random_u64(random) >> 11) * 0x1p-53;
+}
+
+#endif

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Tests of src/cloud: streams, borrowed memory, reading as floats, bounds.
+#include "check.h"
+
+#include <math.h>
+#include <string.h>
+
+static void test_streams(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_cloud_create(context, 3, &cloud), EWA_OK);
+    for (int i = 0; i < 20; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "scalar_%d", i);
+        uint16_t *values = NULL;
+        assert_int_equal(ewa_cloud_add(cloud, name, EWA_U16, 1, (void **)&values), EWA_OK);
+        for (int p = 0; p < 3; p++) values[p] = (uint16_t)(100 * i + p);
+    }
+    ewa_cloud_remove(cloud, "scalar_3");
+    ewa_cloud_remove(cloud, "no such stream");
+    assert_null(ewa_cloud_find(cloud, "scalar_3"));
+    assert_int_equal(ewa_cloud_attribute_count(cloud), 19);
+    float read[2];
+    ewa_attribute_read_f32(ewa_cloud_find(cloud, "scalar_7"), 1, 2, read);
+    assert_true(read[0] == 701.0f && read[1] == 702.0f);
+    assert_int_equal(ewa_cloud_add(cloud, "", EWA_F32, 1, NULL), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_cloud_add(cloud, "five", EWA_F32, 5, NULL), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_cloud_add(cloud, "odd", (ewa_type)99, 1, NULL), EWA_ERROR_ARGUMENT);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
+static void test_borrowed_stride_and_bounds(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    struct record {
+        float x, y, z, unused;
+    } records[4] = {{1, 2, 3, 9}, {NAN, 0, 0, 9}, {-1, INFINITY, 0, 9}, {4, -5, 6, 9}};
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_cloud_create(context, 4, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, records, 6), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, records, sizeof records[0]), EWA_OK);
+    const double origin[3] = {500000, 4000000, 100};
+    ewa_cloud_set_origin(cloud, origin);
+    ewa_bounds bounds;
+    assert_int_equal(ewa_cloud_measure(cloud, &bounds), EWA_OK);
+    assert_int_equal(bounds.finite_count, 2);
+    assert_true(bounds.low_world[0] == 500001 && bounds.high_world[0] == 500004);
+    assert_true(bounds.low_world[1] == 3999995 && bounds.high_world[2] == 106);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
+static void test_too_many_points(void **state) {
+    (void)state;
+    check_log log = {0};
+    ewa_context *context = check_context(0, &log);
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_cloud_create(context, (uint64_t)1 << 40, &cloud), EWA_ERROR_LIMIT);
+    assert_non_null(strstr(log.text, "limit"));
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_streams),
+        cmocka_unit_test(test_borrowed_stride_and_bounds),
+        cmocka_unit_test(test_too_many_points),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
