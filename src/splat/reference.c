@@ -6,7 +6,7 @@
 // Zwicker, H. Pfister, J. van Baar, M. Gross, "Surface Splatting", 2001, sections 4 and 7; M. Zwicker, J.
 // Rasanen, M. Botsch, C. Dachsbacher, M. Pauly, "Perspective Accurate Splatting", 2004, section 6.
 #include "base/base.h"
-#include "ewa/image.h"
+#include "image/srgb.h"
 #include "splat/options.h"
 #include "splat/reference_splat.h"
 
@@ -133,10 +133,6 @@ static double shade(const reference *work, ewa_vec3 normal_world, double x_px, d
     return ambient + (1 - ambient) * fmax(0, vec3_dot(normal_world, light));
 }
 
-static uint8_t to_srgb8(double linear) {
-    return (uint8_t)(255 * (double)ewa_srgb_from_linear((float)linear) + 0.5);
-}
-
 /// Third pass (SS 7): divide by the weights, shade, cover, put over the background.
 static void resolve(const reference *work, int32_t x, int32_t y) {
     const size_t index = (size_t)y * (size_t)work->view.width_px + (size_t)x;
@@ -164,7 +160,8 @@ static void resolve(const reference *work, int32_t x, int32_t y) {
         frame->rgba[4 * index + 3] = (float)a;
     }
     if (frame->rgba8) {
-        for (int c = 0; c < 3; c++) frame->rgba8[4 * index + (size_t)c] = a > 0 ? to_srgb8(rgb[c] / a) : 0;
+        for (int c = 0; c < 3; c++)
+            frame->rgba8[4 * index + (size_t)c] = a > 0 ? ewa_srgb8_from_linear((float)(rgb[c] / a)) : 0;
         frame->rgba8[4 * index + 3] = (uint8_t)(255 * a + 0.5);
     }
     if (frame->depth) frame->depth[index] = (float)depth;
@@ -234,8 +231,12 @@ ewa_status ewa_render_reference(const ewa_cloud *cloud, const ewa_surfels_option
     if (status != EWA_OK) return status;
     ewa_reference_view_make(camera, chosen.cutoff, &work.options, &work.view);
     const ewa_vec3 light = vec3_load(work.options.light_world);
-    const double length = vec3_length(light);
-    if (length > 0) work.light_world = vec3_scale(light, 1 / length);
+    const double largest = fmax(fabs(light.x), fmax(fabs(light.y), fabs(light.z)));
+    if (largest > 0) {
+        // By way of the largest component, so that no square overflows.
+        const ewa_vec3 shorter = vec3_make(light.x / largest, light.y / largest, light.z / largest);
+        work.light_world = vec3_scale(shorter, 1 / vec3_length(shorter));
+    }
     const uint64_t bands = (uint64_t)ewa_context_worker_count(context) * BANDS_PER_WORKER;
     work.band_count = bands < camera->height_px ? (uint32_t)bands : camera->height_px;
     return render(context, &work);

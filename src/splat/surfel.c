@@ -7,36 +7,13 @@
 // Basis, Revisited", 2017.
 #include "splat/surfel.h"
 #include "base/base.h"
+#include "image/srgb.h"
+#include "math/vec.h"
 #include "splat/semantics.h"
 
-#include <math.h>
 #include <string.h>
 
 enum { BLOCK = 64 };
-
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-static void cross(const double a[3], const double b[3], double c[3]) {
-    c[0] = a[1] * b[2] - a[2] * b[1];
-    c[1] = a[2] * b[0] - a[0] * b[2];
-    c[2] = a[0] * b[1] - a[1] * b[0];
-}
-
-/// The curve of IEC 61966-2-1 from correctly rounded operations only, so that it is the same on every
-/// machine: s^2.4 = (s r)^2 with r the fifth root of s, by Newton from s^(1/8 + 1/16 + 1/128), within 1 % of
-/// it here.
-static double linear_from_srgb(double value) {
-    if (value <= 0.04045) return value / 12.92;
-    const double s = (value + 0.055) / 1.055;
-    const double eighth = sqrt(sqrt(sqrt(s))), sixteenth = sqrt(eighth);
-    double root = eighth * sixteenth * sqrt(sqrt(sqrt(sixteenth)));
-    for (int i = 0; i < 4; i++) {
-        const double square = root * root;
-        root -= 0.2 * (root - s / (square * square));
-    }
-    const double product = s * root;
-    return product * product;
-}
 
 /// Full scale of an integer type, 0 for floats.
 static double full_scale(ewa_type type) {
@@ -72,74 +49,72 @@ static void read_color(const ewa_surfel_reader *reader, const double *value, ewa
         else if (color->type == EWA_U8)
             surfel->color_linear[c] = reader->linear_from_u8[(int)value[c]];
         else if (scale > 0)
-            surfel->color_linear[c] = linear_from_srgb(clamp01(value[c] / scale));
+            surfel->color_linear[c] = ewa_srgb_decode(clamp01(value[c] / scale));
         else
             surfel->color_linear[c] = clamp01(value[c]);
     }
     surfel->alpha = components < 4 || !finite ? 1 : clamp01(scale > 0 ? value[3] / scale : value[3]);
 }
 
-static bool within_limit(const double v[3]) {
-    // Written so that a NaN is not within.
-    return fabs(v[0]) <= EWA_SURFEL_LIMIT && fabs(v[1]) <= EWA_SURFEL_LIMIT && fabs(v[2]) <= EWA_SURFEL_LIMIT;
+static void store(ewa_vec3 v, double to[3]) {
+    to[0] = v.x;
+    to[1] = v.y;
+    to[2] = v.z;
+}
+
+/// False for NaN too.
+static bool within_limit(ewa_vec3 v) {
+    return fabs(v.x) <= EWA_SURFEL_LIMIT && fabs(v.y) <= EWA_SURFEL_LIMIT && fabs(v.z) <= EWA_SURFEL_LIMIT;
 }
 
 /// Scales `v` to length 1 by way of its largest component, so that tiny and huge vectors keep their
 /// direction.
-static bool normalize(double v[3]) {
-    const double largest = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
-    if (!(largest > 0) || !isfinite(v[0] + v[1] + v[2])) return false;
-    for (int c = 0; c < 3; c++) v[c] /= largest;
-    const double length = sqrt(dot(v, v));
-    for (int c = 0; c < 3; c++) v[c] /= length;
+static bool normalize(ewa_vec3 *v) {
+    const double largest = fmax(fabs(v->x), fmax(fabs(v->y), fabs(v->z)));
+    if (!(largest > 0) || !vec3_is_finite(*v)) return false;
+    // A division, because 1 / largest may overflow.
+    *v = vec3_make(v->x / largest, v->y / largest, v->z / largest);
+    *v = vec3_scale(*v, 1 / vec3_length(*v));
     return true;
 }
 
-/// A disc of standard deviation `sigma` around the normal.
-static bool make_disc(const double normal[3], double sigma, ewa_surfel *surfel) {
-    if (!(sigma >= 1 / EWA_SURFEL_LIMIT && sigma <= EWA_SURFEL_LIMIT)) return false;
-    double *n = surfel->normal_world;
-    memcpy(n, normal, 3 * sizeof *n);
-    if (!normalize(n)) return false;
-    const double sign = copysign(1, n[2]), a = -1 / (sign + n[2]), b = n[0] * n[1] * a;
-    const double u[3] = {1 + sign * n[0] * n[0] * a, sign * b, -sign * n[0]};
-    const double v[3] = {b, sign + n[1] * n[1] * a, -n[1]};
-    for (int c = 0; c < 3; c++) {
-        surfel->axis_u_world[c] = sigma * u[c];
-        surfel->axis_v_world[c] = sigma * v[c];
-    }
+/// A disc of standard deviation `sigma` around the normal `n`.
+static bool make_disc(ewa_vec3 n, double sigma, ewa_surfel *surfel) {
+    if (!(sigma >= 1 / EWA_SURFEL_LIMIT && sigma <= EWA_SURFEL_LIMIT) || !normalize(&n)) return false;
+    const double sign = copysign(1, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
+    store(vec3_scale(vec3_make(1 + sign * n.x * n.x * a, sign * b, -sign * n.x), sigma),
+          surfel->axis_u_world);
+    store(vec3_scale(vec3_make(b, sign + n.y * n.y * a, -n.y), sigma), surfel->axis_v_world);
+    store(n, surfel->normal_world);
     return true;
 }
 
 /// An ellipse of two conjugate axes: turns them into the principal ones of the same covariance. A rotation of
 /// the pair by t keeps tu'tu + tv'tv and tu x tv; they become orthogonal for tan 2t = 2 tu.tv / (tu.tu -
-/// tv.tv).
-static bool make_ellipse(const double tu[3], const double tv[3], double scale, ewa_surfel *surfel) {
-    double *u = surfel->axis_u_world, *v = surfel->axis_v_world, *n = surfel->normal_world;
-    for (int c = 0; c < 3; c++) {
-        u[c] = scale * tu[c];
-        v[c] = scale * tv[c];
-    }
-    if (!within_limit(u) || !within_limit(v)) return false;
-    const double difference = dot(u, u) - dot(v, v), mixed = 2 * dot(u, v);
+/// tv.tv). The normal is on the side of `given`, if that has one.
+static bool make_ellipse(ewa_vec3 tu, ewa_vec3 tv, ewa_vec3 given, ewa_surfel *surfel) {
+    if (!within_limit(tu) || !within_limit(tv)) return false;
+    const double difference = vec3_dot(tu, tu) - vec3_dot(tv, tv), mixed = 2 * vec3_dot(tu, tv);
     double cosine = 1, sine = 0;
     if (mixed != 0 || difference < 0) {
         // Half of the angle of (difference, mixed), in [-90, 90] degrees: the longer axis becomes u.
         const double length = sqrt(difference * difference + mixed * mixed);
-        const double twice = length > 0 ? difference / length : 1;
-        const double larger = sqrt((1 + fabs(twice)) / 2), smaller = fabs(mixed) / length / (2 * larger);
-        cosine = twice >= 0 ? larger : smaller;
-        sine = copysign(twice >= 0 ? smaller : larger, mixed);
+        const double larger = sqrt((1 + fabs(difference) / length) / 2);
+        const double smaller = fabs(mixed) / length / (2 * larger);
+        cosine = difference >= 0 ? larger : smaller;
+        sine = copysign(difference >= 0 ? smaller : larger, mixed);
     }
-    for (int c = 0; c < 3; c++) {
-        const double was = u[c];
-        u[c] = cosine * was + sine * v[c];
-        v[c] = cosine * v[c] - sine * was;
-    }
-    const double u_length = sqrt(dot(u, u)), v_length = sqrt(dot(v, v));
-    if (!(v_length >= 1 / EWA_SURFEL_LIMIT && v_length >= EWA_SURFEL_MIN_ASPECT * u_length)) return false;
-    cross(u, v, n);
-    return normalize(n);
+    const ewa_vec3 u = vec3_add(vec3_scale(tu, cosine), vec3_scale(tv, sine));
+    const ewa_vec3 v = vec3_sub(vec3_scale(tv, cosine), vec3_scale(tu, sine));
+    // A length of 0 above has made NaN of both.
+    if (!(vec3_length(v) >= 1 / EWA_SURFEL_LIMIT && vec3_length(v) >= EWA_SURFEL_MIN_ASPECT * vec3_length(u)))
+        return false;
+    ewa_vec3 n = vec3_cross(u, v);
+    if (!normalize(&n)) return false;
+    store(u, surfel->axis_u_world);
+    store(v, surfel->axis_v_world);
+    store(vec3_scale(n, vec3_dot(n, given) < 0 ? -1 : 1), surfel->normal_world);
+    return true;
 }
 
 static ewa_status check_components(const ewa_cloud *cloud, const ewa_attribute *attribute, uint32_t low,
@@ -198,7 +173,7 @@ ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_opti
         if (status == EWA_OK) status = check_components(cloud, reader->radius, 1, 1);
     }
     ewa_cloud_origin(cloud, reader->origin_world);
-    for (int i = 0; i < 256; i++) reader->linear_from_u8[i] = linear_from_srgb(i / 255.0);
+    for (int i = 0; i < 256; i++) reader->linear_from_u8[i] = ewa_srgb_decode(i / 255.0);
     return status;
 }
 
@@ -212,18 +187,20 @@ static uint64_t read_block(const ewa_surfel_reader *reader, uint64_t first, uint
     if (reader->color) ewa_attribute_read_f64(reader->color, first, count, color);
     ewa_attribute_read_f64(reader->tangent_u ? reader->tangent_u : reader->radius, first, count, first_axis);
     if (reader->tangent_v) ewa_attribute_read_f64(reader->tangent_v, first, count, second_axis);
+    const ewa_vec3 origin = vec3_load(reader->origin_world);
     uint64_t kept = 0;
     for (uint64_t i = 0; i < count; i++) {
         ewa_surfel *surfel = &surfels[i];
-        if (!reader->tangent_u) {
-            drawable[i] = make_disc(&normal[3 * i], first_axis[i] * reader->sigma_per_radius, surfel);
-        } else {
-            drawable[i] = make_ellipse(&first_axis[3 * i], &second_axis[3 * i], reader->axis_scale, surfel);
-            if (drawable[i] && reader->normal && dot(surfel->normal_world, &normal[3 * i]) < 0)
-                for (int c = 0; c < 3; c++) surfel->normal_world[c] = -surfel->normal_world[c];
-        }
-        for (int c = 0; c < 3; c++) surfel->center_world[c] = position[3 * i + c] + reader->origin_world[c];
-        drawable[i] = drawable[i] && within_limit(surfel->center_world);
+        const ewa_vec3 center = vec3_add(vec3_load(&position[3 * i]), origin);
+        store(center, surfel->center_world);
+        const ewa_vec3 given = reader->normal ? vec3_load(&normal[3 * i]) : vec3_make(0, 0, 0);
+        if (reader->tangent_u)
+            drawable[i] =
+                make_ellipse(vec3_scale(vec3_load(&first_axis[3 * i]), reader->axis_scale),
+                             vec3_scale(vec3_load(&second_axis[3 * i]), reader->axis_scale), given, surfel);
+        else
+            drawable[i] = make_disc(given, first_axis[i] * reader->sigma_per_radius, surfel);
+        drawable[i] = drawable[i] && within_limit(center);
         kept += drawable[i];
         surfel->alpha = 1;
         if (reader->color)
