@@ -15,31 +15,14 @@
 
 enum { BLOCK = 64 };
 
-/// Full scale of an integer type, 0 for floats.
-static double full_scale(ewa_type type) {
-    switch (type) {
-    case EWA_U8:
-        return 255;
-    case EWA_I8:
-        return 127;
-    case EWA_U16:
-        return 65535;
-    case EWA_I16:
-        return 32767;
-    case EWA_U32:
-        return 4294967295.0;
-    case EWA_I32:
-        return 2147483647.0;
-    default:
-        return 0;
-    }
-}
+/// Full scale of each ewa_type, 0 for floats.
+static const double FULL_SCALE[] = {0, 0, 127, 255, 32767, 65535, 2147483647.0, 4294967295.0};
 
 static double clamp01(double value) { return value < 0 ? 0 : value > 1 ? 1 : value; }
 
 static void read_color(const ewa_surfel_reader *reader, const double *value, ewa_surfel *surfel) {
     const ewa_attribute *color = reader->color;
-    const double scale = full_scale(color->type);
+    const double scale = FULL_SCALE[color->type];
     const uint32_t components = color->component_count;
     bool finite = true;
     for (uint32_t c = 0; c < components; c++) finite = finite && isfinite(value[c]);
@@ -51,7 +34,7 @@ static void read_color(const ewa_surfel_reader *reader, const double *value, ewa
         else if (scale > 0)
             surfel->color_linear[c] = ewa_srgb_decode(clamp01(value[c] / scale));
         else
-            surfel->color_linear[c] = clamp01(value[c]);
+            surfel->color_linear[c] = fmin(fmax(value[c], 0), EWA_SURFEL_LIMIT);
     }
     surfel->alpha = components < 4 || !finite ? 1 : clamp01(scale > 0 ? value[3] / scale : value[3]);
 }
