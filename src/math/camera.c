@@ -19,6 +19,8 @@ static const double ROTATION_TOLERANCE = 1e-4;
 static const double PARALLEL_SINE = 1e-9;
 /// The nearest corner of a framed box stays this part of the box's diagonal in front of the eye.
 static const double NEAREST_PART = 0.01;
+/// A box seen along a thin side is framed, orthographically, as if it were this part of its diagonal wide.
+static const double THINNEST_PART = 1e-3;
 /// Relative slack of a framed camera, so that rounding leaves no corner beyond the margin.
 static const double ROUNDING_SLACK = 1e-12;
 
@@ -237,7 +239,7 @@ ewa_status ewa_camera_frame(ewa_camera *camera, const ewa_bounds *bounds, const 
     if (camera->projection == EWA_PERSPECTIVE) {
         distance = fmax(distance, nearest + NEAREST_PART * diagonal) * (1 + ROUNDING_SLACK);
     } else {
-        const double least_reach = NEAREST_PART * diagonal;
+        const double least_reach = THINNEST_PART * diagonal;
         scale = fmin(x_side.reach / fmax(x_reach, least_reach), y_side.reach / fmax(y_reach, least_reach));
         scale *= 1 - ROUNDING_SLACK;
         distance = diagonal;
