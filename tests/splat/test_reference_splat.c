@@ -4,8 +4,8 @@
 // Tests of src/splat/reference_splat.c: one splat against other derivations of the same thing, sampled
 // outlines, closed forms and limits.
 #include "check.h"
+#include "kernels/semantics.h"
 #include "splat/reference_splat.h"
-#include "splat/semantics.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -520,8 +520,13 @@ static void test_sides(void **state) {
         surfel = make_surfel(vec3_make(0, 0, 5), y, x);
         ewa_reference_project(&view, &surfel, &splat);
         assert_true(splat.drawn && splat.normal.z == -1 && splat.normal_world.z == -1);
-        // Exactly from the edge.
+        // Exactly from the edge: nothing to see but what the prefilter makes of a line; without it, nothing
+        // at all.
         surfel = make_surfel(vec3_make(0, 0, 5), x, z);
+        ewa_reference_project(&view, &surfel, &splat);
+        assert_int_equal(splat.drawn, options.cull == EWA_CULL_NONE);
+        if (splat.drawn) assert_true(splat.peak == 0);
+        view.prefilter_px = 0;
         ewa_reference_project(&view, &surfel, &splat);
         assert_false(splat.drawn);
         // Wholly behind.

@@ -3,8 +3,8 @@
 //
 // Tests of src/splat/surfel.c and options.c: what streams become, what is left out, what is refused.
 #include "check.h"
-#include "splat/options.h"
 #include "kernels/semantics.h"
+#include "splat/options.h"
 #include "splat/surfel.h"
 
 #include <math.h>
