@@ -135,7 +135,9 @@ picture_report picture_compare(const picture *reference, const picture *other, d
                                const uint8_t *mask) {
     picture_report report = {.pixel_count = (uint64_t)reference->width_px * reference->height_px};
     const ewa_frame *a = &reference->frame, *b = &other->frame;
-    double worst = 0;
+    double worst = 0, deepest = 0;
+    for (size_t i = 0; i < report.pixel_count; i++)
+        if (isfinite(a->depth[i])) deepest = fmax(deepest, fabs((double)a->depth[i]));
     for (size_t i = 0; i < report.pixel_count; i++) {
         double color = 0, normal = 0;
         for (size_t c = 4 * i; c < 4 * i + 4; c++) color = fmax(color, distance(a->rgba[c], b->rgba[c]));
@@ -143,7 +145,7 @@ picture_report picture_compare(const picture *reference, const picture *other, d
             normal = fmax(normal, distance(a->normal[c], b->normal[c]));
         const double coverage = distance(a->coverage[i], b->coverage[i]);
         double depth = distance(a->depth[i], b->depth[i]);
-        if (isfinite(a->depth[i])) depth /= fabs((double)a->depth[i]);
+        if (isfinite(a->depth[i])) depth /= fmax(fabs((double)a->depth[i]), 0.01 * deepest);
         if ((double)a->coverage[i] < threshold && (double)b->coverage[i] < threshold) depth = normal = 0;
         const double largest = fmax(color, fmax(depth, coverage));
         const bool edge = mask && mask[i];

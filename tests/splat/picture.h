@@ -33,8 +33,9 @@ void picture_mark_edges(const scene *of, const ewa_surfels_options *surfels_opti
                         const ewa_render_options *options, double support_band, double depth_band,
                         uint8_t *mask);
 
-/// How far a picture is from the reference. Errors: colour absolute (premultiplied linear), depth relative,
-/// coverage absolute in units of q0; the largest of the pixel's.
+/// How far a picture is from the reference. Errors: colour absolute (premultiplied linear), depth relative to
+/// z (and to no less than a hundredth of the picture's deepest), coverage absolute in units of q0; the
+/// largest of the pixel's.
 typedef struct picture_report {
     uint64_t pixel_count;
     uint64_t over_count;                   ///< pixels beyond the threshold, edges included
@@ -44,8 +45,8 @@ typedef struct picture_report {
     uint32_t worst_px[2];                  ///< where the largest of the first three is
 } picture_report;
 
-/// Compares all planes; `mask` (may be NULL) is that of picture_mark_edges(). The depths of pixels whose
-/// coverage is below `threshold` in both, and the normals of all pixels, do not count as beyond.
+/// Compares all planes; `mask` (may be NULL) is that of picture_mark_edges(). The depths and normals of
+/// pixels whose coverage is below `threshold` in both are not compared; normals never count as beyond.
 picture_report picture_compare(const picture *reference, const picture *other, double threshold,
                                const uint8_t *mask);
 

@@ -595,6 +595,62 @@ static void test_arguments(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Memory that ends after a number of allocations.
+typedef struct scarce_memory {
+    int left;
+    int64_t held_bytes;
+} scarce_memory;
+
+static void *scarce_allocate(void *user, size_t size_bytes) {
+    scarce_memory *memory = user;
+    if (memory->left-- <= 0) return NULL;
+    memory->held_bytes += (int64_t)size_bytes;
+    return aligned_alloc(64, (size_bytes + 63) / 64 * 64);
+}
+
+static void scarce_release(void *user, void *memory, size_t size_bytes) {
+    ((scarce_memory *)user)->held_bytes -= (int64_t)size_bytes;
+    free(memory);
+}
+
+static bool refuse_to_go_on(void *user, const char *stage, double fraction) {
+    (void)stage;
+    return fraction < *(const double *)user;
+}
+
+/// Every allocation that fails and every moment to cancel gives its status and frees what there was.
+static void test_failures(void **state) {
+    (void)state;
+    scarce_memory memory = {.left = 1000};
+    double patience = 2;
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.allocator = (ewa_allocator){&memory, scarce_allocate, scarce_release};
+    options.progress = refuse_to_go_on;
+    options.progress_user = &patience;
+    ewa_context *context = NULL;
+    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+    scene made = make_scene(context, SCENE_NEAR);
+    picture shown = picture_make(SIZE, SIZE);
+    const int64_t held_bytes = memory.held_bytes;
+    ewa_status status = EWA_ERROR_MEMORY;
+    for (int allowed = 0; status == EWA_ERROR_MEMORY; allowed++) {
+        memory.left = allowed;
+        status = ewa_render_reference(made.cloud, NULL, 1, &made.camera, NULL, &shown.frame);
+        assert_true(memory.held_bytes == held_bytes && allowed < 10);
+    }
+    assert_int_equal(status, EWA_OK);
+    memory.left = 1000;
+    for (patience = 0; patience <= 1; patience += 0.25)
+        assert_int_equal(ewa_render_reference(made.cloud, NULL, 1, &made.camera, NULL, &shown.frame),
+                         EWA_CANCELLED);
+    assert_true(memory.held_bytes == held_bytes);
+    picture_free(&shown);
+    scene_free(&made);
+    ewa_context_destroy(&context);
+    assert_true(memory.held_bytes == 0);
+}
+
 /// The comparison finds what differs and the mask where it may.
 static void test_comparison(void **state) {
     (void)state;
@@ -641,7 +697,8 @@ int main(void) {
         cmocka_unit_test(test_coincident_points), cmocka_unit_test(test_sphere),
         cmocka_unit_test(test_plane_depth),       cmocka_unit_test(test_floor_through_the_eye),
         cmocka_unit_test(test_resolve),           cmocka_unit_test(test_visibility),
-        cmocka_unit_test(test_arguments),         cmocka_unit_test(test_comparison),
+        cmocka_unit_test(test_arguments),         cmocka_unit_test(test_failures),
+        cmocka_unit_test(test_comparison),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
