@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Clipping of segments and convex polygons in homogeneous coordinates, for both signs of w; double precision, one at a
-// time. The batch clipper (clip_batch.h) follows ewa_clip_segment() step by step.
+// Clipping of segments and convex polygons in homogeneous coordinates, for both signs of w; double precision,
+// one at a time. The batch clipper (clip_batch.h) follows ewa_clip_segment() step by step.
 //
-// Visible are two convex cones: where the six boundary coordinates w + x, w - x, w + y, w - y, z, w - z are all >= 0,
-// and where all are <= 0. A segment and each cone share one interval of alpha (Liang and Barsky), a convex polygon and
-// each cone one convex polygon (Sutherland and Hodgman).
+// Visible are two convex cones: where the six boundary coordinates w + x, w - x, w + y, w - y, z, w - z are
+// all >= 0, and where all are <= 0. A segment and each cone share one interval of alpha (Liang and Barsky), a
+// convex polygon and each cone one convex polygon (Sutherland and Hodgman).
 //
-// Based on: Bloomenthal and Rokne, Homogeneous Coordinates, section Homogeneous Clipping; Blinn and Newell, Clipping
-// Using Homogeneous Coordinates, SIGGRAPH 1978.
+// Based on: Bloomenthal and Rokne, Homogeneous Coordinates, section Homogeneous Clipping; Blinn and Newell,
+// Clipping Using Homogeneous Coordinates, SIGGRAPH 1978.
 #include "math/noise.h"
 
 /// Coordinates beyond 2^SAFE_EXPONENT are scaled down together, so that no sum overflows.
@@ -26,7 +26,8 @@ static void boundary_coordinates(ewa_vec4 p, double b[6]) {
 
 static double largest(ewa_vec4 p) { return fmax(fmax(fabs(p.x), fabs(p.y)), fmax(fabs(p.z), fabs(p.w))); }
 
-/// The power of two that all points of one segment or polygon are multiplied with: alpha does not depend on it.
+/// The power of two that all points of one segment or polygon are multiplied with: alpha does not depend on
+/// it.
 static double safe_scale(double largest_number) {
     int exponent = 0;
     frexp(largest_number, &exponent);
@@ -37,8 +38,8 @@ static ewa_vec4 between(ewa_vec4 p1, ewa_vec4 p2, double alpha) {
     return vec4_add(vec4_scale(p1, 1 - alpha), vec4_scale(p2, alpha));
 }
 
-/// True where the w of a point between p1 and p2 has cancelled to rounding error. In a visible cone only [0 0 0 0] has
-/// w = 0, so that is where the segment passes through it: no point at all.
+/// True where the w of a point between p1 and p2 has cancelled to rounding error. In a visible cone only [0 0
+/// 0 0] has w = 0, so that is where the segment passes through it: no point at all.
 static bool vanishes(ewa_vec4 p1, ewa_vec4 p2, double alpha, ewa_vec4 point) {
     if (alpha == 1) return point.w == 0;
     return fabs(point.w) <= NOISE * (fabs(p1.w) + alpha * fabs(p2.w));
@@ -98,7 +99,8 @@ ewa_status ewa_clip_alphas(ewa_vec4 p1, ewa_vec4 p2, double alpha[6], uint32_t *
 }
 
 ewa_status ewa_clip_segment(ewa_vec4 p1, ewa_vec4 p2, ewa_segment_part parts[2], uint32_t *visible) {
-    if (!vec4_is_finite(p1) || !vec4_is_finite(p2) || largest(p1) == 0 || largest(p2) == 0) return EWA_ERROR_NUMERIC;
+    if (!vec4_is_finite(p1) || !vec4_is_finite(p2) || largest(p1) == 0 || largest(p2) == 0)
+        return EWA_ERROR_NUMERIC;
     double scale = safe_scale(fmax(largest(p1), largest(p2)));
     p1 = vec4_scale(p1, scale);
     p2 = vec4_scale(p2, scale);
@@ -118,7 +120,8 @@ typedef struct corners {
     uint32_t count, attribute_count;
 } corners;
 
-static void append(corners *to, ewa_vec4 point, const double *attributes1, const double *attributes2, double alpha) {
+static void append(corners *to, ewa_vec4 point, const double *attributes1, const double *attributes2,
+                   double alpha) {
     to->points[to->count] = point;
     size_t n = to->attribute_count, first = to->count * n;
     for (size_t i = 0; i < n; i++)
@@ -130,18 +133,18 @@ static const double *attributes_of(const corners *polygon, uint32_t i) {
     return polygon->attribute_count ? polygon->attributes + (size_t)i * polygon->attribute_count : NULL;
 }
 
-/// Where the edge from a corner inside to a corner outside crosses: always in this direction, so that the polygons on
-/// both sides of an edge get the same corner. [0 0 0 0] where it is no point.
-static void append_crossing(corners *to, const corners *from, uint32_t inside, uint32_t outside, double b_inside,
-                            double b_outside) {
+/// Where the edge from a corner inside to a corner outside crosses: always in this direction, so that the
+/// polygons on both sides of an edge get the same corner. [0 0 0 0] where it is no point.
+static void append_crossing(corners *to, const corners *from, uint32_t inside, uint32_t outside,
+                            double b_inside, double b_outside) {
     double alpha = b_inside / (b_inside - b_outside);
     ewa_vec4 p1 = from->points[inside], p2 = from->points[outside], point = between(p1, p2, alpha);
     if (vanishes(p1, p2, alpha, point)) point = vec4_make(0, 0, 0, 0);
     append(to, point, attributes_of(from, inside), attributes_of(from, outside), alpha);
 }
 
-/// One plane: keeps what is inside. A convex polygon grows by one corner at most; one that is not convex is cut off at
-/// `capacity`.
+/// One plane: keeps what is inside. A convex polygon grows by one corner at most; one that is not convex is
+/// cut off at `capacity`.
 static void clip_by_plane(const corners *from, corners *to, int plane, double sign, uint32_t capacity) {
     to->count = 0;
     for (uint32_t i = 0; i < from->count; i++) {
@@ -164,13 +167,15 @@ static void settle_corners(corners *polygon, double sign, double scale) {
     for (uint32_t i = 0; i < polygon->count; i++) {
         ewa_vec4 point = polygon->points[i];
         if (sign * point.w > 0)
-            append(&kept, vec4_scale(settle(point), 1 / scale), attributes_of(polygon, i), attributes_of(polygon, i), 0);
+            append(&kept, vec4_scale(settle(point), 1 / scale), attributes_of(polygon, i),
+                   attributes_of(polygon, i), 0);
     }
     polygon->count = kept.count < 3 ? 0 : kept.count;
 }
 
-static void clip_polygon_to_cone(const ewa_vec4 *points, const double *attributes, corners result, corners work,
-                                 double sign, double scale, uint32_t capacity, uint32_t *count) {
+static void clip_polygon_to_cone(const ewa_vec4 *points, const double *attributes, corners result,
+                                 corners work, double sign, double scale, uint32_t capacity,
+                                 uint32_t *count) {
     uint32_t point_count = result.count, attribute_count = result.attribute_count;
     result.count = 0;
     for (uint32_t i = 0; i < point_count; i++) {
@@ -200,11 +205,13 @@ ewa_status ewa_clip_polygon(const ewa_vec4 *points, const double *attributes, ui
     corners area[3];
     for (size_t k = 0; k < 3; k++)
         area[k] = (corners){.points = clipped_points + k * capacity,
-                            .attributes = attribute_count ? clipped_attributes + k * capacity * attribute_count : NULL,
+                            .attributes =
+                                attribute_count ? clipped_attributes + k * capacity * attribute_count : NULL,
                             .count = point_count,
                             .attribute_count = attribute_count};
     double scale = safe_scale(largest_number);
     for (int k = 0; k < 2; k++)
-        clip_polygon_to_cone(points, attributes, area[k], area[2], k ? -1 : 1, scale, capacity, &clipped_count[k]);
+        clip_polygon_to_cone(points, attributes, area[k], area[2], k ? -1 : 1, scale, capacity,
+                             &clipped_count[k]);
     return EWA_OK;
 }

@@ -3,8 +3,8 @@
 //
 // Conics, their duals, and the ellipse of a dual conic.
 //
-// Based on: Bloomenthal and Rokne, Homogeneous Coordinates, section Homogeneous Coordinates for the Projective Plane
-// (a conic is a form of degree two in x, y, w); math.md sections 1 and 3 (PAS section 4).
+// Based on: Bloomenthal and Rokne, Homogeneous Coordinates, section Homogeneous Coordinates for the
+// Projective Plane (a conic is a form of degree two in x, y, w); math.md sections 1 and 3 (PAS section 4).
 #include "math/noise.h"
 
 /// M S M' of a symmetric S, symmetric by construction.
@@ -28,7 +28,9 @@ ewa_conic ewa_conic_dual(const ewa_conic *conic) {
     return conic_from_mat3(&adjugate);
 }
 
-ewa_conic ewa_conic_pull(const ewa_conic *image_conic, const ewa_mat3 *map) { return congruence(map, image_conic); }
+ewa_conic ewa_conic_pull(const ewa_conic *image_conic, const ewa_mat3 *map) {
+    return congruence(map, image_conic);
+}
 
 ewa_conic ewa_dual_conic_transform(const ewa_conic *dual, const ewa_mat3 *map) {
     ewa_mat3 transpose = mat3_transpose(map);
@@ -55,7 +57,8 @@ ewa_status ewa_dual_conic_ellipse(const ewa_conic *dual, double center[2], doubl
     double xx_error = NOISE * (cx * cx + fabs(dxx)), yy_error = NOISE * (cy * cy + fabs(dyy));
     double xy_error = NOISE * (fabs(cx * cy) + fabs(dxy));
     double det = xx * yy - xy * xy;
-    double det_error = xx_error * (fabs(yy) + yy_error) + yy_error * fabs(xx) + xy_error * (2 * fabs(xy) + xy_error);
+    double det_error =
+        xx_error * (fabs(yy) + yy_error) + yy_error * fabs(xx) + xy_error * (2 * fabs(xy) + xy_error);
     // A disc seen edge-on is a segment: its shape is singular, and rounding may make it slightly indefinite.
     if (!isfinite(det) || xx < -xx_error || yy < -yy_error || det < -det_error) return EWA_ERROR_NUMERIC;
     center[0] = cx;

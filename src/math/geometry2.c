@@ -3,7 +3,8 @@
 //
 // Points and lines of the projective plane, and coordinates in a triangle.
 //
-// Based on: Bloomenthal and Rokne, Homogeneous Coordinates, sections Introduction (figure 1) and Homogeneous Lines.
+// Based on: Bloomenthal and Rokne, Homogeneous Coordinates, sections Introduction (figure 1) and Homogeneous
+// Lines.
 #include "math/noise.h"
 
 /// Join and meet are one operation: duality.
@@ -46,8 +47,9 @@ ewa_status ewa_line2_distance(ewa_vec3 line, ewa_vec3 point, double *distance) {
 
 ewa_vec3 ewa_line2_at_infinity(void) { return vec3_make(0, 0, 1); }
 
-/// A triangle made ready: corners with w = 1 relative to the first, which keeps small triangles far from the origin
-/// exact, and the lines opposite to them, scaled so that their incidence product with their own corner is 1.
+/// A triangle made ready: corners with w = 1 relative to the first, which keeps small triangles far from the
+/// origin exact, and the lines opposite to them, scaled so that their incidence product with their own corner
+/// is 1.
 typedef struct frame {
     ewa_vec3 origin;
     ewa_vec3 corner[3];
@@ -74,7 +76,8 @@ static ewa_status make_frame(const ewa_vec3 triangle[3], frame *f) {
 
 static ewa_status weigh(const frame *f, ewa_vec3 point, double weights[3]) {
     ewa_vec3 local = vec3_sub(point, vec3_scale(f->origin, point.z));
-    ewa_vec3 result = vec3_make(vec3_dot(f->edge[0], local), vec3_dot(f->edge[1], local), vec3_dot(f->edge[2], local));
+    ewa_vec3 result =
+        vec3_make(vec3_dot(f->edge[0], local), vec3_dot(f->edge[1], local), vec3_dot(f->edge[2], local));
     if (!vec3_is_finite(result)) return EWA_ERROR_NUMERIC;
     weights[0] = result.x;
     weights[1] = result.y;
@@ -116,7 +119,8 @@ ewa_status ewa_triangle_distances(const ewa_vec3 triangle[3], ewa_vec3 point, do
     return EWA_OK;
 }
 
-ewa_status ewa_triangle_point_from_distances(const ewa_vec3 triangle[3], const double distances[3], ewa_vec3 *point) {
+ewa_status ewa_triangle_point_from_distances(const ewa_vec3 triangle[3], const double distances[3],
+                                             ewa_vec3 *point) {
     frame f;
     ewa_status status = make_frame(triangle, &f);
     if (status) return status;

@@ -1,19 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Points, planes and lines of projective space. A line through points p, q has direction pw q - qw p and moment p x q;
-// the line on planes a, b is the same formula with direction and moment exchanged. Likewise "line and plane meet in a
-// point" is "line and point join in a plane" on the exchanged line. So there are two formulas for six operations.
+// Points, planes and lines of projective space. A line through points p, q has direction pw q - qw p and
+// moment p x q; the line on planes a, b is the same formula with direction and moment exchanged. Likewise
+// "line and plane meet in a point" is "line and point join in a plane" on the exchanged line. So there are
+// two formulas for six operations.
 //
-// Based on: Blinn, A Homogeneous Formulation for Lines in 3 Space, SIGGRAPH 1977; Bloomenthal and Rokne, Homogeneous
-// Coordinates, section Homogeneous Lines (duality).
+// Based on: Blinn, A Homogeneous Formulation for Lines in 3 Space, SIGGRAPH 1977; Bloomenthal and Rokne,
+// Homogeneous Coordinates, section Homogeneous Lines (duality).
 #include "math/noise.h"
 
 static ewa_line3 exchange(ewa_line3 line) { return (ewa_line3){line.moment, line.direction}; }
 
-static ewa_line3 line_abs(ewa_line3 line) { return (ewa_line3){vec3_abs(line.direction), vec3_abs(line.moment)}; }
+static ewa_line3 line_abs(ewa_line3 line) {
+    return (ewa_line3){vec3_abs(line.direction), vec3_abs(line.moment)};
+}
 
-static bool line_is_finite(ewa_line3 line) { return vec3_is_finite(line.direction) && vec3_is_finite(line.moment); }
+static bool line_is_finite(ewa_line3 line) {
+    return vec3_is_finite(line.direction) && vec3_is_finite(line.moment);
+}
 
 /// Two points to their line; two planes to the exchange of theirs (s: see noise.h).
 static ewa_line3 combine_two(ewa_vec4 p, ewa_vec4 q, double s) {
@@ -58,8 +63,8 @@ static ewa_status line_and(ewa_line3 line, ewa_vec4 plane, ewa_vec4 *point) {
     return EWA_OK;
 }
 
-/// Three planes to their point; three points to their plane. The line between is not tested on its own: its rounding
-/// error counts, so its magnitude is carried through.
+/// Three planes to their point; three points to their plane. The line between is not tested on its own: its
+/// rounding error counts, so its magnitude is carried through.
 static ewa_status three(ewa_vec4 a, ewa_vec4 b, ewa_vec4 c, ewa_vec4 *result) {
     if (!vec4_is_finite(a) || !vec4_is_finite(b) || !vec4_is_finite(c)) return EWA_ERROR_NUMERIC;
     a = vec4_balance(a);
@@ -91,7 +96,9 @@ ewa_status ewa_plane_join(ewa_vec4 p, ewa_vec4 q, ewa_vec4 r, ewa_vec4 *plane) {
     return status;
 }
 
-ewa_status ewa_plane_meet(ewa_vec4 a, ewa_vec4 b, ewa_vec4 c, ewa_vec4 *point) { return three(a, b, c, point); }
+ewa_status ewa_plane_meet(ewa_vec4 a, ewa_vec4 b, ewa_vec4 c, ewa_vec4 *point) {
+    return three(a, b, c, point);
+}
 
 ewa_status ewa_plane_distance(ewa_vec4 plane, ewa_vec4 point, double *distance) {
     if (!vec4_is_finite(plane) || !vec4_is_finite(point)) return EWA_ERROR_NUMERIC;

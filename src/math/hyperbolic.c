@@ -3,16 +3,18 @@
 //
 // Interpolation of attributes over projected polygons and segments.
 //
-// A point of the polygon is a sum of its corners, p = b V with V the rows [x y w] of three of them; on the screen
-// p ~ [sx sy 1], so b ~ [sx sy 1] V^-1. An attribute u is b u' / b 1': a quotient of two linear functions, with the
-// coefficients V^-1 u' and V^-1 1'. The scale of the inverse cancels, the adjugate serves: no w is divided by.
+// A point of the polygon is a sum of its corners, p = b V with V the rows [x y w] of three of them; on the
+// screen p ~ [sx sy 1], so b ~ [sx sy 1] V^-1. An attribute u is b u' / b 1': a quotient of two linear
+// functions, with the coefficients V^-1 u' and V^-1 1'. The scale of the inverse cancels, the adjugate
+// serves: no w is divided by.
 //
-// Based on: Bloomenthal and Rokne, Homogeneous Coordinates, section Associated Vertex Transformations; Heckbert,
-// Fundamentals of Texture Mapping and Image Warping, 1989 (rational linear); Blinn, Hyperbolic Interpolation, 1992.
+// Based on: Bloomenthal and Rokne, Homogeneous Coordinates, section Associated Vertex Transformations;
+// Heckbert, Fundamentals of Texture Mapping and Image Warping, 1989 (rational linear); Blinn, Hyperbolic
+// Interpolation, 1992.
 #include "math/noise.h"
 
-ewa_status ewa_hyperbolic_fit(const ewa_vec4 corners[3], const double *values, uint32_t count, ewa_vec3 *numerators,
-                              ewa_vec3 *denominator) {
+ewa_status ewa_hyperbolic_fit(const ewa_vec4 corners[3], const double *values, uint32_t count,
+                              ewa_vec3 *numerators, ewa_vec3 *denominator) {
     ewa_vec3 v[3];
     double largest = 0;
     for (int i = 0; i < 3; i++) {

@@ -3,8 +3,9 @@
 //
 // Affine and projective maps, and what they do to points, lines, planes and conics.
 //
-// Based on: Bloomenthal and Rokne, Homogeneous Coordinates, sections Transformations and Sequences. The rotation there
-// is printed with the sign of column vectors; here it is counter-clockwise for row vectors, as its text says.
+// Based on: Bloomenthal and Rokne, Homogeneous Coordinates, sections Transformations and Sequences. The
+// rotation there is printed with the sign of column vectors; here it is counter-clockwise for row vectors, as
+// its text says.
 #include "math/noise.h"
 
 ewa_mat3 ewa_mat3_identity(void) { return mat3_identity(); }
@@ -22,7 +23,9 @@ ewa_mat3 ewa_mat3_bordered(const double a[2][2], const double c[2]) {
     return (ewa_mat3){{{a[0][0], a[0][1], 0}, {a[1][0], a[1][1], 0}, {c[0], c[1], 1}}};
 }
 
-ewa_mat3 ewa_mat3_concatenate(const ewa_mat3 *first, const ewa_mat3 *second) { return mat3_multiply(first, second); }
+ewa_mat3 ewa_mat3_concatenate(const ewa_mat3 *first, const ewa_mat3 *second) {
+    return mat3_multiply(first, second);
+}
 
 ewa_mat3 ewa_mat3_transpose(const ewa_mat3 *map) { return mat3_transpose(map); }
 
@@ -70,8 +73,9 @@ ewa_mat4 ewa_mat4_from_column_form(const double column_form[16]) {
 }
 
 ewa_mat4 ewa_mat4_concatenate(const ewa_mat4 *first, const ewa_mat4 *second) {
-    return mat4_from_rows(vec4_mul_mat4(mat4_row(first, 0), second), vec4_mul_mat4(mat4_row(first, 1), second),
-                          vec4_mul_mat4(mat4_row(first, 2), second), vec4_mul_mat4(mat4_row(first, 3), second));
+    return mat4_from_rows(
+        vec4_mul_mat4(mat4_row(first, 0), second), vec4_mul_mat4(mat4_row(first, 1), second),
+        vec4_mul_mat4(mat4_row(first, 2), second), vec4_mul_mat4(mat4_row(first, 3), second));
 }
 
 /// The six 2x2 minors of two rows, in the order of columns 01 02 03 12 13 23 (s: see noise.h).
@@ -129,7 +133,8 @@ ewa_status ewa_mat4_invert(const ewa_mat4 *map, ewa_mat4 *inverse) {
         {m[1][0] * l[4] - m[1][1] * l[2] + m[1][3] * l[0], -m[0][0] * l[4] + m[0][1] * l[2] - m[0][3] * l[0],
          m[3][0] * u[4] - m[3][1] * u[2] + m[3][3] * u[0], -m[2][0] * u[4] + m[2][1] * u[2] - m[2][3] * u[0]},
         {-m[1][0] * l[3] + m[1][1] * l[1] - m[1][2] * l[0], m[0][0] * l[3] - m[0][1] * l[1] + m[0][2] * l[0],
-         -m[3][0] * u[3] + m[3][1] * u[1] - m[3][2] * u[0], m[2][0] * u[3] - m[2][1] * u[1] + m[2][2] * u[0]}};
+         -m[3][0] * u[3] + m[3][1] * u[1] - m[3][2] * u[0],
+         m[2][0] * u[3] - m[2][1] * u[1] + m[2][2] * u[0]}};
     ewa_mat4 result;
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++) {

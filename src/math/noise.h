@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// When is a computed zero a zero? Homogeneous things have no scale, so "small" means nothing; a sum of products is zero
-// where it is not larger than its own rounding error, which is proportional to the sum of the products' magnitudes.
-// Every formula of the room that can degenerate is therefore written once with a sign s for its subtractions:
-// s = -1 gives the value, s = +1 on absolute arguments gives the magnitude.
+// When is a computed zero a zero? Homogeneous things have no scale, so "small" means nothing; a sum of
+// products is zero where it is not larger than its own rounding error, which is proportional to the sum of
+// the products' magnitudes. Every formula of the room that can degenerate is therefore written once with a
+// sign s for its subtractions: s = -1 gives the value, s = +1 on absolute arguments gives the magnitude.
 #ifndef EWA_SRC_MATH_NOISE_H
 #define EWA_SRC_MATH_NOISE_H
 
@@ -12,11 +12,12 @@
 
 #include "math/vec.h"
 
-/// Largest rounding error of the room's products of up to four factors, relative to their magnitude: they take at
-/// most eight roundings of half a DBL_EPSILON, inputs that carry one each at most four more.
+/// Largest rounding error of the room's products of up to four factors, relative to their magnitude: they
+/// take at most eight roundings of half a DBL_EPSILON, inputs that carry one each at most four more.
 #define NOISE (8 * DBL_EPSILON)
 
-/// Representatives whose largest number is beyond 2^+-BALANCED are scaled first, so that products of four stay finite.
+/// Representatives whose largest number is beyond 2^+-BALANCED are scaled first, so that products of four
+/// stay finite.
 enum { BALANCED = 250 };
 
 static inline bool is_noise(double value, double magnitude) { return fabs(value) <= NOISE * magnitude; }
@@ -49,7 +50,8 @@ static inline ewa_vec3 vec3_balance(ewa_vec3 v) {
 static inline ewa_vec4 vec4_balance(ewa_vec4 v) {
     int exponent = balance_exponent(fmax(fmax(fabs(v.x), fabs(v.y)), fmax(fabs(v.z), fabs(v.w))));
     if (!exponent) return v;
-    return vec4_make(ldexp(v.x, -exponent), ldexp(v.y, -exponent), ldexp(v.z, -exponent), ldexp(v.w, -exponent));
+    return vec4_make(ldexp(v.x, -exponent), ldexp(v.y, -exponent), ldexp(v.z, -exponent),
+                     ldexp(v.w, -exponent));
 }
 
 /// a x b (s = -1) or its magnitude (s = +1, absolute arguments).

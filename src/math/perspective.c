@@ -3,8 +3,9 @@
 //
 // Perspective maps, their factors, vanishing points, and the planes of a view volume.
 //
-// Based on: Bloomenthal and Rokne, Homogeneous Coordinates, sections Perspective Projection to Example Perspective
-// Transformations; off-axis windows, reversed depth and the far plane at infinity are the same map with other numbers.
+// Based on: Bloomenthal and Rokne, Homogeneous Coordinates, sections Perspective Projection to Example
+// Perspective Transformations; off-axis windows, reversed depth and the far plane at infinity are the same
+// map with other numbers.
 #include "math/angle.h"
 #include "math/noise.h"
 
@@ -61,9 +62,11 @@ ewa_status ewa_frustum_orthographic(const ewa_frustum *frustum, ewa_mat4 *map) {
     return keep_finite(&result, map);
 }
 
-ewa_status ewa_camera_clip_map(const ewa_camera *camera, double near_z, double far_z, ewa_mat4 *world_to_clip) {
+ewa_status ewa_camera_clip_map(const ewa_camera *camera, double near_z, double far_z,
+                               ewa_mat4 *world_to_clip) {
     bool perspective = camera->projection == EWA_PERSPECTIVE;
-    double reach = perspective ? near_z : 1; // what a slope (perspective) or a world unit spans on the window's plane
+    double reach =
+        perspective ? near_z : 1; // what a slope (perspective) or a world unit spans on the window's plane
     if (!(camera->fx_px > 0) || !(camera->fy_px > 0)) return EWA_ERROR_NUMERIC;
     ewa_frustum frustum = {.x_low = -camera->cx_px / camera->fx_px * reach,
                            .x_high = (camera->width_px - camera->cx_px) / camera->fx_px * reach,
