@@ -139,7 +139,9 @@ static void append_crossing(corners *to, const corners *from, uint32_t inside, u
                             double b_inside, double b_outside) {
     double alpha = b_inside / (b_inside - b_outside);
     ewa_vec4 p1 = from->points[inside], p2 = from->points[outside], point = between(p1, p2, alpha);
-    if (vanishes(p1, p2, alpha, point)) point = vec4_make(0, 0, 0, 0);
+    // Between planes a corner may well have w = 0; only where all of it has cancelled it is no point.
+    if (vec4_is_noise(point, vec4_add(vec4_abs(p1), vec4_scale(vec4_abs(p2), alpha))))
+        point = vec4_make(0, 0, 0, 0);
     append(to, point, attributes_of(from, inside), attributes_of(from, outside), alpha);
 }
 

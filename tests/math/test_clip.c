@@ -115,13 +115,16 @@ static void test_degenerate_segments(void **state) {
     // p2 = -k p1 is the same point: the segment runs through [0 0 0 0], which is none.
     check_random random = {2};
     for (int i = 0; i < 1000; i++) {
-        ewa_vec4 p = random_clip_point(&random, 3 + 4 * i),
-                 q = vec4_scale(p, -check_uniform(&random, 0.01, 100));
+        ewa_vec4 p = random_clip_point(&random, 3 + 4 * i), q = vec4_scale(p, -ldexp(1, i % 15 - 7));
         assert_int_equal(ewa_clip_segment(p, q, parts, &visible), EWA_OK);
-        if (visibility(p) < -1e-12) assert_int_equal(visible, 0);
+        bool is_visible = visibility(p) >= 0;
+        assert_int_equal(visible, is_visible ? EWA_VISIBLE_POSITIVE | EWA_VISIBLE_NEGATIVE : 0);
+        for (int e = 0; e < 4 && is_visible; e++) check_same(&parts[e / 2].end[e % 2], &p, 4, 1e-15);
+        // Rounded, the segment passes by [0 0 0 0] and any of it may be visible, as long as it is.
+        q = vec4_scale(p, -check_uniform(&random, 0.01, 100));
+        assert_int_equal(ewa_clip_segment(p, q, parts, &visible), EWA_OK);
         for (int k = 0; k < 2; k++)
-            if (visible & 1u << k)
-                for (int e = 0; e < 2; e++) check_same(&parts[k].end[e], &p, 4, 1e-12);
+            if (visible & 1u << k) check_part(p, q, &parts[k], k ? -1 : 1);
     }
     // Both ends are directions: nothing of the line at infinity is in the frustum.
     assert_int_equal(ewa_clip_segment(vec4_make(1, 0, 0, 0), vec4_make(0, 1, 0, 0), parts, &visible), EWA_OK);

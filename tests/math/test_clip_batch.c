@@ -60,12 +60,12 @@ static void fill(batch *b, uint64_t seed) {
         }
         if (i % 7 == 1) p[3] = 0;
         if (i % 7 == 2) p[7] = -0.0f;
-        float k = (float)check_uniform(&random, 0.1, 4);
-        for (int c = 0; c < 4 && i % 11 == 3; c++) p[4 + c] = -k * p[c];
-        float scale = i % 13 == 1 ? 0x1p122f : i % 13 == 2 ? 0x1p-146f : 1;
-        for (int c = 0; c < 8; c++) p[c] *= scale;
         if (p[0] == 0 && p[1] == 0 && p[2] == 0) p[2] = 0.5f;
         if (p[4] == 0 && p[5] == 0 && p[6] == 0) p[6] = -0.5f;
+        float k = ldexpf(1, i % 5 - 2); // exact: -k p is the same point in every precision
+        for (int c = 0; c < 4 && i % 11 == 3 && i % 13 != 2; c++) p[4 + c] = -k * p[c];
+        float scale = i % 13 == 1 ? 0x1p120f : i % 13 == 2 ? 0x1p-140f : 1;
+        for (int c = 0; c < 8; c++) p[c] *= scale;
         for (int c = 0; c < 8; c++) b->in[c][i] = p[c];
     }
 }
