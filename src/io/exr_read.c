@@ -136,8 +136,11 @@ static ewa_status check_header(reader *in) {
     const ewa_status status = choose_channels(in, channels);
     if (status != EWA_OK) return status;
 
+    uint64_t chunk_bytes = 0;
+    error = exr_get_chunk_unpacked_size(in->file, PART, &chunk_bytes);
+    if (error) return fail_exr(in, error);
     const uint64_t pixel_count = (uint64_t)width * (uint64_t)height;
-    const uint64_t decoded_bytes = pixel_count * in->channel_count * sizeof(float);
+    const uint64_t decoded_bytes = pixel_count * in->channel_count * sizeof(float) + chunk_bytes;
     if (decoded_bytes > limits->max_memory_bytes)
         return ewa_fail(in->context, EWA_ERROR_LIMIT,
                         "%s: %u x %u pixels need %llu bytes, over the limit of %llu", in->name, in->width_px,
