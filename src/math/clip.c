@@ -18,8 +18,7 @@ enum { SAFE_EXPONENT = 1000, MAX_CORNERS = 1 << 20 };
 
 static double largest(ewa_vec4 p) { return fmax(fmax(fabs(p.x), fabs(p.y)), fmax(fabs(p.z), fabs(p.w))); }
 
-/// The power of two that all points of one segment or polygon are multiplied with: alpha does not depend on
-/// it.
+/// The power of two to multiply all points of one segment or polygon with; alpha does not depend on it.
 static double safe_scale(double largest_number) {
     int exponent = 0;
     frexp(largest_number, &exponent);
@@ -30,8 +29,8 @@ static ewa_vec4 between(ewa_vec4 p1, ewa_vec4 p2, double alpha) {
     return vec4_add(vec4_scale(p1, 1 - alpha), vec4_scale(p2, alpha));
 }
 
-/// True where the w of a point between p1 and p2 has cancelled to rounding error. In a visible cone only [0 0
-/// 0 0] has w = 0, so that is where the segment passes through it: no point at all.
+/// True where the w of a point between p1 and p2 has cancelled to rounding error. In a visible cone w is 0
+/// for the zero vector only, which the segment passes through there: no point at all.
 static bool vanishes(ewa_vec4 p1, ewa_vec4 p2, double alpha, ewa_vec4 point) {
     if (alpha == 1) return point.w == 0;
     return fabs(point.w) <= NOISE * (fabs(p1.w) + alpha * fabs(p2.w));

@@ -136,6 +136,10 @@ static void test_degenerate_segments(void **state) {
         assert_int_equal(ewa_clip_segment(a, b, parts, &visible), EWA_OK);
         assert_int_equal(visible, EWA_VISIBLE_POSITIVE);
         check_near(parts[0].alpha[1], 0.9 / 1.4, 1e-15);
+        a.x = ldexp(-1.5, exponent); // w + x of the other end overflows at the top
+        assert_int_equal(ewa_clip_segment(a, b, parts, &visible), EWA_OK);
+        check_near(parts[0].alpha[0], 0.5 / 3, 1e-15);
+        check_near(parts[0].alpha[1], 2.5 / 3, 1e-15);
     }
 }
 

@@ -158,6 +158,29 @@ static void test_against_double(void **state) {
     free_batch(b);
 }
 
+/// Touching counts: a corner of the frustum, an edge from inside, a point on a face.
+static void test_touching(void **state) {
+    (void)state;
+    static const float segments[3][8] = {
+        {2, 0, 1, 1, 0, 2, 1, 1}, {0, 0, 0, 1, 0, 0, -1, 1}, {1, 0, 0.5f, 1, 1, 0, 0.5f, 1}};
+    static const float alpha[3][2] = {{0.5f, 0.5f}, {0, 0}, {0, 1}};
+    static const uint32_t masks[] = {0, EWA_CPU_AVX2, EWA_CPU_ALL};
+    batch *b = make_batch();
+    b->segments.count = 3;
+    for (int i = 0; i < 3; i++)
+        for (int c = 0; c < 8; c++) b->in[c][i] = segments[i][c];
+    for (int m = 0; m < 3; m++) {
+        ewa_context *context = make_context(1, masks[m]);
+        assert_int_equal(ewa_clip_segments(context, &b->segments, &b->clips), EWA_OK);
+        for (int i = 0; i < 3; i++) {
+            assert_int_equal(b->visible[i], EWA_VISIBLE_POSITIVE);
+            assert_true(b->out[0][i] == alpha[i][0] && b->out[1][i] == alpha[i][1]);
+        }
+        ewa_context_destroy(&context);
+    }
+    free_batch(b);
+}
+
 static void test_same_bytes(void **state) {
     (void)state;
     static const uint32_t masks[] = {0, EWA_CPU_AVX2, EWA_CPU_ALL}, threads[] = {1, 2, 7};
@@ -238,6 +261,7 @@ static void test_invalid(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_against_double),
+        cmocka_unit_test(test_touching),
         cmocka_unit_test(test_same_bytes),
         cmocka_unit_test(test_invalid),
     };

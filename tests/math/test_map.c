@@ -213,6 +213,11 @@ static void test_ellipse(void **state) {
     }
     double center[2], shape[3];
     ewa_conic hyperbola = {1, 0, 0, -1, 0, 1}, parabola = {1, 0, 0, 0, 1, 0}, imaginary = {1, 0, 0, 1, 0, 1};
+    ewa_conic leaning = {-1, -2, 0, -1, 0, 1}, upright = {0, 0, 0, 1, 0, 1}, lying = {1, 0, 0, 0, 0, 1};
+    assert_int_equal(ewa_dual_conic_ellipse(&leaning, center, shape), EWA_ERROR_NUMERIC); // a hyperbola too
+    assert_int_equal(ewa_dual_conic_ellipse(&upright, center, shape),
+                     EWA_ERROR_NUMERIC); // imaginary segments
+    assert_int_equal(ewa_dual_conic_ellipse(&lying, center, shape), EWA_ERROR_NUMERIC);
     ewa_conic segment = {4, 0, 0, 0, 0, -1}, bad = {NAN, 0, 0, 1, 0, -1}, bad_w = {1, 0, 0, 1, 0, NAN};
     assert_int_equal(ewa_dual_conic_ellipse(&hyperbola, center, shape), EWA_ERROR_NUMERIC);
     assert_int_equal(ewa_dual_conic_ellipse(&parabola, center, shape), EWA_ERROR_NUMERIC);
@@ -261,6 +266,11 @@ static void test_frustum_maps(void **state) {
     check_near(depth_of(&map, 1e30) * 1e30, 0.25,
                1e-14); // what reversed depth is for: near / z at any distance
 
+    f.far_z = 1e18;
+    assert_int_equal(ewa_frustum_perspective(&f, &map), EWA_OK);
+    check_near(depth_of(&map, 1e18) * 1e18, 0,
+               1e-6); // no cancellation at a far plane that is only nearly infinite
+
     const ewa_frustum wrong[] = {
         {1, -1, -1, 1, 1, 2, false},   {-1, 1, 1, 1, 1, 2, false},         {-1, 1, -1, 1, 0, 2, false},
         {-1, 1, -1, 1, 2, 1, false},   {-1, NAN, -1, 1, 1, 2, false},      {-1, 1, -1, 1, NAN, 2, false},
@@ -268,6 +278,7 @@ static void test_frustum_maps(void **state) {
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
         assert_int_equal(ewa_frustum_perspective(&wrong[i], &map), EWA_ERROR_NUMERIC);
     assert_int_equal(ewa_frustum_orthographic(&wrong[0], &map), EWA_ERROR_NUMERIC);
+    f.far_z = INFINITY;
     assert_int_equal(ewa_frustum_orthographic(&f, &map), EWA_ERROR_NUMERIC); // no infinite box
     const double fov[][4] = {{0, 1, 1, 2}, {4, 1, 1, 2}, {NAN, 1, 1, 2},
                              {1, 0, 1, 2}, {1, 1, 0, 2}, {1, 1, 2, 2}};
@@ -352,6 +363,11 @@ static void test_planes_at_infinity(void **state) {
     assert_int_equal(ewa_frustum_planes(&map, planes), EWA_OK);
     check_numbers(&planes[EWA_CLIP_FAR], (&(ewa_vec4){0, 0, 0, 1}), 4, 0);
     assert_true(ewa_frustum_distance(planes, vec3_make(0, 0, 1e300)) > 0);
+    ewa_mat4 behind = ewa_mat4_concatenate(
+        &map, (&(ewa_mat4){{{-1, 0, 0, 0}, {0, -1, 0, 0}, {0, 0, -1, 0}, {0, 0, 0, -1}}}));
+    assert_int_equal(ewa_frustum_planes(&behind, planes),
+                     EWA_OK); // the cone of negative w: nothing of it is visible
+    check_numbers(&planes[EWA_CLIP_FAR], (&(ewa_vec4){0, 0, 0, -1}), 4, 0);
     ewa_mat4 nothing = {{{0}}};
     assert_int_equal(ewa_frustum_planes(&nothing, planes), EWA_ERROR_NUMERIC);
     map.m[1][1] = NAN;
