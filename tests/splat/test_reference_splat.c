@@ -5,7 +5,7 @@
 // outlines, closed forms and limits.
 #include "check.h"
 #include "splat/reference_splat.h"
-#include "splat/semantics.h"
+#include "kernels/semantics.h"
 
 static const double PI = 3.14159265358979323846;
 
