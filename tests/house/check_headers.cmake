@@ -7,8 +7,8 @@
 file(MAKE_DIRECTORY "${WORK}")
 file(GLOB public RELATIVE "${ROOT}/include" "${ROOT}/include/ewa/*.h")
 file(GLOB_RECURSE inner RELATIVE "${ROOT}/src" "${ROOT}/src/*.h")
-# Bodies that are compiled once per instruction set are no headers of their own.
-list(FILTER inner EXCLUDE REGEX "_body\\.h$")
+# Bodies that are compiled once per instruction set, their parts and their wide types are no headers of their own.
+list(FILTER inner EXCLUDE REGEX "(_body|/wide[a-z0-9_]*)\\.h$")
 set(wrong "")
 
 function(compile header language)
@@ -31,6 +31,10 @@ foreach(header IN LISTS public)
   compile(${header} c++ -std=c++17 -Wall -Wextra -pedantic -Werror)
 endforeach()
 foreach(header IN LISTS inner)
+  file(READ "${ROOT}/src/${header}" text LIMIT 400)
+  if(text MATCHES "\n// Part of ")
+    continue()
+  endif()
   compile(${header} c -std=c17 -D_POSIX_C_SOURCE=200809L -Wall -Wextra -Wno-unused-function -Werror -I${ROOT}/src)
 endforeach()
 if(NOT public)
