@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// One tile from its packets to its pixels: runs of packets are set up, sorted and raise the depth bound; then
+// all records that reach the bound are summed, and the sums resolved (math.md sections 6 and 7).
+//
+// Records are kept from the first pass to the second. A tile that would need more than KEPT_RECORDS sets its
+// runs up again for the second pass instead: the same records in the same order, so the same bytes.
+#include "splat/tile.h"
+
+enum {
+    KEPT_RECORDS = 1 << 18, // 20 MiB per worker
+    NEAR_CHUNK = 64,
+};
+
+ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, const ewa_tile_job *job,
+                                    uint64_t largest_bin) {
+    uint64_t records = largest_bin * EWA_PACKET_LANES;
+    if (records > KEPT_RECORDS) records = KEPT_RECORDS;
+    if (records < EWA_RUN_RECORDS) records = EWA_RUN_RECORDS;
+    const size_t tile_floats = (size_t)job->view.tile_px * job->view.tile_px;
+    const struct {
+        ewa_buffer *buffer;
+        size_t count, size_bytes;
+    } needs[] = {
+        {&s->record_buffer, records + EWA_PACKET_LANES, sizeof *s->records},
+        {&s->load_buffer, records + EWA_PACKET_LANES, sizeof *s->loads},
+        {&s->order_buffer, records, sizeof *s->order},
+        {&s->near_buffer, records, sizeof *s->near_surfels},
+        {&s->kept_buffer, records / EWA_RUN_RECORDS + 1, sizeof *s->kept},
+        {&s->nearest_buffer, tile_floats, sizeof *s->nearest},
+        {&s->sum_buffer, tile_floats * EWA_MAX_CHANNELS, sizeof *s->sums},
+    };
+    for (size_t i = 0; i < sizeof needs / sizeof needs[0]; i++) {
+        const ewa_status status =
+            ewa_buffer_reserve(context, needs[i].buffer, needs[i].count, needs[i].size_bytes);
+        if (status != EWA_OK) return status;
+    }
+    s->records = s->record_buffer.data;
+    s->loads = s->load_buffer.data;
+    s->order = s->order_buffer.data;
+    s->near_surfels = s->near_buffer.data;
+    s->kept = s->kept_buffer.data;
+    s->nearest = s->nearest_buffer.data;
+    s->sums = s->sum_buffer.data;
+    s->record_capacity = records;
+    s->drawn_count = s->fragment_count = 0;
+    s->setup_s = s->visibility_s = s->accumulate_s = s->resolve_s = 0;
+    return EWA_OK;
+}
+
+void ewa_tile_scratch_free(ewa_context *context, ewa_tile_scratch *s) {
+    ewa_buffer *const buffers[] = {&s->record_buffer, &s->load_buffer,    &s->order_buffer, &s->near_buffer,
+                                   &s->kept_buffer,   &s->nearest_buffer, &s->sum_buffer};
+    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) ewa_buffer_free(context, buffers[i]);
+}
+
+/// Orders a run's splats by class, stably.
+static void sort_run(const ewa_run *run, uint16_t *order, ewa_sorted_run *sorted) {
+    uint16_t next[EWA_CLASS_COUNT] = {0};
+    for (uint32_t i = 0; i < run->count; i++) next[run->classes[i]]++;
+    uint16_t sum = 0;
+    for (int c = 0; c < EWA_CLASS_COUNT; c++) {
+        sorted->class_first[c] = sum;
+        sum = (uint16_t)(sum + next[c]);
+        next[c] = sorted->class_first[c];
+    }
+    sorted->class_first[EWA_CLASS_COUNT] = sum;
+    for (uint32_t i = 0; i < run->count; i++) order[next[run->classes[i]]++] = (uint16_t)i;
+    sorted->records = run->records;
+    sorted->loads = run->loads;
+    sorted->order = order;
+}
+
+static void draw_near(const ewa_tile_job *job, const ewa_tile *tile, const uint32_t *surfels, uint32_t count,
+                      bool second_pass) {
+    ewa_near_record records[NEAR_CHUNK];
+    for (uint32_t done = 0; done < count;) {
+        uint32_t filled = 0;
+        for (; done < count && filled < NEAR_CHUNK; done++)
+            filled += ewa_near_record_set(&records[filled], job->surfels, surfels[done], &job->view, tile);
+        (second_pass ? job->kernels->near_accumulate : job->kernels->near_visibility)(&job->view, tile,
+                                                                                      records, filled);
+    }
+}
+
+static void count_splats(const ewa_tile_job *job, ewa_tile_scratch *s) {
+    s->drawn_count += s->run.count + s->run.near_count;
+    if (!job->count_fragments) return;
+    uint32_t blocks = 0;
+    for (uint32_t i = 0; i < s->run.count; i++) {
+        const uint32_t box = s->run.records[i].box;
+        blocks += (box >> 16 & 0xff) * (box >> 24);
+    }
+    s->fragment_count += blocks;
+}
+
+/// A tile's packets, in runs.
+typedef struct tile_packets {
+    const uint32_t *ids;
+    uint64_t count, run_count;
+} tile_packets;
+
+/// Sets up and sorts run `index`; its splats go to place `at` of the scratch.
+static void prepare_run(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
+                        const tile_packets *packets, uint64_t index, uint32_t at, ewa_sorted_run *sorted) {
+    const uint64_t first = index * EWA_RUN_PACKETS, left = packets->count - first;
+    s->run.records = s->records + at;
+    s->run.loads = s->loads + at;
+    job->kernels->setup(&job->view, job->surfels->packets, packets->ids + first,
+                        left < EWA_RUN_PACKETS ? (uint32_t)left : EWA_RUN_PACKETS, tile, &s->run);
+    sort_run(&s->run, s->order + at, sorted);
+}
+
+static void draw_kept(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
+                      const tile_packets *packets) {
+    uint32_t record_count = 0, near_count = 0;
+    double before = ewa_now_s();
+    for (uint64_t i = 0; i < packets->run_count; i++) {
+        ewa_kept_run *kept = &s->kept[i];
+        prepare_run(job, tile, s, packets, i, record_count, &kept->sorted);
+        const double middle = ewa_now_s();
+        s->setup_s += middle - before;
+        job->kernels->visibility(&job->view, tile, &kept->sorted);
+        kept->near_first = near_count;
+        kept->near_count = s->run.near_count;
+        draw_near(job, tile, s->run.near_surfels, kept->near_count, false);
+        for (uint32_t k = 0; k < kept->near_count; k++)
+            s->near_surfels[near_count + k] = s->run.near_surfels[k];
+        count_splats(job, s);
+        record_count += s->run.count;
+        near_count += kept->near_count;
+        before = ewa_now_s();
+        s->visibility_s += before - middle;
+    }
+    for (uint64_t i = 0; i < packets->run_count; i++) {
+        const ewa_kept_run *kept = &s->kept[i];
+        job->kernels->accumulate(&job->view, tile, &kept->sorted);
+        draw_near(job, tile, s->near_surfels + kept->near_first, kept->near_count, true);
+    }
+    s->accumulate_s += ewa_now_s() - before;
+}
+
+static void draw_again(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
+                       const tile_packets *packets) {
+    for (int second_pass = 0; second_pass < 2; second_pass++) {
+        for (uint64_t i = 0; i < packets->run_count; i++) {
+            ewa_sorted_run sorted;
+            const double before = ewa_now_s();
+            prepare_run(job, tile, s, packets, i, 0, &sorted);
+            const double middle = ewa_now_s();
+            s->setup_s += middle - before;
+            (second_pass ? job->kernels->accumulate : job->kernels->visibility)(&job->view, tile, &sorted);
+            draw_near(job, tile, s->run.near_surfels, s->run.near_count, second_pass);
+            if (!second_pass) count_splats(job, s);
+            *(second_pass ? &s->accumulate_s : &s->visibility_s) += ewa_now_s() - middle;
+        }
+    }
+}
+
+void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
+    const ewa_tile_job *job = data;
+    ewa_tile_scratch *s = job->scratch[worker];
+    const ewa_view *view = &job->view;
+    ewa_tile tile = {.x_px = (int32_t)(index % job->bins->tiles_x * view->tile_px),
+                     .y_px = (int32_t)(index / job->bins->tiles_x * view->tile_px),
+                     .nearest = s->nearest,
+                     .sums = s->sums,
+                     .channel_count = job->channel_count,
+                     .with_normals = job->with_normals,
+                     .with_depth = job->with_depth};
+    const int32_t side = (int32_t)view->tile_px;
+    tile.width_px = (int32_t)view->width_px - tile.x_px < side ? (int32_t)view->width_px - tile.x_px : side;
+    tile.height_px =
+        (int32_t)view->height_px - tile.y_px < side ? (int32_t)view->height_px - tile.y_px : side;
+    tile.blocks_per_row = ((uint32_t)tile.width_px + EWA_BLOCK_PX - 1) / EWA_BLOCK_PX;
+    tile.block_rows = ((uint32_t)tile.height_px + EWA_BLOCK_PX - 1) / EWA_BLOCK_PX;
+    job->kernels->clear(&tile);
+    const uint64_t first = job->bins->tile_first[index], count = job->bins->tile_first[index + 1] - first;
+    const tile_packets packets = {job->bins->entries + first, count,
+                                  (count + EWA_RUN_PACKETS - 1) / EWA_RUN_PACKETS};
+    if (count * EWA_PACKET_LANES <= s->record_capacity)
+        draw_kept(job, &tile, s, &packets);
+    else
+        draw_again(job, &tile, s, &packets);
+    const double before = ewa_now_s();
+    job->kernels->resolve(&tile, &job->resolve);
+    s->resolve_s += ewa_now_s() - before;
+}
