@@ -10,7 +10,7 @@
 
 #include "kernels/road.h"
 #include "kernels/semantics.h"
-#include "kernels/wide.h"
+#include "math/wide.h"
 
 #include <string.h>
 
