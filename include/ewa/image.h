@@ -47,6 +47,15 @@ typedef struct ewa_difference {
 EWA_API ewa_status ewa_image_compare(const ewa_image *a, const ewa_image *b, double peak, double threshold,
                                      ewa_difference *difference, ewa_image *heat);
 
+typedef enum ewa_colormap {
+    EWA_COLORMAP_VIRIDIS = 0, ///< dark blue to yellow, even in lightness
+    EWA_COLORMAP_TURBO = 1,   ///< rainbow, even in hue
+    EWA_COLORMAP_GRAY = 2,    ///< black to white, even in sRGB
+} ewa_colormap;
+
+/// Gives the 8-bit sRGB colour of a number, which is clamped to [0, 1]; NaN counts as 0. Any thread.
+EWA_API void ewa_colormap_color(ewa_colormap colormap, double number, uint8_t srgb[3]);
+
 #ifdef __cplusplus
 }
 #endif
