@@ -1,0 +1,246 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Whole files in, whole files out, by POSIX calls.
+#define _XOPEN_SOURCE 700 // realpath
+#include "io/file.h"
+#include "base/base.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+enum {
+    READ_STEP_BYTES = 1 << 16,    // first buffer for an input of unknown length; doubles when full
+    WRITE_BUFFER_BYTES = 1 << 16, // pieces below this size are collected
+    NAME_ATTEMPTS = 100,          // temporary names tried when others exist already
+    TEMPORARY_NAME_BYTES = 64,
+};
+
+struct ewa_writer {
+    ewa_context *context;
+    ewa_status status; // the first failure
+    int descriptor;
+    bool named;     // ewa_writer_path() has a name to give
+    bool temporary; // `written` is to be renamed to `target`
+    size_t buffered_bytes;
+    char shown[PATH_MAX];   // the path as the caller wrote it, for messages
+    char target[PATH_MAX];  // where the file belongs, links resolved
+    char written[PATH_MAX]; // the file that receives the bytes
+    uint8_t buffer[WRITE_BUFFER_BYTES];
+};
+
+static ewa_status fail_errno(ewa_context *context, const char *path, int error) {
+    char reason[128];
+    if (strerror_r(error, reason, sizeof reason) != 0) snprintf(reason, sizeof reason, "error %d", error);
+    return ewa_fail(context, EWA_ERROR_IO, "%s: %s", path, reason);
+}
+
+/// Reads a stream to its end into memory of the allocator that doubles as it fills.
+static ewa_status read_stream(ewa_context *context, const char *path, int descriptor, ewa_file *file) {
+    const uint64_t limit = ewa_context_limits(context)->max_memory_bytes;
+    uint8_t *bytes = NULL;
+    size_t size = 0, capacity = 0;
+    ewa_status status = EWA_OK;
+    for (;;) {
+        if (size == capacity) {
+            const size_t larger = capacity ? 2 * capacity : READ_STEP_BYTES;
+            uint8_t *moved = larger > capacity ? ewa_allocate(context, larger, 1) : NULL;
+            if (!moved) {
+                status = EWA_ERROR_MEMORY;
+                break;
+            }
+            if (size) memcpy(moved, bytes, size);
+            ewa_release(context, bytes, capacity, 1);
+            bytes = moved;
+            capacity = larger;
+        }
+        const ssize_t got = read(descriptor, bytes + size, capacity - size);
+        if (got == 0) break;
+        if (got < 0) {
+            if (errno == EINTR) continue;
+            status = fail_errno(context, path, errno);
+            break;
+        }
+        size += (size_t)got;
+        if (size > limit) {
+            status = ewa_fail(context, EWA_ERROR_LIMIT, "%s: longer than the limit of %llu bytes", path,
+                              (unsigned long long)limit);
+            break;
+        }
+    }
+    if (status != EWA_OK)
+        ewa_release(context, bytes, capacity, 1);
+    else
+        *file = (ewa_file){.bytes = bytes, .size_bytes = size, .capacity_bytes = capacity};
+    return status;
+}
+
+static ewa_status read_descriptor(ewa_context *context, const char *path, int descriptor, ewa_file *file) {
+    struct stat facts;
+    if (fstat(descriptor, &facts) != 0) return fail_errno(context, path, errno);
+    if (S_ISDIR(facts.st_mode)) return fail_errno(context, path, EISDIR);
+    // Files of /proc call themselves regular and empty, and some file systems cannot map: both can be read.
+    if (S_ISREG(facts.st_mode) && facts.st_size > 0 && (uint64_t)facts.st_size <= SIZE_MAX &&
+        lseek(descriptor, 0, SEEK_CUR) == 0) {
+        const size_t size = (size_t)facts.st_size;
+        void *mapped = mmap(NULL, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
+        if (mapped != MAP_FAILED) {
+            *file = (ewa_file){.bytes = mapped, .size_bytes = size, .capacity_bytes = size, .mapped = true};
+            return EWA_OK;
+        }
+    }
+    return read_stream(context, path, descriptor, file);
+}
+
+ewa_status ewa_file_map(ewa_context *context, const char *path, ewa_file *file) {
+    *file = (ewa_file){0};
+    if (strcmp(path, "-") == 0) return read_descriptor(context, "standard input", STDIN_FILENO, file);
+    const int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY);
+    if (descriptor < 0) return fail_errno(context, path, errno);
+    const ewa_status status = read_descriptor(context, path, descriptor, file);
+    close(descriptor);
+    return status;
+}
+
+void ewa_file_unmap(ewa_context *context, ewa_file *file) {
+    if (file->mapped)
+        munmap((void *)(uintptr_t)file->bytes, file->capacity_bytes);
+    else
+        ewa_release(context, (void *)(uintptr_t)file->bytes, file->capacity_bytes, 1);
+    *file = (ewa_file){0};
+}
+
+/// Opens a new file beside the target. The name is short and does not grow with the target's, so that every
+/// target that can be named can be written.
+static int open_temporary(ewa_writer *writer) {
+    const char *slash = strrchr(writer->target, '/');
+    const int folder_bytes = slash ? (int)(slash - writer->target) + 1 : 0;
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
+    for (int attempt = 0; attempt < NAME_ATTEMPTS; attempt++) {
+        const int length = snprintf(writer->written, sizeof writer->written, "%.*s.ewa-%ld-%09ld-%d.tmp",
+                                    folder_bytes, writer->target, (long)getpid(), now.tv_nsec, attempt);
+        if (length < 0 || (size_t)length >= sizeof writer->written) {
+            errno = ENAMETOOLONG;
+            return -1;
+        }
+        const int descriptor = open(writer->written, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor >= 0 || errno != EEXIST) return descriptor;
+    }
+    return -1;
+}
+
+/// Finds out what the target is and opens the file that receives the bytes; returns its descriptor or -1 with
+/// errno.
+static int open_output(ewa_writer *writer) {
+    if (strcmp(writer->shown, "-") == 0 || strcmp(writer->shown, "/dev/stdout") == 0)
+        return fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
+    writer->named = true;
+    struct stat facts;
+    if (stat(writer->shown, &facts) != 0) {
+        if (errno != ENOENT) return -1;
+        memcpy(writer->target, writer->shown, sizeof writer->target);
+        writer->temporary = true;
+        return open_temporary(writer);
+    }
+    if (!S_ISREG(facts.st_mode)) {
+        memcpy(writer->written, writer->shown, sizeof writer->written);
+        return open(writer->shown, O_WRONLY | O_CLOEXEC | O_NOCTTY);
+    }
+    // Renaming asks the folder for permission only; a file that is write-protected is meant to stay.
+    if (!realpath(writer->shown, writer->target) ||
+        faccessat(AT_FDCWD, writer->target, W_OK, AT_EACCESS) != 0)
+        return -1;
+    writer->temporary = true;
+    const int descriptor = open_temporary(writer);
+    if (descriptor >= 0) fchmod(descriptor, facts.st_mode & 0777);
+    return descriptor;
+}
+
+ewa_status ewa_writer_open(ewa_context *context, const char *path, ewa_writer **writer) {
+    *writer = NULL;
+    const size_t length = strlen(path);
+    if (length == 0) return fail_errno(context, "output file", ENOENT);
+    if (length >= PATH_MAX) return fail_errno(context, path, ENAMETOOLONG);
+    ewa_writer *made = ewa_allocate(context, 1, sizeof *made);
+    if (!made) return EWA_ERROR_MEMORY;
+    made->context = context;
+    made->status = EWA_OK;
+    made->named = made->temporary = false;
+    made->buffered_bytes = 0;
+    memcpy(made->shown, path, length + 1);
+    made->descriptor = open_output(made);
+    if (made->descriptor < 0) {
+        const ewa_status status = fail_errno(context, path, errno);
+        ewa_release(context, made, 1, sizeof *made);
+        return status;
+    }
+    *writer = made;
+    return EWA_OK;
+}
+
+static ewa_status write_all(ewa_writer *writer, const uint8_t *bytes, size_t size_bytes) {
+    while (size_bytes && writer->status == EWA_OK) {
+        const ssize_t put = write(writer->descriptor, bytes, size_bytes);
+        if (put < 0) {
+            if (errno != EINTR) writer->status = fail_errno(writer->context, writer->shown, errno);
+            continue;
+        }
+        bytes += put;
+        size_bytes -= (size_t)put;
+    }
+    return writer->status;
+}
+
+static ewa_status flush(ewa_writer *writer) {
+    const size_t size_bytes = writer->buffered_bytes;
+    writer->buffered_bytes = 0;
+    return write_all(writer, writer->buffer, size_bytes);
+}
+
+ewa_status ewa_writer_put(ewa_writer *writer, const void *data, size_t size_bytes) {
+    if (writer->status != EWA_OK || size_bytes == 0) return writer->status;
+    if (size_bytes > sizeof writer->buffer - writer->buffered_bytes && flush(writer) != EWA_OK)
+        return writer->status;
+    if (size_bytes >= sizeof writer->buffer) return write_all(writer, data, size_bytes);
+    memcpy(writer->buffer + writer->buffered_bytes, data, size_bytes);
+    writer->buffered_bytes += size_bytes;
+    return EWA_OK;
+}
+
+const char *ewa_writer_path(const ewa_writer *writer) { return writer->named ? writer->written : NULL; }
+
+ewa_status ewa_writer_commit(ewa_writer **writer) {
+    ewa_writer *done = *writer;
+    if (done->status == EWA_OK) flush(done);
+    // Some file systems report a full disk only now.
+    const bool closed = close(done->descriptor) == 0;
+    done->descriptor = -1;
+    if (!closed && done->status == EWA_OK) done->status = fail_errno(done->context, done->shown, errno);
+    if (done->status == EWA_OK && done->temporary) {
+        if (rename(done->written, done->target) == 0)
+            done->temporary = false;
+        else
+            done->status = fail_errno(done->context, done->shown, errno);
+    }
+    const ewa_status status = done->status;
+    ewa_writer_abort(writer);
+    return status;
+}
+
+void ewa_writer_abort(ewa_writer **writer) {
+    if (!*writer) return;
+    ewa_writer *old = *writer;
+    if (old->descriptor >= 0) close(old->descriptor);
+    if (old->temporary) unlink(old->written);
+    ewa_release(old->context, old, 1, sizeof *old);
+    *writer = NULL;
+}

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Whole files in, whole files out: every format of this room reads from one block of bytes and writes through
+// one writer, so that the messages of the operating system and the promise "whole or not at all" live in one
+// place.
+#ifndef EWA_SRC_FILE_H
+#define EWA_SRC_FILE_H
+
+#include "ewa/base.h"
+
+/// The bytes of a file, read only. Zero-initialised means: nothing held.
+typedef struct ewa_file {
+    const uint8_t *bytes;
+    size_t size_bytes;
+    size_t capacity_bytes; ///< of the memory behind `bytes`
+    bool mapped;           ///< true: a view of the page cache, false: memory of the context's allocator
+} ewa_file;
+
+/// Makes all bytes of a file readable: a regular file is mapped, anything else ("-": standard input, pipes)
+/// is read to its end, at most max_memory_bytes of the context's limits. Release with ewa_file_unmap(). A
+/// mapped file must not be cut short by others meanwhile: the system answers reads past the new end with
+/// SIGBUS. Errors, with the message "PATH: reason": EWA_ERROR_IO, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+ewa_status ewa_file_map(ewa_context *context, const char *path, ewa_file *file);
+
+/// Gives the bytes back and clears `*file`; accepts a cleared one.
+void ewa_file_unmap(ewa_context *context, ewa_file *file);
+
+/// One output file that is being written.
+typedef struct ewa_writer ewa_writer;
+
+/// Starts an output file. The bytes go to a new file in the folder of `path` that takes its name on commit;
+/// the permissions are those of the file that is replaced, or what the umask allows. A symbolic link is
+/// followed.
+/// "-" and "/dev/stdout" are standard output; what exists and is no regular file (a device, a pipe) is
+/// written directly, since there is nothing to rename. Errors, with the message "PATH: reason": EWA_ERROR_IO,
+/// EWA_ERROR_MEMORY; `*writer` is then NULL.
+ewa_status ewa_writer_open(ewa_context *context, const char *path, ewa_writer **writer);
+
+/// Appends bytes, collecting small pieces. After a failure, which is reported once, does nothing and returns
+/// the same status.
+ewa_status ewa_writer_put(ewa_writer *writer, const void *data, size_t size_bytes);
+
+/// Returns the name of the file that is being written, for libraries that open files by name, or NULL for
+/// standard output. Whoever writes by name leaves ewa_writer_put() alone and closes the file before the
+/// commit.
+const char *ewa_writer_path(const ewa_writer *writer);
+
+/// Finishes the file, gives it its name and frees the writer; after an earlier failure, or one now, the file
+/// is removed instead and the failure returned. Sets `*writer` to NULL.
+ewa_status ewa_writer_commit(ewa_writer **writer);
+
+/// Removes what was written and frees the writer. Sets `*writer` to NULL; accepts a pointer to NULL.
+void ewa_writer_abort(ewa_writer **writer);
+
+#endif

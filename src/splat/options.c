@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Defaults and checks of surfels' and pictures' options.
+#include "splat/options.h"
+#include "base/base.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double HUGE_OPTION = 1e15;
+
+/// Fails unless low <= value <= high (or low < value, when `open`); a NaN is never within.
+static ewa_status check_range(ewa_context *context, const char *member, double value, double low, bool open,
+                              double high) {
+    if (value <= high && (open ? value > low : value >= low)) return EWA_OK;
+    return ewa_fail(context, EWA_ERROR_ARGUMENT, "options: %s is %g, allowed is %c%g, %g]", member, value,
+                    open ? '(' : '[', low, high);
+}
+
+static ewa_status check_choice(ewa_context *context, const char *member, int value, int last) {
+    if (value >= 0 && value <= last) return EWA_OK;
+    return ewa_fail(context, EWA_ERROR_ARGUMENT, "options: %s is %d, allowed is 0 to %d", member, value,
+                    last);
+}
+
+static ewa_status check_size(ewa_context *context, const char *type, size_t given, size_t wanted) {
+    if (given == wanted) return EWA_OK;
+    return ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: struct_size is %zu, not %zu (not initialised?)", type,
+                    given, wanted);
+}
+
+static ewa_status check_surfels(ewa_context *context, const ewa_surfels_options *options) {
+    ewa_status status = check_range(context, "cutoff", options->cutoff, 0, true, 4);
+    if (status == EWA_OK)
+        status = check_range(context, "radius_scale", options->radius_scale, 0, true, HUGE_OPTION);
+    return status;
+}
+
+static ewa_status check_vectors(ewa_context *context, const ewa_render_options *options) {
+    const double *light = options->light_world;
+    if (!isfinite(light[0]) || !isfinite(light[1]) || !isfinite(light[2]))
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "options: light_world is %g, %g, %g: not finite",
+                        light[0], light[1], light[2]);
+    static const char *const names[] = {"background[0]", "background[1]", "background[2]", "background[3]"};
+    ewa_status status = EWA_OK;
+    for (int c = 0; c < 4 && status == EWA_OK; c++)
+        status =
+            check_range(context, names[c], (double)options->background[c], 0, false, c < 3 ? HUGE_OPTION : 1);
+    return status;
+}
+
+static ewa_status check_render(ewa_context *context, const ewa_render_options *options) {
+    if (options->passes != 1 && options->passes != 3)
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "options: passes is %u, allowed are 1 and 3",
+                        options->passes);
+    ewa_status status = check_choice(context, "kernel", (int)options->kernel, EWA_KERNEL_AFFINE);
+    if (status == EWA_OK) status = check_choice(context, "cull", (int)options->cull, EWA_CULL_BACK);
+    if (status == EWA_OK)
+        status = check_choice(context, "shading", (int)options->shading, EWA_SHADING_LAMBERT);
+    if (status == EWA_OK) status = check_range(context, "prefilter_px", options->prefilter_px, 0, false, 4);
+    if (status == EWA_OK)
+        status = check_range(context, "tolerance", options->tolerance, 0, false, HUGE_OPTION);
+    if (status == EWA_OK)
+        status = check_range(context, "edge_threshold", options->edge_threshold, 0, true, HUGE_OPTION);
+    if (status == EWA_OK) status = check_range(context, "ambient", options->ambient, 0, false, 1);
+    if (status == EWA_OK) status = check_vectors(context, options);
+    return status;
+}
+
+ewa_status ewa_surfels_options_choose(ewa_context *context, const ewa_surfels_options *given,
+                                      ewa_surfels_options *chosen) {
+    ewa_surfels_options_init(chosen, sizeof *chosen);
+    if (!given) return EWA_OK;
+    ewa_status status = check_size(context, "ewa_surfels_options", given->struct_size, sizeof *chosen);
+    if (status == EWA_OK) status = check_surfels(context, given);
+    if (status == EWA_OK) *chosen = *given;
+    return status;
+}
+
+ewa_status ewa_render_options_choose(ewa_context *context, const ewa_render_options *given,
+                                     ewa_render_options *chosen) {
+    ewa_render_options_init(chosen, sizeof *chosen);
+    if (!given) return EWA_OK;
+    ewa_status status = check_size(context, "ewa_render_options", given->struct_size, sizeof *chosen);
+    if (status == EWA_OK) status = check_render(context, given);
+    if (status == EWA_OK) *chosen = *given;
+    return status;
+}
+
+void ewa_surfels_options_init(ewa_surfels_options *options, size_t struct_size) {
+    if (!options || struct_size < sizeof *options) return;
+    memset(options, 0, struct_size);
+    options->struct_size = struct_size;
+    options->cutoff = 2;
+    options->radius_scale = 1;
+}
+
+void ewa_render_options_init(ewa_render_options *options, size_t struct_size) {
+    if (!options || struct_size < sizeof *options) return;
+    memset(options, 0, struct_size);
+    options->struct_size = struct_size;
+    options->kernel = EWA_KERNEL_PERSPECTIVE;
+    options->prefilter_px = 0.5;
+    options->tolerance = 1;
+    options->passes = 3;
+    options->edge_antialiasing = true;
+    options->edge_threshold = 0.6;
+    options->cull = EWA_CULL_NONE;
+    options->shading = EWA_SHADING_LAMBERT;
+    options->ambient = 0.15;
+}

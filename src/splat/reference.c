@@ -1,0 +1,243 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The reference renderer: three passes over all splats in double precision, one pixel after another. It is
+// the definition of what ewa_render() draws; math.md and semantics.h are its specification. Based on: M.
+// Zwicker, H. Pfister, J. van Baar, M. Gross, "Surface Splatting", 2001, sections 4 and 7; M. Zwicker, J.
+// Rasanen, M. Botsch, C. Dachsbacher, M. Pauly, "Perspective Accurate Splatting", 2004, section 6.
+#include "base/base.h"
+#include "image/srgb.h"
+#include "splat/options.h"
+#include "splat/reference_splat.h"
+
+#include <string.h>
+
+enum {
+    PROJECT_POINTS = 4096, ///< surfels per piece of parallel work
+    READ_POINTS = 64,      ///< surfels on the stack at a time
+    BANDS_PER_WORKER = 4,  ///< pieces of the picture, so that uneven ones level out
+};
+
+static const uint64_t NOBODY = UINT64_MAX;
+
+/// What gathers at a pixel.
+typedef struct pixel {
+    double bound;     ///< three passes: B(x) = min(z + eps); one pass: z of the nearest splat
+    uint64_t nearest; ///< one pass: the splat that wins
+    double weight;    ///< q, the sum of weights
+    ewa_vec3 color, normal_world;
+    double z; ///< all three weighted
+} pixel;
+
+typedef struct reference {
+    ewa_reference_view view;
+    ewa_surfel_reader reader;
+    ewa_render_options options;
+    double unit_coverage;
+    uint64_t surfel_count;
+    ewa_reference_splat *splats;
+    uint32_t band_count;
+    pixel *pixels;
+    ewa_vec3 light_world; ///< unit, towards the light; zero: headlight
+    ewa_frame frame;
+} reference;
+
+static void project_piece(void *data, uint32_t index, uint32_t worker) {
+    (void)worker;
+    const reference *work = data;
+    const uint64_t begin = (uint64_t)index * PROJECT_POINTS, left = work->surfel_count - begin;
+    const uint64_t end = begin + (left < PROJECT_POINTS ? left : PROJECT_POINTS);
+    ewa_surfel surfels[READ_POINTS];
+    bool drawable[READ_POINTS];
+    for (uint64_t first = begin; first < end; first += READ_POINTS) {
+        const uint64_t count = end - first < READ_POINTS ? end - first : READ_POINTS;
+        ewa_surfel_read(&work->reader, first, count, surfels, drawable);
+        for (uint64_t i = 0; i < count; i++) {
+            if (drawable[i])
+                ewa_reference_project(&work->view, &surfels[i], &work->splats[first + i]);
+            else
+                work->splats[first + i].drawn = false;
+        }
+    }
+}
+
+/// Orders two splats of equal depth by what they look like, so that the order of the points cannot decide.
+static bool precedes(const ewa_reference_splat *a, const ewa_reference_splat *b) {
+    const double left[6] = {a->color.x,        a->color.y,        a->color.z,
+                            a->normal_world.x, a->normal_world.y, a->normal_world.z};
+    const double right[6] = {b->color.x,        b->color.y,        b->color.z,
+                             b->normal_world.x, b->normal_world.y, b->normal_world.z};
+    for (int i = 0; i < 6; i++)
+        if (left[i] != right[i]) return left[i] < right[i];
+    return false;
+}
+
+/// First pass (PAS 6, SS 4): B(x) = min over the splats that count at x of z + eps.
+static void lower_bound(const reference *work, pixel *at, uint64_t index,
+                        const ewa_reference_sample *sample) {
+    const ewa_reference_splat *splat = &work->splats[index];
+    if (work->options.passes == 3) {
+        at->bound = fmin(at->bound, sample->z + splat->epsilon);
+    } else if (sample->z < at->bound || (sample->z == at->bound && at->nearest != NOBODY &&
+                                         precedes(splat, &work->splats[at->nearest]))) {
+        at->bound = sample->z;
+        at->nearest = index;
+    }
+}
+
+/// Second pass: sums over the splats with z <= B(x), or the nearest splat alone.
+static void accumulate(const reference *work, pixel *at, uint64_t index, const ewa_reference_sample *sample) {
+    const ewa_reference_splat *splat = &work->splats[index];
+    if (work->options.passes == 3 ? sample->z > at->bound : index != at->nearest) return;
+    const double weight = work->options.passes == 3 ? sample->weight : 1;
+    at->weight += weight;
+    at->color = vec3_add(at->color, vec3_scale(splat->color, weight));
+    at->normal_world = vec3_add(at->normal_world, vec3_scale(splat->normal_world, weight));
+    at->z += weight * sample->z;
+}
+
+typedef void splat_pass(const reference *work, pixel *at, uint64_t index, const ewa_reference_sample *sample);
+
+/// Calls `pass` for every splat that counts at a pixel of rows [y_begin, y_end), in the order of the points.
+static void walk(const reference *work, int32_t y_begin, int32_t y_end, splat_pass *pass) {
+    const double F = work->view.cutoff;
+    for (uint64_t k = 0; k < work->surfel_count; k++) {
+        const ewa_reference_splat *splat = &work->splats[k];
+        if (!splat->drawn) continue;
+        const int32_t first = splat->y_begin > y_begin ? splat->y_begin : y_begin;
+        const int32_t last = splat->y_end < y_end ? splat->y_end : y_end;
+        for (int32_t y = first; y < last; y++) {
+            pixel *row = &work->pixels[(size_t)y * (size_t)work->view.width_px];
+            for (int32_t x = splat->x_begin; x < splat->x_end; x++) {
+                ewa_reference_sample sample;
+                if (ewa_reference_sample_at(&work->view, splat, x + 0.5, y + 0.5, &sample) &&
+                    sample.distance2 < F * F)
+                    pass(work, &row[x], k, &sample);
+            }
+        }
+    }
+}
+
+/// Lambert's factor with the ambient share; the headlight shines along the pixel's ray.
+static double shade(const reference *work, ewa_vec3 normal_world, double x_px, double y_px) {
+    if (work->options.shading == EWA_SHADING_NONE) return 1;
+    ewa_vec3 light = work->light_world;
+    if (vec3_length(light) == 0) {
+        // From the surface to the eye, back to world space: -d A, A being a rotation but for its scale.
+        const ewa_vec3 d = ewa_reference_ray(&work->view, x_px, y_px);
+        for (int row = 0; row < 3; row++)
+            light = vec3_sub(light, vec3_scale(work->view.rows[row], row == 0 ? d.x : row == 1 ? d.y : d.z));
+        light = vec3_scale(light, 1 / vec3_length(light));
+    }
+    const double ambient = work->options.ambient;
+    return ambient + (1 - ambient) * fmax(0, vec3_dot(normal_world, light));
+}
+
+/// Third pass (SS 7): divide by the weights, shade, cover, put over the background.
+static void resolve(const reference *work, int32_t x, int32_t y) {
+    const size_t index = (size_t)y * (size_t)work->view.width_px + (size_t)x;
+    const pixel *at = &work->pixels[index];
+    const double q = at->weight;
+    double alpha = 0, coverage = 0, depth = INFINITY;
+    ewa_vec3 color = {0, 0, 0}, normal = {0, 0, 0};
+    if (q > 0) {
+        const double length = vec3_length(at->normal_world);
+        if (length > 0) normal = vec3_scale(at->normal_world, 1 / length);
+        color = vec3_scale(at->color, shade(work, normal, x + 0.5, y + 0.5) / q);
+        depth = at->z / q;
+        coverage = work->options.passes == 3 ? q / work->unit_coverage : 1;
+        alpha = work->options.edge_antialiasing ? fmin(1, coverage / work->options.edge_threshold) : 1;
+        if (work->options.passes == 1) alpha = 1;
+    }
+    const float *background = work->options.background;
+    const double behind = (double)background[3] * (1 - alpha), a = alpha + behind;
+    const double rgb[3] = {color.x * alpha + (double)background[0] * behind,
+                           color.y * alpha + (double)background[1] * behind,
+                           color.z * alpha + (double)background[2] * behind};
+    const ewa_frame *frame = &work->frame;
+    if (frame->rgba) {
+        for (int c = 0; c < 3; c++) frame->rgba[4 * index + (size_t)c] = (float)rgb[c];
+        frame->rgba[4 * index + 3] = (float)a;
+    }
+    if (frame->rgba8) {
+        for (int c = 0; c < 3; c++)
+            frame->rgba8[4 * index + (size_t)c] = a > 0 ? ewa_srgb8_from_linear((float)(rgb[c] / a)) : 0;
+        frame->rgba8[4 * index + 3] = (uint8_t)(255 * a + 0.5);
+    }
+    if (frame->depth) frame->depth[index] = (float)depth;
+    if (frame->normal) {
+        frame->normal[3 * index] = (float)normal.x;
+        frame->normal[3 * index + 1] = (float)normal.y;
+        frame->normal[3 * index + 2] = (float)normal.z;
+    }
+    if (frame->coverage) frame->coverage[index] = (float)coverage;
+}
+
+/// All passes over some rows of the picture; no pixel is touched by two pieces.
+static void render_band(void *data, uint32_t index, uint32_t worker) {
+    (void)worker;
+    const reference *work = data;
+    const uint32_t rows = (uint32_t)work->view.height_px;
+    const int32_t begin = (int32_t)ewa_split(rows, work->band_count, index);
+    const int32_t end = (int32_t)ewa_split(rows, work->band_count, index + 1);
+    for (int32_t y = begin; y < end; y++)
+        for (int32_t x = 0; x < work->view.width_px; x++)
+            work->pixels[(size_t)y * (size_t)work->view.width_px + (size_t)x] =
+                (pixel){.bound = INFINITY, .nearest = NOBODY};
+    walk(work, begin, end, lower_bound);
+    walk(work, begin, end, accumulate);
+    for (int32_t y = begin; y < end; y++)
+        for (int32_t x = 0; x < work->view.width_px; x++) resolve(work, x, y);
+}
+
+/// With `work` complete but for the memory: allocates, projects, draws.
+static ewa_status render(ewa_context *context, reference *work) {
+    const size_t pixel_count = (size_t)work->view.width_px * (size_t)work->view.height_px;
+    work->splats = ewa_allocate(context, work->surfel_count, sizeof *work->splats);
+    work->pixels = ewa_allocate(context, pixel_count, sizeof *work->pixels);
+    ewa_status status = work->splats && work->pixels ? EWA_OK : EWA_ERROR_MEMORY;
+    if (status == EWA_OK) status = ewa_progress(context, "reference", 0);
+    if (status == EWA_OK) {
+        const uint64_t pieces = (work->surfel_count + PROJECT_POINTS - 1) / PROJECT_POINTS;
+        ewa_parallel(context, project_piece, work, (uint32_t)pieces);
+        status = ewa_progress(context, "reference", 0.25);
+    }
+    if (status == EWA_OK) {
+        ewa_parallel(context, render_band, work, work->band_count);
+        status = ewa_progress(context, "reference", 1);
+    }
+    ewa_release(context, work->pixels, pixel_count, sizeof *work->pixels);
+    ewa_release(context, work->splats, work->surfel_count, sizeof *work->splats);
+    return status;
+}
+
+ewa_status ewa_render_reference(const ewa_cloud *cloud, const ewa_surfels_options *surfels_options,
+                                double unit_coverage, const ewa_camera *camera,
+                                const ewa_render_options *options, const ewa_frame *frame) {
+    if (!cloud) return EWA_ERROR_ARGUMENT;
+    ewa_context *context = ewa_cloud_context(cloud);
+    if (!camera || !frame)
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "reference: no %s", camera ? "frame" : "camera");
+    if (!(unit_coverage > 0) || !isfinite(unit_coverage))
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "reference: unit_coverage is %g, must be positive",
+                        unit_coverage);
+    reference work = {
+        .unit_coverage = unit_coverage, .surfel_count = ewa_cloud_point_count(cloud), .frame = *frame};
+    ewa_surfels_options chosen;
+    ewa_status status = ewa_surfels_options_choose(context, surfels_options, &chosen);
+    if (status == EWA_OK) status = ewa_render_options_choose(context, options, &work.options);
+    if (status == EWA_OK) status = ewa_camera_check(context, camera);
+    if (status == EWA_OK) status = ewa_surfel_reader_open(cloud, &chosen, &work.reader);
+    if (status != EWA_OK) return status;
+    ewa_reference_view_make(camera, chosen.cutoff, &work.options, &work.view);
+    const ewa_vec3 light = vec3_load(work.options.light_world);
+    const double largest = fmax(fabs(light.x), fmax(fabs(light.y), fabs(light.z)));
+    if (largest > 0) {
+        // By way of the largest component, so that no square overflows.
+        const ewa_vec3 shorter = vec3_make(light.x / largest, light.y / largest, light.z / largest);
+        work.light_world = vec3_scale(shorter, 1 / vec3_length(shorter));
+    }
+    const uint64_t bands = (uint64_t)ewa_context_worker_count(context) * BANDS_PER_WORKER;
+    work.band_count = bands < camera->height_px ? (uint32_t)bands : camera->height_px;
+    return render(context, &work);
+}

@@ -1,0 +1,252 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The projection of one surfel, written to be read beside math.md.
+// Based on: M. Zwicker, J. Rasanen, M. Botsch, C. Dachsbacher, M. Pauly, "Perspective Accurate Splatting",
+// 2004, section 4, by way of the dual conic (math.md section 3); M. Zwicker, H. Pfister, J. van Baar, M.
+// Gross, "Surface Splatting", 2001, sections 3 and 4 (affine kernel, visibility).
+#include "splat/reference_splat.h"
+#include "splat/semantics.h"
+
+static const double TWO_PI = 6.283185307179586;
+
+/// v A': a direction from world to camera space.
+static ewa_vec3 to_camera(const ewa_reference_view *view, ewa_vec3 v) {
+    return vec3_make(vec3_dot(view->rows[0], v), vec3_dot(view->rows[1], v), vec3_dot(view->rows[2], v));
+}
+
+void ewa_reference_view_make(const ewa_camera *camera, double cutoff, const ewa_render_options *options,
+                             ewa_reference_view *view) {
+    *view = (ewa_reference_view){
+        .orthographic = camera->projection == EWA_ORTHOGRAPHIC,
+        .width_px = (int32_t)camera->width_px,
+        .height_px = (int32_t)camera->height_px,
+        .fx_px = camera->fx_px,
+        .fy_px = camera->fy_px,
+        .cx_px = camera->cx_px,
+        .cy_px = camera->cy_px,
+        .kernel = options->kernel,
+        .cull = options->cull,
+        .cutoff = cutoff,
+        .prefilter_px = options->prefilter_px,
+        .tolerance = options->tolerance,
+    };
+    for (int row = 0; row < 3; row++) {
+        view->rows[row] = vec3_load(&camera->world_to_camera[4 * row]);
+        view->translation[row] = camera->world_to_camera[4 * row + 3];
+    }
+    for (int corner = 0; corner < 4; corner++) {
+        const ewa_vec3 ray =
+            ewa_reference_ray(view, corner & 1 ? view->width_px : 0, corner & 2 ? view->height_px : 0);
+        view->farthest_slope = fmax(view->farthest_slope, vec3_length(ray));
+    }
+}
+
+ewa_vec3 ewa_reference_ray(const ewa_reference_view *view, double x_px, double y_px) {
+    if (view->orthographic) return vec3_make(0, 0, 1);
+    return vec3_make((x_px - view->cx_px) / view->fx_px, (y_px - view->cy_px) / view->fy_px, 1);
+}
+
+/// Pixels whose centres lie in [low, high], within [0, size).
+static void pixel_range(double low, double high, int32_t size, int32_t *begin, int32_t *end) {
+    // The centre of pixel i is i + 1/2.
+    const double first = ceil(low - 0.5), last = floor(high - 0.5);
+    *begin = first > 0 ? (first < size ? (int32_t)first : size) : 0;
+    *end = last < size - 1 ? (last < 0 ? 0 : (int32_t)last + 1) : size;
+}
+
+static void set_box(const ewa_reference_view *view, double x_low, double x_high, double y_low, double y_high,
+                    ewa_reference_splat *splat) {
+    pixel_range(x_low, x_high, view->width_px, &splat->x_begin, &splat->x_end);
+    pixel_range(y_low, y_high, view->height_px, &splat->y_begin, &splat->y_end);
+}
+
+/// The ellipse of a surfel at a distance (math.md section 3).
+///
+/// The dual conic of the support's rim is D = F^2 Sigma - p'p. A shear G of the rays, x -= (px/pz) z, y -=
+/// (py/pz) z, lays p onto the z axis and moves the picture's origin to the projected centre x0; with it
+///     G D G' = F^2 Sigma' - pz^2 e3'e3,    Sigma' = sum of t't over the sheared axes t,
+/// whose entries other than D33 do not contain p and so do not cancel. Relative to x0, in pixels,
+///     c = F^2 (Sigma'13, Sigma'23) / D33,  S = c'c - F^2 Sigma'[1:2, 1:2] / D33,  V = S / F^2,
+/// and, because det D = -F^4 det(M)^2 for M = [tu; tv; p] (PAS eq. 4),
+///     |V| = det(M)^2 / |D33|^3,
+/// exact even where the splat is a line. The Jacobian at the centre (affine kernel) has the rows t_xy / pz:
+/// the same with D33 = -pz^2, c = 0, what is left for F -> 0. Orthographic cameras project t by dropping z.
+static bool make_ellipse(const ewa_reference_view *view, ewa_reference_splat *splat) {
+    const ewa_vec3 p = splat->center;
+    const double F = view->cutoff, h2 = view->prefilter_px * view->prefilter_px;
+    const double x0 = view->orthographic ? 0 : p.x / p.z, y0 = view->orthographic ? 0 : p.y / p.z;
+    const ewa_vec3 axes[2] = {splat->axis_u, splat->axis_v};
+    double s11 = 0, s12 = 0, s22 = 0, s13 = 0, s23 = 0, s33 = 0; // Sigma', x and y in pixels
+    for (int i = 0; i < 2; i++) {
+        const double x = view->fx_px * (axes[i].x - x0 * axes[i].z),
+                     y = view->fy_px * (axes[i].y - y0 * axes[i].z);
+        const double z = axes[i].z;
+        s11 += x * x, s12 += x * y, s22 += y * y;
+        s13 += x * z, s23 += y * z, s33 += z * z;
+    }
+    const ewa_vec3 across = vec3_cross(splat->axis_u, splat->axis_v);
+    double root, *variance = splat->variance_px2, *center = splat->center_px; // root = sqrt(|V|)
+    if (view->orthographic) {
+        center[0] = view->fx_px * p.x + view->cx_px;
+        center[1] = view->fy_px * p.y + view->cy_px;
+        variance[0] = s11, variance[1] = s12, variance[2] = s22;
+        root = view->fx_px * view->fy_px * fabs(across.z);
+    } else {
+        const bool affine = view->kernel == EWA_KERNEL_AFFINE;
+        const double d33 = (affine ? 0 : F * F * s33) - p.z * p.z;
+        const double c1 = affine ? 0 : F * F * s13 / d33, c2 = affine ? 0 : F * F * s23 / d33;
+        center[0] = view->fx_px * x0 + view->cx_px + c1;
+        center[1] = view->fy_px * y0 + view->cy_px + c2;
+        variance[0] = c1 * c1 / (F * F) - s11 / d33;
+        variance[1] = c1 * c2 / (F * F) - s12 / d33;
+        variance[2] = c2 * c2 / (F * F) - s22 / d33;
+        root = view->fx_px * view->fy_px * fabs(vec3_dot(across, p)) / (-d33 * sqrt(-d33));
+    }
+    // V' = V + h^2 I (math.md section 4); its determinant by a sum of positive terms.
+    const double determinant = root * root + h2 * (variance[0] + variance[2]) + h2 * h2;
+    if (!(determinant > 0)) return false;
+    splat->inverse[0] = (variance[2] + h2) / determinant;
+    splat->inverse[1] = -variance[1] / determinant;
+    splat->inverse[2] = (variance[0] + h2) / determinant;
+    splat->peak = root / sqrt(determinant) / TWO_PI;
+    const double half_width = F * sqrt(variance[0] + h2), half_height = F * sqrt(variance[2] + h2);
+    set_box(view, center[0] - half_width, center[0] + half_width, center[1] - half_height,
+            center[1] + half_height, splat);
+    return splat->peak > 0;
+}
+
+/// A box around the pixels whose rays may meet a near surfel within 2 F standard deviations: the corners of
+/// the circumscribed rectangle, clipped to the depths at which rays of the picture meet the plane at all.
+static void bound_near(const ewa_reference_view *view, ewa_reference_splat *splat) {
+    const double reach = 2 * view->cutoff;
+    // A ray d meets the plane at z = n.p / n.d, and |n.d| <= |d|.
+    const double z_min = 0.999 * fabs(vec3_dot(splat->normal, splat->center)) / view->farthest_slope;
+    ewa_vec3 corners[4];
+    for (int i = 0; i < 4; i++) {
+        const ewa_vec3 along = vec3_scale(splat->axis_u, i == 1 || i == 2 ? reach : -reach);
+        const ewa_vec3 aside = vec3_scale(splat->axis_v, i >= 2 ? reach : -reach);
+        corners[i] = vec3_add(splat->center, vec3_add(along, aside));
+    }
+    double x_low = INFINITY, x_high = -INFINITY, y_low = INFINITY, y_high = -INFINITY;
+    for (int i = 0; i < 4; i++) {
+        const ewa_vec3 a = corners[i], b = corners[(i + 1) % 4];
+        ewa_vec3 seen[2];
+        int count = 0;
+        if (a.z >= z_min) seen[count++] = a;
+        if ((a.z >= z_min) != (b.z >= z_min))
+            seen[count++] = vec3_add(a, vec3_scale(vec3_sub(b, a), (z_min - a.z) / (b.z - a.z)));
+        for (int k = 0; k < count; k++) {
+            const double x = view->fx_px * seen[k].x / seen[k].z + view->cx_px;
+            const double y = view->fy_px * seen[k].y / seen[k].z + view->cy_px;
+            x_low = fmin(x_low, x), x_high = fmax(x_high, x);
+            y_low = fmin(y_low, y), y_high = fmax(y_high, y);
+        }
+    }
+    set_box(view, x_low - 1e-3, x_high + 1e-3, y_low - 1e-3, y_high + 1e-3, splat);
+}
+
+/// The tangent plane on the screen and the tolerance of the visibility test (math.md sections 5 and 6).
+static void make_depth(const ewa_reference_view *view, double half_range, ewa_reference_splat *splat) {
+    const ewa_vec3 p = splat->center, n = splat->normal;
+    double slope; // what z changes per pixel at the centre
+    if (view->orthographic) {
+        // z(x) = pz - ((X - px) nx + (Y - py) ny) / nz at X = (x - cx) / fx, Y = (y - cy) / fy
+        splat->plane[0] = -n.x / (n.z * view->fx_px);
+        splat->plane[1] = -n.y / (n.z * view->fy_px);
+        splat->plane[2] =
+            vec3_dot(n, p) / n.z - splat->plane[0] * view->cx_px - splat->plane[1] * view->cy_px;
+        slope = hypot(splat->plane[0], splat->plane[1]);
+    } else {
+        // 1/z(x) = n.d(x) / n.p
+        const double np = vec3_dot(n, p);
+        splat->plane[0] = n.x / (np * view->fx_px);
+        splat->plane[1] = n.y / (np * view->fy_px);
+        splat->plane[2] = n.z / np - splat->plane[0] * view->cx_px - splat->plane[1] * view->cy_px;
+        slope = hypot(splat->plane[0], splat->plane[1]) * p.z * p.z;
+    }
+    splat->z_low = p.z - half_range;
+    splat->z_high = p.z + half_range;
+    const double radius = view->cutoff * fmax(vec3_length(splat->axis_u), vec3_length(splat->axis_v));
+    splat->epsilon = view->tolerance * radius +
+                     fmin(view->cutoff * view->prefilter_px * slope, EWA_GRAZING_TOLERANCE * radius);
+}
+
+void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *surfel,
+                           ewa_reference_splat *splat) {
+    splat->drawn = false;
+    const double *t = view->translation;
+    const ewa_vec3 p =
+        vec3_add(to_camera(view, vec3_load(surfel->center_world)), vec3_make(t[0], t[1], t[2]));
+    const ewa_vec3 u = to_camera(view, vec3_load(surfel->axis_u_world));
+    const ewa_vec3 v = to_camera(view, vec3_load(surfel->axis_v_world));
+    ewa_vec3 n = to_camera(view, vec3_load(surfel->normal_world));
+    n = vec3_scale(n, 1 / vec3_length(n));
+    // R = F sqrt(Sigma33), the depth half range of the disc
+    const double half_range = view->cutoff * sqrt(u.z * u.z + v.z * v.z);
+    const double facing = view->orthographic ? n.z : vec3_dot(n, p);
+    if (view->orthographic ? p.z <= 0 : p.z + half_range <= 0) return;
+    if (view->cull == EWA_CULL_BACK && facing >= 0) return;
+    if (fabs(facing) < EWA_EDGE_ON * (view->orthographic ? 1 : vec3_length(p))) return;
+    const double sign = facing > 0 ? -1 : 1;
+    splat->center = p;
+    splat->axis_u = u;
+    splat->axis_v = v;
+    splat->normal = vec3_scale(n, sign);
+    splat->normal_world = vec3_scale(vec3_load(surfel->normal_world), sign);
+    splat->color = vec3_load(surfel->color_linear);
+    splat->by_rays = !view->orthographic && p.z <= EWA_NEAR_RATIO * half_range;
+    make_depth(view, half_range, splat);
+    if (splat->by_rays)
+        bound_near(view, splat);
+    else if (!make_ellipse(view, splat))
+        return;
+    splat->drawn = true;
+}
+
+/// The exact projective kernel along a ray (raycast of math.md section 9): q = z d - p in the tangent frame,
+/// u = (q.tu / tu.tu, q.tv / tv.tv), convolved with the prefilter carried over by the derivatives of u at
+/// this very pixel.
+static bool sample_ray(const ewa_reference_view *view, const ewa_reference_splat *splat, double x_px,
+                       double y_px, ewa_reference_sample *sample) {
+    const ewa_vec3 d = ewa_reference_ray(view, x_px, y_px), p = splat->center, n = splat->normal;
+    const double np = vec3_dot(n, p), nd = vec3_dot(n, d), z = np / nd;
+    if (!(z > 0) || !isfinite(z)) return false;
+    const ewa_vec3 tangents[2] = {splat->axis_u, splat->axis_v};
+    double coordinate[2], by_x[2], by_y[2];
+    for (int i = 0; i < 2; i++) {
+        const ewa_vec3 t = vec3_scale(tangents[i], 1 / vec3_dot(tangents[i], tangents[i]));
+        coordinate[i] = vec3_dot(vec3_sub(vec3_scale(d, z), p), t);
+        // d(z d)/dx = dz/dx d + z (1/fx, 0, 0), dz/dx = -z nx / (fx n.d); likewise y
+        by_x[i] = z / view->fx_px * (t.x - n.x / nd * vec3_dot(d, t));
+        by_y[i] = z / view->fy_px * (t.y - n.y / nd * vec3_dot(d, t));
+    }
+    const double u = coordinate[0], v = coordinate[1], F = view->cutoff;
+    if (!(u * u + v * v < 4 * F * F)) return false;
+    const double h2 = view->prefilter_px * view->prefilter_px;
+    const double w11 = 1 + h2 * (by_x[0] * by_x[0] + by_y[0] * by_y[0]);
+    const double w12 = h2 * (by_x[0] * by_x[1] + by_y[0] * by_y[1]);
+    const double w22 = 1 + h2 * (by_x[1] * by_x[1] + by_y[1] * by_y[1]);
+    const double cross = by_x[0] * by_y[1] - by_x[1] * by_y[0];
+    const double determinant = w11 + w22 - 1 + h2 * h2 * cross * cross; // |W|, without cancellation
+    sample->distance2 = (u * u * w22 - 2 * u * v * w12 + v * v * w11) / determinant;
+    sample->weight = exp(-0.5 * sample->distance2) / sqrt(determinant) / TWO_PI;
+    sample->z = fmin(fmax(z, splat->z_low), splat->z_high);
+    return true;
+}
+
+bool ewa_reference_sample_at(const ewa_reference_view *view, const ewa_reference_splat *splat, double x_px,
+                             double y_px, ewa_reference_sample *sample) {
+    if (splat->by_rays) return sample_ray(view, splat, x_px, y_px, sample);
+    const double dx = x_px - splat->center_px[0], dy = y_px - splat->center_px[1];
+    const double *q = splat->inverse;
+    sample->distance2 = q[0] * dx * dx + 2 * q[1] * dx * dy + q[2] * dy * dy;
+    sample->weight = splat->peak * exp(-0.5 * sample->distance2);
+    const double plane = splat->plane[0] * x_px + splat->plane[1] * y_px + splat->plane[2];
+    // Clamped before the division: a ray that misses the plane gets the far end of the disc.
+    if (view->orthographic)
+        sample->z = fmin(fmax(plane, splat->z_low), splat->z_high);
+    else
+        sample->z = 1 / fmin(fmax(plane, 1 / splat->z_high), 1 / splat->z_low);
+    return true;
+}

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// One surfel as one camera sees it, in double precision: what the reference rasterises pixel by pixel.
+#ifndef EWA_SRC_SPLAT_REFERENCE_SPLAT_H
+#define EWA_SRC_SPLAT_REFERENCE_SPLAT_H
+
+#include "math/vec.h"
+#include "splat/surfel.h"
+
+/// A camera and the options that decide where a splat lies and what it weighs.
+typedef struct ewa_reference_view {
+    bool orthographic;
+    int32_t width_px, height_px;
+    double fx_px, fy_px, cx_px, cy_px;
+    ewa_vec3 rows[3];      ///< of A
+    double translation[3]; ///< t: camera space p = A w + t
+    double farthest_slope; ///< length of the longest ray (x, y, 1) to the picture
+    ewa_kernel kernel;
+    ewa_cull cull;
+    double cutoff;       ///< F
+    double prefilter_px; ///< h
+    double tolerance;    ///< kappa
+} ewa_reference_view;
+
+/// A surfel in camera space and its picture.
+typedef struct ewa_reference_splat {
+    bool drawn;                             ///< false: dropped, nothing else is set
+    bool by_rays;                           ///< near: no ellipse, evaluated ray by ray
+    int32_t x_begin, x_end, y_begin, y_end; ///< pixels that may count; empty when outside of the picture
+    double center_px[2];                    ///< of the ellipse
+    double variance_px2[3];                 ///< V: xx, xy, yy, without the prefilter
+    double inverse[3];                      ///< V'^-1: xx, xy, yy
+    double peak;                            ///< sqrt(|V| / |V'|) / 2 pi
+    double plane[3];      ///< 1/z, orthographic: z, is plane . (x, y, 1) for pixel coordinates x, y
+    double z_low, z_high; ///< pz -+ R
+    double epsilon;       ///< tolerance of the visibility test
+    ewa_vec3 center, axis_u, axis_v, normal; ///< camera space, normal unit, towards the viewer
+    ewa_vec3 normal_world;
+    ewa_vec3 color;
+} ewa_reference_splat;
+
+/// A splat at a pixel.
+typedef struct ewa_reference_sample {
+    double distance2; ///< r^2, squared Mahalanobis distance under the filtered kernel; the splat counts below
+                      ///< F^2
+    double weight;    ///< rho
+    double z;         ///< clamped
+} ewa_reference_sample;
+
+/// Both structs must have been checked.
+void ewa_reference_view_make(const ewa_camera *camera, double cutoff, const ewa_render_options *options,
+                             ewa_reference_view *view);
+
+/// Returns the direction through a point of the picture, z = 1 (camera space).
+ewa_vec3 ewa_reference_ray(const ewa_reference_view *view, double x_px, double y_px);
+
+/// Projects a surfel (math.md sections 3 to 6, semantics.h).
+void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *surfel,
+                           ewa_reference_splat *splat);
+
+/// Evaluates a drawn splat at a point of the picture, whether it lies in the box or not. Returns whether the
+/// splat has a value there; it may lie beyond the cutoff.
+bool ewa_reference_sample_at(const ewa_reference_view *view, const ewa_reference_splat *splat, double x_px,
+                             double y_px, ewa_reference_sample *sample);
+
+#endif

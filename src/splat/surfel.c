@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// From streams to surfels: discs of a radius or ellipses of two tangent axes, colours to linear light.
+// Based on: M. Zwicker, J. Rasanen, M. Botsch, C. Dachsbacher, M. Pauly, "Perspective Accurate Splatting",
+// 2004, section 4.1 (tangent frames); the frame of a normal after T. Duff et al., "Building an Orthonormal
+// Basis, Revisited", 2017.
+#include "splat/surfel.h"
+#include "base/base.h"
+#include "image/srgb.h"
+#include "math/vec.h"
+#include "splat/semantics.h"
+
+#include <string.h>
+
+enum { BLOCK = 64 };
+
+/// Full scale of each ewa_type, 0 for floats.
+static const double FULL_SCALE[] = {0, 0, 127, 255, 32767, 65535, 2147483647.0, 4294967295.0};
+
+static double clamp01(double value) { return value < 0 ? 0 : value > 1 ? 1 : value; }
+
+static void read_color(const ewa_surfel_reader *reader, const double *value, ewa_surfel *surfel) {
+    const ewa_attribute *color = reader->color;
+    const double scale = FULL_SCALE[color->type];
+    const uint32_t components = color->component_count;
+    bool finite = true;
+    for (uint32_t c = 0; c < components; c++) finite = finite && isfinite(value[c]);
+    for (int c = 0; c < 3; c++) {
+        if (!finite)
+            surfel->color_linear[c] = EWA_DEFAULT_GREY;
+        else if (color->type == EWA_U8)
+            surfel->color_linear[c] = reader->linear_from_u8[(int)value[c]];
+        else if (scale > 0)
+            surfel->color_linear[c] = ewa_srgb_decode(clamp01(value[c] / scale));
+        else
+            surfel->color_linear[c] = fmin(fmax(value[c], 0), EWA_SURFEL_LIMIT);
+    }
+    surfel->alpha = components < 4 || !finite ? 1 : clamp01(scale > 0 ? value[3] / scale : value[3]);
+}
+
+static void store(ewa_vec3 v, double to[3]) {
+    to[0] = v.x;
+    to[1] = v.y;
+    to[2] = v.z;
+}
+
+/// False for NaN too.
+static bool within_limit(ewa_vec3 v) {
+    return fabs(v.x) <= EWA_SURFEL_LIMIT && fabs(v.y) <= EWA_SURFEL_LIMIT && fabs(v.z) <= EWA_SURFEL_LIMIT;
+}
+
+/// Scales `v` to length 1 by way of its largest component, so that tiny and huge vectors keep their
+/// direction.
+static bool normalize(ewa_vec3 *v) {
+    const double largest = fmax(fabs(v->x), fmax(fabs(v->y), fabs(v->z)));
+    if (!(largest > 0) || !vec3_is_finite(*v)) return false;
+    // A division, because 1 / largest may overflow.
+    *v = vec3_make(v->x / largest, v->y / largest, v->z / largest);
+    *v = vec3_scale(*v, 1 / vec3_length(*v));
+    return true;
+}
+
+/// A disc of standard deviation `sigma` around the normal `n`.
+static bool make_disc(ewa_vec3 n, double sigma, ewa_surfel *surfel) {
+    if (!(sigma >= 1 / EWA_SURFEL_LIMIT && sigma <= EWA_SURFEL_LIMIT) || !normalize(&n)) return false;
+    const double sign = copysign(1, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
+    store(vec3_scale(vec3_make(1 + sign * n.x * n.x * a, sign * b, -sign * n.x), sigma),
+          surfel->axis_u_world);
+    store(vec3_scale(vec3_make(b, sign + n.y * n.y * a, -n.y), sigma), surfel->axis_v_world);
+    store(n, surfel->normal_world);
+    return true;
+}
+
+/// An ellipse of two conjugate axes: turns them into the principal ones of the same covariance. A rotation of
+/// the pair by t keeps tu'tu + tv'tv and tu x tv; they become orthogonal for tan 2t = 2 tu.tv / (tu.tu -
+/// tv.tv). The normal is on the side of `given`, if that has one.
+static bool make_ellipse(ewa_vec3 tu, ewa_vec3 tv, ewa_vec3 given, ewa_surfel *surfel) {
+    if (!within_limit(tu) || !within_limit(tv)) return false;
+    const double difference = vec3_dot(tu, tu) - vec3_dot(tv, tv), mixed = 2 * vec3_dot(tu, tv);
+    double cosine = 1, sine = 0;
+    if (mixed != 0 || difference < 0) {
+        // Half of the angle of (difference, mixed), in [-90, 90] degrees: the longer axis becomes u.
+        const double length = sqrt(difference * difference + mixed * mixed);
+        const double larger = sqrt((1 + fabs(difference) / length) / 2);
+        const double smaller = fabs(mixed) / length / (2 * larger);
+        cosine = difference >= 0 ? larger : smaller;
+        sine = copysign(difference >= 0 ? smaller : larger, mixed);
+    }
+    const ewa_vec3 u = vec3_add(vec3_scale(tu, cosine), vec3_scale(tv, sine));
+    const ewa_vec3 v = vec3_sub(vec3_scale(tv, cosine), vec3_scale(tu, sine));
+    // A length of 0 above has made NaN of both.
+    if (!(vec3_length(v) >= 1 / EWA_SURFEL_LIMIT && vec3_length(v) >= EWA_SURFEL_MIN_ASPECT * vec3_length(u)))
+        return false;
+    ewa_vec3 n = vec3_cross(u, v);
+    if (!normalize(&n)) return false;
+    store(u, surfel->axis_u_world);
+    store(v, surfel->axis_v_world);
+    store(vec3_scale(n, vec3_dot(n, given) < 0 ? -1 : 1), surfel->normal_world);
+    return true;
+}
+
+static ewa_status check_components(const ewa_cloud *cloud, const ewa_attribute *attribute, uint32_t low,
+                                   uint32_t high) {
+    if (!attribute || (attribute->component_count >= low && attribute->component_count <= high))
+        return EWA_OK;
+    return ewa_fail(ewa_cloud_context(cloud), EWA_ERROR_ARGUMENT,
+                    "cloud: '%s' has %u components instead of %u", attribute->name,
+                    attribute->component_count, low);
+}
+
+/// Names the first attribute that is missing.
+static ewa_status check_presence(const ewa_cloud *cloud, const ewa_surfel_reader *reader) {
+    const char *missing = NULL;
+    if (!reader->position)
+        missing = EWA_POSITION;
+    else if (reader->tangent_u && reader->tangent_v)
+        return EWA_OK;
+    else if (reader->normal && reader->radius)
+        return EWA_OK;
+    else if (reader->tangent_u)
+        missing = EWA_TANGENT_V;
+    else if (reader->tangent_v)
+        missing = EWA_TANGENT_U;
+    else
+        missing = reader->normal ? EWA_RADIUS : EWA_NORMAL;
+    return ewa_fail(
+        ewa_cloud_context(cloud), EWA_ERROR_ARGUMENT,
+        "cloud: '%s' is missing (surfels need 'position' with 'normal' and 'radius', or with 'tangent_u' "
+        "and 'tangent_v')",
+        missing);
+}
+
+ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_options *options,
+                                  ewa_surfel_reader *reader) {
+    *reader = (ewa_surfel_reader){
+        .position = ewa_cloud_find(cloud, EWA_POSITION),
+        .normal = ewa_cloud_find(cloud, EWA_NORMAL),
+        .radius = ewa_cloud_find(cloud, EWA_RADIUS),
+        .tangent_u = ewa_cloud_find(cloud, EWA_TANGENT_U),
+        .tangent_v = ewa_cloud_find(cloud, EWA_TANGENT_V),
+        .color = ewa_cloud_find(cloud, EWA_COLOR),
+        .sigma_per_radius = options->radius_scale / options->cutoff,
+        .axis_scale = options->radius_scale,
+    };
+    ewa_status status = check_presence(cloud, reader);
+    if (status == EWA_OK) status = check_components(cloud, reader->position, 3, 3);
+    if (status == EWA_OK) status = check_components(cloud, reader->normal, 3, 3);
+    if (status == EWA_OK) status = check_components(cloud, reader->color, 3, 4);
+    if (reader->tangent_u && reader->tangent_v) {
+        reader->radius = NULL;
+        if (status == EWA_OK) status = check_components(cloud, reader->tangent_u, 3, 3);
+        if (status == EWA_OK) status = check_components(cloud, reader->tangent_v, 3, 3);
+    } else {
+        reader->tangent_u = reader->tangent_v = NULL;
+        if (status == EWA_OK) status = check_components(cloud, reader->radius, 1, 1);
+    }
+    ewa_cloud_origin(cloud, reader->origin_world);
+    for (int i = 0; i < 256; i++) reader->linear_from_u8[i] = ewa_srgb_decode(i / 255.0);
+    return status;
+}
+
+/// At most BLOCK points.
+static uint64_t read_block(const ewa_surfel_reader *reader, uint64_t first, uint64_t count,
+                           ewa_surfel *surfels, bool *drawable) {
+    double position[3 * BLOCK], normal[3 * BLOCK], first_axis[3 * BLOCK], second_axis[3 * BLOCK],
+        color[4 * BLOCK];
+    ewa_attribute_read_f64(reader->position, first, count, position);
+    if (reader->normal) ewa_attribute_read_f64(reader->normal, first, count, normal);
+    if (reader->color) ewa_attribute_read_f64(reader->color, first, count, color);
+    ewa_attribute_read_f64(reader->tangent_u ? reader->tangent_u : reader->radius, first, count, first_axis);
+    if (reader->tangent_v) ewa_attribute_read_f64(reader->tangent_v, first, count, second_axis);
+    const ewa_vec3 origin = vec3_load(reader->origin_world);
+    uint64_t kept = 0;
+    for (uint64_t i = 0; i < count; i++) {
+        ewa_surfel *surfel = &surfels[i];
+        const ewa_vec3 center = vec3_add(vec3_load(&position[3 * i]), origin);
+        store(center, surfel->center_world);
+        const ewa_vec3 given = reader->normal ? vec3_load(&normal[3 * i]) : vec3_make(0, 0, 0);
+        if (reader->tangent_u)
+            drawable[i] =
+                make_ellipse(vec3_scale(vec3_load(&first_axis[3 * i]), reader->axis_scale),
+                             vec3_scale(vec3_load(&second_axis[3 * i]), reader->axis_scale), given, surfel);
+        else
+            drawable[i] = make_disc(given, first_axis[i] * reader->sigma_per_radius, surfel);
+        drawable[i] = drawable[i] && within_limit(center);
+        kept += drawable[i];
+        surfel->alpha = 1;
+        if (reader->color)
+            read_color(reader, &color[reader->color->component_count * i], surfel);
+        else
+            surfel->color_linear[0] = surfel->color_linear[1] = surfel->color_linear[2] = EWA_DEFAULT_GREY;
+    }
+    return kept;
+}
+
+uint64_t ewa_surfel_read(const ewa_surfel_reader *reader, uint64_t first, uint64_t count, ewa_surfel *surfels,
+                         bool *drawable) {
+    uint64_t kept = 0;
+    for (uint64_t done = 0; done < count; done += BLOCK) {
+        const uint64_t part = count - done < BLOCK ? count - done : BLOCK;
+        kept += read_block(reader, first + done, part, surfels + done, drawable + done);
+    }
+    return kept;
+}

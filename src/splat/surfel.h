@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Surfels as double-precision structs, read from a cloud: the one place that knows what its streams mean.
+#ifndef EWA_SRC_SPLAT_SURFEL_H
+#define EWA_SRC_SPLAT_SURFEL_H
+
+#include "ewa/render.h"
+
+/// One surfel in world space. Its covariance is axis_u' axis_u + axis_v' axis_v (math.md section 2).
+typedef struct ewa_surfel {
+    double center_world[3]; ///< the cloud's origin included
+    double axis_u_world[3],
+        axis_v_world[3];    ///< orthogonal, length = sigma, |u| >= |v|, radius_scale included
+    double normal_world[3]; ///< unit; +-(u x v), on the side of the cloud's normal if it has one
+    double color_linear[3]; ///< [0, 1]
+    double alpha;           ///< [0, 1]
+} ewa_surfel;
+
+/// Largest magnitude of a coordinate and of an axis, and the inverse of the smallest axis: surfels outside
+/// are not drawn, so that no square or product of what is left overflows.
+#define EWA_SURFEL_LIMIT 1e15
+
+/// Smallest |v| / |u| that is an ellipse; thinner ones are lines without a normal and are not drawn.
+#define EWA_SURFEL_MIN_ASPECT 1e-6
+
+/// The streams of a cloud that make surfels. Valid until the cloud's streams change.
+typedef struct ewa_surfel_reader {
+    const ewa_attribute *position, *normal, *radius, *tangent_u, *tangent_v, *color; ///< NULL: not used
+    double origin_world[3];
+    double sigma_per_radius; ///< radius_scale / F
+    double axis_scale;       ///< radius_scale
+    double linear_from_u8[256];
+} ewa_surfel_reader;
+
+/// Finds the streams: "position" with "tangent_u" and "tangent_v" (the axes win), or with "normal" and
+/// "radius".
+///
+/// A "color" of 3 or 4 components is used when there is one: unsigned integers are sRGB over their whole
+/// range, signed ones over their non-negative half (alpha is linear), floats are linear and negative ones 0;
+/// alpha is clamped to [0, 1]. A component that is not finite makes the colour an opaque EWA_DEFAULT_GREY, as
+/// no colour does. `options` are checked ones. Errors: EWA_ERROR_ARGUMENT with a message that names the
+/// missing or misshapen attribute.
+ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_options *options,
+                                  ewa_surfel_reader *reader);
+
+/// Reads points [first, first + count) into `surfels`; `drawable[i]` tells whether surfels[i] can be drawn:
+/// position and axes finite and within EWA_SURFEL_LIMIT, radius > 0, normal not zero, aspect at least
+/// EWA_SURFEL_MIN_ASPECT. What cannot be drawn has undefined members. Returns how many are drawable. Any
+/// thread.
+uint64_t ewa_surfel_read(const ewa_surfel_reader *reader, uint64_t first, uint64_t count, ewa_surfel *surfels,
+                         bool *drawable);
+
+#endif

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Tests of src/image/image.c: creation, limits, comparison.
+#include "check.h"
+
+#include <math.h>
+#include <string.h>
+
+static void test_create_and_free(void **state) {
+    (void)state;
+    check_log log = {0};
+    ewa_context *context = check_context(1, &log);
+    ewa_image image;
+    assert_int_equal(ewa_image_create(context, 3, 2, 4, &image), EWA_OK);
+    for (int i = 0; i < 24; i++) assert_true(image.pixels[i] == 0);
+    ewa_image_free(&image);
+    assert_null(image.pixels);
+    ewa_image_free(&image);
+    ewa_image_free(NULL);
+    assert_int_equal(ewa_image_create(context, 0, 2, 4, &image), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_image_create(context, 1, 2, 9, &image), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_image_create(context, 65537, 1, 1, &image), EWA_ERROR_LIMIT);
+    assert_non_null(strstr(log.text, "65537 x 1"));
+    ewa_context_destroy(&context);
+}
+
+static void test_compare_known_values(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    ewa_image a, b, heat;
+    assert_int_equal(ewa_image_create(context, 2, 2, 3, &a), EWA_OK);
+    assert_int_equal(ewa_image_create(context, 2, 2, 3, &b), EWA_OK);
+    ewa_difference d;
+    assert_int_equal(ewa_image_compare(&a, &b, 1, 0, &d, NULL), EWA_OK);
+    assert_true(d.rms == 0 && d.maximum == 0 && d.mean_absolute == 0 && isinf(d.psnr_db));
+    assert_int_equal(d.over_threshold_count, 0);
+
+    a.pixels[4] = 0.5f;  // pixel 1
+    b.pixels[9] = 0.25f; // pixel 3
+    assert_int_equal(ewa_image_compare(&a, &b, 1, 0.25, &d, &heat), EWA_OK);
+    assert_true(d.maximum == 0.5 && d.mean_absolute == 0.75 / 12);
+    assert_true(fabs(d.rms - sqrt(0.3125 / 12)) < 1e-15);
+    assert_true(fabs(d.psnr_db - 15.843311) < 1e-5);
+    assert_int_equal(d.over_threshold_count, 1);
+    assert_true(heat.pixels[0] == 0 && heat.pixels[1] == 0.5f && heat.pixels[2] == 0 &&
+                heat.pixels[3] == 0.25f);
+    ewa_image_free(&heat);
+
+    a.pixels[0] = b.pixels[0] = NAN;
+    a.pixels[2] = b.pixels[2] = INFINITY;
+    assert_int_equal(ewa_image_compare(&a, &b, 1, 0, &d, NULL), EWA_OK);
+    assert_true(d.maximum == 0.5);
+    b.pixels[0] = 0;
+    assert_int_equal(ewa_image_compare(&a, &b, 1, 0, &d, NULL), EWA_OK);
+    assert_true(isinf(d.maximum) && isinf(d.rms) && d.psnr_db < 0);
+    ewa_image_free(&a);
+    ewa_image_free(&b);
+    ewa_context_destroy(&context);
+}
+
+static void test_compare_refuses_other_shapes(void **state) {
+    (void)state;
+    check_log log = {0};
+    ewa_context *context = check_context(1, &log);
+    ewa_image a, b;
+    assert_int_equal(ewa_image_create(context, 2, 2, 3, &a), EWA_OK);
+    assert_int_equal(ewa_image_create(context, 2, 2, 4, &b), EWA_OK);
+    ewa_difference d;
+    assert_int_equal(ewa_image_compare(&a, &b, 1, 0, &d, NULL), EWA_ERROR_ARGUMENT);
+    assert_non_null(strstr(log.text, "2 x 2 x 3 and 2 x 2 x 4"));
+    assert_int_equal(ewa_image_compare(&a, &a, 0, 0, &d, NULL), EWA_ERROR_ARGUMENT);
+    ewa_image_free(&a);
+    ewa_image_free(&b);
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_create_and_free),
+        cmocka_unit_test(test_compare_known_values),
+        cmocka_unit_test(test_compare_refuses_other_shapes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
