@@ -57,32 +57,40 @@ typedef struct ewa_spacing {
 /// Measures the sampling from at most `sample_count` points (0: all), the same ones for every run.
 EWA_API ewa_status ewa_cloud_measure_spacing(const ewa_cloud *cloud, uint64_t sample_count, ewa_spacing *spacing);
 
+/// Test objects, centred at the origin. Plane, checker and terrain lie in x-y, z up.
 typedef enum ewa_object {
-    EWA_OBJECT_PLANE = 0,
-    EWA_OBJECT_CHECKER = 1, ///< checkerboard plane
-    EWA_OBJECT_CUBE,
-    EWA_OBJECT_SPHERE,
-    EWA_OBJECT_TORUS,
-    EWA_OBJECT_TERRAIN, ///< fractal heights, textured
+    EWA_OBJECT_PLANE = 0,   ///< light grey square
+    EWA_OBJECT_CHECKER = 1, ///< black and white square
+    EWA_OBJECT_CUBE,        ///< checks of two colours on each face
+    EWA_OBJECT_SPHERE,      ///< banded like a planet, poles on the z axis
+    EWA_OBJECT_TORUS,       ///< about the z axis, tube radius 1/7 of the outer diameter, winding ribbons
+    EWA_OBJECT_TERRAIN,     ///< fractal heights: water (z = 0), sand, grass, rock, snow
 } ewa_object;
 
 /// What to generate. Fill with ewa_generate_options_init().
 typedef struct ewa_generate_options {
     size_t struct_size;
     ewa_object object;
-    uint64_t point_count;   ///< about how many points; exact except for grids, which round; default 100000
-    uint64_t seed;          ///< same seed, same bytes, on every machine; default 1
-    double size_world;      ///< edge of plane, cube, terrain; diameter of sphere; outer diameter of torus; default 2
-    double jitter;          ///< 0: regular grid, 1: anywhere in the cell; default 0.5 (plane, checker, cube, terrain)
-    double checks;          ///< squares along one edge of the checker plane and of the cube's faces; default 16
-    double radius_scale;    ///< support radius in units of the spacing; default as in ewa_estimate_options
-    bool positions_only;    ///< leave out normals and radii
+    uint64_t point_count; ///< exactly so many points; default 100000
+    uint64_t seed;        ///< same seed, same bytes, on every machine; default 1
+    double size_world;    ///< edge of plane, cube, terrain; diameter of sphere; outer diameter of torus;
+                          ///< [1e-25, 1e25]; default 2
+    double jitter;        ///< 0: points in the middle of their cells, 1: anywhere in them; [0, 1]; default 0.5
+    double checks;        ///< squares along one edge of the checker plane and of the cube's faces; [1e-6, 1e6];
+                          ///< default 16
+    double radius_scale;  ///< support radius in units of the local spacing; [1e-6, 1e6]; default 1.2. Discs leave no
+                          ///< hole where it is at least 0.72 (1 + jitter)
+    bool positions_only;  ///< leave out normals and radii; default false
 } ewa_generate_options;
 
 EWA_API void ewa_generate_options_init(ewa_generate_options *options, size_t struct_size);
 
-/// Makes a test object, centred at the origin: position F32, normal F32, color U8, radius F32. Plane, checker and
-/// terrain lie in x-y, z up; the torus's axis is z.
+/// Makes a test object: "position" F32 3, "normal" F32 3 (unit, outward), "color" U8 3 (sRGB), "radius" F32 1.
+/// One point lies in each of `point_count` cells of equal area (terrain: of equal ground), about as wide as high, that
+/// fill the surface to its edge; the spacing is the square root of a cell's area (terrain: longer on slopes).
+/// `options` may be NULL for the defaults; the caller owns `*cloud`, which is NULL after a failure. Every number
+/// depends on the options alone, not on the machine or the number of threads. Progress stage: "generate".
+/// Errors: EWA_ERROR_ARGUMENT (message names the member), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_CANCELLED.
 EWA_API ewa_status ewa_cloud_generate(ewa_context *context, const ewa_generate_options *options, ewa_cloud **cloud);
 
 #ifdef __cplusplus
