@@ -20,18 +20,22 @@ static bool find_component(const ewa_cloud *cloud, const char *attribute_name, c
     if (component_name) {
         if (!component_name[0] || component_name[1]) return false;
         const char *at = strchr(letters, component_name[0]);
-        if (at) *component = (uint32_t)(at - letters);
-        else if ((at = strchr(colors, component_name[0]))) *component = (uint32_t)(at - colors);
-        else return false;
+        if (at)
+            *component = (uint32_t)(at - letters);
+        else if ((at = strchr(colors, component_name[0])))
+            *component = (uint32_t)(at - colors);
+        else
+            return false;
     }
     snprintf(name, EWA_NAME_BYTES, "%s", attribute->name);
     return *component < attribute->component_count;
 }
 
-bool color_by_find(session *session, const ewa_cloud *cloud, const char *word, char name[EWA_NAME_BYTES],
+bool color_by_find(cli_session *session, const ewa_cloud *cloud, const char *word, char name[EWA_NAME_BYTES],
                    uint32_t *component) {
     if (find_component(cloud, word, NULL, name, component)) return true;
-    if (strlen(word) == 1 && strchr("xyz", word[0]) && find_component(cloud, EWA_POSITION, word, name, component))
+    if (strlen(word) == 1 && strchr("xyz", word[0]) &&
+        find_component(cloud, EWA_POSITION, word, name, component))
         return true;
     const char *dot = strrchr(word, '.');
     char attribute_name[EWA_NAME_BYTES];
@@ -49,7 +53,7 @@ bool color_by_find(session *session, const ewa_cloud *cloud, const char *word, c
     return false;
 }
 
-bool color_by(session *session, ewa_cloud *cloud, const char *word, ewa_colormap colormap,
+bool color_by(cli_session *session, ewa_cloud *cloud, const char *word, ewa_colormap colormap,
               const option_vector *range) {
     char name[EWA_NAME_BYTES];
     uint32_t component;

@@ -7,13 +7,14 @@
 
 #include "options.h"
 
-extern const command render_command, info_command, convert_command, surfels_command, generate_command, bench_command;
+extern const cli_command render_command, info_command, convert_command, surfels_command, generate_command,
+    bench_command;
 
 /// All commands, in the order of the help.
-extern const command *const all_commands[];
+extern const cli_command *const all_commands[];
 extern const size_t all_commands_count;
 
 /// Finds a command by its name; NULL when there is none.
-const command *command_find(const char *name);
+const cli_command *command_find(const char *name);
 
 #endif

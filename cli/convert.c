@@ -22,18 +22,21 @@ typedef struct convert_arguments {
 
 #define AT(member) offsetof(convert_arguments, member)
 
-static const option output_table[] = {
+static const cli_option output_table[] = {
     {.key = "output",
      .letter = 'o',
      .kind = OPTION_TEXT,
      .offset = AT(output),
      .value = "FILE",
      .help = "file to write (.ply); -: PLY to standard output"},
-    {.key = "ascii", .kind = OPTION_FLAG, .offset = AT(ascii), .help = "write text instead of little-endian binary"},
+    {.key = "ascii",
+     .kind = OPTION_FLAG,
+     .offset = AT(ascii),
+     .help = "write text instead of little-endian binary"},
     {.key = "big-endian", .kind = OPTION_FLAG, .offset = AT(big_endian), .help = "write big-endian binary"},
 };
 
-static const option change_table[] = {
+static const cli_option change_table[] = {
     {.key = "crop",
      .kind = OPTION_VECTOR,
      .offset = AT(crop),
@@ -47,7 +50,8 @@ static const option change_table[] = {
      .value = "N",
      .range = "(0, 1e15]",
      .absent = "all",
-     .help = "keep N points, or a share of them when N < 1: one at random of each run of equal length in the file, the "
+     .help = "keep N points, or a share of them when N < 1: one at random of each run of equal length in the "
+             "file, the "
              "same ones every time"},
     {.key = "scale",
      .kind = OPTION_VECTOR,
@@ -75,9 +79,12 @@ static const option change_table[] = {
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const convert_arguments *arguments = data;
     const char *problem = NULL;
-    if (!arguments->output) problem = "convert: no output; say -o FILE";
-    else if (arguments->ascii && arguments->big_endian) problem = "--ascii and --big-endian exclude each other";
-    else if (arguments->scale.count == 2) problem = "--scale: two numbers are neither s nor x,y,z";
+    if (!arguments->output)
+        problem = "convert: no output; say -o FILE";
+    else if (arguments->ascii && arguments->big_endian)
+        problem = "--ascii and --big-endian exclude each other";
+    else if (arguments->scale.count == 2)
+        problem = "--scale: two numbers are neither s nor x,y,z";
     else if (arguments->subsample > 1 && arguments->subsample != floor(arguments->subsample))
         problem = "--subsample: over 1, N has to be a whole number";
     if (problem) snprintf(message, OPTION_ERROR_BYTES, "%s", problem);
@@ -85,7 +92,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
 }
 
 /// Replaces a cloud by some of its points; false after reporting.
-static bool keep(session *session, ewa_cloud **cloud, const uint64_t *indices, uint64_t count) {
+static bool keep(cli_session *session, ewa_cloud **cloud, const uint64_t *indices, uint64_t count) {
     ewa_cloud *selected = NULL;
     const ewa_status status = ewa_cloud_select(*cloud, indices, count, &selected);
     if (status != EWA_OK) {
@@ -97,13 +104,13 @@ static bool keep(session *session, ewa_cloud **cloud, const uint64_t *indices, u
     return true;
 }
 
-static uint64_t *allocate_indices(session *session, uint64_t count) {
+static uint64_t *allocate_indices(cli_session *session, uint64_t count) {
     uint64_t *indices = count > SIZE_MAX / sizeof *indices ? NULL : malloc(count * sizeof *indices);
     if (!indices) session_fail(session, "out of memory: %llu indices", (unsigned long long)count);
     return indices;
 }
 
-static bool crop(session *session, ewa_cloud **cloud, const double box[6]) {
+static bool crop(cli_session *session, ewa_cloud **cloud, const double box[6]) {
     const uint64_t point_count = ewa_cloud_point_count(*cloud);
     uint64_t *indices = allocate_indices(session, point_count);
     if (!indices) return false;
@@ -122,8 +129,10 @@ static bool crop(session *session, ewa_cloud **cloud, const double box[6]) {
         if (inside) indices[count++] = i;
     }
     bool done = count > 0;
-    if (done) done = keep(session, cloud, indices, count);
-    else session_fail(session, "--crop: none of the %llu points is inside", (unsigned long long)point_count);
+    if (done)
+        done = keep(session, cloud, indices, count);
+    else
+        session_fail(session, "--crop: none of the %llu points is inside", (unsigned long long)point_count);
     free(indices);
     return done;
 }
@@ -136,7 +145,7 @@ static uint64_t scramble(uint64_t number) {
     return z ^ (z >> 31);
 }
 
-static bool subsample(session *session, ewa_cloud **cloud, double wanted) {
+static bool subsample(cli_session *session, ewa_cloud **cloud, double wanted) {
     const uint64_t point_count = ewa_cloud_point_count(*cloud);
     const double target = wanted < 1 ? floor(wanted * (double)point_count + 0.5) : wanted;
     if (target >= (double)point_count) return true;
@@ -155,7 +164,7 @@ static bool subsample(session *session, ewa_cloud **cloud, double wanted) {
 }
 
 /// Applies --scale, then --transform, then --translate.
-static bool move(session *session, ewa_cloud *cloud, const convert_arguments *arguments) {
+static bool move(cli_session *session, ewa_cloud *cloud, const convert_arguments *arguments) {
     double matrix[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     ewa_status status = EWA_OK;
     if (arguments->scale.count) {
@@ -178,9 +187,10 @@ static bool move(session *session, ewa_cloud *cloud, const convert_arguments *ar
 
 static int run(const void *data) {
     const convert_arguments *arguments = data;
-    session session;
+    cli_session session;
     if (!session_start(&session, &arguments->common)) return session_end(&session, EXIT_FAILED);
-    ewa_cloud *cloud = output_check(&session, arguments->output) ? inputs_merge(&session, &arguments->common) : NULL;
+    ewa_cloud *cloud =
+        output_check(&session, arguments->output) ? inputs_merge(&session, &arguments->common) : NULL;
     if (arguments->common.operand_count > 1) session.subject = NULL;
     bool done = cloud && (!arguments->crop.count || crop(&session, &cloud, arguments->crop.values)) &&
                 (arguments->subsample == 0 || subsample(&session, &cloud, arguments->subsample)) &&
@@ -193,26 +203,31 @@ static int run(const void *data) {
         session.subject = arguments->output;
         const ewa_status status = ewa_cloud_save(cloud, arguments->output, &options);
         done = status == EWA_OK;
-        if (!done) session_failed(&session, status);
-        else session_say(&session, "%s: %llu points written", arguments->output,
-                         (unsigned long long)ewa_cloud_point_count(cloud));
+        if (!done)
+            session_failed(&session, status);
+        else
+            session_say(&session, "%s: %llu points written", arguments->output,
+                        (unsigned long long)ewa_cloud_point_count(cloud));
     }
     ewa_cloud_destroy(&cloud);
     return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
 }
 
-static const option_group output_options = {"Output", output_table, sizeof output_table / sizeof output_table[0]};
+static const option_group output_options = {"Output", output_table,
+                                            sizeof output_table / sizeof output_table[0]};
 static const option_group change_options = {"Changes, in this order", change_table,
                                             sizeof change_table / sizeof change_table[0]};
 static const option_group *const groups[] = {&output_options, &change_options};
 
-const command convert_command = {
+const cli_command convert_command = {
     .name = "convert",
     .operands = "IN... -o OUT",
     .summary = "write clouds to another file: another encoding, a part, moved, several as one",
-    .details = "All attributes are kept with their types. Of several inputs, the attributes that all have are kept; a "
-               "warning names the others. Normals, radii and axes follow --scale and --transform. Moved clouds are "
-               "written with double coordinates.",
+    .details =
+        "All attributes are kept with their types. Of several inputs, the attributes that all have are kept; "
+        "a "
+        "warning names the others. Normals, radii and axes follow --scale and --transform. Moved clouds are "
+        "written with double coordinates.",
     .examples = "ewa convert scan.ply -o scan_text.ply --ascii\n"
                 "ewa convert a.ply b.ply -o both.ply --subsample 1000000\n"
                 "ewa convert mm.ply -o m.ply --scale 0.001 --crop -1,-1,0,1,1,2\n",

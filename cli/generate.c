@@ -21,17 +21,20 @@ typedef struct generate_arguments {
 /// In the order of ewa_object.
 static const char *const objects[] = {"plane", "checker", "cube", "sphere", "torus", "terrain"};
 
-static const option output_table[] = {
+static const cli_option output_table[] = {
     {.key = "output",
      .letter = 'o',
      .kind = OPTION_TEXT,
      .offset = AT(output),
      .value = "FILE",
      .help = "file to write (.ply); -: PLY to standard output"},
-    {.key = "ascii", .kind = OPTION_FLAG, .offset = AT(ascii), .help = "write text instead of little-endian binary"},
+    {.key = "ascii",
+     .kind = OPTION_FLAG,
+     .offset = AT(ascii),
+     .help = "write text instead of little-endian binary"},
 };
 
-static const option object_table[] = {
+static const cli_option object_table[] = {
     {.key = "points",
      .letter = 'n',
      .kind = OPTION_INTEGER,
@@ -101,8 +104,9 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const char *word = arguments->common.operands[0];
     if (find_object(word) == OBJECT_COUNT) {
         const char *nearest = options_nearest(word, OBJECT_COUNT, objects);
-        snprintf(message, OPTION_ERROR_BYTES, "generate: '%.80s' is none of plane, checker, cube, sphere, torus, terrain%s%s",
-                 word, nearest ? "; did you mean " : "", nearest ? nearest : "");
+        snprintf(message, OPTION_ERROR_BYTES,
+                 "generate: '%.80s' is none of plane, checker, cube, sphere, torus, terrain%s%s", word,
+                 nearest ? "; did you mean " : "", nearest ? nearest : "");
         return false;
     }
     if (!arguments->output) snprintf(message, OPTION_ERROR_BYTES, "generate: no output; say -o FILE");
@@ -111,7 +115,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
 
 static int run(const void *data) {
     const generate_arguments *arguments = data;
-    session session;
+    cli_session session;
     if (!session_start(&session, &arguments->common)) return session_end(&session, EXIT_FAILED);
     ewa_generate_options options;
     ewa_generate_options_init(&options, sizeof options);
@@ -142,15 +146,18 @@ static int run(const void *data) {
     return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
 }
 
-static const option_group output_options = {"Output", output_table, sizeof output_table / sizeof output_table[0]};
-static const option_group object_options = {"Object", object_table, sizeof object_table / sizeof object_table[0]};
+static const option_group output_options = {"Output", output_table,
+                                            sizeof output_table / sizeof output_table[0]};
+static const option_group object_options = {"Object", object_table,
+                                            sizeof object_table / sizeof object_table[0]};
 static const option_group *const groups[] = {&output_options, &object_options};
 
-const command generate_command = {
+const cli_command generate_command = {
     .name = "generate",
     .operands = "KIND -o OUT",
     .summary = "make test objects: plane, checker, cube, sphere, torus, terrain",
-    .details = "The object is centred at the origin. Plane, checker and terrain lie in x-y with z up; the axis of the "
+    .details = "The object is centred at the origin. Plane, checker and terrain lie in x-y with z up; the "
+               "axis of the "
                "torus is z.",
     .examples = "ewa generate torus -o torus.ply --points 200000\n"
                 "ewa generate terrain -o terrain.ply -n 4000000 --seed 7\n"

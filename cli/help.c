@@ -4,6 +4,7 @@
 // Help and the page docs/cli.md, from the option tables.
 #include "options.h"
 
+#include <ctype.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,7 +41,7 @@ static void format_choice(const char *choices, int index, char text[TEXT_BYTES])
 }
 
 /// Writes the default of an option as it would be typed; an empty text when there is none to show.
-static void format_default(const option *option, const void *defaults, char text[TEXT_BYTES]) {
+static void format_default(const cli_option *option, const void *defaults, char text[TEXT_BYTES]) {
     const void *member = (const char *)defaults + option->offset;
     text[0] = 0;
     if (option->absent) {
@@ -49,11 +50,20 @@ static void format_default(const option *option, const void *defaults, char text
     }
     switch (option->kind) {
     case OPTION_FLAG:
-    case OPTION_TOGGLE: break;
-    case OPTION_ON_OFF: snprintf(text, TEXT_BYTES, "%s", *(const bool *)member ? "on" : "off"); break;
-    case OPTION_NUMBER: snprintf(text, TEXT_BYTES, "%g", *(const double *)member); break;
-    case OPTION_INTEGER: snprintf(text, TEXT_BYTES, "%" PRId64, *(const int64_t *)member); break;
-    case OPTION_CHOICE: format_choice(option->range, *(const int *)member, text); break;
+    case OPTION_TOGGLE:
+        break;
+    case OPTION_ON_OFF:
+        snprintf(text, TEXT_BYTES, "%s", *(const bool *)member ? "on" : "off");
+        break;
+    case OPTION_NUMBER:
+        snprintf(text, TEXT_BYTES, "%g", *(const double *)member);
+        break;
+    case OPTION_INTEGER:
+        snprintf(text, TEXT_BYTES, "%" PRId64, *(const int64_t *)member);
+        break;
+    case OPTION_CHOICE:
+        format_choice(option->range, *(const int *)member, text);
+        break;
     case OPTION_TEXT: {
         const char *word = *(const char *const *)member;
         if (word) snprintf(text, TEXT_BYTES, "%s", word);
@@ -62,13 +72,16 @@ static void format_default(const option *option, const void *defaults, char text
     case OPTION_VECTOR: {
         const option_vector *vector = member;
         for (uint32_t i = 0, used = 0; i < vector->count; i++)
-            used += (uint32_t)snprintf(text + used, TEXT_BYTES - used, "%s%g", i ? "," : "", vector->values[i]);
+            used +=
+                (uint32_t)snprintf(text + used, TEXT_BYTES - used, "%s%g", i ? "," : "", vector->values[i]);
         break;
     }
     case OPTION_COLOR: {
         const double *rgba = ((const option_color *)member)->rgba;
-        if (rgba[3] == 0) snprintf(text, TEXT_BYTES, "transparent");
-        else snprintf(text, TEXT_BYTES, "%g,%g,%g", rgba[0], rgba[1], rgba[2]);
+        if (rgba[3] == 0)
+            snprintf(text, TEXT_BYTES, "transparent");
+        else
+            snprintf(text, TEXT_BYTES, "%g,%g,%g", rgba[0], rgba[1], rgba[2]);
         break;
     }
     case OPTION_SIZE: {
@@ -80,12 +93,12 @@ static void format_default(const option *option, const void *defaults, char text
 }
 
 /// Writes "-o, --output FILE".
-static void format_names(const option *option, char text[TEXT_BYTES]) {
+static void format_names(const cli_option *option, char text[TEXT_BYTES]) {
     const bool valued = option->kind != OPTION_FLAG && option->kind != OPTION_TOGGLE;
-    const char *value = option->value                     ? option->value
+    const char *value = option->value                   ? option->value
                         : option->kind == OPTION_ON_OFF ? "on|off"
-                        : option->range                   ? option->range
-                                                          : "";
+                        : option->range                 ? option->range
+                                                        : "";
     char letter[8] = "";
     if (option->letter) snprintf(letter, sizeof letter, "-%c, ", option->letter);
     snprintf(text, TEXT_BYTES, "%s--%s%s%s%s", letter, option->key, valued ? " " : "", valued ? value : "",
@@ -94,7 +107,7 @@ static void format_names(const option *option, char text[TEXT_BYTES]) {
 }
 
 /// Writes what an option means with its range, default and other names.
-static void format_meaning(const option *option, const void *defaults, char text[2 * TEXT_BYTES]) {
+static void format_meaning(const cli_option *option, const void *defaults, char text[2 * TEXT_BYTES]) {
     char initial[TEXT_BYTES];
     format_default(option, defaults, initial);
     const bool ranged = option->range && option->kind != OPTION_CHOICE;
@@ -140,17 +153,17 @@ static void print_group_markdown(FILE *file, const option_group *group, const vo
 }
 
 /// The defaults of a command, to be freed; NULL when memory is short.
-static void *make_defaults(const command *command) {
+static void *make_defaults(const cli_command *command) {
     void *defaults = malloc(command->arguments_bytes);
     if (defaults) options_default(command, defaults);
     return defaults;
 }
 
-void help_print_command(FILE *file, const command *command) {
+void help_print_command(FILE *file, const cli_command *command) {
     void *defaults = make_defaults(command);
     if (!defaults) return;
     fprintf(file, "usage: ewa %s %s [options]\n\n", command->name, command->operands);
-    print_wrapped(file, command->summary, 0, 0);
+    fprintf(file, "%c%s.\n", toupper((unsigned char)command->summary[0]), command->summary + 1);
     if (command->details) {
         fputc('\n', file);
         print_wrapped(file, command->details, 0, 0);
@@ -166,7 +179,7 @@ void help_print_command(FILE *file, const command *command) {
     free(defaults);
 }
 
-void help_print_program(FILE *file, size_t count, const command *const *commands) {
+void help_print_program(FILE *file, size_t count, const cli_command *const *commands) {
     fputs("usage: ewa COMMAND [operands] [options]\n\n"
           "Draws point clouds as continuous, antialiased surfaces.\n\nCommands:\n",
           file);
@@ -182,19 +195,22 @@ void help_print_program(FILE *file, size_t count, const command *const *commands
           file);
 }
 
-void help_print_markdown(FILE *file, size_t count, const command *const *commands) {
+void help_print_markdown(FILE *file, size_t count, const cli_command *const *commands) {
     fputs("<!-- Made by `ewa --help-markdown`; a test holds it to the program. Do not edit. -->\n"
           "# The program `ewa`\n\n"
-          "`ewa COMMAND --help` prints the same in a terminal. Values follow as `--key value` or `--key=value`; `--` ends\n"
-          "the options. Exit status: 0 done, 1 the work failed (the message says which file, where in it, and why),\n"
-          "2 wrong usage. Messages go to standard error as `ewa: FILE: what`. Output files appear whole or not at all.\n",
+          "`ewa COMMAND --help` prints the same in a terminal. Values follow as `--key value` or "
+          "`--key=value`; `--` ends\n"
+          "the options. Exit status: 0 done, 1 the work failed (the message says which file, where in it, "
+          "and why),\n"
+          "2 wrong usage. Messages go to standard error as `ewa: FILE: what`. Output files appear whole or "
+          "not at all.\n",
           file);
     for (size_t i = 0; i < count; i++) {
-        const command *command = commands[i];
+        const cli_command *command = commands[i];
         void *defaults = make_defaults(command);
         if (!defaults) return;
-        fprintf(file, "\n## ewa %s\n\n`ewa %s %s [options]`\n\n%s.\n", command->name, command->name,
-                command->operands, command->summary);
+        fprintf(file, "\n## ewa %s\n\n`ewa %s %s [options]`\n\n%c%s.\n", command->name, command->name,
+                command->operands, toupper((unsigned char)command->summary[0]), command->summary + 1);
         if (command->details) fprintf(file, "\n%s\n", command->details);
         fprintf(file, "\n```sh\n%s```\n", command->examples);
         for (size_t j = 0; j < command->group_count; j++)

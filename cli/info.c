@@ -20,11 +20,11 @@ typedef struct info_arguments {
 
 enum { SPACING_SAMPLES = 1000000, BLOCK_POINTS = 256 };
 
-/// Extent in a direction, relative to the largest, under which points count as lying in a plane or on a line. Floats
-/// that are turned in space keep about seven digits.
+/// Extent in a direction, relative to the largest, under which points count as lying in a plane or on a line.
+/// Floats that are turned in space keep about seven digits.
 static const double FLAT_RATIO = 1e-6;
 
-static const option table[] = {
+static const cli_option table[] = {
     {.key = "json", .kind = OPTION_FLAG, .offset = offsetof(info_arguments, json), .help = "print JSON"},
 };
 
@@ -47,8 +47,8 @@ typedef struct cloud_facts {
     uint64_t zero_normal_count, bad_radius_count;
 } cloud_facts;
 
-static void measure_component(const ewa_attribute *attribute, uint64_t count, uint32_t component, double shift,
-                              component_range *range) {
+static void measure_component(const ewa_attribute *attribute, uint64_t count, uint32_t component,
+                              double shift, component_range *range) {
     *range = (component_range){INFINITY, -INFINITY, 0};
     double block[4 * BLOCK_POINTS];
     for (uint64_t first = 0; first < count; first += BLOCK_POINTS) {
@@ -150,7 +150,7 @@ static uint64_t count_bad_radii(const ewa_cloud *cloud) {
 }
 
 /// Measures everything; false after reporting.
-static bool gather(session *session, const ewa_cloud *cloud, cloud_facts *facts) {
+static bool gather(cli_session *session, const ewa_cloud *cloud, cloud_facts *facts) {
     *facts = (cloud_facts){.point_count = ewa_cloud_point_count(cloud)};
     ewa_status status = ewa_cloud_measure(cloud, &facts->bounds);
     facts->sampled_count = facts->point_count < SPACING_SAMPLES ? facts->point_count : SPACING_SAMPLES;
@@ -169,28 +169,34 @@ static bool gather(session *session, const ewa_cloud *cloud, cloud_facts *facts)
 enum { MAX_PROBLEMS = 16, PROBLEM_BYTES = 160 };
 
 /// What is wrong with a cloud, in words; returns how many there are.
-static size_t list_problems(const ewa_cloud *cloud, const cloud_facts *facts, char problems[][PROBLEM_BYTES]) {
+static size_t list_problems(const ewa_cloud *cloud, const cloud_facts *facts,
+                            char problems[][PROBLEM_BYTES]) {
     size_t count = 0;
     const uint64_t not_finite = facts->point_count - facts->bounds.finite_count;
     const ewa_attribute *normal = ewa_cloud_find(cloud, EWA_NORMAL);
     if (not_finite)
-        snprintf(problems[count++], PROBLEM_BYTES, "%" PRIu64 " points have coordinates that are not finite", not_finite);
+        snprintf(problems[count++], PROBLEM_BYTES, "%" PRIu64 " points have coordinates that are not finite",
+                 not_finite);
     if (facts->zero_normal_count)
         snprintf(problems[count++], PROBLEM_BYTES, "%" PRIu64 " normals are zero or not finite",
                  facts->zero_normal_count);
     if (normal && normal->component_count != 3)
-        snprintf(problems[count++], PROBLEM_BYTES, "normals have %u components, not 3", normal->component_count);
+        snprintf(problems[count++], PROBLEM_BYTES, "normals have %u components, not 3",
+                 normal->component_count);
     if (facts->bad_radius_count)
         snprintf(problems[count++], PROBLEM_BYTES, "%" PRIu64 " radii are zero, negative or not finite",
                  facts->bad_radius_count);
     if (facts->spacing.duplicate_count)
-        snprintf(problems[count++], PROBLEM_BYTES, "%" PRIu64 " of %" PRIu64 " points share their place with another",
+        snprintf(problems[count++], PROBLEM_BYTES,
+                 "%" PRIu64 " of %" PRIu64 " points share their place with another",
                  facts->spacing.duplicate_count, facts->sampled_count);
     if (facts->shape == SHAPE_POINT)
         snprintf(problems[count++], PROBLEM_BYTES, "%s",
-                 facts->bounds.finite_count == 1 ? "there is one point only" : "all points are at the same place");
+                 facts->bounds.finite_count == 1 ? "there is one point only"
+                                                 : "all points are at the same place");
     if (facts->shape == SHAPE_LINE) snprintf(problems[count++], PROBLEM_BYTES, "all points lie on one line");
-    if (facts->shape == SHAPE_PLANE) snprintf(problems[count++], PROBLEM_BYTES, "all points lie in one plane");
+    if (facts->shape == SHAPE_PLANE)
+        snprintf(problems[count++], PROBLEM_BYTES, "all points lie in one plane");
     return count;
 }
 
@@ -204,16 +210,17 @@ static void print_text(const char *path, const ewa_cloud *cloud, const cloud_fac
     const double *low = facts->bounds.low_world, *high = facts->bounds.high_world;
     printf("%s\n  points      %" PRIu64 "\n", path, facts->point_count);
     if (facts->bounds.finite_count) {
-        printf("  low         %.9g %.9g %.9g\n  high        %.9g %.9g %.9g\n  extent      %.6g %.6g %.6g\n", low[0],
-               low[1], low[2], high[0], high[1], high[2], high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+        printf("  low         %.9g %.9g %.9g\n  high        %.9g %.9g %.9g\n  extent      %.6g %.6g %.6g\n",
+               low[0], low[1], low[2], high[0], high[1], high[2], high[0] - low[0], high[1] - low[1],
+               high[2] - low[2]);
     }
     double origin_world[3];
     ewa_cloud_origin(cloud, origin_world);
     if (origin_world[0] || origin_world[1] || origin_world[2])
         printf("  origin      %.17g %.17g %.17g\n", origin_world[0], origin_world[1], origin_world[2]);
     if (facts->spacing.median_world > 0)
-        printf("  spacing     %.4g (5 %%: %.4g, 95 %%: %.4g)\n", facts->spacing.median_world, facts->spacing.low_world,
-               facts->spacing.high_world);
+        printf("  spacing     %.4g (5 %%: %.4g, 95 %%: %.4g)\n", facts->spacing.median_world,
+               facts->spacing.low_world, facts->spacing.high_world);
     printf("  attributes\n");
     const ewa_attribute *attribute;
     for (uint32_t k = 0; (attribute = ewa_cloud_attribute_at(cloud, k)); k++) {
@@ -222,8 +229,10 @@ static void print_text(const char *path, const ewa_cloud *cloud, const cloud_fac
             component_range range;
             measure_component(attribute, facts->point_count, c, shift_of(cloud, attribute, c), &range);
             printf("%s ", c ? "," : "");
-            if (range.low <= range.high) printf("%.6g .. %.6g", range.low, range.high);
-            else printf("nothing finite");
+            if (range.low <= range.high)
+                printf("%.6g .. %.6g", range.low, range.high);
+            else
+                printf("nothing finite");
             if (range.not_finite_count) printf(" (%" PRIu64 " not finite)", range.not_finite_count);
         }
         printf("\n");
@@ -234,7 +243,8 @@ static void print_text(const char *path, const ewa_cloud *cloud, const cloud_fac
     for (size_t i = 0; i < count; i++) printf("    %s\n", problems[i]);
 }
 
-static void print_json(json *json, const char *path, const ewa_cloud *cloud, const cloud_facts *facts) {
+static void print_json(json_writer *json, const char *path, const ewa_cloud *cloud,
+                       const cloud_facts *facts) {
     double origin_world[3];
     ewa_cloud_origin(cloud, origin_world);
     json_object(json, NULL);
@@ -289,9 +299,9 @@ static void print_json(json *json, const char *path, const ewa_cloud *cloud, con
 
 static int run(const void *data) {
     const info_arguments *arguments = data;
-    session session;
+    cli_session session;
     if (!session_start(&session, &arguments->common)) return session_end(&session, EXIT_FAILED);
-    json json;
+    json_writer json;
     if (arguments->json) {
         json_start(&json, stdout);
         json_array(&json, "files");
@@ -303,8 +313,10 @@ static int run(const void *data) {
         ewa_cloud *cloud = input_load(&session, path);
         cloud_facts facts;
         if (cloud && gather(&session, cloud, &facts)) {
-            if (arguments->json) print_json(&json, path, cloud, &facts);
-            else print_text(path, cloud, &facts);
+            if (arguments->json)
+                print_json(&json, path, cloud, &facts);
+            else
+                print_text(path, cloud, &facts);
         } else {
             exit_status = EXIT_FAILED;
         }
@@ -320,7 +332,7 @@ static int run(const void *data) {
 static const option_group info_options = {"Output", table, sizeof table / sizeof table[0]};
 static const option_group *const groups[] = {&info_options};
 
-const command info_command = {
+const cli_command info_command = {
     .name = "info",
     .operands = "IN...",
     .summary = "say what files hold: counts, bounds, attributes with their ranges, spacing, problems",

@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// sRGB of files without colours that are merged with coloured ones: as bright as the renderer's grey, linear 0.6.
+/// sRGB of files without colours that are merged with coloured ones: as bright as the renderer's grey, linear
+/// 0.6.
 static const uint8_t GREY_SRGB = 203;
 
 static bool has_axes(const ewa_cloud *cloud) {
@@ -22,7 +23,7 @@ static bool streams_differ(const ewa_cloud *a, const ewa_cloud *b, const char *n
     return first->type != second->type || first->component_count != second->component_count;
 }
 
-ewa_cloud *input_load(session *session, const char *path) {
+ewa_cloud *input_load(cli_session *session, const char *path) {
     session->subject = path;
     const double started_s = clock_now_s();
     ewa_cloud *cloud = NULL;
@@ -55,7 +56,8 @@ static ewa_status discs_to_axes(ewa_cloud *cloud) {
     if (status != EWA_OK) return status;
     ewa_surfels_options surfels;
     ewa_surfels_options_init(&surfels, sizeof surfels);
-    const ewa_attribute *normal = ewa_cloud_find(cloud, EWA_NORMAL), *radius = ewa_cloud_find(cloud, EWA_RADIUS);
+    const ewa_attribute *normal = ewa_cloud_find(cloud, EWA_NORMAL),
+                        *radius = ewa_cloud_find(cloud, EWA_RADIUS);
     float *u = u_data, *v = v_data;
     for (uint64_t i = 0; i < count; i++, u += 3, v += 3) {
         double n[3], r;
@@ -65,8 +67,8 @@ static ewa_status discs_to_axes(ewa_cloud *cloud) {
         const double scale = length > 0 ? 1 / length : 0, sigma_world = r / surfels.cutoff;
         for (int c = 0; c < 3; c++) n[c] *= scale;
         // Any direction across the normal: the axis in which the normal is shortest leads to a safe one.
-        const int least = fabs(n[0]) < fabs(n[1]) ? (fabs(n[0]) < fabs(n[2]) ? 0 : 2)
-                                                  : (fabs(n[1]) < fabs(n[2]) ? 1 : 2);
+        const int least =
+            fabs(n[0]) < fabs(n[1]) ? (fabs(n[0]) < fabs(n[2]) ? 0 : 2) : (fabs(n[1]) < fabs(n[2]) ? 1 : 2);
         const int next = (least + 1) % 3, last = (least + 2) % 3;
         double a[3] = {0};
         a[next] = -n[last];
@@ -111,12 +113,14 @@ static ewa_status colors_to_linear(ewa_cloud *cloud) {
 /// Removes what is not drawn, so that the merge need not speak about it; the attribute that `wanted`
 /// (may be NULL) begins with stays.
 static void drop_undrawn(ewa_cloud *cloud, const char *wanted) {
-    static const char *const drawn[] = {EWA_POSITION, EWA_NORMAL, EWA_COLOR, EWA_RADIUS, EWA_TANGENT_U, EWA_TANGENT_V};
+    static const char *const drawn[] = {EWA_POSITION, EWA_NORMAL,    EWA_COLOR,
+                                        EWA_RADIUS,   EWA_TANGENT_U, EWA_TANGENT_V};
     for (uint32_t k = ewa_cloud_attribute_count(cloud); k-- > 0;) {
         const ewa_attribute *attribute = ewa_cloud_attribute_at(cloud, k);
         const size_t length = strlen(attribute->name);
         bool kept = wanted && strncmp(attribute->name, wanted, length) == 0;
-        for (size_t i = 0; i < sizeof drawn / sizeof drawn[0]; i++) kept |= strcmp(attribute->name, drawn[i]) == 0;
+        for (size_t i = 0; i < sizeof drawn / sizeof drawn[0]; i++)
+            kept |= strcmp(attribute->name, drawn[i]) == 0;
         char name[EWA_NAME_BYTES];
         memcpy(name, attribute->name, sizeof name);
         if (!kept) ewa_cloud_remove(cloud, name);
@@ -149,7 +153,7 @@ static void release_clouds(ewa_cloud **clouds, size_t count) {
 }
 
 /// One cloud of `count`; the clouds and their array are gone afterwards. NULL after reporting.
-static ewa_cloud *merge_owned(session *session, ewa_cloud **clouds, size_t count) {
+static ewa_cloud *merge_owned(cli_session *session, ewa_cloud **clouds, size_t count) {
     ewa_cloud *merged = NULL;
     if (count == 1) {
         merged = clouds[0];
@@ -163,7 +167,7 @@ static ewa_cloud *merge_owned(session *session, ewa_cloud **clouds, size_t count
     return merged;
 }
 
-ewa_cloud *inputs_merge(session *session, const common_arguments *common) {
+ewa_cloud *inputs_merge(cli_session *session, const common_arguments *common) {
     ewa_cloud **clouds = calloc(common->operand_count, sizeof *clouds);
     if (!clouds) {
         session_fail(session, "out of memory");
@@ -192,7 +196,7 @@ ewa_cloud *inputs_merge(session *session, const common_arguments *common) {
 }
 
 /// Loads one file and estimates what it lacks; NULL after reporting.
-static ewa_cloud *load_drawable(session *session, const char *path, double *estimate_s) {
+static ewa_cloud *load_drawable(cli_session *session, const char *path, double *estimate_s) {
     ewa_cloud *cloud = input_load(session, path);
     if (!cloud || cloud_is_drawable(cloud)) return cloud;
     const bool has_normals = ewa_cloud_find(cloud, EWA_NORMAL) != NULL;
@@ -208,12 +212,13 @@ static ewa_cloud *load_drawable(session *session, const char *path, double *esti
     const double took_s = clock_now_s() - started_s;
     *estimate_s += took_s;
     session_say(session, "%s: %s from %u neighbours in %.3f s", path,
-                has_normals ? "radii estimated" : "normals and radii estimated", options.neighbour_count, took_s);
+                has_normals ? "radii estimated" : "normals and radii estimated", options.neighbour_count,
+                took_s);
     return cloud;
 }
 
-ewa_cloud *inputs_as_surfels(session *session, const common_arguments *common, const char *wanted,
-                              double *estimate_s) {
+ewa_cloud *inputs_as_surfels(cli_session *session, const common_arguments *common, const char *wanted,
+                             double *estimate_s) {
     *estimate_s = 0;
     const size_t count = common->operand_count;
     ewa_cloud **clouds = calloc(count, sizeof *clouds);

@@ -16,15 +16,18 @@ static void print_quoted(FILE *file, const char *text) {
     fputc('"', file);
     for (; *text; text++) {
         const unsigned char c = (unsigned char)*text;
-        if (c == '"' || c == '\\') fprintf(file, "\\%c", c);
-        else if (c < 0x20) fprintf(file, "\\u%04x", c);
-        else fputc(c, file);
+        if (c == '"' || c == '\\')
+            fprintf(file, "\\%c", c);
+        else if (c < 0x20)
+            fprintf(file, "\\u%04x", c);
+        else
+            fputc(c, file);
     }
     fputc('"', file);
 }
 
 /// Comma, line, indentation and key of the next member.
-static void begin_member(json *json, const char *key) {
+static void begin_member(json_writer *json, const char *key) {
     fprintf(json->file, "%s\n%*s", json->filled[json->depth] ? "," : "", 2 * json->depth, "");
     json->filled[json->depth] = true;
     if (key) {
@@ -46,57 +49,57 @@ static void print_number(FILE *file, double number) {
     fputs(text, file);
 }
 
-static void open_container(json *json, char bracket) {
+static void open_container(json_writer *json, char bracket) {
     fputc(bracket, json->file);
     json->filled[++json->depth] = false;
 }
 
-void json_start(json *json, FILE *file) {
-    *json = (struct json){.file = file};
+void json_start(json_writer *json, FILE *file) {
+    *json = (json_writer){.file = file};
     open_container(json, '{');
 }
 
-void json_end(json *json) {
+void json_end(json_writer *json) {
     json_close(json, '}');
     fputc('\n', json->file);
 }
 
-void json_object(json *json, const char *key) {
+void json_object(json_writer *json, const char *key) {
     begin_member(json, key);
     open_container(json, '{');
 }
 
-void json_array(json *json, const char *key) {
+void json_array(json_writer *json, const char *key) {
     begin_member(json, key);
     open_container(json, '[');
 }
 
-void json_close(json *json, char bracket) {
+void json_close(json_writer *json, char bracket) {
     if (json->filled[json->depth--]) fprintf(json->file, "\n%*s", 2 * json->depth, "");
     fputc(bracket, json->file);
 }
 
-void json_text(json *json, const char *key, const char *text) {
+void json_text(json_writer *json, const char *key, const char *text) {
     begin_member(json, key);
     print_quoted(json->file, text);
 }
 
-void json_number(json *json, const char *key, double number) {
+void json_number(json_writer *json, const char *key, double number) {
     begin_member(json, key);
     print_number(json->file, number);
 }
 
-void json_count(json *json, const char *key, uint64_t number) {
+void json_count(json_writer *json, const char *key, uint64_t number) {
     begin_member(json, key);
     fprintf(json->file, "%" PRIu64, number);
 }
 
-void json_flag(json *json, const char *key, bool flag) {
+void json_flag(json_writer *json, const char *key, bool flag) {
     begin_member(json, key);
     fputs(flag ? "true" : "false", json->file);
 }
 
-void json_vector(json *json, const char *key, uint32_t count, const double *numbers) {
+void json_vector(json_writer *json, const char *key, uint32_t count, const double *numbers) {
     begin_member(json, key);
     fputc('[', json->file);
     for (uint32_t i = 0; i < count; i++) {
@@ -106,7 +109,7 @@ void json_vector(json *json, const char *key, uint32_t count, const double *numb
     fputc(']', json->file);
 }
 
-bool text_file_open(session *session, text_file *text, const char *path) {
+bool text_file_open(cli_session *session, text_file *text, const char *path) {
     *text = (text_file){.path = path};
     if (strcmp(path, "-") == 0) {
         text->file = stdout;
@@ -123,7 +126,7 @@ bool text_file_open(session *session, text_file *text, const char *path) {
     return false;
 }
 
-bool text_file_close(session *session, text_file *text) {
+bool text_file_close(cli_session *session, text_file *text) {
     if (text->file == stdout) return output_flush(session, EXIT_DONE) == EXIT_DONE;
     errno = 0;
     const bool written = !ferror(text->file) & (fclose(text->file) == 0);
@@ -133,7 +136,13 @@ bool text_file_close(session *session, text_file *text) {
     return false;
 }
 
-bool output_check(session *session, const char *path) {
+void text_file_drop(text_file *text) {
+    if (text->file == stdout) return;
+    fclose(text->file);
+    remove(text->aside);
+}
+
+bool output_check(cli_session *session, const char *path) {
     if (strcmp(path, "-") == 0) return true;
     struct stat found;
     if (stat(path, &found) == 0 && S_ISDIR(found.st_mode)) {
@@ -156,7 +165,7 @@ bool output_check(session *session, const char *path) {
     return false;
 }
 
-int output_flush(session *session, int exit_status) {
+int output_flush(cli_session *session, int exit_status) {
     if (fflush(stdout) == 0 && !ferror(stdout)) return exit_status;
     if (errno == EPIPE) return EXIT_FAILED;
     return session_fail(session, "standard output: cannot write: %s", strerror(errno));

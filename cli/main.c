@@ -13,17 +13,22 @@
 enum { MAX_COMMANDS = 32 };
 
 static int unknown_command(const char *word) {
-    const char *names[MAX_COMMANDS];
+    const char *names[MAX_COMMANDS + 2];
     size_t count = 0;
-    for (; count < all_commands_count && count < MAX_COMMANDS; count++) names[count] = all_commands[count]->name;
+    for (; count < all_commands_count && count < MAX_COMMANDS; count++)
+        names[count] = all_commands[count]->name;
+    names[count++] = "--help";
+    names[count++] = "--version";
     const char *nearest = options_nearest(word, count, names);
     fprintf(stderr, "ewa: '%s': no such %s", word, word[0] == '-' ? "option" : "command");
-    if (nearest) fprintf(stderr, "; did you mean '%s'?\n", nearest);
-    else fputs("; see 'ewa --help'\n", stderr);
+    if (nearest)
+        fprintf(stderr, "; did you mean '%s'?\n", nearest);
+    else
+        fputs("; see 'ewa --help'\n", stderr);
     return EXIT_USAGE;
 }
 
-static int run_command(const command *command, size_t count, const char *const *words) {
+static int run_command(const cli_command *command, size_t count, const char *const *words) {
     void *arguments = malloc(command->arguments_bytes);
     const char **operands = calloc(count + 1, sizeof *operands);
     char message[OPTION_ERROR_BYTES];
@@ -56,7 +61,7 @@ static int run(size_t count, const char *const *words) {
     const char *word = words[0];
     const bool help = strcmp(word, "help") == 0 || strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0;
     if (help && count > 1) {
-        const command *command = command_find(words[1]);
+        const cli_command *command = command_find(words[1]);
         if (!command) return unknown_command(words[1]);
         help_print_command(stdout, command);
     } else if (help) {
@@ -66,7 +71,7 @@ static int run(size_t count, const char *const *words) {
     } else if (strcmp(word, "--help-markdown") == 0) {
         help_print_markdown(stdout, all_commands_count, all_commands);
     } else {
-        const command *command = command_find(word);
+        const cli_command *command = command_find(word);
         return command ? run_command(command, count - 1, words + 1) : unknown_command(word);
     }
     return EXIT_DONE;
@@ -76,6 +81,6 @@ int main(int argc, char **argv) {
     // A closed pipe is an error of the write that meets it, so that files being written aside are removed.
     signal(SIGPIPE, SIG_IGN);
     const int exit_status = run(argc > 0 ? (size_t)argc - 1 : 0, (const char *const *)argv + 1);
-    session session = {.quiet = false};
+    cli_session session = {.quiet = false};
     return output_flush(&session, exit_status);
 }

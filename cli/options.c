@@ -14,7 +14,7 @@
 
 enum { MAX_WORD = 64, MAX_SIDE_PX = 65536 };
 
-static const option common_table[] = {
+static const cli_option common_table[] = {
     {.key = "threads",
      .kind = OPTION_INTEGER,
      .offset = offsetof(common_arguments, threads),
@@ -46,7 +46,8 @@ static const option common_table[] = {
 
 const option_group common_options = {"Running", common_table, sizeof common_table / sizeof common_table[0]};
 
-__attribute__((format(printf, 2, 3))) static bool wrong(char message[OPTION_ERROR_BYTES], const char *format, ...) {
+__attribute__((format(printf, 2, 3))) static bool wrong(char message[OPTION_ERROR_BYTES], const char *format,
+                                                        ...) {
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(message, OPTION_ERROR_BYTES, format, arguments);
@@ -73,7 +74,7 @@ static bool in_range(double number, const char *range) {
     return above && (*close == ')' ? number < high : number <= high);
 }
 
-static bool parse_number(const option *option, const char *text, double *number,
+static bool parse_number(const cli_option *option, const char *text, double *number,
                          char message[OPTION_ERROR_BYTES]) {
     const char *end;
     double read;
@@ -85,7 +86,7 @@ static bool parse_number(const option *option, const char *text, double *number,
     return true;
 }
 
-static bool parse_integer(const option *option, const char *text, int64_t *number,
+static bool parse_integer(const cli_option *option, const char *text, int64_t *number,
                           char message[OPTION_ERROR_BYTES]) {
     char *end;
     errno = 0;
@@ -98,7 +99,7 @@ static bool parse_integer(const option *option, const char *text, int64_t *numbe
     return true;
 }
 
-static bool parse_vector(const option *option, const char *text, option_vector *vector,
+static bool parse_vector(const cli_option *option, const char *text, option_vector *vector,
                          char message[OPTION_ERROR_BYTES]) {
     option_vector read = {.count = 0};
     for (const char *next = text;; next++) {
@@ -118,13 +119,13 @@ static bool parse_vector(const option *option, const char *text, option_vector *
     return true;
 }
 
-static bool parse_color(const option *option, const char *text, option_color *color,
+static bool parse_color(const cli_option *option, const char *text, option_color *color,
                         char message[OPTION_ERROR_BYTES]) {
     if (strcmp(text, "transparent") == 0) {
         *color = (option_color){{0, 0, 0, 0}};
         return true;
     }
-    struct option numbers = *option;
+    cli_option numbers = *option;
     numbers.range = "[0, 1]";
     numbers.low = 3;
     numbers.high = 4;
@@ -135,12 +136,13 @@ static bool parse_color(const option *option, const char *text, option_color *co
     return true;
 }
 
-static bool parse_size(const option *option, const char *text, option_size *size,
+static bool parse_size(const cli_option *option, const char *text, option_size *size,
                        char message[OPTION_ERROR_BYTES]) {
     char *end = NULL;
     unsigned long long width = 0, height = 0;
     if (isdigit((unsigned char)text[0])) width = strtoull(text, &end, 10);
-    if (end && (*end == 'x' || *end == ',') && isdigit((unsigned char)end[1])) height = strtoull(end + 1, &end, 10);
+    if (end && (*end == 'x' || *end == ',') && isdigit((unsigned char)end[1]))
+        height = strtoull(end + 1, &end, 10);
     if (!end || *end || height == 0 || width == 0)
         return wrong(message, "--%s: '%.80s' is not WxH", option->key, text);
     if (width > MAX_SIDE_PX || height > MAX_SIDE_PX)
@@ -149,7 +151,7 @@ static bool parse_size(const option *option, const char *text, option_size *size
     return true;
 }
 
-static bool parse_choice(const option *option, const char *text, const char *choices, int *choice,
+static bool parse_choice(const cli_option *option, const char *text, const char *choices, int *choice,
                          char message[OPTION_ERROR_BYTES]) {
     const size_t length = strlen(text);
     int index = 0;
@@ -165,15 +167,22 @@ static bool parse_choice(const option *option, const char *text, const char *cho
     return wrong(message, "--%s: '%.80s' is not one of %s", option->key, text, choices);
 }
 
-static bool parse_value(const option *option, const char *text, void *member, char message[OPTION_ERROR_BYTES]) {
-    int choice;
+static bool parse_value(const cli_option *option, const char *text, void *member,
+                        char message[OPTION_ERROR_BYTES]) {
+    int choice = 0;
     switch (option->kind) {
-    case OPTION_NUMBER: return parse_number(option, text, member, message);
-    case OPTION_INTEGER: return parse_integer(option, text, member, message);
-    case OPTION_VECTOR: return parse_vector(option, text, member, message);
-    case OPTION_COLOR: return parse_color(option, text, member, message);
-    case OPTION_SIZE: return parse_size(option, text, member, message);
-    case OPTION_CHOICE: return parse_choice(option, text, option->range, member, message);
+    case OPTION_NUMBER:
+        return parse_number(option, text, member, message);
+    case OPTION_INTEGER:
+        return parse_integer(option, text, member, message);
+    case OPTION_VECTOR:
+        return parse_vector(option, text, member, message);
+    case OPTION_COLOR:
+        return parse_color(option, text, member, message);
+    case OPTION_SIZE:
+        return parse_size(option, text, member, message);
+    case OPTION_CHOICE:
+        return parse_choice(option, text, option->range, member, message);
     case OPTION_ON_OFF:
         if (!parse_choice(option, text, "off|on", &choice, message)) return false;
         *(bool *)member = choice == 1;
@@ -183,7 +192,8 @@ static bool parse_value(const option *option, const char *text, void *member, ch
         *(const char **)member = text;
         return true;
     case OPTION_FLAG:
-    case OPTION_TOGGLE: break;
+    case OPTION_TOGGLE:
+        break;
     }
     return wrong(message, "--%s: takes no value", option->key);
 }
@@ -199,18 +209,19 @@ static bool name_is(const char *names, const char *word, size_t length) {
 }
 
 /// Group `index` of a command: its own, then the common one, then NULL.
-static const option_group *group_at(const command *command, size_t index) {
-    return index < command->group_count ? command->groups[index]
+static const option_group *group_at(const cli_command *command, size_t index) {
+    return index < command->group_count    ? command->groups[index]
            : index == command->group_count ? &common_options
                                            : NULL;
 }
 
 /// Finds a long name of `length` bytes; `*negated` is set for the --no- form of a toggle.
-static const option *find_long(const command *command, const char *name, size_t length, bool *negated) {
+static const cli_option *find_long(const cli_command *command, const char *name, size_t length,
+                                   bool *negated) {
     const option_group *group;
     for (size_t i = 0; (group = group_at(command, i)); i++) {
         for (size_t j = 0; j < group->count; j++) {
-            const option *option = &group->options[j];
+            const cli_option *option = &group->options[j];
             *negated = false;
             if (name_is(option->key, name, length) || name_is(option->aliases, name, length)) return option;
             *negated = true;
@@ -222,7 +233,7 @@ static const option *find_long(const command *command, const char *name, size_t 
     return NULL;
 }
 
-static const option *find_letter(const command *command, char letter) {
+static const cli_option *find_letter(const cli_command *command, char letter) {
     const option_group *group;
     for (size_t i = 0; (group = group_at(command, i)); i++)
         for (size_t j = 0; j < group->count; j++)
@@ -262,7 +273,7 @@ const char *options_nearest(const char *word, size_t count, const char *const *n
     return nearest;
 }
 
-static bool unknown_option(const command *command, const char *name, size_t length,
+static bool unknown_option(const cli_command *command, const char *name, size_t length,
                            char message[OPTION_ERROR_BYTES]) {
     char word[MAX_WORD + 1];
     snprintf(word, sizeof word, "%.*s", (int)(length < MAX_WORD ? length : MAX_WORD), name);
@@ -278,10 +289,10 @@ static bool unknown_option(const command *command, const char *name, size_t leng
 }
 
 /// Takes one option at `words[*index]`; moves the index over a value that is a word of its own.
-static bool take_option(const command *command, size_t count, const char *const *words, size_t *index,
+static bool take_option(const cli_command *command, size_t count, const char *const *words, size_t *index,
                         char *arguments, char message[OPTION_ERROR_BYTES]) {
     const char *word = words[*index], *value = NULL;
-    const option *option;
+    const cli_option *option;
     bool negated = false;
     if (word[1] == '-') {
         const char *equals = strchr(word, '=');
@@ -297,8 +308,10 @@ static bool take_option(const command *command, size_t count, const char *const 
     void *member = arguments + option->offset;
     if (option->kind == OPTION_FLAG || option->kind == OPTION_TOGGLE) {
         if (value) return wrong(message, "--%s: takes no value", option->key);
-        if (option->kind == OPTION_FLAG) *(bool *)member = true;
-        else *(int *)member = negated ? 0 : 1;
+        if (option->kind == OPTION_FLAG)
+            *(bool *)member = true;
+        else
+            *(int *)member = negated ? 0 : 1;
         return true;
     }
     if (!value) {
@@ -310,13 +323,13 @@ static bool take_option(const command *command, size_t count, const char *const 
     return parse_value(option, value, member, message);
 }
 
-void options_default(const command *command, void *arguments) {
+void options_default(const cli_command *command, void *arguments) {
     memset(arguments, 0, command->arguments_bytes);
     ((common_arguments *)arguments)->progress = -1;
     if (command->set_defaults) command->set_defaults(arguments);
 }
 
-bool options_parse(const command *command, size_t count, const char *const *words, const char **operands,
+bool options_parse(const cli_command *command, size_t count, const char *const *words, const char **operands,
                    void *arguments, char message[OPTION_ERROR_BYTES]) {
     common_arguments *common = arguments;
     common->operands = operands;

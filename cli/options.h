@@ -43,23 +43,23 @@ typedef struct option_size {
 } option_size;
 
 /// One option. Zero and NULL members mean "none".
-typedef struct option {
+typedef struct cli_option {
     const char *key;     ///< long name without its dashes
     char letter;         ///< short name
     const char *aliases; ///< further long names, separated by blanks
     option_kind kind;
-    size_t offset;           ///< of the member in the arguments of the command
-    const char *value;       ///< what help calls the value
-    const char *range;       ///< numbers: an interval such as "(0, 4]"; choices: "first|second"
-    uint32_t low, high;      ///< vectors: fewest and most numbers
-    const char *absent;      ///< help's words for a default that is worked out; else the member's value is shown
+    size_t offset;      ///< of the member in the arguments of the command
+    const char *value;  ///< what help calls the value
+    const char *range;  ///< numbers: an interval such as "(0, 4]"; choices: "first|second"
+    uint32_t low, high; ///< vectors: fewest and most numbers
+    const char *absent; ///< help's words for a default that is worked out; else the member's value is shown
     const char *help;
-} option;
+} cli_option;
 
 /// Options under one heading.
 typedef struct option_group {
     const char *title;
-    const option *options;
+    const cli_option *options;
     size_t count;
 } option_group;
 
@@ -78,7 +78,7 @@ extern const option_group common_options;
 enum { OPTION_ERROR_BYTES = 512 };
 
 /// A command of the program.
-typedef struct command {
+typedef struct cli_command {
     const char *name;
     const char *operands; ///< as in the usage line: "IN... -o OUT"
     const char *summary;  ///< one line, no full stop
@@ -90,29 +90,30 @@ typedef struct command {
     size_t arguments_bytes; ///< of the struct that begins with common_arguments
     /// Sets what is not zero by default.
     void (*set_defaults)(void *arguments);
-    /// Says in `message` what is wrong with the options together; NULL when nothing can be. Returns false then.
+    /// Says in `message` what is wrong with the options together; NULL when nothing can be. Returns false
+    /// then.
     bool (*check)(const void *arguments, char message[OPTION_ERROR_BYTES]);
     /// Does the work; returns the exit status.
     int (*run)(const void *arguments);
-} command;
+} cli_command;
 
 /// Sets every argument of a command to its default.
-void options_default(const command *command, void *arguments);
+void options_default(const cli_command *command, void *arguments);
 
-/// Parses the words after the command's name into `arguments`, which holds the defaults. `operands` has room for
-/// `count` words. Returns false with what is wrong, without the program's name, in `message`.
-/// A --help anywhere stops the parsing and succeeds.
-bool options_parse(const command *command, size_t count, const char *const *words, const char **operands,
+/// Parses the words after the command's name into `arguments`, which holds the defaults. `operands` has room
+/// for `count` words. Returns false with what is wrong, without the program's name, in `message`. A --help
+/// anywhere stops the parsing and succeeds.
+bool options_parse(const cli_command *command, size_t count, const char *const *words, const char **operands,
                    void *arguments, char message[OPTION_ERROR_BYTES]);
 
 /// Returns the name nearest to `word` among `count` names, NULL when none is near.
 const char *options_nearest(const char *word, size_t count, const char *const *names);
 
 /// Prints the help of a command.
-void help_print_command(FILE *file, const command *command);
+void help_print_command(FILE *file, const cli_command *command);
 /// Prints what the program is and its commands.
-void help_print_program(FILE *file, size_t count, const command *const *commands);
+void help_print_program(FILE *file, size_t count, const cli_command *const *commands);
 /// Prints docs/cli.md.
-void help_print_markdown(FILE *file, size_t count, const command *const *commands);
+void help_print_markdown(FILE *file, size_t count, const cli_command *const *commands);
 
 #endif

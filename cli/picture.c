@@ -20,7 +20,8 @@ static bool has_suffix(const char *path, const char *suffix) {
 static bool is_png(const char *path) { return strcmp(path, "-") == 0 || has_suffix(path, ".png"); }
 
 /// Takes one "name=FILE" of --aov.
-static bool take_aov(const char *word, size_t length, picture_paths *paths, char message[OPTION_ERROR_BYTES]) {
+static bool take_aov(const char *word, size_t length, picture_paths *paths,
+                     char message[OPTION_ERROR_BYTES]) {
     static const char *const names[] = {"depth", "normal", "coverage"};
     char *const targets[] = {paths->depth, paths->normal, paths->coverage};
     const char *equals = memchr(word, '=', length);
@@ -39,7 +40,8 @@ static bool take_aov(const char *word, size_t length, picture_paths *paths, char
     return false;
 }
 
-bool picture_parse_paths(const char *color, const char *aov, picture_paths *paths, char message[OPTION_ERROR_BYTES]) {
+bool picture_parse_paths(const char *color, const char *aov, picture_paths *paths,
+                         char message[OPTION_ERROR_BYTES]) {
     *paths = (picture_paths){.color = color};
     if (!is_png(color) && !has_suffix(color, ".exr") && !has_suffix(color, ".pfm")) {
         snprintf(message, OPTION_ERROR_BYTES, "--output: '%.200s' is no .png, .exr or .pfm file", color);
@@ -53,14 +55,15 @@ bool picture_parse_paths(const char *color, const char *aov, picture_paths *path
     return true;
 }
 
-bool picture_check_paths(session *session, const picture_paths *paths) {
+bool picture_check_paths(cli_session *session, const picture_paths *paths) {
     return output_check(session, paths->color) && (!paths->depth[0] || output_check(session, paths->depth)) &&
            (!paths->normal[0] || output_check(session, paths->normal)) &&
            (!paths->coverage[0] || output_check(session, paths->coverage));
 }
 
-bool picture_make(session *session, const picture_paths *paths, const ewa_camera *camera, picture *picture) {
-    *picture = (struct picture){.rgba8 = NULL};
+bool picture_make(cli_session *session, const picture_paths *paths, const ewa_camera *camera,
+                  cli_picture *picture) {
+    *picture = (cli_picture){.rgba8 = NULL};
     ewa_context *context = session->context;
     const uint32_t width = camera->width_px, height = camera->height_px;
     const bool exr = has_suffix(paths->color, ".exr"), png = is_png(paths->color);
@@ -90,7 +93,7 @@ bool picture_make(session *session, const picture_paths *paths, const ewa_camera
     return true;
 }
 
-void picture_free(picture *picture) {
+void picture_free(cli_picture *picture) {
     free(picture->rgba8);
     ewa_image_free(&picture->color);
     ewa_image_free(&picture->depth);
@@ -99,7 +102,8 @@ void picture_free(picture *picture) {
 }
 
 /// Packs `from` of `from_count` numbers per pixel into channels [first, first + count) of an image.
-static void put_channels(const float *from, uint32_t from_count, uint32_t count, uint32_t first, ewa_image *image) {
+static void put_channels(const float *from, uint32_t from_count, uint32_t count, uint32_t first,
+                         ewa_image *image) {
     const size_t pixel_count = (size_t)image->width_px * image->height_px;
     float *to = image->pixels + first;
     for (size_t i = 0; i < pixel_count; i++, from += from_count, to += image->channel_count)
@@ -108,11 +112,11 @@ static void put_channels(const float *from, uint32_t from_count, uint32_t count,
 
 /// Writes the colour as the channels that .exr or .pfm hold.
 static ewa_status save_linear(const picture_paths *paths, const ewa_image_save_options *options,
-                              const picture *picture) {
+                              const cli_picture *picture) {
     const bool exr = has_suffix(paths->color, ".exr");
     ewa_image all;
-    ewa_status status = ewa_image_create(picture->color.context, picture->color.width_px, picture->color.height_px,
-                                         exr ? EXR_CHANNELS : 3, &all);
+    ewa_status status = ewa_image_create(picture->color.context, picture->color.width_px,
+                                         picture->color.height_px, exr ? EXR_CHANNELS : 3, &all);
     if (status != EWA_OK) return status;
     put_channels(picture->color.pixels, 4, exr ? 4 : 3, 0, &all);
     ewa_image_save_options chosen = *options;
@@ -136,8 +140,8 @@ static ewa_status save_png(ewa_context *context, const char *path, const ewa_cam
     return ewa_png_save(context, path, camera->width_px, camera->height_px, 3, rgba8, 3 * width);
 }
 
-bool picture_save(session *session, const picture_paths *paths, const ewa_camera *camera, bool opaque,
-                  picture *picture) {
+bool picture_save(cli_session *session, const picture_paths *paths, const ewa_camera *camera, bool opaque,
+                  cli_picture *picture) {
     ewa_image_save_options options;
     ewa_image_save_options_init(&options, sizeof options);
     options.world_to_camera = camera->world_to_camera;

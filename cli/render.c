@@ -27,19 +27,21 @@ enum { ONE_PASS = 0, THREE_PASSES = 1 };
 
 #define AT(member) offsetof(render_arguments, member)
 
-static const option output_table[] = {
+static const cli_option output_table[] = {
     {.key = "output",
      .letter = 'o',
      .kind = OPTION_TEXT,
      .offset = AT(output),
      .value = "FILE",
-     .help = "the picture: .png (8-bit sRGB), .exr (linear floats, premultiplied: R G B A Z N.X N.Y N.Z coverage), "
+     .help = "the picture: .png (8-bit sRGB), .exr (linear floats, premultiplied: R G B A Z N.X N.Y N.Z "
+             "coverage), "
              ".pfm (linear RGB); -: PNG to standard output"},
     {.key = "aov",
      .kind = OPTION_TEXT,
      .offset = AT(aov),
      .value = "NAME=FILE,...",
-     .help = "further planes, .pfm or .exr: depth (camera z, infinite where nothing is), normal (world, towards the "
+     .help = "further planes, .pfm or .exr: depth (camera z, infinite where nothing is), normal (world, "
+             "towards the "
              "viewer), coverage (1: covered)"},
     {.key = "save-camera",
      .kind = OPTION_TEXT,
@@ -53,7 +55,7 @@ static const option output_table[] = {
      .help = "write times per stage, counts and peak memory as JSON"},
 };
 
-static const option splat_table[] = {
+static const cli_option splat_table[] = {
     {.key = "kernel",
      .kind = OPTION_CHOICE,
      .offset = AT(kernel),
@@ -105,7 +107,7 @@ static const option splat_table[] = {
      .help = "leave out splats that face away"},
 };
 
-static const option look_table[] = {
+static const cli_option look_table[] = {
     {.key = "shading",
      .kind = OPTION_CHOICE,
      .offset = AT(shading),
@@ -178,8 +180,10 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const render_arguments *arguments = data;
     picture_paths paths;
     const char *missing = NULL;
-    if (!arguments->output) missing = "render: no output; say -o FILE";
-    else if (!arguments->color_by && arguments->range.count) missing = "--range needs --color-by";
+    if (!arguments->output)
+        missing = "render: no output; say -o FILE";
+    else if (!arguments->color_by && arguments->range.count)
+        missing = "--range needs --color-by";
     else if (arguments->light.count && !arguments->light.values[0] && !arguments->light.values[1] &&
              !arguments->light.values[2])
         missing = "--light: 0,0,0 has no direction";
@@ -218,11 +222,11 @@ typedef struct render_report {
     ewa_render_stats stats;
 } render_report;
 
-static bool write_stats(session *session, const render_arguments *arguments, const ewa_camera *camera,
+static bool write_stats(cli_session *session, const render_arguments *arguments, const ewa_camera *camera,
                         const render_report *report) {
     text_file text;
     if (!text_file_open(session, &text, arguments->stats_path)) return false;
-    json json;
+    json_writer json;
     json_start(&json, text.file);
     json_text(&json, "version", ewa_version());
     json_array(&json, "inputs");
@@ -261,7 +265,7 @@ static bool write_stats(session *session, const render_arguments *arguments, con
 }
 
 /// Loads, colours, and makes surfels and the camera; the clouds are gone afterwards. False after reporting.
-static bool make_scene(session *session, const render_arguments *arguments, ewa_camera *camera,
+static bool make_scene(cli_session *session, const render_arguments *arguments, ewa_camera *camera,
                        ewa_surfels **surfels, render_report *report) {
     const common_arguments *common = &arguments->view.common;
     const double started_s = clock_now_s();
@@ -272,7 +276,7 @@ static bool make_scene(session *session, const render_arguments *arguments, ewa_
     report->point_count = ewa_cloud_point_count(cloud);
     session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
     bool done = (!by || color_by(session, cloud, by, (ewa_colormap)arguments->colormap, &arguments->range)) &&
-                view_make(session, &arguments->view, cloud, camera);
+                view_make(session, &arguments->view, cloud, arguments->radius_scale, camera);
     if (done) {
         ewa_surfels_options options;
         ewa_surfels_options_init(&options, sizeof options);
@@ -290,22 +294,24 @@ static bool make_scene(session *session, const render_arguments *arguments, ewa_
     ewa_surfels_describe(*surfels, &report->surfels);
     const unsigned long long left_out = report->surfels.left_out_count, all = report->point_count;
     if (report->surfels.point_count == 0) {
-        session_fail(session, "none of the %llu points can be drawn: coordinates are not finite, or normals or radii "
-                              "are zero ('ewa info' counts them, 'ewa surfels' makes new ones)",
+        session_fail(session,
+                     "none of the %llu points can be drawn: coordinates are not finite, or normals or radii "
+                     "are zero ('ewa info' counts them, 'ewa surfels' makes new ones)",
                      all);
         ewa_surfels_destroy(surfels);
         return false;
     }
     if (left_out)
-        session_warn(session, "%llu of %llu points are left out: coordinates not finite, or normal or radius zero",
+        session_warn(session,
+                     "%llu of %llu points are left out: coordinates not finite, or normal or radius zero",
                      left_out, all);
     return true;
 }
 
 /// Draws and writes everything. False after reporting.
-static bool draw(session *session, const render_arguments *arguments, const picture_paths *paths,
+static bool draw(cli_session *session, const render_arguments *arguments, const picture_paths *paths,
                  const ewa_camera *camera, const ewa_surfels *surfels, render_report *report) {
-    picture picture;
+    cli_picture picture;
     ewa_renderer *renderer = NULL;
     bool done = picture_make(session, paths, camera, &picture);
     if (done) {
@@ -337,7 +343,7 @@ static bool draw(session *session, const render_arguments *arguments, const pict
 
 static int run(const void *data) {
     const render_arguments *arguments = data;
-    session session;
+    cli_session session;
     if (!session_start(&session, &arguments->view.common)) return session_end(&session, EXIT_FAILED);
     picture_paths paths;
     char message[OPTION_ERROR_BYTES];
@@ -367,23 +373,28 @@ static const option_group splat_options = {"Splats", splat_table, COUNT(splat_ta
 static const option_group look_options = {"Look", look_table, COUNT(look_table)};
 static const option_group *const groups[] = {&output_options, &view_options, &splat_options, &look_options};
 
-const command render_command = {
+const cli_command render_command = {
     .name = "render",
     .operands = "IN... -o OUT",
     .summary = "draw point clouds as a continuous, antialiased surface",
-    .details =
-        "Several inputs are drawn together. Normals and radii that a file lacks are estimated from the neighbours "
-        "of each point; 'ewa surfels' does the same with options and keeps the result.\n"
-        "\n"
-        "Without --camera and --eye the cloud is framed whole; when less than one point in a hundred lies so far off "
-        "that the rest would be tiny, those are left outside, which a message says. Without --view and --up: z is up "
-        "when the bounding box is flat in z (ground), much taller in z than wide, or far from the origin in x or y "
-        "(map coordinates), else y is up. Ground is seen from above at an angle (iso), all else from the front: "
-        "from +z with y up, from -y with z up.",
-    .examples = "ewa render scan.ply -o scan.png\n"
-                "ewa render scan.ply -o side.png --view right --size 1920x1080 --background transparent\n"
-                "ewa render tile1.ply tile2.ply -o height.png --color-by z --colormap turbo --shading lambert\n"
-                "ewa render scan.ply -o scan.exr --camera camera.json --aov depth=depth.pfm,normal=normal.exr\n",
+    .details = "Several inputs are drawn together. Normals and radii that a file lacks are estimated from "
+               "the neighbours "
+               "of each point; 'ewa surfels' does the same with options and keeps the result.\n"
+               "\n"
+               "Without --camera and --eye the cloud is framed whole; when less than one point in a hundred "
+               "lies so far off "
+               "that the rest would be tiny, those are left outside, which a message says. Without --view "
+               "and --up: z is up "
+               "when the bounding box is flat in z (ground), much taller in z than wide, or far from the "
+               "origin in x or y "
+               "(map coordinates), else y is up. Ground is seen from above at an angle (iso), all else from "
+               "the front: "
+               "from +z with y up, from -y with z up.",
+    .examples =
+        "ewa render scan.ply -o scan.png\n"
+        "ewa render scan.ply -o side.png --view right --size 1920x1080 --background transparent\n"
+        "ewa render tile1.ply tile2.ply -o height.png --color-by z --colormap turbo --shading lambert\n"
+        "ewa render scan.ply -o scan.exr --camera camera.json --aov depth=depth.pfm,normal=normal.exr\n",
     .low_operands = 1,
     .high_operands = 4096,
     .groups = groups,

@@ -18,7 +18,8 @@ enum { BAR_COLUMNS = 40 };
 /// The bar appears after this time, so that short runs stay silent, and is redrawn in these steps.
 static const double BAR_DELAY_S = 0.4, BAR_STEP_S = 0.05;
 
-/// Set by the first SIGINT or SIGTERM: the run stops at the next report of progress and cleans up. The second ends it.
+/// Set by the first SIGINT or SIGTERM: the run stops at the next report of progress and cleans up. The second
+/// ends it.
 static volatile sig_atomic_t caught_signal;
 
 static void catch_signal(int number) { caught_signal = number; }
@@ -34,13 +35,13 @@ uint64_t memory_peak_bytes(void) {
     return getrusage(RUSAGE_SELF, &usage) == 0 ? (uint64_t)usage.ru_maxrss * 1024 : 0;
 }
 
-static void wipe_bar(session *session) {
+static void wipe_bar(cli_session *session) {
     if (session->bar_drawn) fputs("\r\033[K", stderr);
     session->bar_drawn = false;
 }
 
 static bool on_progress(void *user, const char *stage, double fraction) {
-    session *session = user;
+    cli_session *session = user;
     const double now_s = clock_now_s();
     if (session->progress && now_s - session->started_s > BAR_DELAY_S &&
         (now_s - session->bar_time_s > BAR_STEP_S || fraction >= 1)) {
@@ -56,7 +57,7 @@ static bool on_progress(void *user, const char *stage, double fraction) {
 }
 
 /// Prints one line: program, then the file unless the text begins with it, then the text.
-static void print_line(session *session, const char *kind, const char *text) {
+static void print_line(cli_session *session, const char *kind, const char *text) {
     wipe_bar(session);
     const char *subject = session->subject;
     const bool named = !subject || strncmp(text, subject, strlen(subject)) == 0;
@@ -64,49 +65,57 @@ static void print_line(session *session, const char *kind, const char *text) {
 }
 
 static void on_message(void *user, ewa_severity severity, const char *text) {
-    session *session = user;
+    cli_session *session = user;
     if (severity == EWA_SEVERITY_ERROR) session->reported = true;
     print_line(session, severity == EWA_SEVERITY_WARNING ? "warning: " : "", text);
 }
 
-static void print_formatted(session *session, const char *kind, const char *format, va_list arguments) {
+static void print_formatted(cli_session *session, const char *kind, const char *format, va_list arguments) {
     char text[1024];
     vsnprintf(text, sizeof text, format, arguments);
     print_line(session, kind, text);
 }
 
-bool session_start(session *session, const common_arguments *common) {
-    *session = (struct session){.quiet = common->quiet, .verbose = common->verbose, .started_s = clock_now_s()};
-    session->progress = common->progress == 1 || (common->progress == -1 && !common->quiet && isatty(STDERR_FILENO));
+ewa_context *session_context(cli_session *session, uint32_t thread_count, uint32_t cpu_mask) {
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
-    options.thread_count = (uint32_t)common->threads;
+    options.thread_count = thread_count;
+    options.cpu_mask = cpu_mask;
     options.message = on_message;
     options.message_user = session;
-    options.message_level = common->quiet     ? EWA_SEVERITY_ERROR
-                            : common->verbose ? EWA_SEVERITY_INFO
-                                              : EWA_SEVERITY_WARNING;
+    options.message_level = session->quiet     ? EWA_SEVERITY_ERROR
+                            : session->verbose ? EWA_SEVERITY_INFO
+                                               : EWA_SEVERITY_WARNING;
     options.progress = on_progress;
     options.progress_user = session;
+    ewa_context *context = NULL;
+    const ewa_status status = ewa_context_create(&options, &context);
+    if (status != EWA_OK)
+        session_fail(session, "cannot start %u worker threads: %s", thread_count,
+                     status == EWA_ERROR_MEMORY ? "out of memory" : ewa_status_name(status));
+    return context;
+}
+
+bool session_start(cli_session *session, const common_arguments *common) {
+    *session = (cli_session){.quiet = common->quiet, .verbose = common->verbose, .started_s = clock_now_s()};
+    session->progress =
+        common->progress == 1 || (common->progress == -1 && !common->quiet && isatty(STDERR_FILENO));
     struct sigaction action = {.sa_handler = catch_signal, .sa_flags = (int)SA_RESETHAND};
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
-    const ewa_status status = ewa_context_create(&options, &session->context);
-    if (status == EWA_OK) return true;
-    session_fail(session, "cannot start %u worker threads: %s", options.thread_count,
-                 status == EWA_ERROR_MEMORY ? "out of memory" : ewa_status_name(status));
-    return false;
+    session->context = session_context(session, (uint32_t)common->threads, EWA_CPU_ALL);
+    return session->context != NULL;
 }
 
-int session_end(session *session, int exit_status) {
+int session_end(cli_session *session, int exit_status) {
     wipe_bar(session);
     ewa_context_destroy(&session->context);
     if (caught_signal) raise(caught_signal);
     return exit_status;
 }
 
-int session_fail(session *session, const char *format, ...) {
+int session_fail(cli_session *session, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
     print_formatted(session, "", format, arguments);
@@ -115,13 +124,13 @@ int session_fail(session *session, const char *format, ...) {
     return EXIT_FAILED;
 }
 
-int session_failed(session *session, ewa_status status) {
+int session_failed(cli_session *session, ewa_status status) {
     if (caught_signal) return EXIT_FAILED;
     if (!session->reported) return session_fail(session, "%s", ewa_status_name(status));
     return EXIT_FAILED;
 }
 
-void session_warn(session *session, const char *format, ...) {
+void session_warn(cli_session *session, const char *format, ...) {
     if (session->quiet) return;
     va_list arguments;
     va_start(arguments, format);
@@ -129,7 +138,7 @@ void session_warn(session *session, const char *format, ...) {
     va_end(arguments);
 }
 
-void session_note(session *session, const char *format, ...) {
+void session_note(cli_session *session, const char *format, ...) {
     if (session->quiet) return;
     va_list arguments;
     va_start(arguments, format);
@@ -137,7 +146,7 @@ void session_note(session *session, const char *format, ...) {
     va_end(arguments);
 }
 
-void session_say(session *session, const char *format, ...) {
+void session_say(cli_session *session, const char *format, ...) {
     if (!session->verbose) return;
     va_list arguments;
     va_start(arguments, format);

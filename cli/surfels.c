@@ -21,17 +21,20 @@ typedef struct surfels_arguments {
 
 #define AT(member) offsetof(surfels_arguments, member)
 
-static const option output_table[] = {
+static const cli_option output_table[] = {
     {.key = "output",
      .letter = 'o',
      .kind = OPTION_TEXT,
      .offset = AT(output),
      .value = "FILE",
      .help = "file to write (.ply); -: PLY to standard output"},
-    {.key = "ascii", .kind = OPTION_FLAG, .offset = AT(ascii), .help = "write text instead of little-endian binary"},
+    {.key = "ascii",
+     .kind = OPTION_FLAG,
+     .offset = AT(ascii),
+     .help = "write text instead of little-endian binary"},
 };
 
-static const option estimate_table[] = {
+static const cli_option estimate_table[] = {
     {.key = "neighbours",
      .aliases = "neighbors",
      .kind = OPTION_INTEGER,
@@ -43,7 +46,8 @@ static const option estimate_table[] = {
      .kind = OPTION_CHOICE,
      .offset = AT(orientation),
      .range = "propagate|viewpoint|none",
-     .help = "side that normals point to: consistent along the surface and outward, towards --viewpoint, or as they "
+     .help = "side that normals point to: consistent along the surface and outward, towards --viewpoint, or "
+             "as they "
              "come"},
     {.key = "viewpoint",
      .kind = OPTION_VECTOR,
@@ -57,7 +61,8 @@ static const option estimate_table[] = {
      .kind = OPTION_CHOICE,
      .offset = AT(shape),
      .range = "disc|ellipse",
-     .help = "disc: a radius from the local density; ellipse: two axes from the local anisotropy of the sampling"},
+     .help = "disc: a radius from the local density; ellipse: two axes from the local anisotropy of the "
+             "sampling"},
     {.key = "radius-scale",
      .kind = OPTION_NUMBER,
      .offset = AT(radius_scale),
@@ -83,7 +88,8 @@ static const option estimate_table[] = {
      .offset = AT(outlier_factor),
      .value = "FACTOR",
      .range = "[0, inf)",
-     .help = "remove points whose mean distance to their neighbours is over the mean + FACTOR standard deviations of "
+     .help = "remove points whose mean distance to their neighbours is over the mean + FACTOR standard "
+             "deviations of "
              "all; 0: keep all"},
 };
 
@@ -104,7 +110,8 @@ static void set_defaults(void *data) {
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const surfels_arguments *arguments = data;
     const char *problem = NULL;
-    if (!arguments->output) problem = "surfels: no output; say -o FILE";
+    if (!arguments->output)
+        problem = "surfels: no output; say -o FILE";
     else if (arguments->orientation == EWA_ORIENT_VIEWPOINT && !arguments->viewpoint.count)
         problem = "--orient viewpoint needs --viewpoint x,y,z";
     else if (arguments->orientation == EWA_ORIENT_NONE && arguments->viewpoint.count)
@@ -115,7 +122,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
 
 static int run(const void *data) {
     const surfels_arguments *arguments = data;
-    session session;
+    cli_session session;
     if (!session_start(&session, &arguments->common)) return session_end(&session, EXIT_FAILED);
     const char *path = arguments->common.operands[0];
     ewa_cloud *cloud = output_check(&session, arguments->output) ? input_load(&session, path) : NULL;
@@ -154,12 +161,13 @@ static int run(const void *data) {
     return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
 }
 
-static const option_group output_options = {"Output", output_table, sizeof output_table / sizeof output_table[0]};
+static const option_group output_options = {"Output", output_table,
+                                            sizeof output_table / sizeof output_table[0]};
 static const option_group estimate_options = {"Estimation", estimate_table,
                                               sizeof estimate_table / sizeof estimate_table[0]};
 static const option_group *const groups[] = {&output_options, &estimate_options};
 
-const command surfels_command = {
+const cli_command surfels_command = {
     .name = "surfels",
     .operands = "IN -o OUT",
     .summary = "estimate normals and radii, or elliptical axes, from positions; remove outliers",

@@ -3,8 +3,8 @@
 //
 // Clouds from clouds: some of the points, several clouds as one, an affine map of space.
 //
-// Based on: Bloomenthal and Rokne, "Homogeneous Coordinates", 1994: points go by M, planes (normals) by the inverse
-// transpose.
+// Based on: Bloomenthal and Rokne, "Homogeneous Coordinates", 1994: points go by M, planes (normals) by the
+// inverse transpose.
 #include "base/base.h"
 #include "ewa/cloud.h"
 
@@ -21,10 +21,12 @@ static void copy_points(const ewa_attribute *attribute, uint64_t first, uint64_t
         if (count) memcpy(bytes, from, count * point_bytes);
         return;
     }
-    for (uint64_t i = 0; i < count; i++) memcpy(bytes + i * point_bytes, from + i * attribute->stride_bytes, point_bytes);
+    for (uint64_t i = 0; i < count; i++)
+        memcpy(bytes + i * point_bytes, from + i * attribute->stride_bytes, point_bytes);
 }
 
-ewa_status ewa_cloud_select(const ewa_cloud *cloud, const uint64_t *indices, uint64_t count, ewa_cloud **selected) {
+ewa_status ewa_cloud_select(const ewa_cloud *cloud, const uint64_t *indices, uint64_t count,
+                            ewa_cloud **selected) {
     if (!cloud || !selected || (count && !indices)) return EWA_ERROR_ARGUMENT;
     *selected = NULL;
     ewa_context *context = ewa_cloud_context(cloud);
@@ -58,11 +60,14 @@ ewa_status ewa_cloud_select(const ewa_cloud *cloud, const uint64_t *indices, uin
 /// The type that holds every number of both types.
 static ewa_type common_type(ewa_type a, ewa_type b) {
     if (a == b) return a;
-    const bool wide = a == EWA_F64 || a == EWA_I32 || a == EWA_U32 || b == EWA_F64 || b == EWA_I32 || b == EWA_U32;
+    const bool wide =
+        a == EWA_F64 || a == EWA_I32 || a == EWA_U32 || b == EWA_F64 || b == EWA_I32 || b == EWA_U32;
     return wide ? EWA_F64 : EWA_F32;
 }
 
-static bool same_origin(const double a[3], const double b[3]) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; }
+static bool same_origin(const double a[3], const double b[3]) {
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
 
 /// How an attribute is stored in the merged cloud.
 typedef struct merged_stream {
@@ -82,7 +87,8 @@ static bool plan_stream(const ewa_cloud *const *clouds, uint32_t count, const ew
         if (strcmp(first->name, EWA_COLOR) == 0 && other->type != first->type) return false;
         stream->type = common_type(stream->type, other->type);
         ewa_cloud_origin(clouds[k], other_world);
-        if (strcmp(first->name, EWA_POSITION) == 0 && !same_origin(origin_world, other_world)) stream->moved = true;
+        if (strcmp(first->name, EWA_POSITION) == 0 && !same_origin(origin_world, other_world))
+            stream->moved = true;
     }
     if (stream->moved) stream->type = EWA_F64;
     return true;
@@ -102,8 +108,10 @@ static void merge_stream(const ewa_attribute *from, const merged_stream *stream,
         for (uint64_t i = 0; i < block_count * from->component_count; i++) {
             const uint64_t to = first * from->component_count + i;
             if (stream->moved) block[i] += shift_world[i % 3];
-            if (stream->type == EWA_F32) ((float *)(void *)bytes)[to] = (float)block[i];
-            else ((double *)(void *)bytes)[to] = block[i];
+            if (stream->type == EWA_F32)
+                ((float *)(void *)bytes)[to] = (float)block[i];
+            else
+                ((double *)(void *)bytes)[to] = block[i];
         }
     }
 }
@@ -172,23 +180,27 @@ static ewa_status map_triples(ewa_cloud *cloud, const char *name, const double l
     const ewa_attribute *found = ewa_cloud_find(cloud, name);
     if (!found) return EWA_OK;
     if (found->component_count != 3)
-        return ewa_fail(ewa_cloud_context(cloud), EWA_ERROR_ARGUMENT, "attribute '%s' has %u components, not 3", name,
-                        found->component_count);
+        return ewa_fail(ewa_cloud_context(cloud), EWA_ERROR_ARGUMENT,
+                        "attribute '%s' has %u components, not 3", name, found->component_count);
     const ewa_attribute from = *found;
     const uint64_t count = ewa_cloud_point_count(cloud);
-    const ewa_type type = from.type == EWA_F64 || from.type == EWA_I32 || from.type == EWA_U32 ? EWA_F64 : EWA_F32;
+    const ewa_type type =
+        from.type == EWA_F64 || from.type == EWA_I32 || from.type == EWA_U32 ? EWA_F64 : EWA_F32;
     ewa_context *context = ewa_cloud_context(cloud);
     char *mapped = ewa_allocate(context, count, 3 * ewa_type_bytes(type));
     if (!mapped) return EWA_ERROR_MEMORY;
     for (uint64_t i = 0; i < count; i++) {
         double p[3], q[3];
         ewa_attribute_read_f64(&from, i, 1, p);
-        for (int r = 0; r < 3; r++) q[r] = linear[3 * r] * p[0] + linear[3 * r + 1] * p[1] + linear[3 * r + 2] * p[2];
+        for (int r = 0; r < 3; r++)
+            q[r] = linear[3 * r] * p[0] + linear[3 * r + 1] * p[1] + linear[3 * r + 2] * p[2];
         const double length = normalised ? sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2]) : 1;
         for (int r = 0; r < 3; r++) {
             const double value = length > 0 ? q[r] / length : 0;
-            if (type == EWA_F64) ((double *)(void *)mapped)[3 * i + (uint64_t)r] = value;
-            else ((float *)(void *)mapped)[3 * i + (uint64_t)r] = (float)value;
+            if (type == EWA_F64)
+                ((double *)(void *)mapped)[3 * i + (uint64_t)r] = value;
+            else
+                ((float *)(void *)mapped)[3 * i + (uint64_t)r] = (float)value;
         }
     }
     void *data = NULL;
@@ -213,8 +225,10 @@ static ewa_status scale_component(ewa_cloud *cloud, const char *name, uint32_t c
     void *data = NULL;
     const ewa_status status = ewa_cloud_add(cloud, name, type, from.component_count, &data);
     for (uint64_t i = 0; status == EWA_OK && i < count * components; i++) {
-        if (type == EWA_F32) ((float *)data)[i] = (float)scaled[i];
-        else ((double *)data)[i] = scaled[i];
+        if (type == EWA_F32)
+            ((float *)data)[i] = (float)scaled[i];
+        else
+            ((double *)data)[i] = scaled[i];
     }
     ewa_release(context, scaled, count * components, sizeof *scaled);
     return status;
@@ -228,10 +242,11 @@ ewa_status ewa_cloud_transform(ewa_cloud *cloud, const double world_to_world[16]
     for (int i = 0; i < 16; i++)
         if (!isfinite(m[i]) || (i >= 12 && m[i] != (i == 15)))
             return ewa_fail(ewa_cloud_context(cloud), EWA_ERROR_ARGUMENT,
-                            "transform: number %d is %g; all have to be finite and the last row 0 0 0 1", i + 1, m[i]);
+                            "transform: number %d is %g; all have to be finite and the last row 0 0 0 1",
+                            i + 1, m[i]);
     if (!isfinite(determinant) || determinant == 0)
-        return ewa_fail(ewa_cloud_context(cloud), EWA_ERROR_NUMERIC, "transform: determinant %g has no inverse",
-                        determinant);
+        return ewa_fail(ewa_cloud_context(cloud), EWA_ERROR_NUMERIC,
+                        "transform: determinant %g has no inverse", determinant);
     const double linear[9] = {m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]};
     double sided[9], mirrored[9];
     for (int i = 0; i < 9; i++) {
