@@ -4,6 +4,7 @@
 // Point clouds: named streams, conversion on reading, bounds.
 #include "ewa/cloud.h"
 #include "base/base.h"
+#include "cloud/cloud.h"
 
 #include <math.h>
 #include <string.h>
@@ -219,16 +220,12 @@ static void measure_part(void *data, uint32_t part, uint32_t worker) {
     job->partial[part] = box;
 }
 
-ewa_status ewa_cloud_measure(const ewa_cloud *cloud, ewa_bounds *bounds) {
-    if (!cloud || !bounds) return EWA_ERROR_ARGUMENT;
-    const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
-    if (!position || position->component_count != 3)
-        return ewa_fail(cloud->context, EWA_ERROR_ARGUMENT, "the cloud has no positions of three components");
+void ewa_position_measure(ewa_context *context, const ewa_attribute *position, uint64_t count, ewa_bounds *bounds) {
     enum { MAX_PARTS = 64 };
     ewa_bounds partial[MAX_PARTS];
-    const uint64_t blocks = cloud->point_count / BLOCK_POINTS + 1;
-    measure_job job = {position, cloud->point_count, blocks < MAX_PARTS ? (uint32_t)blocks : MAX_PARTS, partial};
-    ewa_parallel(cloud->context, measure_part, &job, job.parts);
+    const uint64_t blocks = count / BLOCK_POINTS + 1;
+    measure_job job = {position, count, blocks < MAX_PARTS ? (uint32_t)blocks : MAX_PARTS, partial};
+    ewa_parallel(context, measure_part, &job, job.parts);
     *bounds = partial[0];
     for (uint32_t part = 1; part < job.parts; part++) {
         bounds->finite_count += partial[part].finite_count;
@@ -237,6 +234,14 @@ ewa_status ewa_cloud_measure(const ewa_cloud *cloud, ewa_bounds *bounds) {
             bounds->high_world[c] = fmax(bounds->high_world[c], partial[part].high_world[c]);
         }
     }
+}
+
+ewa_status ewa_cloud_measure(const ewa_cloud *cloud, ewa_bounds *bounds) {
+    if (!cloud || !bounds) return EWA_ERROR_ARGUMENT;
+    const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
+    if (!position || position->component_count != 3)
+        return ewa_fail(cloud->context, EWA_ERROR_ARGUMENT, "the cloud has no positions of three components");
+    ewa_position_measure(cloud->context, position, cloud->point_count, bounds);
     for (int c = 0; c < 3 && bounds->finite_count; c++) {
         bounds->low_world[c] += cloud->origin_world[c];
         bounds->high_world[c] += cloud->origin_world[c];

@@ -6,7 +6,7 @@
 // 2004, section 4, by way of the dual conic (math.md section 3); M. Zwicker, H. Pfister, J. van Baar, M.
 // Gross, "Surface Splatting", 2001, sections 3 and 4 (affine kernel, visibility).
 #include "splat/reference_splat.h"
-#include "splat/semantics.h"
+#include "kernels/semantics.h"
 
 static const double TWO_PI = 6.283185307179586;
 

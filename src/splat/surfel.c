@@ -9,7 +9,7 @@
 #include "base/base.h"
 #include "image/srgb.h"
 #include "math/vec.h"
-#include "splat/semantics.h"
+#include "kernels/semantics.h"
 
 #include <string.h>
 

@@ -4,7 +4,7 @@
 // Tests of src/splat/surfel.c and options.c: what streams become, what is left out, what is refused.
 #include "check.h"
 #include "splat/options.h"
-#include "splat/semantics.h"
+#include "kernels/semantics.h"
 #include "splat/surfel.h"
 
 #include <math.h>

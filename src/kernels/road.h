@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The hot loops of the road, written once in road_body.h and compiled per instruction set; the same bytes
+// from each. Their reference is src/splat/reference.c; rules and numbers are those of src/kernels/semantics.h.
+//
+// A frame: cull packets into tile rectangles; then per tile, run by run (32 packets): set up records, sort
+// them by the shape of their box in 4x4-pixel blocks, lower `nearest`; when all runs are done turn `nearest`
+// into the bound of the second pass, accumulate all records, resolve.
+#ifndef EWA_SRC_KERNELS_ROAD_H
+#define EWA_SRC_KERNELS_ROAD_H
+
+#include "kernels/packet.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum {
+    EWA_BLOCK_PX = 4, ///< a block is 4x4 pixels, one 16-lane vector
+    EWA_BLOCK_LANES = 16,
+    EWA_RUN_PACKETS = 32, ///< packets that are set up before their depths are used
+    EWA_RUN_RECORDS = EWA_RUN_PACKETS * EWA_PACKET_LANES,
+    EWA_ROW_CLASSES = 5,                                   ///< boxes of 1, 2, 3, 4 and more rows of blocks
+    EWA_COLUMN_CLASSES = 4,                                ///< boxes of 1, 2, 3, 4 columns
+    EWA_WIDE_CLASS = EWA_ROW_CLASSES * EWA_COLUMN_CLASSES, ///< boxes of more columns
+    EWA_CLASS_COUNT = EWA_WIDE_CLASS + 1,
+    EWA_MAX_CHANNELS = 8,
+};
+
+/// Everything about camera and options that the kernels read, in single precision, camera space in world
+/// units.
+typedef struct ewa_view {
+    float rotation[9];    ///< camera from world, row-major, without scale
+    float translation[3]; ///< of the surfels' local origin, camera space
+    float scale;          ///< of world_to_camera
+    float fx_px, fy_px, cx_px, cy_px;
+    float cutoff, cutoff2;
+    float prefilter2_px2; ///< h^2
+    float reach_px;       ///< F h
+    float tolerance;      ///< kappa F
+    float grazing_limit;  ///< EWA_GRAZING_TOLERANCE F, or 0 with one pass
+    float color_scale[3], color_offset[3];
+    float exponent_scale; ///< s = exponent_scale r^2, so that exp(-r^2/2) = exp(-s)^(2^doublings)
+    float exponent_end;   ///< exponent_scale F^2
+    uint32_t doublings;
+    uint32_t width_px, height_px;
+    uint32_t tile_px;
+    bool orthographic, affine, cull_back, ellipses;
+    float side_planes[4][3]; ///< inward unit normals of the frustum's sides through the eye, widened by F h
+                             ///< and a pixel
+} ewa_view;
+
+/// Rectangle of tiles that a packet may touch: [x0, x1) x [y0, y1); empty when culled.
+typedef struct ewa_tile_rect {
+    uint16_t x0, y0, x1, y1;
+} ewa_tile_rect;
+
+/// One splat in one tile. dx, dy below are measured from the splat's centre to a pixel's centre.
+typedef struct ewa_record {
+    float offset_x, offset_y;      ///< upper left corner of the box minus the splat's centre, pixels
+    float xx, xy, yy;              ///< s = xx dx^2 + xy dx dy + yy dy^2
+    float weight;                  ///< the resampling kernel's peak
+    float depth, depth_x, depth_y; ///< key: 1/z (orthographic: -z) at the centre and its gradient per pixel
+    float depth_low, depth_high;   ///< range of the key
+    float tolerance;               ///< eps
+    float red, green, blue;
+    uint32_t box; ///< first column | first row << 8 | columns << 16 | rows << 24, in blocks
+} ewa_record;
+
+/// A surfel that touches the eye plane, by pixel rays: U, V, W are linear in the tile's pixel coordinates;
+/// u = U/W, v = V/W in standard deviations, z = plane / W.
+typedef struct ewa_near_record {
+    float u[3], v[3], w[3]; ///< at the tile's origin, per x, per y
+    float plane;            ///< n.p
+    float depth_low, depth_high;
+    float tolerance;
+    float color[3], normal[3];
+} ewa_near_record;
+
+/// What a run leaves before it is sorted.
+typedef struct ewa_run {
+    ewa_record records[EWA_RUN_RECORDS + EWA_PACKET_LANES];
+    float normals[EWA_RUN_RECORDS + EWA_PACKET_LANES][4];
+    uint8_t classes[EWA_RUN_RECORDS + EWA_PACKET_LANES];
+    uint32_t near_surfels[EWA_RUN_RECORDS]; ///< packet * 16 + lane
+    uint32_t count, near_count;
+} ewa_run;
+
+/// A tile and its pixels, block by block (row-major), 16 lanes per block (4 rows of 4 pixels).
+typedef struct ewa_tile {
+    int32_t x_px, y_px;          ///< origin in the picture
+    int32_t width_px, height_px; ///< part inside the picture
+    uint32_t blocks_per_row, block_rows;
+    float *nearest; ///< [block][16]: B(x), then the bound on the key for the second pass
+    float *sums;    ///< [block][channel][16]: weight, r, g, b [, normal x, y, z] [, z]
+    uint32_t channel_count;
+    bool with_normals, with_depth;
+} ewa_tile;
+
+/// How pixels become colours, and where they go. Planes as in ewa_frame, of the whole picture.
+typedef struct ewa_resolve {
+    float unit_coverage_inverse; ///< 1 / q0
+    float alpha_scale;           ///< 1 / (tau q0)
+    bool edge_antialiasing, one_pass, lambert, headlight, orthographic;
+    float ambient;
+    float light[3];           ///< unit, camera space
+    float background[4];      ///< linear, premultiplied
+    float ray_x[2], ray_y[2]; ///< slope = ray[0] pixel + ray[1]
+    float to_world[9];        ///< world from camera, row-major, without scale
+    uint32_t width_px;
+    uint8_t *rgba8;
+    float *rgba, *depth, *normal, *coverage;
+} ewa_resolve;
+
+/// The kernels of one instruction set.
+typedef struct ewa_road_kernels {
+    const char *name;
+
+    /// Finds the tiles of packets [first, first + count); returns how many are culled.
+    uint32_t (*cull)(const ewa_view *view, const ewa_packet_bounds *bounds, uint32_t first, uint32_t count,
+                     ewa_tile_rect *rects);
+
+    /// Sets up `count` <= EWA_RUN_PACKETS packets for one tile into `run`.
+    void (*setup)(const ewa_view *view, const ewa_packet *packets, const uint32_t *packet_ids, uint32_t count,
+                  const ewa_tile *tile, ewa_run *run);
+
+    /// Sorts the run's records by class, stably, to `records` and `normals`; class c is
+    /// [class_first[c], class_first[c + 1]).
+    void (*sort)(const ewa_run *run, bool with_normals, ewa_record *records, float (*normals)[4],
+                 uint16_t class_first[EWA_CLASS_COUNT + 1]);
+
+    /// Lowers tile->nearest to min(nearest, z + eps) where sorted records count.
+    void (*visibility)(const ewa_view *view, const ewa_tile *tile, const ewa_record *records,
+                       const uint16_t class_first[EWA_CLASS_COUNT + 1]);
+    void (*near_visibility)(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *records,
+                            uint32_t count);
+
+    /// Sets nearest to infinity and the sums to zero.
+    void (*clear)(const ewa_tile *tile);
+
+    /// Turns `nearest` from B(x) into the smallest key that still counts.
+    void (*bound)(const ewa_view *view, const ewa_tile *tile);
+
+    /// Adds the records whose key reaches the bound to tile->sums.
+    void (*accumulate)(const ewa_view *view, const ewa_tile *tile, const ewa_record *records,
+                       const float (*normals)[4], const uint16_t class_first[EWA_CLASS_COUNT + 1]);
+    void (*near_accumulate)(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *records,
+                            uint32_t count);
+
+    /// Writes the tile's pixels to the planes.
+    void (*resolve)(const ewa_tile *tile, const ewa_resolve *resolve);
+} ewa_road_kernels;
+
+/// Chooses the widest of `cpu_features` (EWA_CPU_* bits); plain C when there is none.
+const ewa_road_kernels *ewa_road_kernels_choose(uint32_t cpu_features);
+
+#endif

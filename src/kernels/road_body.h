@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The road's kernels over the wide type. The including file defines WIDE_AVX512, WIDE_AVX2 or WIDE_PORTABLE,
+// ROAD_NAME and ROAD_KERNELS; this file undefines them. Reference: src/splat/reference.c; equality class of
+// the versions among themselves: the same bytes.
+#include "kernels/road_variants.h"
+#include "kernels/semantics.h"
+#include "kernels/wide.h"
+
+#include <string.h>
+
+#include "kernels/road_project.h"
+#include "kernels/road_raster.h"
+#include "kernels/road_resolve.h"
+
+const ewa_road_kernels ROAD_KERNELS = {
+    .name = ROAD_NAME,
+    .cull = cull,
+    .setup = setup,
+    .sort = sort,
+    .visibility = visibility,
+    .near_visibility = near_visibility,
+    .clear = clear,
+    .bound = bound,
+    .accumulate = accumulate,
+    .near_accumulate = near_accumulate,
+    .resolve = resolve,
+};
+
+#undef ROAD_NAME
+#undef ROAD_KERNELS

@@ -1,0 +1,331 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Part of road_body.h: the two passes over a tile's records (math.md section 6).
+#ifndef EWA_SRC_KERNELS_ROAD_RASTER_H
+#define EWA_SRC_KERNELS_ROAD_RASTER_H
+
+#define ALWAYS_INLINE inline __attribute__((always_inline))
+
+/// exp(-s) for s in [0, 0.5] within 5.1e-7 relative, squared `doublings` >= 2 times.
+static ALWAYS_INLINE wf exponential(wf s, uint32_t doublings) {
+    wf e = wf_fma(s, wf_set(0.032365625784f), wf_set(-0.162670935613f));
+    e = wf_fma(s, e, wf_set(0.499275699383f));
+    e = wf_fma(s, e, wf_set(-0.999952868881f));
+    e = wf_fma(s, e, wf_set(0.999999492476f));
+    e = wf_mul(e, e);
+    e = wf_mul(e, e);
+    for (uint32_t i = 2; i < doublings; i++) e = wf_mul(e, e);
+    return e;
+}
+
+static ALWAYS_INLINE wf lanes_x(void) {
+    static const float x[16] = {0.5f, 1.5f, 2.5f, 3.5f, 0.5f, 1.5f, 2.5f, 3.5f,
+                                0.5f, 1.5f, 2.5f, 3.5f, 0.5f, 1.5f, 2.5f, 3.5f};
+    return wf_load(x);
+}
+
+static ALWAYS_INLINE wf lanes_y(void) {
+    static const float y[16] = {0.5f, 0.5f, 0.5f, 0.5f, 1.5f, 1.5f, 1.5f, 1.5f,
+                                2.5f, 2.5f, 2.5f, 2.5f, 3.5f, 3.5f, 3.5f, 3.5f};
+    return wf_load(y);
+}
+
+/// What the blocks of one column of a record's box share.
+typedef struct column_terms {
+    wf quadratic, cross, key;
+} column_terms;
+
+static ALWAYS_INLINE column_terms column_start(const ewa_record *r, float first_px) {
+    const wf dx = wf_add(lanes_x(), wf_set(r->offset_x + first_px));
+    return (column_terms){wf_mul(wf_mul(wf_set(r->xx), dx), dx), wf_mul(wf_set(r->xy), dx),
+                          wf_fma(wf_set(r->depth_x), dx, wf_set(r->depth))};
+}
+
+/// s of a block and its clamped key.
+static ALWAYS_INLINE wf block_exponent(const column_terms *c, wf dy, wf yy_dy2) {
+    return wf_fma(c->cross, dy, wf_add(c->quadratic, yy_dy2));
+}
+
+static ALWAYS_INLINE wf block_key(const ewa_record *r, const column_terms *c, wf key_dy) {
+    return wf_min(wf_max(wf_add(c->key, key_dy), wf_set(r->depth_low)), wf_set(r->depth_high));
+}
+
+static ALWAYS_INLINE uint32_t box_column(uint32_t box) { return box & 0xff; }
+static ALWAYS_INLINE uint32_t box_row(uint32_t box) { return box >> 8 & 0xff; }
+static ALWAYS_INLINE uint32_t box_columns(uint32_t box) { return box >> 16 & 0xff; }
+static ALWAYS_INLINE uint32_t box_rows(uint32_t box) { return box >> 24; }
+
+/// Lowers one block of `nearest` to z + eps where the splat counts.
+static ALWAYS_INLINE void lower(float *nearest, wf s, wf end, wf key, wf tolerance, bool orthographic) {
+    const wf z = orthographic ? wf_negate(key) : wf_div(wf_set(1), key);
+    const wf bound = wf_add(z, tolerance), old = wf_load(nearest);
+    wf_store(nearest, wf_select(wf_lt(s, end), wf_min(bound, old), old));
+}
+
+static ALWAYS_INLINE void visibility_rows(const ewa_view *view, const ewa_tile *tile, const ewa_record *r,
+                                          uint32_t first_column, uint32_t columns, uint32_t rows,
+                                          bool orthographic) {
+    column_terms c[EWA_COLUMN_CLASSES];
+    for (uint32_t i = 0; i < columns; i++) c[i] = column_start(r, (float)(EWA_BLOCK_PX * (first_column + i)));
+    const wf end = wf_set(view->exponent_end), tolerance = wf_set(r->tolerance);
+    const size_t row_floats = (size_t)tile->blocks_per_row * EWA_BLOCK_LANES;
+    float *nearest = tile->nearest + box_row(r->box) * row_floats +
+                     (size_t)(box_column(r->box) + first_column) * EWA_BLOCK_LANES;
+    wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
+    for (uint32_t row = 0; row < rows; row++, nearest += row_floats, dy = wf_add(dy, wf_set(EWA_BLOCK_PX))) {
+        const wf yy_dy2 = wf_mul(wf_mul(wf_set(r->yy), dy), dy), key_dy = wf_mul(wf_set(r->depth_y), dy);
+        for (uint32_t i = 0; i < columns; i++)
+            lower(nearest + (size_t)i * EWA_BLOCK_LANES, block_exponent(&c[i], dy, yy_dy2), end,
+                  block_key(r, &c[i], key_dy), tolerance, orthographic);
+    }
+}
+
+/// One pass over the sorted records of a run.
+typedef struct pass {
+    const ewa_view *view;
+    const ewa_tile *tile;
+    const ewa_record *records;
+    const float (*normals)[4];
+    const uint16_t *class_first;
+} pass;
+
+typedef void record_rows(const pass *p, uint32_t index, uint32_t first_column, uint32_t columns,
+                         uint32_t rows);
+
+/// Calls `body` with the column count a constant in each class and the row count the same along a class, so
+/// that its loops are unrolled or predicted.
+static ALWAYS_INLINE void for_each_record(const pass *p, record_rows *body) {
+    const uint16_t *first = p->class_first;
+    const ewa_record *r = p->records;
+    for (uint32_t i = first[0]; i < first[EWA_ROW_CLASSES]; i++) body(p, i, 0, 1, box_rows(r[i].box));
+    for (uint32_t i = first[EWA_ROW_CLASSES]; i < first[2 * EWA_ROW_CLASSES]; i++)
+        body(p, i, 0, 2, box_rows(r[i].box));
+    for (uint32_t i = first[2 * EWA_ROW_CLASSES]; i < first[3 * EWA_ROW_CLASSES]; i++)
+        body(p, i, 0, 3, box_rows(r[i].box));
+    for (uint32_t i = first[3 * EWA_ROW_CLASSES]; i < first[EWA_WIDE_CLASS]; i++)
+        body(p, i, 0, 4, box_rows(r[i].box));
+    for (uint32_t i = first[EWA_WIDE_CLASS]; i < first[EWA_CLASS_COUNT]; i++) {
+        const uint32_t columns = box_columns(r[i].box), rows = box_rows(r[i].box);
+        uint32_t column = 0;
+        for (; column + 4 <= columns; column += 4) body(p, i, column, 4, rows);
+        for (; column < columns; column++) body(p, i, column, 1, rows);
+    }
+}
+
+static ALWAYS_INLINE void lower_perspective(const pass *p, uint32_t i, uint32_t first_column,
+                                            uint32_t columns, uint32_t rows) {
+    visibility_rows(p->view, p->tile, &p->records[i], first_column, columns, rows, false);
+}
+
+static ALWAYS_INLINE void lower_orthographic(const pass *p, uint32_t i, uint32_t first_column,
+                                             uint32_t columns, uint32_t rows) {
+    visibility_rows(p->view, p->tile, &p->records[i], first_column, columns, rows, true);
+}
+
+static void visibility(const ewa_view *view, const ewa_tile *tile, const ewa_record *records,
+                       const uint16_t class_first[EWA_CLASS_COUNT + 1]) {
+    const pass p = {view, tile, records, NULL, class_first};
+    if (view->orthographic)
+        for_each_record(&p, lower_orthographic);
+    else
+        for_each_record(&p, lower_perspective);
+}
+
+static void clear(const ewa_tile *tile) {
+    const size_t blocks = (size_t)tile->blocks_per_row * tile->block_rows;
+    const wf infinity = wf_set(__builtin_inff()), zero = wf_set(0);
+    for (size_t i = 0; i < blocks * EWA_BLOCK_LANES; i += EWA_BLOCK_LANES)
+        wf_store(tile->nearest + i, infinity);
+    const size_t floats = blocks * tile->channel_count * EWA_BLOCK_LANES;
+    for (size_t i = 0; i < floats; i += EWA_BLOCK_LANES) wf_store(tile->sums + i, zero);
+}
+
+/// z <= B becomes key >= 1/B (orthographic -B), lowered by a few roundings: a splat must not lose against
+/// itself.
+static void bound(const ewa_view *view, const ewa_tile *tile) {
+    const size_t floats = (size_t)tile->blocks_per_row * tile->block_rows * EWA_BLOCK_LANES;
+    const wf lower_by = wf_set(4.8e-7f); // 4 units in the last place
+    for (size_t i = 0; i < floats; i += EWA_BLOCK_LANES) {
+        const wf b = wf_load(tile->nearest + i);
+        const wf key = view->orthographic ? wf_negate(b) : wf_div(wf_set(1), b);
+        wf_store(tile->nearest + i, wf_fnma(wf_abs(key), lower_by, key));
+    }
+}
+
+/// What a record adds per unit of weight, and which channels there are.
+typedef struct payload {
+    wf color[3], normal[3];
+} payload;
+
+static ALWAYS_INLINE void add_channels(float *sums, wf weight, const payload *p, wf key, bool with_normals,
+                                       bool with_depth, bool orthographic) {
+    enum { LANES = EWA_BLOCK_LANES };
+    wf_store(sums, wf_add(wf_load(sums), weight));
+    for (int i = 0; i < 3; i++)
+        wf_store(sums + (1 + i) * LANES, wf_fma(weight, p->color[i], wf_load(sums + (1 + i) * LANES)));
+    if (with_normals)
+        for (int i = 0; i < 3; i++)
+            wf_store(sums + (4 + i) * LANES, wf_fma(weight, p->normal[i], wf_load(sums + (4 + i) * LANES)));
+    if (with_depth) {
+        const int at = with_normals ? 7 : 4;
+        const wf z = orthographic ? wf_negate(key) : wf_div(wf_set(1), key);
+        wf_store(sums + at * LANES, wf_fma(weight, z, wf_load(sums + at * LANES)));
+    }
+}
+
+static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t index, uint32_t first_column,
+                                          uint32_t columns, uint32_t rows, bool with_normals, bool with_depth,
+                                          bool orthographic) {
+    const ewa_view *view = p->view;
+    const ewa_tile *tile = p->tile;
+    const ewa_record *r = &p->records[index];
+    const uint32_t channels = 4 + (with_normals ? 3 : 0) + (with_depth ? 1 : 0);
+    column_terms c[EWA_COLUMN_CLASSES];
+    for (uint32_t i = 0; i < columns; i++) c[i] = column_start(r, (float)(EWA_BLOCK_PX * (first_column + i)));
+    payload load = {.color = {wf_set(r->red), wf_set(r->green), wf_set(r->blue)}};
+    if (with_normals)
+        for (int i = 0; i < 3; i++) load.normal[i] = wf_set(p->normals[index][i]);
+    const wf end = wf_set(view->exponent_end), peak = wf_set(r->weight);
+    const size_t row_blocks = tile->blocks_per_row;
+    const size_t first_block = box_row(r->box) * row_blocks + box_column(r->box) + first_column;
+    const float *bounds = tile->nearest + first_block * EWA_BLOCK_LANES;
+    float *sums = tile->sums + first_block * channels * EWA_BLOCK_LANES;
+    wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
+    for (uint32_t row = 0; row < rows; row++) {
+        const wf yy_dy2 = wf_mul(wf_mul(wf_set(r->yy), dy), dy), key_dy = wf_mul(wf_set(r->depth_y), dy);
+        for (uint32_t i = 0; i < columns; i++) {
+            const wf s = block_exponent(&c[i], dy, yy_dy2), key = block_key(r, &c[i], key_dy);
+            const wm counts =
+                wm_and(wf_lt(s, end), wf_le(wf_load(bounds + (size_t)i * EWA_BLOCK_LANES), key));
+            const wf weight = wf_keep(counts, wf_mul(exponential(s, view->doublings), peak));
+            add_channels(sums + (size_t)i * channels * EWA_BLOCK_LANES, weight, &load, key, with_normals,
+                         with_depth, orthographic);
+        }
+        bounds += row_blocks * EWA_BLOCK_LANES;
+        sums += row_blocks * channels * EWA_BLOCK_LANES;
+        dy = wf_add(dy, wf_set(EWA_BLOCK_PX));
+    }
+}
+
+#define ACCUMULATE(name, with_normals, with_depth, orthographic)                                             \
+    static ALWAYS_INLINE void name##_rows(const pass *p, uint32_t i, uint32_t first_column,                  \
+                                          uint32_t columns, uint32_t rows) {                                 \
+        accumulate_rows(p, i, first_column, columns, rows, with_normals, with_depth, orthographic);          \
+    }                                                                                                        \
+    static void name(const pass *p) { for_each_record(p, name##_rows); }
+
+ACCUMULATE(add_color, false, false, false)
+ACCUMULATE(add_color_depth, false, true, false)
+ACCUMULATE(add_color_height, false, true, true)
+ACCUMULATE(add_normal, true, false, false)
+ACCUMULATE(add_normal_depth, true, true, false)
+ACCUMULATE(add_normal_height, true, true, true)
+
+static void accumulate(const ewa_view *view, const ewa_tile *tile, const ewa_record *records,
+                       const float (*normals)[4], const uint16_t class_first[EWA_CLASS_COUNT + 1]) {
+    const pass p = {view, tile, records, normals, class_first};
+    if (!tile->with_depth) {
+        if (tile->with_normals)
+            add_normal(&p);
+        else
+            add_color(&p);
+    } else if (view->orthographic) {
+        if (tile->with_normals)
+            add_normal_height(&p);
+        else
+            add_color_height(&p);
+    } else {
+        if (tile->with_normals)
+            add_normal_depth(&p);
+        else
+            add_color_depth(&p);
+    }
+}
+
+/// A near surfel at a block's pixels, by pixel rays (semantics.h).
+typedef struct near_sample {
+    wf exponent; ///< s: exp(-r^2 / 2) = exp(-s)^(2^doublings)
+    wf weight;   ///< 1 / (2 pi sqrt|W|)
+    wf z;
+    wm counts;
+} near_sample;
+
+static ALWAYS_INLINE wf linear(const float terms[3], wf x, wf y) {
+    return wf_fma(wf_set(terms[1]), x, wf_fma(wf_set(terms[2]), y, wf_set(terms[0])));
+}
+
+static ALWAYS_INLINE near_sample near_evaluate(const ewa_view *view, const ewa_near_record *r, wf x, wf y) {
+    const wf one = wf_set(1), h2 = wf_set(view->prefilter2_px2);
+    const wf inverse = wf_div(one, linear(r->w, x, y));
+    const wf u = wf_mul(linear(r->u, x, y), inverse), v = wf_mul(linear(r->v, x, y), inverse);
+    const wf z = wf_mul(wf_set(r->plane), inverse);
+    const wf ux = wf_mul(wf_fnma(u, wf_set(r->w[1]), wf_set(r->u[1])), inverse);
+    const wf uy = wf_mul(wf_fnma(u, wf_set(r->w[2]), wf_set(r->u[2])), inverse);
+    const wf vx = wf_mul(wf_fnma(v, wf_set(r->w[1]), wf_set(r->v[1])), inverse);
+    const wf vy = wf_mul(wf_fnma(v, wf_set(r->w[2]), wf_set(r->v[2])), inverse);
+    const wf w11 = wf_fma(h2, wf_fma(ux, ux, wf_mul(uy, uy)), one);
+    const wf w22 = wf_fma(h2, wf_fma(vx, vx, wf_mul(vy, vy)), one);
+    const wf w12 = wf_mul(h2, wf_fma(ux, vx, wf_mul(uy, vy)));
+    // |I + h^2 (a'a + b'b)| = 1 + h^2 (|a|^2 + |b|^2) + h^4 (a x b)^2, free of cancellation.
+    const wf cross = wf_mul(h2, wf_fnma(uy, vx, wf_mul(ux, vy)));
+    const wf det = wf_fma(cross, cross, wf_sub(wf_add(w11, w22), one));
+    const wf u2 = wf_mul(u, u), v2 = wf_mul(v, v);
+    const wf numerator = wf_fma(w22, u2, wf_fma(w11, v2, wf_mul(wf_mul(wf_set(-2), w12), wf_mul(u, v))));
+    const wf r2 = wf_div(numerator, det);
+    near_sample sample;
+    sample.exponent = wf_max(wf_mul(r2, wf_set(view->exponent_scale)), wf_set(0));
+    sample.weight = wf_div(wf_set((float)EWA_INVERSE_TWO_PI), wf_sqrt(det));
+    const wm inside = wm_and(wf_lt(sample.exponent, wf_set(view->exponent_end)),
+                             wf_lt(wf_add(u2, v2), wf_set(4 * view->cutoff2)));
+    sample.counts = wm_and(inside, wf_lt(wf_set(0), z));
+    sample.z = wf_min(wf_max(z, wf_set(r->depth_low)), wf_set(r->depth_high));
+    return sample;
+}
+
+static void near_visibility(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *records,
+                            uint32_t count) {
+    for (uint32_t i = 0; i < count; i++) {
+        float *nearest = tile->nearest;
+        for (uint32_t row = 0; row < tile->block_rows; row++) {
+            const wf y = wf_add(lanes_y(), wf_set((float)(EWA_BLOCK_PX * row)));
+            for (uint32_t column = 0; column < tile->blocks_per_row; column++, nearest += EWA_BLOCK_LANES) {
+                const wf x = wf_add(lanes_x(), wf_set((float)(EWA_BLOCK_PX * column)));
+                const near_sample sample = near_evaluate(view, &records[i], x, y);
+                const wf old = wf_load(nearest), low = wf_add(sample.z, wf_set(records[i].tolerance));
+                wf_store(nearest, wf_select(sample.counts, wf_min(low, old), old));
+            }
+        }
+    }
+}
+
+static void near_accumulate(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *records,
+                            uint32_t count) {
+    for (uint32_t i = 0; i < count; i++) {
+        const ewa_near_record *r = &records[i];
+        const float *bounds = tile->nearest;
+        float *sums = tile->sums;
+        payload p;
+        for (int k = 0; k < 3; k++) p.color[k] = wf_set(r->color[k]), p.normal[k] = wf_set(r->normal[k]);
+        for (uint32_t row = 0; row < tile->block_rows; row++) {
+            const wf y = wf_add(lanes_y(), wf_set((float)(EWA_BLOCK_PX * row)));
+            for (uint32_t column = 0; column < tile->blocks_per_row; column++, bounds += EWA_BLOCK_LANES) {
+                const wf x = wf_add(lanes_x(), wf_set((float)(EWA_BLOCK_PX * column)));
+                const near_sample sample = near_evaluate(view, r, x, y);
+                const wf key = wf_div(wf_set(1), sample.z);
+                const wm counts = wm_and(sample.counts, wf_le(wf_load(bounds), key));
+                if (wm_bits(counts)) {
+                    // Lanes that do not count may hold an exponent out of range: clear it before the
+                    // polynomial.
+                    const wf e = exponential(wf_keep(counts, sample.exponent), view->doublings);
+                    add_channels(sums, wf_keep(counts, wf_mul(e, sample.weight)), &p,
+                                 wf_select(counts, key, wf_set(1)), tile->with_normals, tile->with_depth,
+                                 false);
+                }
+                sums += tile->channel_count * EWA_BLOCK_LANES;
+            }
+        }
+    }
+}
+
+#endif

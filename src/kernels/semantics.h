@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The numbers and rules that the reference and every fast road share, where math.md leaves them open.
+//
+// A surfel has centre p, orthogonal kernel axes tu, tv of length sigma (after radius_scale), unit normal n,
+// all in camera space (p = A w + t; axes and normal by A). Sigma = tu'tu + tv'tv, R = F sqrt(Sigma33) the
+// depth half range of its disc, F the cutoff.
+//
+// Dropped before anything else: perspective, pz + R <= 0 (wholly behind the eye plane); orthographic, pz <=
+// 0; with EWA_CULL_BACK, n.p >= 0 (orthographic: nz >= 0). Without culling, n is turned towards the viewer
+// per surfel: where n.p > 0 (orthographic nz > 0) it is negated.
+//
+// Near surfels (perspective, pz <= EWA_NEAR_RATIO * R) touch or nearly touch the eye plane: their conic is no
+// safe ellipse. They are drawn by pixel rays (raycast of math.md section 9), whatever the kernel mode:
+//   ray d = ((x - cx)/fx, (y - cy)/fy, 1), z = n.p / n.d, q = z d - p, u = (q.tu / tu.tu, q.tv / tv.tv);
+//   a = du/dx, b = du/dy per pixel (exact derivatives); W = I + h^2 (a'a + b'b); r^2 = u W^-1 u';
+//   weight = exp(-r^2 / 2) / (2 pi sqrt|W|); the pixel counts where z > 0, r^2 < F^2 and u.u < 4 F^2 (the
+//   linearised prefilter is not trusted farther from the disc than that). A surfel with |n.p| < EWA_EDGE_ON
+//   |p| is then dropped.
+//
+// All others: ellipse with variance V' = V + h^2 I around its centre, pixel counts where r^2 < F^2,
+// weight = sqrt(|V| / |V'|) exp(-r^2 / 2) / (2 pi) (math.md section 4); V by the perspective or the affine
+// kernel.
+//
+// Without a prefilter a splat with |V'| < EWA_FLAT V'11 V'22 is a line: it covers no pixel.
+//
+// Depth (both): 1/z(x) = 1/pz + n.(d(x) - p/pz) / n.p with |n.p| raised to EWA_EDGE_ON |p| where smaller
+// (sign kept,
+// + for 0), z clamped to [pz - R, pz + R] (orthographic: z(x) = pz - ((x - px) nx/fx + (y - py) ny/fy) / nz
+// with |nz| raised to EWA_EDGE_ON likewise). Tolerance: eps = kappa F s + min(F h g, EWA_GRAZING_TOLERANCE F
+// s), s the longer axis, g what z changes per pixel at the centre: |grad(1/z)| pz^2 (orthographic: |grad z|).
+//
+// Three passes: B(x) = min (z + eps) over the surfels that count at x, then those with z <= B(x) are summed.
+// One pass: the surfel of smallest z wins, with weight 1 and full coverage.
+// Resolve: q = sum of weights; nothing where q = 0. Colour, depth: weighted means. Normal: weighted sum,
+// normalised. Coverage AOV: q / q0. alpha = min(1, q / (tau q0)) with edge antialiasing, else 1. Lambert:
+// colour * (ambient + (1 - ambient) max(0, N.L)); headlight: L from the surface point to the eye along the
+// pixel's ray (orthographic: against the view direction).
+// Over the background (straight alpha bg): rgb = colour alpha + bg_rgb bg_a (1 - alpha), a = alpha + bg_a (1
+// - alpha). rgba8: divided by its alpha (black when 0), sRGB curve, rounded to nearest.
+#ifndef EWA_SRC_KERNELS_SEMANTICS_H
+#define EWA_SRC_KERNELS_SEMANTICS_H
+
+/// Closer than this many depth half ranges to the eye plane, a surfel is drawn by pixel rays. The exact bound
+/// of math.md section 3 is 1; the margin keeps D33 away from zero in single precision.
+#define EWA_NEAR_RATIO 1.05
+
+/// Sine of the smallest angle between a viewing ray and a surfel's plane that its depth plane is computed
+/// with.
+#define EWA_EDGE_ON 1e-5
+
+/// Largest share of the tolerance that comes from the prefilter's reach, in support radii (math.md section
+/// 6).
+#define EWA_GRAZING_TOLERANCE 8.0
+
+/// Smallest |V'| / (V'11 V'22) that counts as an area.
+#define EWA_FLAT           1e-14
+
+#define EWA_INVERSE_TWO_PI 0.15915494309189535
+
+/// Linear colour of surfels that have none.
+#define EWA_DEFAULT_GREY 0.6
+
+#endif

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Which packets each tile has to look at: count per contiguous part of the packets, prefix sums over parts,
+// fill. Parts come in order, so a tile's packets stay in order however many parts there are.
+#include "splat/bin.h"
+
+typedef struct bin_job {
+    ewa_bins *bins;
+    const ewa_road_kernels *kernels;
+    const ewa_view *view;
+    const ewa_surfels *surfels;
+    ewa_tile_rect *rects;
+    uint64_t *counts; // [part][tile]: first the number of entries, then where the next one goes
+    uint64_t *culled; // [part]
+    uint32_t parts, tiles;
+} bin_job;
+
+/// First packet of a part: parts begin at full vectors of packets.
+static uint32_t part_first(const bin_job *job, uint32_t part) {
+    const uint64_t vectors = job->surfels->bounds_stride / EWA_PACKET_LANES;
+    const uint64_t first = ewa_split(vectors, job->parts, part) * EWA_PACKET_LANES;
+    return first < job->surfels->packet_count ? (uint32_t)first : job->surfels->packet_count;
+}
+
+static void count_part(void *data, uint32_t part, uint32_t worker) {
+    (void)worker;
+    const bin_job *job = data;
+    uint64_t *counts = job->counts + (size_t)part * job->tiles;
+    for (uint32_t tile = 0; tile < job->tiles; tile++) counts[tile] = 0;
+    const uint32_t first = part_first(job, part), end = part_first(job, part + 1);
+    job->culled[part] = job->kernels->cull(job->view, &job->surfels->bounds, first, end - first, job->rects);
+    for (uint32_t p = first; p < end; p++) {
+        const ewa_tile_rect r = job->rects[p];
+        for (uint32_t y = r.y0; y < r.y1; y++)
+            for (uint32_t x = r.x0; x < r.x1; x++) counts[y * job->bins->tiles_x + x]++;
+    }
+}
+
+static void fill_part(void *data, uint32_t part, uint32_t worker) {
+    (void)worker;
+    const bin_job *job = data;
+    uint64_t *next = job->counts + (size_t)part * job->tiles;
+    uint32_t *entries = job->bins->entries;
+    const uint32_t end = part_first(job, part + 1);
+    for (uint32_t p = part_first(job, part); p < end; p++) {
+        const ewa_tile_rect r = job->rects[p];
+        for (uint32_t y = r.y0; y < r.y1; y++)
+            for (uint32_t x = r.x0; x < r.x1; x++) entries[next[y * job->bins->tiles_x + x]++] = p;
+    }
+}
+
+/// Turns counts into first places, tile by tile and part by part; returns the number of entries.
+static uint64_t place(const bin_job *job) {
+    ewa_bins *bins = job->bins;
+    uint64_t sum = 0;
+    bins->largest_bin = 0;
+    for (uint32_t tile = 0; tile < job->tiles; tile++) {
+        bins->tile_first[tile] = sum;
+        for (uint32_t part = 0; part < job->parts; part++) {
+            uint64_t *count = &job->counts[(size_t)part * job->tiles + tile];
+            const uint64_t here = *count;
+            *count = sum;
+            sum += here;
+        }
+        const uint64_t size = sum - bins->tile_first[tile];
+        if (size > bins->largest_bin) bins->largest_bin = size;
+    }
+    bins->tile_first[job->tiles] = sum;
+    return sum;
+}
+
+ewa_status ewa_bins_fill(ewa_context *context, ewa_bins *bins, const ewa_road_kernels *kernels,
+                         const ewa_view *view, const ewa_surfels *surfels) {
+    bins->tiles_x = (view->width_px + view->tile_px - 1) / view->tile_px;
+    bins->tiles_y = (view->height_px + view->tile_px - 1) / view->tile_px;
+    bin_job job = {.bins = bins,
+                   .kernels = kernels,
+                   .view = view,
+                   .surfels = surfels,
+                   .tiles = bins->tiles_x * bins->tiles_y,
+                   .parts = ewa_context_worker_count(context)};
+    const size_t count_numbers = (size_t)job.parts * job.tiles + job.parts;
+    ewa_status status = ewa_buffer_reserve(context, &bins->rects, surfels->packet_count, sizeof *job.rects);
+    if (status == EWA_OK)
+        status = ewa_buffer_reserve(context, &bins->counts, count_numbers, sizeof *job.counts);
+    if (status == EWA_OK)
+        status =
+            ewa_buffer_reserve(context, &bins->tile_first_buffer, (size_t)job.tiles + 1, sizeof(uint64_t));
+    if (status != EWA_OK) return status;
+    job.rects = bins->rects.data;
+    job.counts = bins->counts.data;
+    job.culled = job.counts + (size_t)job.parts * job.tiles;
+    bins->tile_first = bins->tile_first_buffer.data;
+    ewa_parallel(context, count_part, &job, job.parts);
+    const uint64_t entry_count = place(&job);
+    status = ewa_buffer_reserve(context, &bins->entries_buffer, entry_count, sizeof *bins->entries);
+    if (status != EWA_OK) return status;
+    bins->entries = bins->entries_buffer.data;
+    ewa_parallel(context, fill_part, &job, job.parts);
+    bins->culled_packet_count = 0;
+    for (uint32_t part = 0; part < job.parts; part++) bins->culled_packet_count += job.culled[part];
+    return EWA_OK;
+}
+
+void ewa_bins_free(ewa_context *context, ewa_bins *bins) {
+    ewa_buffer_free(context, &bins->rects);
+    ewa_buffer_free(context, &bins->counts);
+    ewa_buffer_free(context, &bins->tile_first_buffer);
+    ewa_buffer_free(context, &bins->entries_buffer);
+}

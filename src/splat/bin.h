@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Which packets each tile has to look at.
+#ifndef EWA_SRC_SPLAT_BIN_H
+#define EWA_SRC_SPLAT_BIN_H
+
+#include "base/base.h"
+#include "kernels/road.h"
+#include "splat/packets.h"
+
+/// Bins of a frame; its memory survives from frame to frame. Zero-initialise.
+typedef struct ewa_bins {
+    uint32_t tiles_x, tiles_y;
+    uint64_t
+        *tile_first;   ///< [tile + 1]: a tile's packets are entries[tile_first[tile] .. tile_first[tile + 1])
+    uint32_t *entries; ///< packet numbers, ascending within a tile
+    uint64_t largest_bin; ///< entries of the fullest tile
+    uint64_t culled_packet_count;
+    ewa_buffer tile_first_buffer, entries_buffer, rects, counts;
+} ewa_bins;
+
+/// Fills the bins in parallel; the result does not depend on the number of workers.
+ewa_status ewa_bins_fill(ewa_context *context, ewa_bins *bins, const ewa_road_kernels *kernels,
+                         const ewa_view *view, const ewa_surfels *surfels);
+void ewa_bins_free(ewa_context *context, ewa_bins *bins);
+
+#endif

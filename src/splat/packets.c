@@ -1,0 +1,381 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// From a cloud to packets: Morton order, sixteen surfels at a time, encoded as src/kernels/packet.h says.
+//
+// Octahedral normals: Meyer et al., "On Floating-Point Normal Vectors", 2010. Tangent frame: Duff et al.,
+// "Building an Orthonormal Basis, Revisited", 2017.
+#include "splat/packets.h"
+#include "base/base.h"
+#include "cloud/morton.h"
+#include "splat/options.h"
+#include "splat/surfel.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LANES = EWA_PACKET_LANES, READ_BLOCK = 256, MAX_PARTS = 64, BOUNDS_STREAMS = 8 };
+
+/// What one part of the cloud contributes to the facts about the whole.
+typedef struct part_facts {
+    uint64_t drawable_count;
+    double low[3], high[3];
+    double color_low[3], color_high[3];
+    bool ellipses;
+} part_facts;
+
+typedef struct build {
+    ewa_surfel_reader reader;
+    uint64_t point_count;
+    uint32_t parts;
+    uint8_t *drawable; // per point
+    part_facts facts[MAX_PARTS];
+    uint32_t *order; // drawable points in packet order
+    ewa_surfels *surfels;
+} build;
+
+static void survey_part(void *data, uint32_t part, uint32_t worker) {
+    (void)worker;
+    build *b = data;
+    part_facts facts = {.low = {INFINITY, INFINITY, INFINITY},
+                        .high = {-INFINITY, -INFINITY, -INFINITY},
+                        .color_low = {INFINITY, INFINITY, INFINITY},
+                        .color_high = {-INFINITY, -INFINITY, -INFINITY}};
+    ewa_surfel surfels[READ_BLOCK];
+    bool drawable[READ_BLOCK];
+    const uint64_t end = ewa_split(b->point_count, b->parts, part + 1);
+    for (uint64_t first = ewa_split(b->point_count, b->parts, part); first < end; first += READ_BLOCK) {
+        const uint64_t count = end - first < READ_BLOCK ? end - first : READ_BLOCK;
+        facts.drawable_count += ewa_surfel_read(&b->reader, first, count, surfels, drawable);
+        for (uint64_t i = 0; i < count; i++) {
+            b->drawable[first + i] = drawable[i];
+            if (!drawable[i]) continue;
+            const ewa_surfel *s = &surfels[i];
+            double u2 = 0, v2 = 0;
+            for (int c = 0; c < 3; c++) {
+                facts.low[c] = fmin(facts.low[c], s->center_world[c]);
+                facts.high[c] = fmax(facts.high[c], s->center_world[c]);
+                facts.color_low[c] = fmin(facts.color_low[c], s->color_linear[c]);
+                facts.color_high[c] = fmax(facts.color_high[c], s->color_linear[c]);
+                u2 += s->axis_u_world[c] * s->axis_u_world[c];
+                v2 += s->axis_v_world[c] * s->axis_v_world[c];
+            }
+            facts.ellipses |= v2 < u2 * (1 - 1e-5);
+        }
+    }
+    b->facts[part] = facts;
+}
+
+/// Joins the parts' facts and fixes local origin and colour range.
+static void settle(build *b) {
+    ewa_surfels *s = b->surfels;
+    part_facts all = b->facts[0];
+    for (uint32_t part = 1; part < b->parts; part++) {
+        const part_facts *f = &b->facts[part];
+        all.drawable_count += f->drawable_count;
+        all.ellipses |= f->ellipses;
+        for (int c = 0; c < 3; c++) {
+            all.low[c] = fmin(all.low[c], f->low[c]);
+            all.high[c] = fmax(all.high[c], f->high[c]);
+            all.color_low[c] = fmin(all.color_low[c], f->color_low[c]);
+            all.color_high[c] = fmax(all.color_high[c], f->color_high[c]);
+        }
+    }
+    s->count = (uint32_t)all.drawable_count;
+    s->left_out_count = b->point_count - all.drawable_count;
+    s->ellipses = all.ellipses;
+    s->extent.finite_count = all.drawable_count;
+    for (int c = 0; c < 3; c++) {
+        s->extent.low_world[c] = all.low[c];
+        s->extent.high_world[c] = all.high[c];
+        s->origin_world[c] = s->count ? 0.5 * all.low[c] + 0.5 * all.high[c] : 0;
+        // Colours of [0, 1] share one code, so that equal colours of two clouds stay equal.
+        const double low = s->count ? fmin(all.color_low[c], 0) : 0,
+                     high = s->count ? fmax(all.color_high[c], 1) : 1;
+        s->color_offset[c] = (float)low;
+        s->color_scale[c] = (float)((high - low) / 65535);
+    }
+}
+
+/// Signs, frame and decoded normal of an octahedral code.
+static void oct_decode(int16_t code_x, int16_t code_y, double n[3]) {
+    const double u = code_x / 32767.0, v = code_y / 32767.0;
+    n[2] = 1 - fabs(u) - fabs(v);
+    const double fold = fmax(-n[2], 0);
+    n[0] = u - (u < 0 ? -fold : fold);
+    n[1] = v - (v < 0 ? -fold : fold);
+    const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (int c = 0; c < 3; c++) n[c] /= length;
+}
+
+static void oct_encode(const double n[3], int16_t *code_x, int16_t *code_y) {
+    const double sum = fabs(n[0]) + fabs(n[1]) + fabs(n[2]);
+    double u = n[0] / sum, v = n[1] / sum;
+    if (n[2] < 0) {
+        const double folded = (1 - fabs(v)) * (u < 0 ? -1 : 1);
+        v = (1 - fabs(u)) * (v < 0 ? -1 : 1);
+        u = folded;
+    }
+    *code_x = (int16_t)floor(u * 32767 + 0.5);
+    *code_y = (int16_t)floor(v * 32767 + 0.5);
+}
+
+/// Two unit vectors that complete n to a right-handed frame.
+static void packet_frame(const double n[3], double first[3], double second[3]) {
+    const double sign = n[2] < 0 ? -1 : 1, a = -1 / (sign + n[2]), b = n[0] * n[1] * a;
+    first[0] = 1 + sign * n[0] * n[0] * a, first[1] = sign * b, first[2] = -sign * n[0];
+    second[0] = b, second[1] = sign + n[1] * n[1] * a, second[2] = -n[1];
+}
+
+static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+static uint16_t encode_unit(double value, double codes) {
+    return (uint16_t)floor(fmin(fmax(value, 0), 1) * codes + 0.5);
+}
+
+static void encode_surfel(const ewa_surfels *surfels, const ewa_surfel *s, ewa_packet *packet,
+                          uint32_t lane) {
+    packet->x[lane] = (float)(s->center_world[0] - surfels->origin_world[0]);
+    packet->y[lane] = (float)(s->center_world[1] - surfels->origin_world[1]);
+    packet->z[lane] = (float)(s->center_world[2] - surfels->origin_world[2]);
+    const double major = sqrt(dot(s->axis_u_world, s->axis_u_world));
+    const double minor = sqrt(dot(s->axis_v_world, s->axis_v_world));
+    packet->sigma[lane] = (float)major;
+    packet->ratio[lane] = encode_unit(minor / major, 65535);
+    oct_encode(s->normal_world, &packet->oct_x[lane], &packet->oct_y[lane]);
+    double n[3], first[3], second[3];
+    oct_decode(packet->oct_x[lane], packet->oct_y[lane], n);
+    packet_frame(n, first, second);
+    double c = dot(s->axis_u_world, first), t = dot(s->axis_u_world, second);
+    if (t < 0) c = -c, t = -t; // the axis has no sign
+    // Diamond angle in [0, 2): 1 - c / (|c| + t).
+    const double sum = fabs(c) + t;
+    packet->angle[lane] = (uint16_t)((uint32_t)floor((sum > 0 ? 1 - c / sum : 0) * 32768 + 0.5) & 0xffff);
+    uint16_t *const channels[3] = {packet->red, packet->green, packet->blue};
+    for (int k = 0; k < 3; k++) {
+        const double value = (s->color_linear[k] - surfels->color_offset[k]) / surfels->color_scale[k];
+        channels[k][lane] = (uint16_t)floor(fmin(fmax(value, 0), 65535) + 0.5);
+    }
+}
+
+void ewa_packet_decode(const ewa_surfels *surfels, const ewa_packet *packet, uint32_t lane,
+                       ewa_packet_surfel *surfel) {
+    surfel->center[0] = packet->x[lane];
+    surfel->center[1] = packet->y[lane];
+    surfel->center[2] = packet->z[lane];
+    oct_decode(packet->oct_x[lane], packet->oct_y[lane], surfel->normal);
+    double first[3], second[3];
+    packet_frame(surfel->normal, first, second);
+    double c = 1 - packet->angle[lane] / 32768.0, t = 1 - fabs(c);
+    const double length = sqrt(c * c + t * t);
+    c /= length, t /= length;
+    const double major = packet->sigma[lane], minor = major * packet->ratio[lane] / 65535.0;
+    for (int k = 0; k < 3; k++) surfel->axis_u[k] = major * (c * first[k] + t * second[k]);
+    const double *n = surfel->normal, *u = surfel->axis_u;
+    const double shrink = minor / major;
+    surfel->axis_v[0] = shrink * (n[1] * u[2] - n[2] * u[1]);
+    surfel->axis_v[1] = shrink * (n[2] * u[0] - n[0] * u[2]);
+    surfel->axis_v[2] = shrink * (n[0] * u[1] - n[1] * u[0]);
+    const uint16_t codes[3] = {packet->red[lane], packet->green[lane], packet->blue[lane]};
+    for (int k = 0; k < 3; k++)
+        surfel->color[k] = codes[k] * surfels->color_scale[k] + surfels->color_offset[k];
+}
+
+/// Sphere around the supports and cone around the normals of the first `count` lanes.
+static void bound_packet(ewa_surfels *surfels, uint32_t index, uint32_t count) {
+    const ewa_packet *packet = &surfels->packets[index];
+    ewa_packet_surfel lanes[LANES];
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY},
+           axis[3] = {0, 0, 0};
+    for (uint32_t i = 0; i < count; i++) {
+        ewa_packet_decode(surfels, packet, i, &lanes[i]);
+        for (int c = 0; c < 3; c++) {
+            low[c] = fmin(low[c], lanes[i].center[c]);
+            high[c] = fmax(high[c], lanes[i].center[c]);
+            axis[c] += lanes[i].normal[c];
+        }
+    }
+    const double center[3] = {(float)(0.5 * (low[0] + high[0])), (float)(0.5 * (low[1] + high[1])),
+                              (float)(0.5 * (low[2] + high[2]))};
+    const double length = sqrt(dot(axis, axis));
+    for (int c = 0; c < 3; c++) axis[c] = length > 0 ? axis[c] / length : c == 2;
+    double radius = 0, cosine = length > 0 ? 1 : -1;
+    for (uint32_t i = 0; i < count; i++) {
+        const double d[3] = {lanes[i].center[0] - center[0], lanes[i].center[1] - center[1],
+                             lanes[i].center[2] - center[2]};
+        radius = fmax(radius, sqrt(dot(d, d)) + surfels->cutoff * packet->sigma[i]);
+        cosine = fmin(cosine, dot(lanes[i].normal, axis));
+    }
+    enum { ULPS = 16 }; // single precision of centre, radius and axis, rounded to the safe side
+    const double slack = ULPS * 0x1p-24;
+    radius = radius * (1 + slack) + slack * (fabs(center[0]) + fabs(center[1]) + fabs(center[2]));
+    const ewa_packet_bounds *b = &surfels->bounds;
+    b->center_x[index] = (float)center[0], b->center_y[index] = (float)center[1],
+    b->center_z[index] = (float)center[2];
+    b->radius[index] = (float)radius;
+    b->axis_x[index] = (float)axis[0], b->axis_y[index] = (float)axis[1], b->axis_z[index] = (float)axis[2];
+    b->cone_sine[index] = cosine <= 0 ? 2.0f : (float)(sqrt(fmax(1 - cosine * cosine, 0)) + slack);
+}
+
+static void encode_part(void *data, uint32_t part, uint32_t worker) {
+    (void)worker;
+    build *b = data;
+    ewa_surfels *surfels = b->surfels;
+    const uint64_t end = ewa_split(surfels->packet_count, b->parts, part + 1);
+    for (uint64_t p = ewa_split(surfels->packet_count, b->parts, part); p < end; p++) {
+        ewa_packet *packet = &surfels->packets[p];
+        memset(packet, 0, sizeof *packet);
+        const uint64_t first = p * LANES;
+        const uint32_t count = surfels->count - first < LANES ? (uint32_t)(surfels->count - first) : LANES;
+        for (uint32_t lane = 0; lane < count; lane++) {
+            ewa_surfel surfel;
+            bool drawable;
+            ewa_surfel_read(&b->reader, b->order[first + lane], 1, &surfel, &drawable);
+            encode_surfel(surfels, &surfel, packet, lane);
+        }
+        bound_packet(surfels, (uint32_t)p, count);
+    }
+}
+
+/// A surfel with its point, for ordering what the Morton curve leaves in the order of the input.
+typedef struct tied_surfel {
+    ewa_surfel surfel;
+    uint32_t point;
+} tied_surfel;
+
+static int compare_tied(const void *a, const void *b) {
+    const tied_surfel *s = a, *t = b;
+    const double *x = &s->surfel.center_world[0], *y = &t->surfel.center_world[0];
+    for (size_t i = 0; i < sizeof(ewa_surfel) / sizeof(double); i++)
+        if (x[i] != y[i]) return x[i] < y[i] ? -1 : 1;
+    return s->point < t->point ? -1 : s->point > t->point;
+}
+
+/// Orders runs of points that the curve does not tell apart by everything that is drawn of them.
+static ewa_status order_ties(build *b, ewa_context *context, const uint16_t *split_level, uint32_t count) {
+    for (uint32_t first = 0, end; first < count; first = end) {
+        end = first + 1;
+        while (end < count && split_level[end] == EWA_MORTON_SAME) end++;
+        if (end - first < 2) continue;
+        tied_surfel *tied = ewa_allocate_zeroed(context, end - first, sizeof *tied);
+        if (!tied) return EWA_ERROR_MEMORY;
+        for (uint32_t i = first; i < end; i++) {
+            tied_surfel *t = &tied[i - first];
+            bool drawable;
+            ewa_surfel_read(&b->reader, b->order[i], 1, &t->surfel, &drawable);
+            if (!drawable) memset(&t->surfel, 0, sizeof t->surfel);
+            t->point = b->order[i];
+        }
+        qsort(tied, end - first, sizeof *tied, compare_tied);
+        for (uint32_t i = first; i < end; i++) b->order[i] = tied[i - first].point;
+        ewa_release(context, tied, end - first, sizeof *tied);
+    }
+    return EWA_OK;
+}
+
+/// Fills b->order with the drawable points in packet order.
+static ewa_status order_points(build *b, ewa_context *context) {
+    const uint32_t count = (uint32_t)b->point_count;
+    uint16_t *split_level = ewa_allocate(context, count, sizeof *split_level);
+    if (!split_level) return EWA_ERROR_MEMORY;
+    ewa_status status = ewa_morton_order(context, b->reader.position, count, b->order, split_level, NULL);
+    if (status == EWA_OK) status = order_ties(b, context, split_level, count);
+    if (status == EWA_OK && b->surfels->left_out_count) {
+        uint32_t kept = 0;
+        for (uint32_t i = 0; i < count; i++)
+            if (b->drawable[b->order[i]]) b->order[kept++] = b->order[i];
+    }
+    ewa_release(context, split_level, count, sizeof *split_level);
+    return status;
+}
+
+static ewa_status allocate_packets(ewa_surfels *surfels) {
+    ewa_context *context = surfels->context;
+    surfels->packet_count = (uint32_t)(((uint64_t)surfels->count + LANES - 1) / LANES);
+    surfels->bounds_stride = ((size_t)surfels->packet_count + LANES - 1) / LANES * LANES;
+    surfels->packets = ewa_allocate(context, surfels->packet_count, sizeof *surfels->packets);
+    surfels->bounds_floats =
+        ewa_allocate_zeroed(context, BOUNDS_STREAMS * surfels->bounds_stride, sizeof *surfels->bounds_floats);
+    if (!surfels->packets || !surfels->bounds_floats) return EWA_ERROR_MEMORY;
+    float **const streams[BOUNDS_STREAMS] = {&surfels->bounds.center_x, &surfels->bounds.center_y,
+                                             &surfels->bounds.center_z, &surfels->bounds.radius,
+                                             &surfels->bounds.axis_x,   &surfels->bounds.axis_y,
+                                             &surfels->bounds.axis_z,   &surfels->bounds.cone_sine};
+    for (int i = 0; i < BOUNDS_STREAMS; i++)
+        *streams[i] = surfels->bounds_floats + i * surfels->bounds_stride;
+    return EWA_OK;
+}
+
+static ewa_status build_surfels(build *b, ewa_context *context) {
+    b->drawable = ewa_allocate(context, b->point_count, sizeof *b->drawable);
+    b->order = ewa_allocate(context, b->point_count, sizeof *b->order);
+    if (!b->drawable || !b->order) return EWA_ERROR_MEMORY;
+    ewa_parallel(context, survey_part, b, b->parts);
+    settle(b);
+    ewa_status status = order_points(b, context);
+    if (status != EWA_OK) return status;
+    status = allocate_packets(b->surfels);
+    if (status != EWA_OK) return status;
+    ewa_parallel(context, encode_part, b, b->parts);
+    b->surfels->unit_coverage = ewa_packets_unit_coverage(b->surfels);
+    return EWA_OK;
+}
+
+ewa_status ewa_surfels_create(const ewa_cloud *cloud, const ewa_surfels_options *options,
+                              ewa_surfels **surfels) {
+    if (!surfels) return EWA_ERROR_ARGUMENT;
+    *surfels = NULL;
+    if (!cloud) return EWA_ERROR_ARGUMENT;
+    ewa_context *context = ewa_cloud_context(cloud);
+    ewa_surfels_options chosen;
+    ewa_status status = ewa_surfels_options_choose(context, options, &chosen);
+    if (status != EWA_OK) return status;
+    build *b = ewa_allocate_zeroed(context, 1, sizeof *b);
+    ewa_surfels *made = ewa_allocate_zeroed(context, 1, sizeof *made);
+    if (!b || !made) {
+        ewa_release(context, b, 1, sizeof *b);
+        ewa_release(context, made, 1, sizeof *made);
+        return EWA_ERROR_MEMORY;
+    }
+    made->context = context;
+    made->cutoff = chosen.cutoff;
+    b->surfels = made;
+    b->point_count = ewa_cloud_point_count(cloud);
+    b->parts =
+        b->point_count / READ_BLOCK + 1 < MAX_PARTS ? (uint32_t)(b->point_count / READ_BLOCK + 1) : MAX_PARTS;
+    status = ewa_surfel_reader_open(cloud, &chosen, &b->reader);
+    if (status == EWA_OK && b->point_count > UINT32_MAX - LANES)
+        status = ewa_fail(context, EWA_ERROR_LIMIT, "%llu points are more than a renderer holds",
+                          (unsigned long long)b->point_count);
+    if (status == EWA_OK) status = build_surfels(b, context);
+    ewa_release(context, b->drawable, b->point_count, sizeof *b->drawable);
+    ewa_release(context, b->order, b->point_count, sizeof *b->order);
+    ewa_release(context, b, 1, sizeof *b);
+    if (status == EWA_OK)
+        *surfels = made;
+    else
+        ewa_surfels_destroy(&made);
+    return status;
+}
+
+void ewa_surfels_destroy(ewa_surfels **surfels) {
+    if (!surfels || !*surfels) return;
+    ewa_surfels *old = *surfels;
+    ewa_context *context = old->context;
+    ewa_release(context, old->packets, old->packet_count, sizeof *old->packets);
+    ewa_release(context, old->bounds_floats, BOUNDS_STREAMS * old->bounds_stride, sizeof *old->bounds_floats);
+    ewa_release(context, old, 1, sizeof *old);
+    *surfels = NULL;
+}
+
+void ewa_surfels_describe(const ewa_surfels *surfels, ewa_surfels_info *info) {
+    *info = (ewa_surfels_info){
+        .point_count = surfels->count,
+        .left_out_count = surfels->left_out_count,
+        .resident_bytes = sizeof *surfels + surfels->packet_count * sizeof *surfels->packets +
+                          BOUNDS_STREAMS * surfels->bounds_stride * sizeof *surfels->bounds_floats,
+        .unit_coverage = surfels->unit_coverage,
+        .bounds = surfels->extent,
+    };
+}

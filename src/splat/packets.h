@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The resident form of a cloud, and one surfel of it back in double precision.
+#ifndef EWA_SRC_SPLAT_PACKETS_H
+#define EWA_SRC_SPLAT_PACKETS_H
+
+#include "ewa/render.h"
+#include "kernels/packet.h"
+
+struct ewa_surfels {
+    ewa_context *context;
+    uint32_t count, packet_count;
+    uint64_t left_out_count;
+    ewa_packet *packets;
+    ewa_packet_bounds bounds; ///< views into `bounds_floats`
+    float *bounds_floats;
+    size_t bounds_stride;   ///< packet_count rounded up to a full vector
+    double origin_world[3]; ///< of the packets' positions
+    float color_scale[3], color_offset[3];
+    double cutoff;
+    bool ellipses; ///< some kernel is not a circle
+    double unit_coverage;
+    ewa_bounds extent;
+};
+
+/// One surfel of a packet, local space, axes of length sigma.
+typedef struct ewa_packet_surfel {
+    double center[3], axis_u[3], axis_v[3], normal[3], color[3];
+} ewa_packet_surfel;
+
+/// Decodes lane `lane` of a packet, as the kernels do but in double precision.
+void ewa_packet_decode(const ewa_surfels *surfels, const ewa_packet *packet, uint32_t lane,
+                       ewa_packet_surfel *surfel);
+
+/// Estimates q0 (math.md section 7): the median over a sample of surfels of sigma_u sigma_v density
+/// (1 - exp(-F^2 / 2)), each surfel counting at least itself within its own support.
+double ewa_packets_unit_coverage(const ewa_surfels *surfels);
+
+#endif

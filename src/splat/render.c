@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The renderer: an object whose memory survives, and the order of a frame's stages. Reference: reference.c.
+#include "base/base.h"
+#include "splat/options.h"
+#include "splat/tile.h"
+
+#include <string.h>
+
+enum { TILE_PX = 64 };
+
+struct ewa_renderer {
+    ewa_context *context;
+    const ewa_road_kernels *kernels;
+    ewa_bins bins;
+    uint32_t worker_count;
+    ewa_tile_scratch *scratch[]; ///< one per worker
+};
+
+static size_t renderer_bytes(uint32_t worker_count) {
+    return sizeof(ewa_renderer) + worker_count * sizeof(ewa_tile_scratch *);
+}
+
+ewa_status ewa_renderer_create(ewa_context *context, ewa_renderer **renderer) {
+    if (!context || !renderer) return EWA_ERROR_ARGUMENT;
+    *renderer = NULL;
+    const uint32_t worker_count = ewa_context_worker_count(context);
+    ewa_renderer *made = ewa_allocate_zeroed(context, 1, renderer_bytes(worker_count));
+    if (!made) return EWA_ERROR_MEMORY;
+    made->context = context;
+    made->kernels = ewa_road_kernels_choose(ewa_context_cpu_features(context));
+    made->worker_count = worker_count;
+    for (uint32_t i = 0; i < worker_count; i++) {
+        made->scratch[i] = ewa_allocate_zeroed(context, 1, sizeof *made->scratch[i]);
+        if (!made->scratch[i]) {
+            ewa_renderer_destroy(&made);
+            return EWA_ERROR_MEMORY;
+        }
+    }
+    *renderer = made;
+    return EWA_OK;
+}
+
+void ewa_renderer_destroy(ewa_renderer **renderer) {
+    if (!renderer || !*renderer) return;
+    ewa_renderer *old = *renderer;
+    ewa_context *context = old->context;
+    for (uint32_t i = 0; i < old->worker_count; i++) {
+        if (old->scratch[i]) ewa_tile_scratch_free(context, old->scratch[i]);
+        ewa_release(context, old->scratch[i], 1, sizeof *old->scratch[i]);
+    }
+    ewa_bins_free(context, &old->bins);
+    ewa_release(context, old, 1, renderer_bytes(old->worker_count));
+    *renderer = NULL;
+}
+
+static void gather_stats(const ewa_renderer *renderer, const ewa_surfels *surfels, double start_s,
+                         double binned_s, ewa_render_stats *stats) {
+    const uint64_t culled = renderer->bins.culled_packet_count * EWA_PACKET_LANES;
+    *stats = (ewa_render_stats){.splat_count = surfels->count,
+                                .culled_count = culled < surfels->count ? culled : surfels->count,
+                                .bin_s = (binned_s - start_s) * renderer->worker_count};
+    for (uint32_t i = 0; i < renderer->worker_count; i++) {
+        const ewa_tile_scratch *s = renderer->scratch[i];
+        stats->drawn_count += s->drawn_count;
+        stats->fragment_count += s->fragment_count;
+        stats->setup_s += s->setup_s;
+        stats->visibility_s += s->visibility_s;
+        stats->accumulate_s += s->accumulate_s;
+        stats->resolve_s += s->resolve_s;
+    }
+    stats->total_s = ewa_now_s() - start_s;
+}
+
+ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const ewa_camera *camera,
+                      const ewa_render_options *options, const ewa_frame *frame, ewa_render_stats *stats) {
+    if (!renderer || !surfels || !camera || !frame) return EWA_ERROR_ARGUMENT;
+    ewa_context *context = renderer->context;
+    const double start_s = ewa_now_s();
+    ewa_render_options chosen;
+    ewa_status status = ewa_render_options_choose(context, options, &chosen);
+    if (status == EWA_OK) status = ewa_camera_check(context, camera);
+    if (status != EWA_OK) return status;
+
+    ewa_tile_job job = {.kernels = renderer->kernels,
+                        .surfels = surfels,
+                        .bins = &renderer->bins,
+                        .with_normals = chosen.shading == EWA_SHADING_LAMBERT || frame->normal,
+                        .with_depth = frame->depth != NULL,
+                        .count_fragments = stats != NULL,
+                        .scratch = renderer->scratch};
+    job.channel_count = 4 + (job.with_normals ? 3 : 0) + (job.with_depth ? 1 : 0);
+    ewa_view_set(&job.view, surfels, camera, &chosen, TILE_PX);
+    ewa_resolve_set(&job.resolve, surfels, camera, &chosen, frame);
+
+    status = ewa_bins_fill(context, &renderer->bins, renderer->kernels, &job.view, surfels);
+    if (status != EWA_OK) return status;
+    const double binned_s = ewa_now_s();
+    for (uint32_t i = 0; i < renderer->worker_count && status == EWA_OK; i++)
+        status = ewa_tile_scratch_reserve(context, renderer->scratch[i], &job, renderer->bins.largest_bin);
+    if (status != EWA_OK) return status;
+    ewa_parallel(context, ewa_tile_draw, &job, renderer->bins.tiles_x * renderer->bins.tiles_y);
+    if (stats) gather_stats(renderer, surfels, start_s, binned_s, stats);
+    return EWA_OK;
+}

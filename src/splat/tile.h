@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// One tile from its packets to its pixels.
+#ifndef EWA_SRC_SPLAT_TILE_H
+#define EWA_SRC_SPLAT_TILE_H
+
+#include "splat/bin.h"
+#include "splat/view.h"
+
+/// A run of a tile whose records are kept for the second pass.
+typedef struct ewa_kept_run {
+    uint32_t record_first, near_first, near_count;
+    uint16_t class_first[EWA_CLASS_COUNT + 1];
+} ewa_kept_run;
+
+/// What one worker needs for its tiles; sized once per frame by ewa_tile_scratch_reserve().
+typedef struct ewa_tile_scratch {
+    ewa_run run;
+    ewa_record *records;
+    float (*normals)[4];
+    uint32_t *near_surfels;
+    ewa_kept_run *kept;
+    size_t record_capacity;
+    float *nearest, *sums;
+    ewa_buffer record_buffer, normal_buffer, near_buffer, kept_buffer, nearest_buffer, sum_buffer;
+    uint64_t drawn_count, fragment_count;
+    double setup_s, visibility_s, accumulate_s, resolve_s;
+} ewa_tile_scratch;
+
+/// What all tiles of a frame share.
+typedef struct ewa_tile_job {
+    const ewa_road_kernels *kernels;
+    const ewa_surfels *surfels;
+    const ewa_bins *bins;
+    ewa_view view;
+    ewa_resolve resolve;
+    uint32_t channel_count;
+    bool with_normals, with_depth, count_fragments;
+    ewa_tile_scratch *const *scratch; ///< [worker]
+} ewa_tile_job;
+
+/// Makes room for tiles of `largest_bin` packets; allocates nothing once warm.
+ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *scratch, const ewa_tile_job *job,
+                                    uint64_t largest_bin);
+void ewa_tile_scratch_free(ewa_context *context, ewa_tile_scratch *scratch);
+
+/// Draws tile `tile`; an ewa_task.
+void ewa_tile_draw(void *job, uint32_t tile, uint32_t worker);
+
+#endif

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Camera and options in the single-precision form that the kernels read.
+#ifndef EWA_SRC_SPLAT_VIEW_H
+#define EWA_SRC_SPLAT_VIEW_H
+
+#include "kernels/road.h"
+#include "splat/packets.h"
+
+void ewa_view_set(ewa_view *view, const ewa_surfels *surfels, const ewa_camera *camera,
+                  const ewa_render_options *options, uint32_t tile_px);
+
+void ewa_resolve_set(ewa_resolve *resolve, const ewa_surfels *surfels, const ewa_camera *camera,
+                     const ewa_render_options *options, const ewa_frame *frame);
+
+/// Sets the record of a surfel that touches the eye plane (packet * 16 + lane) for one tile; false: not
+/// drawn.
+bool ewa_near_record_set(ewa_near_record *record, const ewa_surfels *surfels, uint32_t surfel,
+                         const ewa_view *view, const ewa_tile *tile);
+
+#endif
