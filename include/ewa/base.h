@@ -54,7 +54,7 @@ enum {
     EWA_CPU_AVX2 = 1u << 0,   ///< AVX2 with FMA3
     EWA_CPU_AVX512 = 1u << 1, ///< AVX-512 F, DQ, BW, VL
     EWA_CPU_NEON = 1u << 2,
-    EWA_CPU_ALL = 0xffffffffu,
+    EWA_CPU_ALL = 0x7fffffff,
 };
 
 /// Memory from the caller. `size_bytes` at release is the one given at allocation.

@@ -1,0 +1,28 @@
+# SPDX-FileCopyrightText: 2026 The ewa authors
+# SPDX-License-Identifier: MIT
+#
+# Fails for sources without the two SPDX lines and a head comment, and for sources of more than 1,500 lines; names
+# those of more than 600.
+#
+# cmake -DROOT=folder -P check_files.cmake
+file(GLOB_RECURSE files RELATIVE "${ROOT}" "${ROOT}/include/*.h" "${ROOT}/src/*.[ch]" "${ROOT}/cli/*.[ch]"
+  "${ROOT}/examples/*.[ch]" "${ROOT}/tests/*.[ch]" "${ROOT}/bench/*.[ch]" "${ROOT}/scenes/*.[ch]")
+set(wrong "")
+foreach(path IN LISTS files)
+  file(READ "${ROOT}/${path}" text)
+  if(NOT text MATCHES "^// SPDX-FileCopyrightText: [^\n]*\n// SPDX-License-Identifier: MIT\n//\n// ")
+    string(APPEND wrong "${path}: no SPDX lines followed by a head comment\n")
+  endif()
+  string(REGEX REPLACE "[^\n]" "" line_feeds "${text}")
+  string(LENGTH "${line_feeds}" lines)
+  if(lines GREATER 1500)
+    string(APPEND wrong "${path}: ${lines} lines\n")
+  elseif(lines GREATER 600)
+    message(STATUS "${path}: ${lines} lines")
+  endif()
+endforeach()
+if(wrong)
+  message(FATAL_ERROR "${wrong}")
+endif()
+list(LENGTH files count)
+message(STATUS "${count} files")

@@ -1,0 +1,58 @@
+# SPDX-FileCopyrightText: 2026 The ewa authors
+# SPDX-License-Identifier: MIT
+#
+# Fails when a room includes a room of a higher floor or a neighbour on its own, when a room of src/ has no floor, and
+# when a program includes anything but public headers. The floors are those of the table in docs/architecture.md.
+#
+# cmake -DROOT=folder -P check_layers.cmake
+set(wrong "")
+file(STRINGS "${ROOT}/docs/architecture.md" rows REGEX "^\\| *[0-9]+ *\\|")
+foreach(row IN LISTS rows)
+  string(REGEX MATCH "^\\| *([0-9]+) *\\|([^|]*)" _ "${row}")
+  set(floor ${CMAKE_MATCH_1})
+  string(REGEX MATCHALL "src/[a-z_]+" folders "${CMAKE_MATCH_2}")
+  foreach(folder IN LISTS folders)
+    string(REPLACE "src/" "" room ${folder})
+    set(floor_of_${room} ${floor})
+  endforeach()
+endforeach()
+
+file(GLOB_RECURSE files RELATIVE "${ROOT}" "${ROOT}/src/*.[ch]" "${ROOT}/cli/*.[ch]" "${ROOT}/examples/*.[ch]"
+  "${ROOT}/viewer/*.[ch]")
+foreach(path IN LISTS files)
+  string(REGEX MATCH "^(src/)?([^/]+)/" _ ${path})
+  set(room ${CMAKE_MATCH_2})
+  if(path MATCHES "^src/")
+    if(NOT DEFINED floor_of_${room})
+      string(APPEND wrong "${path}: room ${room} has no floor in docs/architecture.md\n")
+      continue()
+    endif()
+    set(floor ${floor_of_${room}})
+  else()
+    set(floor "")
+  endif()
+  file(STRINGS "${ROOT}/${path}" includes REGEX "^ *# *include *\"")
+  foreach(line IN LISTS includes)
+    string(REGEX REPLACE ".*\"([^\"]*)\".*" "\\1" header "${line}")
+    string(REGEX REPLACE "/.*" "" other "${header}")
+    if(other STREQUAL room OR other STREQUAL "ewa" OR (floor STREQUAL "" AND NOT DEFINED floor_of_${other}))
+      continue()
+    endif()
+    if(floor STREQUAL "")
+      string(APPEND wrong "${path}: includes \"${header}\"; programs see include/ewa only\n")
+    elseif(NOT DEFINED floor_of_${other})
+      string(APPEND wrong "${path}: includes \"${header}\"; write \"room/file.h\"\n")
+    elseif(floor_of_${other} GREATER_EQUAL floor)
+      string(APPEND wrong "${path}: room ${room} (floor ${floor}) includes \"${header}\" (floor ${floor_of_${other}})\n")
+    endif()
+  endforeach()
+endforeach()
+
+list(LENGTH files count)
+if(count EQUAL 0 OR NOT rows)
+  message(FATAL_ERROR "no sources or no table of floors under ${ROOT}")
+endif()
+if(wrong)
+  message(FATAL_ERROR "${wrong}")
+endif()
+message(STATUS "${count} files, no include climbs")
