@@ -15,7 +15,7 @@ extern "C" {
 typedef struct ewa_image {
     ewa_context *context;
     uint32_t width_px, height_px;
-    uint32_t channel_count; ///< 1 to 8; colour images: 3 (RGB) or 4 (RGBA, premultiplied)
+    uint32_t channel_count; ///< 1 to 16; colour images: 3 (RGB) or 4 (RGBA, premultiplied)
     float *pixels;          ///< height * width * channel_count numbers
 } ewa_image;
 
