@@ -206,11 +206,23 @@ static double shift_of(const ewa_cloud *cloud, const ewa_attribute *attribute, u
     return strcmp(attribute->name, EWA_POSITION) == 0 && component < 3 ? origin_world[component] : 0;
 }
 
-static void print_text(const char *path, const ewa_cloud *cloud, const cloud_facts *facts) {
+/// Prints a line of a PLY header that says more than the attributes do.
+static void print_header_line(void *user, const char *line) {
+    (void)user;
+    if (strncmp(line, "property", 8) != 0) printf("    %s\n", line);
+}
+
+static void print_text(cli_session *session, const char *path, const ewa_cloud *cloud,
+                       const cloud_facts *facts) {
     const double *low = facts->bounds.low_world, *high = facts->bounds.high_world;
-    printf("%s\n  points      %" PRIu64 "\n", path, facts->point_count);
+    printf("%s\n", path);
+    if (strcmp(path, "-") != 0) {
+        printf("  header\n");
+        ewa_ply_describe(session->context, path, print_header_line, NULL);
+    }
+    printf("  points      %" PRIu64 "\n", facts->point_count);
     if (facts->bounds.finite_count) {
-        printf("  low         %.9g %.9g %.9g\n  high        %.9g %.9g %.9g\n  extent      %.6g %.6g %.6g\n",
+        printf("  low         %.8g %.8g %.8g\n  high        %.8g %.8g %.8g\n  extent      %.6g %.6g %.6g\n",
                low[0], low[1], low[2], high[0], high[1], high[2], high[0] - low[0], high[1] - low[1],
                high[2] - low[2]);
     }
@@ -243,12 +255,18 @@ static void print_text(const char *path, const ewa_cloud *cloud, const cloud_fac
     for (size_t i = 0; i < count; i++) printf("    %s\n", problems[i]);
 }
 
-static void print_json(json_writer *json, const char *path, const ewa_cloud *cloud,
+/// Adds a line of a PLY header to a list.
+static void add_header_line(void *user, const char *line) { json_text(user, NULL, line); }
+
+static void print_json(cli_session *session, json_writer *json, const char *path, const ewa_cloud *cloud,
                        const cloud_facts *facts) {
     double origin_world[3];
     ewa_cloud_origin(cloud, origin_world);
     json_object(json, NULL);
     json_text(json, "file", path);
+    json_array(json, "header");
+    if (strcmp(path, "-") != 0) ewa_ply_describe(session->context, path, add_header_line, json);
+    json_close(json, ']');
     json_count(json, "points", facts->point_count);
     json_count(json, "finite_points", facts->bounds.finite_count);
     if (facts->bounds.finite_count) {
@@ -314,9 +332,9 @@ static int run(const void *data) {
         cloud_facts facts;
         if (cloud && gather(&session, cloud, &facts)) {
             if (arguments->json)
-                print_json(&json, path, cloud, &facts);
+                print_json(&session, &json, path, cloud, &facts);
             else
-                print_text(path, cloud, &facts);
+                print_text(&session, path, cloud, &facts);
         } else {
             exit_status = EXIT_FAILED;
         }

@@ -9,6 +9,7 @@
 #include "picture.h"
 #include "view.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -23,7 +24,11 @@ typedef struct render_arguments {
     const char *color_by;
 } render_arguments;
 
-enum { ONE_PASS = 0, THREE_PASSES = 1 };
+enum { ONE_PASS = 0, THREE_PASSES = 1, GAP_POINTS = 1000 };
+
+/// Support radius in units of the spacing under which irregular points leave gaps, and one that closes most
+/// of them.
+static const double GAP_RADIUS = 1, CLOSED_RADIUS = 1.4;
 
 #define AT(member) offsetof(render_arguments, member)
 
@@ -264,6 +269,18 @@ static bool write_stats(cli_session *session, const render_arguments *arguments,
     return text_file_close(session, &text);
 }
 
+/// Says when discs are so small that there are gaps between them. From the unit coverage q = s^2 d (1 -
+/// exp(-F^2 / 2)) (d: density, s = radius / F) follows the radius in units of the spacing 1 / sqrt(d).
+static void note_gaps(cli_session *session, const render_arguments *arguments, const render_report *report) {
+    const double f = arguments->cutoff, kernel = 1 - exp(-0.5 * f * f);
+    const double radius = f * sqrt(report->surfels.unit_coverage / kernel);
+    if (report->surfels.point_count >= GAP_POINTS && radius > 0 && radius < GAP_RADIUS)
+        session_note(
+            session,
+            "the radii are %.2f of the points' spacing, which leaves gaps; --radius-scale %.1f closes them",
+            radius, arguments->radius_scale * CLOSED_RADIUS / radius);
+}
+
 /// Loads, colours, and makes surfels and the camera; the clouds are gone afterwards. False after reporting.
 static bool make_scene(cli_session *session, const render_arguments *arguments, ewa_camera *camera,
                        ewa_surfels **surfels, render_report *report) {
@@ -305,6 +322,7 @@ static bool make_scene(cli_session *session, const render_arguments *arguments, 
         session_warn(session,
                      "%llu of %llu points are left out: coordinates not finite, or normal or radius zero",
                      left_out, all);
+    note_gaps(session, arguments, report);
     return true;
 }
 
@@ -381,15 +399,11 @@ const cli_command render_command = {
                "the neighbours "
                "of each point; 'ewa surfels' does the same with options and keeps the result.\n"
                "\n"
-               "Without --camera and --eye the cloud is framed whole; when less than one point in a hundred "
-               "lies so far off "
-               "that the rest would be tiny, those are left outside, which a message says. Without --view "
-               "and --up: z is up "
-               "when the bounding box is flat in z (ground), much taller in z than wide, or far from the "
-               "origin in x or y "
-               "(map coordinates), else y is up. Ground is seen from above at an angle (iso), all else from "
-               "the front: "
-               "from +z with y up, from -y with z up.",
+               "Without --camera and --eye the cloud is framed whole; when less than one point in a hundred lies so far off "
+        "that the rest would be tiny, those are left outside, which a message says. Without --view and --up: z is up "
+        "when the bounding box is flat in z (ground), much taller in z than wide, or far from the origin in x or y "
+        "(map coordinates), else y is up. What is flat is seen from above at an angle (iso), all else from the front: "
+        "from +z with y up, from -y with z up.",
     .examples =
         "ewa render scan.ply -o scan.png\n"
         "ewa render scan.ply -o side.png --view right --size 1920x1080 --background transparent\n"

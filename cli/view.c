@@ -72,6 +72,10 @@ static const cli_option view_table[] = {
 
 const option_group view_options = {"Camera", view_table, sizeof view_table / sizeof view_table[0]};
 
+/// Height over width under which a cloud is ground, over which it stands upright; distance from the origin over size
+/// from which coordinates are those of a map.
+static const double FLAT_RATIO = 0.4, TALL_RATIO = 1.3, MAP_RATIO = 100;
+
 enum { VIEW_FRONT, VIEW_BACK, VIEW_LEFT, VIEW_RIGHT, VIEW_TOP, VIEW_BOTTOM, VIEW_ISO };
 
 void view_set_defaults(view_arguments *arguments) {
@@ -103,7 +107,7 @@ static int guess_up_axis(const ewa_bounds *box) {
     }
     const double narrow = fmin(extent[0], extent[1]), wide = fmax(extent[0], extent[1]);
     const bool flat = extent[2]<0.4 * narrow, tall = extent[2]> 1.3 * wide;
-    const bool georeferenced = fmax(fabs(middle[0]), fabs(middle[1])) > 100 * fmax(wide, extent[2]);
+    const bool georeferenced = fmax(fabs(middle[0]), fabs(middle[1])) > MAP_RATIO * fmax(wide, extent[2]);
     return wide > 0 && (flat || tall || georeferenced) ? 2 : 1;
 }
 
@@ -132,7 +136,7 @@ static void choose_direction(const view_arguments *arguments, const ewa_bounds *
     const int side = up_axis == 2 ? 1 : 2;
     const double across =
         fmin(box->high_world[0] - box->low_world[0], box->high_world[side] - box->low_world[side]);
-    const bool ground = up_axis == 2 && height < 0.4 * across;
+    const bool ground = height < FLAT_RATIO * across;
     const int view = arguments->view >= 0 ? arguments->view : ground ? VIEW_ISO : VIEW_FRONT;
     view_direction(view, up_axis, direction);
     const bool along_up = view == VIEW_TOP || view == VIEW_BOTTOM;
