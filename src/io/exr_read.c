@@ -38,7 +38,11 @@ static void keep_message(exr_const_context_t file, exr_result_t code, const char
     void *user = NULL;
     if (!file || exr_get_user_data(file, &user) != EXR_ERR_SUCCESS || !user) return;
     reader *in = user;
-    if (!in->message[0]) snprintf(in->message, sizeof in->message, "%s", text);
+    if (in->message[0]) return;
+    snprintf(in->message, sizeof in->message, "%s", text);
+    // The text quotes names from the file, which may be any bytes.
+    for (char *at = in->message; *at; at++)
+        if (*at < ' ' || *at > '~') *at = '?';
 }
 
 static int64_t read_bytes(exr_const_context_t file, void *user, void *buffer, uint64_t size_bytes,
@@ -72,7 +76,6 @@ static ewa_status open_exr(reader *in) {
     options.user_data = in;
     options.read_fn = read_bytes;
     options.size_fn = file_size;
-    options.max_image_width = options.max_image_height = side;
     options.max_tile_width = options.max_tile_height = side;
     options.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
     const exr_result_t error = exr_start_read(&in->file, in->name, &options);
@@ -133,8 +136,11 @@ static ewa_status check_header(reader *in) {
     const ewa_status status = choose_channels(in, channels);
     if (status != EWA_OK) return status;
 
+    uint64_t chunk_bytes = 0;
+    error = exr_get_chunk_unpacked_size(in->file, PART, &chunk_bytes);
+    if (error) return fail_exr(in, error);
     const uint64_t pixel_count = (uint64_t)width * (uint64_t)height;
-    const uint64_t decoded_bytes = pixel_count * in->channel_count * sizeof(float);
+    const uint64_t decoded_bytes = pixel_count * in->channel_count * sizeof(float) + chunk_bytes;
     if (decoded_bytes > limits->max_memory_bytes)
         return ewa_fail(in->context, EWA_ERROR_LIMIT,
                         "%s: %u x %u pixels need %llu bytes, over the limit of %llu", in->name, in->width_px,

@@ -24,6 +24,7 @@ typedef struct encoder {
     exr_context_t file;
     uint8_t *bytes; // the file so far: OpenEXRCore goes back to fill in its table of chunks
     size_t size_bytes, capacity_bytes;
+    bool out_of_memory;
     char names[MAX_CHANNELS][NAME_BYTES]; // by channel of the image
     int part;
     exr_encode_pipeline_t *pipelines; // chunks in flight
@@ -55,6 +56,7 @@ static int64_t write_bytes(exr_const_context_t file, void *user, const void *buf
     encoder *job = user;
     const uint64_t end = offset + size_bytes;
     if (end > job->capacity_bytes && !grow(job, end)) {
+        job->out_of_memory = true;
         fail(file, EXR_ERR_OUT_OF_MEMORY, "out of memory");
         return -1;
     }
@@ -65,7 +67,8 @@ static int64_t write_bytes(exr_const_context_t file, void *user, const void *buf
 }
 
 static ewa_status fail_exr(const encoder *job, const char *path, exr_result_t error) {
-    const ewa_status status = error == EXR_ERR_OUT_OF_MEMORY ? EWA_ERROR_MEMORY : EWA_ERROR_UNSUPPORTED;
+    const bool is_memory = job->out_of_memory || error == EXR_ERR_OUT_OF_MEMORY;
+    const ewa_status status = is_memory ? EWA_ERROR_MEMORY : EWA_ERROR_UNSUPPORTED;
     return ewa_fail(job->context, status, "%s: OpenEXR: %s", path, exr_get_default_error_message(error));
 }
 
