@@ -222,9 +222,10 @@ static void print_text(cli_session *session, const char *path, const ewa_cloud *
     }
     printf("  points      %" PRIu64 "\n", facts->point_count);
     if (facts->bounds.finite_count) {
-        printf("  low         %.8g %.8g %.8g\n  high        %.8g %.8g %.8g\n  extent      %.6g %.6g %.6g\n",
-               low[0], low[1], low[2], high[0], high[1], high[2], high[0] - low[0], high[1] - low[1],
-               high[2] - low[2]);
+        const int digits = ewa_cloud_find(cloud, EWA_POSITION)->type == EWA_F64 ? 12 : 8;
+        printf("  low         %.*g %.*g %.*g\n", digits, low[0], digits, low[1], digits, low[2]);
+        printf("  high        %.*g %.*g %.*g\n", digits, high[0], digits, high[1], digits, high[2]);
+        printf("  extent      %.6g %.6g %.6g\n", high[0] - low[0], high[1] - low[1], high[2] - low[2]);
     }
     double origin_world[3];
     ewa_cloud_origin(cloud, origin_world);

@@ -78,8 +78,10 @@ static int run(size_t count, const char *const *words) {
 }
 
 int main(int argc, char **argv) {
-    // A closed pipe is an error of the write that meets it, so that files being written aside are removed.
+    // A closed pipe or a file size limit is an error of the write that meets it, so that files being written
+    // aside are removed.
     signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
     const int exit_status = run(argc > 0 ? (size_t)argc - 1 : 0, (const char *const *)argv + 1);
     cli_session session = {.quiet = false};
     return output_flush(&session, exit_status);

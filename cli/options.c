@@ -241,23 +241,26 @@ static const cli_option *find_letter(const cli_command *command, char letter) {
     return NULL;
 }
 
-/// Edits between two words: insertions, deletions, exchanges, each 1 (Wagner and Fischer 1974).
+/// Edits between two words: insertions, deletions, exchanges, swaps of neighbours, each 1 (Damerau 1964, by
+/// the recurrence of optimal string alignment).
 static size_t edit_distance(const char *a, const char *b) {
-    size_t row[MAX_WORD + 1];
+    size_t rows[3][MAX_WORD + 1];
     const size_t a_length = strlen(a), b_length = strlen(b);
     if (a_length > MAX_WORD || b_length > MAX_WORD) return MAX_WORD;
-    for (size_t j = 0; j <= b_length; j++) row[j] = j;
-    for (size_t i = 0; i < a_length; i++) {
-        size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (size_t j = 0; j < b_length; j++) {
-            const size_t exchanged = diagonal + (a[i] != b[j]);
-            diagonal = row[j + 1];
-            const size_t shorter = (row[j] < diagonal ? row[j] : diagonal) + 1;
-            row[j + 1] = exchanged < shorter ? exchanged : shorter;
+    for (size_t j = 0; j <= b_length; j++) rows[0][j] = j;
+    for (size_t i = 1; i <= a_length; i++) {
+        size_t *row = rows[i % 3], *above = rows[(i + 2) % 3], *two_above = rows[(i + 1) % 3];
+        row[0] = i;
+        for (size_t j = 1; j <= b_length; j++) {
+            size_t best = above[j - 1] + (a[i - 1] != b[j - 1]);
+            if (above[j] + 1 < best) best = above[j] + 1;
+            if (row[j - 1] + 1 < best) best = row[j - 1] + 1;
+            const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+            if (swapped && two_above[j - 2] + 1 < best) best = two_above[j - 2] + 1;
+            row[j] = best;
         }
     }
-    return row[b_length];
+    return rows[a_length % 3][b_length];
 }
 
 const char *options_nearest(const char *word, size_t count, const char *const *names) {

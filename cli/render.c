@@ -399,11 +399,15 @@ const cli_command render_command = {
                "the neighbours "
                "of each point; 'ewa surfels' does the same with options and keeps the result.\n"
                "\n"
-               "Without --camera and --eye the cloud is framed whole; when less than one point in a hundred lies so far off "
-        "that the rest would be tiny, those are left outside, which a message says. Without --view and --up: z is up "
-        "when the bounding box is flat in z (ground), much taller in z than wide, or far from the origin in x or y "
-        "(map coordinates), else y is up. What is flat is seen from above at an angle (iso), all else from the front: "
-        "from +z with y up, from -y with z up.",
+               "Without --camera and --eye the cloud is framed whole; when less than one point in a hundred "
+               "lies so far off "
+               "that the rest would be tiny, those are left outside, which a message says. Without --view "
+               "and --up: z is up "
+               "when the bounding box is flat in z (ground), much taller in z than wide, or far from the "
+               "origin in x or y "
+               "(map coordinates), else y is up. What is flat is seen from above at an angle (iso), all else "
+               "from the front: "
+               "from +z with y up, from -y with z up.",
     .examples =
         "ewa render scan.ply -o scan.png\n"
         "ewa render scan.ply -o side.png --view right --size 1920x1080 --background transparent\n"

@@ -102,8 +102,13 @@ bool session_start(cli_session *session, const common_arguments *common) {
         common->progress == 1 || (common->progress == -1 && !common->quiet && isatty(STDERR_FILENO));
     struct sigaction action = {.sa_handler = catch_signal, .sa_flags = (int)SA_RESETHAND};
     sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
+    // Whoever started us to ignore an interrupt, as shells do in the background, is obeyed.
+    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+        struct sigaction inherited;
+        if (sigaction(numbers[i], NULL, &inherited) == 0 && inherited.sa_handler != SIG_IGN)
+            sigaction(numbers[i], &action, NULL);
+    }
     session->context = session_context(session, (uint32_t)common->threads, EWA_CPU_ALL);
     return session->context != NULL;
 }

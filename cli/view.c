@@ -72,8 +72,8 @@ static const cli_option view_table[] = {
 
 const option_group view_options = {"Camera", view_table, sizeof view_table / sizeof view_table[0]};
 
-/// Height over width under which a cloud is ground, over which it stands upright; distance from the origin over size
-/// from which coordinates are those of a map.
+/// Height over width under which a cloud is ground, over which it stands upright; distance from the origin
+/// over size from which coordinates are those of a map.
 static const double FLAT_RATIO = 0.4, TALL_RATIO = 1.3, MAP_RATIO = 100;
 
 enum { VIEW_FRONT, VIEW_BACK, VIEW_LEFT, VIEW_RIGHT, VIEW_TOP, VIEW_BOTTOM, VIEW_ISO };
@@ -106,9 +106,10 @@ static int guess_up_axis(const ewa_bounds *box) {
         middle[c] = 0.5 * (box->high_world[c] + box->low_world[c]);
     }
     const double narrow = fmin(extent[0], extent[1]), wide = fmax(extent[0], extent[1]);
-    const bool flat = extent[2]<0.4 * narrow, tall = extent[2]> 1.3 * wide;
-    const bool georeferenced = fmax(fabs(middle[0]), fabs(middle[1])) > MAP_RATIO * fmax(wide, extent[2]);
-    return wide > 0 && (flat || tall || georeferenced) ? 2 : 1;
+    const bool flat = extent[2]<FLAT_RATIO * narrow, tall = extent[2]> TALL_RATIO * wide;
+    const double away = fmax(fabs(middle[0]), fabs(middle[1]));
+    const bool map = away > MAP_RATIO * fmax(wide, extent[2]);
+    return wide > 0 && (flat || tall || map) ? 2 : 1;
 }
 
 /// Direction from the eye to the middle for a named view with y (1) or z (2) up.

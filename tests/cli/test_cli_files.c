@@ -34,7 +34,7 @@ static void test_info(void **state) {
     scratch_text("small.ply", small_cloud);
     run_done("ewa info small.ply");
     assert_non_null(strstr(last_run.out, "comment three points"));
-    assert_non_null(strstr(last_run.out, "500000.13 4000000.5 10"));
+    assert_non_null(strstr(last_run.out, "500000.125 4000000.5 10"));
     assert_non_null(strstr(last_run.out, "intensity            float  0.25 .. 0.75"));
     run_done("ewa info --json small.ply");
     assert_true(number_after("\"points\": ") == 3);

@@ -15,7 +15,7 @@ static int enter(void **state) {
 
 #define HEADER(count)                                                                                        \
     "ply\nformat ascii 1.0\nelement vertex " count "\nproperty float x\nproperty float y\nproperty float "   \
-                                                   "z\n"
+    "z\n"
 #define NORMAL "property float nx\nproperty float ny\nproperty float nz\n"
 #define RADIUS "property float radius\n"
 #define END    "end_header\n"
