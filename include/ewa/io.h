@@ -104,10 +104,25 @@ EWA_API ewa_status ewa_image_load(ewa_context *context, const char *path, ewa_im
 EWA_API ewa_status ewa_image_load_memory(ewa_context *context, const void *bytes, size_t size_bytes,
                                          const char *name, ewa_image *image);
 
-/// Reads a camera file (JSON of docs/files.md). Errors name the member that is missing or wrong.
-EWA_API ewa_status ewa_camera_load(ewa_context *context, const char *path, ewa_camera *camera);
+/// Counts the cameras of a file, to go through them with ewa_camera_load(). Errors as there.
+EWA_API ewa_status ewa_camera_file_count(ewa_context *context, const char *path, uint32_t *count);
 
-/// Writes a camera file with every digit that a double needs.
+/// Reads camera `index`, counted from 0 in the file's order, into an initialised `*camera`. The format goes by
+/// content:
+/// - ours: {"width", "height", "fx", "fy", "cx", "cy", "world_to_camera": 16 numbers, row-major} in pixels, with
+///   "projection": "orthographic" for such; or an array of these;
+/// - Open3D PinholeCameraParameters and PinholeCameraTrajectory;
+/// - transforms.json of nerfstudio and instant-ngp; without "w", "h" the size is that of the frame's PNG picture;
+/// - cameras.json of INRIA's Gaussian splatting;
+/// - stacks of matrices: {"width", "height", "viewmats" or "viewmats_world_to_camera", "Ks"};
+/// - a folder with a COLMAP model: cameras and images, .bin or else .txt.
+/// Principal points are taken as they are, lens distortion is left out with a warning. "-" reads standard input.
+/// Errors (camera unchanged), with the member that is missing or wrong: EWA_ERROR_IO, EWA_ERROR_FORMAT,
+/// EWA_ERROR_UNSUPPORTED (fisheye), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_ERROR_ARGUMENT (index).
+EWA_API ewa_status ewa_camera_load(ewa_context *context, const char *path, uint32_t index, ewa_camera *camera);
+
+/// Writes a camera file of our format with every digit that a double needs.
+/// Errors: EWA_ERROR_ARGUMENT (as ewa_camera_check()), EWA_ERROR_IO, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_camera_save(ewa_context *context, const ewa_camera *camera, const char *path);
 
 #ifdef __cplusplus
