@@ -14,7 +14,15 @@ static const cli_option view_table[] = {
      .kind = OPTION_TEXT,
      .offset = offsetof(view_arguments, camera_path),
      .value = "FILE",
-     .help = "camera file (JSON); with --size, its picture is scaled to that size"},
+     .help = "camera file: ours, Open3D, nerfstudio, INRIA (JSON), or the folder of a COLMAP model; with "
+             "--size, its "
+             "picture is scaled to that size"},
+    {.key = "camera-index",
+     .kind = OPTION_INTEGER,
+     .offset = offsetof(view_arguments, camera_index),
+     .value = "N",
+     .range = "[0, 4294967295]",
+     .help = "which camera of the file, counted from 0"},
     {.key = "eye",
      .aliases = "camera-position",
      .kind = OPTION_VECTOR,
@@ -89,6 +97,8 @@ bool view_check(const view_arguments *arguments, char message[OPTION_ERROR_BYTES
     const char *clash = NULL;
     if (arguments->camera_path && (placed || arguments->ortho_height > 0 || arguments->view >= 0))
         clash = "--camera excludes --eye, --target, --up, --ortho and --view";
+    else if (!arguments->camera_path && arguments->camera_index > 0)
+        clash = "--camera-index needs --camera";
     else if (arguments->eye.count && arguments->view >= 0)
         clash = "--eye and --view exclude each other";
     else if (arguments->up.count && !arguments->up.values[0] && !arguments->up.values[1] &&
@@ -163,7 +173,8 @@ static void resize_camera(ewa_camera *camera, const option_size *size) {
 
 static bool load_camera(cli_session *session, const view_arguments *arguments, ewa_camera *camera) {
     session->subject = arguments->camera_path;
-    ewa_status status = ewa_camera_load(session->context, arguments->camera_path, camera);
+    ewa_status status =
+        ewa_camera_load(session->context, arguments->camera_path, (uint32_t)arguments->camera_index, camera);
     if (status == EWA_OK && arguments->size.given) resize_camera(camera, &arguments->size);
     if (status == EWA_OK) status = ewa_camera_check(session->context, camera);
     if (status != EWA_OK) session_failed(session, status);

@@ -11,6 +11,7 @@
 typedef struct view_arguments {
     common_arguments common;
     const char *camera_path;
+    int64_t camera_index;
     option_vector eye, target, up;
     double fov_deg;
     double ortho_height; ///< 0: perspective
