@@ -4,8 +4,8 @@
 // Tests of src/splat/reference_splat.c: one splat against other derivations of the same thing, sampled
 // outlines, closed forms and limits.
 #include "check.h"
-#include "kernels/semantics.h"
 #include "splat/reference_splat.h"
+#include "kernels/semantics.h"
 
 static const double PI = 3.14159265358979323846;
 
