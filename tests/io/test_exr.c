@@ -246,6 +246,27 @@ static void test_every_truncation_is_refused(void **state) {
     ewa_context_destroy(&context);
 }
 
+static void test_lost_chunk_table_is_refused(void **state) {
+    (void)state;
+    check_log log = {0};
+    ewa_context *context = check_context(1, &log);
+    char path[512];
+    ewa_image image = make_image(context, 5, 20, 3);
+    assert_int_equal(ewa_image_save(&image, scratch_path("table.exr", path), NULL), EWA_OK);
+    ewa_image_free(&image);
+    size_t size_bytes, at = 0;
+    uint8_t *bytes = scratch_read(path, &size_bytes);
+    // 20 lines are two chunks: the table's two offsets of 8 bytes, the first of which points just behind it.
+    for (uint64_t offset = 0; offset != at + 16; memcpy(&offset, bytes + at, sizeof offset))
+        assert_true(++at + 16 < size_bytes);
+    memset(bytes + at, 0, 16);
+    assert_int_equal(ewa_image_load_memory(context, bytes, size_bytes, "table.exr", &image),
+                     EWA_ERROR_FORMAT);
+    assert_memory_equal(log.text, "table.exr: OpenEXR: ", 20);
+    free(bytes);
+    ewa_context_destroy(&context);
+}
+
 static void test_limits(void **state) {
     (void)state;
     check_log log = {0};
@@ -348,6 +369,7 @@ int main(int argument_count, char **arguments) {
         cmocka_unit_test(test_real_files),
         cmocka_unit_test(test_hostile),
         cmocka_unit_test(test_every_truncation_is_refused),
+        cmocka_unit_test(test_lost_chunk_table_is_refused),
         cmocka_unit_test(test_limits),
         cmocka_unit_test(test_failing_allocations),
     };
