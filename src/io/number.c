@@ -335,10 +335,14 @@ static void collect_digits(const decimal *d, natural *n, int *power) {
     }
 }
 
+static uint64_t power_of_10(int power) { return powers_of_5[power] << power; }
+
+/// floor(log10(2^exponent)) for |exponent| < 1200: 78913 / 2^18 is a hair below log10(2).
+static int decimal_exponent(int exponent) { return (exponent * 78913) >> 18; }
+
 static int decimal_length(uint64_t n) {
-    int length = 1;
-    for (; n >= 10; n /= 10) length++;
-    return length;
+    const int least = decimal_exponent(63 - __builtin_clzll(n | 1)) + 1;
+    return least + (least < 20 && n >= power_of_10(least));
 }
 
 /// The bits of the number of a format nearest to a decimal of non-zero digits, by integer arithmetic.
@@ -372,6 +376,12 @@ static float bits_to_f32(uint32_t bits) {
 
 static uint64_t f64_to_bits(double value) {
     uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+static uint32_t f32_to_bits(float value) {
+    uint32_t bits;
     memcpy(&bits, &value, sizeof bits);
     return bits;
 }
@@ -416,12 +426,26 @@ static const char *read_word(const char *text, const char *end, double *value) {
     return NULL;
 }
 
+static double nearest_f64(const decimal *d) {
+    double value;
+    if (is_direct(d, &value)) return value;
+    return d->digits ? bits_to_f64(round_decimal(d, &binary64)) : 0;
+}
+
+static float nearest_f32(const decimal *d) {
+    // Rounding to double and then to float errs only where the double lies midway between two floats: there
+    // its last 29 bits are 1000..., or it is below the normal floats.
+    double wide;
+    if (is_direct(d, &wide) && (f64_to_bits(wide) & 0x1fffffff) != 0x10000000 && wide >= 0x1p-126)
+        return (float)wide;
+    return d->digits ? bits_to_f32((uint32_t)round_decimal(d, &binary32)) : 0;
+}
+
 const char *ewa_number_read_f64(const char *text, const char *end, double *value) {
     decimal d;
     const char *after = read_decimal(text, end, &d);
     if (!after || (after < end && *after == '#')) return read_word(text, end, value);
-    double magnitude;
-    if (!is_direct(&d, &magnitude)) magnitude = d.digits ? bits_to_f64(round_decimal(&d, &binary64)) : 0;
+    const double magnitude = nearest_f64(&d);
     *value = d.negative ? -magnitude : magnitude;
     return after;
 }
@@ -435,14 +459,7 @@ const char *ewa_number_read_f32(const char *text, const char *end, float *value)
         if (after) *value = (float)word;
         return after;
     }
-    // Rounding to double and then to float errs only where the double lies midway between two floats: there
-    // its last 29 bits are 1000..., or it is below the normal floats.
-    double wide;
-    float magnitude;
-    if (is_direct(&d, &wide) && (f64_to_bits(wide) & 0x1fffffff) != 0x10000000 && wide >= 0x1p-126)
-        magnitude = (float)wide;
-    else
-        magnitude = d.digits ? bits_to_f32((uint32_t)round_decimal(&d, &binary32)) : 0;
+    const float magnitude = nearest_f32(&d);
     *value = d.negative ? -magnitude : magnitude;
     return after;
 }
@@ -460,13 +477,10 @@ const char *ewa_number_read_i64(const char *text, const char *end, int64_t *valu
 // ---- writing
 // --------------------------------------------------------------------------------------------------------
 
-static uint64_t power_of_10(int power) { return powers_of_5[power] << power; }
-
 /// Rounds significand * 2^exponent to `count` significant decimal digits: returned digits * 10^*power.
 static uint64_t to_decimal(uint64_t significand, int exponent, int count, int *power) {
-    // The decimal exponent from the binary one: floor(x log10 2) is right or one too small.
-    const int top_bit = exponent + 63 - __builtin_clzll(significand);
-    int magnitude = (int)floor(top_bit * 0.30102999566398120);
+    // From the leading bit alone, the decimal exponent is right or one too small.
+    int magnitude = decimal_exponent(exponent + 63 - __builtin_clzll(significand));
     for (;; magnitude++) {
         *power = magnitude - (count - 1);
         scaled s = scale(significand, -*power);
@@ -509,6 +523,11 @@ static size_t write_decimal(uint64_t digits, int power, char *text) {
     return at;
 }
 
+static bool reads_as(const decimal *d, uint64_t bits, const format *f) {
+    if (f == &binary64) return f64_to_bits(nearest_f64(d)) == bits;
+    return f32_to_bits(nearest_f32(d)) == bits;
+}
+
 /// Writes a finite number given by its bits: the fewest digits from `least` to `most` that round back to it.
 static size_t write_finite(uint64_t bits, const format *f, int least, int most, char *text) {
     const uint64_t field = bits >> f->fraction_bits;
@@ -519,15 +538,14 @@ static size_t write_finite(uint64_t bits, const format *f, int least, int most, 
         text[0] = '0';
         return 1;
     }
-    for (int count = least;; count++) {
-        int power;
-        const uint64_t digits = to_decimal(significand, exponent, count, &power);
-        if (count < most) {
-            const scaled s = scale(digits, power);
-            if (assemble(&s, f) != bits) continue;
-        }
-        return write_decimal(digits, power, text);
+    int power;
+    const uint64_t digits = to_decimal(significand, exponent, most, &power);
+    for (int count = least; count < most; count++) {
+        const uint64_t cut = power_of_10(most - count);
+        const decimal shorter = {.digits = (digits + cut / 2) / cut, .exponent = power + most - count};
+        if (reads_as(&shorter, bits, f)) return write_decimal(shorter.digits, (int)shorter.exponent, text);
     }
+    return write_decimal(digits, power, text);
 }
 
 static size_t write_float(double value, uint64_t bits, const format *f, int least, int most, char *text) {
@@ -549,9 +567,7 @@ size_t ewa_number_write_f64(double value, char text[EWA_NUMBER_BYTES]) {
 }
 
 size_t ewa_number_write_f32(float value, char text[EWA_NUMBER_BYTES]) {
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return write_float(value, bits & INT32_MAX, &binary32, 6, 9, text);
+    return write_float(value, f32_to_bits(value) & INT32_MAX, &binary32, 6, 9, text);
 }
 
 size_t ewa_number_write_i64(int64_t value, char text[EWA_NUMBER_BYTES]) {
