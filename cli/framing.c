@@ -18,6 +18,9 @@ static const double FAR_SHARE = 0.005, FAR_RATIO = 3;
 /// misses.
 static const double MARGIN = 0.04;
 
+/// Cosine of 10 degrees.
+static const double FACING_COSINE = 0.9848;
+
 static int compare_numbers(const void *a, const void *b) {
     const double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
@@ -44,6 +47,34 @@ static void trim_box(double (*points)[3], size_t count, double *numbers, ewa_bou
         box->low_world[c] = numbers[skipped] - rim;
         box->high_world[c] = numbers[count - 1 - skipped] + rim;
     }
+}
+
+/// Measures which way the surface faces, from normals weighted by the area of their discs; zeros without
+/// normals.
+static void measure_facing(const ewa_cloud *cloud, size_t samples, double median_radius,
+                           cloud_framing *framing) {
+    const ewa_attribute *normal = ewa_cloud_find(cloud, EWA_NORMAL),
+                        *radius = ewa_cloud_find(cloud, EWA_RADIUS);
+    if (!normal || normal->component_count != 3) return;
+    const uint64_t point_count = ewa_cloud_point_count(cloud);
+    double total = 0, mean[3] = {0};
+    for (size_t i = 0; i < samples; i++) {
+        double n[3], r = 1;
+        ewa_attribute_read_f64(normal, i * point_count / samples, 1, n);
+        if (radius) ewa_attribute_read_f64(radius, i * point_count / samples, 1, &r);
+        const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        // Discs of isolated points are huge; none counts for more than a few usual ones.
+        const double area = radius ? fmin(r * r, 9 * median_radius * median_radius) : 1;
+        if (!(length > 0) || !isfinite(length) || !(area > 0)) continue;
+        total += area;
+        for (int c = 0; c < 3; c++) {
+            mean[c] += area * n[c] / length;
+            if (fabs(n[c]) > FACING_COSINE * length) framing->facing[c] += area;
+        }
+    }
+    for (int c = 0; c < 3 && total > 0; c++) framing->facing[c] /= total;
+    if (total > 0)
+        framing->one_sided = sqrt(mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]) / total;
 }
 
 /// Median support radius of the sampled points, as drawn; 0 when the cloud has none.
@@ -114,7 +145,9 @@ bool framing_make(cli_session *session, const ewa_cloud *cloud, double radius_sc
         for (int c = 0; c < 3; c++) points[framing->count][c] = points[i][c] - framing->middle_world[c];
         framing->count += inside;
     }
-    framing->rim_world = radius_scale * median_radius(cloud, samples, numbers);
+    const double radius_world = median_radius(cloud, samples, numbers);
+    framing->rim_world = radius_scale * radius_world;
+    measure_facing(cloud, samples, radius_world, framing);
     free(numbers);
     return true;
 }

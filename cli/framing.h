@@ -14,6 +14,8 @@ typedef struct cloud_framing {
     double (*offsets)[3]; ///< of sampled points inside the box, from its middle
     size_t count;
     double rim_world; ///< how far a disc usually reaches beyond its point
+    double facing[3]; ///< share of the surface that faces along each axis of the world, to within 10 degrees
+    double one_sided; ///< length of the mean normal: 1 for a plane, 0 for a closed surface
     bool trimmed;     ///< a few far points are outside the box
 } cloud_framing;
 

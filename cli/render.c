@@ -311,10 +311,12 @@ static bool make_scene(cli_session *session, const render_arguments *arguments, 
     ewa_surfels_describe(*surfels, &report->surfels);
     const unsigned long long left_out = report->surfels.left_out_count, all = report->point_count;
     if (report->surfels.point_count == 0) {
-        session_fail(session,
-                     "none of the %llu points can be drawn: coordinates are not finite, or normals or radii "
-                     "are zero ('ewa info' counts them, 'ewa surfels' makes new ones)",
-                     all);
+        session_fail(
+            session,
+            "none of the %llu points can be drawn: coordinates are not finite, or normals or radii "
+            "are zero ('ewa info' counts them, 'ewa surfels --keep-normals off --keep-radii off' makes "
+            "new ones)",
+            all);
         ewa_surfels_destroy(surfels);
         return false;
     }

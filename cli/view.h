@@ -26,9 +26,9 @@ void view_set_defaults(view_arguments *arguments);
 /// What is wrong with the options of the camera together; see command.check.
 bool view_check(const view_arguments *arguments, char message[OPTION_ERROR_BYTES]);
 
-/// Makes the camera that the options ask for, looking at a cloud whose radii are drawn times `radius_scale`. Returns
-/// false after reporting.
-bool view_make(cli_session *session, const view_arguments *arguments, const ewa_cloud *cloud, double radius_scale,
-               ewa_camera *camera);
+/// Makes the camera that the options ask for, looking at a cloud whose radii are drawn times `radius_scale`.
+/// Returns false after reporting.
+bool view_make(cli_session *session, const view_arguments *arguments, const ewa_cloud *cloud,
+               double radius_scale, ewa_camera *camera);
 
 #endif
