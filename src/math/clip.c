@@ -10,24 +10,15 @@
 //
 // Based on: Bloomenthal and Rokne, Homogeneous Coordinates, section Homogeneous Clipping; Blinn and Newell,
 // Clipping Using Homogeneous Coordinates, SIGGRAPH 1978.
+#include "math/clip_planes.h"
 #include "math/noise.h"
 
 /// Coordinates beyond 2^SAFE_EXPONENT are scaled down together, so that no sum overflows.
 enum { SAFE_EXPONENT = 1000, MAX_CORNERS = 1 << 20 };
 
-static void boundary_coordinates(ewa_vec4 p, double b[6]) {
-    b[EWA_CLIP_LEFT] = p.w + p.x;
-    b[EWA_CLIP_RIGHT] = p.w - p.x;
-    b[EWA_CLIP_BOTTOM] = p.w + p.y;
-    b[EWA_CLIP_TOP] = p.w - p.y;
-    b[EWA_CLIP_NEAR] = p.z;
-    b[EWA_CLIP_FAR] = p.w - p.z;
-}
-
 static double largest(ewa_vec4 p) { return fmax(fmax(fabs(p.x), fabs(p.y)), fmax(fabs(p.z), fabs(p.w))); }
 
-/// The power of two that all points of one segment or polygon are multiplied with: alpha does not depend on
-/// it.
+/// The power of two to multiply all points of one segment or polygon with; alpha does not depend on it.
 static double safe_scale(double largest_number) {
     int exponent = 0;
     frexp(largest_number, &exponent);
@@ -38,8 +29,8 @@ static ewa_vec4 between(ewa_vec4 p1, ewa_vec4 p2, double alpha) {
     return vec4_add(vec4_scale(p1, 1 - alpha), vec4_scale(p2, alpha));
 }
 
-/// True where the w of a point between p1 and p2 has cancelled to rounding error. In a visible cone only [0 0
-/// 0 0] has w = 0, so that is where the segment passes through it: no point at all.
+/// True where the w of a point between p1 and p2 has cancelled to rounding error. In a visible cone w is 0
+/// for the zero vector only, which the segment passes through there: no point at all.
 static bool vanishes(ewa_vec4 p1, ewa_vec4 p2, double alpha, ewa_vec4 point) {
     if (alpha == 1) return point.w == 0;
     return fabs(point.w) <= NOISE * (fabs(p1.w) + alpha * fabs(p2.w));
@@ -56,14 +47,12 @@ static ewa_vec4 settle(ewa_vec4 p) {
 
 /// The interval of a segment in the cone of one sign.
 static bool clip_to_cone(ewa_vec4 p1, ewa_vec4 p2, double sign, ewa_segment_part *part) {
-    double b1[6], b2[6], begin = 0, end = 1;
-    boundary_coordinates(vec4_scale(p1, sign), b1);
-    boundary_coordinates(vec4_scale(p2, sign), b2);
+    double begin = 0, end = 1;
     for (int i = 0; i < 6; i++) {
-        bool out1 = b1[i] < 0, out2 = b2[i] < 0;
-        if (out1 && out2) return false;
-        if (out1) begin = fmax(begin, b1[i] / (b1[i] - b2[i]));
-        if (out2) end = fmin(end, b1[i] / (b1[i] - b2[i]));
+        double b1 = sign * boundary_coordinate(p1, i), b2 = sign * boundary_coordinate(p2, i);
+        if (b1 < 0 && b2 < 0) return false;
+        if (b1 < 0) begin = fmax(begin, b1 / (b1 - b2));
+        if (b2 < 0) end = fmin(end, b1 / (b1 - b2));
     }
     if (!(begin <= end)) return false;
     double alpha[2] = {begin, end};
@@ -84,13 +73,13 @@ static bool clip_to_cone(ewa_vec4 p1, ewa_vec4 p2, double sign, ewa_segment_part
 
 ewa_status ewa_clip_alphas(ewa_vec4 p1, ewa_vec4 p2, double alpha[6], uint32_t *crossed) {
     if (!vec4_is_finite(p1) || !vec4_is_finite(p2)) return EWA_ERROR_NUMERIC;
-    double scale = safe_scale(fmax(largest(p1), largest(p2))), b1[6], b2[6];
-    boundary_coordinates(vec4_scale(p1, scale), b1);
-    boundary_coordinates(vec4_scale(p2, scale), b2);
+    double scale = safe_scale(fmax(largest(p1), largest(p2)));
+    p1 = vec4_scale(p1, scale);
+    p2 = vec4_scale(p2, scale);
     *crossed = 0;
     for (int i = 0; i < 6; i++) {
-        double difference = b1[i] - b2[i];
-        double value = difference != 0 ? b1[i] / difference : 0;
+        double b1 = boundary_coordinate(p1, i), difference = b1 - boundary_coordinate(p2, i);
+        double value = difference != 0 ? b1 / difference : 0;
         bool crosses = difference != 0 && isfinite(value);
         alpha[i] = crosses ? value : 0;
         if (crosses) *crossed |= 1u << i;
@@ -139,7 +128,9 @@ static void append_crossing(corners *to, const corners *from, uint32_t inside, u
                             double b_inside, double b_outside) {
     double alpha = b_inside / (b_inside - b_outside);
     ewa_vec4 p1 = from->points[inside], p2 = from->points[outside], point = between(p1, p2, alpha);
-    if (vanishes(p1, p2, alpha, point)) point = vec4_make(0, 0, 0, 0);
+    // Between planes a corner may well have w = 0; only where all of it has cancelled it is no point.
+    if (vec4_is_noise(point, vec4_add(vec4_abs(p1), vec4_scale(vec4_abs(p2), alpha))))
+        point = vec4_make(0, 0, 0, 0);
     append(to, point, attributes_of(from, inside), attributes_of(from, outside), alpha);
 }
 
@@ -149,14 +140,12 @@ static void clip_by_plane(const corners *from, corners *to, int plane, double si
     to->count = 0;
     for (uint32_t i = 0; i < from->count; i++) {
         uint32_t next = i + 1 < from->count ? i + 1 : 0;
-        double b1[6], b2[6];
-        boundary_coordinates(vec4_scale(from->points[i], sign), b1);
-        boundary_coordinates(vec4_scale(from->points[next], sign), b2);
-        bool out1 = b1[plane] < 0, out2 = b2[plane] < 0;
+        double b1 = sign * boundary_coordinate(from->points[i], plane);
+        double b2 = sign * boundary_coordinate(from->points[next], plane);
         if (to->count + 2 > capacity) return;
-        if (!out1) append(to, from->points[i], attributes_of(from, i), attributes_of(from, i), 0);
-        if (out1 && !out2 && b2[plane] > 0) append_crossing(to, from, next, i, b2[plane], b1[plane]);
-        if (!out1 && out2 && b1[plane] > 0) append_crossing(to, from, i, next, b1[plane], b2[plane]);
+        if (b1 >= 0) append(to, from->points[i], attributes_of(from, i), attributes_of(from, i), 0);
+        if (b1 < 0 && b2 > 0) append_crossing(to, from, next, i, b2, b1);
+        if (b1 > 0 && b2 < 0) append_crossing(to, from, i, next, b1, b2);
     }
 }
 

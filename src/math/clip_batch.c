@@ -23,7 +23,9 @@ static void run_task(void *data, uint32_t index, uint32_t worker) {
     (void)worker;
     job *j = data;
     uint64_t first = (uint64_t)index * TASK_SEGMENTS, left = j->segments->count - first;
-    uint64_t invalid = j->kernel(j->segments, j->clips, first, left < TASK_SEGMENTS ? left : TASK_SEGMENTS);
+    uint64_t count = left < TASK_SEGMENTS ? left : TASK_SEGMENTS, invalid = 0;
+    j->kernel(j->segments, j->clips, first, count);
+    for (uint64_t i = 0; i < count; i++) invalid += j->clips->visible[first + i] == EWA_VISIBLE_INVALID;
     if (invalid) atomic_fetch_add(&j->invalid_count, invalid);
 }
 

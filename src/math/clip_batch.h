@@ -10,9 +10,9 @@
 
 #include "ewa/math.h"
 
-/// Clips segments [first, first + count) of a batch; returns how many of them are invalid.
-typedef uint64_t clip_segments_kernel(const ewa_segment_batch *segments, const ewa_segment_clips *clips,
-                                      uint64_t first, uint64_t count);
+/// Clips segments [first, first + count) of a batch.
+typedef void clip_segments_kernel(const ewa_segment_batch *segments, const ewa_segment_clips *clips,
+                                  uint64_t first, uint64_t count);
 
 clip_segments_kernel ewa_clip_segments_portable;
 clip_segments_kernel ewa_clip_segments_avx2;

@@ -7,10 +7,8 @@
 // Perspective Transformations; off-axis windows, reversed depth and the far plane at infinity are the same
 // map with other numbers.
 #include "math/angle.h"
+#include "math/clip_planes.h"
 #include "math/noise.h"
-
-static const ewa_vec4 clip_planes[6] = {{1, 0, 0, 1},  {-1, 0, 0, 1}, {0, 1, 0, 1},
-                                        {0, -1, 0, 1}, {0, 0, 1, 0},  {0, 0, -1, 1}};
 
 static bool map_is_finite(const ewa_mat4 *map) {
     for (int i = 0; i < 4; i++)
