@@ -35,38 +35,39 @@ typedef struct ewa_camera {
 /// Sets 1280x720, 50 degrees vertical field of view, at the origin looking along +z.
 EWA_API void ewa_camera_init(ewa_camera *camera, size_t struct_size);
 
-/// Checks that every number is finite, the size within 1..65536, focal lengths positive, the last row 0 0 0 1 and
-/// the upper left 3x3 a rotation times a positive scale (to 1e-4 relative).
-/// Errors: EWA_ERROR_ARGUMENT with a message that names the member.
+/// Checks that every number is finite, the size within 1..65536, focal lengths positive, the last row 0 0 0 1
+/// and the upper left 3x3 a rotation times a positive scale (to 1e-4 relative). Errors: EWA_ERROR_ARGUMENT
+/// with a message that names the member.
 EWA_API ewa_status ewa_camera_check(ewa_context *context, const ewa_camera *camera);
 
-/// Places the camera at `eye_world`, looking at `target_world`, with `up_world` pointing up in the picture; an up
-/// that is zero or parallel to the view is replaced by the coordinate axis farthest from it. Leaves the intrinsics
-/// alone.
-/// Errors: EWA_ERROR_NUMERIC when eye and target coincide or a number is not finite (camera unchanged).
-EWA_API ewa_status ewa_camera_look_at(ewa_camera *camera, const double eye_world[3], const double target_world[3],
-                                      const double up_world[3]);
+/// Places the camera at `eye_world`, looking at `target_world`, with `up_world` pointing up in the picture;
+/// an up that is zero or parallel to the view is replaced by the coordinate axis farthest from it. Leaves the
+/// intrinsics alone. Errors: EWA_ERROR_NUMERIC when eye and target coincide or a number is not finite (camera
+/// unchanged).
+EWA_API ewa_status ewa_camera_look_at(ewa_camera *camera, const double eye_world[3],
+                                      const double target_world[3], const double up_world[3]);
 
-/// Sets a perspective projection with the given vertical field of view in degrees, in (0, 180), square pixels, the
-/// principal point in the middle of the picture, whose size must be set before.
-/// Errors (camera unchanged): EWA_ERROR_ARGUMENT, EWA_ERROR_NUMERIC when the focal length is not finite.
+/// Sets a perspective projection with the given vertical field of view in degrees, in (0, 180), square
+/// pixels, the principal point in the middle of the picture, whose size must be set before. Errors (camera
+/// unchanged): EWA_ERROR_ARGUMENT, EWA_ERROR_NUMERIC when the focal length is not finite.
 EWA_API ewa_status ewa_camera_set_fov(ewa_camera *camera, double vertical_fov_deg);
 
-/// Sets an orthographic projection that shows `height_world` > 0 world units from the bottom to the top, square
-/// pixels, the principal point in the middle of the picture, whose size must be set before.
-/// Errors (camera unchanged): EWA_ERROR_ARGUMENT, EWA_ERROR_NUMERIC when the scale is not finite.
+/// Sets an orthographic projection that shows `height_world` > 0 world units from the bottom to the top,
+/// square pixels, the principal point in the middle of the picture, whose size must be set before. Errors
+/// (camera unchanged): EWA_ERROR_ARGUMENT, EWA_ERROR_NUMERIC when the scale is not finite.
 EWA_API ewa_status ewa_camera_set_ortho(ewa_camera *camera, double height_world);
 
 /// Returns the position of the eye (perspective) or of the camera plane's origin (orthographic) in the world.
 EWA_API void ewa_camera_eye(const ewa_camera *camera, double eye_world[3]);
 
-/// Places the camera with its axis along `direction_world` and `up_world` up, so that the whole box is in the picture
-/// with at least `margin` (part of the picture's size, in [0, 0.5)) free on every side and the middle of the box in
-/// the middle of the picture, wherever the principal point is. Perspective keeps the intrinsics and takes the least
-/// distance; orthographic keeps fx : fy and scales them. A box without extent is framed as if it were of size 1.
-/// Errors (camera unchanged): EWA_ERROR_ARGUMENT, EWA_ERROR_NUMERIC for an empty or infinite box or a zero direction.
-EWA_API ewa_status ewa_camera_frame(ewa_camera *camera, const ewa_bounds *bounds, const double direction_world[3],
-                                    const double up_world[3], double margin);
+/// Places the camera with its axis along `direction_world` and `up_world` up, so that the whole box is in the
+/// picture with at least `margin` (part of the picture's size, in [0, 0.5)) free on every side and the middle
+/// of the box in the middle of the picture, wherever the principal point is. Perspective keeps the intrinsics
+/// and takes the least distance; orthographic keeps fx : fy and scales them. A box without extent is framed
+/// as if it were of size 1. Errors (camera unchanged): EWA_ERROR_ARGUMENT, EWA_ERROR_NUMERIC for an empty or
+/// infinite box or a zero direction.
+EWA_API ewa_status ewa_camera_frame(ewa_camera *camera, const ewa_bounds *bounds,
+                                    const double direction_world[3], const double up_world[3], double margin);
 
 #ifdef __cplusplus
 }

@@ -36,14 +36,14 @@ typedef struct ewa_difference {
     double mean_absolute; ///< over all numbers of both images
     double rms;
     double maximum;
-    double psnr_db; ///< 10 log10(peak^2 / rms^2); infinite for equal images
+    double psnr_db;                ///< 10 log10(peak^2 / rms^2); infinite for equal images
     uint64_t over_threshold_count; ///< pixels in which any channel differs by more than the threshold
 } ewa_difference;
 
 /// Compares two images of the same size and channel count; a NaN on one side only counts as infinitely far.
-/// `peak` > 0 is the full scale for the PSNR (1 for colour); `threshold` >= 0; `heat` (may be NULL) receives a new
-/// one-channel image of the largest absolute channel difference per pixel, owned by the caller.
-/// Errors: EWA_ERROR_ARGUMENT when the shapes differ, EWA_ERROR_MEMORY.
+/// `peak` > 0 is the full scale for the PSNR (1 for colour); `threshold` >= 0; `heat` (may be NULL) receives
+/// a new one-channel image of the largest absolute channel difference per pixel, owned by the caller. Errors:
+/// EWA_ERROR_ARGUMENT when the shapes differ, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_image_compare(const ewa_image *a, const ewa_image *b, double peak, double threshold,
                                      ewa_difference *difference, ewa_image *heat);
 

@@ -16,13 +16,32 @@
 extern "C" {
 #endif
 
-/// Reads a point cloud: PLY (ascii, binary of both byte orders). "-" reads standard input.
-/// Errors: EWA_ERROR_IO, EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+/// Reads a point cloud: PLY (ascii, binary of both byte orders), whose element "vertex" holds the points; other
+/// elements and lists are skipped. Properties become the attributes of ewa/cloud.h by their names:
+///   - x y z: "position", F64 when one of them is a double or a 32-bit integer, so that it is exact, else F32;
+///   - nx ny nz or normal_x normal_y normal_z: "normal", F32;
+///   - red green blue [alpha], or diffuse_red ..., or r g b [a]: "color"; U16 from ushort, F32 from float and double,
+///     U8 from every other integer type, clamped to [0, 255];
+///   - radius, tu_x tu_y tu_z, tv_x tv_y tv_z, clip0_a clip0_b clip0_c, clip1_a clip1_b clip1_c: "radius",
+///     "tangent_u", "tangent_v", "clip0", "clip1", F32;
+///   - every other scalar: an attribute of that name and type.
+/// "-" reads standard input. The caller owns `*cloud`, which is NULL after a failure. A file that another program
+/// cuts short while it is read ends the process by SIGBUS, as every mapped file does.
+/// Errors: EWA_ERROR_IO, EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_CANCELLED.
 EWA_API ewa_status ewa_cloud_load(ewa_context *context, const char *path, ewa_cloud **cloud);
 
 /// The same from `size_bytes` bytes in memory; `name` stands for the file in messages.
 EWA_API ewa_status ewa_cloud_load_memory(ewa_context *context, const void *bytes, size_t size_bytes,
                                          const char *name, ewa_cloud **cloud);
+
+/// Receives one line of text without its line feed, valid during the call.
+typedef void ewa_line_callback(void *user, const char *line);
+
+/// Hands over the header of a PLY file, checked, line by line without the first ("ply") and the last ("end_header"):
+/// "format binary_little_endian 1.0", "comment ...", "element vertex 341989", "property float x", ... Bytes that are
+/// no printable ASCII are shown as '?', lines longer than 511 bytes are cut.
+/// Errors: EWA_ERROR_IO, EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_ply_describe(ewa_context *context, const char *path, ewa_line_callback *line, void *user);
 
 typedef enum ewa_ply_encoding {
     EWA_PLY_BINARY_LITTLE_ENDIAN = 0,
@@ -37,41 +56,73 @@ typedef struct ewa_cloud_save_options {
 
 EWA_API void ewa_cloud_save_options_init(ewa_cloud_save_options *options, size_t struct_size);
 
-/// Writes a point cloud; the suffix (.ply) chooses the format; "-" writes PLY to standard output. With an origin
-/// other than zero, positions are written as doubles. `options` may be NULL.
-/// Errors: EWA_ERROR_IO, EWA_ERROR_UNSUPPORTED (suffix), EWA_ERROR_MEMORY.
+/// Writes a point cloud; the suffix (.ply) chooses the format; "-" writes PLY to standard output. Attributes get the
+/// first property names that ewa_cloud_load() knows them by and keep their types; with an origin other than zero,
+/// positions are written as doubles in world units. Any other attribute of several components becomes name_0,
+/// name_1, ... In all encodings, numbers keep every bit (ascii: except of NaN). `options` may be NULL.
+/// Errors: EWA_ERROR_ARGUMENT (no position, two attributes that become one property), EWA_ERROR_LIMIT (over 1,000
+/// properties), EWA_ERROR_IO, EWA_ERROR_UNSUPPORTED (suffix), EWA_ERROR_MEMORY, EWA_CANCELLED.
 EWA_API ewa_status ewa_cloud_save(const ewa_cloud *cloud, const char *path, const ewa_cloud_save_options *options);
 
 /// What a picture file says beside its pixels. Fill with ewa_image_save_options_init().
 typedef struct ewa_image_save_options {
     size_t struct_size;
     /// Names of the image's channels for EXR, comma-separated, such as "R,G,B,A" or "Z"; default NULL: by count,
-    /// 1 Y, 3 RGB, 4 RGBA.
+    /// 1 Y, 3 RGB, 4 RGBA; other counts need names.
     const char *channel_names;
     bool exr_half;                 ///< store half floats; default false: float
-    const double *world_to_camera; ///< 16 numbers as in ewa_camera, or NULL: EXR attribute worldToCamera (M44f)
+    /// 16 numbers as in ewa_camera, or NULL: EXR attribute worldToCamera (m44f), transposed there, since OpenEXR's
+    /// matrices act on row vectors.
+    const double *world_to_camera;
     bool srgb_alpha_straight;      ///< PNG: un-premultiply before encoding; default true
 } ewa_image_save_options;
 
 EWA_API void ewa_image_save_options_init(ewa_image_save_options *options, size_t struct_size);
 
-/// Writes a float image by suffix: .png (8-bit sRGB from linear light), .exr (linear), .pfm (linear, rows bottom-up).
-/// `options` may be NULL.
-/// Errors: EWA_ERROR_IO, EWA_ERROR_UNSUPPORTED (suffix, channel count of the format), EWA_ERROR_MEMORY.
+/// Writes a float image by suffix: .png (8-bit sRGB from linear light; RGBA loses its alpha when that is 1 all
+/// over), .exr (linear, ZIP), .pfm (linear, rows bottom-up; of RGBA the colours as they are, which is over black).
+/// "-" writes PNG to standard output. `options` may be NULL.
+/// Errors: EWA_ERROR_ARGUMENT (channel names), EWA_ERROR_IO, EWA_ERROR_UNSUPPORTED (suffix, channel count of the
+/// format), EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_image_save(const ewa_image *image, const char *path, const ewa_image_save_options *options);
 
-/// Writes 8-bit pixels as PNG: rows from the top, `channel_count` 1 grey, 3 RGB or 4 RGBA straight alpha, sRGB.
+/// Writes 8-bit pixels as PNG: rows from the top, `stride_bytes` apart, `channel_count` 1 grey, 3 RGB or 4 RGBA
+/// straight alpha, sRGB. The same pixels give the same file on every machine and for any number of threads.
+/// Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_IO, EWA_ERROR_UNSUPPORTED (channel count), EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_png_save(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px,
                                 uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes);
 
-/// Reads .png (sRGB 8 and 16 bit to linear light, alpha premultiplied), .exr, .pfm by content.
-/// EXR gives R G B [A] when present, else its channels in alphabetical order, at most 8.
+/// Reads PNG, OpenEXR or PFM, by content; "-" reads standard input. The caller frees the image.
+/// PNG: sRGB of up to 16 bits to linear light; grey gives 1 channel, RGB and palettes 3, anything with alpha 4,
+/// premultiplied; gamma and colour profiles are not looked at.
+/// OpenEXR: the data window of the first part, scan lines or tiles; R G B [A] when present, else its channels in
+/// alphabetical order, at most 8. PFM: 1 or 3 channels, either byte order.
+/// Errors (image empty): EWA_ERROR_IO, EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_image_load(ewa_context *context, const char *path, ewa_image *image);
 
-/// Reads a camera file (JSON of docs/files.md). Errors name the member that is missing or wrong.
-EWA_API ewa_status ewa_camera_load(ewa_context *context, const char *path, ewa_camera *camera);
+/// The same from `size_bytes` bytes in memory; `name` stands for the file in messages.
+EWA_API ewa_status ewa_image_load_memory(ewa_context *context, const void *bytes, size_t size_bytes,
+                                         const char *name, ewa_image *image);
 
-/// Writes a camera file with every digit that a double needs.
+/// Counts the cameras of a file, to go through them with ewa_camera_load(). Errors as there.
+EWA_API ewa_status ewa_camera_file_count(ewa_context *context, const char *path, uint32_t *count);
+
+/// Reads camera `index`, counted from 0 in the file's order, into an initialised `*camera`. The format goes by
+/// content:
+/// - ours: {"width", "height", "fx", "fy", "cx", "cy", "world_to_camera": 16 numbers, row-major} in pixels, with
+///   "projection": "orthographic" for such; or an array of these;
+/// - Open3D PinholeCameraParameters and PinholeCameraTrajectory;
+/// - transforms.json of nerfstudio and instant-ngp; without "w", "h" the size is that of the frame's PNG picture;
+/// - cameras.json of INRIA's Gaussian splatting;
+/// - stacks of matrices: {"width", "height", "viewmats" or "viewmats_world_to_camera", "Ks"};
+/// - a folder with a COLMAP model: cameras and images, .bin or else .txt.
+/// Principal points are taken as they are, lens distortion is left out with a warning. "-" reads standard input.
+/// Errors (camera unchanged), with the member that is missing or wrong: EWA_ERROR_IO, EWA_ERROR_FORMAT,
+/// EWA_ERROR_UNSUPPORTED (fisheye), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_ERROR_ARGUMENT (index).
+EWA_API ewa_status ewa_camera_load(ewa_context *context, const char *path, uint32_t index, ewa_camera *camera);
+
+/// Writes a camera file of our format with every digit that a double needs.
+/// Errors: EWA_ERROR_ARGUMENT (as ewa_camera_check()), EWA_ERROR_IO, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_camera_save(ewa_context *context, const ewa_camera *camera, const char *path);
 
 #ifdef __cplusplus

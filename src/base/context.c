@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The context: options with their defaults, allocation, messages, progress.
+#define _DEFAULT_SOURCE // madvise
 #include "base/base.h"
 #include "base/pool.h"
 
@@ -9,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -18,7 +20,12 @@ struct ewa_context {
     uint32_t cpu_features;
 };
 
-enum { MESSAGE_BYTES = 1024, MAX_WORKERS = 256 };
+enum {
+    MESSAGE_BYTES = 1024,
+    MAX_WORKERS = 256,
+    HUGE_PAGE_BYTES = 1 << 21,
+    HUGE_BLOCK_BYTES = 1 << 22, // blocks from this size on; rounding up wastes at most half
+};
 
 const char *ewa_status_name(ewa_status status) {
     switch (status) {
@@ -44,8 +51,14 @@ const char *ewa_version(void) {
 
 static void *allocate_default(void *user, size_t size_bytes) {
     (void)user;
-    const size_t rounded = (size_bytes + 63) & ~(size_t)63;
-    return rounded < size_bytes ? NULL : aligned_alloc(64, rounded);
+    // Large blocks start on huge pages: filling fresh memory by pages of 4 KiB costs more than any copy into it.
+    const size_t alignment = size_bytes >= HUGE_BLOCK_BYTES ? HUGE_PAGE_BYTES : 64;
+    const size_t rounded = (size_bytes + alignment - 1) & ~(alignment - 1);
+    void *memory = rounded < size_bytes ? NULL : aligned_alloc(alignment, rounded);
+#if defined(MADV_HUGEPAGE)
+    if (memory && alignment == HUGE_PAGE_BYTES) madvise(memory, rounded, MADV_HUGEPAGE);
+#endif
+    return memory;
 }
 
 static void release_default(void *user, void *memory, size_t size_bytes) {

@@ -11,7 +11,7 @@ enum {
     /// split_level of two points that no grid tells apart: they are at the same place, or share a cell with
     /// so few
     /// others that no finer grid was laid.
-    EWA_MORTON_SAME = 0xffff,
+    EWA_MORTON_SAME = 0x7fff,
 };
 
 /// Orders `count` points along the Z-order curve: `order` gets their indices.

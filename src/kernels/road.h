@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The hot loops of the road, written once in road_body.h and compiled per instruction set; the same bytes
-// from each. Their reference is src/splat/reference.c; rules and numbers are those of src/kernels/semantics.h.
+// from each. Their reference is src/splat/reference.c; rules and numbers are those of
+// src/kernels/semantics.h.
 //
 // A frame: cull packets into tile rectangles; then per tile, run by run (32 packets): set up records, sort
 // them by the shape of their box in 4x4-pixel blocks, lower `nearest`; when all runs are done turn `nearest`
@@ -57,12 +58,13 @@ typedef struct ewa_tile_rect {
 
 /// One splat in one tile. dx, dy below are measured from the splat's centre to a pixel's centre.
 typedef struct ewa_record {
-    float offset_x, offset_y;      ///< upper left corner of the box minus the splat's centre, pixels
-    float xx, xy, yy;              ///< s = xx dx^2 + xy dx dy + yy dy^2
-    float weight;                  ///< the resampling kernel's peak
-    float depth, depth_x, depth_y; ///< key: 1/z (orthographic: -z) at the centre and its gradient per pixel
-    float depth_low, depth_high;   ///< range of the key
-    float tolerance;               ///< eps
+    float offset_x, offset_y; ///< upper left corner of the box minus the splat's centre, pixels
+    float xx, xy, yy;         ///< s = xx dx^2 + xy dx dy + yy dy^2
+    float key, key_x, key_y;  ///< 1/z (orthographic: -z) at the centre and its gradient per pixel
+    float key_low, key_high;  ///< range of the key
+    float bound_scale,
+        bound_offset; ///< the key of z + eps is bound_scale key + bound_offset; class EWA_WIDE_CLASS,
+                      ///< perspective: bound_offset is eps, the key of z + eps key / (1 + eps key)
     float red, green, blue;
     uint32_t box; ///< first column | first row << 8 | columns << 16 | rows << 24, in blocks
 } ewa_record;
@@ -77,21 +79,36 @@ typedef struct ewa_near_record {
     float color[3], normal[3];
 } ewa_near_record;
 
-/// What a run leaves before it is sorted.
+/// The part of a splat that only the second pass reads.
+typedef struct ewa_load {
+    float normal[3]; ///< camera space, unit, towards the viewer
+    float peak;      ///< of the resampling kernel
+} ewa_load;
+
+/// A run of packets as splats of a tile. `records` and `loads` have room for EWA_PACKET_LANES more than are
+/// written.
 typedef struct ewa_run {
-    ewa_record records[EWA_RUN_RECORDS + EWA_PACKET_LANES];
-    float normals[EWA_RUN_RECORDS + EWA_PACKET_LANES][4];
+    ewa_record *records;
+    ewa_load *loads;
     uint8_t classes[EWA_RUN_RECORDS + EWA_PACKET_LANES];
     uint32_t near_surfels[EWA_RUN_RECORDS]; ///< packet * 16 + lane
     uint32_t count, near_count;
 } ewa_run;
+
+/// A run's splats in the order of their classes: class c is order[class_first[c] .. class_first[c + 1]).
+typedef struct ewa_sorted_run {
+    const ewa_record *records;
+    const ewa_load *loads;
+    const uint16_t *order;
+    uint16_t class_first[EWA_CLASS_COUNT + 1];
+} ewa_sorted_run;
 
 /// A tile and its pixels, block by block (row-major), 16 lanes per block (4 rows of 4 pixels).
 typedef struct ewa_tile {
     int32_t x_px, y_px;          ///< origin in the picture
     int32_t width_px, height_px; ///< part inside the picture
     uint32_t blocks_per_row, block_rows;
-    float *nearest; ///< [block][16]: B(x), then the bound on the key for the second pass
+    float *nearest; ///< [block][16]: the smallest key that counts, the largest key of z + eps
     float *sums;    ///< [block][channel][16]: weight, r, g, b [, normal x, y, z] [, z]
     uint32_t channel_count;
     bool with_normals, with_depth;
@@ -124,26 +141,16 @@ typedef struct ewa_road_kernels {
     void (*setup)(const ewa_view *view, const ewa_packet *packets, const uint32_t *packet_ids, uint32_t count,
                   const ewa_tile *tile, ewa_run *run);
 
-    /// Sorts the run's records by class, stably, to `records` and `normals`; class c is
-    /// [class_first[c], class_first[c + 1]).
-    void (*sort)(const ewa_run *run, bool with_normals, ewa_record *records, float (*normals)[4],
-                 uint16_t class_first[EWA_CLASS_COUNT + 1]);
-
-    /// Lowers tile->nearest to min(nearest, z + eps) where sorted records count.
-    void (*visibility)(const ewa_view *view, const ewa_tile *tile, const ewa_record *records,
-                       const uint16_t class_first[EWA_CLASS_COUNT + 1]);
+    /// Raises tile->nearest to the key of z + eps where a run's splats count.
+    void (*visibility)(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run);
     void (*near_visibility)(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *records,
                             uint32_t count);
 
-    /// Sets nearest to infinity and the sums to zero.
+    /// Sets nearest to -infinity and the sums to zero.
     void (*clear)(const ewa_tile *tile);
 
-    /// Turns `nearest` from B(x) into the smallest key that still counts.
-    void (*bound)(const ewa_view *view, const ewa_tile *tile);
-
-    /// Adds the records whose key reaches the bound to tile->sums.
-    void (*accumulate)(const ewa_view *view, const ewa_tile *tile, const ewa_record *records,
-                       const float (*normals)[4], const uint16_t class_first[EWA_CLASS_COUNT + 1]);
+    /// Adds a run's splats to tile->sums where their key reaches tile->nearest.
+    void (*accumulate)(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run);
     void (*near_accumulate)(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *records,
                             uint32_t count);
 

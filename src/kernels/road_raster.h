@@ -5,8 +5,6 @@
 #ifndef EWA_SRC_KERNELS_ROAD_RASTER_H
 #define EWA_SRC_KERNELS_ROAD_RASTER_H
 
-#define ALWAYS_INLINE inline __attribute__((always_inline))
-
 /// exp(-s) for s in [0, 0.5] within 5.1e-7 relative, squared `doublings` >= 2 times.
 static ALWAYS_INLINE wf exponential(wf s, uint32_t doublings) {
     wf e = wf_fma(s, wf_set(0.032365625784f), wf_set(-0.162670935613f));
@@ -39,7 +37,7 @@ typedef struct column_terms {
 static ALWAYS_INLINE column_terms column_start(const ewa_record *r, float first_px) {
     const wf dx = wf_add(lanes_x(), wf_set(r->offset_x + first_px));
     return (column_terms){wf_mul(wf_mul(wf_set(r->xx), dx), dx), wf_mul(wf_set(r->xy), dx),
-                          wf_fma(wf_set(r->depth_x), dx, wf_set(r->depth))};
+                          wf_fma(wf_set(r->key_x), dx, wf_set(r->key))};
 }
 
 /// s of a block and its clamped key.
@@ -48,7 +46,7 @@ static ALWAYS_INLINE wf block_exponent(const column_terms *c, wf dy, wf yy_dy2) 
 }
 
 static ALWAYS_INLINE wf block_key(const ewa_record *r, const column_terms *c, wf key_dy) {
-    return wf_min(wf_max(wf_add(c->key, key_dy), wf_set(r->depth_low)), wf_set(r->depth_high));
+    return wf_min(wf_max(wf_add(c->key, key_dy), wf_set(r->key_low)), wf_set(r->key_high));
 }
 
 static ALWAYS_INLINE uint32_t box_column(uint32_t box) { return box & 0xff; }
@@ -56,101 +54,85 @@ static ALWAYS_INLINE uint32_t box_row(uint32_t box) { return box >> 8 & 0xff; }
 static ALWAYS_INLINE uint32_t box_columns(uint32_t box) { return box >> 16 & 0xff; }
 static ALWAYS_INLINE uint32_t box_rows(uint32_t box) { return box >> 24; }
 
-/// Lowers one block of `nearest` to z + eps where the splat counts.
-static ALWAYS_INLINE void lower(float *nearest, wf s, wf end, wf key, wf tolerance, bool orthographic) {
-    const wf z = orthographic ? wf_negate(key) : wf_div(wf_set(1), key);
-    const wf bound = wf_add(z, tolerance), old = wf_load(nearest);
-    wf_store(nearest, wf_select(wf_lt(s, end), wf_min(bound, old), old));
+/// Raises one block of `nearest` to the key of z + eps where the splat counts.
+static ALWAYS_INLINE void raise(float *nearest, wf s, wf end, wf bound) {
+    const wf old = wf_load(nearest);
+    wf_store(nearest, wf_select(wf_lt(s, end), wf_max(bound, old), old));
 }
 
 static ALWAYS_INLINE void visibility_rows(const ewa_view *view, const ewa_tile *tile, const ewa_record *r,
                                           uint32_t first_column, uint32_t columns, uint32_t rows,
-                                          bool orthographic) {
+                                          bool exact) {
     column_terms c[EWA_COLUMN_CLASSES];
+#pragma GCC unroll 4
     for (uint32_t i = 0; i < columns; i++) c[i] = column_start(r, (float)(EWA_BLOCK_PX * (first_column + i)));
-    const wf end = wf_set(view->exponent_end), tolerance = wf_set(r->tolerance);
+    const wf end = wf_set(view->exponent_end), scale = wf_set(r->bound_scale),
+             offset = wf_set(r->bound_offset);
     const size_t row_floats = (size_t)tile->blocks_per_row * EWA_BLOCK_LANES;
     float *nearest = tile->nearest + box_row(r->box) * row_floats +
                      (size_t)(box_column(r->box) + first_column) * EWA_BLOCK_LANES;
     wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
     for (uint32_t row = 0; row < rows; row++, nearest += row_floats, dy = wf_add(dy, wf_set(EWA_BLOCK_PX))) {
-        const wf yy_dy2 = wf_mul(wf_mul(wf_set(r->yy), dy), dy), key_dy = wf_mul(wf_set(r->depth_y), dy);
-        for (uint32_t i = 0; i < columns; i++)
-            lower(nearest + (size_t)i * EWA_BLOCK_LANES, block_exponent(&c[i], dy, yy_dy2), end,
-                  block_key(r, &c[i], key_dy), tolerance, orthographic);
+        const wf yy_dy2 = wf_mul(wf_mul(wf_set(r->yy), dy), dy), key_dy = wf_mul(wf_set(r->key_y), dy);
+#pragma GCC unroll 4
+        for (uint32_t i = 0; i < columns; i++) {
+            const wf key = block_key(r, &c[i], key_dy);
+            const wf bound = exact ? wf_mul(key, wf_reciprocal(wf_fma(offset, key, wf_set(1))))
+                                   : wf_fma(scale, key, offset);
+            raise(nearest + (size_t)i * EWA_BLOCK_LANES, block_exponent(&c[i], dy, yy_dy2), end, bound);
+        }
     }
 }
 
-/// One pass over the sorted records of a run.
+/// One pass over a run.
 typedef struct pass {
     const ewa_view *view;
     const ewa_tile *tile;
-    const ewa_record *records;
-    const float (*normals)[4];
-    const uint16_t *class_first;
+    const ewa_sorted_run *run;
 } pass;
 
-typedef void record_rows(const pass *p, uint32_t index, uint32_t first_column, uint32_t columns,
-                         uint32_t rows);
+typedef void splat_rows(const pass *p, uint32_t splat, uint32_t first_column, uint32_t columns,
+                        uint32_t rows);
 
 /// Calls `body` with the column count a constant in each class and the row count the same along a class, so
 /// that its loops are unrolled or predicted.
-static ALWAYS_INLINE void for_each_record(const pass *p, record_rows *body) {
-    const uint16_t *first = p->class_first;
-    const ewa_record *r = p->records;
-    for (uint32_t i = first[0]; i < first[EWA_ROW_CLASSES]; i++) body(p, i, 0, 1, box_rows(r[i].box));
-    for (uint32_t i = first[EWA_ROW_CLASSES]; i < first[2 * EWA_ROW_CLASSES]; i++)
-        body(p, i, 0, 2, box_rows(r[i].box));
-    for (uint32_t i = first[2 * EWA_ROW_CLASSES]; i < first[3 * EWA_ROW_CLASSES]; i++)
-        body(p, i, 0, 3, box_rows(r[i].box));
-    for (uint32_t i = first[3 * EWA_ROW_CLASSES]; i < first[EWA_WIDE_CLASS]; i++)
-        body(p, i, 0, 4, box_rows(r[i].box));
+static ALWAYS_INLINE void for_each_splat(const pass *p, splat_rows *body, splat_rows *wide_body) {
+    const uint16_t *first = p->run->class_first, *order = p->run->order;
+    const ewa_record *r = p->run->records;
+#pragma GCC unroll 4
+    for (uint32_t columns = 1; columns <= EWA_COLUMN_CLASSES; columns++)
+        for (uint32_t i = first[(columns - 1) * EWA_ROW_CLASSES]; i < first[columns * EWA_ROW_CLASSES]; i++)
+            body(p, order[i], 0, columns, box_rows(r[order[i]].box));
     for (uint32_t i = first[EWA_WIDE_CLASS]; i < first[EWA_CLASS_COUNT]; i++) {
-        const uint32_t columns = box_columns(r[i].box), rows = box_rows(r[i].box);
+        const uint32_t columns = box_columns(r[order[i]].box), rows = box_rows(r[order[i]].box);
         uint32_t column = 0;
-        for (; column + 4 <= columns; column += 4) body(p, i, column, 4, rows);
-        for (; column < columns; column++) body(p, i, column, 1, rows);
+        for (; column + 4 <= columns; column += 4) wide_body(p, order[i], column, 4, rows);
+        for (; column < columns; column++) wide_body(p, order[i], column, 1, rows);
     }
 }
 
-static ALWAYS_INLINE void lower_perspective(const pass *p, uint32_t i, uint32_t first_column,
-                                            uint32_t columns, uint32_t rows) {
-    visibility_rows(p->view, p->tile, &p->records[i], first_column, columns, rows, false);
+static ALWAYS_INLINE void raise_rows(const pass *p, uint32_t splat, uint32_t first_column, uint32_t columns,
+                                     uint32_t rows) {
+    visibility_rows(p->view, p->tile, &p->run->records[splat], first_column, columns, rows, false);
 }
 
-static ALWAYS_INLINE void lower_orthographic(const pass *p, uint32_t i, uint32_t first_column,
-                                             uint32_t columns, uint32_t rows) {
-    visibility_rows(p->view, p->tile, &p->records[i], first_column, columns, rows, true);
+static ALWAYS_INLINE void raise_wide_rows(const pass *p, uint32_t splat, uint32_t first_column,
+                                          uint32_t columns, uint32_t rows) {
+    visibility_rows(p->view, p->tile, &p->run->records[splat], first_column, columns, rows,
+                    !p->view->orthographic);
 }
 
-static void visibility(const ewa_view *view, const ewa_tile *tile, const ewa_record *records,
-                       const uint16_t class_first[EWA_CLASS_COUNT + 1]) {
-    const pass p = {view, tile, records, NULL, class_first};
-    if (view->orthographic)
-        for_each_record(&p, lower_orthographic);
-    else
-        for_each_record(&p, lower_perspective);
+static void visibility(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run) {
+    const pass p = {view, tile, run};
+    for_each_splat(&p, raise_rows, raise_wide_rows);
 }
 
 static void clear(const ewa_tile *tile) {
     const size_t blocks = (size_t)tile->blocks_per_row * tile->block_rows;
-    const wf infinity = wf_set(__builtin_inff()), zero = wf_set(0);
-    for (size_t i = 0; i < blocks * EWA_BLOCK_LANES; i += EWA_BLOCK_LANES)
-        wf_store(tile->nearest + i, infinity);
+    const wf far = wf_set(-__builtin_inff()), zero = wf_set(0);
+    for (size_t i = 0; i < blocks * EWA_BLOCK_LANES; i += EWA_BLOCK_LANES) wf_store(tile->nearest + i, far);
     const size_t floats = blocks * tile->channel_count * EWA_BLOCK_LANES;
     for (size_t i = 0; i < floats; i += EWA_BLOCK_LANES) wf_store(tile->sums + i, zero);
-}
-
-/// z <= B becomes key >= 1/B (orthographic -B), lowered by a few roundings: a splat must not lose against
-/// itself.
-static void bound(const ewa_view *view, const ewa_tile *tile) {
-    const size_t floats = (size_t)tile->blocks_per_row * tile->block_rows * EWA_BLOCK_LANES;
-    const wf lower_by = wf_set(4.8e-7f); // 4 units in the last place
-    for (size_t i = 0; i < floats; i += EWA_BLOCK_LANES) {
-        const wf b = wf_load(tile->nearest + i);
-        const wf key = view->orthographic ? wf_negate(b) : wf_div(wf_set(1), b);
-        wf_store(tile->nearest + i, wf_fnma(wf_abs(key), lower_by, key));
-    }
 }
 
 /// What a record adds per unit of weight, and which channels there are.
@@ -174,46 +156,62 @@ static ALWAYS_INLINE void add_channels(float *sums, wf weight, const payload *p,
     }
 }
 
-static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t index, uint32_t first_column,
+static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_t first_column,
                                           uint32_t columns, uint32_t rows, bool with_normals, bool with_depth,
-                                          bool orthographic) {
+                                          bool orthographic, bool two_doublings) {
     const ewa_view *view = p->view;
     const ewa_tile *tile = p->tile;
-    const ewa_record *r = &p->records[index];
+    const ewa_record *r = &p->run->records[splat];
+    const ewa_load *load = &p->run->loads[splat];
     const uint32_t channels = 4 + (with_normals ? 3 : 0) + (with_depth ? 1 : 0);
+    const uint32_t doublings = two_doublings ? 2 : view->doublings;
     column_terms c[EWA_COLUMN_CLASSES];
+#pragma GCC unroll 4
     for (uint32_t i = 0; i < columns; i++) c[i] = column_start(r, (float)(EWA_BLOCK_PX * (first_column + i)));
-    payload load = {.color = {wf_set(r->red), wf_set(r->green), wf_set(r->blue)}};
+    payload add = {.color = {wf_set(r->red), wf_set(r->green), wf_set(r->blue)}};
     if (with_normals)
-        for (int i = 0; i < 3; i++) load.normal[i] = wf_set(p->normals[index][i]);
-    const wf end = wf_set(view->exponent_end), peak = wf_set(r->weight);
+        for (int i = 0; i < 3; i++) add.normal[i] = wf_set(load->normal[i]);
+    const wf end = wf_set(view->exponent_end), peak = wf_set(load->peak);
     const size_t row_blocks = tile->blocks_per_row;
     const size_t first_block = box_row(r->box) * row_blocks + box_column(r->box) + first_column;
-    const float *bounds = tile->nearest + first_block * EWA_BLOCK_LANES;
+    const float *nearest = tile->nearest + first_block * EWA_BLOCK_LANES;
     float *sums = tile->sums + first_block * channels * EWA_BLOCK_LANES;
     wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
     for (uint32_t row = 0; row < rows; row++) {
-        const wf yy_dy2 = wf_mul(wf_mul(wf_set(r->yy), dy), dy), key_dy = wf_mul(wf_set(r->depth_y), dy);
+        const wf yy_dy2 = wf_mul(wf_mul(wf_set(r->yy), dy), dy), key_dy = wf_mul(wf_set(r->key_y), dy);
+#pragma GCC unroll 4
         for (uint32_t i = 0; i < columns; i++) {
             const wf s = block_exponent(&c[i], dy, yy_dy2), key = block_key(r, &c[i], key_dy);
             const wm counts =
-                wm_and(wf_lt(s, end), wf_le(wf_load(bounds + (size_t)i * EWA_BLOCK_LANES), key));
-            const wf weight = wf_keep(counts, wf_mul(exponential(s, view->doublings), peak));
-            add_channels(sums + (size_t)i * channels * EWA_BLOCK_LANES, weight, &load, key, with_normals,
+                wm_and(wf_lt(s, end), wf_le(wf_load(nearest + (size_t)i * EWA_BLOCK_LANES), key));
+            const wf weight = wf_keep(counts, wf_mul(exponential(s, doublings), peak));
+            add_channels(sums + (size_t)i * channels * EWA_BLOCK_LANES, weight, &add, key, with_normals,
                          with_depth, orthographic);
         }
-        bounds += row_blocks * EWA_BLOCK_LANES;
+        nearest += row_blocks * EWA_BLOCK_LANES;
         sums += row_blocks * channels * EWA_BLOCK_LANES;
         dy = wf_add(dy, wf_set(EWA_BLOCK_PX));
     }
 }
 
+/// The accumulation for one set of channels; cutoffs up to 2 need two doublings only.
 #define ACCUMULATE(name, with_normals, with_depth, orthographic)                                             \
-    static ALWAYS_INLINE void name##_rows(const pass *p, uint32_t i, uint32_t first_column,                  \
+    static ALWAYS_INLINE void name##_rows(const pass *p, uint32_t splat, uint32_t first_column,              \
                                           uint32_t columns, uint32_t rows) {                                 \
-        accumulate_rows(p, i, first_column, columns, rows, with_normals, with_depth, orthographic);          \
+        accumulate_rows(p, splat, first_column, columns, rows, with_normals, with_depth, orthographic,       \
+                        true);                                                                               \
     }                                                                                                        \
-    static void name(const pass *p) { for_each_record(p, name##_rows); }
+    static ALWAYS_INLINE void name##_long_rows(const pass *p, uint32_t splat, uint32_t first_column,         \
+                                               uint32_t columns, uint32_t rows) {                            \
+        accumulate_rows(p, splat, first_column, columns, rows, with_normals, with_depth, orthographic,       \
+                        false);                                                                              \
+    }                                                                                                        \
+    static void name(const pass *p) {                                                                        \
+        if (p->view->doublings == 2)                                                                         \
+            for_each_splat(p, name##_rows, name##_rows);                                                     \
+        else                                                                                                 \
+            for_each_splat(p, name##_long_rows, name##_long_rows);                                           \
+    }
 
 ACCUMULATE(add_color, false, false, false)
 ACCUMULATE(add_color_depth, false, true, false)
@@ -222,9 +220,8 @@ ACCUMULATE(add_normal, true, false, false)
 ACCUMULATE(add_normal_depth, true, true, false)
 ACCUMULATE(add_normal_height, true, true, true)
 
-static void accumulate(const ewa_view *view, const ewa_tile *tile, const ewa_record *records,
-                       const float (*normals)[4], const uint16_t class_first[EWA_CLASS_COUNT + 1]) {
-    const pass p = {view, tile, records, normals, class_first};
+static void accumulate(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run) {
+    const pass p = {view, tile, run};
     if (!tile->with_depth) {
         if (tile->with_normals)
             add_normal(&p);
@@ -292,8 +289,9 @@ static void near_visibility(const ewa_view *view, const ewa_tile *tile, const ew
             for (uint32_t column = 0; column < tile->blocks_per_row; column++, nearest += EWA_BLOCK_LANES) {
                 const wf x = wf_add(lanes_x(), wf_set((float)(EWA_BLOCK_PX * column)));
                 const near_sample sample = near_evaluate(view, &records[i], x, y);
-                const wf old = wf_load(nearest), low = wf_add(sample.z, wf_set(records[i].tolerance));
-                wf_store(nearest, wf_select(sample.counts, wf_min(low, old), old));
+                const wf old = wf_load(nearest);
+                const wf key = wf_div(wf_set(1), wf_add(sample.z, wf_set(records[i].tolerance)));
+                wf_store(nearest, wf_select(sample.counts, wf_max(key, old), old));
             }
         }
     }

@@ -10,7 +10,7 @@
 /// The sRGB curve times 255, rounded to nearest, for values in [0, 1]: a polynomial in x^(1/4) within 0.002
 /// of a code.
 static inline wi srgb_codes(wf linear) {
-    const wf t = wf_sqrt(wf_sqrt(linear));
+    const wf t = wf_root(wf_root(linear));
     wf c = wf_fma(t, wf_set(-0.068147173422f), wf_set(0.289532584065f));
     c = wf_fma(t, c, wf_set(-0.577482217966f));
     c = wf_fma(t, c, wf_set(1.255404113825f));
@@ -55,7 +55,7 @@ static inline wf lambert(const ewa_resolve *to, const wf normal[3], uint32_t x, 
         light[0] = wf_negate(wf_fma(px, wf_set(to->ray_x[0]), wf_set(to->ray_x[1])));
         light[1] = wf_negate(wf_fma(py, wf_set(to->ray_y[0]), wf_set(to->ray_y[1])));
         light[2] = wf_set(-1);
-        scale3(light, wf_div(wf_set(1), wf_sqrt(dot3(light, light))));
+        scale3(light, wf_inverse_root(dot3(light, light)));
     } else {
         for (int i = 0; i < 3; i++) light[i] = wf_set(to->light[i]);
     }
@@ -78,7 +78,7 @@ static void resolve_block(const ewa_tile *tile, const ewa_resolve *to, const flo
         for (int i = 0; i < 3; i++) normal[i] = wf_load(sums + (4 + i) * LANES);
         const wf length2 = dot3(normal, normal);
         const wm defined = wf_lt(zero, length2);
-        scale3(normal, wf_keep(defined, wf_div(one, wf_sqrt(wf_select(defined, length2, one)))));
+        scale3(normal, wf_keep(defined, wf_inverse_root(length2)));
         if (to->lambert) scale3(color, lambert(to, normal, x, y));
     }
     if (to->rgba || to->rgba8) {
@@ -100,9 +100,13 @@ static void resolve_block(const ewa_tile *tile, const ewa_resolve *to, const flo
                 codes = wi_or(codes, wi_shl(srgb_codes(wf_clamp01(wf_mul(out[i], straight))), 8 * i));
             int32_t bytes[16];
             wi_store(bytes, codes);
-            for (uint32_t row = 0; row < height; row++)
-                memcpy(to->rgba8 + ((size_t)(y + row) * to->width_px + x) * 4, &bytes[row * EWA_BLOCK_PX],
-                       (size_t)width * 4);
+            uint8_t *out8 = to->rgba8 + ((size_t)y * to->width_px + x) * 4;
+            for (uint32_t row = 0; row < height; row++, out8 += (size_t)to->width_px * 4) {
+                if (width == EWA_BLOCK_PX)
+                    memcpy(out8, &bytes[row * EWA_BLOCK_PX], EWA_BLOCK_PX * sizeof *bytes);
+                else
+                    memcpy(out8, &bytes[row * EWA_BLOCK_PX], width * sizeof *bytes);
+            }
         }
     }
     float lanes[16];

@@ -45,6 +45,7 @@ static inline wf wf_floor(wf a) { return UNARY(wf, _mm256_floor_ps, a); }
 static inline wf wf_from_i(wi a) { return UNARY(wf, _mm256_cvtepi32_ps, a); }
 static inline wi wi_from_f(wf a) { return UNARY(wi, _mm256_cvttps_epi32, a); }
 static inline wf wf_of_bits(wi a) { return UNARY(wf, _mm256_castsi256_ps, a); }
+static inline wi wi_of_bits(wf a) { return UNARY(wi, _mm256_castps_si256, a); }
 static inline wm wf_lt(wf a, wf b) {
     return PAIR(wm, _mm256_cmp_ps(a.l, b.l, _CMP_LT_OQ), _mm256_cmp_ps(a.h, b.h, _CMP_LT_OQ));
 }

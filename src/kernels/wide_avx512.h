@@ -25,6 +25,7 @@ static inline wf wf_floor(wf a) { return _mm512_roundscale_ps(a, _MM_FROUND_TO_N
 static inline wf wf_from_i(wi a) { return _mm512_cvtepi32_ps(a); }
 static inline wi wi_from_f(wf a) { return _mm512_cvttps_epi32(a); }
 static inline wf wf_of_bits(wi a) { return _mm512_castsi512_ps(a); }
+static inline wi wi_of_bits(wf a) { return _mm512_castps_si512(a); }
 static inline wm wf_lt(wf a, wf b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
 static inline wm wf_le(wf a, wf b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ); }
 static inline wf wf_select(wm m, wf a, wf b) { return _mm512_mask_blend_ps(m, b, a); }

@@ -42,6 +42,11 @@ static inline wf wf_of_bits(wi a) {
     memcpy(result.v, a.v, sizeof a.v);
     return result;
 }
+static inline wi wi_of_bits(wf a) {
+    wi result;
+    memcpy(result.v, a.v, sizeof a.v);
+    return result;
+}
 static inline wm wf_lt(wf a, wf b) { EACH(wm, -(int32_t)(a.v[i] < b.v[i])); }
 static inline wm wf_le(wf a, wf b) { EACH(wm, -(int32_t)(a.v[i] <= b.v[i])); }
 static inline wf wf_select(wm m, wf a, wf b) { EACH(wf, m.v[i] ? a.v[i] : b.v[i]); }

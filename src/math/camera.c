@@ -3,12 +3,14 @@
 //
 // Cameras: checks, placement, intrinsics, framing of a box. Doubles throughout; + - * / and sqrt only, so
 // that every machine computes the same camera.
-#include "ewa/camera.h"
+#include "math/camera.h"
 #include "base/base.h"
 #include "math/angle.h"
 
 #include <float.h>
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { MAX_SIDE_PX = 65536 };
@@ -130,48 +132,60 @@ void ewa_camera_init(ewa_camera *camera, size_t struct_size) {
     ewa_camera_set_fov(camera, 50);
 }
 
-ewa_status ewa_camera_check(ewa_context *context, const ewa_camera *camera) {
-    if (!context || !camera) return EWA_ERROR_ARGUMENT;
-    if (camera->struct_size != sizeof *camera)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "camera: struct_size is %zu, not %zu",
-                        camera->struct_size, sizeof *camera);
-    if (camera->projection != EWA_PERSPECTIVE && camera->projection != EWA_ORTHOGRAPHIC)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "camera: projection is %d", (int)camera->projection);
-    if (camera->width_px < 1 || camera->height_px < 1 || camera->width_px > MAX_SIDE_PX ||
-        camera->height_px > MAX_SIDE_PX)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT,
-                        "camera: width_px x height_px is %u x %u (1 to %d allowed)", camera->width_px,
-                        camera->height_px, MAX_SIDE_PX);
-    if (!(camera->fx_px > 0) || !(camera->fy_px > 0) || !isfinite(camera->fx_px) || !isfinite(camera->fy_px))
-        return ewa_fail(context, EWA_ERROR_ARGUMENT,
-                        "camera: fx_px, fy_px is %g, %g (positive and finite wanted)", camera->fx_px,
-                        camera->fy_px);
-    if (!isfinite(camera->cx_px) || !isfinite(camera->cy_px))
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "camera: cx_px, cy_px is %g, %g (finite wanted)",
-                        camera->cx_px, camera->cy_px);
-    const double *m = camera->world_to_camera;
+static bool complain(char text[EWA_CAMERA_PROBLEM_BYTES], const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+static bool complain(char text[EWA_CAMERA_PROBLEM_BYTES], const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, EWA_CAMERA_PROBLEM_BYTES, format, arguments);
+    va_end(arguments);
+    return true;
+}
+
+static bool find_matrix_problem(const double m[16], char text[EWA_CAMERA_PROBLEM_BYTES]) {
     for (int i = 0; i < 16; i++)
-        if (!isfinite(m[i]))
-            return ewa_fail(context, EWA_ERROR_ARGUMENT, "camera: world_to_camera[%d] is %g", i, m[i]);
+        if (!isfinite(m[i])) return complain(text, "world_to_camera[%d] is %g", i, m[i]);
     if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT,
-                        "camera: world_to_camera's last row is %g %g %g %g, not 0 0 0 1", m[12], m[13], m[14],
+        return complain(text, "world_to_camera's last row is %g %g %g %g, not 0 0 0 1", m[12], m[13], m[14],
                         m[15]);
     const double square = (dot(&m[0], &m[0]) + dot(&m[4], &m[4]) + dot(&m[8], &m[8])) / 3;
     double deviation = 0, normal[3];
     for (int r = 0; r < 3; r++)
         for (int c = r; c < 3; c++)
             deviation = fmax(deviation, fabs(dot(&m[4 * r], &m[4 * c]) - (r == c ? square : 0)));
-    cross(&m[0], &m[4], normal);
     if (!(square >= DBL_MIN) || !isfinite(square) || !(deviation <= ROTATION_TOLERANCE * square))
-        return ewa_fail(
-            context, EWA_ERROR_ARGUMENT,
-            "camera: world_to_camera's upper left 3x3 is not a rotation times a scale (off by %g of %g)",
-            deviation, square);
+        return complain(text,
+                        "world_to_camera's upper left 3x3 is not a rotation times a scale (off by %g of %g)",
+                        deviation, square);
+    cross(&m[0], &m[4], normal);
     if (!(dot(normal, &m[8]) > 0))
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "camera: world_to_camera mirrors (determinant %g)",
-                        dot(normal, &m[8]));
-    return EWA_OK;
+        return complain(text, "world_to_camera mirrors (determinant %g)", dot(normal, &m[8]));
+    return false;
+}
+
+bool ewa_camera_find_problem(const ewa_camera *camera, char text[EWA_CAMERA_PROBLEM_BYTES]) {
+    if (camera->struct_size != sizeof *camera)
+        return complain(text, "struct_size is %zu, not %zu", camera->struct_size, sizeof *camera);
+    if (camera->projection != EWA_PERSPECTIVE && camera->projection != EWA_ORTHOGRAPHIC)
+        return complain(text, "projection is %d", (int)camera->projection);
+    if (camera->width_px < 1 || camera->height_px < 1 || camera->width_px > MAX_SIDE_PX ||
+        camera->height_px > MAX_SIDE_PX)
+        return complain(text, "width_px x height_px is %u x %u (1 to %d allowed)", camera->width_px,
+                        camera->height_px, MAX_SIDE_PX);
+    if (!(camera->fx_px > 0) || !(camera->fy_px > 0) || !isfinite(camera->fx_px) || !isfinite(camera->fy_px))
+        return complain(text, "fx_px, fy_px is %g, %g (positive and finite wanted)", camera->fx_px,
+                        camera->fy_px);
+    if (!isfinite(camera->cx_px) || !isfinite(camera->cy_px))
+        return complain(text, "cx_px, cy_px is %g, %g (finite wanted)", camera->cx_px, camera->cy_px);
+    return find_matrix_problem(camera->world_to_camera, text);
+}
+
+ewa_status ewa_camera_check(ewa_context *context, const ewa_camera *camera) {
+    if (!context || !camera) return EWA_ERROR_ARGUMENT;
+    char text[EWA_CAMERA_PROBLEM_BYTES];
+    if (!ewa_camera_find_problem(camera, text)) return EWA_OK;
+    return ewa_fail(context, EWA_ERROR_ARGUMENT, "camera: %s", text);
 }
 
 ewa_status ewa_camera_look_at(ewa_camera *camera, const double eye_world[3], const double target_world[3],

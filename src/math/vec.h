@@ -126,4 +126,13 @@ static inline ewa_vec4 mat4_mul_vec4(const ewa_mat4 *a, ewa_vec4 v) {
                      vec4_dot(mat4_row(a, 3), v));
 }
 
+static inline ewa_mat3 mat3_from_conic(const ewa_conic *q) {
+    return (ewa_mat3){{{q->xx, q->xy, q->xw}, {q->xy, q->yy, q->yw}, {q->xw, q->yw, q->ww}}};
+}
+
+/// The upper triangle of a matrix that is symmetric but for rounding.
+static inline ewa_conic conic_from_mat3(const ewa_mat3 *a) {
+    return (ewa_conic){a->m[0][0], a->m[0][1], a->m[0][2], a->m[1][1], a->m[1][2], a->m[2][2]};
+}
+
 #endif

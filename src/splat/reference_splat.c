@@ -105,7 +105,8 @@ static bool make_ellipse(const ewa_reference_view *view, ewa_reference_splat *sp
     }
     // V' = V + h^2 I (math.md section 4); its determinant by a sum of positive terms.
     const double determinant = root * root + h2 * (variance[0] + variance[2]) + h2 * h2;
-    if (!(determinant > 0)) return false;
+    // Without a prefilter a splat from the edge is a line of no area.
+    if (!(determinant > EWA_FLAT * (variance[0] + h2) * (variance[2] + h2))) return false;
     splat->inverse[0] = (variance[2] + h2) / determinant;
     splat->inverse[1] = -variance[1] / determinant;
     splat->inverse[2] = (variance[0] + h2) / determinant;
@@ -113,7 +114,7 @@ static bool make_ellipse(const ewa_reference_view *view, ewa_reference_splat *sp
     const double half_width = F * sqrt(variance[0] + h2), half_height = F * sqrt(variance[2] + h2);
     set_box(view, center[0] - half_width, center[0] + half_width, center[1] - half_height,
             center[1] + half_height, splat);
-    return splat->peak > 0;
+    return true;
 }
 
 /// A box around the pixels whose rays may meet a near surfel within 2 F standard deviations: the corners of
@@ -147,24 +148,20 @@ static void bound_near(const ewa_reference_view *view, ewa_reference_splat *spla
 }
 
 /// The tangent plane on the screen and the tolerance of the visibility test (math.md sections 5 and 6).
+///     1/z(x) = n.d(x) / n.p = 1/pz + n.(d(x) - p/pz) / n.p
+/// Orthographic: z(x) = pz - ((X - px) nx + (Y - py) ny) / nz at X = (x - cx) / fx, Y = (y - cy) / fy.
 static void make_depth(const ewa_reference_view *view, double half_range, ewa_reference_splat *splat) {
     const ewa_vec3 p = splat->center, n = splat->normal;
-    double slope; // what z changes per pixel at the centre
-    if (view->orthographic) {
-        // z(x) = pz - ((X - px) nx + (Y - py) ny) / nz at X = (x - cx) / fx, Y = (y - cy) / fy
-        splat->plane[0] = -n.x / (n.z * view->fx_px);
-        splat->plane[1] = -n.y / (n.z * view->fy_px);
-        splat->plane[2] =
-            vec3_dot(n, p) / n.z - splat->plane[0] * view->cx_px - splat->plane[1] * view->cy_px;
-        slope = hypot(splat->plane[0], splat->plane[1]);
-    } else {
-        // 1/z(x) = n.d(x) / n.p
-        const double np = vec3_dot(n, p);
-        splat->plane[0] = n.x / (np * view->fx_px);
-        splat->plane[1] = n.y / (np * view->fy_px);
-        splat->plane[2] = n.z / np - splat->plane[0] * view->cx_px - splat->plane[1] * view->cy_px;
-        slope = hypot(splat->plane[0], splat->plane[1]) * p.z * p.z;
-    }
+    const bool flat = view->orthographic;
+    const double facing = flat ? n.z : vec3_dot(n, p), least = EWA_EDGE_ON * (flat ? 1 : vec3_length(p));
+    const double raised = (facing < 0 ? -1 : 1) * fmax(fabs(facing), least) * (flat ? -1 : 1);
+    splat->plane[0] = n.x / (raised * view->fx_px);
+    splat->plane[1] = n.y / (raised * view->fy_px);
+    const double s = flat ? 1 : 1 / p.z;
+    splat->plane[2] = (flat ? p.z : s) - splat->plane[0] * (view->fx_px * p.x * s + view->cx_px) -
+                      splat->plane[1] * (view->fy_px * p.y * s + view->cy_px);
+    // what z changes per pixel at the centre
+    const double slope = hypot(splat->plane[0], splat->plane[1]) * (flat ? 1 : p.z * p.z);
     splat->z_low = p.z - half_range;
     splat->z_high = p.z + half_range;
     const double radius = view->cutoff * fmax(vec3_length(splat->axis_u), vec3_length(splat->axis_v));
@@ -187,7 +184,8 @@ void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *sur
     const double facing = view->orthographic ? n.z : vec3_dot(n, p);
     if (view->orthographic ? p.z <= 0 : p.z + half_range <= 0) return;
     if (view->cull == EWA_CULL_BACK && facing >= 0) return;
-    if (fabs(facing) < EWA_EDGE_ON * (view->orthographic ? 1 : vec3_length(p))) return;
+    const bool by_rays = !view->orthographic && p.z <= EWA_NEAR_RATIO * half_range;
+    if (by_rays && fabs(facing) < EWA_EDGE_ON * vec3_length(p)) return;
     const double sign = facing > 0 ? -1 : 1;
     splat->center = p;
     splat->axis_u = u;
@@ -195,7 +193,7 @@ void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *sur
     splat->normal = vec3_scale(n, sign);
     splat->normal_world = vec3_scale(vec3_load(surfel->normal_world), sign);
     splat->color = vec3_load(surfel->color_linear);
-    splat->by_rays = !view->orthographic && p.z <= EWA_NEAR_RATIO * half_range;
+    splat->by_rays = by_rays;
     make_depth(view, half_range, splat);
     if (splat->by_rays)
         bound_near(view, splat);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// One tile from its packets to its pixels: runs of packets are set up, sorted and lower the depth bound; then
+// One tile from its packets to its pixels: runs of packets are set up, sorted and raise the depth bound; then
 // all records that reach the bound are summed, and the sums resolved (math.md sections 6 and 7).
 //
 // Records are kept from the first pass to the second. A tile that would need more than KEPT_RECORDS sets its
@@ -19,37 +19,57 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     if (records > KEPT_RECORDS) records = KEPT_RECORDS;
     if (records < EWA_RUN_RECORDS) records = EWA_RUN_RECORDS;
     const size_t tile_floats = (size_t)job->view.tile_px * job->view.tile_px;
-    ewa_status status = ewa_buffer_reserve(context, &s->record_buffer, records, sizeof *s->records);
-    if (status == EWA_OK)
-        status = ewa_buffer_reserve(context, &s->normal_buffer, records, sizeof *s->normals);
-    if (status == EWA_OK)
-        status = ewa_buffer_reserve(context, &s->near_buffer, records, sizeof *s->near_surfels);
-    if (status == EWA_OK)
-        status = ewa_buffer_reserve(context, &s->kept_buffer, records / EWA_RUN_RECORDS + 1, sizeof *s->kept);
-    if (status == EWA_OK)
-        status = ewa_buffer_reserve(context, &s->nearest_buffer, tile_floats, sizeof(float));
-    if (status == EWA_OK)
-        status = ewa_buffer_reserve(context, &s->sum_buffer, tile_floats * EWA_MAX_CHANNELS, sizeof(float));
-    if (status != EWA_OK) return status;
+    const struct {
+        ewa_buffer *buffer;
+        size_t count, size_bytes;
+    } needs[] = {
+        {&s->record_buffer, records + EWA_PACKET_LANES, sizeof *s->records},
+        {&s->load_buffer, records + EWA_PACKET_LANES, sizeof *s->loads},
+        {&s->order_buffer, records, sizeof *s->order},
+        {&s->near_buffer, records, sizeof *s->near_surfels},
+        {&s->kept_buffer, records / EWA_RUN_RECORDS + 1, sizeof *s->kept},
+        {&s->nearest_buffer, tile_floats, sizeof *s->nearest},
+        {&s->sum_buffer, tile_floats * EWA_MAX_CHANNELS, sizeof *s->sums},
+    };
+    for (size_t i = 0; i < sizeof needs / sizeof needs[0]; i++) {
+        const ewa_status status =
+            ewa_buffer_reserve(context, needs[i].buffer, needs[i].count, needs[i].size_bytes);
+        if (status != EWA_OK) return status;
+    }
     s->records = s->record_buffer.data;
-    s->normals = s->normal_buffer.data;
+    s->loads = s->load_buffer.data;
+    s->order = s->order_buffer.data;
     s->near_surfels = s->near_buffer.data;
     s->kept = s->kept_buffer.data;
     s->nearest = s->nearest_buffer.data;
     s->sums = s->sum_buffer.data;
-    s->record_capacity = s->record_buffer.capacity_bytes / sizeof *s->records;
+    s->record_capacity = records;
     s->drawn_count = s->fragment_count = 0;
     s->setup_s = s->visibility_s = s->accumulate_s = s->resolve_s = 0;
     return EWA_OK;
 }
 
 void ewa_tile_scratch_free(ewa_context *context, ewa_tile_scratch *s) {
-    ewa_buffer_free(context, &s->record_buffer);
-    ewa_buffer_free(context, &s->normal_buffer);
-    ewa_buffer_free(context, &s->near_buffer);
-    ewa_buffer_free(context, &s->kept_buffer);
-    ewa_buffer_free(context, &s->nearest_buffer);
-    ewa_buffer_free(context, &s->sum_buffer);
+    ewa_buffer *const buffers[] = {&s->record_buffer, &s->load_buffer,    &s->order_buffer, &s->near_buffer,
+                                   &s->kept_buffer,   &s->nearest_buffer, &s->sum_buffer};
+    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) ewa_buffer_free(context, buffers[i]);
+}
+
+/// Orders a run's splats by class, stably.
+static void sort_run(const ewa_run *run, uint16_t *order, ewa_sorted_run *sorted) {
+    uint16_t next[EWA_CLASS_COUNT] = {0};
+    for (uint32_t i = 0; i < run->count; i++) next[run->classes[i]]++;
+    uint16_t sum = 0;
+    for (int c = 0; c < EWA_CLASS_COUNT; c++) {
+        sorted->class_first[c] = sum;
+        sum = (uint16_t)(sum + next[c]);
+        next[c] = sorted->class_first[c];
+    }
+    sorted->class_first[EWA_CLASS_COUNT] = sum;
+    for (uint32_t i = 0; i < run->count; i++) order[next[run->classes[i]]++] = (uint16_t)i;
+    sorted->records = run->records;
+    sorted->loads = run->loads;
+    sorted->order = order;
 }
 
 static void draw_near(const ewa_tile_job *job, const ewa_tile *tile, const uint32_t *surfels, uint32_t count,
@@ -64,81 +84,77 @@ static void draw_near(const ewa_tile_job *job, const ewa_tile *tile, const uint3
     }
 }
 
-static void count_fragments(ewa_tile_scratch *s, const ewa_record *records, uint32_t count) {
-    for (uint32_t i = 0; i < count; i++)
-        s->fragment_count += (uint64_t)(records[i].box >> 16 & 0xff) * (records[i].box >> 24);
+static void count_splats(const ewa_tile_job *job, ewa_tile_scratch *s) {
+    s->drawn_count += s->run.count + s->run.near_count;
+    if (!job->count_fragments) return;
+    uint32_t blocks = 0;
+    for (uint32_t i = 0; i < s->run.count; i++) {
+        const uint32_t box = s->run.records[i].box;
+        blocks += (box >> 16 & 0xff) * (box >> 24);
+    }
+    s->fragment_count += blocks;
 }
 
-/// Sets up and sorts run `index` of a tile to `records`; the result is in `kept` and s->run's near surfels.
+/// A tile's packets, in runs.
+typedef struct tile_packets {
+    const uint32_t *ids;
+    uint64_t count, run_count;
+} tile_packets;
+
+/// Sets up and sorts run `index`; its splats go to place `at` of the scratch.
 static void prepare_run(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
-                        const uint32_t *packets, uint64_t packet_count, uint64_t index, ewa_record *records,
-                        float (*normals)[4], ewa_kept_run *kept) {
-    const uint64_t first = index * EWA_RUN_PACKETS, left = packet_count - first;
-    job->kernels->setup(&job->view, job->surfels->packets, packets + first,
+                        const tile_packets *packets, uint64_t index, uint32_t at, ewa_sorted_run *sorted) {
+    const uint64_t first = index * EWA_RUN_PACKETS, left = packets->count - first;
+    s->run.records = s->records + at;
+    s->run.loads = s->loads + at;
+    job->kernels->setup(&job->view, job->surfels->packets, packets->ids + first,
                         left < EWA_RUN_PACKETS ? (uint32_t)left : EWA_RUN_PACKETS, tile, &s->run);
-    job->kernels->sort(&s->run, job->with_normals, records, normals, kept->class_first);
-    kept->near_count = s->run.near_count;
+    sort_run(&s->run, s->order + at, sorted);
 }
 
 static void draw_kept(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
-                      const uint32_t *packets, uint64_t packet_count) {
-    const ewa_road_kernels *kernels = job->kernels;
-    const uint64_t runs = (packet_count + EWA_RUN_PACKETS - 1) / EWA_RUN_PACKETS;
+                      const tile_packets *packets) {
     uint32_t record_count = 0, near_count = 0;
     double before = ewa_now_s();
-    for (uint64_t i = 0; i < runs; i++) {
+    for (uint64_t i = 0; i < packets->run_count; i++) {
         ewa_kept_run *kept = &s->kept[i];
-        kept->record_first = record_count;
-        kept->near_first = near_count;
-        prepare_run(job, tile, s, packets, packet_count, i, s->records + record_count,
-                    s->normals + record_count, kept);
+        prepare_run(job, tile, s, packets, i, record_count, &kept->sorted);
         const double middle = ewa_now_s();
         s->setup_s += middle - before;
-        kernels->visibility(&job->view, tile, s->records + record_count, kept->class_first);
+        job->kernels->visibility(&job->view, tile, &kept->sorted);
+        kept->near_first = near_count;
+        kept->near_count = s->run.near_count;
         draw_near(job, tile, s->run.near_surfels, kept->near_count, false);
         for (uint32_t k = 0; k < kept->near_count; k++)
             s->near_surfels[near_count + k] = s->run.near_surfels[k];
+        count_splats(job, s);
         record_count += s->run.count;
         near_count += kept->near_count;
         before = ewa_now_s();
         s->visibility_s += before - middle;
     }
-    s->drawn_count += record_count + near_count;
-    if (job->count_fragments) count_fragments(s, s->records, record_count);
-    before = ewa_now_s();
-    kernels->bound(&job->view, tile);
-    for (uint64_t i = 0; i < runs; i++) {
+    for (uint64_t i = 0; i < packets->run_count; i++) {
         const ewa_kept_run *kept = &s->kept[i];
-        kernels->accumulate(&job->view, tile, s->records + kept->record_first,
-                            (const float(*)[4])s->normals + kept->record_first, kept->class_first);
+        job->kernels->accumulate(&job->view, tile, &kept->sorted);
         draw_near(job, tile, s->near_surfels + kept->near_first, kept->near_count, true);
     }
     s->accumulate_s += ewa_now_s() - before;
 }
 
 static void draw_again(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
-                       const uint32_t *packets, uint64_t packet_count) {
-    const ewa_road_kernels *kernels = job->kernels;
-    const uint64_t runs = (packet_count + EWA_RUN_PACKETS - 1) / EWA_RUN_PACKETS;
+                       const tile_packets *packets) {
     for (int second_pass = 0; second_pass < 2; second_pass++) {
-        for (uint64_t i = 0; i < runs; i++) {
-            ewa_kept_run kept;
+        for (uint64_t i = 0; i < packets->run_count; i++) {
+            ewa_sorted_run sorted;
             const double before = ewa_now_s();
-            prepare_run(job, tile, s, packets, packet_count, i, s->records, s->normals, &kept);
+            prepare_run(job, tile, s, packets, i, 0, &sorted);
             const double middle = ewa_now_s();
             s->setup_s += middle - before;
-            if (!second_pass) {
-                kernels->visibility(&job->view, tile, s->records, kept.class_first);
-                s->drawn_count += s->run.count + s->run.near_count;
-                if (job->count_fragments) count_fragments(s, s->records, s->run.count);
-            } else {
-                kernels->accumulate(&job->view, tile, s->records, (const float(*)[4])s->normals,
-                                    kept.class_first);
-            }
-            draw_near(job, tile, s->run.near_surfels, kept.near_count, second_pass);
+            (second_pass ? job->kernels->accumulate : job->kernels->visibility)(&job->view, tile, &sorted);
+            draw_near(job, tile, s->run.near_surfels, s->run.near_count, second_pass);
+            if (!second_pass) count_splats(job, s);
             *(second_pass ? &s->accumulate_s : &s->visibility_s) += ewa_now_s() - middle;
         }
-        if (!second_pass) kernels->bound(&job->view, tile);
     }
 }
 
@@ -161,11 +177,12 @@ void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
     tile.block_rows = ((uint32_t)tile.height_px + EWA_BLOCK_PX - 1) / EWA_BLOCK_PX;
     job->kernels->clear(&tile);
     const uint64_t first = job->bins->tile_first[index], count = job->bins->tile_first[index + 1] - first;
-    const uint32_t *packets = job->bins->entries + first;
+    const tile_packets packets = {job->bins->entries + first, count,
+                                  (count + EWA_RUN_PACKETS - 1) / EWA_RUN_PACKETS};
     if (count * EWA_PACKET_LANES <= s->record_capacity)
-        draw_kept(job, &tile, s, packets, count);
+        draw_kept(job, &tile, s, &packets);
     else
-        draw_again(job, &tile, s, packets, count);
+        draw_again(job, &tile, s, &packets);
     const double before = ewa_now_s();
     job->kernels->resolve(&tile, &job->resolve);
     s->resolve_s += ewa_now_s() - before;

@@ -8,22 +8,23 @@
 #include "splat/bin.h"
 #include "splat/view.h"
 
-/// A run of a tile whose records are kept for the second pass.
+/// A run of a tile whose splats are kept for the second pass.
 typedef struct ewa_kept_run {
-    uint32_t record_first, near_first, near_count;
-    uint16_t class_first[EWA_CLASS_COUNT + 1];
+    ewa_sorted_run sorted;
+    uint32_t near_first, near_count;
 } ewa_kept_run;
 
 /// What one worker needs for its tiles; sized once per frame by ewa_tile_scratch_reserve().
 typedef struct ewa_tile_scratch {
     ewa_run run;
     ewa_record *records;
-    float (*normals)[4];
+    ewa_load *loads;
+    uint16_t *order;
     uint32_t *near_surfels;
     ewa_kept_run *kept;
     size_t record_capacity;
     float *nearest, *sums;
-    ewa_buffer record_buffer, normal_buffer, near_buffer, kept_buffer, nearest_buffer, sum_buffer;
+    ewa_buffer record_buffer, load_buffer, order_buffer, near_buffer, kept_buffer, nearest_buffer, sum_buffer;
     uint64_t drawn_count, fragment_count;
     double setup_s, visibility_s, accumulate_s, resolve_s;
 } ewa_tile_scratch;

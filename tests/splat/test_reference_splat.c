@@ -337,11 +337,15 @@ static void test_affine_jacobian(void **state) {
 /// with one the variance in the tangent frame is I + h^2 times the derivatives found by differences.
 static void test_rays(void **state) {
     (void)state;
-    const ewa_camera camera = odd_camera();
+    ewa_camera camera = odd_camera();
     check_random random = {7};
     int compared = 0;
     for (int i = 0; i < 3000; i++) {
         const double h = i % 2;
+        camera.fx_px = h == 0 ? 310 : 3; // with few pixels per unit the prefilter matters
+        camera.fy_px = h == 0 ? 270 : 5;
+        camera.cx_px = camera.width_px / 2.0;
+        camera.cy_px = camera.height_px / 2.0;
         const ewa_reference_view view = make_view(&camera, 2, h, EWA_KERNEL_PERSPECTIVE);
         ewa_surfel surfel = random_surfel(&random, &camera, check_uniform(&random, 0.5, 2));
         surfel.center_world[2] = check_uniform(&random, -0.3, 0.6);
@@ -350,6 +354,12 @@ static void test_rays(void **state) {
         if (!splat.drawn || !splat.by_rays) continue;
         const double u = check_uniform(&random, -1, 1), v = check_uniform(&random, -1, 1);
         const ewa_vec3 q = on_disc(&splat, u, v);
+        if (q.z < -0.01) { // what is behind the eye is not seen through it
+            double behind[2];
+            ewa_reference_sample none;
+            to_pixel(&view, q, behind);
+            assert_false(ewa_reference_sample_at(&view, &splat, behind[0], behind[1], &none));
+        }
         if (q.z < 0.2 || fabs(vec3_dot(splat.normal, q)) < 0.1 * vec3_length(q)) continue;
         double x[2];
         to_pixel(&view, q, x);
@@ -520,8 +530,18 @@ static void test_sides(void **state) {
         surfel = make_surfel(vec3_make(0, 0, 5), y, x);
         ewa_reference_project(&view, &surfel, &splat);
         assert_true(splat.drawn && splat.normal.z == -1 && splat.normal_world.z == -1);
-        // Exactly from the edge.
+        // Exactly from the edge: nothing to see but what the prefilter makes of a line; without it, nothing
+        // at all.
         surfel = make_surfel(vec3_make(0, 0, 5), x, z);
+        ewa_reference_project(&view, &surfel, &splat);
+        assert_int_equal(splat.drawn, options.cull == EWA_CULL_NONE);
+        if (splat.drawn) assert_true(splat.peak == 0);
+        view.prefilter_px = 0;
+        ewa_reference_project(&view, &surfel, &splat);
+        assert_false(splat.drawn);
+        // A line but for rounding, across the pixels.
+        const double lean = 1e-10;
+        surfel = make_surfel(vec3_make(0, 0, 5), vec3_make(0.1, 0.1, 0), vec3_make(lean, -lean, 0.1));
         ewa_reference_project(&view, &surfel, &splat);
         assert_false(splat.drawn);
         // Wholly behind.
@@ -533,6 +553,16 @@ static void test_sides(void **state) {
     camera.projection = EWA_PERSPECTIVE;
     ewa_reference_view view;
     ewa_reference_view_make(&camera, 2, &options, &view);
+    // Normals are unit whatever the camera's scale is.
+    for (int i = 0; i < 12; i++) camera.world_to_camera[i] *= 7;
+    ewa_reference_view scaled;
+    ewa_reference_view_make(&camera, 2, &options, &scaled);
+    check_random random = {10};
+    const ewa_surfel leaning = random_surfel(&random, &camera, 0.1);
+    ewa_reference_splat seen;
+    ewa_reference_project(&scaled, &leaning, &seen);
+    assert_true(seen.drawn);
+    assert_near(vec3_length(seen.normal), 1, 1e-12);
     // A floor under the eye reaching from z = -0.19 on: drawn by rays; from 0.2 on: touching; a bit farther:
     // ellipse.
     const double centers[] = {0.01, 0.2, 0.2099, 0.2101};

@@ -3,8 +3,8 @@
 //
 // Tests of src/splat/surfel.c and options.c: what streams become, what is left out, what is refused.
 #include "check.h"
-#include "splat/options.h"
 #include "kernels/semantics.h"
+#include "splat/options.h"
 #include "splat/surfel.h"
 
 #include <math.h>
@@ -150,8 +150,8 @@ static void test_left_out(void **state) {
     for (int i = 0; i < COUNT; i++) assert_int_equal(drawable[i], wanted[i]);
     ewa_cloud_destroy(&cloud);
 
-    static const float axes[][6] = {{1, 0, 0, 0, 1, 0}, {1, 2, 3, 2, 4, 6},    {1, 0, 0, 0, 0, 0},
-                                    {0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 1, 0},    {1, 0, 0, 0, NAN, 0},
+    static const float axes[][6] = {{1, 0, 0, 0, 1, 0}, {1, 2, 3, 2, 4, 6},     {1, 0, 0, 0, 0, 0},
+                                    {0, 0, 0, 0, 0, 0}, {1e-7f, 0, 0, 0, 1, 0}, {1, 0, 0, 0, NAN, 0},
                                     {1, 0, 0, 1, 0, 0}, {1, 0, 0, 0, 0, 1e-3f}};
     static const bool axes_wanted[] = {true, false, false, false, false, false, false, true};
     cloud = make_cloud(context, 8);

@@ -1,0 +1,303 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The search: leaf by leaf, all places of a leaf share one list of candidates.
+//
+// The candidates of a leaf are the places in its box grown by a radius. It is done when every lane has k of
+// them within that radius; the first guess is what the leaf before it needed. Where no radius serves all
+// lanes (places of very different density, an outlier far from everything) each place is searched alone, with
+// the radius from a branch-and-bound descent: J. H. Friedman, J. L. Bentley, R. A. Finkel, "An algorithm for
+// finding best matches in logarithmic expected time", 1977.
+#include "base/base.h"
+#include "cloud/neighbours_tree.h"
+
+#include <math.h>
+
+enum {
+    TASK_LEAVES = 128,
+    PROGRESS_STEPS = 16,
+    MAX_TRIES = 4, // radii for a whole leaf before its places are searched one by one
+    STACK_NODES = TREE_MAX_LEVELS * TREE_ARITY,
+    MIN_UNIT_EXPONENT = -1000, // whose inverse is still finite
+};
+
+// The guess for a leaf over what its predecessor needed: larger means fewer second tries but more candidates.
+static const double GUESS_MARGIN = 1.05;
+// The same over what one of its places needs.
+static const double FIRST_GUESS_MARGIN = 1.2;
+// Single precision may find the k-th neighbour a little further away than double does.
+static const double ROUNDING_MARGIN = 0x1p-20;
+
+typedef struct search_job {
+    const ewa_neighbours *tree;
+    const search_kernels *kernels;
+    int32_t rank; // k + 1: the place itself is its first neighbour
+    uint32_t sample_step;
+    ewa_block_visit *visit;
+    void *user;
+    ewa_block *blocks; // one per worker
+    uint32_t first_task;
+} search_job;
+
+typedef struct node {
+    uint32_t level, index;
+    double distance2;
+} node;
+
+static const search_kernels *best_kernels(const ewa_context *context) {
+    const search_kernels *best = &ewa_search_kernels_plain;
+#if defined(__x86_64__)
+    const uint32_t features = ewa_context_cpu_features(context);
+    if (features & EWA_CPU_AVX2) best = &ewa_search_kernels_avx2;
+    if (features & EWA_CPU_AVX512) best = &ewa_search_kernels_avx512;
+#else
+    (void)context;
+#endif
+    return best;
+}
+
+static void anchor_of(const ewa_neighbours *tree, uint32_t leaf, double anchor[3]) {
+    const tree_group *group = &tree->groups[leaf / TREE_ARITY];
+    for (int c = 0; c < 3; c++) anchor[c] = tree->anchored ? group->low[c][leaf % TREE_ARITY] : 0;
+}
+
+static void place_position(const ewa_neighbours *tree, uint32_t leaf, uint32_t place, double p[3]) {
+    anchor_of(tree, leaf, p);
+    for (int c = 0; c < 3; c++) p[c] += (double)tree->offset[c][place];
+}
+
+/// Gathers the places near enough to the query's box, in order. Returns false when they are too many.
+static bool gather_near(const search_job *job, const tree_query *query, ewa_block *block) {
+    const ewa_neighbours *tree = job->tree;
+    node stack[STACK_NODES];
+    uint32_t depth = 1;
+    stack[0] = (node){.level = tree->level_count - 1, .index = 0};
+    block->candidate_count = 0;
+    while (depth) {
+        const node top = stack[--depth]; // a group of `level` nodes
+        int32_t hit[TREE_ARITY];
+        job->kernels->overlap(&tree->groups[tree->level_start[top.level] + top.index], query, hit);
+        if (top.level > 0) {
+            for (uint32_t c = TREE_ARITY; c-- > 0;) {
+                stack[depth] = (node){.level = top.level - 1, .index = top.index * TREE_ARITY + c};
+                depth += (uint32_t)hit[c];
+            }
+            continue;
+        }
+        for (uint32_t c = 0; c < TREE_ARITY; c++) {
+            if (!hit[c]) continue;
+            const uint32_t leaf = top.index * TREE_ARITY + c, first = tree->leaf_first[leaf];
+            const uint32_t count = tree->leaf_first[leaf + 1] - first;
+            if (block->candidate_count + count > EWA_BLOCK_CANDIDATES) return false;
+            double anchor[3];
+            anchor_of(tree, leaf, anchor);
+            job->kernels->gather(tree, query, first, count, anchor, block);
+        }
+    }
+    return true;
+}
+
+static double box_distance2(const tree_group *group, uint32_t child, const double p[3]) {
+    double sum = 0;
+    for (int c = 0; c < 3; c++) {
+        const double below = group->low[c][child] - p[c], above = p[c] - group->high[c][child];
+        const double outside = below > 0 ? below : above > 0 ? above : 0;
+        sum += outside * outside;
+    }
+    return sum;
+}
+
+/// Returns the distance of the `rank`-th nearest place, the place at p itself being the first.
+static double nearest_distance(const search_job *job, const double p[3]) {
+    const ewa_neighbours *tree = job->tree;
+    const int32_t rank = job->rank;
+    double best[EWA_NEIGHBOURS_MAX + 1]; // ascending
+    for (int32_t i = 0; i < rank; i++) best[i] = INFINITY;
+    node stack[STACK_NODES];
+    uint32_t depth = 1;
+    stack[0] = (node){.level = tree->level_count - 1, .index = 0, .distance2 = 0};
+    while (depth) {
+        const node top = stack[--depth];
+        if (!(top.distance2 < best[rank - 1])) continue;
+        const tree_group *group = &tree->groups[tree->level_start[top.level] + top.index];
+        const uint32_t bottom = depth;
+        node leaves[TREE_ARITY];
+        node *list = top.level ? &stack[bottom] : leaves;
+        uint32_t count = 0;
+        for (uint32_t c = 0; c < TREE_ARITY; c++) {
+            const node child = {top.level ? top.level - 1 : 0, top.index * TREE_ARITY + c,
+                                box_distance2(group, c, p)};
+            if (!(child.distance2 < best[rank - 1])) continue;
+            uint32_t to = count++;
+            for (; to > 0 && list[to - 1].distance2 < child.distance2; to--) list[to] = list[to - 1];
+            list[to] = child; // the nearest comes last
+        }
+        if (top.level) {
+            depth += count;
+            continue;
+        }
+        while (count--) {
+            const uint32_t leaf = leaves[count].index;
+            if (!(leaves[count].distance2 < best[rank - 1])) break;
+            double anchor[3];
+            anchor_of(tree, leaf, anchor);
+            for (uint32_t i = tree->leaf_first[leaf]; i < tree->leaf_first[leaf + 1]; i++) {
+                double distance2 = 0;
+                for (int c = 0; c < 3; c++) {
+                    const double d = (double)tree->offset[c][i] + anchor[c] - p[c];
+                    distance2 += d * d;
+                }
+                if (!(distance2 < best[rank - 1])) continue;
+                int32_t to = rank - 1;
+                for (; to > 0 && best[to - 1] > distance2; to--) best[to] = best[to - 1];
+                best[to] = distance2;
+            }
+        }
+    }
+    return sqrt(best[rank - 1]);
+}
+
+/// One attempt at the places [first, first + count) of a leaf.
+typedef struct attempt {
+    uint32_t leaf, first, count;
+    double low[3], high[3]; // their box
+    double radius;          // up to which candidates are gathered
+} attempt;
+
+typedef enum outcome { FOUND, TOO_FEW, TOO_MANY } outcome;
+
+static void set_lanes(const ewa_neighbours *tree, const attempt *a, const tree_query *query,
+                      ewa_block *block) {
+    float *const lanes[3] = {block->lane_x, block->lane_y, block->lane_z};
+    for (uint32_t lane = 0; lane < EWA_BLOCK_LANES; lane++) {
+        const uint32_t place = a->first + (lane < a->count ? lane : 0);
+        double p[3];
+        place_position(tree, a->leaf, place, p);
+        for (int c = 0; c < 3; c++) lanes[c][lane] = (float)((p[c] - query->anchor[c]) * query->per_unit);
+    }
+    block->first_place = a->first;
+    block->lane_count = a->count;
+}
+
+/// Fills the block. `*needed` gets the largest distance of a k-th neighbour, or a guess at it after TOO_FEW.
+static outcome search(const search_job *job, const attempt *a, ewa_block *block, double *needed) {
+    const ewa_neighbours *tree = job->tree;
+    tree_query query = {.radius2 = a->radius * a->radius};
+    double size = a->radius;
+    for (int c = 0; c < 3; c++) {
+        query.low[c] = a->low[c];
+        query.high[c] = a->high[c];
+        query.anchor[c] = tree->anchored ? a->low[c] : 0;
+        size = fmax(size, a->high[c] - a->low[c]);
+    }
+    // A power of two changes no digit, and keeps the squares inside the range of single precision.
+    int exponent = 0;
+    if (size > 0 && isfinite(size)) frexp(size, &exponent);
+    if (exponent < MIN_UNIT_EXPONENT) exponent = MIN_UNIT_EXPONENT;
+    block->unit_world = ldexp(1, exponent);
+    query.per_unit = ldexp(1, -exponent);
+    const bool all = gather_near(job, &query, block);
+    if (!all && a->count > 1) return TOO_MANY;
+    set_lanes(tree, a, &query, block);
+    const double limit = a->radius * query.per_unit;
+    const float limit2 = (float)(limit * limit);
+    int32_t within[EWA_BLOCK_LANES], fewest = INT32_MAX;
+    job->kernels->measure(block, limit2, within);
+    for (uint32_t lane = 0; lane < EWA_BLOCK_LANES; lane++)
+        fewest = within[lane] < fewest ? within[lane] : fewest;
+    if (fewest < job->rank) {
+        *needed = a->radius * sqrt((job->rank + 1.0) / (fewest > 0 ? fewest : 1));
+        for (uint32_t lane = 0; lane < EWA_BLOCK_LANES; lane++) block->radius2[lane] = limit2;
+        return TOO_FEW;
+    }
+    job->kernels->select(block, limit2, within, job->rank);
+    float largest = 0;
+    for (uint32_t lane = 0; lane < EWA_BLOCK_LANES; lane++) largest = fmaxf(largest, block->radius2[lane]);
+    *needed = sqrt((double)largest) * block->unit_world;
+    return FOUND;
+}
+
+/// The place's own search always ends: with too many at the same distance it takes the first ones in order.
+static void search_alone(const search_job *job, const attempt *whole, uint32_t place, uint32_t worker) {
+    attempt a = {.leaf = whole->leaf, .first = place, .count = 1};
+    place_position(job->tree, a.leaf, place, a.low);
+    for (int c = 0; c < 3; c++) a.high[c] = a.low[c];
+    a.radius = nearest_distance(job, a.low) * (1 + ROUNDING_MARGIN);
+    double needed;
+    search(job, &a, &job->blocks[worker], &needed);
+    job->visit(job->user, &job->blocks[worker], worker);
+}
+
+static double first_guess(const search_job *job, const attempt *a) {
+    double p[3];
+    place_position(job->tree, a->leaf, a->first, p);
+    return nearest_distance(job, p) * FIRST_GUESS_MARGIN;
+}
+
+/// Searches a leaf; `*guess` is the radius to begin with, negative when unknown, and becomes that for the
+/// next leaf.
+static void search_leaf(const search_job *job, uint32_t leaf, double *guess, uint32_t worker) {
+    const ewa_neighbours *tree = job->tree;
+    const tree_group *group = &tree->groups[leaf / TREE_ARITY];
+    attempt a = {.leaf = leaf, .first = tree->leaf_first[leaf]};
+    a.count = tree->leaf_first[leaf + 1] - a.first;
+    for (int c = 0; c < 3; c++) {
+        a.low[c] = group->low[c][leaf % TREE_ARITY];
+        a.high[c] = group->high[c][leaf % TREE_ARITY];
+    }
+    bool guessed_here = *guess < 0;
+    a.radius = guessed_here ? first_guess(job, &a) : *guess;
+    for (int tries = 0; tries < MAX_TRIES; tries++) {
+        double needed = 0;
+        const outcome result = search(job, &a, &job->blocks[worker], &needed);
+        if (result == FOUND) {
+            job->visit(job->user, &job->blocks[worker], worker);
+            *guess = needed * GUESS_MARGIN;
+            return;
+        }
+        if (result == TOO_FEW) {
+            a.radius = fmax(needed, a.radius * FIRST_GUESS_MARGIN);
+        } else {
+            if (guessed_here) break;
+            a.radius = first_guess(job, &a);
+            guessed_here = true;
+        }
+    }
+    for (uint32_t i = 0; i < a.count; i++) search_alone(job, &a, a.first + i, worker);
+    *guess = -1;
+}
+
+static void search_task(void *data, uint32_t index, uint32_t worker) {
+    const search_job *job = data;
+    const uint32_t leaf_count = job->tree->leaf_count, begin = (job->first_task + index) * TASK_LEAVES;
+    const uint32_t end = leaf_count - begin < TASK_LEAVES ? leaf_count : begin + TASK_LEAVES;
+    double guess = -1;
+    for (uint32_t leaf = begin; leaf < end; leaf++)
+        if (leaf % job->sample_step == 0) search_leaf(job, leaf, &guess, worker);
+}
+
+ewa_status ewa_neighbours_visit(const ewa_neighbours *neighbours, uint32_t neighbour_count,
+                                uint32_t sample_step, const char *stage, ewa_block_visit *visit, void *user) {
+    ewa_context *context = neighbours->context;
+    if (neighbours->place_count == 0) return ewa_progress(context, stage, 1);
+    const uint32_t others = neighbours->place_count - 1;
+    search_job job = {.tree = neighbours,
+                      .kernels = best_kernels(context),
+                      .rank = 1 + (int32_t)(neighbour_count < others ? neighbour_count : others),
+                      .sample_step = sample_step,
+                      .visit = visit,
+                      .user = user};
+    const uint32_t worker_count = ewa_context_worker_count(context);
+    job.blocks = ewa_allocate(context, worker_count, sizeof *job.blocks);
+    if (!job.blocks) return EWA_ERROR_MEMORY;
+    const uint32_t tasks = (neighbours->leaf_count + TASK_LEAVES - 1) / TASK_LEAVES;
+    ewa_status status = EWA_OK;
+    for (uint32_t step = 0; step < PROGRESS_STEPS && status == EWA_OK; step++) {
+        job.first_task = (uint32_t)ewa_split(tasks, PROGRESS_STEPS, step);
+        const uint32_t end = (uint32_t)ewa_split(tasks, PROGRESS_STEPS, step + 1);
+        ewa_parallel(context, search_task, &job, end - job.first_task);
+        status = ewa_progress(context, stage, (step + 1.0) / PROGRESS_STEPS);
+    }
+    ewa_release(context, job.blocks, worker_count, sizeof *job.blocks);
+    return status;
+}

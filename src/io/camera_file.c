@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Camera files: which format it is, one camera of many, and our own format out.
+#include "io/camera_file.h"
+#include "base/base.h"
+#include "ewa/io.h"
+#include "io/file.h"
+#include "io/number.h"
+#include "math/camera.h"
+
+#include <string.h>
+#include <sys/stat.h>
+
+ewa_status ewa_camera_list_add(ewa_camera_list *list, const char *where, const ewa_camera *camera) {
+    char problem[EWA_CAMERA_PROBLEM_BYTES];
+    if (ewa_camera_find_problem(camera, problem))
+        return ewa_fail(list->context, EWA_ERROR_FORMAT, "%s: %s%s%s", list->name, where,
+                        where[0] ? ": " : "", problem);
+    if (list->count == list->capacity) {
+        const size_t capacity = list->capacity ? 2 * list->capacity : 8;
+        ewa_camera *larger = ewa_allocate(list->context, capacity, sizeof *larger);
+        if (!larger) return EWA_ERROR_MEMORY;
+        if (list->count) memcpy(larger, list->cameras, list->count * sizeof *larger);
+        ewa_release(list->context, list->cameras, list->capacity, sizeof *larger);
+        list->cameras = larger;
+        list->capacity = capacity;
+    }
+    list->cameras[list->count++] = *camera;
+    return EWA_OK;
+}
+
+void ewa_camera_list_free(ewa_camera_list *list) {
+    ewa_release(list->context, list->cameras, list->capacity, sizeof *list->cameras);
+    list->cameras = NULL;
+    list->count = list->capacity = 0;
+}
+
+void ewa_camera_set_inverse(ewa_camera *camera, const double rotation[9], const double centre_world[3]) {
+    double square = 0; // of the scale
+    for (int i = 0; i < 9; i++) square += rotation[i] * rotation[i] / 3;
+    double *m = camera->world_to_camera;
+    for (int r = 0; r < 3; r++) {
+        for (int c = 0; c < 3; c++) m[4 * r + c] = rotation[3 * c + r] / square;
+        m[4 * r + 3] =
+            -(m[4 * r] * centre_world[0] + m[4 * r + 1] * centre_world[1] + m[4 * r + 2] * centre_world[2]);
+    }
+}
+
+static bool is_folder(const char *path) {
+    struct stat facts;
+    return stat(path, &facts) == 0 && S_ISDIR(facts.st_mode);
+}
+
+static ewa_status read_list(ewa_camera_list *list, const char *path) {
+    if (is_folder(path)) return ewa_camera_list_read_colmap(list, path);
+    ewa_file file;
+    ewa_status status = ewa_file_map(list->context, path, &file);
+    if (status != EWA_OK) return status;
+    status = ewa_camera_list_read_json(list, path, file.bytes, file.size_bytes);
+    ewa_file_unmap(list->context, &file);
+    return status;
+}
+
+ewa_status ewa_camera_file_count(ewa_context *context, const char *path, uint32_t *count) {
+    if (!context || !path || !count) return EWA_ERROR_ARGUMENT;
+    *count = 0;
+    ewa_camera_list list = {.context = context, .name = path};
+    const ewa_status status = read_list(&list, path);
+    if (status == EWA_OK) *count = (uint32_t)list.count;
+    ewa_camera_list_free(&list);
+    return status;
+}
+
+ewa_status ewa_camera_load(ewa_context *context, const char *path, uint32_t index, ewa_camera *camera) {
+    if (!context || !path || !camera || camera->struct_size != sizeof *camera) return EWA_ERROR_ARGUMENT;
+    ewa_camera_list list = {.context = context, .name = path};
+    ewa_status status = read_list(&list, path);
+    if (status == EWA_OK && index >= list.count)
+        status = ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: camera %u wanted, %zu there (counted from 0)",
+                          path, index, list.count);
+    if (status == EWA_OK) *camera = list.cameras[index];
+    ewa_camera_list_free(&list);
+    return status;
+}
+
+static void put_text(ewa_writer *writer, const char *text) { ewa_writer_put(writer, text, strlen(text)); }
+
+static void put_number(ewa_writer *writer, double value) {
+    char text[EWA_NUMBER_BYTES];
+    ewa_writer_put(writer, text, ewa_number_write_f64(value, text));
+}
+
+static void put_member(ewa_writer *writer, const char *name, double value) {
+    put_text(writer, "  \"");
+    put_text(writer, name);
+    put_text(writer, "\": ");
+    put_number(writer, value);
+    put_text(writer, ",\n");
+}
+
+ewa_status ewa_camera_save(ewa_context *context, const ewa_camera *camera, const char *path) {
+    if (!context || !camera || !path) return EWA_ERROR_ARGUMENT;
+    ewa_status status = ewa_camera_check(context, camera);
+    ewa_writer *writer = NULL;
+    if (status == EWA_OK) status = ewa_writer_open(context, path, &writer);
+    if (status != EWA_OK) return status;
+    put_text(writer, "{\n");
+    if (camera->projection == EWA_ORTHOGRAPHIC) put_text(writer, "  \"projection\": \"orthographic\",\n");
+    put_member(writer, "width", camera->width_px);
+    put_member(writer, "height", camera->height_px);
+    put_member(writer, "fx", camera->fx_px);
+    put_member(writer, "fy", camera->fy_px);
+    put_member(writer, "cx", camera->cx_px);
+    put_member(writer, "cy", camera->cy_px);
+    put_text(writer, "  \"world_to_camera\": [");
+    for (int i = 0; i < 16; i++) {
+        put_text(writer, i == 0 ? "\n    " : i % 4 ? ", " : ",\n    ");
+        put_number(writer, camera->world_to_camera[i]);
+    }
+    put_text(writer, "\n  ]\n}\n");
+    return ewa_writer_commit(&writer);
+}

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Camera files, the inner side: every format gives a list of cameras.
+#ifndef EWA_SRC_CAMERA_FILE_H
+#define EWA_SRC_CAMERA_FILE_H
+
+#include "ewa/camera.h"
+
+/// Cameras read from one file, in its order. Zero-initialise with the context and the file's name.
+typedef struct ewa_camera_list {
+    ewa_context *context;
+    const char *name; ///< of the file, for messages
+    ewa_camera *cameras;
+    size_t count, capacity;
+} ewa_camera_list;
+
+/// Appends a camera after checking it; `where`, such as "frames[3]", names its place in the file.
+/// Errors: EWA_ERROR_FORMAT, EWA_ERROR_MEMORY.
+ewa_status ewa_camera_list_add(ewa_camera_list *list, const char *where, const ewa_camera *camera);
+
+void ewa_camera_list_free(ewa_camera_list *list);
+
+/// Reads the cameras of a JSON file. `path` is where the file is, or NULL: pictures named in it are looked
+/// for beside it when it does not tell their size.
+ewa_status ewa_camera_list_read_json(ewa_camera_list *list, const char *path, const uint8_t *bytes,
+                                     size_t size_bytes);
+
+/// Reads the cameras of a COLMAP model: a folder with cameras.bin and images.bin, or else .txt.
+ewa_status ewa_camera_list_read_colmap(ewa_camera_list *list, const char *folder);
+
+/// Reads the two files of a COLMAP model from memory; `is_text` tells which kind they are.
+ewa_status ewa_camera_list_read_colmap_memory(ewa_camera_list *list, bool is_text, const uint8_t *cameras,
+                                              size_t cameras_bytes, const uint8_t *images,
+                                              size_t images_bytes);
+
+/// Sets world_to_camera from the rotation (row-major, possibly scaled) and translation of camera to world.
+void ewa_camera_set_inverse(ewa_camera *camera, const double rotation[9], const double centre_world[3]);
+
+#endif

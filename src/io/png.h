@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// PNG, the inner side: from and to memory. Writing is ewa_png_save() of ewa/io.h.
+#ifndef EWA_SRC_PNG_H
+#define EWA_SRC_PNG_H
+
+#include "ewa/image.h"
+
+/// Tells whether the bytes begin like a PNG file.
+bool ewa_png_recognise(const uint8_t *bytes, size_t size_bytes);
+
+/// Decodes a PNG file of 8 or 16 bits, sRGB, to linear light: grey gives 1 channel, RGB 3, anything with
+/// alpha (grey or palette too) 4, premultiplied. `name` stands for the file in messages.
+ewa_status ewa_png_decode(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
+                          ewa_image *image);
+
+/// Reads the size from the head of a PNG file.
+ewa_status ewa_png_size(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
+                        uint32_t *width_px, uint32_t *height_px);
+
+#endif

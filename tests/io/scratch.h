@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What the tests of picture and camera files share: a folder for what they write, whole files, an allocator
+// that fails on request.
+#ifndef EWA_TESTS_SCRATCH_H
+#define EWA_TESTS_SCRATCH_H
+
+#include "check.h"
+
+#include <dirent.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/// Path of a file in the build folder (by hand, without ctest: in /tmp); the buffer is the caller's.
+static inline const char *scratch_path(const char *name, char path[512]) {
+    const char *folder = getenv("EWA_BINARY_DIR");
+    snprintf(path, 512, "%s/scratch", folder ? folder : "/tmp");
+    mkdir(path, 0777);
+    snprintf(path, 512, "%s/scratch/%s", folder ? folder : "/tmp", name);
+    return path;
+}
+
+/// Reads a whole file; the caller frees.
+static inline uint8_t *scratch_read(const char *path, size_t *size_bytes) {
+    FILE *file = fopen(path, "rb");
+    if (!file) fail_msg("cannot read %s", path);
+    fseek(file, 0, SEEK_END);
+    *size_bytes = (size_t)ftell(file);
+    rewind(file);
+    uint8_t *bytes = malloc(*size_bytes + 1);
+    assert_non_null(bytes);
+    assert_int_equal(fread(bytes, 1, *size_bytes, file), *size_bytes);
+    fclose(file);
+    return bytes;
+}
+
+static inline void scratch_write(const char *path, const void *bytes, size_t size_bytes) {
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, size_bytes, file), size_bytes);
+    fclose(file);
+}
+
+/// Calls `visit` for every file of a folder of the shared data; returns how many there were.
+static inline int scratch_each(const char *relative, void (*visit)(void *user, const char *path),
+                               void *user) {
+    const char *data = getenv("EWA_DATA");
+    char folder[512], path[1024];
+    snprintf(folder, sizeof folder, "%s/%s", data ? data : ".", relative);
+    DIR *listing = opendir(folder);
+    if (!listing) {
+        print_message("skipped: no test data %s\n", relative);
+        return 0;
+    }
+    int count = 0;
+    for (struct dirent *entry; (entry = readdir(listing));) {
+        if (entry->d_name[0] == '.') continue;
+        snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
+        visit(user, path);
+        count++;
+    }
+    closedir(listing);
+    return count;
+}
+
+/// Counts allocations and bytes in use; fails the `fail_at`-th allocation (0: none).
+typedef struct scratch_memory {
+    long count, fail_at, in_use_bytes;
+} scratch_memory;
+
+static inline void *scratch_allocate(void *user, size_t size_bytes) {
+    scratch_memory *memory = user;
+    if (++memory->count == memory->fail_at) return NULL;
+    memory->in_use_bytes += (long)size_bytes;
+    return aligned_alloc(64, (size_bytes + 63) / 64 * 64);
+}
+
+static inline void scratch_release(void *user, void *block, size_t size_bytes) {
+    ((scratch_memory *)user)->in_use_bytes -= (long)size_bytes;
+    free(block);
+}
+
+/// A context of one worker on `memory`.
+static inline ewa_context *scratch_context(scratch_memory *memory, check_log *log) {
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.allocator = (ewa_allocator){memory, scratch_allocate, scratch_release};
+    options.thread_count = 1;
+    options.message = check_log_keep;
+    options.message_user = log;
+    ewa_context *context = NULL;
+    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+    return context;
+}
+
+/// Runs `work` with its first, second, ... allocation failing, until it succeeds: each failure must be
+/// EWA_ERROR_MEMORY with a message and leave nothing allocated.
+static inline void scratch_fail_each(ewa_status (*work)(ewa_context *context, void *user), void *user) {
+    for (long nth = 1;; nth++) {
+        scratch_memory memory = {0};
+        check_log log = {0};
+        ewa_context *context = scratch_context(&memory, &log);
+        const long before = memory.in_use_bytes;
+        memory.fail_at = memory.count + nth;
+        const ewa_status status = work(context, user);
+        const bool reached = memory.count >= memory.fail_at;
+        assert_int_equal(memory.in_use_bytes, before);
+        ewa_context_destroy(&context);
+        if (!reached) {
+            assert_int_equal(status, EWA_OK);
+            assert_true(nth > 1);
+            return;
+        }
+        assert_int_equal(status, EWA_ERROR_MEMORY);
+        assert_true(log.count > 0);
+    }
+}
+
+#endif

@@ -1,0 +1,488 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Tests of src/io/camera_*.c: the same camera through every format, exact round trips, messages for broken
+// files.
+#include "io/camera_file.h"
+#include "scratch.h"
+
+#include <math.h>
+
+/// The camera of most tests: from (10, 0, 2) towards -x, +z up, so camera axes x = +y, y = -z, z = -x.
+static const double EXPECTED[16] = {0, 1, 0, 0, 0, 0, -1, 2, -1, 0, 0, 10, 0, 0, 0, 1};
+
+static void assert_expected(const ewa_camera *camera, double cx, double cy) {
+    assert_int_equal(camera->projection, EWA_PERSPECTIVE);
+    assert_int_equal(camera->width_px, 640);
+    assert_int_equal(camera->height_px, 480);
+    assert_true(camera->fx_px == 500 && camera->fy_px == 510 && camera->cx_px == cx && camera->cy_px == cy);
+    for (int i = 0; i < 16; i++) assert_true(camera->world_to_camera[i] == EXPECTED[i]);
+}
+
+static const char NATIVE[] = "{\"width\":640,\"height\":480,\"fx\":500,\"fy\":510,\"cx\":320.125,\"cy\":-7.5,"
+                             "\"world_to_camera\":[0,1,0,0, 0,0,-1,2, -1,0,0,10, 0,0,0,1]}";
+static const char OPEN3D[] =
+    "{\"class_name\":\"PinholeCameraParameters\",\"version_major\":1,\"version_minor\":0,"
+    "\"extrinsic\":[0,0,-1,0, 1,0,0,0, 0,-1,0,0, 0,2,10,1],"
+    "\"intrinsic\":{\"width\":640,\"height\":480,\"intrinsic_matrix\":[500,0,0, 0,510,0, 320.125,-7.5,1]}}";
+static const char TRANSFORMS[] =
+    "{\"w\":640,\"h\":480,\"fl_x\":500,\"fl_y\":510,\"cx\":320.125,\"cy\":-7.5,\"k1\":0,\"camera_model\":"
+    "\"OPENCV\","
+    "\"frames\":[{\"file_path\":\"a.png\",\"transform_matrix\":[[0,0,1,10],[1,0,0,0],[0,1,0,2],[0,0,0,1]]}]}";
+static const char INRIA[] =
+    "[{\"id\":0,\"img_name\":\"a\",\"width\":640,\"height\":480,\"position\":[10,0,2],"
+    "\"rotation\":[[0,0,-1],[1,0,0],[0,-1,0]],\"fx\":500,\"fy\":510}]";
+static const char STACKS[] =
+    "{\"width\":640,\"height\":480,\"viewmats\":[[[0,1,0,0],[0,0,-1,2],[-1,0,0,10],[0,0,0,1]]],"
+    "\"Ks\":[[[500,0,320.125],[0,510,-7.5],[0,0,1]]]}";
+
+static ewa_status load_text(ewa_context *context, const char *text, uint32_t index, ewa_camera *camera) {
+    char path[512];
+    scratch_write(scratch_path("camera.json", path), text, strlen(text));
+    ewa_camera_init(camera, sizeof *camera);
+    return ewa_camera_load(context, path, index, camera);
+}
+
+static void test_every_format_gives_the_same_camera(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    ewa_camera camera;
+    const char *const texts[] = {NATIVE, OPEN3D, TRANSFORMS, STACKS};
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        assert_int_equal(load_text(context, texts[i], 0, &camera), EWA_OK);
+        assert_expected(&camera, 320.125, -7.5);
+    }
+    assert_int_equal(load_text(context, INRIA, 0, &camera), EWA_OK); // knows no principal point
+    assert_expected(&camera, 320, 240);
+    ewa_context_destroy(&context);
+}
+
+static void test_many_cameras(void **state) {
+    (void)state;
+    check_log log = {0};
+    ewa_context *context = check_context(1, &log);
+    char path[512], text[2000];
+    ewa_camera camera;
+    snprintf(text, sizeof text, "[%s,\n%s]\n", NATIVE, NATIVE);
+    text[10] = '7'; // the first one is 740 wide
+    assert_int_equal(load_text(context, text, 1, &camera), EWA_OK);
+    assert_expected(&camera, 320.125, -7.5);
+    assert_int_equal(load_text(context, text, 0, &camera), EWA_OK);
+    assert_int_equal(camera.width_px, 740);
+    assert_int_equal(load_text(context, text, 2, &camera), EWA_ERROR_ARGUMENT);
+    assert_non_null(strstr(log.text, "camera 2 wanted, 2 there"));
+    uint32_t count = 0;
+    assert_int_equal(ewa_camera_file_count(context, scratch_path("camera.json", path), &count), EWA_OK);
+    assert_int_equal(count, 2);
+    snprintf(text, sizeof text, "{\"class_name\":\"PinholeCameraTrajectory\",\"parameters\":[%s,%s]}", OPEN3D,
+             OPEN3D);
+    assert_int_equal(load_text(context, text, 1, &camera), EWA_OK);
+    assert_expected(&camera, 320.125, -7.5);
+    ewa_context_destroy(&context);
+}
+
+static void test_round_trip_is_exact(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    char path[512];
+    scratch_path("saved.json", path);
+    check_random random = {5};
+    for (int round = 0; round < 200; round++) {
+        ewa_camera camera, back;
+        ewa_camera_init(&camera, sizeof camera);
+        double eye[3], target[3], up[3];
+        for (int i = 0; i < 3; i++) {
+            eye[i] = 5e6 + check_uniform(&random, -1e3, 1e3);
+            target[i] = 5e6 + check_uniform(&random, -1e3, 1e3);
+            up[i] = check_uniform(&random, -1, 1);
+        }
+        if (round % 3 == 0) ewa_camera_set_ortho(&camera, check_uniform(&random, 1e-3, 1e3));
+        assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
+        camera.cx_px = check_uniform(&random, -1e4, 1e4);
+        camera.fy_px *= 1.01;
+        assert_int_equal(ewa_camera_save(context, &camera, path), EWA_OK);
+        ewa_camera_init(&back, sizeof back);
+        assert_int_equal(ewa_camera_load(context, path, 0, &back), EWA_OK);
+        assert_memory_equal(&camera, &back, sizeof camera);
+    }
+    ewa_context_destroy(&context);
+}
+
+static void test_transforms_lens(void **state) {
+    (void)state;
+    check_log log = {0};
+    ewa_context *context = check_context(1, &log);
+    ewa_camera camera;
+    // The lens by angles; members of a frame win.
+    assert_int_equal(load_text(context,
+                               "{\"camera_angle_x\":1.5707963267948966,\"w\":640,\"h\":480,\"frames\":["
+                               "{\"transform_matrix\":[[1,0,0,1],[0,1,0,2],[0,0,1,3],[0,0,0,1]]},"
+                               "{\"transform_matrix\":[[1,0,0,1],[0,1,0,2],[0,0,1,3],[0,0,0,1]],"
+                               "\"w\":100,\"h\":50,\"fl_x\":70,\"cx\":12.5}]}",
+                               0, &camera),
+                     EWA_OK);
+    assert_true(fabs(camera.fx_px - 320) < 1e-12 && camera.fy_px == camera.fx_px);
+    assert_true(camera.cx_px == 320 && camera.cy_px == 240);
+    const double opengl[12] = {1, 0, 0, -1, 0, -1, 0, 2, 0, 0, -1, 3};
+    for (int i = 0; i < 12; i++) assert_true(camera.world_to_camera[i] == opengl[i]);
+    char path[512];
+    assert_int_equal(ewa_camera_load(context, scratch_path("camera.json", path), 1, &camera), EWA_OK);
+    assert_true(camera.width_px == 100 && camera.fx_px == 70 && camera.fy_px == 70);
+    assert_true(camera.cx_px == 12.5 && camera.cy_px == 25);
+    assert_int_equal(log.count, 0);
+    // Distortion is left out with a warning, a fisheye refused.
+    assert_int_equal(load_text(context,
+                               "{\"fl_x\":7,\"w\":640,\"h\":480,\"k1\":0.1,\"frames\":["
+                               "{\"transform_matrix\":[[1,0,0,1],[0,1,0,2],[0,0,1,3],[0,0,0,1]]}]}",
+                               0, &camera),
+                     EWA_OK);
+    assert_non_null(strstr(log.text, "k1 = 0.1"));
+    assert_int_equal(
+        load_text(context,
+                  "{\"fl_x\":7,\"w\":640,\"h\":480,\"camera_model\":\"OPENCV_FISHEYE\",\"frames\":["
+                  "{\"transform_matrix\":[[1,0,0,1],[0,1,0,2],[0,0,1,3],[0,0,0,1]]}]}",
+                  0, &camera),
+        EWA_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(log.text, "camera_model"));
+    ewa_context_destroy(&context);
+}
+
+static void test_messages_name_the_member(void **state) {
+    (void)state;
+    static const struct {
+        const char *text, *said;
+    } cases[] = {
+        {"", "camera.json:1:1"},
+        {"{\n  \"width\": }", "camera.json:2:12"},
+        {"{} x", "camera.json:1:4"},
+        {"5", "'width' is missing"},
+        {"{}", "'width' is missing"},
+        {"[]", "'cameras' is not an array of cameras"},
+        {"[{}]", "cameras[0]: member 'width' is missing"},
+        {"{\"width\":640}", "'height' is missing"},
+        {"{\"width\":640.5}", "'width' is not a positive whole number"},
+        {"{\"width\":-1}", "'width' is not a positive whole number"},
+        {"{\"width\":\"640\"}", "'width' is not a number"},
+        {"{\"width\":640,\"height\":480,\"fx\":1,\"fy\":1,\"cx\":1}", "'cy' is missing"},
+        {"{\"width\":640,\"height\":480,\"fx\":1,\"fy\":1,\"cx\":1,\"cy\":1}",
+         "'world_to_camera' is missing"},
+        {"{\"width\":640,\"height\":480,\"fx\":1,\"fy\":1,\"cx\":1,\"cy\":1,\"world_to_camera\":[1,2]}",
+         "'world_to_camera' is not an array of 16 numbers"},
+        {"{\"width\":640,\"height\":480,\"fx\":1,\"fy\":1,\"cx\":1,\"cy\":1,"
+         "\"world_to_camera\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1,5]}",
+         "'world_to_camera' is not an array of 16 numbers"},
+        {"{\"width\":640,\"height\":480,\"fx\":1,\"fy\":1,\"cx\":1,\"cy\":1,"
+         "\"world_to_camera\":[1,0,0,0,0,1,0,0,0,0,2,0,0,0,0,1]}",
+         "world_to_camera's upper left 3x3 is not a rotation"},
+        {"{\"width\":640,\"height\":480,\"fx\":0,\"fy\":1,\"cx\":1,\"cy\":1,"
+         "\"world_to_camera\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}",
+         "fx_px, fy_px is 0, 1"},
+        {"{\"width\":70000,\"height\":480,\"fx\":1,\"fy\":1,\"cx\":1e999,\"cy\":1,"
+         "\"world_to_camera\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}",
+         "70000 x 480"},
+        {"{\"projection\":\"fisheye\"}", "'projection' is neither"},
+        {"{\"intrinsic_matrix\":[1,0,0,0,1,0,0,0,1]}", "'extrinsic' is missing"},
+        {"{\"extrinsic\":[]}", "'intrinsic' is missing"},
+        {"{\"intrinsic\":{\"width\":1,\"height\":1,\"intrinsic_matrix\":[1,0,0,0,1,0,0,0,1]}}",
+         "'extrinsic' is missing"},
+        {"{\"extrinsic\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1],"
+         "\"intrinsic\":{\"width\":1,\"height\":1,\"intrinsic_matrix\":[1,0,0,9,1,0,0,0,1]}}",
+         "'intrinsic_matrix' is skewed"},
+        {"{\"parameters\":[]}", "'parameters' is not an array"},
+        {"{\"frames\":[]}", "'frames' is not an array of frames"},
+        {"{\"frames\":[{}]}", "frames[0]: member 'transform_matrix' is missing"},
+        {"{\"frames\":[{\"transform_matrix\":[[1,0,0,1],[0,1,0,2],[0,0,1,3],[0,0,0,1]]}]}",
+         "frames[0]: member 'w' is missing"},
+        {"{\"w\":3,\"h\":3,\"frames\":[{\"transform_matrix\":[[1,0,0,1],[0,1,0,2],[0,0,1,3],[0,0,0,1]]}]}",
+         "frames[0]: member 'fl_x or camera_angle_x' is missing"},
+        {"{\"width\":1,\"height\":1,\"viewmats\":[[1]]}", "'Ks' is missing"},
+        {"{\"width\":1,\"height\":1,\"viewmats\":[[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]],\"Ks\":[]}",
+         "camera 0: member 'Ks' is missing"},
+        {"[{\"position\":[1,2,3],\"width\":1,\"height\":1,\"fx\":1,\"fy\":1}]", "'rotation' is missing"},
+        {"[{\"position\":[1,2],\"rotation\":[1,0,0,0,1,0,0,0,1],\"width\":1,\"height\":1,\"fx\":1,\"fy\":1}]",
+         "cameras[0]: member 'position' is not an array of 3 numbers"},
+        {"[{\"position\":[1,2,3],\"rotation\":[0,0,0,0,0,0,0,0,0],\"width\":1,\"height\":1,\"fx\":1,\"fy\":1}"
+         "]",
+         "cameras[0]: world_to_camera[0] is"},
+    };
+    check_log log = {0};
+    ewa_context *context = check_context(1, &log);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        ewa_camera camera, before;
+        ewa_camera_init(&before, sizeof before);
+        log = (check_log){0};
+        assert_int_equal(load_text(context, cases[i].text, 0, &camera), EWA_ERROR_FORMAT);
+        if (!strstr(log.text, cases[i].said))
+            fail_msg("%s: said '%s', not '%s'", cases[i].text, log.text, cases[i].said);
+        assert_non_null(strstr(log.text, "camera.json:"));
+        assert_int_equal(log.count, 1);
+        assert_memory_equal(&camera, &before, sizeof camera);
+    }
+    ewa_camera camera;
+    ewa_camera_init(&camera, sizeof camera);
+    assert_int_equal(ewa_camera_load(context, "/nowhere/camera.json", 0, &camera), EWA_ERROR_IO);
+    ewa_context_destroy(&context);
+}
+
+static void test_every_truncation_is_refused(void **state) {
+    (void)state;
+    check_log log = {0};
+    ewa_context *context = check_context(1, &log);
+    const char *const texts[] = {NATIVE, OPEN3D, TRANSFORMS, INRIA, STACKS};
+    for (size_t t = 0; t < sizeof texts / sizeof texts[0]; t++) {
+        const size_t size_bytes = strlen(texts[t]);
+        for (size_t length = 0; length <= size_bytes; length++) {
+            uint8_t *exact = malloc(length ? length : 1);
+            memcpy(exact, texts[t], length);
+            ewa_camera_list list = {.context = context, .name = "cut.json"};
+            const ewa_status status = ewa_camera_list_read_json(&list, NULL, exact, length);
+            assert_int_equal(status, length == size_bytes ? EWA_OK : EWA_ERROR_FORMAT);
+            ewa_camera_list_free(&list);
+            free(exact);
+        }
+    }
+    ewa_context_destroy(&context);
+}
+
+static void test_refuses_to_write_nonsense(void **state) {
+    (void)state;
+    check_log log = {0};
+    ewa_context *context = check_context(1, &log);
+    char path[512];
+    remove(scratch_path("never.json", path));
+    ewa_camera camera;
+    ewa_camera_init(&camera, sizeof camera);
+    assert_int_equal(ewa_camera_save(context, &camera, "/nowhere/camera.json"), EWA_ERROR_IO);
+    camera.cx_px = NAN;
+    assert_int_equal(ewa_camera_save(context, &camera, path), EWA_ERROR_ARGUMENT);
+    assert_non_null(strstr(log.text, "cx_px"));
+    assert_int_equal(access(path, F_OK), -1);
+    ewa_context_destroy(&context);
+}
+
+static const char LENSES_TEXT[] = "# Camera list\n\n7 PINHOLE 640 480 500 510 320.125 -7.5\n"
+                                  "2 SIMPLE_RADIAL 64 48 50 32 24 0.25\n";
+// The quaternion of EXPECTED is (1, 1, 1, -1) / 2; the first image has no points, so an empty
+// line.
+static const char IMAGES_TEXT[] = "# Image list\n1 0.5 0.5 0.5 -0.5 0 2 10 7 a name.png\n\n"
+                                  "5 1 0 0 0 1 2 3 2 b.png\n1.5 2.5 -1 3 4 7\n";
+
+typedef struct packer {
+    uint8_t bytes[1024];
+    size_t size_bytes;
+} packer;
+
+static void pack(packer *to, uint64_t value, int size_bytes) {
+    for (int i = 0; i < size_bytes; i++) to->bytes[to->size_bytes++] = (uint8_t)(value >> 8 * i);
+}
+
+static void pack_f64(packer *to, double value) {
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    pack(to, bits, 8);
+}
+
+/// The same model as LENSES_TEXT and IMAGES_TEXT.
+static void make_binary(packer *lenses, packer *images) {
+    *lenses = *images = (packer){.size_bytes = 0};
+    const double pinhole[] = {500, 510, 320.125, -7.5}, radial[] = {50, 32, 24, 0.25};
+    pack(lenses, 2, 8);
+    pack(lenses, 7, 4), pack(lenses, 1, 4), pack(lenses, 640, 8), pack(lenses, 480, 8);
+    for (int i = 0; i < 4; i++) pack_f64(lenses, pinhole[i]);
+    pack(lenses, 2, 4), pack(lenses, 2, 4), pack(lenses, 64, 8), pack(lenses, 48, 8);
+    for (int i = 0; i < 4; i++) pack_f64(lenses, radial[i]);
+    const double poses[2][7] = {{0.5, 0.5, 0.5, -0.5, 0, 2, 10}, {1, 0, 0, 0, 1, 2, 3}};
+    pack(images, 2, 8);
+    for (int image = 0; image < 2; image++) {
+        pack(images, image ? 5 : 1, 4);
+        for (int i = 0; i < 7; i++) pack_f64(images, poses[image][i]);
+        pack(images, image ? 2 : 7, 4);
+        for (const char *name = image ? "b.png" : "a name.png"; *name; name++)
+            pack(images, (uint64_t)*name, 1);
+        pack(images, 0, 1);
+        pack(images, image ? 1 : 0, 8);
+        if (image) pack_f64(images, 1.5), pack_f64(images, 2.5), pack(images, UINT64_MAX, 8);
+    }
+}
+
+static void check_colmap(ewa_context *context, check_log *log, const char *folder) {
+    ewa_camera camera;
+    ewa_camera_init(&camera, sizeof camera);
+    assert_int_equal(ewa_camera_load(context, folder, 0, &camera), EWA_OK);
+    assert_expected(&camera, 320.125, -7.5);
+    assert_non_null(strstr(log->text, "lens distortion of camera 2 (SIMPLE_RADIAL)"));
+    assert_int_equal(ewa_camera_load(context, folder, 1, &camera), EWA_OK);
+    assert_true(camera.width_px == 64 && camera.fx_px == 50 && camera.fy_px == 50 && camera.cy_px == 24);
+    assert_true(camera.world_to_camera[3] == 1 && camera.world_to_camera[7] == 2 &&
+                camera.world_to_camera[11] == 3);
+    uint32_t count;
+    assert_int_equal(ewa_camera_file_count(context, folder, &count), EWA_OK);
+    assert_int_equal(count, 2);
+}
+
+static void test_colmap(void **state) {
+    (void)state;
+    check_log log = {0};
+    ewa_context *context = check_context(1, &log);
+    static const char *const names[] = {"cameras.txt", "images.txt", "cameras.bin", "images.bin"};
+    char folder[512], path[600];
+    scratch_path("colmap", folder);
+    mkdir(folder, 0777);
+    for (int i = 0; i < 4; i++) {
+        snprintf(path, sizeof path, "%s/%s", folder, names[i]);
+        remove(path);
+    }
+    ewa_camera camera;
+    ewa_camera_init(&camera, sizeof camera);
+    assert_int_equal(ewa_camera_load(context, folder, 0, &camera), EWA_ERROR_FORMAT);
+    assert_non_null(strstr(log.text, "without a COLMAP model"));
+    packer lenses, images;
+    make_binary(&lenses, &images);
+    snprintf(path, sizeof path, "%s/cameras.txt", folder);
+    scratch_write(path, LENSES_TEXT, sizeof LENSES_TEXT - 1);
+    snprintf(path, sizeof path, "%s/images.txt", folder);
+    scratch_write(path, IMAGES_TEXT, sizeof IMAGES_TEXT - 1);
+    check_colmap(context, &log, folder);
+    remove(path); // images.txt: only the binary model is whole
+    snprintf(path, sizeof path, "%s/cameras.bin", folder);
+    scratch_write(path, lenses.bytes, lenses.size_bytes);
+    snprintf(path, sizeof path, "%s/images.bin", folder);
+    scratch_write(path, images.bytes, images.size_bytes);
+    log = (check_log){0};
+    check_colmap(context, &log, folder);
+    ewa_context_destroy(&context);
+}
+
+static ewa_status read_colmap(ewa_context *context, bool is_text, const void *lenses, size_t lenses_bytes,
+                              const void *images, size_t images_bytes) {
+    uint8_t *first = malloc(lenses_bytes + 1), *second = malloc(images_bytes + 1);
+    memcpy(first, lenses, lenses_bytes);
+    memcpy(second, images, images_bytes);
+    first = realloc(first, lenses_bytes ? lenses_bytes : 1);
+    second = realloc(second, images_bytes ? images_bytes : 1);
+    ewa_camera_list list = {.context = context, .name = "model"};
+    const ewa_status status =
+        ewa_camera_list_read_colmap_memory(&list, is_text, first, lenses_bytes, second, images_bytes);
+    ewa_camera_list_free(&list);
+    free(first);
+    free(second);
+    return status;
+}
+
+static void test_broken_colmap(void **state) {
+    (void)state;
+    check_log log = {0};
+    ewa_context *context = check_context(1, &log);
+    packer lenses, images;
+    make_binary(&lenses, &images);
+    for (size_t length = 0; length < lenses.size_bytes; length++)
+        assert_int_equal(read_colmap(context, false, lenses.bytes, length, images.bytes, images.size_bytes),
+                         EWA_ERROR_FORMAT);
+    for (size_t length = 0; length < images.size_bytes; length++)
+        assert_int_equal(read_colmap(context, false, lenses.bytes, lenses.size_bytes, images.bytes, length),
+                         EWA_ERROR_FORMAT);
+    for (size_t at = 0; at < images.size_bytes; at++) { // whatever comes of it, no harm is done
+        images.bytes[at] ^= 0xff;
+        read_colmap(context, false, lenses.bytes, lenses.size_bytes, images.bytes, images.size_bytes);
+        images.bytes[at] ^= 0xff;
+    }
+    for (size_t length = 0; length < sizeof LENSES_TEXT - 1; length++)
+        read_colmap(context, true, LENSES_TEXT, length, IMAGES_TEXT, sizeof IMAGES_TEXT - 1);
+    for (size_t length = 0; length < sizeof IMAGES_TEXT - 1; length++)
+        read_colmap(context, true, LENSES_TEXT, sizeof LENSES_TEXT - 1, IMAGES_TEXT, length);
+    static const struct {
+        const char *lenses, *images, *said;
+    } cases[] = {
+        {"x", "", "cameras.txt: line 1: camera id"},
+        {"\n1 LENS", "", "cameras.txt: line 2: camera model"},
+        {"1 PINHOLE 5", "", "width and height"},
+        {"1 PINHOLE 5 5 1 1 1", "", "parameter"},
+        {"1 PINHOLE 5 5 1 1 1 1,5", "", "parameter"},
+        {"1 FOV 5 5 1 1 1 1 1", "", "model FOV"},
+        {"", "", "no images"},
+        {"", "1 1 0 0 0 1 2 3 9 a", "camera 9, which is missing"},
+        {"1 PINHOLE 5 5 1 1 1 1", "1 1 0 0 0 1 2", "images.txt: line 1"},
+        {"1 PINHOLE 5 5 1 1 1 1", "1 0 0 0 0 1 2 3 1 a", "image 1: world_to_camera[0] is"},
+        {"1 PINHOLE 0 5 1 1 1 1", "4 1 0 0 0 1 2 3 1 a", "image 4: width_px"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        log = (check_log){0};
+        assert_int_not_equal(read_colmap(context, true, cases[i].lenses, strlen(cases[i].lenses),
+                                         cases[i].images, strlen(cases[i].images)),
+                             EWA_OK);
+        if (!strstr(log.text, cases[i].said)) fail_msg("said '%s', not '%s'", log.text, cases[i].said);
+    }
+    ewa_context_destroy(&context);
+}
+
+static void test_real_files(void **state) {
+    (void)state;
+    check_log log = {0};
+    ewa_context *context = check_context(1, &log);
+    char path[512];
+    ewa_camera camera;
+    ewa_camera_init(&camera, sizeof camera);
+    uint32_t count;
+    if (check_data("gaussians/garden_cameras.json", path, sizeof path)) {
+        assert_int_equal(ewa_camera_file_count(context, path, &count), EWA_OK);
+        assert_int_equal(count, 3);
+        assert_int_equal(ewa_camera_load(context, path, 1, &camera), EWA_OK);
+        assert_true(camera.width_px == 648 && camera.height_px == 420 && camera.cx_px == 324.1875);
+        assert_true(camera.world_to_camera[0] == 0.6966662406921387 && camera.world_to_camera[15] == 1);
+    }
+    if (check_data("rgbd/posed_lego/transforms_train.json", path, sizeof path)) {
+        assert_int_equal(ewa_camera_file_count(context, path, &count), EWA_OK);
+        assert_int_equal(count, 5);
+        assert_int_equal(ewa_camera_load(context, path, 4, &camera), EWA_OK);
+        assert_true(camera.width_px == 800 && camera.height_px == 800); // of the pictures beside it
+        assert_true(fabs(camera.fx_px - 400 / tan(0.6911112070083618 / 2)) < 1e-9);
+        // The synthetic scenes look at their middle from a distance of 4: it is seen near the picture's
+        // middle.
+        const double *m = camera.world_to_camera;
+        assert_true(m[11] > 3.5 && m[11] < 4.5);
+        assert_true(fabs(m[3]) < 0.1 && fabs(m[7]) < 0.1);
+    }
+    if (check_data("rgbd/livingroom/camera_primesense.json", path, sizeof path)) {
+        assert_int_equal(ewa_camera_load(context, path, 0, &camera), EWA_ERROR_FORMAT);
+        assert_non_null(strstr(log.text, "'extrinsic' is missing"));
+    }
+    ewa_context_destroy(&context);
+}
+
+static ewa_status save_and_load_work(ewa_context *context, void *user) {
+    ewa_camera camera;
+    ewa_camera_init(&camera, sizeof camera);
+    ewa_status status = ewa_camera_save(context, &camera, user);
+    if (status == EWA_OK) status = ewa_camera_load(context, user, 0, &camera);
+    return status;
+}
+
+static ewa_status colmap_work(ewa_context *context, void *user) {
+    (void)user;
+    return read_colmap(context, true, LENSES_TEXT, sizeof LENSES_TEXT - 1, IMAGES_TEXT,
+                       sizeof IMAGES_TEXT - 1);
+}
+
+static void test_failing_allocations(void **state) {
+    (void)state;
+    char path[512];
+    scratch_fail_each(save_and_load_work, (void *)(uintptr_t)scratch_path("memory.json", path));
+    scratch_fail_each(colmap_work, NULL);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_every_format_gives_the_same_camera),
+        cmocka_unit_test(test_many_cameras),
+        cmocka_unit_test(test_round_trip_is_exact),
+        cmocka_unit_test(test_transforms_lens),
+        cmocka_unit_test(test_messages_name_the_member),
+        cmocka_unit_test(test_every_truncation_is_refused),
+        cmocka_unit_test(test_refuses_to_write_nonsense),
+        cmocka_unit_test(test_colmap),
+        cmocka_unit_test(test_broken_colmap),
+        cmocka_unit_test(test_real_files),
+        cmocka_unit_test(test_failing_allocations),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

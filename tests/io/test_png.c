@@ -1,0 +1,451 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Tests of src/io/png_*.c and deflate.c: what is written is read back by libspng, known values, broken files.
+#include "base/base.h"
+#include "image/srgb.h"
+#include "io/deflate.h"
+#include "scratch.h"
+
+#include <math.h>
+#include <zlib.h>
+
+/// Inflates what ewa_deflate_block() made, by zlib.
+static void assert_inflates(const uint8_t *bytes, size_t size_bytes) {
+    uint16_t *tokens = malloc(size_bytes * sizeof *tokens);
+    uint8_t *packed = malloc(ewa_deflate_bound(size_bytes) + 2), *back = malloc(size_bytes + 1);
+    size_t packed_bytes = ewa_deflate_block(bytes, size_bytes, tokens, packed);
+    assert_true(packed_bytes <= ewa_deflate_bound(size_bytes));
+    packed_bytes += ewa_deflate_end(packed + packed_bytes);
+    z_stream stream = {.next_in = packed,
+                       .avail_in = (uInt)packed_bytes,
+                       .next_out = back,
+                       .avail_out = (uInt)size_bytes + 1};
+    assert_int_equal(inflateInit2(&stream, -15), Z_OK);
+    assert_int_equal(inflate(&stream, Z_FINISH), Z_STREAM_END);
+    assert_int_equal(stream.total_out, size_bytes);
+    assert_int_equal(stream.avail_in, 0);
+    assert_memory_equal(back, bytes, size_bytes);
+    inflateEnd(&stream);
+    free(tokens);
+    free(packed);
+    free(back);
+}
+
+static void test_deflate(void **state) {
+    (void)state;
+    enum { SIZE = 200000 };
+    uint8_t *bytes = calloc(SIZE, 1);
+    check_random random = {3};
+    for (size_t size = 1; size < 600; size++) assert_inflates(bytes, size); // runs of every length
+    assert_inflates(bytes, SIZE);
+    for (int i = 0; i < SIZE; i++) bytes[i] = (uint8_t)check_random_u64(&random); // stored, in several pieces
+    assert_inflates(bytes, SIZE);
+    for (int i = 0; i < SIZE; i++) { // steep: codes that must be shortened
+        const uint64_t bits = check_random_u64(&random);
+        bytes[i] = (uint8_t)(bits ? __builtin_ctzll(bits) : 64);
+    }
+    assert_inflates(bytes, SIZE);
+    for (int i = 0, value = 1; i < SIZE; value++) // Fibonacci-like counts: the deepest tree
+        for (int n = 0; n < 1 << (value < 17 ? value : 17) && i < SIZE; n++)
+            bytes[i++] = (uint8_t)(value * (n & 1));
+    assert_inflates(bytes, SIZE);
+    for (int round = 0; round < 200; round++) { // runs between noise, odd sizes
+        const size_t size = 1 + check_random_u64(&random) % 5000;
+        for (size_t i = 0; i < size;) {
+            const size_t length = 1 + check_random_u64(&random) % (round % 2 ? 5 : 700);
+            const uint8_t value = (uint8_t)(check_random_u64(&random) % 7);
+            for (size_t n = 0; n < length && i < size; n++) bytes[i++] = value;
+        }
+        assert_inflates(bytes, size);
+    }
+    free(bytes);
+}
+
+/// A picture with flat, smooth and noisy parts.
+static uint8_t *make_codes(uint32_t width, uint32_t height, uint32_t channels) {
+    uint8_t *codes = malloc((size_t)width * height * channels);
+    check_random random = {width * 31 + height};
+    for (uint32_t y = 0; y < height; y++)
+        for (uint32_t x = 0; x < width; x++)
+            for (uint32_t c = 0; c < channels; c++) {
+                uint8_t value = 30;
+                if (x > width / 3) value = (uint8_t)(x * 3 + y * 2 + c * 40);
+                if (x > 2 * width / 3) value = (uint8_t)check_random_u64(&random);
+                codes[((size_t)y * width + x) * channels + c] = value;
+            }
+    return codes;
+}
+
+static void test_save_and_load(void **state) {
+    (void)state;
+    static const uint32_t sizes[][2] = {{1, 1}, {1, 300}, {300, 1}, {7, 5}, {640, 480}, {44000, 3}};
+    ewa_context *context = check_context(2, NULL);
+    char path[512];
+    scratch_path("saved.png", path);
+    for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
+        for (uint32_t channels = 1; channels <= 4; channels++) {
+            if (channels == 2) continue;
+            const uint32_t width = sizes[s][0], height = sizes[s][1];
+            const size_t stride = (size_t)width * channels + 13;
+            uint8_t *codes = make_codes(width, height, channels), *rows = calloc(height, stride);
+            for (uint32_t y = 0; y < height; y++)
+                memcpy(rows + y * stride, codes + (size_t)y * width * channels, (size_t)width * channels);
+            assert_int_equal(ewa_png_save(context, path, width, height, channels, rows, stride), EWA_OK);
+            ewa_image image;
+            assert_int_equal(ewa_image_load(context, path, &image), EWA_OK);
+            assert_int_equal(image.width_px, width);
+            assert_int_equal(image.height_px, height);
+            assert_int_equal(image.channel_count, channels);
+            for (size_t i = 0; i < (size_t)width * height * channels; i++) {
+                const float alpha = channels == 4 ? (float)codes[i / 4 * 4 + 3] / 255.0f : 1;
+                const bool is_alpha = channels == 4 && i % 4 == 3;
+                assert_true(image.pixels[i] == (is_alpha ? alpha : ewa_srgb_decoded[codes[i]] * alpha));
+            }
+            ewa_image_free(&image);
+            free(codes);
+            free(rows);
+        }
+    }
+    ewa_context_destroy(&context);
+}
+
+static void test_same_file_for_any_thread_count(void **state) {
+    (void)state;
+    enum { WIDTH = 700, HEIGHT = 900 };
+    static const uint32_t threads[] = {1, 2, 7, 32};
+    uint8_t *codes = make_codes(WIDTH, HEIGHT, 3), *first = NULL;
+    size_t first_bytes = 0;
+    char path[512];
+    for (size_t t = 0; t < 4; t++) {
+        ewa_context *context = check_context(threads[t], NULL);
+        scratch_path("threads.png", path);
+        assert_int_equal(ewa_png_save(context, path, WIDTH, HEIGHT, 3, codes, 3 * WIDTH), EWA_OK);
+        size_t size_bytes;
+        uint8_t *bytes = scratch_read(path, &size_bytes);
+        if (first) {
+            assert_int_equal(size_bytes, first_bytes);
+            assert_memory_equal(bytes, first, size_bytes);
+            free(bytes);
+        } else {
+            first = bytes;
+            first_bytes = size_bytes;
+        }
+        ewa_context_destroy(&context);
+    }
+    // The same on every machine: a checksum of this file, taken once after libspng had read it back.
+    assert_int_equal(crc32(0, first, (uInt)first_bytes), 0xb2afd713u);
+    free(first);
+    free(codes);
+}
+
+static void test_float_to_codes(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    char path[512];
+    scratch_path("float.png", path);
+    ewa_image image, back;
+    assert_int_equal(ewa_image_create(context, 4, 1, 4, &image), EWA_OK);
+    const float pixels[16] = {0.25f, 0.5f, 0, 0.5f, // half transparent: straight (0.5, 1, 0)
+                              0,     0,    0, 0,    // nothing
+                              2,     -1,   1, 1,    // clamped
+                              NAN,   1,    1, 1};
+    memcpy(image.pixels, pixels, sizeof pixels);
+    assert_int_equal(ewa_image_save(&image, path, NULL), EWA_OK);
+    assert_int_equal(ewa_image_load(context, path, &back), EWA_OK);
+    assert_int_equal(back.channel_count, 4);
+    const float half = 128 / 255.0f;
+    const float expected[16] = {
+        ewa_srgb_decoded[188] * half, half, 0, half, 0, 0, 0, 0, 1, 0, 1, 1, 0, 1, 1, 1};
+    for (int i = 0; i < 16; i++) assert_true(back.pixels[i] == expected[i]);
+    ewa_image_free(&back);
+
+    // Without un-premultiplying the colours stay what they are.
+    ewa_image_save_options options;
+    ewa_image_save_options_init(&options, sizeof options);
+    options.srgb_alpha_straight = false;
+    assert_int_equal(ewa_image_save(&image, path, &options), EWA_OK);
+    assert_int_equal(ewa_image_load(context, path, &back), EWA_OK);
+    assert_true(back.pixels[0] == ewa_srgb_decoded[137] * half);
+    ewa_image_free(&back);
+
+    // Alpha of 1 all over is left out.
+    for (int i = 0; i < 4; i++) image.pixels[4 * i + 3] = 1;
+    assert_int_equal(ewa_image_save(&image, path, NULL), EWA_OK);
+    assert_int_equal(ewa_image_load(context, path, &back), EWA_OK);
+    assert_int_equal(back.channel_count, 3);
+    ewa_image_free(&back);
+    ewa_image_free(&image);
+    ewa_context_destroy(&context);
+}
+
+static void test_head_says_srgb(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    char path[512];
+    const uint8_t code = 77;
+    assert_int_equal(ewa_png_save(context, scratch_path("head.png", path), 1, 1, 1, &code, 1), EWA_OK);
+    size_t size_bytes;
+    uint8_t *bytes = scratch_read(path, &size_bytes);
+    assert_memory_equal(bytes, "\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\0\1\0\0\0\1\x08\0\0\0\0", 29);
+    assert_memory_equal(bytes + 33, "\0\0\0\1sRGB\0\xae\xce\x1c\xe9", 13);
+    free(bytes);
+    ewa_context_destroy(&context);
+}
+
+static void load_good(void *user, const char *path) {
+    ewa_image image;
+    if (ewa_image_load(user, path, &image) != EWA_OK) fail_msg("%s did not load", path);
+    assert_true(image.width_px > 0 && image.pixels);
+    for (size_t i = 0; i < (size_t)image.width_px * image.height_px * image.channel_count; i++)
+        assert_true(image.pixels[i] >= 0 && image.pixels[i] <= 1);
+    ewa_image_free(&image);
+}
+
+static void test_pngsuite(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    scratch_each("images/pngsuite", load_good, context);
+    char path[512];
+    ewa_image a, b;
+    if (check_data("images/pngsuite/basn6a16.png", path, sizeof path)) {
+        // Interlaced or not, the pixels are the same.
+        assert_int_equal(ewa_image_load(context, path, &a), EWA_OK);
+        check_data("images/pngsuite/basi6a16.png", path, sizeof path);
+        assert_int_equal(ewa_image_load(context, path, &b), EWA_OK);
+        ewa_difference difference;
+        assert_int_equal(ewa_image_compare(&a, &b, 1, 0, &difference, NULL), EWA_OK);
+        assert_true(difference.maximum == 0 && a.channel_count == 4);
+        ewa_image_free(&a);
+        ewa_image_free(&b);
+    }
+    if (check_data("images/pngsuite/basn0g16.png", path, sizeof path)) {
+        assert_int_equal(ewa_image_load(context, path, &a), EWA_OK);
+        assert_int_equal(a.channel_count, 1);
+        assert_true(a.pixels[0] == 0 && fabs((double)a.pixels[28] - 0.964856) < 1e-6);
+        ewa_image_free(&a);
+    }
+    if (check_data("images/pngsuite/tbbn3p08.png", path, sizeof path)) { // a palette with transparency
+        assert_int_equal(ewa_image_load(context, path, &a), EWA_OK);
+        assert_int_equal(a.channel_count, 4);
+        assert_true(a.pixels[3] == 0);
+        ewa_image_free(&a);
+    }
+    ewa_context_destroy(&context);
+}
+
+typedef struct tally {
+    ewa_context *context;
+    check_log log;
+    int refused;
+} tally;
+
+static void load_broken(void *user, const char *path) {
+    tally *t = user;
+    t->log = (check_log){0};
+    ewa_image image;
+    const ewa_status status = ewa_image_load(t->context, path, &image);
+    if (status == EWA_OK) {
+        ewa_image_free(&image);
+        return;
+    }
+    assert_null(image.pixels);
+    assert_true(t->log.count > 0 && strncmp(t->log.text, path, strlen(path)) == 0);
+    t->refused++;
+}
+
+static void test_hostile(void **state) {
+    (void)state;
+    tally t = {0};
+    t.context = check_context(1, &t.log);
+    if (scratch_each("hostile/png", load_broken, &t) > 0) assert_true(t.refused >= 7);
+    char path[512];
+    if (check_data("hostile/png/badcrc.png", path, sizeof path)) {
+        load_broken(&t, path);
+        print_message("%s\n", t.log.text);
+    }
+    ewa_context_destroy(&t.context);
+}
+
+static void test_every_truncation_is_refused(void **state) {
+    (void)state;
+    check_log log = {0};
+    ewa_context *context = check_context(1, &log);
+    char path[512];
+    uint8_t *codes = make_codes(12, 9, 4);
+    assert_int_equal(ewa_png_save(context, scratch_path("whole.png", path), 12, 9, 4, codes, 48), EWA_OK);
+    size_t size_bytes;
+    uint8_t *bytes = scratch_read(path, &size_bytes);
+    ewa_image image;
+    // libspng takes the end chunk without its checksum.
+    for (size_t length = 0; length < size_bytes - 4; length++) {
+        uint8_t *copy = malloc(length + 1); // of its own size, so that a sanitizer sees reads beyond
+        memcpy(copy, bytes, length);
+        uint8_t *exact = realloc(copy, length ? length : 1);
+        assert_int_equal(ewa_image_load_memory(context, exact, length, "cut.png", &image), EWA_ERROR_FORMAT);
+        assert_memory_equal(log.text, "cut.png: ", 9);
+        free(exact);
+    }
+    for (size_t at = 0; at < size_bytes; at++) { // a flipped byte is refused or changes metadata only
+        bytes[at] ^= 0x55;
+        if (ewa_image_load_memory(context, bytes, size_bytes, "flipped.png", &image) == EWA_OK)
+            ewa_image_free(&image);
+        bytes[at] ^= 0x55;
+    }
+    assert_int_equal(ewa_image_load_memory(context, bytes, size_bytes, "whole.png", &image), EWA_OK);
+    ewa_image_free(&image);
+    free(bytes);
+    free(codes);
+    ewa_context_destroy(&context);
+}
+
+static void test_limits_come_before_memory(void **state) {
+    (void)state;
+    check_log log = {0};
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.message = check_log_keep;
+    options.message_user = &log;
+    options.limits.max_image_side = 600;
+    options.limits.max_memory_bytes = 100000;
+    ewa_context *context = NULL;
+    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+    // 601 x 1 pixels, then 500 x 500, then 599 x 599 of 64 bits, all in 57 bytes.
+    const uint32_t sizes[3][2] = {{601, 1}, {500, 500}, {599, 599}};
+    uint8_t head[57] = "\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR";
+    ewa_image image;
+    for (int i = 0; i < 3; i++) {
+        for (int byte = 0; byte < 4; byte++) {
+            head[16 + byte] = (uint8_t)(sizes[i][0] >> (24 - 8 * byte));
+            head[20 + byte] = (uint8_t)(sizes[i][1] >> (24 - 8 * byte));
+        }
+        memcpy(head + 24, i == 2 ? "\x10\6\0\0\0" : "\1\0\0\0\0", 5);
+        const uint32_t crc = (uint32_t)crc32(0, head + 12, 17);
+        for (int byte = 0; byte < 4; byte++) head[29 + byte] = (uint8_t)(crc >> (24 - 8 * byte));
+        memcpy(head + 33, "\0\0\0\0IDAT\x35\xaf\x06\x1e\0\0\0\0IEND\xae\x42\x60\x82", 24);
+        const ewa_status status = ewa_image_load_memory(context, head, sizeof head, "big.png", &image);
+        assert_int_equal(status, i == 2 ? EWA_ERROR_FORMAT : EWA_ERROR_LIMIT);
+        assert_non_null(strstr(log.text, i == 0 ? "601 x 1" : i == 1 ? "need" : "cannot hold"));
+    }
+    ewa_context_destroy(&context);
+}
+
+static void test_arguments(void **state) {
+    (void)state;
+    check_log log = {0};
+    ewa_context *context = check_context(1, &log);
+    char path[512];
+    scratch_path("never.png", path);
+    remove(path);
+    const uint8_t codes[12] = {0};
+    assert_int_equal(ewa_png_save(context, path, 2, 2, 2, codes, 6), EWA_ERROR_UNSUPPORTED);
+    assert_int_equal(ewa_png_save(context, path, 2, 2, 3, codes, 5), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_png_save(context, path, 0, 2, 3, codes, 6), EWA_ERROR_ARGUMENT);
+    assert_int_equal(access(path, F_OK), -1);
+    assert_int_equal(ewa_png_save(context, "/nowhere/x.png", 2, 2, 3, codes, 6), EWA_ERROR_IO);
+    assert_non_null(strstr(log.text, "/nowhere/x.png"));
+    assert_int_equal(ewa_png_save(context, "/dev/full", 2, 2, 3, codes, 6), EWA_ERROR_IO);
+    ewa_image image;
+    assert_int_equal(ewa_image_create(context, 2, 2, 3, &image), EWA_OK);
+    assert_int_equal(ewa_image_save(&image, scratch_path("picture.gif", path), NULL), EWA_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(log.text, "picture.gif"));
+    ewa_image_free(&image);
+    assert_int_equal(ewa_image_load(context, "/nowhere/x.png", &image), EWA_ERROR_IO);
+    assert_int_equal(ewa_image_load_memory(context, "GIF89a", 6, "x.gif", &image), EWA_ERROR_FORMAT);
+    ewa_context_destroy(&context);
+}
+
+static ewa_status save_work(ewa_context *context, void *user) {
+    uint8_t *codes = make_codes(100, 3000, 3);
+    const ewa_status status = ewa_png_save(context, user, 100, 3000, 3, codes, 300);
+    free(codes);
+    return status;
+}
+
+static ewa_status load_work(ewa_context *context, void *user) {
+    ewa_image image;
+    const ewa_status status = ewa_image_load(context, user, &image);
+    ewa_image_free(&image);
+    return status;
+}
+
+static ewa_status save_float_work(ewa_context *context, void *user) {
+    float pixels[12] = {0};
+    const ewa_image image = {context, 1, 4, 3, pixels};
+    return ewa_image_save(&image, user, NULL);
+}
+
+static void test_failing_allocations(void **state) {
+    (void)state;
+    char path[512];
+    scratch_path("memory.png", path);
+    remove(path);
+    scratch_fail_each(save_work, path);
+    scratch_fail_each(load_work, path);
+    scratch_fail_each(save_float_work, path);
+    if (check_data("images/pngsuite/basn6a16.png", path, sizeof path)) scratch_fail_each(load_work, path);
+}
+
+/// Not a check: prints how long a picture of 1280 x 1024 takes, with `--bench`.
+static void bench(void) {
+    enum { WIDTH = 1280, HEIGHT = 1024 };
+    uint8_t *codes = malloc(3 * WIDTH * HEIGHT);
+    char path[512];
+    scratch_path("bench.png", path);
+    for (int kind = 0; kind < 4; kind++) {
+        static const char *const names[] = {"flat", "shaded sphere", "shaded, noise of 4 %", "noise"};
+        check_random random = {5};
+        for (int y = 0; y < HEIGHT; y++)
+            for (int x = 0; x < WIDTH; x++) {
+                const double dx = (x - 640) / 480.0, dy = (y - 512) / 480.0, square = dx * dx + dy * dy;
+                double shade = 0.12, albedo = 1;
+                if (kind > 0 && square < 1) {
+                    const double u = 8 * atan2(dx, sqrt(1 - square)), v = 8 * asin(dy);
+                    albedo = 0.5 + 0.25 * sin(3 * u) * sin(3 * v) + 0.2 * sin(17 * u + 3 * v) * cos(13 * v);
+                    shade = fmax(0, fmin(1, sqrt(1 - square) + 0.15 * sin(40 * dx) * sin(37 * dy)));
+                }
+                for (int c = 0; c < 3; c++) {
+                    double value = shade * (0.3 + 0.1 * c + (c == 2 ? -0.3 : 0.5) * albedo);
+                    if (kind == 2) value += square < 1 ? check_uniform(&random, -0.02, 0.02) : 0;
+                    if (kind == 3) value = check_uniform(&random, 0, 1);
+                    codes[3 * (y * WIDTH + x) + c] = ewa_srgb8_from_linear((float)value);
+                }
+            }
+        for (uint32_t threads = 1; threads <= 2; threads++) {
+            ewa_context *context = check_context(threads, NULL);
+            double best_s = 1e9;
+            for (int round = 0; round < 15; round++) {
+                const double start_s = ewa_now_s();
+                assert_int_equal(ewa_png_save(context, path, WIDTH, HEIGHT, 3, codes, 3 * WIDTH), EWA_OK);
+                best_s = fmin(best_s, ewa_now_s() - start_s);
+            }
+            struct stat facts;
+            stat(path, &facts);
+            printf("%-22s %u threads %6.2f ms %8ld bytes\n", names[kind], threads, 1e3 * best_s,
+                   (long)facts.st_size);
+            ewa_context_destroy(&context);
+        }
+    }
+    free(codes);
+}
+
+int main(int argument_count, char **arguments) {
+    if (argument_count > 1 && strcmp(arguments[1], "--bench") == 0) {
+        bench();
+        return 0;
+    }
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_deflate),
+        cmocka_unit_test(test_save_and_load),
+        cmocka_unit_test(test_same_file_for_any_thread_count),
+        cmocka_unit_test(test_float_to_codes),
+        cmocka_unit_test(test_head_says_srgb),
+        cmocka_unit_test(test_pngsuite),
+        cmocka_unit_test(test_hostile),
+        cmocka_unit_test(test_every_truncation_is_refused),
+        cmocka_unit_test(test_limits_come_before_memory),
+        cmocka_unit_test(test_arguments),
+        cmocka_unit_test(test_failing_allocations),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Comparisons of homogeneous things, and random ones, for the tests of this room.
+#ifndef EWA_TESTS_CHECK_MATH_H
+#define EWA_TESTS_CHECK_MATH_H
+
+#include "check.h"
+#include "math/vec.h"
+
+/// Fails unless |a - b| <= tolerance, with both values.
+#define check_near(a, b, tolerance) check_near_at(a, b, tolerance, __FILE__, __LINE__)
+
+static inline void check_near_at(double a, double b, double tolerance, const char *file, int line) {
+    if (fabs(a - b) <= tolerance) return;
+    print_error("%.17g and %.17g differ by more than %g\n", a, b, tolerance);
+    _fail(file, line);
+}
+
+/// Fails unless two vectors of `count` numbers are multiples of each other: the same point, line or plane.
+#define check_same(a, b, count, tolerance)                                                                   \
+    check_same_at((const double *)(a), (const double *)(b), count, tolerance, __FILE__, __LINE__)
+
+static inline void check_same_at(const double *a, const double *b, int count, double tolerance,
+                                 const char *file, int line) {
+    double aa = 0, bb = 0;
+    for (int i = 0; i < count; i++) {
+        aa += a[i] * a[i];
+        bb += b[i] * b[i];
+    }
+    double worst = aa > 0 && bb > 0 ? 0 : INFINITY;
+    for (int i = 0; i < count; i++)
+        for (int j = 0; j < i; j++) worst = fmax(worst, fabs(a[i] * b[j] - a[j] * b[i]) / sqrt(aa * bb));
+    if (worst <= tolerance) return;
+    print_error("not the same: ");
+    for (int i = 0; i < count; i++) print_error("%.17g/%.17g ", a[i], b[i]);
+    print_error("off by %g\n", worst);
+    _fail(file, line);
+}
+
+static inline void check_vec3(ewa_vec3 a, double x, double y, double z, double tolerance) {
+    check_near(a.x, x, tolerance);
+    check_near(a.y, y, tolerance);
+    check_near(a.z, z, tolerance);
+}
+
+static inline void check_vec4(ewa_vec4 a, double x, double y, double z, double w, double tolerance) {
+    check_vec3(vec3_from_vec4(a), x, y, z, tolerance);
+    check_near(a.w, w, tolerance);
+}
+
+/// Fails unless two tables of numbers (matrices) agree.
+#define check_numbers(a, b, count, tolerance)                                                                \
+    do {                                                                                                     \
+        for (int check_i = 0; check_i < (count); check_i++)                                                  \
+            check_near(((const double *)(a))[check_i], ((const double *)(b))[check_i], tolerance);           \
+    } while (0)
+
+static inline ewa_vec3 check_random_vec3(check_random *random) {
+    return vec3_make(check_uniform(random, -1, 1), check_uniform(random, -1, 1),
+                     check_uniform(random, -1, 1));
+}
+
+static inline ewa_vec4 check_random_vec4(check_random *random) {
+    return vec4_from_vec3(check_random_vec3(random), check_uniform(random, -1, 1));
+}
+
+static inline ewa_mat3 check_random_mat3(check_random *random) {
+    return mat3_from_rows(check_random_vec3(random), check_random_vec3(random), check_random_vec3(random));
+}
+
+static inline ewa_mat4 check_random_mat4(check_random *random) {
+    return mat4_from_rows(check_random_vec4(random), check_random_vec4(random), check_random_vec4(random),
+                          check_random_vec4(random));
+}
+
+#endif

@@ -1,0 +1,410 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Maps and their action, conics, perspective and the planes of a view volume: properties on random input.
+#include <fenv.h>
+#include <string.h>
+
+#include "math/check_math.h"
+
+enum { ROUNDS = 2000 };
+
+static const double identity4[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+static double largest_of(const double *numbers, int count) {
+    double largest = 0;
+    for (int i = 0; i < count; i++) largest = fmax(largest, fabs(numbers[i]));
+    return largest;
+}
+
+static void test_composition_is_product(void **state) {
+    (void)state;
+    check_random random = {1};
+    for (int i = 0; i < ROUNDS; i++) {
+        ewa_mat3 a = check_random_mat3(&random), b = check_random_mat3(&random),
+                 ab = ewa_mat3_concatenate(&a, &b);
+        ewa_vec3 p = check_random_vec3(&random), one = ewa_point2_transform(p, &a),
+                 q = ewa_point2_transform(p, &ab);
+        one = ewa_point2_transform(one, &b);
+        check_numbers(&q, &one, 3, 1e-14);
+        ewa_mat4 c = check_random_mat4(&random), d = check_random_mat4(&random),
+                 cd = ewa_mat4_concatenate(&c, &d);
+        ewa_vec4 r = check_random_vec4(&random), two = ewa_point3_transform(ewa_point3_transform(r, &c), &d);
+        r = ewa_point3_transform(r, &cd);
+        check_numbers(&r, &two, 4, 1e-14);
+        double numbers[16];
+        memcpy(numbers, cd.m, sizeof numbers);
+        ewa_mat4 transposed = ewa_mat4_transpose(&cd), column = ewa_mat4_from_column_form(numbers);
+        check_numbers(transposed.m, column.m, 16, 0);
+    }
+}
+
+static void test_inverse(void **state) {
+    (void)state;
+    check_random random = {2};
+    for (int i = 0; i < ROUNDS; i++) {
+        ewa_mat4 a = check_random_mat4(&random), inverse, product;
+        if (i % 4 == 1) // badly scaled, not badly conditioned
+            for (int r = 0; r < 4; r++)
+                for (int c = 0; c < 4; c++) a.m[r][c] *= pow(10, 30 * r - 25 * c);
+        assert_int_equal(ewa_mat4_invert(&a, &inverse), EWA_OK);
+        product = ewa_mat4_concatenate(&inverse, &a);
+        if (i % 4 == 1) {
+            for (int r = 0; r < 4; r++) check_near(product.m[r][r], 1, 1e-9);
+        } else {
+            double condition = largest_of(&a.m[0][0], 16) * largest_of(&inverse.m[0][0], 16);
+            check_numbers(product.m, identity4, 16, 1e-14 * condition);
+        }
+        ewa_mat3 b = check_random_mat3(&random), inverse3, product3, identity3 = ewa_mat3_identity();
+        assert_int_equal(ewa_mat3_invert(&b, &inverse3), EWA_OK);
+        product3 = ewa_mat3_concatenate(&b, &inverse3);
+        check_numbers(product3.m, identity3.m, 9, 1e-14 * largest_of(&inverse3.m[0][0], 9));
+        ewa_mat3 adjugate = mat3_adjugate(&b);
+        check_same(&adjugate, &inverse3, 9, 1e-12);
+        check_near(mat3_determinant(&b) * inverse3.m[1][2], adjugate.m[1][2],
+                   1e-13 * largest_of(&inverse3.m[0][0], 9));
+    }
+    // The camera of georeferenced data: far from the origin, thin depth range.
+    ewa_frustum frustum = {-0.1, 0.1, -0.1, 0.1, 0.1, 1e6, false};
+    ewa_mat4 view = ewa_mat4_translation(-4e6, -5e6, 3e6), projection, inverse;
+    assert_int_equal(ewa_frustum_perspective(&frustum, &projection), EWA_OK);
+    view = ewa_mat4_concatenate(&view, &projection);
+    assert_int_equal(ewa_mat4_invert(&view, &inverse), EWA_OK);
+}
+
+static void test_singular(void **state) {
+    (void)state;
+    check_random random = {3};
+    for (int i = 0; i < ROUNDS; i++) {
+        ewa_mat4 a = check_random_mat4(&random), inverse = ewa_mat4_identity();
+        double k[3] = {check_uniform(&random, -2, 2), check_uniform(&random, -2, 2),
+                       check_uniform(&random, -2, 2)};
+        int row = i % 4;
+        for (int c = 0; c < 4; c++) // one row is a sum of the others
+            a.m[row][c] =
+                k[0] * a.m[(row + 1) % 4][c] + k[1] * a.m[(row + 2) % 4][c] + k[2] * a.m[(row + 3) % 4][c];
+        assert_int_equal(ewa_mat4_invert(&a, &inverse), EWA_ERROR_NUMERIC);
+        check_numbers(inverse.m, identity4, 16, 0); // left alone
+        ewa_vec4 plane;
+        assert_int_equal(ewa_plane_transform(check_random_vec4(&random), &a, &plane), EWA_ERROR_NUMERIC);
+        ewa_mat3 b = check_random_mat3(&random), inverse3;
+        for (int c = 0; c < 3; c++) b.m[2][c] = k[0] * b.m[0][c] + k[1] * b.m[1][c];
+        assert_int_equal(ewa_mat3_invert(&b, &inverse3), EWA_ERROR_NUMERIC);
+        ewa_vec3 line;
+        assert_int_equal(ewa_line2_transform(check_random_vec3(&random), &b, &line), EWA_ERROR_NUMERIC);
+        ewa_conic conic = {1, 0, 0, 1, 0, -1};
+        assert_int_equal(ewa_conic_transform(&conic, &b, &conic), EWA_ERROR_NUMERIC);
+    }
+    ewa_mat4 zero = {{{0}}}, bad = ewa_mat4_identity(), out;
+    assert_int_equal(ewa_mat4_invert(&zero, &out), EWA_ERROR_NUMERIC);
+    bad.m[2][1] = NAN;
+    assert_int_equal(ewa_mat4_invert(&bad, &out), EWA_ERROR_NUMERIC);
+    assert_int_equal(ewa_mat4_rotation(vec3_make(0, 0, 0), 1, &out), EWA_ERROR_NUMERIC);
+    assert_int_equal(ewa_mat4_rotation(vec3_make(0, NAN, 0), 1, &out), EWA_ERROR_NUMERIC);
+    assert_int_equal(ewa_mat4_rotation(vec3_make(0, 1, 0), INFINITY, &out), EWA_ERROR_NUMERIC);
+}
+
+static void test_rotation(void **state) {
+    (void)state;
+    check_random random = {4};
+    for (int i = 0; i < ROUNDS; i++) {
+        ewa_vec3 axis = check_random_vec3(&random), v = check_random_vec3(&random);
+        double angle = check_uniform(&random, -7, 7), length = vec3_length(axis);
+        ewa_mat4 map, inverse;
+        assert_int_equal(ewa_mat4_rotation(axis, angle, &map), EWA_OK);
+        assert_int_equal(ewa_mat4_invert(&map, &inverse), EWA_OK);
+        check_numbers(ewa_mat4_transpose(&map).m, inverse.m, 16, 1e-14);
+        ewa_vec3 image = vec3_from_vec4(ewa_point3_transform(vec4_from_vec3(v, 0), &map));
+        check_near(vec3_dot(image, axis), vec3_dot(v, axis), 1e-14);
+        // Right-handed: the turn about the axis has the sine of the angle.
+        ewa_vec3 n = vec3_scale(axis, 1 / length), across = vec3_sub(v, vec3_scale(n, vec3_dot(n, v)));
+        check_near(vec3_dot(n, vec3_cross(across, image)), sin(angle) * vec3_dot(across, across), 1e-13);
+    }
+    ewa_mat4 about_z;
+    ewa_mat3 plane = ewa_mat3_rotation(0.4);
+    assert_int_equal(ewa_mat4_rotation(vec3_make(0, 0, 2), 0.4, &about_z), EWA_OK);
+    check_near(about_z.m[0][1], plane.m[0][1], 1e-15);
+    check_near(about_z.m[1][0], plane.m[1][0], 1e-15);
+}
+
+static void test_action_on_lines_and_planes(void **state) {
+    (void)state;
+    check_random random = {5};
+    for (int i = 0; i < ROUNDS; i++) {
+        ewa_mat3 map = check_random_mat3(&random), inverse;
+        ewa_vec3 p = check_random_vec3(&random), q = check_random_vec3(&random), line, image, expected;
+        assert_int_equal(ewa_mat3_invert(&map, &inverse), EWA_OK);
+        double condition = largest_of(&inverse.m[0][0], 9);
+        assert_int_equal(ewa_line2_join(p, q, &line), EWA_OK);
+        assert_int_equal(ewa_line2_transform(line, &map, &image), EWA_OK);
+        assert_int_equal(
+            ewa_line2_join(ewa_point2_transform(p, &map), ewa_point2_transform(q, &map), &expected), EWA_OK);
+        check_same(&image, &expected, 3, 1e-12 * condition);
+        ewa_vec3 other = check_random_vec3(&random); // incidence products are kept as numbers
+        check_near(ewa_incidence2(ewa_point2_transform(other, &map), image), ewa_incidence2(other, line),
+                   1e-13 * condition);
+        ewa_vec3 back = ewa_line2_pull(image, &map);
+        check_numbers(&back, &line, 3, 1e-13 * condition);
+
+        ewa_mat4 map4 = check_random_mat4(&random), inverse4;
+        ewa_vec4 plane = check_random_vec4(&random), image4, r = check_random_vec4(&random);
+        assert_int_equal(ewa_mat4_invert(&map4, &inverse4), EWA_OK);
+        assert_int_equal(ewa_plane_transform(plane, &map4, &image4), EWA_OK);
+        check_near(ewa_incidence3(ewa_point3_transform(r, &map4), image4), ewa_incidence3(r, plane),
+                   1e-13 * largest_of(&inverse4.m[0][0], 16));
+        ewa_vec4 back4 = ewa_plane_pull(image4, &map4);
+        check_numbers(&back4, &plane, 4, 1e-13 * largest_of(&inverse4.m[0][0], 16));
+    }
+}
+
+static ewa_vec3 on_circle(double angle) { return vec3_make(cos(angle), sin(angle), 1); }
+
+static void test_conics(void **state) {
+    (void)state;
+    check_random random = {6};
+    const ewa_conic circle = {1, 0, 0, 1, 0, -1};
+    for (int i = 0; i < ROUNDS; i++) {
+        ewa_mat3 map = check_random_mat3(&random), inverse;
+        assert_int_equal(ewa_mat3_invert(&map, &inverse), EWA_OK);
+        double condition = pow(largest_of(&inverse.m[0][0], 9), 2);
+        if (condition > 1e6) continue;
+        ewa_conic image, dual = ewa_conic_dual(&circle), pulled;
+        assert_int_equal(ewa_conic_transform(&circle, &map, &image), EWA_OK);
+        ewa_conic dual_image = ewa_dual_conic_transform(&dual, &map), dual_of_image = ewa_conic_dual(&image);
+        check_same(&dual_image, &dual_of_image, 6, 1e-11 * condition);
+        double angle = check_uniform(&random, 0, 7);
+        ewa_vec3 p = ewa_point2_transform(on_circle(angle), &map);
+        check_near(ewa_conic_value(&image, p), 0, 1e-13 * condition); // points go to points
+        ewa_vec3 tangent = ewa_conic_polar(&circle, on_circle(angle)), image_tangent;
+        check_near(ewa_conic_value(&dual, tangent), 0, 1e-14);
+        assert_int_equal(ewa_line2_transform(tangent, &map, &image_tangent), EWA_OK);
+        check_near(ewa_conic_value(&dual_image, image_tangent), 0, 1e-13 * condition); // tangents to tangents
+        ewa_vec3 polar = ewa_conic_polar(&image, p);
+        check_same(&polar, &image_tangent, 3, 1e-12 * condition);
+        pulled = ewa_conic_pull(&image, &map);
+        check_numbers(&pulled, &circle, 6, 1e-12 * condition);
+    }
+}
+
+/// The ellipse of a dual conic against the points of a mapped circle.
+static void test_ellipse(void **state) {
+    (void)state;
+    check_random random = {7};
+    for (int i = 0; i < 200; i++) {
+        const double a[2][2] = {{check_uniform(&random, -2, 2), check_uniform(&random, -2, 2)},
+                                {check_uniform(&random, -2, 2), check_uniform(&random, -2, 2)}};
+        const double c[2] = {check_uniform(&random, -5, 5), check_uniform(&random, -5, 5)};
+        ewa_mat3 map = ewa_mat3_bordered(a, c);
+        ewa_conic circle = {1, 0, 0, 1, 0, -1}, dual = ewa_conic_dual(&circle);
+        dual = ewa_dual_conic_transform(&dual, &map);
+        double center[2], shape[3], high_x = -INFINITY, high_y = -INFINITY;
+        assert_int_equal(ewa_dual_conic_ellipse(&dual, center, shape), EWA_OK);
+        check_near(center[0], c[0], 1e-14);
+        check_near(center[1], c[1], 1e-14);
+        for (int k = 0; k < 1000; k++) {
+            ewa_vec3 p = ewa_point2_transform(on_circle(k * acos(-1) / 500), &map);
+            double x = p.x - c[0], y = p.y - c[1], det = shape[0] * shape[2] - shape[1] * shape[1];
+            check_near((shape[2] * x * x - 2 * shape[1] * x * y + shape[0] * y * y) / det, 1, 1e-9 / det);
+            high_x = fmax(high_x, x);
+            high_y = fmax(high_y, y);
+        }
+        check_near(high_x, sqrt(shape[0]), 1e-4 * sqrt(shape[0]));
+        check_near(high_y, sqrt(shape[2]), 1e-4 * sqrt(shape[2]));
+    }
+    double center[2], shape[3];
+    ewa_conic hyperbola = {1, 0, 0, -1, 0, 1}, parabola = {1, 0, 0, 0, 1, 0}, imaginary = {1, 0, 0, 1, 0, 1};
+    ewa_conic leaning = {-1, -2, 0, -1, 0, 1}, upright = {0, 0, 0, 1, 0, 1}, lying = {1, 0, 0, 0, 0, 1};
+    assert_int_equal(ewa_dual_conic_ellipse(&leaning, center, shape), EWA_ERROR_NUMERIC); // a hyperbola too
+    assert_int_equal(ewa_dual_conic_ellipse(&upright, center, shape),
+                     EWA_ERROR_NUMERIC); // imaginary segments
+    assert_int_equal(ewa_dual_conic_ellipse(&lying, center, shape), EWA_ERROR_NUMERIC);
+    ewa_conic segment = {4, 0, 0, 0, 0, -1}, bad = {NAN, 0, 0, 1, 0, -1}, bad_w = {1, 0, 0, 1, 0, NAN};
+    assert_int_equal(ewa_dual_conic_ellipse(&hyperbola, center, shape), EWA_ERROR_NUMERIC);
+    assert_int_equal(ewa_dual_conic_ellipse(&parabola, center, shape), EWA_ERROR_NUMERIC);
+    assert_int_equal(ewa_dual_conic_ellipse(&imaginary, center, shape), EWA_ERROR_NUMERIC);
+    assert_int_equal(ewa_dual_conic_ellipse(&bad, center, shape), EWA_ERROR_NUMERIC);
+    assert_int_equal(ewa_dual_conic_ellipse(&bad_w, center, shape), EWA_ERROR_NUMERIC);
+    assert_int_equal(ewa_dual_conic_ellipse(&segment, center, shape), EWA_OK); // a disc seen edge-on
+    assert_true(shape[0] == 4 && shape[2] == 0);
+}
+
+static double depth_of(const ewa_mat4 *map, double z) {
+    double xyz[3];
+    assert_int_equal(ewa_point3_divide(ewa_point3_transform(vec4_make(0.3, -0.2, z, 1), map), xyz), EWA_OK);
+    return xyz[2];
+}
+
+static void test_frustum_maps(void **state) {
+    (void)state;
+    ewa_frustum f = {-1, 3, -2, 0.5, 0.25, 80, false};
+    ewa_mat4 map;
+    for (int variant = 0; variant < 6; variant++) { // perspective, infinite far, box; each of both directions
+        bool box = variant >= 4;
+        f.reversed = variant & 1;
+        f.far_z = variant / 2 == 1 ? INFINITY : 80;
+        assert_int_equal((box ? ewa_frustum_orthographic : ewa_frustum_perspective)(&f, &map), EWA_OK);
+        check_near(depth_of(&map, 0.25), f.reversed, 1e-14);
+        if (isfinite(f.far_z)) check_near(depth_of(&map, 80), !f.reversed, 1e-13);
+        double before = depth_of(&map, 0.25);
+        for (double z = 0.3; z < 70; z *= 1.5) { // monotone in between
+            double depth = depth_of(&map, z);
+            assert_true(depth > 0 && depth < 1 && (depth > before) == !f.reversed);
+            before = depth;
+        }
+        for (int corner = 0; corner < 8; corner++) { // off-axis window, at near and at far (or anywhere)
+            double x = corner & 1 ? 1 : -1, y = corner & 2 ? 1 : -1, z = corner & 4 ? 80 : 0.25, xyz[3];
+            double grow = box ? 1 : z / 0.25;
+            ewa_vec4 p = vec4_make((x > 0 ? 3 : -1) * grow, (y > 0 ? 0.5 : -2) * grow, z, 1);
+            assert_int_equal(ewa_point3_divide(ewa_point3_transform(p, &map), xyz), EWA_OK);
+            check_near(xyz[0], x, 1e-14);
+            check_near(xyz[1], y, 1e-14);
+        }
+    }
+    f.reversed = true;
+    f.far_z = INFINITY;
+    assert_int_equal(ewa_frustum_perspective(&f, &map), EWA_OK);
+    check_near(depth_of(&map, 1e30) * 1e30, 0.25,
+               1e-14); // what reversed depth is for: near / z at any distance
+
+    f.far_z = 1e18;
+    assert_int_equal(ewa_frustum_perspective(&f, &map), EWA_OK);
+    check_near(depth_of(&map, 1e18) * 1e18, 0,
+               1e-6); // no cancellation at a far plane that is only nearly infinite
+
+    const ewa_frustum wrong[] = {
+        {1, -1, -1, 1, 1, 2, false},   {-1, 1, 1, 1, 1, 2, false},         {-1, 1, -1, 1, 0, 2, false},
+        {-1, 1, -1, 1, 2, 1, false},   {-1, NAN, -1, 1, 1, 2, false},      {-1, 1, -1, 1, NAN, 2, false},
+        {-1, 1, -1, 1, 1, NAN, false}, {-INFINITY, 1, -1, 1, 1, 2, false}, {-1, 1, -1, 1, 1e-320, 2, true}};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
+        assert_int_equal(ewa_frustum_perspective(&wrong[i], &map), EWA_ERROR_NUMERIC);
+    assert_int_equal(ewa_frustum_orthographic(&wrong[0], &map), EWA_ERROR_NUMERIC);
+    f.far_z = INFINITY;
+    assert_int_equal(ewa_frustum_orthographic(&f, &map), EWA_ERROR_NUMERIC); // no infinite box
+    const double fov[][4] = {{0, 1, 1, 2}, {4, 1, 1, 2}, {NAN, 1, 1, 2},
+                             {1, 0, 1, 2}, {1, 1, 0, 2}, {1, 1, 2, 2}};
+    for (size_t i = 0; i < sizeof fov / sizeof fov[0]; i++)
+        assert_int_equal(ewa_frustum_from_fov(fov[i][0], fov[i][1], fov[i][2], fov[i][3], &f),
+                         EWA_ERROR_NUMERIC);
+    assert_int_equal(ewa_mat4_perspective(0, &map), EWA_ERROR_NUMERIC);
+    assert_int_equal(ewa_mat4_perspective_projection(NAN, &map), EWA_ERROR_NUMERIC);
+    assert_int_equal(ewa_mat4_projection(INFINITY, &map), EWA_ERROR_NUMERIC);
+}
+
+/// A camera's clip map against its pixels, and the planes against the clip conditions they come from.
+static void test_camera_and_planes(void **state) {
+    (void)state;
+    check_random random = {8};
+    for (int i = 0; i < 400; i++) {
+        ewa_camera camera;
+        ewa_camera_init(&camera, sizeof camera);
+        const double eye[3] = {check_uniform(&random, -9, 9), check_uniform(&random, -9, 9), 12},
+                     target[3] = {0};
+        const double up[3] = {0, 1, 0};
+        if (i % 2) assert_int_equal(ewa_camera_set_ortho(&camera, 10), EWA_OK);
+        assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
+        camera.cx_px += 100;
+        ewa_mat4 map;
+        ewa_vec4 planes[6];
+        double far_z = i % 4 == 2 ? INFINITY : 40;
+        assert_int_equal(ewa_camera_clip_map(&camera, 0.5, far_z, &map), EWA_OK);
+        assert_int_equal(ewa_frustum_planes(&map, planes), EWA_OK);
+        ewa_vec4 world = vec4_make(check_uniform(&random, -20, 20), check_uniform(&random, -20, 20),
+                                   check_uniform(&random, -20, 20), 1);
+        const double *m = camera.world_to_camera;
+        double camera_space[3], xyz[3], smallest = INFINITY;
+        for (int r = 0; r < 3; r++)
+            camera_space[r] =
+                m[4 * r] * world.x + m[4 * r + 1] * world.y + m[4 * r + 2] * world.z + m[4 * r + 3];
+        double divisor = i % 2 ? 1 : camera_space[2];
+        double x_px = camera.fx_px * camera_space[0] / divisor + camera.cx_px;
+        double y_px = camera.fy_px * camera_space[1] / divisor + camera.cy_px;
+        ewa_vec4 clip = ewa_point3_transform(world, &map);
+        assert_int_equal(ewa_point3_divide(clip, xyz), EWA_OK);
+        check_near((xyz[0] + 1) / 2 * camera.width_px, x_px, 1e-9 * (1 + fabs(x_px)));
+        check_near((xyz[1] + 1) / 2 * camera.height_px, y_px, 1e-9 * (1 + fabs(y_px)));
+        bool seen = x_px >= 0 && x_px <= camera.width_px && y_px >= 0 && y_px <= camera.height_px &&
+                    camera_space[2] >= 0.5 && camera_space[2] <= far_z;
+        for (int k = 0; k < 6; k++) {
+            double distance = 1;
+            if (vec3_length(vec3_from_vec4(planes[k])) > 0)
+                assert_int_equal(ewa_plane_distance(planes[k], world, &distance), EWA_OK);
+            smallest = fmin(smallest, distance);
+        }
+        double measured = ewa_frustum_distance(planes, vec3_from_vec4(world));
+        check_near(measured, smallest, 1e-12 * (1 + fabs(smallest)));
+        assert_true(seen == (measured >= 0));
+        // What is around an invisible sphere's centre is invisible too.
+        if (measured < -1)
+            for (int k = 0; k < 20; k++) {
+                ewa_vec3 v = check_random_vec3(&random);
+                v = vec3_scale(v, 1 / vec3_length(v));
+                assert_true(ewa_frustum_distance(planes, vec3_add(vec3_from_vec4(world), v)) < 0);
+            }
+    }
+    ewa_camera camera;
+    ewa_camera_init(&camera, sizeof camera);
+    ewa_mat4 map;
+    camera.world_to_camera[3] = NAN;
+    assert_int_equal(ewa_camera_clip_map(&camera, 0.5, 40, &map), EWA_ERROR_NUMERIC);
+    camera.world_to_camera[3] = 0;
+    assert_int_equal(ewa_camera_clip_map(&camera, 0, 40, &map), EWA_ERROR_NUMERIC);
+    camera.fx_px = 0;
+    assert_int_equal(ewa_camera_clip_map(&camera, 0.5, 40, &map), EWA_ERROR_NUMERIC);
+}
+
+/// The plane at infinity as far plane, and maps that have no frustum.
+static void test_planes_at_infinity(void **state) {
+    (void)state;
+    ewa_frustum frustum = {-1, 1, -1, 1, 0.5, INFINITY, false};
+    ewa_mat4 map, view = ewa_mat4_translation(3, 4, 1e5);
+    ewa_vec4 planes[6];
+    assert_int_equal(ewa_frustum_perspective(&frustum, &map), EWA_OK);
+    map = ewa_mat4_concatenate(&view, &map);
+    assert_int_equal(ewa_frustum_planes(&map, planes), EWA_OK);
+    check_numbers(&planes[EWA_CLIP_FAR], (&(ewa_vec4){0, 0, 0, 1}), 4, 0);
+    assert_true(ewa_frustum_distance(planes, vec3_make(0, 0, 1e300)) > 0);
+    ewa_mat4 behind = ewa_mat4_concatenate(
+        &map, (&(ewa_mat4){{{-1, 0, 0, 0}, {0, -1, 0, 0}, {0, 0, -1, 0}, {0, 0, 0, -1}}}));
+    assert_int_equal(ewa_frustum_planes(&behind, planes),
+                     EWA_OK); // the cone of negative w: nothing of it is visible
+    check_numbers(&planes[EWA_CLIP_FAR], (&(ewa_vec4){0, 0, 0, -1}), 4, 0);
+    ewa_mat4 nothing = {{{0}}};
+    assert_int_equal(ewa_frustum_planes(&nothing, planes), EWA_ERROR_NUMERIC);
+    map.m[1][1] = NAN;
+    assert_int_equal(ewa_frustum_planes(&map, planes), EWA_ERROR_NUMERIC);
+}
+
+static void test_no_division_by_zero(void **state) {
+    (void)state;
+    feclearexcept(FE_ALL_EXCEPT);
+    ewa_mat4 zero = {{{0}}}, map;
+    ewa_vec4 planes[6];
+    ewa_conic none = {0, 0, 0, 0, 0, 0};
+    double center[2], shape[3];
+    ewa_frustum f = {-1, 1, -1, 1, 0, 0, false};
+    assert_int_equal(ewa_mat4_invert(&zero, &map), EWA_ERROR_NUMERIC);
+    assert_int_equal(ewa_frustum_planes(&zero, planes), EWA_ERROR_NUMERIC);
+    assert_int_equal(ewa_dual_conic_ellipse(&none, center, shape), EWA_ERROR_NUMERIC);
+    assert_int_equal(ewa_frustum_perspective(&f, &map), EWA_ERROR_NUMERIC);
+    assert_int_equal(ewa_frustum_orthographic(&f, &map), EWA_ERROR_NUMERIC);
+    assert_int_equal(ewa_mat4_perspective(0, &map), EWA_ERROR_NUMERIC);
+    assert_int_equal(ewa_mat4_rotation(vec3_make(0, 0, 0), 1, &map), EWA_ERROR_NUMERIC);
+    assert_int_equal(fetestexcept(FE_DIVBYZERO | FE_INVALID), 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_composition_is_product),
+        cmocka_unit_test(test_inverse),
+        cmocka_unit_test(test_singular),
+        cmocka_unit_test(test_rotation),
+        cmocka_unit_test(test_action_on_lines_and_planes),
+        cmocka_unit_test(test_conics),
+        cmocka_unit_test(test_ellipse),
+        cmocka_unit_test(test_frustum_maps),
+        cmocka_unit_test(test_camera_and_planes),
+        cmocka_unit_test(test_planes_at_infinity),
+        cmocka_unit_test(test_no_division_by_zero),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
