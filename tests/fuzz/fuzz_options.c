@@ -3,14 +3,13 @@
 //
 // Fuzz target: command lines. The first byte chooses the command, the others are its words, each ended by a zero byte
 // or a line feed. Nothing is executed.
+#include "cli/commands.h"
+#include "fuzz.h"
+
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/commands.h"
-
 enum { MAX_WORDS = 64 };
-
-int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes);
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
     if (size_bytes == 0) return 0;
