@@ -28,7 +28,7 @@ enum { ONE_PASS = 0, THREE_PASSES = 1, GAP_POINTS = 1000 };
 
 /// Support radius in units of the spacing under which irregular points leave gaps, and one that closes most
 /// of them.
-static const double GAP_RADIUS = 1, CLOSED_RADIUS = 1.4;
+static const double GAP_RADIUS = 1, CLOSED_RADIUS = 1.9;
 
 #define AT(member) offsetof(render_arguments, member)
 
