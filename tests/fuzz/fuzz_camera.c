@@ -3,9 +3,8 @@
 //
 // Fuzz target: any bytes as a camera file: JSON, or, by the first byte, the two files of a COLMAP model (text
 // 't', binary 'b') one after the other, the length of the first in the second byte.
+#include "fuzz.h"
 #include "io/camera_file.h"
-
-int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes);
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
     ewa_context_options options;

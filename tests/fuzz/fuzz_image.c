@@ -3,8 +3,7 @@
 //
 // Fuzz target: any bytes as a picture file (PNG, OpenEXR, PFM by their first bytes).
 #include "ewa/io.h"
-
-int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes);
+#include "fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
     ewa_context_options options;
