@@ -22,15 +22,15 @@ typedef struct ewa_surfels_options {
 
 EWA_API void ewa_surfels_options_init(ewa_surfels_options *options, size_t struct_size);
 
-/// The resident form of a cloud: Morton order, packets of 16, at most 32 bytes per point. Immutable once made; any
-/// number of renderers of the same context may draw it.
+/// The resident form of a cloud: Morton order, packets of 16, at most 32 bytes per point. Immutable once
+/// made; any number of renderers of the same context may draw it.
 typedef struct ewa_surfels ewa_surfels;
 
-/// Makes surfels from a cloud that has "position", "normal" and "radius", or "position", "tangent_u" and "tangent_v"
-/// (see ewa_cloud_estimate() for clouds that have less). Points that cannot be drawn (coordinates not finite, no
-/// normal, radius not positive) are left out and counted. The cloud is not needed afterwards. Colourless clouds are
-/// light grey. The result does not depend on the order of the points.
-/// `options` may be NULL. Errors: EWA_ERROR_ARGUMENT (missing attribute, named), EWA_ERROR_MEMORY.
+/// Makes surfels from a cloud that has "position", "normal" and "radius", or "position", "tangent_u" and
+/// "tangent_v" (see ewa_cloud_estimate() for clouds that have less). Points that cannot be drawn (coordinates
+/// not finite, no normal, radius not positive) are left out and counted. The cloud is not needed afterwards.
+/// Colourless clouds are light grey. The result does not depend on the order of the points. `options` may be
+/// NULL. Errors: EWA_ERROR_ARGUMENT (missing attribute, named), EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_surfels_create(const ewa_cloud *cloud, const ewa_surfels_options *options,
                                       ewa_surfels **surfels);
 EWA_API void ewa_surfels_destroy(ewa_surfels **surfels);
@@ -61,15 +61,23 @@ typedef enum ewa_cull {
     EWA_CULL_BACK = 1,
 } ewa_cull;
 
+enum { EWA_MAX_EDGE_LAYERS = 8 };
+
 /// How a picture is made. Fill with ewa_render_options_init().
 typedef struct ewa_render_options {
     size_t struct_size;
     ewa_kernel kernel;
     double prefilter_px; ///< h, standard deviation of the pixel filter; [0, 4]; 0: none; default 0.5
-    double tolerance;    ///< kappa of math.md section 6: depth tolerance in units of the support radius; default 1
-    uint32_t passes;     ///< 3: splats of one surface are blended; 1: the nearest splat of each pixel wins; default 3
+    double
+        tolerance; ///< kappa of math.md section 6: depth tolerance in units of the support radius; default 1
+    uint32_t
+        passes; ///< 3: splats of one surface are blended; 1: the nearest splat of each pixel wins; default 3
     bool edge_antialiasing; ///< alpha from coverage; default true
     double edge_threshold;  ///< tau of math.md section 7; default 0.6
+    /// Surfaces that may share an antialiased edge: what lies behind a silhouette shows through its partly
+    /// covered pixels, front to back, up to this many surfaces; 1: the background shows through instead
+    /// (math.md section 7); [1, EWA_MAX_EDGE_LAYERS]; default 3
+    uint32_t edge_layers;
     ewa_cull cull;
     ewa_shading shading;   ///< default EWA_SHADING_LAMBERT
     double light_world[3]; ///< direction towards the light; 0, 0, 0 (default): headlight, from the eye
@@ -79,13 +87,15 @@ typedef struct ewa_render_options {
 
 EWA_API void ewa_render_options_init(ewa_render_options *options, size_t struct_size);
 
-/// Where a frame goes: planes of the camera's size, rows from the top, tightly packed; NULL planes are not computed.
+/// Where a frame goes: planes of the camera's size, rows from the top, tightly packed; NULL planes are not
+/// computed.
 typedef struct ewa_frame {
-    uint8_t *rgba8;  ///< 4 per pixel: sRGB, straight alpha, over the background
-    float *rgba;     ///< 4 per pixel: linear, premultiplied, over the background
-    float *depth;    ///< 1 per pixel: camera-space z, world units; +infinity where nothing is
-    float *normal;   ///< 3 per pixel: unit, world space, towards the viewer; 0 where nothing is
-    float *coverage; ///< 1 per pixel: sum of kernels over its expectation q0 (1: covered), before the threshold
+    uint8_t *rgba8; ///< 4 per pixel: sRGB, straight alpha, over the background
+    float *rgba;    ///< 4 per pixel: linear, premultiplied, over the background
+    float *depth;   ///< 1 per pixel: camera-space z, world units; +infinity where nothing is
+    float *normal;  ///< 3 per pixel: unit, world space, towards the viewer; 0 where nothing is
+    float
+        *coverage; ///< 1 per pixel: sum of kernels over its expectation q0 (1: covered), before the threshold
 } ewa_frame;
 
 /// What a frame took. Stage times are summed over workers, in seconds of thread time.
@@ -94,7 +104,7 @@ typedef struct ewa_render_stats {
     uint64_t culled_count;   ///< of splats: in packets dropped whole
     uint64_t drawn_count;    ///< splat records over all tiles: a splat in two tiles counts twice
     uint64_t fragment_count; ///< 4x4-pixel blocks evaluated in the accumulation
-    double bin_s, setup_s, visibility_s, accumulate_s, resolve_s;
+    double bin_s, setup_s, visibility_s, accumulate_s, edge_s, resolve_s;
     double total_s; ///< wall clock of the call
 } ewa_render_stats;
 
@@ -104,14 +114,16 @@ typedef struct ewa_renderer ewa_renderer;
 EWA_API ewa_status ewa_renderer_create(ewa_context *context, ewa_renderer **renderer);
 EWA_API void ewa_renderer_destroy(ewa_renderer **renderer);
 
-/// Draws surfels. The same bytes for every number of threads, every instruction set and every order of the points.
-/// `options` and `stats` may be NULL. Implements math.md sections 3 to 7; held to ewa_render_reference() by tests.
-/// Errors: EWA_ERROR_ARGUMENT (camera, options), EWA_ERROR_MEMORY, EWA_CANCELLED.
+/// Draws surfels. The same bytes for every number of threads, every instruction set and every order of the
+/// points. `options` and `stats` may be NULL. Implements math.md sections 3 to 7; held to
+/// ewa_render_reference() by tests. Errors: EWA_ERROR_ARGUMENT (camera, options), EWA_ERROR_MEMORY,
+/// EWA_CANCELLED.
 EWA_API ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const ewa_camera *camera,
-                              const ewa_render_options *options, const ewa_frame *frame, ewa_render_stats *stats);
+                              const ewa_render_options *options, const ewa_frame *frame,
+                              ewa_render_stats *stats);
 
-/// The same picture in double precision, one splat after another, straight from the cloud: slow, plain, and the
-/// definition of what ewa_render() draws. `unit_coverage` is q0, as ewa_surfels_describe() gives it.
+/// The same picture in double precision, one splat after another, straight from the cloud: slow, plain, and
+/// the definition of what ewa_render() draws. `unit_coverage` is q0, as ewa_surfels_describe() gives it.
 EWA_API ewa_status ewa_render_reference(const ewa_cloud *cloud, const ewa_surfels_options *surfels_options,
                                         double unit_coverage, const ewa_camera *camera,
                                         const ewa_render_options *options, const ewa_frame *frame);

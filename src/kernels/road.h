@@ -26,6 +26,7 @@ enum {
     EWA_WIDE_CLASS = EWA_ROW_CLASSES * EWA_COLUMN_CLASSES, ///< boxes of more columns
     EWA_CLASS_COUNT = EWA_WIDE_CLASS + 1,
     EWA_MAX_CHANNELS = 8,
+    EWA_MAX_TILE_BLOCKS = 32, ///< along a side, so that a row of blocks is a word of bits
 };
 
 /// Everything about camera and options that the kernels read, in single precision, camera space in world
@@ -114,6 +115,15 @@ typedef struct ewa_tile {
     bool with_normals, with_depth;
 } ewa_tile;
 
+/// The blocks of a tile whose edges show what lies behind, and what that is.
+typedef struct ewa_edges {
+    uint32_t *rows; ///< [block row]: bit per block column
+    float *passed;  ///< [block][16]: the smallest key of the surfaces that are done
+    float *nearest; ///< [block][16]: the smallest key of the surface that is being gathered
+    float *sums;    ///< as ewa_tile's
+    float *behind;  ///< [block][4][16]: premultiplied r, g, b and alpha of all surfaces but the first
+} ewa_edges;
+
 /// How pixels become colours, and where they go. Planes as in ewa_frame, of the whole picture.
 typedef struct ewa_resolve {
     float unit_coverage_inverse; ///< 1 / q0
@@ -154,8 +164,26 @@ typedef struct ewa_road_kernels {
     void (*near_accumulate)(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *records,
                             uint32_t count);
 
-    /// Writes the tile's pixels to the planes.
-    void (*resolve)(const ewa_tile *tile, const ewa_resolve *resolve);
+    /// Marks in edges->rows the blocks with a partly covered pixel and starts their planes; returns how many.
+    uint32_t (*find_edges)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges);
+
+    /// Writes the numbers of a run's splats whose box holds a marked block to `hits`; returns how many.
+    uint32_t (*edge_hits)(const ewa_edges *edges, const ewa_sorted_run *run, uint16_t *hits);
+
+    /// One of the two passes for splats beyond edges->passed, in marked blocks only.
+    void (*edge_pass)(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
+                      const ewa_sorted_run *run, const uint16_t *hits, uint32_t hit_count, bool second_pass);
+    void (*edge_near_pass)(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
+                           const ewa_near_record *records, uint32_t count, bool second_pass);
+
+    /// Puts the gathered surface under edges->behind and starts the next one; unmarks blocks that are closed
+    /// or have nothing more. Returns how many stay marked.
+    uint32_t (*edge_compose)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges);
+
+    /// Writes the tile's pixels to the planes; edges->behind (`edges` may be NULL) is under the blocks that
+    /// `edge_rows` marks.
+    void (*resolve)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges,
+                    const uint32_t *edge_rows);
 } ewa_road_kernels;
 
 /// Chooses the widest of `cpu_features` (EWA_CPU_* bits); plain C when there is none.

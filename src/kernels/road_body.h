@@ -4,15 +4,8 @@
 // The road's kernels over the wide type. The including file defines WIDE_AVX512, WIDE_AVX2 or WIDE_PORTABLE,
 // ROAD_NAME and ROAD_KERNELS; this file undefines them. Reference: src/splat/reference.c; equality class of
 // the versions among themselves: the same bytes.
+#include "kernels/road_edges.h"
 #include "kernels/road_variants.h"
-#include "kernels/semantics.h"
-#include "kernels/wide.h"
-
-#include <string.h>
-
-#include "kernels/road_project.h"
-#include "kernels/road_raster.h"
-#include "kernels/road_resolve.h"
 
 const ewa_road_kernels ROAD_KERNELS = {
     .name = ROAD_NAME,
@@ -23,6 +16,11 @@ const ewa_road_kernels ROAD_KERNELS = {
     .clear = clear,
     .accumulate = accumulate,
     .near_accumulate = near_accumulate,
+    .find_edges = find_edges,
+    .edge_hits = edge_hits,
+    .edge_pass = edge_pass,
+    .edge_near_pass = edge_near_pass,
+    .edge_compose = edge_compose,
     .resolve = resolve,
 };
 

@@ -8,7 +8,11 @@
 #ifndef EWA_SRC_KERNELS_ROAD_PROJECT_H
 #define EWA_SRC_KERNELS_ROAD_PROJECT_H
 
-#define ALWAYS_INLINE inline __attribute__((always_inline))
+#include "kernels/road.h"
+#include "kernels/semantics.h"
+#include "kernels/wide.h"
+
+#include <string.h>
 
 /// 1 / x for normal x > 0 within 1.2e-7 relative: a guess from the bits, two cubic steps. Cheaper than a
 /// division, and the same on every machine.
@@ -375,7 +379,6 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
     int32_t classes[16];
     wi_store(classes, box_classes(columns, rows));
     uint32_t at = run->count;
-#pragma GCC unroll 16
     for (uint32_t lane = 0; lane < 16; lane++) {
         wf_store((float *)(void *)&run->records[at], lanes[lane]);
         memcpy(&run->loads[at], &loads[4 * lane], sizeof run->loads[at]);

@@ -5,6 +5,8 @@
 #ifndef EWA_SRC_KERNELS_ROAD_RASTER_H
 #define EWA_SRC_KERNELS_ROAD_RASTER_H
 
+#include "kernels/road_project.h"
+
 /// exp(-s) for s in [0, 0.5] within 5.1e-7 relative, squared `doublings` >= 2 times.
 static ALWAYS_INLINE wf exponential(wf s, uint32_t doublings) {
     wf e = wf_fma(s, wf_set(0.032365625784f), wf_set(-0.162670935613f));
@@ -54,32 +56,32 @@ static ALWAYS_INLINE uint32_t box_row(uint32_t box) { return box >> 8 & 0xff; }
 static ALWAYS_INLINE uint32_t box_columns(uint32_t box) { return box >> 16 & 0xff; }
 static ALWAYS_INLINE uint32_t box_rows(uint32_t box) { return box >> 24; }
 
-/// Raises one block of `nearest` to the key of z + eps where the splat counts.
-static ALWAYS_INLINE void raise(float *nearest, wf s, wf end, wf bound) {
-    const wf old = wf_load(nearest);
-    wf_store(nearest, wf_select(wf_lt(s, end), wf_max(bound, old), old));
+/// The key of z + eps.
+static ALWAYS_INLINE wf bound_key(const ewa_record *r, wf key, bool exact) {
+    const wf offset = wf_set(r->bound_offset);
+    if (exact) return wf_mul(key, wf_reciprocal(wf_fma(offset, key, wf_set(1))));
+    return wf_fma(wf_set(r->bound_scale), key, offset);
 }
 
 static ALWAYS_INLINE void visibility_rows(const ewa_view *view, const ewa_tile *tile, const ewa_record *r,
                                           uint32_t first_column, uint32_t columns, uint32_t rows,
                                           bool exact) {
     column_terms c[EWA_COLUMN_CLASSES];
-#pragma GCC unroll 4
+    UNROLL_COLUMNS
     for (uint32_t i = 0; i < columns; i++) c[i] = column_start(r, (float)(EWA_BLOCK_PX * (first_column + i)));
-    const wf end = wf_set(view->exponent_end), scale = wf_set(r->bound_scale),
-             offset = wf_set(r->bound_offset);
+    const wf end = wf_set(view->exponent_end);
     const size_t row_floats = (size_t)tile->blocks_per_row * EWA_BLOCK_LANES;
     float *nearest = tile->nearest + box_row(r->box) * row_floats +
                      (size_t)(box_column(r->box) + first_column) * EWA_BLOCK_LANES;
     wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
     for (uint32_t row = 0; row < rows; row++, nearest += row_floats, dy = wf_add(dy, wf_set(EWA_BLOCK_PX))) {
         const wf yy_dy2 = wf_mul(wf_mul(wf_set(r->yy), dy), dy), key_dy = wf_mul(wf_set(r->key_y), dy);
-#pragma GCC unroll 4
+        UNROLL_COLUMNS
         for (uint32_t i = 0; i < columns; i++) {
-            const wf key = block_key(r, &c[i], key_dy);
-            const wf bound = exact ? wf_mul(key, wf_reciprocal(wf_fma(offset, key, wf_set(1))))
-                                   : wf_fma(scale, key, offset);
-            raise(nearest + (size_t)i * EWA_BLOCK_LANES, block_exponent(&c[i], dy, yy_dy2), end, bound);
+            float *block = nearest + (size_t)i * EWA_BLOCK_LANES;
+            const wf old = wf_load(block), bound = bound_key(r, block_key(r, &c[i], key_dy), exact);
+            const wm counts = wf_lt(block_exponent(&c[i], dy, yy_dy2), end);
+            wf_store(block, wf_select(counts, wf_max(bound, old), old));
         }
     }
 }
@@ -99,7 +101,7 @@ typedef void splat_rows(const pass *p, uint32_t splat, uint32_t first_column, ui
 static ALWAYS_INLINE void for_each_splat(const pass *p, splat_rows *body, splat_rows *wide_body) {
     const uint16_t *first = p->run->class_first, *order = p->run->order;
     const ewa_record *r = p->run->records;
-#pragma GCC unroll 4
+    UNROLL_COLUMNS
     for (uint32_t columns = 1; columns <= EWA_COLUMN_CLASSES; columns++)
         for (uint32_t i = first[(columns - 1) * EWA_ROW_CLASSES]; i < first[columns * EWA_ROW_CLASSES]; i++)
             body(p, order[i], 0, columns, box_rows(r[order[i]].box));
@@ -166,7 +168,7 @@ static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_
     const uint32_t channels = 4 + (with_normals ? 3 : 0) + (with_depth ? 1 : 0);
     const uint32_t doublings = two_doublings ? 2 : view->doublings;
     column_terms c[EWA_COLUMN_CLASSES];
-#pragma GCC unroll 4
+    UNROLL_COLUMNS
     for (uint32_t i = 0; i < columns; i++) c[i] = column_start(r, (float)(EWA_BLOCK_PX * (first_column + i)));
     payload add = {.color = {wf_set(r->red), wf_set(r->green), wf_set(r->blue)}};
     if (with_normals)
@@ -179,7 +181,7 @@ static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_
     wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
     for (uint32_t row = 0; row < rows; row++) {
         const wf yy_dy2 = wf_mul(wf_mul(wf_set(r->yy), dy), dy), key_dy = wf_mul(wf_set(r->key_y), dy);
-#pragma GCC unroll 4
+        UNROLL_COLUMNS
         for (uint32_t i = 0; i < columns; i++) {
             const wf s = block_exponent(&c[i], dy, yy_dy2), key = block_key(r, &c[i], key_dy);
             const wm counts =
@@ -280,18 +282,38 @@ static ALWAYS_INLINE near_sample near_evaluate(const ewa_view *view, const ewa_n
     return sample;
 }
 
+static ALWAYS_INLINE void near_raise(const ewa_near_record *r, const near_sample *sample, wm counts,
+                                     float *nearest) {
+    const wf old = wf_load(nearest);
+    const wf key = wf_div(wf_set(1), wf_add(sample->z, wf_set(r->tolerance)));
+    wf_store(nearest, wf_select(counts, wf_max(key, old), old));
+}
+
+static ALWAYS_INLINE void near_add(const ewa_view *view, const ewa_near_record *r, const near_sample *sample,
+                                   wm counts, wf key, float *sums, bool with_normals, bool with_depth) {
+    if (!wm_bits(counts)) return;
+    payload add;
+    for (int k = 0; k < 3; k++) add.color[k] = wf_set(r->color[k]), add.normal[k] = wf_set(r->normal[k]);
+    // Lanes that do not count may hold an exponent out of range: clear it before the polynomial.
+    const wf e = exponential(wf_keep(counts, sample->exponent), view->doublings);
+    add_channels(sums, wf_keep(counts, wf_mul(e, sample->weight)), &add, wf_select(counts, key, wf_set(1)),
+                 with_normals, with_depth, false);
+}
+
+static ALWAYS_INLINE near_sample near_block(const ewa_view *view, const ewa_near_record *r, uint32_t row,
+                                            uint32_t column) {
+    return near_evaluate(view, r, wf_add(lanes_x(), wf_set((float)(EWA_BLOCK_PX * column))),
+                         wf_add(lanes_y(), wf_set((float)(EWA_BLOCK_PX * row))));
+}
+
 static void near_visibility(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *records,
                             uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
         float *nearest = tile->nearest;
         for (uint32_t row = 0; row < tile->block_rows; row++) {
-            const wf y = wf_add(lanes_y(), wf_set((float)(EWA_BLOCK_PX * row)));
             for (uint32_t column = 0; column < tile->blocks_per_row; column++, nearest += EWA_BLOCK_LANES) {
-                const wf x = wf_add(lanes_x(), wf_set((float)(EWA_BLOCK_PX * column)));
-                const near_sample sample = near_evaluate(view, &records[i], x, y);
-                const wf old = wf_load(nearest);
-                const wf key = wf_div(wf_set(1), wf_add(sample.z, wf_set(records[i].tolerance)));
-                wf_store(nearest, wf_select(sample.counts, wf_max(key, old), old));
+                const near_sample sample = near_block(view, &records[i], row, column);
+                near_raise(&records[i], &sample, sample.counts, nearest);
             }
         }
     }
@@ -300,26 +322,14 @@ static void near_visibility(const ewa_view *view, const ewa_tile *tile, const ew
 static void near_accumulate(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *records,
                             uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
-        const ewa_near_record *r = &records[i];
-        const float *bounds = tile->nearest;
+        const float *nearest = tile->nearest;
         float *sums = tile->sums;
-        payload p;
-        for (int k = 0; k < 3; k++) p.color[k] = wf_set(r->color[k]), p.normal[k] = wf_set(r->normal[k]);
         for (uint32_t row = 0; row < tile->block_rows; row++) {
-            const wf y = wf_add(lanes_y(), wf_set((float)(EWA_BLOCK_PX * row)));
-            for (uint32_t column = 0; column < tile->blocks_per_row; column++, bounds += EWA_BLOCK_LANES) {
-                const wf x = wf_add(lanes_x(), wf_set((float)(EWA_BLOCK_PX * column)));
-                const near_sample sample = near_evaluate(view, r, x, y);
+            for (uint32_t column = 0; column < tile->blocks_per_row; column++, nearest += EWA_BLOCK_LANES) {
+                const near_sample sample = near_block(view, &records[i], row, column);
                 const wf key = wf_div(wf_set(1), sample.z);
-                const wm counts = wm_and(sample.counts, wf_le(wf_load(bounds), key));
-                if (wm_bits(counts)) {
-                    // Lanes that do not count may hold an exponent out of range: clear it before the
-                    // polynomial.
-                    const wf e = exponential(wf_keep(counts, sample.exponent), view->doublings);
-                    add_channels(sums, wf_keep(counts, wf_mul(e, sample.weight)), &p,
-                                 wf_select(counts, key, wf_set(1)), tile->with_normals, tile->with_depth,
-                                 false);
-                }
+                const wm counts = wm_and(sample.counts, wf_le(wf_load(nearest), key));
+                near_add(view, &records[i], &sample, counts, key, sums, tile->with_normals, tile->with_depth);
                 sums += tile->channel_count * EWA_BLOCK_LANES;
             }
         }

@@ -39,6 +39,11 @@
 // pixel's ray (orthographic: against the view direction).
 // Over the background (straight alpha bg): rgb = colour alpha + bg_rgb bg_a (1 - alpha), a = alpha + bg_a (1
 // - alpha). rgba8: divided by its alpha (black when 0), sRGB curve, rounded to nearest.
+//
+// Edge layers: where alpha < 1 and there is something, the splats with z > B(x) make the next surface by the
+// same rules, and so on up to edge_layers surfaces, composited front to back before the background; depth,
+// normal and coverage are the first one's. One layer is math.md section 7, where the background shines
+// through silhouettes inside the object.
 #ifndef EWA_SRC_KERNELS_SEMANTICS_H
 #define EWA_SRC_KERNELS_SEMANTICS_H
 

@@ -4,6 +4,9 @@
 // Sixteen lanes of float, int and mask as pairs of AVX2 registers. See wide.h for what each operation means.
 #include <immintrin.h>
 
+#define ALWAYS_INLINE  inline __attribute__((always_inline))
+#define UNROLL_COLUMNS _Pragma("GCC unroll 4")
+
 typedef struct wf {
     __m256 l, h;
 } wf;

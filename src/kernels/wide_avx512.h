@@ -4,6 +4,9 @@
 // Sixteen lanes of float, int and mask: AVX-512 (F, DQ, BW, VL). See wide.h for what each operation means.
 #include <immintrin.h>
 
+#define ALWAYS_INLINE  inline __attribute__((always_inline))
+#define UNROLL_COLUMNS _Pragma("GCC unroll 4")
+
 typedef __m512 wf;
 typedef __m512i wi;
 typedef __mmask16 wm;

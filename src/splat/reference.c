@@ -20,13 +20,16 @@ enum {
 
 static const uint64_t NOBODY = UINT64_MAX;
 
-/// What gathers at a pixel.
+/// What gathers at a pixel: the sums of one surface, and what the surfaces in front of it have become.
 typedef struct pixel {
     double bound;     ///< three passes: B(x) = min(z + eps); one pass: z of the nearest splat
     uint64_t nearest; ///< one pass: the splat that wins
     double weight;    ///< q, the sum of weights
     ewa_vec3 color, normal_world;
-    double z; ///< all three weighted
+    double z;          ///< all three weighted
+    double passed;     ///< B(x) of the surface before: splats up to there are done
+    ewa_vec3 in_front; ///< premultiplied colour of the surfaces before
+    double through;    ///< the share of the pixel that they leave open
 } pixel;
 
 typedef struct reference {
@@ -76,6 +79,7 @@ static bool precedes(const ewa_reference_splat *a, const ewa_reference_splat *b)
 static void lower_bound(const reference *work, pixel *at, uint64_t index,
                         const ewa_reference_sample *sample) {
     const ewa_reference_splat *splat = &work->splats[index];
+    if (sample->z <= at->passed) return;
     if (work->options.passes == 3) {
         at->bound = fmin(at->bound, sample->z + splat->epsilon);
     } else if (sample->z < at->bound || (sample->z == at->bound && at->nearest != NOBODY &&
@@ -88,6 +92,7 @@ static void lower_bound(const reference *work, pixel *at, uint64_t index,
 /// Second pass: sums over the splats with z <= B(x), or the nearest splat alone.
 static void accumulate(const reference *work, pixel *at, uint64_t index, const ewa_reference_sample *sample) {
     const ewa_reference_splat *splat = &work->splats[index];
+    if (sample->z <= at->passed) return;
     if (work->options.passes == 3 ? sample->z > at->bound : index != at->nearest) return;
     const double weight = work->options.passes == 3 ? sample->weight : 1;
     at->weight += weight;
@@ -133,27 +138,55 @@ static double shade(const reference *work, ewa_vec3 normal_world, double x_px, d
     return ambient + (1 - ambient) * fmax(0, vec3_dot(normal_world, light));
 }
 
-/// Third pass (SS 7): divide by the weights, shade, cover, put over the background.
-static void resolve(const reference *work, int32_t x, int32_t y) {
+/// Writes what belongs to the nearest surface.
+static void write_surface(const ewa_frame *frame, size_t index, double depth, ewa_vec3 normal,
+                          double coverage) {
+    if (frame->depth) frame->depth[index] = (float)depth;
+    if (frame->normal) {
+        frame->normal[3 * index] = (float)normal.x;
+        frame->normal[3 * index + 1] = (float)normal.y;
+        frame->normal[3 * index + 2] = (float)normal.z;
+    }
+    if (frame->coverage) frame->coverage[index] = (float)coverage;
+}
+
+/// Third pass (SS 7): divide by the weights, shade, cover; then make the pixel ready for the surface behind.
+/// Returns whether one could show.
+static bool resolve_surface(const reference *work, uint32_t layer, int32_t x, int32_t y) {
     const size_t index = (size_t)y * (size_t)work->view.width_px + (size_t)x;
-    const pixel *at = &work->pixels[index];
+    pixel *at = &work->pixels[index];
     const double q = at->weight;
     double alpha = 0, coverage = 0, depth = INFINITY;
-    ewa_vec3 color = {0, 0, 0}, normal = {0, 0, 0};
+    ewa_vec3 normal = {0, 0, 0};
     if (q > 0) {
         const double length = vec3_length(at->normal_world);
         if (length > 0) normal = vec3_scale(at->normal_world, 1 / length);
-        color = vec3_scale(at->color, shade(work, normal, x + 0.5, y + 0.5) / q);
         depth = at->z / q;
         coverage = work->options.passes == 3 ? q / work->unit_coverage : 1;
         alpha = work->options.edge_antialiasing ? fmin(1, coverage / work->options.edge_threshold) : 1;
         if (work->options.passes == 1) alpha = 1;
+        const double factor = shade(work, normal, x + 0.5, y + 0.5) / q;
+        at->in_front = vec3_add(at->in_front, vec3_scale(at->color, factor * alpha * at->through));
+        at->through *= 1 - alpha;
     }
+    if (layer == 0) write_surface(&work->frame, index, depth, normal, coverage);
+    const bool open = q > 0 && at->through > 0;
+    *at = (pixel){.bound = open ? INFINITY : -INFINITY,
+                  .nearest = NOBODY,
+                  .passed = open ? at->bound : INFINITY,
+                  .in_front = at->in_front,
+                  .through = at->through};
+    return open;
+}
+
+/// Puts the pixel over the background.
+static void write_color(const reference *work, size_t index) {
+    const pixel *at = &work->pixels[index];
     const float *background = work->options.background;
-    const double behind = (double)background[3] * (1 - alpha), a = alpha + behind;
-    const double rgb[3] = {color.x * alpha + (double)background[0] * behind,
-                           color.y * alpha + (double)background[1] * behind,
-                           color.z * alpha + (double)background[2] * behind};
+    const double behind = (double)background[3] * at->through, a = 1 - at->through + behind;
+    const double rgb[3] = {at->in_front.x + (double)background[0] * behind,
+                           at->in_front.y + (double)background[1] * behind,
+                           at->in_front.z + (double)background[2] * behind};
     const ewa_frame *frame = &work->frame;
     if (frame->rgba) {
         for (int c = 0; c < 3; c++) frame->rgba[4 * index + (size_t)c] = (float)rgb[c];
@@ -164,13 +197,6 @@ static void resolve(const reference *work, int32_t x, int32_t y) {
             frame->rgba8[4 * index + (size_t)c] = a > 0 ? ewa_srgb8_from_linear((float)(rgb[c] / a)) : 0;
         frame->rgba8[4 * index + 3] = (uint8_t)(255 * a + 0.5);
     }
-    if (frame->depth) frame->depth[index] = (float)depth;
-    if (frame->normal) {
-        frame->normal[3 * index] = (float)normal.x;
-        frame->normal[3 * index + 1] = (float)normal.y;
-        frame->normal[3 * index + 2] = (float)normal.z;
-    }
-    if (frame->coverage) frame->coverage[index] = (float)coverage;
 }
 
 /// All passes over some rows of the picture; no pixel is touched by two pieces.
@@ -180,14 +206,19 @@ static void render_band(void *data, uint32_t index, uint32_t worker) {
     const uint32_t rows = (uint32_t)work->view.height_px;
     const int32_t begin = (int32_t)ewa_split(rows, work->band_count, index);
     const int32_t end = (int32_t)ewa_split(rows, work->band_count, index + 1);
-    for (int32_t y = begin; y < end; y++)
-        for (int32_t x = 0; x < work->view.width_px; x++)
-            work->pixels[(size_t)y * (size_t)work->view.width_px + (size_t)x] =
-                (pixel){.bound = INFINITY, .nearest = NOBODY};
-    walk(work, begin, end, lower_bound);
-    walk(work, begin, end, accumulate);
-    for (int32_t y = begin; y < end; y++)
-        for (int32_t x = 0; x < work->view.width_px; x++) resolve(work, x, y);
+    const size_t width = (size_t)work->view.width_px;
+    const size_t first_pixel = (size_t)begin * width, end_pixel = (size_t)end * width;
+    for (size_t i = first_pixel; i < end_pixel; i++)
+        work->pixels[i] = (pixel){.bound = INFINITY, .nearest = NOBODY, .passed = -INFINITY, .through = 1};
+    bool open = true;
+    for (uint32_t layer = 0; layer < work->options.edge_layers && open; layer++) {
+        walk(work, begin, end, lower_bound);
+        walk(work, begin, end, accumulate);
+        open = false;
+        for (int32_t y = begin; y < end; y++)
+            for (int32_t x = 0; x < work->view.width_px; x++) open |= resolve_surface(work, layer, x, y);
+    }
+    for (size_t i = first_pixel; i < end_pixel; i++) write_color(work, i);
 }
 
 /// With `work` complete but for the memory: allocates, projects, draws.

@@ -68,6 +68,7 @@ static void gather_stats(const ewa_renderer *renderer, const ewa_surfels *surfel
         stats->setup_s += s->setup_s;
         stats->visibility_s += s->visibility_s;
         stats->accumulate_s += s->accumulate_s;
+        stats->edge_s += s->edge_s;
         stats->resolve_s += s->resolve_s;
     }
     stats->total_s = ewa_now_s() - start_s;
@@ -90,6 +91,7 @@ ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const 
                         .with_depth = frame->depth != NULL,
                         .count_fragments = stats != NULL,
                         .scratch = renderer->scratch};
+    job.edge_layers = chosen.edge_antialiasing && chosen.passes == 3 ? chosen.edge_layers : 1;
     job.channel_count = 4 + (job.with_normals ? 3 : 0) + (job.with_depth ? 1 : 0);
     ewa_view_set(&job.view, surfels, camera, &chosen, TILE_PX);
     ewa_resolve_set(&job.resolve, surfels, camera, &chosen, frame);

@@ -8,6 +8,8 @@
 // runs up again for the second pass instead: the same records in the same order, so the same bytes.
 #include "splat/tile.h"
 
+#include <string.h>
+
 enum {
     KEPT_RECORDS = 1 << 18, // 20 MiB per worker
     NEAR_CHUNK = 64,
@@ -18,7 +20,9 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     uint64_t records = largest_bin * EWA_PACKET_LANES;
     if (records > KEPT_RECORDS) records = KEPT_RECORDS;
     if (records < EWA_RUN_RECORDS) records = EWA_RUN_RECORDS;
+    // Per pixel: nearest and sums twice, the edges' `passed`, and four channels of what lies behind.
     const size_t tile_floats = (size_t)job->view.tile_px * job->view.tile_px;
+    const size_t pixel_floats = tile_floats * (2 * (1 + EWA_MAX_CHANNELS) + 1 + 4);
     const struct {
         ewa_buffer *buffer;
         size_t count, size_bytes;
@@ -26,10 +30,10 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
         {&s->record_buffer, records + EWA_PACKET_LANES, sizeof *s->records},
         {&s->load_buffer, records + EWA_PACKET_LANES, sizeof *s->loads},
         {&s->order_buffer, records, sizeof *s->order},
+        {&s->hit_buffer, records + 1, sizeof *s->hits},
         {&s->near_buffer, records, sizeof *s->near_surfels},
         {&s->kept_buffer, records / EWA_RUN_RECORDS + 1, sizeof *s->kept},
-        {&s->nearest_buffer, tile_floats, sizeof *s->nearest},
-        {&s->sum_buffer, tile_floats * EWA_MAX_CHANNELS, sizeof *s->sums},
+        {&s->pixel_buffer, pixel_floats, sizeof(float)},
     };
     for (size_t i = 0; i < sizeof needs / sizeof needs[0]; i++) {
         const ewa_status status =
@@ -39,19 +43,25 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     s->records = s->record_buffer.data;
     s->loads = s->load_buffer.data;
     s->order = s->order_buffer.data;
+    s->hits = s->hit_buffer.data;
     s->near_surfels = s->near_buffer.data;
     s->kept = s->kept_buffer.data;
-    s->nearest = s->nearest_buffer.data;
-    s->sums = s->sum_buffer.data;
+    s->nearest = s->pixel_buffer.data;
+    s->sums = s->nearest + tile_floats;
+    s->edges.rows = s->edge_rows_left;
+    s->edges.nearest = s->sums + tile_floats * EWA_MAX_CHANNELS;
+    s->edges.sums = s->edges.nearest + tile_floats;
+    s->edges.passed = s->edges.sums + tile_floats * EWA_MAX_CHANNELS;
+    s->edges.behind = s->edges.passed + tile_floats;
     s->record_capacity = records;
     s->drawn_count = s->fragment_count = 0;
-    s->setup_s = s->visibility_s = s->accumulate_s = s->resolve_s = 0;
+    s->setup_s = s->visibility_s = s->accumulate_s = s->edge_s = s->resolve_s = 0;
     return EWA_OK;
 }
 
 void ewa_tile_scratch_free(ewa_context *context, ewa_tile_scratch *s) {
-    ewa_buffer *const buffers[] = {&s->record_buffer, &s->load_buffer,    &s->order_buffer, &s->near_buffer,
-                                   &s->kept_buffer,   &s->nearest_buffer, &s->sum_buffer};
+    ewa_buffer *const buffers[] = {&s->record_buffer, &s->load_buffer, &s->order_buffer, &s->hit_buffer,
+                                   &s->near_buffer,   &s->kept_buffer, &s->pixel_buffer};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) ewa_buffer_free(context, buffers[i]);
 }
 
@@ -72,15 +82,28 @@ static void sort_run(const ewa_run *run, uint16_t *order, ewa_sorted_run *sorted
     sorted->order = order;
 }
 
-static void draw_near(const ewa_tile_job *job, const ewa_tile *tile, const uint32_t *surfels, uint32_t count,
-                      bool second_pass) {
+/// What a walk over a tile's splats is for.
+typedef enum tile_pass {
+    PASS_VISIBILITY,
+    PASS_ACCUMULATE,
+    PASS_EDGE_VISIBILITY,
+    PASS_EDGE_ACCUMULATE
+} tile_pass;
+
+static void draw_near(const ewa_tile_job *job, const ewa_tile *tile, const ewa_edges *edges,
+                      const uint32_t *surfels, uint32_t count, tile_pass what) {
+    const ewa_road_kernels *kernels = job->kernels;
     ewa_near_record records[NEAR_CHUNK];
     for (uint32_t done = 0; done < count;) {
         uint32_t filled = 0;
         for (; done < count && filled < NEAR_CHUNK; done++)
             filled += ewa_near_record_set(&records[filled], job->surfels, surfels[done], &job->view, tile);
-        (second_pass ? job->kernels->near_accumulate : job->kernels->near_visibility)(&job->view, tile,
-                                                                                      records, filled);
+        if (what == PASS_VISIBILITY)
+            kernels->near_visibility(&job->view, tile, records, filled);
+        else if (what == PASS_ACCUMULATE)
+            kernels->near_accumulate(&job->view, tile, records, filled);
+        else
+            kernels->edge_near_pass(&job->view, tile, edges, records, filled, what == PASS_EDGE_ACCUMULATE);
     }
 }
 
@@ -112,50 +135,98 @@ static void prepare_run(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_
     sort_run(&s->run, s->order + at, sorted);
 }
 
-static void draw_kept(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
+static void visit_run(const ewa_tile_job *job, const ewa_tile *tile, const ewa_tile_scratch *s,
+                      const ewa_sorted_run *run, const uint16_t *hits, uint32_t hit_count, tile_pass what) {
+    const ewa_road_kernels *kernels = job->kernels;
+    if (what == PASS_VISIBILITY)
+        kernels->visibility(&job->view, tile, run);
+    else if (what == PASS_ACCUMULATE)
+        kernels->accumulate(&job->view, tile, run);
+    else
+        kernels->edge_pass(&job->view, tile, &s->edges, run, hits, hit_count, what == PASS_EDGE_ACCUMULATE);
+}
+
+/// One pass over the runs that the first pass has kept.
+static void walk_kept(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, uint64_t run_count,
+                      tile_pass what) {
+    for (uint64_t i = 0; i < run_count; i++) {
+        const ewa_kept_run *kept = &s->kept[i];
+        visit_run(job, tile, s, &kept->sorted, s->hits + kept->hit_first, kept->hit_count, what);
+        draw_near(job, tile, &s->edges, s->near_surfels + kept->near_first, kept->near_count, what);
+    }
+}
+
+/// One pass over runs that are set up again.
+static void walk_again(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
+                       const tile_packets *packets, tile_pass what) {
+    for (uint64_t i = 0; i < packets->run_count; i++) {
+        ewa_sorted_run sorted;
+        const double before = ewa_now_s();
+        prepare_run(job, tile, s, packets, i, 0, &sorted);
+        const double middle = ewa_now_s();
+        s->setup_s += middle - before;
+        uint32_t hit_count = 0;
+        if (what >= PASS_EDGE_VISIBILITY) hit_count = job->kernels->edge_hits(&s->edges, &sorted, s->hits);
+        visit_run(job, tile, s, &sorted, s->hits, hit_count, what);
+        draw_near(job, tile, &s->edges, s->run.near_surfels, s->run.near_count, what);
+        if (what == PASS_VISIBILITY) count_splats(job, s);
+        *(what == PASS_VISIBILITY ? &s->visibility_s : &s->accumulate_s) += ewa_now_s() - middle;
+    }
+}
+
+/// First pass with runs kept for the others.
+static void keep_runs(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
                       const tile_packets *packets) {
     uint32_t record_count = 0, near_count = 0;
     double before = ewa_now_s();
     for (uint64_t i = 0; i < packets->run_count; i++) {
         ewa_kept_run *kept = &s->kept[i];
         prepare_run(job, tile, s, packets, i, record_count, &kept->sorted);
-        const double middle = ewa_now_s();
-        s->setup_s += middle - before;
-        job->kernels->visibility(&job->view, tile, &kept->sorted);
+        kept->hit_first = kept->hit_count = 0;
         kept->near_first = near_count;
         kept->near_count = s->run.near_count;
-        draw_near(job, tile, s->run.near_surfels, kept->near_count, false);
         for (uint32_t k = 0; k < kept->near_count; k++)
             s->near_surfels[near_count + k] = s->run.near_surfels[k];
+        const double middle = ewa_now_s();
+        s->setup_s += middle - before;
+        visit_run(job, tile, s, &kept->sorted, NULL, 0, PASS_VISIBILITY);
+        draw_near(job, tile, NULL, s->run.near_surfels, kept->near_count, PASS_VISIBILITY);
         count_splats(job, s);
         record_count += s->run.count;
         near_count += kept->near_count;
         before = ewa_now_s();
         s->visibility_s += before - middle;
     }
-    for (uint64_t i = 0; i < packets->run_count; i++) {
-        const ewa_kept_run *kept = &s->kept[i];
-        job->kernels->accumulate(&job->view, tile, &kept->sorted);
-        draw_near(job, tile, s->near_surfels + kept->near_first, kept->near_count, true);
-    }
-    s->accumulate_s += ewa_now_s() - before;
 }
 
-static void draw_again(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
-                       const tile_packets *packets) {
-    for (int second_pass = 0; second_pass < 2; second_pass++) {
-        for (uint64_t i = 0; i < packets->run_count; i++) {
-            ewa_sorted_run sorted;
-            const double before = ewa_now_s();
-            prepare_run(job, tile, s, packets, i, 0, &sorted);
-            const double middle = ewa_now_s();
-            s->setup_s += middle - before;
-            (second_pass ? job->kernels->accumulate : job->kernels->visibility)(&job->view, tile, &sorted);
-            draw_near(job, tile, s->run.near_surfels, s->run.near_count, second_pass);
-            if (!second_pass) count_splats(job, s);
-            *(second_pass ? &s->accumulate_s : &s->visibility_s) += ewa_now_s() - middle;
-        }
+/// Finds, once per tile, the kept splats that lie on marked blocks.
+static void keep_hits(const ewa_tile_job *job, ewa_tile_scratch *s, uint64_t run_count) {
+    uint32_t hit_count = 0;
+    for (uint64_t i = 0; i < run_count; i++) {
+        ewa_kept_run *kept = &s->kept[i];
+        kept->hit_first = hit_count;
+        kept->hit_count = job->kernels->edge_hits(&s->edges, &kept->sorted, s->hits + hit_count);
+        hit_count += kept->hit_count;
     }
+}
+
+/// Gathers the surfaces behind the first one where it covers pixels partly. Returns whether there are such
+/// pixels.
+static bool draw_edges(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
+                       const tile_packets *packets, bool kept) {
+    if (job->edge_layers < 2 || !job->kernels->find_edges(tile, &job->resolve, &s->edges)) return false;
+    memcpy(s->edge_rows, s->edges.rows, sizeof s->edge_rows);
+    if (kept) keep_hits(job, s, packets->run_count);
+    for (uint32_t layer = 1; layer < job->edge_layers; layer++) {
+        for (tile_pass what = PASS_EDGE_VISIBILITY; what <= PASS_EDGE_ACCUMULATE; what++) {
+            if (kept)
+                walk_kept(job, tile, s, packets->run_count, what);
+            else
+                walk_again(job, tile, s, packets, what);
+        }
+        if (!job->kernels->edge_compose(tile, &job->resolve, &s->edges)) break;
+    }
+    return true;
 }
 
 void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
@@ -179,11 +250,21 @@ void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
     const uint64_t first = job->bins->tile_first[index], count = job->bins->tile_first[index + 1] - first;
     const tile_packets packets = {job->bins->entries + first, count,
                                   (count + EWA_RUN_PACKETS - 1) / EWA_RUN_PACKETS};
-    if (count * EWA_PACKET_LANES <= s->record_capacity)
-        draw_kept(job, &tile, s, &packets);
+    const bool kept = count * EWA_PACKET_LANES <= s->record_capacity;
+    if (kept)
+        keep_runs(job, &tile, s, &packets);
     else
-        draw_again(job, &tile, s, &packets);
+        walk_again(job, &tile, s, &packets, PASS_VISIBILITY);
+    const double accumulating = ewa_now_s();
+    if (kept)
+        walk_kept(job, &tile, s, packets.run_count, PASS_ACCUMULATE);
+    else
+        walk_again(job, &tile, s, &packets, PASS_ACCUMULATE);
+    const double accumulated = ewa_now_s();
+    if (kept) s->accumulate_s += accumulated - accumulating;
+    const bool edges = draw_edges(job, &tile, s, &packets, kept);
     const double before = ewa_now_s();
-    job->kernels->resolve(&tile, &job->resolve);
+    s->edge_s += before - accumulated;
+    job->kernels->resolve(&tile, &job->resolve, edges ? &s->edges : NULL, s->edge_rows);
     s->resolve_s += ewa_now_s() - before;
 }
