@@ -22,7 +22,7 @@ enum {
 };
 
 // The guess for a leaf over what its predecessor needed: larger means fewer second tries but more candidates.
-static const double GUESS_MARGIN = 1.05;
+static const double GUESS_MARGIN = 1.12;
 // The same over what one of its places needs.
 static const double FIRST_GUESS_MARGIN = 1.2;
 // Single precision may find the k-th neighbour a little further away than double does.
