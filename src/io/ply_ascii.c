@@ -11,8 +11,8 @@
 #include <string.h>
 
 enum {
-    CHUNK_BYTES = 1 << 18, // text per parallel task
-    WAVE_CHUNKS = 1 << 8,  // chunks between two reports of progress
+    CHUNK_BYTES = 1 << 16, // text per parallel task
+    WAVE_CHUNKS = 1 << 6,  // chunks between two reports of progress
     NO_STOP = 256,         // no byte: numbers may stand on any line
 };
 

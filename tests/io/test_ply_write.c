@@ -225,6 +225,28 @@ static void test_threads_change_no_byte(void **state) {
     }
 }
 
+static void test_many_points(void **state) {
+    (void)state;
+    enum { POINTS = 300000 }; // more bytes than one wave of parallel tasks takes
+    char path[128];
+    ewa_cloud *cloud, *back;
+    void *position, *color;
+    check_random random = {3};
+    assert_int_equal(ewa_cloud_create(context, POINTS, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &position), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U16, 3, &color), EWA_OK);
+    fill_bits(&random, position, POINTS * 3 * sizeof(double));
+    fill_bits(&random, color, POINTS * 3 * sizeof(uint16_t));
+    for (int encoding = 0; encoding < 2; encoding++) {
+        assert_int_equal(save_as(cloud, inside("many.ply", path), encoding), EWA_OK);
+        assert_int_equal(ewa_cloud_load(context, path, &back), EWA_OK);
+        assert_memory_equal(ewa_cloud_find(back, EWA_POSITION)->data, position, POINTS * 3 * sizeof(double));
+        assert_memory_equal(ewa_cloud_find(back, EWA_COLOR)->data, color, POINTS * 3 * sizeof(uint16_t));
+        ewa_cloud_destroy(&back);
+    }
+    ewa_cloud_destroy(&cloud);
+}
+
 static void test_outputs_that_fail_leave_nothing(void **state) {
     (void)state;
     char path[128];
@@ -318,6 +340,7 @@ int main(void) {
         CASE(test_text_that_is_written),
         CASE(test_origin_gives_doubles),
         CASE(test_threads_change_no_byte),
+        CASE(test_many_points),
         CASE(test_outputs_that_fail_leave_nothing),
         CASE(test_cancelled_output_keeps_the_old_file),
         CASE(test_description),
