@@ -404,8 +404,8 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
 }
 
 static void setup(const ewa_view *view, const ewa_packet *packets, const uint32_t *packet_ids, uint32_t count,
-                  const ewa_tile *tile, ewa_run *run) {
-    enum { TOGETHER = 4, AHEAD = 8, LINE_BYTES = 64 };
+                  uint32_t announced, const ewa_tile *tile, ewa_run *run) {
+    enum { TOGETHER = 4, AHEAD = 12, LINE_BYTES = 64 };
     stage stages[TOGETHER];
     run->count = 0;
     run->near_count = 0;
@@ -413,7 +413,7 @@ static void setup(const ewa_view *view, const ewa_packet *packets, const uint32_
         const uint32_t here = count - first < TOGETHER ? count - first : TOGETHER;
         const uint32_t *ids = packet_ids + first;
         for (uint32_t i = 0; i < here; i++) {
-            if (first + i + AHEAD < count) {
+            if (first + i + AHEAD < announced) {
                 const char *later = (const char *)&packets[ids[i + AHEAD]];
                 for (size_t line = 0; line < sizeof(ewa_packet) + LINE_BYTES - 1; line += LINE_BYTES)
                     __builtin_prefetch(later + line);
