@@ -16,18 +16,20 @@
 extern "C" {
 #endif
 
-/// Reads a point cloud: PLY (ascii, binary of both byte orders), whose element "vertex" holds the points; other
-/// elements and lists are skipped. Properties become the attributes of ewa/cloud.h by their names:
-///   - x y z: "position", F64 when one of them is a double or a 32-bit integer, so that it is exact, else F32;
+/// Reads a point cloud: PLY (ascii, binary of both byte orders), whose element "vertex" holds the points;
+/// other elements and lists are skipped. Properties become the attributes of ewa/cloud.h by their names:
+///   - x y z: "position", F64 when one of them is a double or a 32-bit integer, so that it is exact, else
+///   F32;
 ///   - nx ny nz or normal_x normal_y normal_z: "normal", F32;
-///   - red green blue [alpha], or diffuse_red ..., or r g b [a]: "color"; U16 from ushort, F32 from float and double,
+///   - red green blue [alpha], or diffuse_red ..., or r g b [a]: "color"; U16 from ushort, F32 from float and
+///   double,
 ///     U8 from every other integer type, clamped to [0, 255];
 ///   - radius, tu_x tu_y tu_z, tv_x tv_y tv_z, clip0_a clip0_b clip0_c, clip1_a clip1_b clip1_c: "radius",
 ///     "tangent_u", "tangent_v", "clip0", "clip1", F32;
 ///   - every other scalar: an attribute of that name and type.
-/// "-" reads standard input. The caller owns `*cloud`, which is NULL after a failure. A file that another program
-/// cuts short while it is read ends the process by SIGBUS, as every mapped file does.
-/// Errors: EWA_ERROR_IO, EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_CANCELLED.
+/// "-" reads standard input. The caller owns `*cloud`, which is NULL after a failure. A file that another
+/// program cuts short while it is read ends the process by SIGBUS, as every mapped file does. Errors:
+/// EWA_ERROR_IO, EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_CANCELLED.
 EWA_API ewa_status ewa_cloud_load(ewa_context *context, const char *path, ewa_cloud **cloud);
 
 /// The same from `size_bytes` bytes in memory; `name` stands for the file in messages.
@@ -37,11 +39,12 @@ EWA_API ewa_status ewa_cloud_load_memory(ewa_context *context, const void *bytes
 /// Receives one line of text without its line feed, valid during the call.
 typedef void ewa_line_callback(void *user, const char *line);
 
-/// Hands over the header of a PLY file, checked, line by line without the first ("ply") and the last ("end_header"):
-/// "format binary_little_endian 1.0", "comment ...", "element vertex 341989", "property float x", ... Bytes that are
-/// no printable ASCII are shown as '?', lines longer than 511 bytes are cut.
-/// Errors: EWA_ERROR_IO, EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
-EWA_API ewa_status ewa_ply_describe(ewa_context *context, const char *path, ewa_line_callback *line, void *user);
+/// Hands over the header of a PLY file, checked, line by line without the first ("ply") and the last
+/// ("end_header"): "format binary_little_endian 1.0", "comment ...", "element vertex 341989", "property float
+/// x", ... Bytes that are no printable ASCII are shown as '?', lines longer than 511 bytes are cut. Errors:
+/// EWA_ERROR_IO, EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_ply_describe(ewa_context *context, const char *path, ewa_line_callback *line,
+                                    void *user);
 
 typedef enum ewa_ply_encoding {
     EWA_PLY_BINARY_LITTLE_ENDIAN = 0,
@@ -56,13 +59,15 @@ typedef struct ewa_cloud_save_options {
 
 EWA_API void ewa_cloud_save_options_init(ewa_cloud_save_options *options, size_t struct_size);
 
-/// Writes a point cloud; the suffix (.ply) chooses the format; "-" writes PLY to standard output. Attributes get the
-/// first property names that ewa_cloud_load() knows them by and keep their types; with an origin other than zero,
-/// positions are written as doubles in world units. Any other attribute of several components becomes name_0,
-/// name_1, ... In all encodings, numbers keep every bit (ascii: except of NaN). `options` may be NULL.
-/// Errors: EWA_ERROR_ARGUMENT (no position, two attributes that become one property), EWA_ERROR_LIMIT (over 1,000
-/// properties), EWA_ERROR_IO, EWA_ERROR_UNSUPPORTED (suffix), EWA_ERROR_MEMORY, EWA_CANCELLED.
-EWA_API ewa_status ewa_cloud_save(const ewa_cloud *cloud, const char *path, const ewa_cloud_save_options *options);
+/// Writes a point cloud; the suffix (.ply) chooses the format; "-" writes PLY to standard output. Attributes
+/// get the first property names that ewa_cloud_load() knows them by and keep their types; with an origin
+/// other than zero, positions are written as doubles in world units. Any other attribute of several
+/// components becomes name_0, name_1, ... In all encodings, numbers keep every bit (ascii: except of NaN).
+/// `options` may be NULL. Errors: EWA_ERROR_ARGUMENT (no position, two attributes that become one property),
+/// EWA_ERROR_LIMIT (over 1,000 properties), EWA_ERROR_IO, EWA_ERROR_UNSUPPORTED (suffix), EWA_ERROR_MEMORY,
+/// EWA_CANCELLED.
+EWA_API ewa_status ewa_cloud_save(const ewa_cloud *cloud, const char *path,
+                                  const ewa_cloud_save_options *options);
 
 /// What a picture file says beside its pixels. Fill with ewa_image_save_options_init().
 typedef struct ewa_image_save_options {
@@ -96,7 +101,7 @@ EWA_API ewa_status ewa_png_save(ewa_context *context, const char *path, uint32_t
 /// PNG: sRGB of up to 16 bits to linear light; grey gives 1 channel, RGB and palettes 3, anything with alpha 4,
 /// premultiplied; gamma and colour profiles are not looked at.
 /// OpenEXR: the data window of the first part, scan lines or tiles; R G B [A] when present, else its channels in
-/// alphabetical order, at most 8. PFM: 1 or 3 channels, either byte order.
+/// alphabetical order, at most 16. PFM: 1 or 3 channels, either byte order.
 /// Errors (image empty): EWA_ERROR_IO, EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_image_load(ewa_context *context, const char *path, ewa_image *image);
 

@@ -11,8 +11,8 @@
 #include <string.h>
 
 enum {
-    CHUNK_BYTES = 1 << 18, // text per parallel task
-    WAVE_CHUNKS = 1 << 8,  // chunks between two reports of progress
+    CHUNK_BYTES = 1 << 16, // text per parallel task
+    WAVE_CHUNKS = 1 << 6,  // chunks between two reports of progress
     NO_STOP = 256,         // no byte: numbers may stand on any line
 };
 
@@ -103,11 +103,10 @@ static inline const char *read_number(const char *text, const char *end, ewa_typ
 static const char *skip_list(const grammar *g, const char *text, fault *why) {
     int64_t count;
     const char *after = read_integer(text, g->end, &count);
-    if (!after || (after < g->end && !is_space(*after)))
-        *why = FAULT_NUMBER;
-    else if (count < 0)
+    if (!after || (after < g->end && !is_space(*after)) || count < 0) {
         *why = FAULT_LENGTH;
-    if (*why != FAULT_NONE) return text;
+        return text;
+    }
     for (; count > 0; count--) {
         text = skip_space(after, g->end, g->stop);
         if (text == g->end || *text == g->stop) {
@@ -160,6 +159,8 @@ static ewa_status fail_record(const ewa_ply_source *source, const ewa_ply_header
                               const char *place, fault why) {
     char quote[EWA_PLY_QUOTE_BYTES], element_quote[EWA_PLY_QUOTE_BYTES];
     ewa_ply_quote(element->name, element_quote);
+    if (why == FAULT_END) // the last line with something on it says more than the empty one after it
+        while (place > (const char *)source->bytes + header->body_at && is_space(place[-1])) place--;
     const unsigned long long line = line_of(source, header, place), record = index, count = element->count;
     const ewa_ply_text word = {place, (size_t)(skip_word(place, g->end) - place)};
     if (why == FAULT_END)

@@ -11,8 +11,8 @@
 #include <string.h>
 
 enum {
-    TASK_BYTES = 1 << 20, // file bytes per parallel task
-    WAVE_TASKS = 1 << 8,  // tasks between two reports of progress
+    TASK_BYTES = 1 << 17, // file bytes per parallel task
+    WAVE_TASKS = 1 << 6,  // tasks between two reports of progress
 };
 
 static bool is_swapped(const ewa_ply_header *header) {

@@ -56,12 +56,13 @@ static const ewa_ply_property *find_scalar(const ewa_ply_header *header, const e
     return NULL;
 }
 
+static ewa_type color_type(ewa_type type) {
+    if (type == EWA_F32 || type == EWA_F64) return EWA_F32;
+    return type == EWA_U16 ? EWA_U16 : EWA_U8;
+}
+
 static ewa_type attribute_type(type_rule rule, const ewa_ply_column *column) {
-    const ewa_type type = column->sources[0]->type;
-    if (rule == RULE_COLOR) {
-        if (type == EWA_F32 || type == EWA_F64) return EWA_F32;
-        return type == EWA_U16 ? EWA_U16 : EWA_U8;
-    }
+    if (rule == RULE_COLOR) return color_type(column->sources[0]->type);
     if (rule == RULE_POSITION)
         for (uint32_t c = 0; c < column->component_count; c++) {
             const ewa_type part = column->sources[c]->type;
@@ -84,12 +85,13 @@ static bool match(const ewa_ply_header *header, const ewa_ply_element *element, 
         if (found < g->least_components) continue;
         column->component_count = g->least_components;
         if (g->rule == RULE_COLOR) {
-            // Numbers of different types have different ranges: such are no colour.
-            const ewa_type type = column->sources[0]->type;
-            if (column->sources[1]->type != type || column->sources[2]->type != type) return false;
+            // Numbers that mean shares of different ranges are no colour.
+            const ewa_type type = color_type(column->sources[0]->type);
+            if (color_type(column->sources[1]->type) != type || color_type(column->sources[2]->type) != type)
+                return false;
             const ewa_ply_property *alpha = find_scalar(header, element, g->spellings[0][3]);
             if (!alpha) alpha = find_scalar(header, element, g->spellings[s][3]);
-            if (alpha && alpha->type == type) column->sources[column->component_count++] = alpha;
+            if (alpha && color_type(alpha->type) == type) column->sources[column->component_count++] = alpha;
         }
         memcpy(column->attribute, g->attribute, strlen(g->attribute) + 1);
         column->type = attribute_type(g->rule, column);

@@ -66,6 +66,13 @@ static inline void tile_range(wf low_px, wf high_px, float tile_px, float tiles,
     *end = wf_clamp(wf_add(wf_floor(wf_mul(high_px, per_px)), wf_set(1)), 0, tiles);
 }
 
+/// How far an affine ellipse of size z * `reach` extends from its centre, for centres within `half` of
+/// `middle`; pixels.
+static inline wf affine_reach(wf middle, wf half, wf reach, float f_px, float c_px) {
+    const wf slope_px = wf_add(wf_abs(wf_sub(middle, wf_set(c_px))), half);
+    return wf_mul(reach, wf_add(wf_set(f_px), slope_px));
+}
+
 static uint32_t cull(const ewa_view *view, const ewa_packet_bounds *bounds, uint32_t first, uint32_t count,
                      ewa_tile_rect *rects) {
     const float tile_px = (float)view->tile_px;
@@ -90,7 +97,8 @@ static uint32_t cull(const ewa_view *view, const ewa_packet_bounds *bounds, uint
             half_y = wf_mul(r, wf_set(view->fy_px));
         } else {
             alive = wf_lt(wf_negate(r), c[2]);
-            for (int k = 0; k < 4; k++) {
+            // The planes bound exact outlines, not affine ellipses.
+            for (int k = 0; k < 4 && !view->affine; k++) {
                 const float *n = view->side_planes[k];
                 const wf d =
                     wf_fma(wf_set(n[0]), c[0], wf_fma(wf_set(n[1]), c[1], wf_mul(wf_set(n[2]), c[2])));
@@ -107,6 +115,13 @@ static uint32_t cull(const ewa_view *view, const ewa_packet_bounds *bounds, uint
             y = wf_fma(wf_mul(c[1], zi), wf_set(view->fy_px), wf_set(view->cy_px));
             half_x = wf_mul(wf_mul(rx, ri), wf_set(view->fx_px));
             half_y = wf_mul(wf_mul(ry, ri), wf_set(view->fy_px));
+            if (view->affine) {
+                // Affine ellipses may leave the sphere's outline: |J t| <= (1 + |slope|) |t| / z around a
+                // centre in it.
+                const wf reach = wf_div(r, wf_sub(c[2], r));
+                half_x = wf_add(half_x, affine_reach(x, half_x, reach, view->fx_px, view->cx_px));
+                half_y = wf_add(half_y, affine_reach(y, half_y, reach, view->fy_px, view->cy_px));
+            }
         }
         if (view->cull_back) {
             rotate(view->rotation, wf_load(bounds->axis_x + p), wf_load(bounds->axis_y + p),

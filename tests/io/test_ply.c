@@ -425,17 +425,17 @@ static sample make_long_ascii(uint64_t points, uint64_t blank_after, const char 
 
 static void test_long_ascii(void **state) {
     (void)state;
-    enum { POINTS = 60000 };
+    enum { POINTS = 140000 }; // more text than one wave of parallel tasks takes
     static const struct {
         uint64_t blank_after;
         const char *line_end;
-    } cases[] = {{UINT64_MAX, "\n"}, {UINT64_MAX, "\r"}, {UINT64_MAX, "\r\n"}, {40000, "\n"}};
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
-        for (uint32_t threads = 1; threads <= 7; threads += 3) {
+    } cases[] = {{UINT64_MAX, "\n"}, {UINT64_MAX, "\r"}, {UINT64_MAX, "\r\n"}, {120000, "\n"}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        sample s = make_long_ascii(POINTS, cases[i].blank_after, cases[i].line_end);
+        for (uint32_t threads = 1; threads <= 7; threads += 6) {
             ewa_context *own = check_context(threads, &messages);
-            sample s = make_long_ascii(POINTS, cases[i].blank_after, cases[i].line_end);
             ewa_cloud *cloud;
-            assert_int_equal(sample_load(own, &s, &cloud), EWA_OK);
+            assert_int_equal(sample_load_bytes(own, s.bytes, s.size, &cloud), EWA_OK);
             double values[3];
             const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
             for (uint64_t k = 0; k < POINTS; k++) {
@@ -447,6 +447,8 @@ static void test_long_ascii(void **state) {
             ewa_cloud_destroy(&cloud);
             ewa_context_destroy(&own);
         }
+        free(s.bytes);
+    }
     assert_int_equal(messages.count, 0);
 }
 
