@@ -255,9 +255,17 @@ static cell find_cell(const ewa_block *block, const frame *f, wf spacing) {
     return made;
 }
 
+/// The extent of the cell in a direction; zero where it is open there or next to it, so that borders do not
+/// swell.
+static wf closed_extent(const cell *c, int i) {
+    enum { ALL = 2 * DIRECTIONS };
+    const wm beside = wm_or(c->open[(i + 1) % ALL], c->open[(i + ALL - 1) % ALL]);
+    return wf_keep(wm_not(wm_or(c->open[i], beside)), c->extent[i]);
+}
+
 static wf find_reach(const cell *c) {
     wf reach = wf_set(0);
-    for (int i = 0; i < 2 * DIRECTIONS; i++) reach = wf_max(reach, wf_keep(wm_not(c->open[i]), c->extent[i]));
+    for (int i = 0; i < 2 * DIRECTIONS; i++) reach = wf_max(reach, closed_extent(c, i));
     return wf_mul(reach, wf_set(REACH_MARGIN));
 }
 
@@ -300,7 +308,7 @@ static void find_shape(const cell *c, const frame *f, wf spacing, local_surface 
         const wf across = wf_sub(wf_mul(y, major_u), wf_mul(x, major_v));
         const wf stretch =
             wf_add(wf_div(wf_mul(along, along), aspect), wf_mul(wf_mul(across, across), aspect));
-        const wf t = wf_keep(wm_not(c->open[i]), c->extent[i]);
+        const wf t = closed_extent(c, i);
         reach2 = wf_max(reach2, wf_mul(wf_mul(t, t), stretch));
     }
     wf_store(surface->ellipse_reach, wf_mul(wf_sqrt(reach2), wf_set(REACH_MARGIN)));

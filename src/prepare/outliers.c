@@ -10,7 +10,6 @@
 #include "prepare/local.h"
 
 #include <math.h>
-#include <string.h>
 
 typedef struct distance_job {
     const local_kernels *kernels;
@@ -50,30 +49,17 @@ static uint64_t mark(const ewa_neighbours *neighbours, const float *mean_distanc
     return kept;
 }
 
-/// Copies the marked points of all streams.
+/// Makes a cloud of the marked points.
 static ewa_status copy_marked(const ewa_cloud *cloud, const uint8_t *keep, uint64_t kept, ewa_cloud **copy) {
-    ewa_status status = ewa_cloud_create(ewa_cloud_context(cloud), kept, copy);
-    for (uint32_t a = 0; status == EWA_OK && a < ewa_cloud_attribute_count(cloud); a++) {
-        const ewa_attribute *from = ewa_cloud_attribute_at(cloud, a);
-        const size_t bytes = from->component_count * ewa_type_bytes(from->type);
-        void *data = NULL;
-        status = ewa_cloud_add(*copy, from->name, from->type, from->component_count, &data);
-        if (status != EWA_OK) break;
-        char *to = data;
-        for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
-            if (!keep[i]) continue;
-            memcpy(to, (const char *)from->data + i * from->stride_bytes, bytes);
-            to += bytes;
-        }
-    }
-    if (status != EWA_OK) {
-        ewa_cloud_destroy(copy);
-        return status;
-    }
-    double origin_world[3];
-    ewa_cloud_origin(cloud, origin_world);
-    ewa_cloud_set_origin(*copy, origin_world);
-    return EWA_OK;
+    ewa_context *context = ewa_cloud_context(cloud);
+    uint64_t *indices = ewa_allocate(context, kept, sizeof *indices);
+    if (!indices) return EWA_ERROR_MEMORY;
+    uint64_t to = 0;
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++)
+        if (keep[i]) indices[to++] = i;
+    const ewa_status status = ewa_cloud_select(cloud, indices, kept, copy);
+    ewa_release(context, indices, kept, sizeof *indices);
+    return status;
 }
 
 ewa_status ewa_remove_outliers(ewa_cloud **cloud, uint32_t neighbour_count, double factor) {
