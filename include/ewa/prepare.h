@@ -12,6 +12,9 @@
 extern "C" {
 #endif
 
+/// Default support radius of a surfel in units of the local spacing.
+#define EWA_DEFAULT_RADIUS_SCALE 1.2
+
 typedef enum ewa_orientation {
     EWA_ORIENT_PROPAGATE = 0, ///< consistent along the neighbour graph, outward for closed surfaces
     EWA_ORIENT_VIEWPOINT = 1, ///< towards viewpoint_world
