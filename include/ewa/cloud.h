@@ -119,6 +119,25 @@ typedef struct ewa_bounds {
 /// Errors: EWA_ERROR_ARGUMENT when there is no "position" of three components.
 EWA_API ewa_status ewa_cloud_measure(const ewa_cloud *cloud, ewa_bounds *bounds);
 
+/// Makes a cloud of the points `indices[0]` to `indices[count - 1]` of another, in that order, with all its attributes
+/// and its origin. The caller owns `*selected`.
+/// Errors: EWA_ERROR_ARGUMENT (an index beyond the last point), EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_cloud_select(const ewa_cloud *cloud, const uint64_t *indices, uint64_t count,
+                                    ewa_cloud **selected);
+
+/// Makes one cloud of `count` > 0 clouds of one context: the points one after another, the origin of the first, and
+/// the attributes that all have with as many components (colours: also of one type). Types that differ become the
+/// float type that holds both; positions become doubles where the origins differ. What is dropped is reported as a
+/// warning. The caller owns `*merged`.
+/// Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_cloud_merge(const ewa_cloud *const *clouds, uint32_t count, ewa_cloud **merged);
+
+/// Maps space: positions and tangent axes by the matrix, normals by its inverse transpose, radii by the cube root of
+/// its determinant, clip lines with their axes. `world_to_world` is row-major, acts on column vectors, its last row is
+/// 0 0 0 1. The translation goes into the origin, so that the streams stay small numbers.
+/// Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_NUMERIC (no inverse), EWA_ERROR_MEMORY (the cloud is then half mapped).
+EWA_API ewa_status ewa_cloud_transform(ewa_cloud *cloud, const double world_to_world[16]);
+
 #ifdef __cplusplus
 }
 #endif

@@ -15,7 +15,7 @@ extern "C" {
 typedef struct ewa_image {
     ewa_context *context;
     uint32_t width_px, height_px;
-    uint32_t channel_count; ///< 1 to 8; colour images: 3 (RGB) or 4 (RGBA, premultiplied)
+    uint32_t channel_count; ///< 1 to 16; colour images: 3 (RGB) or 4 (RGBA, premultiplied)
     float *pixels;          ///< height * width * channel_count numbers
 } ewa_image;
 
@@ -46,6 +46,15 @@ typedef struct ewa_difference {
 /// EWA_ERROR_ARGUMENT when the shapes differ, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_image_compare(const ewa_image *a, const ewa_image *b, double peak, double threshold,
                                      ewa_difference *difference, ewa_image *heat);
+
+typedef enum ewa_colormap {
+    EWA_COLORMAP_VIRIDIS = 0, ///< dark blue to yellow, even in lightness
+    EWA_COLORMAP_TURBO = 1,   ///< rainbow, even in hue
+    EWA_COLORMAP_GRAY = 2,    ///< black to white, even in sRGB
+} ewa_colormap;
+
+/// Gives the 8-bit sRGB colour of a number, which is clamped to [0, 1]; NaN counts as 0. Any thread.
+EWA_API void ewa_colormap_color(ewa_colormap colormap, double number, uint8_t srgb[3]);
 
 #ifdef __cplusplus
 }

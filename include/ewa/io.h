@@ -101,7 +101,7 @@ EWA_API ewa_status ewa_png_save(ewa_context *context, const char *path, uint32_t
 /// PNG: sRGB of up to 16 bits to linear light; grey gives 1 channel, RGB and palettes 3, anything with alpha 4,
 /// premultiplied; gamma and colour profiles are not looked at.
 /// OpenEXR: the data window of the first part, scan lines or tiles; R G B [A] when present, else its channels in
-/// alphabetical order, at most 8. PFM: 1 or 3 channels, either byte order.
+/// alphabetical order, at most 16. PFM: 1 or 3 channels, either byte order.
 /// Errors (image empty): EWA_ERROR_IO, EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_image_load(ewa_context *context, const char *path, ewa_image *image);
 

@@ -16,7 +16,8 @@
 #include <string.h>
 
 enum {
-    SHORT_RUN = 32,        // longer runs without a split level are all at one place
+    SHORT_RUN = 32, // longer runs without a split level are all at one place
+    MIN_LEAF_PLACES = 6,
     SECTION_PLACES = 4096, // leaves are cut from sections of about this size in parallel
     SECTION_WINDOW = 1024, // each border is the coarsest one so near
     LEAF_FLAG = 0x8000,    // in a split level: a leaf begins here
@@ -108,10 +109,11 @@ static uint32_t coarsest(const uint16_t *level, uint32_t begin, uint32_t end) {
     return i;
 }
 
-/// Cuts a run of places into leaves and flags the first place of each but the first.
+/// Cuts a run of places into leaves and flags the first place of each but the first. Cuts that would leave
+/// only a few places on one side are avoided: the search is paid per leaf.
 static void cut_leaves(uint16_t *level, uint32_t begin, uint32_t end) {
     while (end - begin > LEAF_PLACES) {
-        const uint32_t cut = coarsest(level, begin, end);
+        const uint32_t cut = coarsest(level, begin + MIN_LEAF_PLACES - 1, end - MIN_LEAF_PLACES + 1);
         level[cut] |= LEAF_FLAG;
         // Recursion on the smaller side only keeps the stack short.
         if (cut - begin < end - cut) {

@@ -18,11 +18,11 @@ enum {
     PROGRESS_STEPS = 16,
     MAX_TRIES = 4, // radii for a whole leaf before its places are searched one by one
     STACK_NODES = TREE_MAX_LEVELS * TREE_ARITY,
-    MIN_UNIT_EXPONENT = -1000, // whose inverse is still finite
+    MAX_UNIT_EXPONENT = 126, // of single precision
 };
 
 // The guess for a leaf over what its predecessor needed: larger means fewer second tries but more candidates.
-static const double GUESS_MARGIN = 1.05;
+static const double GUESS_MARGIN = 1.12;
 // The same over what one of its places needs.
 static const double FIRST_GUESS_MARGIN = 1.2;
 // Single precision may find the k-th neighbour a little further away than double does.
@@ -45,7 +45,7 @@ typedef struct node {
 } node;
 
 static const search_kernels *best_kernels(const ewa_context *context) {
-    const search_kernels *best = &ewa_search_kernels_plain;
+    const search_kernels *best = &ewa_search_kernels_portable;
 #if defined(__x86_64__)
     const uint32_t features = ewa_context_cpu_features(context);
     if (features & EWA_CPU_AVX2) best = &ewa_search_kernels_avx2;
@@ -66,6 +66,13 @@ static void place_position(const ewa_neighbours *tree, uint32_t leaf, uint32_t p
     for (int c = 0; c < 3; c++) p[c] += (double)tree->offset[c][place];
 }
 
+/// What the offsets of a leaf lack to be coordinates of the block; zero when nothing is anchored.
+static void shift_of(const ewa_neighbours *tree, const tree_query *query, uint32_t leaf, float shift[3]) {
+    double anchor[3];
+    anchor_of(tree, leaf, anchor);
+    for (int c = 0; c < 3; c++) shift[c] = (float)((anchor[c] - query->anchor[c]) * query->per_unit);
+}
+
 /// Gathers the places near enough to the query's box, in order. Returns false when they are too many.
 static bool gather_near(const search_job *job, const tree_query *query, ewa_block *block) {
     const ewa_neighbours *tree = job->tree;
@@ -74,24 +81,23 @@ static bool gather_near(const search_job *job, const tree_query *query, ewa_bloc
     stack[0] = (node){.level = tree->level_count - 1, .index = 0};
     block->candidate_count = 0;
     while (depth) {
-        const node top = stack[--depth]; // a group of `level` nodes
-        int32_t hit[TREE_ARITY];
-        job->kernels->overlap(&tree->groups[tree->level_start[top.level] + top.index], query, hit);
+        const node top = stack[--depth]; // a group of nodes of this level
+        uint32_t near = job->kernels->overlap(&tree->groups[tree->level_start[top.level] + top.index], query);
         if (top.level > 0) {
-            for (uint32_t c = TREE_ARITY; c-- > 0;) {
-                stack[depth] = (node){.level = top.level - 1, .index = top.index * TREE_ARITY + c};
-                depth += (uint32_t)hit[c];
+            while (near) {
+                const uint32_t last = 31 - (uint32_t)__builtin_clz(near);
+                stack[depth++] = (node){.level = top.level - 1, .index = top.index * TREE_ARITY + last};
+                near ^= 1u << last;
             }
             continue;
         }
-        for (uint32_t c = 0; c < TREE_ARITY; c++) {
-            if (!hit[c]) continue;
-            const uint32_t leaf = top.index * TREE_ARITY + c, first = tree->leaf_first[leaf];
-            const uint32_t count = tree->leaf_first[leaf + 1] - first;
+        for (; near; near &= near - 1) {
+            const uint32_t leaf = top.index * TREE_ARITY + (uint32_t)__builtin_ctz(near);
+            const uint32_t first = tree->leaf_first[leaf], count = tree->leaf_first[leaf + 1] - first;
             if (block->candidate_count + count > EWA_BLOCK_CANDIDATES) return false;
-            double anchor[3];
-            anchor_of(tree, leaf, anchor);
-            job->kernels->gather(tree, query, first, count, anchor, block);
+            float shift[3];
+            shift_of(tree, query, leaf, shift);
+            job->kernels->gather(tree, query, first, count, shift, block);
         }
     }
     return true;
@@ -168,45 +174,56 @@ typedef enum outcome { FOUND, TOO_FEW, TOO_MANY } outcome;
 
 static void set_lanes(const ewa_neighbours *tree, const attempt *a, const tree_query *query,
                       ewa_block *block) {
+    float shift[3];
+    shift_of(tree, query, a->leaf, shift);
     float *const lanes[3] = {block->lane_x, block->lane_y, block->lane_z};
     for (uint32_t lane = 0; lane < EWA_BLOCK_LANES; lane++) {
         const uint32_t place = a->first + (lane < a->count ? lane : 0);
-        double p[3];
-        place_position(tree, a->leaf, place, p);
-        for (int c = 0; c < 3; c++) lanes[c][lane] = (float)((p[c] - query->anchor[c]) * query->per_unit);
+        for (int c = 0; c < 3; c++) lanes[c][lane] = tree->offset[c][place] * query->per_unit + shift[c];
     }
     block->first_place = a->first;
     block->lane_count = a->count;
 }
 
-/// Fills the block. `*needed` gets the largest distance of a k-th neighbour, or a guess at it after TOO_FEW.
-static outcome search(const search_job *job, const attempt *a, ewa_block *block, double *needed) {
-    const ewa_neighbours *tree = job->tree;
-    tree_query query = {.radius2 = a->radius * a->radius};
+/// Prepares a search around the attempt's box; returns the unit of the block.
+static double set_query(const ewa_neighbours *tree, const attempt *a, tree_query *query) {
     double size = a->radius;
-    for (int c = 0; c < 3; c++) {
-        query.low[c] = a->low[c];
-        query.high[c] = a->high[c];
-        query.anchor[c] = tree->anchored ? a->low[c] : 0;
-        size = fmax(size, a->high[c] - a->low[c]);
-    }
+    for (int c = 0; c < 3; c++) size = fmax(size, a->high[c] - a->low[c]);
     // A power of two changes no digit, and keeps the squares inside the range of single precision.
     int exponent = 0;
     if (size > 0 && isfinite(size)) frexp(size, &exponent);
-    if (exponent < MIN_UNIT_EXPONENT) exponent = MIN_UNIT_EXPONENT;
-    block->unit_world = ldexp(1, exponent);
-    query.per_unit = ldexp(1, -exponent);
+    exponent = exponent < -MAX_UNIT_EXPONENT ? -MAX_UNIT_EXPONENT : exponent;
+    exponent = exponent > MAX_UNIT_EXPONENT ? MAX_UNIT_EXPONENT : exponent;
+    query->per_unit = (float)ldexp(1, -exponent);
+    query->radius2 = a->radius * a->radius;
+    const double local_radius = a->radius * query->per_unit * (1 + ROUNDING_MARGIN);
+    query->local_radius2 = (float)(local_radius * local_radius);
+    for (int c = 0; c < 3; c++) {
+        query->low[c] = a->low[c];
+        query->high[c] = a->high[c];
+        query->anchor[c] = tree->anchored ? a->low[c] : 0;
+        query->local_low[c] = (float)((a->low[c] - query->anchor[c]) * query->per_unit);
+        query->local_high[c] = (float)((a->high[c] - query->anchor[c]) * query->per_unit);
+    }
+    return ldexp(1, exponent);
+}
+
+/// Fills the block. `*needed` gets the largest distance of a k-th neighbour, or a guess at it after TOO_FEW.
+static outcome search(const search_job *job, const attempt *a, ewa_block *block, double *needed) {
+    const ewa_neighbours *tree = job->tree;
+    tree_query query;
+    block->unit_world = set_query(tree, a, &query);
     const bool all = gather_near(job, &query, block);
     if (!all && a->count > 1) return TOO_MANY;
     set_lanes(tree, a, &query, block);
-    const double limit = a->radius * query.per_unit;
+    const double limit = a->radius * (double)query.per_unit;
     const float limit2 = (float)(limit * limit);
-    int32_t within[EWA_BLOCK_LANES], fewest = INT32_MAX;
+    float within[EWA_BLOCK_LANES], fewest = EWA_BLOCK_CANDIDATES;
     job->kernels->measure(block, limit2, within);
     for (uint32_t lane = 0; lane < EWA_BLOCK_LANES; lane++)
         fewest = within[lane] < fewest ? within[lane] : fewest;
-    if (fewest < job->rank) {
-        *needed = a->radius * sqrt((job->rank + 1.0) / (fewest > 0 ? fewest : 1));
+    if (fewest < (float)job->rank) {
+        *needed = a->radius * sqrt((job->rank + 1) / fmax(fewest, 1));
         for (uint32_t lane = 0; lane < EWA_BLOCK_LANES; lane++) block->radius2[lane] = limit2;
         return TOO_FEW;
     }

@@ -33,28 +33,31 @@ struct ewa_neighbours {
     size_t level_start[TREE_MAX_LEVELS];
 };
 
-/// Where a search gathers candidates: all places up to `radius2` (squared) from the box of those that search.
+/// Where a search gathers candidates: all places up to a radius from the box of those that search.
 typedef struct tree_query {
-    double low[3], high[3], radius2;
-    double anchor[3]; // of the block
-    double per_unit;  // 1 / unit_world
+    double low[3], high[3], radius2; // for boxes
+    double anchor[3];                // of the block
+    // The same for places, in units of the block from its anchor, with a margin for rounding.
+    float local_low[3], local_high[3], local_radius2;
+    float per_unit; // 1 / unit_world
 } tree_query;
 
 /// The hot loops, compiled once per instruction set, all with the same results.
 typedef struct search_kernels {
-    /// Sets hit[c] to nonzero where box c of the group is near enough to the query's box.
-    void (*overlap)(const tree_group *group, const tree_query *query, int32_t hit[TREE_ARITY]);
-    /// Appends those of `count` places from `first` on, with anchor `anchor`, that are near enough.
+    /// Returns the bits of those boxes of the group that are near enough.
+    uint32_t (*overlap)(const tree_group *group, const tree_query *query);
+    /// Appends those of `count` places from `first` on that are near enough; `shift` is what their offsets
+    /// lack, in units of the block.
     void (*gather)(const ewa_neighbours *tree, const tree_query *query, uint32_t first, uint32_t count,
-                   const double anchor[3], ewa_block *block);
+                   const float shift[3], ewa_block *block);
     /// Fills distance2 and counts the candidates of each lane within `limit2`.
-    void (*measure)(ewa_block *block, float limit2, int32_t within[EWA_BLOCK_LANES]);
+    void (*measure)(ewa_block *block, float limit2, float within[EWA_BLOCK_LANES]);
     /// Sets radius2 to the `rank`-th smallest distance2 of each lane; at least `rank` of them are within
     /// `limit2`, as `within` says.
-    void (*select)(ewa_block *block, float limit2, const int32_t within[EWA_BLOCK_LANES], int32_t rank);
+    void (*select)(ewa_block *block, float limit2, const float within[EWA_BLOCK_LANES], int32_t rank);
 } search_kernels;
 
-extern const search_kernels ewa_search_kernels_plain;
+extern const search_kernels ewa_search_kernels_portable;
 #if defined(__x86_64__)
 extern const search_kernels ewa_search_kernels_avx2, ewa_search_kernels_avx512;
 #endif

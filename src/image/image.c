@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-enum { MAX_CHANNELS = 8 };
+enum { MAX_CHANNELS = 16 };
 
 static size_t number_count(const ewa_image *image) {
     return (size_t)image->width_px * image->height_px * image->channel_count;

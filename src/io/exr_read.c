@@ -10,7 +10,7 @@
 #include <string.h>
 
 enum {
-    MAX_CHANNELS = 8,
+    MAX_CHANNELS = 16,
     MESSAGE_BYTES = 256,
     // ZIP makes at most 1032 bytes of one and the other methods less, DWA aside: a shorter file cannot hold
     // the pixels that its header claims.

@@ -11,7 +11,7 @@
 #include <string.h>
 
 enum {
-    MAX_CHANNELS = 8,
+    MAX_CHANNELS = 16,
     NAME_BYTES = 64,
     CHUNKS_PER_WORKER = 2, // compressed before they are written
     ZIP_LEVEL = 2,         // of zlib; 4 to 9 take two to eight times as long for a few per cent

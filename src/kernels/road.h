@@ -29,6 +29,9 @@ enum {
     EWA_MAX_TILE_BLOCKS = 32, ///< along a side, so that a row of blocks is a word of bits
 };
 
+/// Largest s that the kernels' exponential takes before it doubles: cutoffs up to 2.5 need two doublings.
+#define EWA_EXPONENT_END 0.785
+
 /// Everything about camera and options that the kernels read, in single precision, camera space in world
 /// units.
 typedef struct ewa_view {
@@ -147,9 +150,10 @@ typedef struct ewa_road_kernels {
     uint32_t (*cull)(const ewa_view *view, const ewa_packet_bounds *bounds, uint32_t first, uint32_t count,
                      ewa_tile_rect *rects);
 
-    /// Sets up `count` <= EWA_RUN_PACKETS packets for one tile into `run`.
+    /// Sets up `count` <= EWA_RUN_PACKETS packets for one tile into `run`; `packet_ids` holds `announced` >=
+    /// count numbers, those of later runs too, so that packets can be fetched ahead.
     void (*setup)(const ewa_view *view, const ewa_packet *packets, const uint32_t *packet_ids, uint32_t count,
-                  const ewa_tile *tile, ewa_run *run);
+                  uint32_t announced, const ewa_tile *tile, ewa_run *run);
 
     /// Raises tile->nearest to the key of z + eps where a run's splats count.
     void (*visibility)(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run);

@@ -10,7 +10,7 @@
 
 #include "kernels/road.h"
 #include "kernels/semantics.h"
-#include "kernels/wide.h"
+#include "math/wide.h"
 
 #include <string.h>
 
@@ -66,6 +66,13 @@ static inline void tile_range(wf low_px, wf high_px, float tile_px, float tiles,
     *end = wf_clamp(wf_add(wf_floor(wf_mul(high_px, per_px)), wf_set(1)), 0, tiles);
 }
 
+/// How far an affine ellipse of size z * `reach` extends from its centre, for centres within `half` of
+/// `middle`; pixels.
+static inline wf affine_reach(wf middle, wf half, wf reach, float f_px, float c_px) {
+    const wf slope_px = wf_add(wf_abs(wf_sub(middle, wf_set(c_px))), half);
+    return wf_mul(reach, wf_add(wf_set(f_px), slope_px));
+}
+
 static uint32_t cull(const ewa_view *view, const ewa_packet_bounds *bounds, uint32_t first, uint32_t count,
                      ewa_tile_rect *rects) {
     const float tile_px = (float)view->tile_px;
@@ -90,7 +97,8 @@ static uint32_t cull(const ewa_view *view, const ewa_packet_bounds *bounds, uint
             half_y = wf_mul(r, wf_set(view->fy_px));
         } else {
             alive = wf_lt(wf_negate(r), c[2]);
-            for (int k = 0; k < 4; k++) {
+            // The planes bound exact outlines, not affine ellipses.
+            for (int k = 0; k < 4 && !view->affine; k++) {
                 const float *n = view->side_planes[k];
                 const wf d =
                     wf_fma(wf_set(n[0]), c[0], wf_fma(wf_set(n[1]), c[1], wf_mul(wf_set(n[2]), c[2])));
@@ -107,6 +115,13 @@ static uint32_t cull(const ewa_view *view, const ewa_packet_bounds *bounds, uint
             y = wf_fma(wf_mul(c[1], zi), wf_set(view->fy_px), wf_set(view->cy_px));
             half_x = wf_mul(wf_mul(rx, ri), wf_set(view->fx_px));
             half_y = wf_mul(wf_mul(ry, ri), wf_set(view->fy_px));
+            if (view->affine) {
+                // Affine ellipses may leave the sphere's outline: |J t| <= (1 + |slope|) |t| / z around a
+                // centre in it.
+                const wf reach = wf_div(r, wf_sub(c[2], r));
+                half_x = wf_add(half_x, affine_reach(x, half_x, reach, view->fx_px, view->cx_px));
+                half_y = wf_add(half_y, affine_reach(y, half_y, reach, view->fy_px, view->cy_px));
+            }
         }
         if (view->cull_back) {
             rotate(view->rotation, wf_load(bounds->axis_x + p), wf_load(bounds->axis_y + p),
@@ -389,8 +404,8 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
 }
 
 static void setup(const ewa_view *view, const ewa_packet *packets, const uint32_t *packet_ids, uint32_t count,
-                  const ewa_tile *tile, ewa_run *run) {
-    enum { TOGETHER = 4, AHEAD = 8, LINE_BYTES = 64 };
+                  uint32_t announced, const ewa_tile *tile, ewa_run *run) {
+    enum { TOGETHER = 4, AHEAD = 12, LINE_BYTES = 64 };
     stage stages[TOGETHER];
     run->count = 0;
     run->near_count = 0;
@@ -398,7 +413,7 @@ static void setup(const ewa_view *view, const ewa_packet *packets, const uint32_
         const uint32_t here = count - first < TOGETHER ? count - first : TOGETHER;
         const uint32_t *ids = packet_ids + first;
         for (uint32_t i = 0; i < here; i++) {
-            if (first + i + AHEAD < count) {
+            if (first + i + AHEAD < announced) {
                 const char *later = (const char *)&packets[ids[i + AHEAD]];
                 for (size_t line = 0; line < sizeof(ewa_packet) + LINE_BYTES - 1; line += LINE_BYTES)
                     __builtin_prefetch(later + line);

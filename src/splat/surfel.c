@@ -8,8 +8,8 @@
 #include "splat/surfel.h"
 #include "base/base.h"
 #include "image/srgb.h"
-#include "math/vec.h"
 #include "kernels/semantics.h"
+#include "math/vec.h"
 
 #include <string.h>
 

@@ -130,8 +130,9 @@ static void prepare_run(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_
     const uint64_t first = index * EWA_RUN_PACKETS, left = packets->count - first;
     s->run.records = s->records + at;
     s->run.loads = s->loads + at;
+    const uint32_t announced = left < 2 * EWA_RUN_PACKETS ? (uint32_t)left : 2 * EWA_RUN_PACKETS;
     job->kernels->setup(&job->view, job->surfels->packets, packets->ids + first,
-                        left < EWA_RUN_PACKETS ? (uint32_t)left : EWA_RUN_PACKETS, tile, &s->run);
+                        announced < EWA_RUN_PACKETS ? announced : EWA_RUN_PACKETS, announced, tile, &s->run);
     sort_run(&s->run, s->order + at, sorted);
 }
 

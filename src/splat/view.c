@@ -50,10 +50,10 @@ void ewa_view_set(ewa_view *view, const ewa_surfels *surfels, const ewa_camera *
     view->grazing_limit = options->passes == 1 ? 0 : (float)(EWA_GRAZING_TOLERANCE * cutoff);
     memcpy(view->color_scale, surfels->color_scale, sizeof view->color_scale);
     memcpy(view->color_offset, surfels->color_offset, sizeof view->color_offset);
-    // The exponential's polynomial takes s in [0, 0.5]: halve r^2 / 2 until F^2 / 2 fits.
+    // Halve r^2 / 2 until F^2 / 2 is in the range of the exponential's polynomial.
     view->doublings = 2;
     double exponent_scale = 0.125;
-    while (exponent_scale * cutoff * cutoff > 0.5) exponent_scale *= 0.5, view->doublings++;
+    while (exponent_scale * cutoff * cutoff > EWA_EXPONENT_END) exponent_scale *= 0.5, view->doublings++;
     view->exponent_scale = (float)exponent_scale;
     view->exponent_end = (float)(exponent_scale * cutoff * cutoff);
     view->width_px = camera->width_px, view->height_px = camera->height_px;

@@ -19,7 +19,7 @@ static void test_create_and_free(void **state) {
     ewa_image_free(&image);
     ewa_image_free(NULL);
     assert_int_equal(ewa_image_create(context, 0, 2, 4, &image), EWA_ERROR_ARGUMENT);
-    assert_int_equal(ewa_image_create(context, 1, 2, 9, &image), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_image_create(context, 1, 2, 17, &image), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_image_create(context, 65537, 1, 1, &image), EWA_ERROR_LIMIT);
     assert_non_null(strstr(log.text, "65537 x 1"));
     ewa_context_destroy(&context);

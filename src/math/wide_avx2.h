@@ -102,6 +102,13 @@ static inline wm wm_of_bits(uint32_t bits) {
                 _mm256_castsi256_ps(_mm256_cmpeq_epi32(h, lane)));
 }
 
+/// Writes the lanes where m is set one after another; may write 16 numbers.
+static inline void wf_pack(float *p, wm m, wf a) {
+    float lanes[16];
+    wf_store(lanes, a);
+    for (uint32_t bits = wm_bits(m); bits; bits &= bits - 1) *p++ = lanes[__builtin_ctz(bits)];
+}
+
 static inline void transpose_8x8(__m256 r[8]) {
     __m256 t[8];
     for (int i = 0; i < 8; i += 2) {

@@ -18,9 +18,9 @@ typedef int32_t wi __attribute__((vector_size(64)));
 typedef int32_t wm __attribute__((vector_size(64))); // -1 or 0
 
 #if defined(__FP_FAST_FMAF)
-#define FUSED static inline
+#define FUSED static inline __attribute__((unused))
 #else
-#define FUSED static __attribute__((noinline))
+#define FUSED static __attribute__((noinline, unused))
 #endif
 
 #define EACH(type, expression)                                                                               \
@@ -76,6 +76,14 @@ FUSED uint32_t wm_bits(wm a) {
 }
 FUSED wm wm_of_bits(uint32_t bits) { EACH(wm, -(int32_t)(bits >> i & 1)); }
 FUSED wf wf_sqrt(wf a) { EACH(wf, sqrtf(a[i])); }
+
+/// Writes the lanes where m is set one after another; may write 16 numbers.
+FUSED void wf_pack(float *p, wm m, wf a) {
+    for (int i = 0; i < 16; i++) {
+        *p = a[i];
+        p -= m[i];
+    }
+}
 
 /// Transposes a 16x16 matrix in place: afterwards rows[i] lane j is what rows[j] lane i was.
 FUSED void w_transpose(wf rows[16]) {

@@ -15,11 +15,11 @@
 #include <stdint.h>
 
 #if defined(WIDE_AVX512)
-#include "kernels/wide_avx512.h"
+#include "math/wide_avx512.h"
 #elif defined(WIDE_AVX2)
-#include "kernels/wide_avx2.h"
+#include "math/wide_avx2.h"
 #elif defined(WIDE_PORTABLE)
-#include "kernels/wide_portable.h"
+#include "math/wide_portable.h"
 #else
 #error "define WIDE_AVX512, WIDE_AVX2 or WIDE_PORTABLE"
 #endif

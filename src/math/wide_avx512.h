@@ -56,6 +56,9 @@ static inline wm wm_not(wm a) { return (wm)~a; }
 static inline uint32_t wm_bits(wm a) { return a; }
 static inline wm wm_of_bits(uint32_t bits) { return (wm)bits; }
 
+/// Writes the lanes where m is set one after another; may write 16 numbers.
+static inline void wf_pack(float *p, wm m, wf a) { _mm512_storeu_ps(p, _mm512_maskz_compress_ps(m, a)); }
+
 /// Transposes a 16x16 matrix in place: afterwards rows[i] lane j is what rows[j] lane i was.
 static inline void w_transpose(wf rows[16]) {
     wf t[16];

@@ -1,0 +1,80 @@
+# SPDX-FileCopyrightText: 2026 The ewa authors
+# SPDX-License-Identifier: MIT
+#
+# Short names for what one does here; CMake does the work.
+#
+#   make demo [FILE=scan.ply]   installs what is missing, builds, renders, says where the picture is
+#   make check                  the same set-up, then every test, also under the address and undefined behaviour
+#                               sanitizers; the last line counts them
+#   make                        builds everything into build/release
+#   make asan tsan fuzz         other builds and their tests
+#   make bench gallery docs     figures, pictures and pages that the program makes
+#   make install                to PREFIX (default /usr/local)
+
+FILE ?=
+OUT ?= out
+PREFIX ?= /usr/local
+FUZZ_SECONDS ?= 60
+JOBS ?= $(shell nproc)
+EWA = build/release/cli/ewa
+
+# $(call quietly,COMMAND): prints what a command said only when it fails.
+quietly = @mkdir -p build && { $(1) >build/log-$@.txt 2>&1 || { cat build/log-$@.txt; exit 1; }; }
+
+.PHONY: build program setup demo check asan asan-build tsan fuzz bench gallery docs format install clean
+
+build: setup
+	@echo "Building build/release"
+	$(call quietly,cmake --preset release)
+	$(call quietly,cmake --build build/release -j $(JOBS))
+
+program: setup
+	@echo "Building $(EWA)"
+	$(call quietly,cmake --preset release)
+	$(call quietly,cmake --build build/release -j $(JOBS) --target ewa)
+
+setup:
+	@sh tools/setup.sh
+
+demo: program
+	@sh tools/demo.sh $(EWA) "$(OUT)" "$(FILE)"
+
+check: build asan-build
+	@sh tools/check.sh build/release build/asan
+
+# Optimised, so that the tests take minutes and not an hour.
+asan-build: setup
+	@echo "Building build/asan"
+	$(call quietly,cmake --preset asan -DCMAKE_BUILD_TYPE=RelWithDebInfo)
+	$(call quietly,cmake --build build/asan -j $(JOBS))
+
+asan: asan-build
+	@sh tools/check.sh build/asan
+
+tsan: setup
+	@echo "Building build/tsan"
+	$(call quietly,cmake --preset tsan -DCMAKE_BUILD_TYPE=RelWithDebInfo)
+	$(call quietly,cmake --build build/tsan -j $(JOBS))
+	@sh tools/check.sh build/tsan
+
+fuzz:
+	@sh tools/setup.sh clang
+	@sh tools/fuzz.sh $(FUZZ_SECONDS)
+
+bench: program
+	$(EWA) bench
+
+gallery: program
+	@sh tools/gallery.sh $(EWA)
+
+docs: program
+	$(EWA) --help-markdown >docs/cli.md
+
+format:
+	git ls-files '*.c' '*.h' | xargs clang-format -i
+
+install: build
+	cmake --install build/release --prefix "$(PREFIX)"
+
+clean:
+	rm -rf build out

@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Colours from an attribute.
+#include "color_by.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/// sRGB of numbers that are not finite.
+static const uint8_t GREY_SRGB = 128;
+
+static bool find_component(const ewa_cloud *cloud, const char *attribute_name, const char *component_name,
+                           char name[EWA_NAME_BYTES], uint32_t *component) {
+    const ewa_attribute *attribute = ewa_cloud_find(cloud, attribute_name);
+    if (!attribute) return false;
+    static const char letters[] = "xyzw", colors[] = "rgba";
+    *component = 0;
+    if (component_name) {
+        if (!component_name[0] || component_name[1]) return false;
+        const char *at = strchr(letters, component_name[0]);
+        if (at)
+            *component = (uint32_t)(at - letters);
+        else if ((at = strchr(colors, component_name[0])))
+            *component = (uint32_t)(at - colors);
+        else
+            return false;
+    }
+    snprintf(name, EWA_NAME_BYTES, "%s", attribute->name);
+    return *component < attribute->component_count;
+}
+
+bool color_by_find(cli_session *session, const ewa_cloud *cloud, const char *word, char name[EWA_NAME_BYTES],
+                   uint32_t *component) {
+    if (find_component(cloud, word, NULL, name, component)) return true;
+    if (strlen(word) == 1 && strchr("xyz", word[0]) &&
+        find_component(cloud, EWA_POSITION, word, name, component))
+        return true;
+    const char *dot = strrchr(word, '.');
+    char attribute_name[EWA_NAME_BYTES];
+    if (dot && dot - word < EWA_NAME_BYTES) {
+        snprintf(attribute_name, sizeof attribute_name, "%.*s", (int)(dot - word), word);
+        if (find_component(cloud, attribute_name, dot + 1, name, component)) return true;
+    }
+    char list[512] = "";
+    const ewa_attribute *attribute;
+    for (uint32_t k = 0; (attribute = ewa_cloud_attribute_at(cloud, k)); k++) {
+        const size_t used = strlen(list);
+        snprintf(list + used, sizeof list - used, "%s%s", k ? ", " : "", attribute->name);
+    }
+    session_fail(session, "--color-by: there is no attribute '%s'; there are %s", word, list);
+    return false;
+}
+
+bool color_by(cli_session *session, ewa_cloud *cloud, const char *word, ewa_colormap colormap,
+              const option_vector *range) {
+    char name[EWA_NAME_BYTES];
+    uint32_t component;
+    if (!color_by_find(session, cloud, word, name, &component)) return false;
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    const ewa_attribute attribute = *ewa_cloud_find(cloud, name);
+    double origin_world[3] = {0, 0, 0}, shift = 0, low = INFINITY, high = -INFINITY, number[4];
+    if (strcmp(name, EWA_POSITION) == 0) {
+        ewa_cloud_origin(cloud, origin_world);
+        shift = origin_world[component];
+    }
+    for (uint64_t i = 0; i < count; i++) {
+        ewa_attribute_read_f64(&attribute, i, 1, number);
+        if (!isfinite(number[component])) continue;
+        low = fmin(low, number[component] + shift);
+        high = fmax(high, number[component] + shift);
+    }
+    if (range->count == 2) {
+        low = range->values[0];
+        high = range->values[1];
+    } else {
+        session_say(session, "--color-by: %s from %g to %g", word, low, high);
+    }
+    uint8_t(*colors)[3] = NULL;
+    // Under a name of its own first: the colours themselves may be what is read.
+    static const char made[] = "ewa_color_by";
+    ewa_status status = ewa_cloud_add(cloud, made, EWA_U8, 3, (void **)&colors);
+    for (uint64_t i = 0; status == EWA_OK && i < count; i++) {
+        ewa_attribute_read_f64(&attribute, i, 1, number);
+        if (isfinite(number[component])) {
+            const double place = (number[component] + shift - low) / (high > low ? high - low : 1);
+            ewa_colormap_color(colormap, high > low ? place : 0.5, colors[i]);
+        } else {
+            memset(colors[i], GREY_SRGB, 3);
+        }
+    }
+    void *data = NULL;
+    if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, &data);
+    if (status == EWA_OK) memcpy(data, colors, 3 * count);
+    ewa_cloud_remove(cloud, made);
+    if (status != EWA_OK) session_failed(session, status);
+    return status == EWA_OK;
+}

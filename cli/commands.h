@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The commands of the program.
+#ifndef EWA_CLI_COMMANDS_H
+#define EWA_CLI_COMMANDS_H
+
+#include "options.h"
+
+extern const cli_command render_command, info_command, convert_command, surfels_command, generate_command,
+    bench_command;
+
+/// All commands, in the order of the help.
+extern const cli_command *const all_commands[];
+extern const size_t all_commands_count;
+
+/// Finds a command by its name; NULL when there is none.
+const cli_command *command_find(const char *name);
+
+#endif

@@ -1,0 +1,241 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// ewa convert: clouds to another file, whole or in part, moved or merged.
+#include "commands.h"
+#include "inputs.h"
+#include "json.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct convert_arguments {
+    common_arguments common; // first
+    const char *output;
+    bool ascii, big_endian;
+    option_vector crop, transform, scale, translate;
+    double subsample; ///< 0: all points; under 1: a share; else a count
+} convert_arguments;
+
+#define AT(member) offsetof(convert_arguments, member)
+
+static const cli_option output_table[] = {
+    {.key = "output",
+     .letter = 'o',
+     .kind = OPTION_TEXT,
+     .offset = AT(output),
+     .value = "FILE",
+     .help = "file to write (.ply); -: PLY to standard output"},
+    {.key = "ascii",
+     .kind = OPTION_FLAG,
+     .offset = AT(ascii),
+     .help = "write text instead of little-endian binary"},
+    {.key = "big-endian", .kind = OPTION_FLAG, .offset = AT(big_endian), .help = "write big-endian binary"},
+};
+
+static const cli_option change_table[] = {
+    {.key = "crop",
+     .kind = OPTION_VECTOR,
+     .offset = AT(crop),
+     .value = "x0,y0,z0,x1,y1,z1",
+     .low = 6,
+     .high = 6,
+     .help = "keep the points inside a box"},
+    {.key = "subsample",
+     .kind = OPTION_NUMBER,
+     .offset = AT(subsample),
+     .value = "N",
+     .range = "(0, 1e15]",
+     .absent = "all",
+     .help = "keep N points, or a share of them when N < 1: one at random of each run of equal length in the "
+             "file, the "
+             "same ones every time"},
+    {.key = "scale",
+     .kind = OPTION_VECTOR,
+     .offset = AT(scale),
+     .value = "s or x,y,z",
+     .low = 1,
+     .high = 3,
+     .help = "multiply coordinates"},
+    {.key = "transform",
+     .kind = OPTION_VECTOR,
+     .offset = AT(transform),
+     .value = "16 numbers",
+     .low = 16,
+     .high = 16,
+     .help = "map by a matrix, row by row, that acts on column vectors; the last row is 0,0,0,1"},
+    {.key = "translate",
+     .kind = OPTION_VECTOR,
+     .offset = AT(translate),
+     .value = "x,y,z",
+     .low = 3,
+     .high = 3,
+     .help = "add to coordinates"},
+};
+
+static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
+    const convert_arguments *arguments = data;
+    const char *problem = NULL;
+    if (!arguments->output)
+        problem = "convert: no output; say -o FILE";
+    else if (arguments->ascii && arguments->big_endian)
+        problem = "--ascii and --big-endian exclude each other";
+    else if (arguments->scale.count == 2)
+        problem = "--scale: two numbers are neither s nor x,y,z";
+    else if (arguments->subsample > 1 && arguments->subsample != floor(arguments->subsample))
+        problem = "--subsample: over 1, N has to be a whole number";
+    if (problem) snprintf(message, OPTION_ERROR_BYTES, "%s", problem);
+    return !problem;
+}
+
+/// Replaces a cloud by some of its points; false after reporting.
+static bool keep(cli_session *session, ewa_cloud **cloud, const uint64_t *indices, uint64_t count) {
+    ewa_cloud *selected = NULL;
+    const ewa_status status = ewa_cloud_select(*cloud, indices, count, &selected);
+    if (status != EWA_OK) {
+        session_failed(session, status);
+        return false;
+    }
+    ewa_cloud_destroy(cloud);
+    *cloud = selected;
+    return true;
+}
+
+static uint64_t *allocate_indices(cli_session *session, uint64_t count) {
+    uint64_t *indices = count > SIZE_MAX / sizeof *indices ? NULL : malloc(count * sizeof *indices);
+    if (!indices) session_fail(session, "out of memory: %llu indices", (unsigned long long)count);
+    return indices;
+}
+
+static bool crop(cli_session *session, ewa_cloud **cloud, const double box[6]) {
+    const uint64_t point_count = ewa_cloud_point_count(*cloud);
+    uint64_t *indices = allocate_indices(session, point_count);
+    if (!indices) return false;
+    const ewa_attribute *position = ewa_cloud_find(*cloud, EWA_POSITION);
+    double origin_world[3];
+    ewa_cloud_origin(*cloud, origin_world);
+    uint64_t count = 0;
+    for (uint64_t i = 0; i < point_count; i++) {
+        double p[3];
+        ewa_attribute_read_f64(position, i, 1, p);
+        bool inside = true;
+        for (int c = 0; c < 3; c++) {
+            const double world = p[c] + origin_world[c];
+            inside &= world >= fmin(box[c], box[c + 3]) && world <= fmax(box[c], box[c + 3]);
+        }
+        if (inside) indices[count++] = i;
+    }
+    bool done = count > 0;
+    if (done)
+        done = keep(session, cloud, indices, count);
+    else
+        session_fail(session, "--crop: none of the %llu points is inside", (unsigned long long)point_count);
+    free(indices);
+    return done;
+}
+
+/// Bits that look random and depend on the number only (splitmix64 of Vigna, 2015).
+static uint64_t scramble(uint64_t number) {
+    uint64_t z = (number + 1) * 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+static bool subsample(cli_session *session, ewa_cloud **cloud, double wanted) {
+    const uint64_t point_count = ewa_cloud_point_count(*cloud);
+    const double target = wanted < 1 ? floor(wanted * (double)point_count + 0.5) : wanted;
+    if (target >= (double)point_count) return true;
+    const uint64_t count = target < 1 ? 1 : (uint64_t)target;
+    uint64_t *indices = allocate_indices(session, count);
+    if (!indices) return false;
+    for (uint64_t i = 0; i < count; i++) {
+        // Run i is [floor(i n / k), floor((i + 1) n / k)), in halves so that the products stay in 64 bits.
+        const uint64_t first = point_count / count * i + point_count % count * i / count;
+        const uint64_t end = point_count / count * (i + 1) + point_count % count * (i + 1) / count;
+        indices[i] = first + scramble(i) % (end - first);
+    }
+    const bool done = keep(session, cloud, indices, count);
+    free(indices);
+    return done;
+}
+
+/// Applies --scale, then --transform, then --translate.
+static bool move(cli_session *session, ewa_cloud *cloud, const convert_arguments *arguments) {
+    double matrix[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    ewa_status status = EWA_OK;
+    if (arguments->scale.count) {
+        const double *s = arguments->scale.values;
+        for (int c = 0; c < 3; c++) matrix[5 * c] = s[arguments->scale.count == 3 ? c : 0];
+        status = ewa_cloud_transform(cloud, matrix);
+    }
+    if (status == EWA_OK && arguments->transform.count)
+        status = ewa_cloud_transform(cloud, arguments->transform.values);
+    if (status == EWA_OK && arguments->translate.count) {
+        for (int c = 0; c < 3; c++) {
+            matrix[5 * c] = 1;
+            matrix[4 * c + 3] = arguments->translate.values[c];
+        }
+        status = ewa_cloud_transform(cloud, matrix);
+    }
+    if (status != EWA_OK) session_failed(session, status);
+    return status == EWA_OK;
+}
+
+static int run(const void *data) {
+    const convert_arguments *arguments = data;
+    cli_session session;
+    if (!session_start(&session, &arguments->common)) return session_end(&session, EXIT_FAILED);
+    ewa_cloud *cloud =
+        output_check(&session, arguments->output) ? inputs_merge(&session, &arguments->common) : NULL;
+    if (arguments->common.operand_count > 1) session.subject = NULL;
+    bool done = cloud && (!arguments->crop.count || crop(&session, &cloud, arguments->crop.values)) &&
+                (arguments->subsample == 0 || subsample(&session, &cloud, arguments->subsample)) &&
+                move(&session, cloud, arguments);
+    if (done) {
+        ewa_cloud_save_options options;
+        ewa_cloud_save_options_init(&options, sizeof options);
+        if (arguments->ascii) options.ply_encoding = EWA_PLY_ASCII;
+        if (arguments->big_endian) options.ply_encoding = EWA_PLY_BINARY_BIG_ENDIAN;
+        session.subject = arguments->output;
+        const ewa_status status = ewa_cloud_save(cloud, arguments->output, &options);
+        done = status == EWA_OK;
+        if (!done)
+            session_failed(&session, status);
+        else
+            session_say(&session, "%s: %llu points written", arguments->output,
+                        (unsigned long long)ewa_cloud_point_count(cloud));
+    }
+    ewa_cloud_destroy(&cloud);
+    return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
+}
+
+static const option_group output_options = {"Output", output_table,
+                                            sizeof output_table / sizeof output_table[0]};
+static const option_group change_options = {"Changes, in this order", change_table,
+                                            sizeof change_table / sizeof change_table[0]};
+static const option_group *const groups[] = {&output_options, &change_options};
+
+const cli_command convert_command = {
+    .name = "convert",
+    .operands = "IN... -o OUT",
+    .summary = "write clouds to another file: another encoding, a part, moved, several as one",
+    .details =
+        "All attributes are kept with their types. Of several inputs, the attributes that all have are kept; "
+        "a "
+        "warning names the others. Normals, radii and axes follow --scale and --transform. Moved clouds are "
+        "written with double coordinates.",
+    .examples = "ewa convert scan.ply -o scan_text.ply --ascii\n"
+                "ewa convert a.ply b.ply -o both.ply --subsample 1000000\n"
+                "ewa convert mm.ply -o m.ply --scale 0.001 --crop -1,-1,0,1,1,2\n",
+    .low_operands = 1,
+    .high_operands = 4096,
+    .groups = groups,
+    .group_count = sizeof groups / sizeof groups[0],
+    .arguments_bytes = sizeof(convert_arguments),
+    .check = check,
+    .run = run,
+};

@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Getting the whole of a cloud into a picture, as large as it goes.
+#include "framing.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SAMPLES = 1 << 16 };
+
+/// Share of the points beyond each side of the box that is framed when a few points lie far off, and how many
+/// times larger the box of all points is then.
+static const double FAR_SHARE = 0.005, FAR_RATIO = 3;
+
+/// Room around the object, as a share of the picture. It also holds the outermost points that the sample
+/// misses.
+static const double MARGIN = 0.04;
+
+/// Cosine of 10 degrees.
+static const double FACING_COSINE = 0.9848;
+
+static int compare_numbers(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double diagonal(const ewa_bounds *box) {
+    double squared = 0;
+    for (int c = 0; c < 3; c++) {
+        const double extent = box->high_world[c] - box->low_world[c];
+        squared += extent * extent;
+    }
+    return sqrt(squared);
+}
+
+/// The box of the sampled points without the outermost ones of each side. `numbers` has room for `count`
+/// numbers.
+static void trim_box(double (*points)[3], size_t count, double *numbers, ewa_bounds *box) {
+    const size_t skipped = (size_t)(FAR_SHARE * (double)count);
+    for (int c = 0; c < 3; c++) {
+        for (size_t i = 0; i < count; i++) numbers[i] = points[i][c];
+        qsort(numbers, count, sizeof *numbers, compare_numbers);
+        // The rim that is cut off belongs to the object too: give some back.
+        const double rim = 0.05 * (numbers[count - 1 - skipped] - numbers[skipped]);
+        box->low_world[c] = numbers[skipped] - rim;
+        box->high_world[c] = numbers[count - 1 - skipped] + rim;
+    }
+}
+
+/// Measures which way the surface faces, from normals weighted by the area of their discs; zeros without
+/// normals.
+static void measure_facing(const ewa_cloud *cloud, size_t samples, double median_radius,
+                           cloud_framing *framing) {
+    const ewa_attribute *normal = ewa_cloud_find(cloud, EWA_NORMAL),
+                        *radius = ewa_cloud_find(cloud, EWA_RADIUS);
+    if (!normal || normal->component_count != 3) return;
+    const uint64_t point_count = ewa_cloud_point_count(cloud);
+    double total = 0, mean[3] = {0};
+    for (size_t i = 0; i < samples; i++) {
+        double n[3], r = 1;
+        ewa_attribute_read_f64(normal, i * point_count / samples, 1, n);
+        if (radius) ewa_attribute_read_f64(radius, i * point_count / samples, 1, &r);
+        const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        // Discs of isolated points are huge; none counts for more than a few usual ones.
+        const double area = radius ? fmin(r * r, 9 * median_radius * median_radius) : 1;
+        if (!(length > 0) || !isfinite(length) || !(area > 0)) continue;
+        total += area;
+        for (int c = 0; c < 3; c++) {
+            mean[c] += area * n[c] / length;
+            if (fabs(n[c]) > FACING_COSINE * length) framing->facing[c] += area;
+        }
+    }
+    for (int c = 0; c < 3 && total > 0; c++) framing->facing[c] /= total;
+    if (total > 0)
+        framing->one_sided = sqrt(mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]) / total;
+}
+
+/// Median support radius of the sampled points, as drawn; 0 when the cloud has none.
+static double median_radius(const ewa_cloud *cloud, size_t samples, double *numbers) {
+    const ewa_attribute *radius = ewa_cloud_find(cloud, EWA_RADIUS),
+                        *u = ewa_cloud_find(cloud, EWA_TANGENT_U);
+    const ewa_attribute *source = u ? u : radius;
+    if (!source || source->component_count != (u ? 3u : 1u)) return 0;
+    ewa_surfels_options surfels;
+    ewa_surfels_options_init(&surfels, sizeof surfels);
+    const uint64_t point_count = ewa_cloud_point_count(cloud);
+    size_t count = 0;
+    for (size_t i = 0; i < samples; i++) {
+        double r[3];
+        ewa_attribute_read_f64(source, i * point_count / samples, 1, r);
+        const double reach = u ? surfels.cutoff * sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]) : r[0];
+        if (reach > 0 && isfinite(reach)) numbers[count++] = reach;
+    }
+    qsort(numbers, count, sizeof *numbers, compare_numbers);
+    return count ? numbers[count / 2] : 0;
+}
+
+bool framing_make(cli_session *session, const ewa_cloud *cloud, double radius_scale, cloud_framing *framing) {
+    *framing = (cloud_framing){.count = 0};
+    const ewa_status status = ewa_cloud_measure(cloud, &framing->box);
+    if (status != EWA_OK) {
+        session_failed(session, status);
+        return false;
+    }
+    if (framing->box.finite_count == 0) {
+        session_fail(session, "no point has finite coordinates");
+        return false;
+    }
+    const uint64_t point_count = ewa_cloud_point_count(cloud);
+    const size_t samples = point_count < SAMPLES ? (size_t)point_count : SAMPLES;
+    framing->offsets = malloc(samples * sizeof *framing->offsets);
+    double *numbers = malloc(samples * sizeof *numbers);
+    if (!framing->offsets || !numbers) {
+        free(numbers);
+        session_fail(session, "out of memory");
+        return false;
+    }
+    const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
+    double origin_world[3];
+    ewa_cloud_origin(cloud, origin_world);
+    double(*points)[3] = framing->offsets;
+    size_t count = 0;
+    for (size_t i = 0; i < samples; i++) {
+        double *p = points[count];
+        ewa_attribute_read_f64(position, i * point_count / samples, 1, p);
+        for (int c = 0; c < 3; c++) p[c] += origin_world[c];
+        count += isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
+    }
+    ewa_bounds inner;
+    if (count) trim_box(points, count, numbers, &inner);
+    if (count && diagonal(&inner) > 0 && diagonal(&framing->box) > FAR_RATIO * diagonal(&inner)) {
+        framing->trimmed = true;
+        for (int c = 0; c < 3; c++) {
+            framing->box.low_world[c] = fmax(framing->box.low_world[c], inner.low_world[c]);
+            framing->box.high_world[c] = fmin(framing->box.high_world[c], inner.high_world[c]);
+        }
+    }
+    const double *low = framing->box.low_world, *high = framing->box.high_world;
+    for (int c = 0; c < 3; c++) framing->middle_world[c] = 0.5 * low[c] + 0.5 * high[c];
+    for (size_t i = 0; i < count; i++) {
+        bool inside = true;
+        for (int c = 0; c < 3; c++) inside &= points[i][c] >= low[c] && points[i][c] <= high[c];
+        for (int c = 0; c < 3; c++) points[framing->count][c] = points[i][c] - framing->middle_world[c];
+        framing->count += inside;
+    }
+    const double radius_world = median_radius(cloud, samples, numbers);
+    framing->rim_world = radius_scale * radius_world;
+    measure_facing(cloud, samples, radius_world, framing);
+    free(numbers);
+    return true;
+}
+
+void framing_free(cloud_framing *framing) {
+    free(framing->offsets);
+    *framing = (cloud_framing){.count = 0};
+}
+
+/// For one direction of the picture, `axis` (0: across, 1: down): where the camera has to stand, sideways and
+/// in depth, so that every point is between two planes of slope `slope` through it. The nearest such place in
+/// `*depth`.
+static double fit_axis(const cloud_framing *framing, const double *rotation, int axis, double slope,
+                       double *depth) {
+    const double rim = framing->rim_world * sqrt(1 + slope * slope);
+    double above = -INFINITY, below = -INFINITY;
+    for (size_t i = 0; i < framing->count; i++) {
+        const double *p = framing->offsets[i], *side = rotation + 4 * axis, *ahead = rotation + 8;
+        const double x = side[0] * p[0] + side[1] * p[1] + side[2] * p[2];
+        const double z = ahead[0] * p[0] + ahead[1] * p[1] + ahead[2] * p[2];
+        above = fmax(above, x - slope * z + rim);
+        below = fmax(below, -x - slope * z + rim);
+    }
+    // Between the planes: x - c <= slope (z - d) and c - x <= slope (z - d) for a camera at side c and depth
+    // d.
+    if (slope > 0) *depth = fmin(*depth, -(above + below) / (2 * slope));
+    return 0.5 * (above - below);
+}
+
+ewa_status framing_fit(const cloud_framing *framing, const double direction_world[3],
+                       const double up_world[3], ewa_camera *camera) {
+    const ewa_status status = ewa_camera_frame(camera, &framing->box, direction_world, up_world, MARGIN);
+    // Without extent there is nothing to fit; the library's framing of a box of size 1 stays.
+    const bool flat = diagonal(&framing->box) == 0 && framing->rim_world == 0;
+    if (status != EWA_OK || framing->count == 0 || flat || camera->projection != EWA_PERSPECTIVE)
+        return status;
+    double *m = camera->world_to_camera;
+    const double inside = 1 - 2 * MARGIN;
+    double depth = INFINITY, place[3];
+    place[0] = fit_axis(framing, m, 0, inside * camera->width_px / (2 * camera->fx_px), &depth);
+    place[1] = fit_axis(framing, m, 1, inside * camera->height_px / (2 * camera->fy_px), &depth);
+    place[2] = depth;
+    const double *middle = framing->middle_world;
+    for (int r = 0; r < 3; r++)
+        m[4 * r + 3] =
+            -place[r] - (m[4 * r] * middle[0] + m[4 * r + 1] * middle[1] + m[4 * r + 2] * middle[2]);
+    return EWA_OK;
+}

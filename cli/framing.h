@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Getting the whole of a cloud into a picture, as large as it goes.
+#ifndef EWA_CLI_FRAMING_H
+#define EWA_CLI_FRAMING_H
+
+#include "session.h"
+
+/// Where a cloud is, from a sample of its points.
+typedef struct cloud_framing {
+    ewa_bounds box; ///< of the points to show
+    double middle_world[3];
+    double (*offsets)[3]; ///< of sampled points inside the box, from its middle
+    size_t count;
+    double rim_world; ///< how far a disc usually reaches beyond its point
+    double facing[3]; ///< share of the surface that faces along each axis of the world, to within 10 degrees
+    double one_sided; ///< length of the mean normal: 1 for a plane, 0 for a closed surface
+    bool trimmed;     ///< a few far points are outside the box
+} cloud_framing;
+
+/// Measures a cloud; `radius_scale` multiplies its radii. Returns false after reporting; free in any case.
+bool framing_make(cli_session *session, const ewa_cloud *cloud, double radius_scale, cloud_framing *framing);
+void framing_free(cloud_framing *framing);
+
+/// Places a camera, whose picture and projection are set, so that it looks along `direction_world` and the
+/// sampled points just fit. Returns the status of the library.
+ewa_status framing_fit(const cloud_framing *framing, const double direction_world[3],
+                       const double up_world[3], ewa_camera *camera);
+
+#endif

@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// ewa generate: test objects.
+#include "commands.h"
+#include "json.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct generate_arguments {
+    common_arguments common; // first
+    const char *output;
+    bool ascii, positions_only;
+    int64_t point_count, seed;
+    double size_world, jitter, checks, radius_scale;
+} generate_arguments;
+
+#define AT(member) offsetof(generate_arguments, member)
+
+/// In the order of ewa_object.
+static const char *const objects[] = {"plane", "checker", "cube", "sphere", "torus", "terrain"};
+
+static const cli_option output_table[] = {
+    {.key = "output",
+     .letter = 'o',
+     .kind = OPTION_TEXT,
+     .offset = AT(output),
+     .value = "FILE",
+     .help = "file to write (.ply); -: PLY to standard output"},
+    {.key = "ascii",
+     .kind = OPTION_FLAG,
+     .offset = AT(ascii),
+     .help = "write text instead of little-endian binary"},
+};
+
+static const cli_option object_table[] = {
+    {.key = "points",
+     .letter = 'n',
+     .kind = OPTION_INTEGER,
+     .offset = AT(point_count),
+     .value = "N",
+     .range = "[1, 4294967279]",
+     .help = "about how many points; grids round"},
+    {.key = "seed",
+     .kind = OPTION_INTEGER,
+     .offset = AT(seed),
+     .value = "N",
+     .range = "[0, inf)",
+     .help = "same seed, same bytes, on every machine"},
+    {.key = "extent",
+     .kind = OPTION_NUMBER,
+     .offset = AT(size_world),
+     .value = "SIZE",
+     .range = "(0, inf)",
+     .help = "edge of plane, cube and terrain, outer diameter of sphere and torus, in world units"},
+    {.key = "jitter",
+     .kind = OPTION_NUMBER,
+     .offset = AT(jitter),
+     .value = "J",
+     .range = "[0, 1]",
+     .help = "0: a regular grid, 1: anywhere in the cell"},
+    {.key = "checks",
+     .kind = OPTION_NUMBER,
+     .offset = AT(checks),
+     .value = "N",
+     .range = "(0, inf)",
+     .help = "squares along an edge of the checkerboard and of the cube's faces"},
+    {.key = "radius-scale",
+     .kind = OPTION_NUMBER,
+     .offset = AT(radius_scale),
+     .value = "S",
+     .range = "(0, inf)",
+     .help = "support radius in units of the spacing"},
+    {.key = "positions-only",
+     .kind = OPTION_FLAG,
+     .offset = AT(positions_only),
+     .help = "leave out normals and radii, as a scanner does"},
+};
+
+static void set_defaults(void *data) {
+    generate_arguments *arguments = data;
+    ewa_generate_options options;
+    ewa_generate_options_init(&options, sizeof options);
+    arguments->point_count = (int64_t)options.point_count;
+    arguments->seed = (int64_t)options.seed;
+    arguments->size_world = options.size_world;
+    arguments->jitter = options.jitter;
+    arguments->checks = options.checks;
+    arguments->radius_scale = options.radius_scale;
+    arguments->positions_only = options.positions_only;
+}
+
+enum { OBJECT_COUNT = sizeof objects / sizeof objects[0] };
+
+static size_t find_object(const char *word) {
+    size_t index = 0;
+    while (index < OBJECT_COUNT && strcmp(objects[index], word) != 0) index++;
+    return index;
+}
+
+static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
+    const generate_arguments *arguments = data;
+    const char *word = arguments->common.operands[0];
+    if (find_object(word) == OBJECT_COUNT) {
+        const char *nearest = options_nearest(word, OBJECT_COUNT, objects);
+        snprintf(message, OPTION_ERROR_BYTES,
+                 "generate: '%.80s' is none of plane, checker, cube, sphere, torus, terrain%s%s", word,
+                 nearest ? "; did you mean " : "", nearest ? nearest : "");
+        return false;
+    }
+    if (!arguments->output) snprintf(message, OPTION_ERROR_BYTES, "generate: no output; say -o FILE");
+    return arguments->output != NULL;
+}
+
+static int run(const void *data) {
+    const generate_arguments *arguments = data;
+    cli_session session;
+    if (!session_start(&session, &arguments->common)) return session_end(&session, EXIT_FAILED);
+    ewa_generate_options options;
+    ewa_generate_options_init(&options, sizeof options);
+    options.object = (ewa_object)find_object(arguments->common.operands[0]);
+    options.point_count = (uint64_t)arguments->point_count;
+    options.seed = (uint64_t)arguments->seed;
+    options.size_world = arguments->size_world;
+    options.jitter = arguments->jitter;
+    options.checks = arguments->checks;
+    options.radius_scale = arguments->radius_scale;
+    options.positions_only = arguments->positions_only;
+    session.subject = arguments->output;
+    ewa_cloud *cloud = NULL;
+    bool done = output_check(&session, arguments->output);
+    ewa_status status = done ? ewa_cloud_generate(session.context, &options, &cloud) : EWA_OK;
+    if (done && status == EWA_OK) {
+        ewa_cloud_save_options save;
+        ewa_cloud_save_options_init(&save, sizeof save);
+        if (arguments->ascii) save.ply_encoding = EWA_PLY_ASCII;
+        status = ewa_cloud_save(cloud, arguments->output, &save);
+    }
+    if (status != EWA_OK) session_failed(&session, status);
+    done = done && status == EWA_OK;
+    if (done)
+        session_say(&session, "%s: %llu points in %.3f s", arguments->output,
+                    (unsigned long long)ewa_cloud_point_count(cloud), clock_now_s() - session.started_s);
+    ewa_cloud_destroy(&cloud);
+    return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
+}
+
+static const option_group output_options = {"Output", output_table,
+                                            sizeof output_table / sizeof output_table[0]};
+static const option_group object_options = {"Object", object_table,
+                                            sizeof object_table / sizeof object_table[0]};
+static const option_group *const groups[] = {&output_options, &object_options};
+
+const cli_command generate_command = {
+    .name = "generate",
+    .operands = "KIND -o OUT",
+    .summary = "make test objects: plane, checker, cube, sphere, torus, terrain",
+    .details = "The object is centred at the origin. Plane, checker and terrain lie in x-y with z up; the "
+               "axis of the "
+               "torus is z.",
+    .examples = "ewa generate torus -o torus.ply --points 200000\n"
+                "ewa generate terrain -o terrain.ply -n 4000000 --seed 7\n"
+                "ewa generate checker -o - --jitter 0 | ewa render - -o checker.png --shading none\n",
+    .low_operands = 1,
+    .high_operands = 1,
+    .groups = groups,
+    .group_count = sizeof groups / sizeof groups[0],
+    .arguments_bytes = sizeof(generate_arguments),
+    .set_defaults = set_defaults,
+    .check = check,
+    .run = run,
+};

@@ -1,0 +1,221 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Help and the page docs/cli.md, from the option tables.
+#include "options.h"
+
+#include <ctype.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LEFT_COLUMNS = 30, ALL_COLUMNS = 100, TEXT_BYTES = 512 };
+
+/// Prints words, broken at ALL_COLUMNS; `column` is where the cursor is, later lines start at `indent`.
+static void print_wrapped(FILE *file, const char *text, int column, int indent) {
+    while (*text) {
+        const size_t length = strcspn(text, " \n");
+        if (column > indent && column + 1 + (int)length > ALL_COLUMNS) {
+            fprintf(file, "\n%*s", indent, "");
+            column = indent;
+        } else if (column > indent) {
+            fputc(' ', file);
+            column++;
+        }
+        fprintf(file, "%.*s", (int)length, text);
+        column += (int)length;
+        text += length;
+        if (*text == '\n') {
+            fprintf(file, "\n%*s", text[1] == '\n' ? 0 : indent, "");
+            column = indent;
+        }
+        if (*text) text++;
+    }
+    fputc('\n', file);
+}
+
+/// Writes word `index` of "first|second|third".
+static void format_choice(const char *choices, int index, char text[TEXT_BYTES]) {
+    for (; index > 0; index--) choices = strchr(choices, '|') + 1;
+    snprintf(text, TEXT_BYTES, "%.*s", (int)strcspn(choices, "|"), choices);
+}
+
+/// Writes the default of an option as it would be typed; an empty text when there is none to show.
+static void format_default(const cli_option *option, const void *defaults, char text[TEXT_BYTES]) {
+    const void *member = (const char *)defaults + option->offset;
+    text[0] = 0;
+    if (option->absent) {
+        snprintf(text, TEXT_BYTES, "%s", option->absent);
+        return;
+    }
+    switch (option->kind) {
+    case OPTION_FLAG:
+    case OPTION_TOGGLE:
+        break;
+    case OPTION_ON_OFF:
+        snprintf(text, TEXT_BYTES, "%s", *(const bool *)member ? "on" : "off");
+        break;
+    case OPTION_NUMBER:
+        snprintf(text, TEXT_BYTES, "%g", *(const double *)member);
+        break;
+    case OPTION_INTEGER:
+        snprintf(text, TEXT_BYTES, "%" PRId64, *(const int64_t *)member);
+        break;
+    case OPTION_CHOICE:
+        format_choice(option->range, *(const int *)member, text);
+        break;
+    case OPTION_TEXT: {
+        const char *word = *(const char *const *)member;
+        if (word) snprintf(text, TEXT_BYTES, "%s", word);
+        break;
+    }
+    case OPTION_VECTOR: {
+        const option_vector *vector = member;
+        for (uint32_t i = 0, used = 0; i < vector->count; i++)
+            used +=
+                (uint32_t)snprintf(text + used, TEXT_BYTES - used, "%s%g", i ? "," : "", vector->values[i]);
+        break;
+    }
+    case OPTION_COLOR: {
+        const double *rgba = ((const option_color *)member)->rgba;
+        if (rgba[3] == 0)
+            snprintf(text, TEXT_BYTES, "transparent");
+        else
+            snprintf(text, TEXT_BYTES, "%g,%g,%g", rgba[0], rgba[1], rgba[2]);
+        break;
+    }
+    case OPTION_SIZE: {
+        const option_size *size = member;
+        snprintf(text, TEXT_BYTES, "%" PRIu32 "x%" PRIu32, size->width_px, size->height_px);
+        break;
+    }
+    }
+}
+
+/// Writes "-o, --output FILE".
+static void format_names(const cli_option *option, char text[TEXT_BYTES]) {
+    const bool valued = option->kind != OPTION_FLAG && option->kind != OPTION_TOGGLE;
+    const char *value = option->value                   ? option->value
+                        : option->kind == OPTION_ON_OFF ? "on|off"
+                        : option->range                 ? option->range
+                                                        : "";
+    char letter[8] = "";
+    if (option->letter) snprintf(letter, sizeof letter, "-%c, ", option->letter);
+    snprintf(text, TEXT_BYTES, "%s--%s%s%s%s", letter, option->key, valued ? " " : "", valued ? value : "",
+             option->kind == OPTION_TOGGLE ? ", --no-" : "");
+    if (option->kind == OPTION_TOGGLE) strncat(text, option->key, TEXT_BYTES - strlen(text) - 1);
+}
+
+/// Writes what an option means with its range, default and other names.
+static void format_meaning(const cli_option *option, const void *defaults, char text[2 * TEXT_BYTES]) {
+    char initial[TEXT_BYTES];
+    format_default(option, defaults, initial);
+    const bool ranged = option->range && option->kind != OPTION_CHOICE;
+    snprintf(text, 2 * TEXT_BYTES, "%s%s%s%s%s%s%s", option->help, ranged ? "; in " : "",
+             ranged ? option->range : "", initial[0] ? " (default: " : "", initial, initial[0] ? ")" : "",
+             option->aliases ? "; also" : "");
+    for (const char *alias = option->aliases; alias && *alias;) {
+        const size_t length = strcspn(alias, " "), used = strlen(text);
+        snprintf(text + used, 2 * TEXT_BYTES - used, " --%.*s", (int)length, alias);
+        alias += length;
+        alias += strspn(alias, " ");
+    }
+}
+
+static void print_group(FILE *file, const option_group *group, const void *defaults) {
+    fprintf(file, "\n%s:\n", group->title);
+    for (size_t i = 0; i < group->count; i++) {
+        char names[TEXT_BYTES], meaning[2 * TEXT_BYTES];
+        format_names(&group->options[i], names);
+        format_meaning(&group->options[i], defaults, meaning);
+        int column = fprintf(file, "  %s", names);
+        if (column >= LEFT_COLUMNS) {
+            fputc('\n', file);
+            column = 0;
+        }
+        fprintf(file, "%*s", LEFT_COLUMNS - column, "");
+        print_wrapped(file, meaning, LEFT_COLUMNS, LEFT_COLUMNS);
+    }
+}
+
+static void print_group_markdown(FILE *file, const option_group *group, const void *defaults) {
+    fprintf(file, "\n**%s**\n\n| option | meaning |\n|---|---|\n", group->title);
+    for (size_t i = 0; i < group->count; i++) {
+        char names[TEXT_BYTES], meaning[2 * TEXT_BYTES];
+        format_names(&group->options[i], names);
+        format_meaning(&group->options[i], defaults, meaning);
+        fputs("| `", file);
+        for (const char *c = names; *c; c++) fprintf(file, *c == '|' ? "\\%c" : "%c", *c);
+        fputs("` | ", file);
+        for (const char *c = meaning; *c; c++) fprintf(file, *c == '|' ? "\\%c" : "%c", *c);
+        fputs(" |\n", file);
+    }
+}
+
+/// The defaults of a command, to be freed; NULL when memory is short.
+static void *make_defaults(const cli_command *command) {
+    void *defaults = malloc(command->arguments_bytes);
+    if (defaults) options_default(command, defaults);
+    return defaults;
+}
+
+void help_print_command(FILE *file, const cli_command *command) {
+    void *defaults = make_defaults(command);
+    if (!defaults) return;
+    fprintf(file, "usage: ewa %s %s [options]\n\n", command->name, command->operands);
+    fprintf(file, "%c%s.\n", toupper((unsigned char)command->summary[0]), command->summary + 1);
+    if (command->details) {
+        fputc('\n', file);
+        print_wrapped(file, command->details, 0, 0);
+    }
+    for (size_t i = 0; i < command->group_count; i++) print_group(file, command->groups[i], defaults);
+    print_group(file, &common_options, defaults);
+    fprintf(file, "\nExamples:\n");
+    for (const char *line = command->examples; *line;) {
+        const size_t length = strcspn(line, "\n");
+        fprintf(file, "  %.*s\n", (int)length, line);
+        line += length + (line[length] == '\n');
+    }
+    free(defaults);
+}
+
+void help_print_program(FILE *file, size_t count, const cli_command *const *commands) {
+    fputs("usage: ewa COMMAND [operands] [options]\n\n"
+          "Draws point clouds as continuous, antialiased surfaces.\n\nCommands:\n",
+          file);
+    for (size_t i = 0; i < count; i++) {
+        const int column = fprintf(file, "  %-10s", commands[i]->name);
+        print_wrapped(file, commands[i]->summary, column, column);
+    }
+    fputs("\nOptions:\n"
+          "  -h, --help        print this help; 'ewa COMMAND --help' prints a command's\n"
+          "  --version         print the version\n"
+          "  --help-markdown   print the help of all commands as Markdown\n\n"
+          "Exit status: 0 done, 1 the work failed, 2 wrong usage.\n",
+          file);
+}
+
+void help_print_markdown(FILE *file, size_t count, const cli_command *const *commands) {
+    fputs("<!-- Made by `ewa --help-markdown`; a test holds it to the program. Do not edit. -->\n"
+          "# The program `ewa`\n\n"
+          "`ewa COMMAND --help` prints the same in a terminal. Values follow as `--key value` or "
+          "`--key=value`; `--` ends\n"
+          "the options. Exit status: 0 done, 1 the work failed (the message says which file, where in it, "
+          "and why),\n"
+          "2 wrong usage. Messages go to standard error as `ewa: FILE: what`. Output files appear whole or "
+          "not at all.\n",
+          file);
+    for (size_t i = 0; i < count; i++) {
+        const cli_command *command = commands[i];
+        void *defaults = make_defaults(command);
+        if (!defaults) return;
+        fprintf(file, "\n## ewa %s\n\n`ewa %s %s [options]`\n\n%c%s.\n", command->name, command->name,
+                command->operands, toupper((unsigned char)command->summary[0]), command->summary + 1);
+        if (command->details) fprintf(file, "\n%s\n", command->details);
+        fprintf(file, "\n```sh\n%s```\n", command->examples);
+        for (size_t j = 0; j < command->group_count; j++)
+            print_group_markdown(file, command->groups[j], defaults);
+        print_group_markdown(file, &common_options, defaults);
+        free(defaults);
+    }
+}

@@ -1,0 +1,367 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// ewa info: what a file holds and what is wrong with it.
+#include "commands.h"
+#include "inputs.h"
+#include "json.h"
+
+#include <float.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct info_arguments {
+    common_arguments common; // first
+    bool json;
+} info_arguments;
+
+enum { SPACING_SAMPLES = 1000000, BLOCK_POINTS = 256 };
+
+/// Extent in a direction, relative to the largest, under which points count as lying in a plane or on a line.
+/// Floats that are turned in space keep about seven digits.
+static const double FLAT_RATIO = 1e-6;
+
+static const cli_option table[] = {
+    {.key = "json", .kind = OPTION_FLAG, .offset = offsetof(info_arguments, json), .help = "print JSON"},
+};
+
+/// Numbers of one component of an attribute.
+typedef struct component_range {
+    double low, high; ///< of the finite ones; low > high when there is none
+    uint64_t not_finite_count;
+} component_range;
+
+/// How many dimensions the points fill.
+typedef enum point_shape { SHAPE_NOTHING, SHAPE_POINT, SHAPE_LINE, SHAPE_PLANE, SHAPE_SPACE } point_shape;
+
+static const char *const shape_names[] = {"nothing", "point", "line", "plane", "space"};
+
+typedef struct cloud_facts {
+    uint64_t point_count, sampled_count;
+    ewa_bounds bounds;
+    ewa_spacing spacing;
+    point_shape shape;
+    uint64_t zero_normal_count, bad_radius_count;
+} cloud_facts;
+
+static void measure_component(const ewa_attribute *attribute, uint64_t count, uint32_t component,
+                              double shift, component_range *range) {
+    *range = (component_range){INFINITY, -INFINITY, 0};
+    double block[4 * BLOCK_POINTS];
+    for (uint64_t first = 0; first < count; first += BLOCK_POINTS) {
+        const uint64_t block_count = count - first < BLOCK_POINTS ? count - first : BLOCK_POINTS;
+        ewa_attribute_read_f64(attribute, first, block_count, block);
+        for (uint64_t i = 0; i < block_count; i++) {
+            const double number = block[i * attribute->component_count + component] + shift;
+            if (!isfinite(number)) {
+                range->not_finite_count++;
+                continue;
+            }
+            range->low = fmin(range->low, number);
+            range->high = fmax(range->high, number);
+        }
+    }
+}
+
+/// Eigenvalues of a symmetric matrix, ascending, by Jacobi's rotations.
+static void eigenvalues(double m[3][3], double values[3]) {
+    for (int sweep = 0; sweep < 24; sweep++) {
+        for (int p = 0; p < 2; p++) {
+            for (int q = p + 1; q < 3; q++) {
+                if (m[p][q] == 0) continue;
+                const double angle = 0.5 * atan2(2 * m[p][q], m[q][q] - m[p][p]);
+                const double c = cos(angle), s = sin(angle);
+                for (int k = 0; k < 3; k++) {
+                    const double a = m[k][p], b = m[k][q];
+                    m[k][p] = c * a - s * b;
+                    m[k][q] = s * a + c * b;
+                }
+                for (int k = 0; k < 3; k++) {
+                    const double a = m[p][k], b = m[q][k];
+                    m[p][k] = c * a - s * b;
+                    m[q][k] = s * a + c * b;
+                }
+            }
+        }
+    }
+    for (int i = 0; i < 3; i++) values[i] = m[i][i];
+    for (int i = 0; i < 2; i++) {
+        for (int j = 0; j < 2 - i; j++) {
+            if (values[j] <= values[j + 1]) continue;
+            const double larger = values[j];
+            values[j] = values[j + 1];
+            values[j + 1] = larger;
+        }
+    }
+}
+
+static point_shape measure_shape(const ewa_cloud *cloud, const ewa_bounds *bounds) {
+    if (bounds->finite_count == 0) return SHAPE_NOTHING;
+    const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
+    double origin_world[3], middle[3], scale = 0, sum[3] = {0}, products[3][3] = {{0}};
+    ewa_cloud_origin(cloud, origin_world);
+    for (int c = 0; c < 3; c++) {
+        middle[c] = 0.5 * bounds->low_world[c] + 0.5 * bounds->high_world[c] - origin_world[c];
+        scale = fmax(scale, bounds->high_world[c] - bounds->low_world[c]);
+    }
+    if (scale == 0) return SHAPE_POINT;
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    for (uint64_t i = 0; i < count; i++) {
+        double p[3];
+        ewa_attribute_read_f64(position, i, 1, p);
+        if (!isfinite(p[0]) || !isfinite(p[1]) || !isfinite(p[2])) continue;
+        for (int c = 0; c < 3; c++) sum[c] += p[c] = (p[c] - middle[c]) / scale;
+        for (int r = 0; r < 3; r++)
+            for (int c = 0; c < 3; c++) products[r][c] += p[r] * p[c];
+    }
+    const double n = (double)bounds->finite_count;
+    double values[3];
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) products[r][c] = products[r][c] / n - sum[r] / n * (sum[c] / n);
+    eigenvalues(products, values);
+    const double least = values[2] * FLAT_RATIO * FLAT_RATIO;
+    return values[1] <= least ? SHAPE_LINE : values[0] <= least ? SHAPE_PLANE : SHAPE_SPACE;
+}
+
+static uint64_t count_zero_normals(const ewa_cloud *cloud) {
+    const ewa_attribute *normal = ewa_cloud_find(cloud, EWA_NORMAL);
+    uint64_t bad_count = 0;
+    for (uint64_t i = 0; normal && normal->component_count == 3 && i < ewa_cloud_point_count(cloud); i++) {
+        double n[3];
+        ewa_attribute_read_f64(normal, i, 1, n);
+        const double squared = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+        bad_count += !(squared > 0) || !isfinite(squared);
+    }
+    return bad_count;
+}
+
+static uint64_t count_bad_radii(const ewa_cloud *cloud) {
+    const ewa_attribute *radius = ewa_cloud_find(cloud, EWA_RADIUS);
+    uint64_t bad_count = 0;
+    for (uint64_t i = 0; radius && radius->component_count == 1 && i < ewa_cloud_point_count(cloud); i++) {
+        double r;
+        ewa_attribute_read_f64(radius, i, 1, &r);
+        bad_count += !(r > 0) || !isfinite(r);
+    }
+    return bad_count;
+}
+
+/// Measures everything; false after reporting.
+static bool gather(cli_session *session, const ewa_cloud *cloud, cloud_facts *facts) {
+    *facts = (cloud_facts){.point_count = ewa_cloud_point_count(cloud)};
+    ewa_status status = ewa_cloud_measure(cloud, &facts->bounds);
+    facts->sampled_count = facts->point_count < SPACING_SAMPLES ? facts->point_count : SPACING_SAMPLES;
+    if (status == EWA_OK && facts->bounds.finite_count > 1)
+        status = ewa_cloud_measure_spacing(cloud, SPACING_SAMPLES, &facts->spacing);
+    if (status != EWA_OK) {
+        session_failed(session, status);
+        return false;
+    }
+    facts->shape = measure_shape(cloud, &facts->bounds);
+    facts->zero_normal_count = count_zero_normals(cloud);
+    facts->bad_radius_count = count_bad_radii(cloud);
+    return true;
+}
+
+enum { MAX_PROBLEMS = 16, PROBLEM_BYTES = 160 };
+
+/// What is wrong with a cloud, in words; returns how many there are.
+static size_t list_problems(const ewa_cloud *cloud, const cloud_facts *facts,
+                            char problems[][PROBLEM_BYTES]) {
+    size_t count = 0;
+    const uint64_t not_finite = facts->point_count - facts->bounds.finite_count;
+    const ewa_attribute *normal = ewa_cloud_find(cloud, EWA_NORMAL);
+    if (not_finite)
+        snprintf(problems[count++], PROBLEM_BYTES, "%" PRIu64 " points have coordinates that are not finite",
+                 not_finite);
+    if (facts->zero_normal_count)
+        snprintf(problems[count++], PROBLEM_BYTES, "%" PRIu64 " normals are zero or not finite",
+                 facts->zero_normal_count);
+    if (normal && normal->component_count != 3)
+        snprintf(problems[count++], PROBLEM_BYTES, "normals have %u components, not 3",
+                 normal->component_count);
+    if (facts->bad_radius_count)
+        snprintf(problems[count++], PROBLEM_BYTES, "%" PRIu64 " radii are zero, negative or not finite",
+                 facts->bad_radius_count);
+    if (facts->spacing.duplicate_count)
+        snprintf(problems[count++], PROBLEM_BYTES,
+                 "%" PRIu64 " of %" PRIu64 " points share their place with another",
+                 facts->spacing.duplicate_count, facts->sampled_count);
+    if (facts->shape == SHAPE_POINT)
+        snprintf(problems[count++], PROBLEM_BYTES, "%s",
+                 facts->bounds.finite_count == 1 ? "there is one point only"
+                                                 : "all points are at the same place");
+    if (facts->shape == SHAPE_LINE) snprintf(problems[count++], PROBLEM_BYTES, "all points lie on one line");
+    if (facts->shape == SHAPE_PLANE)
+        snprintf(problems[count++], PROBLEM_BYTES, "all points lie in one plane");
+    return count;
+}
+
+static double shift_of(const ewa_cloud *cloud, const ewa_attribute *attribute, uint32_t component) {
+    double origin_world[3];
+    ewa_cloud_origin(cloud, origin_world);
+    return strcmp(attribute->name, EWA_POSITION) == 0 && component < 3 ? origin_world[component] : 0;
+}
+
+/// Prints a line of a PLY header that says more than the attributes do.
+static void print_header_line(void *user, const char *line) {
+    (void)user;
+    if (strncmp(line, "property", 8) != 0) printf("    %s\n", line);
+}
+
+static void print_text(cli_session *session, const char *path, const ewa_cloud *cloud,
+                       const cloud_facts *facts) {
+    const double *low = facts->bounds.low_world, *high = facts->bounds.high_world;
+    printf("%s\n", path);
+    if (strcmp(path, "-") != 0) {
+        printf("  header\n");
+        ewa_ply_describe(session->context, path, print_header_line, NULL);
+    }
+    printf("  points      %" PRIu64 "\n", facts->point_count);
+    if (facts->bounds.finite_count) {
+        const int digits = ewa_cloud_find(cloud, EWA_POSITION)->type == EWA_F64 ? 12 : 8;
+        printf("  low         %.*g %.*g %.*g\n", digits, low[0], digits, low[1], digits, low[2]);
+        printf("  high        %.*g %.*g %.*g\n", digits, high[0], digits, high[1], digits, high[2]);
+        printf("  extent      %.6g %.6g %.6g\n", high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+    }
+    double origin_world[3];
+    ewa_cloud_origin(cloud, origin_world);
+    if (origin_world[0] || origin_world[1] || origin_world[2])
+        printf("  origin      %.17g %.17g %.17g\n", origin_world[0], origin_world[1], origin_world[2]);
+    if (facts->spacing.median_world > 0)
+        printf("  spacing     %.4g (5 %%: %.4g, 95 %%: %.4g)\n", facts->spacing.median_world,
+               facts->spacing.low_world, facts->spacing.high_world);
+    printf("  attributes\n");
+    const ewa_attribute *attribute;
+    for (uint32_t k = 0; (attribute = ewa_cloud_attribute_at(cloud, k)); k++) {
+        printf("    %-20s %-6s", attribute->name, ewa_type_name(attribute->type));
+        for (uint32_t c = 0; c < attribute->component_count; c++) {
+            component_range range;
+            measure_component(attribute, facts->point_count, c, shift_of(cloud, attribute, c), &range);
+            printf("%s ", c ? "," : "");
+            if (range.low <= range.high)
+                printf("%.6g .. %.6g", range.low, range.high);
+            else
+                printf("nothing finite");
+            if (range.not_finite_count) printf(" (%" PRIu64 " not finite)", range.not_finite_count);
+        }
+        printf("\n");
+    }
+    char problems[MAX_PROBLEMS][PROBLEM_BYTES];
+    const size_t count = list_problems(cloud, facts, problems);
+    printf("  problems%s\n", count ? "" : "    none");
+    for (size_t i = 0; i < count; i++) printf("    %s\n", problems[i]);
+}
+
+/// Adds a line of a PLY header to a list.
+static void add_header_line(void *user, const char *line) { json_text(user, NULL, line); }
+
+static void print_json(cli_session *session, json_writer *json, const char *path, const ewa_cloud *cloud,
+                       const cloud_facts *facts) {
+    double origin_world[3];
+    ewa_cloud_origin(cloud, origin_world);
+    json_object(json, NULL);
+    json_text(json, "file", path);
+    json_array(json, "header");
+    if (strcmp(path, "-") != 0) ewa_ply_describe(session->context, path, add_header_line, json);
+    json_close(json, ']');
+    json_count(json, "points", facts->point_count);
+    json_count(json, "finite_points", facts->bounds.finite_count);
+    if (facts->bounds.finite_count) {
+        json_vector(json, "low", 3, facts->bounds.low_world);
+        json_vector(json, "high", 3, facts->bounds.high_world);
+    }
+    json_vector(json, "origin", 3, origin_world);
+    json_text(json, "fills", shape_names[facts->shape]);
+    json_object(json, "spacing");
+    json_number(json, "median", facts->spacing.median_world);
+    json_number(json, "mean", facts->spacing.mean_world);
+    json_number(json, "percentile_5", facts->spacing.low_world);
+    json_number(json, "percentile_95", facts->spacing.high_world);
+    json_count(json, "sampled_points", facts->sampled_count);
+    json_count(json, "duplicates", facts->spacing.duplicate_count);
+    json_close(json, '}');
+    json_array(json, "attributes");
+    const ewa_attribute *attribute;
+    for (uint32_t k = 0; (attribute = ewa_cloud_attribute_at(cloud, k)); k++) {
+        double low[4] = {0}, high[4] = {0};
+        uint64_t not_finite_count = 0;
+        for (uint32_t c = 0; c < attribute->component_count; c++) {
+            component_range range;
+            measure_component(attribute, facts->point_count, c, shift_of(cloud, attribute, c), &range);
+            low[c] = range.low;
+            high[c] = range.high;
+            not_finite_count += range.not_finite_count;
+        }
+        json_object(json, NULL);
+        json_text(json, "name", attribute->name);
+        json_text(json, "type", ewa_type_name(attribute->type));
+        json_count(json, "components", attribute->component_count);
+        json_vector(json, "low", attribute->component_count, low);
+        json_vector(json, "high", attribute->component_count, high);
+        json_count(json, "not_finite", not_finite_count);
+        json_close(json, '}');
+    }
+    json_close(json, ']');
+    json_count(json, "zero_normals", facts->zero_normal_count);
+    json_count(json, "bad_radii", facts->bad_radius_count);
+    char problems[MAX_PROBLEMS][PROBLEM_BYTES];
+    const size_t count = list_problems(cloud, facts, problems);
+    json_array(json, "problems");
+    for (size_t i = 0; i < count; i++) json_text(json, NULL, problems[i]);
+    json_close(json, ']');
+    json_close(json, '}');
+}
+
+static int run(const void *data) {
+    const info_arguments *arguments = data;
+    cli_session session;
+    if (!session_start(&session, &arguments->common)) return session_end(&session, EXIT_FAILED);
+    json_writer json;
+    if (arguments->json) {
+        json_start(&json, stdout);
+        json_array(&json, "files");
+    }
+    int exit_status = EXIT_DONE;
+    for (size_t i = 0; i < arguments->common.operand_count; i++) {
+        const char *path = arguments->common.operands[i];
+        session.reported = false;
+        ewa_cloud *cloud = input_load(&session, path);
+        cloud_facts facts;
+        if (cloud && gather(&session, cloud, &facts)) {
+            if (arguments->json)
+                print_json(&session, &json, path, cloud, &facts);
+            else
+                print_text(&session, path, cloud, &facts);
+        } else {
+            exit_status = EXIT_FAILED;
+        }
+        ewa_cloud_destroy(&cloud);
+    }
+    if (arguments->json) {
+        json_close(&json, ']');
+        json_end(&json);
+    }
+    return session_end(&session, exit_status);
+}
+
+static const option_group info_options = {"Output", table, sizeof table / sizeof table[0]};
+static const option_group *const groups[] = {&info_options};
+
+const cli_command info_command = {
+    .name = "info",
+    .operands = "IN...",
+    .summary = "say what files hold: counts, bounds, attributes with their ranges, spacing, problems",
+    .details = "Problems are counted, not judged: the exit status is 0 when the files could be read.",
+    .examples = "ewa info scan.ply\n"
+                "ewa info --json *.ply > scans.json\n",
+    .low_operands = 1,
+    .high_operands = 4096,
+    .groups = groups,
+    .group_count = sizeof groups / sizeof groups[0],
+    .arguments_bytes = sizeof(info_arguments),
+    .run = run,
+};

@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Clouds from the files of the command line: loading, what is missing, merging.
+#include "inputs.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// sRGB of files without colours that are merged with coloured ones: as bright as the renderer's grey, linear
+/// 0.6.
+static const uint8_t GREY_SRGB = 203;
+
+static bool has_axes(const ewa_cloud *cloud) {
+    return ewa_cloud_find(cloud, EWA_TANGENT_U) && ewa_cloud_find(cloud, EWA_TANGENT_V);
+}
+
+/// Whether two clouds store a stream in different ways, or only one has it.
+static bool streams_differ(const ewa_cloud *a, const ewa_cloud *b, const char *name) {
+    const ewa_attribute *first = ewa_cloud_find(a, name), *second = ewa_cloud_find(b, name);
+    if (!first || !second) return first != second;
+    return first->type != second->type || first->component_count != second->component_count;
+}
+
+ewa_cloud *input_load(cli_session *session, const char *path) {
+    session->subject = path;
+    const double started_s = clock_now_s();
+    ewa_cloud *cloud = NULL;
+    const ewa_status status = ewa_cloud_load(session->context, path, &cloud);
+    if (status != EWA_OK) {
+        session_failed(session, status);
+        return NULL;
+    }
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    if (count == 0) {
+        session_fail(session, "%s: the file has no points", path);
+        ewa_cloud_destroy(&cloud);
+        return NULL;
+    }
+    session_say(session, "%s: %llu points read in %.3f s", path, (unsigned long long)count,
+                clock_now_s() - started_s);
+    return cloud;
+}
+
+bool cloud_is_drawable(const ewa_cloud *cloud) {
+    return has_axes(cloud) || (ewa_cloud_find(cloud, EWA_NORMAL) && ewa_cloud_find(cloud, EWA_RADIUS));
+}
+
+/// Gives discs two equal axes, so that they can be merged with ellipses.
+static ewa_status discs_to_axes(ewa_cloud *cloud) {
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    void *u_data = NULL, *v_data = NULL;
+    ewa_status status = ewa_cloud_add(cloud, EWA_TANGENT_U, EWA_F32, 3, &u_data);
+    if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_TANGENT_V, EWA_F32, 3, &v_data);
+    if (status != EWA_OK) return status;
+    ewa_surfels_options surfels;
+    ewa_surfels_options_init(&surfels, sizeof surfels);
+    const ewa_attribute *normal = ewa_cloud_find(cloud, EWA_NORMAL),
+                        *radius = ewa_cloud_find(cloud, EWA_RADIUS);
+    float *u = u_data, *v = v_data;
+    for (uint64_t i = 0; i < count; i++, u += 3, v += 3) {
+        double n[3], r;
+        ewa_attribute_read_f64(normal, i, 1, n);
+        ewa_attribute_read_f64(radius, i, 1, &r);
+        const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        const double scale = length > 0 ? 1 / length : 0, sigma_world = r / surfels.cutoff;
+        for (int c = 0; c < 3; c++) n[c] *= scale;
+        // Any direction across the normal: the axis in which the normal is shortest leads to a safe one.
+        const int least =
+            fabs(n[0]) < fabs(n[1]) ? (fabs(n[0]) < fabs(n[2]) ? 0 : 2) : (fabs(n[1]) < fabs(n[2]) ? 1 : 2);
+        const int next = (least + 1) % 3, last = (least + 2) % 3;
+        double a[3] = {0};
+        a[next] = -n[last];
+        a[last] = n[next];
+        const double a_length = sqrt(a[next] * a[next] + a[last] * a[last]);
+        const double a_scale = a_length > 0 ? sigma_world / a_length : 0;
+        for (int c = 0; c < 3; c++) a[c] *= a_scale;
+        for (int c = 0; c < 3; c++) {
+            u[c] = (float)a[c];
+            v[c] = (float)(n[(c + 1) % 3] * a[(c + 2) % 3] - n[(c + 2) % 3] * a[(c + 1) % 3]);
+        }
+    }
+    return EWA_OK;
+}
+
+/// Replaces the colours, or their absence, by linear floats with alpha, which all colours can become.
+static ewa_status colors_to_linear(ewa_cloud *cloud) {
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    const ewa_attribute *found = ewa_cloud_find(cloud, EWA_COLOR);
+    const ewa_attribute color = found ? *found : (ewa_attribute){.component_count = 0};
+    static const double scales[] = {1, 1, 127, 255, 32767, 65535, 2147483647.0, 4294967295.0}; // by ewa_type
+    float *linear = malloc(count * 4 * sizeof *linear);
+    if (!linear) return EWA_ERROR_MEMORY;
+    const bool is_float = color.type == EWA_F32 || color.type == EWA_F64;
+    for (uint64_t i = 0; i < count; i++) {
+        double rgba[4] = {GREY_SRGB / 255.0, GREY_SRGB / 255.0, GREY_SRGB / 255.0, 1};
+        if (found) ewa_attribute_read_f64(&color, i, 1, rgba);
+        const double scale = found ? scales[color.type] : 1;
+        for (uint32_t c = 0; c < 4; c++) {
+            const bool coded = c < 3 && !(found && is_float);
+            const float value = (float)(c < color.component_count ? rgba[c] / scale : rgba[c]);
+            linear[4 * i + c] = coded ? ewa_linear_from_srgb(value) : value;
+        }
+    }
+    void *data = NULL;
+    const ewa_status status = ewa_cloud_add(cloud, EWA_COLOR, EWA_F32, 4, &data);
+    if (status == EWA_OK) memcpy(data, linear, count * 4 * sizeof *linear);
+    free(linear);
+    return status;
+}
+
+/// Removes what is not drawn, so that the merge need not speak about it; the attribute that `wanted`
+/// (may be NULL) begins with stays.
+static void drop_undrawn(ewa_cloud *cloud, const char *wanted) {
+    static const char *const drawn[] = {EWA_POSITION, EWA_NORMAL,    EWA_COLOR,
+                                        EWA_RADIUS,   EWA_TANGENT_U, EWA_TANGENT_V};
+    for (uint32_t k = ewa_cloud_attribute_count(cloud); k-- > 0;) {
+        const ewa_attribute *attribute = ewa_cloud_attribute_at(cloud, k);
+        const size_t length = strlen(attribute->name);
+        bool kept = wanted && strncmp(attribute->name, wanted, length) == 0;
+        for (size_t i = 0; i < sizeof drawn / sizeof drawn[0]; i++)
+            kept |= strcmp(attribute->name, drawn[i]) == 0;
+        char name[EWA_NAME_BYTES];
+        memcpy(name, attribute->name, sizeof name);
+        if (!kept) ewa_cloud_remove(cloud, name);
+    }
+}
+
+/// Gives clouds that are drawn together the same kinds of colours and axes, and nothing that only some have.
+static ewa_status make_alike(ewa_cloud *const *clouds, size_t count, const char *wanted) {
+    bool any_axes = false, colors_differ = false, normals_differ = false;
+    for (size_t i = 0; i < count; i++) {
+        any_axes |= has_axes(clouds[i]);
+        colors_differ |= streams_differ(clouds[0], clouds[i], EWA_COLOR);
+        normals_differ |= !ewa_cloud_find(clouds[i], EWA_NORMAL);
+    }
+    for (size_t i = 0; i < count; i++) {
+        ewa_status status = any_axes && !has_axes(clouds[i]) ? discs_to_axes(clouds[i]) : EWA_OK;
+        if (status == EWA_OK && colors_differ) status = colors_to_linear(clouds[i]);
+        if (status != EWA_OK) return status;
+        if (any_axes) ewa_cloud_remove(clouds[i], EWA_RADIUS);
+        if (normals_differ) ewa_cloud_remove(clouds[i], EWA_NORMAL);
+        drop_undrawn(clouds[i], wanted);
+    }
+    return EWA_OK;
+}
+
+/// Frees clouds [0, count) and their array.
+static void release_clouds(ewa_cloud **clouds, size_t count) {
+    for (size_t i = 0; i < count; i++) ewa_cloud_destroy(&clouds[i]);
+    free(clouds);
+}
+
+/// One cloud of `count`; the clouds and their array are gone afterwards. NULL after reporting.
+static ewa_cloud *merge_owned(cli_session *session, ewa_cloud **clouds, size_t count) {
+    ewa_cloud *merged = NULL;
+    if (count == 1) {
+        merged = clouds[0];
+        clouds[0] = NULL;
+    } else {
+        session->subject = NULL;
+        const ewa_status status = ewa_cloud_merge((const ewa_cloud *const *)clouds, (uint32_t)count, &merged);
+        if (status != EWA_OK) session_failed(session, status);
+    }
+    release_clouds(clouds, count);
+    return merged;
+}
+
+ewa_cloud *inputs_merge(cli_session *session, const common_arguments *common) {
+    ewa_cloud **clouds = calloc(common->operand_count, sizeof *clouds);
+    if (!clouds) {
+        session_fail(session, "out of memory");
+        return NULL;
+    }
+    for (size_t i = 0; i < common->operand_count; i++) {
+        clouds[i] = input_load(session, common->operands[i]);
+        if (!clouds[i]) {
+            release_clouds(clouds, i);
+            return NULL;
+        }
+    }
+    bool colors_differ = false;
+    for (size_t i = 1; i < common->operand_count; i++) {
+        colors_differ |= ewa_cloud_find(clouds[0], EWA_COLOR) && ewa_cloud_find(clouds[i], EWA_COLOR) &&
+                         streams_differ(clouds[0], clouds[i], EWA_COLOR);
+    }
+    for (size_t i = 0; colors_differ && i < common->operand_count; i++) {
+        const ewa_status status = ewa_cloud_find(clouds[i], EWA_COLOR) ? colors_to_linear(clouds[i]) : EWA_OK;
+        if (status == EWA_OK) continue;
+        session_failed(session, status);
+        release_clouds(clouds, common->operand_count);
+        return NULL;
+    }
+    return merge_owned(session, clouds, common->operand_count);
+}
+
+/// Loads one file and estimates what it lacks; NULL after reporting.
+static ewa_cloud *load_drawable(cli_session *session, const char *path, double *estimate_s) {
+    ewa_cloud *cloud = input_load(session, path);
+    if (!cloud || cloud_is_drawable(cloud)) return cloud;
+    const bool has_normals = ewa_cloud_find(cloud, EWA_NORMAL) != NULL;
+    ewa_estimate_options options;
+    ewa_estimate_options_init(&options, sizeof options);
+    const double started_s = clock_now_s();
+    const ewa_status status = ewa_cloud_estimate(&cloud, &options);
+    if (status != EWA_OK) {
+        session_failed(session, status);
+        ewa_cloud_destroy(&cloud);
+        return NULL;
+    }
+    const double took_s = clock_now_s() - started_s;
+    *estimate_s += took_s;
+    session_say(session, "%s: %s from %u neighbours in %.3f s", path,
+                has_normals ? "radii estimated" : "normals and radii estimated", options.neighbour_count,
+                took_s);
+    return cloud;
+}
+
+ewa_cloud *inputs_as_surfels(cli_session *session, const common_arguments *common, const char *wanted,
+                             double *estimate_s) {
+    *estimate_s = 0;
+    const size_t count = common->operand_count;
+    ewa_cloud **clouds = calloc(count, sizeof *clouds);
+    if (!clouds) {
+        session_fail(session, "out of memory");
+        return NULL;
+    }
+    for (size_t i = 0; i < count; i++) {
+        clouds[i] = load_drawable(session, common->operands[i], estimate_s);
+        if (!clouds[i]) {
+            release_clouds(clouds, i);
+            return NULL;
+        }
+    }
+    const ewa_status status = count > 1 ? make_alike(clouds, count, wanted) : EWA_OK;
+    if (status != EWA_OK) {
+        session->subject = NULL;
+        session_failed(session, status);
+        release_clouds(clouds, count);
+        return NULL;
+    }
+    return merge_owned(session, clouds, count);
+}

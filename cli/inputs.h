@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Clouds from the files of the command line.
+#ifndef EWA_CLI_INPUTS_H
+#define EWA_CLI_INPUTS_H
+
+#include "session.h"
+
+/// Loads one file that has at least one point; NULL after reporting.
+ewa_cloud *input_load(cli_session *session, const char *path);
+
+/// Loads the operands and makes one cloud of them; attributes that not all have are dropped with a warning.
+/// NULL after reporting.
+ewa_cloud *inputs_merge(cli_session *session, const common_arguments *common);
+
+/// Loads the operands as one cloud that can be drawn: what a surfel needs and a file lacks is estimated file
+/// by file, files without colours become grey beside others that have some. Of several files, only what is
+/// drawn is kept, and the attribute that `wanted` (may be NULL) names. NULL after reporting. `*estimate_s`
+/// gets the time that the estimation took.
+ewa_cloud *inputs_as_surfels(cli_session *session, const common_arguments *common, const char *wanted,
+                             double *estimate_s);
+
+/// Whether a cloud has all that a surfel needs.
+bool cloud_is_drawable(const ewa_cloud *cloud);
+
+#endif

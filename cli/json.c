@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Writing JSON, and text files that appear whole or not at all.
+#include "json.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static void print_quoted(FILE *file, const char *text) {
+    fputc('"', file);
+    for (; *text; text++) {
+        const unsigned char c = (unsigned char)*text;
+        if (c == '"' || c == '\\')
+            fprintf(file, "\\%c", c);
+        else if (c < 0x20)
+            fprintf(file, "\\u%04x", c);
+        else
+            fputc(c, file);
+    }
+    fputc('"', file);
+}
+
+/// Comma, line, indentation and key of the next member.
+static void begin_member(json_writer *json, const char *key) {
+    fprintf(json->file, "%s\n%*s", json->filled[json->depth] ? "," : "", 2 * json->depth, "");
+    json->filled[json->depth] = true;
+    if (key) {
+        print_quoted(json->file, key);
+        fputs(": ", json->file);
+    }
+}
+
+static void print_number(FILE *file, double number) {
+    if (!isfinite(number)) {
+        fputs("null", file);
+        return;
+    }
+    char text[40];
+    for (int digits = 6; digits <= 17; digits++) {
+        snprintf(text, sizeof text, "%.*g", digits, number);
+        if (strtod(text, NULL) == number) break;
+    }
+    fputs(text, file);
+}
+
+static void open_container(json_writer *json, char bracket) {
+    fputc(bracket, json->file);
+    json->filled[++json->depth] = false;
+}
+
+void json_start(json_writer *json, FILE *file) {
+    *json = (json_writer){.file = file};
+    open_container(json, '{');
+}
+
+void json_end(json_writer *json) {
+    json_close(json, '}');
+    fputc('\n', json->file);
+}
+
+void json_object(json_writer *json, const char *key) {
+    begin_member(json, key);
+    open_container(json, '{');
+}
+
+void json_array(json_writer *json, const char *key) {
+    begin_member(json, key);
+    open_container(json, '[');
+}
+
+void json_close(json_writer *json, char bracket) {
+    if (json->filled[json->depth--]) fprintf(json->file, "\n%*s", 2 * json->depth, "");
+    fputc(bracket, json->file);
+}
+
+void json_text(json_writer *json, const char *key, const char *text) {
+    begin_member(json, key);
+    print_quoted(json->file, text);
+}
+
+void json_number(json_writer *json, const char *key, double number) {
+    begin_member(json, key);
+    print_number(json->file, number);
+}
+
+void json_count(json_writer *json, const char *key, uint64_t number) {
+    begin_member(json, key);
+    fprintf(json->file, "%" PRIu64, number);
+}
+
+void json_flag(json_writer *json, const char *key, bool flag) {
+    begin_member(json, key);
+    fputs(flag ? "true" : "false", json->file);
+}
+
+void json_vector(json_writer *json, const char *key, uint32_t count, const double *numbers) {
+    begin_member(json, key);
+    fputc('[', json->file);
+    for (uint32_t i = 0; i < count; i++) {
+        if (i) fputs(", ", json->file);
+        print_number(json->file, numbers[i]);
+    }
+    fputc(']', json->file);
+}
+
+bool text_file_open(cli_session *session, text_file *text, const char *path) {
+    *text = (text_file){.path = path};
+    if (strcmp(path, "-") == 0) {
+        text->file = stdout;
+        return true;
+    }
+    const int length = snprintf(text->aside, sizeof text->aside, "%s.%ld.part", path, (long)getpid());
+    if (length < 0 || (size_t)length >= sizeof text->aside) {
+        session_fail(session, "%s: the path is too long", path);
+        return false;
+    }
+    text->file = fopen(text->aside, "wx");
+    if (text->file) return true;
+    session_fail(session, "%s: cannot create: %s", path, strerror(errno));
+    return false;
+}
+
+bool text_file_close(cli_session *session, text_file *text) {
+    if (text->file == stdout) return output_flush(session, EXIT_DONE) == EXIT_DONE;
+    errno = 0;
+    const bool written = !ferror(text->file) & (fclose(text->file) == 0);
+    if (written && rename(text->aside, text->path) == 0) return true;
+    session_fail(session, "%s: cannot write: %s", text->path, errno ? strerror(errno) : "a write failed");
+    remove(text->aside);
+    return false;
+}
+
+void text_file_drop(text_file *text) {
+    if (text->file == stdout) return;
+    fclose(text->file);
+    remove(text->aside);
+}
+
+bool output_check(cli_session *session, const char *path) {
+    if (strcmp(path, "-") == 0) return true;
+    struct stat found;
+    if (stat(path, &found) == 0 && S_ISDIR(found.st_mode)) {
+        session_fail(session, "%s: is a folder", path);
+        return false;
+    }
+    char folder[4096] = ".";
+    const char *slash = strrchr(path, '/');
+    if (slash) {
+        const size_t length = slash == path ? 1 : (size_t)(slash - path);
+        if (length >= sizeof folder) {
+            session_fail(session, "%s: the path is too long", path);
+            return false;
+        }
+        memcpy(folder, path, length);
+        folder[length] = 0;
+    }
+    if (access(folder, W_OK | X_OK) == 0) return true;
+    session_fail(session, "%s: cannot create: folder %s: %s", path, folder, strerror(errno));
+    return false;
+}
+
+int output_flush(cli_session *session, int exit_status) {
+    if (fflush(stdout) == 0 && !ferror(stdout)) return exit_status;
+    if (errno == EPIPE) return EXIT_FAILED;
+    return session_fail(session, "standard output: cannot write: %s", strerror(errno));
+}

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The program: finds the command, parses its options, runs it.
+#include "commands.h"
+#include "json.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_COMMANDS = 32 };
+
+static int unknown_command(const char *word) {
+    const char *names[MAX_COMMANDS + 2];
+    size_t count = 0;
+    for (; count < all_commands_count && count < MAX_COMMANDS; count++)
+        names[count] = all_commands[count]->name;
+    names[count++] = "--help";
+    names[count++] = "--version";
+    const char *nearest = options_nearest(word, count, names);
+    fprintf(stderr, "ewa: '%s': no such %s", word, word[0] == '-' ? "option" : "command");
+    if (nearest)
+        fprintf(stderr, "; did you mean '%s'?\n", nearest);
+    else
+        fputs("; see 'ewa --help'\n", stderr);
+    return EXIT_USAGE;
+}
+
+static int run_command(const cli_command *command, size_t count, const char *const *words) {
+    void *arguments = malloc(command->arguments_bytes);
+    const char **operands = calloc(count + 1, sizeof *operands);
+    char message[OPTION_ERROR_BYTES];
+    int exit_status = EXIT_USAGE;
+    if (!arguments || !operands) {
+        fputs("ewa: out of memory\n", stderr);
+        exit_status = EXIT_FAILED;
+    } else {
+        options_default(command, arguments);
+        if (!options_parse(command, count, words, operands, arguments, message)) {
+            fprintf(stderr, "ewa: %s\n", message);
+        } else if (((const common_arguments *)arguments)->help) {
+            help_print_command(stdout, command);
+            exit_status = EXIT_DONE;
+        } else {
+            exit_status = command->run(arguments);
+        }
+    }
+    free(operands);
+    free(arguments);
+    return exit_status;
+}
+
+/// Does what the first word says.
+static int run(size_t count, const char *const *words) {
+    if (count == 0) {
+        help_print_program(stderr, all_commands_count, all_commands);
+        return EXIT_USAGE;
+    }
+    const char *word = words[0];
+    const bool help = strcmp(word, "help") == 0 || strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0;
+    if (help && count > 1) {
+        const cli_command *command = command_find(words[1]);
+        if (!command) return unknown_command(words[1]);
+        help_print_command(stdout, command);
+    } else if (help) {
+        help_print_program(stdout, all_commands_count, all_commands);
+    } else if (strcmp(word, "--version") == 0) {
+        printf("ewa %s\n", ewa_version());
+    } else if (strcmp(word, "--help-markdown") == 0) {
+        help_print_markdown(stdout, all_commands_count, all_commands);
+    } else {
+        const cli_command *command = command_find(word);
+        return command ? run_command(command, count - 1, words + 1) : unknown_command(word);
+    }
+    return EXIT_DONE;
+}
+
+int main(int argc, char **argv) {
+    // A closed pipe or a file size limit is an error of the write that meets it, so that files being written
+    // aside are removed.
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
+    const int exit_status = run(argc > 0 ? (size_t)argc - 1 : 0, (const char *const *)argv + 1);
+    cli_session session = {.quiet = false};
+    return output_flush(&session, exit_status);
+}

@@ -1,0 +1,361 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Options: finding them in the tables, reading and checking their values.
+#include "options.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_WORD = 64, MAX_SIDE_PX = 65536 };
+
+static const cli_option common_table[] = {
+    {.key = "threads",
+     .kind = OPTION_INTEGER,
+     .offset = offsetof(common_arguments, threads),
+     .value = "N",
+     .range = "[0, 256]",
+     .absent = "one per processor",
+     .help = "worker threads; 0: one per processor. The result does not depend on it"},
+    {.key = "progress",
+     .kind = OPTION_TOGGLE,
+     .offset = offsetof(common_arguments, progress),
+     .absent = "on a terminal",
+     .help = "draw a progress bar on standard error, or do not"},
+    {.key = "quiet",
+     .letter = 'q',
+     .kind = OPTION_FLAG,
+     .offset = offsetof(common_arguments, quiet),
+     .help = "print errors only"},
+    {.key = "verbose",
+     .letter = 'v',
+     .kind = OPTION_FLAG,
+     .offset = offsetof(common_arguments, verbose),
+     .help = "say what is done and how long it takes"},
+    {.key = "help",
+     .letter = 'h',
+     .kind = OPTION_FLAG,
+     .offset = offsetof(common_arguments, help),
+     .help = "print this help"},
+};
+
+const option_group common_options = {"Running", common_table, sizeof common_table / sizeof common_table[0]};
+
+__attribute__((format(printf, 2, 3))) static bool wrong(char message[OPTION_ERROR_BYTES], const char *format,
+                                                        ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, OPTION_ERROR_BYTES, format, arguments);
+    va_end(arguments);
+    return false;
+}
+
+/// Reads a finite number that ends at `*end`.
+static bool read_number(const char *text, double *number, const char **end) {
+    if (isspace((unsigned char)text[0])) return false;
+    char *stop;
+    *number = strtod(text, &stop);
+    *end = stop;
+    return stop != text && isfinite(*number);
+}
+
+/// Whether a number lies in an interval of the table, such as "(0, 4]" or "[0, inf)".
+static bool in_range(double number, const char *range) {
+    char *middle;
+    const double low = strtod(range + 1, &middle);
+    char *close;
+    const double high = strtod(middle + 1, &close);
+    const bool above = range[0] == '(' ? number > low : number >= low;
+    return above && (*close == ')' ? number < high : number <= high);
+}
+
+static bool parse_number(const cli_option *option, const char *text, double *number,
+                         char message[OPTION_ERROR_BYTES]) {
+    const char *end;
+    double read;
+    if (!read_number(text, &read, &end) || *end)
+        return wrong(message, "--%s: '%.80s' is not a number", option->key, text);
+    if (option->range && !in_range(read, option->range))
+        return wrong(message, "--%s: %g is outside %s", option->key, read, option->range);
+    *number = read;
+    return true;
+}
+
+static bool parse_integer(const cli_option *option, const char *text, int64_t *number,
+                          char message[OPTION_ERROR_BYTES]) {
+    char *end;
+    errno = 0;
+    const long long read = strtoll(text, &end, 10);
+    if (end == text || *end || isspace((unsigned char)text[0]) || errno == ERANGE)
+        return wrong(message, "--%s: '%.80s' is not a whole number", option->key, text);
+    if (option->range && !in_range((double)read, option->range))
+        return wrong(message, "--%s: %lld is outside %s", option->key, read, option->range);
+    *number = read;
+    return true;
+}
+
+static bool parse_vector(const cli_option *option, const char *text, option_vector *vector,
+                         char message[OPTION_ERROR_BYTES]) {
+    option_vector read = {.count = 0};
+    for (const char *next = text;; next++) {
+        double number;
+        if (read.count == option->high || !read_number(next, &number, &next) || (*next && *next != ',')) {
+            read.count = 0;
+            break;
+        }
+        if (option->range && !in_range(number, option->range))
+            return wrong(message, "--%s: %g is outside %s", option->key, number, option->range);
+        read.values[read.count++] = number;
+        if (!*next) break;
+    }
+    if (read.count < option->low || read.count == 0)
+        return wrong(message, "--%s: '%.80s' is not %s", option->key, text, option->value);
+    *vector = read;
+    return true;
+}
+
+static bool parse_color(const cli_option *option, const char *text, option_color *color,
+                        char message[OPTION_ERROR_BYTES]) {
+    if (strcmp(text, "transparent") == 0) {
+        *color = (option_color){{0, 0, 0, 0}};
+        return true;
+    }
+    cli_option numbers = *option;
+    numbers.range = "[0, 1]";
+    numbers.low = 3;
+    numbers.high = 4;
+    option_vector vector;
+    if (!parse_vector(&numbers, text, &vector, message)) return false;
+    if (vector.count == 3) vector.values[3] = 1;
+    memcpy(color->rgba, vector.values, sizeof color->rgba);
+    return true;
+}
+
+static bool parse_size(const cli_option *option, const char *text, option_size *size,
+                       char message[OPTION_ERROR_BYTES]) {
+    char *end = NULL;
+    unsigned long long width = 0, height = 0;
+    if (isdigit((unsigned char)text[0])) width = strtoull(text, &end, 10);
+    if (end && (*end == 'x' || *end == ',') && isdigit((unsigned char)end[1]))
+        height = strtoull(end + 1, &end, 10);
+    if (!end || *end || height == 0 || width == 0)
+        return wrong(message, "--%s: '%.80s' is not WxH", option->key, text);
+    if (width > MAX_SIDE_PX || height > MAX_SIDE_PX)
+        return wrong(message, "--%s: %s is over %dx%d pixels", option->key, text, MAX_SIDE_PX, MAX_SIDE_PX);
+    *size = (option_size){(uint32_t)width, (uint32_t)height, true};
+    return true;
+}
+
+static bool parse_choice(const cli_option *option, const char *text, const char *choices, int *choice,
+                         char message[OPTION_ERROR_BYTES]) {
+    const size_t length = strlen(text);
+    int index = 0;
+    for (const char *word = choices; word; index++) {
+        const char *bar = strchr(word, '|');
+        const size_t word_length = bar ? (size_t)(bar - word) : strlen(word);
+        if (word_length == length && memcmp(word, text, length) == 0) {
+            *choice = index;
+            return true;
+        }
+        word = bar ? bar + 1 : NULL;
+    }
+    return wrong(message, "--%s: '%.80s' is not one of %s", option->key, text, choices);
+}
+
+static bool parse_value(const cli_option *option, const char *text, void *member,
+                        char message[OPTION_ERROR_BYTES]) {
+    int choice = 0;
+    switch (option->kind) {
+    case OPTION_NUMBER:
+        return parse_number(option, text, member, message);
+    case OPTION_INTEGER:
+        return parse_integer(option, text, member, message);
+    case OPTION_VECTOR:
+        return parse_vector(option, text, member, message);
+    case OPTION_COLOR:
+        return parse_color(option, text, member, message);
+    case OPTION_SIZE:
+        return parse_size(option, text, member, message);
+    case OPTION_CHOICE:
+        return parse_choice(option, text, option->range, member, message);
+    case OPTION_ON_OFF:
+        if (!parse_choice(option, text, "off|on", &choice, message)) return false;
+        *(bool *)member = choice == 1;
+        return true;
+    case OPTION_TEXT:
+        if (!*text) return wrong(message, "--%s: the value is empty", option->key);
+        *(const char **)member = text;
+        return true;
+    case OPTION_FLAG:
+    case OPTION_TOGGLE:
+        break;
+    }
+    return wrong(message, "--%s: takes no value", option->key);
+}
+
+static bool name_is(const char *names, const char *word, size_t length) {
+    while (names && *names) {
+        const size_t name_length = strcspn(names, " ");
+        if (name_length == length && memcmp(names, word, length) == 0) return true;
+        names += name_length;
+        names += strspn(names, " ");
+    }
+    return false;
+}
+
+/// Group `index` of a command: its own, then the common one, then NULL.
+static const option_group *group_at(const cli_command *command, size_t index) {
+    return index < command->group_count    ? command->groups[index]
+           : index == command->group_count ? &common_options
+                                           : NULL;
+}
+
+/// Finds a long name of `length` bytes; `*negated` is set for the --no- form of a toggle.
+static const cli_option *find_long(const cli_command *command, const char *name, size_t length,
+                                   bool *negated) {
+    const option_group *group;
+    for (size_t i = 0; (group = group_at(command, i)); i++) {
+        for (size_t j = 0; j < group->count; j++) {
+            const cli_option *option = &group->options[j];
+            *negated = false;
+            if (name_is(option->key, name, length) || name_is(option->aliases, name, length)) return option;
+            *negated = true;
+            if (option->kind == OPTION_TOGGLE && length > 3 && memcmp(name, "no-", 3) == 0 &&
+                name_is(option->key, name + 3, length - 3))
+                return option;
+        }
+    }
+    return NULL;
+}
+
+static const cli_option *find_letter(const cli_command *command, char letter) {
+    const option_group *group;
+    for (size_t i = 0; (group = group_at(command, i)); i++)
+        for (size_t j = 0; j < group->count; j++)
+            if (group->options[j].letter == letter) return &group->options[j];
+    return NULL;
+}
+
+/// Edits between two words: insertions, deletions, exchanges, swaps of neighbours, each 1 (Damerau 1964, by
+/// the recurrence of optimal string alignment).
+static size_t edit_distance(const char *a, const char *b) {
+    size_t rows[3][MAX_WORD + 1];
+    const size_t a_length = strlen(a), b_length = strlen(b);
+    if (a_length > MAX_WORD || b_length > MAX_WORD) return MAX_WORD;
+    for (size_t j = 0; j <= b_length; j++) rows[0][j] = j;
+    for (size_t i = 1; i <= a_length; i++) {
+        size_t *row = rows[i % 3], *above = rows[(i + 2) % 3], *two_above = rows[(i + 1) % 3];
+        row[0] = i;
+        for (size_t j = 1; j <= b_length; j++) {
+            size_t best = above[j - 1] + (a[i - 1] != b[j - 1]);
+            if (above[j] + 1 < best) best = above[j] + 1;
+            if (row[j - 1] + 1 < best) best = row[j - 1] + 1;
+            const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+            if (swapped && two_above[j - 2] + 1 < best) best = two_above[j - 2] + 1;
+            row[j] = best;
+        }
+    }
+    return rows[a_length % 3][b_length];
+}
+
+const char *options_nearest(const char *word, size_t count, const char *const *names) {
+    const char *nearest = NULL;
+    size_t least = strlen(word) / 3 + 2;
+    for (size_t i = 0; i < count; i++) {
+        const size_t distance = edit_distance(word, names[i]);
+        if (distance < least) {
+            least = distance;
+            nearest = names[i];
+        }
+    }
+    return nearest;
+}
+
+static bool unknown_option(const cli_command *command, const char *name, size_t length,
+                           char message[OPTION_ERROR_BYTES]) {
+    char word[MAX_WORD + 1];
+    snprintf(word, sizeof word, "%.*s", (int)(length < MAX_WORD ? length : MAX_WORD), name);
+    const char *keys[128];
+    size_t key_count = 0;
+    const option_group *group;
+    for (size_t i = 0; (group = group_at(command, i)); i++)
+        for (size_t j = 0; j < group->count && key_count < sizeof keys / sizeof keys[0]; j++)
+            keys[key_count++] = group->options[j].key;
+    const char *nearest = options_nearest(word, key_count, keys);
+    if (nearest) return wrong(message, "--%s: no such option; did you mean --%s?", word, nearest);
+    return wrong(message, "--%s: no such option; see 'ewa %s --help'", word, command->name);
+}
+
+/// Takes one option at `words[*index]`; moves the index over a value that is a word of its own.
+static bool take_option(const cli_command *command, size_t count, const char *const *words, size_t *index,
+                        char *arguments, char message[OPTION_ERROR_BYTES]) {
+    const char *word = words[*index], *value = NULL;
+    const cli_option *option;
+    bool negated = false;
+    if (word[1] == '-') {
+        const char *equals = strchr(word, '=');
+        const size_t length = equals ? (size_t)(equals - word) - 2 : strlen(word + 2);
+        option = find_long(command, word + 2, length, &negated);
+        if (!option) return unknown_option(command, word + 2, length, message);
+        if (equals) value = equals + 1;
+    } else {
+        option = find_letter(command, word[1]);
+        if (!option) return wrong(message, "%.80s: no such option; see 'ewa %s --help'", word, command->name);
+        if (word[2]) value = word + 2;
+    }
+    void *member = arguments + option->offset;
+    if (option->kind == OPTION_FLAG || option->kind == OPTION_TOGGLE) {
+        if (value) return wrong(message, "--%s: takes no value", option->key);
+        if (option->kind == OPTION_FLAG)
+            *(bool *)member = true;
+        else
+            *(int *)member = negated ? 0 : 1;
+        return true;
+    }
+    if (!value) {
+        if (*index + 1 == count)
+            return wrong(message, "--%s: its value (%s) is missing", option->key,
+                         option->value ? option->value : option->range);
+        value = words[++*index];
+    }
+    return parse_value(option, value, member, message);
+}
+
+void options_default(const cli_command *command, void *arguments) {
+    memset(arguments, 0, command->arguments_bytes);
+    ((common_arguments *)arguments)->progress = -1;
+    if (command->set_defaults) command->set_defaults(arguments);
+}
+
+bool options_parse(const cli_command *command, size_t count, const char *const *words, const char **operands,
+                   void *arguments, char message[OPTION_ERROR_BYTES]) {
+    common_arguments *common = arguments;
+    common->operands = operands;
+    bool only_operands = false;
+    for (size_t i = 0; i < count; i++) {
+        const char *word = words[i];
+        if (only_operands || word[0] != '-' || !word[1]) {
+            operands[common->operand_count++] = word;
+        } else if (strcmp(word, "--") == 0) {
+            only_operands = true;
+        } else if (!take_option(command, count, words, &i, arguments, message)) {
+            return false;
+        }
+        if (common->help) return true;
+    }
+    for (size_t i = 0; i < common->operand_count; i++)
+        if (!operands[i][0]) return wrong(message, "%s: a file name is empty", command->name);
+    if (common->operand_count < command->low_operands)
+        return wrong(message, "%s: an input is missing; usage: ewa %s %s", command->name, command->name,
+                     command->operands);
+    if (common->operand_count > command->high_operands)
+        return wrong(message, "%s: '%.80s' is one operand too many; usage: ewa %s %s", command->name,
+                     operands[command->high_operands], command->name, command->operands);
+    if (common->quiet && common->verbose) return wrong(message, "--quiet and --verbose exclude each other");
+    return !command->check || command->check(arguments, message);
+}

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// One table per command describes its options; parsing, checking, --help and docs/cli.md are made from it.
+#ifndef EWA_CLI_OPTIONS_H
+#define EWA_CLI_OPTIONS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/// What the value of an option is, and the type of the member that it fills.
+typedef enum option_kind {
+    OPTION_FLAG,    ///< bool: given or not, no value
+    OPTION_TOGGLE,  ///< int: --key 1, --no-key 0; no value
+    OPTION_ON_OFF,  ///< bool: on or off
+    OPTION_NUMBER,  ///< double, finite
+    OPTION_INTEGER, ///< int64_t
+    OPTION_TEXT,    ///< const char *, not empty
+    OPTION_CHOICE,  ///< int: index of the word in `range`
+    OPTION_VECTOR,  ///< option_vector: finite numbers separated by commas
+    OPTION_COLOR,   ///< option_color
+    OPTION_SIZE,    ///< option_size
+} option_kind;
+
+enum { OPTION_VECTOR_MAX = 16 };
+
+/// Numbers of a vector; count 0: not given.
+typedef struct option_vector {
+    double values[OPTION_VECTOR_MAX];
+    uint32_t count;
+} option_vector;
+
+/// sRGB and straight alpha, each in [0, 1].
+typedef struct option_color {
+    double rgba[4];
+} option_color;
+
+typedef struct option_size {
+    uint32_t width_px, height_px;
+    bool given; ///< false: the default
+} option_size;
+
+/// One option. Zero and NULL members mean "none".
+typedef struct cli_option {
+    const char *key;     ///< long name without its dashes
+    char letter;         ///< short name
+    const char *aliases; ///< further long names, separated by blanks
+    option_kind kind;
+    size_t offset;      ///< of the member in the arguments of the command
+    const char *value;  ///< what help calls the value
+    const char *range;  ///< numbers: an interval such as "(0, 4]"; choices: "first|second"
+    uint32_t low, high; ///< vectors: fewest and most numbers
+    const char *absent; ///< help's words for a default that is worked out; else the member's value is shown
+    const char *help;
+} cli_option;
+
+/// Options under one heading.
+typedef struct option_group {
+    const char *title;
+    const cli_option *options;
+    size_t count;
+} option_group;
+
+/// What every command's arguments begin with.
+typedef struct common_arguments {
+    const char *const *operands; ///< the words that are no options
+    size_t operand_count;
+    int64_t threads;
+    bool quiet, verbose, help;
+    int progress; ///< 1 or 0 when asked for, -1: where standard error is a terminal
+} common_arguments;
+
+/// The options of common_arguments, for the last group of each command.
+extern const option_group common_options;
+
+enum { OPTION_ERROR_BYTES = 512 };
+
+/// A command of the program.
+typedef struct cli_command {
+    const char *name;
+    const char *operands; ///< as in the usage line: "IN... -o OUT"
+    const char *summary;  ///< one line, no full stop
+    const char *details;  ///< further paragraphs of the help
+    const char *examples; ///< lines to type
+    size_t low_operands, high_operands;
+    const option_group *const *groups; ///< without common_options
+    size_t group_count;
+    size_t arguments_bytes; ///< of the struct that begins with common_arguments
+    /// Sets what is not zero by default.
+    void (*set_defaults)(void *arguments);
+    /// Says in `message` what is wrong with the options together; NULL when nothing can be. Returns false
+    /// then.
+    bool (*check)(const void *arguments, char message[OPTION_ERROR_BYTES]);
+    /// Does the work; returns the exit status.
+    int (*run)(const void *arguments);
+} cli_command;
+
+/// Sets every argument of a command to its default.
+void options_default(const cli_command *command, void *arguments);
+
+/// Parses the words after the command's name into `arguments`, which holds the defaults. `operands` has room
+/// for `count` words. Returns false with what is wrong, without the program's name, in `message`. A --help
+/// anywhere stops the parsing and succeeds.
+bool options_parse(const cli_command *command, size_t count, const char *const *words, const char **operands,
+                   void *arguments, char message[OPTION_ERROR_BYTES]);
+
+/// Returns the name nearest to `word` among `count` names, NULL when none is near.
+const char *options_nearest(const char *word, size_t count, const char *const *names);
+
+/// Prints the help of a command.
+void help_print_command(FILE *file, const cli_command *command);
+/// Prints what the program is and its commands.
+void help_print_program(FILE *file, size_t count, const cli_command *const *commands);
+/// Prints docs/cli.md.
+void help_print_markdown(FILE *file, size_t count, const cli_command *const *commands);
+
+#endif

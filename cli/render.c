@@ -1,0 +1,426 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// ewa render: clouds to a picture.
+#include "color_by.h"
+#include "commands.h"
+#include "inputs.h"
+#include "json.h"
+#include "picture.h"
+#include "view.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct render_arguments {
+    view_arguments view; // first: it begins with the common arguments
+    const char *output, *aov, *save_camera_path, *stats_path;
+    int kernel, passes, cull, shading, colormap;
+    double cutoff, prefilter_px, radius_scale, tolerance, edge_threshold, ambient;
+    bool edge_antialiasing;
+    option_vector light, range;
+    option_color background;
+    const char *color_by;
+} render_arguments;
+
+enum { ONE_PASS = 0, THREE_PASSES = 1, GAP_POINTS = 1000 };
+
+/// Support radius in units of the spacing under which irregular points leave gaps, and one that closes most
+/// of them.
+static const double GAP_RADIUS = 1, CLOSED_RADIUS = 1.9;
+
+#define AT(member) offsetof(render_arguments, member)
+
+static const cli_option output_table[] = {
+    {.key = "output",
+     .letter = 'o',
+     .kind = OPTION_TEXT,
+     .offset = AT(output),
+     .value = "FILE",
+     .help = "the picture: .png (8-bit sRGB), .exr (linear floats, premultiplied: R G B A Z N.X N.Y N.Z "
+             "coverage), "
+             ".pfm (linear RGB); -: PNG to standard output"},
+    {.key = "aov",
+     .kind = OPTION_TEXT,
+     .offset = AT(aov),
+     .value = "NAME=FILE,...",
+     .help = "further planes, .pfm or .exr: depth (camera z, infinite where nothing is), normal (world, "
+             "towards the "
+             "viewer), coverage (1: covered)"},
+    {.key = "save-camera",
+     .kind = OPTION_TEXT,
+     .offset = AT(save_camera_path),
+     .value = "FILE",
+     .help = "write the camera that was used, for --camera"},
+    {.key = "stats",
+     .kind = OPTION_TEXT,
+     .offset = AT(stats_path),
+     .value = "FILE",
+     .help = "write times per stage, counts and peak memory as JSON"},
+};
+
+static const cli_option splat_table[] = {
+    {.key = "kernel",
+     .kind = OPTION_CHOICE,
+     .offset = AT(kernel),
+     .range = "perspective|affine",
+     .help = "projected shape of a splat: its exact ellipse, or the ellipse of the affine map at its centre"},
+    {.key = "cutoff",
+     .kind = OPTION_NUMBER,
+     .offset = AT(cutoff),
+     .value = "F",
+     .range = "(0, 4]",
+     .help = "standard deviations at which a kernel ends"},
+    {.key = "prefilter",
+     .kind = OPTION_NUMBER,
+     .offset = AT(prefilter_px),
+     .value = "H",
+     .range = "[0, 4]",
+     .help = "standard deviation of the pixel filter in pixels; 0: none"},
+    {.key = "radius-scale",
+     .kind = OPTION_NUMBER,
+     .offset = AT(radius_scale),
+     .value = "S",
+     .range = "(0, inf)",
+     .help = "multiplies every radius and axis"},
+    {.key = "tolerance",
+     .kind = OPTION_NUMBER,
+     .offset = AT(tolerance),
+     .value = "K",
+     .range = "[0, inf)",
+     .help = "splats closer in depth than K support radii are blended as one surface"},
+    {.key = "passes",
+     .kind = OPTION_CHOICE,
+     .offset = AT(passes),
+     .range = "1|3",
+     .help = "3: splats of one surface are blended; 1: the nearest splat of each pixel wins"},
+    {.key = "edge-aa",
+     .kind = OPTION_ON_OFF,
+     .offset = AT(edge_antialiasing),
+     .help = "smooth silhouettes by coverage"},
+    {.key = "tau",
+     .kind = OPTION_NUMBER,
+     .offset = AT(edge_threshold),
+     .value = "T",
+     .range = "(0, 4]",
+     .help = "coverage, as a share of a covered pixel's, from which a pixel is opaque"},
+    {.key = "cull",
+     .kind = OPTION_CHOICE,
+     .offset = AT(cull),
+     .range = "none|back",
+     .help = "leave out splats that face away"},
+};
+
+static const cli_option look_table[] = {
+    {.key = "shading",
+     .kind = OPTION_CHOICE,
+     .offset = AT(shading),
+     .range = "none|lambert",
+     .help = "light: none gives the bare colours"},
+    {.key = "light",
+     .kind = OPTION_VECTOR,
+     .offset = AT(light),
+     .value = "x,y,z",
+     .low = 3,
+     .high = 3,
+     .absent = "headlight",
+     .help = "direction towards the light"},
+    {.key = "ambient",
+     .kind = OPTION_NUMBER,
+     .offset = AT(ambient),
+     .value = "A",
+     .range = "[0, 1]",
+     .help = "share of the light that comes from everywhere"},
+    {.key = "background",
+     .aliases = "background-color",
+     .kind = OPTION_COLOR,
+     .offset = AT(background),
+     .value = "r,g,b[,a]",
+     .help = "sRGB numbers in [0, 1], or transparent"},
+    {.key = "color-by",
+     .kind = OPTION_TEXT,
+     .offset = AT(color_by),
+     .value = "ATTR",
+     .absent = "the file's colours, else grey",
+     .help = "colour by an attribute ('ewa info' lists them), one component of it (normal.x), or by x, y, z"},
+    {.key = "colormap",
+     .kind = OPTION_CHOICE,
+     .offset = AT(colormap),
+     .range = "viridis|turbo|gray",
+     .help = "colours for --color-by"},
+    {.key = "range",
+     .aliases = "coloring-range",
+     .kind = OPTION_VECTOR,
+     .offset = AT(range),
+     .value = "a,b",
+     .low = 2,
+     .high = 2,
+     .absent = "least to greatest",
+     .help = "numbers that get the first and the last colour"},
+};
+
+static void set_defaults(void *data) {
+    render_arguments *arguments = data;
+    view_set_defaults(&arguments->view);
+    ewa_surfels_options surfels;
+    ewa_surfels_options_init(&surfels, sizeof surfels);
+    arguments->cutoff = surfels.cutoff;
+    arguments->radius_scale = surfels.radius_scale;
+    ewa_render_options render;
+    ewa_render_options_init(&render, sizeof render);
+    arguments->kernel = (int)render.kernel;
+    arguments->passes = render.passes == 1 ? ONE_PASS : THREE_PASSES;
+    arguments->cull = (int)render.cull;
+    arguments->shading = (int)render.shading;
+    arguments->prefilter_px = render.prefilter_px;
+    arguments->tolerance = render.tolerance;
+    arguments->edge_antialiasing = render.edge_antialiasing;
+    arguments->edge_threshold = render.edge_threshold;
+    arguments->ambient = render.ambient;
+    arguments->background = (option_color){{1, 1, 1, 1}};
+}
+
+static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
+    const render_arguments *arguments = data;
+    picture_paths paths;
+    const char *missing = NULL;
+    if (!arguments->output)
+        missing = "render: no output; say -o FILE";
+    else if (!arguments->color_by && arguments->range.count)
+        missing = "--range needs --color-by";
+    else if (arguments->light.count && !arguments->light.values[0] && !arguments->light.values[1] &&
+             !arguments->light.values[2])
+        missing = "--light: 0,0,0 has no direction";
+    if (missing) {
+        snprintf(message, OPTION_ERROR_BYTES, "%s", missing);
+        return false;
+    }
+    return view_check(&arguments->view, message) &&
+           picture_parse_paths(arguments->output, arguments->aov, &paths, message);
+}
+
+static ewa_render_options render_options(const render_arguments *arguments) {
+    ewa_render_options options;
+    ewa_render_options_init(&options, sizeof options);
+    options.kernel = (ewa_kernel)arguments->kernel;
+    options.prefilter_px = arguments->prefilter_px;
+    options.tolerance = arguments->tolerance;
+    options.passes = arguments->passes == ONE_PASS ? 1 : 3;
+    options.edge_antialiasing = arguments->edge_antialiasing;
+    options.edge_threshold = arguments->edge_threshold;
+    options.cull = (ewa_cull)arguments->cull;
+    options.shading = (ewa_shading)arguments->shading;
+    options.ambient = arguments->ambient;
+    memcpy(options.light_world, arguments->light.values, sizeof options.light_world);
+    for (int c = 0; c < 3; c++)
+        options.background[c] = ewa_linear_from_srgb((float)arguments->background.rgba[c]);
+    options.background[3] = (float)arguments->background.rgba[3];
+    return options;
+}
+
+/// What a run took and drew.
+typedef struct render_report {
+    uint64_t point_count;
+    double load_s, estimate_s, surfels_s, render_s, write_s;
+    ewa_surfels_info surfels;
+    ewa_render_stats stats;
+} render_report;
+
+static bool write_stats(cli_session *session, const render_arguments *arguments, const ewa_camera *camera,
+                        const render_report *report) {
+    text_file text;
+    if (!text_file_open(session, &text, arguments->stats_path)) return false;
+    json_writer json;
+    json_start(&json, text.file);
+    json_text(&json, "version", ewa_version());
+    json_array(&json, "inputs");
+    for (size_t i = 0; i < arguments->view.common.operand_count; i++)
+        json_text(&json, NULL, arguments->view.common.operands[i]);
+    json_close(&json, ']');
+    json_count(&json, "width", camera->width_px);
+    json_count(&json, "height", camera->height_px);
+    json_count(&json, "threads", ewa_context_worker_count(session->context));
+    json_count(&json, "points", report->point_count);
+    json_count(&json, "points_left_out", report->surfels.left_out_count);
+    json_count(&json, "resident_bytes", report->surfels.resident_bytes);
+    json_number(&json, "unit_coverage", report->surfels.unit_coverage);
+    json_count(&json, "splats", report->stats.splat_count);
+    json_count(&json, "splats_culled", report->stats.culled_count);
+    json_count(&json, "splats_drawn", report->stats.drawn_count);
+    json_count(&json, "fragment_blocks", report->stats.fragment_count);
+    json_object(&json, "wall_s");
+    json_number(&json, "load", report->load_s);
+    json_number(&json, "estimate", report->estimate_s);
+    json_number(&json, "surfels", report->surfels_s);
+    json_number(&json, "render", report->render_s);
+    json_number(&json, "write", report->write_s);
+    json_number(&json, "total", clock_now_s() - session->started_s);
+    json_close(&json, '}');
+    json_object(&json, "thread_s");
+    json_number(&json, "bin", report->stats.bin_s);
+    json_number(&json, "setup", report->stats.setup_s);
+    json_number(&json, "visibility", report->stats.visibility_s);
+    json_number(&json, "accumulate", report->stats.accumulate_s);
+    json_number(&json, "resolve", report->stats.resolve_s);
+    json_close(&json, '}');
+    json_count(&json, "peak_memory_bytes", memory_peak_bytes());
+    json_end(&json);
+    return text_file_close(session, &text);
+}
+
+/// Says when discs are so small that there are gaps between them. From the unit coverage q = s^2 d (1 -
+/// exp(-F^2 / 2)) (d: density, s = radius / F) follows the radius in units of the spacing 1 / sqrt(d).
+static void note_gaps(cli_session *session, const render_arguments *arguments, const render_report *report) {
+    const double f = arguments->cutoff, kernel = 1 - exp(-0.5 * f * f);
+    const double radius = f * sqrt(report->surfels.unit_coverage / kernel);
+    if (report->surfels.point_count >= GAP_POINTS && radius > 0 && radius < GAP_RADIUS)
+        session_note(
+            session,
+            "the radii are %.2f of the points' spacing, which leaves gaps; --radius-scale %.1f closes them",
+            radius, arguments->radius_scale * CLOSED_RADIUS / radius);
+}
+
+/// Loads, colours, and makes surfels and the camera; the clouds are gone afterwards. False after reporting.
+static bool make_scene(cli_session *session, const render_arguments *arguments, ewa_camera *camera,
+                       ewa_surfels **surfels, render_report *report) {
+    const common_arguments *common = &arguments->view.common;
+    const double started_s = clock_now_s();
+    const char *by = arguments->color_by;
+    ewa_cloud *cloud = inputs_as_surfels(session, common, by, &report->estimate_s);
+    if (!cloud) return false;
+    report->load_s = clock_now_s() - started_s - report->estimate_s;
+    report->point_count = ewa_cloud_point_count(cloud);
+    session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
+    bool done = (!by || color_by(session, cloud, by, (ewa_colormap)arguments->colormap, &arguments->range)) &&
+                view_make(session, &arguments->view, cloud, arguments->radius_scale, camera);
+    if (done) {
+        ewa_surfels_options options;
+        ewa_surfels_options_init(&options, sizeof options);
+        options.cutoff = arguments->cutoff;
+        options.radius_scale = arguments->radius_scale;
+        const double packing_s = clock_now_s();
+        session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
+        const ewa_status status = ewa_surfels_create(cloud, &options, surfels);
+        report->surfels_s = clock_now_s() - packing_s;
+        done = status == EWA_OK;
+        if (!done) session_failed(session, status);
+    }
+    ewa_cloud_destroy(&cloud);
+    if (!done) return false;
+    ewa_surfels_describe(*surfels, &report->surfels);
+    const unsigned long long left_out = report->surfels.left_out_count, all = report->point_count;
+    if (report->surfels.point_count == 0) {
+        session_fail(
+            session,
+            "none of the %llu points can be drawn: coordinates are not finite, or normals or radii "
+            "are zero ('ewa info' counts them, 'ewa surfels --keep-normals off --keep-radii off' makes "
+            "new ones)",
+            all);
+        ewa_surfels_destroy(surfels);
+        return false;
+    }
+    if (left_out)
+        session_warn(session,
+                     "%llu of %llu points are left out: coordinates not finite, or normal or radius zero",
+                     left_out, all);
+    note_gaps(session, arguments, report);
+    return true;
+}
+
+/// Draws and writes everything. False after reporting.
+static bool draw(cli_session *session, const render_arguments *arguments, const picture_paths *paths,
+                 const ewa_camera *camera, const ewa_surfels *surfels, render_report *report) {
+    cli_picture picture;
+    ewa_renderer *renderer = NULL;
+    bool done = picture_make(session, paths, camera, &picture);
+    if (done) {
+        const ewa_render_options options = render_options(arguments);
+        session->subject = NULL;
+        const double started_s = clock_now_s();
+        ewa_status status = ewa_renderer_create(session->context, &renderer);
+        if (status == EWA_OK)
+            status = ewa_render(renderer, surfels, camera, &options, &picture.frame, &report->stats);
+        report->render_s = clock_now_s() - started_s;
+        done = status == EWA_OK;
+        if (!done) session_failed(session, status);
+    }
+    if (done) {
+        const double started_s = clock_now_s();
+        done = picture_save(session, paths, camera, arguments->background.rgba[3] == 1, &picture);
+        report->write_s = clock_now_s() - started_s;
+    }
+    if (done && arguments->save_camera_path) {
+        session->subject = arguments->save_camera_path;
+        const ewa_status status = ewa_camera_save(session->context, camera, arguments->save_camera_path);
+        done = status == EWA_OK;
+        if (!done) session_failed(session, status);
+    }
+    ewa_renderer_destroy(&renderer);
+    picture_free(&picture);
+    return done;
+}
+
+static int run(const void *data) {
+    const render_arguments *arguments = data;
+    cli_session session;
+    if (!session_start(&session, &arguments->view.common)) return session_end(&session, EXIT_FAILED);
+    picture_paths paths;
+    char message[OPTION_ERROR_BYTES];
+    ewa_camera camera;
+    ewa_surfels *surfels = NULL;
+    render_report report = {.load_s = 0};
+    bool done = picture_parse_paths(arguments->output, arguments->aov, &paths, message) &&
+                picture_check_paths(&session, &paths) &&
+                (!arguments->save_camera_path || output_check(&session, arguments->save_camera_path)) &&
+                (!arguments->stats_path || output_check(&session, arguments->stats_path)) &&
+                make_scene(&session, arguments, &camera, &surfels, &report) &&
+                draw(&session, arguments, &paths, &camera, surfels, &report) &&
+                (!arguments->stats_path || write_stats(&session, arguments, &camera, &report));
+    if (done)
+        session_say(&session, "%s: %llu of %llu splats drawn in %.1f ms, %.3f s in all", arguments->output,
+                    (unsigned long long)(report.stats.splat_count - report.stats.culled_count),
+                    (unsigned long long)report.stats.splat_count, 1e3 * report.render_s,
+                    clock_now_s() - session.started_s);
+    ewa_surfels_destroy(&surfels);
+    return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
+}
+
+#define COUNT(table) (sizeof(table) / sizeof(table)[0])
+
+static const option_group output_options = {"Output", output_table, COUNT(output_table)};
+static const option_group splat_options = {"Splats", splat_table, COUNT(splat_table)};
+static const option_group look_options = {"Look", look_table, COUNT(look_table)};
+static const option_group *const groups[] = {&output_options, &view_options, &splat_options, &look_options};
+
+const cli_command render_command = {
+    .name = "render",
+    .operands = "IN... -o OUT",
+    .summary = "draw point clouds as a continuous, antialiased surface",
+    .details = "Several inputs are drawn together. Normals and radii that a file lacks are estimated from "
+               "the neighbours "
+               "of each point; 'ewa surfels' does the same with options and keeps the result.\n"
+               "\n"
+               "Without --camera and --eye the cloud is framed whole; when less than one point in a hundred "
+               "lies so far off "
+               "that the rest would be tiny, those are left outside, which a message says. Without --view "
+               "and --up: z is up "
+               "when the bounding box is flat in z (ground), much taller in z than wide, or far from the "
+               "origin in x or y "
+               "(map coordinates), else y is up. What is flat is seen from above at an angle (iso), all else "
+               "from the front: "
+               "from +z with y up, from -y with z up.",
+    .examples =
+        "ewa render scan.ply -o scan.png\n"
+        "ewa render scan.ply -o side.png --view right --size 1920x1080 --background transparent\n"
+        "ewa render tile1.ply tile2.ply -o height.png --color-by z --colormap turbo --shading lambert\n"
+        "ewa render scan.ply -o scan.exr --camera camera.json --aov depth=depth.pfm,normal=normal.exr\n",
+    .low_operands = 1,
+    .high_operands = 4096,
+    .groups = groups,
+    .group_count = COUNT(groups),
+    .arguments_bytes = sizeof(render_arguments),
+    .set_defaults = set_defaults,
+    .check = check,
+    .run = run,
+};

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// One run of the program: the library's context, messages, progress, interruption, timing, exit status.
+#ifndef EWA_CLI_SESSION_H
+#define EWA_CLI_SESSION_H
+
+#include "ewa/ewa.h"
+#include "options.h"
+
+enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2 };
+
+typedef struct cli_session {
+    ewa_context *context;
+    const char *subject; ///< the file that messages are about, or NULL
+    bool quiet, verbose;
+    bool reported;     ///< an error was printed
+    bool progress;     ///< a bar may be drawn
+    bool bar_drawn;    ///< there is one on the line
+    double started_s;  ///< when the session began
+    double bar_time_s; ///< when the bar was last drawn
+} cli_session;
+
+/// Makes the context that the common options ask for. Returns false after reporting.
+bool session_start(cli_session *session, const common_arguments *common);
+
+/// Makes a further context whose messages go the same way; NULL after reporting.
+ewa_context *session_context(cli_session *session, uint32_t thread_count, uint32_t cpu_mask);
+
+/// Frees the context; a bar is wiped. Returns `exit_status`, or what a signal asks for.
+int session_end(cli_session *session, int exit_status);
+
+/// Prints "ewa: SUBJECT: what" and returns EXIT_FAILED.
+int session_fail(cli_session *session, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/// Makes sure that a failed call of the library has been reported; returns EXIT_FAILED.
+int session_failed(cli_session *session, ewa_status status);
+
+/// Prints a warning, unless --quiet.
+void session_warn(cli_session *session, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/// Prints what may surprise or help, unless --quiet.
+void session_note(cli_session *session, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/// Prints with --verbose only.
+void session_say(cli_session *session, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/// Monotonic time in seconds.
+double clock_now_s(void);
+
+/// Largest resident memory of this process so far, in bytes.
+uint64_t memory_peak_bytes(void);
+
+#endif

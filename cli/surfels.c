@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// ewa surfels: normals, radii or axes for positions.
+#include "commands.h"
+#include "inputs.h"
+#include "json.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct surfels_arguments {
+    common_arguments common; // first
+    const char *output;
+    bool ascii, keep_normals, keep_radii;
+    int64_t neighbours;
+    int orientation, shape;
+    option_vector viewpoint;
+    double radius_scale, cutoff, outlier_factor;
+} surfels_arguments;
+
+#define AT(member) offsetof(surfels_arguments, member)
+
+static const cli_option output_table[] = {
+    {.key = "output",
+     .letter = 'o',
+     .kind = OPTION_TEXT,
+     .offset = AT(output),
+     .value = "FILE",
+     .help = "file to write (.ply); -: PLY to standard output"},
+    {.key = "ascii",
+     .kind = OPTION_FLAG,
+     .offset = AT(ascii),
+     .help = "write text instead of little-endian binary"},
+};
+
+static const cli_option estimate_table[] = {
+    {.key = "neighbours",
+     .aliases = "neighbors",
+     .kind = OPTION_INTEGER,
+     .offset = AT(neighbours),
+     .value = "K",
+     .range = "[6, 64]",
+     .help = "nearest neighbours that a point is judged by"},
+    {.key = "orient",
+     .kind = OPTION_CHOICE,
+     .offset = AT(orientation),
+     .range = "propagate|viewpoint|none",
+     .help = "side that normals point to: consistent along the surface and outward, towards --viewpoint, or "
+             "as they "
+             "come"},
+    {.key = "viewpoint",
+     .kind = OPTION_VECTOR,
+     .offset = AT(viewpoint),
+     .value = "x,y,z",
+     .low = 3,
+     .high = 3,
+     .absent = "none",
+     .help = "place that normals point to, such as the scanner's; means --orient viewpoint"},
+    {.key = "shape",
+     .kind = OPTION_CHOICE,
+     .offset = AT(shape),
+     .range = "disc|ellipse",
+     .help = "disc: a radius from the local density; ellipse: two axes from the local anisotropy of the "
+             "sampling"},
+    {.key = "radius-scale",
+     .kind = OPTION_NUMBER,
+     .offset = AT(radius_scale),
+     .value = "S",
+     .range = "(0, inf)",
+     .help = "support radius in units of the local spacing"},
+    {.key = "cutoff",
+     .kind = OPTION_NUMBER,
+     .offset = AT(cutoff),
+     .value = "F",
+     .range = "(0, 4]",
+     .help = "standard deviations at which kernels end: axes are support radius / F long"},
+    {.key = "keep-normals",
+     .kind = OPTION_ON_OFF,
+     .offset = AT(keep_normals),
+     .help = "keep the normals that the file has"},
+    {.key = "keep-radii",
+     .kind = OPTION_ON_OFF,
+     .offset = AT(keep_radii),
+     .help = "keep the radii or axes that the file has"},
+    {.key = "outliers",
+     .kind = OPTION_NUMBER,
+     .offset = AT(outlier_factor),
+     .value = "FACTOR",
+     .range = "[0, inf)",
+     .help = "remove points whose mean distance to their neighbours is over the mean + FACTOR standard "
+             "deviations of "
+             "all; 0: keep all"},
+};
+
+static void set_defaults(void *data) {
+    surfels_arguments *arguments = data;
+    ewa_estimate_options options;
+    ewa_estimate_options_init(&options, sizeof options);
+    arguments->neighbours = options.neighbour_count;
+    arguments->orientation = (int)options.orientation;
+    arguments->shape = (int)options.shape;
+    arguments->radius_scale = options.radius_scale;
+    arguments->cutoff = options.cutoff;
+    arguments->keep_normals = options.keep_normals;
+    arguments->keep_radii = options.keep_radii;
+    arguments->outlier_factor = options.outlier_factor;
+}
+
+static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
+    const surfels_arguments *arguments = data;
+    const char *problem = NULL;
+    if (!arguments->output)
+        problem = "surfels: no output; say -o FILE";
+    else if (arguments->orientation == EWA_ORIENT_VIEWPOINT && !arguments->viewpoint.count)
+        problem = "--orient viewpoint needs --viewpoint x,y,z";
+    else if (arguments->orientation == EWA_ORIENT_NONE && arguments->viewpoint.count)
+        problem = "--viewpoint and --orient none exclude each other";
+    if (problem) snprintf(message, OPTION_ERROR_BYTES, "%s", problem);
+    return !problem;
+}
+
+static int run(const void *data) {
+    const surfels_arguments *arguments = data;
+    cli_session session;
+    if (!session_start(&session, &arguments->common)) return session_end(&session, EXIT_FAILED);
+    const char *path = arguments->common.operands[0];
+    ewa_cloud *cloud = output_check(&session, arguments->output) ? input_load(&session, path) : NULL;
+    ewa_status status = EWA_OK;
+    if (cloud) {
+        ewa_estimate_options options;
+        ewa_estimate_options_init(&options, sizeof options);
+        options.neighbour_count = (uint32_t)arguments->neighbours;
+        options.orientation =
+            arguments->viewpoint.count ? EWA_ORIENT_VIEWPOINT : (ewa_orientation)arguments->orientation;
+        memcpy(options.viewpoint_world, arguments->viewpoint.values, sizeof options.viewpoint_world);
+        options.shape = (ewa_surfel_shape)arguments->shape;
+        options.radius_scale = arguments->radius_scale;
+        options.cutoff = arguments->cutoff;
+        options.keep_normals = arguments->keep_normals;
+        options.keep_radii = arguments->keep_radii;
+        options.outlier_factor = arguments->outlier_factor;
+        const uint64_t before = ewa_cloud_point_count(cloud);
+        const double started_s = clock_now_s();
+        status = ewa_cloud_estimate(&cloud, &options);
+        if (status == EWA_OK)
+            session_say(&session, "%s: surfels from %u neighbours in %.3f s, %llu outliers removed", path,
+                        options.neighbour_count, clock_now_s() - started_s,
+                        (unsigned long long)(before - ewa_cloud_point_count(cloud)));
+    }
+    if (cloud && status == EWA_OK) {
+        ewa_cloud_save_options options;
+        ewa_cloud_save_options_init(&options, sizeof options);
+        if (arguments->ascii) options.ply_encoding = EWA_PLY_ASCII;
+        session.subject = arguments->output;
+        status = ewa_cloud_save(cloud, arguments->output, &options);
+    }
+    if (status != EWA_OK) session_failed(&session, status);
+    const bool done = cloud && status == EWA_OK;
+    ewa_cloud_destroy(&cloud);
+    return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
+}
+
+static const option_group output_options = {"Output", output_table,
+                                            sizeof output_table / sizeof output_table[0]};
+static const option_group estimate_options = {"Estimation", estimate_table,
+                                              sizeof estimate_table / sizeof estimate_table[0]};
+static const option_group *const groups[] = {&output_options, &estimate_options};
+
+const cli_command surfels_command = {
+    .name = "surfels",
+    .operands = "IN -o OUT",
+    .summary = "estimate normals and radii, or elliptical axes, from positions; remove outliers",
+    .examples = "ewa surfels scan.ply -o surfels.ply\n"
+                "ewa surfels scan.ply -o surfels.ply --viewpoint 0,0,1.7 --outliers 3\n"
+                "ewa surfels lines.ply -o ellipses.ply --shape ellipse --keep-normals off\n",
+    .low_operands = 1,
+    .high_operands = 1,
+    .groups = groups,
+    .group_count = sizeof groups / sizeof groups[0],
+    .arguments_bytes = sizeof(surfels_arguments),
+    .set_defaults = set_defaults,
+    .check = check,
+    .run = run,
+};

@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// info, convert, surfels, generate: what goes in comes out.
+#include <math.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "run_ewa.h"
+
+static int enter(void **state) {
+    (void)state;
+    return scratch_enter("cli_files");
+}
+
+static const char small_cloud[] = "ply\nformat ascii 1.0\ncomment three points\nelement vertex 3\n"
+                                  "property double x\nproperty double y\nproperty double z\n"
+                                  "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+                                  "property float intensity\nend_header\n"
+                                  "500000.125 4000000.5 10 255 0 0 0.25\n"
+                                  "500001.125 4000000.5 11 0 255 0 0.5\n"
+                                  "500002.125 4000001.5 12 0 0 255 0.75\n";
+
+/// The number after `key` in the last output.
+static double number_after(const char *key) {
+    const char *at = strstr(last_run.out, key);
+    if (!at) print_error("no '%s' in: %s\n", key, last_run.out);
+    assert_non_null(at);
+    return strtod(at + strlen(key), NULL);
+}
+
+static void test_info(void **state) {
+    (void)state;
+    scratch_text("small.ply", small_cloud);
+    run_done("ewa info small.ply");
+    assert_non_null(strstr(last_run.out, "comment three points"));
+    assert_non_null(strstr(last_run.out, "500000.125 4000000.5 10"));
+    assert_non_null(strstr(last_run.out, "intensity            float  0.25 .. 0.75"));
+    run_done("ewa info --json small.ply");
+    assert_true(number_after("\"points\": ") == 3);
+    assert_true(number_after("\"low\": [") == 500000.125);
+    assert_non_null(strstr(last_run.out, "\"name\": \"intensity\""));
+    run_done("cat small.ply | ewa info -");
+    assert_non_null(strstr(last_run.out, "points      3"));
+}
+
+static void test_info_problems(void **state) {
+    (void)state;
+    scratch_text("odd.ply", "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
+                            "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
+                            "property float radius\nend_header\n"
+                            "0 0 0 0 0 1 1\n1 0 0 0 0 0 1\n0 1 0 0 0 1 0\n1 1 0 0 0 1 -1\nnan 1 0 0 0 1 1\n");
+    run_done("ewa info odd.ply");
+    assert_non_null(strstr(last_run.out, "1 points have coordinates that are not finite"));
+    assert_non_null(strstr(last_run.out, "1 normals are zero"));
+    assert_non_null(strstr(last_run.out, "2 radii are zero, negative"));
+    assert_non_null(strstr(last_run.out, "all points lie in one plane"));
+    run_done("ewa info --json odd.ply");
+    assert_true(number_after("\"zero_normals\": ") == 1);
+    assert_true(number_after("\"finite_points\": ") == 4);
+    assert_non_null(strstr(last_run.out, "\"fills\": \"plane\""));
+    run_done("ewa generate sphere -n 500 -o ball.ply && ewa info ball.ply");
+    assert_non_null(strstr(last_run.out, "problems    none"));
+}
+
+static void test_generate(void **state) {
+    (void)state;
+    static const char *const kinds[] = {"plane", "checker", "cube", "sphere", "torus", "terrain"};
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
+        run_done("ewa generate %s -n 1000 -o a.ply && ewa generate %s -n 1000 -o b.ply --threads 3 && "
+                 "ewa generate %s -n 1000 --seed 2 -o c.ply",
+                 kinds[i], kinds[i], kinds[i]);
+        assert_true(scratch_same("a.ply", "b.ply"));
+        assert_false(scratch_same("a.ply", "c.ply"));
+        run_done("ewa info --json a.ply");
+        assert_true(fabs(number_after("\"points\": ") - 1000) < 100);
+        assert_non_null(strstr(last_run.out, "\"name\": \"radius\""));
+    }
+    run_done("ewa generate torus -n 1000 --positions-only -o a.ply && ewa info --json a.ply");
+    assert_null(strstr(last_run.out, "\"name\": \"normal\""));
+    run_done("ewa generate torus -n 100 -o - --ascii | head -n 2");
+    assert_string_equal(last_run.out, "ply\nformat ascii 1.0\n");
+}
+
+static void test_encodings(void **state) {
+    (void)state;
+    run_done("ewa generate terrain -n 2000 -o a.ply && ewa convert a.ply -o big.ply --big-endian && "
+             "ewa convert big.ply -o text.ply --ascii && ewa convert text.ply -o back.ply");
+    assert_true(scratch_same("a.ply", "back.ply"));
+    assert_false(scratch_same("a.ply", "big.ply"));
+    scratch_text("small.ply", small_cloud);
+    run_done("ewa convert small.ply -o - --ascii");
+    assert_non_null(strstr(last_run.out, "property double x"));
+    assert_non_null(strstr(last_run.out, "property float intensity"));
+    assert_non_null(strstr(last_run.out, "500002.125 4000001.5 12 0 0 255 0.75"));
+}
+
+static void test_part(void **state) {
+    (void)state;
+    run_done("ewa generate plane -n 10000 -o a.ply && ewa convert a.ply -o b.ply --crop 0,0,-1,1,1,1 && "
+             "ewa info --json b.ply");
+    assert_true(fabs(number_after("\"points\": ") - 2500) < 200);
+    assert_true(number_after("\"low\": [") >= 0);
+    run_done("ewa convert a.ply -o b.ply --subsample 100 && ewa convert a.ply -o c.ply --subsample 0.01 "
+             "--threads 1 "
+             "&& ewa info --json b.ply");
+    assert_true(number_after("\"points\": ") == 100);
+    assert_true(scratch_same("b.ply", "c.ply"));
+    run_done("ewa convert a.ply -o b.ply --subsample 20000");
+    assert_true(scratch_same("a.ply", "b.ply"));
+    run_fails(1, "a.ply: --crop: none of the 10000 points is inside",
+              "ewa convert a.ply -o d.ply --crop 5,5,5,6,6,6");
+    assert_int_equal(scratch_size("d.ply"), -1);
+}
+
+static void test_move(void **state) {
+    (void)state;
+    scratch_text(
+        "disc.ply",
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+        "property float nx\nproperty float ny\nproperty float nz\nproperty float radius\nend_header\n"
+        "1 2 3 0 0.6 0.8 0.5\n");
+    run_done("ewa convert disc.ply -o - --ascii --scale 2 --translate 0.5,0,-1");
+    assert_non_null(strstr(last_run.out, "end_header\n2.5 4 5 0 0.6 0.8 1\n"));
+    // A quarter turn about x: y to z, z to -y.
+    run_done("ewa convert disc.ply -o - --ascii --transform 1,0,0,0,0,0,-1,0,0,1,0,0,0,0,0,1");
+    assert_non_null(strstr(last_run.out, "end_header\n1 -3 2 0 -0.8 0.6 0.5\n"));
+    run_done("ewa convert disc.ply -o - --ascii --scale 1,1,2");
+    assert_non_null(strstr(last_run.out, "end_header\n1 2 6 0 0.83205"));
+    run_fails(1, "determinant", "ewa convert disc.ply -o a.ply --scale 0");
+    run_fails(1, "last row", "ewa convert disc.ply -o a.ply --transform 1,0,0,0,0,1,0,0,0,0,1,0,0,0,1,1");
+}
+
+static void test_merge(void **state) {
+    (void)state;
+    run_done("ewa generate sphere -n 300 -o a.ply && ewa generate torus -n 200 -o b.ply && "
+             "ewa convert a.ply b.ply -o c.ply && ewa info --json c.ply");
+    assert_true(number_after("\"points\": ") == 500);
+    assert_non_null(strstr(last_run.out, "\"name\": \"color\""));
+    scratch_text("small.ply", small_cloud);
+    assert_int_equal(run("ewa convert small.ply b.ply -o d.ply && ewa info --json d.ply"), 0);
+    assert_non_null(strstr(last_run.err, "ewa: warning: attribute 'intensity' of cloud 1 is dropped"));
+    assert_non_null(strstr(last_run.err, "attribute 'normal' of cloud 2 is dropped"));
+    assert_true(number_after("\"points\": ") == 203);
+    assert_non_null(strstr(last_run.out, "\"high\": [500002.125, 4000001.5, 12]"));
+    run_done("ewa convert --quiet small.ply b.ply -o d.ply");
+}
+
+static void test_surfels(void **state) {
+    (void)state;
+    run_done("ewa generate sphere -n 5000 --positions-only -o a.ply && ewa surfels a.ply -o b.ply && "
+             "ewa info --json b.ply");
+    assert_non_null(strstr(last_run.out, "\"name\": \"normal\""));
+    assert_non_null(strstr(last_run.out, "\"name\": \"radius\""));
+    assert_true(number_after("\"zero_normals\": ") == 0);
+    run_done("ewa surfels a.ply -o c.ply --shape ellipse --neighbours 12 && ewa info --json c.ply");
+    assert_non_null(strstr(last_run.out, "\"name\": \"tangent_u\""));
+    run_done("ewa surfels a.ply -o d.ply --viewpoint 0,0,10 --outliers 3");
+}
+
+static void test_failures_leave_nothing(void **state) {
+    (void)state;
+    assert_int_equal(scratch_enter("cli_files_none"), 0);
+    run_fails(1, "none.ply: |No such file", "ewa convert none.ply -o a.ply");
+    run_fails(1, "missing/a.ply|No such file", "ewa generate sphere -o missing/a.ply");
+    run_fails(1, "a.xyz", "ewa generate sphere -n 10 -o a.xyz");
+    assert_int_equal(scratch_count(), 0);
+    run_done("mkdir sub");
+    run_fails(1, "sub: is a folder", "ewa generate sphere -o sub");
+    run_fails(1, "sub", "ewa info sub");
+    assert_int_equal(scratch_count(), 1);
+    if (access("/dev/full", W_OK) == 0) {
+        run_fails(1, "No space left", "ewa generate sphere -o - >/dev/full");
+        run_fails(1, "standard output: cannot write: No space left", "ewa render --help >/dev/full");
+    }
+    // A reader that goes away is no reason to speak, nor to succeed.
+    assert_int_equal(
+        run("ewa generate sphere -n 1000000 -o - 2>said | head -c 10 >head; test $(wc -c <head) = 10"), 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_info),
+        cmocka_unit_test(test_info_problems),
+        cmocka_unit_test(test_generate),
+        cmocka_unit_test(test_encodings),
+        cmocka_unit_test(test_part),
+        cmocka_unit_test(test_move),
+        cmocka_unit_test(test_merge),
+        cmocka_unit_test(test_surfels),
+        cmocka_unit_test(test_failures_leave_nothing),
+    };
+    return cmocka_run_group_tests(tests, enter, NULL);
+}

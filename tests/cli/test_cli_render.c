@@ -1,0 +1,269 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// render: what lands in the picture files.
+#include <math.h>
+#include <string.h>
+
+#include "run_ewa.h"
+
+static ewa_context *context;
+
+static int enter(void **state) {
+    (void)state;
+    context = check_context(0, NULL);
+    if (scratch_enter("cli_render") != 0) return -1;
+    return run("ewa generate torus -n 20000 -o torus.ply && ewa generate sphere -n 5000 -o ball.ply && "
+               "ewa generate plane -n 5000 -o plane.ply");
+}
+
+static int leave(void **state) {
+    (void)state;
+    ewa_context_destroy(&context);
+    return 0;
+}
+
+static ewa_image load(const char *name) {
+    ewa_image image = {0};
+    assert_int_equal(ewa_image_load(context, scratch_path(name), &image), EWA_OK);
+    return image;
+}
+
+/// Share of the pixels whose channel `channel` is over `threshold`.
+static double share_over(const ewa_image *image, uint32_t channel, float threshold) {
+    const size_t count = (size_t)image->width_px * image->height_px;
+    size_t over = 0;
+    for (size_t i = 0; i < count; i++) over += image->pixels[i * image->channel_count + channel] > threshold;
+    return (double)over / (double)count;
+}
+
+static void test_png(void **state) {
+    (void)state;
+    run_done("ewa render ball.ply -o a.png --size 200x100");
+    ewa_image image = load("a.png");
+    assert_int_equal(image.width_px, 200);
+    assert_int_equal(image.height_px, 100);
+    assert_int_equal(image.channel_count, 3);
+    assert_true(image.pixels[0] == 1); // white corner
+    ewa_image_free(&image);
+    run_done("ewa render ball.ply -o a.png --size 200x100 --background transparent");
+    image = load("a.png");
+    assert_int_equal(image.channel_count, 4);
+    // A disc that fills the height up to the margin and its own splats' reach, of a square of half the
+    // picture.
+    const double share = share_over(&image, 3, 0.5f);
+    assert_true(share > 0.26 && share < 0.34);
+    ewa_image_free(&image);
+    run_done("ewa render ball.ply -o a.png --size 20x10 --background 0.5,0,1");
+    image = load("a.png");
+    assert_true(fabs(image.pixels[0] - ewa_linear_from_srgb(0.5f)) < 0.01 && image.pixels[1] == 0);
+    ewa_image_free(&image);
+}
+
+static void test_exr(void **state) {
+    (void)state;
+    run_done("ewa render torus.ply -o a.exr --size 160x90 --background transparent");
+    ewa_image image = load("a.exr");
+    assert_int_equal(image.channel_count, 4); // the loader takes R G B A
+    assert_true(share_over(&image, 3, 0.99f) > 0.2);
+    ewa_image_free(&image);
+    // All nine channels are named in the header, in alphabetical order, and the camera's matrix.
+    static char header[4096];
+    FILE *file = fopen(scratch_path("a.exr"), "rb");
+    const size_t size = fread(header, 1, sizeof header, file);
+    fclose(file);
+    static const char *const names[] = {"A",   "B", "G", "N.X",      "N.Y",
+                                        "N.Z", "R", "Z", "coverage", "worldToCamera"};
+    const char *at = header;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        const size_t length = strlen(names[i]) + 1;
+        while (at + length < header + size && memcmp(at, names[i], length) != 0) at++;
+        assert_true(at + length < header + size);
+    }
+}
+
+static void test_planes(void **state) {
+    (void)state;
+    run_done("ewa render ball.ply -o a.pfm --size 80x60 --aov depth=d.pfm,normal=n.exr,coverage=c.pfm "
+             "--eye 0,-5,0 --up 0,0,1 --fov 30");
+    ewa_image color = load("a.pfm"), depth = load("d.pfm"), normal = load("n.exr"), coverage = load("c.pfm");
+    assert_int_equal(color.channel_count, 3);
+    assert_int_equal(normal.channel_count, 3);
+    const size_t middle = 30 * 80 + 40;
+    assert_true(fabsf(depth.pixels[middle] - 4) < 0.02f); // a unit sphere seen from 5 away
+    assert_true(isinf(depth.pixels[0]) && depth.pixels[0] > 0);
+    assert_true(normal.pixels[3 * middle + 1] < -0.99f);
+    assert_true(coverage.pixels[middle] > 0.6f && coverage.pixels[0] == 0);
+    ewa_image_free(&color);
+    ewa_image_free(&depth);
+    ewa_image_free(&normal);
+    ewa_image_free(&coverage);
+}
+
+static void test_camera(void **state) {
+    (void)state;
+    run_done("ewa render torus.ply -o a.png --size 160x90 --view right --save-camera c.json && "
+             "ewa render torus.ply -o b.png --camera c.json");
+    assert_true(scratch_same("a.png", "b.png"));
+    run_done("ewa render torus.ply -o c.png --camera c.json --size 320x180");
+    ewa_image image = load("c.png");
+    assert_int_equal(image.width_px, 320);
+    ewa_image_free(&image);
+    run_done("ewa render torus.ply -o a.png --size 90x90 --eye 1,2,3 --target 0,0,0.1 --up 0,0,1 --fov 40 && "
+             "ewa render torus.ply --output=b.png --resolution 90,90 --camera-position 1,2,3 "
+             "--camera-focal-point 0,0,0.1 --camera-view-up 0,0,1 --camera-view-angle 40");
+    assert_true(scratch_same("a.png", "b.png"));
+}
+
+/// Every named view shows the whole torus: something in the middle half, nothing on the border.
+static void test_views(void **state) {
+    (void)state;
+    static const char *const views[] = {"front", "back", "left", "right", "top", "bottom", "iso"};
+    static const char *const projections[] = {"", "--ortho 2.6"};
+    for (size_t i = 0; i < 14; i++) {
+        run_done("ewa render torus.ply -o v.exr --size 64x48 --background transparent --view %s %s",
+                 views[i % 7], projections[i / 7]);
+        ewa_image image = load("v.exr");
+        assert_true(share_over(&image, 3, 0.5f) > 0.1);
+        float border = 0;
+        for (uint32_t x = 0; x < 64; x++)
+            border += image.pixels[4 * x + 3] + image.pixels[4 * (47 * 64 + x) + 3];
+        for (uint32_t y = 0; y < 48; y++)
+            border += image.pixels[4 * (64 * y) + 3] + image.pixels[4 * (64 * y + 63) + 3];
+        assert_true(border == 0);
+        ewa_image_free(&image);
+    }
+}
+
+/// Which way is up: ground lies flat, a tall thing stands, all else has y up.
+static void test_default_view(void **state) {
+    (void)state;
+    run_done(
+        "ewa render plane.ply -o a.png --size 64x48 && ewa render plane.ply -o b.png --size 64x48 --view iso "
+        "--up 0,0,1");
+    assert_true(scratch_same("a.png", "b.png"));
+    run_done(
+        "ewa render ball.ply -o a.png --size 64x48 && ewa render ball.ply -o b.png --size 64x48 --view front "
+        "--up 0,1,0");
+    assert_true(scratch_same("a.png", "b.png"));
+    run_done("ewa convert ball.ply -o tall.ply --scale 1,1,2 && ewa render tall.ply -o a.png --size 64x48 && "
+             "ewa render tall.ply -o b.png --size 64x48 --view front --up 0,0,1");
+    assert_true(scratch_same("a.png", "b.png"));
+    run_done("ewa convert ball.ply -o map.ply --translate 500000,4000000,0 && ewa render map.ply -o a.png "
+             "--size 64x48 "
+             "&& ewa render map.ply -o b.png --size 64x48 --up 0,0,1 --view front");
+    assert_true(scratch_same("a.png", "b.png"));
+}
+
+static void test_far_points(void **state) {
+    (void)state;
+    scratch_text("far.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                            "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
+                            "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+                            "property float radius\nend_header\n1000 0 0 0 0 1 9 9 9 0.1\n");
+    run_done("ewa convert ball.ply far.ply -o both.ply");
+    assert_int_equal(run("ewa render both.ply -o a.exr --size 64x48 --background transparent"), 0);
+    assert_non_null(strstr(last_run.err, "ewa: both.ply: a few points lie far off"));
+    ewa_image image = load("a.exr");
+    assert_true(share_over(&image, 3, 0.5f) > 0.3);
+    ewa_image_free(&image);
+}
+
+static void test_looks_differ(void **state) {
+    (void)state;
+    static const char *const looks[] = {
+        "",
+        "--kernel affine --fov 90",
+        "--cutoff 1.5",
+        "--prefilter 0",
+        "--radius-scale 2",
+        "--passes 1",
+        "--edge-aa off",
+        "--shading none",
+        "--light 1,0,0",
+        "--ambient 0.8",
+        "--cull back --view top --eye 0,0,0.1 --target 1,0,0.1",
+        "--color-by z",
+        "--color-by normal.x",
+        "--color-by z --colormap turbo",
+        "--color-by z --range 0,0.1",
+        "--tau 2",
+        "--tolerance 0.01",
+    };
+    enum { COUNT = sizeof looks / sizeof looks[0] };
+    run_done("ewa render torus.ply -o base.png --size 96x64");
+    for (size_t i = 1; i < COUNT; i++) {
+        if (strstr(looks[i], "--eye")) continue;
+        run_done("ewa render torus.ply -o look.png --size 96x64 %s", looks[i]);
+        if (scratch_same("look.png", "base.png")) print_error("%s changes nothing\n", looks[i]);
+        assert_false(scratch_same("look.png", "base.png"));
+    }
+    run_fails(1,
+              "torus.ply: --color-by: there is no attribute 'foo'; there are position, normal, color, radius",
+              "ewa render torus.ply -o look2.png --color-by foo");
+    assert_int_equal(scratch_size("look2.png"), -1);
+}
+
+static void test_several_inputs(void **state) {
+    (void)state;
+    run_done("ewa convert torus.ply ball.ply -o joined.ply && ewa render joined.ply -o a.png --size 96x64 && "
+             "ewa render torus.ply ball.ply -o b.png --size 96x64");
+    assert_true(scratch_same("a.png", "b.png"));
+    // Ellipses and discs, colours and none, floats and bytes.
+    scratch_text(
+        "ellipse.ply",
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+        "property float tu_x\nproperty float tu_y\nproperty float tu_z\nproperty float tv_x\n"
+        "property float tv_y\nproperty float tv_z\nend_header\n0 0 2 0.5 0 0 0 0.2 0\n");
+    run_done("ewa render torus.ply ellipse.ply -o c.png --size 96x64");
+    assert_false(scratch_same("a.png", "c.png"));
+}
+
+static void test_streams(void **state) {
+    (void)state;
+    run_done("ewa render torus.ply -o a.png --size 96x64 && cat torus.ply | ewa render - -o - --size 96x64 "
+             ">b.png");
+    assert_true(scratch_same("a.png", "b.png"));
+    run_done("ewa render torus.ply -o c.png --size 96x64 --threads 1 && ewa render torus.ply -o d.png --size "
+             "96x64 "
+             "--threads 7 --progress 2>bar");
+    assert_true(scratch_same("a.png", "c.png"));
+    assert_true(scratch_same("a.png", "d.png"));
+    assert_int_equal(run("ewa render torus.ply -o a.png --size 96x64 --verbose"), 0);
+    assert_non_null(strstr(last_run.err, "ewa: torus.ply: 20000 points read in "));
+    run_done("ewa render torus.ply -o a.png --size 96x64 --stats s.json && cat s.json");
+    assert_non_null(strstr(last_run.out, "\"splats\": 20000,"));
+    assert_non_null(strstr(last_run.out, "\"accumulate\": "));
+    assert_non_null(strstr(last_run.out, "\"peak_memory_bytes\": "));
+}
+
+static void test_bench(void **state) {
+    (void)state;
+    run_done("TMPDIR=. ewa bench --splats 2000 --pixels 20,40 --size 96x64 --frames 3 --workers 1,2 --json "
+             "b.json && "
+             "cat b.json");
+    assert_non_null(strstr(last_run.out, "0.002 M of 20 px"));
+    assert_non_null(strstr(last_run.out, "\"covered_px\": 40,"));
+    assert_non_null(strstr(last_run.out, "\"stage\": \"normals and radii\""));
+    run_done("ewa bench ball.ply --size 96x64 --frames 1 --workers 1 --stages off --json - 2>tables");
+    assert_non_null(strstr(last_run.out, "\"scene\": \"ball.ply\""));
+    run_fails(1, "the pixel filter alone covers 3.14 pixels, more than 2",
+              "ewa bench --splats 100 --pixels 2");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_png),
+        cmocka_unit_test(test_exr),
+        cmocka_unit_test(test_planes),
+        cmocka_unit_test(test_camera),
+        cmocka_unit_test(test_views),
+        cmocka_unit_test(test_default_view),
+        cmocka_unit_test(test_far_points),
+        cmocka_unit_test(test_looks_differ),
+        cmocka_unit_test(test_several_inputs),
+        cmocka_unit_test(test_streams),
+        cmocka_unit_test(test_bench),
+    };
+    return cmocka_run_group_tests(tests, enter, leave);
+}

@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Help, version, wrong usage.
+#include <string.h>
+
+#include "run_ewa.h"
+
+static int enter(void **state) {
+    (void)state;
+    return scratch_enter("cli_usage");
+}
+
+static const char *const commands[] = {"render", "info", "convert", "surfels", "generate", "bench"};
+enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
+
+static void test_program_help(void **state) {
+    (void)state;
+    run_done("ewa --help");
+    for (size_t i = 0; i < COMMAND_COUNT; i++) assert_non_null(strstr(last_run.out, commands[i]));
+    run_done("ewa --version");
+    char version[64];
+    snprintf(version, sizeof version, "ewa %s\n", ewa_version());
+    assert_string_equal(last_run.out, version);
+    assert_int_equal(run("ewa"), 2);
+    assert_non_null(strstr(last_run.err, "usage: ewa COMMAND"));
+}
+
+static void test_command_help(void **state) {
+    (void)state;
+    for (size_t i = 0; i < COMMAND_COUNT; i++) {
+        run_done("ewa %s --help", commands[i]);
+        char usage[64];
+        snprintf(usage, sizeof usage, "usage: ewa %s ", commands[i]);
+        assert_int_equal(strncmp(last_run.out, usage, strlen(usage)), 0);
+        assert_non_null(strstr(last_run.out, "\nExamples:\n  ewa "));
+        assert_non_null(strstr(last_run.out, "  --threads N "));
+        for (const char *line = last_run.out; *line;) {
+            const size_t length = strcspn(line, "\n");
+            assert_true(length <= 100);
+            line += length + 1;
+        }
+    }
+    run_done("ewa render --help");
+    assert_non_null(strstr(last_run.out, "--size WxH"));
+    assert_non_null(strstr(last_run.out, "(default: 1280x720); also --resolution"));
+    run_done("ewa help render");
+    assert_non_null(strstr(last_run.out, "usage: ewa render "));
+}
+
+static void test_page(void **state) {
+    (void)state;
+    run_done("ewa --help-markdown");
+    char path[1024];
+    snprintf(path, sizeof path, "%s/docs/cli.md", getenv("EWA_SOURCE_DIR"));
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    static char page[sizeof last_run.out];
+    page[fread(page, 1, sizeof page - 1, file)] = 0;
+    fclose(file);
+    // When this fails: make docs
+    assert_string_equal(page, last_run.out);
+}
+
+static void test_wrong_usage(void **state) {
+    (void)state;
+    run_fails(2, "'rendr': no such command; did you mean 'render'?", "ewa rendr");
+    run_fails(2, "'--vresion': no such option; did you mean '--version'?", "ewa --vresion");
+    run_fails(2, "'xyzzy': no such command; see 'ewa --help'", "ewa help xyzzy");
+    run_fails(2, "an input is missing; usage: ewa render IN... -o OUT", "ewa render -o a.png");
+    run_fails(2, "render: no output; say -o FILE", "ewa render a.ply");
+    run_fails(2, "--size: 'abc' is not WxH", "ewa render a.ply -o a.png --size abc");
+    run_fails(2, "--siez: no such option; did you mean --size?", "ewa render a.ply -o a.png --siez 1x1");
+    run_fails(2, "--output: 'a.jpg' is no .png, .exr or .pfm file", "ewa render a.ply -o a.jpg");
+    run_fails(2, "--aov: 'depth' is not", "ewa render a.ply -o a.png --aov depth");
+    run_fails(2, "--aov: 'd.png' is no .exr or .pfm file", "ewa render a.ply -o a.png --aov depth=d.png");
+    run_fails(2, "--range needs --color-by", "ewa render a.ply -o a.png --range 0,1");
+    run_fails(2, "--light: 0,0,0", "ewa render a.ply -o a.png --light 0,0,0");
+    run_fails(2, "--camera excludes", "ewa render a.ply -o a.png --camera c.json --view top");
+    run_fails(2, "--eye and --view", "ewa render a.ply -o a.png --eye 1,2,3 --view top");
+    run_fails(2, "--ascii and --big-endian", "ewa convert a.ply -o b.ply --ascii --big-endian");
+    run_fails(2, "--subsample", "ewa convert a.ply -o b.ply --subsample 2.5");
+    run_fails(2, "'torsu' is none of plane|did you mean torus", "ewa generate torsu -o a.ply");
+    run_fails(2, "one operand too many", "ewa surfels a.ply b.ply -o c.ply");
+    run_fails(2, "--orient viewpoint needs --viewpoint", "ewa surfels a.ply -o c.ply --orient viewpoint");
+    assert_int_equal(scratch_count(), 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_program_help),
+        cmocka_unit_test(test_command_help),
+        cmocka_unit_test(test_page),
+        cmocka_unit_test(test_wrong_usage),
+    };
+    return cmocka_run_group_tests(tests, enter, NULL);
+}

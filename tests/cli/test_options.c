@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The option tables and their parser, in this process.
+#include "check.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "cli/commands.h"
+
+/// One option of every kind.
+typedef struct sample_arguments {
+    common_arguments common;
+    bool flag, antialias;
+    double number;
+    int64_t integer;
+    const char *text;
+    int choice;
+    option_vector vector;
+    option_color color;
+    option_size size;
+} sample_arguments;
+
+#define AT(member) offsetof(sample_arguments, member)
+
+static const cli_option sample_table[] = {
+    {.key = "flag", .letter = 'f', .kind = OPTION_FLAG, .offset = AT(flag), .help = "h"},
+    {.key = "antialias", .kind = OPTION_ON_OFF, .offset = AT(antialias), .help = "h"},
+    {.key = "number",
+     .aliases = "figure value",
+     .kind = OPTION_NUMBER,
+     .offset = AT(number),
+     .value = "N",
+     .range = "(0, 4]",
+     .help = "h"},
+    {.key = "integer",
+     .letter = 'n',
+     .kind = OPTION_INTEGER,
+     .offset = AT(integer),
+     .value = "N",
+     .range = "[-5, 5]",
+     .help = "h"},
+    {.key = "text", .kind = OPTION_TEXT, .offset = AT(text), .value = "T", .help = "h"},
+    {.key = "choice", .kind = OPTION_CHOICE, .offset = AT(choice), .range = "one|two|three", .help = "h"},
+    {.key = "vector",
+     .kind = OPTION_VECTOR,
+     .offset = AT(vector),
+     .value = "x,y[,z]",
+     .low = 2,
+     .high = 3,
+     .help = "h"},
+    {.key = "color", .kind = OPTION_COLOR, .offset = AT(color), .value = "r,g,b[,a]", .help = "h"},
+    {.key = "size", .kind = OPTION_SIZE, .offset = AT(size), .value = "WxH", .help = "h"},
+};
+
+static const option_group sample_group = {"Sample", sample_table,
+                                          sizeof sample_table / sizeof sample_table[0]};
+static const option_group *const sample_groups[] = {&sample_group};
+static const cli_command sample = {.name = "sample",
+                                   .operands = "[IN...]",
+                                   .summary = "s",
+                                   .examples = "e\n",
+                                   .high_operands = 3,
+                                   .groups = sample_groups,
+                                   .group_count = 1,
+                                   .arguments_bytes = sizeof(sample_arguments)};
+
+static sample_arguments arguments;
+static const char *operands[16];
+static char message[OPTION_ERROR_BYTES];
+
+/// Parses words that are separated by blanks; "_" stands for an empty word.
+static bool parse(const char *line) {
+    static char words[512];
+    const char *list[16];
+    size_t count = 0;
+    snprintf(words, sizeof words, "%s", line);
+    for (char *word = strtok(words, " "); word; word = strtok(NULL, " "))
+        list[count++] = *word == '_' ? "" : word;
+    options_default(&sample, &arguments);
+    message[0] = 0;
+    return options_parse(&sample, count, list, operands, &arguments, message);
+}
+
+static void test_values(void **state) {
+    (void)state;
+    assert_true(parse("--number 2.5 --integer=-3 --text a=b -f --antialias on --choice two a b"));
+    assert_true(arguments.number == 2.5);
+    assert_int_equal(arguments.integer, -3);
+    assert_string_equal(arguments.text, "a=b");
+    assert_true(arguments.flag && arguments.antialias);
+    assert_int_equal(arguments.choice, 1);
+    assert_int_equal(arguments.common.operand_count, 2);
+    assert_string_equal(operands[1], "b");
+    assert_true(parse("--vector -1,2e3 --color 0.25,0.5,1 --size 640x480 -n4"));
+    assert_int_equal(arguments.vector.count, 2);
+    assert_true(arguments.vector.values[0] == -1 && arguments.vector.values[1] == 2000);
+    assert_true(arguments.color.rgba[0] == 0.25 && arguments.color.rgba[3] == 1);
+    assert_int_equal(arguments.size.width_px, 640);
+    assert_int_equal(arguments.size.height_px, 480);
+    assert_int_equal(arguments.integer, 4);
+    assert_true(parse("--color=transparent --size 3,4 --figure 1 --value 4"));
+    assert_true(arguments.color.rgba[3] == 0 && arguments.size.given && arguments.number == 4);
+    assert_true(parse("--text --flag"));
+    assert_string_equal(arguments.text, "--flag");
+    assert_true(parse("-- --flag -"));
+    assert_int_equal(arguments.common.operand_count, 2);
+    assert_true(parse("--no-progress"));
+    assert_int_equal(arguments.common.progress, 0);
+    assert_true(parse("--progress"));
+    assert_int_equal(arguments.common.progress, 1);
+    assert_true(parse("--help --nonsense"));
+    assert_true(arguments.common.help);
+}
+
+static void test_refusals(void **state) {
+    (void)state;
+    static const struct {
+        const char *line, *said;
+    } cases[] = {
+        {"--number abc", "--number: 'abc' is not a number"},
+        {"--number 1x", "--number: '1x' is not a number"},
+        {"--number nan", "--number: 'nan' is not a number"},
+        {"--number inf", "--number: 'inf' is not a number"},
+        {"--number 0", "--number: 0 is outside (0, 4]"},
+        {"--number 4.5", "--number: 4.5 is outside (0, 4]"},
+        {"--figure 5", "--number: 5 is outside (0, 4]"},
+        {"--number _", "--number: '' is not a number"},
+        {"--integer 2.5", "--integer: '2.5' is not a whole number"},
+        {"--integer 99999999999999999999", "--integer: '99999999999999999999' is not a whole number"},
+        {"--integer 6", "--integer: 6 is outside [-5, 5]"},
+        {"--text _", "--text: the value is empty"},
+        {"--choice four", "--choice: 'four' is not one of one|two|three"},
+        {"--choice tw", "--choice: 'tw' is not one of one|two|three"},
+        {"--choice one|two", "--choice: 'one|two' is not one of one|two|three"},
+        {"--antialias yes", "--antialias: 'yes' is not one of off|on"},
+        {"--vector 1", "--vector: '1' is not x,y[,z]"},
+        {"--vector 1,2,3,4", "--vector: '1,2,3,4' is not x,y[,z]"},
+        {"--vector 1,,2", "--vector: '1,,2' is not x,y[,z]"},
+        {"--vector 1,2,", "--vector: '1,2,' is not x,y[,z]"},
+        {"--color 1,2,3", "--color: 2 is outside [0, 1]"},
+        {"--color red", "--color: 'red' is not r,g,b[,a]"},
+        {"--size abc", "--size: 'abc' is not WxH"},
+        {"--size 640", "--size: '640' is not WxH"},
+        {"--size 640x", "--size: '640x' is not WxH"},
+        {"--size 0x1", "--size: '0x1' is not WxH"},
+        {"--size -1x1", "--size: '-1x1' is not WxH"},
+        {"--size 1x-1", "--size: '1x-1' is not WxH"},
+        {"--size 70000x1", "--size: 70000x1 is over 65536x65536 pixels"},
+        {"--flag=1", "--flag: takes no value"},
+        {"--progress=1", "--progress: takes no value"},
+        {"--number", "--number: its value (N) is missing"},
+        {"--choice", "--choice: its value (one|two|three) is missing"},
+        {"--nubmer 1", "--nubmer: no such option; did you mean --number?"},
+        {"--xyzzy", "--xyzzy: no such option; see 'ewa sample --help'"},
+        {"-x", "-x: no such option; see 'ewa sample --help'"},
+        {"--no-flag", "--no-flag: no such option"},
+        {"--num 1", "--num: no such option"},
+        {"a b c d", "sample: 'd' is one operand too many; usage: ewa sample [IN...]"},
+        {"a _", "sample: a file name is empty"},
+        {"-q -v", "--quiet and --verbose exclude each other"},
+        {"--threads 257", "--threads: 257 is outside [0, 256]"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        if (parse(cases[i].line)) print_error("'%s' was accepted\n", cases[i].line);
+        assert_int_equal(strncmp(message, cases[i].said, strlen(cases[i].said)), 0);
+    }
+}
+
+/// Options of a command, one after another; NULL beyond the last.
+static const cli_option *option_at(const cli_command *command, size_t index) {
+    for (size_t g = 0; g <= command->group_count; g++) {
+        const option_group *group = g < command->group_count ? command->groups[g] : &common_options;
+        if (index < group->count) return &group->options[index];
+        index -= group->count;
+    }
+    return NULL;
+}
+
+static void test_tables(void **state) {
+    (void)state;
+    for (size_t c = 0; c < all_commands_count; c++) {
+        const cli_command *command = all_commands[c];
+        assert_ptr_equal(command_find(command->name), command);
+        assert_non_null(strstr(command->examples, command->name));
+        assert_int_equal(command->examples[strlen(command->examples) - 1], '\n');
+        const cli_option *option;
+        for (size_t i = 0; (option = option_at(command, i)); i++) {
+            assert_true(option->offset < command->arguments_bytes);
+            assert_non_null(option->help);
+            assert_int_not_equal(option->help[strlen(option->help) - 1], '.');
+            const bool bare = option->kind == OPTION_FLAG || option->kind == OPTION_TOGGLE;
+            assert_true(bare || option->kind == OPTION_ON_OFF || option->value || option->range);
+            const cli_option *other;
+            for (size_t k = 0; k < i && (other = option_at(command, k)); k++) {
+                assert_string_not_equal(option->key, other->key);
+                assert_true(!option->letter || option->letter != other->letter);
+                assert_int_not_equal(option->offset, other->offset);
+            }
+        }
+    }
+}
+
+/// The default of each option, written as help shows it, is accepted by the parser.
+static void test_defaults_in_range(void **state) {
+    (void)state;
+    for (size_t c = 0; c < all_commands_count; c++) {
+        const cli_command *command = all_commands[c];
+        char *defaults = calloc(1, command->arguments_bytes), *again = calloc(1, command->arguments_bytes);
+        options_default(command, defaults);
+        const cli_option *option;
+        for (size_t i = 0; (option = option_at(command, i)); i++) {
+            if (option->absent || (option->kind != OPTION_NUMBER && option->kind != OPTION_INTEGER)) continue;
+            char words[2][64];
+            snprintf(words[0], sizeof words[0], "--%s", option->key);
+            if (option->kind == OPTION_NUMBER)
+                snprintf(words[1], sizeof words[1], "%.17g", *(double *)(void *)(defaults + option->offset));
+            else
+                snprintf(words[1], sizeof words[1], "%lld",
+                         (long long)*(int64_t *)(void *)(defaults + option->offset));
+            const char *list[] = {words[0], words[1]};
+            options_default(command, again);
+            // What else is missing does not matter: values are checked first.
+            if (!options_parse(command, 2, list, operands, again, message))
+                assert_null(strstr(message, "outside"));
+        }
+        free(defaults);
+        free(again);
+    }
+}
+
+static void test_nearest(void **state) {
+    (void)state;
+    static const char *const names[] = {"render", "info", "convert"};
+    assert_string_equal(options_nearest("rendr", 3, names), "render");
+    assert_string_equal(options_nearest("convret", 3, names), "convert");
+    assert_null(options_nearest("xylophone", 3, names));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_values),  cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_tables),  cmocka_unit_test(test_defaults_in_range),
+        cmocka_unit_test(test_nearest),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Tests of src/cloud/edit.c: parts, unions, affine maps.
+#include "check.h"
+
+#include <math.h>
+#include <string.h>
+
+static ewa_context *context;
+static check_log messages;
+
+static int enter(void **state) {
+    (void)state;
+    context = check_context(2, &messages);
+    return 0;
+}
+
+static int leave(void **state) {
+    (void)state;
+    ewa_context_destroy(&context);
+    return 0;
+}
+
+/// A cloud of `count` points with positions (i, 10 i, 100 i) and one further attribute.
+static ewa_cloud *make(uint64_t count, ewa_type position_type, const char *name, ewa_type type) {
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+    void *positions = NULL, *numbers = NULL;
+    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, position_type, 3, &positions), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, name, type, 1, &numbers), EWA_OK);
+    for (uint64_t i = 0; i < count; i++) {
+        for (int c = 0; c < 3; c++) {
+            const double p = (double)i * (c == 0 ? 1 : c == 1 ? 10 : 100);
+            if (position_type == EWA_F64)
+                ((double *)positions)[3 * i + (uint64_t)c] = p;
+            else
+                ((float *)positions)[3 * i + (uint64_t)c] = (float)p;
+        }
+        if (type == EWA_U8)
+            ((uint8_t *)numbers)[i] = (uint8_t)i;
+        else
+            ((float *)numbers)[i] = (float)i + 0.5f;
+    }
+    return cloud;
+}
+
+static double number(const ewa_cloud *cloud, const char *name, uint64_t point, uint32_t component) {
+    double values[4];
+    const ewa_attribute *attribute = ewa_cloud_find(cloud, name);
+    assert_non_null(attribute);
+    ewa_attribute_read_f64(attribute, point, 1, values);
+    return values[component];
+}
+
+static void test_select(void **state) {
+    (void)state;
+    ewa_cloud *cloud = make(10, EWA_F32, "intensity", EWA_U8), *part = NULL;
+    const double origin[3] = {1e6, 2e6, 3};
+    ewa_cloud_set_origin(cloud, origin);
+    const uint64_t indices[] = {7, 2, 2, 9};
+    assert_int_equal(ewa_cloud_select(cloud, indices, 4, &part), EWA_OK);
+    assert_int_equal(ewa_cloud_point_count(part), 4);
+    for (uint64_t i = 0; i < 4; i++) {
+        assert_true(number(part, EWA_POSITION, i, 2) == 100.0 * (double)indices[i]);
+        assert_true(number(part, "intensity", i, 0) == (double)indices[i]);
+    }
+    double kept[3];
+    ewa_cloud_origin(part, kept);
+    assert_memory_equal(kept, origin, sizeof kept);
+    ewa_cloud_destroy(&part);
+    assert_int_equal(ewa_cloud_select(cloud, NULL, 0, &part), EWA_OK);
+    assert_int_equal(ewa_cloud_point_count(part), 0);
+    ewa_cloud_destroy(&part);
+    const uint64_t beyond = 10;
+    assert_int_equal(ewa_cloud_select(cloud, &beyond, 1, &part), EWA_ERROR_ARGUMENT);
+    assert_null(part);
+    ewa_cloud_destroy(&cloud);
+}
+
+/// Streams with gaps between the points are read through their stride.
+static void test_select_borrowed(void **state) {
+    (void)state;
+    const float records[] = {1, 2, 3, -1, 4, 5, 6, -1, 7, 8, 9, -1};
+    ewa_cloud *cloud = NULL, *part = NULL, *both = NULL;
+    assert_int_equal(ewa_cloud_create(context, 3, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, records, 16), EWA_OK);
+    const uint64_t last = 2;
+    assert_int_equal(ewa_cloud_select(cloud, &last, 1, &part), EWA_OK);
+    assert_true(number(part, EWA_POSITION, 0, 1) == 8);
+    const ewa_cloud *const clouds[] = {part, cloud};
+    assert_int_equal(ewa_cloud_merge(clouds, 2, &both), EWA_OK);
+    assert_true(number(both, EWA_POSITION, 0, 2) == 9 && number(both, EWA_POSITION, 2, 0) == 4);
+    ewa_cloud_destroy(&both);
+    ewa_cloud_destroy(&part);
+    ewa_cloud_destroy(&cloud);
+}
+
+static void test_merge(void **state) {
+    (void)state;
+    ewa_cloud *a = make(300, EWA_F32, "intensity", EWA_U8), *b = make(700, EWA_F64, "intensity", EWA_F32),
+              *all = NULL;
+    assert_int_equal(ewa_cloud_add(b, "time", EWA_F64, 1, NULL), EWA_OK);
+    const double origin_a[3] = {1000, 0, 0}, origin_b[3] = {1000, 0.25, -7};
+    ewa_cloud_set_origin(a, origin_a);
+    ewa_cloud_set_origin(b, origin_b);
+    const ewa_cloud *const clouds[] = {a, b};
+    messages.count = 0;
+    assert_int_equal(ewa_cloud_merge(clouds, 2, &all), EWA_OK);
+    assert_int_equal(messages.count, 1);
+    assert_non_null(strstr(messages.text, "'time' of cloud 2"));
+    assert_int_equal(ewa_cloud_point_count(all), 1000);
+    assert_int_equal(ewa_cloud_attribute_count(all), 2);
+    assert_int_equal(ewa_cloud_find(all, EWA_POSITION)->type, EWA_F64);
+    assert_int_equal(ewa_cloud_find(all, "intensity")->type, EWA_F32);
+    assert_true(number(all, "intensity", 255, 0) == 255 && number(all, "intensity", 300 + 40, 0) == 40.5);
+    // In the world every point is where it was.
+    double origin[3];
+    ewa_cloud_origin(all, origin);
+    for (uint64_t i = 0; i < 700; i++)
+        for (uint32_t c = 0; c < 3; c++)
+            assert_true(number(all, EWA_POSITION, 300 + i, c) + origin[c] ==
+                        number(b, EWA_POSITION, i, c) + origin_b[c]);
+    ewa_cloud_destroy(&all);
+    ewa_cloud_destroy(&a);
+    ewa_cloud_destroy(&b);
+}
+
+static void add_triple(ewa_cloud *cloud, const char *name, float x, float y, float z) {
+    void *data = NULL;
+    assert_int_equal(ewa_cloud_add(cloud, name, EWA_F32, 3, &data), EWA_OK);
+    float *triple = data;
+    triple[0] = x;
+    triple[1] = y;
+    triple[2] = z;
+}
+
+/// A random affine map keeps what geometry says: normals stay across the axes, clip lines keep their points.
+static void test_transform(void **state) {
+    (void)state;
+    check_random random = {7};
+    for (int round = 0; round < 200; round++) {
+        double m[16] = {0};
+        for (int i = 0; i < 12; i++) m[i] = check_uniform(&random, -2, 2);
+        m[15] = 1;
+        const double det = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
+                           m[2] * (m[4] * m[9] - m[5] * m[8]);
+        if (fabs(det) < 0.5) continue;
+        ewa_cloud *cloud = NULL;
+        assert_int_equal(ewa_cloud_create(context, 1, &cloud), EWA_OK);
+        add_triple(cloud, EWA_POSITION, 1, -2, 0.5f);
+        add_triple(cloud, EWA_TANGENT_U, 0.3f, 0, 0.1f);
+        add_triple(cloud, EWA_TANGENT_V, 0, 0.2f, 0);
+        add_triple(cloud, EWA_NORMAL, -0.1f, 0, 0.3f); // u x v, not normalised
+        add_triple(cloud, EWA_CLIP0, 1, 2, 0.5f);
+        void *radius = NULL;
+        assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, &radius), EWA_OK);
+        *(float *)radius = 2;
+        const double origin[3] = {10, 20, 30};
+        ewa_cloud_set_origin(cloud, origin);
+        assert_int_equal(ewa_cloud_transform(cloud, m), EWA_OK);
+        double moved[3], n[3], u[3], v[3], cross[3], dot_u = 0, dot_v = 0, length = 0, along = 0;
+        ewa_cloud_origin(cloud, moved);
+        for (uint32_t c = 0; c < 3; c++) {
+            const double world = m[4 * c] * 11 + m[4 * c + 1] * 18 + m[4 * c + 2] * 30.5 + m[4 * c + 3];
+            assert_true(fabs(number(cloud, EWA_POSITION, 0, c) + moved[c] - world) < 1e-5);
+            n[c] = number(cloud, EWA_NORMAL, 0, c);
+            u[c] = number(cloud, EWA_TANGENT_U, 0, c);
+            v[c] = number(cloud, EWA_TANGENT_V, 0, c);
+        }
+        for (int c = 0; c < 3; c++) {
+            cross[c] = u[(c + 1) % 3] * v[(c + 2) % 3] - u[(c + 2) % 3] * v[(c + 1) % 3];
+            dot_u += n[c] * u[c];
+            dot_v += n[c] * v[c];
+            length += n[c] * n[c];
+            along += n[c] * cross[c];
+        }
+        assert_true(fabs(length - 1) < 1e-5 && fabs(dot_u) < 1e-5 && fabs(dot_v) < 1e-5);
+        // u x v stays on the side of the normal, also under reflections, and the clip line keeps the same
+        // points.
+        assert_true(along > 0);
+        assert_true(fabs(number(cloud, EWA_CLIP0, 0, 1) - (det < 0 ? -2 : 2)) < 1e-6);
+        assert_true(fabs(number(cloud, EWA_RADIUS, 0, 0) - 2 * cbrt(fabs(det))) < 1e-5);
+        ewa_cloud_destroy(&cloud);
+    }
+}
+
+static void test_transform_refusals(void **state) {
+    (void)state;
+    ewa_cloud *cloud = make(2, EWA_F32, "a", EWA_U8);
+    double m[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1};
+    assert_int_equal(ewa_cloud_transform(cloud, m), EWA_ERROR_NUMERIC);
+    m[10] = NAN;
+    assert_int_equal(ewa_cloud_transform(cloud, m), EWA_ERROR_ARGUMENT);
+    m[10] = 1;
+    m[12] = 1;
+    assert_int_equal(ewa_cloud_transform(cloud, m), EWA_ERROR_ARGUMENT);
+    ewa_cloud_destroy(&cloud);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_select),
+        cmocka_unit_test(test_select_borrowed),
+        cmocka_unit_test(test_merge),
+        cmocka_unit_test(test_transform),
+        cmocka_unit_test(test_transform_refusals),
+    };
+    return cmocka_run_group_tests(tests, enter, leave);
+}

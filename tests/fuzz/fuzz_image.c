@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Fuzz target: any bytes as a picture file (PNG, OpenEXR, PFM by their first bytes).
+#include "ewa/io.h"
+#include "fuzz.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.thread_count = 1;
+    options.limits.max_memory_bytes = 1 << 26;
+    ewa_context *context = NULL;
+    if (ewa_context_create(&options, &context) != EWA_OK) return 0;
+    ewa_image image;
+    if (ewa_image_load_memory(context, bytes, size_bytes, "fuzz", &image) == EWA_OK) ewa_image_free(&image);
+    ewa_context_destroy(&context);
+    return 0;
+}

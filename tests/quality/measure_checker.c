@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Prints the table of docs/quality.md: errors of the checkerboard to the horizon over kernel, cutoff,
+// prefilter and sigma. The only argument, if any, is the jitter (default 0.4).
+#include "quality/checker_scene.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+static const char *const kernel_names[] = {"perspective", "affine"};
+
+static void print_row(ewa_context *context, const checker_truth *truth, const checker_setting *setting) {
+    checker_errors errors;
+    if (checker_measure(context, truth, setting, &errors) != EWA_OK) {
+        fprintf(stderr, "measure_checker: the picture failed\n");
+        exit(1);
+    }
+    printf("| %s | %.3g | %.3g | %.3g | %.1f / %.1f / %.1f | %.1f / %.1f / %.1f | %llu | %.2f %% | %.2f |\n",
+           setting->prefilter_px > 0 ? kernel_names[setting->kernel] : "no prefilter", setting->cutoff,
+           setting->prefilter_px, setting->sigma, errors.box_percent[0], errors.box_percent[1],
+           errors.box_percent[2], errors.gauss_percent[0], errors.gauss_percent[1], errors.gauss_percent[2],
+           (unsigned long long)errors.hole_count, errors.translucent_percent, errors.lowest_alpha);
+}
+
+int main(int argument_count, char **arguments) {
+    const double jitter = argument_count > 1 ? strtod(arguments[1], NULL) : 0.4;
+    static const double root2 = 1.4142135623730951;
+    const checker_setting settings[] = {
+        {EWA_KERNEL_PERSPECTIVE, root2, 1, 0.7, jitter},  {EWA_KERNEL_PERSPECTIVE, root2, 0.5, 0.7, jitter},
+        {EWA_KERNEL_PERSPECTIVE, 2, 0.5, 0.6, jitter},    {EWA_KERNEL_AFFINE, 2, 0.5, 0.6, jitter},
+        {EWA_KERNEL_PERSPECTIVE, 2, 0, 0.6, jitter},      {EWA_KERNEL_PERSPECTIVE, 2, 0.5, 0.5, jitter},
+        {EWA_KERNEL_PERSPECTIVE, 2, 0.4, 0.6, jitter},    {EWA_KERNEL_PERSPECTIVE, 2, 0.4, 0.5, jitter},
+        {EWA_KERNEL_PERSPECTIVE, 2, 0.35, 0.5, jitter},   {EWA_KERNEL_PERSPECTIVE, 2.5, 0.5, 0.44, jitter},
+        {EWA_KERNEL_PERSPECTIVE, 2.5, 0.4, 0.48, jitter}, {EWA_KERNEL_PERSPECTIVE, 2.5, 0.4, 0.44, jitter},
+        {EWA_KERNEL_AFFINE, 2.5, 0.4, 0.44, jitter},      {EWA_KERNEL_PERSPECTIVE, 2.5, 0, 0.44, jitter},
+        {EWA_KERNEL_PERSPECTIVE, 2.5, 0.4, 0.4, jitter},  {EWA_KERNEL_PERSPECTIVE, 2.5, 0.3, 0.44, jitter},
+        {EWA_KERNEL_PERSPECTIVE, 3, 0.4, 0.45, jitter},   {EWA_KERNEL_PERSPECTIVE, 3, 0.4, 0.4, jitter},
+        {EWA_KERNEL_PERSPECTIVE, 3, 0.4, 0.35, jitter},
+    };
+    ewa_context *context = NULL;
+    if (ewa_context_create(NULL, &context) != EWA_OK) return 1;
+    checker_truth *truth = malloc(sizeof *truth);
+    if (!truth) return 1;
+    checker_trace(context, truth);
+    printf("| kernel | F | h px | sigma/spacing | RMSE %%, box: far / middle / near | RMSE %%, Gaussian | "
+           "holes | "
+           "alpha < 1 | lowest alpha |\n|---|---|---|---|---|---|---|---|---|\n");
+    for (size_t i = 0; i < sizeof settings / sizeof settings[0]; i++) print_row(context, truth, &settings[i]);
+    free(truth);
+    ewa_context_destroy(&context);
+    return 0;
+}

@@ -1,0 +1,346 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The fast road against the reference, and against itself: threads, instruction sets, order of the points.
+#include "tests/splat/picture.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { SIDE_PX = 256, POINTS = 6000 };
+
+static const double THRESHOLD = 1e-3;
+
+/// A scene whose q0 is the one that the surfels measure.
+static scene measured_scene(ewa_context *context, scene_kind kind, uint64_t points,
+                            const ewa_surfels_options *options) {
+    scene made;
+    assert_int_equal(scene_make(context, kind, points, SIDE_PX, SIDE_PX, &made), EWA_OK);
+    ewa_surfels *surfels = NULL;
+    assert_int_equal(ewa_surfels_create(made.cloud, options, &surfels), EWA_OK);
+    ewa_surfels_info info;
+    ewa_surfels_describe(surfels, &info);
+    made.unit_coverage = info.unit_coverage;
+    ewa_surfels_destroy(&surfels);
+    return made;
+}
+
+static picture draw(ewa_context *context, const ewa_cloud *cloud, const ewa_camera *camera,
+                    const ewa_surfels_options *surfels_options, const ewa_render_options *options) {
+    ewa_surfels *surfels = NULL;
+    ewa_renderer *renderer = NULL;
+    picture made = picture_make(camera->width_px, camera->height_px);
+    assert_int_equal(ewa_surfels_create(cloud, surfels_options, &surfels), EWA_OK);
+    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    for (int frame = 0; frame < 2; frame++) // the second frame runs in warm memory
+        assert_int_equal(ewa_render(renderer, surfels, camera, options, &made.frame, NULL), EWA_OK);
+    ewa_renderer_destroy(&renderer);
+    ewa_surfels_destroy(&surfels);
+    return made;
+}
+
+/// What the packets' 16-bit normals may do to pixels of surfels seen edge-on, whose weight is proportional to
+/// the small n.p: so much, in so many pixels.
+static const double GRAZING_ERROR = 4e-3, GRAZING_SHARE = 2.5e-4;
+
+/// Draws a scene both ways. Fewer than 0.1 % of the pixels may be beyond the threshold; away from cutoffs and
+/// visibility ties only by the error of the normals.
+static void hold(scene_kind kind, const ewa_surfels_options *surfels_options,
+                 const ewa_render_options *options, bool orthographic, const char *what) {
+    ewa_context *context = check_context(0, NULL);
+    scene of = measured_scene(context, kind, POINTS, surfels_options);
+    if (orthographic) {
+        ewa_bounds bounds;
+        const double direction[3] = {0.3, 0.8, -0.5}, up[3] = {0, 0, 1};
+        assert_int_equal(ewa_cloud_measure(of.cloud, &bounds), EWA_OK);
+        assert_int_equal(ewa_camera_set_ortho(&of.camera, 1), EWA_OK);
+        assert_int_equal(ewa_camera_frame(&of.camera, &bounds, direction, up, 0.05), EWA_OK);
+    }
+    picture reference = picture_of_scene(&of, surfels_options, options);
+    picture fast = draw(context, of.cloud, &of.camera, surfels_options, options);
+    uint8_t *mask = calloc(SIDE_PX, SIDE_PX);
+    picture_mark_edges(&of, surfels_options, options, 2e-3, 1e-3, mask);
+    const picture_report report = picture_compare(&reference, &fast, THRESHOLD, mask);
+    char name[96];
+    snprintf(name, sizeof name, "%s, %s", scene_name(kind), what);
+    picture_print(name, &report);
+    assert_true(report.over_count * 1000 < report.pixel_count);
+    if (options->edge_layers == 1) { // the mask knows the nearest surface only
+        const double elsewhere = (double)(report.over_count - report.edge_over_count);
+        assert_true(elsewhere <= GRAZING_SHARE * (double)report.pixel_count);
+        // A surfel on the rule's edge between ellipse and pixel rays is one more tie that the mask does not
+        // know.
+        if (kind != SCENE_NEAR && kind != SCENE_ELLIPSES)
+            assert_true(report.color < GRAZING_ERROR && report.depth < THRESHOLD);
+    }
+    free(mask);
+    picture_free(&reference);
+    picture_free(&fast);
+    scene_free(&of);
+    ewa_context_destroy(&context);
+}
+
+static void test_defaults_hold(void **state) {
+    (void)state;
+    for (int kind = 0; kind < SCENE_COUNT; kind++) {
+        ewa_render_options options;
+        ewa_render_options_init(&options, sizeof options);
+        hold((scene_kind)kind, NULL, &options, false, "defaults");
+        options.edge_layers = 1;
+        hold((scene_kind)kind, NULL, &options, false, "one edge layer");
+    }
+}
+
+static void test_options_hold(void **state) {
+    (void)state;
+    ewa_render_options init;
+    ewa_render_options_init(&init, sizeof init);
+    init.edge_layers = 1;
+    static const scene_kind kinds[] = {SCENE_PLANE, SCENE_TORUS, SCENE_ELLIPSES, SCENE_NEAR};
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
+        ewa_render_options o = init;
+        o.kernel = EWA_KERNEL_AFFINE;
+        hold(kinds[i], NULL, &o, false, "affine");
+        o = init, o.prefilter_px = 1.5;
+        hold(kinds[i], NULL, &o, false, "wide prefilter");
+        o = init, o.edge_antialiasing = false, o.shading = EWA_SHADING_NONE;
+        hold(kinds[i], NULL, &o, false, "no edges, no shading");
+        o = init, o.cull = EWA_CULL_BACK, o.tolerance = 0.5;
+        hold(kinds[i], NULL, &o, false, "culled, less tolerance");
+        o = init, o.light_world[0] = 1, o.light_world[2] = 2, o.background[1] = 0.5f, o.background[3] = 0.7f;
+        hold(kinds[i], NULL, &o, false, "light and background");
+        ewa_surfels_options surfels;
+        ewa_surfels_options_init(&surfels, sizeof surfels);
+        surfels.cutoff = 3.2, surfels.radius_scale = 1.3;
+        hold(kinds[i], &surfels, &init, false, "long cutoff");
+    }
+    hold(SCENE_TORUS, NULL, &init, true, "orthographic");
+    hold(SCENE_CUBE, NULL, &init, true, "orthographic");
+    hold(SCENE_ELLIPSES, NULL, &init, true, "orthographic");
+}
+
+static void assert_same_bytes(const picture *a, const picture *b) {
+    const size_t pixels = (size_t)a->width_px * a->height_px;
+    assert_memory_equal(a->frame.rgba8, b->frame.rgba8, 4 * pixels);
+    assert_memory_equal(a->frame.rgba, b->frame.rgba, 16 * pixels);
+    assert_memory_equal(a->frame.depth, b->frame.depth, 4 * pixels);
+    assert_memory_equal(a->frame.normal, b->frame.normal, 12 * pixels);
+    assert_memory_equal(a->frame.coverage, b->frame.coverage, 4 * pixels);
+}
+
+static ewa_context *context_of(uint32_t threads, uint32_t cpu_mask) {
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.thread_count = threads;
+    options.cpu_mask = cpu_mask;
+    ewa_context *context = NULL;
+    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+    return context;
+}
+
+static void test_same_bytes_on_all_threads_and_instruction_sets(void **state) {
+    (void)state;
+    static const struct {
+        uint32_t threads, mask;
+    } runs[] = {{1, EWA_CPU_ALL},  {2, EWA_CPU_ALL},  {7, EWA_CPU_ALL},
+                {32, EWA_CPU_ALL}, {2, EWA_CPU_AVX2}, {2, 0}};
+    for (int kind = 0; kind < SCENE_COUNT; kind++) {
+        picture first = {0};
+        for (size_t i = 0; i < sizeof runs / sizeof runs[0]; i++) {
+            ewa_context *context = context_of(runs[i].threads, runs[i].mask);
+            scene of;
+            assert_int_equal(scene_make(context, (scene_kind)kind, POINTS, SIDE_PX, SIDE_PX, &of), EWA_OK);
+            picture made = draw(context, of.cloud, &of.camera, NULL, NULL);
+            if (i == 0) {
+                first = made;
+            } else {
+                assert_same_bytes(&first, &made);
+                picture_free(&made);
+            }
+            scene_free(&of);
+            ewa_context_destroy(&context);
+        }
+        picture_free(&first);
+    }
+}
+
+/// The cloud with its points in the order i * step mod count, the last quarter of them all at one place.
+static ewa_cloud *reordered(const ewa_cloud *cloud, uint64_t step) {
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    ewa_cloud *made = NULL;
+    assert_int_equal(ewa_cloud_create(ewa_cloud_context(cloud), count, &made), EWA_OK);
+    for (uint32_t a = 0; a < ewa_cloud_attribute_count(cloud); a++) {
+        const ewa_attribute *from = ewa_cloud_attribute_at(cloud, a);
+        char *to = NULL;
+        assert_int_equal(ewa_cloud_add(made, from->name, from->type, from->component_count, (void **)&to),
+                         EWA_OK);
+        const size_t bytes = from->component_count * ewa_type_bytes(from->type);
+        const bool position = strcmp(from->name, EWA_POSITION) == 0;
+        for (uint64_t i = 0; i < count; i++) {
+            uint64_t k = i * step % count;
+            if (position && k >= count - count / 4) k = count - 1;
+            memcpy(to + i * bytes, (const char *)from->data + k * from->stride_bytes, bytes);
+        }
+    }
+    return made;
+}
+
+static void test_order_of_points_does_not_matter(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    for (int kind = 0; kind < SCENE_COUNT; kind++) {
+        scene of;
+        assert_int_equal(scene_make(context, (scene_kind)kind, POINTS, SIDE_PX, SIDE_PX, &of), EWA_OK);
+        uint64_t step = 1009; // a prime that does not divide the count
+        while (ewa_cloud_point_count(of.cloud) % step == 0) step += 2;
+        ewa_cloud *same = reordered(of.cloud, 1), *other = reordered(of.cloud, step);
+        picture a = draw(context, same, &of.camera, NULL, NULL),
+                b = draw(context, other, &of.camera, NULL, NULL);
+        assert_same_bytes(&a, &b);
+        picture_free(&a);
+        picture_free(&b);
+        ewa_cloud_destroy(&same);
+        ewa_cloud_destroy(&other);
+        scene_free(&of);
+    }
+    ewa_context_destroy(&context);
+}
+
+/// More splats in a tile than are kept from pass to pass: the runs are set up again, with the same result.
+static void test_crowded_tile_holds(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    scene of;
+    assert_int_equal(scene_make(context, SCENE_TORUS, 300000, 48, 40, &of), EWA_OK);
+    ewa_surfels *surfels = NULL;
+    assert_int_equal(ewa_surfels_create(of.cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels_info info;
+    ewa_surfels_describe(surfels, &info);
+    of.unit_coverage = info.unit_coverage;
+    ewa_surfels_destroy(&surfels);
+    picture reference = picture_of_scene(&of, NULL, NULL),
+            fast = draw(context, of.cloud, &of.camera, NULL, NULL);
+    const picture_report report = picture_compare(&reference, &fast, THRESHOLD, NULL);
+    picture_print("crowded tile", &report);
+    assert_true(report.over_count <= 10 && report.color < GRAZING_ERROR);
+    picture_free(&reference);
+    picture_free(&fast);
+    scene_free(&of);
+    ewa_context_destroy(&context);
+}
+
+static void test_empty_and_lonely(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    for (uint64_t count = 0; count < 2; count++) {
+        ewa_cloud *cloud = NULL;
+        const float position[3] = {0, 0, 5}, normal[3] = {0, 0, -1}, radius = 1;
+        assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+        assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, position, 0), EWA_OK);
+        assert_int_equal(ewa_cloud_borrow(cloud, EWA_NORMAL, EWA_F32, 3, normal, 0), EWA_OK);
+        assert_int_equal(ewa_cloud_borrow(cloud, EWA_RADIUS, EWA_F32, 1, &radius, 0), EWA_OK);
+        ewa_camera camera;
+        ewa_camera_init(&camera, sizeof camera);
+        camera.width_px = 65, camera.height_px = 63;
+        assert_int_equal(ewa_camera_set_fov(&camera, 40), EWA_OK);
+        picture made = draw(context, cloud, &camera, NULL, NULL);
+        const size_t middle = 31 * 65 + 32;
+        assert_true(made.frame.rgba[4 * middle + 3] == (float)count); // a lone disc is opaque in its middle
+        assert_true(made.frame.rgba[3] == 0 && isinf(made.frame.depth[0]));
+        if (count) assert_true(fabsf(made.frame.depth[middle] - 5) < 1e-5f);
+        picture_free(&made);
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
+/// An allocator whose n-th call fails.
+typedef struct failing {
+    long left, live;
+} failing;
+
+static void *failing_allocate(void *user, size_t size_bytes) {
+    failing *f = user;
+    if (f->left-- == 0) return NULL;
+    f->live++;
+    return aligned_alloc(64, (size_bytes + 63) & ~(size_t)63);
+}
+
+static void failing_release(void *user, void *memory, size_t size_bytes) {
+    (void)size_bytes;
+    ((failing *)user)->live--;
+    free(memory);
+}
+
+static void test_every_failing_allocation_is_clean(void **state) {
+    (void)state;
+    bool done = false;
+    for (long n = 0; !done; n++) {
+        failing f = {.left = n};
+        ewa_context_options options;
+        ewa_context_options_init(&options, sizeof options);
+        options.allocator = (ewa_allocator){&f, failing_allocate, failing_release};
+        options.thread_count = 2;
+        ewa_context *context = NULL;
+        scene of = {0};
+        ewa_surfels *surfels = NULL;
+        ewa_renderer *renderer = NULL;
+        uint8_t *rgba8 = calloc(SIDE_PX * SIDE_PX, 4);
+        const ewa_frame frame = {.rgba8 = rgba8};
+        ewa_status status = ewa_context_create(&options, &context);
+        if (status == EWA_OK) status = scene_make(context, SCENE_NEAR, 300, SIDE_PX, SIDE_PX, &of);
+        if (status == EWA_OK) status = ewa_surfels_create(of.cloud, NULL, &surfels);
+        if (status == EWA_OK) status = ewa_renderer_create(context, &renderer);
+        if (status == EWA_OK) status = ewa_render(renderer, surfels, &of.camera, NULL, &frame, NULL);
+        done = status == EWA_OK;
+        if (!done) assert_int_equal(status, EWA_ERROR_MEMORY);
+        ewa_renderer_destroy(&renderer);
+        ewa_surfels_destroy(&surfels);
+        scene_free(&of);
+        ewa_context_destroy(&context);
+        free(rgba8);
+        assert_int_equal(f.live, 0);
+        assert_true(n < 1000);
+    }
+}
+
+/// A warm renderer allocates nothing.
+static void test_warm_frames_allocate_nothing(void **state) {
+    (void)state;
+    failing f = {.left = -1};
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.allocator = (ewa_allocator){&f, failing_allocate, failing_release};
+    ewa_context *context = NULL;
+    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+    scene of;
+    assert_int_equal(scene_make(context, SCENE_TORUS, POINTS, SIDE_PX, SIDE_PX, &of), EWA_OK);
+    ewa_surfels *surfels = NULL;
+    ewa_renderer *renderer = NULL;
+    picture made = picture_make(SIDE_PX, SIDE_PX);
+    assert_int_equal(ewa_surfels_create(of.cloud, NULL, &surfels), EWA_OK);
+    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    assert_int_equal(ewa_render(renderer, surfels, &of.camera, NULL, &made.frame, NULL), EWA_OK);
+    const long calls = f.left;
+    assert_int_equal(ewa_render(renderer, surfels, &of.camera, NULL, &made.frame, NULL), EWA_OK);
+    assert_int_equal(f.left, calls);
+    picture_free(&made);
+    ewa_renderer_destroy(&renderer);
+    ewa_surfels_destroy(&surfels);
+    scene_free(&of);
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_defaults_hold),
+        cmocka_unit_test(test_options_hold),
+        cmocka_unit_test(test_same_bytes_on_all_threads_and_instruction_sets),
+        cmocka_unit_test(test_order_of_points_does_not_matter),
+        cmocka_unit_test(test_crowded_tile_holds),
+        cmocka_unit_test(test_empty_and_lonely),
+        cmocka_unit_test(test_every_failing_allocation_is_clean),
+        cmocka_unit_test(test_warm_frames_allocate_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

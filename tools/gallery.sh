@@ -1,0 +1,33 @@
+#!/bin/sh
+# SPDX-FileCopyrightText: 2026 The ewa authors
+# SPDX-License-Identifier: MIT
+#
+# Makes the pictures of docs/gallery anew from the commands that docs/gallery/README.md shows: gallery.sh EWA
+#
+# Blocks that name $EWA_DATA, a folder with scans that are not ours to distribute, are left out when it is not set.
+set -eu
+program=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
+gallery=$(cd "$(dirname "$0")/../docs/gallery" && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+awk -v have_data="${EWA_DATA:+1}" '
+    /^```sh$/ { inside = 1; block = ""; next }
+    /^```$/ && inside {
+        inside = 0
+        if (block !~ /\$EWA_DATA/ || have_data) printf "%s", block
+        else print "skipped, for EWA_DATA is not set:\n" block >"/dev/stderr"
+        next
+    }
+    inside { block = block $0 "\n" }' "$gallery/README.md" >"$work/commands"
+
+ewa() { "$program" "$@"; }
+cd "$work"
+set -x
+. ./commands
+set +x
+for picture in *.png; do
+    size=$(wc -c <"$picture")
+    [ "$size" -le 204800 ] || echo "warning: $picture has $size bytes, over 200 KiB" >&2
+    mv "$picture" "$gallery/"
+done

@@ -1,0 +1,47 @@
+#!/bin/sh
+# SPDX-FileCopyrightText: 2026 The ewa authors
+# SPDX-License-Identifier: MIT
+#
+# Installs the Debian packages that building and testing need, when they are missing and we may; otherwise prints the
+# line to type and fails. Calls no package manager when everything is there.
+set -eu
+
+packages="build-essential cmake ninja-build pkg-config libcmocka-dev libspng-dev zlib1g-dev libopenexr-dev libcjson-dev"
+
+missing=""
+for package in $packages "$@"; do
+    state=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
+    [ "$state" = installed ] || missing="$missing $package"
+done
+[ -n "$missing" ] || exit 0
+
+# Elsewhere than on Debian, other names may stand for the same things.
+if ! command -v apt-get >/dev/null 2>&1; then
+    needs_tools=""
+    for tool in cc cmake ninja pkg-config; do
+        command -v $tool >/dev/null 2>&1 || needs_tools="$needs_tools $tool"
+    done
+    if [ -z "$needs_tools" ] && pkg-config --exists cmocka spng zlib OpenEXR libcjson; then exit 0; fi
+    echo "Please install these first (names of Debian):$missing" >&2
+    exit 1
+fi
+
+if [ "$(id -u)" = 0 ]; then
+    run=""
+elif command -v sudo >/dev/null 2>&1 && sudo -n true 2>/dev/null; then
+    run="sudo -n"
+else
+    echo "Packages are missing. Please type this, then try again:" >&2
+    echo "  sudo apt-get install -y --no-install-recommends$missing" >&2
+    exit 1
+fi
+echo "Installing:$missing"
+export DEBIAN_FRONTEND=noninteractive
+$run apt-get update -q >/dev/null || true
+# shellcheck disable=SC2086
+if ! $run apt-get install -y -q --no-install-recommends $missing >/tmp/ewa-setup.$$ 2>&1; then
+    tail -n 20 /tmp/ewa-setup.$$ >&2
+    rm -f /tmp/ewa-setup.$$
+    exit 1
+fi
+rm -f /tmp/ewa-setup.$$
