@@ -433,11 +433,11 @@ static double nearest_f64(const decimal *d) {
 }
 
 static float nearest_f32(const decimal *d) {
-    // Rounding to double and then to float errs only where the double lies midway between two floats: there
-    // its last 29 bits are 1000..., or it is below the normal floats.
+    // Rounding to double and then to float errs only where the double lies midway between two floats: its
+    // last 29 bits are then 1000... . The first road gives no double so small that floats near it have fewer
+    // bits.
     double wide;
-    if (is_direct(d, &wide) && (f64_to_bits(wide) & 0x1fffffff) != 0x10000000 && wide >= 0x1p-126)
-        return (float)wide;
+    if (is_direct(d, &wide) && (f64_to_bits(wide) & 0x1fffffff) != 0x10000000) return (float)wide;
     return d->digits ? bits_to_f32((uint32_t)round_decimal(d, &binary32)) : 0;
 }
 
