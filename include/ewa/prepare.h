@@ -13,7 +13,7 @@ extern "C" {
 #endif
 
 /// Default support radius of a surfel in units of the local spacing.
-#define EWA_DEFAULT_RADIUS_SCALE 1.2
+#define EWA_DEFAULT_RADIUS_SCALE 1.1
 
 typedef enum ewa_orientation {
     EWA_ORIENT_PROPAGATE = 0, ///< consistent along the neighbour graph, outward for closed surfaces

@@ -274,7 +274,7 @@ void ewa_estimate_options_init(ewa_estimate_options *options, size_t struct_size
     options->struct_size = struct_size;
     options->neighbour_count = 16;
     options->radius_scale = EWA_DEFAULT_RADIUS_SCALE;
-    options->cutoff = 2;
+    options->cutoff = 3;
     options->keep_normals = true;
     options->keep_radii = true;
 }
