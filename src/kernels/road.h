@@ -122,6 +122,7 @@ typedef struct ewa_tile {
 typedef struct ewa_edges {
     uint32_t *rows; ///< [block row]: bit per block column
     float *passed;  ///< [block][16]: the smallest key of the surfaces that are done
+    float *reach;   ///< [block]: the largest of `passed`: what is nowhere beyond it is not wanted
     float *nearest; ///< [block][16]: the smallest key of the surface that is being gathered
     float *sums;    ///< as ewa_tile's
     float *behind;  ///< [block][4][16]: premultiplied r, g, b and alpha of all surfaces but the first
@@ -171,8 +172,9 @@ typedef struct ewa_road_kernels {
     /// Marks in edges->rows the blocks with a partly covered pixel and starts their planes; returns how many.
     uint32_t (*find_edges)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges);
 
-    /// Writes the numbers of a run's splats whose box holds a marked block to `hits`; returns how many.
-    uint32_t (*edge_hits)(const ewa_edges *edges, const ewa_sorted_run *run, uint16_t *hits);
+    /// Writes the numbers of a run's splats that may lie behind a marked block to `hits`; returns how many.
+    uint32_t (*edge_hits)(const ewa_tile *tile, const ewa_edges *edges, const ewa_sorted_run *run,
+                          uint16_t *hits);
 
     /// One of the two passes for splats beyond edges->passed, in marked blocks only.
     void (*edge_pass)(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
