@@ -103,11 +103,11 @@ void ewa_render_options_init(ewa_render_options *options, size_t struct_size) {
     memset(options, 0, struct_size);
     options->struct_size = struct_size;
     options->kernel = EWA_KERNEL_PERSPECTIVE;
-    options->prefilter_px = 0.4;
+    options->prefilter_px = 0.35;
     options->tolerance = 1;
     options->passes = 3;
     options->edge_antialiasing = true;
-    options->edge_threshold = 0.3;
+    options->edge_threshold = 0.45;
     options->edge_layers = 3;
     options->cull = EWA_CULL_NONE;
     options->shading = EWA_SHADING_LAMBERT;
