@@ -399,7 +399,8 @@ const cli_command render_command = {
     .summary = "draw point clouds as a continuous, antialiased surface",
     .details = "Several inputs are drawn together. Normals and radii that a file lacks are estimated from "
                "the neighbours "
-               "of each point; 'ewa surfels' does the same with options and keeps the result.\n"
+               "of each point, and points far from all others are left out then, which a message says; "
+               "'ewa surfels' does the same with options and keeps the result.\n"
                "\n"
                "Without --camera and --eye the cloud is framed whole; when less than one point in a hundred "
                "lies so far off "
