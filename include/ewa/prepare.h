@@ -12,6 +12,9 @@
 extern "C" {
 #endif
 
+/// Default support radius of a surfel in units of the local spacing.
+#define EWA_DEFAULT_RADIUS_SCALE 1.14
+
 typedef enum ewa_orientation {
     EWA_ORIENT_PROPAGATE = 0, ///< consistent along the neighbour graph, outward for closed surfaces
     EWA_ORIENT_VIEWPOINT = 1, ///< towards viewpoint_world
@@ -31,7 +34,7 @@ typedef struct ewa_estimate_options {
     double viewpoint_world[3]; ///< for EWA_ORIENT_VIEWPOINT
     ewa_surfel_shape shape;
     double radius_scale;   ///< support radius in units of the local spacing 1/sqrt(density); > 0; default by measurement
-    double cutoff;         ///< F: tangent axes are radius / F long; default 2
+    double cutoff;         ///< F: tangent axes are radius / F long; default 3
     bool keep_normals;     ///< keep "normal" when the cloud has it; default true
     bool keep_radii;       ///< keep "radius" or tangent axes when the cloud has them; default true
     double outlier_factor; ///< remove points whose mean neighbour distance exceeds mean + factor * deviation; 0: keep all
@@ -78,7 +81,7 @@ typedef struct ewa_generate_options {
     double jitter;        ///< 0: points in the middle of their cells, 1: anywhere in them; [0, 1]; default 0.5
     double checks;        ///< squares along one edge of the checker plane and of the cube's faces; [1e-6, 1e6];
                           ///< default 16
-    double radius_scale;  ///< support radius in units of the local spacing; [1e-6, 1e6]; default 1.2. Discs leave no
+    double radius_scale;  ///< support radius in units of the local spacing; [1e-6, 1e6]; default EWA_DEFAULT_RADIUS_SCALE. Discs leave no
                           ///< hole where it is at least 0.72 (1 + jitter)
     bool positions_only;  ///< leave out normals and radii; default false
 } ewa_generate_options;

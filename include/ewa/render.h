@@ -16,7 +16,7 @@ extern "C" {
 /// How a cloud becomes surfels. Fill with ewa_surfels_options_init().
 typedef struct ewa_surfels_options {
     size_t struct_size;
-    double cutoff;       ///< F, standard deviations at which kernels end; (0, 4]; default 2
+    double cutoff;       ///< F, standard deviations at which kernels end; (0, 4]; default 3
     double radius_scale; ///< multiplies every radius and tangent axis; > 0; default 1
 } ewa_surfels_options;
 
@@ -67,13 +67,13 @@ enum { EWA_MAX_EDGE_LAYERS = 8 };
 typedef struct ewa_render_options {
     size_t struct_size;
     ewa_kernel kernel;
-    double prefilter_px; ///< h, standard deviation of the pixel filter; [0, 4]; 0: none; default 0.5
+    double prefilter_px; ///< h, standard deviation of the pixel filter; [0, 4]; 0: none; default 0.35
     double
         tolerance; ///< kappa of math.md section 6: depth tolerance in units of the support radius; default 1
     uint32_t
         passes; ///< 3: splats of one surface are blended; 1: the nearest splat of each pixel wins; default 3
     bool edge_antialiasing; ///< alpha from coverage; default true
-    double edge_threshold;  ///< tau of math.md section 7; default 0.6
+    double edge_threshold;  ///< tau of math.md section 7; default 0.45
     /// Surfaces that may share an antialiased edge: what lies behind a silhouette shows through its partly
     /// covered pixels, front to back, up to this many surfaces; 1: the background shows through instead
     /// (math.md section 7); [1, EWA_MAX_EDGE_LAYERS]; default 3

@@ -310,6 +310,10 @@ void ewa_neighbours_destroy(ewa_neighbours **neighbours) {
 
 uint32_t ewa_neighbours_place_count(const ewa_neighbours *neighbours) { return neighbours->place_count; }
 
+uint32_t ewa_neighbours_finite_count(const ewa_neighbours *neighbours) {
+    return neighbours->first[neighbours->place_count];
+}
+
 const uint32_t *ewa_neighbours_points(const ewa_neighbours *neighbours, uint32_t place, uint32_t *count) {
     *count = neighbours->first[place + 1] - neighbours->first[place];
     return neighbours->order + neighbours->first[place];

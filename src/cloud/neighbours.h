@@ -25,6 +25,9 @@ void ewa_neighbours_destroy(ewa_neighbours **neighbours);
 /// Returns the number of distinct finite positions.
 uint32_t ewa_neighbours_place_count(const ewa_neighbours *neighbours);
 
+/// Returns the number of points with finite coordinates: those that are at some place.
+uint32_t ewa_neighbours_finite_count(const ewa_neighbours *neighbours);
+
 /// Returns the points (indices into the input) at one place, ascending, and how many they are.
 const uint32_t *ewa_neighbours_points(const ewa_neighbours *neighbours, uint32_t place, uint32_t *count);
 

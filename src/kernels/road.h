@@ -29,8 +29,8 @@ enum {
     EWA_MAX_TILE_BLOCKS = 32, ///< along a side, so that a row of blocks is a word of bits
 };
 
-/// Largest s that the kernels' exponential takes before it doubles: cutoffs up to 2.5 need two doublings.
-#define EWA_EXPONENT_END 0.785
+/// Largest s that the kernels' exponential takes before it doubles: cutoffs up to 3 need two doublings.
+#define EWA_EXPONENT_END 1.13
 
 /// Everything about camera and options that the kernels read, in single precision, camera space in world
 /// units.

@@ -7,12 +7,12 @@
 
 #include "kernels/road_project.h"
 
-/// exp(-s) for s in [0, EWA_EXPONENT_END] within 4.9e-6 relative, squared `doublings` >= 2 times.
+/// exp(-s) for s in [0, EWA_EXPONENT_END] within 3.0e-05 relative, squared `doublings` >= 2 times.
 static ALWAYS_INLINE wf exponential(wf s, uint32_t doublings) {
-    wf e = wf_fma(s, wf_set(0.027960153203f), wf_set(-0.157532552705f));
-    e = wf_fma(s, e, wf_set(0.497381484177f));
-    e = wf_fma(s, e, wf_set(-0.999726510543f));
-    e = wf_fma(s, e, wf_set(0.999995174143f));
+    wf e = wf_fma(s, wf_set(0.023368568317f), wf_set(-0.149394522715f));
+    e = wf_fma(s, e, wf_set(0.492818156100f));
+    e = wf_fma(s, e, wf_set(-0.998891978164f));
+    e = wf_fma(s, e, wf_set(0.999970343067f));
     e = wf_mul(e, e);
     e = wf_mul(e, e);
     for (uint32_t i = 2; i < doublings; i++) e = wf_mul(e, e);
@@ -196,7 +196,7 @@ static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_
     }
 }
 
-/// The accumulation for one set of channels; cutoffs up to 2.5 need two doublings only.
+/// The accumulation for one set of channels; cutoffs up to 3 need two doublings only.
 #define ACCUMULATE(name, with_normals, with_depth, orthographic)                                             \
     static ALWAYS_INLINE void name##_rows(const pass *p, uint32_t splat, uint32_t first_column,              \
                                           uint32_t columns, uint32_t rows) {                                 \

@@ -45,7 +45,7 @@ void ewa_generate_options_init(ewa_generate_options *options, size_t struct_size
     options->size_world = 2;
     options->jitter = 0.5;
     options->checks = 16;
-    options->radius_scale = 1.2;
+    options->radius_scale = EWA_DEFAULT_RADIUS_SCALE;
 }
 
 static ewa_status check_range(ewa_context *context, const char *member, double value, double low,

@@ -94,7 +94,7 @@ void ewa_surfels_options_init(ewa_surfels_options *options, size_t struct_size) 
     if (!options || struct_size < sizeof *options) return;
     memset(options, 0, struct_size);
     options->struct_size = struct_size;
-    options->cutoff = 2;
+    options->cutoff = 3;
     options->radius_scale = 1;
 }
 
@@ -103,11 +103,11 @@ void ewa_render_options_init(ewa_render_options *options, size_t struct_size) {
     memset(options, 0, struct_size);
     options->struct_size = struct_size;
     options->kernel = EWA_KERNEL_PERSPECTIVE;
-    options->prefilter_px = 0.5;
+    options->prefilter_px = 0.35;
     options->tolerance = 1;
     options->passes = 3;
     options->edge_antialiasing = true;
-    options->edge_threshold = 0.6;
+    options->edge_threshold = 0.45;
     options->edge_layers = 3;
     options->cull = EWA_CULL_NONE;
     options->shading = EWA_SHADING_LAMBERT;

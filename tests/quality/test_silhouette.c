@@ -148,7 +148,7 @@ static void test_silhouettes(void **state) {
     assert_int_equal(holes, 0);
     assert_int_equal(translucent, 0);
     assert_int_equal(outside, 0);
-    assert_true(edge > 1000 && 3 * partial > edge);
+    assert_true(edge > 1000 && 10 * partial > 3 * edge);
     assert_true(fabs(bias / (double)edge) < 0.4 && error / (double)edge < 0.4);
     ewa_renderer_destroy(&renderer);
     ewa_surfels_destroy(&surfels);

@@ -1,0 +1,296 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// From positions to surfels: normals, radii or tangent axes from the neighbourhood of each place.
+#include "base/base.h"
+#include "ewa/prepare.h"
+#include "prepare/local.h"
+#include "prepare/orient.h"
+#include "prepare/outliers.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    MIN_NEIGHBOURS = 6,
+    TASK_PLACES = 1 << 14,
+    COUNTER_STRIDE = 16, // counters of workers lie 64 bytes apart
+};
+
+typedef struct estimate_job {
+    const ewa_estimate_options *options;
+    const local_kernels *kernels;
+    const ewa_neighbours *neighbours;
+    uint32_t place_count;
+    uint32_t wanted; // LOCAL_*
+    // by place; NULL when not wanted
+    float *normals;
+    float *spacing;
+    uint32_t (*links)[LOCAL_GRAPH_DEGREE];
+    // by point; NULL when not wanted
+    float *radius_out, *tangent_u_out, *tangent_v_out, *normal_out;
+    ewa_attribute position;
+    double viewpoint[3];        // relative to the cloud's origin
+    uint32_t *degenerate_count; // per worker
+} estimate_job;
+
+static void set_points(const estimate_job *job, uint32_t place, float *out, const float *values,
+                       uint32_t components) {
+    uint32_t count;
+    const uint32_t *points = ewa_neighbours_points(job->neighbours, place, &count);
+    for (uint32_t i = 0; i < count; i++)
+        memcpy(&out[(size_t)components * points[i]], values, components * sizeof *values);
+}
+
+static void set_axes(const estimate_job *job, uint32_t place, const local_surface *s, uint32_t lane,
+                     double unit) {
+    const double scaled = job->options->radius_scale * (double)s->spacing[lane];
+    const double radius = fmax(scaled, (double)s->ellipse_reach[lane]);
+    const double sigma = radius * unit / job->options->cutoff, stretch = sqrt((double)s->aspect[lane]);
+    float u[3], v[3];
+    for (int c = 0; c < 3; c++) {
+        // v = n x u
+        const int next = (c + 1) % 3, last = (c + 2) % 3;
+        const double across = (double)s->normal[next][lane] * (double)s->major[last][lane] -
+                              (double)s->normal[last][lane] * (double)s->major[next][lane];
+        u[c] = (float)(sigma * stretch * (double)s->major[c][lane]);
+        v[c] = (float)(sigma / stretch * across);
+    }
+    set_points(job, place, job->tangent_u_out, u, 3);
+    set_points(job, place, job->tangent_v_out, v, 3);
+}
+
+/// A disc is at least radius_scale spacings large, and as large as the place's own cell: then irregular
+/// sampling leaves no hole.
+static void set_radius(const estimate_job *job, uint32_t place, const local_surface *s, uint32_t lane,
+                       double unit) {
+    const double scaled = job->options->radius_scale * (double)s->spacing[lane];
+    const float radius = (float)(fmax(scaled, (double)s->reach[lane]) * unit);
+    set_points(job, place, job->radius_out, &radius, 1);
+}
+
+static void visit(void *user, const ewa_block *block, uint32_t worker) {
+    const estimate_job *job = user;
+    local_surface s;
+    job->kernels->measure(block, job->wanted, &s);
+    if (job->links) job->kernels->link(block, &job->links[block->first_place]);
+    for (uint32_t lane = 0; lane < block->lane_count; lane++) {
+        const uint32_t place = block->first_place + lane;
+        if (job->spacing) job->spacing[place] = (float)((double)s.spacing[lane] * block->unit_world);
+        if (job->normals)
+            for (int c = 0; c < 3; c++) job->normals[3 * (size_t)place + (size_t)c] = s.normal[c][lane];
+        if (job->radius_out) set_radius(job, place, &s, lane, block->unit_world);
+        if (job->tangent_u_out) set_axes(job, place, &s, lane, block->unit_world);
+    }
+    const uint32_t lanes = (1u << block->lane_count) - 1;
+    job->degenerate_count[COUNTER_STRIDE * worker] += (uint32_t)__builtin_popcount(s.degenerate & lanes);
+}
+
+/// Turns v so that u x v is along the normal.
+static void match_axes(const float *normal, const float *u, float *v) {
+    float volume = 0;
+    for (int c = 0; c < 3; c++)
+        volume += normal[c] * (u[(c + 1) % 3] * v[(c + 2) % 3] - u[(c + 2) % 3] * v[(c + 1) % 3]);
+    if (volume < 0)
+        for (int c = 0; c < 3; c++) v[c] = -v[c];
+}
+
+/// Hands the normals of places to their points, towards the viewpoint if that is wanted.
+static void finish_task(void *data, uint32_t task, uint32_t worker) {
+    (void)worker;
+    const estimate_job *job = data;
+    const uint32_t begin = task * TASK_PLACES;
+    const uint32_t end = job->place_count - begin < TASK_PLACES ? job->place_count : begin + TASK_PLACES;
+    for (uint32_t place = begin; place < end; place++) {
+        float *normal = &job->normals[3 * (size_t)place];
+        uint32_t count;
+        const uint32_t *points = ewa_neighbours_points(job->neighbours, place, &count);
+        if (job->options->orientation == EWA_ORIENT_VIEWPOINT) {
+            double p[3], towards = 0;
+            ewa_attribute_read_f64(&job->position, points[0], 1, p);
+            for (int c = 0; c < 3; c++) towards += (job->viewpoint[c] - p[c]) * (double)normal[c];
+            if (towards < 0)
+                for (int c = 0; c < 3; c++) normal[c] = -normal[c];
+        }
+        set_points(job, place, job->normal_out, normal, 3);
+        for (uint32_t i = 0; i < count && job->tangent_v_out; i++)
+            match_axes(normal, &job->tangent_u_out[3 * (size_t)points[i]],
+                       &job->tangent_v_out[3 * (size_t)points[i]]);
+    }
+}
+
+static ewa_status add_output(ewa_cloud *cloud, const char *name, uint32_t components, bool has_gaps,
+                             float **out) {
+    void *data = NULL;
+    const ewa_status status = ewa_cloud_add(cloud, name, EWA_F32, components, &data);
+    if (status != EWA_OK) return status;
+    if (has_gaps) memset(data, 0, components * sizeof **out * ewa_cloud_point_count(cloud));
+    *out = data;
+    return EWA_OK;
+}
+
+/// Measures all places, orients the normals, fills the new streams.
+static ewa_status fill(ewa_cloud *cloud, estimate_job *job) {
+    ewa_context *context = ewa_cloud_context(cloud);
+    ewa_status status =
+        ewa_neighbours_visit(job->neighbours, job->options->neighbour_count, 1, "estimate", visit, job);
+    if (status != EWA_OK || !job->normals) return status;
+    if (job->links) {
+        const orient_input input = {job->neighbours, &job->position,
+                                    (const uint32_t(*)[LOCAL_GRAPH_DEGREE])job->links, job->spacing};
+        status = ewa_orient_propagate(context, &input, job->normals);
+        if (status != EWA_OK) return status;
+    }
+    ewa_parallel(context, finish_task, job, (job->place_count + TASK_PLACES - 1) / TASK_PLACES);
+    return EWA_OK;
+}
+
+/// Adds the streams that are wanted, with a tree over the positions at hand.
+static ewa_status estimate_with(ewa_cloud *cloud, estimate_job *job, bool normals, bool sizes) {
+    ewa_context *context = ewa_cloud_context(cloud);
+    const bool propagate = normals && job->options->orientation == EWA_ORIENT_PROPAGATE;
+    const bool has_gaps = ewa_neighbours_finite_count(job->neighbours) < ewa_cloud_point_count(cloud);
+    const bool ellipse = job->options->shape == EWA_SHAPE_ELLIPSE;
+    const size_t places = job->place_count, workers = ewa_context_worker_count(context);
+    job->wanted = !sizes ? 0 : ellipse ? LOCAL_SHAPE : LOCAL_REACH;
+    ewa_status status = EWA_OK;
+    if (normals) status = add_output(cloud, EWA_NORMAL, 3, has_gaps, &job->normal_out);
+    if (sizes && !ellipse && status == EWA_OK)
+        status = add_output(cloud, EWA_RADIUS, 1, has_gaps, &job->radius_out);
+    if (sizes && ellipse && status == EWA_OK)
+        status = add_output(cloud, EWA_TANGENT_U, 3, has_gaps, &job->tangent_u_out);
+    if (sizes && ellipse && status == EWA_OK)
+        status = add_output(cloud, EWA_TANGENT_V, 3, has_gaps, &job->tangent_v_out);
+    if (status == EWA_OK) {
+        job->degenerate_count =
+            ewa_allocate_zeroed(context, workers, COUNTER_STRIDE * sizeof *job->degenerate_count);
+        bool complete = job->degenerate_count;
+        if (normals)
+            complete = (job->normals = ewa_allocate(context, places, 3 * sizeof *job->normals)) && complete;
+        if (propagate) {
+            complete = (job->links = ewa_allocate(context, places, sizeof *job->links)) && complete;
+            complete = (job->spacing = ewa_allocate(context, places, sizeof *job->spacing)) && complete;
+        }
+        status = complete ? fill(cloud, job) : EWA_ERROR_MEMORY;
+    }
+    if (status == EWA_OK) {
+        uint64_t degenerate = 0;
+        for (size_t w = 0; w < workers; w++) degenerate += job->degenerate_count[COUNTER_STRIDE * w];
+        if (degenerate)
+            ewa_report(context, EWA_SEVERITY_INFO,
+                       "%llu of %llu places are on no plane: less than three neighbours, or all on one line",
+                       (unsigned long long)degenerate, (unsigned long long)places);
+    }
+    ewa_release(context, job->spacing, places, sizeof *job->spacing);
+    ewa_release(context, job->links, places, sizeof *job->links);
+    ewa_release(context, job->normals, places, 3 * sizeof *job->normals);
+    ewa_release(context, job->degenerate_count, workers, COUNTER_STRIDE * sizeof *job->degenerate_count);
+    return status;
+}
+
+static bool has_components(const ewa_cloud *cloud, const char *name, uint32_t components) {
+    const ewa_attribute *attribute = ewa_cloud_find(cloud, name);
+    return attribute && attribute->component_count == components;
+}
+
+static ewa_status estimate(ewa_cloud *cloud, const ewa_estimate_options *options) {
+    const bool has_axes = has_components(cloud, EWA_TANGENT_U, 3) && has_components(cloud, EWA_TANGENT_V, 3);
+    const bool normals = !(options->keep_normals && has_components(cloud, EWA_NORMAL, 3));
+    const bool sizes = !(options->keep_radii && (has_axes || has_components(cloud, EWA_RADIUS, 1)));
+    if (!normals && !sizes) return EWA_OK;
+    estimate_job job = {.options = options,
+                        .kernels = ewa_local_kernels(ewa_cloud_context(cloud)),
+                        .position = *ewa_cloud_find(cloud, EWA_POSITION)};
+    ewa_cloud_origin(cloud, job.viewpoint);
+    for (int c = 0; c < 3; c++) job.viewpoint[c] = options->viewpoint_world[c] - job.viewpoint[c];
+    ewa_neighbours *neighbours = NULL;
+    ewa_status status = ewa_neighbours_create(ewa_cloud_context(cloud), &job.position,
+                                              (uint32_t)ewa_cloud_point_count(cloud), &neighbours);
+    if (status != EWA_OK) return status;
+    job.neighbours = neighbours;
+    job.place_count = ewa_neighbours_place_count(neighbours);
+    status = estimate_with(cloud, &job, normals, sizes);
+    ewa_neighbours_destroy(&neighbours);
+    if (status != EWA_OK) {
+        // Streams that are not filled must not stay.
+        if (job.normal_out) ewa_cloud_remove(cloud, EWA_NORMAL);
+        if (job.radius_out) ewa_cloud_remove(cloud, EWA_RADIUS);
+        if (job.tangent_u_out) ewa_cloud_remove(cloud, EWA_TANGENT_U);
+        if (job.tangent_v_out) ewa_cloud_remove(cloud, EWA_TANGENT_V);
+        return status;
+    }
+    // What described the old sizes would contradict the new ones.
+    if (job.tangent_u_out) ewa_cloud_remove(cloud, EWA_RADIUS);
+    if (sizes) {
+        static const char *const clip_lines[] = {EWA_CLIP0, EWA_CLIP1, EWA_CLIP_MODE};
+        for (int i = 0; i < 3; i++) ewa_cloud_remove(cloud, clip_lines[i]);
+    }
+    if (job.radius_out) {
+        ewa_cloud_remove(cloud, EWA_TANGENT_U);
+        ewa_cloud_remove(cloud, EWA_TANGENT_V);
+    }
+    return EWA_OK;
+}
+
+static ewa_status check_options(ewa_context *context, const ewa_estimate_options *options) {
+    if (options->struct_size != sizeof *options)
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "estimate: options of %zu bytes, not %zu",
+                        options->struct_size, sizeof *options);
+    if (options->neighbour_count < MIN_NEIGHBOURS || options->neighbour_count > EWA_NEIGHBOURS_MAX)
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "estimate: neighbour_count is %u, not %d to %d",
+                        options->neighbour_count, MIN_NEIGHBOURS, EWA_NEIGHBOURS_MAX);
+    if ((unsigned)options->orientation > EWA_ORIENT_NONE || (unsigned)options->shape > EWA_SHAPE_ELLIPSE)
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "estimate: orientation %d or shape %d unknown",
+                        (int)options->orientation, (int)options->shape);
+    if (!(options->radius_scale > 0) || !isfinite(options->radius_scale) || !(options->cutoff > 0) ||
+        !isfinite(options->cutoff))
+        return ewa_fail(context, EWA_ERROR_ARGUMENT,
+                        "estimate: radius_scale %g and cutoff %g have to be positive", options->radius_scale,
+                        options->cutoff);
+    if (!(options->outlier_factor >= 0) || !isfinite(options->outlier_factor))
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "estimate: outlier_factor %g is negative or not finite",
+                        options->outlier_factor);
+    for (int c = 0; c < 3; c++)
+        if (!isfinite(options->viewpoint_world[c]))
+            return ewa_fail(context, EWA_ERROR_ARGUMENT, "estimate: the viewpoint is not finite");
+    return EWA_OK;
+}
+
+const local_kernels *ewa_local_kernels(const ewa_context *context) {
+    const local_kernels *best = &ewa_local_kernels_portable;
+#if defined(__x86_64__)
+    const uint32_t features = ewa_context_cpu_features(context);
+    if (features & EWA_CPU_AVX2) best = &ewa_local_kernels_avx2;
+    if (features & EWA_CPU_AVX512) best = &ewa_local_kernels_avx512;
+#else
+    (void)context;
+#endif
+    return best;
+}
+
+void ewa_estimate_options_init(ewa_estimate_options *options, size_t struct_size) {
+    if (!options || struct_size < sizeof *options) return;
+    memset(options, 0, struct_size);
+    options->struct_size = struct_size;
+    options->neighbour_count = 16;
+    options->radius_scale = EWA_DEFAULT_RADIUS_SCALE;
+    options->cutoff = 3;
+    options->keep_normals = true;
+    options->keep_radii = true;
+}
+
+ewa_status ewa_cloud_estimate(ewa_cloud **cloud, const ewa_estimate_options *options) {
+    if (!cloud || !*cloud || !options) return EWA_ERROR_ARGUMENT;
+    ewa_context *context = ewa_cloud_context(*cloud);
+    ewa_status status = check_options(context, options);
+    if (status != EWA_OK) return status;
+    if (!has_components(*cloud, EWA_POSITION, 3))
+        return ewa_fail(context, EWA_ERROR_ARGUMENT,
+                        "estimate: the cloud has no positions of three components");
+    if (ewa_cloud_point_count(*cloud) >= UINT32_MAX)
+        return ewa_fail(context, EWA_ERROR_LIMIT, "estimate: %llu points are over the limit of 2^32 - 2",
+                        (unsigned long long)ewa_cloud_point_count(*cloud));
+    if (options->outlier_factor > 0)
+        status = ewa_remove_outliers(cloud, options->neighbour_count, options->outlier_factor);
+    return status == EWA_OK ? estimate(*cloud, options) : status;
+}

@@ -1,0 +1,368 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Normal, spacing and shape from a neighbourhood, sixteen at a time. A file that includes this defines
+// KERNELS, the name of the table, and what math/wide.h asks for.
+//
+// Normal: the direction of least variance of the neighbourhood. Based on H. Hoppe, T. DeRose, T. Duchamp,
+// J. McDonald, W. Stuetzle, "Surface reconstruction from unorganized points", 1992, section 3.2.
+//
+// Spacing: in a plane with rho samples per area the j-th nearest neighbour is found at pi rho d_j^2 = j on
+// average (a Poisson process; on lattices about j + 1/4). Summed over all n neighbours: 1 / rho = 2 pi
+// sum(d^2) / (n (n + 1)). A sum over the closed ball does not care which of several equally far neighbours
+// were found first. At the border of a scan the neighbours lie on one side and further away; the offset of
+// their mean tells.
+//
+// Shape: the place's cell in the Voronoi diagram, cut by the tangent plane. Seen in direction u it ends at
+// t(u) = 1 / (2 max_j u.p_j / |p_j|^2). A ball that holds an anisotropic lattice shows no anisotropy in its
+// variance, but the cell has the lattice's own proportions.
+#include "math/wide.h"
+#include "prepare/local.h"
+
+enum {
+    JACOBI_SWEEPS = 4, // quadratic convergence: single precision is reached after three
+    DIRECTIONS = 8,    // of the cell, with their opposites
+};
+
+// Constants of the estimators; the tests of regular, jittered, hexagonal and random samplings depend on them.
+static const float PI = 3.14159265f;
+static const float SELF_SHARE = 0.15f; // of j + share above: between a random sampling and a lattice
+static const float HALF_PLANE_OFFSET =
+    0.36f;                                // |mean|^2 / mean(d^2) at a straight border: (4 / 3 pi)^2 / (1 / 2)
+static const float OFFSET_NOISE = 2.0f;   // times 1 / n: offsets up to that occur in the middle of a surface
+static const float LINE_VARIANCE = 1e-3f; // second over first variance below which a neighbourhood is a line
+static const float MAX_REACH = 2.0f;     // spacings; cells that reach further are open: at a border or a hole
+static const float REACH_MARGIN = 1.08f; // a corner of the cell between two directions reaches further
+
+// cos and sin of i * 22.5 degrees
+static const float DIRECTION_X[DIRECTIONS] = {1, 0.923879533f,  0.707106781f,  0.382683432f,
+                                              0, -0.382683432f, -0.707106781f, -0.923879533f};
+static const float DIRECTION_Y[DIRECTIONS] = {0, 0.382683432f, 0.707106781f, 0.923879533f,
+                                              1, 0.923879533f, 0.707106781f, 0.382683432f};
+
+typedef struct vec {
+    wf x, y, z;
+} vec;
+
+static vec v_set(float x, float y, float z) { return (vec){wf_set(x), wf_set(y), wf_set(z)}; }
+static vec v_scale(vec a, wf s) { return (vec){wf_mul(a.x, s), wf_mul(a.y, s), wf_mul(a.z, s)}; }
+static vec v_add(vec a, vec b) { return (vec){wf_add(a.x, b.x), wf_add(a.y, b.y), wf_add(a.z, b.z)}; }
+static vec v_sub(vec a, vec b) { return (vec){wf_sub(a.x, b.x), wf_sub(a.y, b.y), wf_sub(a.z, b.z)}; }
+static wf v_dot(vec a, vec b) { return wf_add(wf_add(wf_mul(a.x, b.x), wf_mul(a.y, b.y)), wf_mul(a.z, b.z)); }
+static vec v_select(wm m, vec a, vec b) {
+    return (vec){wf_select(m, a.x, b.x), wf_select(m, a.y, b.y), wf_select(m, a.z, b.z)};
+}
+static vec v_cross(vec a, vec b) {
+    return (vec){wf_sub(wf_mul(a.y, b.z), wf_mul(a.z, b.y)), wf_sub(wf_mul(a.z, b.x), wf_mul(a.x, b.z)),
+                 wf_sub(wf_mul(a.x, b.y), wf_mul(a.y, b.x))};
+}
+static vec v_unit(vec a) {
+    return v_scale(a, wf_div(wf_set(1), wf_sqrt(wf_max(v_dot(a, a), wf_set(1e-30f)))));
+}
+static void v_store(float to[3][EWA_BLOCK_LANES], vec a) {
+    wf_store(to[0], a.x);
+    wf_store(to[1], a.y);
+    wf_store(to[2], a.z);
+}
+
+/// A symmetric matrix: m[0..5] = xx xy xz yy yz zz.
+typedef struct symmetric {
+    wf xx, xy, xz, yy, yz, zz;
+} symmetric;
+
+/// Sums over a neighbourhood, relative to its place, which is counted but adds nothing.
+typedef struct moments {
+    wf count;
+    vec first;
+    symmetric second;
+} moments;
+
+static vec offset_of(const ewa_block *block, uint32_t i, vec at) {
+    return v_sub((vec){wf_set(block->x[i]), wf_set(block->y[i]), wf_set(block->z[i])}, at);
+}
+
+static vec lanes_of(const ewa_block *block) {
+    return (vec){wf_load(block->lane_x), wf_load(block->lane_y), wf_load(block->lane_z)};
+}
+
+static moments sum_moments(const ewa_block *block) {
+    const vec at = lanes_of(block);
+    const wf radius2 = wf_load(block->radius2), zero = wf_set(0), one = wf_set(1);
+    moments m = {zero, {zero, zero, zero}, {zero, zero, zero, zero, zero, zero}};
+    for (uint32_t i = 0; i < block->candidate_count; i++) {
+        const wm inside = wf_le(wf_load(block->distance2[i]), radius2);
+        vec d = offset_of(block, i, at);
+        d = (vec){wf_keep(inside, d.x), wf_keep(inside, d.y), wf_keep(inside, d.z)};
+        m.count = wf_add(m.count, wf_keep(inside, one));
+        m.first = v_add(m.first, d);
+        m.second.xx = wf_add(m.second.xx, wf_mul(d.x, d.x));
+        m.second.xy = wf_add(m.second.xy, wf_mul(d.x, d.y));
+        m.second.xz = wf_add(m.second.xz, wf_mul(d.x, d.z));
+        m.second.yy = wf_add(m.second.yy, wf_mul(d.y, d.y));
+        m.second.yz = wf_add(m.second.yz, wf_mul(d.y, d.z));
+        m.second.zz = wf_add(m.second.zz, wf_mul(d.z, d.z));
+    }
+    return m;
+}
+
+/// Turns rows and columns p and q of a symmetric matrix so that (p, q) becomes 0; r is the third. Columns of
+/// the eigenvectors turn along. (Jacobi 1846, in the form that divides by nothing small.)
+static void rotate(wf *pp, wf *qq, wf *pq, wf *pr, wf *qr, vec *vp, vec *vq) {
+    const wf one = wf_set(1), difference = wf_sub(*qq, *pp), twice = wf_add(*pq, *pq);
+    const wf length = wf_sqrt(wf_add(wf_mul(difference, difference), wf_mul(twice, twice)));
+    const wf denominator = wf_max(wf_add(wf_abs(difference), length), wf_set(1e-30f));
+    const wf sign = wf_select(wf_lt(difference, wf_set(0)), wf_set(-1), one);
+    const wf t = wf_div(wf_mul(sign, twice), denominator);
+    const wf c = wf_div(one, wf_sqrt(wf_add(one, wf_mul(t, t)))), s = wf_mul(t, c);
+    *pp = wf_sub(*pp, wf_mul(t, *pq));
+    *qq = wf_add(*qq, wf_mul(t, *pq));
+    *pq = wf_set(0);
+    const wf old = *pr;
+    *pr = wf_sub(wf_mul(c, old), wf_mul(s, *qr));
+    *qr = wf_add(wf_mul(s, old), wf_mul(c, *qr));
+    const vec old_v = *vp;
+    *vp = v_sub(v_scale(old_v, c), v_scale(*vq, s));
+    *vq = v_add(v_scale(old_v, s), v_scale(*vq, c));
+}
+
+/// Eigenvalues descending, with their vectors.
+typedef struct eigen {
+    wf value[3];
+    vec vector[3];
+} eigen;
+
+static void order_pair(eigen *e, int low, int high) {
+    const wm swap = wf_lt(e->value[low], e->value[high]);
+    const wf value = e->value[low];
+    const vec vector = e->vector[low];
+    e->value[low] = wf_select(swap, e->value[high], value);
+    e->value[high] = wf_select(swap, value, e->value[high]);
+    e->vector[low] = v_select(swap, e->vector[high], vector);
+    e->vector[high] = v_select(swap, vector, e->vector[high]);
+}
+
+static eigen decompose(symmetric a) {
+    eigen e = {.vector = {v_set(1, 0, 0), v_set(0, 1, 0), v_set(0, 0, 1)}};
+    for (int sweep = 0; sweep < JACOBI_SWEEPS; sweep++) {
+        rotate(&a.xx, &a.yy, &a.xy, &a.xz, &a.yz, &e.vector[0], &e.vector[1]);
+        rotate(&a.xx, &a.zz, &a.xz, &a.xy, &a.yz, &e.vector[0], &e.vector[2]);
+        rotate(&a.yy, &a.zz, &a.yz, &a.xy, &a.xz, &e.vector[1], &e.vector[2]);
+    }
+    e.value[0] = a.xx;
+    e.value[1] = a.yy;
+    e.value[2] = a.zz;
+    order_pair(&e, 0, 1);
+    order_pair(&e, 1, 2);
+    order_pair(&e, 0, 1);
+    return e;
+}
+
+/// The tangent frame and what it says: unit vectors, normal = u x v up to sign.
+typedef struct frame {
+    vec u, v, normal;
+    wm degenerate;
+} frame;
+
+static frame find_frame(const moments *m) {
+    const wf per_count = wf_div(wf_set(1), wf_max(m->count, wf_set(1)));
+    const vec mean = v_scale(m->first, per_count);
+    symmetric c = {wf_sub(wf_mul(m->second.xx, per_count), wf_mul(mean.x, mean.x)),
+                   wf_sub(wf_mul(m->second.xy, per_count), wf_mul(mean.x, mean.y)),
+                   wf_sub(wf_mul(m->second.xz, per_count), wf_mul(mean.x, mean.z)),
+                   wf_sub(wf_mul(m->second.yy, per_count), wf_mul(mean.y, mean.y)),
+                   wf_sub(wf_mul(m->second.yz, per_count), wf_mul(mean.y, mean.z)),
+                   wf_sub(wf_mul(m->second.zz, per_count), wf_mul(mean.z, mean.z))};
+    const wf trace = wf_add(wf_add(c.xx, c.yy), c.zz);
+    const wf scale = wf_div(wf_set(1), wf_max(trace, wf_set(1e-30f)));
+    c = (symmetric){wf_mul(c.xx, scale), wf_mul(c.xy, scale), wf_mul(c.xz, scale),
+                    wf_mul(c.yy, scale), wf_mul(c.yz, scale), wf_mul(c.zz, scale)};
+    const eigen e = decompose(c);
+    frame f = {e.vector[0], e.vector[1], e.vector[2], wf_lt(m->count, wf_set(3))};
+    f.degenerate = wm_or(f.degenerate, wf_le(e.value[1], wf_mul(e.value[0], wf_set(LINE_VARIANCE))));
+    // Without a plane: upright on the line if there is one, or on x if the line itself is upright.
+    const vec up = v_set(0, 0, 1), line = v_select(wf_lt(wf_set(0), e.value[0]), e.vector[0], v_set(1, 0, 0));
+    const vec helper = v_select(wf_lt(wf_abs(line.z), wf_set(0.9f)), up, v_set(1, 0, 0));
+    const vec upright = v_unit(v_sub(helper, v_scale(line, v_dot(helper, line))));
+    f.normal = v_select(f.degenerate, upright, f.normal);
+    f.u = v_select(f.degenerate, line, f.u);
+    // The sign by the largest component makes the result independent of how the rotations went.
+    const wf ax = wf_abs(f.normal.x), ay = wf_abs(f.normal.y), az = wf_abs(f.normal.z);
+    wf largest = wf_select(wf_lt(ax, ay), f.normal.y, f.normal.x);
+    largest = wf_select(wf_lt(wf_max(ax, ay), az), f.normal.z, largest);
+    const wf sign = wf_select(wf_lt(largest, wf_set(0)), wf_set(-1), wf_set(1));
+    f.normal = v_unit(v_scale(f.normal, sign));
+    f.v = v_unit(v_cross(f.normal, f.u));
+    f.u = v_cross(f.v, f.normal);
+    return f;
+}
+
+static wf find_spacing(const moments *m, const frame *f) {
+    const vec n = f->normal;
+    const wf one = wf_set(1), zero = wf_set(0);
+    const wf count = wf_sub(m->count, one), safe_count = wf_max(count, one);
+    // n.S n, what the neighbourhood is thick.
+    const vec sn = {
+        wf_add(wf_add(wf_mul(m->second.xx, n.x), wf_mul(m->second.xy, n.y)), wf_mul(m->second.xz, n.z)),
+        wf_add(wf_add(wf_mul(m->second.xy, n.x), wf_mul(m->second.yy, n.y)), wf_mul(m->second.yz, n.z)),
+        wf_add(wf_add(wf_mul(m->second.xz, n.x), wf_mul(m->second.yz, n.y)), wf_mul(m->second.zz, n.z))};
+    const wf all = wf_add(wf_add(m->second.xx, m->second.yy), m->second.zz);
+    const wf tangential = wf_max(wf_sub(all, v_dot(n, sn)), zero);
+    const wf pairs = wf_mul(safe_count, wf_add(safe_count, wf_set(1 + 2 * SELF_SHARE)));
+    const wf area = wf_div(wf_mul(wf_set(2 * PI), tangential), pairs);
+    const vec first = v_sub(m->first, v_scale(n, v_dot(n, m->first)));
+    const wf offset = wf_div(v_dot(first, first), wf_max(wf_mul(safe_count, tangential), wf_set(1e-30f)));
+    const wf noise = wf_div(wf_set(OFFSET_NOISE), safe_count);
+    // Half the area is empty at a straight border, three quarters at a corner: area / (1 + offset / half
+    // plane's).
+    const wf half_plane = wf_max(wf_sub(wf_set(HALF_PLANE_OFFSET), noise), wf_set(0.05f));
+    const wf empty = wf_div(wf_max(wf_sub(offset, noise), zero), half_plane);
+    const wf share = wf_max(wf_div(one, wf_add(one, empty)), wf_set(0.25f));
+    const wm enough = wf_lt(noise, wf_set(HALF_PLANE_OFFSET));
+    return wf_sqrt(wf_mul(area, wf_select(enough, share, one)));
+}
+
+/// How far the cell of a place extends in 16 directions of the tangent frame: i, and i + DIRECTIONS opposite.
+typedef struct cell {
+    wf extent[2 * DIRECTIONS];
+    wm open[2 * DIRECTIONS]; // no neighbour bounds it there
+} cell;
+
+static cell find_cell(const ewa_block *block, const frame *f, wf spacing) {
+    const vec at = lanes_of(block);
+    const wf radius2 = wf_load(block->radius2), zero = wf_set(0);
+    wf high[DIRECTIONS], low[DIRECTIONS];
+    for (int i = 0; i < DIRECTIONS; i++) high[i] = low[i] = zero;
+    for (uint32_t c = 0; c < block->candidate_count; c++) {
+        const wf distance2 = wf_load(block->distance2[c]);
+        const wm other = wm_and(wf_le(distance2, radius2), wf_lt(zero, distance2));
+        if (!wm_bits(other)) continue;
+        const vec d = offset_of(block, c, at);
+        const wf inverse = wf_keep(other, wf_div(wf_set(1), wf_max(distance2, wf_set(1e-30f))));
+        const wf u = wf_mul(v_dot(d, f->u), inverse), v = wf_mul(v_dot(d, f->v), inverse);
+        for (int i = 0; i < DIRECTIONS; i++) {
+            const wf along = wf_add(wf_mul(u, wf_set(DIRECTION_X[i])), wf_mul(v, wf_set(DIRECTION_Y[i])));
+            high[i] = wf_max(high[i], along);
+            low[i] = wf_min(low[i], along);
+        }
+    }
+    cell made;
+    const wf limit = wf_mul(spacing, wf_set(MAX_REACH)), half = wf_set(0.5f), tiny = wf_set(1e-30f);
+    for (int i = 0; i < DIRECTIONS; i++) {
+        made.extent[i] = wf_div(half, wf_max(high[i], tiny));
+        made.extent[i + DIRECTIONS] = wf_div(half, wf_max(wf_sub(zero, low[i]), tiny));
+    }
+    for (int i = 0; i < 2 * DIRECTIONS; i++) made.open[i] = wf_lt(limit, made.extent[i]);
+    return made;
+}
+
+/// The extent of the cell in a direction; zero where it is open there or next to it, so that borders do not
+/// swell.
+static wf closed_extent(const cell *c, int i) {
+    enum { ALL = 2 * DIRECTIONS };
+    const wm beside = wm_or(c->open[(i + 1) % ALL], c->open[(i + ALL - 1) % ALL]);
+    return wf_keep(wm_not(wm_or(c->open[i], beside)), c->extent[i]);
+}
+
+static wf find_reach(const cell *c) {
+    wf reach = wf_set(0);
+    for (int i = 0; i < 2 * DIRECTIONS; i++) reach = wf_max(reach, closed_extent(c, i));
+    return wf_mul(reach, wf_set(REACH_MARGIN));
+}
+
+/// The axes of the ellipse with the cell's proportions, from the cell's second moments: t^4 u u^T summed over
+/// u.
+static void find_shape(const cell *c, const frame *f, wf spacing, local_surface *surface) {
+    const wf zero = wf_set(0), one = wf_set(1), half = wf_set(0.5f), tiny = wf_set(1e-30f);
+    const wf per_spacing = wf_div(one, wf_max(spacing, tiny));
+    wf xx = zero, xy = zero, yy = zero;
+    for (int i = 0; i < 2 * DIRECTIONS; i++) {
+        // Where the cell is open its other side stands in, so that borders grow no fringe.
+        const int opposite = (i + DIRECTIONS) % (2 * DIRECTIONS);
+        const wf mirrored = wf_select(c->open[opposite], spacing, c->extent[opposite]);
+        const wf t = wf_mul(wf_select(c->open[i], mirrored, c->extent[i]), per_spacing), t2 = wf_mul(t, t);
+        const wf weight = wf_mul(t2, t2);
+        const float x = DIRECTION_X[i % DIRECTIONS], y = DIRECTION_Y[i % DIRECTIONS];
+        xx = wf_add(xx, wf_mul(weight, wf_set(x * x)));
+        xy = wf_add(xy, wf_mul(weight, wf_set(x * y)));
+        yy = wf_add(yy, wf_mul(weight, wf_set(y * y)));
+    }
+    const wf middle = wf_mul(wf_add(xx, yy), half), difference = wf_mul(wf_sub(xx, yy), half);
+    const wf length = wf_sqrt(wf_add(wf_mul(difference, difference), wf_mul(xy, xy)));
+    const wf larger = wf_add(middle, length), smaller = wf_max(wf_sub(middle, length), tiny);
+    // The eigenvector of the larger: of the two forms the one that does not cancel.
+    const wm wide = wf_le(zero, difference);
+    wf major_u = wf_select(wide, wf_add(length, difference), xy);
+    wf major_v = wf_select(wide, xy, wf_sub(length, difference));
+    const wf norm2 = wf_add(wf_mul(major_u, major_u), wf_mul(major_v, major_v));
+    const wm round = wf_le(norm2, wf_set(1e-20f));
+    const wf inverse = wf_div(one, wf_sqrt(wf_max(norm2, tiny)));
+    major_u = wf_select(round, one, wf_mul(major_u, inverse));
+    major_v = wf_select(round, zero, wf_mul(major_v, inverse));
+    const wf aspect = wf_min(wf_sqrt(wf_div(larger, smaller)), wf_set(LOCAL_MAX_ASPECT));
+    v_store(surface->major, v_add(v_scale(f->u, major_u), v_scale(f->v, major_v)));
+    wf_store(surface->aspect, aspect);
+    wf reach2 = zero;
+    for (int i = 0; i < 2 * DIRECTIONS; i++) {
+        const wf x = wf_set(DIRECTION_X[i % DIRECTIONS]), y = wf_set(DIRECTION_Y[i % DIRECTIONS]);
+        const wf along = wf_add(wf_mul(x, major_u), wf_mul(y, major_v));
+        const wf across = wf_sub(wf_mul(y, major_u), wf_mul(x, major_v));
+        const wf stretch =
+            wf_add(wf_div(wf_mul(along, along), aspect), wf_mul(wf_mul(across, across), aspect));
+        const wf t = closed_extent(c, i);
+        reach2 = wf_max(reach2, wf_mul(wf_mul(t, t), stretch));
+    }
+    wf_store(surface->ellipse_reach, wf_mul(wf_sqrt(reach2), wf_set(REACH_MARGIN)));
+}
+
+static void measure(const ewa_block *block, uint32_t wanted, local_surface *surface) {
+    const moments m = sum_moments(block);
+    const frame f = find_frame(&m);
+    const wf spacing = find_spacing(&m, &f);
+    v_store(surface->normal, f.normal);
+    wf_store(surface->spacing, spacing);
+    surface->degenerate = wm_bits(f.degenerate);
+    if (!wanted) return;
+    const cell c = find_cell(block, &f, spacing);
+    if (wanted & LOCAL_REACH) wf_store(surface->reach, find_reach(&c));
+    if (wanted & LOCAL_SHAPE) find_shape(&c, &f, spacing, surface);
+}
+
+static void measure_distance(const ewa_block *block, local_surface *surface) {
+    const wf radius2 = wf_load(block->radius2), zero = wf_set(0), one = wf_set(1);
+    wf sum = zero, count = wf_set(-1);
+    for (uint32_t i = 0; i < block->candidate_count; i++) {
+        const wf distance2 = wf_load(block->distance2[i]);
+        const wm inside = wf_le(distance2, radius2);
+        sum = wf_add(sum, wf_keep(inside, wf_sqrt(distance2)));
+        count = wf_add(count, wf_keep(inside, one));
+    }
+    wf_store(surface->mean_distance, wf_div(sum, wf_max(count, one)));
+}
+
+static void link_nearest(const ewa_block *block, local_graph graph) {
+    float distance2[EWA_BLOCK_LANES][LOCAL_GRAPH_DEGREE];
+    uint32_t count[EWA_BLOCK_LANES] = {0};
+    const wf radius2 = wf_load(block->radius2);
+    const uint32_t lanes = (1u << block->lane_count) - 1;
+    for (uint32_t c = 0; c < block->candidate_count; c++) {
+        uint32_t inside = wm_bits(wf_le(wf_load(block->distance2[c]), radius2)) & lanes;
+        for (; inside; inside &= inside - 1) {
+            const uint32_t lane = (uint32_t)__builtin_ctz(inside);
+            const float distance = block->distance2[c][lane];
+            uint32_t to = count[lane];
+            if (block->place[c] == block->first_place + lane) continue;
+            if (to == LOCAL_GRAPH_DEGREE && !(distance < distance2[lane][--to])) continue;
+            count[lane] = count[lane] < LOCAL_GRAPH_DEGREE ? count[lane] + 1 : LOCAL_GRAPH_DEGREE;
+            for (; to > 0 && distance2[lane][to - 1] > distance; to--) {
+                distance2[lane][to] = distance2[lane][to - 1];
+                graph[lane][to] = graph[lane][to - 1];
+            }
+            distance2[lane][to] = distance;
+            graph[lane][to] = block->place[c];
+        }
+    }
+    for (uint32_t lane = 0; lane < block->lane_count; lane++)
+        for (uint32_t i = count[lane]; i < LOCAL_GRAPH_DEGREE; i++) graph[lane][i] = UINT32_MAX;
+}
+
+const local_kernels KERNELS = {measure, measure_distance, link_nearest};
