@@ -274,6 +274,7 @@ static bool write_stats(cli_session *session, const render_arguments *arguments,
     json_number(&json, "setup", report->stats.setup_s);
     json_number(&json, "visibility", report->stats.visibility_s);
     json_number(&json, "accumulate", report->stats.accumulate_s);
+    json_number(&json, "edges", report->stats.edge_s);
     json_number(&json, "resolve", report->stats.resolve_s);
     json_close(&json, '}');
     json_count(&json, "peak_memory_bytes", memory_peak_bytes());
