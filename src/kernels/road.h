@@ -172,9 +172,10 @@ typedef struct ewa_road_kernels {
     /// Marks in edges->rows the blocks with a partly covered pixel and starts their planes; returns how many.
     uint32_t (*find_edges)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges);
 
-    /// Writes the numbers of a run's splats that may lie behind a marked block to `hits`; returns how many.
-    uint32_t (*edge_hits)(const ewa_tile *tile, const ewa_edges *edges, const ewa_sorted_run *run,
-                          uint16_t *hits);
+    /// Writes those of a run's splats `candidates` that may lie behind a marked block to `hits`, in order;
+    /// returns how many. `hits` may be `candidates`; it has room for one more than there are.
+    uint32_t (*edge_hits)(const ewa_tile *tile, const ewa_edges *edges, const ewa_record *records,
+                          const uint16_t *candidates, uint32_t candidate_count, uint16_t *hits);
 
     /// One of the two passes for splats beyond edges->passed, in marked blocks only.
     void (*edge_pass)(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,

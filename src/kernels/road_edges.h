@@ -58,14 +58,15 @@ static ALWAYS_INLINE uint32_t wanted_blocks(const ewa_tile *tile, const ewa_edge
     return wanted;
 }
 
-static uint32_t edge_hits(const ewa_tile *tile, const ewa_edges *edges, const ewa_sorted_run *run,
-                          uint16_t *hits) {
+static uint32_t edge_hits(const ewa_tile *tile, const ewa_edges *edges, const ewa_record *records,
+                          const uint16_t *candidates, uint32_t candidate_count, uint16_t *hits) {
     uint32_t count = 0;
-    for (uint32_t i = 0; i < run->class_first[EWA_CLASS_COUNT]; i++) {
-        const ewa_record *r = &run->records[run->order[i]];
+    for (uint32_t i = 0; i < candidate_count; i++) {
+        const uint16_t splat = candidates[i];
+        const ewa_record *r = &records[splat];
         uint32_t wanted = 0;
         for (uint32_t row = 0; row < box_rows(r->box); row++) wanted |= wanted_blocks(tile, edges, r, row);
-        hits[count] = run->order[i];
+        hits[count] = splat;
         count += wanted != 0;
     }
     return count;

@@ -171,7 +171,8 @@ static void walk_again(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_s
         s->setup_s += middle - before;
         uint32_t hit_count = 0;
         if (what >= PASS_EDGE_VISIBILITY)
-            hit_count = job->kernels->edge_hits(tile, &s->edges, &sorted, s->hits);
+            hit_count =
+                job->kernels->edge_hits(tile, &s->edges, sorted.records, sorted.order, s->run.count, s->hits);
         visit_run(job, tile, s, &sorted, s->hits, hit_count, what);
         draw_near(job, tile, &s->edges, s->run.near_surfels, s->run.near_count, what);
         if (what == PASS_VISIBILITY) count_splats(job, s);
@@ -204,14 +205,19 @@ static void keep_runs(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_sc
     }
 }
 
-/// Finds, once per tile, the kept splats that lie on marked blocks.
-static void keep_hits(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
-                      uint64_t run_count) {
+/// Finds the kept splats that may lie behind marked blocks: all at first, then among those of the layer
+/// before.
+static void keep_hits(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, uint64_t run_count,
+                      bool first) {
     uint32_t hit_count = 0;
     for (uint64_t i = 0; i < run_count; i++) {
         ewa_kept_run *kept = &s->kept[i];
+        const ewa_sorted_run *run = &kept->sorted;
+        const uint16_t *candidates = first ? run->order : s->hits + kept->hit_first;
+        const uint32_t count = first ? run->class_first[EWA_CLASS_COUNT] : kept->hit_count;
+        kept->hit_count =
+            job->kernels->edge_hits(tile, &s->edges, run->records, candidates, count, s->hits + hit_count);
         kept->hit_first = hit_count;
-        kept->hit_count = job->kernels->edge_hits(tile, &s->edges, &kept->sorted, s->hits + hit_count);
         hit_count += kept->hit_count;
     }
 }
@@ -222,8 +228,8 @@ static bool draw_edges(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_s
                        const tile_packets *packets, bool kept) {
     if (job->edge_layers < 2 || !job->kernels->find_edges(tile, &job->resolve, &s->edges)) return false;
     memcpy(s->edge_rows, s->edges.rows, sizeof s->edge_rows);
-    if (kept) keep_hits(job, tile, s, packets->run_count);
     for (uint32_t layer = 1; layer < job->edge_layers; layer++) {
+        if (kept) keep_hits(job, tile, s, packets->run_count, layer == 1);
         for (tile_pass what = PASS_EDGE_VISIBILITY; what <= PASS_EDGE_ACCUMULATE; what++) {
             if (kept)
                 walk_kept(job, tile, s, packets->run_count, what);
