@@ -18,7 +18,7 @@ typedef struct render_arguments {
     const char *output, *aov, *save_camera_path, *stats_path;
     int kernel, passes, cull, shading, colormap;
     double cutoff, prefilter_px, radius_scale, tolerance, edge_threshold, ambient;
-    bool edge_antialiasing;
+    bool edge_antialiasing, close_gaps;
     int64_t edge_layers;
     option_vector light, range;
     option_color background;
@@ -27,9 +27,8 @@ typedef struct render_arguments {
 
 enum { ONE_PASS = 0, THREE_PASSES = 1, GAP_POINTS = 1000 };
 
-/// Support radius in units of the spacing under which irregular points leave gaps, and one that closes most
-/// of them.
-static const double GAP_RADIUS = 1, CLOSED_RADIUS = 1.9;
+/// Support radius in units of the spacing under which irregular points leave gaps.
+static const double GAP_RADIUS = 1;
 
 #define AT(member) offsetof(render_arguments, member)
 
@@ -87,6 +86,10 @@ static const cli_option splat_table[] = {
      .value = "S",
      .range = "(0, inf)",
      .help = "multiplies every radius and axis"},
+    {.key = "close-gaps",
+     .kind = OPTION_ON_OFF,
+     .offset = AT(close_gaps),
+     .help = "measure the radii anew from the spacing where the file's leave gaps between the discs"},
     {.key = "tolerance",
      .kind = OPTION_NUMBER,
      .offset = AT(tolerance),
@@ -186,6 +189,7 @@ static void set_defaults(void *data) {
     arguments->prefilter_px = render.prefilter_px;
     arguments->tolerance = render.tolerance;
     arguments->edge_antialiasing = render.edge_antialiasing;
+    arguments->close_gaps = true;
     arguments->edge_layers = render.edge_layers;
     arguments->edge_threshold = render.edge_threshold;
     arguments->ambient = render.ambient;
@@ -282,16 +286,57 @@ static bool write_stats(cli_session *session, const render_arguments *arguments,
     return text_file_close(session, &text);
 }
 
-/// Says when discs are so small that there are gaps between them. From the unit coverage q = s^2 d (1 -
-/// exp(-F^2 / 2)) (d: density, s = radius / F) follows the radius in units of the spacing 1 / sqrt(d).
-static void note_gaps(cli_session *session, const render_arguments *arguments, const render_report *report) {
+static bool make_surfels(cli_session *session, const render_arguments *arguments, const ewa_cloud *cloud,
+                         ewa_surfels **surfels, render_report *report) {
+    ewa_surfels_options options;
+    ewa_surfels_options_init(&options, sizeof options);
+    options.cutoff = arguments->cutoff;
+    options.radius_scale = arguments->radius_scale;
+    const double started_s = clock_now_s();
+    const ewa_status status = ewa_surfels_create(cloud, &options, surfels);
+    report->surfels_s += clock_now_s() - started_s;
+    if (status != EWA_OK) {
+        session_failed(session, status);
+        return false;
+    }
+    ewa_surfels_describe(*surfels, &report->surfels);
+    return true;
+}
+
+/// The discs' median support radius in units of the spacing 1 / sqrt(d) (d: density): from the unit coverage
+/// q = s^2 d (1 - exp(-F^2 / 2)) with s = radius / F.
+static double radius_in_spacings(const render_arguments *arguments, const ewa_surfels_info *surfels) {
     const double f = arguments->cutoff, kernel = 1 - exp(-0.5 * f * f);
-    const double radius = f * sqrt(report->surfels.unit_coverage / kernel);
-    if (report->surfels.point_count >= GAP_POINTS && radius > 0 && radius < GAP_RADIUS)
-        session_note(
-            session,
-            "the radii are %.2f of the points' spacing, which leaves gaps; --radius-scale %.1f closes them",
-            radius, arguments->radius_scale * CLOSED_RADIUS / radius);
+    return f * sqrt(surfels->unit_coverage / kernel);
+}
+
+/// Measures the radii anew where the file's are so small that there are gaps between the discs; says so.
+static bool close_gaps(cli_session *session, const render_arguments *arguments, ewa_cloud **cloud,
+                       ewa_surfels **surfels, render_report *report) {
+    const double radius = radius_in_spacings(arguments, &report->surfels);
+    const bool gaps = report->surfels.point_count >= GAP_POINTS && radius < GAP_RADIUS;
+    if (!gaps || !ewa_cloud_find(*cloud, EWA_RADIUS) || ewa_cloud_find(*cloud, EWA_TANGENT_U)) return true;
+    if (!arguments->close_gaps) {
+        session_note(session, "the radii are %.2f of the points' spacing, which leaves gaps", radius);
+        return true;
+    }
+    session_note(session,
+                 "the radii are %.2f of the points' spacing, which leaves gaps: larger ones are used "
+                 "(--close-gaps off keeps the file's)",
+                 radius);
+    ewa_estimate_options options;
+    ewa_estimate_options_init(&options, sizeof options);
+    options.cutoff = arguments->cutoff;
+    options.keep_radii = false;
+    const double started_s = clock_now_s();
+    ewa_surfels_destroy(surfels);
+    const ewa_status status = ewa_cloud_estimate(cloud, &options);
+    report->estimate_s += clock_now_s() - started_s;
+    if (status != EWA_OK) {
+        session_failed(session, status);
+        return false;
+    }
+    return make_surfels(session, arguments, *cloud, surfels, report);
 }
 
 /// Loads, colours, and makes surfels and the camera; the clouds are gone afterwards. False after reporting.
@@ -307,21 +352,14 @@ static bool make_scene(cli_session *session, const render_arguments *arguments, 
     session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
     bool done = (!by || color_by(session, cloud, by, (ewa_colormap)arguments->colormap, &arguments->range)) &&
                 view_make(session, &arguments->view, cloud, arguments->radius_scale, camera);
-    if (done) {
-        ewa_surfels_options options;
-        ewa_surfels_options_init(&options, sizeof options);
-        options.cutoff = arguments->cutoff;
-        options.radius_scale = arguments->radius_scale;
-        const double packing_s = clock_now_s();
-        session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
-        const ewa_status status = ewa_surfels_create(cloud, &options, surfels);
-        report->surfels_s = clock_now_s() - packing_s;
-        done = status == EWA_OK;
-        if (!done) session_failed(session, status);
-    }
+    session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
+    done = done && make_surfels(session, arguments, cloud, surfels, report) &&
+           close_gaps(session, arguments, &cloud, surfels, report);
     ewa_cloud_destroy(&cloud);
-    if (!done) return false;
-    ewa_surfels_describe(*surfels, &report->surfels);
+    if (!done) {
+        ewa_surfels_destroy(surfels);
+        return false;
+    }
     const unsigned long long left_out = report->surfels.left_out_count, all = report->point_count;
     if (report->surfels.point_count == 0) {
         session_fail(
@@ -337,7 +375,6 @@ static bool make_scene(cli_session *session, const render_arguments *arguments, 
         session_warn(session,
                      "%llu of %llu points are left out: coordinates not finite, or normal or radius zero",
                      left_out, all);
-    note_gaps(session, arguments, report);
     return true;
 }
 
