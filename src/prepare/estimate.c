@@ -42,10 +42,17 @@ static void set_points(const estimate_job *job, uint32_t place, float *out, cons
         memcpy(&out[(size_t)components * points[i]], values, components * sizeof *values);
 }
 
+/// The support radius with which a kernel still has weight where its cell ends: beyond two standard
+/// deviations it has next to none, and the surface would look like a hole there.
+static double cover_radius(const estimate_job *job, double reach) {
+    const double solid_sigmas = 2;
+    return reach * fmax(1, job->options->cutoff / solid_sigmas);
+}
+
 static void set_axes(const estimate_job *job, uint32_t place, const local_surface *s, uint32_t lane,
                      double unit) {
     const double scaled = job->options->radius_scale * (double)s->spacing[lane];
-    const double radius = fmax(scaled, (double)s->ellipse_reach[lane]);
+    const double radius = fmax(scaled, cover_radius(job, (double)s->ellipse_reach[lane]));
     const double sigma = radius * unit / job->options->cutoff, stretch = sqrt((double)s->aspect[lane]);
     float u[3], v[3];
     for (int c = 0; c < 3; c++) {
@@ -60,12 +67,12 @@ static void set_axes(const estimate_job *job, uint32_t place, const local_surfac
     set_points(job, place, job->tangent_v_out, v, 3);
 }
 
-/// A disc is at least radius_scale spacings large, and as large as the place's own cell: then irregular
-/// sampling leaves no hole.
+/// A disc is at least radius_scale spacings large, and covers the place's own cell: then irregular sampling
+/// leaves no hole.
 static void set_radius(const estimate_job *job, uint32_t place, const local_surface *s, uint32_t lane,
                        double unit) {
     const double scaled = job->options->radius_scale * (double)s->spacing[lane];
-    const float radius = (float)(fmax(scaled, (double)s->reach[lane]) * unit);
+    const float radius = (float)(fmax(scaled, cover_radius(job, (double)s->reach[lane])) * unit);
     set_points(job, place, job->radius_out, &radius, 1);
 }
 
