@@ -26,7 +26,7 @@ typedef struct bench_arguments {
     const char *json_path;
 } bench_arguments;
 
-enum { ONE_PASS = 0, THREE_PASSES = 1, MAX_FRAMES = 1000, WARM_FRAMES = 2, STAGE_RUNS = 3 };
+enum { ONE_PASS = 0, THREE_PASSES = 1, MAX_FRAMES = 1000, WARM_FRAMES = 2, STAGE_RUNS = 3, FRAME_STAGES = 6 };
 
 #define AT(member) offsetof(bench_arguments, member)
 
@@ -121,10 +121,11 @@ typedef struct bench_lane {
     ewa_renderer *renderer;
     double total_s[MAX_FRAMES];
     ewa_render_stats last;
-    double stage_s[5][MAX_FRAMES]; // thread time of bin, setup, visibility, accumulate, resolve
+    double stage_s[FRAME_STAGES][MAX_FRAMES]; // thread time
 } bench_lane;
 
-static const char *const frame_stages[] = {"bin", "setup", "visibility", "accumulate", "resolve"};
+static const char *const frame_stages[FRAME_STAGES] = {"bin",        "setup", "visibility",
+                                                       "accumulate", "edges", "resolve"};
 
 typedef struct bench_run {
     cli_session session;
@@ -192,9 +193,10 @@ static bool draw_frame(bench_run *bench, bench_lane *lane, const ewa_camera *cam
     }
     if (frame < 0) return true;
     lane->total_s[frame] = took_s;
-    const double stages[5] = {lane->last.bin_s, lane->last.setup_s, lane->last.visibility_s,
-                              lane->last.accumulate_s, lane->last.resolve_s};
-    for (int k = 0; k < 5; k++) lane->stage_s[k][frame] = stages[k];
+    const ewa_render_stats *last = &lane->last;
+    const double stages[FRAME_STAGES] = {last->bin_s,        last->setup_s, last->visibility_s,
+                                         last->accumulate_s, last->edge_s,  last->resolve_s};
+    for (int k = 0; k < FRAME_STAGES; k++) lane->stage_s[k][frame] = stages[k];
     return true;
 }
 
@@ -209,12 +211,13 @@ static void report_frames(bench_run *bench, const char *scene, double covered_px
         if (i == 0) first_s = total.quartile;
         const double rate = (double)info.point_count / total.median;
         const double bytes_per_point = (double)info.resident_bytes / (double)info.point_count;
-        double stages_ms[5];
-        for (int k = 0; k < 5; k++) stages_ms[k] = 1e3 * bench_summarise(lane->stage_s[k], frames).median;
-        fprintf(bench->text, "%-20s %3u %8.2f %8.2f %8.1f %6.2f  %7.2f %7.2f %7.2f %7.2f %7.2f %6.1f\n",
+        double stages_ms[FRAME_STAGES];
+        for (int k = 0; k < FRAME_STAGES; k++)
+            stages_ms[k] = 1e3 * bench_summarise(lane->stage_s[k], frames).median;
+        fprintf(bench->text, "%-20s %3u %8.2f %8.2f %8.1f %6.2f  %7.2f %7.2f %7.2f %7.2f %7.2f %7.2f %6.1f\n",
                 scene, ewa_context_worker_count(lane->context), 1e3 * total.median, 1e3 * total.quartile,
                 1e-6 * rate, first_s / total.quartile, stages_ms[0], stages_ms[1], stages_ms[2], stages_ms[3],
-                stages_ms[4], bytes_per_point);
+                stages_ms[4], stages_ms[5], bytes_per_point);
         fflush(bench->text);
         if (!bench->json) continue;
         json_object(bench->json, NULL);
@@ -231,7 +234,7 @@ static void report_frames(bench_run *bench, const char *scene, double covered_px
         json_count(bench->json, "splats_drawn", lane->last.drawn_count);
         json_count(bench->json, "fragment_blocks", lane->last.fragment_count);
         json_object(bench->json, "thread_ms");
-        for (int k = 0; k < 5; k++) json_number(bench->json, frame_stages[k], stages_ms[k]);
+        for (int k = 0; k < FRAME_STAGES; k++) json_number(bench->json, frame_stages[k], stages_ms[k]);
         json_close(bench->json, '}');
         json_close(bench->json, '}');
     }
@@ -411,9 +414,9 @@ static bool measure(bench_run *bench) {
     if (!done)
         session_fail(&bench->session, "out of memory for %u x %u pixels", size->width_px, size->height_px);
     if (done) {
-        fprintf(bench->text, "%-20s %3s %8s %8s %8s %6s  %7s %7s %7s %7s %7s %6s\n", "", "thr", "median",
-                "quartile", "M/s", "ratio", "bin", "setup", "visib.", "accum.", "resolve", "B/pt");
-        fprintf(bench->text, "%-20s %3s %8s %8s %8s %6s  %39s\n", "", "", "ms", "ms", "", "",
+        fprintf(bench->text, "%-20s %3s %8s %8s %8s %6s  %7s %7s %7s %7s %7s %7s %6s\n", "", "thr", "median",
+                "quartile", "M/s", "ratio", "bin", "setup", "visib.", "accum.", "edges", "resolve", "B/pt");
+        fprintf(bench->text, "%-20s %3s %8s %8s %8s %6s  %47s\n", "", "", "ms", "ms", "", "",
                 "ms of thread time");
         done = bench->arguments->view.common.operand_count ? bench_files(bench) : bench_generated(bench);
     }
@@ -474,7 +477,7 @@ const cli_command bench_command = {
     .operands = "[IN...]",
     .summary = "measure the throughput of each stage, with the scaling over sizes and threads",
     .details =
-        "Without inputs: terrain seen from above, all of it in the picture, its discs so large that their "
+        "Without inputs: a plane seen from above that fills the picture, its discs so large that their "
         "filtered ellipses cover --pixels pixels on average. With inputs: these, framed whole. ratio: how "
         "many "
         "times faster than the first number of threads, by lower quartiles. B/pt: resident bytes per point.",

@@ -21,21 +21,28 @@ typedef struct footprint {
     double xx, xy, yy;
 } footprint;
 
+/// Widens the square to the shape of the picture.
+static void stretch(ewa_cloud *cloud, float aspect) {
+    float *position = ewa_cloud_find(cloud, EWA_POSITION)->data;
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) position[3 * i] *= aspect;
+}
+
 ewa_cloud *bench_scene_make(cli_session *session, uint64_t point_count, const option_size *size,
                             ewa_camera *camera) {
     ewa_generate_options options;
     ewa_generate_options_init(&options, sizeof options);
-    options.object = EWA_OBJECT_TERRAIN;
+    options.object = EWA_OBJECT_PLANE;
     options.point_count = point_count;
     ewa_cloud *cloud = NULL;
     ewa_status status = ewa_cloud_generate(session->context, &options, &cloud);
     ewa_bounds bounds;
+    if (status == EWA_OK) stretch(cloud, (float)size->width_px / (float)size->height_px);
     if (status == EWA_OK) status = ewa_cloud_measure(cloud, &bounds);
     if (status == EWA_OK) {
         ewa_camera_init(camera, sizeof *camera);
         camera->width_px = size->width_px;
         camera->height_px = size->height_px;
-        static const double down[3] = {0, 0, -1}, ahead[3] = {0, 1, 0};
+        static const double down[3] = {0, 0.05, -1}, ahead[3] = {0, 1, 0};
         status = ewa_camera_set_fov(camera, 30);
         if (status == EWA_OK) status = ewa_camera_frame(camera, &bounds, down, ahead, MARGIN);
     }

@@ -7,7 +7,7 @@
 
 #include "session.h"
 
-/// Makes terrain of `point_count` points seen from above by a camera of the given size, so that every splat
+/// Makes a plane of `point_count` points seen from above by a camera of the given size, so that every splat
 /// is in the picture and next to none is hidden. NULL after reporting.
 ewa_cloud *bench_scene_make(cli_session *session, uint64_t point_count, const option_size *size,
                             ewa_camera *camera);

@@ -18,6 +18,7 @@ typedef struct render_arguments {
     const char *output, *aov, *save_camera_path, *stats_path;
     int kernel, passes, cull, shading, colormap;
     double cutoff, prefilter_px, radius_scale, tolerance, edge_threshold, ambient;
+    int64_t edge_layers;
     bool edge_antialiasing;
     option_vector light, range;
     option_color background;
@@ -105,6 +106,13 @@ static const cli_option splat_table[] = {
      .value = "T",
      .range = "(0, 4]",
      .help = "coverage, as a share of a covered pixel's, from which a pixel is opaque"},
+    {.key = "edge-layers",
+     .kind = OPTION_INTEGER,
+     .offset = AT(edge_layers),
+     .value = "N",
+     .range = "[1, 8]",
+     .help = "surfaces that may share a smoothed silhouette: what lies behind shows through it; 1: the "
+             "background does"},
     {.key = "cull",
      .kind = OPTION_CHOICE,
      .offset = AT(cull),
@@ -177,6 +185,7 @@ static void set_defaults(void *data) {
     arguments->tolerance = render.tolerance;
     arguments->edge_antialiasing = render.edge_antialiasing;
     arguments->edge_threshold = render.edge_threshold;
+    arguments->edge_layers = render.edge_layers;
     arguments->ambient = render.ambient;
     arguments->background = (option_color){{1, 1, 1, 1}};
 }
@@ -209,6 +218,7 @@ static ewa_render_options render_options(const render_arguments *arguments) {
     options.passes = arguments->passes == ONE_PASS ? 1 : 3;
     options.edge_antialiasing = arguments->edge_antialiasing;
     options.edge_threshold = arguments->edge_threshold;
+    options.edge_layers = (uint32_t)arguments->edge_layers;
     options.cull = (ewa_cull)arguments->cull;
     options.shading = (ewa_shading)arguments->shading;
     options.ambient = arguments->ambient;
@@ -262,6 +272,7 @@ static bool write_stats(cli_session *session, const render_arguments *arguments,
     json_number(&json, "setup", report->stats.setup_s);
     json_number(&json, "visibility", report->stats.visibility_s);
     json_number(&json, "accumulate", report->stats.accumulate_s);
+    json_number(&json, "edges", report->stats.edge_s);
     json_number(&json, "resolve", report->stats.resolve_s);
     json_close(&json, '}');
     json_count(&json, "peak_memory_bytes", memory_peak_bytes());
@@ -399,7 +410,8 @@ const cli_command render_command = {
     .summary = "draw point clouds as a continuous, antialiased surface",
     .details = "Several inputs are drawn together. Normals and radii that a file lacks are estimated from "
                "the neighbours "
-               "of each point; 'ewa surfels' does the same with options and keeps the result.\n"
+               "of each point, and points far from all others are left out then, which a message says; "
+               "'ewa surfels' does the same with options and keeps the result.\n"
                "\n"
                "Without --camera and --eye the cloud is framed whole; when less than one point in a hundred "
                "lies so far off "

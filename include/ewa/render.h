@@ -76,7 +76,7 @@ typedef struct ewa_render_options {
     double edge_threshold;  ///< tau of math.md section 7; default 0.45
     /// Surfaces that may share an antialiased edge: what lies behind a silhouette shows through its partly
     /// covered pixels, front to back, up to this many surfaces; 1: the background shows through instead
-    /// (math.md section 7); [1, EWA_MAX_EDGE_LAYERS]; default 3
+    /// (math.md section 7); [1, EWA_MAX_EDGE_LAYERS]; default 2
     uint32_t edge_layers;
     ewa_cull cull;
     ewa_shading shading;   ///< default EWA_SHADING_LAMBERT

@@ -21,9 +21,11 @@ enum {
     EWA_BLOCK_LANES = 16,
     EWA_RUN_PACKETS = 32, ///< packets that are set up before their depths are used
     EWA_RUN_RECORDS = EWA_RUN_PACKETS * EWA_PACKET_LANES,
-    EWA_ROW_CLASSES = 5,                                   ///< boxes of 1, 2, 3, 4 and more rows of blocks
-    EWA_COLUMN_CLASSES = 4,                                ///< boxes of 1, 2, 3, 4 columns
-    EWA_WIDE_CLASS = EWA_ROW_CLASSES * EWA_COLUMN_CLASSES, ///< boxes of more columns
+    EWA_ROW_CLASSES = 5,    ///< boxes of 1, 2, 3, 4 and more rows of blocks
+    EWA_COLUMN_CLASSES = 4, ///< boxes of 1, 2, 3, 4 columns
+    EWA_WIDE_CLASS =
+        EWA_ROW_CLASSES *
+        EWA_COLUMN_CLASSES, ///< boxes of more columns, and parts of splats that are wider or taller
     EWA_CLASS_COUNT = EWA_WIDE_CLASS + 1,
     EWA_MAX_CHANNELS = 8,
     EWA_MAX_TILE_BLOCKS = 32, ///< along a side, so that a row of blocks is a word of bits
@@ -68,7 +70,7 @@ typedef struct ewa_record {
     float key_low, key_high;  ///< range of the key
     float bound_scale,
         bound_offset; ///< the key of z + eps is bound_scale key + bound_offset; class EWA_WIDE_CLASS,
-                      ///< perspective: bound_offset is eps, the key of z + eps key / (1 + eps key)
+                      ///< perspective: bound_scale is 0, bound_offset eps, the key key / (1 + eps key)
     float red, green, blue;
     uint32_t box; ///< first column | first row << 8 | columns << 16 | rows << 24, in blocks
 } ewa_record;
@@ -122,6 +124,7 @@ typedef struct ewa_tile {
 typedef struct ewa_edges {
     uint32_t *rows; ///< [block row]: bit per block column
     float *passed;  ///< [block][16]: the smallest key of the surfaces that are done
+    float *reach;   ///< [block]: the largest of `passed`: what is nowhere beyond it is not wanted
     float *nearest; ///< [block][16]: the smallest key of the surface that is being gathered
     float *sums;    ///< as ewa_tile's
     float *behind;  ///< [block][4][16]: premultiplied r, g, b and alpha of all surfaces but the first
@@ -171,8 +174,9 @@ typedef struct ewa_road_kernels {
     /// Marks in edges->rows the blocks with a partly covered pixel and starts their planes; returns how many.
     uint32_t (*find_edges)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges);
 
-    /// Writes the numbers of a run's splats whose box holds a marked block to `hits`; returns how many.
-    uint32_t (*edge_hits)(const ewa_edges *edges, const ewa_sorted_run *run, uint16_t *hits);
+    /// Writes the numbers of a run's splats that may lie behind a marked block to `hits`; returns how many.
+    uint32_t (*edge_hits)(const ewa_tile *tile, const ewa_edges *edges, const ewa_sorted_run *run,
+                          uint16_t *hits);
 
     /// One of the two passes for splats beyond edges->passed, in marked blocks only.
     void (*edge_pass)(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,

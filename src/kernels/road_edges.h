@@ -15,7 +15,11 @@ static size_t block_at(const ewa_tile *tile, uint32_t row, uint32_t column) {
 /// Starts a surface in a block: where `open`, splats beyond the key `done` are wanted, elsewhere none.
 static void start_surface(const ewa_tile *tile, const ewa_edges *edges, size_t block, wm open, wf done) {
     const wf never = wf_set(-__builtin_inff());
-    wf_store(edges->passed + block * EWA_BLOCK_LANES, wf_select(open, done, never));
+    float *passed = edges->passed + block * EWA_BLOCK_LANES;
+    wf_store(passed, wf_select(open, done, never));
+    edges->reach[block] = -__builtin_inff();
+    for (int i = 0; i < EWA_BLOCK_LANES; i++)
+        if (passed[i] > edges->reach[block]) edges->reach[block] = passed[i];
     wf_store(edges->nearest + block * EWA_BLOCK_LANES, never);
     float *sums = edges->sums + block * tile->channel_count * EWA_BLOCK_LANES;
     for (uint32_t c = 0; c < tile->channel_count; c++) wf_store(sums + c * EWA_BLOCK_LANES, wf_set(0));
@@ -41,20 +45,28 @@ static uint32_t find_edges(const ewa_tile *tile, const ewa_resolve *to, const ew
     return count;
 }
 
-/// The marked blocks of a row within a box, a bit each.
-static ALWAYS_INLINE uint32_t marked_in_box(const ewa_edges *edges, uint32_t box, uint32_t row) {
-    const uint64_t columns = ((uint64_t)1 << box_columns(box)) - 1;
-    return edges->rows[box_row(box) + row] & (uint32_t)(columns << box_column(box));
+/// The marked blocks of one row of a splat's box that the splat may lie beyond, a bit each.
+static ALWAYS_INLINE uint32_t wanted_blocks(const ewa_tile *tile, const ewa_edges *edges, const ewa_record *r,
+                                            uint32_t row) {
+    const uint64_t columns = ((uint64_t)1 << box_columns(r->box)) - 1;
+    const uint32_t marked = edges->rows[box_row(r->box) + row] & (uint32_t)(columns << box_column(r->box));
+    uint32_t wanted = 0;
+    for (uint32_t left = marked; left; left &= left - 1) {
+        const uint32_t column = (uint32_t)__builtin_ctz(left);
+        if (r->key_low < edges->reach[block_at(tile, box_row(r->box) + row, column)]) wanted |= 1u << column;
+    }
+    return wanted;
 }
 
-static uint32_t edge_hits(const ewa_edges *edges, const ewa_sorted_run *run, uint16_t *hits) {
+static uint32_t edge_hits(const ewa_tile *tile, const ewa_edges *edges, const ewa_sorted_run *run,
+                          uint16_t *hits) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < run->class_first[EWA_CLASS_COUNT]; i++) {
-        const uint32_t box = run->records[run->order[i]].box;
-        uint32_t marked = 0;
-        for (uint32_t row = 0; row < box_rows(box); row++) marked |= marked_in_box(edges, box, row);
+        const ewa_record *r = &run->records[run->order[i]];
+        uint32_t wanted = 0;
+        for (uint32_t row = 0; row < box_rows(r->box); row++) wanted |= wanted_blocks(tile, edges, r, row);
         hits[count] = run->order[i];
-        count += marked != 0;
+        count += wanted != 0;
     }
     return count;
 }
@@ -74,7 +86,7 @@ static ALWAYS_INLINE void edge_block(const ewa_view *view, const ewa_tile *tile,
     const wm beyond = wm_and(wf_lt(s, wf_set(view->exponent_end)),
                              wf_lt(key, wf_load(edges->passed + block * EWA_BLOCK_LANES)));
     if (!second_pass) {
-        const bool exact = box_columns(r->box) > EWA_COLUMN_CLASSES && !view->orthographic;
+        const bool exact = r->bound_scale == 0;
         const wf old = wf_load(nearest);
         wf_store(nearest, wf_select(beyond, wf_max(bound_key(r, key, exact), old), old));
         return;
@@ -93,8 +105,8 @@ static void edge_pass(const ewa_view *view, const ewa_tile *tile, const ewa_edge
     for (uint32_t i = 0; i < hit_count; i++) {
         const ewa_record *r = &run->records[hits[i]];
         for (uint32_t row = 0; row < box_rows(r->box); row++)
-            for (uint32_t marked = marked_in_box(edges, r->box, row); marked; marked &= marked - 1)
-                edge_block(view, tile, edges, r, &run->loads[hits[i]], row, (uint32_t)__builtin_ctz(marked),
+            for (uint32_t left = wanted_blocks(tile, edges, r, row); left; left &= left - 1)
+                edge_block(view, tile, edges, r, &run->loads[hits[i]], row, (uint32_t)__builtin_ctz(left),
                            second_pass);
     }
 }

@@ -108,7 +108,7 @@ void ewa_render_options_init(ewa_render_options *options, size_t struct_size) {
     options->passes = 3;
     options->edge_antialiasing = true;
     options->edge_threshold = 0.45;
-    options->edge_layers = 3;
+    options->edge_layers = 2;
     options->cull = EWA_CULL_NONE;
     options->shading = EWA_SHADING_LAMBERT;
     options->ambient = 0.15;

@@ -20,9 +20,11 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     uint64_t records = largest_bin * EWA_PACKET_LANES;
     if (records > KEPT_RECORDS) records = KEPT_RECORDS;
     if (records < EWA_RUN_RECORDS) records = EWA_RUN_RECORDS;
-    // Per pixel: nearest and sums twice, the edges' `passed`, and four channels of what lies behind.
+    // Per pixel: nearest and sums twice, the edges' `passed`, and four channels of what lies behind; per
+    // block `reach`.
     const size_t tile_floats = (size_t)job->view.tile_px * job->view.tile_px;
-    const size_t pixel_floats = tile_floats * (2 * (1 + EWA_MAX_CHANNELS) + 1 + 4);
+    const size_t pixel_floats =
+        tile_floats * (2 * (1 + EWA_MAX_CHANNELS) + 1 + 4) + tile_floats / EWA_BLOCK_LANES;
     const struct {
         ewa_buffer *buffer;
         size_t count, size_bytes;
@@ -53,6 +55,7 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     s->edges.sums = s->edges.nearest + tile_floats;
     s->edges.passed = s->edges.sums + tile_floats * EWA_MAX_CHANNELS;
     s->edges.behind = s->edges.passed + tile_floats;
+    s->edges.reach = s->edges.behind + 4 * tile_floats;
     s->record_capacity = records;
     s->drawn_count = s->fragment_count = 0;
     s->setup_s = s->visibility_s = s->accumulate_s = s->edge_s = s->resolve_s = 0;
@@ -167,7 +170,8 @@ static void walk_again(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_s
         const double middle = ewa_now_s();
         s->setup_s += middle - before;
         uint32_t hit_count = 0;
-        if (what >= PASS_EDGE_VISIBILITY) hit_count = job->kernels->edge_hits(&s->edges, &sorted, s->hits);
+        if (what >= PASS_EDGE_VISIBILITY)
+            hit_count = job->kernels->edge_hits(tile, &s->edges, &sorted, s->hits);
         visit_run(job, tile, s, &sorted, s->hits, hit_count, what);
         draw_near(job, tile, &s->edges, s->run.near_surfels, s->run.near_count, what);
         if (what == PASS_VISIBILITY) count_splats(job, s);
@@ -201,12 +205,13 @@ static void keep_runs(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_sc
 }
 
 /// Finds, once per tile, the kept splats that lie on marked blocks.
-static void keep_hits(const ewa_tile_job *job, ewa_tile_scratch *s, uint64_t run_count) {
+static void keep_hits(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
+                      uint64_t run_count) {
     uint32_t hit_count = 0;
     for (uint64_t i = 0; i < run_count; i++) {
         ewa_kept_run *kept = &s->kept[i];
         kept->hit_first = hit_count;
-        kept->hit_count = job->kernels->edge_hits(&s->edges, &kept->sorted, s->hits + hit_count);
+        kept->hit_count = job->kernels->edge_hits(tile, &s->edges, &kept->sorted, s->hits + hit_count);
         hit_count += kept->hit_count;
     }
 }
@@ -217,7 +222,7 @@ static bool draw_edges(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_s
                        const tile_packets *packets, bool kept) {
     if (job->edge_layers < 2 || !job->kernels->find_edges(tile, &job->resolve, &s->edges)) return false;
     memcpy(s->edge_rows, s->edges.rows, sizeof s->edge_rows);
-    if (kept) keep_hits(job, s, packets->run_count);
+    if (kept) keep_hits(job, tile, s, packets->run_count);
     for (uint32_t layer = 1; layer < job->edge_layers; layer++) {
         for (tile_pass what = PASS_EDGE_VISIBILITY; what <= PASS_EDGE_ACCUMULATE; what++) {
             if (kept)

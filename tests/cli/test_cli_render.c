@@ -169,6 +169,20 @@ static void test_far_points(void **state) {
     ewa_image_free(&image);
 }
 
+/// A point far from all others would get a disc that reaches them.
+static void test_isolated_point(void **state) {
+    (void)state;
+    run_done(
+        "ewa generate sphere -n 5000 --positions-only -o bare.ply && ewa convert bare.ply -o - --ascii "
+        ">bare.txt && "
+        "sed 's/element vertex 5000/element vertex 5001/' bare.txt >lone.ply && echo 4 0 0 9 9 9 >>lone.ply");
+    assert_int_equal(run("ewa render lone.ply -o lone.png --size 64x48"), 0);
+    assert_non_null(
+        strstr(last_run.err, "ewa: lone.ply: 1 of 5001 points lie far from all others and are left out"));
+    run_done("ewa render bare.ply -o bare.png --size 64x48");
+    assert_true(scratch_same("lone.png", "bare.png"));
+}
+
 static void test_looks_differ(void **state) {
     (void)state;
     static const char *const looks[] = {
@@ -253,17 +267,12 @@ static void test_bench(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_png),
-        cmocka_unit_test(test_exr),
-        cmocka_unit_test(test_planes),
-        cmocka_unit_test(test_camera),
-        cmocka_unit_test(test_views),
-        cmocka_unit_test(test_default_view),
-        cmocka_unit_test(test_far_points),
-        cmocka_unit_test(test_looks_differ),
-        cmocka_unit_test(test_several_inputs),
-        cmocka_unit_test(test_streams),
-        cmocka_unit_test(test_bench),
+        cmocka_unit_test(test_png),          cmocka_unit_test(test_exr),
+        cmocka_unit_test(test_planes),       cmocka_unit_test(test_camera),
+        cmocka_unit_test(test_views),        cmocka_unit_test(test_default_view),
+        cmocka_unit_test(test_far_points),   cmocka_unit_test(test_isolated_point),
+        cmocka_unit_test(test_looks_differ), cmocka_unit_test(test_several_inputs),
+        cmocka_unit_test(test_streams),      cmocka_unit_test(test_bench),
     };
     return cmocka_run_group_tests(tests, enter, leave);
 }
