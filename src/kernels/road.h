@@ -21,11 +21,9 @@ enum {
     EWA_BLOCK_LANES = 16,
     EWA_RUN_PACKETS = 32, ///< packets that are set up before their depths are used
     EWA_RUN_RECORDS = EWA_RUN_PACKETS * EWA_PACKET_LANES,
-    EWA_ROW_CLASSES = 5,    ///< boxes of 1, 2, 3, 4 and more rows of blocks
-    EWA_COLUMN_CLASSES = 4, ///< boxes of 1, 2, 3, 4 columns
-    EWA_WIDE_CLASS =
-        EWA_ROW_CLASSES *
-        EWA_COLUMN_CLASSES, ///< boxes of more columns, and parts of splats that are wider or taller
+    EWA_ROW_CLASSES = 5,                                   ///< boxes of 1, 2, 3, 4 and more rows of blocks
+    EWA_COLUMN_CLASSES = 4,                                ///< boxes of 1, 2, 3, 4 columns
+    EWA_WIDE_CLASS = EWA_ROW_CLASSES * EWA_COLUMN_CLASSES, ///< wider boxes, parts of large splats
     EWA_CLASS_COUNT = EWA_WIDE_CLASS + 1,
     EWA_MAX_CHANNELS = 8,
     EWA_MAX_TILE_BLOCKS = 32, ///< along a side, so that a row of blocks is a word of bits

@@ -406,7 +406,7 @@ static void test_floor_through_the_eye(void **state) {
     (void)state;
     enum { ROWS = 40, COUNT = ROWS * ROWS };
     ewa_context *context = check_context(0, NULL);
-    scene made = {.unit_coverage = 0.3};
+    scene made = {.unit_coverage = 0.158}; // (0.6 / 3 / 0.5)^2 (1 - exp(-9 / 2))
     float position[COUNT][3], radius[COUNT];
     static float normal[COUNT][3];
     for (int i = 0; i < COUNT; i++) {
@@ -478,7 +478,7 @@ static void test_resolve(void **state) {
     options.background[2] = 1;
     options.background[3] = 0.505f;
     options.ambient = 0.2;
-    const double q = 1 / (2 * PI), alpha = q / (0.6 * 0.5), sight = 0.2 + 0.8 * 0.8;
+    const double q = 1 / (2 * PI), alpha = q / (options.edge_threshold * 0.5), sight = 0.2 + 0.8 * 0.8;
     for (int i = 0; i < 4; i++) {
         ewa_render_options chosen = options;
         double a = alpha, shade = sight;
@@ -682,7 +682,7 @@ static void test_comparison(void **state) {
         // the share of the kernel's height at its rim).
         ewa_surfels_options surfels;
         ewa_surfels_options_init(&surfels, sizeof surfels);
-        surfels.cutoff = 2 * (1 + 1e-4);
+        surfels.cutoff *= 1 + 1e-4;
         surfels.radius_scale = 1 + 1e-4; // the same sigma
         picture_mark_edges(&made, NULL, &options, 1e-3, 1e-4, mask);
         b = picture_of_scene(&made, &surfels, &options);
