@@ -18,8 +18,8 @@ typedef struct render_arguments {
     const char *output, *aov, *save_camera_path, *stats_path;
     int kernel, passes, cull, shading, colormap;
     double cutoff, prefilter_px, radius_scale, tolerance, edge_threshold, ambient;
-    int64_t edge_layers;
     bool edge_antialiasing;
+    int64_t edge_layers;
     option_vector light, range;
     option_color background;
     const char *color_by;
@@ -32,6 +32,8 @@ enum { ONE_PASS = 0, THREE_PASSES = 1, GAP_POINTS = 1000 };
 static const double GAP_RADIUS = 1, CLOSED_RADIUS = 1.9;
 
 #define AT(member) offsetof(render_arguments, member)
+
+_Static_assert(EWA_MAX_EDGE_LAYERS == 8, "the range of --edge-layers says so");
 
 static const cli_option output_table[] = {
     {.key = "output",
@@ -100,19 +102,19 @@ static const cli_option splat_table[] = {
      .kind = OPTION_ON_OFF,
      .offset = AT(edge_antialiasing),
      .help = "smooth silhouettes by coverage"},
+    {.key = "edge-layers",
+     .kind = OPTION_INTEGER,
+     .offset = AT(edge_layers),
+     .value = "N",
+     .range = "[1, 8]",
+     .help = "surfaces that show through each other at smoothed silhouettes; 1: the background shows through "
+             "instead"},
     {.key = "tau",
      .kind = OPTION_NUMBER,
      .offset = AT(edge_threshold),
      .value = "T",
      .range = "(0, 4]",
      .help = "coverage, as a share of a covered pixel's, from which a pixel is opaque"},
-    {.key = "edge-layers",
-     .kind = OPTION_INTEGER,
-     .offset = AT(edge_layers),
-     .value = "N",
-     .range = "[1, 8]",
-     .help = "surfaces that may share a smoothed silhouette: what lies behind shows through it; 1: the "
-             "background does"},
     {.key = "cull",
      .kind = OPTION_CHOICE,
      .offset = AT(cull),
@@ -184,8 +186,8 @@ static void set_defaults(void *data) {
     arguments->prefilter_px = render.prefilter_px;
     arguments->tolerance = render.tolerance;
     arguments->edge_antialiasing = render.edge_antialiasing;
-    arguments->edge_threshold = render.edge_threshold;
     arguments->edge_layers = render.edge_layers;
+    arguments->edge_threshold = render.edge_threshold;
     arguments->ambient = render.ambient;
     arguments->background = (option_color){{1, 1, 1, 1}};
 }
@@ -217,8 +219,8 @@ static ewa_render_options render_options(const render_arguments *arguments) {
     options.tolerance = arguments->tolerance;
     options.passes = arguments->passes == ONE_PASS ? 1 : 3;
     options.edge_antialiasing = arguments->edge_antialiasing;
-    options.edge_threshold = arguments->edge_threshold;
     options.edge_layers = (uint32_t)arguments->edge_layers;
+    options.edge_threshold = arguments->edge_threshold;
     options.cull = (ewa_cull)arguments->cull;
     options.shading = (ewa_shading)arguments->shading;
     options.ambient = arguments->ambient;

@@ -98,21 +98,16 @@ static void settle(build *b) {
     }
 }
 
-/// Signs, frame and decoded normal of an octahedral code.
-static void oct_decode(int16_t code_x, int16_t code_y, double n[3]) {
-    const double u = code_x / 32767.0, v = code_y / 32767.0;
-    n[2] = 1 - fabs(u) - fabs(v);
-    const double fold = fmax(-n[2], 0);
-    n[0] = u - (u < 0 ? -fold : fold);
-    n[1] = v - (v < 0 ? -fold : fold);
-    const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    for (int c = 0; c < 3; c++) n[c] /= length;
+static ewa_vec3 oct_decode(int16_t code_x, int16_t code_y) {
+    const double u = code_x / 32767.0, v = code_y / 32767.0, z = 1 - fabs(u) - fabs(v), fold = fmax(-z, 0);
+    const ewa_vec3 n = vec3_make(u - (u < 0 ? -fold : fold), v - (v < 0 ? -fold : fold), z);
+    return vec3_scale(n, 1 / vec3_length(n));
 }
 
-static void oct_encode(const double n[3], int16_t *code_x, int16_t *code_y) {
-    const double sum = fabs(n[0]) + fabs(n[1]) + fabs(n[2]);
-    double u = n[0] / sum, v = n[1] / sum;
-    if (n[2] < 0) {
+static void oct_encode(ewa_vec3 n, int16_t *code_x, int16_t *code_y) {
+    const double sum = fabs(n.x) + fabs(n.y) + fabs(n.z);
+    double u = n.x / sum, v = n.y / sum;
+    if (n.z < 0) {
         const double folded = (1 - fabs(v)) * (u < 0 ? -1 : 1);
         v = (1 - fabs(u)) * (v < 0 ? -1 : 1);
         u = folded;
@@ -122,13 +117,11 @@ static void oct_encode(const double n[3], int16_t *code_x, int16_t *code_y) {
 }
 
 /// Two unit vectors that complete n to a right-handed frame.
-static void packet_frame(const double n[3], double first[3], double second[3]) {
-    const double sign = n[2] < 0 ? -1 : 1, a = -1 / (sign + n[2]), b = n[0] * n[1] * a;
-    first[0] = 1 + sign * n[0] * n[0] * a, first[1] = sign * b, first[2] = -sign * n[0];
-    second[0] = b, second[1] = sign + n[1] * n[1] * a, second[2] = -n[1];
+static void packet_frame(ewa_vec3 n, ewa_vec3 *first, ewa_vec3 *second) {
+    const double sign = n.z < 0 ? -1 : 1, a = -1 / (sign + n.z), b = n.x * n.y * a;
+    *first = vec3_make(1 + sign * n.x * n.x * a, sign * b, -sign * n.x);
+    *second = vec3_make(b, sign + n.y * n.y * a, -n.y);
 }
-
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 static uint16_t encode_unit(double value, double codes) {
     return (uint16_t)floor(fmin(fmax(value, 0), 1) * codes + 0.5);
@@ -139,82 +132,72 @@ static void encode_surfel(const ewa_surfels *surfels, const ewa_surfel *s, ewa_p
     packet->x[lane] = (float)(s->center_world[0] - surfels->origin_world[0]);
     packet->y[lane] = (float)(s->center_world[1] - surfels->origin_world[1]);
     packet->z[lane] = (float)(s->center_world[2] - surfels->origin_world[2]);
-    const double major = sqrt(dot(s->axis_u_world, s->axis_u_world));
-    const double minor = sqrt(dot(s->axis_v_world, s->axis_v_world));
+    const ewa_vec3 axis = vec3_load(s->axis_u_world);
+    const double major = vec3_length(axis), minor = vec3_length(vec3_load(s->axis_v_world));
     packet->sigma[lane] = (float)major;
     packet->ratio[lane] = encode_unit(minor / major, 65535);
-    oct_encode(s->normal_world, &packet->oct_x[lane], &packet->oct_y[lane]);
-    double n[3], first[3], second[3];
-    oct_decode(packet->oct_x[lane], packet->oct_y[lane], n);
-    packet_frame(n, first, second);
-    double c = dot(s->axis_u_world, first), t = dot(s->axis_u_world, second);
+    oct_encode(vec3_load(s->normal_world), &packet->oct_x[lane], &packet->oct_y[lane]);
+    ewa_vec3 first, second;
+    packet_frame(oct_decode(packet->oct_x[lane], packet->oct_y[lane]), &first, &second);
+    double c = vec3_dot(axis, first), t = vec3_dot(axis, second);
     if (t < 0) c = -c, t = -t; // the axis has no sign
     // Diamond angle in [0, 2): 1 - c / (|c| + t).
     const double sum = fabs(c) + t;
     packet->angle[lane] = (uint16_t)((uint32_t)floor((sum > 0 ? 1 - c / sum : 0) * 32768 + 0.5) & 0xffff);
     uint16_t *const channels[3] = {packet->red, packet->green, packet->blue};
     for (int k = 0; k < 3; k++) {
-        const double value = (s->color_linear[k] - surfels->color_offset[k]) / surfels->color_scale[k];
+        const double value =
+            (s->color_linear[k] - (double)surfels->color_offset[k]) / (double)surfels->color_scale[k];
         channels[k][lane] = (uint16_t)floor(fmin(fmax(value, 0), 65535) + 0.5);
     }
 }
 
 void ewa_packet_decode(const ewa_surfels *surfels, const ewa_packet *packet, uint32_t lane,
                        ewa_packet_surfel *surfel) {
-    surfel->center[0] = packet->x[lane];
-    surfel->center[1] = packet->y[lane];
-    surfel->center[2] = packet->z[lane];
-    oct_decode(packet->oct_x[lane], packet->oct_y[lane], surfel->normal);
-    double first[3], second[3];
-    packet_frame(surfel->normal, first, second);
-    double c = 1 - packet->angle[lane] / 32768.0, t = 1 - fabs(c);
-    const double length = sqrt(c * c + t * t);
-    c /= length, t /= length;
-    const double major = packet->sigma[lane], minor = major * packet->ratio[lane] / 65535.0;
-    for (int k = 0; k < 3; k++) surfel->axis_u[k] = major * (c * first[k] + t * second[k]);
-    const double *n = surfel->normal, *u = surfel->axis_u;
-    const double shrink = minor / major;
-    surfel->axis_v[0] = shrink * (n[1] * u[2] - n[2] * u[1]);
-    surfel->axis_v[1] = shrink * (n[2] * u[0] - n[0] * u[2]);
-    surfel->axis_v[2] = shrink * (n[0] * u[1] - n[1] * u[0]);
+    surfel->center = vec3_make((double)packet->x[lane], (double)packet->y[lane], (double)packet->z[lane]);
+    surfel->normal = oct_decode(packet->oct_x[lane], packet->oct_y[lane]);
+    ewa_vec3 first, second;
+    packet_frame(surfel->normal, &first, &second);
+    const double c = 1 - packet->angle[lane] / 32768.0, t = 1 - fabs(c);
+    const double major = (double)packet->sigma[lane], ratio = packet->ratio[lane] / 65535.0;
+    const ewa_vec3 axis = vec3_add(vec3_scale(first, c), vec3_scale(second, t));
+    surfel->axis_u = vec3_scale(axis, major / sqrt(c * c + t * t));
+    surfel->axis_v = vec3_scale(vec3_cross(surfel->normal, surfel->axis_u), ratio);
     const uint16_t codes[3] = {packet->red[lane], packet->green[lane], packet->blue[lane]};
     for (int k = 0; k < 3; k++)
-        surfel->color[k] = codes[k] * surfels->color_scale[k] + surfels->color_offset[k];
+        surfel->color[k] = codes[k] * (double)surfels->color_scale[k] + (double)surfels->color_offset[k];
 }
 
 /// Sphere around the supports and cone around the normals of the first `count` lanes.
 static void bound_packet(ewa_surfels *surfels, uint32_t index, uint32_t count) {
     const ewa_packet *packet = &surfels->packets[index];
     ewa_packet_surfel lanes[LANES];
-    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY},
-           axis[3] = {0, 0, 0};
+    ewa_vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY}, axis = {0, 0, 0};
     for (uint32_t i = 0; i < count; i++) {
         ewa_packet_decode(surfels, packet, i, &lanes[i]);
-        for (int c = 0; c < 3; c++) {
-            low[c] = fmin(low[c], lanes[i].center[c]);
-            high[c] = fmax(high[c], lanes[i].center[c]);
-            axis[c] += lanes[i].normal[c];
-        }
+        const ewa_vec3 p = lanes[i].center;
+        low = vec3_make(fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z));
+        high = vec3_make(fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z));
+        axis = vec3_add(axis, lanes[i].normal);
     }
-    const double center[3] = {(float)(0.5 * (low[0] + high[0])), (float)(0.5 * (low[1] + high[1])),
-                              (float)(0.5 * (low[2] + high[2]))};
-    const double length = sqrt(dot(axis, axis));
-    for (int c = 0; c < 3; c++) axis[c] = length > 0 ? axis[c] / length : c == 2;
+    const ewa_vec3 middle = vec3_scale(vec3_add(low, high), 0.5);
+    const float x = (float)middle.x, y = (float)middle.y, z = (float)middle.z;
+    const ewa_vec3 center = vec3_make((double)x, (double)y, (double)z);
+    const double length = vec3_length(axis);
+    axis = length > 0 ? vec3_scale(axis, 1 / length) : vec3_make(0, 0, 1);
     double radius = 0, cosine = length > 0 ? 1 : -1;
     for (uint32_t i = 0; i < count; i++) {
-        const double d[3] = {lanes[i].center[0] - center[0], lanes[i].center[1] - center[1],
-                             lanes[i].center[2] - center[2]};
-        radius = fmax(radius, sqrt(dot(d, d)) + surfels->cutoff * packet->sigma[i]);
-        cosine = fmin(cosine, dot(lanes[i].normal, axis));
+        const double support = surfels->cutoff * (double)packet->sigma[i];
+        radius = fmax(radius, vec3_length(vec3_sub(lanes[i].center, center)) + support);
+        cosine = fmin(cosine, vec3_dot(lanes[i].normal, axis));
     }
     enum { ULPS = 16 }; // single precision of centre, radius and axis, rounded to the safe side
     const double slack = ULPS * 0x1p-24;
-    radius = radius * (1 + slack) + slack * (fabs(center[0]) + fabs(center[1]) + fabs(center[2]));
+    radius = radius * (1 + slack) + slack * (fabs(center.x) + fabs(center.y) + fabs(center.z));
     const ewa_packet_bounds *b = &surfels->bounds;
-    b->center_x[index] = (float)center[0], b->center_y[index] = (float)center[1],
-    b->center_z[index] = (float)center[2];
+    b->center_x[index] = x, b->center_y[index] = y, b->center_z[index] = z;
     b->radius[index] = (float)radius;
-    b->axis_x[index] = (float)axis[0], b->axis_y[index] = (float)axis[1], b->axis_z[index] = (float)axis[2];
+    b->axis_x[index] = (float)axis.x, b->axis_y[index] = (float)axis.y, b->axis_z[index] = (float)axis.z;
     b->cone_sine[index] = cosine <= 0 ? 2.0f : (float)(sqrt(fmax(1 - cosine * cosine, 0)) + slack);
 }
 

@@ -7,6 +7,7 @@
 
 #include "ewa/render.h"
 #include "kernels/packet.h"
+#include "math/vec.h"
 
 struct ewa_surfels {
     ewa_context *context;
@@ -26,7 +27,8 @@ struct ewa_surfels {
 
 /// One surfel of a packet, local space, axes of length sigma.
 typedef struct ewa_packet_surfel {
-    double center[3], axis_u[3], axis_v[3], normal[3], color[3];
+    ewa_vec3 center, axis_u, axis_v, normal;
+    double color[3];
 } ewa_packet_surfel;
 
 /// Decodes lane `lane` of a packet, as the kernels do but in double precision.

@@ -93,7 +93,8 @@ ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const 
                         .scratch = renderer->scratch};
     job.edge_layers = chosen.edge_antialiasing && chosen.passes == 3 ? chosen.edge_layers : 1;
     job.channel_count = 4 + (job.with_normals ? 3 : 0) + (job.with_depth ? 1 : 0);
-    ewa_view_set(&job.view, surfels, camera, &chosen, TILE_PX);
+    status = ewa_view_set(&job.view, surfels, camera, &chosen, TILE_PX);
+    if (status != EWA_OK) return status;
     ewa_resolve_set(&job.resolve, surfels, camera, &chosen, frame);
 
     status = ewa_bins_fill(context, &renderer->bins, renderer->kernels, &job.view, surfels);

@@ -3,41 +3,56 @@
 //
 // Camera and options in the single-precision form that the kernels read.
 #include "splat/view.h"
+#include "base/base.h"
 #include "kernels/semantics.h"
 
 #include <math.h>
 #include <string.h>
 
-/// Splits the upper left 3x3 of world_to_camera into a rotation and its scale.
-static double split_scale(const ewa_camera *camera, double rotation[9]) {
+/// Splits the upper left 3x3 of world_to_camera into a rotation, whose rows are the camera's axes, and its
+/// scale.
+static double split_scale(const ewa_camera *camera, ewa_mat3 *rotation) {
     double sum = 0;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            sum += camera->world_to_camera[4 * i + j] * camera->world_to_camera[4 * i + j];
+    for (int i = 0; i < 3; i++) {
+        const ewa_vec3 row = vec3_load(&camera->world_to_camera[4 * i]);
+        sum += vec3_dot(row, row);
+        memcpy(rotation->m[i], &camera->world_to_camera[4 * i], sizeof rotation->m[i]);
+    }
     const double scale = sqrt(sum / 3);
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) rotation[3 * i + j] = camera->world_to_camera[4 * i + j] / scale;
+    *rotation = mat3_scale(rotation, 1 / scale);
     return scale;
 }
 
-/// Inward normal of the frustum's side through the eye and the line of slopes a x + b y + c = 0.
-static void set_side(float plane[3], double a, double b, double c) {
-    const double length = sqrt(a * a + b * b + c * c);
-    plane[0] = (float)(a / length), plane[1] = (float)(b / length), plane[2] = (float)(c / length);
+/// The sides of the view volume in camera space, `margin_px` outside of the picture's edges.
+static ewa_status set_sides(ewa_context *context, ewa_view *view, const ewa_camera *camera,
+                            double margin_px) {
+    const uint32_t margin = (uint32_t)ceil(margin_px);
+    ewa_camera wide = *camera;
+    wide.width_px += 2 * margin, wide.height_px += 2 * margin;
+    wide.cx_px += margin, wide.cy_px += margin;
+    for (int i = 0; i < 16; i++) wide.world_to_camera[i] = i % 5 == 0;
+    ewa_mat4 map;
+    ewa_vec4 planes[6];
+    ewa_status status = ewa_camera_clip_map(&wide, 1, 2, &map); // the depths do not matter for the sides
+    if (status == EWA_OK) status = ewa_frustum_planes(&map, planes);
+    if (status != EWA_OK) return ewa_fail(context, status, "render: the camera has no view volume");
+    for (int i = 0; i < 4; i++) {
+        view->side_planes[i][0] = (float)planes[i].x;
+        view->side_planes[i][1] = (float)planes[i].y;
+        view->side_planes[i][2] = (float)planes[i].z;
+    }
+    return EWA_OK;
 }
 
-void ewa_view_set(ewa_view *view, const ewa_surfels *surfels, const ewa_camera *camera,
-                  const ewa_render_options *options, uint32_t tile_px) {
-    double rotation[9];
+ewa_status ewa_view_set(ewa_view *view, const ewa_surfels *surfels, const ewa_camera *camera,
+                        const ewa_render_options *options, uint32_t tile_px) {
+    ewa_mat3 rotation;
     memset(view, 0, sizeof *view);
-    const double scale = split_scale(camera, rotation);
-    view->scale = (float)scale;
-    for (int i = 0; i < 9; i++) view->rotation[i] = (float)rotation[i];
+    view->scale = (float)split_scale(camera, &rotation);
     for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) view->rotation[3 * i + j] = (float)rotation.m[i][j];
         const double *row = &camera->world_to_camera[4 * i];
-        double t = row[3];
-        for (int j = 0; j < 3; j++) t += row[j] * surfels->origin_world[j];
-        view->translation[i] = (float)t;
+        view->translation[i] = (float)(vec3_dot(vec3_load(row), vec3_load(surfels->origin_world)) + row[3]);
     }
     view->fx_px = (float)camera->fx_px, view->fy_px = (float)camera->fy_px;
     view->cx_px = (float)camera->cx_px, view->cy_px = (float)camera->cy_px;
@@ -62,18 +77,14 @@ void ewa_view_set(ewa_view *view, const ewa_surfels *surfels, const ewa_camera *
     view->affine = options->kernel == EWA_KERNEL_AFFINE;
     view->cull_back = options->cull == EWA_CULL_BACK;
     view->ellipses = surfels->ellipses;
-    const double margin = cutoff * prefilter + 1;
-    set_side(view->side_planes[0], camera->fx_px, 0, camera->cx_px + margin);
-    set_side(view->side_planes[1], -camera->fx_px, 0, camera->width_px - camera->cx_px + margin);
-    set_side(view->side_planes[2], 0, camera->fy_px, camera->cy_px + margin);
-    set_side(view->side_planes[3], 0, -camera->fy_px, camera->height_px - camera->cy_px + margin);
+    return view->orthographic ? EWA_OK : set_sides(surfels->context, view, camera, cutoff * prefilter + 1);
 }
 
 void ewa_resolve_set(ewa_resolve *resolve, const ewa_surfels *surfels, const ewa_camera *camera,
                      const ewa_render_options *options, const ewa_frame *frame) {
-    double rotation[9];
+    ewa_mat3 rotation;
     memset(resolve, 0, sizeof *resolve);
-    split_scale(camera, rotation);
+    split_scale(camera, &rotation);
     resolve->unit_coverage_inverse = (float)(1 / surfels->unit_coverage);
     resolve->alpha_scale = (float)(1 / (options->edge_threshold * surfels->unit_coverage));
     resolve->one_pass = options->passes == 1;
@@ -81,18 +92,20 @@ void ewa_resolve_set(ewa_resolve *resolve, const ewa_surfels *surfels, const ewa
     resolve->lambert = options->shading == EWA_SHADING_LAMBERT;
     resolve->orthographic = camera->projection == EWA_ORTHOGRAPHIC;
     resolve->ambient = (float)options->ambient;
-    const double *light = options->light_world;
-    const double length = sqrt(light[0] * light[0] + light[1] * light[1] + light[2] * light[2]);
-    resolve->headlight = length == 0;
+    const ewa_vec3 light = vec3_load(options->light_world);
+    // By way of the largest component, so that no square overflows.
+    const double largest = fmax(fabs(light.x), fmax(fabs(light.y), fabs(light.z)));
+    resolve->headlight = largest == 0;
+    ewa_vec3 toward = vec3_make(0, 0, -1); // orthographic headlight: against the view direction
+    if (!resolve->headlight) {
+        const ewa_vec3 shorter = vec3_make(light.x / largest, light.y / largest, light.z / largest);
+        toward = vec3_scale(mat3_mul_vec3(&rotation, shorter), 1 / vec3_length(shorter));
+    }
+    resolve->light[0] = (float)toward.x, resolve->light[1] = (float)toward.y,
+    resolve->light[2] = (float)toward.z;
     for (int i = 0; i < 3; i++) {
-        double toward = i == 2 ? -1 : 0; // orthographic headlight: against the view direction
-        if (!resolve->headlight)
-            toward = (rotation[3 * i] * light[0] + rotation[3 * i + 1] * light[1] +
-                      rotation[3 * i + 2] * light[2]) /
-                     length;
-        resolve->light[i] = (float)toward;
         resolve->background[i] = options->background[i] * options->background[3];
-        for (int j = 0; j < 3; j++) resolve->to_world[3 * i + j] = (float)rotation[3 * j + i];
+        for (int j = 0; j < 3; j++) resolve->to_world[3 * i + j] = (float)rotation.m[j][i];
     }
     resolve->background[3] = options->background[3];
     resolve->ray_x[0] = (float)(1 / camera->fx_px),
@@ -107,61 +120,60 @@ void ewa_resolve_set(ewa_resolve *resolve, const ewa_surfels *surfels, const ewa
     resolve->coverage = frame->coverage;
 }
 
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-/// Camera-space direction of a local vector, without scale.
-static void turn(const ewa_view *view, const double v[3], double out[3]) {
-    for (int i = 0; i < 3; i++)
-        out[i] = view->rotation[3 * i] * v[0] + view->rotation[3 * i + 1] * v[1] +
-                 view->rotation[3 * i + 2] * v[2];
+/// Camera-space direction of a local vector, times `scale`.
+static ewa_vec3 turn(const ewa_view *view, ewa_vec3 v, double scale) {
+    double out[3];
+    for (int i = 0; i < 3; i++) {
+        const float *row = &view->rotation[3 * i];
+        out[i] = scale * ((double)row[0] * v.x + (double)row[1] * v.y + (double)row[2] * v.z);
+    }
+    return vec3_load(out);
 }
 
-/// Sets `terms` to the linear function of tile pixels that a direction's dot product with pixel rays is.
-static void set_linear(float terms[3], const double n[3], const ewa_view *view, const ewa_tile *tile,
-                       double sign) {
-    const double x = (tile->x_px - (double)view->cx_px) / view->fx_px;
-    const double y = (tile->y_px - (double)view->cy_px) / view->fy_px;
-    terms[0] = (float)(sign * (n[0] * x + n[1] * y + n[2]));
-    terms[1] = (float)(sign * n[0] / view->fx_px);
-    terms[2] = (float)(sign * n[1] / view->fy_px);
+/// Sets `terms` to the linear function of tile pixels that a vector's product with pixel rays (x, y, 1) is.
+static void set_linear(float terms[3], ewa_vec3 n, const ewa_view *view, const ewa_tile *tile) {
+    const double fx = (double)view->fx_px, fy = (double)view->fy_px;
+    const double x = (tile->x_px - (double)view->cx_px) / fx, y = (tile->y_px - (double)view->cy_px) / fy;
+    terms[0] = (float)(n.x * x + n.y * y + n.z);
+    terms[1] = (float)(n.x / fx);
+    terms[2] = (float)(n.y / fy);
 }
 
 bool ewa_near_record_set(ewa_near_record *record, const ewa_surfels *surfels, uint32_t surfel,
                          const ewa_view *view, const ewa_tile *tile) {
     ewa_packet_surfel s;
     ewa_packet_decode(surfels, &surfels->packets[surfel / EWA_PACKET_LANES], surfel % EWA_PACKET_LANES, &s);
-    double p[3], u[3], v[3], n[3];
-    turn(view, s.center, p);
-    turn(view, s.axis_u, u);
-    turn(view, s.axis_v, v);
-    turn(view, s.normal, n);
-    const double scale = view->scale;
-    for (int i = 0; i < 3; i++) p[i] = scale * p[i] + view->translation[i], u[i] *= scale, v[i] *= scale;
-    const double plane = dot(n, p);
-    if (fabs(plane) < EWA_EDGE_ON * sqrt(dot(p, p))) return false;
-    // u = (q.u) / (u.u) with q = z d - p, z = plane / n.d: a ratio of linear functions of the pixel.
-    const double *axes[2] = {u, v};
-    float *numerators[2] = {record->u, record->v};
-    for (int k = 0; k < 2; k++) {
-        const double *a = axes[k], length2 = dot(a, a), along = dot(p, a);
-        double m[3];
-        for (int i = 0; i < 3; i++) m[i] = (plane * a[i] - along * n[i]) / length2;
-        set_linear(numerators[k], m, view, tile, 1);
-    }
-    set_linear(record->w, n, view, tile, 1);
-    record->plane = (float)plane;
-    const double range = surfels->cutoff * sqrt(u[2] * u[2] + v[2] * v[2]);
-    record->depth_low = (float)(p[2] - range);
-    record->depth_high = (float)(p[2] + range);
-    const double sigma = sqrt(dot(u, u)), slope_x = n[0] / plane / view->fx_px,
-                 slope_y = n[1] / plane / view->fy_px;
-    const double per_px = sqrt(slope_x * slope_x + slope_y * slope_y) * p[2] * p[2];
-    record->tolerance =
-        (float)(view->tolerance * sigma + fmin(view->reach_px * per_px, view->grazing_limit * sigma));
-    const double toward = plane > 0 ? -1 : 1; // normals face the viewer
+    const double scale = (double)view->scale;
+    const ewa_vec3 u = turn(view, s.axis_u, scale), v = turn(view, s.axis_v, scale),
+                   n = turn(view, s.normal, 1);
+    const ewa_vec3 shift =
+        vec3_make((double)view->translation[0], (double)view->translation[1], (double)view->translation[2]);
+    const ewa_vec3 p = vec3_add(turn(view, s.center, scale), shift);
+    const double plane = vec3_dot(n, p);
+    if (fabs(plane) < EWA_EDGE_ON * vec3_length(p)) return false;
+    if (view->cull_back && plane >= 0) return false;
+    // (u, v, 1) M = z x with the rows tu, tv, p of M (PAS equation 4), so (u, v, 1) ~ x adj(M) and z = |M| /
+    // W.
+    // Divided by |tu x tv|, W is n itself and |M| is n.p, whatever the unit of length.
+    const ewa_mat3 m = mat3_from_rows(u, v, p), adjugate = mat3_adjugate(&m);
+    const ewa_mat3 inverse = mat3_scale(&adjugate, 1 / vec3_length(vec3_cross(u, v)));
+    set_linear(record->u, mat3_column(&inverse, 0), view, tile);
+    set_linear(record->v, mat3_column(&inverse, 1), view, tile);
+    set_linear(record->w, mat3_column(&inverse, 2), view, tile);
+    record->plane = (float)vec3_dot(mat3_column(&inverse, 2), p);
+    const double range = surfels->cutoff * sqrt(u.z * u.z + v.z * v.z);
+    record->depth_low = (float)(p.z - range);
+    record->depth_high = (float)(p.z + range);
+    const double sigma = vec3_length(u);
+    const double slope_x = n.x / plane / (double)view->fx_px, slope_y = n.y / plane / (double)view->fy_px;
+    const double per_px = sqrt(slope_x * slope_x + slope_y * slope_y) * p.z * p.z;
+    record->tolerance = (float)((double)view->tolerance * sigma +
+                                fmin((double)view->reach_px * per_px, (double)view->grazing_limit * sigma));
+    const ewa_vec3 toward = vec3_scale(n, plane > 0 ? -1 : 1); // normals face the viewer
+    const double normal[3] = {toward.x, toward.y, toward.z};
     for (int i = 0; i < 3; i++) {
         record->color[i] = (float)s.color[i];
-        record->normal[i] = (float)(toward * n[i]);
+        record->normal[i] = (float)normal[i];
     }
-    return !(view->cull_back && plane >= 0);
+    return true;
 }

@@ -8,8 +8,9 @@
 #include "kernels/road.h"
 #include "splat/packets.h"
 
-void ewa_view_set(ewa_view *view, const ewa_surfels *surfels, const ewa_camera *camera,
-                  const ewa_render_options *options, uint32_t tile_px);
+/// All arguments are checked ones. Errors: EWA_ERROR_NUMERIC for a camera without a view volume.
+ewa_status ewa_view_set(ewa_view *view, const ewa_surfels *surfels, const ewa_camera *camera,
+                        const ewa_render_options *options, uint32_t tile_px);
 
 void ewa_resolve_set(ewa_resolve *resolve, const ewa_surfels *surfels, const ewa_camera *camera,
                      const ewa_render_options *options, const ewa_frame *frame);

@@ -202,6 +202,7 @@ static void test_looks_differ(void **state) {
         "--color-by z --colormap turbo",
         "--color-by z --range 0,0.1",
         "--tau 2",
+        "--edge-layers 1",
         "--tolerance 0.01",
     };
     enum { COUNT = sizeof looks / sizeof looks[0] };
@@ -261,8 +262,7 @@ static void test_bench(void **state) {
     assert_non_null(strstr(last_run.out, "\"stage\": \"normals and radii\""));
     run_done("ewa bench ball.ply --size 96x64 --frames 1 --workers 1 --stages off --json - 2>tables");
     assert_non_null(strstr(last_run.out, "\"scene\": \"ball.ply\""));
-    run_fails(1, "the pixel filter alone covers 3.46 pixels, more than 2",
-              "ewa bench --splats 100 --pixels 2");
+    run_fails(1, "the pixel filter alone covers |more than 2", "ewa bench --splats 100 --pixels 2");
 }
 
 int main(void) {

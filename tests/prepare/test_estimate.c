@@ -1,0 +1,519 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Tests of src/prepare/estimate.c and local_body.h: normals, spacing, radii and axes against known samplings.
+#include "prepare/check_prepare.h"
+
+typedef enum sampling { REGULAR, JITTERED, SCATTERED, HEXAGONAL, POISSON, STRETCHED, SAMPLINGS } sampling;
+
+static const double TURN = 0.4;  // of the stretched grid
+static const double STRETCH = 3; // of its cells
+
+/// Samples a square of SIDE x SIDE with one sample per unit area, seen from above; returns the count.
+enum { SIDE = 80, MOST = SIDE * SIDE * 5 / 4 };
+
+static uint32_t sample_square(sampling kind, float *xyz) {
+    check_random random = {(uint64_t)kind + 1};
+    uint32_t n = 0;
+    const double hex = sqrt(2 / sqrt(3)), rows = hex * sqrt(0.75), longer = sqrt(STRETCH),
+                 shorter = 1 / longer;
+    for (int i = -2 * SIDE; i < 2 * SIDE; i++) {
+        for (int j = -2 * SIDE; j < 2 * SIDE; j++) {
+            double x = i + 0.5, y = j + 0.5;
+            const double jitter = kind == JITTERED ? 0.5 : kind == SCATTERED ? 1 : 0;
+            x += jitter * check_uniform(&random, -0.5, 0.5);
+            y += jitter * check_uniform(&random, -0.5, 0.5);
+            if (kind == HEXAGONAL) x = (i + 0.5 * (j & 1)) * hex, y = j * rows;
+            if (kind == STRETCHED) {
+                x = (cos(TURN) * i * longer - sin(TURN) * j * shorter) + SIDE / 2.0;
+                y = (sin(TURN) * i * longer + cos(TURN) * j * shorter) + SIDE / 2.0;
+            }
+            if (kind == POISSON)
+                x = check_uniform(&random, -2 * SIDE, 2 * SIDE),
+                y = check_uniform(&random, -2 * SIDE, 2 * SIDE);
+            if (x < 0 || y < 0 || x >= SIDE || y >= SIDE) continue;
+            assert_true(n < MOST);
+            xyz[3 * n] = (float)x;
+            xyz[3 * n + 1] = (float)y;
+            xyz[3 * n++ + 2] = 0;
+        }
+    }
+    return n;
+}
+
+static bool is_inner(const float *p) { return fminf(fminf(p[0], p[1]), fminf(SIDE - p[0], SIDE - p[1])) > 6; }
+
+static void test_spacing(void **state) {
+    (void)state;
+    ewa_context *context = check_context(2, NULL);
+    for (int kind = 0; kind < SAMPLINGS; kind++) {
+        float xyz[3 * MOST];
+        const uint32_t count = sample_square((sampling)kind, xyz);
+        ewa_cloud *cloud = NULL;
+        assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+        assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, xyz, 0), EWA_OK);
+        ewa_spacing spacing;
+        assert_int_equal(ewa_cloud_measure_spacing(cloud, 0, &spacing), EWA_OK);
+        assert_true(fabs(spacing.median_world - 1) < 0.045);
+        assert_true(fabs(spacing.mean_world - 1) < 0.045);
+        assert_int_equal(spacing.duplicate_count, 0);
+        if (kind == REGULAR) assert_true(spacing.low_world > 0.99 && spacing.high_world < 1.1);
+        // A sample tells about the same.
+        ewa_spacing sampled, again;
+        assert_int_equal(ewa_cloud_measure_spacing(cloud, 1000, &sampled), EWA_OK);
+        assert_int_equal(ewa_cloud_measure_spacing(cloud, 1000, &again), EWA_OK);
+        assert_memory_equal(&sampled, &again, sizeof again);
+        assert_true(fabs(sampled.median_world - spacing.median_world) < 0.03);
+
+        ewa_estimate_options options = check_estimate_options();
+        assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+        const float *radius = check_stream(cloud, EWA_RADIUS), *normal = check_stream(cloud, EWA_NORMAL);
+        double inner = 0, border = 0, inner_count = 0, border_count = 0;
+        for (uint32_t i = 0; i < count; i++) {
+            const float *p = &xyz[3 * i];
+            assert_true(normal[3 * i] == 0 && normal[3 * i + 1] == 0 && normal[3 * i + 2] == 1);
+            if (is_inner(p)) inner += radius[i], inner_count++;
+            if (fminf(fminf(p[0], p[1]), fminf(SIDE - p[0], SIDE - p[1])) < 1)
+                border += radius[i], border_count++;
+        }
+        inner /= inner_count;
+        border /= border_count;
+        assert_true(fabs(inner / EWA_DEFAULT_RADIUS_SCALE - 1) < 0.045);
+        assert_true(border < 1.2 * inner && border > 0.9 * inner);
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
+/// Shares of the inner square that no disc covers: the plain 1.2 spacings would leave 1 % of a random
+/// sampling open.
+static void test_no_holes(void **state) {
+    (void)state;
+    ewa_context *context = check_context(2, NULL);
+    for (int kind = 0; kind < SAMPLINGS; kind++) {
+        float xyz[3 * MOST];
+        const uint32_t count = sample_square((sampling)kind, xyz);
+        ewa_cloud *cloud = NULL;
+        assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+        assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, xyz, 0), EWA_OK);
+        ewa_estimate_options options = check_estimate_options();
+        options.radius_scale = 0.75;
+        assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+        const float *radius = check_stream(cloud, EWA_RADIUS);
+        check_random random = {9};
+        int open = 0;
+        enum { PROBES = 4000 };
+        for (int probe = 0; probe < PROBES; probe++) {
+            const double x = check_uniform(&random, 6, SIDE - 6), y = check_uniform(&random, 6, SIDE - 6);
+            bool covered = false;
+            for (uint32_t i = 0; i < count && !covered; i++) {
+                const double dx = x - (double)xyz[3 * i], dy = y - (double)xyz[3 * i + 1];
+                covered = dx * dx + dy * dy < (double)radius[i] * (double)radius[i];
+            }
+            open += !covered;
+        }
+        assert_in_range(open, 0, kind == POISSON ? PROBES / 400 : PROBES / 2000);
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
+static void test_axes(void **state) {
+    (void)state;
+    ewa_context *context = check_context(2, NULL);
+    float xyz[3 * MOST];
+    const uint32_t count = sample_square(STRETCHED, xyz);
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, xyz, 0), EWA_OK);
+    ewa_estimate_options options = check_estimate_options();
+    options.shape = EWA_SHAPE_ELLIPSE;
+    options.cutoff = 1.5;
+    assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+    assert_null(ewa_cloud_find(cloud, EWA_RADIUS));
+    const float *u = check_stream(cloud, EWA_TANGENT_U), *v = check_stream(cloud, EWA_TANGENT_V);
+    const float *normal = check_stream(cloud, EWA_NORMAL);
+    uint32_t checked = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const double ux = u[3 * i], uy = u[3 * i + 1], vx = v[3 * i], vy = v[3 * i + 1];
+        assert_true((ux * vy - uy * vx) * (double)normal[3 * i + 2] > 0);
+        assert_true(fabs(ux * vx + uy * vy) < 1e-5);
+        const double longer = hypot(ux, uy), shorter = hypot(vx, vy);
+        assert_true(longer >= shorter && longer <= 4.001 * shorter);
+        if (!is_inner(&xyz[3 * i])) continue;
+        checked++;
+        assert_true(fabs(longer / shorter / STRETCH - 1) < 0.1);
+        assert_true(fabs(ux * sin(TURN) - uy * cos(TURN)) < 0.035 * longer); // 2 degrees
+        const double radius = 1.5 * sqrt(longer * shorter);
+        assert_true(fabs(radius / EWA_DEFAULT_RADIUS_SCALE - 1) < 0.045);
+    }
+    assert_true(checked > count / 2);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
+/// PCA against the true normal of a sphere, also for doubles far from the origin.
+static void test_normals(void **state) {
+    (void)state;
+    enum { COUNT = 20000 };
+    ewa_context *context = check_context(2, NULL);
+    for (int far = 0; far < 2; far++) {
+        const double center[3] = {far ? 512345.25 : 0, far ? 5412345.5 : 0, far ? 321.0 : 0};
+        ewa_cloud *cloud = NULL;
+        double *xyz = NULL;
+        assert_int_equal(ewa_cloud_create(context, COUNT, &cloud), EWA_OK);
+        assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, (void **)&xyz), EWA_OK);
+        check_random random = {4};
+        for (uint32_t i = 0; i < COUNT; i++) {
+            double d[3];
+            check_direction(&random, d);
+            for (int c = 0; c < 3; c++) xyz[3 * i + (uint32_t)c] = center[c] + d[c];
+        }
+        ewa_estimate_options options = check_estimate_options();
+        assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+        const float *normal = check_stream(cloud, EWA_NORMAL);
+        double worst = 1, sum = 0;
+        for (uint32_t i = 0; i < COUNT; i++) {
+            double cosine = 0, length2 = 0;
+            for (uint32_t c = 0; c < 3; c++) {
+                cosine += (xyz[3 * i + c] - center[c]) * (double)normal[3 * i + c];
+                length2 += (double)normal[3 * i + c] * (double)normal[3 * i + c];
+            }
+            assert_true(fabs(length2 - 1) < 1e-5);
+            worst = fmin(worst, cosine);
+            sum += cosine;
+        }
+        assert_true(worst > cos(0.06)); // the neighbourhoods span 0.06
+        assert_true(sum / COUNT > 1 - 1e-4);
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
+static void test_keep(void **state) {
+    (void)state;
+    ewa_context *context = check_context(2, NULL);
+    float xyz[3 * MOST];
+    const uint32_t count = sample_square(JITTERED, xyz);
+    for (int keep = 0; keep < 2; keep++) {
+        ewa_cloud *cloud = NULL;
+        float *normal = NULL, *tangent = NULL;
+        assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+        assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, xyz, 0), EWA_OK);
+        assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, (void **)&normal), EWA_OK);
+        for (uint32_t i = 0; i < 3 * count; i++) normal[i] = 7;
+        for (int t = 0; t < 2; t++) {
+            assert_int_equal(
+                ewa_cloud_add(cloud, t ? EWA_TANGENT_V : EWA_TANGENT_U, EWA_F32, 3, (void **)&tangent),
+                EWA_OK);
+            for (uint32_t i = 0; i < 3 * count; i++) tangent[i] = 8;
+        }
+        ewa_estimate_options options = check_estimate_options();
+        options.keep_normals = options.keep_radii = keep;
+        assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+        assert_true((check_stream(cloud, EWA_NORMAL)[2] == 7) == (bool)keep);
+        if (keep) {
+            assert_true(check_stream(cloud, EWA_TANGENT_U)[0] == 8);
+            assert_null(ewa_cloud_find(cloud, EWA_RADIUS));
+        } else {
+            assert_null(ewa_cloud_find(cloud, EWA_TANGENT_U));
+            assert_non_null(ewa_cloud_find(cloud, EWA_RADIUS));
+        }
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
+/// Fills `count` points with one of many useless shapes.
+static void make_degenerate(int kind, uint32_t i, check_random *random, float p[3]) {
+    const double a = check_uniform(random, -1, 1), b = check_uniform(random, -1, 1);
+    p[0] = p[1] = p[2] = 0;
+    switch (kind) {
+    case 0:
+        p[0] = p[1] = p[2] = 0.5f;
+        break; // identical
+    case 1:
+        p[0] = p[1] = p[2] = (float)a;
+        break; // collinear
+    case 2:
+        p[2] = (float)a;
+        break; // collinear, upright
+    case 3:
+        p[0] = (float)a, p[1] = (float)b;
+        break; // coplanar
+    case 4:
+        p[i % 3] = i % 2 ? NAN : INFINITY;
+        break; // nothing finite
+    case 5:
+        p[0] = i % 4 ? NAN : (float)a, p[1] = (float)b;
+        break; // little finite
+    case 6:
+        p[0] = (float)(a * 1e30), p[1] = (float)(b * 1e30), p[2] = (float)(a * b * 1e30);
+        break;
+    case 7:
+        p[0] = (float)(a * 1e-30), p[1] = (float)(b * 1e-30);
+        break;
+    case 8:
+        p[0] = i % 2 ? (float)a : 1e30f, p[1] = (float)b;
+        break;
+    case 9:
+        p[0] = (float)floor(4 * a), p[1] = (float)floor(4 * b);
+        break; // clumps
+    default:
+        p[0] = a > 0 ? 3e38f : -3e38f, p[1] = b > 0 ? 3e38f : -3e38f;
+        break;
+    }
+}
+
+static void test_degenerate(void **state) {
+    (void)state;
+    static const uint32_t counts[] = {0, 1, 2, 3, 4, 7, 16, 17, 1000};
+    ewa_context *context = check_context(2, NULL);
+    for (int kind = 0; kind < 11; kind++)
+        for (size_t n = 0; n < sizeof counts / sizeof counts[0]; n++)
+            for (int shape = 0; shape < 2; shape++) {
+                float *xyz = NULL;
+                ewa_cloud *cloud = check_cloud(context, counts[n], &xyz);
+                check_random random = {(uint64_t)kind};
+                for (uint32_t i = 0; i < counts[n]; i++) make_degenerate(kind, i, &random, &xyz[3 * i]);
+                ewa_estimate_options options = check_estimate_options();
+                options.shape = shape ? EWA_SHAPE_ELLIPSE : EWA_SHAPE_DISC;
+                assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+                const float *normal = check_stream(cloud, EWA_NORMAL);
+                const float *size = check_stream(cloud, shape ? EWA_TANGENT_U : EWA_RADIUS);
+                for (uint32_t i = 0; i < counts[n]; i++) {
+                    const float *p = &xyz[3 * i], *at = &normal[3 * i];
+                    const bool finite = isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
+                    const float length2 = at[0] * at[0] + at[1] * at[1] + at[2] * at[2];
+                    if (finite)
+                        assert_true(fabsf(length2 - 1) < 1e-4f);
+                    else
+                        assert_true(length2 == 0);
+                    for (uint32_t c = 0; c < (shape ? 3 : 1); c++) {
+                        const float value = size[(shape ? 3 : 1) * i + c];
+                        // The extent of 6e38 has no radius in single precision.
+                        assert_true(kind == 10 || isfinite(value));
+                        if (!finite) assert_true(value == 0);
+                        if (!shape && finite) assert_true(value >= 0);
+                    }
+                }
+                ewa_spacing spacing;
+                assert_int_equal(ewa_cloud_measure_spacing(cloud, 0, &spacing), EWA_OK);
+                if (kind != 10) assert_true(isfinite(spacing.mean_world) && spacing.median_world >= 0);
+                if (kind == 0 && counts[n] > 1) assert_int_equal(spacing.duplicate_count, counts[n]);
+                ewa_cloud_destroy(&cloud);
+            }
+    ewa_context_destroy(&context);
+}
+
+/// A bumpy surface with uneven sampling, duplicates and a few points that are not finite.
+static void make_uneven(float *xyz, uint32_t count) {
+    check_random random = {8};
+    for (uint32_t i = 0; i < count; i++) {
+        const double a = check_uniform(&random, 0, 1), b = check_uniform(&random, -1, 1);
+        xyz[3 * i] = (float)(a * a * a);
+        xyz[3 * i + 1] = (float)b;
+        xyz[3 * i + 2] = (float)(0.1 * sin(9 * a * a * a) * cos(7 * b) + check_uniform(&random, 0, 1e-3));
+        if (i % 50 == 7) memcpy(&xyz[3 * i], &xyz[3 * (i / 2)], 3 * sizeof *xyz);
+        if (i % 1000 == 3) xyz[3 * i] = NAN;
+    }
+}
+
+static ewa_cloud *estimate_uneven(uint32_t threads, uint32_t mask, const float *xyz, uint32_t count,
+                                  ewa_surfel_shape shape, ewa_context **context) {
+    ewa_context_options context_options;
+    ewa_context_options_init(&context_options, sizeof context_options);
+    context_options.thread_count = threads;
+    context_options.cpu_mask = mask;
+    assert_int_equal(ewa_context_create(&context_options, context), EWA_OK);
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_cloud_create(*context, count, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, xyz, 0), EWA_OK);
+    ewa_estimate_options options = check_estimate_options();
+    options.shape = shape;
+    options.outlier_factor = 4;
+    assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+    return cloud;
+}
+
+static void test_threads_and_machines(void **state) {
+    (void)state;
+    enum { COUNT = 60000 };
+    static const uint32_t threads[] = {2, 7, 32, 1, 1};
+    static const uint32_t masks[] = {EWA_CPU_ALL, EWA_CPU_ALL, EWA_CPU_ALL, EWA_CPU_AVX2, 0};
+    float *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
+    make_uneven(xyz, COUNT);
+    for (int shape = 0; shape < 2; shape++) {
+        ewa_context *first_context = NULL, *context = NULL;
+        ewa_cloud *first =
+            estimate_uneven(1, EWA_CPU_ALL, xyz, COUNT, (ewa_surfel_shape)shape, &first_context);
+        for (int t = 0; t < 5; t++) {
+            ewa_cloud *cloud =
+                estimate_uneven(threads[t], masks[t], xyz, COUNT, (ewa_surfel_shape)shape, &context);
+            assert_int_equal(ewa_cloud_point_count(cloud), ewa_cloud_point_count(first));
+            assert_int_equal(ewa_cloud_attribute_count(cloud), ewa_cloud_attribute_count(first));
+            for (uint32_t a = 0; a < ewa_cloud_attribute_count(first); a++) {
+                const ewa_attribute *l = ewa_cloud_attribute_at(first, a),
+                                    *r = ewa_cloud_attribute_at(cloud, a);
+                assert_memory_equal(l->data, r->data, l->stride_bytes * ewa_cloud_point_count(first));
+            }
+            ewa_cloud_destroy(&cloud);
+            ewa_context_destroy(&context);
+        }
+        ewa_cloud_destroy(&first);
+        ewa_context_destroy(&first_context);
+    }
+    free(xyz);
+}
+
+/// Each point's surfel is the same wherever it stands in the file.
+static void test_order_of_points(void **state) {
+    (void)state;
+    enum { COUNT = 20000, STEP = 7919 };
+    float *xyz = calloc(6 * (size_t)COUNT, sizeof *xyz), *shuffled = xyz + 3 * (size_t)COUNT;
+    make_uneven(xyz, COUNT);
+    for (uint64_t i = 0; i < COUNT; i++)
+        memcpy(&shuffled[3 * i], &xyz[3 * (i * STEP % COUNT)], 3 * sizeof *xyz);
+    ewa_context *contexts[2] = {NULL, NULL};
+    ewa_cloud *clouds[2] = {NULL, NULL};
+    for (int c = 0; c < 2; c++) {
+        contexts[c] = check_context(2, NULL);
+        assert_int_equal(ewa_cloud_create(contexts[c], COUNT, &clouds[c]), EWA_OK);
+        assert_int_equal(ewa_cloud_borrow(clouds[c], EWA_POSITION, EWA_F32, 3, c ? shuffled : xyz, 0),
+                         EWA_OK);
+        ewa_estimate_options options = check_estimate_options();
+        assert_int_equal(ewa_cloud_estimate(&clouds[c], &options), EWA_OK);
+    }
+    const float *normal = check_stream(clouds[0], EWA_NORMAL),
+                *normal_of_shuffled = check_stream(clouds[1], EWA_NORMAL);
+    const float *radius = check_stream(clouds[0], EWA_RADIUS),
+                *radius_of_shuffled = check_stream(clouds[1], EWA_RADIUS);
+    for (uint64_t i = 0; i < COUNT; i++) {
+        const uint64_t from = i * STEP % COUNT;
+        assert_memory_equal(&normal_of_shuffled[3 * i], &normal[3 * from], 3 * sizeof *normal);
+        assert_true(radius_of_shuffled[i] == radius[from]);
+    }
+    for (int c = 0; c < 2; c++) {
+        ewa_cloud_destroy(&clouds[c]);
+        ewa_context_destroy(&contexts[c]);
+    }
+    free(xyz);
+}
+
+/// An allocator that fails at one call and counts what is not given back.
+typedef struct failing_allocator {
+    int calls_left;
+    long held_bytes;
+} failing_allocator;
+
+static void *allocate_or_fail(void *user, size_t size_bytes) {
+    failing_allocator *a = user;
+    if (a->calls_left-- == 0) return NULL;
+    void *memory = aligned_alloc(64, (size_bytes + 63) / 64 * 64);
+    if (memory) a->held_bytes += (long)size_bytes;
+    return memory;
+}
+
+static void release_counted(void *user, void *memory, size_t size_bytes) {
+    failing_allocator *a = user;
+    a->held_bytes -= (long)size_bytes;
+    free(memory);
+}
+
+static void test_out_of_memory(void **state) {
+    (void)state;
+    enum { COUNT = 2000 };
+    float *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
+    make_uneven(xyz, COUNT);
+    for (int shape = 0; shape < 2; shape++) {
+        ewa_status status = EWA_ERROR_MEMORY;
+        int calls = 0;
+        for (; status == EWA_ERROR_MEMORY && calls < 500; calls++) {
+            failing_allocator allocator = {INT32_MAX, 0};
+            ewa_context_options context_options;
+            ewa_context_options_init(&context_options, sizeof context_options);
+            context_options.allocator = (ewa_allocator){&allocator, allocate_or_fail, release_counted};
+            context_options.thread_count = 2;
+            ewa_context *context = NULL;
+            assert_int_equal(ewa_context_create(&context_options, &context), EWA_OK);
+            ewa_cloud *cloud = NULL;
+            assert_int_equal(ewa_cloud_create(context, COUNT, &cloud), EWA_OK);
+            assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, xyz, 0), EWA_OK);
+            ewa_estimate_options options = check_estimate_options();
+            options.shape = (ewa_surfel_shape)shape;
+            options.outlier_factor = 3;
+            allocator.calls_left = calls;
+            status = ewa_cloud_estimate(&cloud, &options);
+            if (status == EWA_OK) {
+                allocator.calls_left = INT32_MAX;
+            } else {
+                assert_int_equal(status, EWA_ERROR_MEMORY);
+                assert_null(ewa_cloud_find(cloud, EWA_NORMAL));
+                assert_null(ewa_cloud_find(cloud, EWA_RADIUS));
+                assert_null(ewa_cloud_find(cloud, EWA_TANGENT_U));
+            }
+            ewa_cloud_destroy(&cloud);
+            ewa_context_destroy(&context);
+            assert_int_equal(allocator.held_bytes, 0);
+        }
+        assert_int_equal(status, EWA_OK);
+        assert_true(calls > 20);
+    }
+    free(xyz);
+}
+
+static bool cancel_at(void *user, const char *stage, double fraction) {
+    (void)fraction;
+    return strcmp(stage, user) != 0;
+}
+
+static void test_cancel_and_options(void **state) {
+    (void)state;
+    float xyz[3 * MOST];
+    const uint32_t count = sample_square(JITTERED, xyz);
+    static char stages[3][16] = {"outliers", "estimate", "orient"};
+    for (int s = 0; s < 3; s++) {
+        ewa_context_options context_options;
+        ewa_context_options_init(&context_options, sizeof context_options);
+        context_options.progress = cancel_at;
+        context_options.progress_user = stages[s];
+        ewa_context *context = NULL;
+        assert_int_equal(ewa_context_create(&context_options, &context), EWA_OK);
+        ewa_cloud *cloud = NULL;
+        assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+        assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, xyz, 0), EWA_OK);
+        ewa_estimate_options options = check_estimate_options();
+        options.outlier_factor = 3;
+        assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_CANCELLED);
+        assert_null(ewa_cloud_find(cloud, EWA_NORMAL));
+        ewa_estimate_options wrong = options;
+        wrong.neighbour_count = 5;
+        assert_int_equal(ewa_cloud_estimate(&cloud, &wrong), EWA_ERROR_ARGUMENT);
+        wrong = options;
+        wrong.radius_scale = NAN;
+        assert_int_equal(ewa_cloud_estimate(&cloud, &wrong), EWA_ERROR_ARGUMENT);
+        wrong = options;
+        wrong.outlier_factor = -1;
+        assert_int_equal(ewa_cloud_estimate(&cloud, &wrong), EWA_ERROR_ARGUMENT);
+        ewa_cloud_remove(cloud, EWA_POSITION);
+        assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_ERROR_ARGUMENT);
+        ewa_cloud_destroy(&cloud);
+        ewa_context_destroy(&context);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_spacing),
+        cmocka_unit_test(test_no_holes),
+        cmocka_unit_test(test_axes),
+        cmocka_unit_test(test_normals),
+        cmocka_unit_test(test_keep),
+        cmocka_unit_test(test_degenerate),
+        cmocka_unit_test(test_threads_and_machines),
+        cmocka_unit_test(test_order_of_points),
+        cmocka_unit_test(test_out_of_memory),
+        cmocka_unit_test(test_cancel_and_options),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Tests of src/prepare/orient.c and outliers.c: signs of normals against the truth, what outlier removal
+// leaves.
+#include "prepare/check_prepare.h"
+
+enum { COUNT = 30000 };
+
+static const double PI = 3.14159265358979323846;
+
+typedef enum object { SPHERE, TORUS, TWO_SPHERES, CUBE, SHEET, NOISY_SPHERE, BOWL, OBJECTS } object;
+
+static double normal_deviate(check_random *random) {
+    double sum = -6;
+    for (int i = 0; i < 12; i++) sum += check_uniform(random, 0, 1);
+    return sum;
+}
+
+/// A point and the outward normal there.
+static void make_point(object kind, uint32_t i, check_random *random, double p[3], double n[3]) {
+    check_direction(random, n);
+    for (int c = 0; c < 3; c++) p[c] = n[c];
+    const double a = check_uniform(random, -PI, PI), u = check_uniform(random, -1, 1);
+    const double v = check_uniform(random, -1, 1);
+    double b;
+    switch (kind) {
+    case TORUS:
+        do b = check_uniform(random, -PI, PI);
+        while (check_uniform(random, 0, 1.3) > 1 + 0.3 * cos(b));
+        n[0] = cos(a) * cos(b), n[1] = sin(a) * cos(b), n[2] = sin(b);
+        p[0] = cos(a) * (1 + 0.3 * cos(b)), p[1] = sin(a) * (1 + 0.3 * cos(b)), p[2] = 0.3 * sin(b);
+        break;
+    case TWO_SPHERES:
+        for (int c = 0; c < 3; c++) p[c] *= i % 3 ? 1 : 0.5;
+        p[0] += i % 3 ? 0 : 1.6;
+        break;
+    case CUBE: {
+        const uint32_t face = i % 6, axis = face / 2;
+        for (uint32_t c = 0; c < 3; c++) n[c] = c == axis ? (face % 2 ? 1 : -1) : 0;
+        p[axis] = n[axis];
+        p[(axis + 1) % 3] = u, p[(axis + 2) % 3] = v;
+        break;
+    }
+    case SHEET:
+        p[0] = u, p[1] = v, p[2] = 0.2 * sin(4 * u) * cos(3 * v);
+        n[0] = -0.8 * cos(4 * u) * cos(3 * v), n[1] = 0.6 * sin(4 * u) * sin(3 * v), n[2] = 1;
+        break;
+    case NOISY_SPHERE:
+        for (int c = 0; c < 3; c++) p[c] += 0.004 * normal_deviate(random); // 0.2 spacings
+        break;
+    case BOWL:
+        // Half a sphere seen from outside: open, but with an inside.
+        if (n[0] < 0) n[0] = -n[0], p[0] = -p[0];
+        break;
+    default:
+        break;
+    }
+}
+
+static void test_propagation(void **state) {
+    (void)state;
+    ewa_context *context = check_context(2, NULL);
+    for (int kind = 0; kind < OBJECTS; kind++) {
+        float *xyz = NULL;
+        ewa_cloud *cloud = check_cloud(context, COUNT, &xyz);
+        double(*truth)[3] = calloc(COUNT, sizeof *truth);
+        check_random random = {(uint64_t)kind + 20};
+        for (uint32_t i = 0; i < COUNT; i++) {
+            double p[3];
+            make_point((object)kind, i, &random, p, truth[i]);
+            for (uint32_t c = 0; c < 3; c++) xyz[3 * i + c] = (float)p[c];
+        }
+        ewa_estimate_options options = check_estimate_options();
+        assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+        const float *normal = check_stream(cloud, EWA_NORMAL);
+        uint32_t agree = 0;
+        for (uint32_t i = 0; i < COUNT; i++) {
+            double cosine = 0;
+            for (uint32_t c = 0; c < 3; c++) cosine += truth[i][c] * (double)normal[3 * i + c];
+            agree += cosine > 0;
+        }
+        assert_true(agree > 0.999 * COUNT);
+        free(truth);
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
+static void test_viewpoint_and_none(void **state) {
+    (void)state;
+    ewa_context *context = check_context(2, NULL);
+    for (int none = 0; none < 2; none++) {
+        float *xyz = NULL;
+        ewa_cloud *cloud = check_cloud(context, COUNT, &xyz);
+        check_random random = {2};
+        for (uint32_t i = 0; i < COUNT; i++) {
+            double d[3];
+            check_direction(&random, d);
+            for (uint32_t c = 0; c < 3; c++) xyz[3 * i + c] = (float)d[c];
+        }
+        const double origin[3] = {1000, 0, 0};
+        ewa_cloud_set_origin(cloud, origin);
+        ewa_estimate_options options = check_estimate_options();
+        options.shape = EWA_SHAPE_ELLIPSE;
+        options.orientation = none ? EWA_ORIENT_NONE : EWA_ORIENT_VIEWPOINT;
+        options.viewpoint_world[0] = 1003;
+        assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+        const float *normal = check_stream(cloud, EWA_NORMAL);
+        const float *u = check_stream(cloud, EWA_TANGENT_U), *v = check_stream(cloud, EWA_TANGENT_V);
+        for (uint32_t i = 0; i < COUNT; i++) {
+            const float *n = &normal[3 * i], *p = &xyz[3 * i], *a = &u[3 * i], *b = &v[3 * i];
+            const float towards = (3 - p[0]) * n[0] - p[1] * n[1] - p[2] * n[2];
+            float largest = 0;
+            for (int c = 0; c < 3; c++)
+                if (fabsf(n[c]) > fabsf(largest)) largest = n[c];
+            if (none)
+                assert_true(largest > 0);
+            else
+                assert_true(towards >= 0);
+            const float volume = n[0] * (a[1] * b[2] - a[2] * b[1]) + n[1] * (a[2] * b[0] - a[0] * b[2]) +
+                                 n[2] * (a[0] * b[1] - a[1] * b[0]);
+            assert_true(volume > 0);
+        }
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
+static void test_outliers(void **state) {
+    (void)state;
+    ewa_context *context = check_context(2, NULL);
+    float *xyz = NULL;
+    uint16_t *label = NULL;
+    double *precise = NULL;
+    ewa_cloud *cloud = check_cloud(context, COUNT, &xyz);
+    assert_int_equal(ewa_cloud_add(cloud, "label", EWA_U16, 1, (void **)&label), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, "precise", EWA_F64, 2, (void **)&precise), EWA_OK);
+    struct record {
+        uint8_t unused, color[3];
+    } *records = calloc(COUNT, sizeof *records);
+    assert_int_equal(ewa_cloud_borrow(cloud, EWA_COLOR, EWA_U8, 3, records[0].color, sizeof *records),
+                     EWA_OK);
+    check_random random = {3};
+    uint32_t far = 0;
+    for (uint32_t i = 0; i < COUNT; i++) {
+        double d[3];
+        check_direction(&random, d);
+        const bool outlier = i % 300 == 0, broken = i % 5000 == 11;
+        far += outlier || broken;
+        for (uint32_t c = 0; c < 3; c++)
+            xyz[3 * i + c] = (float)(d[c] * (outlier ? check_uniform(&random, 2, 5) : 1));
+        if (broken) xyz[3 * i + 1] = NAN;
+        label[i] = (uint16_t)i;
+        precise[2 * i] = i, precise[2 * i + 1] = 0.25 * i;
+        records[i].color[1] = (uint8_t)i;
+    }
+    const double origin[3] = {1, 2, 3};
+    ewa_cloud_set_origin(cloud, origin);
+    ewa_estimate_options options = check_estimate_options();
+    options.outlier_factor = 2;
+    assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+    const uint64_t left = ewa_cloud_point_count(cloud);
+    assert_in_range(left, COUNT - far - COUNT / 100, COUNT - far);
+    const float *position = check_stream(cloud, EWA_POSITION);
+    const uint16_t *labels = ewa_cloud_find(cloud, "label")->data;
+    const double *precises = ewa_cloud_find(cloud, "precise")->data;
+    const ewa_attribute *color = ewa_cloud_find(cloud, EWA_COLOR);
+    for (uint64_t i = 0; i < left; i++) {
+        const float *p = &position[3 * i];
+        assert_true(fabsf(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] - 1) < 1e-5f);
+        if (i) assert_true(labels[i] > labels[i - 1]);
+        assert_true(precises[2 * i] == labels[i] && precises[2 * i + 1] == 0.25 * labels[i]);
+        uint8_t rgb[3];
+        memcpy(rgb, (const char *)color->data + i * color->stride_bytes, sizeof rgb);
+        assert_int_equal(rgb[1], (uint8_t)labels[i]);
+    }
+    double kept_origin[3];
+    ewa_cloud_origin(cloud, kept_origin);
+    assert_memory_equal(kept_origin, origin, sizeof origin);
+    ewa_cloud_destroy(&cloud);
+    free(records);
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_propagation),
+        cmocka_unit_test(test_viewpoint_and_none),
+        cmocka_unit_test(test_outliers),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
