@@ -264,7 +264,8 @@ static void test_options(void **state) {
 
     ewa_render_options render, chosen;
     assert_int_equal(ewa_render_options_choose(context, NULL, &chosen), EWA_OK);
-    assert_true(chosen.prefilter_px == 0.35 && chosen.edge_threshold == 0.45 && chosen.passes == 3 && chosen.edge_antialiasing);
+    assert_true(chosen.prefilter_px == 0.35 && chosen.edge_threshold == 0.45 && chosen.passes == 3 &&
+                chosen.edge_antialiasing);
 #define REFUSES(member, value)                                                                               \
     do {                                                                                                     \
         ewa_render_options_init(&render, sizeof render);                                                     \
