@@ -6,11 +6,11 @@
 
 #include <math.h>
 
-/// Standard deviation of the kernels in units of the spacing of the points.
-static const double SIGMA = 0.6;
+/// Standard deviation of the kernels in units of the spacing of the points: the default radius, cut at F = 3.
+static const double SIGMA = EWA_DEFAULT_RADIUS_SCALE / 3;
 
-/// Share of a kernel that lies within the default cutoff: 1 - exp(-F^2 / 2), F = 2.
-static const double KERNEL_SHARE = 0.8646647167633873;
+/// Share of a kernel that lies within the default cutoff: 1 - exp(-F^2 / 2), F = 3.
+static const double KERNEL_SHARE = 0.9888910034617577;
 
 /// A splitmix64 stream of numbers.
 typedef struct stream {
@@ -151,7 +151,6 @@ static ewa_status make_object(ewa_context *context, ewa_object object, uint64_t 
     ewa_generate_options_init(&options, sizeof options);
     options.object = object;
     options.point_count = count;
-    options.radius_scale = 2 * SIGMA;
     if (object == EWA_OBJECT_CUBE) options.checks = 4;
     ewa_status status = ewa_cloud_generate(context, &options, &made->cloud);
     static const double up[3] = {0, 0, 1};

@@ -33,19 +33,20 @@ typedef struct ewa_estimate_options {
     ewa_orientation orientation;
     double viewpoint_world[3]; ///< for EWA_ORIENT_VIEWPOINT
     ewa_surfel_shape shape;
-    double radius_scale;   ///< support radius in units of the local spacing 1/sqrt(density); > 0; default by measurement
-    double cutoff;         ///< F: tangent axes are radius / F long; default 3
-    bool keep_normals;     ///< keep "normal" when the cloud has it; default true
-    bool keep_radii;       ///< keep "radius" or tangent axes when the cloud has them; default true
-    double outlier_factor; ///< remove points whose mean neighbour distance exceeds mean + factor * deviation; 0: keep all
+    double radius_scale; ///< support radius in units of the local spacing 1/sqrt(density); > 0; default 1.14
+    double cutoff;       ///< F: tangent axes are radius / F long; default 3
+    bool keep_normals;   ///< keep "normal" when the cloud has it; default true
+    bool keep_radii;     ///< keep "radius" or tangent axes when the cloud has them; default true
+    double outlier_factor; ///< remove points whose mean neighbour distance exceeds mean + factor * deviation;
+                           ///< 0: keep all
 } ewa_estimate_options;
 
 EWA_API void ewa_estimate_options_init(ewa_estimate_options *options, size_t struct_size);
 
-/// Adds what a surfel needs and the cloud lacks: "normal" (PCA of the k nearest neighbours, oriented), and "radius" or
-/// tangent axes from the local density. With outlier removal the cloud is replaced by a smaller one.
-/// Points with coordinates that are not finite get a zero normal and radius. Coplanar, collinear, identical and single
-/// points get finite results; the message callback (info) says how many were degenerate.
+/// Adds what a surfel needs and the cloud lacks: "normal" (PCA of the k nearest neighbours, oriented), and
+/// "radius" or tangent axes from the local density. With outlier removal the cloud is replaced by a smaller
+/// one. Points with coordinates that are not finite get a zero normal and radius. Coplanar, collinear,
+/// identical and single points get finite results; the message callback (info) says how many were degenerate.
 /// The result per point does not depend on the number of threads.
 /// Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_MEMORY, EWA_CANCELLED.
 EWA_API ewa_status ewa_cloud_estimate(ewa_cloud **cloud, const ewa_estimate_options *options);
@@ -58,7 +59,8 @@ typedef struct ewa_spacing {
 } ewa_spacing;
 
 /// Measures the sampling from at most `sample_count` points (0: all), the same ones for every run.
-EWA_API ewa_status ewa_cloud_measure_spacing(const ewa_cloud *cloud, uint64_t sample_count, ewa_spacing *spacing);
+EWA_API ewa_status ewa_cloud_measure_spacing(const ewa_cloud *cloud, uint64_t sample_count,
+                                             ewa_spacing *spacing);
 
 /// Test objects, centred at the origin. Plane, checker and terrain lie in x-y, z up.
 typedef enum ewa_object {
@@ -78,23 +80,25 @@ typedef struct ewa_generate_options {
     uint64_t seed;        ///< same seed, same bytes, on every machine; default 1
     double size_world;    ///< edge of plane, cube, terrain; diameter of sphere; outer diameter of torus;
                           ///< [1e-25, 1e25]; default 2
-    double jitter;        ///< 0: points in the middle of their cells, 1: anywhere in them; [0, 1]; default 0.5
-    double checks;        ///< squares along one edge of the checker plane and of the cube's faces; [1e-6, 1e6];
-                          ///< default 16
-    double radius_scale;  ///< support radius in units of the local spacing; [1e-6, 1e6]; default EWA_DEFAULT_RADIUS_SCALE. Discs leave no
-                          ///< hole where it is at least 0.72 (1 + jitter)
-    bool positions_only;  ///< leave out normals and radii; default false
+    double jitter; ///< 0: points in the middle of their cells, 1: anywhere in them; [0, 1]; default 0.5
+    double checks; ///< squares along one edge of the checker plane and of the cube's faces; [1e-6, 1e6];
+                   ///< default 16
+    double radius_scale; ///< support radius in units of the local spacing; [1e-6, 1e6]; default 1.14.
+                         ///< Discs leave no hole where it is at least 0.72 (1 + jitter)
+    bool positions_only; ///< leave out normals and radii; default false
 } ewa_generate_options;
 
 EWA_API void ewa_generate_options_init(ewa_generate_options *options, size_t struct_size);
 
-/// Makes a test object: "position" F32 3, "normal" F32 3 (unit, outward), "color" U8 3 (sRGB), "radius" F32 1.
-/// One point lies in each of `point_count` cells of equal area (terrain: of equal ground), about as wide as high, that
-/// fill the surface to its edge; the spacing is the square root of a cell's area (terrain: longer on slopes).
-/// `options` may be NULL for the defaults; the caller owns `*cloud`, which is NULL after a failure. Every number
-/// depends on the options alone, not on the machine or the number of threads. Progress stage: "generate".
-/// Errors: EWA_ERROR_ARGUMENT (message names the member), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_CANCELLED.
-EWA_API ewa_status ewa_cloud_generate(ewa_context *context, const ewa_generate_options *options, ewa_cloud **cloud);
+/// Makes a test object: "position" F32 3, "normal" F32 3 (unit, outward), "color" U8 3 (sRGB), "radius"
+/// F32 1. One point lies in each of `point_count` cells of equal area (terrain: of equal ground), about as
+/// wide as high, that fill the surface to its edge; the spacing is the square root of a cell's area (terrain:
+/// longer on slopes). `options` may be NULL for the defaults; the caller owns `*cloud`, which is NULL after a
+/// failure. Every number depends on the options alone, not on the machine or the number of threads. Progress
+/// stage: "generate". Errors: EWA_ERROR_ARGUMENT (message names the member), EWA_ERROR_LIMIT,
+/// EWA_ERROR_MEMORY, EWA_CANCELLED.
+EWA_API ewa_status ewa_cloud_generate(ewa_context *context, const ewa_generate_options *options,
+                                      ewa_cloud **cloud);
 
 #ifdef __cplusplus
 }

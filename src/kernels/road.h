@@ -23,7 +23,7 @@ enum {
     EWA_RUN_RECORDS = EWA_RUN_PACKETS * EWA_PACKET_LANES,
     EWA_ROW_CLASSES = 5,                                   ///< boxes of 1, 2, 3, 4 and more rows of blocks
     EWA_COLUMN_CLASSES = 4,                                ///< boxes of 1, 2, 3, 4 columns
-    EWA_WIDE_CLASS = EWA_ROW_CLASSES * EWA_COLUMN_CLASSES, ///< boxes of more columns
+    EWA_WIDE_CLASS = EWA_ROW_CLASSES * EWA_COLUMN_CLASSES, ///< wider boxes, parts of large splats
     EWA_CLASS_COUNT = EWA_WIDE_CLASS + 1,
     EWA_MAX_CHANNELS = 8,
     EWA_MAX_TILE_BLOCKS = 32, ///< along a side, so that a row of blocks is a word of bits
@@ -68,7 +68,7 @@ typedef struct ewa_record {
     float key_low, key_high;  ///< range of the key
     float bound_scale,
         bound_offset; ///< the key of z + eps is bound_scale key + bound_offset; class EWA_WIDE_CLASS,
-                      ///< perspective: bound_offset is eps, the key of z + eps key / (1 + eps key)
+                      ///< perspective: bound_scale is 0, bound_offset eps, the key key / (1 + eps key)
     float red, green, blue;
     uint32_t box; ///< first column | first row << 8 | columns << 16 | rows << 24, in blocks
 } ewa_record;

@@ -87,7 +87,7 @@ static ALWAYS_INLINE void edge_block(const ewa_view *view, const ewa_tile *tile,
     const wm beyond = wm_and(wf_lt(s, wf_set(view->exponent_end)),
                              wf_lt(key, wf_load(edges->passed + block * EWA_BLOCK_LANES)));
     if (!second_pass) {
-        const bool exact = box_columns(r->box) > EWA_COLUMN_CLASSES && !view->orthographic;
+        const bool exact = r->bound_scale == 0;
         const wf old = wf_load(nearest);
         wf_store(nearest, wf_select(beyond, wf_max(bound_key(r, key, exact), old), old));
         return;

@@ -196,7 +196,7 @@ static inline wf decode_color(const ewa_view *view, const uint16_t *values, int 
                   wf_set(view->color_offset[channel]));
 }
 
-/// Class of a box: rows within columns, so that a class's neighbours share their unrolled column count.
+/// Class of a splat: rows within columns, so that a class's neighbours share their unrolled column count.
 static inline wi box_classes(wi columns, wi rows) {
     const wi row_class = wi_sub(wi_min(rows, wi_set(EWA_ROW_CLASSES)), wi_set(1));
     const wi column = wi_sub(wi_min(columns, wi_set(EWA_COLUMN_CLASSES + 1)), wi_set(1));
@@ -358,13 +358,16 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
     const wi box = wi_or(wi_or(column, wi_shl(row, 8)), wi_or(wi_shl(columns, 16), wi_shl(rows, 24)));
 
     // The key of z + eps, 1 / (1 / key + eps), as its tangent at the centre; wide splats are evaluated
-    // exactly.
-    wf bound_scale = one, bound_offset = wf_negate(tolerance);
+    // exactly, also where only a narrow part of them is in the tile: its pixels are far from the centre.
+    wf bound_scale = one, bound_offset = wf_negate(tolerance), class_columns = wf_from_i(columns);
     if (!view->orthographic) {
         const wf share = wf_mul(p[2], wf_reciprocal(wf_add(p[2], tolerance)));
-        const wm wide = wf_lt(wf_set(EWA_COLUMN_CLASSES), wf_from_i(columns));
-        bound_scale = wf_mul(share, share);
-        bound_offset = wf_select(wide, tolerance, wf_mul(wf_sub(share, bound_scale), t->inverse_z));
+        const wf half_end_px = wf_set(EWA_COLUMN_CLASSES * EWA_BLOCK_PX / 2);
+        const wm exact = wm_or(wf_lt(wf_set(EWA_COLUMN_CLASSES), class_columns),
+                               wf_lt(half_end_px, wf_max(t->half_x, t->half_y)));
+        class_columns = wf_select(exact, wf_set(EWA_COLUMN_CLASSES + 1), class_columns);
+        bound_scale = wf_select(exact, zero, wf_mul(share, share));
+        bound_offset = wf_select(exact, tolerance, wf_mul(wf_sub(share, wf_mul(share, share)), t->inverse_z));
     }
 
     wf lanes[16] = {
@@ -392,7 +395,7 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
              wf_select(away, wf_negate(t->n[1]), t->n[1]), wf_select(away, wf_negate(t->n[2]), t->n[2]),
              t->peak);
     int32_t classes[16];
-    wi_store(classes, box_classes(columns, rows));
+    wi_store(classes, box_classes(wi_from_f(wf_keep(alive, class_columns)), rows));
     uint32_t at = run->count;
     for (uint32_t lane = 0; lane < 16; lane++) {
         wf_store((float *)(void *)&run->records[at], lanes[lane]);

@@ -36,7 +36,10 @@ int main(int argument_count, char **arguments) {
         {EWA_KERNEL_AFFINE, 2.5, 0.4, 0.44, jitter},      {EWA_KERNEL_PERSPECTIVE, 2.5, 0, 0.44, jitter},
         {EWA_KERNEL_PERSPECTIVE, 2.5, 0.4, 0.4, jitter},  {EWA_KERNEL_PERSPECTIVE, 2.5, 0.3, 0.44, jitter},
         {EWA_KERNEL_PERSPECTIVE, 3, 0.4, 0.45, jitter},   {EWA_KERNEL_PERSPECTIVE, 3, 0.4, 0.4, jitter},
-        {EWA_KERNEL_PERSPECTIVE, 3, 0.4, 0.35, jitter},
+        {EWA_KERNEL_PERSPECTIVE, 3, 0.4, 0.38, jitter},   {EWA_KERNEL_PERSPECTIVE, 3, 0.4, 0.35, jitter},
+        {EWA_KERNEL_PERSPECTIVE, 3, 0.35, 0.4, jitter},   {EWA_KERNEL_PERSPECTIVE, 3, 0.35, 0.38, jitter},
+        {EWA_KERNEL_AFFINE, 3, 0.35, 0.38, jitter},       {EWA_KERNEL_PERSPECTIVE, 3, 0, 0.38, jitter},
+        {EWA_KERNEL_PERSPECTIVE, 3, 0.35, 0.367, jitter},
     };
     ewa_context *context = NULL;
     if (ewa_context_create(NULL, &context) != EWA_OK) return 1;

@@ -143,7 +143,7 @@ picture_report picture_compare(const picture *reference, const picture *other, d
         for (size_t c = 4 * i; c < 4 * i + 4; c++) color = fmax(color, distance(a->rgba[c], b->rgba[c]));
         for (size_t c = 3 * i; c < 3 * i + 3; c++)
             normal = fmax(normal, distance(a->normal[c], b->normal[c]));
-        const double coverage = distance(a->coverage[i], b->coverage[i]);
+        const double coverage = distance(a->coverage[i], b->coverage[i]) / fmax((double)a->coverage[i], 1);
         double depth = distance(a->depth[i], b->depth[i]);
         if (isfinite(a->depth[i])) depth /= fmax(fabs((double)a->depth[i]), 0.01 * deepest);
         if ((double)a->coverage[i] < threshold && (double)b->coverage[i] < threshold) depth = normal = 0;

@@ -34,8 +34,8 @@ void picture_mark_edges(const scene *of, const ewa_surfels_options *surfels_opti
                         uint8_t *mask);
 
 /// How far a picture is from the reference. Errors: colour absolute (premultiplied linear), depth relative to
-/// z (and to no less than a hundredth of the picture's deepest), coverage absolute in units of q0; the
-/// largest of the pixel's.
+/// z (and to no less than a hundredth of the picture's deepest), coverage in units of q0, relative where it
+/// is above 1 (the sum of many kernels has their relative error); the largest of the pixel's.
 typedef struct picture_report {
     uint64_t pixel_count;
     uint64_t over_count;                   ///< pixels beyond the threshold, edges included

@@ -40,8 +40,8 @@ static picture draw(ewa_context *context, const ewa_cloud *cloud, const ewa_came
 }
 
 /// What the packets' 16-bit normals may do to pixels of surfels seen edge-on, whose weight is proportional to
-/// the small n.p: so much, in so many pixels.
-static const double GRAZING_ERROR = 4e-3, GRAZING_SHARE = 2.5e-4;
+/// the small n.p: so much, in so many pixels. Their share grows as 1 / (sigma h): 21 pixels of the sphere.
+static const double GRAZING_ERROR = 4e-3, GRAZING_SHARE = 4e-4;
 
 /// Draws a scene both ways. Fewer than 0.1 % of the pixels may be beyond the threshold; away from cutoffs and
 /// visibility ties only by the error of the normals.

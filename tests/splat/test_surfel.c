@@ -249,7 +249,7 @@ static void test_options(void **state) {
     ewa_context *context = check_context(1, &log);
     ewa_surfels_options surfels, chosen_surfels;
     assert_int_equal(ewa_surfels_options_choose(context, NULL, &chosen_surfels), EWA_OK);
-    assert_true(chosen_surfels.cutoff == 2 && chosen_surfels.radius_scale == 1);
+    assert_true(chosen_surfels.cutoff == 3 && chosen_surfels.radius_scale == 1);
     static const double bad_surfels[][2] = {{0, 1}, {4.1, 1}, {NAN, 1}, {2, 0}, {2, -1}, {2, INFINITY}};
     for (int i = 0; i < 6; i++) {
         ewa_surfels_options_init(&surfels, sizeof surfels);
@@ -264,7 +264,8 @@ static void test_options(void **state) {
 
     ewa_render_options render, chosen;
     assert_int_equal(ewa_render_options_choose(context, NULL, &chosen), EWA_OK);
-    assert_true(chosen.prefilter_px == 0.5 && chosen.passes == 3 && chosen.edge_antialiasing);
+    assert_true(chosen.prefilter_px == 0.35 && chosen.edge_threshold == 0.45 && chosen.passes == 3 &&
+                chosen.edge_antialiasing);
 #define REFUSES(member, value)                                                                               \
     do {                                                                                                     \
         ewa_render_options_init(&render, sizeof render);                                                     \
