@@ -5,6 +5,7 @@
 //
 // Machines are noisy: thread counts are measured in turns (A B A B), and the lower quartile is what ratios
 // are of.
+#include "bench_clip.h"
 #include "bench_scene.h"
 #include "commands.h"
 #include "inputs.h"
@@ -67,8 +68,8 @@ static const cli_option work_table[] = {
     {.key = "stages",
      .kind = OPTION_ON_OFF,
      .offset = AT(stages),
-     .help =
-         "also time what comes before and after a frame, for the first scene: PLY, normals, surfels, PNG"},
+     .help = "also time what comes before and after a frame, for the first scene: PLY, normals, surfels, "
+             "PNG; and clipping"},
 };
 
 static const cli_option measure_table[] = {
@@ -357,12 +358,20 @@ static ewa_status time_png(bench_run *bench, const ewa_camera *camera, const scr
     return status;
 }
 
+static ewa_status time_clipping(bench_run *bench) {
+    double clip_s[STAGE_RUNS];
+    const ewa_status status = bench_clip(bench->session.context, clip_s, STAGE_RUNS);
+    if (status == EWA_OK) report_stage(bench, "clip segments", BENCH_CLIP_SEGMENTS, 0, clip_s);
+    return status;
+}
+
 /// Times what lies before and after the frames; the last frame is in bench->pixels.
 static bool bench_stages(bench_run *bench, const ewa_cloud *cloud, const ewa_camera *camera) {
     scratch_folder scratch;
     if (!scratch_open(&bench->session, &scratch)) return false;
     ewa_status status = time_cloud_stages(bench, cloud, &scratch);
     if (status == EWA_OK) status = time_png(bench, camera, &scratch);
+    if (status == EWA_OK) status = time_clipping(bench);
     scratch_close(&scratch);
     if (status != EWA_OK) session_failed(&bench->session, status);
     return status == EWA_OK;
