@@ -15,6 +15,7 @@
 
 typedef float wf __attribute__((vector_size(64)));
 typedef int32_t wi __attribute__((vector_size(64)));
+typedef uint32_t wu __attribute__((vector_size(64)));
 typedef int32_t wm __attribute__((vector_size(64))); // -1 or 0
 
 #if defined(__FP_FAST_FMAF)
@@ -58,8 +59,9 @@ static inline wf wf_abs(wf a) { return (wf)((wi)a & wi_set(0x7fffffff)); }
 static inline void wi_store(int32_t *p, wi a) { memcpy(p, &a, sizeof a); }
 FUSED wi wi_load_u16(const uint16_t *p) { EACH(wi, p[i]); }
 FUSED wi wi_load_i16(const int16_t *p) { EACH(wi, p[i]); }
-static inline wi wi_add(wi a, wi b) { return a + b; }
-static inline wi wi_sub(wi a, wi b) { return a - b; }
+// Sums of bit patterns wrap around.
+static inline wi wi_add(wi a, wi b) { return (wi)((wu)a + (wu)b); }
+static inline wi wi_sub(wi a, wi b) { return (wi)((wu)a - (wu)b); }
 static inline wi wi_min(wi a, wi b) { return ((a < b) & a) | (~(a < b) & b); }
 static inline wi wi_max(wi a, wi b) { return ((a > b) & a) | (~(a > b) & b); }
 static inline wi wi_or(wi a, wi b) { return a | b; }
