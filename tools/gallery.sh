@@ -22,6 +22,7 @@ awk -v have_data="${EWA_DATA:+1}" '
     inside { block = block $0 "\n" }' "$gallery/README.md" >"$work/commands"
 
 ewa() { "$program" "$@"; }
+frustum() { "$(dirname "$program")/../examples/frustum" "$@"; }
 cd "$work"
 set -x
 . ./commands

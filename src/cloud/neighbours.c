@@ -35,8 +35,15 @@ typedef struct build_job {
     uint32_t section_count;
 } build_job;
 
+/// The common type without a call: positions are read in an order that no cache foresees, three at a time.
 static void read_point(const ewa_attribute *position, uint32_t point, double p[3]) {
-    ewa_attribute_read_f64(position, point, 1, p);
+    if (position->type != EWA_F32) {
+        ewa_attribute_read_f64(position, point, 1, p);
+        return;
+    }
+    const char *bytes = (const char *)position->data + point * position->stride_bytes;
+    const float *from = (const float *)(const void *)bytes;
+    for (int c = 0; c < 3; c++) p[c] = (double)from[c];
 }
 
 /// Orders by coordinates, then by index.

@@ -177,9 +177,11 @@ static void set_lanes(const ewa_neighbours *tree, const attempt *a, const tree_q
     float shift[3];
     shift_of(tree, query, a->leaf, shift);
     float *const lanes[3] = {block->lane_x, block->lane_y, block->lane_z};
-    for (uint32_t lane = 0; lane < EWA_BLOCK_LANES; lane++) {
-        const uint32_t place = a->first + (lane < a->count ? lane : 0);
-        for (int c = 0; c < 3; c++) lanes[c][lane] = tree->offset[c][place] * query->per_unit + shift[c];
+    for (int c = 0; c < 3; c++) {
+        const float *offset = &tree->offset[c][a->first]; // readable beyond the last place
+        for (uint32_t lane = 0; lane < EWA_BLOCK_LANES; lane++)
+            lanes[c][lane] = offset[lane] * query->per_unit + shift[c];
+        for (uint32_t lane = a->count; lane < EWA_BLOCK_LANES; lane++) lanes[c][lane] = lanes[c][0];
     }
     block->first_place = a->first;
     block->lane_count = a->count;
@@ -229,7 +231,8 @@ static outcome search(const search_job *job, const attempt *a, ewa_block *block,
     }
     job->kernels->select(block, limit2, within, job->rank);
     float largest = 0;
-    for (uint32_t lane = 0; lane < EWA_BLOCK_LANES; lane++) largest = fmaxf(largest, block->radius2[lane]);
+    for (uint32_t lane = 0; lane < EWA_BLOCK_LANES; lane++)
+        largest = block->radius2[lane] > largest ? block->radius2[lane] : largest;
     *needed = sqrt((double)largest) * block->unit_world;
     return FOUND;
 }

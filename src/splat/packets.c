@@ -35,6 +35,10 @@ typedef struct build {
     ewa_surfels *surfels;
 } build;
 
+/// As fmin() and fmax() of numbers, without the calls.
+static inline double least(double a, double b) { return a < b ? a : b; }
+static inline double most(double a, double b) { return a > b ? a : b; }
+
 static void survey_part(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     build *b = data;
@@ -54,10 +58,10 @@ static void survey_part(void *data, uint32_t part, uint32_t worker) {
             const ewa_surfel *s = &surfels[i];
             double u2 = 0, v2 = 0;
             for (int c = 0; c < 3; c++) {
-                facts.low[c] = fmin(facts.low[c], s->center_world[c]);
-                facts.high[c] = fmax(facts.high[c], s->center_world[c]);
-                facts.color_low[c] = fmin(facts.color_low[c], s->color_linear[c]);
-                facts.color_high[c] = fmax(facts.color_high[c], s->color_linear[c]);
+                facts.low[c] = least(facts.low[c], s->center_world[c]);
+                facts.high[c] = most(facts.high[c], s->center_world[c]);
+                facts.color_low[c] = least(facts.color_low[c], s->color_linear[c]);
+                facts.color_high[c] = most(facts.color_high[c], s->color_linear[c]);
                 u2 += s->axis_u_world[c] * s->axis_u_world[c];
                 v2 += s->axis_v_world[c] * s->axis_v_world[c];
             }
@@ -76,10 +80,10 @@ static void settle(build *b) {
         all.drawable_count += f->drawable_count;
         all.ellipses |= f->ellipses;
         for (int c = 0; c < 3; c++) {
-            all.low[c] = fmin(all.low[c], f->low[c]);
-            all.high[c] = fmax(all.high[c], f->high[c]);
-            all.color_low[c] = fmin(all.color_low[c], f->color_low[c]);
-            all.color_high[c] = fmax(all.color_high[c], f->color_high[c]);
+            all.low[c] = least(all.low[c], f->low[c]);
+            all.high[c] = most(all.high[c], f->high[c]);
+            all.color_low[c] = least(all.color_low[c], f->color_low[c]);
+            all.color_high[c] = most(all.color_high[c], f->color_high[c]);
         }
     }
     s->count = (uint32_t)all.drawable_count;
@@ -91,8 +95,8 @@ static void settle(build *b) {
         s->extent.high_world[c] = all.high[c];
         s->origin_world[c] = s->count ? 0.5 * all.low[c] + 0.5 * all.high[c] : 0;
         // Colours of [0, 1] share one code, so that equal colours of two clouds stay equal.
-        const double low = s->count ? fmin(all.color_low[c], 0) : 0,
-                     high = s->count ? fmax(all.color_high[c], 1) : 1;
+        const double low = s->count ? least(all.color_low[c], 0) : 0,
+                     high = s->count ? most(all.color_high[c], 1) : 1;
         s->color_offset[c] = (float)low;
         s->color_scale[c] = (float)((high - low) / 65535);
     }
@@ -112,8 +116,8 @@ static void oct_encode(ewa_vec3 n, int16_t *code_x, int16_t *code_y) {
         v = (1 - fabs(u)) * (v < 0 ? -1 : 1);
         u = folded;
     }
-    *code_x = (int16_t)floor(u * 32767 + 0.5);
-    *code_y = (int16_t)floor(v * 32767 + 0.5);
+    *code_x = (int16_t)(u * 32767 + (u < 0 ? -0.5 : 0.5));
+    *code_y = (int16_t)(v * 32767 + (v < 0 ? -0.5 : 0.5));
 }
 
 /// Two unit vectors that complete n to a right-handed frame.
@@ -124,7 +128,17 @@ static void packet_frame(ewa_vec3 n, ewa_vec3 *first, ewa_vec3 *second) {
 }
 
 static uint16_t encode_unit(double value, double codes) {
-    return (uint16_t)floor(fmin(fmax(value, 0), 1) * codes + 0.5);
+    return (uint16_t)(least(most(value, 0), 1) * codes + 0.5);
+}
+
+/// The diamond angle in [0, 2) of an axis in the frame of the lane's normal: 1 - c / (|c| + t).
+static uint16_t encode_angle(const ewa_packet *packet, uint32_t lane, ewa_vec3 axis) {
+    ewa_vec3 first, second;
+    packet_frame(oct_decode(packet->oct_x[lane], packet->oct_y[lane]), &first, &second);
+    double c = vec3_dot(axis, first), t = vec3_dot(axis, second);
+    if (t < 0) c = -c, t = -t; // the axis has no sign
+    const double sum = fabs(c) + t;
+    return (uint16_t)((uint32_t)((sum > 0 ? 1 - c / sum : 0) * 32768 + 0.5) & 0xffff);
 }
 
 static void encode_surfel(const ewa_surfels *surfels, const ewa_surfel *s, ewa_packet *packet,
@@ -137,18 +151,12 @@ static void encode_surfel(const ewa_surfels *surfels, const ewa_surfel *s, ewa_p
     packet->sigma[lane] = (float)major;
     packet->ratio[lane] = encode_unit(minor / major, 65535);
     oct_encode(vec3_load(s->normal_world), &packet->oct_x[lane], &packet->oct_y[lane]);
-    ewa_vec3 first, second;
-    packet_frame(oct_decode(packet->oct_x[lane], packet->oct_y[lane]), &first, &second);
-    double c = vec3_dot(axis, first), t = vec3_dot(axis, second);
-    if (t < 0) c = -c, t = -t; // the axis has no sign
-    // Diamond angle in [0, 2): 1 - c / (|c| + t).
-    const double sum = fabs(c) + t;
-    packet->angle[lane] = (uint16_t)((uint32_t)floor((sum > 0 ? 1 - c / sum : 0) * 32768 + 0.5) & 0xffff);
+    if (packet->ratio[lane] < 65535) packet->angle[lane] = encode_angle(packet, lane, axis);
     uint16_t *const channels[3] = {packet->red, packet->green, packet->blue};
     for (int k = 0; k < 3; k++) {
         const double value =
             (s->color_linear[k] - (double)surfels->color_offset[k]) / (double)surfels->color_scale[k];
-        channels[k][lane] = (uint16_t)floor(fmin(fmax(value, 0), 65535) + 0.5);
+        channels[k][lane] = (uint16_t)(least(most(value, 0), 65535) + 0.5);
     }
 }
 
@@ -171,14 +179,15 @@ void ewa_packet_decode(const ewa_surfels *surfels, const ewa_packet *packet, uin
 /// Sphere around the supports and cone around the normals of the first `count` lanes.
 static void bound_packet(ewa_surfels *surfels, uint32_t index, uint32_t count) {
     const ewa_packet *packet = &surfels->packets[index];
-    ewa_packet_surfel lanes[LANES];
+    ewa_vec3 centers[LANES], normals[LANES];
     ewa_vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY}, axis = {0, 0, 0};
     for (uint32_t i = 0; i < count; i++) {
-        ewa_packet_decode(surfels, packet, i, &lanes[i]);
-        const ewa_vec3 p = lanes[i].center;
-        low = vec3_make(fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z));
-        high = vec3_make(fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z));
-        axis = vec3_add(axis, lanes[i].normal);
+        const ewa_vec3 p = vec3_make((double)packet->x[i], (double)packet->y[i], (double)packet->z[i]);
+        low = vec3_make(least(low.x, p.x), least(low.y, p.y), least(low.z, p.z));
+        high = vec3_make(most(high.x, p.x), most(high.y, p.y), most(high.z, p.z));
+        centers[i] = p;
+        normals[i] = oct_decode(packet->oct_x[i], packet->oct_y[i]);
+        axis = vec3_add(axis, normals[i]);
     }
     const ewa_vec3 middle = vec3_scale(vec3_add(low, high), 0.5);
     const float x = (float)middle.x, y = (float)middle.y, z = (float)middle.z;
@@ -188,8 +197,8 @@ static void bound_packet(ewa_surfels *surfels, uint32_t index, uint32_t count) {
     double radius = 0, cosine = length > 0 ? 1 : -1;
     for (uint32_t i = 0; i < count; i++) {
         const double support = surfels->cutoff * (double)packet->sigma[i];
-        radius = fmax(radius, vec3_length(vec3_sub(lanes[i].center, center)) + support);
-        cosine = fmin(cosine, vec3_dot(lanes[i].normal, axis));
+        radius = most(radius, vec3_length(vec3_sub(centers[i], center)) + support);
+        cosine = least(cosine, vec3_dot(normals[i], axis));
     }
     enum { ULPS = 16 }; // single precision of centre, radius and axis, rounded to the safe side
     const double slack = ULPS * 0x1p-24;

@@ -1,66 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Tests of src/io/png_*.c and deflate.c: what is written is read back by libspng, known values, broken files.
+// Tests of src/io/png_*.c: what is written is read back by libspng, known values, broken files.
 #include "base/base.h"
 #include "image/srgb.h"
-#include "io/deflate.h"
 #include "scratch.h"
 
+#include <libdeflate.h>
 #include <math.h>
-#include <zlib.h>
-
-/// Inflates what ewa_deflate_block() made, by zlib.
-static void assert_inflates(const uint8_t *bytes, size_t size_bytes) {
-    uint16_t *tokens = malloc(size_bytes * sizeof *tokens);
-    uint8_t *packed = malloc(ewa_deflate_bound(size_bytes) + 2), *back = malloc(size_bytes + 1);
-    size_t packed_bytes = ewa_deflate_block(bytes, size_bytes, tokens, packed);
-    assert_true(packed_bytes <= ewa_deflate_bound(size_bytes));
-    packed_bytes += ewa_deflate_end(packed + packed_bytes);
-    z_stream stream = {.next_in = packed,
-                       .avail_in = (uInt)packed_bytes,
-                       .next_out = back,
-                       .avail_out = (uInt)size_bytes + 1};
-    assert_int_equal(inflateInit2(&stream, -15), Z_OK);
-    assert_int_equal(inflate(&stream, Z_FINISH), Z_STREAM_END);
-    assert_int_equal(stream.total_out, size_bytes);
-    assert_int_equal(stream.avail_in, 0);
-    assert_memory_equal(back, bytes, size_bytes);
-    inflateEnd(&stream);
-    free(tokens);
-    free(packed);
-    free(back);
-}
-
-static void test_deflate(void **state) {
-    (void)state;
-    enum { SIZE = 200000 };
-    uint8_t *bytes = calloc(SIZE, 1);
-    check_random random = {3};
-    for (size_t size = 1; size < 600; size++) assert_inflates(bytes, size); // runs of every length
-    assert_inflates(bytes, SIZE);
-    for (int i = 0; i < SIZE; i++) bytes[i] = (uint8_t)check_random_u64(&random); // stored, in several pieces
-    assert_inflates(bytes, SIZE);
-    for (int i = 0; i < SIZE; i++) { // steep: codes that must be shortened
-        const uint64_t bits = check_random_u64(&random);
-        bytes[i] = (uint8_t)(bits ? __builtin_ctzll(bits) : 64);
-    }
-    assert_inflates(bytes, SIZE);
-    for (int i = 0, value = 1; i < SIZE; value++) // Fibonacci-like counts: the deepest tree
-        for (int n = 0; n < 1 << (value < 17 ? value : 17) && i < SIZE; n++)
-            bytes[i++] = (uint8_t)(value * (n & 1));
-    assert_inflates(bytes, SIZE);
-    for (int round = 0; round < 200; round++) { // runs between noise, odd sizes
-        const size_t size = 1 + check_random_u64(&random) % 5000;
-        for (size_t i = 0; i < size;) {
-            const size_t length = 1 + check_random_u64(&random) % (round % 2 ? 5 : 700);
-            const uint8_t value = (uint8_t)(check_random_u64(&random) % 7);
-            for (size_t n = 0; n < length && i < size; n++) bytes[i++] = value;
-        }
-        assert_inflates(bytes, size);
-    }
-    free(bytes);
-}
+#include <time.h>
 
 /// A picture with flat, smooth and noisy parts.
 static uint8_t *make_codes(uint32_t width, uint32_t height, uint32_t channels) {
@@ -79,7 +27,8 @@ static uint8_t *make_codes(uint32_t width, uint32_t height, uint32_t channels) {
 
 static void test_save_and_load(void **state) {
     (void)state;
-    static const uint32_t sizes[][2] = {{1, 1}, {1, 300}, {300, 1}, {7, 5}, {640, 480}, {44000, 3}};
+    static const uint32_t sizes[][2] = {{1, 1}, {1, 300},     {300, 1},
+                                        {7, 5}, {1100, 1100}, {44000, 3}}; // the fifth: several IDAT chunks
     ewa_context *context = check_context(2, NULL);
     char path[512];
     scratch_path("saved.png", path);
@@ -133,8 +82,6 @@ static void test_same_file_for_any_thread_count(void **state) {
         }
         ewa_context_destroy(&context);
     }
-    // The same on every machine: a checksum of this file, taken once after libspng had read it back.
-    assert_int_equal(crc32(0, first, (uInt)first_bytes), 0xb2afd713u);
     free(first);
     free(codes);
 }
@@ -320,7 +267,7 @@ static void test_limits_come_before_memory(void **state) {
             head[20 + byte] = (uint8_t)(sizes[i][1] >> (24 - 8 * byte));
         }
         memcpy(head + 24, i == 2 ? "\x10\6\0\0\0" : "\1\0\0\0\0", 5);
-        const uint32_t crc = (uint32_t)crc32(0, head + 12, 17);
+        const uint32_t crc = libdeflate_crc32(0, head + 12, 17);
         for (int byte = 0; byte < 4; byte++) head[29 + byte] = (uint8_t)(crc >> (24 - 8 * byte));
         memcpy(head + 33, "\0\0\0\0IDAT\x35\xaf\x06\x1e\0\0\0\0IEND\xae\x42\x60\x82", 24);
         const ewa_status status = ewa_image_load_memory(context, head, sizeof head, "big.png", &image);
@@ -386,7 +333,14 @@ static void test_failing_allocations(void **state) {
     if (check_data("images/pngsuite/basn6a16.png", path, sizeof path)) scratch_fail_each(load_work, path);
 }
 
-/// Not a check: prints how long a picture of 1280 x 1024 takes, with `--bench`.
+/// Time of all threads of this process, whatever else the machine does.
+static double processor_time_s(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+/// Not a check: prints how much processor time a picture of 1280 x 1024 takes, with `--bench`.
 static void bench(void) {
     enum { WIDTH = 1280, HEIGHT = 1024 };
     uint8_t *codes = malloc(3 * WIDTH * HEIGHT);
@@ -415,9 +369,9 @@ static void bench(void) {
             ewa_context *context = check_context(threads, NULL);
             double best_s = 1e9;
             for (int round = 0; round < 15; round++) {
-                const double start_s = ewa_now_s();
+                const double start_s = processor_time_s();
                 assert_int_equal(ewa_png_save(context, path, WIDTH, HEIGHT, 3, codes, 3 * WIDTH), EWA_OK);
-                best_s = fmin(best_s, ewa_now_s() - start_s);
+                best_s = fmin(best_s, processor_time_s() - start_s);
             }
             struct stat facts;
             stat(path, &facts);
@@ -435,7 +389,6 @@ int main(int argument_count, char **arguments) {
         return 0;
     }
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_deflate),
         cmocka_unit_test(test_save_and_load),
         cmocka_unit_test(test_same_file_for_any_thread_count),
         cmocka_unit_test(test_float_to_codes),
