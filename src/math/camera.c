@@ -6,6 +6,7 @@
 #include "math/camera.h"
 #include "base/base.h"
 #include "math/angle.h"
+#include "math/vec.h"
 
 #include <float.h>
 #include <math.h>
@@ -26,23 +27,20 @@ static const double THINNEST_PART = 1e-3;
 /// Relative slack of a framed camera, so that rounding leaves no corner beyond the margin.
 static const double ROUNDING_SLACK = 1e-12;
 
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static double dot(const double a[3], const double b[3]) { return vec3_dot(vec3_load(a), vec3_load(b)); }
 
 static void cross(const double a[3], const double b[3], double out[3]) {
-    const double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2], z = a[0] * b[1] - a[1] * b[0];
-    out[0] = x, out[1] = y, out[2] = z;
+    vec3_store(vec3_cross(vec3_load(a), vec3_load(b)), out);
 }
 
-static bool finite3(const double v[3]) { return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]); }
+static bool finite3(const double v[3]) { return vec3_is_finite(vec3_load(v)); }
 
-/// Scales to length 1 without overflow; false for zero and for what is not finite.
+/// Scales to length 1; false, and unchanged, for zero and for what is not finite.
 static bool normalise(double v[3]) {
-    const double largest = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
-    if (!finite3(v) || largest == 0) return false;
-    for (int i = 0; i < 3; i++) v[i] /= largest;
-    const double length = sqrt(dot(v, v));
-    for (int i = 0; i < 3; i++) v[i] /= length;
-    return true;
+    ewa_vec3 unit = vec3_load(v);
+    const bool done = vec3_normalize(&unit);
+    vec3_store(unit, v);
+    return done;
 }
 
 /// Rows right, down, forward of the rotation that looks along `forward` (length 1).

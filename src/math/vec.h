@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Small vectors and matrices in double precision, inline, for every room above. Row vectors: x' = x M,
-// math.md section 0. Total functions: no checks, no divisions; infinities and NaN pass through.
+// math.md section 0. Total functions: infinities and NaN pass through but for vec3_normalize().
 #ifndef EWA_SRC_MATH_VEC_H
 #define EWA_SRC_MATH_VEC_H
 
@@ -23,6 +23,19 @@ static inline ewa_vec3 vec3_cross(ewa_vec3 a, ewa_vec3 b) {
 }
 
 static inline bool vec3_is_finite(ewa_vec3 a) { return isfinite(a.x) && isfinite(a.y) && isfinite(a.z); }
+
+static inline void vec3_store(ewa_vec3 a, double v[3]) { v[0] = a.x, v[1] = a.y, v[2] = a.z; }
+
+/// Scales to length 1 by way of the largest component, so that tiny and huge vectors keep their direction;
+/// false for zero and for what is not finite.
+static inline bool vec3_normalize(ewa_vec3 *v) {
+    const double largest = fmax(fabs(v->x), fmax(fabs(v->y), fabs(v->z)));
+    if (!(largest > 0) || !vec3_is_finite(*v)) return false;
+    // A division, because 1 / largest may overflow.
+    *v = vec3_make(v->x / largest, v->y / largest, v->z / largest);
+    *v = vec3_scale(*v, 1 / vec3_length(*v));
+    return true;
+}
 
 static inline ewa_vec4 vec4_make(double x, double y, double z, double w) { return (ewa_vec4){x, y, z, w}; }
 static inline ewa_vec4 vec4_from_vec3(ewa_vec3 v, double w) { return vec4_make(v.x, v.y, v.z, w); }

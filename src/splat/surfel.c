@@ -39,36 +39,19 @@ static void read_color(const ewa_surfel_reader *reader, const double *value, ewa
     surfel->alpha = components < 4 || !finite ? 1 : clamp01(scale > 0 ? value[3] / scale : value[3]);
 }
 
-static void store(ewa_vec3 v, double to[3]) {
-    to[0] = v.x;
-    to[1] = v.y;
-    to[2] = v.z;
-}
-
 /// False for NaN too.
 static bool within_limit(ewa_vec3 v) {
     return fabs(v.x) <= EWA_SURFEL_LIMIT && fabs(v.y) <= EWA_SURFEL_LIMIT && fabs(v.z) <= EWA_SURFEL_LIMIT;
 }
 
-/// Scales `v` to length 1 by way of its largest component, so that tiny and huge vectors keep their
-/// direction.
-static bool normalize(ewa_vec3 *v) {
-    const double largest = fmax(fabs(v->x), fmax(fabs(v->y), fabs(v->z)));
-    if (!(largest > 0) || !vec3_is_finite(*v)) return false;
-    // A division, because 1 / largest may overflow.
-    *v = vec3_make(v->x / largest, v->y / largest, v->z / largest);
-    *v = vec3_scale(*v, 1 / vec3_length(*v));
-    return true;
-}
-
 /// A disc of standard deviation `sigma` around the normal `n`.
 static bool make_disc(ewa_vec3 n, double sigma, ewa_surfel *surfel) {
-    if (!(sigma >= 1 / EWA_SURFEL_LIMIT && sigma <= EWA_SURFEL_LIMIT) || !normalize(&n)) return false;
+    if (!(sigma >= 1 / EWA_SURFEL_LIMIT && sigma <= EWA_SURFEL_LIMIT) || !vec3_normalize(&n)) return false;
     const double sign = copysign(1, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
-    store(vec3_scale(vec3_make(1 + sign * n.x * n.x * a, sign * b, -sign * n.x), sigma),
-          surfel->axis_u_world);
-    store(vec3_scale(vec3_make(b, sign + n.y * n.y * a, -n.y), sigma), surfel->axis_v_world);
-    store(n, surfel->normal_world);
+    vec3_store(vec3_scale(vec3_make(1 + sign * n.x * n.x * a, sign * b, -sign * n.x), sigma),
+               surfel->axis_u_world);
+    vec3_store(vec3_scale(vec3_make(b, sign + n.y * n.y * a, -n.y), sigma), surfel->axis_v_world);
+    vec3_store(n, surfel->normal_world);
     return true;
 }
 
@@ -93,10 +76,10 @@ static bool make_ellipse(ewa_vec3 tu, ewa_vec3 tv, ewa_vec3 given, ewa_surfel *s
     if (!(vec3_length(v) >= 1 / EWA_SURFEL_LIMIT && vec3_length(v) >= EWA_SURFEL_MIN_ASPECT * vec3_length(u)))
         return false;
     ewa_vec3 n = vec3_cross(u, v);
-    if (!normalize(&n)) return false;
-    store(u, surfel->axis_u_world);
-    store(v, surfel->axis_v_world);
-    store(vec3_scale(n, vec3_dot(n, given) < 0 ? -1 : 1), surfel->normal_world);
+    if (!vec3_normalize(&n)) return false;
+    vec3_store(u, surfel->axis_u_world);
+    vec3_store(v, surfel->axis_v_world);
+    vec3_store(vec3_scale(n, vec3_dot(n, given) < 0 ? -1 : 1), surfel->normal_world);
     return true;
 }
 
@@ -175,7 +158,7 @@ static uint64_t read_block(const ewa_surfel_reader *reader, uint64_t first, uint
     for (uint64_t i = 0; i < count; i++) {
         ewa_surfel *surfel = &surfels[i];
         const ewa_vec3 center = vec3_add(vec3_load(&position[3 * i]), origin);
-        store(center, surfel->center_world);
+        vec3_store(center, surfel->center_world);
         const ewa_vec3 given = reader->normal ? vec3_load(&normal[3 * i]) : vec3_make(0, 0, 0);
         if (reader->tangent_u)
             drawable[i] =
