@@ -64,7 +64,7 @@ fuzz:
 bench: program
 	$(EWA) bench
 
-gallery: program
+gallery: build
 	@sh tools/gallery.sh $(EWA)
 
 docs: program

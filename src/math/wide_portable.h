@@ -15,7 +15,8 @@
 
 typedef float wf __attribute__((vector_size(64)));
 typedef int32_t wi __attribute__((vector_size(64)));
-typedef int32_t wm __attribute__((vector_size(64))); // -1 or 0
+typedef int32_t wm __attribute__((vector_size(64)));  // -1 or 0
+typedef uint32_t wu __attribute__((vector_size(64))); // for what wraps
 
 #if defined(__FP_FAST_FMAF)
 #define FUSED static inline __attribute__((unused))
@@ -58,12 +59,12 @@ static inline wf wf_abs(wf a) { return (wf)((wi)a & wi_set(0x7fffffff)); }
 static inline void wi_store(int32_t *p, wi a) { memcpy(p, &a, sizeof a); }
 FUSED wi wi_load_u16(const uint16_t *p) { EACH(wi, p[i]); }
 FUSED wi wi_load_i16(const int16_t *p) { EACH(wi, p[i]); }
-static inline wi wi_add(wi a, wi b) { return a + b; }
-static inline wi wi_sub(wi a, wi b) { return a - b; }
+static inline wi wi_add(wi a, wi b) { return (wi)((wu)a + (wu)b); }
+static inline wi wi_sub(wi a, wi b) { return (wi)((wu)a - (wu)b); }
 static inline wi wi_min(wi a, wi b) { return ((a < b) & a) | (~(a < b) & b); }
 static inline wi wi_max(wi a, wi b) { return ((a > b) & a) | (~(a > b) & b); }
 static inline wi wi_or(wi a, wi b) { return a | b; }
-static inline wi wi_shl(wi a, int n) { return a << n; }
+static inline wi wi_shl(wi a, int n) { return (wi)((wu)a << n); }
 static inline wi wi_sar(wi a, int n) { return a >> n; }
 
 static inline wm wm_and(wm a, wm b) { return a & b; }

@@ -27,7 +27,8 @@ static uint8_t *make_codes(uint32_t width, uint32_t height, uint32_t channels) {
 
 static void test_save_and_load(void **state) {
     (void)state;
-    static const uint32_t sizes[][2] = {{1, 1}, {1, 300}, {300, 1}, {7, 5}, {640, 480}, {44000, 3}};
+    static const uint32_t sizes[][2] = {{1, 1}, {1, 300},     {300, 1},
+                                        {7, 5}, {1100, 1100}, {44000, 3}}; // the fifth: several IDAT chunks
     ewa_context *context = check_context(2, NULL);
     char path[512];
     scratch_path("saved.png", path);
