@@ -218,13 +218,11 @@ static wf find_spacing(const moments *m, const frame *f) {
     const vec first = v_sub(m->first, v_scale(n, v_dot(n, m->first)));
     const wf offset = wf_div(v_dot(first, first), wf_max(wf_mul(safe_count, tangential), wf_set(1e-30f)));
     const wf noise = wf_div(wf_set(OFFSET_NOISE), safe_count);
-    // Half the area is empty at a straight border, three quarters at a corner. Beyond that the place is far
-    // from a clump of neighbours, and their own spacing, about their mean, is all that there is.
+    // Half the area is empty at a straight border, three quarters at a corner: area / (1 + offset / half
+    // plane's).
     const wf half_plane = wf_max(wf_sub(wf_set(HALF_PLANE_OFFSET), noise), wf_set(0.05f));
     const wf empty = wf_div(wf_max(wf_sub(offset, noise), zero), half_plane);
-    const wf corner = wf_max(wf_div(one, wf_add(one, empty)), wf_set(0.25f));
-    const wf clump = wf_div(wf_max(wf_sub(one, offset), zero), wf_set(4 * (1 - 2 * HALF_PLANE_OFFSET)));
-    const wf share = wf_select(wf_lt(wf_set(2 * HALF_PLANE_OFFSET), offset), clump, corner);
+    const wf share = wf_max(wf_div(one, wf_add(one, empty)), wf_set(0.25f));
     const wm enough = wf_lt(noise, wf_set(HALF_PLANE_OFFSET));
     return wf_sqrt(wf_mul(area, wf_select(enough, share, one)));
 }

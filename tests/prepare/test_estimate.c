@@ -182,23 +182,6 @@ static void test_scan_lines(void **state) {
     ewa_context_destroy(&context);
 }
 
-/// A point far from everything gets no larger disc than those that it is far from.
-static void test_far_point(void **state) {
-    (void)state;
-    ewa_context *context = check_context(2, NULL);
-    float xyz[3 * MOST];
-    const uint32_t count = sample_square(JITTERED, xyz);
-    for (int c = 0; c < 3; c++) xyz[300 + c] = 10 * SIDE;
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
-    assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, xyz, 0), EWA_OK);
-    ewa_estimate_options options = check_estimate_options();
-    assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
-    assert_true(check_stream(cloud, EWA_RADIUS)[100] < 3 * EWA_DEFAULT_RADIUS_SCALE);
-    ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
-}
-
 /// PCA against the true normal of a sphere, also for doubles far from the origin.
 static void test_normals(void **state) {
     (void)state;
@@ -555,7 +538,6 @@ int main(void) {
         cmocka_unit_test(test_no_holes),
         cmocka_unit_test(test_axes),
         cmocka_unit_test(test_scan_lines),
-        cmocka_unit_test(test_far_point),
         cmocka_unit_test(test_normals),
         cmocka_unit_test(test_keep),
         cmocka_unit_test(test_degenerate),
