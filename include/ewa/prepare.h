@@ -43,12 +43,28 @@ typedef struct ewa_estimate_options {
 
 EWA_API void ewa_estimate_options_init(ewa_estimate_options *options, size_t struct_size);
 
-/// Adds what a surfel needs and the cloud lacks: "normal" (PCA of the k nearest neighbours, oriented), and
-/// "radius" or tangent axes from the local density. With outlier removal the cloud is replaced by a smaller
-/// one. Points with coordinates that are not finite get a zero normal and radius. Coplanar, collinear,
-/// identical and single points get finite results; the message callback (info) says how many were degenerate.
-/// The result per point does not depend on the number of threads.
-/// Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_MEMORY, EWA_CANCELLED.
+/// Adds what a surfel needs and the cloud lacks: "normal", and "radius" or tangent axes.
+///
+/// - Neighbours are the k nearest other places, duplicates being one place, with all that are as far as the
+/// k-th.
+///   Where they lie almost on a line (a scanner's lines far apart) 64 are asked instead.
+/// - Normals are the direction of least variance, turned as `orientation` says; (0, 0, 1) for a lone point.
+/// - Radii are radius_scale times the spacing, and never so small that irregular sampling leaves a hole. Axes
+/// have
+///   the same area and the proportions of the point's cell among its neighbours, at most 4 : 1, with u x v
+///   along the normal. What the old sizes meant goes: "radius" beside new axes, axes and clip lines beside
+///   new radii.
+/// - Points with coordinates that are not finite get zeros. Coplanar, collinear and identical points get
+/// finite
+///   results; an info message says how many have no plane.
+/// - Outlier removal replaces the cloud by a smaller one, which also lacks the points that are not finite.
+///
+/// The result depends on the places only: not on threads, instruction sets, nor the order of the points, but
+/// that orientation breaks ties between equal costs by the order of places along the Z-order curve. After a
+/// failure the cloud has none of the new streams, and may lack those that they replace. Errors:
+/// EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_CANCELLED. One thread per context. Cost: about
+/// 0.2 s and 80 bytes per point meanwhile for a million points on two cores (40 without propagation). Based
+/// on H. Hoppe et al., "Surface reconstruction from unorganized points", 1992, sections 3.2 and 3.3.
 EWA_API ewa_status ewa_cloud_estimate(ewa_cloud **cloud, const ewa_estimate_options *options);
 
 /// What the neighbourhoods of a cloud say about its sampling; world units.
@@ -58,7 +74,9 @@ typedef struct ewa_spacing {
     uint64_t duplicate_count;        ///< points with another point at the same place
 } ewa_spacing;
 
-/// Measures the sampling from at most `sample_count` points (0: all), the same ones for every run.
+/// Measures the sampling from at most `sample_count` places (0: all), the same ones for every run. All zero
+/// but the duplicates when fewer than two places are finite. Errors: EWA_ERROR_ARGUMENT (no positions),
+/// EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_CANCELLED.
 EWA_API ewa_status ewa_cloud_measure_spacing(const ewa_cloud *cloud, uint64_t sample_count,
                                              ewa_spacing *spacing);
 

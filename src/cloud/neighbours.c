@@ -301,14 +301,24 @@ ewa_status ewa_neighbours_create(ewa_context *context, const ewa_attribute *posi
     return status;
 }
 
+void ewa_neighbours_end_visits(ewa_neighbours *neighbours) {
+    ewa_neighbours *tree = neighbours;
+    const size_t padded = (size_t)tree->place_count + EWA_BLOCK_LANES;
+    for (int c = 0; c < 3; c++) {
+        ewa_release(tree->context, tree->offset[c], padded, sizeof *tree->offset[c]);
+        tree->offset[c] = NULL;
+    }
+    ewa_release(tree->context, tree->groups, tree->group_count, sizeof *tree->groups);
+    ewa_release(tree->context, tree->leaf_first, (size_t)tree->leaf_count + 1, sizeof *tree->leaf_first);
+    tree->groups = NULL;
+    tree->leaf_first = NULL;
+}
+
 void ewa_neighbours_destroy(ewa_neighbours **neighbours) {
     if (!neighbours || !*neighbours) return;
     ewa_neighbours *tree = *neighbours;
     ewa_context *context = tree->context;
-    const size_t padded = (size_t)tree->place_count + EWA_BLOCK_LANES;
-    for (int c = 0; c < 3; c++) ewa_release(context, tree->offset[c], padded, sizeof *tree->offset[c]);
-    ewa_release(context, tree->groups, tree->group_count, sizeof *tree->groups);
-    ewa_release(context, tree->leaf_first, (size_t)tree->leaf_count + 1, sizeof *tree->leaf_first);
+    ewa_neighbours_end_visits(tree);
     ewa_release(context, tree->first, (size_t)tree->place_count + 1, sizeof *tree->first);
     ewa_release(context, tree->order, tree->point_count, sizeof *tree->order);
     ewa_release(context, tree, 1, sizeof *tree);

@@ -54,16 +54,23 @@ typedef struct ewa_block {
 /// Receives one block; `worker` as in ewa_task. The block is valid during the call.
 typedef void ewa_block_visit(void *user, const ewa_block *block, uint32_t worker);
 
-/// Visits the neighbourhoods of all places, each once, from all workers.
-///
-/// - neighbour_count: k, the place itself not counted; 1 to EWA_NEIGHBOURS_MAX; less when there are fewer
-/// places
-/// - sample_step: 1 for all places; n visits about every n-th block only, the same for every run
-/// - stage: for the progress callback
+/// Which neighbourhoods to visit.
+typedef struct ewa_visit_choice {
+    uint32_t neighbour_count; ///< k, the place itself not counted; 1 to EWA_NEIGHBOURS_MAX; less when places
+                              ///< are few
+    uint32_t sample_step;  ///< 1 for all places; n visits about every n-th block only, the same for every run
+    const uint8_t *chosen; ///< NULL for all; else by place: blocks without an entry that is set are left out
+    const char *stage;     ///< for the progress callback
+} ewa_visit_choice;
+
+/// Visits neighbourhoods, each once, from all workers.
 ///
 /// A neighbourhood depends on the places alone, not on threads nor instruction sets. Only when more than
 /// 1,024 places are equally far does it lose some of them. Errors: EWA_ERROR_MEMORY, EWA_CANCELLED.
-ewa_status ewa_neighbours_visit(const ewa_neighbours *neighbours, uint32_t neighbour_count,
-                                uint32_t sample_step, const char *stage, ewa_block_visit *visit, void *user);
+ewa_status ewa_neighbours_visit(const ewa_neighbours *neighbours, const ewa_visit_choice *choice,
+                                ewa_block_visit *visit, void *user);
+
+/// Gives back the memory that only visits need; places keep their points.
+void ewa_neighbours_end_visits(ewa_neighbours *neighbours);
 
 #endif

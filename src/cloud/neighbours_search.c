@@ -32,7 +32,7 @@ typedef struct search_job {
     const ewa_neighbours *tree;
     const search_kernels *kernels;
     int32_t rank; // k + 1: the place itself is its first neighbour
-    uint32_t sample_step;
+    const ewa_visit_choice *choice;
     ewa_block_visit *visit;
     void *user;
     ewa_block *blocks; // one per worker
@@ -287,24 +287,32 @@ static void search_leaf(const search_job *job, uint32_t leaf, double *guess, uin
     *guess = -1;
 }
 
+static bool is_chosen(const search_job *job, uint32_t leaf) {
+    if (leaf % job->choice->sample_step != 0) return false;
+    if (!job->choice->chosen) return true;
+    for (uint32_t place = job->tree->leaf_first[leaf]; place < job->tree->leaf_first[leaf + 1]; place++)
+        if (job->choice->chosen[place]) return true;
+    return false;
+}
+
 static void search_task(void *data, uint32_t index, uint32_t worker) {
     const search_job *job = data;
     const uint32_t leaf_count = job->tree->leaf_count, begin = (job->first_task + index) * TASK_LEAVES;
     const uint32_t end = leaf_count - begin < TASK_LEAVES ? leaf_count : begin + TASK_LEAVES;
     double guess = -1;
     for (uint32_t leaf = begin; leaf < end; leaf++)
-        if (leaf % job->sample_step == 0) search_leaf(job, leaf, &guess, worker);
+        if (is_chosen(job, leaf)) search_leaf(job, leaf, &guess, worker);
 }
 
-ewa_status ewa_neighbours_visit(const ewa_neighbours *neighbours, uint32_t neighbour_count,
-                                uint32_t sample_step, const char *stage, ewa_block_visit *visit, void *user) {
+ewa_status ewa_neighbours_visit(const ewa_neighbours *neighbours, const ewa_visit_choice *choice,
+                                ewa_block_visit *visit, void *user) {
     ewa_context *context = neighbours->context;
-    if (neighbours->place_count == 0) return ewa_progress(context, stage, 1);
-    const uint32_t others = neighbours->place_count - 1;
+    if (neighbours->place_count == 0) return ewa_progress(context, choice->stage, 1);
+    const uint32_t others = neighbours->place_count - 1, wanted = choice->neighbour_count;
     search_job job = {.tree = neighbours,
                       .kernels = best_kernels(context),
-                      .rank = 1 + (int32_t)(neighbour_count < others ? neighbour_count : others),
-                      .sample_step = sample_step,
+                      .rank = 1 + (int32_t)(wanted < others ? wanted : others),
+                      .choice = choice,
                       .visit = visit,
                       .user = user};
     const uint32_t worker_count = ewa_context_worker_count(context);
@@ -316,7 +324,7 @@ ewa_status ewa_neighbours_visit(const ewa_neighbours *neighbours, uint32_t neigh
         job.first_task = (uint32_t)ewa_split(tasks, PROGRESS_STEPS, step);
         const uint32_t end = (uint32_t)ewa_split(tasks, PROGRESS_STEPS, step + 1);
         ewa_parallel(context, search_task, &job, end - job.first_task);
-        status = ewa_progress(context, stage, (step + 1.0) / PROGRESS_STEPS);
+        status = ewa_progress(context, choice->stage, (step + 1.0) / PROGRESS_STEPS);
     }
     ewa_release(context, job.blocks, worker_count, sizeof *job.blocks);
     return status;

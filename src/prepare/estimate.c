@@ -14,24 +14,31 @@
 enum {
     MIN_NEIGHBOURS = 6,
     TASK_PLACES = 1 << 14,
-    COUNTER_STRIDE = 16, // counters of workers lie 64 bytes apart
+    COUNTER_STRIDE = 64, // bytes between the counters of workers
 };
+
+/// What one worker has seen.
+typedef struct counter {
+    _Alignas(COUNTER_STRIDE) uint32_t thin;
+    uint32_t degenerate;
+} counter;
 
 typedef struct estimate_job {
     const ewa_estimate_options *options;
     const local_kernels *kernels;
-    const ewa_neighbours *neighbours;
+    ewa_neighbours *neighbours;
     uint32_t place_count;
     uint32_t wanted; // LOCAL_*
     // by place; NULL when not wanted
     float *normals;
     float *spacing;
     uint32_t (*links)[LOCAL_GRAPH_DEGREE];
+    uint8_t *thin; // to be measured again with more neighbours
     // by point; NULL when not wanted
     float *radius_out, *tangent_u_out, *tangent_v_out, *normal_out;
     ewa_attribute position;
-    double viewpoint[3];        // relative to the cloud's origin
-    uint32_t *degenerate_count; // per worker
+    double viewpoint[3]; // relative to the cloud's origin
+    counter *counters;   // per worker
 } estimate_job;
 
 static void set_points(const estimate_job *job, uint32_t place, float *out, const float *values,
@@ -76,6 +83,15 @@ static void set_radius(const estimate_job *job, uint32_t place, const local_surf
     set_points(job, place, job->radius_out, &radius, 1);
 }
 
+static void set_lane(const estimate_job *job, uint32_t place, const local_surface *s, uint32_t lane,
+                     double unit) {
+    if (job->spacing) job->spacing[place] = (float)((double)s->spacing[lane] * unit);
+    if (job->normals)
+        for (int c = 0; c < 3; c++) job->normals[3 * (size_t)place + (size_t)c] = s->normal[c][lane];
+    if (job->radius_out) set_radius(job, place, s, lane, unit);
+    if (job->tangent_u_out) set_axes(job, place, s, lane, unit);
+}
+
 static void visit(void *user, const ewa_block *block, uint32_t worker) {
     const estimate_job *job = user;
     local_surface s;
@@ -83,14 +99,38 @@ static void visit(void *user, const ewa_block *block, uint32_t worker) {
     if (job->links) job->kernels->link(block, &job->links[block->first_place]);
     for (uint32_t lane = 0; lane < block->lane_count; lane++) {
         const uint32_t place = block->first_place + lane;
-        if (job->spacing) job->spacing[place] = (float)((double)s.spacing[lane] * block->unit_world);
-        if (job->normals)
-            for (int c = 0; c < 3; c++) job->normals[3 * (size_t)place + (size_t)c] = s.normal[c][lane];
-        if (job->radius_out) set_radius(job, place, &s, lane, block->unit_world);
-        if (job->tangent_u_out) set_axes(job, place, &s, lane, block->unit_world);
+        set_lane(job, place, &s, lane, block->unit_world);
+        job->thin[place] = s.thin >> lane & 1;
+        job->counters[worker].thin += job->thin[place];
     }
-    const uint32_t lanes = (1u << block->lane_count) - 1;
-    job->degenerate_count[COUNTER_STRIDE * worker] += (uint32_t)__builtin_popcount(s.degenerate & lanes);
+}
+
+/// Links a place to neighbours at even steps of their list: the nearest ones would all be on its own line.
+static void link_evenly(const ewa_block *block, uint32_t lane, uint32_t links[LOCAL_GRAPH_DEGREE]) {
+    uint32_t inside = 0, seen = 0, linked = 0;
+    for (uint32_t i = 0; i < block->candidate_count; i++)
+        inside += block->distance2[i][lane] <= block->radius2[lane];
+    for (uint32_t i = 0; i < block->candidate_count && linked < LOCAL_GRAPH_DEGREE; i++) {
+        if (!(block->distance2[i][lane] <= block->radius2[lane])) continue;
+        if (seen++ * LOCAL_GRAPH_DEGREE < linked * inside) continue;
+        if (block->place[i] != block->first_place + lane) links[linked++] = block->place[i];
+    }
+    while (linked < LOCAL_GRAPH_DEGREE) links[linked++] = UINT32_MAX;
+}
+
+/// The second visit: to places whose neighbours were almost on a line, as where a scanner's lines are far
+/// apart.
+static void visit_thin(void *user, const ewa_block *block, uint32_t worker) {
+    const estimate_job *job = user;
+    local_surface s;
+    job->kernels->measure(block, job->wanted | LOCAL_LINES, &s);
+    for (uint32_t lane = 0; lane < block->lane_count; lane++) {
+        const uint32_t place = block->first_place + lane;
+        if (!job->thin[place]) continue;
+        if (job->links) link_evenly(block, lane, job->links[place]);
+        set_lane(job, place, &s, lane, block->unit_world);
+        job->counters[worker].degenerate += s.degenerate >> lane & 1;
+    }
 }
 
 /// Turns v so that u x v is along the normal.
@@ -136,20 +176,41 @@ static ewa_status add_output(ewa_cloud *cloud, const char *name, uint32_t compon
     return EWA_OK;
 }
 
-/// Measures all places, orients the normals, fills the new streams.
-static ewa_status fill(ewa_cloud *cloud, estimate_job *job) {
+/// Measures all places.
+static ewa_status measure(ewa_context *context, estimate_job *job) {
+    ewa_visit_choice choice = {job->options->neighbour_count, 1, NULL, "estimate"};
+    const ewa_status status = ewa_neighbours_visit(job->neighbours, &choice, visit, job);
+    uint64_t thin = 0;
+    for (uint32_t w = 0; w < ewa_context_worker_count(context); w++) thin += job->counters[w].thin;
+    if (status != EWA_OK || thin == 0) return status;
+    choice.neighbour_count = EWA_NEIGHBOURS_MAX;
+    choice.chosen = job->thin;
+    return ewa_neighbours_visit(job->neighbours, &choice, visit_thin, job);
+}
+
+static void report_degenerate(ewa_context *context, const estimate_job *job) {
+    uint64_t degenerate = 0;
+    for (uint32_t w = 0; w < ewa_context_worker_count(context); w++)
+        degenerate += job->counters[w].degenerate;
+    if (degenerate)
+        ewa_report(context, EWA_SEVERITY_INFO,
+                   "%llu of %u places are on no plane: less than three neighbours, or all on one line",
+                   (unsigned long long)degenerate, job->place_count);
+}
+
+/// Adds and fills the stream of normals.
+static ewa_status finish_normals(ewa_cloud *cloud, estimate_job *job, bool has_gaps) {
     ewa_context *context = ewa_cloud_context(cloud);
-    ewa_status status =
-        ewa_neighbours_visit(job->neighbours, job->options->neighbour_count, 1, "estimate", visit, job);
-    if (status != EWA_OK || !job->normals) return status;
+    ewa_status status = EWA_OK;
     if (job->links) {
         const orient_input input = {job->neighbours, &job->position,
                                     (const uint32_t(*)[LOCAL_GRAPH_DEGREE])job->links, job->spacing};
         status = ewa_orient_propagate(context, &input, job->normals);
-        if (status != EWA_OK) return status;
     }
-    ewa_parallel(context, finish_task, job, (job->place_count + TASK_PLACES - 1) / TASK_PLACES);
-    return EWA_OK;
+    if (status == EWA_OK) status = add_output(cloud, EWA_NORMAL, 3, has_gaps, &job->normal_out);
+    if (status == EWA_OK)
+        ewa_parallel(context, finish_task, job, (job->place_count + TASK_PLACES - 1) / TASK_PLACES);
+    return status;
 }
 
 /// Adds the streams that are wanted, with a tree over the positions at hand.
@@ -161,37 +222,32 @@ static ewa_status estimate_with(ewa_cloud *cloud, estimate_job *job, bool normal
     const size_t places = job->place_count, workers = ewa_context_worker_count(context);
     job->wanted = !sizes ? 0 : ellipse ? LOCAL_SHAPE : LOCAL_REACH;
     ewa_status status = EWA_OK;
-    if (normals) status = add_output(cloud, EWA_NORMAL, 3, has_gaps, &job->normal_out);
-    if (sizes && !ellipse && status == EWA_OK)
-        status = add_output(cloud, EWA_RADIUS, 1, has_gaps, &job->radius_out);
-    if (sizes && ellipse && status == EWA_OK)
-        status = add_output(cloud, EWA_TANGENT_U, 3, has_gaps, &job->tangent_u_out);
+    if (sizes && !ellipse) status = add_output(cloud, EWA_RADIUS, 1, has_gaps, &job->radius_out);
+    if (sizes && ellipse) status = add_output(cloud, EWA_TANGENT_U, 3, has_gaps, &job->tangent_u_out);
     if (sizes && ellipse && status == EWA_OK)
         status = add_output(cloud, EWA_TANGENT_V, 3, has_gaps, &job->tangent_v_out);
     if (status == EWA_OK) {
-        job->degenerate_count =
-            ewa_allocate_zeroed(context, workers, COUNTER_STRIDE * sizeof *job->degenerate_count);
-        bool complete = job->degenerate_count;
+        job->counters = ewa_allocate_zeroed(context, workers, sizeof *job->counters);
+        job->thin = ewa_allocate(context, places, sizeof *job->thin);
+        bool complete = job->counters && job->thin;
         if (normals)
             complete = (job->normals = ewa_allocate(context, places, 3 * sizeof *job->normals)) && complete;
         if (propagate) {
             complete = (job->links = ewa_allocate(context, places, sizeof *job->links)) && complete;
             complete = (job->spacing = ewa_allocate(context, places, sizeof *job->spacing)) && complete;
         }
-        status = complete ? fill(cloud, job) : EWA_ERROR_MEMORY;
+        status = complete ? measure(context, job) : EWA_ERROR_MEMORY;
     }
     if (status == EWA_OK) {
-        uint64_t degenerate = 0;
-        for (size_t w = 0; w < workers; w++) degenerate += job->degenerate_count[COUNTER_STRIDE * w];
-        if (degenerate)
-            ewa_report(context, EWA_SEVERITY_INFO,
-                       "%llu of %llu places are on no plane: less than three neighbours, or all on one line",
-                       (unsigned long long)degenerate, (unsigned long long)places);
+        report_degenerate(context, job);
+        ewa_neighbours_end_visits(job->neighbours);
+        if (normals) status = finish_normals(cloud, job, has_gaps);
     }
     ewa_release(context, job->spacing, places, sizeof *job->spacing);
     ewa_release(context, job->links, places, sizeof *job->links);
     ewa_release(context, job->normals, places, 3 * sizeof *job->normals);
-    ewa_release(context, job->degenerate_count, workers, COUNTER_STRIDE * sizeof *job->degenerate_count);
+    ewa_release(context, job->thin, places, sizeof *job->thin);
+    ewa_release(context, job->counters, workers, sizeof *job->counters);
     return status;
 }
 

@@ -13,11 +13,13 @@ typedef struct local_surface {
     float major[3][EWA_BLOCK_LANES];               ///< unit, tangential: where samples are sparsest
     float aspect[EWA_BLOCK_LANES];  ///< longer over shorter axis of the place's cell, 1 to LOCAL_MAX_ASPECT
     float spacing[EWA_BLOCK_LANES]; ///< 1 / sqrt(samples per area)
-    /// How far the place's own cell reaches, at most 2 spacings: a disc of this radius covers it ...
+    /// How far the place's own cell reaches, at most 2 spacings (6 with LOCAL_LINES): a disc of this radius
+    /// covers it ...
     float reach[EWA_BLOCK_LANES];
     /// ... and an ellipse of the above axes whose shorter times longer axis is this squared does.
     float ellipse_reach[EWA_BLOCK_LANES];
     float mean_distance[EWA_BLOCK_LANES]; ///< of the neighbours
+    uint32_t thin;                        ///< bits of the lanes whose neighbours are almost on a line
     uint32_t degenerate; ///< bits of the lanes without a plane: fewer than 3 places, or on one line
 } local_surface;
 
@@ -26,6 +28,7 @@ enum {
     LOCAL_MAX_ASPECT = 4,
     LOCAL_REACH = 1, ///< to be measured beside normal and spacing: reach
     LOCAL_SHAPE = 2, ///< major, aspect, ellipse_reach
+    LOCAL_LINES = 4, ///< lets cells reach further: samples on lines far from each other
 };
 
 /// The nearest places of each lane other than its own, at most LOCAL_GRAPH_DEGREE, ascending; then

@@ -31,6 +31,8 @@ static const float HALF_PLANE_OFFSET =
     0.36f;                                // |mean|^2 / mean(d^2) at a straight border: (4 / 3 pi)^2 / (1 / 2)
 static const float OFFSET_NOISE = 2.0f;   // times 1 / n: offsets up to that occur in the middle of a surface
 static const float LINE_VARIANCE = 1e-3f; // second over first variance below which a neighbourhood is a line
+static const float THIN_VARIANCE = 0.02f; // the same below which more neighbours should be asked
+static const float MAX_LINE_REACH = 6.0f; // spacings; lines 1 : 100 apart
 static const float MAX_REACH = 2.0f;     // spacings; cells that reach further are open: at a border or a hole
 static const float REACH_MARGIN = 1.08f; // a corner of the cell between two directions reaches further
 
@@ -162,7 +164,7 @@ static eigen decompose(symmetric a) {
 /// The tangent frame and what it says: unit vectors, normal = u x v up to sign.
 typedef struct frame {
     vec u, v, normal;
-    wm degenerate;
+    wm thin, degenerate;
 } frame;
 
 static frame find_frame(const moments *m) {
@@ -179,8 +181,10 @@ static frame find_frame(const moments *m) {
     c = (symmetric){wf_mul(c.xx, scale), wf_mul(c.xy, scale), wf_mul(c.xz, scale),
                     wf_mul(c.yy, scale), wf_mul(c.yz, scale), wf_mul(c.zz, scale)};
     const eigen e = decompose(c);
-    frame f = {e.vector[0], e.vector[1], e.vector[2], wf_lt(m->count, wf_set(3))};
-    f.degenerate = wm_or(f.degenerate, wf_le(e.value[1], wf_mul(e.value[0], wf_set(LINE_VARIANCE))));
+    frame f = {.u = e.vector[0], .v = e.vector[1], .normal = e.vector[2]};
+    const wm few = wf_lt(m->count, wf_set(3));
+    f.thin = wm_or(few, wf_le(e.value[1], wf_mul(e.value[0], wf_set(THIN_VARIANCE))));
+    f.degenerate = wm_or(few, wf_le(e.value[1], wf_mul(e.value[0], wf_set(LINE_VARIANCE))));
     // Without a plane: upright on the line if there is one, or on x if the line itself is upright.
     const vec up = v_set(0, 0, 1), line = v_select(wf_lt(wf_set(0), e.value[0]), e.vector[0], v_set(1, 0, 0));
     const vec helper = v_select(wf_lt(wf_abs(line.z), wf_set(0.9f)), up, v_set(1, 0, 0));
@@ -223,6 +227,58 @@ static wf find_spacing(const moments *m, const frame *f) {
     return wf_sqrt(wf_mul(area, wf_select(enough, share, one)));
 }
 
+/// The neighbours in the tangent plane, inverted at the unit circle: p / |p|^2, zero for candidates that are
+/// none. Returns whether any lane has one.
+static inline bool invert(const ewa_block *block, uint32_t i, const frame *f, vec at, wf *u, wf *v) {
+    const wf distance2 = wf_load(block->distance2[i]), radius2 = wf_load(block->radius2);
+    const wm other = wm_and(wf_le(distance2, radius2), wf_lt(wf_set(0), distance2));
+    if (!wm_bits(other)) return false;
+    const vec d = offset_of(block, i, at);
+    const wf inverse = wf_keep(other, wf_div(wf_set(1), wf_max(distance2, wf_set(1e-30f))));
+    *u = wf_mul(v_dot(d, f->u), inverse);
+    *v = wf_mul(v_dot(d, f->v), inverse);
+    return true;
+}
+
+/// Writes the unit eigenvector of the larger eigenvalue of (xx xy; xy yy), (1, 0) when they are equal;
+/// returns both eigenvalues, the larger first.
+static void major_axis(wf xx, wf xy, wf yy, wf *u, wf *v, wf values[2]) {
+    const wf half = wf_set(0.5f), one = wf_set(1), tiny = wf_set(1e-30f);
+    const wf middle = wf_mul(wf_add(xx, yy), half), difference = wf_mul(wf_sub(xx, yy), half);
+    const wf length = wf_sqrt(wf_add(wf_mul(difference, difference), wf_mul(xy, xy)));
+    values[0] = wf_add(middle, length);
+    values[1] = wf_max(wf_sub(middle, length), tiny);
+    // Of the two forms the one that does not cancel.
+    const wm wide = wf_le(wf_set(0), difference);
+    const wf x = wf_select(wide, wf_add(length, difference), xy);
+    const wf y = wf_select(wide, xy, wf_sub(length, difference));
+    const wf norm2 = wf_add(wf_mul(x, x), wf_mul(y, y));
+    const wm round = wf_le(norm2, wf_mul(wf_mul(middle, middle), wf_set(1e-12f)));
+    const wf inverse = wf_div(one, wf_sqrt(wf_max(norm2, tiny)));
+    *u = wf_select(round, one, wf_mul(x, inverse));
+    *v = wf_select(round, wf_set(0), wf_mul(y, inverse));
+}
+
+/// Turns u to where the nearest neighbours are: a long cell is then seen along its axes.
+static void align_frame(const ewa_block *block, frame *f) {
+    const vec at = lanes_of(block);
+    wf uu = wf_set(0), uv = uu, vv = uu, values[2], turn_u, turn_v;
+    for (uint32_t i = 0; i < block->candidate_count; i++) {
+        wf u, v;
+        if (!invert(block, i, f, at, &u, &v)) continue;
+        uu = wf_add(uu, wf_mul(u, u));
+        uv = wf_add(uv, wf_mul(u, v));
+        vv = wf_add(vv, wf_mul(v, v));
+    }
+    // Near neighbours weigh as the inverse square of their distance, which single precision cannot always
+    // square.
+    const wf scale = wf_div(wf_set(1), wf_max(wf_add(uu, vv), wf_set(1e-30f)));
+    major_axis(wf_mul(uu, scale), wf_mul(uv, scale), wf_mul(vv, scale), &turn_u, &turn_v, values);
+    const vec old = f->u;
+    f->u = v_add(v_scale(old, turn_u), v_scale(f->v, turn_v));
+    f->v = v_sub(v_scale(f->v, turn_u), v_scale(old, turn_v));
+}
+
 /// How far the cell of a place extends in 16 directions of the tangent frame: i, and i + DIRECTIONS opposite.
 typedef struct cell {
     wf extent[2 * DIRECTIONS];
@@ -244,18 +300,14 @@ static inline void project(wf u, wf v, wf along[DIRECTIONS]) {
     along[7] = wf_sub(vs, uc);
 }
 
-static cell find_cell(const ewa_block *block, const frame *f, wf spacing) {
+static cell find_cell(const ewa_block *block, const frame *f, wf limit) {
     const vec at = lanes_of(block);
-    const wf radius2 = wf_load(block->radius2), zero = wf_set(0);
+    const wf zero = wf_set(0);
     wf high[DIRECTIONS], low[DIRECTIONS];
     for (int i = 0; i < DIRECTIONS; i++) high[i] = low[i] = zero;
     for (uint32_t c = 0; c < block->candidate_count; c++) {
-        const wf distance2 = wf_load(block->distance2[c]);
-        const wm other = wm_and(wf_le(distance2, radius2), wf_lt(zero, distance2));
-        if (!wm_bits(other)) continue;
-        const vec d = offset_of(block, c, at);
-        const wf inverse = wf_keep(other, wf_div(wf_set(1), wf_max(distance2, wf_set(1e-30f))));
-        const wf u = wf_mul(v_dot(d, f->u), inverse), v = wf_mul(v_dot(d, f->v), inverse);
+        wf u, v;
+        if (!invert(block, c, f, at, &u, &v)) continue;
         wf along[DIRECTIONS];
         project(u, v, along);
         for (int i = 0; i < DIRECTIONS; i++) {
@@ -264,7 +316,7 @@ static cell find_cell(const ewa_block *block, const frame *f, wf spacing) {
         }
     }
     cell made;
-    const wf limit = wf_mul(spacing, wf_set(MAX_REACH)), half = wf_set(0.5f), tiny = wf_set(1e-30f);
+    const wf half = wf_set(0.5f), tiny = wf_set(1e-30f);
     for (int i = 0; i < DIRECTIONS; i++) {
         made.extent[i] = wf_div(half, wf_max(high[i], tiny));
         made.extent[i + DIRECTIONS] = wf_div(half, wf_max(wf_sub(zero, low[i]), tiny));
@@ -290,8 +342,8 @@ static wf find_reach(const cell *c) {
 /// The axes of the ellipse with the cell's proportions, from the cell's second moments: t^4 u u^T summed over
 /// u.
 static void find_shape(const cell *c, const frame *f, wf spacing, local_surface *surface) {
-    const wf zero = wf_set(0), one = wf_set(1), half = wf_set(0.5f), tiny = wf_set(1e-30f);
-    const wf per_spacing = wf_div(one, wf_max(spacing, tiny));
+    const wf zero = wf_set(0);
+    const wf per_spacing = wf_div(wf_set(1), wf_max(spacing, wf_set(1e-30f)));
     wf xx = zero, xy = zero, yy = zero;
     for (int i = 0; i < 2 * DIRECTIONS; i++) {
         // Where the cell is open its other side stands in, so that borders grow no fringe.
@@ -304,19 +356,9 @@ static void find_shape(const cell *c, const frame *f, wf spacing, local_surface 
         xy = wf_add(xy, wf_mul(weight, wf_set(x * y)));
         yy = wf_add(yy, wf_mul(weight, wf_set(y * y)));
     }
-    const wf middle = wf_mul(wf_add(xx, yy), half), difference = wf_mul(wf_sub(xx, yy), half);
-    const wf length = wf_sqrt(wf_add(wf_mul(difference, difference), wf_mul(xy, xy)));
-    const wf larger = wf_add(middle, length), smaller = wf_max(wf_sub(middle, length), tiny);
-    // The eigenvector of the larger: of the two forms the one that does not cancel.
-    const wm wide = wf_le(zero, difference);
-    wf major_u = wf_select(wide, wf_add(length, difference), xy);
-    wf major_v = wf_select(wide, xy, wf_sub(length, difference));
-    const wf norm2 = wf_add(wf_mul(major_u, major_u), wf_mul(major_v, major_v));
-    const wm round = wf_le(norm2, wf_set(1e-20f));
-    const wf inverse = wf_div(one, wf_sqrt(wf_max(norm2, tiny)));
-    major_u = wf_select(round, one, wf_mul(major_u, inverse));
-    major_v = wf_select(round, zero, wf_mul(major_v, inverse));
-    const wf aspect = wf_min(wf_sqrt(wf_div(larger, smaller)), wf_set(LOCAL_MAX_ASPECT));
+    wf major_u, major_v, values[2];
+    major_axis(xx, xy, yy, &major_u, &major_v, values);
+    const wf aspect = wf_min(wf_sqrt(wf_div(values[0], values[1])), wf_set(LOCAL_MAX_ASPECT));
     v_store(surface->major, v_add(v_scale(f->u, major_u), v_scale(f->v, major_v)));
     wf_store(surface->aspect, aspect);
     wf reach2 = zero;
@@ -334,13 +376,16 @@ static void find_shape(const cell *c, const frame *f, wf spacing, local_surface 
 
 static void measure(const ewa_block *block, uint32_t wanted, local_surface *surface) {
     const moments m = sum_moments(block);
-    const frame f = find_frame(&m);
+    frame f = find_frame(&m);
     const wf spacing = find_spacing(&m, &f);
     v_store(surface->normal, f.normal);
     wf_store(surface->spacing, spacing);
+    surface->thin = wm_bits(f.thin);
     surface->degenerate = wm_bits(f.degenerate);
     if (!wanted) return;
-    const cell c = find_cell(block, &f, spacing);
+    if (wanted & (LOCAL_SHAPE | LOCAL_LINES)) align_frame(block, &f);
+    const wf limit = wf_set(wanted & LOCAL_LINES ? MAX_LINE_REACH : MAX_REACH);
+    const cell c = find_cell(block, &f, wf_mul(spacing, limit));
     if (wanted & LOCAL_REACH) wf_store(surface->reach, find_reach(&c));
     if (wanted & LOCAL_SHAPE) find_shape(&c, &f, spacing, surface);
 }

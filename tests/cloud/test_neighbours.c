@@ -95,7 +95,8 @@ static found *find_all(uint32_t threads, uint32_t cpu_mask, const ewa_attribute 
     assert_int_equal(ewa_neighbours_create(*context, position, count, tree), EWA_OK);
     found *all = calloc((size_t)ewa_neighbours_place_count(*tree) + 1, sizeof *all);
     assert_non_null(all);
-    assert_int_equal(ewa_neighbours_visit(*tree, k, 1, "test", keep_block, all), EWA_OK);
+    const ewa_visit_choice choice = {k, 1, NULL, "test"};
+    assert_int_equal(ewa_neighbours_visit(*tree, &choice, keep_block, all), EWA_OK);
     return all;
 }
 
@@ -263,11 +264,20 @@ static void test_clumps(void **state) {
     ewa_neighbours *tree = NULL;
     assert_int_equal(ewa_neighbours_create(context, &position, COUNT, &tree), EWA_OK);
     uint32_t lanes[32] = {0};
-    assert_int_equal(ewa_neighbours_visit(tree, 16, 1, "test", count_lanes, lanes), EWA_OK);
+    ewa_visit_choice choice = {16, 1, NULL, "test"};
+    assert_int_equal(ewa_neighbours_visit(tree, &choice, count_lanes, lanes), EWA_OK);
     assert_int_equal(lanes[0] + lanes[16], COUNT / 2 + 1);
     memset(lanes, 0, sizeof lanes);
-    assert_int_equal(ewa_neighbours_visit(tree, 16, 10, "test", count_lanes, lanes), EWA_OK);
+    choice.sample_step = 10;
+    assert_int_equal(ewa_neighbours_visit(tree, &choice, count_lanes, lanes), EWA_OK);
     assert_in_range(lanes[0] + lanes[16], COUNT / 2 / 12, COUNT / 2 / 8);
+    uint8_t *chosen = calloc(COUNT, 1);
+    chosen[COUNT / 4] = 1;
+    choice = (ewa_visit_choice){16, 1, chosen, "test"};
+    memset(lanes, 0, sizeof lanes);
+    assert_int_equal(ewa_neighbours_visit(tree, &choice, count_lanes, lanes), EWA_OK);
+    assert_in_range(lanes[0] + lanes[16], 1, EWA_BLOCK_LANES);
+    free(chosen);
     ewa_neighbours_destroy(&tree);
     ewa_context_destroy(&context);
     free(xyz);

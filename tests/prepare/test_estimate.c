@@ -154,6 +154,34 @@ static void test_axes(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// A scanner's lines 20 samples apart: 16 neighbours are all on one line, and say nothing about the surface.
+static void test_scan_lines(void **state) {
+    (void)state;
+    enum { ALONG = 600, LINES = 40, GAP = 20, LINE_COUNT = ALONG * LINES };
+    ewa_context *context = check_context(2, NULL);
+    float *xyz = NULL;
+    ewa_cloud *cloud = check_cloud(context, LINE_COUNT, &xyz);
+    check_random random = {12};
+    for (uint32_t i = 0; i < LINE_COUNT; i++) {
+        xyz[3 * i] = (float)(i % ALONG + check_uniform(&random, -0.3, 0.3));
+        xyz[3 * i + 1] = (float)(i / ALONG * GAP);
+        xyz[3 * i + 2] = 0.5f * xyz[3 * i + 1];
+    }
+    ewa_estimate_options options = check_estimate_options();
+    assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+    const float *normal = check_stream(cloud, EWA_NORMAL), *radius = check_stream(cloud, EWA_RADIUS);
+    const float half_gap = 0.5f * GAP * sqrtf(1.25f);
+    for (uint32_t i = 0; i < LINE_COUNT; i++) {
+        const float cosine = (normal[3 * i + 2] - 0.5f * normal[3 * i + 1]) / sqrtf(1.25f);
+        assert_true(cosine > 0.999f);
+        const uint32_t along = i % ALONG, line = i / ALONG;
+        if (along < 40 || along >= ALONG - 40 || line < 2 || line >= LINES - 2) continue;
+        assert_true(radius[i] > half_gap && radius[i] < 4 * half_gap);
+    }
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
 /// PCA against the true normal of a sphere, also for doubles far from the origin.
 static void test_normals(void **state) {
     (void)state;
@@ -509,6 +537,7 @@ int main(void) {
         cmocka_unit_test(test_spacing),
         cmocka_unit_test(test_no_holes),
         cmocka_unit_test(test_axes),
+        cmocka_unit_test(test_scan_lines),
         cmocka_unit_test(test_normals),
         cmocka_unit_test(test_keep),
         cmocka_unit_test(test_degenerate),
