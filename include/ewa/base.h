@@ -66,7 +66,8 @@ typedef struct ewa_allocator {
     void (*release)(void *user, void *memory, size_t size_bytes);
 } ewa_allocator;
 
-/// One piece of parallel work: `index` of the piece, `worker` in [0, worker_count) unique among those running.
+/// One piece of parallel work: `index` of the piece, `worker` in [0, worker_count) unique among those
+/// running.
 typedef void ewa_task(void *data, uint32_t index, uint32_t worker);
 
 /// Threads from the caller: `run` calls `task` once for each index in [0, count), in any order, on any of
@@ -80,8 +81,8 @@ typedef struct ewa_executor {
 /// Receives one message, UTF-8, without a line feed, valid during the call. Comes on the thread that failed.
 typedef void ewa_message_callback(void *user, ewa_severity severity, const char *text);
 
-/// Receives the share of `stage` that is done, in [0, 1]; returning false cancels the call, which then returns
-/// EWA_CANCELLED. Comes on the thread that called the library.
+/// Receives the share of `stage` that is done, in [0, 1]; returning false cancels the call, which then
+/// returns EWA_CANCELLED. Comes on the thread that called the library.
 typedef bool ewa_progress_callback(void *user, const char *stage, double fraction);
 
 /// Bounds that are checked before anything is allocated for untrusted input.
@@ -93,15 +94,15 @@ typedef struct ewa_limits {
 
 /// How a context is made. Fill with ewa_context_options_init().
 typedef struct ewa_context_options {
-    size_t struct_size;               ///< sizeof(ewa_context_options) of the caller
-    ewa_allocator allocator;          ///< default: aligned_alloc and free
-    ewa_executor executor;            ///< default (run = NULL): a built-in pool of `thread_count` workers
-    uint32_t thread_count;            ///< workers of the built-in pool; default 0: one per processor; at most 256
-    uint32_t cpu_mask;                ///< EWA_CPU_*; default EWA_CPU_ALL: everything the CPU has
-    ewa_severity message_level;       ///< most detailed severity to report; default EWA_SEVERITY_WARNING
-    ewa_message_callback *message;    ///< default NULL: silent
+    size_t struct_size;         ///< sizeof(ewa_context_options) of the caller
+    ewa_allocator allocator;    ///< default: aligned_alloc and free
+    ewa_executor executor;      ///< default (run = NULL): a built-in pool of `thread_count` workers
+    uint32_t thread_count;      ///< workers of the built-in pool; default 0: one per processor; at most 256
+    uint32_t cpu_mask;          ///< EWA_CPU_*; default EWA_CPU_ALL: everything the CPU has
+    ewa_severity message_level; ///< most detailed severity to report; default EWA_SEVERITY_WARNING
+    ewa_message_callback *message; ///< default NULL: silent
     void *message_user;
-    ewa_progress_callback *progress;  ///< default NULL
+    ewa_progress_callback *progress; ///< default NULL
     void *progress_user;
     ewa_limits limits;
 } ewa_context_options;
@@ -113,9 +114,8 @@ EWA_API void ewa_context_options_init(ewa_context_options *options, size_t struc
 /// are independent of each other.
 typedef struct ewa_context ewa_context;
 
-/// Makes a context; `options` may be NULL for the defaults. The caller owns `*context` and destroys it after all
-/// objects made from it.
-/// Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_MEMORY.
+/// Makes a context; `options` may be NULL for the defaults. The caller owns `*context` and destroys it after
+/// all objects made from it. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_context_create(const ewa_context_options *options, ewa_context **context);
 
 /// Ends the workers and frees the context; sets `*context` to NULL; accepts NULL and a pointer to NULL.

@@ -34,9 +34,9 @@ EWA_API const char *ewa_type_name(ewa_type type);
 /// |-------------|-----------:|-----------------------------------------------------------------------------|
 /// | position    | 3 | world units, relative to the cloud's origin; F32 or F64                              |
 /// | normal      | 3 | outward; any length but zero                                                         |
-/// | color       | 3, 4 | red green blue [alpha]; integer types are sRGB over their whole range, floats linear |
-/// | radius      | 1 | support radius of the disc, world units: sigma = radius / cutoff                     |
-/// | tangent_u   | 3 | first axis of the kernel, length = one standard deviation, world units               |
+/// | color       | 3, 4 | red green blue [alpha]; integer types are sRGB over their whole range, floats
+/// linear | | radius      | 1 | support radius of the disc, world units: sigma = radius / cutoff | |
+/// tangent_u   | 3 | first axis of the kernel, length = one standard deviation, world units               |
 /// | tangent_v   | 3 | second axis; they win over radius; the normal is u x v unless given                  |
 /// | material    | 1 | index into a material table                                                          |
 /// | clip0, clip1| 3 | clip line (a, b, c): keep a u + b v + c >= 0 at position + u tangent_u + v tangent_v |
@@ -76,16 +76,16 @@ EWA_API void ewa_cloud_destroy(ewa_cloud **cloud);
 EWA_API ewa_context *ewa_cloud_context(const ewa_cloud *cloud);
 EWA_API uint64_t ewa_cloud_point_count(const ewa_cloud *cloud);
 
-/// Adds a stream that the cloud owns, uninitialised, replacing one of the same name; `*data` (may be NULL) gets
-/// its first number. Pointers to other attributes of the cloud become invalid; their data does not move.
+/// Adds a stream that the cloud owns, uninitialised, replacing one of the same name; `*data` (may be NULL)
+/// gets its first number. Pointers to other attributes of the cloud become invalid; their data does not move.
 /// Errors: EWA_ERROR_ARGUMENT (empty or too long name, component_count outside 1..4), EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_cloud_add(ewa_cloud *cloud, const char *name, ewa_type type, uint32_t component_count,
                                  void **data);
 
 /// Adds a stream over the caller's memory, which must outlive the cloud; nothing is copied.
 /// `stride_bytes` is the distance of consecutive points, 0 for tightly packed.
-EWA_API ewa_status ewa_cloud_borrow(ewa_cloud *cloud, const char *name, ewa_type type, uint32_t component_count,
-                                    const void *data, size_t stride_bytes);
+EWA_API ewa_status ewa_cloud_borrow(ewa_cloud *cloud, const char *name, ewa_type type,
+                                    uint32_t component_count, const void *data, size_t stride_bytes);
 
 /// Removes a stream if there is one of that name.
 EWA_API void ewa_cloud_remove(ewa_cloud *cloud, const char *name);
@@ -98,16 +98,18 @@ EWA_API uint32_t ewa_cloud_attribute_count(const ewa_cloud *cloud);
 /// Returns stream `index` in order of addition, NULL beyond the last.
 EWA_API const ewa_attribute *ewa_cloud_attribute_at(const ewa_cloud *cloud, uint32_t index);
 
-/// Sets what has to be added to "position" to give world coordinates (default 0, 0, 0): georeferenced data keeps
-/// its exact place while the streams stay small numbers.
+/// Sets what has to be added to "position" to give world coordinates (default 0, 0, 0): georeferenced data
+/// keeps its exact place while the streams stay small numbers.
 EWA_API void ewa_cloud_set_origin(ewa_cloud *cloud, const double origin_world[3]);
 EWA_API void ewa_cloud_origin(const ewa_cloud *cloud, double origin_world[3]);
 
-/// Reads `count` points from point `first` as floats, `component_count` of the attribute each, tightly packed into
-/// `values`. Integers are converted as numbers, not normalised.
-EWA_API void ewa_attribute_read_f32(const ewa_attribute *attribute, uint64_t first, uint64_t count, float *values);
+/// Reads `count` points from point `first` as floats, `component_count` of the attribute each, tightly packed
+/// into `values`. Integers are converted as numbers, not normalised.
+EWA_API void ewa_attribute_read_f32(const ewa_attribute *attribute, uint64_t first, uint64_t count,
+                                    float *values);
 /// The same in double precision.
-EWA_API void ewa_attribute_read_f64(const ewa_attribute *attribute, uint64_t first, uint64_t count, double *values);
+EWA_API void ewa_attribute_read_f64(const ewa_attribute *attribute, uint64_t first, uint64_t count,
+                                    double *values);
 
 /// An axis-aligned box, world units; empty when low > high.
 typedef struct ewa_bounds {
@@ -119,23 +121,24 @@ typedef struct ewa_bounds {
 /// Errors: EWA_ERROR_ARGUMENT when there is no "position" of three components.
 EWA_API ewa_status ewa_cloud_measure(const ewa_cloud *cloud, ewa_bounds *bounds);
 
-/// Makes a cloud of the points `indices[0]` to `indices[count - 1]` of another, in that order, with all its attributes
-/// and its origin. The caller owns `*selected`.
-/// Errors: EWA_ERROR_ARGUMENT (an index beyond the last point), EWA_ERROR_MEMORY.
+/// Makes a cloud of the points `indices[0]` to `indices[count - 1]` of another, in that order, with all its
+/// attributes and its origin. The caller owns `*selected`. Errors: EWA_ERROR_ARGUMENT (an index beyond the
+/// last point), EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_cloud_select(const ewa_cloud *cloud, const uint64_t *indices, uint64_t count,
                                     ewa_cloud **selected);
 
-/// Makes one cloud of `count` > 0 clouds of one context: the points one after another, the origin of the first, and
-/// the attributes that all have with as many components (colours: also of one type). Types that differ become the
-/// float type that holds both; positions become doubles where the origins differ. What is dropped is reported as a
-/// warning. The caller owns `*merged`.
-/// Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+/// Makes one cloud of `count` > 0 clouds of one context: the points one after another, the origin of the
+/// first, and the attributes that all have with as many components (colours: also of one type). Types that
+/// differ become the float type that holds both; positions become doubles where the origins differ. What is
+/// dropped is reported as a warning. The caller owns `*merged`. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT,
+/// EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_cloud_merge(const ewa_cloud *const *clouds, uint32_t count, ewa_cloud **merged);
 
-/// Maps space: positions and tangent axes by the matrix, normals by its inverse transpose, radii by the cube root of
-/// its determinant, clip lines with their axes. `world_to_world` is row-major, acts on column vectors, its last row is
-/// 0 0 0 1. The translation goes into the origin, so that the streams stay small numbers.
-/// Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_NUMERIC (no inverse), EWA_ERROR_MEMORY (the cloud is then half mapped).
+/// Maps space: positions and tangent axes by the matrix, normals by its inverse transpose, radii by the cube
+/// root of its determinant, clip lines with their axes. `world_to_world` is row-major, acts on column
+/// vectors, its last row is 0 0 0 1. The translation goes into the origin, so that the streams stay small
+/// numbers. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_NUMERIC (no inverse), EWA_ERROR_MEMORY (the cloud is then
+/// half mapped).
 EWA_API ewa_status ewa_cloud_transform(ewa_cloud *cloud, const double world_to_world[16]);
 
 #ifdef __cplusplus

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Files: point clouds, images, cameras. Formats are chosen by content on input and by suffix on output.
-// Output files appear whole or not at all: they are written aside and renamed. Every failure names the file, the
-// place in it and the reason.
+// Output files appear whole or not at all: they are written aside and renamed. Every failure names the file,
+// the place in it and the reason.
 #ifndef EWA_IO_H
 #define EWA_IO_H
 
@@ -72,37 +72,40 @@ EWA_API ewa_status ewa_cloud_save(const ewa_cloud *cloud, const char *path,
 /// What a picture file says beside its pixels. Fill with ewa_image_save_options_init().
 typedef struct ewa_image_save_options {
     size_t struct_size;
-    /// Names of the image's channels for EXR, comma-separated, such as "R,G,B,A" or "Z"; default NULL: by count,
-    /// 1 Y, 3 RGB, 4 RGBA; other counts need names.
+    /// Names of the image's channels for EXR, comma-separated, such as "R,G,B,A" or "Z"; default NULL: by
+    /// count, 1 Y, 3 RGB, 4 RGBA; other counts need names.
     const char *channel_names;
-    bool exr_half;                 ///< store half floats; default false: float
-    /// 16 numbers as in ewa_camera, or NULL: EXR attribute worldToCamera (m44f), transposed there, since OpenEXR's
-    /// matrices act on row vectors.
+    bool exr_half; ///< store half floats; default false: float
+    /// 16 numbers as in ewa_camera, or NULL: EXR attribute worldToCamera (m44f), transposed there, since
+    /// OpenEXR's matrices act on row vectors.
     const double *world_to_camera;
-    bool srgb_alpha_straight;      ///< PNG: un-premultiply before encoding; default true
+    bool srgb_alpha_straight; ///< PNG: un-premultiply before encoding; default true
 } ewa_image_save_options;
 
 EWA_API void ewa_image_save_options_init(ewa_image_save_options *options, size_t struct_size);
 
-/// Writes a float image by suffix: .png (8-bit sRGB from linear light; RGBA loses its alpha when that is 1 all
-/// over), .exr (linear, ZIP), .pfm (linear, rows bottom-up; of RGBA the colours as they are, which is over black).
+/// Writes a float image by suffix: .png (8-bit sRGB from linear light; RGBA loses its alpha when that is 1
+/// all over), .exr (linear, ZIP), .pfm (linear, rows bottom-up; of RGBA the colours as they are, which is
+/// over black).
 /// "-" writes PNG to standard output. `options` may be NULL.
-/// Errors: EWA_ERROR_ARGUMENT (channel names), EWA_ERROR_IO, EWA_ERROR_UNSUPPORTED (suffix, channel count of the
-/// format), EWA_ERROR_MEMORY.
-EWA_API ewa_status ewa_image_save(const ewa_image *image, const char *path, const ewa_image_save_options *options);
+/// Errors: EWA_ERROR_ARGUMENT (channel names), EWA_ERROR_IO, EWA_ERROR_UNSUPPORTED (suffix, channel count of
+/// the format), EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_image_save(const ewa_image *image, const char *path,
+                                  const ewa_image_save_options *options);
 
-/// Writes 8-bit pixels as PNG: rows from the top, `stride_bytes` apart, `channel_count` 1 grey, 3 RGB or 4 RGBA
-/// straight alpha, sRGB. The same pixels give the same file on every machine and for any number of threads.
-/// Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_IO, EWA_ERROR_UNSUPPORTED (channel count), EWA_ERROR_MEMORY.
+/// Writes 8-bit pixels as PNG: rows from the top, `stride_bytes` apart, `channel_count` 1 grey, 3 RGB or 4
+/// RGBA straight alpha, sRGB. The same pixels give the same file on every machine and for any number of
+/// threads. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_IO, EWA_ERROR_UNSUPPORTED (channel count),
+/// EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_png_save(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px,
                                 uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes);
 
 /// Reads PNG, OpenEXR or PFM, by content; "-" reads standard input. The caller frees the image.
-/// PNG: sRGB of up to 16 bits to linear light; grey gives 1 channel, RGB and palettes 3, anything with alpha 4,
-/// premultiplied; gamma and colour profiles are not looked at.
-/// OpenEXR: the data window of the first part, scan lines or tiles; R G B [A] when present, else its channels in
-/// alphabetical order, at most 16. PFM: 1 or 3 channels, either byte order.
-/// Errors (image empty): EWA_ERROR_IO, EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+/// PNG: sRGB of up to 16 bits to linear light; grey gives 1 channel, RGB and palettes 3, anything with alpha
+/// 4, premultiplied; gamma and colour profiles are not looked at. OpenEXR: the data window of the first part,
+/// scan lines or tiles; R G B [A] when present, else its channels in alphabetical order, at most 16. PFM: 1
+/// or 3 channels, either byte order. Errors (image empty): EWA_ERROR_IO, EWA_ERROR_FORMAT,
+/// EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_image_load(ewa_context *context, const char *path, ewa_image *image);
 
 /// The same from `size_bytes` bytes in memory; `name` stands for the file in messages.
@@ -112,19 +115,23 @@ EWA_API ewa_status ewa_image_load_memory(ewa_context *context, const void *bytes
 /// Counts the cameras of a file, to go through them with ewa_camera_load(). Errors as there.
 EWA_API ewa_status ewa_camera_file_count(ewa_context *context, const char *path, uint32_t *count);
 
-/// Reads camera `index`, counted from 0 in the file's order, into an initialised `*camera`. The format goes by
-/// content:
-/// - ours: {"width", "height", "fx", "fy", "cx", "cy", "world_to_camera": 16 numbers, row-major} in pixels, with
+/// Reads camera `index`, counted from 0 in the file's order, into an initialised `*camera`. The format goes
+/// by content:
+/// - ours: {"width", "height", "fx", "fy", "cx", "cy", "world_to_camera": 16 numbers, row-major} in pixels,
+/// with
 ///   "projection": "orthographic" for such; or an array of these;
 /// - Open3D PinholeCameraParameters and PinholeCameraTrajectory;
-/// - transforms.json of nerfstudio and instant-ngp; without "w", "h" the size is that of the frame's PNG picture;
+/// - transforms.json of nerfstudio and instant-ngp; without "w", "h" the size is that of the frame's PNG
+/// picture;
 /// - cameras.json of INRIA's Gaussian splatting;
 /// - stacks of matrices: {"width", "height", "viewmats" or "viewmats_world_to_camera", "Ks"};
 /// - a folder with a COLMAP model: cameras and images, .bin or else .txt.
-/// Principal points are taken as they are, lens distortion is left out with a warning. "-" reads standard input.
-/// Errors (camera unchanged), with the member that is missing or wrong: EWA_ERROR_IO, EWA_ERROR_FORMAT,
-/// EWA_ERROR_UNSUPPORTED (fisheye), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_ERROR_ARGUMENT (index).
-EWA_API ewa_status ewa_camera_load(ewa_context *context, const char *path, uint32_t index, ewa_camera *camera);
+/// Principal points are taken as they are, lens distortion is left out with a warning. "-" reads standard
+/// input. Errors (camera unchanged), with the member that is missing or wrong: EWA_ERROR_IO,
+/// EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED (fisheye), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_ERROR_ARGUMENT
+/// (index).
+EWA_API ewa_status ewa_camera_load(ewa_context *context, const char *path, uint32_t index,
+                                   ewa_camera *camera);
 
 /// Writes a camera file of our format with every digit that a double needs.
 /// Errors: EWA_ERROR_ARGUMENT (as ewa_camera_check()), EWA_ERROR_IO, EWA_ERROR_MEMORY.

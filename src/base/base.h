@@ -10,8 +10,8 @@
 /// Stable facts of a context that other rooms read.
 const ewa_limits *ewa_context_limits(const ewa_context *context);
 
-/// Returns count * size bytes aligned to 64, uninitialised, or NULL after reporting; a product of zero gives one
-/// byte. Pair with ewa_release() of the same count and size.
+/// Returns count * size bytes aligned to 64, uninitialised, or NULL after reporting; a product of zero gives
+/// one byte. Pair with ewa_release() of the same count and size.
 void *ewa_allocate(ewa_context *context, size_t count, size_t size_bytes);
 
 /// Like ewa_allocate(), set to zero.
@@ -30,7 +30,8 @@ typedef struct ewa_buffer {
 ewa_status ewa_buffer_reserve(ewa_context *context, ewa_buffer *buffer, size_t count, size_t size_bytes);
 void ewa_buffer_free(ewa_context *context, ewa_buffer *buffer);
 
-/// Reports "<formatted text>" at EWA_SEVERITY_ERROR and returns `status`, so that `return ewa_fail(...)` reads well.
+/// Reports "<formatted text>" at EWA_SEVERITY_ERROR and returns `status`, so that `return ewa_fail(...)`
+/// reads well.
 ewa_status ewa_fail(ewa_context *context, ewa_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
@@ -50,7 +51,8 @@ double ewa_now_s(void);
 /// EWA_CPU_* bits of this machine.
 uint32_t ewa_cpu_detect(void);
 
-/// Splits `count` items into `parts` contiguous ranges; returns the first item of part `part` (part = parts: count).
+/// Splits `count` items into `parts` contiguous ranges; returns the first item of part `part` (part = parts:
+/// count).
 static inline uint64_t ewa_split(uint64_t count, uint32_t parts, uint32_t part) {
     return count / parts * part + count % parts * part / parts;
 }

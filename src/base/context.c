@@ -29,20 +29,29 @@ enum {
 
 const char *ewa_status_name(ewa_status status) {
     switch (status) {
-    case EWA_OK: return "EWA_OK";
-    case EWA_ERROR_ARGUMENT: return "EWA_ERROR_ARGUMENT";
-    case EWA_ERROR_MEMORY: return "EWA_ERROR_MEMORY";
-    case EWA_ERROR_IO: return "EWA_ERROR_IO";
-    case EWA_ERROR_FORMAT: return "EWA_ERROR_FORMAT";
-    case EWA_ERROR_UNSUPPORTED: return "EWA_ERROR_UNSUPPORTED";
-    case EWA_ERROR_LIMIT: return "EWA_ERROR_LIMIT";
-    case EWA_ERROR_NUMERIC: return "EWA_ERROR_NUMERIC";
-    case EWA_CANCELLED: return "EWA_CANCELLED";
+    case EWA_OK:
+        return "EWA_OK";
+    case EWA_ERROR_ARGUMENT:
+        return "EWA_ERROR_ARGUMENT";
+    case EWA_ERROR_MEMORY:
+        return "EWA_ERROR_MEMORY";
+    case EWA_ERROR_IO:
+        return "EWA_ERROR_IO";
+    case EWA_ERROR_FORMAT:
+        return "EWA_ERROR_FORMAT";
+    case EWA_ERROR_UNSUPPORTED:
+        return "EWA_ERROR_UNSUPPORTED";
+    case EWA_ERROR_LIMIT:
+        return "EWA_ERROR_LIMIT";
+    case EWA_ERROR_NUMERIC:
+        return "EWA_ERROR_NUMERIC";
+    case EWA_CANCELLED:
+        return "EWA_CANCELLED";
     }
     return "unknown status";
 }
 
-#define TEXT(number)  #number
+#define TEXT(number)                      #number
 #define VERSION_TEXT(major, minor, patch) TEXT(major) "." TEXT(minor) "." TEXT(patch)
 
 const char *ewa_version(void) {
@@ -51,7 +60,8 @@ const char *ewa_version(void) {
 
 static void *allocate_default(void *user, size_t size_bytes) {
     (void)user;
-    // Large blocks start on huge pages: filling fresh memory by pages of 4 KiB costs more than any copy into it.
+    // Large blocks start on huge pages: filling fresh memory by pages of 4 KiB costs more than any copy into
+    // it.
     const size_t alignment = size_bytes >= HUGE_BLOCK_BYTES ? HUGE_PAGE_BYTES : 64;
     const size_t rounded = (size_bytes + alignment - 1) & ~(alignment - 1);
     void *memory = rounded < size_bytes ? NULL : aligned_alloc(alignment, rounded);
@@ -91,8 +101,9 @@ ewa_status ewa_context_create(const ewa_context_options *options, ewa_context **
     ewa_context_options chosen;
     ewa_context_options_init(&chosen, sizeof chosen);
     if (options) {
-        if (options->struct_size != sizeof chosen || !options->allocator.allocate || !options->allocator.release ||
-            options->thread_count > MAX_WORKERS || options->executor.worker_count > MAX_WORKERS ||
+        if (options->struct_size != sizeof chosen || !options->allocator.allocate ||
+            !options->allocator.release || options->thread_count > MAX_WORKERS ||
+            options->executor.worker_count > MAX_WORKERS ||
             (options->executor.run && options->executor.worker_count == 0))
             return EWA_ERROR_ARGUMENT;
         chosen = *options;
@@ -136,7 +147,8 @@ const ewa_limits *ewa_context_limits(const ewa_context *context) { return &conte
 void *ewa_allocate(ewa_context *context, size_t count, size_t size_bytes) {
     size_t total;
     if (__builtin_mul_overflow(count, size_bytes, &total)) {
-        ewa_fail(context, EWA_ERROR_MEMORY, "%zu items of %zu bytes do not fit the address space", count, size_bytes);
+        ewa_fail(context, EWA_ERROR_MEMORY, "%zu items of %zu bytes do not fit the address space", count,
+                 size_bytes);
         return NULL;
     }
     const ewa_allocator *allocator = &context->options.allocator;
@@ -161,8 +173,8 @@ void ewa_release(ewa_context *context, void *memory, size_t count, size_t size_b
 ewa_status ewa_buffer_reserve(ewa_context *context, ewa_buffer *buffer, size_t count, size_t size_bytes) {
     size_t wanted;
     if (__builtin_mul_overflow(count, size_bytes, &wanted))
-        return ewa_fail(context, EWA_ERROR_MEMORY, "%zu items of %zu bytes do not fit the address space", count,
-                        size_bytes);
+        return ewa_fail(context, EWA_ERROR_MEMORY, "%zu items of %zu bytes do not fit the address space",
+                        count, size_bytes);
     if (wanted <= buffer->capacity_bytes) return EWA_OK;
     ewa_buffer_free(context, buffer);
     buffer->data = ewa_allocate(context, wanted, 1);
@@ -201,7 +213,8 @@ void ewa_report(ewa_context *context, ewa_severity severity, const char *format,
 
 ewa_status ewa_progress(ewa_context *context, const char *stage, double fraction) {
     const ewa_context_options *options = &context->options;
-    return !options->progress || options->progress(options->progress_user, stage, fraction) ? EWA_OK : EWA_CANCELLED;
+    return !options->progress || options->progress(options->progress_user, stage, fraction) ? EWA_OK
+                                                                                            : EWA_CANCELLED;
 }
 
 void ewa_parallel(ewa_context *context, ewa_task *task, void *data, uint32_t count) {

@@ -74,11 +74,11 @@ const ewa_attribute *ewa_cloud_find(const ewa_cloud *cloud, const char *name) {
 static ewa_status check_shape(ewa_cloud *cloud, const char *name, ewa_type type, uint32_t component_count) {
     const size_t length = name ? strlen(name) : 0;
     if (length == 0 || length >= EWA_NAME_BYTES)
-        return ewa_fail(cloud->context, EWA_ERROR_ARGUMENT, "attribute name of %zu bytes (1 to %d allowed)", length,
-                        EWA_NAME_BYTES - 1);
+        return ewa_fail(cloud->context, EWA_ERROR_ARGUMENT, "attribute name of %zu bytes (1 to %d allowed)",
+                        length, EWA_NAME_BYTES - 1);
     if (ewa_type_bytes(type) == 0 || component_count < 1 || component_count > 4)
-        return ewa_fail(cloud->context, EWA_ERROR_ARGUMENT, "attribute '%s': type %d with %u components", name,
-                        (int)type, component_count);
+        return ewa_fail(cloud->context, EWA_ERROR_ARGUMENT, "attribute '%s': type %d with %u components",
+                        name, (int)type, component_count);
     return EWA_OK;
 }
 
@@ -94,7 +94,8 @@ static ewa_status put(ewa_cloud *cloud, const ewa_attribute *attribute) {
         const uint32_t capacity = cloud->attribute_capacity ? 2 * cloud->attribute_capacity : 8;
         ewa_attribute *larger = ewa_allocate(cloud->context, capacity, sizeof *larger);
         if (!larger) return EWA_ERROR_MEMORY;
-        if (cloud->attribute_count) memcpy(larger, cloud->attributes, cloud->attribute_count * sizeof *larger);
+        if (cloud->attribute_count)
+            memcpy(larger, cloud->attributes, cloud->attribute_count * sizeof *larger);
         ewa_release(cloud->context, cloud->attributes, cloud->attribute_capacity, sizeof *larger);
         cloud->attributes = larger;
         cloud->attribute_capacity = capacity;
@@ -103,18 +104,22 @@ static ewa_status put(ewa_cloud *cloud, const ewa_attribute *attribute) {
     return EWA_OK;
 }
 
-ewa_status ewa_cloud_add(ewa_cloud *cloud, const char *name, ewa_type type, uint32_t component_count, void **data) {
+ewa_status ewa_cloud_add(ewa_cloud *cloud, const char *name, ewa_type type, uint32_t component_count,
+                         void **data) {
     if (!cloud) return EWA_ERROR_ARGUMENT;
     ewa_status status = check_shape(cloud, name, type, component_count);
     if (status != EWA_OK) return status;
-    ewa_attribute attribute = {
-        .type = type, .component_count = component_count, .stride_bytes = component_count * ewa_type_bytes(type)};
+    ewa_attribute attribute = {.type = type,
+                               .component_count = component_count,
+                               .stride_bytes = component_count * ewa_type_bytes(type)};
     memcpy(attribute.name, name, strlen(name) + 1);
     attribute.data = ewa_allocate(cloud->context, cloud->point_count, attribute.stride_bytes);
     if (!attribute.data) return EWA_ERROR_MEMORY;
     status = put(cloud, &attribute);
-    if (status != EWA_OK) release_attribute(cloud, &attribute);
-    else if (data) *data = attribute.data;
+    if (status != EWA_OK)
+        release_attribute(cloud, &attribute);
+    else if (data)
+        *data = attribute.data;
     return status;
 }
 
@@ -127,8 +132,9 @@ ewa_status ewa_cloud_borrow(ewa_cloud *cloud, const char *name, ewa_type type, u
     if (stride_bytes == 0) stride_bytes = packed_bytes;
     if ((!data && cloud->point_count) || stride_bytes < packed_bytes || stride_bytes % ewa_type_bytes(type) ||
         (uintptr_t)data % ewa_type_bytes(type))
-        return ewa_fail(cloud->context, EWA_ERROR_ARGUMENT, "attribute '%s': stride of %zu bytes for %zu, or misaligned",
-                        name, stride_bytes, packed_bytes);
+        return ewa_fail(cloud->context, EWA_ERROR_ARGUMENT,
+                        "attribute '%s': stride of %zu bytes for %zu, or misaligned", name, stride_bytes,
+                        packed_bytes);
     ewa_attribute attribute = {.type = type,
                                .component_count = component_count,
                                .stride_bytes = stride_bytes,
@@ -157,26 +163,34 @@ void ewa_cloud_origin(const ewa_cloud *cloud, double origin_world[3]) {
     memcpy(origin_world, cloud->origin_world, sizeof cloud->origin_world);
 }
 
-#define READ_AS(source_type, target)                                                                                 \
-    for (uint64_t i = 0; i < count; i++, bytes += stride) {                                                          \
-        const source_type *from = (const source_type *)(const void *)bytes;                                          \
-        for (uint32_t c = 0; c < components; c++) *values++ = (target)from[c];                                       \
-    }                                                                                                                \
+#define READ_AS(source_type, target)                                                                         \
+    for (uint64_t i = 0; i < count; i++, bytes += stride) {                                                  \
+        const source_type *from = (const source_type *)(const void *)bytes;                                  \
+        for (uint32_t c = 0; c < components; c++) *values++ = (target)from[c];                               \
+    }                                                                                                        \
     break
 
-#define READ_ALL(target)                                                                                             \
-    const size_t stride = attribute->stride_bytes;                                                                   \
-    const uint32_t components = attribute->component_count;                                                          \
-    const char *bytes = (const char *)attribute->data + first * stride;                                              \
-    switch (attribute->type) {                                                                                       \
-    case EWA_F32: READ_AS(float, target);                                                                            \
-    case EWA_F64: READ_AS(double, target);                                                                           \
-    case EWA_I8: READ_AS(int8_t, target);                                                                            \
-    case EWA_U8: READ_AS(uint8_t, target);                                                                           \
-    case EWA_I16: READ_AS(int16_t, target);                                                                          \
-    case EWA_U16: READ_AS(uint16_t, target);                                                                         \
-    case EWA_I32: READ_AS(int32_t, target);                                                                          \
-    case EWA_U32: READ_AS(uint32_t, target);                                                                         \
+#define READ_ALL(target)                                                                                     \
+    const size_t stride = attribute->stride_bytes;                                                           \
+    const uint32_t components = attribute->component_count;                                                  \
+    const char *bytes = (const char *)attribute->data + first * stride;                                      \
+    switch (attribute->type) {                                                                               \
+    case EWA_F32:                                                                                            \
+        READ_AS(float, target);                                                                              \
+    case EWA_F64:                                                                                            \
+        READ_AS(double, target);                                                                             \
+    case EWA_I8:                                                                                             \
+        READ_AS(int8_t, target);                                                                             \
+    case EWA_U8:                                                                                             \
+        READ_AS(uint8_t, target);                                                                            \
+    case EWA_I16:                                                                                            \
+        READ_AS(int16_t, target);                                                                            \
+    case EWA_U16:                                                                                            \
+        READ_AS(uint16_t, target);                                                                           \
+    case EWA_I32:                                                                                            \
+        READ_AS(int32_t, target);                                                                            \
+    case EWA_U32:                                                                                            \
+        READ_AS(uint32_t, target);                                                                           \
     }
 
 void ewa_attribute_read_f32(const ewa_attribute *attribute, uint64_t first, uint64_t count, float *values) {
@@ -220,7 +234,8 @@ static void measure_part(void *data, uint32_t part, uint32_t worker) {
     job->partial[part] = box;
 }
 
-void ewa_position_measure(ewa_context *context, const ewa_attribute *position, uint64_t count, ewa_bounds *bounds) {
+void ewa_position_measure(ewa_context *context, const ewa_attribute *position, uint64_t count,
+                          ewa_bounds *bounds) {
     enum { MAX_PARTS = 64 };
     ewa_bounds partial[MAX_PARTS];
     const uint64_t blocks = count / BLOCK_POINTS + 1;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Fuzz target: command lines. The first byte chooses the command, the others are its words, each ended by a zero byte
-// or a line feed. Nothing is executed.
+// Fuzz target: command lines. The first byte chooses the command, the others are its words, each ended by a
+// zero byte or a line feed. Nothing is executed.
 #include "cli/commands.h"
 #include "fuzz.h"
 
