@@ -24,7 +24,7 @@ enum {
     MESSAGE_BYTES = 1024,
     MAX_WORKERS = 256,
     HUGE_PAGE_BYTES = 1 << 21,
-    HUGE_BLOCK_BYTES = 1 << 22, // blocks from this size on; rounding up wastes at most half
+    HUGE_BLOCK_BYTES = 1 << 19, // blocks from this size on; rounding up wastes at most half
 };
 
 const char *ewa_status_name(ewa_status status) {

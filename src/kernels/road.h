@@ -21,10 +21,12 @@ enum {
     EWA_BLOCK_LANES = 16,
     EWA_RUN_PACKETS = 32, ///< packets that are set up before their depths are used
     EWA_RUN_RECORDS = EWA_RUN_PACKETS * EWA_PACKET_LANES,
-    EWA_ROW_CLASSES = 5,                                   ///< boxes of 1, 2, 3, 4 and more rows of blocks
-    EWA_COLUMN_CLASSES = 4,                                ///< boxes of 1, 2, 3, 4 columns
-    EWA_WIDE_CLASS = EWA_ROW_CLASSES * EWA_COLUMN_CLASSES, ///< wider boxes, parts of large splats
+    EWA_ROW_CLASSES = 5,                                    ///< boxes of 1, 2, 3, 4 and more rows of blocks
+    EWA_COLUMN_CLASSES = 4,                                 ///< boxes of 1, 2, 3, 4 columns
+    EWA_STEEP_CLASS = EWA_ROW_CLASSES * EWA_COLUMN_CLASSES, ///< first class of steep splats
+    EWA_WIDE_CLASS = 2 * EWA_STEEP_CLASS,                   ///< wider boxes, parts of large splats
     EWA_CLASS_COUNT = EWA_WIDE_CLASS + 1,
+    EWA_STEEP_BIT = 1 << 7, ///< in ewa_record.box: steep or wide
     EWA_MAX_CHANNELS = 8,
     EWA_MAX_TILE_BLOCKS = 32, ///< along a side, so that a row of blocks is a word of bits
 };
@@ -43,7 +45,7 @@ typedef struct ewa_view {
     float prefilter2_px2; ///< h^2
     float reach_px;       ///< F h
     float tolerance;      ///< kappa F
-    float grazing_limit;  ///< EWA_GRAZING_TOLERANCE F, or 0 with one pass
+    float grazing; ///< 1, or 0 with one pass: whether the tolerance grows where surfels are seen edge-on
     float color_scale[3], color_offset[3];
     float exponent_scale; ///< s = exponent_scale r^2, so that exp(-r^2/2) = exp(-s)^(2^doublings)
     float exponent_end;   ///< exponent_scale F^2
@@ -61,16 +63,26 @@ typedef struct ewa_tile_rect {
 } ewa_tile_rect;
 
 /// One splat in one tile. dx, dy below are measured from the splat's centre to a pixel's centre.
+///
+/// Plain splats compare planes: their key, and that of z + eps (perspective: its tangent at the centre). The
+/// key of steep ones (semantics.h) is clamped first, and the key of z + eps made of it: bound_scale key +
+/// bound_offset; wide ones in perspective have bound_scale 0, bound_offset eps, and key / (1 + eps key).
 typedef struct ewa_record {
     float offset_x, offset_y; ///< upper left corner of the box minus the splat's centre, pixels
     float xx, xy, yy;         ///< s = xx dx^2 + xy dx dy + yy dy^2
     float key, key_x, key_y;  ///< 1/z (orthographic: -z) at the centre and its gradient per pixel
-    float key_low, key_high;  ///< range of the key
-    float bound_scale,
-        bound_offset; ///< the key of z + eps is bound_scale key + bound_offset; class EWA_WIDE_CLASS,
-                      ///< perspective: bound_scale is 0, bound_offset eps, the key key / (1 + eps key)
-    float red, green, blue;
-    uint32_t box; ///< first column | first row << 8 | columns << 16 | rows << 24, in blocks
+    union {
+        struct {
+            float bound, bound_x, bound_y; ///< plain
+        };
+        struct {
+            float bound_scale, bound_offset, key_high; ///< steep or wide
+        };
+    };
+    float key_low;          ///< the key is nowhere below, plain or not
+    float red, green, blue; ///< times the resampling kernel's peak
+    uint32_t box; ///< first column | EWA_STEEP_BIT | first row << 8 | columns << 16 | rows << 24, in
+                  ///< blocks
 } ewa_record;
 
 /// A surfel that touches the eye plane, by pixel rays: U, V, W are linear in the tile's pixel coordinates;
@@ -85,7 +97,7 @@ typedef struct ewa_near_record {
 
 /// The part of a splat that only the second pass reads.
 typedef struct ewa_load {
-    float normal[3]; ///< camera space, unit, towards the viewer
+    float normal[3]; ///< camera space, unit, towards the viewer; times peak
     float peak;      ///< of the resampling kernel
 } ewa_load;
 

@@ -77,26 +77,33 @@ static ALWAYS_INLINE void edge_block(const ewa_view *view, const ewa_tile *tile,
                                      const ewa_record *r, const ewa_load *load, uint32_t row, uint32_t column,
                                      bool second_pass) {
     const size_t block = block_at(tile, box_row(r->box) + row, column);
-    const column_terms c = column_start(r, (float)EWA_BLOCK_PX * ((float)column - (float)box_column(r->box)));
+    const float first_px = (float)EWA_BLOCK_PX * ((float)column - (float)box_column(r->box));
+    const column_terms c = column_start(r, r->key, r->key_x, first_px);
     wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
     for (uint32_t i = 0; i < row; i++)
         dy = wf_add(dy, wf_set(EWA_BLOCK_PX)); // as the passes over whole boxes step
     const wf s = block_exponent(&c, dy, wf_mul(wf_mul(wf_set(r->yy), dy), dy));
-    const wf key = block_key(r, &c, wf_mul(wf_set(r->key_y), dy));
+    wf key = wf_add(c.key, wf_mul(wf_set(r->key_y), dy));
+    if (box_steep(r->box)) key = clamped_key(r, key);
     float *nearest = edges->nearest + block * EWA_BLOCK_LANES;
     const wm beyond = wm_and(wf_lt(s, wf_set(view->exponent_end)),
                              wf_lt(key, wf_load(edges->passed + block * EWA_BLOCK_LANES)));
     if (!second_pass) {
-        const bool exact = r->bound_scale == 0;
         const wf old = wf_load(nearest);
-        wf_store(nearest, wf_select(beyond, wf_max(bound_key(r, key, exact), old), old));
+        wf bound;
+        if (box_steep(r->box)) {
+            bound = bound_key(r, key, r->bound_scale == 0);
+        } else {
+            const column_terms b = column_start(r, r->bound, r->bound_x, first_px);
+            bound = wf_add(b.key, wf_mul(wf_set(r->bound_y), dy));
+        }
+        wf_store(nearest, wf_select(beyond, wf_max(bound, old), old));
         return;
     }
     const wm counts = wm_and(beyond, wf_le(wf_load(nearest), key));
     if (!wm_bits(counts)) return;
-    payload add = {.color = {wf_set(r->red), wf_set(r->green), wf_set(r->blue)}};
-    for (int i = 0; i < 3; i++) add.normal[i] = wf_set(load->normal[i]);
-    const wf weight = wf_keep(counts, wf_mul(exponential(s, view->doublings), wf_set(load->peak)));
+    const payload add = payload_load(r, load, tile->with_normals);
+    const wf weight = wf_keep(counts, exponential(s, view->doublings));
     add_channels(edges->sums + block * tile->channel_count * EWA_BLOCK_LANES, weight, &add, key,
                  tile->with_normals, false, false);
 }

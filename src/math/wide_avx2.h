@@ -65,6 +65,12 @@ static inline void wi_store(int32_t *p, wi a) {
     _mm256_storeu_si256((__m256i *)(void *)p, a.l);
     _mm256_storeu_si256((__m256i *)(void *)(p + 8), a.h);
 }
+/// Of values in [0, 255].
+static inline void wi_store_u8(uint8_t *p, wi a) {
+    const __m256i words = _mm256_permute4x64_epi64(_mm256_packus_epi32(a.l, a.h), 0xd8);
+    _mm_storeu_si128((__m128i *)(void *)p,
+                     _mm_packus_epi16(_mm256_castsi256_si128(words), _mm256_extracti128_si256(words, 1)));
+}
 static inline wi wi_load_u16(const uint16_t *p) {
     return PAIR(wi, _mm256_cvtepu16_epi32(_mm_loadu_si128((const __m128i *)(const void *)p)),
                 _mm256_cvtepu16_epi32(_mm_loadu_si128((const __m128i *)(const void *)(p + 8))));

@@ -36,6 +36,9 @@ static inline wf wf_keep(wm m, wf a) { return _mm512_maskz_mov_ps(m, a); }
 
 static inline wi wi_set(int32_t a) { return _mm512_set1_epi32(a); }
 static inline void wi_store(int32_t *p, wi a) { _mm512_storeu_si512(p, a); }
+static inline void wi_store_u8(uint8_t *p, wi a) {
+    _mm_storeu_si128((__m128i *)(void *)p, _mm512_cvtepi32_epi8(a));
+}
 static inline wi wi_load_u16(const uint16_t *p) {
     return _mm512_cvtepu16_epi32(_mm256_loadu_si256((const __m256i *)(const void *)p));
 }

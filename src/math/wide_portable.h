@@ -57,6 +57,9 @@ FUSED wf wf_floor(wf a) { EACH(wf, floorf(a[i])); }
 static inline wi wi_set(int32_t a) { return (wi){a, a, a, a, a, a, a, a, a, a, a, a, a, a, a, a}; }
 static inline wf wf_abs(wf a) { return (wf)((wi)a & wi_set(0x7fffffff)); }
 static inline void wi_store(int32_t *p, wi a) { memcpy(p, &a, sizeof a); }
+static inline void wi_store_u8(uint8_t *p, wi a) {
+    for (int i = 0; i < 16; i++) p[i] = (uint8_t)a[i];
+}
 FUSED wi wi_load_u16(const uint16_t *p) { EACH(wi, p[i]); }
 FUSED wi wi_load_i16(const int16_t *p) { EACH(wi, p[i]); }
 static inline wi wi_add(wi a, wi b) { return (wi)((wu)a + (wu)b); }

@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-enum { TILE_PX = 64 };
+enum { TILE_PX = 128 };
 
 struct ewa_renderer {
     ewa_context *context;

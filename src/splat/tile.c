@@ -110,13 +110,20 @@ static void draw_near(const ewa_tile_job *job, const ewa_tile *tile, const ewa_e
     }
 }
 
-static void count_splats(const ewa_tile_job *job, ewa_tile_scratch *s) {
+static void count_splats(const ewa_tile_job *job, ewa_tile_scratch *s, const ewa_sorted_run *run) {
     s->drawn_count += s->run.count + s->run.near_count;
     if (!job->count_fragments) return;
     uint32_t blocks = 0;
-    for (uint32_t i = 0; i < s->run.count; i++) {
-        const uint32_t box = s->run.records[i].box;
-        blocks += (box >> 16 & 0xff) * (box >> 24);
+    for (uint32_t c = 0; c < EWA_CLASS_COUNT; c++) {
+        const uint32_t columns = c % EWA_STEEP_CLASS / EWA_ROW_CLASSES + 1, rows = c % EWA_ROW_CLASSES + 1;
+        if (c < EWA_WIDE_CLASS && rows < EWA_ROW_CLASSES) {
+            blocks += columns * rows * (run->class_first[c + 1] - run->class_first[c]);
+            continue;
+        }
+        for (uint32_t i = run->class_first[c]; i < run->class_first[c + 1]; i++) {
+            const uint32_t box = run->records[run->order[i]].box;
+            blocks += (box >> 16 & 0xff) * (box >> 24);
+        }
     }
     s->fragment_count += blocks;
 }
@@ -175,7 +182,7 @@ static void walk_again(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_s
                 job->kernels->edge_hits(tile, &s->edges, sorted.records, sorted.order, s->run.count, s->hits);
         visit_run(job, tile, s, &sorted, s->hits, hit_count, what);
         draw_near(job, tile, &s->edges, s->run.near_surfels, s->run.near_count, what);
-        if (what == PASS_VISIBILITY) count_splats(job, s);
+        if (what == PASS_VISIBILITY) count_splats(job, s, &sorted);
         *(what == PASS_VISIBILITY ? &s->visibility_s : &s->accumulate_s) += ewa_now_s() - middle;
     }
 }
@@ -197,7 +204,7 @@ static void keep_runs(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_sc
         s->setup_s += middle - before;
         visit_run(job, tile, s, &kept->sorted, NULL, 0, PASS_VISIBILITY);
         draw_near(job, tile, NULL, s->run.near_surfels, kept->near_count, PASS_VISIBILITY);
-        count_splats(job, s);
+        count_splats(job, s, &kept->sorted);
         record_count += s->run.count;
         near_count += kept->near_count;
         before = ewa_now_s();
