@@ -78,6 +78,7 @@ static inline wi wi_sub(wi a, wi b) { return BINARY(wi, _mm256_sub_epi32, a, b);
 static inline wi wi_min(wi a, wi b) { return BINARY(wi, _mm256_min_epi32, a, b); }
 static inline wi wi_max(wi a, wi b) { return BINARY(wi, _mm256_max_epi32, a, b); }
 static inline wi wi_or(wi a, wi b) { return BINARY(wi, _mm256_or_si256, a, b); }
+static inline wi wi_and(wi a, wi b) { return BINARY(wi, _mm256_and_si256, a, b); }
 static inline wi wi_shl(wi a, int n) {
     return PAIR(wi, _mm256_slli_epi32(a.l, n), _mm256_slli_epi32(a.h, n));
 }
@@ -100,6 +101,25 @@ static inline wm wm_of_bits(uint32_t bits) {
     const __m256i h = _mm256_and_si256(_mm256_set1_epi32((int)(bits >> 8)), lane);
     return PAIR(wm, _mm256_castsi256_ps(_mm256_cmpeq_epi32(l, lane)),
                 _mm256_castsi256_ps(_mm256_cmpeq_epi32(h, lane)));
+}
+
+static inline __m256 lookup_half(const float table[16], __m256i index) {
+    const __m256 low = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table), index);
+    const __m256 high = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table + 8), index);
+    return _mm256_blendv_ps(low, high, _mm256_castsi256_ps(_mm256_slli_epi32(index, 28)));
+}
+
+/// table[index mod 16] per lane.
+static inline wf wf_lookup(const float table[16], wi index) {
+    return PAIR(wf, lookup_half(table, index.l), lookup_half(table, index.h));
+}
+
+/// Writes lanes 4 i .. 4 i + 3 to out + i stride_bytes.
+static inline void wi_store_rows(uint8_t *out, size_t stride_bytes, wi a) {
+    _mm_storeu_si128((__m128i *)(void *)out, _mm256_castsi256_si128(a.l));
+    _mm_storeu_si128((__m128i *)(void *)(out + stride_bytes), _mm256_extracti128_si256(a.l, 1));
+    _mm_storeu_si128((__m128i *)(void *)(out + 2 * stride_bytes), _mm256_castsi256_si128(a.h));
+    _mm_storeu_si128((__m128i *)(void *)(out + 3 * stride_bytes), _mm256_extracti128_si256(a.h, 1));
 }
 
 /// Writes the lanes where m is set one after another; may write 16 numbers.
