@@ -142,9 +142,10 @@ static wm compose_block(const ewa_tile *tile, const ewa_resolve *to, const ewa_e
                         uint32_t column) {
     enum { LANES = EWA_BLOCK_LANES };
     const size_t block = block_at(tile, row, column);
-    const surface found = gathered_surface(tile, to, edges->sums + block * tile->channel_count * LANES,
-                                           (uint32_t)tile->x_px + column * EWA_BLOCK_PX,
-                                           (uint32_t)tile->y_px + row * EWA_BLOCK_PX);
+    const float *sums = edges->sums + block * tile->channel_count * LANES;
+    const wf scale = color_scale(tile, to, sums, (uint32_t)tile->x_px + column * EWA_BLOCK_PX,
+                                 (uint32_t)tile->y_px + row * EWA_BLOCK_PX);
+    const surface found = gathered_surface(to, sums, scale);
     float *behind = edges->behind + block * 4 * LANES;
     const wf covered = wf_load(behind + 3 * LANES);
     const wf share = wf_mul(wf_sub(wf_set(1), covered), found.alpha);
@@ -152,7 +153,7 @@ static wm compose_block(const ewa_tile *tile, const ewa_resolve *to, const ewa_e
         wf_store(behind + c * LANES, wf_fma(found.color[c], share, wf_load(behind + c * LANES)));
     const wf total = wf_add(covered, share);
     wf_store(behind + 3 * LANES, total);
-    return wm_and(found.covered, wf_lt(total, wf_set(1)));
+    return wm_and(wf_lt(wf_set(0), wf_load(sums)), wf_lt(total, wf_set(1)));
 }
 
 static uint32_t edge_compose(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges *edges) {

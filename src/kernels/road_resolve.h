@@ -14,18 +14,17 @@
 static ALWAYS_INLINE wi srgb_codes(wf linear) {
     static const float octaves[16] = {
         // 255 * 1.055 * 2^((i - 15) / 2.4); i is the exponent, whose bits are 127 for [1, 2), modulo 16
-        3.53472114f, 4.71828699f, 6.29815722f, 8.40703106f,
-        11.2220402f, 14.9796267f, 19.9954033f, 26.6906605f,
-        35.627758f, 47.5573502f, 63.4814453f, 84.7375641f,
+        3.53472114f, 4.71828699f, 6.29815722f, 8.40703106f, 11.2220402f, 14.9796267f,
+        19.9954033f, 26.6906605f, 35.627758f,  47.5573502f, 63.4814453f, 84.7375641f,
         113.111076f, 150.985184f, 201.541031f, 269.024994f,
     };
     const wi bits = wi_of_bits(linear);
     const wf m = wf_of_bits(wi_or(wi_and(bits, wi_set(0x7fffff)), wi_set(0x3f800000)));
-    wf root = wf_fma(m, wf_set(0.0054353733f), wf_set(-0.0514170193f));
-    root = wf_fma(m, root, wf_set(0.2085678072f));
-    root = wf_fma(m, root, wf_set(-0.4917302076f));
-    root = wf_fma(m, root, wf_set(0.9528149418f));
-    root = wf_fma(m, root, wf_set(0.3763302953f));
+    const wf m2 = wf_mul(m, m);
+    const wf root = wf_fma(m2,
+                           wf_fma(m2, wf_fma(m, wf_set(0.0054353733f), wf_set(-0.0514170193f)),
+                                  wf_fma(m, wf_set(0.2085678072f), wf_set(-0.4917302076f))),
+                           wf_fma(m, wf_set(0.9528149418f), wf_set(0.3763302953f)));
     const wf curve = wf_fma(wf_lookup(octaves, wi_sar(bits, 23)), root, wf_set(0.5f - 255 * 0.055f));
     const wf line = wf_fma(linear, wf_set(255 * 12.92f), wf_set(0.5f));
     return wi_from_f(wf_select(wf_le(linear, wf_set(0.0031308f)), line, curve));
@@ -62,15 +61,15 @@ static inline wf dot3(const wf a[3], const wf b[3]) {
     return wf_fma(a[0], b[0], wf_fma(a[1], b[1], wf_mul(a[2], b[2])));
 }
 
-/// The share of light that a pixel with weighted normals' sum `normal` returns: ambient + (1 - ambient) max(0,
-/// N.L).
+/// The share of light that a pixel with weighted normals' sum `normal` returns: ambient + (1 - ambient)
+/// max(0, N.L).
 static ALWAYS_INLINE wf lambert(const ewa_resolve *to, const wf normal[3], uint32_t x, uint32_t y) {
     wf light[3], length2 = dot3(normal, normal);
     const wm defined = wf_lt(wf_set(0), length2);
     if (to->headlight && !to->orthographic) {
         const wf px = wf_add(lanes_x(), wf_set((float)x)), py = wf_add(lanes_y(), wf_set((float)y));
-        light[0] = wf_negate(wf_fma(px, wf_set(to->ray_x[0]), wf_set(to->ray_x[1])));
-        light[1] = wf_negate(wf_fma(py, wf_set(to->ray_y[0]), wf_set(to->ray_y[1])));
+        light[0] = wf_fma(px, wf_set(-to->ray_x[0]), wf_set(-to->ray_x[1]));
+        light[1] = wf_fma(py, wf_set(-to->ray_y[0]), wf_set(-to->ray_y[1]));
         light[2] = wf_set(-1);
         length2 = wf_mul(length2, dot3(light, light));
     } else {
@@ -81,28 +80,32 @@ static ALWAYS_INLINE wf lambert(const ewa_resolve *to, const wf normal[3], uint3
     return wf_fma(wf_set(1 - to->ambient), facing, wf_set(to->ambient));
 }
 
-/// A block's gathered surface.
+/// 1 / weight, 0 where there is none.
+static ALWAYS_INLINE wf inverse_weight(wf weight) {
+    const wm covered = wf_lt(wf_set(0), weight);
+    return wf_keep(covered, wf_div(wf_set(1), wf_select(covered, weight, wf_set(1))));
+}
+
+/// What turns a block's weighted sum of colours into the colour that is seen.
+static ALWAYS_INLINE wf color_scale(const ewa_tile *tile, const ewa_resolve *to, const float *sums,
+                                    uint32_t x, uint32_t y) {
+    const wf inverse = inverse_weight(wf_load(sums));
+    if (!tile->with_normals || !to->lambert) return inverse;
+    wf normal[3];
+    for (int i = 0; i < 3; i++) normal[i] = wf_load(sums + (4 + i) * EWA_BLOCK_LANES);
+    return wf_mul(inverse, lambert(to, normal, x, y));
+}
+
+/// A block's gathered surface: straight colour, shaded.
 typedef struct surface {
-    wm covered;
-    wf weight, inverse_weight, alpha;
-    wf color[3], normal[3]; ///< shaded; weighted sum
+    wf alpha, color[3];
 } surface;
 
-static ALWAYS_INLINE surface gathered_surface(const ewa_tile *tile, const ewa_resolve *to, const float *sums,
-                                              uint32_t x, uint32_t y) {
-    enum { LANES = EWA_BLOCK_LANES };
-    const wf zero = wf_set(0), one = wf_set(1);
-    surface s = {.weight = wf_load(sums), .normal = {zero, zero, zero}};
-    s.covered = wf_lt(zero, s.weight);
-    s.inverse_weight = wf_keep(s.covered, wf_div(one, wf_select(s.covered, s.weight, one)));
-    s.alpha = wf_keep(s.covered, one);
-    if (to->edge_antialiasing) s.alpha = wf_min(one, wf_mul(s.weight, wf_set(to->alpha_scale)));
-    wf scale = s.inverse_weight;
-    if (tile->with_normals) {
-        for (int i = 0; i < 3; i++) s.normal[i] = wf_load(sums + (4 + i) * LANES);
-        if (to->lambert) scale = wf_mul(scale, lambert(to, s.normal, x, y));
-    }
-    for (int i = 0; i < 3; i++) s.color[i] = wf_mul(wf_load(sums + (1 + i) * LANES), scale);
+static ALWAYS_INLINE surface gathered_surface(const ewa_resolve *to, const float *sums, wf scale) {
+    const wf weight = wf_load(sums), one = wf_set(1);
+    surface s = {.alpha = to->edge_antialiasing ? wf_min(one, wf_mul(weight, wf_set(to->alpha_scale)))
+                                                : wf_keep(wf_lt(wf_set(0), weight), one)};
+    for (int i = 0; i < 3; i++) s.color[i] = wf_mul(wf_load(sums + (1 + i) * EWA_BLOCK_LANES), scale);
     return s;
 }
 
@@ -116,8 +119,7 @@ static ALWAYS_INLINE void composite(const ewa_resolve *to, const surface *s, con
     if (!wm_bits(wf_lt(s->alpha, one))) return;
     for (int i = 0; i < 3; i++) out[i] = wf_mul(out[i], s->alpha);
     if (behind) {
-        for (int i = 0; i < 4; i++)
-            out[i] = wf_fma(wf_load(behind + i * EWA_BLOCK_LANES), through, out[i]);
+        for (int i = 0; i < 4; i++) out[i] = wf_fma(wf_load(behind + i * EWA_BLOCK_LANES), through, out[i]);
         through = wf_sub(one, out[3]);
     }
     for (int i = 0; i < 4; i++) out[i] = wf_fma(wf_set(to->background[i]), through, out[i]);
@@ -152,27 +154,31 @@ static ALWAYS_INLINE void store_codes(const ewa_resolve *to, const block_place *
 }
 
 /// Writes the planes other than 8-bit colour.
-static void store_planes(const ewa_tile *tile, const ewa_resolve *to, const float *sums, const surface *s,
-                         const wf color[4], const block_place *at) {
+static void store_planes(const ewa_tile *tile, const ewa_resolve *to, const float *sums, const wf color[4],
+                         const block_place *at) {
     float lanes[64];
     if (to->rgba) {
         w_store4(lanes, color[0], color[1], color[2], color[3]);
         store_block(to->rgba, 4, to, at, lanes);
     }
+    const wf weight = wf_load(sums), zero = wf_set(0);
+    const wm covered = wf_lt(zero, weight);
     if (to->depth) {
-        const wf z = wf_mul(wf_load(sums + (tile->channel_count - 1) * EWA_BLOCK_LANES), s->inverse_weight);
-        wf_store(lanes, wf_select(s->covered, z, wf_set(__builtin_inff())));
+        const float *depth = sums + (tile->channel_count - 1) * EWA_BLOCK_LANES;
+        const wf z = wf_mul(wf_load(depth), inverse_weight(weight));
+        wf_store(lanes, wf_select(covered, z, wf_set(__builtin_inff())));
         store_block(to->depth, 1, to, at, lanes);
     }
     if (to->coverage) {
-        wf_store(lanes, to->one_pass ? wf_keep(s->covered, wf_set(1))
-                                     : wf_mul(s->weight, wf_set(to->unit_coverage_inverse)));
+        wf_store(lanes, to->one_pass ? wf_keep(covered, wf_set(1))
+                                     : wf_mul(weight, wf_set(to->unit_coverage_inverse)));
         store_block(to->coverage, 1, to, at, lanes);
     }
     if (to->normal) {
-        wf unit[3] = {s->normal[0], s->normal[1], s->normal[2]}, world[3];
+        wf unit[3], world[3];
+        for (int i = 0; i < 3; i++) unit[i] = wf_load(sums + (4 + i) * EWA_BLOCK_LANES);
         const wf length2 = dot3(unit, unit);
-        scale3(unit, wf_keep(wf_lt(wf_set(0), length2), wf_inverse_root(length2)));
+        scale3(unit, wf_keep(wf_lt(zero, length2), wf_inverse_root(length2)));
         rotate(to->to_world, unit[0], unit[1], unit[2], world);
         store_vectors(to->normal, to, at, world);
     }
@@ -189,24 +195,35 @@ static ALWAYS_INLINE block_place place_of(const ewa_tile *tile, uint32_t row, ui
 static void resolve(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges *edges,
                     const uint32_t *edge_rows) {
     const bool planes = to->rgba || to->depth || to->coverage || to->normal;
+    const ewa_resolve at_hand = *to; // bytes that are written to pixels cannot change this
+    const ewa_tile in_tile = *tile;
     wf empty[4];
     for (int i = 0; i < 4; i++) empty[i] = wf_set(to->background[i]);
     const wi empty_codes = color_codes(empty);
-    size_t block = 0;
-    for (uint32_t row = 0; row < tile->block_rows; row++) {
-        for (uint32_t column = 0; column < tile->blocks_per_row; column++, block++) {
-            const block_place at = place_of(tile, row, column);
-            const float *sums = tile->sums + block * tile->channel_count * EWA_BLOCK_LANES;
+    const float *sums = tile->sums, *behind = edges ? edges->behind : NULL;
+    const size_t block_floats = (size_t)tile->channel_count * EWA_BLOCK_LANES;
+    float scales[EWA_MAX_TILE_BLOCKS * EWA_BLOCK_LANES];
+    for (uint32_t row = 0; row < in_tile.block_rows; row++) {
+        // Long chains of operations: a row's worth of each at a time keeps the processor busy.
+        for (uint32_t column = 0; column < in_tile.blocks_per_row; column++) {
+            const block_place at = place_of(&in_tile, row, column);
+            wf_store(scales + (size_t)column * EWA_BLOCK_LANES,
+                     color_scale(&in_tile, &at_hand, sums + column * block_floats, at.x, at.y));
+        }
+        const uint32_t marked = edges ? edge_rows[row] : 0;
+        for (uint32_t column = 0; column < in_tile.blocks_per_row; column++, sums += block_floats) {
+            const block_place at = place_of(&in_tile, row, column);
             if (!planes && !wm_bits(wf_lt(wf_set(0), wf_load(sums)))) {
-                store_codes(to, &at, empty_codes);
-                continue;
+                store_codes(&at_hand, &at, empty_codes);
+            } else {
+                const surface s =
+                    gathered_surface(&at_hand, sums, wf_load(scales + (size_t)column * EWA_BLOCK_LANES));
+                wf color[4];
+                composite(&at_hand, &s, marked >> column & 1 ? behind : NULL, color);
+                if (at_hand.rgba8) store_codes(&at_hand, &at, color_codes(color));
+                if (planes) store_planes(tile, to, sums, color, &at);
             }
-            const bool marked = edges && edge_rows[row] >> column & 1;
-            const surface s = gathered_surface(tile, to, sums, at.x, at.y);
-            wf color[4];
-            composite(to, &s, marked ? edges->behind + block * 4 * EWA_BLOCK_LANES : NULL, color);
-            if (to->rgba8) store_codes(to, &at, color_codes(color));
-            if (planes) store_planes(tile, to, sums, &s, color, &at);
+            if (edges) behind += 4 * EWA_BLOCK_LANES;
         }
     }
 }
