@@ -122,11 +122,20 @@ typedef struct ewa_tile {
 typedef struct ewa_edges {
     uint32_t *rows; ///< [block row]: bit per block column
     float *passed;  ///< [block][16]: the smallest key of the surfaces that are done
-    float *reach;   ///< [block]: the largest of `passed`: what is nowhere beyond it is not wanted
+    float *reach; ///< [block]: the largest of `passed`: what is nowhere beyond it is not wanted; -infinity in
+                  ///< blocks that are not marked
     float *nearest; ///< [block][16]: the smallest key of the surface that is being gathered
     float *sums;    ///< as ewa_tile's
     float *behind;  ///< [block][4][16]: premultiplied r, g, b and alpha of all surfaces but the first
 } ewa_edges;
+
+/// Splats that may lie behind a marked block, in the order in which they are summed.
+typedef struct ewa_edge_splats {
+    const ewa_record *records;
+    const ewa_load *loads;
+    const uint32_t *indices; ///< of records and loads
+    uint32_t count;
+} ewa_edge_splats;
 
 /// How pixels become colours, and where they go. Planes as in ewa_frame, of the whole picture.
 typedef struct ewa_resolve {
@@ -172,14 +181,9 @@ typedef struct ewa_road_kernels {
     /// Marks in edges->rows the blocks with a partly covered pixel and starts their planes; returns how many.
     uint32_t (*find_edges)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges);
 
-    /// Writes those of a run's splats `candidates` that may lie behind a marked block to `hits`, in order;
-    /// returns how many. `hits` may be `candidates`; it has room for one more than there are.
-    uint32_t (*edge_hits)(const ewa_tile *tile, const ewa_edges *edges, const ewa_record *records,
-                          const uint16_t *candidates, uint32_t candidate_count, uint16_t *hits);
-
-    /// One of the two passes for splats beyond edges->passed, in marked blocks only.
-    void (*edge_pass)(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
-                      const ewa_sorted_run *run, const uint16_t *hits, uint32_t hit_count, bool second_pass);
+    /// One of the two passes over splats beyond edges->passed, in one marked block.
+    void (*edge_pass)(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges, uint32_t row,
+                      uint32_t column, const ewa_edge_splats *splats, bool second_pass);
     void (*edge_near_pass)(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
                            const ewa_near_record *records, uint32_t count, bool second_pass);
 

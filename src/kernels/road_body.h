@@ -17,7 +17,6 @@ const ewa_road_kernels ROAD_KERNELS = {
     .accumulate = accumulate,
     .near_accumulate = near_accumulate,
     .find_edges = find_edges,
-    .edge_hits = edge_hits,
     .edge_pass = edge_pass,
     .edge_near_pass = edge_near_pass,
     .edge_compose = edge_compose,

@@ -12,14 +12,19 @@ static size_t block_at(const ewa_tile *tile, uint32_t row, uint32_t column) {
     return (size_t)row * tile->blocks_per_row + column;
 }
 
+static float largest_lane(wf v) {
+    float lanes[EWA_BLOCK_LANES];
+    wf_store(lanes, v);
+    float largest = lanes[0];
+    for (int i = 1; i < EWA_BLOCK_LANES; i++) largest = lanes[i] > largest ? lanes[i] : largest;
+    return largest;
+}
+
 /// Starts a surface in a block: where `open`, splats beyond the key `done` are wanted, elsewhere none.
 static void start_surface(const ewa_tile *tile, const ewa_edges *edges, size_t block, wm open, wf done) {
-    const wf never = wf_set(-__builtin_inff());
-    float *passed = edges->passed + block * EWA_BLOCK_LANES;
-    wf_store(passed, wf_select(open, done, never));
-    edges->reach[block] = -__builtin_inff();
-    for (int i = 0; i < EWA_BLOCK_LANES; i++)
-        if (passed[i] > edges->reach[block]) edges->reach[block] = passed[i];
+    const wf never = wf_set(-__builtin_inff()), passed = wf_select(open, done, never);
+    wf_store(edges->passed + block * EWA_BLOCK_LANES, passed);
+    edges->reach[block] = largest_lane(passed);
     wf_store(edges->nearest + block * EWA_BLOCK_LANES, never);
     float *sums = edges->sums + block * tile->channel_count * EWA_BLOCK_LANES;
     for (uint32_t c = 0; c < tile->channel_count; c++) wf_store(sums + c * EWA_BLOCK_LANES, wf_set(0));
@@ -35,6 +40,7 @@ static uint32_t find_edges(const ewa_tile *tile, const ewa_resolve *to, const ew
             const size_t block = block_at(tile, row, column);
             const wf q = wf_load(tile->sums + block * tile->channel_count * LANES);
             const wm open = wm_and(wf_lt(zero, q), wf_lt(wf_mul(q, scale), one));
+            edges->reach[block] = -__builtin_inff();
             if (!wm_bits(open)) continue;
             edges->rows[row] |= 1u << column;
             count++;
@@ -45,71 +51,71 @@ static uint32_t find_edges(const ewa_tile *tile, const ewa_resolve *to, const ew
     return count;
 }
 
-/// The marked blocks of one row of a splat's box that the splat may lie beyond, a bit each.
-static ALWAYS_INLINE uint32_t wanted_blocks(const ewa_tile *tile, const ewa_edges *edges, const ewa_record *r,
-                                            uint32_t row) {
-    const uint64_t columns = ((uint64_t)1 << box_columns(r->box)) - 1;
-    const uint32_t marked = edges->rows[box_row(r->box) + row] & (uint32_t)(columns << box_column(r->box));
-    uint32_t wanted = 0;
-    for (uint32_t left = marked; left; left &= left - 1) {
-        const uint32_t column = (uint32_t)__builtin_ctz(left);
-        if (r->key_low < edges->reach[block_at(tile, box_row(r->box) + row, column)]) wanted |= 1u << column;
-    }
-    return wanted;
-}
+/// s and key of a splat in one block of its box.
+typedef struct block_sample {
+    wf exponent, key;
+} block_sample;
 
-static uint32_t edge_hits(const ewa_tile *tile, const ewa_edges *edges, const ewa_record *records,
-                          const uint16_t *candidates, uint32_t candidate_count, uint16_t *hits) {
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < candidate_count; i++) {
-        const uint16_t splat = candidates[i];
-        const ewa_record *r = &records[splat];
-        uint32_t wanted = 0;
-        for (uint32_t row = 0; row < box_rows(r->box); row++) wanted |= wanted_blocks(tile, edges, r, row);
-        hits[count] = splat;
-        count += wanted != 0;
-    }
-    return count;
-}
-
-/// One splat in one marked block.
-static ALWAYS_INLINE void edge_block(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
-                                     const ewa_record *r, const ewa_load *load, uint32_t row, uint32_t column,
-                                     bool second_pass) {
-    const size_t block = block_at(tile, box_row(r->box) + row, column);
+static ALWAYS_INLINE block_sample sample_block(const ewa_record *r, uint32_t row, uint32_t column) {
     const column_terms c = column_start(r, (float)EWA_BLOCK_PX * ((float)column - (float)box_column(r->box)));
     wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
-    for (uint32_t i = 0; i < row; i++)
+    for (uint32_t i = box_row(r->box); i < row; i++)
         dy = wf_add(dy, wf_set(EWA_BLOCK_PX)); // as the passes over whole boxes step
-    const wf s = block_exponent(&c, dy, wf_mul(wf_mul(wf_set(r->yy), dy), dy));
-    const wf key = block_key(r, &c, wf_mul(wf_set(r->key_y), dy));
-    float *nearest = edges->nearest + block * EWA_BLOCK_LANES;
-    const wm beyond = wm_and(wf_lt(s, wf_set(view->exponent_end)),
-                             wf_lt(key, wf_load(edges->passed + block * EWA_BLOCK_LANES)));
-    if (!second_pass) {
-        const bool exact = r->bound_scale == 0;
-        const wf old = wf_load(nearest);
-        wf_store(nearest, wf_select(beyond, wf_max(bound_key(r, key, exact), old), old));
-        return;
-    }
-    const wm counts = wm_and(beyond, wf_le(wf_load(nearest), key));
-    if (!wm_bits(counts)) return;
-    payload add = {.color = {wf_set(r->red), wf_set(r->green), wf_set(r->blue)}};
-    for (int i = 0; i < 3; i++) add.normal[i] = wf_set(load->normal[i]);
-    const wf weight = wf_keep(counts, wf_mul(exponential(s, view->doublings), wf_set(load->peak)));
-    add_channels(edges->sums + block * tile->channel_count * EWA_BLOCK_LANES, weight, &add, key,
-                 tile->with_normals, false, false);
+    return (block_sample){block_exponent(&c, dy, wf_mul(wf_mul(wf_set(r->yy), dy), dy)),
+                          block_key(r, &c, wf_mul(wf_set(r->key_y), dy))};
 }
 
-static void edge_pass(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
-                      const ewa_sorted_run *run, const uint16_t *hits, uint32_t hit_count, bool second_pass) {
-    for (uint32_t i = 0; i < hit_count; i++) {
-        const ewa_record *r = &run->records[hits[i]];
-        for (uint32_t row = 0; row < box_rows(r->box); row++)
-            for (uint32_t left = wanted_blocks(tile, edges, r, row); left; left &= left - 1)
-                edge_block(view, tile, edges, r, &run->loads[hits[i]], row, (uint32_t)__builtin_ctz(left),
-                           second_pass);
+static void edge_raise(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges, uint32_t row,
+                       uint32_t column, const ewa_edge_splats *splats) {
+    const size_t at = block_at(tile, row, column) * EWA_BLOCK_LANES;
+    const wf passed = wf_load(edges->passed + at), end = wf_set(view->exponent_end);
+    wf nearest = wf_load(edges->nearest + at);
+    for (uint32_t i = 0; i < splats->count; i++) {
+        const ewa_record *r = &splats->records[splats->indices[i]];
+        const block_sample sample = sample_block(r, row, column);
+        const wm beyond = wm_and(wf_lt(sample.exponent, end), wf_lt(sample.key, passed));
+        const wf bound = bound_key(r, sample.key, r->bound_scale == 0);
+        nearest = wf_select(beyond, wf_max(bound, nearest), nearest);
     }
+    wf_store(edges->nearest + at, nearest);
+}
+
+static ALWAYS_INLINE void edge_sum(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
+                                   uint32_t row, uint32_t column, const ewa_edge_splats *splats,
+                                   bool with_normals) {
+    const size_t block = block_at(tile, row, column), at = block * EWA_BLOCK_LANES;
+    const wf passed = wf_load(edges->passed + at), nearest = wf_load(edges->nearest + at);
+    const wf end = wf_set(view->exponent_end), never = wf_set(-__builtin_inff());
+    const wf behind_all = wf_set(__builtin_inff());
+    // Splats that are nowhere as near as what counts.
+    const float least_key =
+        -largest_lane(wf_sub(wf_set(0), wf_select(wf_lt(never, nearest), nearest, behind_all)));
+    float *sums = edges->sums + at * tile->channel_count;
+    for (uint32_t i = 0; i < splats->count; i++) {
+        const uint32_t index = splats->indices[i];
+        const ewa_record *r = &splats->records[index];
+        if (r->key_high < least_key) continue;
+        const block_sample sample = sample_block(r, row, column);
+        const wm beyond = wm_and(wf_lt(sample.exponent, end), wf_lt(sample.key, passed));
+        const wm counts = wm_and(beyond, wf_le(nearest, sample.key));
+        if (!wm_bits(counts)) continue;
+        const ewa_load *load = &splats->loads[index];
+        payload add = {.color = {wf_set(r->red), wf_set(r->green), wf_set(r->blue)}};
+        for (int k = 0; k < 3; k++) add.normal[k] = wf_set(load->normal[k]);
+        const wf weight =
+            wf_keep(counts, wf_mul(exponential(sample.exponent, view->doublings), wf_set(load->peak)));
+        add_channels(sums, weight, &add, sample.key, with_normals, false, false);
+    }
+}
+
+static void edge_pass(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges, uint32_t row,
+                      uint32_t column, const ewa_edge_splats *splats, bool second_pass) {
+    if (!second_pass)
+        edge_raise(view, tile, edges, row, column, splats);
+    else if (tile->with_normals)
+        edge_sum(view, tile, edges, row, column, splats, true);
+    else
+        edge_sum(view, tile, edges, row, column, splats, false);
 }
 
 static void edge_near_pass(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
@@ -161,13 +167,14 @@ static uint32_t edge_compose(const ewa_tile *tile, const ewa_resolve *to, const 
     for (uint32_t row = 0; row < tile->block_rows; row++) {
         for (uint32_t marked = edges->rows[row]; marked; marked &= marked - 1) {
             const uint32_t column = (uint32_t)__builtin_ctz(marked);
+            const size_t block = block_at(tile, row, column);
             const wm open = compose_block(tile, to, edges, row, column);
             if (wm_bits(open)) {
-                const size_t block = block_at(tile, row, column);
                 start_surface(tile, edges, block, open, wf_load(edges->nearest + block * EWA_BLOCK_LANES));
                 count++;
             } else {
                 edges->rows[row] &= ~(1u << column);
+                edges->reach[block] = -__builtin_inff();
             }
         }
     }
