@@ -133,7 +133,7 @@ typedef struct ewa_edges {
 typedef struct ewa_edge_splats {
     const ewa_record *records;
     const ewa_load *loads;
-    const uint32_t *indices; ///< of records and loads
+    uint32_t *indices; ///< of records and loads
     uint32_t count;
 } ewa_edge_splats;
 
@@ -181,9 +181,10 @@ typedef struct ewa_road_kernels {
     /// Marks in edges->rows the blocks with a partly covered pixel and starts their planes; returns how many.
     uint32_t (*find_edges)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges);
 
-    /// One of the two passes over splats beyond edges->passed, in one marked block.
+    /// One of the two passes over splats beyond edges->passed, in one marked block. The first drops those
+    /// that are nowhere beyond.
     void (*edge_pass)(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges, uint32_t row,
-                      uint32_t column, const ewa_edge_splats *splats, bool second_pass);
+                      uint32_t column, ewa_edge_splats *splats, bool second_pass);
     void (*edge_near_pass)(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
                            const ewa_near_record *records, uint32_t count, bool second_pass);
 

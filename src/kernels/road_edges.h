@@ -65,19 +65,85 @@ static ALWAYS_INLINE block_sample sample_block(const ewa_record *r, uint32_t row
                           block_key(r, &c, wf_mul(wf_set(r->key_y), dy))};
 }
 
-static void edge_raise(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges, uint32_t row,
-                       uint32_t column, const ewa_edge_splats *splats) {
-    const size_t at = block_at(tile, row, column) * EWA_BLOCK_LANES;
-    const wf passed = wf_load(edges->passed + at), end = wf_set(view->exponent_end);
-    wf nearest = wf_load(edges->nearest + at);
-    for (uint32_t i = 0; i < splats->count; i++) {
-        const ewa_record *r = &splats->records[splats->indices[i]];
-        const block_sample sample = sample_block(r, row, column);
-        const wm beyond = wm_and(wf_lt(sample.exponent, end), wf_lt(sample.key, passed));
-        const wf bound = bound_key(r, sample.key, r->bound_scale == 0);
-        nearest = wf_select(beyond, wf_max(bound, nearest), nearest);
+/// Sixteen splats at one block: what its columns and rows of pixels share, a splat per lane.
+typedef struct splat_lanes {
+    wf quadratic[EWA_BLOCK_PX], cross[EWA_BLOCK_PX], key_x[EWA_BLOCK_PX]; ///< by column
+    wf dy[EWA_BLOCK_PX], yy_dy2[EWA_BLOCK_PX], key_dy[EWA_BLOCK_PX];      ///< by row
+    wf key_low, key_high, bound_scale, bound_offset;
+} splat_lanes;
+
+/// The same numbers as column_terms and the passes over whole boxes get.
+static ALWAYS_INLINE splat_lanes load_splats(const ewa_record *records, const uint32_t *indices,
+                                             uint32_t count, uint32_t row, uint32_t column) {
+    wf f[EWA_BLOCK_LANES];
+    for (uint32_t i = 0; i < EWA_BLOCK_LANES; i++)
+        f[i] = wf_load(&records[indices[i < count ? i : count - 1]].offset_x);
+    w_transpose(f);
+    splat_lanes s = {.key_low = f[8], .key_high = f[9], .bound_scale = f[10], .bound_offset = f[11]};
+    const wi box = wi_of_bits(f[15]), byte = wi_set(0xff);
+    const wi columns = wi_sub(wi_set((int32_t)column), wi_and(box, byte));
+    const wf rows = wf_from_i(wi_sub(wi_set((int32_t)row), wi_and(wi_sar(box, 8), byte)));
+    const wf side = wf_set(EWA_BLOCK_PX), first_px = wf_add(f[0], wf_mul(side, wf_from_i(columns)));
+    for (int i = 0; i < EWA_BLOCK_PX; i++) {
+        const wf dx = wf_add(first_px, wf_set((float)i + 0.5f));
+        s.quadratic[i] = wf_mul(wf_mul(f[2], dx), dx);
+        s.cross[i] = wf_mul(f[3], dx);
+        s.key_x[i] = wf_fma(f[6], dx, f[5]);
+        s.dy[i] = wf_add(f[1], wf_set((float)i + 0.5f));
     }
-    wf_store(edges->nearest + at, nearest);
+    for (int steps = 0;; steps++) {
+        const wm more = wf_lt(wf_set((float)steps), rows);
+        if (!wm_bits(more)) break;
+        for (int i = 0; i < EWA_BLOCK_PX; i++) s.dy[i] = wf_select(more, wf_add(s.dy[i], side), s.dy[i]);
+    }
+    for (int i = 0; i < EWA_BLOCK_PX; i++) {
+        s.yy_dy2[i] = wf_mul(wf_mul(f[4], s.dy[i]), s.dy[i]);
+        s.key_dy[i] = wf_mul(f[7], s.dy[i]);
+    }
+    return s;
+}
+
+/// First pass: sixteen splats at a time, pixel by pixel, for few are open. Keeps in the list only what counts
+/// somewhere.
+static void edge_raise(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges, uint32_t row,
+                       uint32_t column, ewa_edge_splats *splats) {
+    const wf end = wf_set(view->exponent_end), never = wf_set(-__builtin_inff()), zero = wf_set(0);
+    const size_t at = block_at(tile, row, column) * EWA_BLOCK_LANES;
+    const float *passed = edges->passed + at;
+    const uint32_t open = wm_bits(wf_lt(never, wf_load(passed)));
+    wf nearest[EWA_BLOCK_LANES];
+    for (int i = 0; i < EWA_BLOCK_LANES; i++) nearest[i] = never;
+    uint32_t kept = 0;
+    for (uint32_t first = 0; first < splats->count; first += EWA_BLOCK_LANES) {
+        const uint32_t count = splats->count - first;
+        uint32_t *indices = splats->indices + first;
+        const splat_lanes s = load_splats(splats->records, indices, count, row, column);
+        const wm is_exact = wf_le(s.bound_scale, zero);
+        const bool any_exact = wm_bits(is_exact) != 0;
+        wm any = wf_lt(zero, zero);
+        for (uint32_t left = open; left; left &= left - 1) {
+            const uint32_t pixel = (uint32_t)__builtin_ctz(left), x = pixel % EWA_BLOCK_PX,
+                           y = pixel / EWA_BLOCK_PX;
+            const wf exponent = wf_fma(s.cross[x], s.dy[y], wf_add(s.quadratic[x], s.yy_dy2[y]));
+            const wf key = wf_min(wf_max(wf_add(s.key_x[x], s.key_dy[y]), s.key_low), s.key_high);
+            const wm beyond = wm_and(wf_lt(exponent, end), wf_lt(key, wf_set(passed[pixel])));
+            wf bound = wf_fma(s.bound_scale, key, s.bound_offset);
+            if (any_exact) {
+                const wf exact = wf_mul(key, wf_reciprocal(wf_fma(s.bound_offset, key, wf_set(1))));
+                bound = wf_select(is_exact, exact, bound);
+            }
+            nearest[pixel] = wf_select(beyond, wf_max(bound, nearest[pixel]), nearest[pixel]);
+            any = wm_or(any, beyond);
+        }
+        const uint32_t lanes = count < EWA_BLOCK_LANES ? (1u << count) - 1 : 0xffff;
+        for (uint32_t left = wm_bits(any) & lanes; left; left &= left - 1)
+            splats->indices[kept++] = indices[__builtin_ctz(left)];
+    }
+    splats->count = kept;
+    for (uint32_t left = open; left; left &= left - 1) {
+        const uint32_t pixel = (uint32_t)__builtin_ctz(left);
+        edges->nearest[at + pixel] = largest_lane(wf_max(nearest[pixel], wf_set(edges->nearest[at + pixel])));
+    }
 }
 
 static ALWAYS_INLINE void edge_sum(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
@@ -109,7 +175,7 @@ static ALWAYS_INLINE void edge_sum(const ewa_view *view, const ewa_tile *tile, c
 }
 
 static void edge_pass(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges, uint32_t row,
-                      uint32_t column, const ewa_edge_splats *splats, bool second_pass) {
+                      uint32_t column, ewa_edge_splats *splats, bool second_pass) {
     if (!second_pass)
         edge_raise(view, tile, edges, row, column, splats);
     else if (tile->with_normals)

@@ -24,7 +24,7 @@ uint32_t ewa_edge_pair_capacity(const ewa_view *view) { return 2 * largest_run_p
 /// The kept runs whose splats are listed: from `kept_first` on; they are runs `first` to `end` of the tile.
 typedef struct batch {
     uint64_t first, end, kept_first;
-    uint32_t block_first[MAX_BLOCKS + 1]; ///< block b: scratch->listed[block_first[b] .. block_first[b + 1])
+    uint32_t block_first[MAX_BLOCKS], block_end[MAX_BLOCKS]; ///< in scratch->listed
 } batch;
 
 /// [n - 1][row]: the marked blocks of n rows from `row` on, united.
@@ -89,13 +89,12 @@ static uint32_t list_run(const ewa_tile *tile, const ewa_edges *edges, const ewa
 /// Orders the pairs by block, stably, to scratch->listed.
 static void sort_pairs(const ewa_tile *tile, ewa_tile_scratch *s, uint32_t pair_count, batch *made) {
     const uint32_t block_count = tile->blocks_per_row * tile->block_rows;
-    uint32_t *next = made->block_first + 1; // ends where the next block begins
-    memset(made->block_first, 0, sizeof made->block_first);
+    uint32_t *next = made->block_end, sum = 0;
+    memset(next, 0, block_count * sizeof *next);
     for (uint32_t i = 0; i < pair_count; i++) next[s->pairs[i] >> INDEX_BITS]++;
-    uint32_t sum = 0;
     for (uint32_t b = 0; b < block_count; b++) {
         const uint32_t count = next[b];
-        next[b] = sum;
+        made->block_first[b] = next[b] = sum;
         sum += count;
     }
     for (uint32_t i = 0; i < pair_count; i++)
@@ -118,17 +117,18 @@ static void fill_batch(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_s
     sort_pairs(tile, s, pair_count, made);
 }
 
-static void draw_batch(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, const batch *from,
+static void draw_batch(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, batch *from,
                        ewa_tile_pass what) {
     for (uint32_t row = 0; row < tile->block_rows; row++) {
         for (uint32_t marked = s->edges.rows[row]; marked; marked &= marked - 1) {
             const uint32_t column = (uint32_t)__builtin_ctz(marked);
-            const uint32_t *bounds = &from->block_first[row * tile->blocks_per_row + column];
-            const ewa_edge_splats splats = {s->records, s->loads, s->listed + bounds[0],
-                                            bounds[1] - bounds[0]};
-            if (splats.count)
-                job->kernels->edge_pass(&job->view, tile, &s->edges, row, column, &splats,
-                                        what == EWA_PASS_EDGE_ACCUMULATE);
+            const uint32_t block = row * tile->blocks_per_row + column, first = from->block_first[block];
+            ewa_edge_splats splats = {s->records, s->loads, s->listed + first,
+                                      from->block_end[block] - first};
+            if (!splats.count) continue;
+            job->kernels->edge_pass(&job->view, tile, &s->edges, row, column, &splats,
+                                    what == EWA_PASS_EDGE_ACCUMULATE);
+            from->block_end[block] = first + splats.count;
         }
     }
     for (uint64_t i = 0; i < from->end - from->first; i++) {
@@ -141,7 +141,8 @@ bool ewa_tile_draw_edges(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile
                          const ewa_tile_packets *packets, bool kept) {
     if (job->edge_layers < 2 || !job->kernels->find_edges(tile, &job->resolve, &s->edges)) return false;
     memcpy(s->edge_rows, s->edges.rows, sizeof s->edge_rows);
-    batch listed = {.end = 0};
+    batch listed;
+    listed.first = listed.end = 0;
     for (uint32_t layer = 1; layer < job->edge_layers; layer++) {
         for (ewa_tile_pass what = EWA_PASS_EDGE_VISIBILITY; what <= EWA_PASS_EDGE_ACCUMULATE; what++) {
             for (uint64_t first = 0; first < packets->run_count; first = listed.end) {
