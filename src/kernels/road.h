@@ -26,6 +26,8 @@ enum {
     EWA_WIDE_CLASS = EWA_ROW_CLASSES * EWA_COLUMN_CLASSES, ///< wider boxes, parts of large splats
     EWA_CLASS_COUNT = EWA_WIDE_CLASS + 1,
     EWA_MAX_CHANNELS = 8,
+    EWA_GROUP_RECORDS = 64,
+    EWA_BOX_GUARD = 0x8080,   ///< a bit above each number, so that they can be compared by one subtraction
     EWA_MAX_TILE_BLOCKS = 32, ///< along a side, so that a row of blocks is a word of bits
 };
 
@@ -129,6 +131,14 @@ typedef struct ewa_edges {
     float *behind;  ///< [block][4][16]: premultiplied r, g, b and alpha of all surfaces but the first
 } ewa_edges;
 
+/// Boxes of a tile's records, or of groups of EWA_GROUP_RECORDS of them: first column | first row << 8, and
+/// last column | last row << 8 | EWA_BOX_GUARD. Room for a multiple of 16 each.
+typedef struct ewa_edge_boxes {
+    int32_t *first, *last;
+    float *key_low;
+    uint32_t count;
+} ewa_edge_boxes;
+
 /// Splats that may lie behind a marked block, in the order in which they are summed.
 typedef struct ewa_edge_splats {
     const ewa_record *records;
@@ -180,6 +190,14 @@ typedef struct ewa_road_kernels {
 
     /// Marks in edges->rows the blocks with a partly covered pixel and starts their planes; returns how many.
     uint32_t (*find_edges)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges);
+
+    /// Fills `boxes` from `boxes->count` records, and `groups`.
+    void (*edge_boxes)(const ewa_record *records, ewa_edge_boxes *boxes, ewa_edge_boxes *groups);
+
+    /// Lists the records that may lie behind a marked block, in order; returns how many, and may write 16
+    /// more.
+    uint32_t (*edge_list)(const ewa_edge_boxes *boxes, const ewa_edge_boxes *groups, uint32_t row,
+                          uint32_t column, float reach, uint32_t *indices);
 
     /// One of the two passes over splats beyond edges->passed, in one marked block. The first drops those
     /// that are nowhere beyond.

@@ -51,6 +51,92 @@ static uint32_t find_edges(const ewa_tile *tile, const ewa_resolve *to, const ew
     return count;
 }
 
+static int32_t largest_of(wi v) {
+    int32_t lanes[EWA_BLOCK_LANES];
+    wi_store(lanes, v);
+    int32_t largest = lanes[0];
+    for (int i = 1; i < EWA_BLOCK_LANES; i++) largest = lanes[i] > largest ? lanes[i] : largest;
+    return largest;
+}
+
+/// Fills the boxes of sixteen records from `at` on, of which `count` are there.
+static ALWAYS_INLINE void set_boxes(const ewa_record *records, uint32_t at, uint32_t count,
+                                    ewa_edge_boxes *boxes) {
+    const wm there = wm_of_bits(count < EWA_BLOCK_LANES ? (1u << count) - 1 : 0xffff);
+    const wi some = wi_set((int32_t)records[at].box);
+    const wi box = wi_of_bits(
+        wf_select(there, wf_load_column((const float *)(const void *)&records[at].box), wf_of_bits(some)));
+    const wi first = wi_and(box, wi_set(0xffff));
+    wi_store(boxes->first + at, first);
+    wi_store(boxes->last + at, wi_add(wi_add(first, wi_sar(box, 16)), wi_set(EWA_BOX_GUARD - 0x0101)));
+    wf_store(boxes->key_low + at,
+             wf_select(there, wf_load_column(&records[at].key_low), wf_set(__builtin_inff())));
+}
+
+/// Sets a group to the box and the key around sixteen-lane rows [at, end) of `boxes`.
+static ALWAYS_INLINE void set_group(const ewa_edge_boxes *boxes, uint32_t at, uint32_t end,
+                                    ewa_edge_boxes *groups, uint32_t group) {
+    const wi byte = wi_set(0x7f);
+    wi left = wi_set(0), above = left, right = left, below = left; // left and above counted from 127 down
+    wf nearer = wf_set(-__builtin_inff());
+    for (; at < end; at += EWA_BLOCK_LANES) {
+        const wi first = wi_load(boxes->first + at), last = wi_load(boxes->last + at);
+        left = wi_max(left, wi_sub(byte, wi_and(first, byte)));
+        above = wi_max(above, wi_sub(byte, wi_sar(first, 8)));
+        right = wi_max(right, wi_and(last, byte));
+        below = wi_max(below, wi_and(wi_sar(last, 8), byte));
+        nearer = wf_max(nearer, wf_negate(wf_load(boxes->key_low + at)));
+    }
+    groups->first[group] = (127 - largest_of(left)) | (127 - largest_of(above)) << 8;
+    groups->last[group] = largest_of(right) | largest_of(below) << 8 | EWA_BOX_GUARD;
+    groups->key_low[group] = -largest_lane(nearer);
+}
+
+static void edge_boxes(const ewa_record *records, ewa_edge_boxes *boxes, ewa_edge_boxes *groups) {
+    const uint32_t count = boxes->count;
+    groups->count = (count + EWA_GROUP_RECORDS - 1) / EWA_GROUP_RECORDS;
+    for (uint32_t i = 0; i < count; i += EWA_BLOCK_LANES) set_boxes(records, i, count - i, boxes);
+    for (uint32_t g = 0; g < groups->count; g++) {
+        const uint32_t first = g * EWA_GROUP_RECORDS, left = count - first;
+        set_group(boxes, first, first + (left < EWA_GROUP_RECORDS ? left : EWA_GROUP_RECORDS), groups, g);
+    }
+    for (uint32_t g = groups->count; g % EWA_BLOCK_LANES; g++) {
+        groups->first[g] = groups->last[g] = 0;
+        groups->key_low[g] = __builtin_inff();
+    }
+}
+
+/// The boxes [at, at + 16) that hold the block and whose splats may be beyond `reach`.
+static ALWAYS_INLINE wm holds_block(const ewa_edge_boxes *boxes, uint32_t at, wi block, wf reach) {
+    const wi guard = wi_set(EWA_BOX_GUARD);
+    const wi after_first = wi_sub(wi_or(block, guard), wi_load(boxes->first + at));
+    const wi before_last = wi_sub(wi_load(boxes->last + at), block);
+    const wf both = wf_from_i(wi_and(wi_and(after_first, before_last), guard));
+    return wm_and(wf_le(wf_set(EWA_BOX_GUARD), both), wf_lt(wf_load(boxes->key_low + at), reach));
+}
+
+static uint32_t edge_list(const ewa_edge_boxes *boxes, const ewa_edge_boxes *groups, uint32_t row,
+                          uint32_t column, float reach, uint32_t *indices) {
+    static const int32_t lane_numbers[EWA_BLOCK_LANES] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                          8, 9, 10, 11, 12, 13, 14, 15};
+    const wi block = wi_set((int32_t)(column | row << 8)), lanes = wi_load(lane_numbers);
+    const wf beyond = wf_set(reach);
+    uint32_t listed = 0;
+    for (uint32_t g = 0; g < groups->count; g += EWA_BLOCK_LANES) {
+        for (uint32_t bits = wm_bits(holds_block(groups, g, block, beyond)); bits; bits &= bits - 1) {
+            const uint32_t first = (g + (uint32_t)__builtin_ctz(bits)) * EWA_GROUP_RECORDS;
+            const uint32_t end =
+                first + EWA_GROUP_RECORDS < boxes->count ? first + EWA_GROUP_RECORDS : boxes->count;
+            for (uint32_t i = first; i < end; i += EWA_BLOCK_LANES) {
+                const wm hits = holds_block(boxes, i, block, beyond);
+                wi_pack((int32_t *)(void *)(indices + listed), hits, wi_add(lanes, wi_set((int32_t)i)));
+                listed += (uint32_t)__builtin_popcount(wm_bits(hits));
+            }
+        }
+    }
+    return listed;
+}
+
 /// s and key of a splat in one block of its box.
 typedef struct block_sample {
     wf exponent, key;

@@ -56,6 +56,11 @@ FUSED wf wf_floor(wf a) { EACH(wf, floorf(a[i])); }
 
 static inline wi wi_set(int32_t a) { return (wi){a, a, a, a, a, a, a, a, a, a, a, a, a, a, a, a}; }
 static inline wf wf_abs(wf a) { return (wf)((wi)a & wi_set(0x7fffffff)); }
+static inline wi wi_load(const int32_t *p) {
+    wi result;
+    memcpy(&result, p, sizeof result);
+    return result;
+}
 static inline void wi_store(int32_t *p, wi a) { memcpy(p, &a, sizeof a); }
 FUSED wi wi_load_u16(const uint16_t *p) { EACH(wi, p[i]); }
 FUSED wi wi_load_i16(const int16_t *p) { EACH(wi, p[i]); }
@@ -79,6 +84,9 @@ FUSED uint32_t wm_bits(wm a) {
 FUSED wm wm_of_bits(uint32_t bits) { EACH(wm, -(int32_t)(bits >> i & 1)); }
 FUSED wf wf_sqrt(wf a) { EACH(wf, sqrtf(a[i])); }
 
+/// p[0], p[16], p[32] ...
+FUSED wf wf_load_column(const float *p) { EACH(wf, p[16 * i]); }
+
 /// table[index mod 16] per lane.
 FUSED wf wf_lookup(const float table[16], wi index) { EACH(wf, table[index[i] & 15]); }
 
@@ -89,6 +97,13 @@ static inline void wi_store_rows(uint8_t *out, size_t stride_bytes, wi a) {
 
 /// Writes the lanes where m is set one after another; may write 16 numbers.
 FUSED void wf_pack(float *p, wm m, wf a) {
+    for (int i = 0; i < 16; i++) {
+        *p = a[i];
+        p -= m[i];
+    }
+}
+
+FUSED void wi_pack(int32_t *p, wm m, wi a) {
     for (int i = 0; i < 16; i++) {
         *p = a[i];
         p -= m[i];

@@ -22,6 +22,7 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     const size_t tile_floats = (size_t)job->view.tile_px * job->view.tile_px;
     const size_t pixel_floats =
         tile_floats * (2 * (1 + EWA_MAX_CHANNELS) + 1 + 4) + tile_floats / EWA_BLOCK_LANES;
+    const size_t box_count = records + EWA_BLOCK_LANES, group_count = records / EWA_GROUP_RECORDS + 16;
     const struct {
         ewa_buffer *buffer;
         size_t count, size_bytes;
@@ -29,7 +30,8 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
         {&s->record_buffer, records + EWA_PACKET_LANES, sizeof *s->records},
         {&s->load_buffer, records + EWA_PACKET_LANES, sizeof *s->loads},
         {&s->order_buffer, records, sizeof *s->order},
-        {&s->pair_buffer, 2 * (size_t)ewa_edge_pair_capacity(&job->view), sizeof *s->pairs},
+        {&s->list_buffer, EWA_LISTS * records + EWA_BLOCK_LANES, sizeof *s->listed},
+        {&s->box_buffer, 3 * (box_count + group_count), sizeof(float)},
         {&s->near_buffer, records, sizeof *s->near_surfels},
         {&s->kept_buffer, records / EWA_RUN_RECORDS + 1, sizeof *s->kept},
         {&s->pixel_buffer, pixel_floats, sizeof(float)},
@@ -42,8 +44,13 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     s->records = s->record_buffer.data;
     s->loads = s->load_buffer.data;
     s->order = s->order_buffer.data;
-    s->pairs = s->pair_buffer.data;
-    s->listed = s->pairs + ewa_edge_pair_capacity(&job->view);
+    s->listed = s->list_buffer.data;
+    s->boxes.first = s->box_buffer.data;
+    s->boxes.last = s->boxes.first + box_count;
+    s->groups.first = s->boxes.last + box_count;
+    s->groups.last = s->groups.first + group_count;
+    s->boxes.key_low = (float *)(s->groups.last + group_count);
+    s->groups.key_low = s->boxes.key_low + box_count;
     s->near_surfels = s->near_buffer.data;
     s->kept = s->kept_buffer.data;
     s->nearest = s->pixel_buffer.data;
@@ -62,8 +69,8 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
 }
 
 void ewa_tile_scratch_free(ewa_context *context, ewa_tile_scratch *s) {
-    ewa_buffer *const buffers[] = {&s->record_buffer, &s->load_buffer, &s->order_buffer, &s->pair_buffer,
-                                   &s->near_buffer,   &s->kept_buffer, &s->pixel_buffer};
+    ewa_buffer *const buffers[] = {&s->record_buffer, &s->load_buffer, &s->order_buffer, &s->list_buffer,
+                                   &s->box_buffer,    &s->near_buffer, &s->kept_buffer,  &s->pixel_buffer};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) ewa_buffer_free(context, buffers[i]);
 }
 
@@ -174,7 +181,6 @@ uint64_t ewa_tile_keep_runs(const ewa_tile_job *job, const ewa_tile *tile, ewa_t
         if (i - first_run >= s->kept_capacity) break;
         ewa_kept_run *kept = &s->kept[i - first_run];
         prepare_run(job, tile, s, packets, i, record_count, &kept->sorted);
-        kept->record_first = record_count;
         kept->near_first = near_count;
         kept->near_count = s->run.near_count;
         for (uint32_t k = 0; k < kept->near_count; k++)
@@ -191,6 +197,7 @@ uint64_t ewa_tile_keep_runs(const ewa_tile_job *job, const ewa_tile *tile, ewa_t
         before = ewa_now_s();
         s->visibility_s += before - middle;
     }
+    s->boxes.count = record_count;
     return i;
 }
 

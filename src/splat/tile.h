@@ -10,6 +10,7 @@
 
 enum {
     EWA_KEPT_RECORDS = 1 << 18, ///< 20 MiB per worker
+    EWA_LISTS = 2,              ///< entries of lists per kept record
 };
 
 /// What a walk over a tile's splats is for.
@@ -29,7 +30,6 @@ typedef struct ewa_tile_packets {
 /// A run of a tile whose splats are kept for the second pass.
 typedef struct ewa_kept_run {
     ewa_sorted_run sorted;
-    uint32_t record_first; ///< in ewa_tile_scratch.records
     uint32_t near_first, near_count;
 } ewa_kept_run;
 
@@ -39,13 +39,15 @@ typedef struct ewa_tile_scratch {
     ewa_record *records;
     ewa_load *loads;
     uint16_t *order;
-    uint32_t *pairs, *listed; ///< splats in marked blocks: as they are found; by block
+    uint32_t *listed; ///< splats behind marked blocks, block by block
+    ewa_edge_boxes boxes, groups;
     uint32_t *near_surfels;
     ewa_kept_run *kept;
     size_t record_capacity, kept_capacity;
     float *nearest, *sums;
     ewa_edges edges;
-    ewa_buffer record_buffer, load_buffer, order_buffer, pair_buffer, near_buffer, kept_buffer, pixel_buffer;
+    ewa_buffer record_buffer, load_buffer, order_buffer, list_buffer, box_buffer, near_buffer, kept_buffer,
+        pixel_buffer;
     uint32_t edge_rows[EWA_MAX_TILE_BLOCKS], edge_rows_left[EWA_MAX_TILE_BLOCKS];
     uint64_t drawn_count, fragment_count;
     double setup_s, visibility_s, accumulate_s, edge_s, resolve_s;
@@ -69,16 +71,13 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *scra
 void ewa_tile_scratch_free(ewa_context *context, ewa_tile_scratch *scratch);
 
 /// Sets up runs from `first_run` on and keeps them in scratch->kept, as many as there is room for; with
-/// `draw`, for the first pass. Returns where it stopped.
+/// `draw`, for the first pass. Returns where it stopped; scratch->boxes.count is how many records there are.
 uint64_t ewa_tile_keep_runs(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *scratch,
                             const ewa_tile_packets *packets, uint64_t first_run, bool draw);
 
 /// One pass for near surfels.
 void ewa_tile_draw_near(const ewa_tile_job *job, const ewa_tile *tile, const ewa_edges *edges,
                         const uint32_t *surfels, uint32_t count, ewa_tile_pass what);
-
-/// Room that scratch->pairs and scratch->listed need.
-uint32_t ewa_edge_pair_capacity(const ewa_view *view);
 
 /// Gathers the surfaces behind the first one where it covers pixels partly; `kept` when all runs are kept.
 /// Returns whether there are such pixels; scratch->edge_rows marks them.
