@@ -139,11 +139,13 @@ typedef struct ewa_edge_boxes {
     uint32_t count;
 } ewa_edge_boxes;
 
-/// Splats that may lie behind a marked block, in the order in which they are summed.
+/// Splats that may lie behind a marked block, in the order in which they are summed. The lists have room for
+/// EWA_BLOCK_LANES more.
 typedef struct ewa_edge_splats {
     const ewa_record *records;
     const ewa_load *loads;
-    uint32_t *indices; ///< of records and loads
+    uint32_t *indices;   ///< of records and loads
+    float *largest_keys; ///< no key of the splat that is beyond edges->passed is larger
     uint32_t count;
 } ewa_edge_splats;
 

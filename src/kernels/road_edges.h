@@ -206,7 +206,7 @@ static void edge_raise(const ewa_view *view, const ewa_tile *tile, const ewa_edg
         const splat_lanes s = load_splats(splats->records, indices, count, row, column);
         const wm is_exact = wf_le(s.bound_scale, zero);
         const bool any_exact = wm_bits(is_exact) != 0;
-        wm any = wf_lt(zero, zero);
+        wf largest_key = never;
         for (uint32_t left = open; left; left &= left - 1) {
             const uint32_t pixel = (uint32_t)__builtin_ctz(left), x = pixel % EWA_BLOCK_PX,
                            y = pixel / EWA_BLOCK_PX;
@@ -219,11 +219,14 @@ static void edge_raise(const ewa_view *view, const ewa_tile *tile, const ewa_edg
                 bound = wf_select(is_exact, exact, bound);
             }
             nearest[pixel] = wf_select(beyond, wf_max(bound, nearest[pixel]), nearest[pixel]);
-            any = wm_or(any, beyond);
+            largest_key = wf_select(beyond, wf_max(key, largest_key), largest_key);
         }
-        const uint32_t lanes = count < EWA_BLOCK_LANES ? (1u << count) - 1 : 0xffff;
-        for (uint32_t left = wm_bits(any) & lanes; left; left &= left - 1)
-            splats->indices[kept++] = indices[__builtin_ctz(left)];
+        const uint32_t there = count < EWA_BLOCK_LANES ? (1u << count) - 1 : 0xffff;
+        const wm keep = wm_and(wf_lt(never, largest_key), wm_of_bits(there));
+        wi_pack((int32_t *)(void *)(splats->indices + kept), keep,
+                wi_load((const int32_t *)(const void *)indices));
+        wf_pack(splats->largest_keys + kept, keep, largest_key);
+        kept += (uint32_t)__builtin_popcount(wm_bits(keep));
     }
     splats->count = kept;
     for (uint32_t left = open; left; left &= left - 1) {
@@ -243,20 +246,24 @@ static ALWAYS_INLINE void edge_sum(const ewa_view *view, const ewa_tile *tile, c
     const float least_key =
         -largest_lane(wf_sub(wf_set(0), wf_select(wf_lt(never, nearest), nearest, behind_all)));
     float *sums = edges->sums + at * tile->channel_count;
-    for (uint32_t i = 0; i < splats->count; i++) {
-        const uint32_t index = splats->indices[i];
-        const ewa_record *r = &splats->records[index];
-        if (r->key_high < least_key) continue;
-        const block_sample sample = sample_block(r, row, column);
-        const wm beyond = wm_and(wf_lt(sample.exponent, end), wf_lt(sample.key, passed));
-        const wm counts = wm_and(beyond, wf_le(nearest, sample.key));
-        if (!wm_bits(counts)) continue;
-        const ewa_load *load = &splats->loads[index];
-        payload add = {.color = {wf_set(r->red), wf_set(r->green), wf_set(r->blue)}};
-        for (int k = 0; k < 3; k++) add.normal[k] = wf_set(load->normal[k]);
-        const wf weight =
-            wf_keep(counts, wf_mul(exponential(sample.exponent, view->doublings), wf_set(load->peak)));
-        add_channels(sums, weight, &add, sample.key, with_normals, false, false);
+    for (uint32_t first = 0; first < splats->count; first += EWA_BLOCK_LANES) {
+        const uint32_t left = splats->count - first;
+        uint32_t near_enough = wm_bits(wf_le(wf_set(least_key), wf_load(splats->largest_keys + first)));
+        if (left < EWA_BLOCK_LANES) near_enough &= (1u << left) - 1;
+        for (; near_enough; near_enough &= near_enough - 1) {
+            const uint32_t index = splats->indices[first + (uint32_t)__builtin_ctz(near_enough)];
+            const ewa_record *r = &splats->records[index];
+            const block_sample sample = sample_block(r, row, column);
+            const wm beyond = wm_and(wf_lt(sample.exponent, end), wf_lt(sample.key, passed));
+            const wm counts = wm_and(beyond, wf_le(nearest, sample.key));
+            if (!wm_bits(counts)) continue;
+            const ewa_load *load = &splats->loads[index];
+            payload add = {.color = {wf_set(r->red), wf_set(r->green), wf_set(r->blue)}};
+            for (int k = 0; k < 3; k++) add.normal[k] = wf_set(load->normal[k]);
+            const wf weight =
+                wf_keep(counts, wf_mul(exponential(sample.exponent, view->doublings), wf_set(load->peak)));
+            add_channels(sums, weight, &add, sample.key, with_normals, false, false);
+        }
     }
 }
 

@@ -5,6 +5,7 @@
 // splats lie behind them: these are listed block by block, so that a block's sums are gathered in one go.
 #include "splat/tile.h"
 
+#include <math.h>
 #include <string.h>
 
 enum {
@@ -34,26 +35,30 @@ static void draw_block(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_s
                        uint32_t row, uint32_t column, ewa_tile_pass what) {
     const uint32_t block = row * tile->blocks_per_row + column;
     const bool listed = from->list_count[block] != NOT_LISTED;
-    ewa_edge_splats splats = {s->records, s->loads, s->listed, 0};
+    ewa_edge_splats splats = {s->records, s->loads, s->listed, s->listed_keys, 0};
+    const uint32_t first = listed ? from->list_first[block] : from->used;
+    splats.indices += first;
+    splats.largest_keys += first;
     if (listed) {
-        splats.indices += from->list_first[block];
         splats.count = from->list_count[block];
     } else {
-        splats.indices += from->used;
         splats.count = job->kernels->edge_list(&s->boxes, &s->groups, row, column, s->edges.reach[block],
                                                splats.indices);
+        for (uint32_t i = 0; i < splats.count && what == EWA_PASS_EDGE_ACCUMULATE; i++)
+            splats.largest_keys[i] = INFINITY;
     }
     if (splats.count)
         job->kernels->edge_pass(&job->view, tile, &s->edges, row, column, &splats,
                                 what == EWA_PASS_EDGE_ACCUMULATE);
     // What lies behind a layer lies behind those before it: a list serves to the end. There must be room for
-    // another that holds all splats.
+    // another that holds all splats. Lists are shortened by whole vectors.
+    const uint32_t taken = (splats.count + EWA_BLOCK_LANES - 1) / EWA_BLOCK_LANES * EWA_BLOCK_LANES;
     const size_t room = EWA_LISTS * s->record_capacity - from->used;
-    if (listed || (from->keep_lists && splats.count + s->record_capacity <= room)) {
+    if (listed || (from->keep_lists && taken + s->record_capacity <= room)) {
         from->list_count[block] = splats.count;
         if (listed) return;
-        from->list_first[block] = from->used;
-        from->used += splats.count;
+        from->list_first[block] = first;
+        from->used += taken;
     }
 }
 

@@ -30,7 +30,7 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
         {&s->record_buffer, records + EWA_PACKET_LANES, sizeof *s->records},
         {&s->load_buffer, records + EWA_PACKET_LANES, sizeof *s->loads},
         {&s->order_buffer, records, sizeof *s->order},
-        {&s->list_buffer, EWA_LISTS * records + EWA_BLOCK_LANES, sizeof *s->listed},
+        {&s->list_buffer, 2 * (EWA_LISTS * records + EWA_BLOCK_LANES), sizeof *s->listed},
         {&s->box_buffer, 3 * (box_count + group_count), sizeof(float)},
         {&s->near_buffer, records, sizeof *s->near_surfels},
         {&s->kept_buffer, records / EWA_RUN_RECORDS + 1, sizeof *s->kept},
@@ -45,6 +45,7 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     s->loads = s->load_buffer.data;
     s->order = s->order_buffer.data;
     s->listed = s->list_buffer.data;
+    s->listed_keys = (float *)(s->listed + EWA_LISTS * records + EWA_BLOCK_LANES);
     s->boxes.first = s->box_buffer.data;
     s->boxes.last = s->boxes.first + box_count;
     s->groups.first = s->boxes.last + box_count;

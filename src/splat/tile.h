@@ -39,7 +39,8 @@ typedef struct ewa_tile_scratch {
     ewa_record *records;
     ewa_load *loads;
     uint16_t *order;
-    uint32_t *listed; ///< splats behind marked blocks, block by block
+    uint32_t *listed;   ///< splats behind marked blocks, block by block
+    float *listed_keys; ///< ewa_edge_splats.largest_keys of them
     ewa_edge_boxes boxes, groups;
     uint32_t *near_surfels;
     ewa_kept_run *kept;
