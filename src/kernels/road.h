@@ -28,6 +28,8 @@ enum {
     EWA_CLASS_COUNT = EWA_WIDE_CLASS + 1,
     EWA_STEEP_BIT = 1 << 7, ///< in ewa_record.box: steep or wide
     EWA_MAX_CHANNELS = 8,
+    EWA_GROUP_RECORDS = 64,
+    EWA_BOX_GUARD = 0x8080,   ///< a bit above each number, so that they can be compared by one subtraction
     EWA_MAX_TILE_BLOCKS = 32, ///< along a side, so that a row of blocks is a word of bits
 };
 
@@ -134,11 +136,30 @@ typedef struct ewa_tile {
 typedef struct ewa_edges {
     uint32_t *rows; ///< [block row]: bit per block column
     float *passed;  ///< [block][16]: the smallest key of the surfaces that are done
-    float *reach;   ///< [block]: the largest of `passed`: what is nowhere beyond it is not wanted
+    float *reach; ///< [block]: the largest of `passed`: what is nowhere beyond it is not wanted; -infinity in
+                  ///< blocks that are not marked
     float *nearest; ///< [block][16]: the smallest key of the surface that is being gathered
     float *sums;    ///< as ewa_tile's
     float *behind;  ///< [block][4][16]: premultiplied r, g, b and alpha of all surfaces but the first
 } ewa_edges;
+
+/// Boxes of a tile's records, or of groups of EWA_GROUP_RECORDS of them: first column | first row << 8, and
+/// last column | last row << 8 | EWA_BOX_GUARD. Room for a multiple of 16 each.
+typedef struct ewa_edge_boxes {
+    int32_t *first, *last;
+    float *key_low;
+    uint32_t count;
+} ewa_edge_boxes;
+
+/// Splats that may lie behind a marked block, in the order in which they are summed. The lists have room for
+/// EWA_BLOCK_LANES more.
+typedef struct ewa_edge_splats {
+    const ewa_record *records;
+    const ewa_load *loads;
+    uint32_t *indices;   ///< of records and loads
+    float *largest_keys; ///< no key of the splat that is beyond edges->passed is larger
+    uint32_t count;
+} ewa_edge_splats;
 
 /// How pixels become colours, and where they go. Planes as in ewa_frame, of the whole picture.
 typedef struct ewa_resolve {
@@ -184,14 +205,18 @@ typedef struct ewa_road_kernels {
     /// Marks in edges->rows the blocks with a partly covered pixel and starts their planes; returns how many.
     uint32_t (*find_edges)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges);
 
-    /// Writes those of a run's splats `candidates` that may lie behind a marked block to `hits`, in order;
-    /// returns how many. `hits` may be `candidates`; it has room for one more than there are.
-    uint32_t (*edge_hits)(const ewa_tile *tile, const ewa_edges *edges, const ewa_record *records,
-                          const uint16_t *candidates, uint32_t candidate_count, uint16_t *hits);
+    /// Fills `boxes` from `boxes->count` records, and `groups`.
+    void (*edge_boxes)(const ewa_record *records, ewa_edge_boxes *boxes, ewa_edge_boxes *groups);
 
-    /// One of the two passes for splats beyond edges->passed, in marked blocks only.
-    void (*edge_pass)(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
-                      const ewa_sorted_run *run, const uint16_t *hits, uint32_t hit_count, bool second_pass);
+    /// Lists the records that may lie behind a marked block, in order; returns how many, and may write 16
+    /// more.
+    uint32_t (*edge_list)(const ewa_edge_boxes *boxes, const ewa_edge_boxes *groups, uint32_t row,
+                          uint32_t column, float reach, uint32_t *indices);
+
+    /// One of the two passes over splats beyond edges->passed, in one marked block. The first drops those
+    /// that are nowhere beyond.
+    void (*edge_pass)(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges, uint32_t row,
+                      uint32_t column, ewa_edge_splats *splats, bool second_pass);
     void (*edge_near_pass)(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
                            const ewa_near_record *records, uint32_t count, bool second_pass);
 

@@ -13,6 +13,7 @@
 #ifndef EWA_SRC_WIDE_H
 #define EWA_SRC_WIDE_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 #if defined(WIDE_AVX512)
