@@ -28,6 +28,8 @@ enum {
     EWA_CLASS_COUNT = EWA_WIDE_CLASS + 1,
     EWA_STEEP_BIT = 1 << 7, ///< in ewa_record.box: steep or wide
     EWA_MAX_CHANNELS = 8,
+    EWA_CELL_BLOCKS = 4, ///< along a side of a cell, for which one depth decides whether packets are hidden
+    EWA_TILE_CELLS = 8,  ///< cells along a side of the largest tile
     EWA_GROUP_RECORDS = 64,
     EWA_BOX_GUARD = 0x8080,   ///< a bit above each number, so that they can be compared by one subtraction
     EWA_MAX_TILE_BLOCKS = 32, ///< along a side, so that a row of blocks is a word of bits
@@ -183,6 +185,16 @@ typedef struct ewa_road_kernels {
     /// Finds the tiles of packets [first, first + count); returns how many are culled.
     uint32_t (*cull)(const ewa_view *view, const ewa_packet_bounds *bounds, uint32_t first, uint32_t count,
                      ewa_tile_rect *rects);
+
+    /// Sets cells[row][column] (rows of EWA_TILE_CELLS) to the smallest tile->nearest in each cell.
+    void (*set_cells)(const ewa_tile *tile, float *cells);
+
+    /// Splits packets into those that may show in front of their cells' keys and those that are hidden, each
+    /// in order; returns how many may show. `shown` and `hidden` have room for one more than there are;
+    /// `hidden` may be `ids`.
+    uint32_t (*hide)(const ewa_view *view, const ewa_packet_bounds *bounds, const ewa_tile *tile,
+                     const float *cells, const uint32_t *ids, uint32_t count, uint32_t *shown,
+                     uint32_t *hidden);
 
     /// Sets up `count` <= EWA_RUN_PACKETS packets for one tile into `run`; `packet_ids` holds `announced` >=
     /// count numbers, those of later runs too, so that packets can be fetched ahead.

@@ -12,14 +12,6 @@ static size_t block_at(const ewa_tile *tile, uint32_t row, uint32_t column) {
     return (size_t)row * tile->blocks_per_row + column;
 }
 
-static float largest_lane(wf v) {
-    float lanes[EWA_BLOCK_LANES];
-    wf_store(lanes, v);
-    float largest = lanes[0];
-    for (int i = 1; i < EWA_BLOCK_LANES; i++) largest = lanes[i] > largest ? lanes[i] : largest;
-    return largest;
-}
-
 /// Starts a surface in a block: where `open`, splats beyond the key `done` are wanted, elsewhere none.
 static void start_surface(const ewa_tile *tile, const ewa_edges *edges, size_t block, wm open, wf done) {
     const wf never = wf_set(-__builtin_inff()), passed = wf_select(open, done, never);

@@ -1,163 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of road_body.h: packets to tiles, surfels to records, records to classes.
+// Part of road_body.h: surfels to records, records to classes.
 //
 // Based on: Zwicker, Rasanen, Botsch, Dachsbacher, Pauly, "Perspective Accurate Splatting", 2004, section 4,
 // in the sheared form of math.md section 3, which single precision needs.
 #ifndef EWA_SRC_KERNELS_ROAD_PROJECT_H
 #define EWA_SRC_KERNELS_ROAD_PROJECT_H
 
-#include "kernels/road.h"
-#include "kernels/semantics.h"
-#include "math/wide.h"
+#include "kernels/road_camera.h"
 
 #include <string.h>
-
-/// 1 / x for normal x > 0 within 1.2e-7 relative: a guess from the bits, two cubic steps. Cheaper than a
-/// division, and the same on every machine.
-static ALWAYS_INLINE wf wf_reciprocal(wf x) {
-    wf y = wf_of_bits(wi_sub(wi_set(0x7ef311c3), wi_of_bits(x)));
-    for (int i = 0; i < 2; i++) {
-        const wf e = wf_fnma(x, y, wf_set(1));
-        y = wf_fma(y, wf_fma(e, e, e), y);
-    }
-    return y;
-}
-
-/// 1 / sqrt(x) for normal x > 0 within 1.5e-7 relative, likewise; x = 0 gives a large finite number.
-static ALWAYS_INLINE wf wf_inverse_root(wf x) {
-    wf y = wf_of_bits(wi_sub(wi_set(0x5f375a86), wi_sar(wi_of_bits(x), 1)));
-    for (int i = 0; i < 2; i++) {
-        const wf e = wf_fnma(wf_mul(x, y), y, wf_set(1));
-        y = wf_fma(wf_mul(y, e), wf_fma(e, wf_set(0.375f), wf_set(0.5f)), y);
-    }
-    return y;
-}
-
-/// sqrt(x) for x >= 0 within 2e-7 relative.
-static ALWAYS_INLINE wf wf_root(wf x) { return wf_mul(x, wf_inverse_root(x)); }
-
-static inline wf wf_clamp(wf a, float low, float high) {
-    return wf_min(wf_max(a, wf_set(low)), wf_set(high));
-}
-static inline wf wf_negate(wf a) { return wf_sub(wf_set(-0.0f), a); }
-
-/// Rows of a rotation times a vector.
-static inline void rotate(const float m[9], wf x, wf y, wf z, wf out[3]) {
-    for (int i = 0; i < 3; i++)
-        out[i] =
-            wf_fma(wf_set(m[3 * i]), x, wf_fma(wf_set(m[3 * i + 1]), y, wf_mul(wf_set(m[3 * i + 2]), z)));
-}
-
-static inline void to_camera(const ewa_view *view, wf x, wf y, wf z, wf out[3]) {
-    rotate(view->rotation, x, y, z, out);
-    for (int i = 0; i < 3; i++) out[i] = wf_fma(wf_set(view->scale), out[i], wf_set(view->translation[i]));
-}
-
-static inline float tile_count(uint32_t side_px, uint32_t tile_px) {
-    return (float)((side_px + tile_px - 1) / tile_px);
-}
-
-/// The tiles between two pixel coordinates along one axis, as floats within [0, tile_count].
-static inline void tile_range(wf low_px, wf high_px, float tile_px, float tiles, wf *first, wf *end) {
-    const wf per_px = wf_set(1.0f / tile_px);
-    *first = wf_clamp(wf_floor(wf_mul(low_px, per_px)), 0, tiles);
-    *end = wf_clamp(wf_add(wf_floor(wf_mul(high_px, per_px)), wf_set(1)), 0, tiles);
-}
-
-/// How far an affine ellipse of size z * `reach` extends from its centre, for centres within `half` of
-/// `middle`; pixels.
-static inline wf affine_reach(wf middle, wf half, wf reach, float f_px, float c_px) {
-    const wf slope_px = wf_add(wf_abs(wf_sub(middle, wf_set(c_px))), half);
-    return wf_mul(reach, wf_add(wf_set(f_px), slope_px));
-}
-
-static uint32_t cull(const ewa_view *view, const ewa_packet_bounds *bounds, uint32_t first, uint32_t count,
-                     ewa_tile_rect *rects) {
-    const float tile_px = (float)view->tile_px;
-    const float tiles_x = tile_count(view->width_px, view->tile_px),
-                tiles_y = tile_count(view->height_px, view->tile_px);
-    const wf margin_px = wf_set(view->reach_px + 1);
-    uint32_t culled = 0;
-    for (uint32_t i = 0; i < count; i += 16) {
-        const uint32_t p = first + i;
-        wf c[3], axis[3];
-        to_camera(view, wf_load(bounds->center_x + p), wf_load(bounds->center_y + p),
-                  wf_load(bounds->center_z + p), c);
-        const wf r = wf_mul(wf_load(bounds->radius + p), wf_set(view->scale));
-        wm alive, near;
-        wf x, y, half_x, half_y;
-        if (view->orthographic) {
-            alive = wf_lt(wf_negate(r), c[2]);
-            near = wm_of_bits(0);
-            x = wf_fma(c[0], wf_set(view->fx_px), wf_set(view->cx_px));
-            y = wf_fma(c[1], wf_set(view->fy_px), wf_set(view->cy_px));
-            half_x = wf_mul(r, wf_set(view->fx_px));
-            half_y = wf_mul(r, wf_set(view->fy_px));
-        } else {
-            alive = wf_lt(wf_negate(r), c[2]);
-            // The planes bound exact outlines, not affine ellipses.
-            for (int k = 0; k < 4 && !view->affine; k++) {
-                const float *n = view->side_planes[k];
-                const wf d =
-                    wf_fma(wf_set(n[0]), c[0], wf_fma(wf_set(n[1]), c[1], wf_mul(wf_set(n[2]), c[2])));
-                alive = wm_and(alive, wf_lt(wf_negate(r), d));
-            }
-            near = wf_le(c[2], wf_mul(r, wf_set((float)EWA_NEAR_RATIO)));
-            // The tight box of a sphere's outline: D = r^2 I - c'c (math.md section 3).
-            const wf r2 = wf_mul(r, r), z2 = wf_mul(c[2], c[2]);
-            const wf inverse = wf_div(wf_set(1), wf_sub(z2, r2));
-            const wf rx = wf_sqrt(wf_max(wf_fma(c[0], c[0], wf_sub(z2, r2)), wf_set(0)));
-            const wf ry = wf_sqrt(wf_max(wf_fma(c[1], c[1], wf_sub(z2, r2)), wf_set(0)));
-            const wf zi = wf_mul(c[2], inverse), ri = wf_mul(r, inverse);
-            x = wf_fma(wf_mul(c[0], zi), wf_set(view->fx_px), wf_set(view->cx_px));
-            y = wf_fma(wf_mul(c[1], zi), wf_set(view->fy_px), wf_set(view->cy_px));
-            half_x = wf_mul(wf_mul(rx, ri), wf_set(view->fx_px));
-            half_y = wf_mul(wf_mul(ry, ri), wf_set(view->fy_px));
-            if (view->affine) {
-                // Affine ellipses may leave the sphere's outline: |J t| <= (1 + |slope|) |t| / z around a
-                // centre in it.
-                const wf reach = wf_div(r, wf_sub(c[2], r));
-                half_x = wf_add(half_x, affine_reach(x, half_x, reach, view->fx_px, view->cx_px));
-                half_y = wf_add(half_y, affine_reach(y, half_y, reach, view->fy_px, view->cy_px));
-            }
-        }
-        if (view->cull_back) {
-            rotate(view->rotation, wf_load(bounds->axis_x + p), wf_load(bounds->axis_y + p),
-                   wf_load(bounds->axis_z + p), axis);
-            const wf sine = wf_load(bounds->cone_sine + p);
-            wm behind;
-            if (view->orthographic) {
-                behind = wf_lt(sine, axis[2]);
-            } else {
-                const wf along = wf_fma(axis[0], c[0], wf_fma(axis[1], c[1], wf_mul(axis[2], c[2])));
-                const wf length = wf_sqrt(wf_fma(c[0], c[0], wf_fma(c[1], c[1], wf_mul(c[2], c[2]))));
-                behind = wf_lt(wf_fma(length, sine, r), along);
-            }
-            alive = wm_and(alive, wm_not(behind));
-        }
-        const wf mx = wf_add(half_x, margin_px), my = wf_add(half_y, margin_px);
-        wf x0, x1, y0, y1;
-        tile_range(wf_sub(x, mx), wf_add(x, mx), tile_px, tiles_x, &x0, &x1);
-        tile_range(wf_sub(y, my), wf_add(y, my), tile_px, tiles_y, &y0, &y1);
-        x0 = wf_select(near, wf_set(0), x0), x1 = wf_select(near, wf_set(tiles_x), x1);
-        y0 = wf_select(near, wf_set(0), y0), y1 = wf_select(near, wf_set(tiles_y), y1);
-        alive = wm_and(alive, wm_and(wf_lt(x0, x1), wf_lt(y0, y1)));
-        int32_t corners[4][16];
-        wi_store(corners[0], wi_from_f(wf_keep(alive, x0)));
-        wi_store(corners[1], wi_from_f(wf_keep(alive, y0)));
-        wi_store(corners[2], wi_from_f(wf_keep(alive, x1)));
-        wi_store(corners[3], wi_from_f(wf_keep(alive, y1)));
-        const uint32_t here = count - i < 16 ? count - i : 16;
-        for (uint32_t k = 0; k < here; k++) {
-            rects[p + k] = (ewa_tile_rect){(uint16_t)corners[0][k], (uint16_t)corners[1][k],
-                                           (uint16_t)corners[2][k], (uint16_t)corners[3][k]};
-            culled += corners[0][k] == corners[2][k];
-        }
-    }
-    return culled;
-}
 
 /// Unit normals from their octahedral form.
 static inline void decode_normals(const ewa_packet *packet, wf n[3]) {

@@ -68,6 +68,7 @@ static void gather_stats(const ewa_renderer *renderer, const ewa_surfels *surfel
                                 .bin_s = (binned_s - start_s) * renderer->worker_count};
     for (uint32_t i = 0; i < renderer->worker_count; i++) {
         const ewa_tile_scratch *s = renderer->scratch[i];
+        stats->hidden_count += s->hidden_splat_count;
         stats->drawn_count += s->drawn_count;
         stats->fragment_count += s->fragment_count;
         stats->setup_s += s->setup_s;

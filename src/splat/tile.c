@@ -22,6 +22,7 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     const size_t tile_floats = (size_t)job->view.tile_px * job->view.tile_px;
     const size_t pixel_floats =
         tile_floats * (2 * (1 + EWA_MAX_CHANNELS) + 1 + 4) + tile_floats / EWA_BLOCK_LANES;
+    const uint64_t packet_count = largest_bin + 1;
     const size_t box_count = records + EWA_BLOCK_LANES, group_count = records / EWA_GROUP_RECORDS + 16;
     const struct {
         ewa_buffer *buffer;
@@ -33,8 +34,9 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
         {&s->list_buffer, 2 * (EWA_LISTS * records + EWA_BLOCK_LANES), sizeof *s->listed},
         {&s->box_buffer, 3 * (box_count + group_count), sizeof(float)},
         {&s->near_buffer, records, sizeof *s->near_surfels},
-        {&s->kept_buffer, records / EWA_RUN_RECORDS + 1, sizeof *s->kept},
+        {&s->kept_buffer, records / EWA_RUN_RECORDS + 2, sizeof *s->kept},
         {&s->pixel_buffer, pixel_floats, sizeof(float)},
+        {&s->packet_buffer, 2 * packet_count, sizeof *s->shown},
     };
     for (size_t i = 0; i < sizeof needs / sizeof needs[0]; i++) {
         const ewa_status status =
@@ -63,15 +65,18 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     s->edges.behind = s->edges.passed + tile_floats;
     s->edges.reach = s->edges.behind + 4 * tile_floats;
     s->record_capacity = records;
-    s->kept_capacity = records / EWA_RUN_RECORDS + 1;
-    s->drawn_count = s->fragment_count = 0;
+    s->kept_capacity = records / EWA_RUN_RECORDS + 2;
+    s->shown = s->packet_buffer.data;
+    s->hidden = s->shown + packet_count;
+    s->drawn_count = s->fragment_count = s->hidden_splat_count = 0;
     s->setup_s = s->visibility_s = s->accumulate_s = s->edge_s = s->resolve_s = 0;
     return EWA_OK;
 }
 
 void ewa_tile_scratch_free(ewa_context *context, ewa_tile_scratch *s) {
-    ewa_buffer *const buffers[] = {&s->record_buffer, &s->load_buffer, &s->order_buffer, &s->list_buffer,
-                                   &s->box_buffer,    &s->near_buffer, &s->kept_buffer,  &s->pixel_buffer};
+    ewa_buffer *const buffers[] = {&s->record_buffer, &s->load_buffer,  &s->order_buffer,
+                                   &s->list_buffer,   &s->box_buffer,   &s->near_buffer,
+                                   &s->kept_buffer,   &s->pixel_buffer, &s->packet_buffer};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) ewa_buffer_free(context, buffers[i]);
 }
 
@@ -150,9 +155,8 @@ static void visit_run(const ewa_tile_job *job, const ewa_tile *tile, const ewa_s
 }
 
 /// Second pass over the runs that the first pass has kept.
-static void walk_kept(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
-                      uint64_t run_count) {
-    for (uint64_t i = 0; i < run_count; i++) {
+static void walk_kept(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s) {
+    for (uint32_t i = 0; i < s->kept_count; i++) {
         const ewa_kept_run *kept = &s->kept[i];
         visit_run(job, tile, &kept->sorted, EWA_PASS_ACCUMULATE);
         ewa_tile_draw_near(job, tile, NULL, s->near_surfels + kept->near_first, kept->near_count,
@@ -160,10 +164,10 @@ static void walk_kept(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_sc
     }
 }
 
-/// One pass over runs that are set up for it.
+/// One pass over runs [first, end), set up for it and forgotten.
 static void walk_again(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
-                       const ewa_tile_packets *packets, ewa_tile_pass what) {
-    for (uint64_t i = 0; i < packets->run_count; i++) {
+                       const ewa_tile_packets *packets, uint64_t first, uint64_t end, ewa_tile_pass what) {
+    for (uint64_t i = first; i < end; i++) {
         ewa_sorted_run sorted;
         const double before = ewa_now_s();
         prepare_run(job, tile, s, packets, i, 0, &sorted);
@@ -176,25 +180,26 @@ static void walk_again(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_s
     }
 }
 
+void ewa_tile_drop_runs(ewa_tile_scratch *s) { s->kept_count = s->near_count = s->boxes.count = 0; }
+
 uint64_t ewa_tile_keep_runs(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
-                            const ewa_tile_packets *packets, uint64_t first_run, bool draw) {
-    uint32_t record_count = 0, near_count = 0;
+                            const ewa_tile_packets *packets, uint64_t first, uint64_t end, bool draw) {
     double before = ewa_now_s();
-    uint64_t i = first_run;
-    for (; i < packets->run_count; i++) {
+    uint64_t i = first;
+    for (; i < end; i++) {
         const uint64_t packets_left = packets->count - i * EWA_RUN_PACKETS;
         const uint64_t lanes =
             EWA_PACKET_LANES * (packets_left < EWA_RUN_PACKETS ? packets_left : EWA_RUN_PACKETS);
-        if (record_count + near_count + lanes > s->record_capacity) break;
-        if (i - first_run >= s->kept_capacity) break;
-        ewa_kept_run *kept = &s->kept[i - first_run];
-        prepare_run(job, tile, s, packets, i, record_count, &kept->sorted);
-        kept->near_first = near_count;
+        if (s->boxes.count + s->near_count + lanes > s->record_capacity) break;
+        if (s->kept_count >= s->kept_capacity) break;
+        ewa_kept_run *kept = &s->kept[s->kept_count++];
+        prepare_run(job, tile, s, packets, i, s->boxes.count, &kept->sorted);
+        kept->near_first = s->near_count;
         kept->near_count = s->run.near_count;
         for (uint32_t k = 0; k < kept->near_count; k++)
-            s->near_surfels[near_count + k] = s->run.near_surfels[k];
-        record_count += s->run.count;
-        near_count += kept->near_count;
+            s->near_surfels[s->near_count + k] = s->run.near_surfels[k];
+        s->boxes.count += s->run.count;
+        s->near_count += kept->near_count;
         const double middle = ewa_now_s();
         s->setup_s += middle - before;
         before = middle;
@@ -205,8 +210,40 @@ uint64_t ewa_tile_keep_runs(const ewa_tile_job *job, const ewa_tile *tile, ewa_t
         before = ewa_now_s();
         s->visibility_s += before - middle;
     }
-    s->boxes.count = record_count;
     return i;
+}
+
+/// First pass, some packets at a time: those that lie behind what is drawn by then are put aside.
+static void draw_visible(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
+                         const uint32_t *ids, uint64_t count, bool kept) {
+    enum { CHUNK_PACKETS = 4 * EWA_RUN_PACKETS };
+    s->shown_count = s->hidden_count = 0;
+    ewa_tile_drop_runs(s);
+    uint64_t drawn_runs = 0;
+    for (uint64_t first = 0; first < count; first += CHUNK_PACKETS) {
+        const uint32_t here = count - first < CHUNK_PACKETS ? (uint32_t)(count - first) : CHUNK_PACKETS;
+        const double before = ewa_now_s();
+        if (first == 0) {
+            memcpy(s->shown, ids, here * sizeof *ids);
+            s->shown_count = here;
+        } else {
+            job->kernels->set_cells(tile, s->cells);
+            s->shown_count +=
+                job->kernels->hide(&job->view, &job->surfels->bounds, tile, s->cells, ids + first, here,
+                                   s->shown + s->shown_count, s->hidden + s->hidden_count);
+            s->hidden_count = first + here - s->shown_count;
+        }
+        s->setup_s += ewa_now_s() - before;
+        const ewa_tile_packets packets = {s->shown, s->shown_count};
+        const uint64_t end =
+            first + here == count ? ewa_run_count(&packets) : s->shown_count / EWA_RUN_PACKETS;
+        if (kept)
+            ewa_tile_keep_runs(job, tile, s, &packets, drawn_runs, end, true);
+        else
+            walk_again(job, tile, s, &packets, drawn_runs, end, EWA_PASS_VISIBILITY);
+        drawn_runs = end;
+    }
+    s->hidden_splat_count += s->hidden_count * EWA_PACKET_LANES;
 }
 
 void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
@@ -228,21 +265,17 @@ void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
     tile.block_rows = ((uint32_t)tile.height_px + EWA_BLOCK_PX - 1) / EWA_BLOCK_PX;
     job->kernels->clear(&tile);
     const uint64_t first = job->bins->tile_first[index], count = job->bins->tile_first[index + 1] - first;
-    const ewa_tile_packets packets = {job->bins->entries + first, count,
-                                      (count + EWA_RUN_PACKETS - 1) / EWA_RUN_PACKETS};
     const bool kept = count * EWA_PACKET_LANES <= s->record_capacity;
-    if (kept)
-        ewa_tile_keep_runs(job, &tile, s, &packets, 0, true);
-    else
-        walk_again(job, &tile, s, &packets, EWA_PASS_VISIBILITY);
+    draw_visible(job, &tile, s, job->bins->entries + first, count, kept);
+    const ewa_tile_packets shown = {s->shown, s->shown_count};
     const double accumulating = ewa_now_s();
     if (kept)
-        walk_kept(job, &tile, s, packets.run_count);
+        walk_kept(job, &tile, s);
     else
-        walk_again(job, &tile, s, &packets, EWA_PASS_ACCUMULATE);
+        walk_again(job, &tile, s, &shown, 0, ewa_run_count(&shown), EWA_PASS_ACCUMULATE);
     const double accumulated = ewa_now_s();
     if (kept) s->accumulate_s += accumulated - accumulating;
-    const bool edges = ewa_tile_draw_edges(job, &tile, s, &packets, kept);
+    const bool edges = ewa_tile_draw_edges(job, &tile, s, kept);
     const double before = ewa_now_s();
     s->edge_s += before - accumulated;
     job->kernels->resolve(&tile, &job->resolve, edges ? &s->edges : NULL, s->edge_rows);
