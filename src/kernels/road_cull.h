@@ -154,6 +154,37 @@ static void set_cells(const ewa_tile *tile, float *cells) {
         }
 }
 
+/// The smallest key of cells [left, right] x [top, bottom].
+static ALWAYS_INLINE float least_key(const float *cells, int32_t left, int32_t top, int32_t right,
+                                     int32_t bottom) {
+    // Most packets touch no more than two cells along a side: their corners.
+    const float *upper = cells + top * EWA_TILE_CELLS, *lower = cells + bottom * EWA_TILE_CELLS;
+    const float a = upper[left] < upper[right] ? upper[left] : upper[right];
+    const float b = lower[left] < lower[right] ? lower[left] : lower[right];
+    float least = a < b ? a : b;
+    if (right - left < 2 && bottom - top < 2) return least;
+    for (int32_t row = top; row <= bottom; row++)
+        for (int32_t column = left; column <= right; column++) {
+            const float cell = cells[row * EWA_TILE_CELLS + column];
+            least = cell < least ? cell : least;
+        }
+    return least;
+}
+
+static ALWAYS_INLINE void load_spheres(const ewa_packet_bounds *bounds, const uint32_t *ids, uint32_t count,
+                                       wf sphere[4]) {
+    const float *const from[4] = {bounds->center_x, bounds->center_y, bounds->center_z, bounds->radius};
+    if (count == 16 && ids[15] - ids[0] == 15) { // neighbours in the order of the packets
+        for (int i = 0; i < 4; i++) sphere[i] = wf_load(from[i] + ids[0]);
+        return;
+    }
+    for (int i = 0; i < 4; i++) {
+        float lanes[16];
+        for (uint32_t k = 0; k < 16; k++) lanes[k] = from[i][ids[k < count ? k : 0]];
+        sphere[i] = wf_load(lanes);
+    }
+}
+
 static uint32_t hide(const ewa_view *view, const ewa_packet_bounds *bounds, const ewa_tile *tile,
                      const float *cells, const uint32_t *ids, uint32_t count, uint32_t *shown,
                      uint32_t *hidden) {
@@ -164,14 +195,9 @@ static uint32_t hide(const ewa_view *view, const ewa_packet_bounds *bounds, cons
     uint32_t shown_count = 0, hidden_count = 0;
     for (uint32_t first = 0; first < count; first += 16) {
         const uint32_t here = count - first < 16 ? count - first : 16;
-        float sphere[4][16];
-        for (uint32_t k = 0; k < 16; k++) {
-            const uint32_t id = ids[first + (k < here ? k : 0)];
-            sphere[0][k] = bounds->center_x[id], sphere[1][k] = bounds->center_y[id];
-            sphere[2][k] = bounds->center_z[id], sphere[3][k] = bounds->radius[id];
-        }
-        const packet_outline o = packet_outlines(view, wf_load(sphere[0]), wf_load(sphere[1]),
-                                                 wf_load(sphere[2]), wf_load(sphere[3]));
+        wf sphere[4];
+        load_spheres(bounds, ids + first, here, sphere);
+        const packet_outline o = packet_outlines(view, sphere[0], sphere[1], sphere[2], sphere[3]);
         // No key is beyond this: a disc's range, and how far its plane may go beyond (semantics.h), which is
         // EWA_FREE_RADII support radii for affine ellipses and half of that for others.
         const wf beyond = wf_mul(wf_set((float)EWA_FREE_RADII * (view->affine ? 1.0f : 0.5f)), o.radius);
@@ -192,13 +218,8 @@ static uint32_t hide(const ewa_view *view, const ewa_packet_bounds *bounds, cons
         wi_store(corners[2], wi_from_f(wf_clamp(wf_mul(wf_add(x, o.half_x), per_px), 0, last_column)));
         wi_store(corners[3], wi_from_f(wf_clamp(wf_mul(wf_add(y, o.half_y), per_px), 0, last_row)));
         for (uint32_t k = 0; k < here; k++) {
-            float least = __builtin_inff();
-            for (int32_t row = corners[1][k]; row <= corners[3][k]; row++)
-                for (int32_t column = corners[0][k]; column <= corners[2][k]; column++) {
-                    const float cell = cells[row * EWA_TILE_CELLS + column];
-                    least = cell < least ? cell : least;
-                }
-            const bool behind = keys[k] < least;
+            const bool behind =
+                keys[k] < least_key(cells, corners[0][k], corners[1][k], corners[2][k], corners[3][k]);
             const uint32_t id = ids[first + k];
             hidden[hidden_count] = id;
             shown[shown_count] = id;

@@ -213,25 +213,31 @@ uint64_t ewa_tile_keep_runs(const ewa_tile_job *job, const ewa_tile *tile, ewa_t
     return i;
 }
 
-/// First pass, some packets at a time: those that lie behind what is drawn by then are put aside.
+/// First pass, some packets at a time: those that lie behind what is drawn by then are put aside. Where
+/// nothing is hidden, fewer and fewer packets are asked.
 static void draw_visible(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
                          const uint32_t *ids, uint64_t count, bool kept) {
-    enum { CHUNK_PACKETS = 4 * EWA_RUN_PACKETS };
+    enum { CHUNK_PACKETS = 4 * EWA_RUN_PACKETS, MOST_PASSED = 6 };
     s->shown_count = s->hidden_count = 0;
     ewa_tile_drop_runs(s);
     uint64_t drawn_runs = 0;
+    uint32_t passed = 0, to_pass = 1; // chunks since the last that was asked, and until the next
     for (uint64_t first = 0; first < count; first += CHUNK_PACKETS) {
         const uint32_t here = count - first < CHUNK_PACKETS ? (uint32_t)(count - first) : CHUNK_PACKETS;
         const double before = ewa_now_s();
-        if (first == 0) {
-            memcpy(s->shown, ids, here * sizeof *ids);
-            s->shown_count = here;
+        if (passed < to_pass) {
+            memcpy(s->shown + s->shown_count, ids + first, here * sizeof *ids);
+            s->shown_count += here;
+            passed++;
         } else {
             job->kernels->set_cells(tile, s->cells);
-            s->shown_count +=
+            const uint32_t shown =
                 job->kernels->hide(&job->view, &job->surfels->bounds, tile, s->cells, ids + first, here,
                                    s->shown + s->shown_count, s->hidden + s->hidden_count);
-            s->hidden_count = first + here - s->shown_count;
+            s->shown_count += shown;
+            s->hidden_count += here - shown;
+            to_pass = shown < here ? 0 : to_pass < MOST_PASSED ? to_pass + 1 : MOST_PASSED;
+            passed = 0;
         }
         s->setup_s += ewa_now_s() - before;
         const ewa_tile_packets packets = {s->shown, s->shown_count};
