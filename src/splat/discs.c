@@ -5,6 +5,7 @@
 #include "splat/discs.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { LANES = EWA_PACKET_LANES };
 
@@ -13,22 +14,15 @@ static inline const void *numbers_at(const ewa_attribute *attribute, uint64_t po
     return (const char *)attribute->data + point * attribute->stride_bytes;
 }
 
-static inline void load_center(const ewa_discs *discs, uint64_t point, uint32_t lane, ewa_lanes *lanes) {
-    const ewa_surfel_reader *r = discs->reader;
-    const void *at = numbers_at(r->position, point);
-    for (int c = 0; c < 3; c++) {
-        const double number =
-            discs->wide_positions ? ((const double *)at)[c] : (double)((const float *)at)[c];
-        lanes->center_world[c][lane] = number + r->origin_world[c];
-    }
+static inline double center_at(const ewa_discs *discs, uint64_t point, int c) {
+    const void *at = numbers_at(discs->reader->position, point);
+    const double number = discs->wide_positions ? ((const double *)at)[c] : (double)((const float *)at)[c];
+    return number + discs->reader->origin_world[c];
 }
 
-static inline void load_disc(const ewa_discs *discs, uint64_t point, uint32_t lane, ewa_lanes *lanes) {
-    const ewa_surfel_reader *r = discs->reader;
-    load_center(discs, point, lane, lanes);
-    const float *normal = numbers_at(r->normal, point), *radius = numbers_at(r->radius, point);
-    for (int c = 0; c < 3; c++) lanes->normal[c][lane] = (double)normal[c];
-    lanes->sigma_world[lane] = (double)*radius * r->sigma_per_radius;
+static inline double sigma_at(const ewa_discs *discs, uint64_t point) {
+    const float radius = *(const float *)numbers_at(discs->reader->radius, point);
+    return (double)radius * discs->reader->sigma_per_radius;
 }
 
 bool ewa_discs_open(const ewa_surfel_reader *reader, ewa_discs *discs) {
@@ -38,29 +32,28 @@ bool ewa_discs_open(const ewa_surfel_reader *reader, ewa_discs *discs) {
            (!reader->color || reader->color->type == EWA_U8);
 }
 
-/// Surveys sixteen loaded lanes into running boxes of each lane; returns the number of drawable ones.
-static inline uint32_t survey_lanes(const ewa_lanes *lanes, uint8_t *drawable, double low[3][LANES],
-                                    double high[3][LANES]) {
-    uint32_t kept = 0;
-    for (int i = 0; i < LANES; i++) {
-        const double x = lanes->center_world[0][i], y = lanes->center_world[1][i],
-                     z = lanes->center_world[2][i], sigma = lanes->sigma_world[i];
-        const double nx = fabs(lanes->normal[0][i]), ny = fabs(lanes->normal[1][i]),
-                     nz = fabs(lanes->normal[2][i]);
-        const double length = nx + ny + nz; // of floats: neither overflows nor vanishes
-        const bool kept_here = (fabs(x) <= EWA_SURFEL_LIMIT) & (fabs(y) <= EWA_SURFEL_LIMIT) &
-                               (fabs(z) <= EWA_SURFEL_LIMIT) & (length > 0) & (length < INFINITY) &
-                               (sigma >= 1 / EWA_SURFEL_LIMIT) & (sigma <= EWA_SURFEL_LIMIT);
-        drawable[i] = kept_here;
-        kept += kept_here;
+/// Surveys up to sixteen points from `first` on into running boxes of each lane; the last one fills the rest.
+static inline void survey_lanes(const ewa_discs *discs, uint64_t first, uint64_t count,
+                                uint8_t drawable[LANES], double low[3][LANES], double high[3][LANES]) {
+    double center[3][LANES], length[LANES], sigma[LANES];
+    for (uint32_t i = 0; i < LANES; i++) {
+        const uint64_t point = first + (i < count ? i : count - 1);
+        for (int c = 0; c < 3; c++) center[c][i] = center_at(discs, point, c);
+        const float *n = numbers_at(discs->reader->normal, point);
+        // In double precision the sum of floats neither overflows nor vanishes.
+        length[i] = fabs((double)n[0]) + fabs((double)n[1]) + fabs((double)n[2]);
+        sigma[i] = sigma_at(discs, point);
     }
+    for (int i = 0; i < LANES; i++)
+        drawable[i] = (fabs(center[0][i]) <= EWA_SURFEL_LIMIT) & (fabs(center[1][i]) <= EWA_SURFEL_LIMIT) &
+                      (fabs(center[2][i]) <= EWA_SURFEL_LIMIT) & (length[i] > 0) & (length[i] < INFINITY) &
+                      (sigma[i] >= 1 / EWA_SURFEL_LIMIT) & (sigma[i] <= EWA_SURFEL_LIMIT);
     for (int c = 0; c < 3; c++)
         for (int i = 0; i < LANES; i++) {
-            const double value = lanes->center_world[c][i], least = low[c][i], most = high[c][i];
-            low[c][i] = drawable[i] && value < least ? value : least;
-            high[c][i] = drawable[i] && value > most ? value : most;
+            const double value = center[c][i], least = low[c][i], most = high[c][i];
+            low[c][i] = drawable[i] & (value < least) ? value : least;
+            high[c][i] = drawable[i] & (value > most) ? value : most;
         }
-    return kept;
 }
 
 void ewa_discs_survey(const ewa_discs *discs, uint64_t first, uint64_t count, uint8_t *drawable,
@@ -68,37 +61,34 @@ void ewa_discs_survey(const ewa_discs *discs, uint64_t first, uint64_t count, ui
     double low[3][LANES], high[3][LANES];
     for (int c = 0; c < 3; c++)
         for (int i = 0; i < LANES; i++) low[c][i] = INFINITY, high[c][i] = -INFINITY;
-    *facts = (ewa_disc_facts){.drawable_count = 0};
-    ewa_lanes lanes;
-    uint64_t done = 0;
-    for (; done + LANES <= count; done += LANES) {
-        for (uint32_t i = 0; i < LANES; i++) load_disc(discs, first + done + i, i, &lanes);
-        facts->drawable_count += survey_lanes(&lanes, drawable + done, low, high);
+    *facts = (ewa_disc_facts){.low_world = {INFINITY, INFINITY, INFINITY},
+                              .high_world = {-INFINITY, -INFINITY, -INFINITY}};
+    for (uint64_t done = 0; done < count; done += LANES) {
+        const uint64_t left = count - done, here = left < LANES ? left : LANES;
+        uint8_t flags[LANES];
+        survey_lanes(discs, first + done, here, flags, low, high);
+        memcpy(drawable + done, flags, here);
     }
-    if (done < count) {
-        uint8_t last[LANES];
-        for (uint32_t i = 0; i < LANES; i++) load_disc(discs, first + done, i, &lanes);
-        for (uint32_t i = 0; i < count - done; i++) load_disc(discs, first + done + i, i, &lanes);
-        survey_lanes(&lanes, last, low, high);
-        for (uint64_t i = 0; done < count; i++, done++) {
-            drawable[done] = last[i];
-            facts->drawable_count += last[i];
-        }
-    }
-    for (int c = 0; c < 3; c++) {
-        facts->low_world[c] = INFINITY, facts->high_world[c] = -INFINITY;
+    for (uint64_t i = 0; i < count; i++) facts->drawable_count += drawable[i];
+    for (int c = 0; c < 3; c++)
         for (int i = 0; i < LANES; i++) {
             facts->low_world[c] = low[c][i] < facts->low_world[c] ? low[c][i] : facts->low_world[c];
             facts->high_world[c] = high[c][i] > facts->high_world[c] ? high[c][i] : facts->high_world[c];
         }
-    }
 }
 
-void ewa_discs_load(const ewa_discs *discs, const uint32_t *points, uint32_t count, ewa_lanes *lanes) {
+void ewa_discs_load(const ewa_discs *discs, const double origin_world[3], const uint32_t *points,
+                    uint32_t count, ewa_packet *packet, float normal[3][LANES]) {
     for (uint32_t i = 0; i < LANES; i++) {
-        load_disc(discs, points[i < count ? i : 0], i, lanes);
-        lanes->ratio[i] = 1;
+        const uint32_t point = points[i < count ? i : 0];
+        const float *n = numbers_at(discs->reader->normal, point);
+        packet->x[i] = (float)(center_at(discs, point, 0) - origin_world[0]);
+        packet->y[i] = (float)(center_at(discs, point, 1) - origin_world[1]);
+        packet->z[i] = (float)(center_at(discs, point, 2) - origin_world[2]);
+        packet->sigma[i] = (float)sigma_at(discs, point);
+        for (int c = 0; c < 3; c++) normal[c][i] = n[c];
     }
+    for (uint32_t i = 0; i < LANES; i++) packet->angle[i] = 0, packet->ratio[i] = UINT16_MAX;
 }
 
 void ewa_discs_prefetch(const ewa_discs *discs, uint32_t point) {

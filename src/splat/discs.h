@@ -6,7 +6,7 @@
 #ifndef EWA_SRC_SPLAT_DISCS_H
 #define EWA_SRC_SPLAT_DISCS_H
 
-#include "splat/pack.h"
+#include "kernels/packet.h"
 #include "splat/surfel.h"
 
 /// The streams of a cloud of discs: positions of float or double, normals and radii of float, colours absent
@@ -30,9 +30,10 @@ bool ewa_discs_open(const ewa_surfel_reader *reader, ewa_discs *discs);
 void ewa_discs_survey(const ewa_discs *discs, uint64_t first, uint64_t count, uint8_t *drawable,
                       ewa_disc_facts *facts);
 
-/// Loads the drawable discs points[0 .. count) into the first lanes, 1 to 16 of them; the first one fills the
-/// rest.
-void ewa_discs_load(const ewa_discs *discs, const uint32_t *points, uint32_t count, ewa_lanes *lanes);
+/// Sets the lanes of a packet but for its colours and normal codes to the drawable discs points[0 .. count),
+/// 1 to 16 of them, and the normals that belong to it; the first disc fills the lanes that are left.
+void ewa_discs_load(const ewa_discs *discs, const double origin_world[3], const uint32_t *points,
+                    uint32_t count, ewa_packet *packet, float normal[3][EWA_PACKET_LANES]);
 
 /// Asks for the memory of one disc that will be loaded soon.
 void ewa_discs_prefetch(const ewa_discs *discs, uint32_t point);

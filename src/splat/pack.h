@@ -1,34 +1,27 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The contract of the packing kernels: sixteen surfels in double precision to one packet and its bounds. Each
-// does the same operations in the same order as the others, so all give the same bytes.
+// The contract of the packing kernels: each does the same correctly rounded operations in the same order as
+// the others, so all give the same bytes.
 #ifndef EWA_SRC_SPLAT_PACK_H
 #define EWA_SRC_SPLAT_PACK_H
 
 #include "kernels/packet.h"
 
-/// Sixteen surfels, one array per number.
-typedef struct ewa_lanes {
-    double center_world[3][EWA_PACKET_LANES];
-    double normal[3][EWA_PACKET_LANES];   ///< of any length whose square is a number
-    double sigma_world[EWA_PACKET_LANES]; ///< of the major axis
-    double ratio[EWA_PACKET_LANES];       ///< minor over major, [0, 1]
-} ewa_lanes;
+typedef struct ewa_pack_kernels {
+    /// Sets the normal codes of a packet from normals of any length but zero, one array per coordinate.
+    void (*code_normals)(const float normal[3][EWA_PACKET_LANES], ewa_packet *packet);
 
-/// One entry of ewa_packet_bounds.
-typedef struct ewa_packet_bound {
-    float center[3], radius, axis[3], cone_sine;
-} ewa_packet_bound;
+    /// Sets `bounds` [first, first + 16): spheres around the supports of `cutoff` sigmas, cones around the
+    /// normals. `packets` are the `count` (1 to 16) packets there; all their lanes count. The entries of
+    /// packets that do not exist get those of the first.
+    void (*bound_packets)(const ewa_packet *packets, uint32_t count, float cutoff,
+                          const ewa_packet_bounds *bounds, uint64_t first);
+} ewa_pack_kernels;
 
-/// Sets positions, sigma, ratio and normal codes of all lanes of a packet, and the sphere around the supports
-/// of `cutoff` sigmas with the cone around the normals.
-typedef void ewa_pack_kernel(const ewa_lanes *lanes, const double origin_world[3], double cutoff,
-                             ewa_packet *packet, ewa_packet_bound *bound);
-
-ewa_pack_kernel ewa_pack_portable;
+extern const ewa_pack_kernels ewa_pack_kernels_portable;
 #if defined(__x86_64__)
-ewa_pack_kernel ewa_pack_avx2, ewa_pack_avx512;
+extern const ewa_pack_kernels ewa_pack_kernels_avx2, ewa_pack_kernels_avx512;
 #endif
 
 #endif

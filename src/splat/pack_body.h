@@ -1,98 +1,153 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Body of the packing kernels (KERNEL): loops over lanes that the compiler turns into vectors of whatever
-// instruction set the including file is compiled for. Reductions halve, so that their order is the same in
-// all.
+// The packing kernels over the wide type: a stub defines which one that is and PACK_KERNELS, the name of the
+// table.
 //
 // Octahedral normals: Meyer et al., "On Floating-Point Normal Vectors", 2010.
+#include "math/wide.h"
 #include "splat/pack.h"
-
-#include <math.h>
 
 enum { LANES = EWA_PACKET_LANES };
 
-#define EACH_LANE(i) for (int i = 0; i < LANES; i++)
+/// Single precision of centre, radius, axis and sine, rounded to the safe side.
+static const float SLACK = 16 * 0x1p-24f;
 
-#define REDUCE(name, expression)                                                                             \
-    static inline double name(const double value[LANES]) {                                                   \
-        double r[LANES];                                                                                     \
-        EACH_LANE(i) r[i] = value[i];                                                                        \
-        for (int i = 0; i < 8; i++) {                                                                        \
-            const double a = r[i], b = r[i + 8];                                                             \
-            r[i] = (expression);                                                                             \
-        }                                                                                                    \
-        for (int i = 0; i < 4; i++) {                                                                        \
-            const double a = r[i], b = r[i + 4];                                                             \
-            r[i] = (expression);                                                                             \
-        }                                                                                                    \
-        for (int i = 0; i < 2; i++) {                                                                        \
-            const double a = r[i], b = r[i + 2];                                                             \
-            r[i] = (expression);                                                                             \
-        }                                                                                                    \
-        const double a = r[0], b = r[1];                                                                     \
-        return (expression);                                                                                 \
-    }
+static inline wf with_sign_of(wf magnitude, wf sign) {
+    return wf_select(wf_lt(sign, wf_set(0)), wf_sub(wf_set(0), magnitude), magnitude);
+}
 
-REDUCE(least_lane, a < b ? a : b)
-REDUCE(most_lane, a > b ? a : b)
-REDUCE(sum_lanes, a + b)
-
-/// Encodes the normals and replaces them by what their codes mean.
-static inline void code_normals(const ewa_lanes *lanes, ewa_packet *packet, double normal[3][LANES]) {
+static void code_normals(const float normal[3][LANES], ewa_packet *packet) {
+    wf n[3];
+    for (int c = 0; c < 3; c++) n[c] = wf_load(normal[c]);
+    // Tiny and huge normals keep their direction.
+    const wf largest = wf_max(wf_abs(n[0]), wf_max(wf_abs(n[1]), wf_abs(n[2])));
+    for (int c = 0; c < 3; c++) n[c] = wf_div(n[c], largest);
+    const wf sum = wf_add(wf_add(wf_abs(n[0]), wf_abs(n[1])), wf_abs(n[2]));
+    const wf u = wf_div(n[0], sum), v = wf_div(n[1], sum), one = wf_set(1);
+    const wm below = wf_lt(n[2], wf_set(0));
+    const wf x = wf_select(below, with_sign_of(wf_sub(one, wf_abs(v)), u), u);
+    const wf y = wf_select(below, with_sign_of(wf_sub(one, wf_abs(u)), v), v);
+    const wf scale = wf_set(32767), half = wf_set(0.5f);
     int32_t code_x[LANES], code_y[LANES];
-    EACH_LANE(i) {
-        const double nx = lanes->normal[0][i], ny = lanes->normal[1][i], nz = lanes->normal[2][i];
-        const double scale = 1 / (fabs(nx) + fabs(ny) + fabs(nz));
-        const double u = nx * scale, v = ny * scale;
-        const double folded_u = copysign(1 - fabs(v), u), folded_v = copysign(1 - fabs(u), v);
-        const double x = nz < 0 ? folded_u : u, y = nz < 0 ? folded_v : v;
-        code_x[i] = (int32_t)(x * 32767 + copysign(0.5, x));
-        code_y[i] = (int32_t)(y * 32767 + copysign(0.5, y));
-    }
-    EACH_LANE(i) packet->oct_x[i] = (int16_t)code_x[i];
-    EACH_LANE(i) packet->oct_y[i] = (int16_t)code_y[i];
-    EACH_LANE(i) {
-        const double u = code_x[i] / 32767.0, v = code_y[i] / 32767.0, z = 1 - fabs(u) - fabs(v);
-        const double fold = z < 0 ? -z : 0;
-        const double x = u - copysign(fold, u), y = v - copysign(fold, v);
-        const double scale = 1 / sqrt(x * x + y * y + z * z);
-        normal[0][i] = x * scale, normal[1][i] = y * scale, normal[2][i] = z * scale;
-    }
+    wi_store(code_x, wi_from_f(wf_add(wf_mul(x, scale), with_sign_of(half, x))));
+    wi_store(code_y, wi_from_f(wf_add(wf_mul(y, scale), with_sign_of(half, y))));
+    for (int i = 0; i < LANES; i++) packet->oct_x[i] = (int16_t)code_x[i];
+    for (int i = 0; i < LANES; i++) packet->oct_y[i] = (int16_t)code_y[i];
 }
 
-void KERNEL(const ewa_lanes *lanes, const double origin_world[3], double cutoff, ewa_packet *packet,
-            ewa_packet_bound *bound) {
-    float *const position[3] = {packet->x, packet->y, packet->z};
-    double local[3][LANES], normal[3][LANES], far2[LANES], cosine[LANES], reach[LANES];
-    enum { ULPS = 16 }; // single precision of centre, radius and axis, rounded to the safe side
-    const double slack = ULPS * 0x1p-24;
-    double center[3], axis[3], size = 0;
-    for (int c = 0; c < 3; c++) {
-        const double origin = origin_world[c];
-        EACH_LANE(i) position[c][i] = (float)(lanes->center_world[c][i] - origin);
-        EACH_LANE(i) local[c][i] = (double)position[c][i];
-        bound->center[c] = (float)(0.5 * (least_lane(local[c]) + most_lane(local[c])));
-        center[c] = (double)bound->center[c];
-        size += fabs(center[c]);
-    }
-    EACH_LANE(i) packet->sigma[i] = (float)lanes->sigma_world[i];
-    int32_t ratio[LANES];
-    EACH_LANE(i) ratio[i] = (int32_t)(lanes->ratio[i] * 65535 + 0.5);
-    EACH_LANE(i) packet->ratio[i] = (uint16_t)ratio[i];
-    code_normals(lanes, packet, normal);
-    for (int c = 0; c < 3; c++) axis[c] = sum_lanes(normal[c]);
-    const double length = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
-    for (int c = 0; c < 3; c++) axis[c] = length > 0 ? axis[c] / length : c == 2;
-    EACH_LANE(i) {
-        const double x = local[0][i] - center[0], y = local[1][i] - center[1], z = local[2][i] - center[2];
-        far2[i] = x * x + y * y + z * z;
-        cosine[i] = normal[0][i] * axis[0] + normal[1][i] * axis[1] + normal[2][i] * axis[2];
-    }
-    EACH_LANE(i) reach[i] = sqrt(far2[i]) + cutoff * (double)packet->sigma[i];
-    bound->radius = (float)(most_lane(reach) * (1 + slack) + slack * size);
-    for (int c = 0; c < 3; c++) bound->axis[c] = (float)axis[c];
-    const double least_cosine = length > 0 ? least_lane(cosine) : -1;
-    const double sine2 = 1 - least_cosine * least_cosine;
-    bound->cone_sine = least_cosine <= 0 ? 2.0f : (float)(sqrt(sine2 > 0 ? sine2 : 0) + slack);
+static inline void decode_normals(const ewa_packet *packet, wf n[3]) {
+    const wf unit = wf_set(1.0f / 32767.0f), zero = wf_set(0);
+    const wf u = wf_mul(wf_from_i(wi_load_i16(packet->oct_x)), unit);
+    const wf v = wf_mul(wf_from_i(wi_load_i16(packet->oct_y)), unit);
+    const wf z = wf_sub(wf_sub(wf_set(1), wf_abs(u)), wf_abs(v));
+    const wf fold = wf_max(wf_sub(zero, z), zero);
+    const wf x = wf_sub(u, with_sign_of(fold, u)), y = wf_sub(v, with_sign_of(fold, v));
+    const wf length = wf_sqrt(wf_fma(x, x, wf_fma(y, y, wf_mul(z, z))));
+    n[0] = wf_div(x, length), n[1] = wf_div(y, length), n[2] = wf_div(z, length);
 }
+
+/// The sum, the least or the greatest number of each row: lane k of the result is that of rows[k].
+static inline wf sum_rows(wf rows[LANES]) {
+    w_transpose(rows);
+    wf sum = rows[0];
+    for (int i = 1; i < LANES; i++) sum = wf_add(sum, rows[i]);
+    return sum;
+}
+
+static inline wf least_of_rows(wf rows[LANES]) {
+    w_transpose(rows);
+    wf least = rows[0];
+    for (int i = 1; i < LANES; i++) least = wf_min(least, rows[i]);
+    return least;
+}
+
+static inline wf greatest_of_rows(wf rows[LANES]) {
+    w_transpose(rows);
+    wf greatest = rows[0];
+    for (int i = 1; i < LANES; i++) greatest = wf_max(greatest, rows[i]);
+    return greatest;
+}
+
+/// Middles of the boxes around the positions; `values` are the packets' coordinates c.
+static inline wf middle_of(const float *const values[LANES]) {
+    wf low[LANES], high[LANES];
+    for (int k = 0; k < LANES; k++) low[k] = high[k] = wf_load(values[k]);
+    // Halves first: the sum of two coordinates may overflow.
+    const wf half = wf_set(0.5f);
+    return wf_add(wf_mul(least_of_rows(low), half), wf_mul(greatest_of_rows(high), half));
+}
+
+static inline wf radii(const ewa_packet *const packets[LANES], float cutoff, const float center[3][LANES]) {
+    wf reach[LANES];
+    for (int k = 0; k < LANES; k++) {
+        const ewa_packet *p = packets[k];
+        const wf x = wf_sub(wf_load(p->x), wf_set(center[0][k]));
+        const wf y = wf_sub(wf_load(p->y), wf_set(center[1][k]));
+        const wf z = wf_sub(wf_load(p->z), wf_set(center[2][k]));
+        // By way of the largest one: squares of coordinates may overflow.
+        const wf largest = wf_max(wf_max(wf_abs(x), wf_max(wf_abs(y), wf_abs(z))), wf_set(0x1p-100f));
+        const wf a = wf_div(x, largest), b = wf_div(y, largest), c = wf_div(z, largest);
+        const wf length = wf_sqrt(wf_fma(a, a, wf_fma(b, b, wf_mul(c, c))));
+        reach[k] = wf_fma(length, largest, wf_mul(wf_set(cutoff), wf_load(p->sigma)));
+    }
+    return greatest_of_rows(reach);
+}
+
+static inline void bound_normals(const ewa_packet *const packets[LANES], const ewa_packet_bounds *bounds,
+                                 uint64_t first) {
+    wf normal[3][LANES];
+    for (int k = 0; k < LANES; k++) {
+        wf n[3];
+        decode_normals(packets[k], n);
+        for (int c = 0; c < 3; c++) normal[c][k] = n[c];
+    }
+    float *const streams[3] = {bounds->axis_x + first, bounds->axis_y + first, bounds->axis_z + first};
+    wf rows[LANES], sum[3];
+    for (int c = 0; c < 3; c++) {
+        for (int k = 0; k < LANES; k++) rows[k] = normal[c][k];
+        sum[c] = sum_rows(rows);
+    }
+    const wf length2 = wf_fma(sum[0], sum[0], wf_fma(sum[1], sum[1], wf_mul(sum[2], sum[2])));
+    const wm directed = wf_lt(wf_set(SLACK), length2);
+    const wf length = wf_sqrt(length2);
+    for (int c = 0; c < 3; c++)
+        wf_store(streams[c], wf_select(directed, wf_div(sum[c], length), wf_set(c == 2)));
+    wf cosine[LANES], sine2[LANES];
+    for (int k = 0; k < LANES; k++) {
+        const wf x = normal[0][k], y = normal[1][k], z = normal[2][k];
+        const wf a = wf_set(streams[0][k]), b = wf_set(streams[1][k]), c = wf_set(streams[2][k]);
+        cosine[k] = wf_fma(x, a, wf_fma(y, b, wf_mul(z, c)));
+        // By the cross product, which is exact where the cosine says nothing.
+        const wf s = wf_sub(wf_mul(y, c), wf_mul(z, b)), t = wf_sub(wf_mul(z, a), wf_mul(x, c)),
+                 u = wf_sub(wf_mul(x, b), wf_mul(y, a));
+        sine2[k] = wf_fma(s, s, wf_fma(t, t, wf_mul(u, u)));
+    }
+    const wm narrow = wm_and(directed, wf_lt(wf_set(SLACK), least_of_rows(cosine)));
+    const wf sine = wf_add(wf_sqrt(greatest_of_rows(sine2)), wf_set(SLACK));
+    wf_store(bounds->cone_sine + first, wf_select(narrow, sine, wf_set(2)));
+}
+
+static void bound_packets(const ewa_packet *packets, uint32_t count, float cutoff,
+                          const ewa_packet_bounds *bounds, uint64_t first) {
+    const ewa_packet *all[LANES];
+    const float *positions[3][LANES];
+    for (uint32_t k = 0; k < LANES; k++) {
+        all[k] = &packets[k < count ? k : 0];
+        positions[0][k] = all[k]->x, positions[1][k] = all[k]->y, positions[2][k] = all[k]->z;
+    }
+    float *const streams[3] = {bounds->center_x + first, bounds->center_y + first, bounds->center_z + first};
+    float center[3][LANES];
+    wf size = wf_set(0);
+    for (int c = 0; c < 3; c++) {
+        const wf middle = middle_of(positions[c]);
+        wf_store(center[c], middle);
+        wf_store(streams[c], middle);
+        size = wf_add(size, wf_abs(middle));
+    }
+    const wf radius = wf_mul(radii(all, cutoff, center), wf_set(1 + SLACK));
+    wf_store(bounds->radius + first, wf_fma(size, wf_set(SLACK), radius));
+    bound_normals(all, bounds, first);
+}
+
+const ewa_pack_kernels PACK_KERNELS = {code_normals, bound_packets};

@@ -32,7 +32,7 @@ typedef struct build {
     ewa_surfel_reader reader;
     ewa_discs discs;
     bool are_discs; // `discs` can be used
-    ewa_pack_kernel *pack;
+    const ewa_pack_kernels *kernels;
     uint16_t color_codes[3][256], grey_codes[3]; // of discs
     uint64_t point_count;
     uint32_t parts;
@@ -183,19 +183,18 @@ static void put_color(ewa_packet *packet, uint32_t lane, const uint16_t codes[3]
 }
 
 /// Packs discs of a cloud whose streams need no general reading.
-static void encode_discs(const build *b, const uint32_t *points, uint32_t count, ewa_packet *packet,
-                         ewa_packet_bound *bound) {
-    ewa_lanes lanes;
-    ewa_discs_load(&b->discs, points, count, &lanes);
-    b->pack(&lanes, b->surfels->origin_world, b->surfels->cutoff, packet, bound);
+static void encode_discs(const build *b, const uint32_t *points, uint32_t count, ewa_packet *packet) {
+    float normal[3][LANES];
+    ewa_discs_load(&b->discs, b->surfels->origin_world, points, count, packet, normal);
+    b->kernels->code_normals(normal, packet);
     const ewa_attribute *color = b->reader.color;
-    for (uint32_t lane = 0; lane < count; lane++) {
-        packet->angle[lane] = 0;
+    for (uint32_t lane = 0; lane < LANES; lane++) {
         if (!color) {
             put_color(packet, lane, b->grey_codes);
             continue;
         }
-        const uint8_t *c = (const uint8_t *)color->data + points[lane] * color->stride_bytes;
+        const uint32_t point = points[lane < count ? lane : 0];
+        const uint8_t *c = (const uint8_t *)color->data + point * color->stride_bytes;
         packet->red[lane] = b->color_codes[0][c[0]];
         packet->green[lane] = b->color_codes[1][c[1]];
         packet->blue[lane] = b->color_codes[2][c[2]];
@@ -203,31 +202,33 @@ static void encode_discs(const build *b, const uint32_t *points, uint32_t count,
 }
 
 /// Packs any surfels.
-static void encode_surfels(const build *b, const uint32_t *points, uint32_t count, ewa_packet *packet,
-                           ewa_packet_bound *bound) {
+static void encode_surfels(const build *b, const uint32_t *points, uint32_t count, ewa_packet *packet) {
+    const double *origin = b->surfels->origin_world;
     ewa_surfel surfels[LANES];
-    ewa_lanes lanes;
+    float normal[3][LANES];
     for (uint32_t i = 0; i < LANES; i++) {
         bool drawable;
-        if (i < count) ewa_surfel_read(&b->reader, points[i], 1, &surfels[i], &drawable);
-        const ewa_surfel *s = &surfels[i < count ? i : 0];
+        if (i < count)
+            ewa_surfel_read(&b->reader, points[i], 1, &surfels[i], &drawable);
+        else
+            surfels[i] = surfels[0];
+        const ewa_surfel *s = &surfels[i];
         const double major = vec3_length(vec3_load(s->axis_u_world)),
                      minor = vec3_length(vec3_load(s->axis_v_world));
-        for (int c = 0; c < 3; c++) {
-            lanes.center_world[c][i] = s->center_world[c];
-            lanes.normal[c][i] = s->normal_world[c];
-        }
-        lanes.sigma_world[i] = major;
-        lanes.ratio[i] = least(minor / major, 1);
-    }
-    b->pack(&lanes, b->surfels->origin_world, b->surfels->cutoff, packet, bound);
-    for (uint32_t lane = 0; lane < count; lane++) {
-        const ewa_surfel *s = &surfels[lane];
+        packet->x[i] = (float)(s->center_world[0] - origin[0]);
+        packet->y[i] = (float)(s->center_world[1] - origin[1]);
+        packet->z[i] = (float)(s->center_world[2] - origin[2]);
+        packet->sigma[i] = (float)major;
+        packet->ratio[i] = (uint16_t)(least(minor / major, 1) * 65535 + 0.5);
+        for (int c = 0; c < 3; c++) normal[c][i] = (float)s->normal_world[c];
         uint16_t codes[3];
         encode_color(b->surfels, s->color_linear, codes);
-        put_color(packet, lane, codes);
-        const bool circle = packet->ratio[lane] == 65535;
-        packet->angle[lane] = circle ? 0 : encode_angle(packet, lane, vec3_load(s->axis_u_world));
+        put_color(packet, i, codes);
+    }
+    b->kernels->code_normals(normal, packet);
+    for (uint32_t i = 0; i < LANES; i++) {
+        const bool circle = packet->ratio[i] == 65535;
+        packet->angle[i] = circle ? 0 : encode_angle(packet, i, vec3_load(surfels[i].axis_u_world));
     }
 }
 
@@ -240,31 +241,36 @@ static void empty_lanes(ewa_packet *packet, uint32_t count) {
     }
 }
 
+/// Packs and bounds the sixteen packets of a group, fewer in the last one.
+static void encode_group(const build *b, uint64_t group) {
+    const ewa_surfels *surfels = b->surfels;
+    const uint64_t first = group * LANES, packets_left = surfels->packet_count - first;
+    const uint32_t packet_count = packets_left < LANES ? (uint32_t)packets_left : LANES;
+    uint32_t count = LANES;
+    for (uint32_t k = 0; k < packet_count; k++) {
+        const uint64_t at = (first + k) * LANES, left = surfels->count - at;
+        ewa_packet *packet = &surfels->packets[first + k];
+        count = left < LANES ? (uint32_t)left : LANES;
+        if (!b->are_discs) {
+            encode_surfels(b, &b->order[at], count, packet);
+            continue;
+        }
+        if (left >= PREFETCH_POINTS + LANES)
+            for (uint32_t i = 0; i < LANES; i++)
+                ewa_discs_prefetch(&b->discs, b->order[at + PREFETCH_POINTS + i]);
+        encode_discs(b, &b->order[at], count, packet);
+    }
+    b->kernels->bound_packets(&surfels->packets[first], packet_count, (float)surfels->cutoff,
+                              &surfels->bounds, first);
+    empty_lanes(&surfels->packets[first + packet_count - 1], count);
+}
+
 static void encode_part(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const build *b = data;
-    const ewa_surfels *surfels = b->surfels;
-    const ewa_packet_bounds *bounds = &surfels->bounds;
-    const uint64_t end = ewa_split(surfels->packet_count, b->parts, part + 1);
-    for (uint64_t p = ewa_split(surfels->packet_count, b->parts, part); p < end; p++) {
-        const uint64_t first = p * LANES, left = surfels->count - first;
-        const uint32_t count = left < LANES ? (uint32_t)left : LANES;
-        ewa_packet *packet = &surfels->packets[p];
-        ewa_packet_bound bound;
-        if (b->are_discs) {
-            if (left >= PREFETCH_POINTS + LANES)
-                for (uint32_t i = 0; i < LANES; i++)
-                    ewa_discs_prefetch(&b->discs, b->order[first + PREFETCH_POINTS + i]);
-            encode_discs(b, &b->order[first], count, packet, &bound);
-        } else {
-            encode_surfels(b, &b->order[first], count, packet, &bound);
-        }
-        empty_lanes(packet, count);
-        bounds->center_x[p] = bound.center[0], bounds->center_y[p] = bound.center[1];
-        bounds->center_z[p] = bound.center[2], bounds->radius[p] = bound.radius;
-        bounds->axis_x[p] = bound.axis[0], bounds->axis_y[p] = bound.axis[1];
-        bounds->axis_z[p] = bound.axis[2], bounds->cone_sine[p] = bound.cone_sine;
-    }
+    const uint64_t groups = ((uint64_t)b->surfels->packet_count + LANES - 1) / LANES;
+    const uint64_t end = ewa_split(groups, b->parts, part + 1);
+    for (uint64_t g = ewa_split(groups, b->parts, part); g < end; g++) encode_group(b, g);
 }
 
 /// A surfel with its point, for ordering what the Morton curve leaves in the order of the input.
@@ -319,15 +325,15 @@ static ewa_status order_points(build *b, ewa_context *context) {
     return status;
 }
 
-static ewa_pack_kernel *choose_kernel(uint32_t features) {
-    ewa_pack_kernel *kernel = ewa_pack_portable;
+static const ewa_pack_kernels *choose_kernels(uint32_t features) {
+    const ewa_pack_kernels *kernels = &ewa_pack_kernels_portable;
 #if defined(__x86_64__)
-    if (features & EWA_CPU_AVX2) kernel = ewa_pack_avx2;
-    if (features & EWA_CPU_AVX512) kernel = ewa_pack_avx512;
+    if (features & EWA_CPU_AVX2) kernels = &ewa_pack_kernels_avx2;
+    if (features & EWA_CPU_AVX512) kernels = &ewa_pack_kernels_avx512;
 #else
     (void)features;
 #endif
-    return kernel;
+    return kernels;
 }
 
 /// Makes tables from the colours that discs can have to their codes.
@@ -364,7 +370,7 @@ static ewa_status build_surfels(build *b, ewa_context *context) {
     b->order = ewa_allocate(context, b->point_count, sizeof *b->order);
     if (!b->drawable || !b->order) return EWA_ERROR_MEMORY;
     b->are_discs = ewa_discs_open(&b->reader, &b->discs);
-    b->pack = choose_kernel(ewa_context_cpu_features(context));
+    b->kernels = choose_kernels(ewa_context_cpu_features(context));
     ewa_parallel(context, survey_part, b, b->parts);
     settle(b);
     if (b->are_discs) set_color_codes(b);
