@@ -314,7 +314,16 @@ static ewa_status order_points(build *b, ewa_context *context) {
     const uint32_t count = (uint32_t)b->point_count;
     uint16_t *split_level = ewa_allocate(context, count, sizeof *split_level);
     if (!split_level) return EWA_ERROR_MEMORY;
-    ewa_status status = ewa_morton_order(context, b->reader.position, count, b->order, split_level, NULL);
+    // The sort may use the packets' memory before there are packets.
+    ewa_surfels *surfels = b->surfels;
+    const bool fits = surfels->packet_count * sizeof *surfels->packets >= ewa_morton_room_bytes(count);
+    ewa_bounds box = surfels->extent;
+    for (int c = 0; c < 3; c++) {
+        box.low_world[c] -= b->reader.origin_world[c];
+        box.high_world[c] -= b->reader.origin_world[c];
+    }
+    ewa_status status = ewa_morton_order_in(context, b->reader.position, count, &box,
+                                            fits ? surfels->packets : NULL, b->order, split_level);
     if (status == EWA_OK) status = order_ties(b, context, split_level, count);
     if (status == EWA_OK && b->surfels->left_out_count) {
         uint32_t kept = 0;
@@ -374,9 +383,8 @@ static ewa_status build_surfels(build *b, ewa_context *context) {
     ewa_parallel(context, survey_part, b, b->parts);
     settle(b);
     if (b->are_discs) set_color_codes(b);
-    ewa_status status = order_points(b, context);
-    if (status != EWA_OK) return status;
-    status = allocate_packets(b->surfels);
+    ewa_status status = allocate_packets(b->surfels);
+    if (status == EWA_OK) status = order_points(b, context);
     if (status != EWA_OK) return status;
     ewa_parallel(context, encode_part, b, b->parts);
     b->surfels->unit_coverage = ewa_packets_unit_coverage(b->surfels);
