@@ -4,6 +4,7 @@
 // Discs straight from a cloud's streams.
 #include "splat/discs.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -25,11 +26,30 @@ static inline double sigma_at(const ewa_discs *discs, uint64_t point) {
     return (double)radius * discs->reader->sigma_per_radius;
 }
 
-bool ewa_discs_open(const ewa_surfel_reader *reader, ewa_discs *discs) {
-    *discs = (ewa_discs){.reader = reader, .wide_positions = reader->position->type == EWA_F64};
-    return !reader->tangent_u && (discs->wide_positions || reader->position->type == EWA_F32) &&
-           reader->normal->type == EWA_F32 && reader->radius->type == EWA_F32 &&
-           (!reader->color || reader->color->type == EWA_U8);
+/// What is safe in single precision; everything else is looked at in double precision.
+static ewa_safe_range safe_range(const ewa_surfel_reader *reader) {
+    double farthest = 0;
+    for (int c = 0; c < 3; c++) farthest = fmax(farthest, fabs(reader->origin_world[c]));
+    const double least = 2 / EWA_SURFEL_LIMIT / reader->sigma_per_radius,
+                 most = 0.5 * EWA_SURFEL_LIMIT / reader->sigma_per_radius;
+    return (ewa_safe_range){.position_most = (float)(0.5 * EWA_SURFEL_LIMIT - farthest),
+                            .radius_least = (float)fmax(least, (double)FLT_MIN),
+                            .radius_most = (float)fmin(most, (double)FLT_MAX)};
+}
+
+bool ewa_discs_open(const ewa_surfel_reader *reader, const ewa_pack_kernels *kernels, ewa_discs *discs) {
+    *discs = (ewa_discs){
+        .reader = reader, .kernels = kernels, .wide_positions = reader->position->type == EWA_F64};
+    const bool are_discs = !reader->tangent_u &&
+                           (discs->wide_positions || reader->position->type == EWA_F32) &&
+                           reader->normal->type == EWA_F32 && reader->radius->type == EWA_F32 &&
+                           (!reader->color || reader->color->type == EWA_U8);
+    if (!are_discs) return false;
+    discs->packed = !discs->wide_positions && reader->position->stride_bytes == 3 * sizeof(float) &&
+                    reader->normal->stride_bytes == 3 * sizeof(float) &&
+                    reader->radius->stride_bytes == sizeof(float);
+    discs->safe = safe_range(reader);
+    return true;
 }
 
 /// Surveys up to sixteen points from `first` on into running boxes of each lane; the last one fills the rest.
@@ -56,6 +76,25 @@ static inline void survey_lanes(const ewa_discs *discs, uint64_t first, uint64_t
         }
 }
 
+/// Surveys whole groups of sixteen as far as the kernel can; returns how many points that were.
+static uint64_t survey_packed(const ewa_discs *discs, uint64_t first, uint64_t count, uint8_t *drawable,
+                              ewa_disc_facts *facts) {
+    const ewa_surfel_reader *r = discs->reader;
+    float low[EWA_BOX_FLOATS], high[EWA_BOX_FLOATS];
+    for (int k = 0; k < EWA_BOX_FLOATS; k++) low[k] = INFINITY, high[k] = -INFINITY;
+    const uint64_t groups =
+        discs->kernels->survey(&discs->safe, numbers_at(r->position, first), numbers_at(r->normal, first),
+                               numbers_at(r->radius, first), count / LANES, low, high);
+    memset(drawable, 1, groups * LANES);
+    // Adding the origin keeps the order.
+    for (int k = 0; groups && k < EWA_BOX_FLOATS; k++) {
+        const double origin = r->origin_world[k % 3];
+        facts->low_world[k % 3] = fmin(facts->low_world[k % 3], (double)low[k] + origin);
+        facts->high_world[k % 3] = fmax(facts->high_world[k % 3], (double)high[k] + origin);
+    }
+    return groups * LANES;
+}
+
 void ewa_discs_survey(const ewa_discs *discs, uint64_t first, uint64_t count, uint8_t *drawable,
                       ewa_disc_facts *facts) {
     double low[3][LANES], high[3][LANES];
@@ -63,17 +102,20 @@ void ewa_discs_survey(const ewa_discs *discs, uint64_t first, uint64_t count, ui
         for (int i = 0; i < LANES; i++) low[c][i] = INFINITY, high[c][i] = -INFINITY;
     *facts = (ewa_disc_facts){.low_world = {INFINITY, INFINITY, INFINITY},
                               .high_world = {-INFINITY, -INFINITY, -INFINITY}};
-    for (uint64_t done = 0; done < count; done += LANES) {
+    for (uint64_t done = 0; done < count;) {
+        if (discs->packed) done += survey_packed(discs, first + done, count - done, drawable + done, facts);
+        if (done == count) break;
         const uint64_t left = count - done, here = left < LANES ? left : LANES;
         uint8_t flags[LANES];
         survey_lanes(discs, first + done, here, flags, low, high);
         memcpy(drawable + done, flags, here);
+        done += here;
     }
     for (uint64_t i = 0; i < count; i++) facts->drawable_count += drawable[i];
     for (int c = 0; c < 3; c++)
         for (int i = 0; i < LANES; i++) {
-            facts->low_world[c] = low[c][i] < facts->low_world[c] ? low[c][i] : facts->low_world[c];
-            facts->high_world[c] = high[c][i] > facts->high_world[c] ? high[c][i] : facts->high_world[c];
+            facts->low_world[c] = fmin(facts->low_world[c], low[c][i]);
+            facts->high_world[c] = fmax(facts->high_world[c], high[c][i]);
         }
 }
 

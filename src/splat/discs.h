@@ -6,14 +6,17 @@
 #ifndef EWA_SRC_SPLAT_DISCS_H
 #define EWA_SRC_SPLAT_DISCS_H
 
-#include "kernels/packet.h"
+#include "splat/pack.h"
 #include "splat/surfel.h"
 
 /// The streams of a cloud of discs: positions of float or double, normals and radii of float, colours absent
 /// or 8-bit.
 typedef struct ewa_discs {
     const ewa_surfel_reader *reader;
+    const ewa_pack_kernels *kernels;
     bool wide_positions; ///< double
+    bool packed;         ///< floats side by side, which the kernels can look at
+    ewa_safe_range safe;
 } ewa_discs;
 
 /// Box of the drawable surfels.
@@ -23,7 +26,7 @@ typedef struct ewa_disc_facts {
 } ewa_disc_facts;
 
 /// Returns false when the cloud's streams are of other kinds.
-bool ewa_discs_open(const ewa_surfel_reader *reader, ewa_discs *discs);
+bool ewa_discs_open(const ewa_surfel_reader *reader, const ewa_pack_kernels *kernels, ewa_discs *discs);
 
 /// Notes in `drawable` which of the points [first, first + count) can be drawn, and measures those. Any
 /// thread.

@@ -13,6 +13,33 @@ enum { LANES = EWA_PACKET_LANES };
 /// Single precision of centre, radius, axis and sine, rounded to the safe side.
 static const float SLACK = 16 * 0x1p-24f;
 
+static uint64_t survey(const ewa_safe_range *range, const float *position, const float *normal,
+                       const float *radius, uint64_t group_count, float low[EWA_BOX_FLOATS],
+                       float high[EWA_BOX_FLOATS]) {
+    const wf position_most = wf_set(range->position_most), finite_most = wf_set(0x1.fffffep127f);
+    const wf radius_least = wf_set(range->radius_least), radius_most = wf_set(range->radius_most);
+    wf lows[3], highs[3];
+    for (int c = 0; c < 3; c++) lows[c] = wf_load(low + c * LANES), highs[c] = wf_load(high + c * LANES);
+    uint64_t group = 0;
+    for (; group < group_count; group++) {
+        const wf r = wf_load(radius + group * LANES);
+        wm good = wm_and(wf_le(radius_least, r), wf_le(r, radius_most));
+        wf at[3];
+        uint64_t zeros = 0; // of all numbers of the normals
+        for (int c = 0; c < 3; c++) {
+            at[c] = wf_load(position + group * EWA_BOX_FLOATS + c * LANES);
+            const wf n = wf_abs(wf_load(normal + group * EWA_BOX_FLOATS + c * LANES));
+            good = wm_and(good, wm_and(wf_le(wf_abs(at[c]), position_most), wf_le(n, finite_most)));
+            zeros |= (uint64_t)wm_bits(wf_le(n, wf_set(0))) << c * LANES;
+        }
+        const uint64_t firsts = 0x249249249249u; // of each normal
+        if (wm_bits(good) != 0xffff || (zeros & zeros >> 1 & zeros >> 2 & firsts)) break;
+        for (int c = 0; c < 3; c++) lows[c] = wf_min(lows[c], at[c]), highs[c] = wf_max(highs[c], at[c]);
+    }
+    for (int c = 0; c < 3; c++) wf_store(low + c * LANES, lows[c]), wf_store(high + c * LANES, highs[c]);
+    return group;
+}
+
 static inline wf with_sign_of(wf magnitude, wf sign) {
     return wf_select(wf_lt(sign, wf_set(0)), wf_sub(wf_set(0), magnitude), magnitude);
 }
@@ -150,4 +177,4 @@ static void bound_packets(const ewa_packet *packets, uint32_t count, float cutof
     bound_normals(all, bounds, first);
 }
 
-const ewa_pack_kernels PACK_KERNELS = {code_normals, bound_packets};
+const ewa_pack_kernels PACK_KERNELS = {survey, code_normals, bound_packets};

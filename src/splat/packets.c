@@ -18,7 +18,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LANES = EWA_PACKET_LANES, READ_BLOCK = 256, MAX_PARTS = 64, BOUNDS_STREAMS = 8, PREFETCH_POINTS = 64 };
+enum {
+    LANES = EWA_PACKET_LANES,
+    READ_BLOCK = 256,
+    MAX_PARTS = 64,
+    BOUNDS_STREAMS = 8,
+    PREFETCH_POINTS = 64,
+    TIE_BLOCK = 64
+};
 
 /// What one part of the cloud contributes to the facts about the whole.
 typedef struct part_facts {
@@ -287,9 +294,20 @@ static int compare_tied(const void *a, const void *b) {
     return s->point < t->point ? -1 : s->point > t->point;
 }
 
+/// Whether some of the next TIE_BLOCK points is not told apart from the one before it.
+static bool any_same(const uint16_t split_level[TIE_BLOCK]) {
+    uint16_t any = 0;
+    for (int i = 0; i < TIE_BLOCK; i++) any |= split_level[i] == EWA_MORTON_SAME;
+    return any;
+}
+
 /// Orders runs of points that the curve does not tell apart by everything that is drawn of them.
 static ewa_status order_ties(build *b, ewa_context *context, const uint16_t *split_level, uint32_t count) {
     for (uint32_t first = 0, end; first < count; first = end) {
+        if (count - first > TIE_BLOCK && !any_same(&split_level[first + 1])) {
+            end = first + TIE_BLOCK;
+            continue;
+        }
         end = first + 1;
         while (end < count && split_level[end] == EWA_MORTON_SAME) end++;
         if (end - first < 2) continue;
@@ -378,8 +396,8 @@ static ewa_status build_surfels(build *b, ewa_context *context) {
     b->drawable = ewa_allocate(context, b->point_count, sizeof *b->drawable);
     b->order = ewa_allocate(context, b->point_count, sizeof *b->order);
     if (!b->drawable || !b->order) return EWA_ERROR_MEMORY;
-    b->are_discs = ewa_discs_open(&b->reader, &b->discs);
     b->kernels = choose_kernels(ewa_context_cpu_features(context));
+    b->are_discs = ewa_discs_open(&b->reader, b->kernels, &b->discs);
     ewa_parallel(context, survey_part, b, b->parts);
     settle(b);
     if (b->are_discs) set_color_codes(b);
