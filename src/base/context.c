@@ -60,8 +60,7 @@ const char *ewa_version(void) {
 static void *allocate_default(void *user, size_t size_bytes) {
     (void)user;
     // Large blocks start on huge pages: filling fresh memory by pages of 4 KiB costs more than any copy into
-    // it.
-    // Rounding up wastes at most half.
+    // it. Rounding up wastes at most half.
     const size_t alignment = size_bytes >= HUGE_PAGE_BYTES ? HUGE_PAGE_BYTES : 64;
     const size_t rounded = (size_bytes + alignment - 1) & ~(alignment - 1);
     void *memory = rounded < size_bytes ? NULL : aligned_alloc(alignment, rounded);

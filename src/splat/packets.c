@@ -23,8 +23,8 @@ enum {
     READ_BLOCK = 256,
     MAX_PARTS = 64,
     BOUNDS_STREAMS = 8,
-    PREFETCH_POINTS = 64,
-    TIE_BLOCK = 64
+    PREFETCH_POINTS = 64, // between asking for a point's numbers and reading them: four packets
+    TIE_BLOCK = 64,       // points that are looked at together for ties, which are rare
 };
 
 /// What one part of the cloud contributes to the facts about the whole.

@@ -15,8 +15,8 @@
 enum {
     SAMPLES = 1021,  // odd, so that the median is one of them
     NEIGHBOURS = 16, // whose farthest one gives the density
-    TASKS = 16,
-    WINDOW = 512, // neighbours are looked for among so many surfels on each side in Morton order
+    TASKS = 16,      // of a parallel run
+    WINDOW = 512,    // neighbours are looked for among so many surfels on each side in Morton order
 };
 
 static int compare_doubles(const void *a, const void *b) {
