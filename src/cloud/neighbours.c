@@ -335,3 +335,29 @@ const uint32_t *ewa_neighbours_points(const ewa_neighbours *neighbours, uint32_t
     *count = neighbours->first[place + 1] - neighbours->first[place];
     return neighbours->order + neighbours->first[place];
 }
+
+/// Returns the leaf that holds a place.
+static uint32_t leaf_of(const ewa_neighbours *tree, uint32_t place) {
+    uint32_t low = 0, high = tree->leaf_count;
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (tree->leaf_first[middle] <= place)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+void ewa_neighbours_positions(const ewa_neighbours *neighbours, uint32_t first, uint32_t count,
+                              double (*position)[3]) {
+    for (uint32_t i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++) position[i][c] = (double)neighbours->offset[c][first + i];
+    if (!neighbours->anchored || !count) return;
+    uint32_t leaf = leaf_of(neighbours, first);
+    for (uint32_t i = 0; i < count; i++) {
+        while (neighbours->leaf_first[leaf + 1] <= first + i) leaf++;
+        for (int c = 0; c < 3; c++)
+            position[i][c] += neighbours->groups[leaf / TREE_ARITY].low[c][leaf % TREE_ARITY];
+    }
+}

@@ -31,6 +31,10 @@ uint32_t ewa_neighbours_finite_count(const ewa_neighbours *neighbours);
 /// Returns the points (indices into the input) at one place, ascending, and how many they are.
 const uint32_t *ewa_neighbours_points(const ewa_neighbours *neighbours, uint32_t place, uint32_t *count);
 
+/// Writes the positions of `count` places from `first` on. Not after ewa_neighbours_end_visits().
+void ewa_neighbours_positions(const ewa_neighbours *neighbours, uint32_t first, uint32_t count,
+                              double (*position)[3]);
+
 /// Up to 16 places and all that may be their neighbours. Lanes from lane_count up repeat lane 0. Candidates
 /// are in the order of places; each lane's own place is among them.
 ///

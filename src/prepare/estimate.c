@@ -203,10 +203,11 @@ static ewa_status finish_normals(ewa_cloud *cloud, estimate_job *job, bool has_g
     ewa_context *context = ewa_cloud_context(cloud);
     ewa_status status = EWA_OK;
     if (job->links) {
-        const orient_input input = {job->neighbours, &job->position,
-                                    (const uint32_t(*)[LOCAL_GRAPH_DEGREE])job->links, job->spacing};
+        const orient_input input = {job->neighbours, (const uint32_t(*)[LOCAL_GRAPH_DEGREE])job->links,
+                                    job->spacing};
         status = ewa_orient_propagate(context, &input, job->normals);
     }
+    ewa_neighbours_end_visits(job->neighbours);
     if (status == EWA_OK) status = add_output(cloud, EWA_NORMAL, 3, has_gaps, &job->normal_out);
     if (status == EWA_OK)
         ewa_parallel(context, finish_task, job, (job->place_count + TASK_PLACES - 1) / TASK_PLACES);
@@ -240,7 +241,6 @@ static ewa_status estimate_with(ewa_cloud *cloud, estimate_job *job, bool normal
     }
     if (status == EWA_OK) {
         report_degenerate(context, job);
-        ewa_neighbours_end_visits(job->neighbours);
         if (normals) status = finish_normals(cloud, job, has_gaps);
     }
     ewa_release(context, job->spacing, places, sizeof *job->spacing);
