@@ -59,7 +59,7 @@ typedef struct orient_job {
     uint32_t place_count;
     uint32_t class;
     // by place
-    uint16_t *local;
+    uint16_t *local;   // whole sections
     uint32_t *linked;  // of linked roots only: the parent, itself a linked root
     uint32_t *classes; // of its links
     uint16_t
@@ -169,6 +169,18 @@ static bool join_place(const orient_job *job, uint32_t place) {
     return waits;
 }
 
+/// Returns the bits of the links of a place that may join something: in its section, those whose set is not
+/// obviously the same; without branches, for almost all of them are the same.
+static uint32_t open_links(const uint16_t *local, const uint32_t *links, uint32_t begin, uint32_t root) {
+    uint32_t open = 0;
+    for (int i = 0; i < LOCAL_GRAPH_DEGREE; i++) {
+        const uint32_t other = links[i];
+        const bool same = (other & ~(uint32_t)PARENT) == begin && (local[other & PARENT] & PARENT) == root;
+        open |= (uint32_t)(!same & (other != UINT32_MAX)) << i;
+    }
+    return open;
+}
+
 /// Finds the classes of a place's links, and joins along those of the lowest class.
 static bool begin_place(const orient_job *job, uint32_t place) {
     const uint32_t begin = place & ~(uint32_t)PARENT, own = place & PARENT;
@@ -177,18 +189,17 @@ static bool begin_place(const orient_job *job, uint32_t place) {
     uint32_t classes = DECIDED * (uint32_t)EVERY_LINK, own_flipped = 0;
     uint32_t root = find_local(local, own, &own_flipped);
     bool waits = false;
-    for (int i = 0; i < LOCAL_GRAPH_DEGREE && links[i] != UINT32_MAX; i++) {
+    for (uint32_t open = open_links(local, links, begin, root); open; open &= open - 1) {
+        const int i = __builtin_ctz(open);
         const uint32_t other = links[i];
-        const bool inside = (other & ~(uint32_t)PARENT) == begin;
-        uint32_t flipped = own_flipped, other_root = 0;
-        if (inside) {
-            other_root = find_local(local, other & PARENT, &flipped);
-            if (other_root == root) continue;
-        }
         const float cosine = cosine_between(job, place, other);
         const uint32_t class = class_of(cosine);
-        if (inside && class == 0) {
+        if (class == 0 && (other & ~(uint32_t)PARENT) == begin) {
+            uint32_t flipped = own_flipped;
+            const uint32_t other_root = find_local(local, other & PARENT, &flipped);
+            if (other_root == root) continue;
             join_local(local, root, other_root, flipped ^ (cosine < 0 ? FLIPPED : 0));
+            if (root < other_root) continue;
             own_flipped = 0;
             root = find_local(local, own, &own_flipped);
             continue;
@@ -377,7 +388,7 @@ ewa_status ewa_orient_propagate(ewa_context *context, const orient_input *input,
     orient_job job = {
         .input = input, .normals = normals, .place_count = ewa_neighbours_place_count(input->neighbours)};
     const size_t places = job.place_count, sections = section_count_of(&job);
-    job.local = ewa_allocate(context, places, sizeof *job.local);
+    job.local = ewa_allocate(context, sections << SECTION_BITS, sizeof *job.local);
     job.linked = ewa_allocate(context, places, sizeof *job.linked);
     job.classes = ewa_allocate(context, places, sizeof *job.classes);
     job.waiting = ewa_allocate(context, places, sizeof *job.waiting);
@@ -393,6 +404,6 @@ ewa_status ewa_orient_propagate(ewa_context *context, const orient_input *input,
     ewa_release(context, job.waiting, places, sizeof *job.waiting);
     ewa_release(context, job.classes, places, sizeof *job.classes);
     ewa_release(context, job.linked, places, sizeof *job.linked);
-    ewa_release(context, job.local, places, sizeof *job.local);
+    ewa_release(context, job.local, sections << SECTION_BITS, sizeof *job.local);
     return status;
 }
