@@ -18,7 +18,7 @@
 enum {
     SHORT_RUN = 32, // longer runs without a split level are all at one place
     MIN_LEAF_PLACES = 6,
-    FULL_RUN = 64, // places; longer runs are cut at the largest cell only
+    FULL_RUN = 64,         // places; longer runs are cut at the largest cell only
     SECTION_PLACES = 4096, // leaves are cut from sections of about this size in parallel
     SECTION_WINDOW = 1024, // each border is the coarsest one so near
     LEAF_FLAG = 0x8000,    // in a split level: a leaf begins here
@@ -119,8 +119,8 @@ static uint32_t coarsest(const uint16_t *level, uint32_t begin, uint32_t end) {
 
 static uint32_t leaves_for(uint32_t places) { return (places + LEAF_PLACES - 1) / LEAF_PLACES; }
 
-/// Returns where to cut a run. Cuts that would leave only a few places on one side are avoided, and short runs
-/// are cut so that the leaves get full: the search is paid per leaf.
+/// Returns where to cut a run. Cuts that would leave only a few places on one side are avoided, and short
+/// runs are cut so that the leaves get full: the search is paid per leaf.
 static uint32_t find_cut(const uint16_t *level, uint32_t begin, uint32_t end) {
     const uint32_t size = end - begin;
     if (size > FULL_RUN) return coarsest(level, begin + MIN_LEAF_PLACES - 1, end - MIN_LEAF_PLACES + 1);
