@@ -114,10 +114,12 @@ static moments sum_moments(const ewa_block *block) {
 static inline void rotate(wf *pp, wf *qq, wf *pq, wf *pr, wf *qr, vec *vp, vec *vq) {
     const wf one = wf_set(1), difference = wf_sub(*qq, *pp), twice = wf_add(*pq, *pq);
     const wf length = wf_sqrt(wf_add(wf_mul(difference, difference), wf_mul(twice, twice)));
-    const wf denominator = wf_max(wf_add(wf_abs(difference), length), wf_set(1e-30f));
+    const wf sum = wf_add(wf_abs(difference), length), tiny = wf_set(1e-30f);
     const wf sign = wf_select(wf_lt(difference, wf_set(0)), wf_set(-1), one);
-    const wf t = wf_div(wf_mul(sign, twice), denominator);
-    const wf c = wf_div(one, wf_sqrt(wf_add(one, wf_mul(t, t)))), s = wf_mul(t, c);
+    const wf t = wf_div(wf_mul(sign, twice), wf_max(sum, tiny));
+    // The cosine from that of twice the angle, beside the division above: what limits this is its latency.
+    const wf c2 = wf_div(sum, wf_max(wf_add(length, length), tiny));
+    const wf c = wf_select(wf_lt(tiny, length), wf_sqrt(c2), one), s = wf_mul(t, c);
     *pp = wf_sub(*pp, wf_mul(t, *pq));
     *qq = wf_add(*qq, wf_mul(t, *pq));
     *pq = wf_set(0);
@@ -309,7 +311,7 @@ static inline void project(wf u, wf v, wf along[DIRECTIONS]) {
     along[7] = wf_sub(vs, uc);
 }
 
-static cell find_cell(const ewa_block *block, const frame *f, wf limit) {
+static void find_cell(const ewa_block *block, const frame *f, wf limit, cell *made) {
     const vec at = lanes_of(block);
     const wf zero = wf_set(0);
     wf high[DIRECTIONS], low[DIRECTIONS];
@@ -324,14 +326,12 @@ static cell find_cell(const ewa_block *block, const frame *f, wf limit) {
             low[i] = wf_min(low[i], along[i]);
         }
     }
-    cell made;
     const wf half = wf_set(0.5f), tiny = wf_set(1e-30f);
     for (int i = 0; i < DIRECTIONS; i++) {
-        made.extent[i] = wf_div(half, wf_max(high[i], tiny));
-        made.extent[i + DIRECTIONS] = wf_div(half, wf_max(wf_sub(zero, low[i]), tiny));
+        made->extent[i] = wf_mul(half, reciprocal(wf_max(high[i], tiny)));
+        made->extent[i + DIRECTIONS] = wf_mul(half, reciprocal(wf_max(wf_sub(zero, low[i]), tiny)));
     }
-    for (int i = 0; i < 2 * DIRECTIONS; i++) made.open[i] = wf_lt(limit, made.extent[i]);
-    return made;
+    for (int i = 0; i < 2 * DIRECTIONS; i++) made->open[i] = wf_lt(limit, made->extent[i]);
 }
 
 /// The extent of the cell in a direction; zero where it is open there or next to it, so that borders do not
@@ -394,7 +394,8 @@ static void measure(const ewa_block *block, uint32_t wanted, local_surface *surf
     if (!wanted) return;
     if (wanted & (LOCAL_SHAPE | LOCAL_LINES)) align_frame(block, &f);
     const wf limit = wf_set(wanted & LOCAL_LINES ? MAX_LINE_REACH : MAX_REACH);
-    const cell c = find_cell(block, &f, wf_mul(spacing, limit));
+    cell c;
+    find_cell(block, &f, wf_mul(spacing, limit), &c);
     if (wanted & LOCAL_REACH) wf_store(surface->reach, find_reach(&c));
     if (wanted & LOCAL_SHAPE) find_shape(&c, &f, spacing, surface);
 }

@@ -46,9 +46,9 @@ static const double OPEN_OUTWARDNESS = 0.15;
 
 /// Sums over a set of places, positions relative to the first place of the cloud.
 typedef struct part {
-    double area, moment[3], moment2; // of position and of its square
-    double normal[3];                // oriented and weighted by area
-    double flux;                     // of position through the surface
+    double area, moment[3], moment2[3]; // of position and of its square, by axis
+    double normal[3];                   // oriented and weighted by area
+    double flux[3];                     // of position through the surface, by axis
     uint32_t root;
     bool flipped; // its places' normals relative to what they should be
 } part;
@@ -66,8 +66,9 @@ typedef struct orient_job {
         *waiting; // each section's list of places with links for the serial step, then the ranks of roots
     // by section
     uint32_t *waiting_count;
-    uint32_t *first_part; // [section_count + 1]
-    part *parts;          // of each root of a section, then of the root of the whole
+    uint8_t *classes_left; // bits of the classes of links that were not decided with the lowest
+    uint32_t *first_part;  // [section_count + 1]
+    part *parts;           // of each root of a section, then of the root of the whole
 } orient_job;
 
 static uint32_t section_end(const orient_job *job, uint32_t section) {
@@ -181,8 +182,9 @@ static uint32_t open_links(const uint16_t *local, const uint32_t *links, uint32_
     return open;
 }
 
-/// Finds the classes of a place's links, and joins along those of the lowest class.
-static bool begin_place(const orient_job *job, uint32_t place) {
+/// Finds the classes of a place's links, and joins along those of the lowest class. `*left` gets the bits of
+/// the others.
+static bool begin_place(const orient_job *job, uint32_t place, uint8_t *left) {
     const uint32_t begin = place & ~(uint32_t)PARENT, own = place & PARENT;
     uint16_t *local = &job->local[begin];
     const uint32_t *links = job->input->links[place];
@@ -205,6 +207,7 @@ static bool begin_place(const orient_job *job, uint32_t place) {
             continue;
         }
         waits |= class == 0;
+        *left |= (uint8_t)(1u << class);
         classes ^= (DECIDED ^ class) << CLASS_BITS * i;
     }
     job->classes[place] = classes;
@@ -216,14 +219,20 @@ static void join_section(void *data, uint32_t section, uint32_t worker) {
     const orient_job *job = data;
     const uint32_t begin = section << SECTION_BITS, end = section_end(job, section);
     uint32_t waiting = 0;
+    job->waiting_count[section] = 0;
+    if (job->class > 0 && !(job->classes_left[section] >> job->class & 1)) return;
     if (job->class == 0)
         for (uint32_t i = 0; i < end - begin; i++) job->local[begin + i] = (uint16_t)i;
+    uint8_t left = 0;
     for (uint32_t place = begin; place < end; place++) {
-        const bool waits = job->class == 0
-                               ? begin_place(job, place)
-                               : has_class(job->classes[place], job->class) && join_place(job, place);
+        bool waits;
+        if (job->class == 0)
+            waits = begin_place(job, place, &left);
+        else
+            waits = has_class(job->classes[place], job->class) && join_place(job, place);
         if (waits) job->waiting[begin + waiting++] = (uint16_t)(place - begin);
     }
+    if (job->class == 0) job->classes_left[section] = left;
     job->waiting_count[section] = waiting;
 }
 
@@ -235,19 +244,23 @@ static void link_root(const orient_job *job, uint32_t root) {
 
 /// Joins along the links of the class at hand that wait.
 static void join_waiting(const orient_job *job, uint32_t place) {
+    const uint32_t classes = job->classes[place];
+    uint32_t own_flipped = 0, root = find_root(job, place, &own_flipped);
     for (int i = 0; i < LOCAL_GRAPH_DEGREE; i++) {
-        if (link_class(job->classes[place], i) != job->class) continue;
-        job->classes[place] |= (uint32_t)DECIDED << CLASS_BITS * i;
+        if (link_class(classes, i) != job->class) continue;
         const uint32_t other = job->input->links[place][i];
-        uint32_t flipped = 0;
-        const uint32_t a = find_root(job, place, &flipped), b = find_root(job, other, &flipped);
-        if (a == b) continue;
+        uint32_t flipped = own_flipped;
+        const uint32_t other_root = find_root(job, other, &flipped);
+        if (root == other_root) continue;
         if (cosine_between(job, place, other) < 0) flipped ^= FLIPPED;
-        link_root(job, a);
-        link_root(job, b);
-        const uint32_t low = a < b ? a : b, high = a < b ? b : a;
+        link_root(job, root);
+        link_root(job, other_root);
+        const uint32_t low = root < other_root ? root : other_root,
+                       high = root < other_root ? other_root : root;
         job->linked[high] = low;
         job->local[high] ^= flipped; // a root's was not set
+        own_flipped = 0;
+        root = find_root(job, place, &own_flipped);
     }
 }
 
@@ -279,17 +292,25 @@ static part *part_of(const orient_job *job, uint32_t root) {
     return &job->parts[job->first_part[root >> SECTION_BITS] + job->waiting[root]];
 }
 
-static void add_place(part *p, const double position[3], const float *normal, double sign, double area) {
-    double length2 = 0, through = 0;
+static void add_part(part *to, const part *from, double sign) {
+    to->area += from->area;
     for (int c = 0; c < 3; c++) {
-        p->moment[c] += area * position[c];
-        p->normal[c] += area * sign * (double)normal[c];
-        through += position[c] * sign * (double)normal[c];
-        length2 += position[c] * position[c];
+        to->moment[c] += from->moment[c];
+        to->moment2[c] += from->moment2[c];
+        to->normal[c] += sign * from->normal[c];
+        to->flux[c] += sign * from->flux[c];
     }
+}
+
+static void add_place(part *p, const double position[3], const float *normal, double sign, double area) {
     p->area += area;
-    p->flux += area * through;
-    p->moment2 += area * length2;
+    for (int c = 0; c < 3; c++) {
+        const double moment = area * position[c], oriented = sign * (double)normal[c];
+        p->moment[c] += moment;
+        p->moment2[c] += moment * position[c];
+        p->normal[c] += area * oriented;
+        p->flux[c] += moment * oriented;
+    }
 }
 
 static void sum_section(void *data, uint32_t section, uint32_t worker) {
@@ -298,6 +319,7 @@ static void sum_section(void *data, uint32_t section, uint32_t worker) {
     const ewa_neighbours *neighbours = job->input->neighbours;
     const uint32_t begin = section << SECTION_BITS, end = section_end(job, section);
     double origin[1][3], position[BLOCK_POSITIONS][3];
+    part sum = {.root = UINT32_MAX}; // of the places in a row that have the same root
     ewa_neighbours_positions(neighbours, 0, 1, origin);
     for (uint32_t place = begin; place < end; place++) {
         const uint32_t i = (place - begin) % BLOCK_POSITIONS, left = end - place;
@@ -307,32 +329,27 @@ static void sum_section(void *data, uint32_t section, uint32_t worker) {
         for (int c = 0; c < 3; c++) position[i][c] -= origin[0][c];
         uint32_t flipped = 0;
         const uint32_t root = begin + find_local(&job->local[begin], place - begin, &flipped);
-        part *p = part_of(job, root);
-        p->root = root;
+        if (root != sum.root) {
+            if (sum.root != UINT32_MAX) add_part(part_of(job, sum.root), &sum, 1);
+            sum = (part){.root = root};
+            part_of(job, root)->root = root;
+        }
         const double spacing = (double)job->input->spacing[place];
-        add_place(p, position[i], &job->normals[3 * (size_t)place], flipped ? -1 : 1, spacing * spacing);
+        add_place(&sum, position[i], &job->normals[3 * (size_t)place], flipped ? -1 : 1, spacing * spacing);
     }
-}
-
-static void add_part(part *to, const part *from, double sign) {
-    to->area += from->area;
-    to->moment2 += from->moment2;
-    to->flux += sign * from->flux;
-    for (int c = 0; c < 3; c++) {
-        to->moment[c] += from->moment[c];
-        to->normal[c] += sign * from->normal[c];
-    }
+    add_part(part_of(job, sum.root), &sum, 1);
 }
 
 /// Decides whether the part's normals as they are point outward: by the volume that they enclose (the flux of
 /// the position through a closed surface is three times its volume), or along the axis that most of them
 /// follow.
 static bool points_outward(const part *p) {
-    double mean2 = 0, flux = p->flux, moment2 = p->moment2, largest = 0;
+    double mean2 = 0, flux = 0, moment2 = 0, largest = 0;
     for (int c = 0; c < 3; c++) {
+        const double center = p->moment[c] / p->area; // flux and moment are wanted relative to it
         mean2 += p->normal[c] * p->normal[c];
-        flux -= p->moment[c] * p->normal[c] / p->area; // relative to the part's centre
-        moment2 -= p->moment[c] * p->moment[c] / p->area;
+        flux += p->flux[c] - center * p->normal[c];
+        moment2 += p->moment2[c] - center * p->moment[c];
         if (fabs(p->normal[c]) > fabs(largest)) largest = p->normal[c];
     }
     const bool closed = mean2 < CLOSED_MEAN_NORMAL * CLOSED_MEAN_NORMAL * p->area * p->area;
@@ -393,13 +410,16 @@ ewa_status ewa_orient_propagate(ewa_context *context, const orient_input *input,
     job.classes = ewa_allocate(context, places, sizeof *job.classes);
     job.waiting = ewa_allocate(context, places, sizeof *job.waiting);
     job.waiting_count = ewa_allocate(context, sections, sizeof *job.waiting_count);
+    job.classes_left = ewa_allocate(context, sections, sizeof *job.classes_left);
     job.first_part = ewa_allocate(context, sections, sizeof *job.first_part);
     ewa_status status = EWA_ERROR_MEMORY;
-    if (job.local && job.linked && job.classes && job.waiting && job.waiting_count && job.first_part) {
+    if (job.local && job.linked && job.classes && job.waiting && job.waiting_count && job.classes_left &&
+        job.first_part) {
         status = grow_forest(context, &job);
         if (status == EWA_OK) status = flip_parts(context, &job);
     }
     ewa_release(context, job.first_part, sections, sizeof *job.first_part);
+    ewa_release(context, job.classes_left, sections, sizeof *job.classes_left);
     ewa_release(context, job.waiting_count, sections, sizeof *job.waiting_count);
     ewa_release(context, job.waiting, places, sizeof *job.waiting);
     ewa_release(context, job.classes, places, sizeof *job.classes);
