@@ -14,7 +14,7 @@
 #include <math.h>
 
 enum {
-    TASK_LEAVES = 128,
+    TASK_LEAVES = 64,
     PROGRESS_STEPS = 16,
     MAX_TRIES = 4, // radii for a whole leaf before its places are searched one by one
     STACK_NODES = TREE_MAX_LEVELS * TREE_ARITY,

@@ -182,36 +182,52 @@ static uint32_t open_links(const uint16_t *local, const uint32_t *links, uint32_
     return open;
 }
 
+static bool has_link(const uint32_t *links, uint32_t place) {
+    uint32_t found = 0;
+    for (int i = 0; i < LOCAL_GRAPH_DEGREE; i++) found |= links[i] == place;
+    return found;
+}
+
 /// Finds the classes of a place's links, and joins along those of the lowest class. `*left` gets the bits of
 /// the others.
 static bool begin_place(const orient_job *job, uint32_t place, uint8_t *left) {
     const uint32_t begin = place & ~(uint32_t)PARENT, own = place & PARENT;
     uint16_t *local = &job->local[begin];
     const uint32_t *links = job->input->links[place];
-    uint32_t classes = DECIDED * (uint32_t)EVERY_LINK, own_flipped = 0;
-    uint32_t root = find_local(local, own, &own_flipped);
-    bool waits = false;
-    for (uint32_t open = open_links(local, links, begin, root); open; open &= open - 1) {
+    uint32_t own_flipped = 0, root = find_local(local, own, &own_flipped);
+    uint32_t rest = open_links(local, links, begin, root), joined = 0, negative = 0;
+    uint32_t class_of_link[LOCAL_GRAPH_DEGREE];
+    for (uint32_t open = rest; open; open &= open - 1) {
         const int i = __builtin_ctz(open);
-        const uint32_t other = links[i];
-        const float cosine = cosine_between(job, place, other);
+        const float cosine = cosine_between(job, place, links[i]);
         const uint32_t class = class_of(cosine);
-        if (class == 0 && (other & ~(uint32_t)PARENT) == begin) {
-            uint32_t flipped = own_flipped;
-            const uint32_t other_root = find_local(local, other & PARENT, &flipped);
-            if (other_root == root) continue;
-            join_local(local, root, other_root, flipped ^ (cosine < 0 ? FLIPPED : 0));
-            if (root < other_root) continue;
-            own_flipped = 0;
-            root = find_local(local, own, &own_flipped);
-            continue;
-        }
-        waits |= class == 0;
-        *left |= (uint8_t)(1u << class);
-        classes ^= (DECIDED ^ class) << CLASS_BITS * i;
+        class_of_link[i] = class;
+        joined |= (uint32_t)(class == 0 && (links[i] & ~(uint32_t)PARENT) == begin) << i;
+        negative |= (uint32_t)(cosine < 0) << i;
     }
+    rest ^= joined;
+    for (; joined; joined &= joined - 1) {
+        const int i = __builtin_ctz(joined);
+        uint32_t flipped = own_flipped ^ (negative >> i & 1) * FLIPPED;
+        const uint32_t other_root = find_local(local, links[i] & PARENT, &flipped);
+        if (other_root == root) continue;
+        join_local(local, root, other_root, flipped);
+        if (root < other_root) continue;
+        own_flipped = 0;
+        root = find_local(local, own, &own_flipped);
+    }
+    uint32_t classes = DECIDED * (uint32_t)EVERY_LINK, seen = 0;
+    for (; rest; rest &= rest - 1) {
+        const int i = __builtin_ctz(rest);
+        // A link in both directions is the earlier place's. Without branches, for it is anybody's guess.
+        const uint32_t ours = !((links[i] < place) & has_link(job->input->links[links[i]], place));
+        const uint32_t class = class_of_link[i];
+        seen |= ours << class;
+        classes ^= ours * (DECIDED ^ class) << CLASS_BITS * i;
+    }
+    *left |= (uint8_t)seen;
     job->classes[place] = classes;
-    return waits;
+    return seen & 1;
 }
 
 static void join_section(void *data, uint32_t section, uint32_t worker) {
