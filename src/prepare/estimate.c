@@ -49,8 +49,8 @@ static void set_points(const estimate_job *job, uint32_t place, float *out, cons
         for (uint32_t c = 0; c < components; c++) out[(size_t)components * points[i] + c] = values[c];
 }
 
-/// The larger one without a call.
-static double larger(double a, double b) { return a > b ? a : b; }
+/// The larger one, without a call.
+static double larger(double a, double b) { return b > a ? b : a; }
 
 /// The support radius with which a kernel still has weight where its cell ends: beyond two standard
 /// deviations it has next to none, and the surface would look like a hole there.

@@ -367,7 +367,9 @@ static void find_shape(const cell *c, const frame *f, wf spacing, local_surface 
     }
     wf major_u, major_v, values[2];
     major_axis(xx, xy, yy, &major_u, &major_v, values);
-    const wf aspect = wf_min(wf_sqrt(wf_div(values[0], values[1])), wf_set(LOCAL_MAX_ASPECT));
+    // Less than 1 where the cell is nothing at all.
+    const wf ratio = wf_max(wf_sqrt(wf_div(values[0], values[1])), wf_set(1));
+    const wf aspect = wf_min(ratio, wf_set(LOCAL_MAX_ASPECT));
     v_store(surface->major, v_add(v_scale(f->u, major_u), v_scale(f->v, major_v)));
     wf_store(surface->aspect, aspect);
     wf reach2 = zero;
