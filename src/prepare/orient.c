@@ -175,9 +175,9 @@ static bool join_place(const orient_job *job, uint32_t place) {
 static uint32_t open_links(const uint16_t *local, const uint32_t *links, uint32_t begin, uint32_t root) {
     uint32_t open = 0;
     for (int i = 0; i < LOCAL_GRAPH_DEGREE; i++) {
-        const uint32_t other = links[i];
-        const bool same = (other & ~(uint32_t)PARENT) == begin && (local[other & PARENT] & PARENT) == root;
-        open |= (uint32_t)(!same & (other != UINT32_MAX)) << i;
+        const uint32_t other = links[i], parent = local[other & PARENT] & PARENT;
+        const uint32_t differs = ((other & ~(uint32_t)PARENT) ^ begin) | (parent ^ root);
+        open |= (uint32_t)((differs != 0) & (other != UINT32_MAX)) << i;
     }
     return open;
 }
