@@ -23,7 +23,7 @@ enum {
 };
 
 // The guess for a leaf over what its predecessor needed: larger means fewer second tries but more candidates.
-static const double GUESS_MARGIN = 1.08;
+static const double GUESS_MARGIN = 1.05;
 // The same over what one of its places needs.
 static const double FIRST_GUESS_MARGIN = 1.2;
 // The reach of a group's list over what the leaf needs for which it is made.

@@ -29,9 +29,10 @@ enum {
     PARENT = SECTION_PLACES - 1,
     FLIPPED = 1 << SECTION_BITS,
     LINKED = 2 << SECTION_BITS,
-    // Costs 1 - |n.n'| up to 2^-11, 2^-9, ... 2^-1, 2: 1.8, 3.6, 7.2, 14, 29, 60 degrees, anything.
-    COST_CLASSES = 7,
-    LOWEST_COST_EXPONENT = -11,
+    // Costs 1 - |n.n'| up to 2^-7, 2^-5, 2^-3, 2^-1, 2: 7, 14, 29, 60 degrees, anything. Finer ones make no
+    // difference to the signs, which go wrong around sharp bends only.
+    COST_CLASSES = 5,
+    LOWEST_COST_EXPONENT = -7,
     // An entry of `classes`: one octal digit per link, its class or DECIDED.
     CLASS_BITS = 3,
     DECIDED = 7,
