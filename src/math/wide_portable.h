@@ -105,6 +105,12 @@ FUSED void wf_pack(float *p, wm m, wf a) {
         p -= m[i];
     }
 }
+FUSED void wi_pack(int32_t *p, wm m, wi a) {
+    for (int i = 0; i < 16; i++) {
+        *p = a[i];
+        p -= m[i];
+    }
+}
 
 FUSED void wi_pack(int32_t *p, wm m, wi a) {
     for (int i = 0; i < 16; i++) {
