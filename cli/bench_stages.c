@@ -20,6 +20,7 @@ typedef enum stage_kind {
     STAGE_READ,
     STAGE_READ_ASCII,
     STAGE_ESTIMATE,
+    STAGE_ESTIMATE_UNEVEN,
     STAGE_PACK,
     STAGE_PNG_RGB,
     STAGE_PNG_RGBA,
@@ -32,6 +33,7 @@ static const char *const stage_names[STAGE_COUNT] = {
     [STAGE_READ] = "read PLY",
     [STAGE_READ_ASCII] = "read PLY, ASCII",
     [STAGE_ESTIMATE] = "normals and radii",
+    [STAGE_ESTIMATE_UNEVEN] = "normals and radii, uneven",
     [STAGE_PACK] = "surfels",
     [STAGE_PNG_RGB] = "PNG, RGB",
     [STAGE_PNG_RGBA] = "PNG, RGBA",
@@ -92,11 +94,34 @@ static ewa_status save_inputs(const stage_input *input) {
     return status == EWA_OK ? ewa_cloud_save(input->cloud, input->scratch.ascii, &save) : status;
 }
 
-/// Adds the time since `*started_s` to a stage and begins the next.
+/// Writes the time since `*started_s` and begins the next stage.
 static void lap(double *time_s, double *started_s) {
     const double now_s = clock_now_s();
     *time_s = now_s - *started_s;
     *started_s = clock_now_s();
+}
+
+/// Normals and radii of bare positions.
+static ewa_status time_estimate(ewa_cloud **cloud, double *time_s) {
+    static const char *const estimated[] = {EWA_NORMAL, EWA_RADIUS, EWA_TANGENT_U, EWA_TANGENT_V};
+    for (int k = 0; k < 4; k++) ewa_cloud_remove(*cloud, estimated[k]);
+    ewa_estimate_options options;
+    ewa_estimate_options_init(&options, sizeof options);
+    double started_s = clock_now_s();
+    const ewa_status status = ewa_cloud_estimate(cloud, &options);
+    lap(time_s, &started_s);
+    return status;
+}
+
+/// Samples a cloud about the origin as unevenly as a scanner there does: distances r become r^3, so that the
+/// density of a plane falls with their power of -4/3.
+static void crowd(ewa_cloud *cloud) {
+    float *position = ewa_cloud_find(cloud, EWA_POSITION)->data;
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++, position += 3) {
+        const float squared =
+            position[0] * position[0] + position[1] * position[1] + position[2] * position[2];
+        for (int r = 0; r < 3; r++) position[r] *= squared;
+    }
 }
 
 /// Reading and writing the cloud, surfels, normals and radii from bare positions.
@@ -115,13 +140,11 @@ static ewa_status time_cloud(stage_lane *lane, const stage_input *input, size_t 
     if (status == EWA_OK) status = ewa_surfels_create(loaded, NULL, &surfels);
     lap(&lane->time_s[STAGE_PACK][run], &started_s);
     ewa_surfels_destroy(&surfels);
-    static const char *const estimated[] = {EWA_NORMAL, EWA_RADIUS, EWA_TANGENT_U, EWA_TANGENT_V};
-    for (int k = 0; status == EWA_OK && k < 4; k++) ewa_cloud_remove(loaded, estimated[k]);
-    ewa_estimate_options options;
-    ewa_estimate_options_init(&options, sizeof options);
-    started_s = clock_now_s();
-    if (status == EWA_OK) status = ewa_cloud_estimate(&loaded, &options);
-    lap(&lane->time_s[STAGE_ESTIMATE][run], &started_s);
+    if (status == EWA_OK) status = time_estimate(&loaded, &lane->time_s[STAGE_ESTIMATE][run]);
+    if (status == EWA_OK) {
+        crowd(loaded);
+        status = time_estimate(&loaded, &lane->time_s[STAGE_ESTIMATE_UNEVEN][run]);
+    }
     ewa_cloud_destroy(&loaded);
     return status;
 }

@@ -38,8 +38,9 @@ static void test_stages(void **state) {
                 member("plane 0.002 M of 40 px", 1, "median_ms"));
     assert_true(member("plane 0.002 M of 40 px", 2, "speedup") > 0);
     assert_true(member("plane 0.002 M of 40 px", 1, "clock_ghz") > 0.1);
-    static const char *const stages[] = {"write PLY", "read PLY", "read PLY, ASCII", "normals and radii",
-                                         "surfels",   "PNG, RGB", "PNG, RGBA",       "clip segments"};
+    static const char *const stages[] = {"write PLY",         "read PLY",      "read PLY, ASCII",
+                                         "normals and radii", "surfels",       "PNG, RGB",
+                                         "PNG, RGBA",         "clip segments", "normals and radii, uneven"};
     for (size_t i = 0; i < sizeof stages / sizeof stages[0]; i++) {
         char key[64];
         snprintf(key, sizeof key, "\"stage\": \"%s\"", stages[i]);
