@@ -17,7 +17,7 @@ typedef struct bench_arguments {
     view_arguments view; // first: it begins with the common arguments; only the size is an option here
     uint32_t scenes, cpus;
     option_vector splats, pixels, threads;
-    int64_t frames;
+    int64_t frames, edge_layers;
     int kernel, passes, shading;
     bool stages;
     const char *json_path;
@@ -71,6 +71,12 @@ static const cli_option work_table[] = {
      .offset = AT(shading),
      .range = "none|lambert",
      .help = "lambert needs normals in each pixel, none does not"},
+    {.key = "edge-layers",
+     .kind = OPTION_INTEGER,
+     .offset = AT(edge_layers),
+     .value = "N",
+     .range = "[1, 8]",
+     .help = "as for render"},
     {.key = "stages",
      .kind = OPTION_ON_OFF,
      .offset = AT(stages),
@@ -123,6 +129,7 @@ static void set_defaults(void *data) {
     arguments->kernel = (int)render.kernel;
     arguments->passes = render.passes == 1 ? ONE_PASS : THREE_PASSES;
     arguments->shading = (int)render.shading;
+    arguments->edge_layers = render.edge_layers;
     arguments->stages = true;
 }
 
@@ -230,6 +237,7 @@ static int run(const void *data) {
     bench.render.kernel = (ewa_kernel)arguments->kernel;
     bench.render.passes = arguments->passes == ONE_PASS ? 1 : 3;
     bench.render.shading = (ewa_shading)arguments->shading;
+    bench.render.edge_layers = (uint32_t)arguments->edge_layers;
     text_file text = {.file = NULL};
     json_writer json;
     const char *json_path = arguments->json_path;
@@ -266,21 +274,17 @@ const cli_command bench_command = {
     .name = "bench",
     .operands = "[IN...]",
     .summary = "measure the throughput of each stage, with the scaling over sizes and threads",
-    .details =
-        "With inputs: these, framed whole. Without: scenes whose discs are so large that their filtered "
-        "ellipses cover --pixels pixels on average. plane: seen from above, fills the picture, all visible. "
-        "color: the same without normals in the pixels. large: the same with 10 million splats. hidden: "
-        "three "
-        "wavy sheets with 40, 30 and 30 % of the splats: in front, seen from behind, hidden. points: a plane "
-        "of discs of a quarter of a pixel. culled: one sheet shows its back, another lies beside the "
-        "picture. "
-        "closed: a sphere with two thirds of its splats on a smaller one inside; seen: as many splats, all "
-        "on "
-        "the side that is seen. peer: sphere and torus, closed. From hidden on, except for points, back "
-        "faces "
-        "are culled. "
-        "ratio: how many times faster than one thread, by lower quartiles. B/pt: resident bytes per "
-        "point. Goals and the times of the best other program stand beside figures that have them.",
+    .details = "With inputs: these, framed whole. Without: scenes whose discs are so large that their "
+               "filtered ellipses cover --pixels pixels on average. plane: seen from above, fills the "
+               "picture, all visible. color: the same without normals in the pixels. large: the same with "
+               "10 million splats. hidden: three wavy sheets with 40, 30 and 30 % of the splats, in front, "
+               "seen from behind, and hidden. points: a plane of discs of a quarter of a pixel. culled: one "
+               "sheet shows its back, another lies beside the picture. closed: three spheres one inside "
+               "another, so that half of the splats show their backs and a third are hidden. seen: as many, "
+               "all on the side that is seen. peer: sphere and torus, closed. Back faces are culled in "
+               "hidden, culled, closed, seen and peer. ratio: how many times faster than one thread, by "
+               "lower quartiles. B/pt: resident bytes per point. Goals and the times of the best other "
+               "program stand beside the figures that have them.",
     .examples = "ewa bench\n"
                 "ewa bench --scene plane,hidden --workers 1,2 --frames 31 --json bench.json\n"
                 "ewa bench --scene plane --splats 1e6 --pixels 9 --cpu all,avx2\n"

