@@ -47,9 +47,11 @@ size_t bench_goals_frames(const bench_frame_row *row, bench_goal goals[BENCH_MAX
         if (row->one_thread_s > 0)
             goals[count++] =
                 (bench_goal){"second core", "x", row->one_thread_s / row->total.quartile, 1.85, 1.95};
+        if (i == 0)
+            goals[count++] =
+                (bench_goal){"resident", "B/point", (double)row->info.resident_bytes / points, 32, 24};
     }
-    const bool plane = strcmp(scene->name, "plane") == 0;
-    if (standard && plane && strcmp(row->cpu, "avx2") == 0 && row->all_sets_s > 0)
+    if (standard && strcmp(scene->name, "plane") == 0 && strcmp(row->cpu, "avx2") == 0 && row->all_sets_s > 0)
         goals[count++] =
             (bench_goal){"AVX2 to AVX-512", "x", row->total.quartile / row->all_sets_s, 2.2, 1.8};
     if (standard && all_sets && strcmp(scene->name, "culled") == 0) {
@@ -57,9 +59,6 @@ size_t bench_goals_frames(const bench_frame_row *row, bench_goal goals[BENCH_MAX
         goals[count++] =
             (bench_goal){"culled whole", "G/s", 1e-9 * (double)row->stats.culled_count / bin_s, 2, 5};
     }
-    if (standard && all_sets && plane)
-        goals[count++] =
-            (bench_goal){"resident", "B/point", (double)row->info.resident_bytes / points, 32, 24};
     return count;
 }
 
