@@ -22,12 +22,15 @@ STANDARD = "1280x1024"
 SERIES = {"9 px": "9", "closed": "0"}
 
 
-def measure(prefix, program, splats, pixels, size, frames):
-    with tempfile.NamedTemporaryFile(suffix=".json") as file:
-        subprocess.run([*prefix, program, "bench", "--scene", "plane", "--stages", "off", "--workers", "1,2",
-                        "--splats", splats, "--pixels", pixels, "--size", size, "--frames", frames,
-                        "--json", file.name], check=True)
-        return json.load(open(file.name, encoding="utf-8"))["results"]
+def measure(prefix, program, rounds, *options):
+    """Results for one and two threads of the quietest of some runs."""
+    runs = []
+    for _ in range(rounds):
+        with tempfile.NamedTemporaryFile(suffix=".json") as file:
+            subprocess.run([*prefix, program, "bench", "--scene", "plane", "--stages", "off", "--workers", "1,2",
+                            *options, "--json", file.name], check=True)
+            runs.append(json.load(open(file.name, encoding="utf-8"))["results"])
+    return min(runs, key=lambda run: sum(row["median_ms"] for row in run))
 
 
 def linear_fit(points):
@@ -69,12 +72,14 @@ def main():
     parser.add_argument("output")
     parser.add_argument("--prefix", default="")
     parser.add_argument("--frames", default="9")
+    parser.add_argument("--rounds", type=int, default=2, help="runs of each point; the quietest counts")
     arguments = parser.parse_args()
     prefix = shlex.split(arguments.prefix)
     rows = []
     for name, pixels in SERIES.items():
         for splats, size in [(n, STANDARD) for n in SPLATS] + [("1e6", s) for s in SIZES if s != STANDARD]:
-            one, two = measure(prefix, arguments.program, splats, pixels, size, arguments.frames)
+            one, two = measure(prefix, arguments.program, arguments.rounds, "--splats", splats, "--pixels", pixels,
+                               "--size", size, "--frames", arguments.frames)
             rows.append({"series": name, "size": size, "splats": two["splats"],
                          "pixels": two["width"] * two["height"], "covered_px": round(two["covered_px"], 2),
                          "one_thread_ms": round(one["lower_quartile_ms"], 4),

@@ -34,6 +34,14 @@ def frames_of(data, threads=2, cpu="all"):
     return [row for row in data["results"] if "scene" in row and row["threads"] == threads and row["cpu"] == cpu]
 
 
+def clock(data):
+    scenes = {}
+    for row in frames_of(data, 1):
+        scenes.setdefault(row["scene"], []).append(row["clock_ghz"])
+    return table(list(scenes), [[f"{min(ghz):.2f} to {max(ghz):.2f} GHz" if len(ghz) > 1 else f"{ghz[0]:.2f} GHz"
+                                 for ghz in scenes.values()]])
+
+
 def goals(data):
     rows = []
     for row in data["results"]:
@@ -139,8 +147,8 @@ def avx2(data):
     return table(["2 threads", "AVX-512, ms", "AVX2, ms", "ratio"], rows)
 
 
-TABLES = {"goals": goals, "frames": frames, "cycles": cycles, "peer": peer, "closed": closed, "stages": stages,
-          "jobs": jobs, "avx2": avx2}
+TABLES = {"clock": clock, "goals": goals, "frames": frames, "cycles": cycles, "peer": peer, "closed": closed,
+          "stages": stages, "jobs": jobs, "avx2": avx2}
 
 
 def main():
