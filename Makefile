@@ -71,7 +71,7 @@ bench: program
 
 sweep: program
 	@sh tools/setup.sh python3 gnuplot-nox
-	python3 tools/bench_sweep.py $(EWA) build/sweep.csv --prefix "$(BENCH_PREFIX)"
+	python3 tools/bench_sweep.py $(EWA) build/sweep.csv --page docs/performance.md --prefix "$(BENCH_PREFIX)"
 	gnuplot -e "csv='build/sweep.csv'; png='docs/sweep.png'" tools/bench_sweep.gnuplot
 
 gallery: build

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 """Measures frames over numbers of splats and sizes of the picture; prints the slopes.
 
-    tools/bench_sweep.py build/release/cli/ewa build/sweep.csv [--prefix "chrt -f 50"]
+    tools/bench_sweep.py build/release/cli/ewa build/sweep.csv [--page docs/performance.md] [--prefix "chrt -f 50"]
 
 The CSV file is for tools/bench_sweep.gnuplot. Series: "9 px": splats of 9 pixels; "closed": splats as large as it takes
 to close a plane that fills the picture.
@@ -12,6 +12,7 @@ import argparse
 import csv
 import json
 import math
+import re
 import shlex
 import subprocess
 import tempfile
@@ -51,19 +52,18 @@ def exponent(points):
     return sum((x - x0) * (y - y0) for x, y in logs) / sum((x - x0)**2 for x, _ in logs)
 
 
-def print_fits(rows):
-    print("\n| series | fixed | over | 2 threads, ms | exponent, whole range | exponent, upper half |")
-    print("|---|---|---|---|---|---|")
+def fits(rows):
+    """Lines of a table: time over splats at the standard size, over pixels for a million splats."""
+    yield "| series | fixed | 2 threads, ms | exponent, whole range | exponent, upper half |"
+    yield "|---|---|---|---|---|"
     for name in SERIES:
-        for over, fixed in (("splats", "size"), ("pixels", "splats")):
+        for over, fixed, unit in (("splats", STANDARD, "splat"), ("pixels", "1 M splats", "pixel")):
             chosen = [r for r in rows if r["series"] == name and
                       (r["size"] == STANDARD if over == "splats" else r["splats"] == 1e6)]
             points = sorted((r[over], r["two_threads_ms"]) for r in chosen)
             a, b = linear_fit(points)
-            unit = "splat" if over == "splats" else "pixel"
-            print(f"| {name} | {STANDARD if fixed == 'size' else '1 M splats'} | {over} | "
-                  f"{a:.2f} + {1e6 * b:.2f} ns per {unit} | {exponent(points):.2f} | "
-                  f"{exponent(points[len(points) // 2:]):.2f} |")
+            yield (f"| {name} | {fixed} | {a:.2f} + {1e6 * b:.2f} ns per {unit} | {exponent(points):.2f} | "
+                   f"{exponent(points[len(points) // 2:]):.2f} |")
 
 
 def main():
@@ -71,6 +71,7 @@ def main():
     parser.add_argument("program")
     parser.add_argument("output")
     parser.add_argument("--prefix", default="")
+    parser.add_argument("--page", help="page to write the slopes into, between <!-- table sweep --> and <!-- end -->")
     parser.add_argument("--frames", default="9")
     parser.add_argument("--rounds", type=int, default=2, help="runs of each point; the quietest counts")
     arguments = parser.parse_args()
@@ -88,7 +89,14 @@ def main():
         writer = csv.DictWriter(file, rows[0], lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
-    print_fits(rows)
+    lines = "\n".join(fits(rows))
+    print(lines)
+    if arguments.page:
+        page = open(arguments.page, encoding="utf-8").read()
+        page = re.sub(r"(<!-- table sweep -->\n).*?(<!-- end -->)", lambda found: f"{found[1]}\n{lines}\n\n{found[2]}",
+                      page, flags=re.DOTALL)
+        with open(arguments.page, "w", encoding="utf-8") as file:
+            file.write(page)
 
 
 main()
