@@ -24,7 +24,6 @@ enum {
     MESSAGE_BYTES = 1024,
     MAX_WORKERS = 256,
     HUGE_PAGE_BYTES = 1 << 21,
-    HUGE_BLOCK_BYTES = 1 << 22, // blocks from this size on; rounding up wastes at most half
 };
 
 const char *ewa_status_name(ewa_status status) {
@@ -61,8 +60,8 @@ const char *ewa_version(void) {
 static void *allocate_default(void *user, size_t size_bytes) {
     (void)user;
     // Large blocks start on huge pages: filling fresh memory by pages of 4 KiB costs more than any copy into
-    // it.
-    const size_t alignment = size_bytes >= HUGE_BLOCK_BYTES ? HUGE_PAGE_BYTES : 64;
+    // it. Rounding up wastes at most half.
+    const size_t alignment = size_bytes >= HUGE_PAGE_BYTES ? HUGE_PAGE_BYTES : 64;
     const size_t rounded = (size_bytes + alignment - 1) & ~(alignment - 1);
     void *memory = rounded < size_bytes ? NULL : aligned_alloc(alignment, rounded);
 #if defined(MADV_HUGEPAGE)

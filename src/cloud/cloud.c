@@ -208,28 +208,50 @@ typedef struct measure_job {
     ewa_bounds *partial; // one per part
 } measure_job;
 
+enum { MEASURE_POINTS = 256, PATTERN = 12 }; // a pattern is a whole number of points and of vectors
+
+/// Grows a box by points that are all finite, in loops that make full vectors. Returns false, the box
+/// unchanged, when some are not.
+static bool measure_finite(const double *points, uint64_t count, ewa_bounds *box) {
+    double low[PATTERN], high[PATTERN], unbounded[PATTERN] = {0};
+    for (int k = 0; k < PATTERN; k++) low[k] = INFINITY, high[k] = -INFINITY;
+    uint64_t at = 0;
+    for (; at + PATTERN <= 3 * count; at += PATTERN)
+        for (int k = 0; k < PATTERN; k++) {
+            const double value = points[at + k];
+            low[k] = value < low[k] ? value : low[k];
+            high[k] = value > high[k] ? value : high[k];
+            unbounded[k] += value - value; // becomes NaN
+        }
+    for (int k = 0; at < 3 * count; at++, k++) {
+        low[k] = points[at] < low[k] ? points[at] : low[k];
+        high[k] = points[at] > high[k] ? points[at] : high[k];
+        unbounded[k] += points[at] - points[at];
+    }
+    for (int k = 0; k < PATTERN; k++)
+        if (unbounded[k] != 0) return false;
+    for (int k = 0; k < PATTERN; k++) {
+        box->low_world[k % 3] = low[k] < box->low_world[k % 3] ? low[k] : box->low_world[k % 3];
+        box->high_world[k % 3] = high[k] > box->high_world[k % 3] ? high[k] : box->high_world[k % 3];
+    }
+    box->finite_count += count;
+    return true;
+}
+
 static void measure_part(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const measure_job *job = data;
     ewa_bounds box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0};
     const uint64_t end = ewa_split(job->point_count, job->parts, part + 1);
-    double block[3 * 256];
-    for (uint64_t first = ewa_split(job->point_count, job->parts, part); first < end;) {
-        const uint64_t count = end - first < 256 ? end - first : 256;
+    double block[3 * MEASURE_POINTS];
+    for (uint64_t first = ewa_split(job->point_count, job->parts, part), count; first < end; first += count) {
+        count = end - first < MEASURE_POINTS ? end - first : MEASURE_POINTS;
         ewa_attribute_read_f64(job->position, first, count, block);
+        if (measure_finite(block, count, &box)) continue;
         for (uint64_t i = 0; i < count; i++) {
             const double *p = &block[3 * i];
-            if (!isfinite(p[0] + p[1] + p[2])) {
-                // The sum of three huge finite numbers may overflow too: look at each.
-                if (!isfinite(p[0]) || !isfinite(p[1]) || !isfinite(p[2])) continue;
-            }
-            box.finite_count++;
-            for (int c = 0; c < 3; c++) {
-                box.low_world[c] = p[c] < box.low_world[c] ? p[c] : box.low_world[c];
-                box.high_world[c] = p[c] > box.high_world[c] ? p[c] : box.high_world[c];
-            }
+            if (isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2])) measure_finite(p, 1, &box);
         }
-        first += count;
     }
     job->partial[part] = box;
 }

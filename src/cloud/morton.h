@@ -30,10 +30,21 @@ enum {
 ///   cell's middle.
 /// - finite_count: NULL, or receives the number of points with finite coordinates
 ///
-/// The result does not depend on the number of threads. Errors: EWA_ERROR_MEMORY. Needs 32 bytes per point
+/// The result does not depend on the number of threads. Errors: EWA_ERROR_MEMORY. Needs 24 bytes per point
 /// meanwhile. Based on G. M. Morton, "A computer oriented geodetic data base and a new technique in file
 /// sequencing", 1966.
 ewa_status ewa_morton_order(ewa_context *context, const ewa_attribute *position, uint32_t count,
                             uint32_t *order, uint16_t *split_level, uint32_t *finite_count);
+
+/// Bytes of the room that ewa_morton_order_in() sorts in.
+size_t ewa_morton_room_bytes(uint32_t count);
+
+/// The same for callers that know more.
+///
+/// - box: of the positions that matter, in the numbers of the stream; others are ordered somehow
+/// - room: NULL, or ewa_morton_room_bytes() aligned to 8 that are free meanwhile, so that memory that will be
+///   needed later is touched once only
+ewa_status ewa_morton_order_in(ewa_context *context, const ewa_attribute *position, uint32_t count,
+                               const ewa_bounds *box, void *room, uint32_t *order, uint16_t *split_level);
 
 #endif

@@ -18,6 +18,7 @@
 enum {
     SHORT_RUN = 32, // longer runs without a split level are all at one place
     MIN_LEAF_PLACES = 6,
+    FULL_RUN = 64,         // places; longer runs are cut at the largest cell only
     SECTION_PLACES = 4096, // leaves are cut from sections of about this size in parallel
     SECTION_WINDOW = 1024, // each border is the coarsest one so near
     LEAF_FLAG = 0x8000,    // in a split level: a leaf begins here
@@ -116,11 +117,25 @@ static uint32_t coarsest(const uint16_t *level, uint32_t begin, uint32_t end) {
     return i;
 }
 
-/// Cuts a run of places into leaves and flags the first place of each but the first. Cuts that would leave
-/// only a few places on one side are avoided: the search is paid per leaf.
+static uint32_t leaves_for(uint32_t places) { return (places + LEAF_PLACES - 1) / LEAF_PLACES; }
+
+/// Returns where to cut a run. Cuts that would leave only a few places on one side are avoided, and short
+/// runs are cut so that the leaves get full: the search is paid per leaf.
+static uint32_t find_cut(const uint16_t *level, uint32_t begin, uint32_t end) {
+    const uint32_t size = end - begin;
+    if (size > FULL_RUN) return coarsest(level, begin + MIN_LEAF_PLACES - 1, end - MIN_LEAF_PLACES + 1);
+    uint32_t cut = 0;
+    for (uint32_t left = MIN_LEAF_PLACES; left + MIN_LEAF_PLACES <= size; left++) {
+        if (leaves_for(left) + leaves_for(size - left) > leaves_for(size)) continue;
+        if (!cut || level[begin + left] < level[begin + cut]) cut = left;
+    }
+    return begin + cut;
+}
+
+/// Cuts a run of places into leaves and flags the first place of each but the first.
 static void cut_leaves(uint16_t *level, uint32_t begin, uint32_t end) {
     while (end - begin > LEAF_PLACES) {
-        const uint32_t cut = coarsest(level, begin + MIN_LEAF_PLACES - 1, end - MIN_LEAF_PLACES + 1);
+        const uint32_t cut = find_cut(level, begin, end);
         level[cut] |= LEAF_FLAG;
         // Recursion on the smaller side only keeps the stack short.
         if (cut - begin < end - cut) {
@@ -334,4 +349,30 @@ uint32_t ewa_neighbours_finite_count(const ewa_neighbours *neighbours) {
 const uint32_t *ewa_neighbours_points(const ewa_neighbours *neighbours, uint32_t place, uint32_t *count) {
     *count = neighbours->first[place + 1] - neighbours->first[place];
     return neighbours->order + neighbours->first[place];
+}
+
+/// Returns the leaf that holds a place.
+static uint32_t leaf_of(const ewa_neighbours *tree, uint32_t place) {
+    uint32_t low = 0, high = tree->leaf_count;
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (tree->leaf_first[middle] <= place)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+void ewa_neighbours_positions(const ewa_neighbours *neighbours, uint32_t first, uint32_t count,
+                              double (*position)[3]) {
+    for (uint32_t i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++) position[i][c] = (double)neighbours->offset[c][first + i];
+    if (!neighbours->anchored || !count) return;
+    uint32_t leaf = leaf_of(neighbours, first);
+    for (uint32_t i = 0; i < count; i++) {
+        while (neighbours->leaf_first[leaf + 1] <= first + i) leaf++;
+        for (int c = 0; c < 3; c++)
+            position[i][c] += neighbours->groups[leaf / TREE_ARITY].low[c][leaf % TREE_ARITY];
+    }
 }

@@ -31,8 +31,12 @@ uint32_t ewa_neighbours_finite_count(const ewa_neighbours *neighbours);
 /// Returns the points (indices into the input) at one place, ascending, and how many they are.
 const uint32_t *ewa_neighbours_points(const ewa_neighbours *neighbours, uint32_t place, uint32_t *count);
 
-/// Up to 16 places and all that may be their neighbours. Lanes from lane_count up repeat lane 0. Candidates
-/// are in the order of places; each lane's own place is among them.
+/// Writes the positions of `count` places from `first` on. Not after ewa_neighbours_end_visits().
+void ewa_neighbours_positions(const ewa_neighbours *neighbours, uint32_t first, uint32_t count,
+                              double (*position)[3]);
+
+/// Up to 16 places and all their neighbours. Lanes from lane_count up repeat lane 0. Candidates are in the
+/// order of places, each in the neighbourhood of some lane; each lane's own place is among them.
 ///
 /// Lengths are in units of `unit_world`, a power of two near the size of the block. Positions of F32 are
 /// otherwise exact, so that squared distances are those that plain float arithmetic gives; others are rounded
@@ -42,7 +46,7 @@ typedef struct ewa_block {
     float lane_y[EWA_BLOCK_LANES], lane_z[EWA_BLOCK_LANES];
     float radius2[EWA_BLOCK_LANES]; ///< squared distance of the k-th nearest place: its neighbourhood is all
                                     ///< candidates with distance2 <= radius2, ties included
-    float distance2[EWA_BLOCK_CANDIDATES][EWA_BLOCK_LANES];
+    float distance2[EWA_BLOCK_CANDIDATES][EWA_BLOCK_LANES]; ///< of each candidate from each lane
     float x[EWA_BLOCK_CANDIDATES + EWA_BLOCK_LANES], y[EWA_BLOCK_CANDIDATES + EWA_BLOCK_LANES],
         z[EWA_BLOCK_CANDIDATES + EWA_BLOCK_LANES];
     uint32_t place[EWA_BLOCK_CANDIDATES + EWA_BLOCK_LANES];

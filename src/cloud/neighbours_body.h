@@ -7,6 +7,15 @@
 #include "cloud/neighbours_tree.h"
 #include "math/wide.h"
 
+#include <math.h>
+
+enum { ROWS = 4 }; // distances of so many candidates at a time keep the adders busy
+
+static wi wi_of_lanes(void) {
+    static const uint16_t lanes[EWA_BLOCK_LANES] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    return wi_load_u16(lanes);
+}
+
 static wf gap2(wf low, wf high, wf at) {
     const wf outside = wf_max(wf_max(wf_sub(low, at), wf_sub(at, high)), wf_set(0));
     return wf_mul(outside, outside);
@@ -42,32 +51,61 @@ static void gather(const ewa_neighbours *tree, const tree_query *query, uint32_t
     wf_pack(&block->x[n], near, at[0]);
     wf_pack(&block->y[n], near, at[1]);
     wf_pack(&block->z[n], near, at[2]);
-    uint32_t *place = &block->place[n];
-    for (uint32_t left = bits; left; left &= left - 1) *place++ = first + (uint32_t)__builtin_ctz(left);
+    // Place numbers up to 2^32 - 2 are the same bits when signed.
+    wi_pack((int32_t *)&block->place[n], near, wi_add(wi_set((int32_t)first), wi_of_lanes()));
     block->candidate_count = n + (uint32_t)__builtin_popcount(bits);
 }
 
 static wf count_if(wf count, wm condition) { return wf_add(count, wf_keep(condition, wf_set(1))); }
 
+/// Rows of distances after the last candidate that no limit reaches, so that loops may take them by fours.
+static void pad(ewa_block *block) {
+    for (uint32_t i = block->candidate_count; i % ROWS; i++) wf_store(block->distance2[i], wf_set(INFINITY));
+}
+
 static void measure(ewa_block *block, float limit2, float within[EWA_BLOCK_LANES]) {
     const wf at_x = wf_load(block->lane_x), at_y = wf_load(block->lane_y), at_z = wf_load(block->lane_z);
     const wf limit = wf_set(limit2);
-    wf inside = wf_set(0);
-    for (uint32_t i = 0; i < block->candidate_count; i++) {
-        const wf dx = wf_sub(wf_set(block->x[i]), at_x), dy = wf_sub(wf_set(block->y[i]), at_y);
-        const wf dz = wf_sub(wf_set(block->z[i]), at_z);
-        const wf distance2 = wf_add(wf_add(wf_mul(dx, dx), wf_mul(dy, dy)), wf_mul(dz, dz));
-        inside = count_if(inside, wf_le(distance2, limit));
-        wf_store(block->distance2[i], distance2);
+    wf inside[2] = {wf_set(0), wf_set(0)};
+    // One more candidate, far away, makes their number even.
+    const uint32_t n = block->candidate_count;
+    block->x[n] = block->y[n] = block->z[n] = INFINITY;
+    for (uint32_t i = 0; i < n; i += 2) {
+        for (uint32_t k = 0; k < 2; k++) {
+            const wf dx = wf_sub(wf_set(block->x[i + k]), at_x), dy = wf_sub(wf_set(block->y[i + k]), at_y);
+            const wf dz = wf_sub(wf_set(block->z[i + k]), at_z);
+            const wf distance2 = wf_add(wf_add(wf_mul(dx, dx), wf_mul(dy, dy)), wf_mul(dz, dz));
+            inside[k] = count_if(inside[k], wf_le(distance2, limit));
+            wf_store(block->distance2[i + k], distance2);
+        }
     }
-    wf_store(within, inside);
+    wf_store(within, wf_add(inside[0], inside[1]));
+    pad(block);
 }
+_Static_assert(EWA_BLOCK_CANDIDATES % ROWS == 0, "the last rows are padding too");
 
 static wf count_within(const ewa_block *block, wf limit2) {
-    wf inside = wf_set(0);
-    for (uint32_t i = 0; i < block->candidate_count; i++)
-        inside = count_if(inside, wf_le(wf_load(block->distance2[i]), limit2));
-    return inside;
+    wf inside[ROWS] = {wf_set(0), wf_set(0), wf_set(0), wf_set(0)};
+    for (uint32_t i = 0; i < block->candidate_count; i += ROWS)
+        for (uint32_t k = 0; k < ROWS; k++)
+            inside[k] = count_if(inside[k], wf_le(wf_load(block->distance2[i + k]), limit2));
+    return wf_add(wf_add(inside[0], inside[1]), wf_add(inside[2], inside[3]));
+}
+
+/// Drops the candidates that are in no lane's neighbourhood: whoever visits goes through the others several
+/// times.
+static void drop_others(ewa_block *block, wf radius2) {
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < block->candidate_count; i++) {
+        const wf distance2 = wf_load(block->distance2[i]);
+        wf_store(block->distance2[kept], distance2);
+        block->x[kept] = block->x[i];
+        block->y[kept] = block->y[i];
+        block->z[kept] = block->z[i];
+        block->place[kept] = block->place[i];
+        kept += wm_bits(wf_le(distance2, radius2)) != 0;
+    }
+    block->candidate_count = kept;
 }
 
 /// Fewer than `rank` candidates are up to low, at least `rank` up to high, in every lane.
@@ -104,12 +142,16 @@ static void select_rank(ewa_block *block, float limit2, const float within[EWA_B
     }
     for (;;) {
         // The largest distance up to high and the smallest beyond low: equal when only ties are left.
-        wf last = wf_set(-1), next = b.high;
-        for (uint32_t i = 0; i < block->candidate_count; i++) {
-            const wf distance2 = wf_load(block->distance2[i]);
-            last = wf_select(wf_le(distance2, b.high), wf_max(last, distance2), last);
-            next = wf_select(wf_lt(b.low, distance2), wf_min(next, distance2), next);
+        wf largest[2] = {wf_set(0), wf_set(0)}, smallest[2] = {b.high, b.high};
+        for (uint32_t i = 0; i < block->candidate_count; i += ROWS) {
+            for (uint32_t k = 0; k < ROWS; k++) {
+                const wf distance2 = wf_load(block->distance2[i + k]);
+                largest[k % 2] = wf_max(largest[k % 2], wf_keep(wf_le(distance2, b.high), distance2));
+                smallest[k % 2] =
+                    wf_min(smallest[k % 2], wf_select(wf_lt(b.low, distance2), distance2, b.high));
+            }
         }
+        const wf last = wf_max(largest[0], largest[1]), next = wf_min(smallest[0], smallest[1]);
         b.high = last;
         const wm open = wm_and(wf_lt(rank, b.high_count), wf_lt(next, last));
         if (!wm_bits(open)) break;
@@ -117,6 +159,7 @@ static void select_rank(ewa_block *block, float limit2, const float within[EWA_B
         narrow(block, &b, rank, open, wf_select(wf_lt(middle, last), middle, next));
     }
     wf_store(block->radius2, b.high);
+    drop_others(block, b.high);
 }
 
 const search_kernels KERNELS = {overlap, gather, measure, select_rank};

@@ -14,19 +14,38 @@
 #include <math.h>
 
 enum {
-    TASK_LEAVES = 128,
+    TASK_LEAVES = 64,
     PROGRESS_STEPS = 16,
     MAX_TRIES = 4, // radii for a whole leaf before its places are searched one by one
     STACK_NODES = TREE_MAX_LEVELS * TREE_ARITY,
     MAX_UNIT_EXPONENT = 126, // of single precision
+    LISTED_GROUPS = 8,       // of leaves near a group
 };
 
 // The guess for a leaf over what its predecessor needed: larger means fewer second tries but more candidates.
-static const double GUESS_MARGIN = 1.12;
+static const double GUESS_MARGIN = 1.05;
 // The same over what one of its places needs.
 static const double FIRST_GUESS_MARGIN = 1.2;
+// The reach of a group's list over what the leaf needs for which it is made.
+static const double LIST_MARGIN = 1.3;
+// The first guess of all over the diagonal of the leaf: what an even surface needs.
+static const double DIAGONAL_SHARE = 0.75;
 // Single precision may find the k-th neighbour a little further away than double does.
 static const double ROUNDING_MARGIN = 0x1p-20;
+
+/// The leaves near a group of leaves, ascending, and their boxes: sixteen searches go down the tree once.
+typedef struct near_list {
+    tree_group boxes[LISTED_GROUPS];
+    uint32_t leaf[LISTED_GROUPS * TREE_ARITY];
+    uint32_t group, count;
+    double radius; // up to which places in the group's box may search; negative: none may
+} near_list;
+
+/// What one worker writes.
+typedef struct scratch {
+    ewa_block block;
+    near_list list;
+} scratch;
 
 typedef struct search_job {
     const ewa_neighbours *tree;
@@ -35,7 +54,7 @@ typedef struct search_job {
     const ewa_visit_choice *choice;
     ewa_block_visit *visit;
     void *user;
-    ewa_block *blocks; // one per worker
+    scratch *scratch; // one per worker
     uint32_t first_task;
 } search_job;
 
@@ -73,13 +92,15 @@ static void shift_of(const ewa_neighbours *tree, const tree_query *query, uint32
     for (int c = 0; c < 3; c++) shift[c] = (float)((anchor[c] - query->anchor[c]) * query->per_unit);
 }
 
-/// Gathers the places near enough to the query's box, in order. Returns false when they are too many.
-static bool gather_near(const search_job *job, const tree_query *query, ewa_block *block) {
+/// Receives a leaf near enough to the query's box; returns false to stop.
+typedef bool leaf_visit(const search_job *job, const tree_query *query, uint32_t leaf, void *user);
+
+/// Visits the leaves near enough to the query's box, in order. Returns false when a visit stopped it.
+static bool visit_near(const search_job *job, const tree_query *query, leaf_visit *visit, void *user) {
     const ewa_neighbours *tree = job->tree;
     node stack[STACK_NODES];
     uint32_t depth = 1;
     stack[0] = (node){.level = tree->level_count - 1, .index = 0};
-    block->candidate_count = 0;
     while (depth) {
         const node top = stack[--depth]; // a group of nodes of this level
         uint32_t near = job->kernels->overlap(&tree->groups[tree->level_start[top.level] + top.index], query);
@@ -91,14 +112,70 @@ static bool gather_near(const search_job *job, const tree_query *query, ewa_bloc
             }
             continue;
         }
-        for (; near; near &= near - 1) {
-            const uint32_t leaf = top.index * TREE_ARITY + (uint32_t)__builtin_ctz(near);
-            const uint32_t first = tree->leaf_first[leaf], count = tree->leaf_first[leaf + 1] - first;
-            if (block->candidate_count + count > EWA_BLOCK_CANDIDATES) return false;
-            float shift[3];
-            shift_of(tree, query, leaf, shift);
-            job->kernels->gather(tree, query, first, count, shift, block);
+        for (; near; near &= near - 1)
+            if (!visit(job, query, top.index * TREE_ARITY + (uint32_t)__builtin_ctz(near), user))
+                return false;
+    }
+    return true;
+}
+
+/// Appends the places of a leaf that are near enough. Returns false when they may be too many.
+static bool gather_leaf(const search_job *job, const tree_query *query, uint32_t leaf, void *user) {
+    const ewa_neighbours *tree = job->tree;
+    ewa_block *block = user;
+    const uint32_t first = tree->leaf_first[leaf], count = tree->leaf_first[leaf + 1] - first;
+    if (block->candidate_count + count > EWA_BLOCK_CANDIDATES) return false;
+    float shift[3];
+    shift_of(tree, query, leaf, shift);
+    job->kernels->gather(tree, query, first, count, shift, block);
+    return true;
+}
+
+static bool list_leaf(const search_job *job, const tree_query *query, uint32_t leaf, void *user) {
+    (void)query;
+    near_list *list = user;
+    if (list->count == LISTED_GROUPS * TREE_ARITY) return false;
+    const tree_group *from = &job->tree->groups[leaf / TREE_ARITY];
+    tree_group *to = &list->boxes[list->count / TREE_ARITY];
+    for (int c = 0; c < 3; c++) {
+        to->low[c][list->count % TREE_ARITY] = from->low[c][leaf % TREE_ARITY];
+        to->high[c][list->count % TREE_ARITY] = from->high[c][leaf % TREE_ARITY];
+    }
+    list->leaf[list->count++] = leaf;
+    return true;
+}
+
+/// Lists the leaves within `radius` of a group of leaves, unless they are too many.
+static void make_list(const search_job *job, uint32_t group, double radius, near_list *list) {
+    const tree_group *leaves = &job->tree->groups[group];
+    tree_query query = {.radius2 = radius * radius};
+    for (int c = 0; c < 3; c++) {
+        query.low[c] = INFINITY, query.high[c] = -INFINITY;
+        for (int i = 0; i < TREE_ARITY; i++) {
+            query.low[c] = leaves->low[c][i] < query.low[c] ? leaves->low[c][i] : query.low[c];
+            query.high[c] = leaves->high[c][i] > query.high[c] ? leaves->high[c][i] : query.high[c];
         }
+    }
+    list->group = group;
+    list->count = 0;
+    const bool all = visit_near(job, &query, list_leaf, list);
+    list->radius = all ? radius : -1;
+    for (uint32_t i = list->count; i % TREE_ARITY; i++)
+        for (int c = 0; c < 3; c++)
+            list->boxes[i / TREE_ARITY].low[c][i % TREE_ARITY] = INFINITY,
+                                                   list->boxes[i / TREE_ARITY].high[c][i % TREE_ARITY] =
+                                                       -INFINITY;
+}
+
+/// Gathers the places near enough to the query's box, in order. Returns false when they are too many.
+static bool gather_near(const search_job *job, const tree_query *query, const near_list *list,
+                        ewa_block *block) {
+    block->candidate_count = 0;
+    if (!list) return visit_near(job, query, gather_leaf, block);
+    for (uint32_t i = 0; i < list->count; i += TREE_ARITY) {
+        uint32_t near = job->kernels->overlap(&list->boxes[i / TREE_ARITY], query);
+        for (; near; near &= near - 1)
+            if (!gather_leaf(job, query, list->leaf[i + (uint32_t)__builtin_ctz(near)], block)) return false;
     }
     return true;
 }
@@ -210,12 +287,20 @@ static double set_query(const ewa_neighbours *tree, const attempt *a, tree_query
     return ldexp(1, exponent);
 }
 
+/// Returns the list of leaves for an attempt, NULL when it has to search the whole tree.
+static const near_list *find_list(const search_job *job, const attempt *a, near_list *list) {
+    const uint32_t group = a->leaf / TREE_ARITY;
+    if (list->group != group) make_list(job, group, a->radius * LIST_MARGIN, list);
+    return a->radius <= list->radius ? list : NULL;
+}
+
 /// Fills the block. `*needed` gets the largest distance of a k-th neighbour, or a guess at it after TOO_FEW.
-static outcome search(const search_job *job, const attempt *a, ewa_block *block, double *needed) {
+static outcome search(const search_job *job, const attempt *a, scratch *s, double *needed) {
     const ewa_neighbours *tree = job->tree;
+    ewa_block *block = &s->block;
     tree_query query;
     block->unit_world = set_query(tree, a, &query);
-    const bool all = gather_near(job, &query, block);
+    const bool all = gather_near(job, &query, find_list(job, a, &s->list), block);
     if (!all && a->count > 1) return TOO_MANY;
     set_lanes(tree, a, &query, block);
     const double limit = a->radius * (double)query.per_unit;
@@ -244,8 +329,14 @@ static void search_alone(const search_job *job, const attempt *whole, uint32_t p
     for (int c = 0; c < 3; c++) a.high[c] = a.low[c];
     a.radius = nearest_distance(job, a.low) * (1 + ROUNDING_MARGIN);
     double needed;
-    search(job, &a, &job->blocks[worker], &needed);
-    job->visit(job->user, &job->blocks[worker], worker);
+    search(job, &a, &job->scratch[worker], &needed);
+    job->visit(job->user, &job->scratch[worker].block, worker);
+}
+
+static double diagonal(const attempt *a) {
+    double sum = 0;
+    for (int c = 0; c < 3; c++) sum += (a->high[c] - a->low[c]) * (a->high[c] - a->low[c]);
+    return sqrt(sum);
 }
 
 static double first_guess(const search_job *job, const attempt *a) {
@@ -265,13 +356,14 @@ static void search_leaf(const search_job *job, uint32_t leaf, double *guess, uin
         a.low[c] = group->low[c][leaf % TREE_ARITY];
         a.high[c] = group->high[c][leaf % TREE_ARITY];
     }
-    bool guessed_here = *guess < 0;
-    a.radius = guessed_here ? first_guess(job, &a) : *guess;
+    a.radius = *guess < 0 ? DIAGONAL_SHARE * diagonal(&a) : *guess;
+    bool guessed_here = !(a.radius > 0);
+    if (guessed_here) a.radius = first_guess(job, &a);
     for (int tries = 0; tries < MAX_TRIES; tries++) {
         double needed = 0;
-        const outcome result = search(job, &a, &job->blocks[worker], &needed);
+        const outcome result = search(job, &a, &job->scratch[worker], &needed);
         if (result == FOUND) {
-            job->visit(job->user, &job->blocks[worker], worker);
+            job->visit(job->user, &job->scratch[worker].block, worker);
             *guess = needed * GUESS_MARGIN;
             return;
         }
@@ -300,6 +392,7 @@ static void search_task(void *data, uint32_t index, uint32_t worker) {
     const uint32_t leaf_count = job->tree->leaf_count, begin = (job->first_task + index) * TASK_LEAVES;
     const uint32_t end = leaf_count - begin < TASK_LEAVES ? leaf_count : begin + TASK_LEAVES;
     double guess = -1;
+    job->scratch[worker].list.group = UINT32_MAX;
     for (uint32_t leaf = begin; leaf < end; leaf++)
         if (is_chosen(job, leaf)) search_leaf(job, leaf, &guess, worker);
 }
@@ -316,8 +409,8 @@ ewa_status ewa_neighbours_visit(const ewa_neighbours *neighbours, const ewa_visi
                       .visit = visit,
                       .user = user};
     const uint32_t worker_count = ewa_context_worker_count(context);
-    job.blocks = ewa_allocate(context, worker_count, sizeof *job.blocks);
-    if (!job.blocks) return EWA_ERROR_MEMORY;
+    job.scratch = ewa_allocate(context, worker_count, sizeof *job.scratch);
+    if (!job.scratch) return EWA_ERROR_MEMORY;
     const uint32_t tasks = (neighbours->leaf_count + TASK_LEAVES - 1) / TASK_LEAVES;
     ewa_status status = EWA_OK;
     for (uint32_t step = 0; step < PROGRESS_STEPS && status == EWA_OK; step++) {
@@ -326,6 +419,6 @@ ewa_status ewa_neighbours_visit(const ewa_neighbours *neighbours, const ewa_visi
         ewa_parallel(context, search_task, &job, end - job.first_task);
         status = ewa_progress(context, choice->stage, (step + 1.0) / PROGRESS_STEPS);
     }
-    ewa_release(context, job.blocks, worker_count, sizeof *job.blocks);
+    ewa_release(context, job.scratch, worker_count, sizeof *job.scratch);
     return status;
 }

@@ -9,23 +9,38 @@
 
 enum { BLOCK_NUMBERS = 256 };
 
+/// Copies `size` bytes of each record.
 #define COPY(size)                                                                                           \
     case size:                                                                                               \
-        for (; count; count--, to += to_stride, from += from_stride) memcpy(to, from, size);                 \
+        for (; from != end; to += to_stride, from += from_stride) memcpy(to, from, size);                    \
+        break
+
+/// The same where the numbers get to lie side by side: all but the last are copied as `wide` bytes at once, a
+/// machine word; what that puts too much, the next one covers.
+#define COPY_WIDE(size, wide)                                                                                \
+    case size:                                                                                               \
+        if (to_stride == (size))                                                                             \
+            for (; from != last; to += (size), from += from_stride) memcpy(to, from, wide);                  \
+        for (; from != end; to += to_stride, from += from_stride) memcpy(to, from, size);                    \
         break
 
 static void copy(uint8_t *to, size_t to_stride, const uint8_t *from, size_t from_stride, size_t size_bytes,
                  size_t count) {
+    if (count < 2) { // its strides may be anything
+        if (count) memcpy(to, from, size_bytes);
+        return;
+    }
+    const uint8_t *const end = from + count * from_stride, *const last = end - from_stride;
     switch (size_bytes) {
         COPY(1);
         COPY(2);
-        COPY(3);
+        COPY_WIDE(3, 4);
         COPY(4);
-        COPY(6);
+        COPY_WIDE(6, 8);
         COPY(8);
-        COPY(12);
+        COPY_WIDE(12, 16);
         COPY(16);
-        COPY(24);
+        COPY_WIDE(24, 32);
         COPY(32);
     }
 }

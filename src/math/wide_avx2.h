@@ -108,6 +108,11 @@ static inline void wf_pack(float *p, wm m, wf a) {
     wf_store(lanes, a);
     for (uint32_t bits = wm_bits(m); bits; bits &= bits - 1) *p++ = lanes[__builtin_ctz(bits)];
 }
+static inline void wi_pack(int32_t *p, wm m, wi a) {
+    int32_t lanes[16];
+    wi_store(lanes, a);
+    for (uint32_t bits = wm_bits(m); bits; bits &= bits - 1) *p++ = lanes[__builtin_ctz(bits)];
+}
 
 static inline void transpose_8x8(__m256 r[8]) {
     __m256 t[8];

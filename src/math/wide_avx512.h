@@ -35,6 +35,7 @@ static inline wf wf_select(wm m, wf a, wf b) { return _mm512_mask_blend_ps(m, b,
 static inline wf wf_keep(wm m, wf a) { return _mm512_maskz_mov_ps(m, a); }
 
 static inline wi wi_set(int32_t a) { return _mm512_set1_epi32(a); }
+static inline wi wi_load(const int32_t *p) { return _mm512_loadu_si512(p); }
 static inline void wi_store(int32_t *p, wi a) { _mm512_storeu_si512(p, a); }
 static inline wi wi_load_u16(const uint16_t *p) {
     return _mm512_cvtepu16_epi32(_mm256_loadu_si256((const __m256i *)(const void *)p));
@@ -58,6 +59,9 @@ static inline wm wm_of_bits(uint32_t bits) { return (wm)bits; }
 
 /// Writes the lanes where m is set one after another; may write 16 numbers.
 static inline void wf_pack(float *p, wm m, wf a) { _mm512_storeu_ps(p, _mm512_maskz_compress_ps(m, a)); }
+static inline void wi_pack(int32_t *p, wm m, wi a) {
+    _mm512_storeu_si512(p, _mm512_maskz_compress_epi32(m, a));
+}
 
 /// Transposes a 16x16 matrix in place: afterwards rows[i] lane j is what rows[j] lane i was.
 static inline void w_transpose(wf rows[16]) {

@@ -85,6 +85,12 @@ FUSED void wf_pack(float *p, wm m, wf a) {
         p -= m[i];
     }
 }
+FUSED void wi_pack(int32_t *p, wm m, wi a) {
+    for (int i = 0; i < 16; i++) {
+        *p = a[i];
+        p -= m[i];
+    }
+}
 
 /// Transposes a 16x16 matrix in place: afterwards rows[i] lane j is what rows[j] lane i was.
 FUSED void w_transpose(wf rows[16]) {

@@ -46,20 +46,23 @@ static void set_points(const estimate_job *job, uint32_t place, float *out, cons
     uint32_t count;
     const uint32_t *points = ewa_neighbours_points(job->neighbours, place, &count);
     for (uint32_t i = 0; i < count; i++)
-        memcpy(&out[(size_t)components * points[i]], values, components * sizeof *values);
+        for (uint32_t c = 0; c < components; c++) out[(size_t)components * points[i] + c] = values[c];
 }
+
+/// The larger one, without a call.
+static double larger(double a, double b) { return b > a ? b : a; }
 
 /// The support radius with which a kernel still has weight where its cell ends: beyond two standard
 /// deviations it has next to none, and the surface would look like a hole there.
 static double cover_radius(const estimate_job *job, double reach) {
     const double solid_sigmas = 2;
-    return reach * fmax(1, job->options->cutoff / solid_sigmas);
+    return reach * larger(1, job->options->cutoff / solid_sigmas);
 }
 
 static void set_axes(const estimate_job *job, uint32_t place, const local_surface *s, uint32_t lane,
                      double unit) {
     const double scaled = job->options->radius_scale * (double)s->spacing[lane];
-    const double radius = fmax(scaled, cover_radius(job, (double)s->ellipse_reach[lane]));
+    const double radius = larger(scaled, cover_radius(job, (double)s->ellipse_reach[lane]));
     const double sigma = radius * unit / job->options->cutoff, stretch = sqrt((double)s->aspect[lane]);
     float u[3], v[3];
     for (int c = 0; c < 3; c++) {
@@ -79,7 +82,7 @@ static void set_axes(const estimate_job *job, uint32_t place, const local_surfac
 static void set_radius(const estimate_job *job, uint32_t place, const local_surface *s, uint32_t lane,
                        double unit) {
     const double scaled = job->options->radius_scale * (double)s->spacing[lane];
-    const float radius = (float)(fmax(scaled, cover_radius(job, (double)s->reach[lane])) * unit);
+    const float radius = (float)(larger(scaled, cover_radius(job, (double)s->reach[lane])) * unit);
     set_points(job, place, job->radius_out, &radius, 1);
 }
 
@@ -203,10 +206,11 @@ static ewa_status finish_normals(ewa_cloud *cloud, estimate_job *job, bool has_g
     ewa_context *context = ewa_cloud_context(cloud);
     ewa_status status = EWA_OK;
     if (job->links) {
-        const orient_input input = {job->neighbours, &job->position,
-                                    (const uint32_t(*)[LOCAL_GRAPH_DEGREE])job->links, job->spacing};
+        const orient_input input = {job->neighbours, (const uint32_t(*)[LOCAL_GRAPH_DEGREE])job->links,
+                                    job->spacing};
         status = ewa_orient_propagate(context, &input, job->normals);
     }
+    ewa_neighbours_end_visits(job->neighbours);
     if (status == EWA_OK) status = add_output(cloud, EWA_NORMAL, 3, has_gaps, &job->normal_out);
     if (status == EWA_OK)
         ewa_parallel(context, finish_task, job, (job->place_count + TASK_PLACES - 1) / TASK_PLACES);
@@ -240,7 +244,6 @@ static ewa_status estimate_with(ewa_cloud *cloud, estimate_job *job, bool normal
     }
     if (status == EWA_OK) {
         report_degenerate(context, job);
-        ewa_neighbours_end_visits(job->neighbours);
         if (normals) status = finish_normals(cloud, job, has_gaps);
     }
     ewa_release(context, job->spacing, places, sizeof *job->spacing);

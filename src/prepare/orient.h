@@ -9,15 +9,15 @@
 
 /// What is to be oriented; all arrays by place.
 typedef struct orient_input {
-    const ewa_neighbours *neighbours;
-    const ewa_attribute *position; ///< of the points
+    const ewa_neighbours *neighbours; ///< visits not ended
     const uint32_t (*links)[LOCAL_GRAPH_DEGREE];
     const float *spacing; ///< world units
 } orient_input;
 
 /// Flips normals (3 floats per place) so that they agree along the graph of links, and outward where a
 /// connected part of the graph is closed; open parts face along the axis that their mean normal is closest
-/// to. Errors: EWA_ERROR_MEMORY, EWA_CANCELLED. Serial; takes 9 bytes per place meanwhile.
+/// to. Errors: EWA_ERROR_MEMORY, EWA_CANCELLED. The result does not depend on the
+/// number of threads. Takes 12 bytes per place meanwhile.
 ewa_status ewa_orient_propagate(ewa_context *context, const orient_input *input, float *normals);
 
 #endif

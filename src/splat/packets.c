@@ -8,14 +8,24 @@
 #include "splat/packets.h"
 #include "base/base.h"
 #include "cloud/morton.h"
+#include "kernels/semantics.h"
+#include "splat/discs.h"
 #include "splat/options.h"
+#include "splat/pack.h"
 #include "splat/surfel.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { LANES = EWA_PACKET_LANES, READ_BLOCK = 256, MAX_PARTS = 64, BOUNDS_STREAMS = 8 };
+enum {
+    LANES = EWA_PACKET_LANES,
+    READ_BLOCK = 256,
+    MAX_PARTS = 64,
+    BOUNDS_STREAMS = 8,
+    PREFETCH_POINTS = 64, // between asking for a point's numbers and reading them: four packets
+    TIE_BLOCK = 64,       // points that are looked at together for ties, which are rare
+};
 
 /// What one part of the cloud contributes to the facts about the whole.
 typedef struct part_facts {
@@ -27,6 +37,10 @@ typedef struct part_facts {
 
 typedef struct build {
     ewa_surfel_reader reader;
+    ewa_discs discs;
+    bool are_discs; // `discs` can be used
+    const ewa_pack_kernels *kernels;
+    uint16_t color_codes[3][256], grey_codes[3]; // of discs
     uint64_t point_count;
     uint32_t parts;
     uint8_t *drawable; // per point
@@ -39,9 +53,21 @@ typedef struct build {
 static inline double least(double a, double b) { return a < b ? a : b; }
 static inline double most(double a, double b) { return a > b ? a : b; }
 
-static void survey_part(void *data, uint32_t part, uint32_t worker) {
-    (void)worker;
-    build *b = data;
+/// Surveys discs, whose colours are within [0, 1].
+static void survey_discs(build *b, uint32_t part) {
+    const uint64_t first = ewa_split(b->point_count, b->parts, part),
+                   end = ewa_split(b->point_count, b->parts, part + 1);
+    ewa_disc_facts discs;
+    ewa_discs_survey(&b->discs, first, end - first, b->drawable + first, &discs);
+    part_facts *facts = &b->facts[part];
+    *facts = (part_facts){.drawable_count = discs.drawable_count};
+    for (int c = 0; c < 3; c++) {
+        facts->low[c] = discs.low_world[c], facts->high[c] = discs.high_world[c];
+        facts->color_low[c] = 0, facts->color_high[c] = 1;
+    }
+}
+
+static void survey_surfels(build *b, uint32_t part) {
     part_facts facts = {.low = {INFINITY, INFINITY, INFINITY},
                         .high = {-INFINITY, -INFINITY, -INFINITY},
                         .color_low = {INFINITY, INFINITY, INFINITY},
@@ -69,6 +95,15 @@ static void survey_part(void *data, uint32_t part, uint32_t worker) {
         }
     }
     b->facts[part] = facts;
+}
+
+static void survey_part(void *data, uint32_t part, uint32_t worker) {
+    (void)worker;
+    build *b = data;
+    if (b->are_discs)
+        survey_discs(b, part);
+    else
+        survey_surfels(b, part);
 }
 
 /// Joins the parts' facts and fixes local origin and colour range.
@@ -108,27 +143,11 @@ static ewa_vec3 oct_decode(int16_t code_x, int16_t code_y) {
     return vec3_scale(n, 1 / vec3_length(n));
 }
 
-static void oct_encode(ewa_vec3 n, int16_t *code_x, int16_t *code_y) {
-    const double sum = fabs(n.x) + fabs(n.y) + fabs(n.z);
-    double u = n.x / sum, v = n.y / sum;
-    if (n.z < 0) {
-        const double folded = (1 - fabs(v)) * (u < 0 ? -1 : 1);
-        v = (1 - fabs(u)) * (v < 0 ? -1 : 1);
-        u = folded;
-    }
-    *code_x = (int16_t)(u * 32767 + (u < 0 ? -0.5 : 0.5));
-    *code_y = (int16_t)(v * 32767 + (v < 0 ? -0.5 : 0.5));
-}
-
 /// Two unit vectors that complete n to a right-handed frame.
 static void packet_frame(ewa_vec3 n, ewa_vec3 *first, ewa_vec3 *second) {
     const double sign = n.z < 0 ? -1 : 1, a = -1 / (sign + n.z), b = n.x * n.y * a;
     *first = vec3_make(1 + sign * n.x * n.x * a, sign * b, -sign * n.x);
     *second = vec3_make(b, sign + n.y * n.y * a, -n.y);
-}
-
-static uint16_t encode_unit(double value, double codes) {
-    return (uint16_t)(least(most(value, 0), 1) * codes + 0.5);
 }
 
 /// The diamond angle in [0, 2) of an axis in the frame of the lane's normal: 1 - c / (|c| + t).
@@ -141,22 +160,12 @@ static uint16_t encode_angle(const ewa_packet *packet, uint32_t lane, ewa_vec3 a
     return (uint16_t)((uint32_t)((sum > 0 ? 1 - c / sum : 0) * 32768 + 0.5) & 0xffff);
 }
 
-static void encode_surfel(const ewa_surfels *surfels, const ewa_surfel *s, ewa_packet *packet,
-                          uint32_t lane) {
-    packet->x[lane] = (float)(s->center_world[0] - surfels->origin_world[0]);
-    packet->y[lane] = (float)(s->center_world[1] - surfels->origin_world[1]);
-    packet->z[lane] = (float)(s->center_world[2] - surfels->origin_world[2]);
-    const ewa_vec3 axis = vec3_load(s->axis_u_world);
-    const double major = vec3_length(axis), minor = vec3_length(vec3_load(s->axis_v_world));
-    packet->sigma[lane] = (float)major;
-    packet->ratio[lane] = encode_unit(minor / major, 65535);
-    oct_encode(vec3_load(s->normal_world), &packet->oct_x[lane], &packet->oct_y[lane]);
-    if (packet->ratio[lane] < 65535) packet->angle[lane] = encode_angle(packet, lane, axis);
-    uint16_t *const channels[3] = {packet->red, packet->green, packet->blue};
+/// Encodes the colours of one lane.
+static void encode_color(const ewa_surfels *surfels, const double color_linear[3], uint16_t codes[3]) {
     for (int k = 0; k < 3; k++) {
         const double value =
-            (s->color_linear[k] - (double)surfels->color_offset[k]) / (double)surfels->color_scale[k];
-        channels[k][lane] = (uint16_t)(least(most(value, 0), 65535) + 0.5);
+            (color_linear[k] - (double)surfels->color_offset[k]) / (double)surfels->color_scale[k];
+        codes[k] = (uint16_t)(least(most(value, 0), 65535) + 0.5);
     }
 }
 
@@ -176,58 +185,99 @@ void ewa_packet_decode(const ewa_surfels *surfels, const ewa_packet *packet, uin
         surfel->color[k] = codes[k] * (double)surfels->color_scale[k] + (double)surfels->color_offset[k];
 }
 
-/// Sphere around the supports and cone around the normals of the first `count` lanes.
-static void bound_packet(ewa_surfels *surfels, uint32_t index, uint32_t count) {
-    const ewa_packet *packet = &surfels->packets[index];
-    ewa_vec3 centers[LANES], normals[LANES];
-    ewa_vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY}, axis = {0, 0, 0};
-    for (uint32_t i = 0; i < count; i++) {
-        const ewa_vec3 p = vec3_make((double)packet->x[i], (double)packet->y[i], (double)packet->z[i]);
-        low = vec3_make(least(low.x, p.x), least(low.y, p.y), least(low.z, p.z));
-        high = vec3_make(most(high.x, p.x), most(high.y, p.y), most(high.z, p.z));
-        centers[i] = p;
-        normals[i] = oct_decode(packet->oct_x[i], packet->oct_y[i]);
-        axis = vec3_add(axis, normals[i]);
+static void put_color(ewa_packet *packet, uint32_t lane, const uint16_t codes[3]) {
+    packet->red[lane] = codes[0], packet->green[lane] = codes[1], packet->blue[lane] = codes[2];
+}
+
+/// Packs discs of a cloud whose streams need no general reading.
+static void encode_discs(const build *b, const uint32_t *points, uint32_t count, ewa_packet *packet) {
+    float normal[3][LANES];
+    ewa_discs_load(&b->discs, b->surfels->origin_world, points, count, packet, normal);
+    b->kernels->code_normals(normal, packet);
+    const ewa_attribute *color = b->reader.color;
+    for (uint32_t lane = 0; lane < LANES; lane++) {
+        if (!color) {
+            put_color(packet, lane, b->grey_codes);
+            continue;
+        }
+        const uint32_t point = points[lane < count ? lane : 0];
+        const uint8_t *c = (const uint8_t *)color->data + point * color->stride_bytes;
+        packet->red[lane] = b->color_codes[0][c[0]];
+        packet->green[lane] = b->color_codes[1][c[1]];
+        packet->blue[lane] = b->color_codes[2][c[2]];
     }
-    const ewa_vec3 middle = vec3_scale(vec3_add(low, high), 0.5);
-    const float x = (float)middle.x, y = (float)middle.y, z = (float)middle.z;
-    const ewa_vec3 center = vec3_make((double)x, (double)y, (double)z);
-    const double length = vec3_length(axis);
-    axis = length > 0 ? vec3_scale(axis, 1 / length) : vec3_make(0, 0, 1);
-    double radius = 0, cosine = length > 0 ? 1 : -1;
-    for (uint32_t i = 0; i < count; i++) {
-        const double support = surfels->cutoff * (double)packet->sigma[i];
-        radius = most(radius, vec3_length(vec3_sub(centers[i], center)) + support);
-        cosine = least(cosine, vec3_dot(normals[i], axis));
+}
+
+/// Packs any surfels.
+static void encode_surfels(const build *b, const uint32_t *points, uint32_t count, ewa_packet *packet) {
+    const double *origin = b->surfels->origin_world;
+    ewa_surfel surfels[LANES];
+    float normal[3][LANES];
+    for (uint32_t i = 0; i < LANES; i++) {
+        bool drawable;
+        if (i < count)
+            ewa_surfel_read(&b->reader, points[i], 1, &surfels[i], &drawable);
+        else
+            surfels[i] = surfels[0];
+        const ewa_surfel *s = &surfels[i];
+        const double major = vec3_length(vec3_load(s->axis_u_world)),
+                     minor = vec3_length(vec3_load(s->axis_v_world));
+        packet->x[i] = (float)(s->center_world[0] - origin[0]);
+        packet->y[i] = (float)(s->center_world[1] - origin[1]);
+        packet->z[i] = (float)(s->center_world[2] - origin[2]);
+        packet->sigma[i] = (float)major;
+        packet->ratio[i] = (uint16_t)(least(minor / major, 1) * 65535 + 0.5);
+        for (int c = 0; c < 3; c++) normal[c][i] = (float)s->normal_world[c];
+        uint16_t codes[3];
+        encode_color(b->surfels, s->color_linear, codes);
+        put_color(packet, i, codes);
     }
-    enum { ULPS = 16 }; // single precision of centre, radius and axis, rounded to the safe side
-    const double slack = ULPS * 0x1p-24;
-    radius = radius * (1 + slack) + slack * (fabs(center.x) + fabs(center.y) + fabs(center.z));
-    const ewa_packet_bounds *b = &surfels->bounds;
-    b->center_x[index] = x, b->center_y[index] = y, b->center_z[index] = z;
-    b->radius[index] = (float)radius;
-    b->axis_x[index] = (float)axis.x, b->axis_y[index] = (float)axis.y, b->axis_z[index] = (float)axis.z;
-    b->cone_sine[index] = cosine <= 0 ? 2.0f : (float)(sqrt(fmax(1 - cosine * cosine, 0)) + slack);
+    b->kernels->code_normals(normal, packet);
+    for (uint32_t i = 0; i < LANES; i++) {
+        const bool circle = packet->ratio[i] == 65535;
+        packet->angle[i] = circle ? 0 : encode_angle(packet, i, vec3_load(surfels[i].axis_u_world));
+    }
+}
+
+/// Clears the lanes from `count` on.
+static void empty_lanes(ewa_packet *packet, uint32_t count) {
+    for (uint32_t i = count; i < LANES; i++) {
+        packet->x[i] = packet->y[i] = packet->z[i] = packet->sigma[i] = 0;
+        packet->oct_x[i] = packet->oct_y[i] = 0;
+        packet->angle[i] = packet->ratio[i] = packet->red[i] = packet->green[i] = packet->blue[i] = 0;
+    }
+}
+
+/// Packs and bounds the sixteen packets of a group, fewer in the last one.
+static void encode_group(const build *b, uint64_t group) {
+    const ewa_surfels *surfels = b->surfels;
+    const uint64_t first = group * LANES, packets_left = surfels->packet_count - first;
+    const uint32_t packet_count = packets_left < LANES ? (uint32_t)packets_left : LANES;
+    uint32_t count = LANES;
+    for (uint32_t k = 0; k < packet_count; k++) {
+        const uint64_t at = (first + k) * LANES, left = surfels->count - at;
+        ewa_packet *packet = &surfels->packets[first + k];
+        count = left < LANES ? (uint32_t)left : LANES;
+        if (!b->are_discs) {
+            encode_surfels(b, &b->order[at], count, packet);
+            continue;
+        }
+        if (left >= PREFETCH_POINTS + LANES)
+            for (uint32_t i = 0; i < LANES; i++)
+                ewa_discs_prefetch(&b->discs, b->order[at + PREFETCH_POINTS + i]);
+        encode_discs(b, &b->order[at], count, packet);
+    }
+    b->kernels->bound_packets(&surfels->packets[first], packet_count, (float)surfels->cutoff,
+                              &surfels->bounds, first);
+    empty_lanes(&surfels->packets[first + packet_count - 1], count);
 }
 
 static void encode_part(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
-    build *b = data;
-    ewa_surfels *surfels = b->surfels;
-    const uint64_t end = ewa_split(surfels->packet_count, b->parts, part + 1);
-    for (uint64_t p = ewa_split(surfels->packet_count, b->parts, part); p < end; p++) {
-        ewa_packet *packet = &surfels->packets[p];
-        memset(packet, 0, sizeof *packet);
-        const uint64_t first = p * LANES;
-        const uint32_t count = surfels->count - first < LANES ? (uint32_t)(surfels->count - first) : LANES;
-        for (uint32_t lane = 0; lane < count; lane++) {
-            ewa_surfel surfel;
-            bool drawable;
-            ewa_surfel_read(&b->reader, b->order[first + lane], 1, &surfel, &drawable);
-            encode_surfel(surfels, &surfel, packet, lane);
-        }
-        bound_packet(surfels, (uint32_t)p, count);
-    }
+    const build *b = data;
+    const uint64_t groups = ((uint64_t)b->surfels->packet_count + LANES - 1) / LANES;
+    const uint64_t end = ewa_split(groups, b->parts, part + 1);
+    for (uint64_t g = ewa_split(groups, b->parts, part); g < end; g++) encode_group(b, g);
 }
 
 /// A surfel with its point, for ordering what the Morton curve leaves in the order of the input.
@@ -244,9 +294,20 @@ static int compare_tied(const void *a, const void *b) {
     return s->point < t->point ? -1 : s->point > t->point;
 }
 
+/// Whether some of the next TIE_BLOCK points is not told apart from the one before it.
+static bool any_same(const uint16_t split_level[TIE_BLOCK]) {
+    uint16_t any = 0;
+    for (int i = 0; i < TIE_BLOCK; i++) any |= split_level[i] == EWA_MORTON_SAME;
+    return any;
+}
+
 /// Orders runs of points that the curve does not tell apart by everything that is drawn of them.
 static ewa_status order_ties(build *b, ewa_context *context, const uint16_t *split_level, uint32_t count) {
     for (uint32_t first = 0, end; first < count; first = end) {
+        if (count - first > TIE_BLOCK && !any_same(&split_level[first + 1])) {
+            end = first + TIE_BLOCK;
+            continue;
+        }
         end = first + 1;
         while (end < count && split_level[end] == EWA_MORTON_SAME) end++;
         if (end - first < 2) continue;
@@ -271,7 +332,16 @@ static ewa_status order_points(build *b, ewa_context *context) {
     const uint32_t count = (uint32_t)b->point_count;
     uint16_t *split_level = ewa_allocate(context, count, sizeof *split_level);
     if (!split_level) return EWA_ERROR_MEMORY;
-    ewa_status status = ewa_morton_order(context, b->reader.position, count, b->order, split_level, NULL);
+    // The sort may use the packets' memory before there are packets.
+    ewa_surfels *surfels = b->surfels;
+    const bool fits = surfels->packet_count * sizeof *surfels->packets >= ewa_morton_room_bytes(count);
+    ewa_bounds box = surfels->extent;
+    for (int c = 0; c < 3; c++) {
+        box.low_world[c] -= b->reader.origin_world[c];
+        box.high_world[c] -= b->reader.origin_world[c];
+    }
+    ewa_status status = ewa_morton_order_in(context, b->reader.position, count, &box,
+                                            fits ? surfels->packets : NULL, b->order, split_level);
     if (status == EWA_OK) status = order_ties(b, context, split_level, count);
     if (status == EWA_OK && b->surfels->left_out_count) {
         uint32_t kept = 0;
@@ -280,6 +350,29 @@ static ewa_status order_points(build *b, ewa_context *context) {
     }
     ewa_release(context, split_level, count, sizeof *split_level);
     return status;
+}
+
+static const ewa_pack_kernels *choose_kernels(uint32_t features) {
+    const ewa_pack_kernels *kernels = &ewa_pack_kernels_portable;
+#if defined(__x86_64__)
+    if (features & EWA_CPU_AVX2) kernels = &ewa_pack_kernels_avx2;
+    if (features & EWA_CPU_AVX512) kernels = &ewa_pack_kernels_avx512;
+#else
+    (void)features;
+#endif
+    return kernels;
+}
+
+/// Makes tables from the colours that discs can have to their codes.
+static void set_color_codes(build *b) {
+    const double grey[3] = {EWA_DEFAULT_GREY, EWA_DEFAULT_GREY, EWA_DEFAULT_GREY};
+    encode_color(b->surfels, grey, b->grey_codes);
+    for (int value = 0; value < 256; value++) {
+        const double linear = b->reader.linear_from_u8[value], color[3] = {linear, linear, linear};
+        uint16_t codes[3];
+        encode_color(b->surfels, color, codes);
+        for (int k = 0; k < 3; k++) b->color_codes[k][value] = codes[k];
+    }
 }
 
 static ewa_status allocate_packets(ewa_surfels *surfels) {
@@ -303,11 +396,13 @@ static ewa_status build_surfels(build *b, ewa_context *context) {
     b->drawable = ewa_allocate(context, b->point_count, sizeof *b->drawable);
     b->order = ewa_allocate(context, b->point_count, sizeof *b->order);
     if (!b->drawable || !b->order) return EWA_ERROR_MEMORY;
+    b->kernels = choose_kernels(ewa_context_cpu_features(context));
+    b->are_discs = ewa_discs_open(&b->reader, b->kernels, &b->discs);
     ewa_parallel(context, survey_part, b, b->parts);
     settle(b);
-    ewa_status status = order_points(b, context);
-    if (status != EWA_OK) return status;
-    status = allocate_packets(b->surfels);
+    if (b->are_discs) set_color_codes(b);
+    ewa_status status = allocate_packets(b->surfels);
+    if (status == EWA_OK) status = order_points(b, context);
     if (status != EWA_OK) return status;
     ewa_parallel(context, encode_part, b, b->parts);
     b->surfels->unit_coverage = ewa_packets_unit_coverage(b->surfels);

@@ -15,6 +15,7 @@
 enum {
     SAMPLES = 1021,  // odd, so that the median is one of them
     NEIGHBOURS = 16, // whose farthest one gives the density
+    TASKS = 16,      // of a parallel run
     WINDOW = 512,    // neighbours are looked for among so many surfels on each side in Morton order
 };
 
@@ -31,22 +32,47 @@ static void keep_smallest(double smallest[NEIGHBOURS], double value) {
     smallest[i] = value;
 }
 
+/// What the samples share.
+typedef struct sampling {
+    const ewa_surfels *surfels;
+    uint32_t sample_count;
+    double values[SAMPLES];
+} sampling;
+
+/// Takes the surfels of a packet that are among [first, end) but for the one at `index`.
+static void take_packet(const ewa_surfels *surfels, uint32_t p, uint32_t first, uint32_t end, uint32_t index,
+                        const double place[3], double smallest[NEIGHBOURS]) {
+    const ewa_packet *packet = &surfels->packets[p];
+    double distance2[EWA_PACKET_LANES];
+    uint32_t nearer = 0;
+    for (uint32_t l = 0; l < EWA_PACKET_LANES; l++) {
+        const double dx = (double)packet->x[l] - place[0], dy = (double)packet->y[l] - place[1],
+                     dz = (double)packet->z[l] - place[2];
+        distance2[l] = dx * dx + dy * dy + dz * dz;
+    }
+    const double largest = smallest[0];
+    for (uint32_t l = 0; l < EWA_PACKET_LANES; l++) nearer |= distance2[l] < largest;
+    if (!nearer) return;
+    for (uint32_t l = 0; l < EWA_PACKET_LANES; l++) {
+        const uint32_t i = p * EWA_PACKET_LANES + l;
+        if (i >= first && i < end && i != index) keep_smallest(smallest, distance2[l]);
+    }
+}
+
 static double coverage_at(const ewa_surfels *surfels, uint32_t index) {
-    const ewa_packet *packet = &surfels->packets[index / EWA_PACKET_LANES];
-    const uint32_t lane = index % EWA_PACKET_LANES;
-    const double x = packet->x[lane], y = packet->y[lane], z = packet->z[lane];
+    const uint32_t home = index / EWA_PACKET_LANES, lane = index % EWA_PACKET_LANES;
+    const ewa_packet *packet = &surfels->packets[home];
+    const double place[3] = {(double)packet->x[lane], (double)packet->y[lane], (double)packet->z[lane]};
     double distance2[NEIGHBOURS];
     for (int i = 0; i < NEIGHBOURS; i++) distance2[i] = INFINITY;
     const uint32_t first = index > WINDOW ? index - WINDOW : 0;
     const uint32_t end = surfels->count - index > WINDOW ? index + WINDOW : surfels->count;
-    for (uint32_t i = first; i < end; i++) {
-        if (i == index) continue;
-        const ewa_packet *other = &surfels->packets[i / EWA_PACKET_LANES];
-        const uint32_t l = i % EWA_PACKET_LANES;
-        const double dx = other->x[l] - x, dy = other->y[l] - y, dz = other->z[l] - z;
-        keep_smallest(distance2, dx * dx + dy * dy + dz * dz);
-    }
-    const double sigma_u = packet->sigma[lane], sigma_v = sigma_u * packet->ratio[lane] / 65535.0;
+    // From the nearest packets outward, so that most of the others are rejected as a whole.
+    for (uint32_t p = home + 1; p-- > first / EWA_PACKET_LANES;)
+        take_packet(surfels, p, first, end, index, place, distance2);
+    for (uint32_t p = home + 1; p <= (end - 1) / EWA_PACKET_LANES; p++)
+        take_packet(surfels, p, first, end, index, place, distance2);
+    const double sigma_u = (double)packet->sigma[lane], sigma_v = sigma_u * packet->ratio[lane] / 65535.0;
     const double pi = 3.14159265358979323846;
     // The farthest neighbour lies on the rim of the circle: it counts half, the surfel itself counts whole.
     const double density =
@@ -55,13 +81,18 @@ static double coverage_at(const ewa_surfels *surfels, uint32_t index) {
     return fmax(sigma_u * sigma_v * density, alone);
 }
 
+static void sample_task(void *data, uint32_t task, uint32_t worker) {
+    (void)worker;
+    sampling *s = data;
+    for (uint32_t i = task; i < s->sample_count; i += TASKS)
+        s->values[i] = coverage_at(s->surfels, (uint32_t)((uint64_t)i * s->surfels->count / s->sample_count));
+}
+
 double ewa_packets_unit_coverage(const ewa_surfels *surfels) {
     const double kept = 1 - exp(-0.5 * surfels->cutoff * surfels->cutoff);
     if (surfels->count == 0) return kept;
-    double values[SAMPLES];
-    const uint32_t samples = surfels->count < SAMPLES ? surfels->count : SAMPLES;
-    for (uint32_t i = 0; i < samples; i++)
-        values[i] = coverage_at(surfels, (uint32_t)((uint64_t)i * surfels->count / samples));
-    qsort(values, samples, sizeof *values, compare_doubles);
-    return kept * values[samples / 2];
+    sampling s = {.surfels = surfels, .sample_count = surfels->count < SAMPLES ? surfels->count : SAMPLES};
+    ewa_parallel(surfels->context, sample_task, &s, TASKS);
+    qsort(s.values, s.sample_count, sizeof *s.values, compare_doubles);
+    return kept * s.values[s.sample_count / 2];
 }

@@ -243,6 +243,42 @@ static void test_double(void **state) {
     free(xyz);
 }
 
+/// Places are where their points are, read from any place on.
+static void test_positions(void **state) {
+    (void)state;
+    enum { COUNT = 3000, STEP = 700 };
+    double *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
+    float *single = calloc(3 * (size_t)COUNT, sizeof *single);
+    check_random random = {6};
+    for (uint32_t i = 0; i < 3 * COUNT; i++)
+        xyz[i] = single[i] = (float)check_uniform(&random, 0, 1) + (float)(i % 3);
+    for (int precise = 0; precise < 2; precise++) {
+        const ewa_attribute position = {.type = precise ? EWA_F64 : EWA_F32,
+                                        .component_count = 3,
+                                        .stride_bytes = 3 * (precise ? sizeof *xyz : sizeof *single),
+                                        .data = precise ? (void *)xyz : (void *)single};
+        ewa_context *context = check_context(2, NULL);
+        ewa_neighbours *tree = NULL;
+        assert_int_equal(ewa_neighbours_create(context, &position, COUNT, &tree), EWA_OK);
+        const uint32_t places = ewa_neighbours_place_count(tree);
+        for (uint32_t first = 0; first < places; first += STEP) {
+            double read[STEP][3];
+            const uint32_t count = places - first < STEP ? places - first : STEP;
+            ewa_neighbours_positions(tree, first, count, read);
+            for (uint32_t i = 0; i < count; i++) {
+                uint32_t points;
+                const uint32_t point = *ewa_neighbours_points(tree, first + i, &points);
+                for (int c = 0; c < 3; c++)
+                    assert_true(fabs(read[i][c] - xyz[3 * (size_t)point + (size_t)c]) < 1e-7);
+            }
+        }
+        ewa_neighbours_destroy(&tree);
+        ewa_context_destroy(&context);
+    }
+    free(single);
+    free(xyz);
+}
+
 static void count_lanes(void *user, const ewa_block *block, uint32_t worker) {
     uint32_t *lanes = user;
     lanes[16 * worker] += block->lane_count;
@@ -289,6 +325,7 @@ int main(void) {
         cmocka_unit_test(test_few_points),
         cmocka_unit_test(test_threads_and_machines),
         cmocka_unit_test(test_double),
+        cmocka_unit_test(test_positions),
         cmocka_unit_test(test_clumps),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

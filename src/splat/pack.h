@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The contract of the packing kernels: each does the same correctly rounded operations in the same order as
+// the others, so all give the same bytes.
+#ifndef EWA_SRC_SPLAT_PACK_H
+#define EWA_SRC_SPLAT_PACK_H
+
+#include "kernels/packet.h"
+
+enum { EWA_BOX_FLOATS = 3 * EWA_PACKET_LANES };
+
+/// Numbers of discs that can be drawn for certain: the magnitudes of coordinates and the radii.
+typedef struct ewa_safe_range {
+    float position_most, radius_least, radius_most;
+} ewa_safe_range;
+
+typedef struct ewa_pack_kernels {
+    /// Looks at `group_count` times sixteen discs whose numbers lie side by side and stops at the first group
+    /// that holds a position or radius out of range or a normal that is zero or not finite. Grows the box of
+    /// the groups before that one, of which it returns the number: entry k is of coordinate k % 3.
+    uint64_t (*survey)(const ewa_safe_range *range, const float *position, const float *normal,
+                       const float *radius, uint64_t group_count, float low[EWA_BOX_FLOATS],
+                       float high[EWA_BOX_FLOATS]);
+
+    /// Sets the normal codes of a packet from normals of any length but zero, one array per coordinate.
+    void (*code_normals)(const float normal[3][EWA_PACKET_LANES], ewa_packet *packet);
+
+    /// Sets `bounds` [first, first + 16): spheres around the supports of `cutoff` sigmas, cones around the
+    /// normals. `packets` are the `count` (1 to 16) packets there; all their lanes count. The entries of
+    /// packets that do not exist get those of the first.
+    void (*bound_packets)(const ewa_packet *packets, uint32_t count, float cutoff,
+                          const ewa_packet_bounds *bounds, uint64_t first);
+} ewa_pack_kernels;
+
+extern const ewa_pack_kernels ewa_pack_kernels_portable;
+#if defined(__x86_64__)
+extern const ewa_pack_kernels ewa_pack_kernels_avx2, ewa_pack_kernels_avx512;
+#endif
+
+#endif

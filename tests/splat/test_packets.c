@@ -1,0 +1,253 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Tests of src/splat/packets.c, discs.c and the packing kernels: every road from a cloud to packets gives the
+// same surfels, and bounds hold what they are around.
+#include "check.h"
+#include "splat/packets.h"
+#include "splat/surfel.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { POINTS = 16 * 300 + 7, SPOILT_STEP = 97 };
+
+/// The numbers of a cloud of discs, some of which cannot be drawn.
+typedef struct numbers {
+    float position[POINTS][3], normal[POINTS][3], radius[POINTS];
+    uint8_t color[POINTS][3];
+    uint64_t spoilt_count;
+} numbers;
+
+static void make_numbers(numbers *made) {
+    check_random random = {7};
+    made->spoilt_count = 0;
+    for (int i = 0; i < POINTS; i++) {
+        for (int c = 0; c < 3; c++) {
+            made->position[i][c] = (float)check_uniform(&random, -3, 5);
+            made->normal[i][c] = (float)(check_uniform(&random, -1, 1) * pow(10, i % 61 - 30));
+            made->color[i][c] = (uint8_t)check_random_u64(&random);
+        }
+        made->radius[i] = (float)check_uniform(&random, 0.001, 0.2);
+        if (i % 5 == 0) made->normal[i][i % 3] = 0;
+        if (i % SPOILT_STEP) continue;
+        made->spoilt_count++;
+        switch (i / SPOILT_STEP % 6) {
+        case 0:
+            made->position[i][1] = NAN;
+            break;
+        case 1:
+            made->position[i][2] = 3e15f;
+            break;
+        case 2:
+            memset(made->normal[i], 0, sizeof made->normal[i]);
+            break;
+        case 3:
+            made->normal[i][0] = -INFINITY;
+            break;
+        case 4:
+            made->radius[i] = 0;
+            break;
+        case 5:
+            made->radius[i] = NAN;
+            break;
+        }
+    }
+}
+
+static ewa_context *context_of(uint32_t threads, uint32_t cpu_mask) {
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.thread_count = threads;
+    options.cpu_mask = cpu_mask;
+    ewa_context *context = NULL;
+    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+    return context;
+}
+
+static void borrow(ewa_cloud *cloud, const char *name, ewa_type type, uint32_t components, const void *data,
+                   size_t stride_bytes) {
+    assert_int_equal(ewa_cloud_borrow(cloud, name, type, components, data, stride_bytes), EWA_OK);
+}
+
+static ewa_surfels *make_surfels(ewa_cloud *cloud) {
+    ewa_surfels *surfels = NULL;
+    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    return surfels;
+}
+
+/// Surfels of float streams that lie side by side.
+static ewa_surfels *surfels_of(ewa_context *context, const numbers *of) {
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_cloud_create(context, POINTS, &cloud), EWA_OK);
+    borrow(cloud, EWA_POSITION, EWA_F32, 3, of->position, 0);
+    borrow(cloud, EWA_NORMAL, EWA_F32, 3, of->normal, 0);
+    borrow(cloud, EWA_RADIUS, EWA_F32, 1, of->radius, 0);
+    borrow(cloud, EWA_COLOR, EWA_U8, 3, of->color, 0);
+    ewa_surfels *surfels = make_surfels(cloud);
+    ewa_cloud_destroy(&cloud);
+    return surfels;
+}
+
+static void assert_same_packets(const ewa_surfels *a, const ewa_surfels *b) {
+    assert_int_equal(a->count, b->count);
+    assert_int_equal(a->left_out_count, b->left_out_count);
+    assert_memory_equal(a->origin_world, b->origin_world, sizeof a->origin_world);
+    assert_memory_equal(a->packets, b->packets, a->packet_count * sizeof *a->packets);
+    assert_memory_equal(a->bounds_floats, b->bounds_floats, 8 * a->bounds_stride * sizeof(float));
+}
+
+static void test_same_bytes_from_all_kernels(void **state) {
+    (void)state;
+    static numbers of;
+    make_numbers(&of);
+    ewa_context *plain = context_of(1, 0);
+    ewa_surfels *expected = surfels_of(plain, &of);
+    assert_int_equal(expected->left_out_count, of.spoilt_count);
+    static const uint32_t masks[] = {EWA_CPU_AVX2, EWA_CPU_ALL};
+    for (int i = 0; i < 2; i++) {
+        ewa_context *context = context_of(3, masks[i]);
+        ewa_surfels *surfels = surfels_of(context, &of);
+        assert_same_packets(expected, surfels);
+        ewa_surfels_destroy(&surfels);
+        ewa_context_destroy(&context);
+    }
+    ewa_surfels_destroy(&expected);
+    ewa_context_destroy(&plain);
+}
+
+/// Records of all numbers side by side, and positions in double precision: the same packets.
+static void test_same_bytes_from_all_layouts(void **state) {
+    (void)state;
+    static numbers of;
+    static struct {
+        double position[3];
+        float normal[3], radius;
+        uint8_t color[3], pad[5];
+    } records[POINTS];
+    make_numbers(&of);
+    for (int i = 0; i < POINTS; i++) {
+        for (int c = 0; c < 3; c++) records[i].position[c] = (double)of.position[i][c];
+        memcpy(records[i].normal, of.normal[i], sizeof records[i].normal);
+        memcpy(records[i].color, of.color[i], sizeof records[i].color);
+        records[i].radius = of.radius[i];
+    }
+    ewa_context *context = context_of(2, EWA_CPU_ALL);
+    ewa_surfels *expected = surfels_of(context, &of);
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_cloud_create(context, POINTS, &cloud), EWA_OK);
+    borrow(cloud, EWA_POSITION, EWA_F64, 3, records[0].position, sizeof records[0]);
+    borrow(cloud, EWA_NORMAL, EWA_F32, 3, records[0].normal, sizeof records[0]);
+    borrow(cloud, EWA_RADIUS, EWA_F32, 1, &records[0].radius, sizeof records[0]);
+    borrow(cloud, EWA_COLOR, EWA_U8, 3, records[0].color, sizeof records[0]);
+    ewa_surfels *surfels = make_surfels(cloud);
+    assert_same_packets(expected, surfels);
+    ewa_surfels_destroy(&surfels);
+    ewa_cloud_destroy(&cloud);
+    ewa_surfels_destroy(&expected);
+    ewa_context_destroy(&context);
+}
+
+/// Discs by the fast road and surfel by surfel, which normals in double precision ask for: as equal as their
+/// codes are.
+static void test_discs_equal_surfels(void **state) {
+    (void)state;
+    static numbers of;
+    static double normal[POINTS][3];
+    make_numbers(&of);
+    for (int i = 0; i < POINTS; i++)
+        for (int c = 0; c < 3; c++) normal[i][c] = (double)of.normal[i][c];
+    ewa_context *context = context_of(2, EWA_CPU_ALL);
+    ewa_surfels *discs = surfels_of(context, &of);
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_cloud_create(context, POINTS, &cloud), EWA_OK);
+    borrow(cloud, EWA_POSITION, EWA_F32, 3, of.position, 0);
+    borrow(cloud, EWA_NORMAL, EWA_F64, 3, normal, 0);
+    borrow(cloud, EWA_RADIUS, EWA_F32, 1, of.radius, 0);
+    borrow(cloud, EWA_COLOR, EWA_U8, 3, of.color, 0);
+    ewa_surfels *surfels = make_surfels(cloud);
+    assert_int_equal(surfels->count, POINTS - of.spoilt_count);
+    assert_int_equal(discs->count, surfels->count);
+    for (uint32_t i = 0; i < discs->count; i++) {
+        ewa_packet_surfel a, b;
+        ewa_packet_decode(discs, &discs->packets[i / 16], i % 16, &a);
+        ewa_packet_decode(surfels, &surfels->packets[i / 16], i % 16, &b);
+        assert_memory_equal(&a.center, &b.center, sizeof a.center);
+        assert_memory_equal(a.color, b.color, sizeof a.color);
+        assert_true(vec3_dot(a.normal, b.normal) > 1 - 1e-8);
+        const double sigma = vec3_length(b.axis_u);
+        assert_true(fabs(vec3_length(a.axis_u) - sigma) <= 1e-6 * sigma);
+        assert_true(fabs(vec3_length(a.axis_v) - sigma) <= 1e-6 * sigma);
+    }
+    ewa_surfels_destroy(&surfels);
+    ewa_cloud_destroy(&cloud);
+    ewa_surfels_destroy(&discs);
+    ewa_context_destroy(&context);
+}
+
+/// The code of a normal is the nearest one, or nearly.
+static void test_normals_are_kept(void **state) {
+    (void)state;
+    check_random random = {3};
+    ewa_context *context = context_of(1, EWA_CPU_ALL);
+    for (int turn = 0; turn < 2000; turn++) {
+        float position[3] = {1, 2, 3}, normal[3], radius = 1;
+        for (int c = 0; c < 3; c++) normal[c] = (float)check_uniform(&random, -1, 1);
+        if (turn % 3 == 0) normal[turn % 9 / 3] = 0;
+        ewa_cloud *cloud = NULL;
+        assert_int_equal(ewa_cloud_create(context, 1, &cloud), EWA_OK);
+        borrow(cloud, EWA_POSITION, EWA_F32, 3, position, 0);
+        borrow(cloud, EWA_NORMAL, EWA_F32, 3, normal, 0);
+        borrow(cloud, EWA_RADIUS, EWA_F32, 1, &radius, 0);
+        ewa_surfels *surfels = make_surfels(cloud);
+        ewa_packet_surfel surfel;
+        ewa_packet_decode(surfels, &surfels->packets[0], 0, &surfel);
+        ewa_vec3 given = vec3_make((double)normal[0], (double)normal[1], (double)normal[2]);
+        assert_true(vec3_normalize(&given));
+        assert_true(vec3_length(vec3_sub(surfel.normal, given)) < 1e-4);
+        ewa_surfels_destroy(&surfels);
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
+static void test_bounds_hold(void **state) {
+    (void)state;
+    static numbers of;
+    make_numbers(&of);
+    for (int i = 0; i < POINTS; i++) of.normal[i][2] = 30 * fabsf(of.normal[i][0]); // narrow and wide cones
+    ewa_context *context = context_of(2, EWA_CPU_ALL);
+    ewa_surfels *surfels = surfels_of(context, &of);
+    const ewa_packet_bounds *b = &surfels->bounds;
+    int narrow = 0;
+    for (uint32_t i = 0; i < surfels->count; i++) {
+        const uint32_t p = i / 16;
+        ewa_packet_surfel s;
+        ewa_packet_decode(surfels, &surfels->packets[p], i % 16, &s);
+        const ewa_vec3 center =
+            vec3_make((double)b->center_x[p], (double)b->center_y[p], (double)b->center_z[p]);
+        const ewa_vec3 axis = vec3_make((double)b->axis_x[p], (double)b->axis_y[p], (double)b->axis_z[p]);
+        const double reach =
+            vec3_length(vec3_sub(s.center, center)) + surfels->cutoff * vec3_length(s.axis_u);
+        assert_true(reach <= (double)b->radius[p]);
+        assert_true(fabs(vec3_length(axis) - 1) < 1e-6);
+        if (b->cone_sine[p] > 1) continue;
+        narrow++;
+        assert_true(vec3_dot(s.normal, axis) > 0);
+        assert_true(vec3_length(vec3_cross(s.normal, axis)) <= (double)b->cone_sine[p]);
+    }
+    assert_true(narrow > POINTS / 4);
+    ewa_surfels_destroy(&surfels);
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_same_bytes_from_all_kernels),
+        cmocka_unit_test(test_same_bytes_from_all_layouts),
+        cmocka_unit_test(test_discs_equal_surfels),
+        cmocka_unit_test(test_normals_are_kept),
+        cmocka_unit_test(test_bounds_hold),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
