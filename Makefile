@@ -8,20 +8,23 @@
 #                               sanitizers; the last line counts them
 #   make                        builds everything into build/release
 #   make asan tsan fuzz         other builds and their tests
-#   make bench gallery docs     figures, pictures and pages that the program makes
+#   make bench sweep            figures of docs/performance.md: build/bench.json and tables; docs/sweep.png and slopes;
+#                               BENCH_PREFIX="chrt -f 50" keeps other work out of them
+#   make gallery docs           pictures and pages that the program makes
 #   make install                to PREFIX (default /usr/local)
 
 FILE ?=
 OUT ?= out
 PREFIX ?= /usr/local
 FUZZ_SECONDS ?= 60
+BENCH_PREFIX ?=
 JOBS ?= $(shell nproc)
 EWA = build/release/cli/ewa
 
 # $(call quietly,COMMAND): prints what a command said only when it fails.
 quietly = @mkdir -p build && { $(1) >build/log-$@.txt 2>&1 || { cat build/log-$@.txt; exit 1; }; }
 
-.PHONY: build program setup demo check asan asan-build tsan fuzz bench gallery docs format install clean
+.PHONY: build program setup demo check asan asan-build tsan fuzz bench sweep gallery docs format install clean
 
 build: setup
 	@echo "Building build/release"
@@ -62,7 +65,14 @@ fuzz:
 	@sh tools/fuzz.sh $(FUZZ_SECONDS)
 
 bench: program
-	$(EWA) bench
+	@sh tools/setup.sh python3
+	python3 tools/bench.py $(EWA) build/bench.json --prefix "$(BENCH_PREFIX)"
+	python3 tools/bench_tables.py build/bench.json
+
+sweep: program
+	@sh tools/setup.sh python3 gnuplot-nox
+	python3 tools/bench_sweep.py $(EWA) build/sweep.csv --page docs/performance.md --prefix "$(BENCH_PREFIX)"
+	gnuplot -e "csv='build/sweep.csv'; png='docs/sweep.png'" tools/bench_sweep.gnuplot
 
 gallery: build
 	@sh tools/gallery.sh $(EWA)

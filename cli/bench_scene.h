@@ -1,29 +1,57 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Scenes of a known amount of work, and the statistics of repeated measurements.
+// Scenes of a known amount of work.
 #ifndef EWA_CLI_BENCH_SCENE_H
 #define EWA_CLI_BENCH_SCENE_H
 
 #include "session.h"
 
-/// Makes a plane of `point_count` points seen from above by a camera of the given size, so that every splat
-/// is in the picture and next to none is hidden. NULL after reporting.
-ewa_cloud *bench_scene_make(cli_session *session, uint64_t point_count, const option_size *size,
-                            ewa_camera *camera);
+/// Scenes that ewa bench makes, in the order in which it measures them.
+typedef enum bench_scene_kind {
+    BENCH_PLANE,  ///< a plane that fills the picture, everything visible
+    BENCH_COLOR,  ///< the same without normals in the pixels
+    BENCH_LARGE,  ///< the same with ten times the points
+    BENCH_HIDDEN, ///< three wavy sheets: in front, seen from behind, and hidden
+    BENCH_POINTS, ///< a plane of discs far below a pixel
+    BENCH_CULLED, ///< nothing to be seen: one sheet shows its back, another lies beside the picture
+    BENCH_CLOSED, ///< a sphere that hides two others
+    BENCH_SEEN,   ///< as many points on the side of the outer sphere that is seen
+    BENCH_PEER,   ///< sphere and torus with the radii that close them
+    BENCH_SCENE_COUNT
+} bench_scene_kind;
 
-/// Gives all discs of a cloud the radius at which their filtered ellipses cover `covered_px` pixels on
-/// average. `prefilter_px` is the pixel filter's deviation. Returns false after reporting when no radius
-/// does.
-bool bench_scene_cover(cli_session *session, ewa_cloud *cloud, const ewa_camera *camera, double prefilter_px,
-                       double covered_px);
+/// The words for the kinds, as option_set takes them.
+#define BENCH_SCENES "plane|color|large|hidden|points|culled|closed|seen|peer"
 
-/// Times of one thing that was done again and again.
-typedef struct bench_sample {
-    double lowest, quartile, median; ///< quartile: a quarter of the times are lower
-} bench_sample;
+enum { BENCH_VARIANTS = 3 };
 
-/// Sorts the times and summarises them; zeros when there are none.
-bench_sample bench_summarise(double *times, size_t count);
+/// What a scene is measured with where the command line does not say; zeros end each list.
+typedef struct bench_recipe {
+    const char *name;
+    double splats[BENCH_VARIANTS];
+    double pixels[BENCH_VARIANTS]; ///< covered by a splat on average; none: the scene's own
+    option_size sizes[BENCH_VARIANTS];
+} bench_recipe;
+
+/// By kind.
+extern const bench_recipe bench_recipes[BENCH_SCENE_COUNT];
+
+/// A scene that can be drawn.
+typedef struct bench_scene {
+    const char *name;
+    char label[64]; ///< name, points and pixels, or the picture's size where it matters
+    ewa_cloud *cloud;
+    ewa_camera camera;
+    ewa_cull cull;
+    bool color_only;
+    double covered_px;   ///< by a splat on average; 0: unknown
+    double unseen_share; ///< of the points: seen from behind, hidden, or outside
+} bench_scene;
+
+/// Makes a scene. `covered_px` 0: as large as the scene's own. Returns false after reporting; the caller
+/// destroys the cloud either way.
+bool bench_scene_make(cli_session *session, bench_scene_kind kind, uint64_t point_count, double covered_px,
+                      const option_size *size, double prefilter_px, bench_scene *scene);
 
 #endif

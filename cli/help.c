@@ -64,6 +64,15 @@ static void format_default(const cli_option *option, const void *defaults, char 
     case OPTION_CHOICE:
         format_choice(option->range, *(const int *)member, text);
         break;
+    case OPTION_SET:
+        for (int i = 0; i < 32; i++) {
+            if (!(*(const uint32_t *)member >> i & 1)) continue;
+            char word[TEXT_BYTES];
+            format_choice(option->range, i, word);
+            const size_t used = strlen(text);
+            snprintf(text + used, TEXT_BYTES - used, "%s%.64s", used ? "," : "", word);
+        }
+        break;
     case OPTION_TEXT: {
         const char *word = *(const char *const *)member;
         if (word) snprintf(text, TEXT_BYTES, "%s", word);
@@ -111,7 +120,10 @@ static void format_meaning(const cli_option *option, const void *defaults, char 
     char initial[TEXT_BYTES];
     format_default(option, defaults, initial);
     const bool ranged = option->range && option->kind != OPTION_CHOICE;
-    snprintf(text, 2 * TEXT_BYTES, "%s%s%s%s%s%s%s", option->help, ranged ? "; in " : "",
+    snprintf(text, 2 * TEXT_BYTES, "%s%s%s%s%s%s%s", option->help,
+             !ranged                      ? ""
+             : option->kind == OPTION_SET ? "; of "
+                                          : "; in ",
              ranged ? option->range : "", initial[0] ? " (default: " : "", initial, initial[0] ? ")" : "",
              option->aliases ? "; also" : "");
     for (const char *alias = option->aliases; alias && *alias;) {

@@ -151,20 +151,40 @@ static bool parse_size(const cli_option *option, const char *text, option_size *
     return true;
 }
 
-static bool parse_choice(const cli_option *option, const char *text, const char *choices, int *choice,
-                         char message[OPTION_ERROR_BYTES]) {
-    const size_t length = strlen(text);
+/// Index of a word of `length` bytes in "first|second"; -1 when it is none of them.
+static int find_choice(const char *choices, const char *text, size_t length) {
     int index = 0;
     for (const char *word = choices; word; index++) {
-        const char *bar = strchr(word, '|');
-        const size_t word_length = bar ? (size_t)(bar - word) : strlen(word);
-        if (word_length == length && memcmp(word, text, length) == 0) {
-            *choice = index;
-            return true;
-        }
-        word = bar ? bar + 1 : NULL;
+        const size_t word_length = strcspn(word, "|");
+        if (word_length == length && memcmp(word, text, length) == 0) return index;
+        word = word[word_length] ? word + word_length + 1 : NULL;
     }
-    return wrong(message, "--%s: '%.80s' is not one of %s", option->key, text, choices);
+    return -1;
+}
+
+static bool parse_choice(const cli_option *option, const char *text, const char *choices, int *choice,
+                         char message[OPTION_ERROR_BYTES]) {
+    const int index = find_choice(choices, text, strlen(text));
+    if (index < 0) return wrong(message, "--%s: '%.80s' is not one of %s", option->key, text, choices);
+    *choice = index;
+    return true;
+}
+
+static bool parse_set(const cli_option *option, const char *text, uint32_t *set,
+                      char message[OPTION_ERROR_BYTES]) {
+    uint32_t read = 0;
+    for (const char *word = text;;) {
+        const size_t length = strcspn(word, ",");
+        const int index = find_choice(option->range, word, length);
+        if (index < 0)
+            return wrong(message, "--%s: '%.*s' is not one of %s", option->key,
+                         (int)(length < 80 ? length : 80), word, option->range);
+        read |= 1u << index;
+        if (!word[length]) break;
+        word += length + 1;
+    }
+    *set = read;
+    return true;
 }
 
 static bool parse_value(const cli_option *option, const char *text, void *member,
@@ -183,6 +203,8 @@ static bool parse_value(const cli_option *option, const char *text, void *member
         return parse_size(option, text, member, message);
     case OPTION_CHOICE:
         return parse_choice(option, text, option->range, member, message);
+    case OPTION_SET:
+        return parse_set(option, text, member, message);
     case OPTION_ON_OFF:
         if (!parse_choice(option, text, "off|on", &choice, message)) return false;
         *(bool *)member = choice == 1;

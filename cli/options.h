@@ -22,6 +22,7 @@ typedef enum option_kind {
     OPTION_VECTOR,  ///< option_vector: finite numbers separated by commas
     OPTION_COLOR,   ///< option_color
     OPTION_SIZE,    ///< option_size
+    OPTION_SET,     ///< uint32_t: bits of words in `range`, separated by commas
 } option_kind;
 
 enum { OPTION_VECTOR_MAX = 16 };
@@ -50,7 +51,7 @@ typedef struct cli_option {
     option_kind kind;
     size_t offset;      ///< of the member in the arguments of the command
     const char *value;  ///< what help calls the value
-    const char *range;  ///< numbers: an interval such as "(0, 4]"; choices: "first|second"
+    const char *range;  ///< numbers: an interval such as "(0, 4]"; choices, sets: "first|second"
     uint32_t low, high; ///< vectors: fewest and most numbers
     const char *absent; ///< help's words for a default that is worked out; else the member's value is shown
     const char *help;

@@ -252,19 +252,6 @@ static void test_streams(void **state) {
     assert_non_null(strstr(last_run.out, "\"peak_memory_bytes\": "));
 }
 
-static void test_bench(void **state) {
-    (void)state;
-    run_done("TMPDIR=. ewa bench --splats 2000 --pixels 20,40 --size 96x64 --frames 3 --workers 1,2 --json "
-             "b.json && "
-             "cat b.json");
-    assert_non_null(strstr(last_run.out, "0.002 M of 20 px"));
-    assert_non_null(strstr(last_run.out, "\"covered_px\": 40,"));
-    assert_non_null(strstr(last_run.out, "\"stage\": \"normals and radii\""));
-    run_done("ewa bench ball.ply --size 96x64 --frames 1 --workers 1 --stages off --json - 2>tables");
-    assert_non_null(strstr(last_run.out, "\"scene\": \"ball.ply\""));
-    run_fails(1, "the pixel filter alone covers |more than 2", "ewa bench --splats 100 --pixels 2");
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_png),          cmocka_unit_test(test_exr),
@@ -272,7 +259,7 @@ int main(void) {
         cmocka_unit_test(test_views),        cmocka_unit_test(test_default_view),
         cmocka_unit_test(test_far_points),   cmocka_unit_test(test_isolated_point),
         cmocka_unit_test(test_looks_differ), cmocka_unit_test(test_several_inputs),
-        cmocka_unit_test(test_streams),      cmocka_unit_test(test_bench),
+        cmocka_unit_test(test_streams),
     };
     return cmocka_run_group_tests(tests, enter, leave);
 }

@@ -20,6 +20,7 @@ typedef struct sample_arguments {
     option_vector vector;
     option_color color;
     option_size size;
+    uint32_t set;
 } sample_arguments;
 
 #define AT(member) offsetof(sample_arguments, member)
@@ -52,6 +53,12 @@ static const cli_option sample_table[] = {
      .help = "h"},
     {.key = "color", .kind = OPTION_COLOR, .offset = AT(color), .value = "r,g,b[,a]", .help = "h"},
     {.key = "size", .kind = OPTION_SIZE, .offset = AT(size), .value = "WxH", .help = "h"},
+    {.key = "set",
+     .kind = OPTION_SET,
+     .offset = AT(set),
+     .value = "WORD,...",
+     .range = "one|two|three",
+     .help = "h"},
 };
 
 static const option_group sample_group = {"Sample", sample_table,
@@ -102,6 +109,8 @@ static void test_values(void **state) {
     assert_int_equal(arguments.integer, 4);
     assert_true(parse("--color=transparent --size 3,4 --figure 1 --value 4"));
     assert_true(arguments.color.rgba[3] == 0 && arguments.size.given && arguments.number == 4);
+    assert_true(parse("--set three,one,three"));
+    assert_int_equal(arguments.set, 5);
     assert_true(parse("--text --flag"));
     assert_string_equal(arguments.text, "--flag");
     assert_true(parse("-- --flag -"));
@@ -134,6 +143,9 @@ static void test_refusals(void **state) {
         {"--choice four", "--choice: 'four' is not one of one|two|three"},
         {"--choice tw", "--choice: 'tw' is not one of one|two|three"},
         {"--choice one|two", "--choice: 'one|two' is not one of one|two|three"},
+        {"--set one,four", "--set: 'four' is not one of one|two|three"},
+        {"--set one,", "--set: '' is not one of one|two|three"},
+        {"--set one|two", "--set: 'one|two' is not one of one|two|three"},
         {"--antialias yes", "--antialias: 'yes' is not one of off|on"},
         {"--vector 1", "--vector: '1' is not x,y[,z]"},
         {"--vector 1,2,3,4", "--vector: '1,2,3,4' is not x,y[,z]"},

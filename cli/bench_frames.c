@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Frames of one scene, measured in turns for all numbers of threads and instruction sets.
+//
+// Machines are noisy: what is compared is measured in turns (A B A B), and the lower quartile is what ratios
+// are of.
+#include "bench_frames.h"
+
+#include <stdlib.h>
+
+enum { WARM_FRAMES = 2 };
+
+/// One context, what it draws with, what it measured.
+typedef struct bench_lane {
+    const bench_sets *sets;
+    ewa_context *context;
+    ewa_surfels *surfels;
+    ewa_renderer *renderer;
+    double total_s[BENCH_MAX_FRAMES];
+    double stage_s[BENCH_FRAME_STAGES][BENCH_MAX_FRAMES]; // thread time
+    ewa_render_stats last;
+} bench_lane;
+
+ewa_status bench_borrow(ewa_context *context, const ewa_cloud *cloud, ewa_cloud **borrowed) {
+    ewa_status status = ewa_cloud_create(context, ewa_cloud_point_count(cloud), borrowed);
+    const ewa_attribute *attribute;
+    for (uint32_t k = 0; status == EWA_OK && (attribute = ewa_cloud_attribute_at(cloud, k)); k++)
+        status = ewa_cloud_borrow(*borrowed, attribute->name, attribute->type, attribute->component_count,
+                                  attribute->data, attribute->stride_bytes);
+    double origin_world[3];
+    ewa_cloud_origin(cloud, origin_world);
+    if (status == EWA_OK) ewa_cloud_set_origin(*borrowed, origin_world);
+    return status;
+}
+
+static bool open_lane(cli_session *session, bench_lane *lane, const bench_sets *sets, uint32_t threads,
+                      const ewa_cloud *cloud) {
+    lane->sets = sets;
+    lane->context = session_context(session, threads, sets->mask);
+    if (!lane->context) return false;
+    ewa_cloud *borrowed = NULL;
+    ewa_status status = bench_borrow(lane->context, cloud, &borrowed);
+    if (status == EWA_OK) status = ewa_surfels_create(borrowed, NULL, &lane->surfels);
+    if (status == EWA_OK) status = ewa_renderer_create(lane->context, &lane->renderer);
+    ewa_cloud_destroy(&borrowed);
+    if (status != EWA_OK) session_failed(session, status);
+    return status == EWA_OK;
+}
+
+static void close_lane(bench_lane *lane) {
+    ewa_renderer_destroy(&lane->renderer);
+    ewa_surfels_destroy(&lane->surfels);
+    ewa_context_destroy(&lane->context);
+}
+
+/// Draws a frame; negative numbers warm up.
+static bool draw_frame(cli_session *session, bench_lane *lane, const ewa_camera *camera,
+                       const ewa_render_options *render, uint8_t *rgba8, int64_t frame) {
+    const ewa_frame planes = {.rgba8 = rgba8};
+    ewa_render_stats *last = &lane->last;
+    const double started_s = clock_now_s();
+    const ewa_status status = ewa_render(lane->renderer, lane->surfels, camera, render, &planes, last);
+    const double took_s = clock_now_s() - started_s;
+    if (status != EWA_OK) {
+        session_failed(session, status);
+        return false;
+    }
+    if (frame < 0) return true;
+    lane->total_s[frame] = took_s;
+    const double stages[BENCH_FRAME_STAGES] = {last->bin_s,        last->setup_s, last->visibility_s,
+                                               last->accumulate_s, last->edge_s,  last->resolve_s};
+    for (int k = 0; k < BENCH_FRAME_STAGES; k++) lane->stage_s[k][frame] = stages[k];
+    return true;
+}
+
+static void report(const bench_plan *plan, const bench_scene *scene, bench_lane *lanes,
+                   const bench_sink *sink) {
+    const double clock_ghz = bench_clock_ghz();
+    const size_t lane_count = plan->thread_counts * plan->set_count;
+    bench_frame_row rows[OPTION_VECTOR_MAX * BENCH_MAX_SETS];
+    for (size_t i = 0; i < lane_count; i++) {
+        bench_lane *lane = &lanes[i];
+        bench_frame_row *row = &rows[i];
+        *row = (bench_frame_row){.scene = scene,
+                                 .cpu = lane->sets->name,
+                                 .threads = ewa_context_worker_count(lane->context),
+                                 .total = bench_summarise(lane->total_s, plan->frame_count),
+                                 .stats = lane->last,
+                                 .clock_ghz = clock_ghz};
+        for (int k = 0; k < BENCH_FRAME_STAGES; k++)
+            row->stage_s[k] = bench_summarise(lane->stage_s[k], plan->frame_count).median;
+        ewa_surfels_describe(lane->surfels, &row->info);
+    }
+    for (size_t i = 0; i < lane_count; i++) {
+        for (size_t k = 0; k < lane_count; k++) {
+            if (rows[k].cpu == rows[i].cpu && rows[k].threads == 1 && rows[i].threads > 1)
+                rows[i].one_thread_s = rows[k].total.quartile;
+            if (rows[k].cpu == plan->sets[0].name && rows[i].cpu != rows[k].cpu &&
+                rows[k].threads == rows[i].threads)
+                rows[i].all_sets_s = rows[k].total.quartile;
+        }
+        bench_report_frames(sink, &rows[i]);
+    }
+}
+
+bool bench_frames(cli_session *session, const bench_plan *plan, const bench_scene *scene,
+                  const ewa_render_options *render, uint8_t *rgba8, const bench_sink *sink) {
+    const size_t lane_count = plan->thread_counts * plan->set_count;
+    bench_lane *lanes = calloc(lane_count, sizeof *lanes);
+    bool done = lanes != NULL;
+    if (!done) session_fail(session, "out of memory for %zu measurements", lane_count);
+    for (size_t i = 0; done && i < lane_count; i++)
+        done = open_lane(session, &lanes[i], &plan->sets[i / plan->thread_counts],
+                         plan->threads[i % plan->thread_counts], scene->cloud);
+    ewa_render_options options = *render;
+    options.cull = scene->cull;
+    if (scene->color_only) options.shading = EWA_SHADING_NONE;
+    for (int64_t frame = -WARM_FRAMES; done && frame < (int64_t)plan->frame_count; frame++)
+        for (size_t i = 0; done && i < lane_count; i++)
+            done = draw_frame(session, &lanes[i], &scene->camera, &options, rgba8, frame);
+    if (done) report(plan, scene, lanes, sink);
+    for (size_t i = 0; lanes && i < lane_count; i++) close_lane(&lanes[i]);
+    free(lanes);
+    return done;
+}

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// ewa bench: the scenes are what they are called, and every figure is there. Times are nobody's to check
+// here.
+#include <stdlib.h>
+#include <string.h>
+
+#include "run_ewa.h"
+
+static int enter(void **state) {
+    (void)state;
+    return scratch_enter("cli_bench");
+}
+
+/// The last number of a member of the object of `label` with `threads` in the JSON of the last run; -1: none.
+static double member(const char *label, int threads, const char *name) {
+    char wanted[128], key[64];
+    snprintf(wanted, sizeof wanted, "\"label\": \"%s\"", label);
+    snprintf(key, sizeof key, "\"%s\": ", name);
+    for (const char *row = last_run.out; (row = strstr(row, wanted)); row++) {
+        const char *count = strstr(row, "\"threads\": "), *end = strstr(row, "\"cycles_per_splat\"");
+        const char *value = strstr(row, key);
+        if (count && end && value && value < end && atoi(count + strlen("\"threads\": ")) == threads)
+            return atof(value + strlen(key));
+    }
+    return -1;
+}
+
+static void test_stages(void **state) {
+    (void)state;
+    run_done("TMPDIR=. ewa bench --scene plane --splats 2000 --pixels 20,40 --size 96x64 --frames 3 "
+             "--workers 1,2 --cpu all,plain --json b.json && cat b.json");
+    assert_non_null(strstr(last_run.out, "plane 0.002 M of 20 px"));
+    assert_non_null(strstr(last_run.out, "\"cpu\": \"plain\""));
+    assert_true(member("plane 0.002 M of 40 px", 1, "covered_px") > 39.9);
+    assert_true(member("plane 0.002 M of 40 px", 1, "lowest_ms") <=
+                member("plane 0.002 M of 40 px", 1, "median_ms"));
+    assert_true(member("plane 0.002 M of 40 px", 2, "speedup") > 0);
+    assert_true(member("plane 0.002 M of 40 px", 1, "clock_ghz") > 0.1);
+    static const char *const stages[] = {"write PLY",         "read PLY",      "read PLY, ASCII",
+                                         "normals and radii", "surfels",       "PNG, RGB",
+                                         "PNG, RGBA",         "clip segments", "normals and radii, uneven"};
+    for (size_t i = 0; i < sizeof stages / sizeof stages[0]; i++) {
+        char key[64];
+        snprintf(key, sizeof key, "\"stage\": \"%s\"", stages[i]);
+        assert_non_null(strstr(last_run.out, key));
+    }
+    assert_non_null(strstr(last_run.out, "\"reaches\": \""));
+    assert_int_equal(scratch_count(), 1);
+}
+
+static void test_files(void **state) {
+    (void)state;
+    run_done("ewa generate sphere -n 3000 -o ball.ply && "
+             "ewa bench ball.ply --size 96x64 --frames 1 --workers 1 --stages off --json - 2>tables");
+    assert_non_null(strstr(last_run.out, "\"scene\": \"ball.ply\""));
+    assert_true(member("ball.ply", 1, "splats") == 3000);
+}
+
+static void test_unseen(void **state) {
+    (void)state;
+    run_done(
+        "ewa bench --scene hidden,culled,closed,seen --splats 20000 --pixels 60 --size 256x256 --frames 1 "
+        "--workers 1 --stages off --json - 2>tables");
+    static const char *const hidden = "hidden 0.02 M of 60 px", *const culled = "culled 0.02 M of 60 px";
+    assert_true(member(hidden, 1, "unseen_share") == 0.6);
+    assert_true(member(hidden, 1, "splats") == 20000);
+    // Three tenths show their backs, and no packet of a wavy sheet holds splats that do not.
+    assert_true(member(hidden, 1, "splats_culled") > 0.25 * 20000);
+    assert_true(member(culled, 1, "splats_culled") > 0.9 * 20000);
+    const char *closed = strstr(last_run.out, "\"unseen_share\": 0.8");
+    assert_non_null(closed); // five sixths, and a little for the nearness of the eye
+    assert_non_null(strstr(closed, "\"scene\": \"seen\""));
+}
+
+static void test_recipes(void **state) {
+    (void)state;
+    run_done(
+        "ewa bench --scene points,peer,color --splats 5000 --pixels 30 --frames 1 --workers 1 --stages off "
+        "--json - 2>tables");
+    // The pixel filter of 0.35 px alone covers 3.46 pixels at 3 deviations.
+    assert_true(member("points 0.005 M of 3.66 px", 1, "covered_px") < 3.7);
+    assert_true(member("peer 0.005 M 1280x1024", 1, "width") == 1280);
+    assert_true(member("peer 0.005 M 512x512", 1, "width") == 512);
+    assert_true(member("color 0.005 M of 30 px", 1, "covered_px") > 29.9);
+    assert_null(strstr(last_run.out, "plane"));
+}
+
+static void test_refusals(void **state) {
+    (void)state;
+    run_fails(1, "the pixel filter alone covers |more than 2", "ewa bench --splats 100 --pixels 2");
+    run_fails(2, "--scene: 'plain' is not one of plane|color", "ewa bench --scene plain");
+    run_fails(2, "--cpu: 'sse' is not one of all", "ewa bench --cpu all,sse");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_stages),  cmocka_unit_test(test_files),    cmocka_unit_test(test_unseen),
+        cmocka_unit_test(test_recipes), cmocka_unit_test(test_refusals),
+    };
+    return cmocka_run_group_tests(tests, enter, NULL);
+}
