@@ -31,6 +31,7 @@ enum {
     EWA_CELL_BLOCKS = 4, ///< along a side of a cell, for which one depth decides whether packets are hidden
     EWA_TILE_CELLS = 8,  ///< cells along a side of the largest tile
     EWA_GROUP_RECORDS = 64,
+    EWA_BOX_LEVELS = 3,       ///< of ewa_edge_boxes
     EWA_BOX_GUARD = 0x8080,   ///< a bit above each number, so that they can be compared by one subtraction
     EWA_MAX_TILE_BLOCKS = 32, ///< along a side, so that a row of blocks is a word of bits
 };
@@ -113,6 +114,7 @@ typedef struct ewa_run {
     uint8_t classes[EWA_RUN_RECORDS + EWA_PACKET_LANES];
     uint32_t near_surfels[EWA_RUN_RECORDS]; ///< packet * 16 + lane
     uint32_t count, near_count;
+    float least_key; ///< the smallest ewa_record.key_low
 } ewa_run;
 
 /// A run's splats in the order of their classes: class c is order[class_first[c] .. class_first[c + 1]).
@@ -145,8 +147,8 @@ typedef struct ewa_edges {
     float *behind;  ///< [block][4][16]: premultiplied r, g, b and alpha of all surfaces but the first
 } ewa_edges;
 
-/// Boxes of a tile's records, or of groups of EWA_GROUP_RECORDS of them: first column | first row << 8, and
-/// last column | last row << 8 | EWA_BOX_GUARD. Room for a multiple of 16 each.
+/// Boxes of a tile's records, or of groups of EWA_GROUP_RECORDS of them, or of EWA_BLOCK_LANES groups: first
+/// column | first row << 8, and last column | last row << 8 | EWA_BOX_GUARD. Room for a multiple of 16 each.
 typedef struct ewa_edge_boxes {
     int32_t *first, *last;
     float *key_low;
@@ -189,6 +191,10 @@ typedef struct ewa_road_kernels {
     /// Sets cells[row][column] (rows of EWA_TILE_CELLS) to the smallest tile->nearest in each cell.
     void (*set_cells)(const ewa_tile *tile, float *cells);
 
+    /// Sets depths[i] to where packet ids[i] begins in camera space. Room for a multiple of 16.
+    void (*depths)(const ewa_view *view, const ewa_packet_bounds *bounds, const uint32_t *ids, uint32_t count,
+                   float *depths);
+
     /// Splits packets into those that may show in front of their cells' keys and those that are hidden, each
     /// in order; returns how many may show. `shown` and `hidden` have room for one more than there are;
     /// `hidden` may be `ids`.
@@ -217,13 +223,13 @@ typedef struct ewa_road_kernels {
     /// Marks in edges->rows the blocks with a partly covered pixel and starts their planes; returns how many.
     uint32_t (*find_edges)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges);
 
-    /// Fills `boxes` from `boxes->count` records, and `groups`.
-    void (*edge_boxes)(const ewa_record *records, ewa_edge_boxes *boxes, ewa_edge_boxes *groups);
+    /// Fills levels[0] from its count of records, and the other levels.
+    void (*edge_boxes)(const ewa_record *records, ewa_edge_boxes levels[EWA_BOX_LEVELS]);
 
     /// Lists the records that may lie behind a marked block, in order; returns how many, and may write 16
     /// more.
-    uint32_t (*edge_list)(const ewa_edge_boxes *boxes, const ewa_edge_boxes *groups, uint32_t row,
-                          uint32_t column, float reach, uint32_t *indices);
+    uint32_t (*edge_list)(const ewa_edge_boxes levels[EWA_BOX_LEVELS], uint32_t row, uint32_t column,
+                          float reach, uint32_t *indices);
 
     /// One of the two passes over splats beyond edges->passed, in one marked block. The first drops those
     /// that are nowhere beyond.

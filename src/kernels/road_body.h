@@ -12,6 +12,7 @@ const ewa_road_kernels ROAD_KERNELS = {
     .name = ROAD_NAME,
     .cull = cull,
     .set_cells = set_cells,
+    .depths = depths,
     .hide = hide,
     .setup = setup,
     .visibility = visibility,

@@ -185,6 +185,16 @@ static ALWAYS_INLINE void load_spheres(const ewa_packet_bounds *bounds, const ui
     }
 }
 
+static void depths(const ewa_view *view, const ewa_packet_bounds *bounds, const uint32_t *ids, uint32_t count,
+                   float *depths_world) {
+    for (uint32_t first = 0; first < count; first += 16) {
+        wf sphere[4], center[3];
+        load_spheres(bounds, ids + first, count - first < 16 ? count - first : 16, sphere);
+        to_camera(view, sphere[0], sphere[1], sphere[2], center);
+        wf_store(depths_world + first, wf_fnma(sphere[3], wf_set(view->scale), center[2]));
+    }
+}
+
 static uint32_t hide(const ewa_view *view, const ewa_packet_bounds *bounds, const ewa_tile *tile,
                      const float *cells, const uint32_t *ids, uint32_t count, uint32_t *shown,
                      uint32_t *hidden) {

@@ -84,18 +84,26 @@ static ALWAYS_INLINE void set_group(const ewa_edge_boxes *boxes, uint32_t at, ui
     groups->key_low[group] = -largest_lane(nearer);
 }
 
-static void edge_boxes(const ewa_record *records, ewa_edge_boxes *boxes, ewa_edge_boxes *groups) {
-    const uint32_t count = boxes->count;
-    groups->count = (count + EWA_GROUP_RECORDS - 1) / EWA_GROUP_RECORDS;
-    for (uint32_t i = 0; i < count; i += EWA_BLOCK_LANES) set_boxes(records, i, count - i, boxes);
-    for (uint32_t g = 0; g < groups->count; g++) {
-        const uint32_t first = g * EWA_GROUP_RECORDS, left = count - first;
-        set_group(boxes, first, first + (left < EWA_GROUP_RECORDS ? left : EWA_GROUP_RECORDS), groups, g);
+/// Makes a level of boxes from the one below, `each` of its entries to a box, and fills up the last vector
+/// with boxes that hold nothing.
+static ALWAYS_INLINE void set_level(const ewa_edge_boxes *from, uint32_t each, ewa_edge_boxes *level) {
+    level->count = (from->count + each - 1) / each;
+    for (uint32_t g = 0; g < level->count; g++) {
+        const uint32_t first = g * each, left = from->count - first;
+        set_group(from, first, first + (left < each ? left : each), level, g);
     }
-    for (uint32_t g = groups->count; g % EWA_BLOCK_LANES; g++) {
-        groups->first[g] = groups->last[g] = 0;
-        groups->key_low[g] = __builtin_inff();
+    for (uint32_t g = level->count; g % EWA_BLOCK_LANES; g++) {
+        level->first[g] = 0x7f7f;
+        level->last[g] = EWA_BOX_GUARD;
+        level->key_low[g] = __builtin_inff();
     }
+}
+
+static void edge_boxes(const ewa_record *records, ewa_edge_boxes levels[EWA_BOX_LEVELS]) {
+    const uint32_t count = levels[0].count;
+    for (uint32_t i = 0; i < count; i += EWA_BLOCK_LANES) set_boxes(records, i, count - i, &levels[0]);
+    set_level(&levels[0], EWA_GROUP_RECORDS, &levels[1]);
+    set_level(&levels[1], EWA_BLOCK_LANES, &levels[2]);
 }
 
 /// The boxes [at, at + 16) that hold the block and whose splats may be beyond `reach`.
@@ -107,25 +115,28 @@ static ALWAYS_INLINE wm holds_block(const ewa_edge_boxes *boxes, uint32_t at, wi
     return wm_and(wf_le(wf_set(EWA_BOX_GUARD), both), wf_lt(wf_load(boxes->key_low + at), reach));
 }
 
-static uint32_t edge_list(const ewa_edge_boxes *boxes, const ewa_edge_boxes *groups, uint32_t row,
-                          uint32_t column, float reach, uint32_t *indices) {
+static uint32_t edge_list(const ewa_edge_boxes levels[EWA_BOX_LEVELS], uint32_t row, uint32_t column,
+                          float reach, uint32_t *indices) {
     static const int32_t lane_numbers[EWA_BLOCK_LANES] = {0, 1, 2,  3,  4,  5,  6,  7,
                                                           8, 9, 10, 11, 12, 13, 14, 15};
+    const ewa_edge_boxes *boxes = &levels[0], *groups = &levels[1], *clusters = &levels[2];
     const wi block = wi_set((int32_t)(column | row << 8)), lanes = wi_load(lane_numbers);
     const wf beyond = wf_set(reach);
     uint32_t listed = 0;
-    for (uint32_t g = 0; g < groups->count; g += EWA_BLOCK_LANES) {
-        for (uint32_t bits = wm_bits(holds_block(groups, g, block, beyond)); bits; bits &= bits - 1) {
-            const uint32_t first = (g + (uint32_t)__builtin_ctz(bits)) * EWA_GROUP_RECORDS;
-            const uint32_t end =
-                first + EWA_GROUP_RECORDS < boxes->count ? first + EWA_GROUP_RECORDS : boxes->count;
-            for (uint32_t i = first; i < end; i += EWA_BLOCK_LANES) {
-                const wm hits = holds_block(boxes, i, block, beyond);
-                wi_pack((int32_t *)(void *)(indices + listed), hits, wi_add(lanes, wi_set((int32_t)i)));
-                listed += (uint32_t)__builtin_popcount(wm_bits(hits));
+    for (uint32_t c = 0; c < clusters->count; c += EWA_BLOCK_LANES)
+        for (uint32_t near = wm_bits(holds_block(clusters, c, block, beyond)); near; near &= near - 1) {
+            const uint32_t g = (c + (uint32_t)__builtin_ctz(near)) * EWA_BLOCK_LANES;
+            for (uint32_t bits = wm_bits(holds_block(groups, g, block, beyond)); bits; bits &= bits - 1) {
+                const uint32_t first = (g + (uint32_t)__builtin_ctz(bits)) * EWA_GROUP_RECORDS;
+                const uint32_t end =
+                    first + EWA_GROUP_RECORDS < boxes->count ? first + EWA_GROUP_RECORDS : boxes->count;
+                for (uint32_t i = first; i < end; i += EWA_BLOCK_LANES) {
+                    const wm hits = holds_block(boxes, i, block, beyond);
+                    wi_pack((int32_t *)(void *)(indices + listed), hits, wi_add(lanes, wi_set((int32_t)i)));
+                    listed += (uint32_t)__builtin_popcount(wm_bits(hits));
+                }
             }
         }
-    }
     return listed;
 }
 

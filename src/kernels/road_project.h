@@ -202,7 +202,7 @@ static ALWAYS_INLINE void emit(ewa_run *run, uint32_t alive_bits, const wf recor
 
 /// Third step: tolerance, box in the tile, and the records of the lanes that are in it.
 static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *packet, const ewa_tile *tile,
-                                     stage *t, ewa_run *run) {
+                                     stage *t, ewa_run *run, wf *least) {
     const wf one = wf_set(1), zero = wf_set(0), half = wf_set(0.5f);
     const wf fx = wf_set(view->fx_px), fy = wf_set(view->fy_px);
     const wf *p = t->p;
@@ -262,6 +262,11 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
         bound_scale = wf_select(wide, zero, share2);
         bound_offset = wf_select(wide, tolerance, wf_mul(wf_sub(share, share2), t->inverse_z));
     }
+    const wf least_key = wf_fnma(wf_abs(t->key_x), t->half_x, wf_fnma(wf_abs(t->key_y), t->half_y, key));
+
+    const wf low = wf_select(steep, wf_sub(key_low, margin), least_key);
+    *least = wf_min(wf_select(alive, low, wf_set(__builtin_inff())), *least);
+
     wf lanes[16] = {
         wf_sub(wf_from_i(wi_shl(column, 2)), cx),
         wf_sub(wf_from_i(wi_shl(row, 2)), cy),
@@ -274,7 +279,7 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
         wf_select(steep, bound_scale, wf_fma(bound_scale, key, bound_offset)),
         wf_select(steep, bound_offset, wf_mul(bound_scale, t->key_x)),
         wf_select(steep, wf_add(key_high, margin), wf_mul(bound_scale, t->key_y)),
-        wf_sub(key_low, margin),
+        low,
         wf_mul(t->peak, decode_color(view, packet->red, 0)),
         wf_mul(t->peak, decode_color(view, packet->green, 1)),
         wf_mul(t->peak, decode_color(view, packet->blue, 2)),
@@ -298,6 +303,7 @@ static ALWAYS_INLINE void setup_run(const ewa_view *view, const ewa_packet *pack
     stage stages[TOGETHER];
     run->count = 0;
     run->near_count = 0;
+    wf least = wf_set(__builtin_inff());
     for (uint32_t first = 0; first < count; first += TOGETHER) {
         const uint32_t here = count - first < TOGETHER ? count - first : TOGETHER;
         const uint32_t *ids = packet_ids + first;
@@ -311,8 +317,9 @@ static ALWAYS_INLINE void setup_run(const ewa_view *view, const ewa_packet *pack
         }
         for (uint32_t i = 0; i < here; i++) stage_shape(view, &stages[i]);
         for (uint32_t i = 0; i < here; i++)
-            if (wm_bits(stages[i].alive)) stage_emit(view, &packets[ids[i]], tile, &stages[i], run);
+            if (wm_bits(stages[i].alive)) stage_emit(view, &packets[ids[i]], tile, &stages[i], run, &least);
     }
+    run->least_key = -largest_lane(wf_negate(least));
 }
 
 static void setup(const ewa_view *view, const ewa_packet *packets, const uint32_t *packet_ids, uint32_t count,

@@ -24,7 +24,7 @@ static void start_batch(const ewa_tile_job *job, ewa_tile_scratch *s, bool keep_
     made->keep_lists = keep_lists;
     made->used = 0;
     memset(made->list_count, 0xff, sizeof made->list_count); // NOT_LISTED
-    job->kernels->edge_boxes(s->records, &s->boxes, &s->groups);
+    job->kernels->edge_boxes(s->records, s->boxes);
 }
 
 static void draw_block(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, batch *from,
@@ -38,8 +38,7 @@ static void draw_block(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_s
     if (listed) {
         splats.count = from->list_count[block];
     } else {
-        splats.count = job->kernels->edge_list(&s->boxes, &s->groups, row, column, s->edges.reach[block],
-                                               splats.indices);
+        splats.count = job->kernels->edge_list(s->boxes, row, column, s->edges.reach[block], splats.indices);
         for (uint32_t i = 0; i < splats.count && what == EWA_PASS_EDGE_ACCUMULATE; i++)
             splats.largest_keys[i] = INFINITY;
     }
@@ -81,8 +80,18 @@ static uint32_t show_behind_edges(const ewa_tile_job *job, const ewa_tile *tile,
                               (uint32_t)s->hidden_count, s->shown + s->shown_count, s->hidden);
 }
 
+/// Whether anything may lie behind a marked block.
+static bool something_behind(const ewa_tile *tile, const ewa_tile_scratch *s) {
+    if (s->hidden_count || s->has_near) return true;
+    float reach = -INFINITY;
+    for (uint32_t block = 0; block < tile->blocks_per_row * tile->block_rows; block++)
+        reach = s->edges.reach[block] > reach ? s->edges.reach[block] : reach;
+    return s->least_key < reach;
+}
+
 bool ewa_tile_draw_edges(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, bool kept) {
     if (job->edge_layers < 2 || !job->kernels->find_edges(tile, &job->resolve, &s->edges)) return false;
+    if (!something_behind(tile, s)) return false;
     memcpy(s->edge_rows, s->edges.rows, sizeof s->edge_rows);
     const uint32_t behind = s->hidden_count ? show_behind_edges(job, tile, s) : 0;
     const ewa_tile_packets all = {s->shown, s->shown_count + behind};

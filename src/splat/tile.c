@@ -8,6 +8,7 @@
 // its runs up again for the second pass instead: the same records in the same order, so the same bytes.
 #include "splat/tile.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { NEAR_CHUNK = 64 };
@@ -22,8 +23,12 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     const size_t tile_floats = (size_t)job->view.tile_px * job->view.tile_px;
     const size_t pixel_floats =
         tile_floats * (2 * (1 + EWA_MAX_CHANNELS) + 1 + 4) + tile_floats / EWA_BLOCK_LANES;
-    const uint64_t packet_count = largest_bin + 1;
-    const size_t box_count = records + EWA_BLOCK_LANES, group_count = records / EWA_GROUP_RECORDS + 16;
+    const uint64_t packet_count = largest_bin + EWA_PACKET_LANES;
+    const size_t box_counts[EWA_BOX_LEVELS] = {
+        records + EWA_BLOCK_LANES, records / EWA_GROUP_RECORDS + EWA_BLOCK_LANES,
+        records / EWA_GROUP_RECORDS / EWA_BLOCK_LANES + EWA_BLOCK_LANES};
+    size_t box_count = 0;
+    for (int i = 0; i < EWA_BOX_LEVELS; i++) box_count += box_counts[i];
     const struct {
         ewa_buffer *buffer;
         size_t count, size_bytes;
@@ -32,11 +37,11 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
         {&s->load_buffer, records + EWA_PACKET_LANES, sizeof *s->loads},
         {&s->order_buffer, records, sizeof *s->order},
         {&s->list_buffer, 2 * (EWA_LISTS * records + EWA_BLOCK_LANES), sizeof *s->listed},
-        {&s->box_buffer, 3 * (box_count + group_count), sizeof(float)},
+        {&s->box_buffer, 3 * box_count, sizeof(float)},
         {&s->near_buffer, records, sizeof *s->near_surfels},
         {&s->kept_buffer, records / EWA_RUN_RECORDS + 2, sizeof *s->kept},
         {&s->pixel_buffer, pixel_floats, sizeof(float)},
-        {&s->packet_buffer, 2 * packet_count, sizeof *s->shown},
+        {&s->packet_buffer, 4 * packet_count, sizeof *s->shown},
     };
     for (size_t i = 0; i < sizeof needs / sizeof needs[0]; i++) {
         const ewa_status status =
@@ -48,12 +53,12 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     s->order = s->order_buffer.data;
     s->listed = s->list_buffer.data;
     s->listed_keys = (float *)(s->listed + EWA_LISTS * records + EWA_BLOCK_LANES);
-    s->boxes.first = s->box_buffer.data;
-    s->boxes.last = s->boxes.first + box_count;
-    s->groups.first = s->boxes.last + box_count;
-    s->groups.last = s->groups.first + group_count;
-    s->boxes.key_low = (float *)(s->groups.last + group_count);
-    s->groups.key_low = s->boxes.key_low + box_count;
+    int32_t *box_numbers = s->box_buffer.data;
+    for (int i = 0; i < EWA_BOX_LEVELS; i++, box_numbers += box_counts[i - 1]) {
+        s->boxes[i].first = box_numbers;
+        s->boxes[i].last = box_numbers + box_count;
+        s->boxes[i].key_low = (float *)(box_numbers + 2 * box_count);
+    }
     s->near_surfels = s->near_buffer.data;
     s->kept = s->kept_buffer.data;
     s->nearest = s->pixel_buffer.data;
@@ -68,6 +73,8 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     s->kept_capacity = records / EWA_RUN_RECORDS + 2;
     s->shown = s->packet_buffer.data;
     s->hidden = s->shown + packet_count;
+    s->ordered = s->hidden + packet_count;
+    s->depths_world = (float *)(s->ordered + packet_count);
     s->drawn_count = s->fragment_count = s->hidden_splat_count = 0;
     s->setup_s = s->visibility_s = s->accumulate_s = s->edge_s = s->resolve_s = 0;
     return EWA_OK;
@@ -143,6 +150,8 @@ static void prepare_run(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_
     const uint32_t announced = left < 2 * EWA_RUN_PACKETS ? (uint32_t)left : 2 * EWA_RUN_PACKETS;
     job->kernels->setup(&job->view, job->surfels->packets, packets->ids + first,
                         announced < EWA_RUN_PACKETS ? announced : EWA_RUN_PACKETS, announced, tile, &s->run);
+    s->least_key = fminf(s->least_key, s->run.least_key);
+    s->has_near |= s->run.near_count > 0;
     sort_run(&s->run, s->order + at, sorted);
 }
 
@@ -180,7 +189,7 @@ static void walk_again(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_s
     }
 }
 
-void ewa_tile_drop_runs(ewa_tile_scratch *s) { s->kept_count = s->near_count = s->boxes.count = 0; }
+void ewa_tile_drop_runs(ewa_tile_scratch *s) { s->kept_count = s->near_count = s->boxes[0].count = 0; }
 
 uint64_t ewa_tile_keep_runs(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
                             const ewa_tile_packets *packets, uint64_t first, uint64_t end, bool draw) {
@@ -190,15 +199,15 @@ uint64_t ewa_tile_keep_runs(const ewa_tile_job *job, const ewa_tile *tile, ewa_t
         const uint64_t packets_left = packets->count - i * EWA_RUN_PACKETS;
         const uint64_t lanes =
             EWA_PACKET_LANES * (packets_left < EWA_RUN_PACKETS ? packets_left : EWA_RUN_PACKETS);
-        if (s->boxes.count + s->near_count + lanes > s->record_capacity) break;
+        if (s->boxes[0].count + s->near_count + lanes > s->record_capacity) break;
         if (s->kept_count >= s->kept_capacity) break;
         ewa_kept_run *kept = &s->kept[s->kept_count++];
-        prepare_run(job, tile, s, packets, i, s->boxes.count, &kept->sorted);
+        prepare_run(job, tile, s, packets, i, s->boxes[0].count, &kept->sorted);
         kept->near_first = s->near_count;
         kept->near_count = s->run.near_count;
         for (uint32_t k = 0; k < kept->near_count; k++)
             s->near_surfels[s->near_count + k] = s->run.near_surfels[k];
-        s->boxes.count += s->run.count;
+        s->boxes[0].count += s->run.count;
         s->near_count += kept->near_count;
         const double middle = ewa_now_s();
         s->setup_s += middle - before;
@@ -213,12 +222,43 @@ uint64_t ewa_tile_keep_runs(const ewa_tile_job *job, const ewa_tile *tile, ewa_t
     return i;
 }
 
+/// The tile's packets with nearer runs first: what lies behind them need not be set up. By a counting sort,
+/// which leaves runs of about one depth in their order along the curve.
+static const uint32_t *front_to_back(const ewa_tile_job *job, ewa_tile_scratch *s, const uint32_t *ids,
+                                     uint64_t count) {
+    enum { BUCKETS = 64 };
+    const uint64_t run_count = count / EWA_RUN_PACKETS; // the rest stays at the end
+    float *depths = s->depths_world, nearest = INFINITY, farthest = -INFINITY;
+    job->kernels->depths(&job->view, &job->surfels->bounds, ids, (uint32_t)count, depths);
+    for (uint64_t run = 0; run < run_count; run++) {
+        float begin = INFINITY;
+        for (uint32_t i = 0; i < EWA_RUN_PACKETS; i++)
+            begin = fminf(begin, depths[run * EWA_RUN_PACKETS + i]);
+        depths[run] = begin;
+        nearest = fminf(nearest, begin), farthest = fmaxf(farthest, begin);
+    }
+    if (!(nearest < farthest)) return ids;
+    const float scale = (BUCKETS - 1) / (farthest - nearest);
+    uint64_t next[BUCKETS + 1] = {0};
+    for (uint64_t run = 0; run < run_count; run++) next[(int)((depths[run] - nearest) * scale) + 1]++;
+    for (int i = 0; i < BUCKETS; i++) next[i + 1] += next[i];
+    for (uint64_t run = 0; run < run_count; run++) {
+        const uint64_t at = next[(int)((depths[run] - nearest) * scale)]++;
+        memcpy(s->ordered + at * EWA_RUN_PACKETS, ids + run * EWA_RUN_PACKETS, EWA_RUN_PACKETS * sizeof *ids);
+    }
+    const uint64_t done = run_count * EWA_RUN_PACKETS;
+    memcpy(s->ordered + done, ids + done, (count - done) * sizeof *ids);
+    return s->ordered;
+}
+
 /// First pass, some packets at a time: those that lie behind what is drawn by then are put aside. Where
 /// nothing is hidden, fewer and fewer packets are asked.
 static void draw_visible(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
                          const uint32_t *ids, uint64_t count, bool kept) {
     enum { CHUNK_PACKETS = 4 * EWA_RUN_PACKETS, MOST_PASSED = 6 };
     s->shown_count = s->hidden_count = 0;
+    s->least_key = INFINITY;
+    s->has_near = false;
     ewa_tile_drop_runs(s);
     uint64_t drawn_runs = 0;
     uint32_t passed = 0, to_pass = 1; // chunks since the last that was asked, and until the next
@@ -272,7 +312,7 @@ void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
     job->kernels->clear(&tile);
     const uint64_t first = job->bins->tile_first[index], count = job->bins->tile_first[index + 1] - first;
     const bool kept = count * EWA_PACKET_LANES <= s->record_capacity;
-    draw_visible(job, &tile, s, job->bins->entries + first, count, kept);
+    draw_visible(job, &tile, s, front_to_back(job, s, job->bins->entries + first, count), count, kept);
     const ewa_tile_packets shown = {s->shown, s->shown_count};
     const double accumulating = ewa_now_s();
     if (kept)

@@ -41,13 +41,16 @@ typedef struct ewa_tile_scratch {
     uint16_t *order;
     uint32_t *listed;   ///< splats behind marked blocks, block by block
     float *listed_keys; ///< ewa_edge_splats.largest_keys of them
-    ewa_edge_boxes boxes, groups;
+    ewa_edge_boxes boxes[EWA_BOX_LEVELS];
     uint32_t *near_surfels;
     ewa_kept_run *kept;
     size_t record_capacity, kept_capacity;
-    uint32_t kept_count, near_count; ///< of the kept runs; boxes.count is how many records they have
-    uint32_t *shown, *hidden;        ///< the tile's packets
+    uint32_t kept_count, near_count;    ///< of the kept runs; boxes[0].count is how many records they have
+    uint32_t *shown, *hidden, *ordered; ///< the tile's packets
+    float *depths_world;                ///< by packet, then by run
     uint64_t shown_count, hidden_count;
+    float least_key; ///< of all splats that are shown
+    bool has_near;   ///< some of them are near surfels
     float cells[EWA_TILE_CELLS * EWA_TILE_CELLS];
     float *nearest, *sums;
     ewa_edges edges;
