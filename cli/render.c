@@ -263,6 +263,7 @@ static bool write_stats(cli_session *session, const render_arguments *arguments,
     json_number(&json, "unit_coverage", report->surfels.unit_coverage);
     json_count(&json, "splats", report->stats.splat_count);
     json_count(&json, "splats_culled", report->stats.culled_count);
+    json_count(&json, "splats_hidden", report->stats.hidden_count);
     json_count(&json, "splats_drawn", report->stats.drawn_count);
     json_count(&json, "fragment_blocks", report->stats.fragment_count);
     json_object(&json, "wall_s");

@@ -102,6 +102,7 @@ typedef struct ewa_frame {
 typedef struct ewa_render_stats {
     uint64_t splat_count;    ///< resident
     uint64_t culled_count;   ///< of splats: in packets dropped whole
+    uint64_t hidden_count;   ///< of splats, over all tiles: in packets wholly behind what was drawn before
     uint64_t drawn_count;    ///< splat records over all tiles: a splat in two tiles counts twice
     uint64_t fragment_count; ///< 4x4-pixel blocks evaluated in the accumulation
     double bin_s, setup_s, visibility_s, accumulate_s, edge_s, resolve_s;

@@ -21,11 +21,17 @@ enum {
     EWA_BLOCK_LANES = 16,
     EWA_RUN_PACKETS = 32, ///< packets that are set up before their depths are used
     EWA_RUN_RECORDS = EWA_RUN_PACKETS * EWA_PACKET_LANES,
-    EWA_ROW_CLASSES = 5,                                   ///< boxes of 1, 2, 3, 4 and more rows of blocks
-    EWA_COLUMN_CLASSES = 4,                                ///< boxes of 1, 2, 3, 4 columns
-    EWA_WIDE_CLASS = EWA_ROW_CLASSES * EWA_COLUMN_CLASSES, ///< wider boxes, parts of large splats
+    EWA_ROW_CLASSES = 5,                                    ///< boxes of 1, 2, 3, 4 and more rows of blocks
+    EWA_COLUMN_CLASSES = 4,                                 ///< boxes of 1, 2, 3, 4 columns
+    EWA_STEEP_CLASS = EWA_ROW_CLASSES * EWA_COLUMN_CLASSES, ///< first class of steep splats
+    EWA_WIDE_CLASS = 2 * EWA_STEEP_CLASS,                   ///< wider boxes, parts of large splats
     EWA_CLASS_COUNT = EWA_WIDE_CLASS + 1,
+    EWA_STEEP_BIT = 1 << 7, ///< in ewa_record.box: steep or wide
     EWA_MAX_CHANNELS = 8,
+    EWA_CELL_BLOCKS = 4, ///< along a side of a cell, for which one depth decides whether packets are hidden
+    EWA_TILE_CELLS = 8,  ///< cells along a side of the largest tile
+    EWA_GROUP_RECORDS = 64,
+    EWA_BOX_GUARD = 0x8080,   ///< a bit above each number, so that they can be compared by one subtraction
     EWA_MAX_TILE_BLOCKS = 32, ///< along a side, so that a row of blocks is a word of bits
 };
 
@@ -43,7 +49,7 @@ typedef struct ewa_view {
     float prefilter2_px2; ///< h^2
     float reach_px;       ///< F h
     float tolerance;      ///< kappa F
-    float grazing_limit;  ///< EWA_GRAZING_TOLERANCE F, or 0 with one pass
+    float grazing; ///< 1, or 0 with one pass: whether the tolerance grows where surfels are seen edge-on
     float color_scale[3], color_offset[3];
     float exponent_scale; ///< s = exponent_scale r^2, so that exp(-r^2/2) = exp(-s)^(2^doublings)
     float exponent_end;   ///< exponent_scale F^2
@@ -61,16 +67,26 @@ typedef struct ewa_tile_rect {
 } ewa_tile_rect;
 
 /// One splat in one tile. dx, dy below are measured from the splat's centre to a pixel's centre.
+///
+/// Plain splats compare planes: their key, and that of z + eps (perspective: its tangent at the centre). The
+/// key of steep ones (semantics.h) is clamped first, and the key of z + eps made of it: bound_scale key +
+/// bound_offset; wide ones in perspective have bound_scale 0, bound_offset eps, and key / (1 + eps key).
 typedef struct ewa_record {
     float offset_x, offset_y; ///< upper left corner of the box minus the splat's centre, pixels
     float xx, xy, yy;         ///< s = xx dx^2 + xy dx dy + yy dy^2
     float key, key_x, key_y;  ///< 1/z (orthographic: -z) at the centre and its gradient per pixel
-    float key_low, key_high;  ///< range of the key
-    float bound_scale,
-        bound_offset; ///< the key of z + eps is bound_scale key + bound_offset; class EWA_WIDE_CLASS,
-                      ///< perspective: bound_scale is 0, bound_offset eps, the key key / (1 + eps key)
-    float red, green, blue;
-    uint32_t box; ///< first column | first row << 8 | columns << 16 | rows << 24, in blocks
+    union {
+        struct {
+            float bound, bound_x, bound_y; ///< plain
+        };
+        struct {
+            float bound_scale, bound_offset, key_high; ///< steep or wide
+        };
+    };
+    float key_low;          ///< the key is nowhere below, plain or not
+    float red, green, blue; ///< times the resampling kernel's peak
+    uint32_t box; ///< first column | EWA_STEEP_BIT | first row << 8 | columns << 16 | rows << 24, in
+                  ///< blocks
 } ewa_record;
 
 /// A surfel that touches the eye plane, by pixel rays: U, V, W are linear in the tile's pixel coordinates;
@@ -85,7 +101,7 @@ typedef struct ewa_near_record {
 
 /// The part of a splat that only the second pass reads.
 typedef struct ewa_load {
-    float normal[3]; ///< camera space, unit, towards the viewer
+    float normal[3]; ///< camera space, unit, towards the viewer; times peak
     float peak;      ///< of the resampling kernel
 } ewa_load;
 
@@ -122,11 +138,30 @@ typedef struct ewa_tile {
 typedef struct ewa_edges {
     uint32_t *rows; ///< [block row]: bit per block column
     float *passed;  ///< [block][16]: the smallest key of the surfaces that are done
-    float *reach;   ///< [block]: the largest of `passed`: what is nowhere beyond it is not wanted
+    float *reach; ///< [block]: the largest of `passed`: what is nowhere beyond it is not wanted; -infinity in
+                  ///< blocks that are not marked
     float *nearest; ///< [block][16]: the smallest key of the surface that is being gathered
     float *sums;    ///< as ewa_tile's
     float *behind;  ///< [block][4][16]: premultiplied r, g, b and alpha of all surfaces but the first
 } ewa_edges;
+
+/// Boxes of a tile's records, or of groups of EWA_GROUP_RECORDS of them: first column | first row << 8, and
+/// last column | last row << 8 | EWA_BOX_GUARD. Room for a multiple of 16 each.
+typedef struct ewa_edge_boxes {
+    int32_t *first, *last;
+    float *key_low;
+    uint32_t count;
+} ewa_edge_boxes;
+
+/// Splats that may lie behind a marked block, in the order in which they are summed. The lists have room for
+/// EWA_BLOCK_LANES more.
+typedef struct ewa_edge_splats {
+    const ewa_record *records;
+    const ewa_load *loads;
+    uint32_t *indices;   ///< of records and loads
+    float *largest_keys; ///< no key of the splat that is beyond edges->passed is larger
+    uint32_t count;
+} ewa_edge_splats;
 
 /// How pixels become colours, and where they go. Planes as in ewa_frame, of the whole picture.
 typedef struct ewa_resolve {
@@ -151,6 +186,16 @@ typedef struct ewa_road_kernels {
     uint32_t (*cull)(const ewa_view *view, const ewa_packet_bounds *bounds, uint32_t first, uint32_t count,
                      ewa_tile_rect *rects);
 
+    /// Sets cells[row][column] (rows of EWA_TILE_CELLS) to the smallest tile->nearest in each cell.
+    void (*set_cells)(const ewa_tile *tile, float *cells);
+
+    /// Splits packets into those that may show in front of their cells' keys and those that are hidden, each
+    /// in order; returns how many may show. `shown` and `hidden` have room for one more than there are;
+    /// `hidden` may be `ids`.
+    uint32_t (*hide)(const ewa_view *view, const ewa_packet_bounds *bounds, const ewa_tile *tile,
+                     const float *cells, const uint32_t *ids, uint32_t count, uint32_t *shown,
+                     uint32_t *hidden);
+
     /// Sets up `count` <= EWA_RUN_PACKETS packets for one tile into `run`; `packet_ids` holds `announced` >=
     /// count numbers, those of later runs too, so that packets can be fetched ahead.
     void (*setup)(const ewa_view *view, const ewa_packet *packets, const uint32_t *packet_ids, uint32_t count,
@@ -172,14 +217,18 @@ typedef struct ewa_road_kernels {
     /// Marks in edges->rows the blocks with a partly covered pixel and starts their planes; returns how many.
     uint32_t (*find_edges)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges);
 
-    /// Writes those of a run's splats `candidates` that may lie behind a marked block to `hits`, in order;
-    /// returns how many. `hits` may be `candidates`; it has room for one more than there are.
-    uint32_t (*edge_hits)(const ewa_tile *tile, const ewa_edges *edges, const ewa_record *records,
-                          const uint16_t *candidates, uint32_t candidate_count, uint16_t *hits);
+    /// Fills `boxes` from `boxes->count` records, and `groups`.
+    void (*edge_boxes)(const ewa_record *records, ewa_edge_boxes *boxes, ewa_edge_boxes *groups);
 
-    /// One of the two passes for splats beyond edges->passed, in marked blocks only.
-    void (*edge_pass)(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
-                      const ewa_sorted_run *run, const uint16_t *hits, uint32_t hit_count, bool second_pass);
+    /// Lists the records that may lie behind a marked block, in order; returns how many, and may write 16
+    /// more.
+    uint32_t (*edge_list)(const ewa_edge_boxes *boxes, const ewa_edge_boxes *groups, uint32_t row,
+                          uint32_t column, float reach, uint32_t *indices);
+
+    /// One of the two passes over splats beyond edges->passed, in one marked block. The first drops those
+    /// that are nowhere beyond.
+    void (*edge_pass)(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges, uint32_t row,
+                      uint32_t column, ewa_edge_splats *splats, bool second_pass);
     void (*edge_near_pass)(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
                            const ewa_near_record *records, uint32_t count, bool second_pass);
 

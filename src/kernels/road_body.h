@@ -4,12 +4,15 @@
 // The road's kernels over the wide type. The including file defines WIDE_AVX512, WIDE_AVX2 or WIDE_PORTABLE,
 // ROAD_NAME and ROAD_KERNELS; this file undefines them. Reference: src/splat/reference.c; equality class of
 // the versions among themselves: the same bytes.
+#include "kernels/road_cull.h"
 #include "kernels/road_edges.h"
 #include "kernels/road_variants.h"
 
 const ewa_road_kernels ROAD_KERNELS = {
     .name = ROAD_NAME,
     .cull = cull,
+    .set_cells = set_cells,
+    .hide = hide,
     .setup = setup,
     .visibility = visibility,
     .near_visibility = near_visibility,
@@ -17,7 +20,8 @@ const ewa_road_kernels ROAD_KERNELS = {
     .accumulate = accumulate,
     .near_accumulate = near_accumulate,
     .find_edges = find_edges,
-    .edge_hits = edge_hits,
+    .edge_boxes = edge_boxes,
+    .edge_list = edge_list,
     .edge_pass = edge_pass,
     .edge_near_pass = edge_near_pass,
     .edge_compose = edge_compose,

@@ -14,12 +14,9 @@ static size_t block_at(const ewa_tile *tile, uint32_t row, uint32_t column) {
 
 /// Starts a surface in a block: where `open`, splats beyond the key `done` are wanted, elsewhere none.
 static void start_surface(const ewa_tile *tile, const ewa_edges *edges, size_t block, wm open, wf done) {
-    const wf never = wf_set(-__builtin_inff());
-    float *passed = edges->passed + block * EWA_BLOCK_LANES;
-    wf_store(passed, wf_select(open, done, never));
-    edges->reach[block] = -__builtin_inff();
-    for (int i = 0; i < EWA_BLOCK_LANES; i++)
-        if (passed[i] > edges->reach[block]) edges->reach[block] = passed[i];
+    const wf never = wf_set(-__builtin_inff()), passed = wf_select(open, done, never);
+    wf_store(edges->passed + block * EWA_BLOCK_LANES, passed);
+    edges->reach[block] = largest_lane(passed);
     wf_store(edges->nearest + block * EWA_BLOCK_LANES, never);
     float *sums = edges->sums + block * tile->channel_count * EWA_BLOCK_LANES;
     for (uint32_t c = 0; c < tile->channel_count; c++) wf_store(sums + c * EWA_BLOCK_LANES, wf_set(0));
@@ -35,6 +32,7 @@ static uint32_t find_edges(const ewa_tile *tile, const ewa_resolve *to, const ew
             const size_t block = block_at(tile, row, column);
             const wf q = wf_load(tile->sums + block * tile->channel_count * LANES);
             const wm open = wm_and(wf_lt(zero, q), wf_lt(wf_mul(q, scale), one));
+            edges->reach[block] = -__builtin_inff();
             if (!wm_bits(open)) continue;
             edges->rows[row] |= 1u << column;
             count++;
@@ -45,71 +43,239 @@ static uint32_t find_edges(const ewa_tile *tile, const ewa_resolve *to, const ew
     return count;
 }
 
-/// The marked blocks of one row of a splat's box that the splat may lie beyond, a bit each.
-static ALWAYS_INLINE uint32_t wanted_blocks(const ewa_tile *tile, const ewa_edges *edges, const ewa_record *r,
-                                            uint32_t row) {
-    const uint64_t columns = ((uint64_t)1 << box_columns(r->box)) - 1;
-    const uint32_t marked = edges->rows[box_row(r->box) + row] & (uint32_t)(columns << box_column(r->box));
-    uint32_t wanted = 0;
-    for (uint32_t left = marked; left; left &= left - 1) {
-        const uint32_t column = (uint32_t)__builtin_ctz(left);
-        if (r->key_low < edges->reach[block_at(tile, box_row(r->box) + row, column)]) wanted |= 1u << column;
-    }
-    return wanted;
+static int32_t largest_of(wi v) {
+    int32_t lanes[EWA_BLOCK_LANES];
+    wi_store(lanes, v);
+    int32_t largest = lanes[0];
+    for (int i = 1; i < EWA_BLOCK_LANES; i++) largest = lanes[i] > largest ? lanes[i] : largest;
+    return largest;
 }
 
-static uint32_t edge_hits(const ewa_tile *tile, const ewa_edges *edges, const ewa_record *records,
-                          const uint16_t *candidates, uint32_t candidate_count, uint16_t *hits) {
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < candidate_count; i++) {
-        const uint16_t splat = candidates[i];
-        const ewa_record *r = &records[splat];
-        uint32_t wanted = 0;
-        for (uint32_t row = 0; row < box_rows(r->box); row++) wanted |= wanted_blocks(tile, edges, r, row);
-        hits[count] = splat;
-        count += wanted != 0;
-    }
-    return count;
+/// Fills the boxes of sixteen records from `at` on, of which `count` are there.
+static ALWAYS_INLINE void set_boxes(const ewa_record *records, uint32_t at, uint32_t count,
+                                    ewa_edge_boxes *boxes) {
+    const wm there = wm_of_bits(count < EWA_BLOCK_LANES ? (1u << count) - 1 : 0xffff);
+    const wi some = wi_set((int32_t)records[at].box);
+    const wi box = wi_of_bits(
+        wf_select(there, wf_load_column((const float *)(const void *)&records[at].box), wf_of_bits(some)));
+    const wi first = wi_and(box, wi_set(0xffff & ~EWA_STEEP_BIT));
+    wi_store(boxes->first + at, first);
+    wi_store(boxes->last + at, wi_add(wi_add(first, wi_sar(box, 16)), wi_set(EWA_BOX_GUARD - 0x0101)));
+    wf_store(boxes->key_low + at,
+             wf_select(there, wf_load_column(&records[at].key_low), wf_set(__builtin_inff())));
 }
 
-/// One splat in one marked block.
-static ALWAYS_INLINE void edge_block(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
-                                     const ewa_record *r, const ewa_load *load, uint32_t row, uint32_t column,
-                                     bool second_pass) {
-    const size_t block = block_at(tile, box_row(r->box) + row, column);
-    const column_terms c = column_start(r, (float)EWA_BLOCK_PX * ((float)column - (float)box_column(r->box)));
+/// Sets a group to the box and the key around sixteen-lane rows [at, end) of `boxes`.
+static ALWAYS_INLINE void set_group(const ewa_edge_boxes *boxes, uint32_t at, uint32_t end,
+                                    ewa_edge_boxes *groups, uint32_t group) {
+    const wi byte = wi_set(0x7f);
+    wi left = wi_set(0), above = left, right = left, below = left; // left and above counted from 127 down
+    wf nearer = wf_set(-__builtin_inff());
+    for (; at < end; at += EWA_BLOCK_LANES) {
+        const wi first = wi_load(boxes->first + at), last = wi_load(boxes->last + at);
+        left = wi_max(left, wi_sub(byte, wi_and(first, byte)));
+        above = wi_max(above, wi_sub(byte, wi_sar(first, 8)));
+        right = wi_max(right, wi_and(last, byte));
+        below = wi_max(below, wi_and(wi_sar(last, 8), byte));
+        nearer = wf_max(nearer, wf_negate(wf_load(boxes->key_low + at)));
+    }
+    groups->first[group] = (127 - largest_of(left)) | (127 - largest_of(above)) << 8;
+    groups->last[group] = largest_of(right) | largest_of(below) << 8 | EWA_BOX_GUARD;
+    groups->key_low[group] = -largest_lane(nearer);
+}
+
+static void edge_boxes(const ewa_record *records, ewa_edge_boxes *boxes, ewa_edge_boxes *groups) {
+    const uint32_t count = boxes->count;
+    groups->count = (count + EWA_GROUP_RECORDS - 1) / EWA_GROUP_RECORDS;
+    for (uint32_t i = 0; i < count; i += EWA_BLOCK_LANES) set_boxes(records, i, count - i, boxes);
+    for (uint32_t g = 0; g < groups->count; g++) {
+        const uint32_t first = g * EWA_GROUP_RECORDS, left = count - first;
+        set_group(boxes, first, first + (left < EWA_GROUP_RECORDS ? left : EWA_GROUP_RECORDS), groups, g);
+    }
+    for (uint32_t g = groups->count; g % EWA_BLOCK_LANES; g++) {
+        groups->first[g] = groups->last[g] = 0;
+        groups->key_low[g] = __builtin_inff();
+    }
+}
+
+/// The boxes [at, at + 16) that hold the block and whose splats may be beyond `reach`.
+static ALWAYS_INLINE wm holds_block(const ewa_edge_boxes *boxes, uint32_t at, wi block, wf reach) {
+    const wi guard = wi_set(EWA_BOX_GUARD);
+    const wi after_first = wi_sub(wi_or(block, guard), wi_load(boxes->first + at));
+    const wi before_last = wi_sub(wi_load(boxes->last + at), block);
+    const wf both = wf_from_i(wi_and(wi_and(after_first, before_last), guard));
+    return wm_and(wf_le(wf_set(EWA_BOX_GUARD), both), wf_lt(wf_load(boxes->key_low + at), reach));
+}
+
+static uint32_t edge_list(const ewa_edge_boxes *boxes, const ewa_edge_boxes *groups, uint32_t row,
+                          uint32_t column, float reach, uint32_t *indices) {
+    static const int32_t lane_numbers[EWA_BLOCK_LANES] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                          8, 9, 10, 11, 12, 13, 14, 15};
+    const wi block = wi_set((int32_t)(column | row << 8)), lanes = wi_load(lane_numbers);
+    const wf beyond = wf_set(reach);
+    uint32_t listed = 0;
+    for (uint32_t g = 0; g < groups->count; g += EWA_BLOCK_LANES) {
+        for (uint32_t bits = wm_bits(holds_block(groups, g, block, beyond)); bits; bits &= bits - 1) {
+            const uint32_t first = (g + (uint32_t)__builtin_ctz(bits)) * EWA_GROUP_RECORDS;
+            const uint32_t end =
+                first + EWA_GROUP_RECORDS < boxes->count ? first + EWA_GROUP_RECORDS : boxes->count;
+            for (uint32_t i = first; i < end; i += EWA_BLOCK_LANES) {
+                const wm hits = holds_block(boxes, i, block, beyond);
+                wi_pack((int32_t *)(void *)(indices + listed), hits, wi_add(lanes, wi_set((int32_t)i)));
+                listed += (uint32_t)__builtin_popcount(wm_bits(hits));
+            }
+        }
+    }
+    return listed;
+}
+
+/// s and key of a splat in one block of its box.
+typedef struct block_sample {
+    wf exponent, key;
+} block_sample;
+
+static ALWAYS_INLINE block_sample sample_block(const ewa_record *r, uint32_t row, uint32_t column) {
+    const float first_px = (float)EWA_BLOCK_PX * ((float)column - (float)box_column(r->box));
+    const column_terms c = column_start(r, r->key, r->key_x, first_px);
     wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
-    for (uint32_t i = 0; i < row; i++)
+    for (uint32_t i = box_row(r->box); i < row; i++)
         dy = wf_add(dy, wf_set(EWA_BLOCK_PX)); // as the passes over whole boxes step
-    const wf s = block_exponent(&c, dy, wf_mul(wf_mul(wf_set(r->yy), dy), dy));
-    const wf key = block_key(r, &c, wf_mul(wf_set(r->key_y), dy));
-    float *nearest = edges->nearest + block * EWA_BLOCK_LANES;
-    const wm beyond = wm_and(wf_lt(s, wf_set(view->exponent_end)),
-                             wf_lt(key, wf_load(edges->passed + block * EWA_BLOCK_LANES)));
-    if (!second_pass) {
-        const bool exact = r->bound_scale == 0;
-        const wf old = wf_load(nearest);
-        wf_store(nearest, wf_select(beyond, wf_max(bound_key(r, key, exact), old), old));
-        return;
-    }
-    const wm counts = wm_and(beyond, wf_le(wf_load(nearest), key));
-    if (!wm_bits(counts)) return;
-    payload add = {.color = {wf_set(r->red), wf_set(r->green), wf_set(r->blue)}};
-    for (int i = 0; i < 3; i++) add.normal[i] = wf_set(load->normal[i]);
-    const wf weight = wf_keep(counts, wf_mul(exponential(s, view->doublings), wf_set(load->peak)));
-    add_channels(edges->sums + block * tile->channel_count * EWA_BLOCK_LANES, weight, &add, key,
-                 tile->with_normals, false, false);
+    const wf key = wf_add(c.key, wf_mul(wf_set(r->key_y), dy));
+    return (block_sample){block_exponent(&c, dy, wf_mul(wf_mul(wf_set(r->yy), dy), dy)),
+                          box_steep(r->box) ? clamped_key(r, key) : key};
 }
 
-static void edge_pass(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
-                      const ewa_sorted_run *run, const uint16_t *hits, uint32_t hit_count, bool second_pass) {
-    for (uint32_t i = 0; i < hit_count; i++) {
-        const ewa_record *r = &run->records[hits[i]];
-        for (uint32_t row = 0; row < box_rows(r->box); row++)
-            for (uint32_t left = wanted_blocks(tile, edges, r, row); left; left &= left - 1)
-                edge_block(view, tile, edges, r, &run->loads[hits[i]], row, (uint32_t)__builtin_ctz(left),
-                           second_pass);
+/// Sixteen splats at one block: what its columns and rows of pixels share, a splat per lane.
+typedef struct splat_lanes {
+    wf quadratic[EWA_BLOCK_PX], cross[EWA_BLOCK_PX], key_x[EWA_BLOCK_PX],
+        bound_x[EWA_BLOCK_PX];                                                               ///< by column
+    wf dy[EWA_BLOCK_PX], yy_dy2[EWA_BLOCK_PX], key_dy[EWA_BLOCK_PX], bound_dy[EWA_BLOCK_PX]; ///< by row
+    wm steep;
+    wf key_low, key_high, bound_scale, bound_offset; ///< of steep ones
+} splat_lanes;
+
+/// The same numbers as column_terms and the passes over whole boxes get.
+static ALWAYS_INLINE splat_lanes load_splats(const ewa_record *records, const uint32_t *indices,
+                                             uint32_t count, uint32_t row, uint32_t column) {
+    wf f[EWA_BLOCK_LANES];
+    for (uint32_t i = 0; i < EWA_BLOCK_LANES; i++)
+        f[i] = wf_load(&records[indices[i < count ? i : count - 1]].offset_x);
+    w_transpose(f);
+    splat_lanes s = {.bound_scale = f[8], .bound_offset = f[9], .key_high = f[10], .key_low = f[11]};
+    const wi box = wi_of_bits(f[15]);
+    s.steep = wf_lt(wf_set(0), wf_from_i(wi_and(box, wi_set(EWA_STEEP_BIT))));
+    const wi columns = wi_sub(wi_set((int32_t)column), wi_and(box, wi_set(0x7f)));
+    const wf rows = wf_from_i(wi_sub(wi_set((int32_t)row), wi_and(wi_sar(box, 8), wi_set(0xff))));
+    const wf side = wf_set(EWA_BLOCK_PX), first_px = wf_add(f[0], wf_mul(side, wf_from_i(columns)));
+    for (int i = 0; i < EWA_BLOCK_PX; i++) {
+        const wf dx = wf_add(first_px, wf_set((float)i + 0.5f));
+        s.quadratic[i] = wf_mul(wf_mul(f[2], dx), dx);
+        s.cross[i] = wf_mul(f[3], dx);
+        s.key_x[i] = wf_fma(f[6], dx, f[5]);
+        s.bound_x[i] = wf_fma(f[9], dx, f[8]);
+        s.dy[i] = wf_add(f[1], wf_set((float)i + 0.5f));
     }
+    for (int steps = 0;; steps++) {
+        const wm more = wf_lt(wf_set((float)steps), rows);
+        if (!wm_bits(more)) break;
+        for (int i = 0; i < EWA_BLOCK_PX; i++) s.dy[i] = wf_select(more, wf_add(s.dy[i], side), s.dy[i]);
+    }
+    for (int i = 0; i < EWA_BLOCK_PX; i++) {
+        s.yy_dy2[i] = wf_mul(wf_mul(f[4], s.dy[i]), s.dy[i]);
+        s.key_dy[i] = wf_mul(f[7], s.dy[i]);
+        s.bound_dy[i] = wf_mul(f[10], s.dy[i]);
+    }
+    return s;
+}
+
+/// First pass: sixteen splats at a time, pixel by pixel, for few are open. Keeps in the list only what counts
+/// somewhere.
+static void edge_raise(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges, uint32_t row,
+                       uint32_t column, ewa_edge_splats *splats) {
+    const wf end = wf_set(view->exponent_end), never = wf_set(-__builtin_inff()), zero = wf_set(0);
+    const size_t at = block_at(tile, row, column) * EWA_BLOCK_LANES;
+    const float *passed = edges->passed + at;
+    const uint32_t open = wm_bits(wf_lt(never, wf_load(passed)));
+    wf nearest[EWA_BLOCK_LANES];
+    for (int i = 0; i < EWA_BLOCK_LANES; i++) nearest[i] = never;
+    uint32_t kept = 0;
+    for (uint32_t first = 0; first < splats->count; first += EWA_BLOCK_LANES) {
+        const uint32_t count = splats->count - first;
+        uint32_t *indices = splats->indices + first;
+        const splat_lanes s = load_splats(splats->records, indices, count, row, column);
+        const bool any_steep = wm_bits(s.steep) != 0;
+        const wm is_exact = wm_and(s.steep, wf_le(s.bound_scale, zero));
+        const bool any_exact = wm_bits(is_exact) != 0;
+        wf largest_key = never;
+        for (uint32_t left = open; left; left &= left - 1) {
+            const uint32_t pixel = (uint32_t)__builtin_ctz(left), x = pixel % EWA_BLOCK_PX,
+                           y = pixel / EWA_BLOCK_PX;
+            const wf exponent = wf_fma(s.cross[x], s.dy[y], wf_add(s.quadratic[x], s.yy_dy2[y]));
+            wf key = wf_add(s.key_x[x], s.key_dy[y]), bound = wf_add(s.bound_x[x], s.bound_dy[y]);
+            if (any_steep) {
+                key = wf_select(s.steep, wf_min(wf_max(key, s.key_low), s.key_high), key);
+                bound = wf_select(s.steep, wf_fma(s.bound_scale, key, s.bound_offset), bound);
+            }
+            const wm beyond = wm_and(wf_lt(exponent, end), wf_lt(key, wf_set(passed[pixel])));
+            if (any_exact) {
+                const wf exact = wf_mul(key, wf_reciprocal(wf_fma(s.bound_offset, key, wf_set(1))));
+                bound = wf_select(is_exact, exact, bound);
+            }
+            nearest[pixel] = wf_select(beyond, wf_max(bound, nearest[pixel]), nearest[pixel]);
+            largest_key = wf_select(beyond, wf_max(key, largest_key), largest_key);
+        }
+        const uint32_t there = count < EWA_BLOCK_LANES ? (1u << count) - 1 : 0xffff;
+        const wm keep = wm_and(wf_lt(never, largest_key), wm_of_bits(there));
+        wi_pack((int32_t *)(void *)(splats->indices + kept), keep,
+                wi_load((const int32_t *)(const void *)indices));
+        wf_pack(splats->largest_keys + kept, keep, largest_key);
+        kept += (uint32_t)__builtin_popcount(wm_bits(keep));
+    }
+    splats->count = kept;
+    for (uint32_t left = open; left; left &= left - 1) {
+        const uint32_t pixel = (uint32_t)__builtin_ctz(left);
+        edges->nearest[at + pixel] = largest_lane(wf_max(nearest[pixel], wf_set(edges->nearest[at + pixel])));
+    }
+}
+
+static ALWAYS_INLINE void edge_sum(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
+                                   uint32_t row, uint32_t column, const ewa_edge_splats *splats,
+                                   bool with_normals) {
+    const size_t block = block_at(tile, row, column), at = block * EWA_BLOCK_LANES;
+    const wf passed = wf_load(edges->passed + at), nearest = wf_load(edges->nearest + at);
+    const wf end = wf_set(view->exponent_end), never = wf_set(-__builtin_inff());
+    const wf behind_all = wf_set(__builtin_inff());
+    // Splats that are nowhere as near as what counts.
+    const float least_key =
+        -largest_lane(wf_sub(wf_set(0), wf_select(wf_lt(never, nearest), nearest, behind_all)));
+    float *sums = edges->sums + at * tile->channel_count;
+    for (uint32_t first = 0; first < splats->count; first += EWA_BLOCK_LANES) {
+        const uint32_t left = splats->count - first;
+        uint32_t near_enough = wm_bits(wf_le(wf_set(least_key), wf_load(splats->largest_keys + first)));
+        if (left < EWA_BLOCK_LANES) near_enough &= (1u << left) - 1;
+        for (; near_enough; near_enough &= near_enough - 1) {
+            const uint32_t index = splats->indices[first + (uint32_t)__builtin_ctz(near_enough)];
+            const ewa_record *r = &splats->records[index];
+            const block_sample sample = sample_block(r, row, column);
+            const wm beyond = wm_and(wf_lt(sample.exponent, end), wf_lt(sample.key, passed));
+            const wm counts = wm_and(beyond, wf_le(nearest, sample.key));
+            if (!wm_bits(counts)) continue;
+            const ewa_load *load = &splats->loads[index];
+            const payload add = payload_load(r, load, with_normals);
+            const wf weight = wf_keep(counts, exponential(sample.exponent, view->doublings));
+            add_channels(sums, weight, &add, sample.key, with_normals, false, false);
+        }
+    }
+}
+
+static void edge_pass(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges, uint32_t row,
+                      uint32_t column, ewa_edge_splats *splats, bool second_pass) {
+    if (!second_pass)
+        edge_raise(view, tile, edges, row, column, splats);
+    else if (tile->with_normals)
+        edge_sum(view, tile, edges, row, column, splats, true);
+    else
+        edge_sum(view, tile, edges, row, column, splats, false);
 }
 
 static void edge_near_pass(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
@@ -142,9 +308,10 @@ static wm compose_block(const ewa_tile *tile, const ewa_resolve *to, const ewa_e
                         uint32_t column) {
     enum { LANES = EWA_BLOCK_LANES };
     const size_t block = block_at(tile, row, column);
-    const surface found = gathered_surface(tile, to, edges->sums + block * tile->channel_count * LANES,
-                                           (uint32_t)tile->x_px + column * EWA_BLOCK_PX,
-                                           (uint32_t)tile->y_px + row * EWA_BLOCK_PX);
+    const float *sums = edges->sums + block * tile->channel_count * LANES;
+    const wf scale = color_scale(tile, to, sums, (uint32_t)tile->x_px + column * EWA_BLOCK_PX,
+                                 (uint32_t)tile->y_px + row * EWA_BLOCK_PX);
+    const surface found = gathered_surface(to, sums, scale);
     float *behind = edges->behind + block * 4 * LANES;
     const wf covered = wf_load(behind + 3 * LANES);
     const wf share = wf_mul(wf_sub(wf_set(1), covered), found.alpha);
@@ -152,7 +319,7 @@ static wm compose_block(const ewa_tile *tile, const ewa_resolve *to, const ewa_e
         wf_store(behind + c * LANES, wf_fma(found.color[c], share, wf_load(behind + c * LANES)));
     const wf total = wf_add(covered, share);
     wf_store(behind + 3 * LANES, total);
-    return wm_and(found.covered, wf_lt(total, wf_set(1)));
+    return wm_and(wf_lt(wf_set(0), wf_load(sums)), wf_lt(total, wf_set(1)));
 }
 
 static uint32_t edge_compose(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges *edges) {
@@ -160,13 +327,14 @@ static uint32_t edge_compose(const ewa_tile *tile, const ewa_resolve *to, const 
     for (uint32_t row = 0; row < tile->block_rows; row++) {
         for (uint32_t marked = edges->rows[row]; marked; marked &= marked - 1) {
             const uint32_t column = (uint32_t)__builtin_ctz(marked);
+            const size_t block = block_at(tile, row, column);
             const wm open = compose_block(tile, to, edges, row, column);
             if (wm_bits(open)) {
-                const size_t block = block_at(tile, row, column);
                 start_surface(tile, edges, block, open, wf_load(edges->nearest + block * EWA_BLOCK_LANES));
                 count++;
             } else {
                 edges->rows[row] &= ~(1u << column);
+                edges->reach[block] = -__builtin_inff();
             }
         }
     }

@@ -1,163 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of road_body.h: packets to tiles, surfels to records, records to classes.
+// Part of road_body.h: surfels to records, records to classes.
 //
 // Based on: Zwicker, Rasanen, Botsch, Dachsbacher, Pauly, "Perspective Accurate Splatting", 2004, section 4,
 // in the sheared form of math.md section 3, which single precision needs.
 #ifndef EWA_SRC_KERNELS_ROAD_PROJECT_H
 #define EWA_SRC_KERNELS_ROAD_PROJECT_H
 
-#include "kernels/road.h"
-#include "kernels/semantics.h"
-#include "math/wide.h"
+#include "kernels/road_camera.h"
 
 #include <string.h>
-
-/// 1 / x for normal x > 0 within 1.2e-7 relative: a guess from the bits, two cubic steps. Cheaper than a
-/// division, and the same on every machine.
-static ALWAYS_INLINE wf wf_reciprocal(wf x) {
-    wf y = wf_of_bits(wi_sub(wi_set(0x7ef311c3), wi_of_bits(x)));
-    for (int i = 0; i < 2; i++) {
-        const wf e = wf_fnma(x, y, wf_set(1));
-        y = wf_fma(y, wf_fma(e, e, e), y);
-    }
-    return y;
-}
-
-/// 1 / sqrt(x) for normal x > 0 within 1.5e-7 relative, likewise; x = 0 gives a large finite number.
-static ALWAYS_INLINE wf wf_inverse_root(wf x) {
-    wf y = wf_of_bits(wi_sub(wi_set(0x5f375a86), wi_sar(wi_of_bits(x), 1)));
-    for (int i = 0; i < 2; i++) {
-        const wf e = wf_fnma(wf_mul(x, y), y, wf_set(1));
-        y = wf_fma(wf_mul(y, e), wf_fma(e, wf_set(0.375f), wf_set(0.5f)), y);
-    }
-    return y;
-}
-
-/// sqrt(x) for x >= 0 within 2e-7 relative.
-static ALWAYS_INLINE wf wf_root(wf x) { return wf_mul(x, wf_inverse_root(x)); }
-
-static inline wf wf_clamp(wf a, float low, float high) {
-    return wf_min(wf_max(a, wf_set(low)), wf_set(high));
-}
-static inline wf wf_negate(wf a) { return wf_sub(wf_set(-0.0f), a); }
-
-/// Rows of a rotation times a vector.
-static inline void rotate(const float m[9], wf x, wf y, wf z, wf out[3]) {
-    for (int i = 0; i < 3; i++)
-        out[i] =
-            wf_fma(wf_set(m[3 * i]), x, wf_fma(wf_set(m[3 * i + 1]), y, wf_mul(wf_set(m[3 * i + 2]), z)));
-}
-
-static inline void to_camera(const ewa_view *view, wf x, wf y, wf z, wf out[3]) {
-    rotate(view->rotation, x, y, z, out);
-    for (int i = 0; i < 3; i++) out[i] = wf_fma(wf_set(view->scale), out[i], wf_set(view->translation[i]));
-}
-
-static inline float tile_count(uint32_t side_px, uint32_t tile_px) {
-    return (float)((side_px + tile_px - 1) / tile_px);
-}
-
-/// The tiles between two pixel coordinates along one axis, as floats within [0, tile_count].
-static inline void tile_range(wf low_px, wf high_px, float tile_px, float tiles, wf *first, wf *end) {
-    const wf per_px = wf_set(1.0f / tile_px);
-    *first = wf_clamp(wf_floor(wf_mul(low_px, per_px)), 0, tiles);
-    *end = wf_clamp(wf_add(wf_floor(wf_mul(high_px, per_px)), wf_set(1)), 0, tiles);
-}
-
-/// How far an affine ellipse of size z * `reach` extends from its centre, for centres within `half` of
-/// `middle`; pixels.
-static inline wf affine_reach(wf middle, wf half, wf reach, float f_px, float c_px) {
-    const wf slope_px = wf_add(wf_abs(wf_sub(middle, wf_set(c_px))), half);
-    return wf_mul(reach, wf_add(wf_set(f_px), slope_px));
-}
-
-static uint32_t cull(const ewa_view *view, const ewa_packet_bounds *bounds, uint32_t first, uint32_t count,
-                     ewa_tile_rect *rects) {
-    const float tile_px = (float)view->tile_px;
-    const float tiles_x = tile_count(view->width_px, view->tile_px),
-                tiles_y = tile_count(view->height_px, view->tile_px);
-    const wf margin_px = wf_set(view->reach_px + 1);
-    uint32_t culled = 0;
-    for (uint32_t i = 0; i < count; i += 16) {
-        const uint32_t p = first + i;
-        wf c[3], axis[3];
-        to_camera(view, wf_load(bounds->center_x + p), wf_load(bounds->center_y + p),
-                  wf_load(bounds->center_z + p), c);
-        const wf r = wf_mul(wf_load(bounds->radius + p), wf_set(view->scale));
-        wm alive, near;
-        wf x, y, half_x, half_y;
-        if (view->orthographic) {
-            alive = wf_lt(wf_negate(r), c[2]);
-            near = wm_of_bits(0);
-            x = wf_fma(c[0], wf_set(view->fx_px), wf_set(view->cx_px));
-            y = wf_fma(c[1], wf_set(view->fy_px), wf_set(view->cy_px));
-            half_x = wf_mul(r, wf_set(view->fx_px));
-            half_y = wf_mul(r, wf_set(view->fy_px));
-        } else {
-            alive = wf_lt(wf_negate(r), c[2]);
-            // The planes bound exact outlines, not affine ellipses.
-            for (int k = 0; k < 4 && !view->affine; k++) {
-                const float *n = view->side_planes[k];
-                const wf d =
-                    wf_fma(wf_set(n[0]), c[0], wf_fma(wf_set(n[1]), c[1], wf_mul(wf_set(n[2]), c[2])));
-                alive = wm_and(alive, wf_lt(wf_negate(r), d));
-            }
-            near = wf_le(c[2], wf_mul(r, wf_set((float)EWA_NEAR_RATIO)));
-            // The tight box of a sphere's outline: D = r^2 I - c'c (math.md section 3).
-            const wf r2 = wf_mul(r, r), z2 = wf_mul(c[2], c[2]);
-            const wf inverse = wf_div(wf_set(1), wf_sub(z2, r2));
-            const wf rx = wf_sqrt(wf_max(wf_fma(c[0], c[0], wf_sub(z2, r2)), wf_set(0)));
-            const wf ry = wf_sqrt(wf_max(wf_fma(c[1], c[1], wf_sub(z2, r2)), wf_set(0)));
-            const wf zi = wf_mul(c[2], inverse), ri = wf_mul(r, inverse);
-            x = wf_fma(wf_mul(c[0], zi), wf_set(view->fx_px), wf_set(view->cx_px));
-            y = wf_fma(wf_mul(c[1], zi), wf_set(view->fy_px), wf_set(view->cy_px));
-            half_x = wf_mul(wf_mul(rx, ri), wf_set(view->fx_px));
-            half_y = wf_mul(wf_mul(ry, ri), wf_set(view->fy_px));
-            if (view->affine) {
-                // Affine ellipses may leave the sphere's outline: |J t| <= (1 + |slope|) |t| / z around a
-                // centre in it.
-                const wf reach = wf_div(r, wf_sub(c[2], r));
-                half_x = wf_add(half_x, affine_reach(x, half_x, reach, view->fx_px, view->cx_px));
-                half_y = wf_add(half_y, affine_reach(y, half_y, reach, view->fy_px, view->cy_px));
-            }
-        }
-        if (view->cull_back) {
-            rotate(view->rotation, wf_load(bounds->axis_x + p), wf_load(bounds->axis_y + p),
-                   wf_load(bounds->axis_z + p), axis);
-            const wf sine = wf_load(bounds->cone_sine + p);
-            wm behind;
-            if (view->orthographic) {
-                behind = wf_lt(sine, axis[2]);
-            } else {
-                const wf along = wf_fma(axis[0], c[0], wf_fma(axis[1], c[1], wf_mul(axis[2], c[2])));
-                const wf length = wf_sqrt(wf_fma(c[0], c[0], wf_fma(c[1], c[1], wf_mul(c[2], c[2]))));
-                behind = wf_lt(wf_fma(length, sine, r), along);
-            }
-            alive = wm_and(alive, wm_not(behind));
-        }
-        const wf mx = wf_add(half_x, margin_px), my = wf_add(half_y, margin_px);
-        wf x0, x1, y0, y1;
-        tile_range(wf_sub(x, mx), wf_add(x, mx), tile_px, tiles_x, &x0, &x1);
-        tile_range(wf_sub(y, my), wf_add(y, my), tile_px, tiles_y, &y0, &y1);
-        x0 = wf_select(near, wf_set(0), x0), x1 = wf_select(near, wf_set(tiles_x), x1);
-        y0 = wf_select(near, wf_set(0), y0), y1 = wf_select(near, wf_set(tiles_y), y1);
-        alive = wm_and(alive, wm_and(wf_lt(x0, x1), wf_lt(y0, y1)));
-        int32_t corners[4][16];
-        wi_store(corners[0], wi_from_f(wf_keep(alive, x0)));
-        wi_store(corners[1], wi_from_f(wf_keep(alive, y0)));
-        wi_store(corners[2], wi_from_f(wf_keep(alive, x1)));
-        wi_store(corners[3], wi_from_f(wf_keep(alive, y1)));
-        const uint32_t here = count - i < 16 ? count - i : 16;
-        for (uint32_t k = 0; k < here; k++) {
-            rects[p + k] = (ewa_tile_rect){(uint16_t)corners[0][k], (uint16_t)corners[1][k],
-                                           (uint16_t)corners[2][k], (uint16_t)corners[3][k]};
-            culled += corners[0][k] == corners[2][k];
-        }
-    }
-    return culled;
-}
 
 /// Unit normals from their octahedral form.
 static inline void decode_normals(const ewa_packet *packet, wf n[3]) {
@@ -196,12 +49,17 @@ static inline wf decode_color(const ewa_view *view, const uint16_t *values, int 
                   wf_set(view->color_offset[channel]));
 }
 
+static inline wi select_int(wm m, int32_t a, wi b) {
+    return wi_of_bits(wf_select(m, wf_of_bits(wi_set(a)), wf_of_bits(b)));
+}
+
 /// Class of a splat: rows within columns, so that a class's neighbours share their unrolled column count.
-static inline wi box_classes(wi columns, wi rows) {
+static inline wi box_classes(wi columns, wi rows, wm steep, wm wide) {
     const wi row_class = wi_sub(wi_min(rows, wi_set(EWA_ROW_CLASSES)), wi_set(1));
-    const wi column = wi_sub(wi_min(columns, wi_set(EWA_COLUMN_CLASSES + 1)), wi_set(1));
-    const wi scaled = wi_add(wi_shl(column, 2), column); // times EWA_ROW_CLASSES
-    return wi_min(wi_add(scaled, row_class), wi_set(EWA_WIDE_CLASS));
+    const wi column = wi_sub(columns, wi_set(1));
+    const wi plain =
+        wi_add(wi_add(wi_shl(column, 2), column), row_class); // column EWA_ROW_CLASSES + row_class
+    return select_int(wide, EWA_WIDE_CLASS, wi_add(plain, select_int(steep, EWA_STEEP_CLASS, wi_set(0))));
 }
 
 /// Sixteen surfels between the steps of the setup. The steps are short loops over a few packets, so that the
@@ -212,7 +70,7 @@ typedef struct stage {
     wf sigma, minor, range;       ///< camera space: major and minor axis, depth half range R
     wf inverse_z, x0, y0, facing; ///< 1/pz, slopes of the centre, n.p / pz (orthographic: 1, 0, 0, nz)
     wf s11, s12, s22, s13, s23;   ///< sheared covariance
-    wf k;                         ///< 1 / (pz^2 - R^2)
+    wf root_k;                    ///< 1 / sqrt(pz^2 - R^2)
     wf c1, c2;                    ///< ellipse's centre minus the projected centre, slopes
     wf xx, xy, yy, peak;
     wf half_x, half_y;
@@ -220,8 +78,8 @@ typedef struct stage {
 } stage;
 
 /// First step: into camera space, near surfels aside, covariance.
-static ALWAYS_INLINE void stage_place(const ewa_view *view, const ewa_packet *packet, uint32_t id, stage *t,
-                                      ewa_run *run) {
+static ALWAYS_INLINE void stage_place(const ewa_view *view, const ewa_packet *packet, uint32_t id,
+                                      bool ellipses, stage *t, ewa_run *run) {
     const wf one = wf_set(1), zero = wf_set(0);
     wf n_world[3], axis[3] = {zero, zero, zero};
     to_camera(view, wf_load(packet->x), wf_load(packet->y), wf_load(packet->z), t->p);
@@ -233,7 +91,7 @@ static ALWAYS_INLINE void stage_place(const ewa_view *view, const ewa_packet *pa
     // Sigma = minor^2 (I - n'n) + extra axis'axis.
     wf minor2 = wf_mul(t->sigma, t->sigma), extra = zero;
     t->minor = t->sigma;
-    if (view->ellipses) {
+    if (ellipses) {
         wf axis_world[3];
         decode_axes(packet, n_world, axis_world);
         rotate(view->rotation, axis_world[0], axis_world[1], axis_world[2], axis);
@@ -242,10 +100,10 @@ static ALWAYS_INLINE void stage_place(const ewa_view *view, const ewa_packet *pa
         minor2 = wf_mul(t->minor, t->minor);
         extra = wf_sub(major2, minor2);
     }
-    const wf sigma33 =
-        wf_fma(minor2, wf_fma(n[0], n[0], wf_mul(n[1], n[1])), wf_mul(extra, wf_mul(axis[2], axis[2])));
+    wf sigma33 = wf_mul(minor2, wf_fma(n[0], n[0], wf_mul(n[1], n[1])));
+    if (ellipses) sigma33 = wf_fma(extra, wf_mul(axis[2], axis[2]), sigma33);
     const wf range2 = wf_mul(wf_set(view->cutoff2), sigma33);
-    t->range = wf_root(range2);
+    t->range = wf_sqrt(range2);
     t->alive = wf_lt(zero, t->sigma);
     if (view->orthographic) {
         t->alive = wm_and(t->alive, wf_lt(zero, p[2]));
@@ -256,34 +114,36 @@ static ALWAYS_INLINE void stage_place(const ewa_view *view, const ewa_packet *pa
         t->alive = wm_and(t->alive, wm_not(near));
         for (uint32_t bits = wm_bits(near), lane = 0; bits; bits >>= 1, lane++)
             if (bits & 1) run->near_surfels[run->near_count++] = id * EWA_PACKET_LANES + lane;
-        t->inverse_z = wf_reciprocal(p[2]);
+        t->inverse_z = wf_div(one, p[2]);
         t->x0 = wf_mul(p[0], t->inverse_z), t->y0 = wf_mul(p[1], t->inverse_z);
         t->facing = wf_fma(n[0], t->x0, wf_fma(n[1], t->y0, n[2]));
     }
     if (view->cull_back) t->alive = wm_and(t->alive, wf_lt(t->facing, zero));
-    t->k = wf_reciprocal(wf_fnma(wf_set(view->cutoff2), sigma33, wf_mul(p[2], p[2])));
+    t->root_k = view->orthographic ? one : wf_inverse_root(wf_sub(wf_mul(p[2], p[2]), range2));
 
     // G Sigma G' (math.md section 3), with m = n_xy - x0 nz and b = axis_xy - x0 axis_z.
     const wf m1 = wf_fnma(t->x0, n[2], n[0]), m2 = wf_fnma(t->y0, n[2], n[1]);
-    const wf b1 = wf_fnma(t->x0, axis[2], axis[0]), b2 = wf_fnma(t->y0, axis[2], axis[1]);
-    const wf e1 = wf_mul(extra, b1), e2 = wf_mul(extra, b2);
-    t->s11 = wf_fma(minor2, wf_fnma(m1, m1, wf_fma(t->x0, t->x0, one)), wf_mul(e1, b1));
-    t->s22 = wf_fma(minor2, wf_fnma(m2, m2, wf_fma(t->y0, t->y0, one)), wf_mul(e2, b2));
-    t->s12 = wf_fma(minor2, wf_fnma(m1, m2, wf_mul(t->x0, t->y0)), wf_mul(e1, b2));
-    t->s13 = wf_fnma(minor2, wf_fma(m1, n[2], t->x0), wf_mul(e1, axis[2]));
-    t->s23 = wf_fnma(minor2, wf_fma(m2, n[2], t->y0), wf_mul(e2, axis[2]));
+    t->s11 = wf_mul(minor2, wf_fnma(m1, m1, wf_fma(t->x0, t->x0, one)));
+    t->s22 = wf_mul(minor2, wf_fnma(m2, m2, wf_fma(t->y0, t->y0, one)));
+    t->s12 = wf_mul(minor2, wf_fnma(m1, m2, wf_mul(t->x0, t->y0)));
+    t->s13 = wf_mul(wf_negate(minor2), wf_fma(m1, n[2], t->x0));
+    t->s23 = wf_mul(wf_negate(minor2), wf_fma(m2, n[2], t->y0));
+    if (ellipses) {
+        const wf b1 = wf_fnma(t->x0, axis[2], axis[0]), b2 = wf_fnma(t->y0, axis[2], axis[1]);
+        const wf e1 = wf_mul(extra, b1), e2 = wf_mul(extra, b2);
+        t->s11 = wf_fma(e1, b1, t->s11), t->s12 = wf_fma(e1, b2, t->s12), t->s22 = wf_fma(e2, b2, t->s22);
+        t->s13 = wf_fma(e1, axis[2], t->s13), t->s23 = wf_fma(e2, axis[2], t->s23);
+    }
 }
 
 /// Second step: the filtered ellipse (math.md sections 3 and 4) and the slope of the key.
 static ALWAYS_INLINE void stage_shape(const ewa_view *view, stage *t) {
     const wf one = wf_set(1), zero = wf_set(0);
     const wf fx = wf_set(view->fx_px), fy = wf_set(view->fy_px);
-    wf k = one;
+    const wf root_k = view->affine && !view->orthographic ? t->inverse_z : t->root_k;
+    const wf k = wf_mul(root_k, root_k);
     t->c1 = zero, t->c2 = zero;
-    if (view->affine && !view->orthographic) {
-        k = wf_mul(t->inverse_z, t->inverse_z);
-    } else if (!view->orthographic) {
-        k = t->k;
+    if (!view->affine && !view->orthographic) {
         const wf f2k = wf_mul(wf_set(-view->cutoff2), k);
         t->c1 = wf_mul(f2k, t->s13), t->c2 = wf_mul(f2k, t->s23);
     }
@@ -294,29 +154,50 @@ static ALWAYS_INLINE void stage_shape(const ewa_view *view, stage *t) {
     // |V| in closed form: |D| is -(F^2 minor major n.p)^2, so nothing cancels for edge-on surfels.
     const wf plane = view->orthographic ? t->facing : wf_mul(t->facing, t->p[2]);
     const wf area = wf_mul(wf_mul(wf_mul(t->minor, t->sigma), wf_mul(fx, fy)), plane);
-    const wf det = wf_mul(wf_mul(area, area), wf_mul(wf_mul(k, k), k));
+    const wf root_det = wf_mul(wf_abs(area), wf_mul(k, root_k));
     const wf h2 = wf_set(view->prefilter2_px2);
     const wf w11 = wf_add(v11, h2), w22 = wf_add(v22, h2);
-    const wf det_filtered = wf_fma(h2, wf_add(wf_add(v11, v22), h2), det);
+    const wf det_filtered = wf_fma(h2, wf_add(wf_add(v11, v22), h2), wf_mul(root_det, root_det));
     // Without a prefilter an edge-on splat is a line of no area: it covers no pixel.
     t->alive = wm_and(t->alive, wf_lt(wf_mul(wf_set((float)EWA_FLAT), wf_mul(w11, w22)), det_filtered));
-    const wf inverse_det = wf_reciprocal(det_filtered);
-    const wf scaled = wf_mul(inverse_det, wf_set(view->exponent_scale));
-    t->peak = wf_mul(wf_root(wf_mul(det, inverse_det)), wf_set((float)EWA_INVERSE_TWO_PI));
+    const wf inverse_root_det = wf_inverse_root(det_filtered);
+    const wf scaled = wf_mul(wf_mul(inverse_root_det, inverse_root_det), wf_set(view->exponent_scale));
+    t->peak = wf_mul(wf_mul(root_det, inverse_root_det), wf_set((float)EWA_INVERSE_TWO_PI));
     t->xx = wf_mul(w22, scaled);
     t->xy = wf_mul(wf_mul(v12, wf_set(-2)), scaled);
     t->yy = wf_mul(w11, scaled);
-    t->half_x = wf_mul(wf_set(view->cutoff), wf_root(w11));
-    t->half_y = wf_mul(wf_set(view->cutoff), wf_root(w22));
+    t->half_x = wf_mul(wf_set(view->cutoff), wf_sqrt(w11));
+    t->half_y = wf_mul(wf_set(view->cutoff), wf_sqrt(w22));
 
     // The key's plane: n_xy / n.p, with |n.p| raised where the surfel is seen edge-on.
-    const wf lowest = wf_set((float)EWA_EDGE_ON);
-    const wf ray = wf_fma(t->x0, t->x0, wf_fma(t->y0, t->y0, one)); // |p|^2 / pz^2; orthographic 1
-    const wf raised = wf_max(wf_abs(t->facing), wf_mul(lowest, wf_root(ray)));
-    const wf tilt = wf_mul(wf_reciprocal(raised), t->inverse_z);
+    const wf lowest2 = wf_set((float)(EWA_EDGE_ON * EWA_EDGE_ON));
+    const wf ray2 = wf_fma(t->x0, t->x0, wf_fma(t->y0, t->y0, one)); // |p|^2 / pz^2; orthographic 1
+    const wf raised2 = wf_max(wf_mul(t->facing, t->facing), wf_mul(lowest2, ray2));
+    const wf tilt = wf_mul(wf_inverse_root(raised2), t->inverse_z);
     const wf signed_tilt = wf_select(wf_lt(t->facing, zero), wf_negate(tilt), tilt);
     t->key_x = wf_mul(wf_mul(t->n[0], signed_tilt), wf_set(1 / view->fx_px));
     t->key_y = wf_mul(wf_mul(t->n[1], signed_tilt), wf_set(1 / view->fy_px));
+}
+
+/// Appends the records of the lanes in `alive_bits`. May write EWA_PACKET_LANES entries whatever they are.
+static ALWAYS_INLINE void emit(ewa_run *run, uint32_t alive_bits, const wf records[16], const float loads[64],
+                               const uint8_t classes[16]) {
+    uint32_t at = run->count;
+    if (alive_bits == 0xffff) { // most packets lie within one tile
+        for (uint32_t lane = 0; lane < 16; lane++)
+            wf_store((float *)(void *)&run->records[at + lane], records[lane]);
+        memcpy(&run->loads[at], loads, 16 * sizeof run->loads[at]);
+        memcpy(&run->classes[at], classes, 16);
+        run->count = at + 16;
+        return;
+    }
+    for (uint32_t lane = 0; lane < 16; lane++) {
+        wf_store((float *)(void *)&run->records[at], records[lane]);
+        memcpy(&run->loads[at], &loads[4 * lane], sizeof run->loads[at]);
+        run->classes[at] = classes[lane];
+        at += alive_bits >> lane & 1;
+    }
+    run->count = at;
 }
 
 /// Third step: tolerance, box in the tile, and the records of the lanes that are in it.
@@ -326,18 +207,26 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
     const wf fx = wf_set(view->fx_px), fy = wf_set(view->fy_px);
     const wf *p = t->p;
     const wf c1_px = wf_mul(t->c1, fx), c2_px = wf_mul(t->c2, fy);
-    const wf slope = wf_root(wf_fma(t->key_x, t->key_x, wf_mul(t->key_y, t->key_y)));
-    wf key, key_low, key_high, per_px = slope;
+    const wf slope = wf_sqrt(wf_fma(t->key_x, t->key_x, wf_mul(t->key_y, t->key_y)));
+    // The depth that the prefilter reaches across, the most that goes into the tolerance, and how far the
+    // plane may be used beyond the disc's range; the latter in units of the key.
+    const wf support = wf_mul(wf_set(view->cutoff), t->sigma), reach = wf_mul(wf_set(view->reach_px), slope);
+    wf key, key_low, key_high, reach_depth = reach;
+    wf limit =
+        wf_min(wf_mul(wf_set((float)EWA_FREE_RADII), support), wf_mul(wf_set((float)EWA_FREE_DEPTH), p[2]));
     if (view->orthographic) {
         key = wf_negate(p[2]);
         key_low = wf_negate(wf_add(p[2], t->range)), key_high = wf_sub(t->range, p[2]);
     } else {
+        const wf k = wf_mul(t->root_k, t->root_k), inverse_z2 = wf_mul(t->inverse_z, t->inverse_z);
         key = wf_fma(t->key_x, c1_px, wf_fma(t->key_y, c2_px, t->inverse_z));
-        key_low = wf_mul(wf_sub(p[2], t->range), t->k), key_high = wf_mul(wf_add(p[2], t->range), t->k);
-        per_px = wf_mul(slope, wf_mul(p[2], p[2]));
+        key_low = wf_mul(wf_sub(p[2], t->range), k), key_high = wf_mul(wf_add(p[2], t->range), k);
+        reach_depth = wf_mul(reach, wf_mul(p[2], p[2]));
+        limit = wf_mul(limit, inverse_z2);
     }
-    const wf grazing =
-        wf_min(wf_mul(wf_set(view->reach_px), per_px), wf_mul(wf_set(view->grazing_limit), t->sigma));
+    const wf margin = wf_max(wf_sub(limit, reach), zero);
+    const wf grazing = wf_min(wf_mul(wf_set(view->grazing), reach_depth),
+                              wf_mul(wf_set((float)EWA_GRAZING_TOLERANCE), support));
     const wf tolerance = wf_fma(wf_set(view->tolerance), t->sigma, grazing);
     const wf px = view->orthographic ? p[0] : t->x0, py = view->orthographic ? p[1] : t->y0;
     const wf cx = wf_add(wf_fma(px, fx, wf_set(view->cx_px - (float)tile->x_px)), c1_px);
@@ -355,21 +244,24 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
     const wi row = wi_sar(wi_from_f(wf_keep(alive, first_y)), 2);
     const wi columns = wi_add(wi_sub(wi_sar(wi_from_f(wf_keep(alive, last_x)), 2), column), wi_set(1));
     const wi rows = wi_add(wi_sub(wi_sar(wi_from_f(wf_keep(alive, last_y)), 2), row), wi_set(1));
-    const wi box = wi_or(wi_or(column, wi_shl(row, 8)), wi_or(wi_shl(columns, 16), wi_shl(rows, 24)));
+    // Wide splats are wide also where only a narrow part of them is in the tile: its pixels are far from the
+    // centre.
+    const wf half_end_px = wf_set(EWA_COLUMN_CLASSES * EWA_BLOCK_PX / 2);
+    const wm wide = wm_or(wf_lt(half_end_px, wf_max(t->half_x, t->half_y)),
+                          wf_lt(wf_set(EWA_COLUMN_CLASSES), wf_from_i(columns)));
+    // Affine ellipses reach beyond what discs cover, so that their planes may end anywhere.
+    const wm steep = wm_or(wide, view->affine ? wm_of_bits(0xffff) : wf_lt(margin, reach));
+    const wi steep_bit = wi_of_bits(wf_keep(steep, wf_of_bits(wi_set(EWA_STEEP_BIT))));
+    const wi box =
+        wi_or(wi_or(wi_or(column, steep_bit), wi_shl(row, 8)), wi_or(wi_shl(columns, 16), wi_shl(rows, 24)));
 
-    // The key of z + eps, 1 / (1 / key + eps), as its tangent at the centre; wide splats are evaluated
-    // exactly, also where only a narrow part of them is in the tile: its pixels are far from the centre.
-    wf bound_scale = one, bound_offset = wf_negate(tolerance), class_columns = wf_from_i(columns);
+    // The key of z + eps; perspective: the tangent at the centre of 1 / (1 / key + eps).
+    wf bound_scale = one, bound_offset = wf_negate(tolerance);
     if (!view->orthographic) {
-        const wf share = wf_mul(p[2], wf_reciprocal(wf_add(p[2], tolerance)));
-        const wf half_end_px = wf_set(EWA_COLUMN_CLASSES * EWA_BLOCK_PX / 2);
-        const wm exact = wm_or(wf_lt(wf_set(EWA_COLUMN_CLASSES), class_columns),
-                               wf_lt(half_end_px, wf_max(t->half_x, t->half_y)));
-        class_columns = wf_select(exact, wf_set(EWA_COLUMN_CLASSES + 1), class_columns);
-        bound_scale = wf_select(exact, zero, wf_mul(share, share));
-        bound_offset = wf_select(exact, tolerance, wf_mul(wf_sub(share, wf_mul(share, share)), t->inverse_z));
+        const wf share = wf_div(p[2], wf_add(p[2], tolerance)), share2 = wf_mul(share, share);
+        bound_scale = wf_select(wide, zero, share2);
+        bound_offset = wf_select(wide, tolerance, wf_mul(wf_sub(share, share2), t->inverse_z));
     }
-
     wf lanes[16] = {
         wf_sub(wf_from_i(wi_shl(column, 2)), cx),
         wf_sub(wf_from_i(wi_shl(row, 2)), cy),
@@ -379,35 +271,29 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
         key,
         t->key_x,
         t->key_y,
-        key_low,
-        key_high,
-        bound_scale,
-        bound_offset,
-        decode_color(view, packet->red, 0),
-        decode_color(view, packet->green, 1),
-        decode_color(view, packet->blue, 2),
+        wf_select(steep, bound_scale, wf_fma(bound_scale, key, bound_offset)),
+        wf_select(steep, bound_offset, wf_mul(bound_scale, t->key_x)),
+        wf_select(steep, wf_add(key_high, margin), wf_mul(bound_scale, t->key_y)),
+        wf_sub(key_low, margin),
+        wf_mul(t->peak, decode_color(view, packet->red, 0)),
+        wf_mul(t->peak, decode_color(view, packet->green, 1)),
+        wf_mul(t->peak, decode_color(view, packet->blue, 2)),
         wf_of_bits(box),
     };
     w_transpose(lanes);
-    const wm away = wf_lt(zero, t->facing); // normals face the viewer
+    // Normals face the viewer.
+    const wf facing_peak = wf_select(wf_lt(zero, t->facing), wf_negate(t->peak), t->peak);
     float loads[64];
-    w_store4(loads, wf_select(away, wf_negate(t->n[0]), t->n[0]),
-             wf_select(away, wf_negate(t->n[1]), t->n[1]), wf_select(away, wf_negate(t->n[2]), t->n[2]),
+    w_store4(loads, wf_mul(facing_peak, t->n[0]), wf_mul(facing_peak, t->n[1]), wf_mul(facing_peak, t->n[2]),
              t->peak);
-    int32_t classes[16];
-    wi_store(classes, box_classes(wi_from_f(wf_keep(alive, class_columns)), rows));
-    uint32_t at = run->count;
-    for (uint32_t lane = 0; lane < 16; lane++) {
-        wf_store((float *)(void *)&run->records[at], lanes[lane]);
-        memcpy(&run->loads[at], &loads[4 * lane], sizeof run->loads[at]);
-        run->classes[at] = (uint8_t)classes[lane];
-        at += alive_bits >> lane & 1;
-    }
-    run->count = at;
+    uint8_t classes[16];
+    wi_store_u8(classes, box_classes(columns, rows, steep, wide));
+    emit(run, alive_bits, lanes, loads, classes);
 }
 
-static void setup(const ewa_view *view, const ewa_packet *packets, const uint32_t *packet_ids, uint32_t count,
-                  uint32_t announced, const ewa_tile *tile, ewa_run *run) {
+static ALWAYS_INLINE void setup_run(const ewa_view *view, const ewa_packet *packets,
+                                    const uint32_t *packet_ids, uint32_t count, uint32_t announced,
+                                    bool ellipses, const ewa_tile *tile, ewa_run *run) {
     enum { TOGETHER = 4, AHEAD = 12, LINE_BYTES = 64 };
     stage stages[TOGETHER];
     run->count = 0;
@@ -421,12 +307,20 @@ static void setup(const ewa_view *view, const ewa_packet *packets, const uint32_
                 for (size_t line = 0; line < sizeof(ewa_packet) + LINE_BYTES - 1; line += LINE_BYTES)
                     __builtin_prefetch(later + line);
             }
-            stage_place(view, &packets[ids[i]], ids[i], &stages[i], run);
+            stage_place(view, &packets[ids[i]], ids[i], ellipses, &stages[i], run);
         }
         for (uint32_t i = 0; i < here; i++) stage_shape(view, &stages[i]);
         for (uint32_t i = 0; i < here; i++)
             if (wm_bits(stages[i].alive)) stage_emit(view, &packets[ids[i]], tile, &stages[i], run);
     }
+}
+
+static void setup(const ewa_view *view, const ewa_packet *packets, const uint32_t *packet_ids, uint32_t count,
+                  uint32_t announced, const ewa_tile *tile, ewa_run *run) {
+    if (view->ellipses)
+        setup_run(view, packets, packet_ids, count, announced, true, tile, run);
+    else
+        setup_run(view, packets, packet_ids, count, announced, false, tile, run);
 }
 
 #endif

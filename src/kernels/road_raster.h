@@ -31,32 +31,38 @@ static ALWAYS_INLINE wf lanes_y(void) {
     return wf_load(y);
 }
 
-/// What the blocks of one column of a record's box share.
-typedef struct column_terms {
-    wf quadratic, cross, key;
-} column_terms;
-
-static ALWAYS_INLINE column_terms column_start(const ewa_record *r, float first_px) {
-    const wf dx = wf_add(lanes_x(), wf_set(r->offset_x + first_px));
-    return (column_terms){wf_mul(wf_mul(wf_set(r->xx), dx), dx), wf_mul(wf_set(r->xy), dx),
-                          wf_fma(wf_set(r->key_x), dx, wf_set(r->key))};
-}
-
-/// s of a block and its clamped key.
-static ALWAYS_INLINE wf block_exponent(const column_terms *c, wf dy, wf yy_dy2) {
-    return wf_fma(c->cross, dy, wf_add(c->quadratic, yy_dy2));
-}
-
-static ALWAYS_INLINE wf block_key(const ewa_record *r, const column_terms *c, wf key_dy) {
-    return wf_min(wf_max(wf_add(c->key, key_dy), wf_set(r->key_low)), wf_set(r->key_high));
-}
-
-static ALWAYS_INLINE uint32_t box_column(uint32_t box) { return box & 0xff; }
+static ALWAYS_INLINE uint32_t box_column(uint32_t box) { return box & 0x7f; }
+static ALWAYS_INLINE bool box_steep(uint32_t box) { return box & EWA_STEEP_BIT; }
 static ALWAYS_INLINE uint32_t box_row(uint32_t box) { return box >> 8 & 0xff; }
 static ALWAYS_INLINE uint32_t box_columns(uint32_t box) { return box >> 16 & 0xff; }
 static ALWAYS_INLINE uint32_t box_rows(uint32_t box) { return box >> 24; }
 
-/// The key of z + eps.
+/// What the blocks of one column of a record's box share: the terms without dy of s and of a key's plane.
+typedef struct column_terms {
+    wf quadratic, cross, key;
+} column_terms;
+
+/// Of s and of the plane (key, key_x).
+static ALWAYS_INLINE column_terms column_start(const ewa_record *r, float key, float key_x, float first_px) {
+    const wf dx = wf_add(lanes_x(), wf_set(r->offset_x + first_px));
+    return (column_terms){wf_mul(wf_mul(wf_set(r->xx), dx), dx), wf_mul(wf_set(r->xy), dx),
+                          wf_fma(wf_set(key_x), dx, wf_set(key))};
+}
+
+/// s of a block.
+static ALWAYS_INLINE wf block_exponent(const column_terms *c, wf dy, wf yy_dy2) {
+    return wf_fma(c->cross, dy, wf_add(c->quadratic, yy_dy2));
+}
+
+/// How the splats of a class test their depth (ewa_record).
+typedef enum depth_test { PLAIN, STEEP, WIDE } depth_test;
+
+/// A steep or wide splat's key, from that of its plane.
+static ALWAYS_INLINE wf clamped_key(const ewa_record *r, wf key) {
+    return wf_min(wf_max(key, wf_set(r->key_low)), wf_set(r->key_high));
+}
+
+/// A steep or wide splat's key of z + eps, from its key.
 static ALWAYS_INLINE wf bound_key(const ewa_record *r, wf key, bool exact) {
     const wf offset = wf_set(r->bound_offset);
     if (exact) return wf_mul(key, wf_reciprocal(wf_fma(offset, key, wf_set(1))));
@@ -65,21 +71,28 @@ static ALWAYS_INLINE wf bound_key(const ewa_record *r, wf key, bool exact) {
 
 static ALWAYS_INLINE void visibility_rows(const ewa_view *view, const ewa_tile *tile, const ewa_record *r,
                                           uint32_t first_column, uint32_t columns, uint32_t rows,
-                                          bool exact) {
+                                          depth_test test) {
+    const float plane = test == PLAIN ? r->bound : r->key;
+    const float plane_x = test == PLAIN ? r->bound_x : r->key_x;
+    const float plane_y = test == PLAIN ? r->bound_y : r->key_y;
     column_terms c[EWA_COLUMN_CLASSES];
     UNROLL_COLUMNS
-    for (uint32_t i = 0; i < columns; i++) c[i] = column_start(r, (float)(EWA_BLOCK_PX * (first_column + i)));
+    for (uint32_t i = 0; i < columns; i++)
+        c[i] = column_start(r, plane, plane_x, (float)(EWA_BLOCK_PX * (first_column + i)));
     const wf end = wf_set(view->exponent_end);
     const size_t row_floats = (size_t)tile->blocks_per_row * EWA_BLOCK_LANES;
     float *nearest = tile->nearest + box_row(r->box) * row_floats +
                      (size_t)(box_column(r->box) + first_column) * EWA_BLOCK_LANES;
     wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
     for (uint32_t row = 0; row < rows; row++, nearest += row_floats, dy = wf_add(dy, wf_set(EWA_BLOCK_PX))) {
-        const wf yy_dy2 = wf_mul(wf_mul(wf_set(r->yy), dy), dy), key_dy = wf_mul(wf_set(r->key_y), dy);
+        const wf yy_dy2 = wf_mul(wf_mul(wf_set(r->yy), dy), dy), plane_dy = wf_mul(wf_set(plane_y), dy);
         UNROLL_COLUMNS
         for (uint32_t i = 0; i < columns; i++) {
             float *block = nearest + (size_t)i * EWA_BLOCK_LANES;
-            const wf old = wf_load(block), bound = bound_key(r, block_key(r, &c[i], key_dy), exact);
+            const wf old = wf_load(block);
+            wf bound = wf_add(c[i].key, plane_dy);
+            if (test != PLAIN)
+                bound = bound_key(r, clamped_key(r, bound), test == WIDE && !view->orthographic);
             const wm counts = wf_lt(block_exponent(&c[i], dy, yy_dy2), end);
             wf_store(block, wf_select(counts, wf_max(bound, old), old));
         }
@@ -93,40 +106,40 @@ typedef struct pass {
     const ewa_sorted_run *run;
 } pass;
 
-typedef void splat_rows(const pass *p, uint32_t splat, uint32_t first_column, uint32_t columns,
-                        uint32_t rows);
+typedef void splat_rows(const pass *p, uint32_t splat, uint32_t first_column, uint32_t columns, uint32_t rows,
+                        depth_test test);
 
-/// Calls `body` with the column count a constant in each class and the row count the same along a class, so
-/// that its loops are unrolled or predicted.
-static ALWAYS_INLINE void for_each_splat(const pass *p, splat_rows *body, splat_rows *wide_body) {
+/// Calls `body` with the column count and the test constants in each class and the row count the same along
+/// a class, so that its loops are unrolled or predicted.
+static ALWAYS_INLINE void for_each_splat(const pass *p, splat_rows *body) {
     const uint16_t *first = p->run->class_first, *order = p->run->order;
     const ewa_record *r = p->run->records;
     UNROLL_COLUMNS
     for (uint32_t columns = 1; columns <= EWA_COLUMN_CLASSES; columns++)
         for (uint32_t i = first[(columns - 1) * EWA_ROW_CLASSES]; i < first[columns * EWA_ROW_CLASSES]; i++)
-            body(p, order[i], 0, columns, box_rows(r[order[i]].box));
-    for (uint32_t i = first[EWA_WIDE_CLASS]; i < first[EWA_CLASS_COUNT]; i++) {
+            body(p, order[i], 0, columns, box_rows(r[order[i]].box), PLAIN);
+    first += EWA_STEEP_CLASS;
+    UNROLL_COLUMNS
+    for (uint32_t columns = 1; columns <= EWA_COLUMN_CLASSES; columns++)
+        for (uint32_t i = first[(columns - 1) * EWA_ROW_CLASSES]; i < first[columns * EWA_ROW_CLASSES]; i++)
+            body(p, order[i], 0, columns, box_rows(r[order[i]].box), STEEP);
+    first += EWA_STEEP_CLASS;
+    for (uint32_t i = first[0]; i < first[1]; i++) {
         const uint32_t columns = box_columns(r[order[i]].box), rows = box_rows(r[order[i]].box);
         uint32_t column = 0;
-        for (; column + 4 <= columns; column += 4) wide_body(p, order[i], column, 4, rows);
-        for (; column < columns; column++) wide_body(p, order[i], column, 1, rows);
+        for (; column + 4 <= columns; column += 4) body(p, order[i], column, 4, rows, WIDE);
+        for (; column < columns; column++) body(p, order[i], column, 1, rows, WIDE);
     }
 }
 
 static ALWAYS_INLINE void raise_rows(const pass *p, uint32_t splat, uint32_t first_column, uint32_t columns,
-                                     uint32_t rows) {
-    visibility_rows(p->view, p->tile, &p->run->records[splat], first_column, columns, rows, false);
-}
-
-static ALWAYS_INLINE void raise_wide_rows(const pass *p, uint32_t splat, uint32_t first_column,
-                                          uint32_t columns, uint32_t rows) {
-    visibility_rows(p->view, p->tile, &p->run->records[splat], first_column, columns, rows,
-                    !p->view->orthographic);
+                                     uint32_t rows, depth_test test) {
+    visibility_rows(p->view, p->tile, &p->run->records[splat], first_column, columns, rows, test);
 }
 
 static void visibility(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run) {
     const pass p = {view, tile, run};
-    for_each_splat(&p, raise_rows, raise_wide_rows);
+    for_each_splat(&p, raise_rows);
 }
 
 static void clear(const ewa_tile *tile) {
@@ -137,15 +150,23 @@ static void clear(const ewa_tile *tile) {
     for (size_t i = 0; i < floats; i += EWA_BLOCK_LANES) wf_store(tile->sums + i, zero);
 }
 
-/// What a record adds per unit of weight, and which channels there are.
+/// What a record adds where its kernel is at its peak.
 typedef struct payload {
-    wf color[3], normal[3];
+    wf peak, color[3], normal[3];
 } payload;
 
+static ALWAYS_INLINE payload payload_load(const ewa_record *r, const ewa_load *load, bool with_normals) {
+    payload p = {.peak = wf_set(load->peak), .color = {wf_set(r->red), wf_set(r->green), wf_set(r->blue)}};
+    if (with_normals)
+        for (int i = 0; i < 3; i++) p.normal[i] = wf_set(load->normal[i]);
+    return p;
+}
+
+/// `weight` is relative to the kernel's peak.
 static ALWAYS_INLINE void add_channels(float *sums, wf weight, const payload *p, wf key, bool with_normals,
                                        bool with_depth, bool orthographic) {
     enum { LANES = EWA_BLOCK_LANES };
-    wf_store(sums, wf_add(wf_load(sums), weight));
+    wf_store(sums, wf_fma(weight, p->peak, wf_load(sums)));
     for (int i = 0; i < 3; i++)
         wf_store(sums + (1 + i) * LANES, wf_fma(weight, p->color[i], wf_load(sums + (1 + i) * LANES)));
     if (with_normals)
@@ -154,26 +175,24 @@ static ALWAYS_INLINE void add_channels(float *sums, wf weight, const payload *p,
     if (with_depth) {
         const int at = with_normals ? 7 : 4;
         const wf z = orthographic ? wf_negate(key) : wf_div(wf_set(1), key);
-        wf_store(sums + at * LANES, wf_fma(weight, z, wf_load(sums + at * LANES)));
+        wf_store(sums + at * LANES, wf_fma(wf_mul(weight, p->peak), z, wf_load(sums + at * LANES)));
     }
 }
 
 static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_t first_column,
                                           uint32_t columns, uint32_t rows, bool with_normals, bool with_depth,
-                                          bool orthographic, bool two_doublings) {
+                                          bool orthographic, bool two_doublings, depth_test test) {
     const ewa_view *view = p->view;
     const ewa_tile *tile = p->tile;
     const ewa_record *r = &p->run->records[splat];
-    const ewa_load *load = &p->run->loads[splat];
     const uint32_t channels = 4 + (with_normals ? 3 : 0) + (with_depth ? 1 : 0);
     const uint32_t doublings = two_doublings ? 2 : view->doublings;
     column_terms c[EWA_COLUMN_CLASSES];
     UNROLL_COLUMNS
-    for (uint32_t i = 0; i < columns; i++) c[i] = column_start(r, (float)(EWA_BLOCK_PX * (first_column + i)));
-    payload add = {.color = {wf_set(r->red), wf_set(r->green), wf_set(r->blue)}};
-    if (with_normals)
-        for (int i = 0; i < 3; i++) add.normal[i] = wf_set(load->normal[i]);
-    const wf end = wf_set(view->exponent_end), peak = wf_set(load->peak);
+    for (uint32_t i = 0; i < columns; i++)
+        c[i] = column_start(r, r->key, r->key_x, (float)(EWA_BLOCK_PX * (first_column + i)));
+    const payload add = payload_load(r, &p->run->loads[splat], with_normals);
+    const wf end = wf_set(view->exponent_end);
     const size_t row_blocks = tile->blocks_per_row;
     const size_t first_block = box_row(r->box) * row_blocks + box_column(r->box) + first_column;
     const float *nearest = tile->nearest + first_block * EWA_BLOCK_LANES;
@@ -183,10 +202,12 @@ static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_
         const wf yy_dy2 = wf_mul(wf_mul(wf_set(r->yy), dy), dy), key_dy = wf_mul(wf_set(r->key_y), dy);
         UNROLL_COLUMNS
         for (uint32_t i = 0; i < columns; i++) {
-            const wf s = block_exponent(&c[i], dy, yy_dy2), key = block_key(r, &c[i], key_dy);
+            const wf s = block_exponent(&c[i], dy, yy_dy2);
+            wf key = wf_add(c[i].key, key_dy);
+            if (test != PLAIN) key = clamped_key(r, key);
             const wm counts =
                 wm_and(wf_lt(s, end), wf_le(wf_load(nearest + (size_t)i * EWA_BLOCK_LANES), key));
-            const wf weight = wf_keep(counts, wf_mul(exponential(s, doublings), peak));
+            const wf weight = wf_keep(counts, exponential(s, doublings));
             add_channels(sums + (size_t)i * channels * EWA_BLOCK_LANES, weight, &add, key, with_normals,
                          with_depth, orthographic);
         }
@@ -197,22 +218,20 @@ static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_
 }
 
 /// The accumulation for one set of channels; cutoffs up to 3 need two doublings only.
+#define ACCUMULATE_ROWS(name, with_normals, with_depth, orthographic, two_doublings)                         \
+    static ALWAYS_INLINE void name(const pass *p, uint32_t splat, uint32_t first_column, uint32_t columns,   \
+                                   uint32_t rows, depth_test test) {                                         \
+        accumulate_rows(p, splat, first_column, columns, rows, with_normals, with_depth, orthographic,       \
+                        two_doublings, test);                                                                \
+    }
 #define ACCUMULATE(name, with_normals, with_depth, orthographic)                                             \
-    static ALWAYS_INLINE void name##_rows(const pass *p, uint32_t splat, uint32_t first_column,              \
-                                          uint32_t columns, uint32_t rows) {                                 \
-        accumulate_rows(p, splat, first_column, columns, rows, with_normals, with_depth, orthographic,       \
-                        true);                                                                               \
-    }                                                                                                        \
-    static ALWAYS_INLINE void name##_long_rows(const pass *p, uint32_t splat, uint32_t first_column,         \
-                                               uint32_t columns, uint32_t rows) {                            \
-        accumulate_rows(p, splat, first_column, columns, rows, with_normals, with_depth, orthographic,       \
-                        false);                                                                              \
-    }                                                                                                        \
+    ACCUMULATE_ROWS(name##_rows, with_normals, with_depth, orthographic, true)                               \
+    ACCUMULATE_ROWS(name##_long_rows, with_normals, with_depth, orthographic, false)                         \
     static void name(const pass *p) {                                                                        \
         if (p->view->doublings == 2)                                                                         \
-            for_each_splat(p, name##_rows, name##_rows);                                                     \
+            for_each_splat(p, name##_rows);                                                                  \
         else                                                                                                 \
-            for_each_splat(p, name##_long_rows, name##_long_rows);                                           \
+            for_each_splat(p, name##_long_rows);                                                             \
     }
 
 ACCUMULATE(add_color, false, false, false)
@@ -292,12 +311,15 @@ static ALWAYS_INLINE void near_raise(const ewa_near_record *r, const near_sample
 static ALWAYS_INLINE void near_add(const ewa_view *view, const ewa_near_record *r, const near_sample *sample,
                                    wm counts, wf key, float *sums, bool with_normals, bool with_depth) {
     if (!wm_bits(counts)) return;
-    payload add;
-    for (int k = 0; k < 3; k++) add.color[k] = wf_set(r->color[k]), add.normal[k] = wf_set(r->normal[k]);
-    // Lanes that do not count may hold an exponent out of range: clear it before the polynomial.
+    // Lanes that do not count may hold anything.
+    payload add = {.peak = wf_keep(counts, sample->weight)};
+    for (int k = 0; k < 3; k++) {
+        add.color[k] = wf_mul(add.peak, wf_set(r->color[k]));
+        add.normal[k] = wf_mul(add.peak, wf_set(r->normal[k]));
+    }
     const wf e = exponential(wf_keep(counts, sample->exponent), view->doublings);
-    add_channels(sums, wf_keep(counts, wf_mul(e, sample->weight)), &add, wf_select(counts, key, wf_set(1)),
-                 with_normals, with_depth, false);
+    add_channels(sums, wf_keep(counts, e), &add, wf_select(counts, key, wf_set(1)), with_normals, with_depth,
+                 false);
 }
 
 static ALWAYS_INLINE near_sample near_block(const ewa_view *view, const ewa_near_record *r, uint32_t row,

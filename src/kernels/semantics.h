@@ -25,11 +25,16 @@
 //
 // Without a prefilter a splat with |V'| < EWA_FLAT V'11 V'22 is a line: it covers no pixel.
 //
-// Depth (both): 1/z(x) = 1/pz + n.(d(x) - p/pz) / n.p with |n.p| raised to EWA_EDGE_ON |p| where smaller
-// (sign kept,
-// + for 0), z clamped to [pz - R, pz + R] (orthographic: z(x) = pz - ((x - px) nx/fx + (y - py) ny/fy) / nz
-// with |nz| raised to EWA_EDGE_ON likewise). Tolerance: eps = kappa F s + min(F h g, EWA_GRAZING_TOLERANCE F
-// s), s the longer axis, g what z changes per pixel at the centre: |grad(1/z)| pz^2 (orthographic: |grad z|).
+// Depth (both): key(x) = 1/z(x) = 1/pz + n.(d(x) - p/pz) / n.p with |n.p| raised to EWA_EDGE_ON |p| where
+// smaller (sign kept, + for 0); orthographic: key(x) = -z(x) = -pz + ((x - px) nx/fx + (y - py) ny/fy) / nz
+// with |nz| raised to EWA_EDGE_ON likewise. g is what z changes per pixel at the centre: |grad key| pz^2
+// (orthographic: |grad key|), F h g the depth that the prefilter reaches across, s the longer axis.
+// Tolerance: eps = kappa F s + min(F h g, EWA_GRAZING_TOLERANCE F s).
+// Range: the key is clamped to that of [pz - R, pz + R], widened at both ends by m (perspective: m / pz^2), m
+// = max(0, min(EWA_FREE_RADII F s, EWA_FREE_DEPTH pz) - F h g). math.md section 5 has m = 0. A margin that
+// fades out keeps what that is for, silhouettes that do not fray, and leaves the plane alone, even and
+// cheaper, where it is seen from the front: a splat with m >= F h g is nowhere clamped. Others are steep.
+// Near surfels have m = 0.
 //
 // Three passes: B(x) = min (z + eps) over the surfels that count at x, then those with z <= B(x) are summed.
 // One pass: the surfel of smallest z wins, with weight 1 and full coverage.
@@ -59,6 +64,11 @@
 /// has 8; at 16 minified planes alias less and stay opaque towards the horizon, and silhouettes keep their
 /// place (docs/quality.md); more changes nothing there.
 #define EWA_GRAZING_TOLERANCE 16.0
+
+/// How far beyond the disc's own range its plane is used when the prefilter reaches across little depth, in
+/// support radii and at most in depths of the centre. The reach takes from it.
+#define EWA_FREE_RADII 2.0
+#define EWA_FREE_DEPTH 0.25
 
 /// Smallest |V'| / (V'11 V'22) that counts as an area.
 #define EWA_FLAT           1e-14

@@ -61,9 +61,19 @@ static inline wf wf_select(wm m, wf a, wf b) {
 static inline wf wf_keep(wm m, wf a) { return PAIR(wf, _mm256_and_ps(m.l, a.l), _mm256_and_ps(m.h, a.h)); }
 
 static inline wi wi_set(int32_t a) { return PAIR(wi, _mm256_set1_epi32(a), _mm256_set1_epi32(a)); }
+static inline wi wi_load(const int32_t *p) {
+    return PAIR(wi, _mm256_loadu_si256((const __m256i *)(const void *)p),
+                _mm256_loadu_si256((const __m256i *)(const void *)(p + 8)));
+}
 static inline void wi_store(int32_t *p, wi a) {
     _mm256_storeu_si256((__m256i *)(void *)p, a.l);
     _mm256_storeu_si256((__m256i *)(void *)(p + 8), a.h);
+}
+/// Of values in [0, 255].
+static inline void wi_store_u8(uint8_t *p, wi a) {
+    const __m256i words = _mm256_permute4x64_epi64(_mm256_packus_epi32(a.l, a.h), 0xd8);
+    _mm_storeu_si128((__m128i *)(void *)p,
+                     _mm_packus_epi16(_mm256_castsi256_si128(words), _mm256_extracti128_si256(words, 1)));
 }
 static inline wi wi_load_u16(const uint16_t *p) {
     return PAIR(wi, _mm256_cvtepu16_epi32(_mm_loadu_si128((const __m128i *)(const void *)p)),
@@ -78,6 +88,7 @@ static inline wi wi_sub(wi a, wi b) { return BINARY(wi, _mm256_sub_epi32, a, b);
 static inline wi wi_min(wi a, wi b) { return BINARY(wi, _mm256_min_epi32, a, b); }
 static inline wi wi_max(wi a, wi b) { return BINARY(wi, _mm256_max_epi32, a, b); }
 static inline wi wi_or(wi a, wi b) { return BINARY(wi, _mm256_or_si256, a, b); }
+static inline wi wi_and(wi a, wi b) { return BINARY(wi, _mm256_and_si256, a, b); }
 static inline wi wi_shl(wi a, int n) {
     return PAIR(wi, _mm256_slli_epi32(a.l, n), _mm256_slli_epi32(a.h, n));
 }
@@ -100,6 +111,31 @@ static inline wm wm_of_bits(uint32_t bits) {
     const __m256i h = _mm256_and_si256(_mm256_set1_epi32((int)(bits >> 8)), lane);
     return PAIR(wm, _mm256_castsi256_ps(_mm256_cmpeq_epi32(l, lane)),
                 _mm256_castsi256_ps(_mm256_cmpeq_epi32(h, lane)));
+}
+
+/// p[0], p[16], p[32] ...
+static inline wf wf_load_column(const float *p) {
+    const __m256i at = _mm256_setr_epi32(0, 16, 32, 48, 64, 80, 96, 112);
+    return PAIR(wf, _mm256_i32gather_ps(p, at, 4), _mm256_i32gather_ps(p + 128, at, 4));
+}
+
+static inline __m256 lookup_half(const float table[16], __m256i index) {
+    const __m256 low = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table), index);
+    const __m256 high = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table + 8), index);
+    return _mm256_blendv_ps(low, high, _mm256_castsi256_ps(_mm256_slli_epi32(index, 28)));
+}
+
+/// table[index mod 16] per lane.
+static inline wf wf_lookup(const float table[16], wi index) {
+    return PAIR(wf, lookup_half(table, index.l), lookup_half(table, index.h));
+}
+
+/// Writes lanes 4 i .. 4 i + 3 to out + i stride_bytes.
+static inline void wi_store_rows(uint8_t *out, size_t stride_bytes, wi a) {
+    _mm_storeu_si128((__m128i *)(void *)out, _mm256_castsi256_si128(a.l));
+    _mm_storeu_si128((__m128i *)(void *)(out + stride_bytes), _mm256_extracti128_si256(a.l, 1));
+    _mm_storeu_si128((__m128i *)(void *)(out + 2 * stride_bytes), _mm256_castsi256_si128(a.h));
+    _mm_storeu_si128((__m128i *)(void *)(out + 3 * stride_bytes), _mm256_extracti128_si256(a.h, 1));
 }
 
 /// Writes the lanes where m is set one after another; may write 16 numbers.

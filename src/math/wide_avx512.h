@@ -37,6 +37,9 @@ static inline wf wf_keep(wm m, wf a) { return _mm512_maskz_mov_ps(m, a); }
 static inline wi wi_set(int32_t a) { return _mm512_set1_epi32(a); }
 static inline wi wi_load(const int32_t *p) { return _mm512_loadu_si512(p); }
 static inline void wi_store(int32_t *p, wi a) { _mm512_storeu_si512(p, a); }
+static inline void wi_store_u8(uint8_t *p, wi a) {
+    _mm_storeu_si128((__m128i *)(void *)p, _mm512_cvtepi32_epi8(a));
+}
 static inline wi wi_load_u16(const uint16_t *p) {
     return _mm512_cvtepu16_epi32(_mm256_loadu_si256((const __m256i *)(const void *)p));
 }
@@ -48,6 +51,7 @@ static inline wi wi_sub(wi a, wi b) { return _mm512_sub_epi32(a, b); }
 static inline wi wi_min(wi a, wi b) { return _mm512_min_epi32(a, b); }
 static inline wi wi_max(wi a, wi b) { return _mm512_max_epi32(a, b); }
 static inline wi wi_or(wi a, wi b) { return _mm512_or_si512(a, b); }
+static inline wi wi_and(wi a, wi b) { return _mm512_and_si512(a, b); }
 static inline wi wi_shl(wi a, int n) { return _mm512_slli_epi32(a, (unsigned)n); }
 static inline wi wi_sar(wi a, int n) { return _mm512_srai_epi32(a, (unsigned)n); }
 
@@ -56,6 +60,26 @@ static inline wm wm_or(wm a, wm b) { return (wm)(a | b); }
 static inline wm wm_not(wm a) { return (wm)~a; }
 static inline uint32_t wm_bits(wm a) { return a; }
 static inline wm wm_of_bits(uint32_t bits) { return (wm)bits; }
+
+/// p[0], p[16], p[32] ...
+static inline wf wf_load_column(const float *p) {
+    const __m512i at =
+        _mm512_setr_epi32(0, 16, 32, 48, 64, 80, 96, 112, 128, 144, 160, 176, 192, 208, 224, 240);
+    return _mm512_i32gather_ps(at, p, 4);
+}
+
+/// table[index mod 16] per lane.
+static inline wf wf_lookup(const float table[16], wi index) {
+    return _mm512_permutexvar_ps(index, _mm512_loadu_ps(table));
+}
+
+/// Writes lanes 4 i .. 4 i + 3 to out + i stride_bytes.
+static inline void wi_store_rows(uint8_t *out, size_t stride_bytes, wi a) {
+    _mm_storeu_si128((__m128i *)(void *)out, _mm512_castsi512_si128(a));
+    _mm_storeu_si128((__m128i *)(void *)(out + stride_bytes), _mm512_extracti32x4_epi32(a, 1));
+    _mm_storeu_si128((__m128i *)(void *)(out + 2 * stride_bytes), _mm512_extracti32x4_epi32(a, 2));
+    _mm_storeu_si128((__m128i *)(void *)(out + 3 * stride_bytes), _mm512_extracti32x4_epi32(a, 3));
+}
 
 /// Writes the lanes where m is set one after another; may write 16 numbers.
 static inline void wf_pack(float *p, wm m, wf a) { _mm512_storeu_ps(p, _mm512_maskz_compress_ps(m, a)); }

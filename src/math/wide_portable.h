@@ -56,7 +56,15 @@ FUSED wf wf_floor(wf a) { EACH(wf, floorf(a[i])); }
 
 static inline wi wi_set(int32_t a) { return (wi){a, a, a, a, a, a, a, a, a, a, a, a, a, a, a, a}; }
 static inline wf wf_abs(wf a) { return (wf)((wi)a & wi_set(0x7fffffff)); }
+static inline wi wi_load(const int32_t *p) {
+    wi result;
+    memcpy(&result, p, sizeof result);
+    return result;
+}
 static inline void wi_store(int32_t *p, wi a) { memcpy(p, &a, sizeof a); }
+static inline void wi_store_u8(uint8_t *p, wi a) {
+    for (int i = 0; i < 16; i++) p[i] = (uint8_t)a[i];
+}
 FUSED wi wi_load_u16(const uint16_t *p) { EACH(wi, p[i]); }
 FUSED wi wi_load_i16(const int16_t *p) { EACH(wi, p[i]); }
 static inline wi wi_add(wi a, wi b) { return (wi)((wu)a + (wu)b); }
@@ -64,6 +72,7 @@ static inline wi wi_sub(wi a, wi b) { return (wi)((wu)a - (wu)b); }
 static inline wi wi_min(wi a, wi b) { return ((a < b) & a) | (~(a < b) & b); }
 static inline wi wi_max(wi a, wi b) { return ((a > b) & a) | (~(a > b) & b); }
 static inline wi wi_or(wi a, wi b) { return a | b; }
+static inline wi wi_and(wi a, wi b) { return a & b; }
 static inline wi wi_shl(wi a, int n) { return (wi)((wu)a << n); }
 static inline wi wi_sar(wi a, int n) { return a >> n; }
 
@@ -77,6 +86,17 @@ FUSED uint32_t wm_bits(wm a) {
 }
 FUSED wm wm_of_bits(uint32_t bits) { EACH(wm, -(int32_t)(bits >> i & 1)); }
 FUSED wf wf_sqrt(wf a) { EACH(wf, sqrtf(a[i])); }
+
+/// p[0], p[16], p[32] ...
+FUSED wf wf_load_column(const float *p) { EACH(wf, p[16 * i]); }
+
+/// table[index mod 16] per lane.
+FUSED wf wf_lookup(const float table[16], wi index) { EACH(wf, table[index[i] & 15]); }
+
+/// Writes lanes 4 i .. 4 i + 3 to out + i stride_bytes.
+static inline void wi_store_rows(uint8_t *out, size_t stride_bytes, wi a) {
+    for (size_t i = 0; i < 4; i++) memcpy(out + i * stride_bytes, (const char *)&a + 16 * i, 16);
+}
 
 /// Writes the lanes where m is set one after another; may write 16 numbers.
 FUSED void wf_pack(float *p, wm m, wf a) {

@@ -162,11 +162,17 @@ static void make_depth(const ewa_reference_view *view, double half_range, ewa_re
                       splat->plane[1] * (view->fy_px * p.y * s + view->cy_px);
     // what z changes per pixel at the centre
     const double slope = hypot(splat->plane[0], splat->plane[1]) * (flat ? 1 : p.z * p.z);
-    splat->z_low = p.z - half_range;
-    splat->z_high = p.z + half_range;
     const double radius = view->cutoff * fmax(vec3_length(splat->axis_u), vec3_length(splat->axis_v));
-    splat->epsilon = view->tolerance * radius +
-                     fmin(view->cutoff * view->prefilter_px * slope, EWA_GRAZING_TOLERANCE * radius);
+    const double reach = view->cutoff * view->prefilter_px * slope;
+    splat->epsilon = view->tolerance * radius + fmin(reach, EWA_GRAZING_TOLERANCE * radius);
+    const double margin = fmax(fmin(EWA_FREE_RADII * radius, EWA_FREE_DEPTH * p.z) - reach, 0);
+    if (flat) {
+        splat->key_low = -(p.z + half_range) - margin;
+        splat->key_high = -(p.z - half_range) + margin;
+    } else {
+        splat->key_low = 1 / (p.z + half_range) - margin * s * s;
+        splat->key_high = 1 / (p.z - half_range) + margin * s * s;
+    }
 }
 
 void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *surfel,
@@ -194,6 +200,7 @@ void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *sur
     splat->normal_world = vec3_scale(vec3_load(surfel->normal_world), sign);
     splat->color = vec3_load(surfel->color_linear);
     splat->by_rays = by_rays;
+    splat->half_range = half_range;
     make_depth(view, half_range, splat);
     if (splat->by_rays)
         bound_near(view, splat);
@@ -229,7 +236,7 @@ static bool sample_ray(const ewa_reference_view *view, const ewa_reference_splat
     const double determinant = w11 + w22 - 1 + h2 * h2 * cross * cross; // |W|, without cancellation
     sample->distance2 = (u * u * w22 - 2 * u * v * w12 + v * v * w11) / determinant;
     sample->weight = exp(-0.5 * sample->distance2) / sqrt(determinant) / TWO_PI;
-    sample->z = fmin(fmax(z, splat->z_low), splat->z_high);
+    sample->z = fmin(fmax(z, p.z - splat->half_range), p.z + splat->half_range);
     return true;
 }
 
@@ -242,9 +249,7 @@ bool ewa_reference_sample_at(const ewa_reference_view *view, const ewa_reference
     sample->weight = splat->peak * exp(-0.5 * sample->distance2);
     const double plane = splat->plane[0] * x_px + splat->plane[1] * y_px + splat->plane[2];
     // Clamped before the division: a ray that misses the plane gets the far end of the disc.
-    if (view->orthographic)
-        sample->z = fmin(fmax(plane, splat->z_low), splat->z_high);
-    else
-        sample->z = 1 / fmin(fmax(plane, 1 / splat->z_high), 1 / splat->z_low);
+    const double key = fmin(fmax(view->orthographic ? -plane : plane, splat->key_low), splat->key_high);
+    sample->z = view->orthographic ? -key : 1 / key;
     return true;
 }

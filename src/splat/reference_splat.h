@@ -32,9 +32,10 @@ typedef struct ewa_reference_splat {
     double variance_px2[3];                 ///< V: xx, xy, yy, without the prefilter
     double inverse[3];                      ///< V'^-1: xx, xy, yy
     double peak;                            ///< sqrt(|V| / |V'|) / 2 pi
-    double plane[3];      ///< 1/z, orthographic: z, is plane . (x, y, 1) for pixel coordinates x, y
-    double z_low, z_high; ///< pz -+ R
-    double epsilon;       ///< tolerance of the visibility test
+    double plane[3];          ///< 1/z, orthographic: z, is plane . (x, y, 1) for pixel coordinates x, y
+    double half_range;        ///< R of semantics.h
+    double key_low, key_high; ///< range of 1/z (orthographic: -z)
+    double epsilon;           ///< tolerance of the visibility test
     ewa_vec3 center, axis_u, axis_v, normal; ///< camera space, normal unit, towards the viewer
     ewa_vec3 normal_world;
     ewa_vec3 color;

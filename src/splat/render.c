@@ -8,7 +8,12 @@
 
 #include <string.h>
 
-enum { TILE_PX = 64 };
+/// Large tiles share fewer packets, small ones spread a small picture over the threads. The picture alone
+/// decides, not the threads: tiles round differently.
+static uint32_t tile_side_px(const ewa_camera *camera) {
+    enum { LARGE_PX = 1 << 20 };
+    return (uint64_t)camera->width_px * camera->height_px >= LARGE_PX ? 128 : 64;
+}
 
 struct ewa_renderer {
     ewa_context *context;
@@ -63,6 +68,7 @@ static void gather_stats(const ewa_renderer *renderer, const ewa_surfels *surfel
                                 .bin_s = (binned_s - start_s) * renderer->worker_count};
     for (uint32_t i = 0; i < renderer->worker_count; i++) {
         const ewa_tile_scratch *s = renderer->scratch[i];
+        stats->hidden_count += s->hidden_splat_count;
         stats->drawn_count += s->drawn_count;
         stats->fragment_count += s->fragment_count;
         stats->setup_s += s->setup_s;
@@ -93,7 +99,7 @@ ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const 
                         .scratch = renderer->scratch};
     job.edge_layers = chosen.edge_antialiasing && chosen.passes == 3 ? chosen.edge_layers : 1;
     job.channel_count = 4 + (job.with_normals ? 3 : 0) + (job.with_depth ? 1 : 0);
-    status = ewa_view_set(&job.view, surfels, camera, &chosen, TILE_PX);
+    status = ewa_view_set(&job.view, surfels, camera, &chosen, tile_side_px(camera));
     if (status != EWA_OK) return status;
     ewa_resolve_set(&job.resolve, surfels, camera, &chosen, frame);
 

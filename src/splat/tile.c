@@ -4,27 +4,26 @@
 // One tile from its packets to its pixels: runs of packets are set up, sorted and raise the depth bound; then
 // all records that reach the bound are summed, and the sums resolved (math.md sections 6 and 7).
 //
-// Records are kept from the first pass to the second. A tile that would need more than KEPT_RECORDS sets its
-// runs up again for the second pass instead: the same records in the same order, so the same bytes.
+// Records are kept from the first pass to the second. A tile that would need more than EWA_KEPT_RECORDS sets
+// its runs up again for the second pass instead: the same records in the same order, so the same bytes.
 #include "splat/tile.h"
 
 #include <string.h>
 
-enum {
-    KEPT_RECORDS = 1 << 18, // 20 MiB per worker
-    NEAR_CHUNK = 64,
-};
+enum { NEAR_CHUNK = 64 };
 
 ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, const ewa_tile_job *job,
                                     uint64_t largest_bin) {
     uint64_t records = largest_bin * EWA_PACKET_LANES;
-    if (records > KEPT_RECORDS) records = KEPT_RECORDS;
+    if (records > EWA_KEPT_RECORDS) records = EWA_KEPT_RECORDS;
     if (records < EWA_RUN_RECORDS) records = EWA_RUN_RECORDS;
     // Per pixel: nearest and sums twice, the edges' `passed`, and four channels of what lies behind; per
     // block `reach`.
     const size_t tile_floats = (size_t)job->view.tile_px * job->view.tile_px;
     const size_t pixel_floats =
         tile_floats * (2 * (1 + EWA_MAX_CHANNELS) + 1 + 4) + tile_floats / EWA_BLOCK_LANES;
+    const uint64_t packet_count = largest_bin + 1;
+    const size_t box_count = records + EWA_BLOCK_LANES, group_count = records / EWA_GROUP_RECORDS + 16;
     const struct {
         ewa_buffer *buffer;
         size_t count, size_bytes;
@@ -32,10 +31,12 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
         {&s->record_buffer, records + EWA_PACKET_LANES, sizeof *s->records},
         {&s->load_buffer, records + EWA_PACKET_LANES, sizeof *s->loads},
         {&s->order_buffer, records, sizeof *s->order},
-        {&s->hit_buffer, records + 1, sizeof *s->hits},
+        {&s->list_buffer, 2 * (EWA_LISTS * records + EWA_BLOCK_LANES), sizeof *s->listed},
+        {&s->box_buffer, 3 * (box_count + group_count), sizeof(float)},
         {&s->near_buffer, records, sizeof *s->near_surfels},
-        {&s->kept_buffer, records / EWA_RUN_RECORDS + 1, sizeof *s->kept},
+        {&s->kept_buffer, records / EWA_RUN_RECORDS + 2, sizeof *s->kept},
         {&s->pixel_buffer, pixel_floats, sizeof(float)},
+        {&s->packet_buffer, 2 * packet_count, sizeof *s->shown},
     };
     for (size_t i = 0; i < sizeof needs / sizeof needs[0]; i++) {
         const ewa_status status =
@@ -45,7 +46,14 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     s->records = s->record_buffer.data;
     s->loads = s->load_buffer.data;
     s->order = s->order_buffer.data;
-    s->hits = s->hit_buffer.data;
+    s->listed = s->list_buffer.data;
+    s->listed_keys = (float *)(s->listed + EWA_LISTS * records + EWA_BLOCK_LANES);
+    s->boxes.first = s->box_buffer.data;
+    s->boxes.last = s->boxes.first + box_count;
+    s->groups.first = s->boxes.last + box_count;
+    s->groups.last = s->groups.first + group_count;
+    s->boxes.key_low = (float *)(s->groups.last + group_count);
+    s->groups.key_low = s->boxes.key_low + box_count;
     s->near_surfels = s->near_buffer.data;
     s->kept = s->kept_buffer.data;
     s->nearest = s->pixel_buffer.data;
@@ -57,14 +65,18 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     s->edges.behind = s->edges.passed + tile_floats;
     s->edges.reach = s->edges.behind + 4 * tile_floats;
     s->record_capacity = records;
-    s->drawn_count = s->fragment_count = 0;
+    s->kept_capacity = records / EWA_RUN_RECORDS + 2;
+    s->shown = s->packet_buffer.data;
+    s->hidden = s->shown + packet_count;
+    s->drawn_count = s->fragment_count = s->hidden_splat_count = 0;
     s->setup_s = s->visibility_s = s->accumulate_s = s->edge_s = s->resolve_s = 0;
     return EWA_OK;
 }
 
 void ewa_tile_scratch_free(ewa_context *context, ewa_tile_scratch *s) {
-    ewa_buffer *const buffers[] = {&s->record_buffer, &s->load_buffer, &s->order_buffer, &s->hit_buffer,
-                                   &s->near_buffer,   &s->kept_buffer, &s->pixel_buffer};
+    ewa_buffer *const buffers[] = {&s->record_buffer, &s->load_buffer,  &s->order_buffer,
+                                   &s->list_buffer,   &s->box_buffer,   &s->near_buffer,
+                                   &s->kept_buffer,   &s->pixel_buffer, &s->packet_buffer};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) ewa_buffer_free(context, buffers[i]);
 }
 
@@ -85,51 +97,46 @@ static void sort_run(const ewa_run *run, uint16_t *order, ewa_sorted_run *sorted
     sorted->order = order;
 }
 
-/// What a walk over a tile's splats is for.
-typedef enum tile_pass {
-    PASS_VISIBILITY,
-    PASS_ACCUMULATE,
-    PASS_EDGE_VISIBILITY,
-    PASS_EDGE_ACCUMULATE
-} tile_pass;
-
-static void draw_near(const ewa_tile_job *job, const ewa_tile *tile, const ewa_edges *edges,
-                      const uint32_t *surfels, uint32_t count, tile_pass what) {
+void ewa_tile_draw_near(const ewa_tile_job *job, const ewa_tile *tile, const ewa_edges *edges,
+                        const uint32_t *surfels, uint32_t count, ewa_tile_pass what) {
     const ewa_road_kernels *kernels = job->kernels;
     ewa_near_record records[NEAR_CHUNK];
     for (uint32_t done = 0; done < count;) {
         uint32_t filled = 0;
         for (; done < count && filled < NEAR_CHUNK; done++)
             filled += ewa_near_record_set(&records[filled], job->surfels, surfels[done], &job->view, tile);
-        if (what == PASS_VISIBILITY)
+        if (what == EWA_PASS_VISIBILITY)
             kernels->near_visibility(&job->view, tile, records, filled);
-        else if (what == PASS_ACCUMULATE)
+        else if (what == EWA_PASS_ACCUMULATE)
             kernels->near_accumulate(&job->view, tile, records, filled);
         else
-            kernels->edge_near_pass(&job->view, tile, edges, records, filled, what == PASS_EDGE_ACCUMULATE);
+            kernels->edge_near_pass(&job->view, tile, edges, records, filled,
+                                    what == EWA_PASS_EDGE_ACCUMULATE);
     }
 }
 
-static void count_splats(const ewa_tile_job *job, ewa_tile_scratch *s) {
+static void count_splats(const ewa_tile_job *job, ewa_tile_scratch *s, const ewa_sorted_run *run) {
     s->drawn_count += s->run.count + s->run.near_count;
     if (!job->count_fragments) return;
     uint32_t blocks = 0;
-    for (uint32_t i = 0; i < s->run.count; i++) {
-        const uint32_t box = s->run.records[i].box;
-        blocks += (box >> 16 & 0xff) * (box >> 24);
+    for (uint32_t c = 0; c < EWA_CLASS_COUNT; c++) {
+        const uint32_t columns = c % EWA_STEEP_CLASS / EWA_ROW_CLASSES + 1, rows = c % EWA_ROW_CLASSES + 1;
+        if (c < EWA_WIDE_CLASS && rows < EWA_ROW_CLASSES) {
+            blocks += columns * rows * (uint32_t)(run->class_first[c + 1] - run->class_first[c]);
+            continue;
+        }
+        for (uint32_t i = run->class_first[c]; i < run->class_first[c + 1]; i++) {
+            const uint32_t box = run->records[run->order[i]].box;
+            blocks += (box >> 16 & 0xff) * (box >> 24);
+        }
     }
     s->fragment_count += blocks;
 }
 
-/// A tile's packets, in runs.
-typedef struct tile_packets {
-    const uint32_t *ids;
-    uint64_t count, run_count;
-} tile_packets;
-
 /// Sets up and sorts run `index`; its splats go to place `at` of the scratch.
 static void prepare_run(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
-                        const tile_packets *packets, uint64_t index, uint32_t at, ewa_sorted_run *sorted) {
+                        const ewa_tile_packets *packets, uint64_t index, uint32_t at,
+                        ewa_sorted_run *sorted) {
     const uint64_t first = index * EWA_RUN_PACKETS, left = packets->count - first;
     s->run.records = s->records + at;
     s->run.loads = s->loads + at;
@@ -139,106 +146,110 @@ static void prepare_run(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_
     sort_run(&s->run, s->order + at, sorted);
 }
 
-static void visit_run(const ewa_tile_job *job, const ewa_tile *tile, const ewa_tile_scratch *s,
-                      const ewa_sorted_run *run, const uint16_t *hits, uint32_t hit_count, tile_pass what) {
-    const ewa_road_kernels *kernels = job->kernels;
-    if (what == PASS_VISIBILITY)
-        kernels->visibility(&job->view, tile, run);
-    else if (what == PASS_ACCUMULATE)
-        kernels->accumulate(&job->view, tile, run);
+static void visit_run(const ewa_tile_job *job, const ewa_tile *tile, const ewa_sorted_run *run,
+                      ewa_tile_pass what) {
+    if (what == EWA_PASS_VISIBILITY)
+        job->kernels->visibility(&job->view, tile, run);
     else
-        kernels->edge_pass(&job->view, tile, &s->edges, run, hits, hit_count, what == PASS_EDGE_ACCUMULATE);
+        job->kernels->accumulate(&job->view, tile, run);
 }
 
-/// One pass over the runs that the first pass has kept.
-static void walk_kept(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, uint64_t run_count,
-                      tile_pass what) {
-    for (uint64_t i = 0; i < run_count; i++) {
+/// Second pass over the runs that the first pass has kept.
+static void walk_kept(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s) {
+    for (uint32_t i = 0; i < s->kept_count; i++) {
         const ewa_kept_run *kept = &s->kept[i];
-        visit_run(job, tile, s, &kept->sorted, s->hits + kept->hit_first, kept->hit_count, what);
-        draw_near(job, tile, &s->edges, s->near_surfels + kept->near_first, kept->near_count, what);
+        visit_run(job, tile, &kept->sorted, EWA_PASS_ACCUMULATE);
+        ewa_tile_draw_near(job, tile, NULL, s->near_surfels + kept->near_first, kept->near_count,
+                           EWA_PASS_ACCUMULATE);
     }
 }
 
-/// One pass over runs that are set up again.
+/// One pass over runs [first, end), set up for it and forgotten.
 static void walk_again(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
-                       const tile_packets *packets, tile_pass what) {
-    for (uint64_t i = 0; i < packets->run_count; i++) {
+                       const ewa_tile_packets *packets, uint64_t first, uint64_t end, ewa_tile_pass what) {
+    for (uint64_t i = first; i < end; i++) {
         ewa_sorted_run sorted;
         const double before = ewa_now_s();
         prepare_run(job, tile, s, packets, i, 0, &sorted);
         const double middle = ewa_now_s();
         s->setup_s += middle - before;
-        uint32_t hit_count = 0;
-        if (what >= PASS_EDGE_VISIBILITY)
-            hit_count =
-                job->kernels->edge_hits(tile, &s->edges, sorted.records, sorted.order, s->run.count, s->hits);
-        visit_run(job, tile, s, &sorted, s->hits, hit_count, what);
-        draw_near(job, tile, &s->edges, s->run.near_surfels, s->run.near_count, what);
-        if (what == PASS_VISIBILITY) count_splats(job, s);
-        *(what == PASS_VISIBILITY ? &s->visibility_s : &s->accumulate_s) += ewa_now_s() - middle;
+        visit_run(job, tile, &sorted, what);
+        ewa_tile_draw_near(job, tile, NULL, s->run.near_surfels, s->run.near_count, what);
+        if (what == EWA_PASS_VISIBILITY) count_splats(job, s, &sorted);
+        *(what == EWA_PASS_VISIBILITY ? &s->visibility_s : &s->accumulate_s) += ewa_now_s() - middle;
     }
 }
 
-/// First pass with runs kept for the others.
-static void keep_runs(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
-                      const tile_packets *packets) {
-    uint32_t record_count = 0, near_count = 0;
+void ewa_tile_drop_runs(ewa_tile_scratch *s) { s->kept_count = s->near_count = s->boxes.count = 0; }
+
+uint64_t ewa_tile_keep_runs(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
+                            const ewa_tile_packets *packets, uint64_t first, uint64_t end, bool draw) {
     double before = ewa_now_s();
-    for (uint64_t i = 0; i < packets->run_count; i++) {
-        ewa_kept_run *kept = &s->kept[i];
-        prepare_run(job, tile, s, packets, i, record_count, &kept->sorted);
-        kept->hit_first = kept->hit_count = 0;
-        kept->near_first = near_count;
+    uint64_t i = first;
+    for (; i < end; i++) {
+        const uint64_t packets_left = packets->count - i * EWA_RUN_PACKETS;
+        const uint64_t lanes =
+            EWA_PACKET_LANES * (packets_left < EWA_RUN_PACKETS ? packets_left : EWA_RUN_PACKETS);
+        if (s->boxes.count + s->near_count + lanes > s->record_capacity) break;
+        if (s->kept_count >= s->kept_capacity) break;
+        ewa_kept_run *kept = &s->kept[s->kept_count++];
+        prepare_run(job, tile, s, packets, i, s->boxes.count, &kept->sorted);
+        kept->near_first = s->near_count;
         kept->near_count = s->run.near_count;
         for (uint32_t k = 0; k < kept->near_count; k++)
-            s->near_surfels[near_count + k] = s->run.near_surfels[k];
+            s->near_surfels[s->near_count + k] = s->run.near_surfels[k];
+        s->boxes.count += s->run.count;
+        s->near_count += kept->near_count;
         const double middle = ewa_now_s();
         s->setup_s += middle - before;
-        visit_run(job, tile, s, &kept->sorted, NULL, 0, PASS_VISIBILITY);
-        draw_near(job, tile, NULL, s->run.near_surfels, kept->near_count, PASS_VISIBILITY);
-        count_splats(job, s);
-        record_count += s->run.count;
-        near_count += kept->near_count;
+        before = middle;
+        if (!draw) continue;
+        visit_run(job, tile, &kept->sorted, EWA_PASS_VISIBILITY);
+        ewa_tile_draw_near(job, tile, NULL, s->run.near_surfels, kept->near_count, EWA_PASS_VISIBILITY);
+        count_splats(job, s, &kept->sorted);
         before = ewa_now_s();
         s->visibility_s += before - middle;
     }
+    return i;
 }
 
-/// Finds the kept splats that may lie behind marked blocks: all at first, then among those of the layer
-/// before.
-static void keep_hits(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, uint64_t run_count,
-                      bool first) {
-    uint32_t hit_count = 0;
-    for (uint64_t i = 0; i < run_count; i++) {
-        ewa_kept_run *kept = &s->kept[i];
-        const ewa_sorted_run *run = &kept->sorted;
-        const uint16_t *candidates = first ? run->order : s->hits + kept->hit_first;
-        const uint32_t count = first ? run->class_first[EWA_CLASS_COUNT] : kept->hit_count;
-        kept->hit_count =
-            job->kernels->edge_hits(tile, &s->edges, run->records, candidates, count, s->hits + hit_count);
-        kept->hit_first = hit_count;
-        hit_count += kept->hit_count;
-    }
-}
-
-/// Gathers the surfaces behind the first one where it covers pixels partly. Returns whether there are such
-/// pixels.
-static bool draw_edges(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
-                       const tile_packets *packets, bool kept) {
-    if (job->edge_layers < 2 || !job->kernels->find_edges(tile, &job->resolve, &s->edges)) return false;
-    memcpy(s->edge_rows, s->edges.rows, sizeof s->edge_rows);
-    for (uint32_t layer = 1; layer < job->edge_layers; layer++) {
-        if (kept) keep_hits(job, tile, s, packets->run_count, layer == 1);
-        for (tile_pass what = PASS_EDGE_VISIBILITY; what <= PASS_EDGE_ACCUMULATE; what++) {
-            if (kept)
-                walk_kept(job, tile, s, packets->run_count, what);
-            else
-                walk_again(job, tile, s, packets, what);
+/// First pass, some packets at a time: those that lie behind what is drawn by then are put aside. Where
+/// nothing is hidden, fewer and fewer packets are asked.
+static void draw_visible(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
+                         const uint32_t *ids, uint64_t count, bool kept) {
+    enum { CHUNK_PACKETS = 4 * EWA_RUN_PACKETS, MOST_PASSED = 6 };
+    s->shown_count = s->hidden_count = 0;
+    ewa_tile_drop_runs(s);
+    uint64_t drawn_runs = 0;
+    uint32_t passed = 0, to_pass = 1; // chunks since the last that was asked, and until the next
+    for (uint64_t first = 0; first < count; first += CHUNK_PACKETS) {
+        const uint32_t here = count - first < CHUNK_PACKETS ? (uint32_t)(count - first) : CHUNK_PACKETS;
+        const double before = ewa_now_s();
+        if (passed < to_pass) {
+            memcpy(s->shown + s->shown_count, ids + first, here * sizeof *ids);
+            s->shown_count += here;
+            passed++;
+        } else {
+            job->kernels->set_cells(tile, s->cells);
+            const uint32_t shown =
+                job->kernels->hide(&job->view, &job->surfels->bounds, tile, s->cells, ids + first, here,
+                                   s->shown + s->shown_count, s->hidden + s->hidden_count);
+            s->shown_count += shown;
+            s->hidden_count += here - shown;
+            to_pass = shown < here ? 0 : to_pass < MOST_PASSED ? to_pass + 1 : MOST_PASSED;
+            passed = 0;
         }
-        if (!job->kernels->edge_compose(tile, &job->resolve, &s->edges)) break;
+        s->setup_s += ewa_now_s() - before;
+        const ewa_tile_packets packets = {s->shown, s->shown_count};
+        const uint64_t end =
+            first + here == count ? ewa_run_count(&packets) : s->shown_count / EWA_RUN_PACKETS;
+        if (kept)
+            ewa_tile_keep_runs(job, tile, s, &packets, drawn_runs, end, true);
+        else
+            walk_again(job, tile, s, &packets, drawn_runs, end, EWA_PASS_VISIBILITY);
+        drawn_runs = end;
     }
-    return true;
+    s->hidden_splat_count += s->hidden_count * EWA_PACKET_LANES;
 }
 
 void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
@@ -260,21 +271,17 @@ void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
     tile.block_rows = ((uint32_t)tile.height_px + EWA_BLOCK_PX - 1) / EWA_BLOCK_PX;
     job->kernels->clear(&tile);
     const uint64_t first = job->bins->tile_first[index], count = job->bins->tile_first[index + 1] - first;
-    const tile_packets packets = {job->bins->entries + first, count,
-                                  (count + EWA_RUN_PACKETS - 1) / EWA_RUN_PACKETS};
     const bool kept = count * EWA_PACKET_LANES <= s->record_capacity;
-    if (kept)
-        keep_runs(job, &tile, s, &packets);
-    else
-        walk_again(job, &tile, s, &packets, PASS_VISIBILITY);
+    draw_visible(job, &tile, s, job->bins->entries + first, count, kept);
+    const ewa_tile_packets shown = {s->shown, s->shown_count};
     const double accumulating = ewa_now_s();
     if (kept)
-        walk_kept(job, &tile, s, packets.run_count, PASS_ACCUMULATE);
+        walk_kept(job, &tile, s);
     else
-        walk_again(job, &tile, s, &packets, PASS_ACCUMULATE);
+        walk_again(job, &tile, s, &shown, 0, ewa_run_count(&shown), EWA_PASS_ACCUMULATE);
     const double accumulated = ewa_now_s();
     if (kept) s->accumulate_s += accumulated - accumulating;
-    const bool edges = draw_edges(job, &tile, s, &packets, kept);
+    const bool edges = ewa_tile_draw_edges(job, &tile, s, kept);
     const double before = ewa_now_s();
     s->edge_s += before - accumulated;
     job->kernels->resolve(&tile, &job->resolve, edges ? &s->edges : NULL, s->edge_rows);

@@ -8,11 +8,29 @@
 #include "splat/bin.h"
 #include "splat/view.h"
 
+enum {
+    EWA_KEPT_RECORDS = 1 << 18, ///< 20 MiB per worker
+    EWA_LISTS = 2,              ///< entries of lists per kept record
+};
+
+/// What a walk over a tile's splats is for.
+typedef enum ewa_tile_pass {
+    EWA_PASS_VISIBILITY,
+    EWA_PASS_ACCUMULATE,
+    EWA_PASS_EDGE_VISIBILITY,
+    EWA_PASS_EDGE_ACCUMULATE
+} ewa_tile_pass;
+
+/// Packets of a tile in runs; the last may be short.
+typedef struct ewa_tile_packets {
+    const uint32_t *ids;
+    uint64_t count;
+} ewa_tile_packets;
+
 /// A run of a tile whose splats are kept for the second pass.
 typedef struct ewa_kept_run {
     ewa_sorted_run sorted;
     uint32_t near_first, near_count;
-    uint32_t hit_first, hit_count; ///< splats on edges, in ewa_tile_scratch.hits
 } ewa_kept_run;
 
 /// What one worker needs for its tiles; sized once per frame by ewa_tile_scratch_reserve().
@@ -20,15 +38,23 @@ typedef struct ewa_tile_scratch {
     ewa_run run;
     ewa_record *records;
     ewa_load *loads;
-    uint16_t *order, *hits;
+    uint16_t *order;
+    uint32_t *listed;   ///< splats behind marked blocks, block by block
+    float *listed_keys; ///< ewa_edge_splats.largest_keys of them
+    ewa_edge_boxes boxes, groups;
     uint32_t *near_surfels;
     ewa_kept_run *kept;
-    size_t record_capacity;
+    size_t record_capacity, kept_capacity;
+    uint32_t kept_count, near_count; ///< of the kept runs; boxes.count is how many records they have
+    uint32_t *shown, *hidden;        ///< the tile's packets
+    uint64_t shown_count, hidden_count;
+    float cells[EWA_TILE_CELLS * EWA_TILE_CELLS];
     float *nearest, *sums;
     ewa_edges edges;
-    ewa_buffer record_buffer, load_buffer, order_buffer, hit_buffer, near_buffer, kept_buffer, pixel_buffer;
+    ewa_buffer record_buffer, load_buffer, order_buffer, list_buffer, box_buffer, near_buffer, kept_buffer,
+        pixel_buffer, packet_buffer;
     uint32_t edge_rows[EWA_MAX_TILE_BLOCKS], edge_rows_left[EWA_MAX_TILE_BLOCKS];
-    uint64_t drawn_count, fragment_count;
+    uint64_t drawn_count, fragment_count, hidden_splat_count;
     double setup_s, visibility_s, accumulate_s, edge_s, resolve_s;
 } ewa_tile_scratch;
 
@@ -48,6 +74,27 @@ typedef struct ewa_tile_job {
 ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *scratch, const ewa_tile_job *job,
                                     uint64_t largest_bin);
 void ewa_tile_scratch_free(ewa_context *context, ewa_tile_scratch *scratch);
+
+static inline uint64_t ewa_run_count(const ewa_tile_packets *packets) {
+    return (packets->count + EWA_RUN_PACKETS - 1) / EWA_RUN_PACKETS;
+}
+
+/// Forgets the runs that are kept.
+void ewa_tile_drop_runs(ewa_tile_scratch *scratch);
+
+/// Sets up runs [first, end) and keeps them behind those that are kept, as many as there is room for; with
+/// `draw`, for the first pass. Returns where it stopped.
+uint64_t ewa_tile_keep_runs(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *scratch,
+                            const ewa_tile_packets *packets, uint64_t first, uint64_t end, bool draw);
+
+/// One pass for near surfels.
+void ewa_tile_draw_near(const ewa_tile_job *job, const ewa_tile *tile, const ewa_edges *edges,
+                        const uint32_t *surfels, uint32_t count, ewa_tile_pass what);
+
+/// Gathers the surfaces behind the first one where it covers pixels partly, hidden packets included; `kept`
+/// when all runs of those that are shown are kept. Returns whether there are such pixels; scratch->edge_rows
+/// marks them.
+bool ewa_tile_draw_edges(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *scratch, bool kept);
 
 /// Draws tile `tile`; an ewa_task.
 void ewa_tile_draw(void *job, uint32_t tile, uint32_t worker);

@@ -62,7 +62,7 @@ ewa_status ewa_view_set(ewa_view *view, const ewa_surfels *surfels, const ewa_ca
     view->reach_px = (float)(cutoff * prefilter);
     // With one pass the nearest splat wins: no tolerance.
     view->tolerance = options->passes == 1 ? 0 : (float)(options->tolerance * cutoff);
-    view->grazing_limit = options->passes == 1 ? 0 : (float)(EWA_GRAZING_TOLERANCE * cutoff);
+    view->grazing = options->passes == 1 ? 0 : 1;
     memcpy(view->color_scale, surfels->color_scale, sizeof view->color_scale);
     memcpy(view->color_offset, surfels->color_offset, sizeof view->color_offset);
     // Halve r^2 / 2 until F^2 / 2 is in the range of the exponential's polynomial.
@@ -167,8 +167,9 @@ bool ewa_near_record_set(ewa_near_record *record, const ewa_surfels *surfels, ui
     const double sigma = vec3_length(u);
     const double slope_x = n.x / plane / (double)view->fx_px, slope_y = n.y / plane / (double)view->fy_px;
     const double per_px = sqrt(slope_x * slope_x + slope_y * slope_y) * p.z * p.z;
-    record->tolerance = (float)((double)view->tolerance * sigma +
-                                fmin((double)view->reach_px * per_px, (double)view->grazing_limit * sigma));
+    const double grazing =
+        fmin((double)view->reach_px * per_px, EWA_GRAZING_TOLERANCE * surfels->cutoff * sigma);
+    record->tolerance = (float)((double)view->tolerance * sigma + (double)view->grazing * grazing);
     const ewa_vec3 toward = vec3_scale(n, plane > 0 ? -1 : 1); // normals face the viewer
     const double normal[3] = {toward.x, toward.y, toward.z};
     for (int i = 0; i < 3; i++) {

@@ -266,7 +266,7 @@ static void test_orthographic_limit(void **state) {
             assert_true(error < 0.02 * last_error);
             assert_near(splat.peak, flat.peak, 0.3 * flat.peak * 1000 / distance);
             assert_near(splat.epsilon, flat.epsilon, 200 * flat.epsilon / distance);
-            assert_near(splat.z_low - distance, flat.z_low, 1e-8);
+            assert_near(splat.half_range, flat.half_range, 1e-8);
             ewa_reference_sample a, b;
             const double *at = flat.center_px;
             assert_true(ewa_reference_sample_at(&view, &splat, at[0] + 1, at[1], &a));
@@ -482,12 +482,13 @@ static void test_depth(void **state) {
         ewa_reference_sample sample;
         assert_true(ewa_reference_sample_at(&view, &splat, x[0], x[1], &sample));
         assert_near(sample.z, q.z, 1e-7);
+        const bool flat = camera.projection == EWA_ORTHOGRAPHIC;
+        const double range = F * sqrt(pow(splat.axis_u.z, 2) + pow(splat.axis_v.z, 2));
+        assert_near(splat.half_range, range, 1e-12);
         for (int far = -1000; far <= 1000; far += 500) {
             ewa_reference_sample_at(&view, &splat, x[0] + far, x[1] - 2 * far, &sample);
-            assert_true(sample.z >=
-                        splat.center.z - F * sqrt(pow(splat.axis_u.z, 2) + pow(splat.axis_v.z, 2)) - 1e-12);
-            assert_true(sample.z <=
-                        splat.center.z + F * sqrt(pow(splat.axis_u.z, 2) + pow(splat.axis_v.z, 2)) + 1e-12);
+            const double key = flat ? -sample.z : 1 / sample.z;
+            assert_true(key >= splat.key_low - 1e-12 && key <= splat.key_high + 1e-12);
         }
         // The slope of z over one pixel by moving along the plane, taken at the centre.
         ewa_vec3 steps[2];
@@ -504,7 +505,11 @@ static void test_depth(void **state) {
             steps[axis] = vec3_scale(d, z);
             slope2 += pow((steps[axis].z - splat.center.z) / 1e-5, 2);
         }
-        const double grazing = fmin(F * h * sqrt(slope2), EWA_GRAZING_TOLERANCE * F * 0.3);
+        const double reach = F * h * sqrt(slope2), z = splat.center.z;
+        const double margin = fmax(0, fmin(EWA_FREE_RADII * F * 0.3, EWA_FREE_DEPTH * z) - reach);
+        assert_near(splat.key_low, flat ? -(z + range) - margin : 1 / (z + range) - margin / (z * z), 1e-5);
+        assert_near(splat.key_high, flat ? range - z + margin : 1 / (z - range) + margin / (z * z), 1e-5);
+        const double grazing = fmin(reach, EWA_GRAZING_TOLERANCE * F * 0.3);
         assert_near(splat.epsilon, F * 0.3 + grazing, 1e-3 * splat.epsilon + per_unit * 1e-6);
     }
 }

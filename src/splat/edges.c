@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The surfaces behind a tile's antialiased edges (semantics.h, edge layers). Few blocks have edges, and few
+// splats lie behind them: these are listed block by block, so that a block's sums are gathered in one go.
+#include "splat/tile.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    MAX_BLOCKS = EWA_MAX_TILE_BLOCKS * EWA_MAX_TILE_BLOCKS,
+    NOT_LISTED = UINT32_MAX,
+};
+
+/// The splats of the kept runs, and the lists of the tile's blocks that there was room for.
+typedef struct batch {
+    bool keep_lists; ///< the batch serves to the end
+    uint32_t used;   ///< of scratch->listed
+    uint32_t list_first[MAX_BLOCKS], list_count[MAX_BLOCKS];
+} batch;
+
+static void start_batch(const ewa_tile_job *job, ewa_tile_scratch *s, bool keep_lists, batch *made) {
+    made->keep_lists = keep_lists;
+    made->used = 0;
+    memset(made->list_count, 0xff, sizeof made->list_count); // NOT_LISTED
+    job->kernels->edge_boxes(s->records, &s->boxes, &s->groups);
+}
+
+static void draw_block(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, batch *from,
+                       uint32_t row, uint32_t column, ewa_tile_pass what) {
+    const uint32_t block = row * tile->blocks_per_row + column;
+    const bool listed = from->list_count[block] != NOT_LISTED;
+    ewa_edge_splats splats = {s->records, s->loads, s->listed, s->listed_keys, 0};
+    const uint32_t first = listed ? from->list_first[block] : from->used;
+    splats.indices += first;
+    splats.largest_keys += first;
+    if (listed) {
+        splats.count = from->list_count[block];
+    } else {
+        splats.count = job->kernels->edge_list(&s->boxes, &s->groups, row, column, s->edges.reach[block],
+                                               splats.indices);
+        for (uint32_t i = 0; i < splats.count && what == EWA_PASS_EDGE_ACCUMULATE; i++)
+            splats.largest_keys[i] = INFINITY;
+    }
+    if (splats.count)
+        job->kernels->edge_pass(&job->view, tile, &s->edges, row, column, &splats,
+                                what == EWA_PASS_EDGE_ACCUMULATE);
+    // What lies behind a layer lies behind those before it: a list serves to the end. There must be room for
+    // another that holds all splats. Lists are shortened by whole vectors.
+    const uint32_t taken = (splats.count + EWA_BLOCK_LANES - 1) / EWA_BLOCK_LANES * EWA_BLOCK_LANES;
+    const size_t room = EWA_LISTS * s->record_capacity - from->used;
+    if (listed || (from->keep_lists && taken + s->record_capacity <= room)) {
+        from->list_count[block] = splats.count;
+        if (listed) return;
+        from->list_first[block] = first;
+        from->used += taken;
+    }
+}
+
+static void draw_batch(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, batch *from,
+                       ewa_tile_pass what) {
+    for (uint32_t row = 0; row < tile->block_rows; row++)
+        for (uint32_t marked = s->edges.rows[row]; marked; marked &= marked - 1)
+            draw_block(job, tile, s, from, row, (uint32_t)__builtin_ctz(marked), what);
+    for (uint32_t i = 0; i < s->kept_count; i++) {
+        const ewa_kept_run *kept = &s->kept[i];
+        ewa_tile_draw_near(job, tile, &s->edges, s->near_surfels + kept->near_first, kept->near_count, what);
+    }
+}
+
+/// Hidden packets that may reach marked blocks go behind those that are shown; returns how many.
+static uint32_t show_behind_edges(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s) {
+    for (int i = 0; i < EWA_TILE_CELLS * EWA_TILE_CELLS; i++) s->cells[i] = INFINITY;
+    for (uint32_t row = 0; row < tile->block_rows; row++)
+        for (uint32_t marked = s->edges.rows[row]; marked; marked &= marked - 1) {
+            const uint32_t column = (uint32_t)__builtin_ctz(marked);
+            s->cells[row / EWA_CELL_BLOCKS * EWA_TILE_CELLS + column / EWA_CELL_BLOCKS] = -INFINITY;
+        }
+    return job->kernels->hide(&job->view, &job->surfels->bounds, tile, s->cells, s->hidden,
+                              (uint32_t)s->hidden_count, s->shown + s->shown_count, s->hidden);
+}
+
+bool ewa_tile_draw_edges(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, bool kept) {
+    if (job->edge_layers < 2 || !job->kernels->find_edges(tile, &job->resolve, &s->edges)) return false;
+    memcpy(s->edge_rows, s->edges.rows, sizeof s->edge_rows);
+    const uint32_t behind = s->hidden_count ? show_behind_edges(job, tile, s) : 0;
+    const ewa_tile_packets all = {s->shown, s->shown_count + behind};
+    batch current;
+    if (kept) {
+        const ewa_tile_packets more = {s->shown + s->shown_count, behind};
+        ewa_tile_keep_runs(job, tile, s, &more, 0, ewa_run_count(&more), false);
+        start_batch(job, s, true, &current);
+    }
+    for (uint32_t layer = 1; layer < job->edge_layers; layer++) {
+        for (ewa_tile_pass what = EWA_PASS_EDGE_VISIBILITY; what <= EWA_PASS_EDGE_ACCUMULATE; what++) {
+            if (kept) draw_batch(job, tile, s, &current, what);
+            for (uint64_t run = 0, end = kept ? 0 : ewa_run_count(&all); run < end;) {
+                ewa_tile_drop_runs(s);
+                run = ewa_tile_keep_runs(job, tile, s, &all, run, end, false);
+                start_batch(job, s, false, &current);
+                draw_batch(job, tile, s, &current, what);
+            }
+        }
+        if (!job->kernels->edge_compose(tile, &job->resolve, &s->edges)) break;
+    }
+    return true;
+}
