@@ -26,7 +26,7 @@ bench_sample bench_summarise(double *times, size_t count) {
 }
 
 double bench_clock_ghz(void) {
-    enum { RUNS = 7, ADDITIONS = 1 << 20 };
+    enum { RUNS = 40, ADDITIONS = 1 << 20 };
     double shortest_s = 1;
     uint64_t sum = 1;
     for (int run = 0; run < RUNS; run++) {

@@ -23,7 +23,7 @@ typedef struct bench_sample {
 bench_sample bench_summarise(double *times, size_t count);
 
 /// Billions of dependent additions per second on the calling thread, which is the clock in GHz where an
-/// addition takes one cycle. Takes some milliseconds.
+/// addition takes one cycle. Takes some ten milliseconds.
 double bench_clock_ghz(void);
 
 enum { BENCH_FRAME_STAGES = 6 };
