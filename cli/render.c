@@ -228,7 +228,11 @@ static ewa_render_options render_options(const render_arguments *arguments) {
     options.cull = (ewa_cull)arguments->cull;
     options.shading = (ewa_shading)arguments->shading;
     options.ambient = arguments->ambient;
-    memcpy(options.light_world, arguments->light.values, sizeof options.light_world);
+    if (arguments->light.count) {
+        options.light_count = 1;
+        ewa_light_init(&options.lights[0]);
+        memcpy(options.lights[0].direction_world, arguments->light.values, 3 * sizeof(double));
+    }
     for (int c = 0; c < 3; c++)
         options.background[c] = ewa_linear_from_srgb((float)arguments->background.rgba[c]);
     options.background[3] = (float)arguments->background.rgba[3];

@@ -11,6 +11,7 @@
 #ifndef EWA_SRC_KERNELS_ROAD_H
 #define EWA_SRC_KERNELS_ROAD_H
 
+#include "image/environment.h"
 #include "kernels/packet.h"
 
 #include <stdbool.h>
@@ -27,7 +28,8 @@ enum {
     EWA_WIDE_CLASS = 2 * EWA_STEEP_CLASS,                   ///< wider boxes, parts of large splats
     EWA_CLASS_COUNT = EWA_WIDE_CLASS + 1,
     EWA_STEEP_BIT = 1 << 7, ///< in ewa_record.box: steep or wide
-    EWA_MAX_CHANNELS = 8,
+    EWA_MATERIAL_CHANNELS = 5, ///< ambient, diffuse, specular, shininess, reflection
+    EWA_MAX_CHANNELS = 8 + EWA_MATERIAL_CHANNELS,
     EWA_CELL_BLOCKS = 4, ///< along a side of a cell, for which one depth decides whether packets are hidden
     EWA_TILE_CELLS = 8,  ///< cells along a side of the largest tile
     EWA_GROUP_RECORDS = 64,
@@ -58,6 +60,8 @@ typedef struct ewa_view {
     uint32_t width_px, height_px;
     uint32_t tile_px;
     bool orthographic, affine, cull_back, ellipses;
+    const uint8_t *surfel_materials; ///< [packet * 16 + lane]; NULL: one material
+    const float (*materials)[EWA_MATERIAL_CHANNELS];
     float side_planes[4][3]; ///< inward unit normals of the frustum's sides through the eye, widened by F h
                              ///< and a pixel
 } ewa_view;
@@ -98,6 +102,7 @@ typedef struct ewa_near_record {
     float depth_low, depth_high;
     float tolerance;
     float color[3], normal[3];
+    float material[EWA_MATERIAL_CHANNELS];
 } ewa_near_record;
 
 /// The part of a splat that only the second pass reads.
@@ -106,11 +111,12 @@ typedef struct ewa_load {
     float peak;      ///< of the resampling kernel
 } ewa_load;
 
-/// A run of packets as splats of a tile. `records` and `loads` have room for EWA_PACKET_LANES more than are
-/// written.
+/// A run of packets as splats of a tile. `records`, `loads` and `materials` have room for EWA_PACKET_LANES
+/// more than are written.
 typedef struct ewa_run {
     ewa_record *records;
     ewa_load *loads;
+    uint8_t *materials; ///< written where there are several
     uint8_t classes[EWA_RUN_RECORDS + EWA_PACKET_LANES];
     uint32_t near_surfels[EWA_RUN_RECORDS]; ///< packet * 16 + lane
     uint32_t count, near_count;
@@ -121,6 +127,7 @@ typedef struct ewa_run {
 typedef struct ewa_sorted_run {
     const ewa_record *records;
     const ewa_load *loads;
+    const uint8_t *materials;
     const uint16_t *order;
     uint16_t class_first[EWA_CLASS_COUNT + 1];
 } ewa_sorted_run;
@@ -131,9 +138,10 @@ typedef struct ewa_tile {
     int32_t width_px, height_px; ///< part inside the picture
     uint32_t blocks_per_row, block_rows;
     float *nearest; ///< [block][16]: the smallest key that counts, the largest key of z + eps
-    float *sums;    ///< [block][channel][16]: weight, r, g, b [, normal x, y, z] [, z]
+    float *sums;    ///< [block][channel][16]: weight, r, g, b [, normal x, y, z] [, material] [, z]
     uint32_t channel_count;
     bool with_normals, with_depth;
+    bool with_materials; ///< then with the others too
 } ewa_tile;
 
 /// The blocks of a tile whose edges show what lies behind, and what that is.
@@ -160,21 +168,41 @@ typedef struct ewa_edge_boxes {
 typedef struct ewa_edge_splats {
     const ewa_record *records;
     const ewa_load *loads;
+    const uint8_t *materials;
     uint32_t *indices;   ///< of records and loads
     float *largest_keys; ///< no key of the splat that is beyond edges->passed is larger
     uint32_t count;
 } ewa_edge_splats;
 
+/// A light in camera space.
+typedef struct ewa_road_light {
+    bool headlight; ///< from the eye: no direction of its own but in orthographic views
+    float toward[3]; ///< unit
+    float color[3];
+} ewa_road_light;
+
+/// How surfaces are shaded.
+typedef enum ewa_road_shading {
+    EWA_ROAD_UNSHADED,
+    EWA_ROAD_LAMBERT, ///< one white light on the first material's ambient and diffuse: a factor for all colours
+    EWA_ROAD_LIGHTS,  ///< any lights, no highlights
+    EWA_ROAD_PHONG,   ///< everything
+} ewa_road_shading;
+
 /// How pixels become colours, and where they go. Planes as in ewa_frame, of the whole picture.
 typedef struct ewa_resolve {
     float unit_coverage_inverse; ///< 1 / q0
     float alpha_scale;           ///< 1 / (tau q0)
-    bool edge_antialiasing, one_pass, lambert, headlight, orthographic;
-    float ambient;
-    float light[3];           ///< unit, camera space
-    float background[4];      ///< linear, premultiplied
-    float ray_x[2], ray_y[2]; ///< slope = ray[0] pixel + ray[1]
-    float to_world[9];        ///< world from camera, row-major, without scale
+    bool edge_antialiasing, one_pass, orthographic;
+    ewa_road_shading shading;
+    uint32_t light_count;
+    ewa_road_light lights[EWA_MAX_LIGHTS];
+    float material[EWA_MATERIAL_CHANNELS]; ///< of all surfaces in tiles without materials
+    const ewa_environment *environment;    ///< NULL: none
+    float environment_from_camera[9];      ///< rotation, row-major
+    float background[4];                   ///< linear, premultiplied
+    float ray_x[2], ray_y[2];              ///< slope = ray[0] pixel + ray[1]
+    float to_world[9];                     ///< world from camera, row-major, without scale
     uint32_t width_px;
     uint8_t *rgba8;
     float *rgba, *depth, *normal, *coverage;

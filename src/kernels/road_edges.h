@@ -251,7 +251,7 @@ static void edge_raise(const ewa_view *view, const ewa_tile *tile, const ewa_edg
 
 static ALWAYS_INLINE void edge_sum(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
                                    uint32_t row, uint32_t column, const ewa_edge_splats *splats,
-                                   bool with_normals) {
+                                   bool with_normals, bool with_materials) {
     const size_t block = block_at(tile, row, column), at = block * EWA_BLOCK_LANES;
     const wf passed = wf_load(edges->passed + at), nearest = wf_load(edges->nearest + at);
     const wf end = wf_set(view->exponent_end), never = wf_set(-__builtin_inff());
@@ -272,9 +272,10 @@ static ALWAYS_INLINE void edge_sum(const ewa_view *view, const ewa_tile *tile, c
             const wm counts = wm_and(beyond, wf_le(nearest, sample.key));
             if (!wm_bits(counts)) continue;
             const ewa_load *load = &splats->loads[index];
-            const payload add = payload_load(r, load, with_normals);
+            const float *material = with_materials ? view->materials[splats->materials[index]] : NULL;
+            const payload add = payload_load(r, load, with_normals, material);
             const wf weight = wf_keep(counts, exponential(sample.exponent, view->doublings));
-            add_channels(sums, weight, &add, sample.key, with_normals, false, false);
+            add_channels(sums, weight, &add, sample.key, with_normals, with_materials, false, false);
         }
     }
 }
@@ -283,10 +284,12 @@ static void edge_pass(const ewa_view *view, const ewa_tile *tile, const ewa_edge
                       uint32_t column, ewa_edge_splats *splats, bool second_pass) {
     if (!second_pass)
         edge_raise(view, tile, edges, row, column, splats);
+    else if (tile->with_materials)
+        edge_sum(view, tile, edges, row, column, splats, true, true);
     else if (tile->with_normals)
-        edge_sum(view, tile, edges, row, column, splats, true);
+        edge_sum(view, tile, edges, row, column, splats, true, false);
     else
-        edge_sum(view, tile, edges, row, column, splats, false);
+        edge_sum(view, tile, edges, row, column, splats, false, false);
 }
 
 static void edge_near_pass(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
@@ -307,8 +310,7 @@ static void edge_near_pass(const ewa_view *view, const ewa_tile *tile, const ewa
                 }
                 counts = wm_and(counts, wf_le(wf_load(nearest), key));
                 near_add(view, &records[i], &sample, counts, key,
-                         edges->sums + block * tile->channel_count * EWA_BLOCK_LANES, tile->with_normals,
-                         false);
+                         edges->sums + block * tile->channel_count * EWA_BLOCK_LANES, tile, false);
             }
         }
     }
@@ -320,9 +322,10 @@ static wm compose_block(const ewa_tile *tile, const ewa_resolve *to, const ewa_e
     enum { LANES = EWA_BLOCK_LANES };
     const size_t block = block_at(tile, row, column);
     const float *sums = edges->sums + block * tile->channel_count * LANES;
-    const wf scale = color_scale(tile, to, sums, (uint32_t)tile->x_px + column * EWA_BLOCK_PX,
-                                 (uint32_t)tile->y_px + row * EWA_BLOCK_PX);
-    const surface found = gathered_surface(to, sums, scale);
+    float shade[EWA_SHADE_FLOATS];
+    shade_block(tile, to, sums, (uint32_t)tile->x_px + column * EWA_BLOCK_PX,
+                (uint32_t)tile->y_px + row * EWA_BLOCK_PX, shade);
+    const surface found = gathered_surface(to, sums, shade);
     float *behind = edges->behind + block * 4 * LANES;
     const wf covered = wf_load(behind + 3 * LANES);
     const wf share = wf_mul(wf_sub(wf_set(1), covered), found.alpha);

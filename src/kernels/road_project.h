@@ -180,9 +180,14 @@ static ALWAYS_INLINE void stage_shape(const ewa_view *view, stage *t) {
 }
 
 /// Appends the records of the lanes in `alive_bits`. May write EWA_PACKET_LANES entries whatever they are.
+/// `materials` may be NULL.
 static ALWAYS_INLINE void emit(ewa_run *run, uint32_t alive_bits, const wf records[16], const float loads[64],
-                               const uint8_t classes[16]) {
+                               const uint8_t classes[16], const uint8_t *materials) {
     uint32_t at = run->count;
+    for (uint32_t lane = 0, to = at; materials && lane < 16; lane++) {
+        run->materials[to] = materials[lane];
+        to += alive_bits >> lane & 1;
+    }
     if (alive_bits == 0xffff) { // most packets lie within one tile
         for (uint32_t lane = 0; lane < 16; lane++)
             wf_store((float *)(void *)&run->records[at + lane], records[lane]);
@@ -201,8 +206,9 @@ static ALWAYS_INLINE void emit(ewa_run *run, uint32_t alive_bits, const wf recor
 }
 
 /// Third step: tolerance, box in the tile, and the records of the lanes that are in it.
-static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *packet, const ewa_tile *tile,
-                                     stage *t, ewa_run *run, wf *least) {
+static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *packet,
+                                     const uint8_t *materials, const ewa_tile *tile, stage *t, ewa_run *run,
+                                     wf *least) {
     const wf one = wf_set(1), zero = wf_set(0), half = wf_set(0.5f);
     const wf fx = wf_set(view->fx_px), fy = wf_set(view->fy_px);
     const wf *p = t->p;
@@ -293,7 +299,7 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
              t->peak);
     uint8_t classes[16];
     wi_store_u8(classes, box_classes(columns, rows, steep, wide));
-    emit(run, alive_bits, lanes, loads, classes);
+    emit(run, alive_bits, lanes, loads, classes, materials);
 }
 
 static ALWAYS_INLINE void setup_run(const ewa_view *view, const ewa_packet *packets,
@@ -316,8 +322,12 @@ static ALWAYS_INLINE void setup_run(const ewa_view *view, const ewa_packet *pack
             stage_place(view, &packets[ids[i]], ids[i], ellipses, &stages[i], run);
         }
         for (uint32_t i = 0; i < here; i++) stage_shape(view, &stages[i]);
-        for (uint32_t i = 0; i < here; i++)
-            if (wm_bits(stages[i].alive)) stage_emit(view, &packets[ids[i]], tile, &stages[i], run, &least);
+        for (uint32_t i = 0; i < here; i++) {
+            const uint8_t *materials = view->surfel_materials;
+            if (materials) materials += (size_t)ids[i] * EWA_PACKET_LANES;
+            if (wm_bits(stages[i].alive))
+                stage_emit(view, &packets[ids[i]], materials, tile, &stages[i], run, &least);
+        }
     }
     run->least_key = -largest_lane(wf_negate(least));
 }

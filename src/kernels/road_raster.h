@@ -152,19 +152,23 @@ static void clear(const ewa_tile *tile) {
 
 /// What a record adds where its kernel is at its peak.
 typedef struct payload {
-    wf peak, color[3], normal[3];
+    wf peak, color[3], normal[3], material[EWA_MATERIAL_CHANNELS];
 } payload;
 
-static ALWAYS_INLINE payload payload_load(const ewa_record *r, const ewa_load *load, bool with_normals) {
+/// `material` may be NULL.
+static ALWAYS_INLINE payload payload_load(const ewa_record *r, const ewa_load *load, bool with_normals,
+                                          const float *material) {
     payload p = {.peak = wf_set(load->peak), .color = {wf_set(r->red), wf_set(r->green), wf_set(r->blue)}};
     if (with_normals)
         for (int i = 0; i < 3; i++) p.normal[i] = wf_set(load->normal[i]);
+    if (material)
+        for (int i = 0; i < EWA_MATERIAL_CHANNELS; i++) p.material[i] = wf_set(material[i] * load->peak);
     return p;
 }
 
 /// `weight` is relative to the kernel's peak.
 static ALWAYS_INLINE void add_channels(float *sums, wf weight, const payload *p, wf key, bool with_normals,
-                                       bool with_depth, bool orthographic) {
+                                       bool with_materials, bool with_depth, bool orthographic) {
     enum { LANES = EWA_BLOCK_LANES };
     wf_store(sums, wf_fma(weight, p->peak, wf_load(sums)));
     for (int i = 0; i < 3; i++)
@@ -172,26 +176,33 @@ static ALWAYS_INLINE void add_channels(float *sums, wf weight, const payload *p,
     if (with_normals)
         for (int i = 0; i < 3; i++)
             wf_store(sums + (4 + i) * LANES, wf_fma(weight, p->normal[i], wf_load(sums + (4 + i) * LANES)));
+    if (with_materials)
+        for (int i = 0; i < EWA_MATERIAL_CHANNELS; i++)
+            wf_store(sums + (7 + i) * LANES,
+                     wf_fma(weight, p->material[i], wf_load(sums + (7 + i) * LANES)));
     if (with_depth) {
-        const int at = with_normals ? 7 : 4;
+        const int at = with_materials ? 7 + EWA_MATERIAL_CHANNELS : with_normals ? 7 : 4;
         const wf z = orthographic ? wf_negate(key) : wf_div(wf_set(1), key);
         wf_store(sums + at * LANES, wf_fma(wf_mul(weight, p->peak), z, wf_load(sums + at * LANES)));
     }
 }
 
 static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_t first_column,
-                                          uint32_t columns, uint32_t rows, bool with_normals, bool with_depth,
-                                          bool orthographic, bool two_doublings, depth_test test) {
+                                          uint32_t columns, uint32_t rows, bool with_normals,
+                                          bool with_materials, bool with_depth, bool orthographic,
+                                          bool two_doublings, depth_test test) {
     const ewa_view *view = p->view;
     const ewa_tile *tile = p->tile;
     const ewa_record *r = &p->run->records[splat];
-    const uint32_t channels = 4 + (with_normals ? 3 : 0) + (with_depth ? 1 : 0);
+    const uint32_t channels =
+        4 + (with_normals ? 3 : 0) + (with_materials ? EWA_MATERIAL_CHANNELS : 0) + (with_depth ? 1 : 0);
     const uint32_t doublings = two_doublings ? 2 : view->doublings;
     column_terms c[EWA_COLUMN_CLASSES];
     UNROLL_COLUMNS
     for (uint32_t i = 0; i < columns; i++)
         c[i] = column_start(r, r->key, r->key_x, (float)(EWA_BLOCK_PX * (first_column + i)));
-    const payload add = payload_load(r, &p->run->loads[splat], with_normals);
+    const float *material = with_materials ? view->materials[p->run->materials[splat]] : NULL;
+    const payload add = payload_load(r, &p->run->loads[splat], with_normals, material);
     const wf end = wf_set(view->exponent_end);
     const size_t row_blocks = tile->blocks_per_row;
     const size_t first_block = box_row(r->box) * row_blocks + box_column(r->box) + first_column;
@@ -209,7 +220,7 @@ static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_
                 wm_and(wf_lt(s, end), wf_le(wf_load(nearest + (size_t)i * EWA_BLOCK_LANES), key));
             const wf weight = wf_keep(counts, exponential(s, doublings));
             add_channels(sums + (size_t)i * channels * EWA_BLOCK_LANES, weight, &add, key, with_normals,
-                         with_depth, orthographic);
+                         with_materials, with_depth, orthographic);
         }
         nearest += row_blocks * EWA_BLOCK_LANES;
         sums += row_blocks * channels * EWA_BLOCK_LANES;
@@ -218,15 +229,15 @@ static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_
 }
 
 /// The accumulation for one set of channels; cutoffs up to 3 need two doublings only.
-#define ACCUMULATE_ROWS(name, with_normals, with_depth, orthographic, two_doublings)                         \
+#define ACCUMULATE_ROWS(name, with_normals, with_materials, with_depth, orthographic, two_doublings)         \
     static ALWAYS_INLINE void name(const pass *p, uint32_t splat, uint32_t first_column, uint32_t columns,   \
                                    uint32_t rows, depth_test test) {                                         \
-        accumulate_rows(p, splat, first_column, columns, rows, with_normals, with_depth, orthographic,       \
-                        two_doublings, test);                                                                \
+        accumulate_rows(p, splat, first_column, columns, rows, with_normals, with_materials, with_depth,     \
+                        orthographic, two_doublings, test);                                                  \
     }
-#define ACCUMULATE(name, with_normals, with_depth, orthographic)                                             \
-    ACCUMULATE_ROWS(name##_rows, with_normals, with_depth, orthographic, true)                               \
-    ACCUMULATE_ROWS(name##_long_rows, with_normals, with_depth, orthographic, false)                         \
+#define ACCUMULATE(name, with_normals, with_materials, with_depth, orthographic)                             \
+    ACCUMULATE_ROWS(name##_rows, with_normals, with_materials, with_depth, orthographic, true)               \
+    ACCUMULATE_ROWS(name##_long_rows, with_normals, with_materials, with_depth, orthographic, false)         \
     static void name(const pass *p) {                                                                        \
         if (p->view->doublings == 2)                                                                         \
             for_each_splat(p, name##_rows);                                                                  \
@@ -234,16 +245,23 @@ static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_
             for_each_splat(p, name##_long_rows);                                                             \
     }
 
-ACCUMULATE(add_color, false, false, false)
-ACCUMULATE(add_color_depth, false, true, false)
-ACCUMULATE(add_color_height, false, true, true)
-ACCUMULATE(add_normal, true, false, false)
-ACCUMULATE(add_normal_depth, true, true, false)
-ACCUMULATE(add_normal_height, true, true, true)
+ACCUMULATE(add_color, false, false, false, false)
+ACCUMULATE(add_color_depth, false, false, true, false)
+ACCUMULATE(add_color_height, false, false, true, true)
+ACCUMULATE(add_normal, true, false, false, false)
+ACCUMULATE(add_normal_depth, true, false, true, false)
+ACCUMULATE(add_normal_height, true, false, true, true)
+ACCUMULATE(add_material_depth, true, true, true, false)
+ACCUMULATE(add_material_height, true, true, true, true)
 
 static void accumulate(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run) {
     const pass p = {view, tile, run};
-    if (!tile->with_depth) {
+    if (tile->with_materials) {
+        if (view->orthographic)
+            add_material_height(&p);
+        else
+            add_material_depth(&p);
+    } else if (!tile->with_depth) {
         if (tile->with_normals)
             add_normal(&p);
         else
@@ -309,7 +327,7 @@ static ALWAYS_INLINE void near_raise(const ewa_near_record *r, const near_sample
 }
 
 static ALWAYS_INLINE void near_add(const ewa_view *view, const ewa_near_record *r, const near_sample *sample,
-                                   wm counts, wf key, float *sums, bool with_normals, bool with_depth) {
+                                   wm counts, wf key, float *sums, const ewa_tile *tile, bool with_depth) {
     if (!wm_bits(counts)) return;
     // Lanes that do not count may hold anything.
     payload add = {.peak = wf_keep(counts, sample->weight)};
@@ -317,9 +335,11 @@ static ALWAYS_INLINE void near_add(const ewa_view *view, const ewa_near_record *
         add.color[k] = wf_mul(add.peak, wf_set(r->color[k]));
         add.normal[k] = wf_mul(add.peak, wf_set(r->normal[k]));
     }
+    for (int k = 0; k < EWA_MATERIAL_CHANNELS; k++)
+        add.material[k] = wf_mul(add.peak, wf_set(r->material[k]));
     const wf e = exponential(wf_keep(counts, sample->exponent), view->doublings);
-    add_channels(sums, wf_keep(counts, e), &add, wf_select(counts, key, wf_set(1)), with_normals, with_depth,
-                 false);
+    add_channels(sums, wf_keep(counts, e), &add, wf_select(counts, key, wf_set(1)), tile->with_normals,
+                 tile->with_materials, with_depth, false);
 }
 
 static ALWAYS_INLINE near_sample near_block(const ewa_view *view, const ewa_near_record *r, uint32_t row,
@@ -351,7 +371,7 @@ static void near_accumulate(const ewa_view *view, const ewa_tile *tile, const ew
                 const near_sample sample = near_block(view, &records[i], row, column);
                 const wf key = wf_div(wf_set(1), sample.z);
                 const wm counts = wm_and(sample.counts, wf_le(wf_load(nearest), key));
-                near_add(view, &records[i], &sample, counts, key, sums, tile->with_normals, tile->with_depth);
+                near_add(view, &records[i], &sample, counts, key, sums, tile, tile->with_depth);
                 sums += tile->channel_count * EWA_BLOCK_LANES;
             }
         }

@@ -8,6 +8,16 @@
 
 #include <string.h>
 
+/// Materials that differ from surfel to surfel are summed per pixel.
+static void set_materials(const ewa_surfels *surfels, const ewa_shading_setup *shading, ewa_tile_job *job) {
+    job->with_materials = shading->has_table && surfels->materials;
+    if (!job->with_materials) return;
+    for (uint32_t i = 0; i < shading->material_count; i++)
+        ewa_material_numbers(&shading->materials[i], job->materials[i]);
+    job->view.surfel_materials = surfels->materials;
+    job->view.materials = (const float(*)[EWA_MATERIAL_CHANNELS])job->materials;
+}
+
 /// Large tiles share fewer packets, small ones spread a small picture over the threads. The picture alone
 /// decides, not the threads: tiles round differently.
 static uint32_t tile_side_px(const ewa_camera *camera) {
@@ -89,19 +99,26 @@ ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const 
     ewa_status status = ewa_render_options_choose(context, options, &chosen);
     if (status == EWA_OK) status = ewa_camera_check(context, camera);
     if (status != EWA_OK) return status;
+    ewa_shading_setup shading;
+    ewa_shading_setup_make(&chosen, &shading);
+    status = ewa_shading_check_materials(context, &shading, surfels->most_material);
+    if (status != EWA_OK) return status;
 
     ewa_tile_job job = {.kernels = renderer->kernels,
                         .surfels = surfels,
                         .bins = &renderer->bins,
-                        .with_normals = chosen.shading == EWA_SHADING_LAMBERT || frame->normal,
+                        .with_normals = shading.lit || frame->normal,
                         .with_depth = frame->depth != NULL,
                         .count_fragments = stats != NULL,
                         .scratch = renderer->scratch};
     job.edge_layers = chosen.edge_antialiasing && chosen.passes == 3 ? chosen.edge_layers : 1;
-    job.channel_count = 4 + (job.with_normals ? 3 : 0) + (job.with_depth ? 1 : 0);
     status = ewa_view_set(&job.view, surfels, camera, &chosen, tile_side_px(camera));
     if (status != EWA_OK) return status;
-    ewa_resolve_set(&job.resolve, surfels, camera, &chosen, frame);
+    set_materials(surfels, &shading, &job);
+    job.with_depth |= job.with_materials;
+    job.channel_count = 4 + (job.with_normals ? 3 : 0) +
+                        (job.with_materials ? EWA_MATERIAL_CHANNELS : 0) + (job.with_depth ? 1 : 0);
+    ewa_resolve_set(&job.resolve, surfels, camera, &chosen, &shading, frame);
 
     status = ewa_bins_fill(context, &renderer->bins, renderer->kernels, &job.view, surfels);
     if (status != EWA_OK) return status;

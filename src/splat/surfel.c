@@ -39,6 +39,10 @@ static void read_color(const ewa_surfel_reader *reader, const double *value, ewa
     surfel->alpha = components < 4 || !finite ? 1 : clamp01(scale > 0 ? value[3] / scale : value[3]);
 }
 
+static double read_material(double value) {
+    return value >= 0 && value <= UINT8_MAX && value == floor(value) ? value : 0;
+}
+
 /// False for NaN too.
 static bool within_limit(ewa_vec3 v) {
     return fabs(v.x) <= EWA_SURFEL_LIMIT && fabs(v.y) <= EWA_SURFEL_LIMIT && fabs(v.z) <= EWA_SURFEL_LIMIT;
@@ -123,6 +127,7 @@ ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_opti
         .tangent_u = ewa_cloud_find(cloud, EWA_TANGENT_U),
         .tangent_v = ewa_cloud_find(cloud, EWA_TANGENT_V),
         .color = ewa_cloud_find(cloud, EWA_COLOR),
+        .material = ewa_cloud_find(cloud, EWA_MATERIAL),
         .sigma_per_radius = options->radius_scale / options->cutoff,
         .axis_scale = options->radius_scale,
     };
@@ -130,6 +135,7 @@ ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_opti
     if (status == EWA_OK) status = check_components(cloud, reader->position, 3, 3);
     if (status == EWA_OK) status = check_components(cloud, reader->normal, 3, 3);
     if (status == EWA_OK) status = check_components(cloud, reader->color, 3, 4);
+    if (status == EWA_OK) status = check_components(cloud, reader->material, 1, 1);
     if (reader->tangent_u && reader->tangent_v) {
         reader->radius = NULL;
         if (status == EWA_OK) status = check_components(cloud, reader->tangent_u, 3, 3);
@@ -147,12 +153,13 @@ ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_opti
 static uint64_t read_block(const ewa_surfel_reader *reader, uint64_t first, uint64_t count,
                            ewa_surfel *surfels, bool *drawable) {
     double position[3 * BLOCK], normal[3 * BLOCK], first_axis[3 * BLOCK], second_axis[3 * BLOCK],
-        color[4 * BLOCK];
+        color[4 * BLOCK], material[BLOCK];
     ewa_attribute_read_f64(reader->position, first, count, position);
     if (reader->normal) ewa_attribute_read_f64(reader->normal, first, count, normal);
     if (reader->color) ewa_attribute_read_f64(reader->color, first, count, color);
     ewa_attribute_read_f64(reader->tangent_u ? reader->tangent_u : reader->radius, first, count, first_axis);
     if (reader->tangent_v) ewa_attribute_read_f64(reader->tangent_v, first, count, second_axis);
+    if (reader->material) ewa_attribute_read_f64(reader->material, first, count, material);
     const ewa_vec3 origin = vec3_load(reader->origin_world);
     uint64_t kept = 0;
     for (uint64_t i = 0; i < count; i++) {
@@ -169,6 +176,7 @@ static uint64_t read_block(const ewa_surfel_reader *reader, uint64_t first, uint
         drawable[i] = drawable[i] && within_limit(center);
         kept += drawable[i];
         surfel->alpha = 1;
+        surfel->material = reader->material ? read_material(material[i]) : 0;
         if (reader->color)
             read_color(reader, &color[reader->color->component_count * i], surfel);
         else

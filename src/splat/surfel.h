@@ -15,6 +15,7 @@ typedef struct ewa_surfel {
     double normal_world[3]; ///< unit; +-(u x v), on the side of the cloud's normal if it has one
     double color_linear[3]; ///< [0, 1]
     double alpha;           ///< [0, 1]
+    double material;        ///< whole, [0, 255]
 } ewa_surfel;
 
 /// Largest magnitude of a coordinate and of an axis, and the inverse of the smallest axis: surfels outside
@@ -26,7 +27,8 @@ typedef struct ewa_surfel {
 
 /// The streams of a cloud that make surfels. Valid until the cloud's streams change.
 typedef struct ewa_surfel_reader {
-    const ewa_attribute *position, *normal, *radius, *tangent_u, *tangent_v, *color; ///< NULL: not used
+    const ewa_attribute *position, *normal, *radius, *tangent_u, *tangent_v, *color, *material; ///< NULL: not
+                                                                                                ///< used
     double origin_world[3];
     double sigma_per_radius; ///< radius_scale / F
     double axis_scale;       ///< radius_scale
@@ -39,7 +41,7 @@ typedef struct ewa_surfel_reader {
 /// A "color" of 3 or 4 components is used when there is one: unsigned integers are sRGB over their whole
 /// range, signed ones over their non-negative half (alpha is linear), floats are linear and negative ones 0;
 /// alpha is clamped to [0, 1]. A component that is not finite makes the colour an opaque EWA_DEFAULT_GREY, as
-/// no colour does. `options` are checked ones. Errors: EWA_ERROR_ARGUMENT with a message that names the
+/// no colour does. A "material" that is no whole number in [0, 255] is 0. `options` are checked ones. Errors: EWA_ERROR_ARGUMENT with a message that names the
 /// missing or misshapen attribute.
 ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_options *options,
                                   ewa_surfel_reader *reader);

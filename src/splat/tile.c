@@ -35,6 +35,7 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     } needs[] = {
         {&s->record_buffer, records + EWA_PACKET_LANES, sizeof *s->records},
         {&s->load_buffer, records + EWA_PACKET_LANES, sizeof *s->loads},
+        {&s->material_buffer, job->with_materials ? records + EWA_PACKET_LANES : 0, sizeof *s->materials},
         {&s->order_buffer, records, sizeof *s->order},
         {&s->list_buffer, 2 * (EWA_LISTS * records + EWA_BLOCK_LANES), sizeof *s->listed},
         {&s->box_buffer, 3 * box_count, sizeof(float)},
@@ -50,6 +51,7 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     }
     s->records = s->record_buffer.data;
     s->loads = s->load_buffer.data;
+    s->materials = s->material_buffer.data;
     s->order = s->order_buffer.data;
     s->listed = s->list_buffer.data;
     s->listed_keys = (float *)(s->listed + EWA_LISTS * records + EWA_BLOCK_LANES);
@@ -81,9 +83,10 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
 }
 
 void ewa_tile_scratch_free(ewa_context *context, ewa_tile_scratch *s) {
-    ewa_buffer *const buffers[] = {&s->record_buffer, &s->load_buffer,  &s->order_buffer,
-                                   &s->list_buffer,   &s->box_buffer,   &s->near_buffer,
-                                   &s->kept_buffer,   &s->pixel_buffer, &s->packet_buffer};
+    ewa_buffer *const buffers[] = {&s->record_buffer, &s->load_buffer, &s->material_buffer,
+                                   &s->order_buffer,  &s->list_buffer, &s->box_buffer,
+                                   &s->near_buffer,   &s->kept_buffer, &s->pixel_buffer,
+                                   &s->packet_buffer};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) ewa_buffer_free(context, buffers[i]);
 }
 
@@ -101,6 +104,7 @@ static void sort_run(const ewa_run *run, uint16_t *order, ewa_sorted_run *sorted
     for (uint32_t i = 0; i < run->count; i++) order[next[run->classes[i]]++] = (uint16_t)i;
     sorted->records = run->records;
     sorted->loads = run->loads;
+    sorted->materials = run->materials;
     sorted->order = order;
 }
 
@@ -147,6 +151,7 @@ static void prepare_run(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_
     const uint64_t first = index * EWA_RUN_PACKETS, left = packets->count - first;
     s->run.records = s->records + at;
     s->run.loads = s->loads + at;
+    if (job->with_materials) s->run.materials = s->materials + at;
     const uint32_t announced = left < 2 * EWA_RUN_PACKETS ? (uint32_t)left : 2 * EWA_RUN_PACKETS;
     job->kernels->setup(&job->view, job->surfels->packets, packets->ids + first,
                         announced < EWA_RUN_PACKETS ? announced : EWA_RUN_PACKETS, announced, tile, &s->run);
@@ -302,7 +307,8 @@ void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
                      .sums = s->sums,
                      .channel_count = job->channel_count,
                      .with_normals = job->with_normals,
-                     .with_depth = job->with_depth};
+                     .with_depth = job->with_depth,
+                     .with_materials = job->with_materials};
     const int32_t side = (int32_t)view->tile_px;
     tile.width_px = (int32_t)view->width_px - tile.x_px < side ? (int32_t)view->width_px - tile.x_px : side;
     tile.height_px =

@@ -38,6 +38,7 @@ typedef struct ewa_tile_scratch {
     ewa_run run;
     ewa_record *records;
     ewa_load *loads;
+    uint8_t *materials; ///< where there are several
     uint16_t *order;
     uint32_t *listed;   ///< splats behind marked blocks, block by block
     float *listed_keys; ///< ewa_edge_splats.largest_keys of them
@@ -54,7 +55,7 @@ typedef struct ewa_tile_scratch {
     float cells[EWA_TILE_CELLS * EWA_TILE_CELLS];
     float *nearest, *sums;
     ewa_edges edges;
-    ewa_buffer record_buffer, load_buffer, order_buffer, list_buffer, box_buffer, near_buffer, kept_buffer,
+    ewa_buffer record_buffer, load_buffer, material_buffer, order_buffer, list_buffer, box_buffer, near_buffer, kept_buffer,
         pixel_buffer, packet_buffer;
     uint32_t edge_rows[EWA_MAX_TILE_BLOCKS], edge_rows_left[EWA_MAX_TILE_BLOCKS];
     uint64_t drawn_count, fragment_count, hidden_splat_count;
@@ -68,8 +69,9 @@ typedef struct ewa_tile_job {
     const ewa_bins *bins;
     ewa_view view;
     ewa_resolve resolve;
+    float materials[EWA_MAX_MATERIALS][EWA_MATERIAL_CHANNELS];
     uint32_t channel_count, edge_layers;
-    bool with_normals, with_depth, count_fragments;
+    bool with_normals, with_depth, with_materials, count_fragments;
     ewa_tile_scratch *const *scratch; ///< [worker]
 } ewa_tile_job;
 
