@@ -119,6 +119,15 @@ static bool parse_vector(const cli_option *option, const char *text, option_vect
     return true;
 }
 
+static bool parse_one_more(const cli_option *option, const char *text, option_vectors *vectors,
+                           char message[OPTION_ERROR_BYTES]) {
+    if (vectors->count == OPTION_VECTORS_MAX)
+        return wrong(message, "--%s: given more than %d times", option->key, OPTION_VECTORS_MAX);
+    if (!parse_vector(option, text, &vectors->each[vectors->count], message)) return false;
+    vectors->count++;
+    return true;
+}
+
 static bool parse_color(const cli_option *option, const char *text, option_color *color,
                         char message[OPTION_ERROR_BYTES]) {
     if (strcmp(text, "transparent") == 0) {
@@ -197,6 +206,8 @@ static bool parse_value(const cli_option *option, const char *text, void *member
         return parse_integer(option, text, member, message);
     case OPTION_VECTOR:
         return parse_vector(option, text, member, message);
+    case OPTION_VECTORS:
+        return parse_one_more(option, text, member, message);
     case OPTION_COLOR:
         return parse_color(option, text, member, message);
     case OPTION_SIZE:

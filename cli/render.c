@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "inputs.h"
 #include "json.h"
+#include "light.h"
 #include "picture.h"
 #include "view.h"
 
@@ -14,13 +15,14 @@
 #include <string.h>
 
 typedef struct render_arguments {
-    view_arguments view; // first: it begins with the common arguments
+    view_arguments view;   // first: it begins with the common arguments
+    light_arguments light; // second
     const char *output, *aov, *save_camera_path, *stats_path;
-    int kernel, passes, cull, shading, colormap;
-    double cutoff, prefilter_px, radius_scale, tolerance, edge_threshold, ambient;
+    int kernel, passes, cull, colormap;
+    double cutoff, prefilter_px, radius_scale, tolerance, edge_threshold;
     bool edge_antialiasing, close_gaps;
     int64_t edge_layers;
-    option_vector light, range;
+    option_vector range;
     option_color background;
     const char *color_by;
 } render_arguments;
@@ -32,6 +34,7 @@ static const double GAP_RADIUS = 1;
 
 #define AT(member) offsetof(render_arguments, member)
 
+_Static_assert(offsetof(render_arguments, light) == LIGHT_OFFSET, "light_options says so");
 _Static_assert(EWA_MAX_EDGE_LAYERS == 8, "the range of --edge-layers says so");
 
 static const cli_option output_table[] = {
@@ -126,25 +129,6 @@ static const cli_option splat_table[] = {
 };
 
 static const cli_option look_table[] = {
-    {.key = "shading",
-     .kind = OPTION_CHOICE,
-     .offset = AT(shading),
-     .range = "none|lambert",
-     .help = "light: none gives the bare colours"},
-    {.key = "light",
-     .kind = OPTION_VECTOR,
-     .offset = AT(light),
-     .value = "x,y,z",
-     .low = 3,
-     .high = 3,
-     .absent = "headlight",
-     .help = "direction towards the light"},
-    {.key = "ambient",
-     .kind = OPTION_NUMBER,
-     .offset = AT(ambient),
-     .value = "A",
-     .range = "[0, 1]",
-     .help = "share of the light that comes from everywhere"},
     {.key = "background",
      .aliases = "background-color",
      .kind = OPTION_COLOR,
@@ -185,14 +169,13 @@ static void set_defaults(void *data) {
     arguments->kernel = (int)render.kernel;
     arguments->passes = render.passes == 1 ? ONE_PASS : THREE_PASSES;
     arguments->cull = (int)render.cull;
-    arguments->shading = (int)render.shading;
+    light_set_defaults(&arguments->light);
     arguments->prefilter_px = render.prefilter_px;
     arguments->tolerance = render.tolerance;
     arguments->edge_antialiasing = render.edge_antialiasing;
     arguments->close_gaps = true;
     arguments->edge_layers = render.edge_layers;
     arguments->edge_threshold = render.edge_threshold;
-    arguments->ambient = render.ambient;
     arguments->background = (option_color){{1, 1, 1, 1}};
 }
 
@@ -204,18 +187,15 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         missing = "render: no output; say -o FILE";
     else if (!arguments->color_by && arguments->range.count)
         missing = "--range needs --color-by";
-    else if (arguments->light.count && !arguments->light.values[0] && !arguments->light.values[1] &&
-             !arguments->light.values[2])
-        missing = "--light: 0,0,0 has no direction";
     if (missing) {
         snprintf(message, OPTION_ERROR_BYTES, "%s", missing);
         return false;
     }
-    return view_check(&arguments->view, message) &&
+    return view_check(&arguments->view, message) && light_check(&arguments->light, message) &&
            picture_parse_paths(arguments->output, arguments->aov, &paths, message);
 }
 
-static ewa_render_options render_options(const render_arguments *arguments) {
+static ewa_render_options render_options(const render_arguments *arguments, const light_objects *lit_by) {
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
     options.kernel = (ewa_kernel)arguments->kernel;
@@ -226,13 +206,7 @@ static ewa_render_options render_options(const render_arguments *arguments) {
     options.edge_layers = (uint32_t)arguments->edge_layers;
     options.edge_threshold = arguments->edge_threshold;
     options.cull = (ewa_cull)arguments->cull;
-    options.shading = (ewa_shading)arguments->shading;
-    options.ambient = arguments->ambient;
-    if (arguments->light.count) {
-        options.light_count = 1;
-        ewa_light_init(&options.lights[0]);
-        memcpy(options.lights[0].direction_world, arguments->light.values, 3 * sizeof(double));
-    }
+    light_apply(&arguments->light, lit_by, &options);
     for (int c = 0; c < 3; c++)
         options.background[c] = ewa_linear_from_srgb((float)arguments->background.rgba[c]);
     options.background[3] = (float)arguments->background.rgba[3];
@@ -385,12 +359,13 @@ static bool make_scene(cli_session *session, const render_arguments *arguments, 
 
 /// Draws and writes everything. False after reporting.
 static bool draw(cli_session *session, const render_arguments *arguments, const picture_paths *paths,
-                 const ewa_camera *camera, const ewa_surfels *surfels, render_report *report) {
+                 const ewa_camera *camera, const light_objects *lit_by, const ewa_surfels *surfels,
+                 render_report *report) {
     cli_picture picture;
     ewa_renderer *renderer = NULL;
     bool done = picture_make(session, paths, camera, &picture);
     if (done) {
-        const ewa_render_options options = render_options(arguments);
+        const ewa_render_options options = render_options(arguments, lit_by);
         session->subject = NULL;
         const double started_s = clock_now_s();
         ewa_status status = ewa_renderer_create(session->context, &renderer);
@@ -424,13 +399,15 @@ static int run(const void *data) {
     char message[OPTION_ERROR_BYTES];
     ewa_camera camera;
     ewa_surfels *surfels = NULL;
+    light_objects lit_by = {.material_count = 0};
     render_report report = {.load_s = 0};
     bool done = picture_parse_paths(arguments->output, arguments->aov, &paths, message) &&
                 picture_check_paths(&session, &paths) &&
                 (!arguments->save_camera_path || output_check(&session, arguments->save_camera_path)) &&
                 (!arguments->stats_path || output_check(&session, arguments->stats_path)) &&
+                light_load(&session, &arguments->light, &lit_by) &&
                 make_scene(&session, arguments, &camera, &surfels, &report) &&
-                draw(&session, arguments, &paths, &camera, surfels, &report) &&
+                draw(&session, arguments, &paths, &camera, &lit_by, surfels, &report) &&
                 (!arguments->stats_path || write_stats(&session, arguments, &camera, &report));
     if (done)
         session_say(&session, "%s: %llu of %llu splats drawn in %.1f ms, %.3f s in all", arguments->output,
@@ -438,6 +415,7 @@ static int run(const void *data) {
                     (unsigned long long)report.stats.splat_count, 1e3 * report.render_s,
                     clock_now_s() - session.started_s);
     ewa_surfels_destroy(&surfels);
+    light_free(&lit_by);
     return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
 }
 
@@ -446,7 +424,8 @@ static int run(const void *data) {
 static const option_group output_options = {"Output", output_table, COUNT(output_table)};
 static const option_group splat_options = {"Splats", splat_table, COUNT(splat_table)};
 static const option_group look_options = {"Look", look_table, COUNT(look_table)};
-static const option_group *const groups[] = {&output_options, &view_options, &splat_options, &look_options};
+static const option_group *const groups[] = {&output_options, &view_options, &splat_options,
+                                             &light_options,  &look_options};
 
 const cli_command render_command = {
     .name = "render",

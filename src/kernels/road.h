@@ -35,6 +35,7 @@ enum {
     EWA_GROUP_RECORDS = 64,
     EWA_BOX_LEVELS = 3,       ///< of ewa_edge_boxes
     EWA_BOX_GUARD = 0x8080,   ///< a bit above each number, so that they can be compared by one subtraction
+    EWA_DOME_REACH = 4, ///< pixels that eye-dome lighting looks away
     EWA_MAX_TILE_BLOCKS = 32, ///< along a side, so that a row of blocks is a word of bits
 };
 
@@ -208,6 +209,21 @@ typedef struct ewa_resolve {
     float *rgba, *depth, *normal, *coverage;
 } ewa_resolve;
 
+/// A picture that gets eye-dome lighting.
+typedef struct ewa_eye_dome {
+    uint32_t width_px, height_px;
+    bool orthographic;
+    float inverse_height;  ///< orthographic: 1 / the height of the view in world units
+    float exponent;        ///< light = 2^(exponent sum over all pairs)
+    const float *depth;    ///< as ewa_frame's
+    const float *surfaces; ///< as ewa_frame's rgba, over nothing
+    float *keys;           ///< [height + 2 EWA_DOME_REACH][key_stride], the picture in the middle
+    size_t key_stride;     ///< a multiple of 16, at least width + 2 EWA_DOME_REACH + 15
+    float background[4];   ///< linear, premultiplied
+    uint8_t *rgba8;        ///< may be NULL
+    float *rgba;           ///< may be NULL, may be `surfaces`
+} ewa_eye_dome;
+
 /// The kernels of one instruction set.
 typedef struct ewa_road_kernels {
     const char *name;
@@ -274,6 +290,11 @@ typedef struct ewa_road_kernels {
     /// `edge_rows` marks.
     void (*resolve)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges,
                     const uint32_t *edge_rows);
+
+    /// Eye-dome lighting: fills row [0, height + 2 EWA_DOME_REACH) of the keys.
+    void (*dome_keys)(const ewa_eye_dome *dome, uint32_t row);
+    /// Writes row [0, height) of the picture, when all keys are there.
+    void (*dome_shade)(const ewa_eye_dome *dome, uint32_t row);
 } ewa_road_kernels;
 
 /// Chooses the widest of `cpu_features` (EWA_CPU_* bits); plain C when there is none.

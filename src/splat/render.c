@@ -3,6 +3,7 @@
 //
 // The renderer: an object whose memory survives, and the order of a frame's stages. Reference: reference.c.
 #include "base/base.h"
+#include "splat/eye_dome.h"
 #include "splat/options.h"
 #include "splat/tile.h"
 
@@ -29,6 +30,7 @@ struct ewa_renderer {
     ewa_context *context;
     const ewa_road_kernels *kernels;
     ewa_bins bins;
+    ewa_dome_pass dome;
     uint32_t worker_count;
     ewa_tile_scratch *scratch[]; ///< one per worker
 };
@@ -44,7 +46,7 @@ ewa_status ewa_renderer_create(ewa_context *context, ewa_renderer **renderer) {
     ewa_renderer *made = ewa_allocate_zeroed(context, 1, renderer_bytes(worker_count));
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
-    made->kernels = ewa_road_kernels_choose(ewa_context_cpu_features(context));
+    made->kernels = made->dome.kernels = ewa_road_kernels_choose(ewa_context_cpu_features(context));
     made->worker_count = worker_count;
     for (uint32_t i = 0; i < worker_count; i++) {
         made->scratch[i] = ewa_allocate_zeroed(context, 1, sizeof *made->scratch[i]);
@@ -66,6 +68,7 @@ void ewa_renderer_destroy(ewa_renderer **renderer) {
         ewa_release(context, old->scratch[i], 1, sizeof *old->scratch[i]);
     }
     ewa_bins_free(context, &old->bins);
+    ewa_dome_pass_free(context, &old->dome);
     ewa_release(context, old, 1, renderer_bytes(old->worker_count));
     *renderer = NULL;
 }
@@ -102,13 +105,17 @@ ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const 
     ewa_shading_setup shading;
     ewa_shading_setup_make(&chosen, &shading);
     status = ewa_shading_check_materials(context, &shading, surfels->most_material);
+    const bool with_dome = chosen.eye_dome > 0 && (frame->rgba8 || frame->rgba);
+    ewa_frame drawn = *frame;
+    if (status == EWA_OK && with_dome)
+        status = ewa_dome_pass_start(context, &renderer->dome, camera, frame, &chosen, &drawn);
     if (status != EWA_OK) return status;
 
     ewa_tile_job job = {.kernels = renderer->kernels,
                         .surfels = surfels,
                         .bins = &renderer->bins,
-                        .with_normals = shading.lit || frame->normal,
-                        .with_depth = frame->depth != NULL,
+                        .with_normals = shading.lit || drawn.normal,
+                        .with_depth = drawn.depth != NULL,
                         .count_fragments = stats != NULL,
                         .scratch = renderer->scratch};
     job.edge_layers = chosen.edge_antialiasing && chosen.passes == 3 ? chosen.edge_layers : 1;
@@ -118,7 +125,7 @@ ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const 
     job.with_depth |= job.with_materials;
     job.channel_count = 4 + (job.with_normals ? 3 : 0) +
                         (job.with_materials ? EWA_MATERIAL_CHANNELS : 0) + (job.with_depth ? 1 : 0);
-    ewa_resolve_set(&job.resolve, surfels, camera, &chosen, &shading, frame);
+    ewa_resolve_set(&job.resolve, surfels, camera, &chosen, &shading, &drawn);
 
     status = ewa_bins_fill(context, &renderer->bins, renderer->kernels, &job.view, surfels);
     if (status != EWA_OK) return status;
@@ -127,6 +134,7 @@ ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const 
         status = ewa_tile_scratch_reserve(context, renderer->scratch[i], &job, renderer->bins.largest_bin);
     if (status != EWA_OK) return status;
     ewa_parallel(context, ewa_tile_draw, &job, renderer->bins.tiles_x * renderer->bins.tiles_y);
+    if (with_dome) ewa_dome_pass_finish(context, &renderer->dome);
     if (stats) gather_stats(renderer, surfels, start_s, binned_s, stats);
     return EWA_OK;
 }
