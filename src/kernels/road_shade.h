@@ -11,7 +11,6 @@
 #define EWA_SRC_KERNELS_ROAD_SHADE_H
 
 #include "kernels/road_raster.h"
-#include "math/wide_functions.h"
 
 enum { EWA_SHADE_FLOATS = 3 * EWA_BLOCK_LANES };
 
@@ -71,6 +70,7 @@ static ALWAYS_INLINE block_light gather_light(const ewa_resolve *to, const wf no
                                               wf shininess) {
     const wf zero = wf_set(0);
     block_light sum = {{zero, zero, zero}, {zero, zero, zero}};
+    const wf sight = dot3(normal, view);
     for (uint32_t k = 0; k < to->light_count; k++) {
         const ewa_road_light *from = &to->lights[k];
         wf toward[3];
@@ -81,11 +81,11 @@ static ALWAYS_INLINE block_light gather_light(const ewa_resolve *to, const wf no
         if (to->shading != EWA_ROAD_PHONG) continue;
         wf cosine = facing; // the headlight's H is V
         if (!from->headlight) {
-            for (int i = 0; i < 3; i++) toward[i] = wf_add(toward[i], view[i]);
-            cosine = wf_max(wf_mul(dot3(normal, toward), wf_inverse_root(dot3(toward, toward))), zero);
+            // N.(L + V) / |L + V|, whose square is 2 + 2 L.V.
+            const wf two = wf_set(2), length2 = wf_max(wf_fma(two, dot3(toward, view), two), zero);
+            cosine = wf_mul(wf_add(facing, sight), wf_inverse_root(length2));
         }
-        const wf highlight =
-            wf_keep(wf_lt(zero, facing), wf_power(wf_min(cosine, wf_set(1)), shininess));
+        const wf highlight = wf_keep(wf_lt(zero, facing), wf_power(cosine, shininess));
         for (int i = 0; i < 3; i++)
             sum.specular[i] = wf_fma(wf_set(from->color[i]), highlight, sum.specular[i]);
     }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Logarithm, power and arc tangent over the wide type, of exact and correctly rounded operations only: the
+// Reciprocals, logarithm, power and arc tangent over the wide type, of exact and correctly rounded operations only: the
 // same bytes from every instruction set and every C library. The errors are tested.
 //
 // Arc tangent based on: S. Moshier, Cephes Mathematical Library, atanf.c, 1989 (the polynomial).
@@ -10,12 +10,33 @@
 
 #include "math/wide.h"
 
-/// log2(x) for normal x > 0 within 2e-7, and within 2e-7 relative near x = 1.
+/// 1 / x for normal x > 0 within 1.2e-7 relative: a guess from the bits, two cubic steps. Cheaper than a
+/// division, and the same on every machine.
+static ALWAYS_INLINE wf wf_reciprocal(wf x) {
+    wf y = wf_of_bits(wi_sub(wi_set(0x7ef311c3), wi_of_bits(x)));
+    for (int i = 0; i < 2; i++) {
+        const wf e = wf_fnma(x, y, wf_set(1));
+        y = wf_fma(y, wf_fma(e, e, e), y);
+    }
+    return y;
+}
+
+/// 1 / sqrt(x) for normal x > 0 within 1.5e-7 relative, likewise; x = 0 gives a large finite number.
+static ALWAYS_INLINE wf wf_inverse_root(wf x) {
+    wf y = wf_of_bits(wi_sub(wi_set(0x5f375a86), wi_sar(wi_of_bits(x), 1)));
+    for (int i = 0; i < 2; i++) {
+        const wf e = wf_fnma(wf_mul(x, y), y, wf_set(1));
+        y = wf_fma(wf_mul(y, e), wf_fma(e, wf_set(0.375f), wf_set(0.5f)), y);
+    }
+    return y;
+}
+
+/// log2(x) for normal x > 0 within 2e-7 of max(1, |log2 x|), and within 3e-7 relative near x = 1.
 static ALWAYS_INLINE wf wf_log2(wf x) {
     // x = 2^e m with m in [sqrt(1/2), sqrt(2)); log m = 2 artanh((m - 1) / (m + 1)).
     const wi bits = wi_of_bits(x), e = wi_sar(wi_sub(bits, wi_set(0x3f3504f3)), 23);
     const wf m = wf_of_bits(wi_sub(bits, wi_shl(e, 23))), one = wf_set(1);
-    const wf s = wf_div(wf_sub(m, one), wf_add(m, one)), s2 = wf_mul(s, s);
+    const wf s = wf_mul(wf_sub(m, one), wf_reciprocal(wf_add(m, one))), s2 = wf_mul(s, s);
     wf series = wf_fma(s2, wf_set(0.412198583f), wf_set(0.577078016f)); // 2 / (7 ln 2), 2 / (5 ln 2), ...
     series = wf_fma(s2, series, wf_set(0.961796694f));
     series = wf_fma(s2, series, wf_set(2.88539008f));
@@ -35,9 +56,9 @@ static ALWAYS_INLINE wf wf_exp2(wf x) {
     return wf_mul(series, wf_of_bits(wi_shl(wi_add(wi_from_f(whole), wi_set(127)), 23)));
 }
 
-/// x^exponent for x in [0, 1] and exponent in [1, 65536]: within 1e-5 relative where it is above 1e-6.
+/// x^exponent for x clamped to [0, 1] and exponent in [1, 65536]: within 1e-5 relative where it is above 1e-6.
 static ALWAYS_INLINE wf wf_power(wf x, wf exponent) {
-    return wf_exp2(wf_mul(exponent, wf_log2(wf_max(x, wf_set(0x1p-126f)))));
+    return wf_exp2(wf_mul(exponent, wf_log2(wf_min(wf_max(x, wf_set(0x1p-126f)), wf_set(1)))));
 }
 
 /// The angle of (x, y) in [-pi, pi], within 3e-7; 0 for (0, 0).
