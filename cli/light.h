@@ -38,7 +38,6 @@ bool light_load(cli_session *session, const light_arguments *arguments, light_ob
 void light_free(light_objects *objects);
 
 /// Sets what the options say; `objects` must stay as long as `options` are used.
-void light_apply(const light_arguments *arguments, const light_objects *objects,
-                 ewa_render_options *options);
+void light_apply(const light_arguments *arguments, const light_objects *objects, ewa_render_options *options);
 
 #endif

@@ -424,8 +424,8 @@ static int run(const void *data) {
 static const option_group output_options = {"Output", output_table, COUNT(output_table)};
 static const option_group splat_options = {"Splats", splat_table, COUNT(splat_table)};
 static const option_group look_options = {"Look", look_table, COUNT(look_table)};
-static const option_group *const groups[] = {&output_options, &view_options, &splat_options,
-                                             &light_options,  &look_options};
+static const option_group *const groups[] = {&output_options, &view_options, &splat_options, &light_options,
+                                             &look_options};
 
 const cli_command render_command = {
     .name = "render",

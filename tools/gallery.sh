@@ -7,6 +7,7 @@
 # Blocks that name $EWA_DATA, a folder with scans that are not ours to distribute, are left out when it is not set.
 set -eu
 program=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
+tools=$(cd "$(dirname "$0")" && pwd)
 gallery=$(cd "$(dirname "$0")/../docs/gallery" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -23,6 +24,7 @@ awk -v have_data="${EWA_DATA:+1}" '
 
 ewa() { "$program" "$@"; }
 frustum() { "$(dirname "$program")/../examples/frustum" "$@"; }
+make_environment() { python3 "$tools/make_environment.py" "$@"; }
 cd "$work"
 set -x
 . ./commands

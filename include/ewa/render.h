@@ -31,8 +31,9 @@ typedef struct ewa_surfels ewa_surfels;
 /// Makes surfels from a cloud that has "position", "normal" and "radius", or "position", "tangent_u" and
 /// "tangent_v" (see ewa_cloud_estimate() for clouds that have less). Points that cannot be drawn (coordinates
 /// not finite, no normal, radius not positive) are left out and counted. The cloud is not needed afterwards.
-/// Colourless clouds are light grey; a "material" that is no whole number in [0, 255] counts as 0. The result does not depend on the order of the points. `options` may be
-/// NULL. Errors: EWA_ERROR_ARGUMENT (missing attribute, named), EWA_ERROR_MEMORY.
+/// Colourless clouds are light grey; a "material" that is no whole number in [0, 255] counts as 0. The result
+/// does not depend on the order of the points. `options` may be NULL. Errors: EWA_ERROR_ARGUMENT (missing
+/// attribute, named), EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_surfels_create(const ewa_cloud *cloud, const ewa_surfels_options *options,
                                       ewa_surfels **surfels);
 EWA_API void ewa_surfels_destroy(ewa_surfels **surfels);
@@ -42,8 +43,8 @@ typedef struct ewa_surfels_info {
     uint64_t point_count;    ///< that can be drawn
     uint64_t left_out_count; ///< of the cloud's points
     size_t resident_bytes;
-    double unit_coverage; ///< q0 of math.md section 7: the sum of kernels that a covered pixel expects
-    ewa_bounds bounds;    ///< of the centres
+    double unit_coverage;    ///< q0 of math.md section 7: the sum of kernels that a covered pixel expects
+    ewa_bounds bounds;       ///< of the centres
     uint32_t material_count; ///< 1 + the largest "material"
 } ewa_surfels_info;
 

@@ -96,8 +96,8 @@ static void round_texels(const ewa_environment_level *level, double *sums) {
             for (uint32_t x = 0; x < width; x++) sums[x + 1] = sums[x] + (double)row[3 * (size_t)x + c];
             for (uint32_t x = 0; x < width; x++) {
                 const double middle = x + 0.5;
-                const double sum = sum_until(sums, width, middle + reach / 2) -
-                                   sum_until(sums, width, middle - reach / 2);
+                const double sum =
+                    sum_until(sums, width, middle + reach / 2) - sum_until(sums, width, middle - reach / 2);
                 row[3 * (size_t)x + c] = (float)fmax(0, sum / reach);
             }
         }

@@ -108,8 +108,8 @@ static bool read_runs(decoder *in, uint8_t *pixels) {
     return true;
 }
 
-/// Reads the pixels of a row after its first; (1, 1, 1, n) repeats the one before n times, several of these in
-/// a row are the digits of one number.
+/// Reads the pixels of a row after its first; (1, 1, 1, n) repeats the one before n times, several of these
+/// in a row are the digits of one number.
 static bool read_pixels(decoder *in, uint8_t *pixels) {
     uint32_t shift = 0;
     for (uint32_t x = 1; x < in->width_px;) {
@@ -166,14 +166,16 @@ static ewa_status read_rows(decoder *in, uint8_t *pixels, ewa_image *image) {
 }
 
 bool ewa_hdr_recognise(const uint8_t *bytes, size_t size_bytes) {
-    return size_bytes >= 10 && (begins_with(bytes, size_bytes, "#?RADIANCE") ||
-                                begins_with(bytes, size_bytes, "#?RGBE"));
+    return size_bytes >= 10 &&
+           (begins_with(bytes, size_bytes, "#?RADIANCE") || begins_with(bytes, size_bytes, "#?RGBE"));
 }
 
 ewa_status ewa_hdr_decode(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
                           ewa_image *image) {
     *image = (ewa_image){0};
-    decoder in = {.context = context, .name = name, .reader = {.bytes = bytes, .size_bytes = size_bytes},
+    decoder in = {.context = context,
+                  .name = name,
+                  .reader = {.bytes = bytes, .size_bytes = size_bytes},
                   .exposure = 1};
     ewa_status status = read_head(&in);
     if (status == EWA_OK) status = read_size(&in);

@@ -41,9 +41,8 @@ static ewa_status read_material(ewa_context *context, const char *name, uint32_t
     return ewa_material_check(context, name, index, material) == EWA_OK ? EWA_OK : EWA_ERROR_FORMAT;
 }
 
-ewa_status ewa_materials_read(ewa_context *context, const char *name, const uint8_t *bytes,
-                              size_t size_bytes, ewa_material materials[EWA_MAX_MATERIALS],
-                              uint32_t *count) {
+ewa_status ewa_materials_read(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
+                              ewa_material materials[EWA_MAX_MATERIALS], uint32_t *count) {
     *count = 0;
     cJSON *root;
     ewa_status status = ewa_json_parse(context, name, "a material table", bytes, size_bytes, &root);
@@ -55,8 +54,8 @@ ewa_status ewa_materials_read(ewa_context *context, const char *name, const uint
     uint32_t read = 0;
     for (const cJSON *item = list ? list->child : NULL; status == EWA_OK && item; item = item->next) {
         if (read == EWA_MAX_MATERIALS)
-            status = ewa_fail(context, EWA_ERROR_LIMIT, "%s: more than %d materials", name,
-                              EWA_MAX_MATERIALS);
+            status =
+                ewa_fail(context, EWA_ERROR_LIMIT, "%s: more than %d materials", name, EWA_MAX_MATERIALS);
         else
             status = read_material(context, name, read, item, &materials[read]);
         read++;

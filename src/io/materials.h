@@ -8,7 +8,7 @@
 #include "ewa/shade.h"
 
 /// ewa_materials_load() from memory; `name` stands for the file in messages.
-ewa_status ewa_materials_read(ewa_context *context, const char *name, const uint8_t *bytes,
-                              size_t size_bytes, ewa_material materials[EWA_MAX_MATERIALS], uint32_t *count);
+ewa_status ewa_materials_read(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
+                              ewa_material materials[EWA_MAX_MATERIALS], uint32_t *count);
 
 #endif

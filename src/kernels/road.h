@@ -27,7 +27,7 @@ enum {
     EWA_STEEP_CLASS = EWA_ROW_CLASSES * EWA_COLUMN_CLASSES, ///< first class of steep splats
     EWA_WIDE_CLASS = 2 * EWA_STEEP_CLASS,                   ///< wider boxes, parts of large splats
     EWA_CLASS_COUNT = EWA_WIDE_CLASS + 1,
-    EWA_STEEP_BIT = 1 << 7, ///< in ewa_record.box: steep or wide
+    EWA_STEEP_BIT = 1 << 7,    ///< in ewa_record.box: steep or wide
     EWA_MATERIAL_CHANNELS = 5, ///< ambient, diffuse, specular, shininess, reflection
     EWA_MAX_CHANNELS = 8 + EWA_MATERIAL_CHANNELS,
     EWA_CELL_BLOCKS = 4, ///< along a side of a cell, for which one depth decides whether packets are hidden
@@ -35,7 +35,7 @@ enum {
     EWA_GROUP_RECORDS = 64,
     EWA_BOX_LEVELS = 3,       ///< of ewa_edge_boxes
     EWA_BOX_GUARD = 0x8080,   ///< a bit above each number, so that they can be compared by one subtraction
-    EWA_DOME_REACH = 4, ///< pixels that eye-dome lighting looks away
+    EWA_DOME_REACH = 4,       ///< pixels that eye-dome lighting looks away
     EWA_MAX_TILE_BLOCKS = 32, ///< along a side, so that a row of blocks is a word of bits
 };
 
@@ -177,7 +177,7 @@ typedef struct ewa_edge_splats {
 
 /// A light in camera space.
 typedef struct ewa_road_light {
-    bool headlight; ///< from the eye: no direction of its own but in orthographic views
+    bool headlight;  ///< from the eye: no direction of its own but in orthographic views
     float toward[3]; ///< unit
     float color[3];
 } ewa_road_light;
@@ -185,7 +185,8 @@ typedef struct ewa_road_light {
 /// How surfaces are shaded.
 typedef enum ewa_road_shading {
     EWA_ROAD_UNSHADED,
-    EWA_ROAD_LAMBERT, ///< one white light on the first material's ambient and diffuse: a factor for all colours
+    EWA_ROAD_LAMBERT, ///< one white light on the first material's ambient and diffuse: a factor for all
+                      ///< colours
     EWA_ROAD_LIGHTS,  ///< any lights, no highlights
     EWA_ROAD_PHONG,   ///< everything
 } ewa_road_shading;

@@ -206,9 +206,8 @@ static ALWAYS_INLINE void emit(ewa_run *run, uint32_t alive_bits, const wf recor
 }
 
 /// Third step: tolerance, box in the tile, and the records of the lanes that are in it.
-static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *packet,
-                                     const uint8_t *materials, const ewa_tile *tile, stage *t, ewa_run *run,
-                                     wf *least) {
+static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *packet, const uint8_t *materials,
+                                     const ewa_tile *tile, stage *t, ewa_run *run, wf *least) {
     const wf one = wf_set(1), zero = wf_set(0), half = wf_set(0.5f);
     const wf fx = wf_set(view->fx_px), fy = wf_set(view->fy_px);
     const wf *p = t->p;

@@ -178,8 +178,7 @@ static ALWAYS_INLINE void add_channels(float *sums, wf weight, const payload *p,
             wf_store(sums + (4 + i) * LANES, wf_fma(weight, p->normal[i], wf_load(sums + (4 + i) * LANES)));
     if (with_materials)
         for (int i = 0; i < EWA_MATERIAL_CHANNELS; i++)
-            wf_store(sums + (7 + i) * LANES,
-                     wf_fma(weight, p->material[i], wf_load(sums + (7 + i) * LANES)));
+            wf_store(sums + (7 + i) * LANES, wf_fma(weight, p->material[i], wf_load(sums + (7 + i) * LANES)));
     if (with_depth) {
         const int at = with_materials ? 7 + EWA_MATERIAL_CHANNELS : with_normals ? 7 : 4;
         const wf z = orthographic ? wf_negate(key) : wf_div(wf_set(1), key);

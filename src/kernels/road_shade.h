@@ -76,8 +76,7 @@ static ALWAYS_INLINE block_light gather_light(const ewa_resolve *to, const wf no
         wf toward[3];
         for (int i = 0; i < 3; i++) toward[i] = from->headlight ? view[i] : wf_set(from->toward[i]);
         const wf facing = wf_max(dot3(normal, toward), zero);
-        for (int i = 0; i < 3; i++)
-            sum.diffuse[i] = wf_fma(wf_set(from->color[i]), facing, sum.diffuse[i]);
+        for (int i = 0; i < 3; i++) sum.diffuse[i] = wf_fma(wf_set(from->color[i]), facing, sum.diffuse[i]);
         if (to->shading != EWA_ROAD_PHONG) continue;
         wf cosine = facing; // the headlight's H is V
         if (!from->headlight) {
@@ -148,8 +147,7 @@ static void add_level(const ewa_environment_level *level, float u, float v, floa
         for (int column = 0; column < 2; column++) {
             const int64_t texel_x = ((int64_t)x_floor + column + turn + level->width) % level->width;
             const float *texel = level->texels + 3 * ((size_t)texel_y * level->width + (size_t)texel_x);
-            const float share =
-                weight * (row ? share_y : 1 - share_y) * (column ? share_x : 1 - share_x);
+            const float share = weight * (row ? share_y : 1 - share_y) * (column ? share_x : 1 - share_x);
             for (int c = 0; c < 3; c++) light[c] += share * texel[c];
         }
     }
@@ -189,12 +187,12 @@ static void shade_surface(const ewa_tile *tile, const ewa_resolve *to, const flo
     toward_eye(to, x, y, view);
     if (!to->orthographic) scale3(view, wf_inverse_root(dot3(view, view)));
     for (int i = 0; i < EWA_MATERIAL_CHANNELS; i++)
-        material[i] = tile->with_materials ? wf_mul(wf_load(sums + (7 + i) * LANES), inverse)
-                                           : wf_set(to->material[i]);
+        material[i] =
+            tile->with_materials ? wf_mul(wf_load(sums + (7 + i) * LANES), inverse) : wf_set(to->material[i]);
     const block_light light = gather_light(to, normal, view, material[3]);
     wf mirrored[3] = {zero, zero, zero};
-    const bool mirrors = to->shading == EWA_ROAD_PHONG && to->environment &&
-                         wm_bits(wf_lt(zero, material[4])) & bits;
+    const bool mirrors =
+        to->shading == EWA_ROAD_PHONG && to->environment && wm_bits(wf_lt(zero, material[4])) & bits;
     if (mirrors) reflect(to, normal, view, bits, mirrored);
     for (int i = 0; i < 3; i++) {
         const wf color = wf_mul(wf_load(sums + (1 + i) * LANES), inverse);

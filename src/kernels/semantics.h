@@ -45,18 +45,18 @@
 // - alpha). rgba8: divided by its alpha (black when 0), sRGB curve, rounded to nearest.
 //
 // Shading: colour (ambient + diffuse sum light max(0, N.L)) [+ specular sum light max(0, N.H)^shininess where
-// N.L > 0, + reflection environment(R)], the part in brackets with EWA_SHADING_PHONG. V is the direction to the
-// eye along the pixel's ray (orthographic: against the view direction); a headlight has L = H = V, others H
-// halfway between L and V; R = 2 (N.V) N - V. A material's five numbers are weighted means like the colour,
+// N.L > 0, + reflection environment(R)], the part in brackets with EWA_SHADING_PHONG. V is the direction to
+// the eye along the pixel's ray (orthographic: against the view direction); a headlight has L = H = V, others
+// H halfway between L and V; R = 2 (N.V) N - V. A material's five numbers are weighted means like the colour,
 // where the surfels have several materials. The environment is looked up (image/environment.h) with the
 // footprint |R - R'|, R' the reflection at the pixel's neighbour in x or in y within its aligned 2x2 pixels,
 // the larger one of those that have the surface too.
 //
-// Eye-dome lighting: the premultiplied colour, before the background, times exp(-EWA_DOME_GAIN strength mean),
-// mean over EWA_DOME_PAIRS pairs of opposite pixels at x +- d of max(0, (key(x + d) + key(x - d)) / 2 -
-// key(x)) / key(x), 0 where one of the three shows nothing. d: (r, 0), (0, r), (r, r), (r, -r) for r of 1, 2
-// and 4 pixels. Orthographic: divided by the height of the view in world units instead. Keys being linear on
-// planes, planes stay as they are.
+// Eye-dome lighting: the premultiplied colour, before the background, times exp(-EWA_DOME_GAIN strength
+// mean), mean over EWA_DOME_PAIRS pairs of opposite pixels at x +- d of max(0, (key(x + d) + key(x - d)) / 2
+// - key(x)) / key(x), 0 where one of the three shows nothing. d: (r, 0), (0, r), (r, r), (r, -r) for r of 1,
+// 2 and 4 pixels. Orthographic: divided by the height of the view in world units instead. Keys being linear
+// on planes, planes stay as they are.
 //
 // Edge layers: where alpha < 1 and there is something, the splats with z > B(x) make the next surface by the
 // same rules, and so on up to edge_layers surfaces, composited front to back before the background; depth,

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Reciprocals, logarithm, power and arc tangent over the wide type, of exact and correctly rounded operations only: the
-// same bytes from every instruction set and every C library. The errors are tested.
+// Reciprocals, logarithm, power and arc tangent over the wide type, of exact and correctly rounded operations
+// only: the same bytes from every instruction set and every C library. The errors are tested.
 //
 // Arc tangent based on: S. Moshier, Cephes Mathematical Library, atanf.c, 1989 (the polynomial).
 #ifndef EWA_SRC_MATH_WIDE_FUNCTIONS_H
@@ -56,7 +56,8 @@ static ALWAYS_INLINE wf wf_exp2(wf x) {
     return wf_mul(series, wf_of_bits(wi_shl(wi_add(wi_from_f(whole), wi_set(127)), 23)));
 }
 
-/// x^exponent for x clamped to [0, 1] and exponent in [1, 65536]: within 1e-5 relative where it is above 1e-6.
+/// x^exponent for x clamped to [0, 1] and exponent in [1, 65536]: within 1e-5 relative where it is above
+/// 1e-6.
 static ALWAYS_INLINE wf wf_power(wf x, wf exponent) {
     return wf_exp2(wf_mul(exponent, wf_log2(wf_min(wf_max(x, wf_set(0x1p-126f)), wf_set(1)))));
 }

@@ -11,8 +11,8 @@ ewa_status ewa_dome_pass_start(ewa_context *context, ewa_dome_pass *pass, const 
                                const ewa_frame *frame, ewa_render_options *options, ewa_frame *drawn) {
     static const double LOG2_E = 1.44269504088896341;
     const size_t width = camera->width_px, height = camera->height_px, pixel_count = width * height;
-    const size_t key_stride = (width + 2 * EWA_DOME_REACH + 2 * (EWA_BLOCK_LANES - 1)) / EWA_BLOCK_LANES *
-                              EWA_BLOCK_LANES;
+    const size_t key_stride =
+        (width + 2 * EWA_DOME_REACH + 2 * (EWA_BLOCK_LANES - 1)) / EWA_BLOCK_LANES * EWA_BLOCK_LANES;
     ewa_status status =
         ewa_buffer_reserve(context, &pass->keys, (height + 2 * EWA_DOME_REACH) * key_stride, sizeof(float));
     if (status == EWA_OK && !frame->depth)

@@ -14,7 +14,7 @@ struct ewa_surfels {
     uint32_t count, packet_count;
     uint64_t left_out_count;
     ewa_packet *packets;
-    uint8_t *materials;       ///< [packet * 16 + lane]; NULL: all are `material`
+    uint8_t *materials; ///< [packet * 16 + lane]; NULL: all are `material`
     uint8_t material, most_material;
     ewa_packet_bounds bounds; ///< views into `bounds_floats`
     float *bounds_floats;

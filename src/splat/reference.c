@@ -31,9 +31,9 @@ typedef struct pixel {
     double material[5]; ///< ambient, diffuse, specular, shininess, reflection, weighted
     ewa_vec3 shaded;    ///< straight colour
     double depth;       ///< of the first surface; +infinity: nothing
-    double passed;     ///< B(x) of the surface before: splats up to there are done
-    ewa_vec3 in_front; ///< premultiplied colour of the surfaces before
-    double through;    ///< the share of the pixel that they leave open
+    double passed;      ///< B(x) of the surface before: splats up to there are done
+    ewa_vec3 in_front;  ///< premultiplied colour of the surfaces before
+    double through;     ///< the share of the pixel that they leave open
 } pixel;
 
 typedef struct reference {
@@ -140,7 +140,8 @@ static ewa_reference_surface surface_at(const reference *work, int32_t x, int32_
     const double inverse = 1 / at->weight, length = vec3_length(at->normal_world);
     ewa_reference_surface surface = {.there = true,
                                      .color = vec3_scale(at->color, inverse),
-                                     .normal_world = vec3_scale(at->normal_world, length > 0 ? 1 / length : 0),
+                                     .normal_world =
+                                         vec3_scale(at->normal_world, length > 0 ? 1 / length : 0),
                                      .ambient = at->material[0] * inverse,
                                      .diffuse = at->material[1] * inverse,
                                      .specular = at->material[2] * inverse,
@@ -233,8 +234,7 @@ static void write_color(const reference *work, size_t index) {
     const ewa_vec3 front = vec3_scale(at->in_front, eye_dome(work, index));
     const float *background = work->options.background;
     const double behind = (double)background[3] * at->through, a = 1 - at->through + behind;
-    const double rgb[3] = {front.x + (double)background[0] * behind,
-                           front.y + (double)background[1] * behind,
+    const double rgb[3] = {front.x + (double)background[0] * behind, front.y + (double)background[1] * behind,
                            front.z + (double)background[2] * behind};
     const ewa_frame *frame = &work->frame;
     if (frame->rgba) {

@@ -25,8 +25,7 @@ static void add_light(const ewa_shading_setup *setup, const ewa_shading_light *l
     if (setup->highlights) {
         const ewa_vec3 between = vec3_add(L, at->view_world);
         const double length = vec3_length(between);
-        if (length > 0)
-            highlight = pow(fmax(0, vec3_dot(at->normal_world, between) / length), at->shininess);
+        if (length > 0) highlight = pow(fmax(0, vec3_dot(at->normal_world, between) / length), at->shininess);
     }
     color->x += light->color[0] * (at->color.x * at->diffuse * facing + at->specular * highlight);
     color->y += light->color[1] * (at->color.y * at->diffuse * facing + at->specular * highlight);
@@ -60,8 +59,7 @@ static ewa_vec3 sample_level(const ewa_environment_level *level, double u, doubl
     return sum;
 }
 
-ewa_vec3 ewa_reference_environment(const ewa_environment *environment, ewa_vec3 direction,
-                                   double footprint) {
+ewa_vec3 ewa_reference_environment(const ewa_environment *environment, ewa_vec3 direction, double footprint) {
     const double u = 0.5 - atan2(direction.x, direction.z) / (2 * PI);
     const double v = 0.5 - atan2(direction.y, hypot(direction.x, direction.z)) / PI;
     const double texels = footprint * environment->levels[0].height / PI;
@@ -84,8 +82,7 @@ ewa_vec3 ewa_reference_shade(const ewa_shading_setup *setup, const ewa_environme
     if (setup->highlights && environment && at->reflection > 0) {
         const ewa_vec3 direction = mirrored(setup, at);
         double footprint = 0;
-        if (beside->there)
-            footprint = vec3_length(vec3_sub(direction, mirrored(setup, beside)));
+        if (beside->there) footprint = vec3_length(vec3_sub(direction, mirrored(setup, beside)));
         if (below->there)
             footprint = fmax(footprint, vec3_length(vec3_sub(direction, mirrored(setup, below))));
         const ewa_vec3 light = ewa_reference_environment(environment, direction, footprint);
@@ -110,9 +107,9 @@ double ewa_reference_eye_dome(const ewa_reference_depths *depths, double strengt
         const int steps[4][2] = {{r, 0}, {0, r}, {r, r}, {r, -r}};
         for (int i = 0; i < 4; i++) {
             const int dx = steps[i][0], dy = steps[i][1];
-            const double between =
-                (key_at(depths, x + (int64_t)dx, y + (int64_t)dy) +
-                 key_at(depths, x - (int64_t)dx, y - (int64_t)dy)) / 2;
+            const double between = (key_at(depths, x + (int64_t)dx, y + (int64_t)dy) +
+                                    key_at(depths, x - (int64_t)dx, y - (int64_t)dy)) /
+                                   2;
             sum += fmax(0, (between - key) / unit); // 0 for NaN
         }
     }

@@ -30,8 +30,8 @@ ewa_vec3 ewa_reference_environment(const ewa_environment *environment, ewa_vec3 
 typedef struct ewa_reference_depths {
     uint32_t width_px, height_px;
     bool orthographic;
-    double view_height_world;                          ///< orthographic only
-    double (*depth)(const void *data, size_t index);   ///< +infinity: nothing
+    double view_height_world;                        ///< orthographic only
+    double (*depth)(const void *data, size_t index); ///< +infinity: nothing
     const void *data;
 } ewa_reference_depths;
 

@@ -123,8 +123,8 @@ ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const 
     if (status != EWA_OK) return status;
     set_materials(surfels, &shading, &job);
     job.with_depth |= job.with_materials;
-    job.channel_count = 4 + (job.with_normals ? 3 : 0) +
-                        (job.with_materials ? EWA_MATERIAL_CHANNELS : 0) + (job.with_depth ? 1 : 0);
+    job.channel_count = 4 + (job.with_normals ? 3 : 0) + (job.with_materials ? EWA_MATERIAL_CHANNELS : 0) +
+                        (job.with_depth ? 1 : 0);
     ewa_resolve_set(&job.resolve, surfels, camera, &chosen, &shading, &drawn);
 
     status = ewa_bins_fill(context, &renderer->bins, renderer->kernels, &job.view, surfels);

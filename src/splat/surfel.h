@@ -41,8 +41,8 @@ typedef struct ewa_surfel_reader {
 /// A "color" of 3 or 4 components is used when there is one: unsigned integers are sRGB over their whole
 /// range, signed ones over their non-negative half (alpha is linear), floats are linear and negative ones 0;
 /// alpha is clamped to [0, 1]. A component that is not finite makes the colour an opaque EWA_DEFAULT_GREY, as
-/// no colour does. A "material" that is no whole number in [0, 255] is 0. `options` are checked ones. Errors: EWA_ERROR_ARGUMENT with a message that names the
-/// missing or misshapen attribute.
+/// no colour does. A "material" that is no whole number in [0, 255] is 0. `options` are checked ones. Errors:
+/// EWA_ERROR_ARGUMENT with a message that names the missing or misshapen attribute.
 ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_options *options,
                                   ewa_surfel_reader *reader);
 

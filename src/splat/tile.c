@@ -83,10 +83,9 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
 }
 
 void ewa_tile_scratch_free(ewa_context *context, ewa_tile_scratch *s) {
-    ewa_buffer *const buffers[] = {&s->record_buffer, &s->load_buffer, &s->material_buffer,
-                                   &s->order_buffer,  &s->list_buffer, &s->box_buffer,
-                                   &s->near_buffer,   &s->kept_buffer, &s->pixel_buffer,
-                                   &s->packet_buffer};
+    ewa_buffer *const buffers[] = {&s->record_buffer, &s->load_buffer,  &s->material_buffer, &s->order_buffer,
+                                   &s->list_buffer,   &s->box_buffer,   &s->near_buffer,     &s->kept_buffer,
+                                   &s->pixel_buffer,  &s->packet_buffer};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) ewa_buffer_free(context, buffers[i]);
 }
 

@@ -55,8 +55,8 @@ typedef struct ewa_tile_scratch {
     float cells[EWA_TILE_CELLS * EWA_TILE_CELLS];
     float *nearest, *sums;
     ewa_edges edges;
-    ewa_buffer record_buffer, load_buffer, material_buffer, order_buffer, list_buffer, box_buffer, near_buffer, kept_buffer,
-        pixel_buffer, packet_buffer;
+    ewa_buffer record_buffer, load_buffer, material_buffer, order_buffer, list_buffer, box_buffer,
+        near_buffer, kept_buffer, pixel_buffer, packet_buffer;
     uint32_t edge_rows[EWA_MAX_TILE_BLOCKS], edge_rows_left[EWA_MAX_TILE_BLOCKS];
     uint64_t drawn_count, fragment_count, hidden_splat_count;
     double setup_s, visibility_s, accumulate_s, edge_s, resolve_s;

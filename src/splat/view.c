@@ -99,8 +99,9 @@ static void set_shading(ewa_resolve *resolve, const ewa_surfels *surfels, const 
         const ewa_shading_light *from = &shading->lights[i];
         ewa_road_light *to = &resolve->lights[i];
         to->headlight = from->headlight;
-        const ewa_vec3 toward = from->headlight ? vec3_make(0, 0, -1) // against the orthographic view direction
-                                                : mat3_mul_vec3(rotation, from->toward_world);
+        const ewa_vec3 toward = from->headlight
+                                    ? vec3_make(0, 0, -1) // against the orthographic view direction
+                                    : mat3_mul_vec3(rotation, from->toward_world);
         to->toward[0] = (float)toward.x, to->toward[1] = (float)toward.y, to->toward[2] = (float)toward.z;
         for (int c = 0; c < 3; c++) {
             to->color[c] = (float)from->color[c];

@@ -32,7 +32,8 @@ static void test_plain_rows(void **state) {
         ewa_image image;
         assert_int_equal(decode(context, (const uint8_t *)file, (size_t)head + 16, &image), EWA_OK);
         assert_true(image.width_px == 2 && image.height_px == 2 && image.channel_count == 3);
-        const float *first = image.pixels + (from_bottom ? 6 : 0), *last = image.pixels + (from_bottom ? 0 : 6);
+        const float *first = image.pixels + (from_bottom ? 6 : 0),
+                    *last = image.pixels + (from_bottom ? 0 : 6);
         // (mantissa + 1/2) 2^(exponent - 136)
         const float wanted[6] = {128.5f / 128, 64.5f / 128, 0.5f / 128, 255.5f / 256, 0.5f / 256, 1.5f / 256};
         for (int i = 0; i < 6; i++) assert_true(first[i] == wanted[i]);
@@ -107,7 +108,8 @@ static void test_broken_files(void **state) {
         {"#?RADIANCE\nEXPOSURE=\n\n-Y 1 +X 1\nabcd", EWA_ERROR_FORMAT},
         {"#?RADIANCE\n\n-Y 4000000000 +X 1\nabcd", EWA_ERROR_LIMIT},
         {"#?RADIANCE\n\n-Y 1000 +X 1\nabcd", EWA_ERROR_FORMAT},
-        {"#?RADIANCE\n\n-Y 1 +X 9\n\2\2\1\11abcdefghijklmnopqrstuvwxyz", EWA_ERROR_FORMAT}, // of another width
+        {"#?RADIANCE\n\n-Y 1 +X 9\n\2\2\1\11abcdefghijklmnopqrstuvwxyz",
+         EWA_ERROR_FORMAT}, // of another width
         {"#?RADIANCE\n\n-Y 1 +X 8\n\2\2\1", EWA_ERROR_FORMAT},
     };
     ewa_context *context = check_context(1, NULL);
@@ -134,9 +136,9 @@ static void test_failing_allocations(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_plain_rows),          cmocka_unit_test(test_repeated_pixels),
-        cmocka_unit_test(test_runs_of_components),  cmocka_unit_test(test_every_truncation_fails),
-        cmocka_unit_test(test_broken_files),        cmocka_unit_test(test_failing_allocations),
+        cmocka_unit_test(test_plain_rows),         cmocka_unit_test(test_repeated_pixels),
+        cmocka_unit_test(test_runs_of_components), cmocka_unit_test(test_every_truncation_fails),
+        cmocka_unit_test(test_broken_files),       cmocka_unit_test(test_failing_allocations),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

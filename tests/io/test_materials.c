@@ -6,7 +6,8 @@
 #include "io/materials.h"
 #include "scratch.h"
 
-static ewa_status read_text(ewa_context *context, const char *text, ewa_material *materials, uint32_t *count) {
+static ewa_status read_text(ewa_context *context, const char *text, ewa_material *materials,
+                            uint32_t *count) {
     return ewa_materials_read(context, "m.json", (const uint8_t *)text, strlen(text), materials, count);
 }
 
@@ -33,9 +34,8 @@ static void test_known_table(void **state) {
         assert_true(materials[0].specular == 0.5f && materials[0].diffuse == initial.diffuse &&
                     materials[0].shininess == initial.shininess);
         assert_memory_equal(&materials[1], &initial, sizeof initial);
-        assert_true(materials[2].ambient == 0 && materials[2].diffuse == 2 &&
-                    materials[2].shininess == 100 && materials[2].reflection == 0.75f &&
-                    materials[2].specular == initial.specular);
+        assert_true(materials[2].ambient == 0 && materials[2].diffuse == 2 && materials[2].shininess == 100 &&
+                    materials[2].reflection == 0.75f && materials[2].specular == initial.specular);
     }
     assert_int_equal(ewa_materials_load(context, "/nowhere/m.json", materials, &count), EWA_ERROR_IO);
     assert_int_equal(count, 0);

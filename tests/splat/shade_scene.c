@@ -27,7 +27,8 @@ void shade_set_material(ewa_cloud *cloud, int (*of)(const float position[3])) {
     int32_t *material = data;
     const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
     for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++)
-        material[i] = of((const float *)(const void *)((const char *)position->data + i * position->stride_bytes));
+        material[i] =
+            of((const float *)(const void *)((const char *)position->data + i * position->stride_bytes));
 }
 
 ewa_camera shade_camera(uint32_t side_px, const double eye_world[3], double fov_deg, double ortho_height) {

@@ -264,8 +264,8 @@ static ewa_cloud *make_squares(ewa_context *context, uint32_t count, double tilt
     assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, &normal), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, &radius), EWA_OK);
     for (uint32_t k = 0; k < count; k++)
-        add_square((float *)position + 3 * k * EACH, (float *)normal + 3 * k * EACH, (float *)radius + k * EACH,
-                   SIDE, 0.4 * k, tilt, k ? 0.5 : 1);
+        add_square((float *)position + 3 * k * EACH, (float *)normal + 3 * k * EACH,
+                   (float *)radius + k * EACH, SIDE, 0.4 * k, tilt, k ? 0.5 : 1);
     return cloud;
 }
 
@@ -275,14 +275,14 @@ static bool near_rim(const picture *of, size_t pixel) {
     const int32_t x = (int32_t)(pixel % SIDE_PX), y = (int32_t)(pixel / SIDE_PX);
     for (int32_t v = y - REACH; v <= y + REACH; v++)
         for (int32_t u = x - REACH; u <= x + REACH; u++)
-            if (u >= 0 && v >= 0 && u < SIDE_PX && v < SIDE_PX &&
-                of->frame.coverage[v * SIDE_PX + u] < 0.5f)
+            if (u >= 0 && v >= 0 && u < SIDE_PX && v < SIDE_PX && of->frame.coverage[v * SIDE_PX + u] < 0.5f)
                 return true;
     return false;
 }
 
-/// A plane, seen from the front or at an angle, keeps all of its light, and so does the background. At its rim
-/// it may lose a little where it is seen at a grazing angle: there the depths of discs end with the discs.
+/// A plane, seen from the front or at an angle, keeps all of its light, and so does the background. At its
+/// rim it may lose a little where it is seen at a grazing angle: there the depths of discs end with the
+/// discs.
 static void test_eye_dome_leaves_planes_alone(void **state) {
     (void)state;
     ewa_context *context = check_context(0, NULL);

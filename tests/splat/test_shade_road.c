@@ -180,9 +180,7 @@ static void test_order_of_materials_does_not_matter(void **state) {
 }
 
 /// Stripes as narrow as the points' spacing.
-static int alternate(const float position[3]) {
-    return (int)(1000 + floor((double)position[0] * 400)) % 2;
-}
+static int alternate(const float position[3]) { return (int)(1000 + floor((double)position[0] * 400)) % 2; }
 
 /// Where pixels hold surfels of two materials in equal parts, they look like the material between them.
 static void test_materials_are_averaged(void **state) {
