@@ -151,16 +151,16 @@ static ALWAYS_INLINE block_sample sample_block(const ewa_record *r, uint32_t row
     wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
     for (uint32_t i = box_row(r->box); i < row; i++)
         dy = wf_add(dy, wf_set(EWA_BLOCK_PX)); // as the passes over whole boxes step
-    const wf key = wf_add(c.key, wf_mul(wf_set(r->key_y), dy));
-    return (block_sample){block_exponent(&c, dy, wf_mul(wf_mul(wf_set(r->yy), dy), dy)),
-                          box_steep(r->box) ? clamped_key(r, key) : key};
+    const wf key = wf_fma(wf_set(r->key_y), dy, c.key);
+    return (block_sample){block_exponent(r, &c, dy), box_steep(r->box) ? clamped_key(r, key) : key};
 }
 
 /// Sixteen splats at one block: what its columns and rows of pixels share, a splat per lane.
 typedef struct splat_lanes {
     wf quadratic[EWA_BLOCK_PX], cross[EWA_BLOCK_PX], key_x[EWA_BLOCK_PX],
-        bound_x[EWA_BLOCK_PX];                                                               ///< by column
-    wf dy[EWA_BLOCK_PX], yy_dy2[EWA_BLOCK_PX], key_dy[EWA_BLOCK_PX], bound_dy[EWA_BLOCK_PX]; ///< by row
+        bound_x[EWA_BLOCK_PX]; ///< by column
+    wf dy[EWA_BLOCK_PX];       ///< by row
+    wf yy, key_y, bound_y;
     wm steep;
     wf key_low, key_high, bound_scale, bound_offset; ///< of steep ones
 } splat_lanes;
@@ -191,11 +191,7 @@ static ALWAYS_INLINE splat_lanes load_splats(const ewa_record *records, const ui
         if (!wm_bits(more)) break;
         for (int i = 0; i < EWA_BLOCK_PX; i++) s.dy[i] = wf_select(more, wf_add(s.dy[i], side), s.dy[i]);
     }
-    for (int i = 0; i < EWA_BLOCK_PX; i++) {
-        s.yy_dy2[i] = wf_mul(wf_mul(f[4], s.dy[i]), s.dy[i]);
-        s.key_dy[i] = wf_mul(f[7], s.dy[i]);
-        s.bound_dy[i] = wf_mul(f[10], s.dy[i]);
-    }
+    s.yy = f[4], s.key_y = f[7], s.bound_y = f[10];
     return s;
 }
 
@@ -221,8 +217,9 @@ static void edge_raise(const ewa_view *view, const ewa_tile *tile, const ewa_edg
         for (uint32_t left = open; left; left &= left - 1) {
             const uint32_t pixel = (uint32_t)__builtin_ctz(left), x = pixel % EWA_BLOCK_PX,
                            y = pixel / EWA_BLOCK_PX;
-            const wf exponent = wf_fma(s.cross[x], s.dy[y], wf_add(s.quadratic[x], s.yy_dy2[y]));
-            wf key = wf_add(s.key_x[x], s.key_dy[y]), bound = wf_add(s.bound_x[x], s.bound_dy[y]);
+            const wf exponent = wf_fma(s.dy[y], wf_fma(s.yy, s.dy[y], s.cross[x]), s.quadratic[x]);
+            wf key = wf_fma(s.key_y, s.dy[y], s.key_x[x]);
+            wf bound = wf_fma(s.bound_y, s.dy[y], s.bound_x[x]);
             if (any_steep) {
                 key = wf_select(s.steep, wf_min(wf_max(key, s.key_low), s.key_high), key);
                 bound = wf_select(s.steep, wf_fma(s.bound_scale, key, s.bound_offset), bound);

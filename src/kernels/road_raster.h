@@ -50,8 +50,8 @@ static ALWAYS_INLINE column_terms column_start(const ewa_record *r, float key, f
 }
 
 /// s of a block.
-static ALWAYS_INLINE wf block_exponent(const column_terms *c, wf dy, wf yy_dy2) {
-    return wf_fma(c->cross, dy, wf_add(c->quadratic, yy_dy2));
+static ALWAYS_INLINE wf block_exponent(const ewa_record *r, const column_terms *c, wf dy) {
+    return wf_fma(dy, wf_fma(wf_set(r->yy), dy, c->cross), c->quadratic);
 }
 
 /// How the splats of a class test their depth (ewa_record).
@@ -85,15 +85,14 @@ static ALWAYS_INLINE void visibility_rows(const ewa_view *view, const ewa_tile *
                      (size_t)(box_column(r->box) + first_column) * EWA_BLOCK_LANES;
     wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
     for (uint32_t row = 0; row < rows; row++, nearest += row_floats, dy = wf_add(dy, wf_set(EWA_BLOCK_PX))) {
-        const wf yy_dy2 = wf_mul(wf_mul(wf_set(r->yy), dy), dy), plane_dy = wf_mul(wf_set(plane_y), dy);
         UNROLL_COLUMNS
         for (uint32_t i = 0; i < columns; i++) {
             float *block = nearest + (size_t)i * EWA_BLOCK_LANES;
             const wf old = wf_load(block);
-            wf bound = wf_add(c[i].key, plane_dy);
+            wf bound = wf_fma(wf_set(plane_y), dy, c[i].key);
             if (test != PLAIN)
                 bound = bound_key(r, clamped_key(r, bound), test == WIDE && !view->orthographic);
-            const wm counts = wf_lt(block_exponent(&c[i], dy, yy_dy2), end);
+            const wm counts = wf_lt(block_exponent(r, &c[i], dy), end);
             wf_store(block, wf_select(counts, wf_max(bound, old), old));
         }
     }
@@ -199,11 +198,10 @@ static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_
     float *sums = tile->sums + first_block * channels * EWA_BLOCK_LANES;
     wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
     for (uint32_t row = 0; row < rows; row++) {
-        const wf yy_dy2 = wf_mul(wf_mul(wf_set(r->yy), dy), dy), key_dy = wf_mul(wf_set(r->key_y), dy);
         UNROLL_COLUMNS
         for (uint32_t i = 0; i < columns; i++) {
-            const wf s = block_exponent(&c[i], dy, yy_dy2);
-            wf key = wf_add(c[i].key, key_dy);
+            const wf s = block_exponent(r, &c[i], dy);
+            wf key = wf_fma(wf_set(r->key_y), dy, c[i].key);
             if (test != PLAIN) key = clamped_key(r, key);
             const wm counts =
                 wm_and(wf_lt(s, end), wf_le(wf_load(nearest + (size_t)i * EWA_BLOCK_LANES), key));

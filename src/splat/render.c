@@ -8,11 +8,11 @@
 
 #include <string.h>
 
-/// Large tiles share fewer packets, small ones spread a small picture over the threads. The picture alone
-/// decides, not the threads: tiles round differently.
-static uint32_t tile_side_px(const ewa_camera *camera) {
-    enum { LARGE_PX = 1 << 20 };
-    return (uint64_t)camera->width_px * camera->height_px >= LARGE_PX ? 128 : 64;
+/// Large tiles share fewer packets; small ones spread a small picture over the threads, and keep the records
+/// of crowded ones in the cache. The threads have no say: tiles round differently.
+static uint32_t tile_side_px(const ewa_camera *camera, const ewa_surfels *surfels) {
+    enum { LARGE_PX = 1 << 20, CROWD = 12000000 };
+    return (uint64_t)camera->width_px * camera->height_px >= LARGE_PX && surfels->count <= CROWD ? 128 : 64;
 }
 
 struct ewa_renderer {
@@ -99,7 +99,7 @@ ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const 
                         .scratch = renderer->scratch};
     job.edge_layers = chosen.edge_antialiasing && chosen.passes == 3 ? chosen.edge_layers : 1;
     job.channel_count = 4 + (job.with_normals ? 3 : 0) + (job.with_depth ? 1 : 0);
-    status = ewa_view_set(&job.view, surfels, camera, &chosen, tile_side_px(camera));
+    status = ewa_view_set(&job.view, surfels, camera, &chosen, tile_side_px(camera, surfels));
     if (status != EWA_OK) return status;
     ewa_resolve_set(&job.resolve, surfels, camera, &chosen, frame);
 
