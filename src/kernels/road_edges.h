@@ -25,13 +25,13 @@ static void start_surface(const ewa_tile *tile, const ewa_edges *edges, size_t b
 static uint32_t find_edges(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges *edges) {
     enum { LANES = EWA_BLOCK_LANES };
     uint32_t count = 0;
-    const wf scale = wf_set(to->alpha_scale), one = wf_set(1), zero = wf_set(0);
+    const wf one = wf_set(1), zero = wf_set(0);
     for (uint32_t row = 0; row < tile->block_rows; row++) {
         edges->rows[row] = 0;
         for (uint32_t column = 0; column < tile->blocks_per_row; column++) {
             const size_t block = block_at(tile, row, column);
-            const wf q = wf_load(tile->sums + block * tile->channel_count * LANES);
-            const wm open = wm_and(wf_lt(zero, q), wf_lt(wf_mul(q, scale), one));
+            const float *sums = tile->sums + block * tile->channel_count * LANES;
+            const wm open = wm_and(wf_lt(zero, wf_load(sums)), wf_lt(surface_alpha(tile, to, sums), one));
             edges->reach[block] = -__builtin_inff();
             if (!wm_bits(open)) continue;
             edges->rows[row] |= 1u << column;
@@ -247,8 +247,7 @@ static void edge_raise(const ewa_view *view, const ewa_tile *tile, const ewa_edg
 }
 
 static ALWAYS_INLINE void edge_sum(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
-                                   uint32_t row, uint32_t column, const ewa_edge_splats *splats,
-                                   bool with_normals) {
+                                   uint32_t row, uint32_t column, const ewa_edge_splats *splats, int what) {
     const size_t block = block_at(tile, row, column), at = block * EWA_BLOCK_LANES;
     const wf passed = wf_load(edges->passed + at), nearest = wf_load(edges->nearest + at);
     const wf end = wf_set(view->exponent_end), never = wf_set(-__builtin_inff());
@@ -268,10 +267,10 @@ static ALWAYS_INLINE void edge_sum(const ewa_view *view, const ewa_tile *tile, c
             const wm beyond = wm_and(wf_lt(sample.exponent, end), wf_lt(sample.key, passed));
             const wm counts = wm_and(beyond, wf_le(nearest, sample.key));
             if (!wm_bits(counts)) continue;
-            const ewa_load *load = &splats->loads[index];
-            const payload add = payload_load(r, load, with_normals);
+            const payload add = payload_load(r, &splats->loads[index],
+                                             what & ADD_OPACITY ? &splats->opacities[index] : NULL, what);
             const wf weight = wf_keep(counts, exponential(sample.exponent, view->doublings));
-            add_channels(sums, weight, &add, sample.key, with_normals, false, false);
+            add_channels(sums, tile->channel_count, weight, &add, sample.key, what);
         }
     }
 }
@@ -280,10 +279,12 @@ static void edge_pass(const ewa_view *view, const ewa_tile *tile, const ewa_edge
                       uint32_t column, ewa_edge_splats *splats, bool second_pass) {
     if (!second_pass)
         edge_raise(view, tile, edges, row, column, splats);
+    else if (tile->with_opacity)
+        edge_sum(view, tile, edges, row, column, splats, ADD_NORMAL | ADD_OPACITY);
     else if (tile->with_normals)
-        edge_sum(view, tile, edges, row, column, splats, true);
+        edge_sum(view, tile, edges, row, column, splats, ADD_NORMAL);
     else
-        edge_sum(view, tile, edges, row, column, splats, false);
+        edge_sum(view, tile, edges, row, column, splats, 0);
 }
 
 static void edge_near_pass(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
@@ -303,12 +304,20 @@ static void edge_near_pass(const ewa_view *view, const ewa_tile *tile, const ewa
                     continue;
                 }
                 counts = wm_and(counts, wf_le(wf_load(nearest), key));
-                near_add(view, &records[i], &sample, counts, key,
-                         edges->sums + block * tile->channel_count * EWA_BLOCK_LANES, tile->with_normals,
-                         false);
+                near_add(view, tile, &records[i], &sample, counts, key,
+                         edges->sums + block * tile->channel_count * EWA_BLOCK_LANES, false);
             }
         }
     }
+}
+
+static void edge_take_all(const ewa_tile *tile, const ewa_edges *edges) {
+    const wf all = wf_set(-3e38f); // below every key, but unlike -infinity something that counts
+    for (uint32_t row = 0; row < tile->block_rows; row++)
+        for (uint32_t marked = edges->rows[row]; marked; marked &= marked - 1) {
+            const size_t block = block_at(tile, row, (uint32_t)__builtin_ctz(marked));
+            wf_store(edges->nearest + block * EWA_BLOCK_LANES, all);
+        }
 }
 
 /// Composites one block's gathered surface under what is in front of it; returns the pixels that stay open.
@@ -319,7 +328,7 @@ static wm compose_block(const ewa_tile *tile, const ewa_resolve *to, const ewa_e
     const float *sums = edges->sums + block * tile->channel_count * LANES;
     const wf scale = color_scale(tile, to, sums, (uint32_t)tile->x_px + column * EWA_BLOCK_PX,
                                  (uint32_t)tile->y_px + row * EWA_BLOCK_PX);
-    const surface found = gathered_surface(to, sums, scale);
+    const surface found = gathered_surface(tile, to, sums, scale);
     float *behind = edges->behind + block * 4 * LANES;
     const wf covered = wf_load(behind + 3 * LANES);
     const wf share = wf_mul(wf_sub(wf_set(1), covered), found.alpha);

@@ -199,6 +199,7 @@ void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *sur
     splat->normal = vec3_scale(n, sign);
     splat->normal_world = vec3_scale(vec3_load(surfel->normal_world), sign);
     splat->color = vec3_load(surfel->color_linear);
+    splat->opacity = surfel->alpha;
     splat->by_rays = by_rays;
     splat->half_range = half_range;
     make_depth(view, half_range, splat);

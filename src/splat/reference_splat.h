@@ -39,6 +39,7 @@ typedef struct ewa_reference_splat {
     ewa_vec3 center, axis_u, axis_v, normal; ///< camera space, normal unit, towards the viewer
     ewa_vec3 normal_world;
     ewa_vec3 color;
+    double opacity; ///< [0, 1]
 } ewa_reference_splat;
 
 /// A splat at a pixel.
