@@ -5,7 +5,7 @@
 #ifndef EWA_SRC_KERNELS_ROAD_RASTER_H
 #define EWA_SRC_KERNELS_ROAD_RASTER_H
 
-#include "kernels/road_project.h"
+#include "kernels/road_raycast.h"
 
 /// exp(-s) for s in [0, EWA_EXPONENT_END] within 3.0e-05 relative, squared `doublings` >= 2 times.
 static ALWAYS_INLINE wf exponential(wf s, uint32_t doublings) {
@@ -137,9 +137,45 @@ static ALWAYS_INLINE void raise_rows(const pass *p, uint32_t splat, uint32_t fir
     visibility_rows(p->view, p->tile, &p->run->records[splat], first_column, columns, rows, test);
 }
 
+/// A raycast splat at a block of its box.
+static ALWAYS_INLINE ray_sample ray_block(const ewa_view *view, const ewa_record *r, const ray_splat *ray,
+                                          uint32_t row, uint32_t column) {
+    const float x_px = (float)EWA_BLOCK_PX * ((float)column - (float)box_column(r->box)) + r->offset_x;
+    const float y_px = (float)EWA_BLOCK_PX * ((float)row - (float)box_row(r->box)) + r->offset_y;
+    return ray_evaluate(view, r, ray, wf_add(lanes_x(), wf_set(x_px)), wf_add(lanes_y(), wf_set(y_px)));
+}
+
+/// Raises the blocks' keys to that of z + eps; all raycast splats are steep or wide.
+static ALWAYS_INLINE void ray_raise(const ewa_record *r, const ray_sample *sample, wm counts,
+                                    float *nearest) {
+    const wf bound = r->bound_scale > 0 ? bound_key(r, sample->key, false) : bound_key(r, sample->key, true);
+    const wf old = wf_load(nearest);
+    wf_store(nearest, wf_select(counts, wf_max(bound, old), old));
+}
+
+static void ray_visibility(const pass *p) {
+    const wf end = wf_set(p->view->exponent_end);
+    for (uint32_t i = 0; i < p->run->class_first[EWA_CLASS_COUNT]; i++) {
+        const ewa_record *r = &p->run->records[p->run->order[i]];
+        const ray_splat ray = ray_start(p->view, r, p->run->loads[p->run->order[i]].peak);
+        for (uint32_t row = box_row(r->box); row < box_row(r->box) + box_rows(r->box); row++) {
+            const size_t first = (size_t)row * p->tile->blocks_per_row;
+            for (uint32_t k = 0; k < box_columns(r->box); k++) {
+                const uint32_t column = box_column(r->box) + k;
+                const ray_sample sample = ray_block(p->view, r, &ray, row, column);
+                ray_raise(r, &sample, wf_lt(sample.exponent, end),
+                          p->tile->nearest + (first + column) * EWA_BLOCK_LANES);
+            }
+        }
+    }
+}
+
 static void visibility(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run) {
     const pass p = {view, tile, run};
-    for_each_splat(&p, raise_rows);
+    if (view->raycast)
+        ray_visibility(&p);
+    else
+        for_each_splat(&p, raise_rows);
 }
 
 static void clear(const ewa_tile *tile) {
@@ -241,9 +277,37 @@ ACCUMULATE(add_normal, true, false, false)
 ACCUMULATE(add_normal_depth, true, true, false)
 ACCUMULATE(add_normal_height, true, true, true)
 
+static void ray_accumulate(const pass *p) {
+    const ewa_view *view = p->view;
+    const ewa_tile *tile = p->tile;
+    const wf end = wf_set(view->exponent_end);
+    for (uint32_t i = 0; i < p->run->class_first[EWA_CLASS_COUNT]; i++) {
+        const ewa_record *r = &p->run->records[p->run->order[i]];
+        const ewa_load *load = &p->run->loads[p->run->order[i]];
+        const ray_splat ray = ray_start(view, r, load->peak);
+        const payload add = payload_load(r, load, tile->with_normals);
+        for (uint32_t row = box_row(r->box); row < box_row(r->box) + box_rows(r->box); row++) {
+            for (uint32_t k = 0; k < box_columns(r->box); k++) {
+                const uint32_t column = box_column(r->box) + k;
+                const size_t block = (size_t)row * tile->blocks_per_row + column;
+                const ray_sample sample = ray_block(view, r, &ray, row, column);
+                const wm counts = wm_and(wf_lt(sample.exponent, end),
+                                         wf_le(wf_load(tile->nearest + block * EWA_BLOCK_LANES), sample.key));
+                if (!wm_bits(counts)) continue;
+                const wf bell = exponential(wf_keep(counts, sample.exponent), view->doublings);
+                add_channels(tile->sums + block * tile->channel_count * EWA_BLOCK_LANES,
+                             wf_keep(counts, wf_mul(bell, sample.gain)), &add, sample.key, tile->with_normals,
+                             tile->with_depth, false);
+            }
+        }
+    }
+}
+
 static void accumulate(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run) {
     const pass p = {view, tile, run};
-    if (!tile->with_depth) {
+    if (view->raycast) {
+        ray_accumulate(&p);
+    } else if (!tile->with_depth) {
         if (tile->with_normals)
             add_normal(&p);
         else
