@@ -68,8 +68,10 @@ static const cli_option splat_table[] = {
     {.key = "kernel",
      .kind = OPTION_CHOICE,
      .offset = AT(kernel),
-     .range = "perspective|affine",
-     .help = "projected shape of a splat: its exact ellipse, or the ellipse of the affine map at its centre"},
+     .range = "perspective|affine|source|circular|raycast",
+     .help =
+         "projected shape of a splat: its exact ellipse, the ellipse of the affine map at its centre, the "
+         "same evaluated in the surfel's plane, the circle around it, or the exact kernel at each pixel"},
     {.key = "cutoff",
      .kind = OPTION_NUMBER,
      .offset = AT(cutoff),

@@ -57,7 +57,9 @@ typedef struct ewa_view {
     uint32_t doublings;
     uint32_t width_px, height_px;
     uint32_t tile_px;
-    bool orthographic, affine, cull_back, ellipses;
+    bool orthographic, cull_back, ellipses;
+    bool affine;                    ///< V is that of the affine map: all kernels but perspective
+    bool source, circular, raycast; ///< what becomes of V; neither: affine
     float side_planes[4][3]; ///< inward unit normals of the frustum's sides through the eye, widened by F h
                              ///< and a pixel
 } ewa_view;
@@ -72,6 +74,8 @@ typedef struct ewa_tile_rect {
 /// Plain splats compare planes: their key, and that of z + eps (perspective: its tangent at the centre). The
 /// key of steep ones (semantics.h) is clamped first, and the key of z + eps made of it: bound_scale key +
 /// bound_offset; wide ones in perspective have bound_scale 0, bound_offset eps, and key / (1 + eps key).
+///
+/// Raycast splats hold V in xx, xy, yy (road_raycast.h).
 typedef struct ewa_record {
     float offset_x, offset_y; ///< upper left corner of the box minus the splat's centre, pixels
     float xx, xy, yy;         ///< s = xx dx^2 + xy dx dy + yy dy^2

@@ -275,9 +275,56 @@ static ALWAYS_INLINE void edge_sum(const ewa_view *view, const ewa_tile *tile, c
     }
 }
 
+/// edge_raise() for raycast splats.
+static void ray_edge_raise(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges, uint32_t row,
+                           uint32_t column, ewa_edge_splats *splats) {
+    const size_t at = block_at(tile, row, column) * EWA_BLOCK_LANES;
+    const wf end = wf_set(view->exponent_end), never = wf_set(-__builtin_inff());
+    const wf passed = wf_load(edges->passed + at);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < splats->count; i++) {
+        const uint32_t index = splats->indices[i];
+        const ewa_record *r = &splats->records[index];
+        const ray_splat ray = ray_start(view, r, splats->loads[index].peak);
+        const ray_sample sample = ray_block(view, r, &ray, row, column);
+        const wm beyond = wm_and(wf_lt(sample.exponent, end), wf_lt(sample.key, passed));
+        if (!wm_bits(beyond)) continue;
+        ray_raise(r, &sample, beyond, edges->nearest + at);
+        splats->indices[kept] = index;
+        splats->largest_keys[kept++] = largest_lane(wf_select(beyond, sample.key, never));
+    }
+    splats->count = kept;
+}
+
+static void ray_edge_sum(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges, uint32_t row,
+                         uint32_t column, const ewa_edge_splats *splats) {
+    const size_t block = block_at(tile, row, column), at = block * EWA_BLOCK_LANES;
+    const wf passed = wf_load(edges->passed + at), nearest = wf_load(edges->nearest + at);
+    const int what = (tile->with_normals ? ADD_NORMAL : 0) | (tile->with_opacity ? ADD_OPACITY : 0);
+    for (uint32_t i = 0; i < splats->count; i++) {
+        const uint32_t index = splats->indices[i];
+        const ewa_record *r = &splats->records[index];
+        const ewa_load *load = &splats->loads[index];
+        const ray_splat ray = ray_start(view, r, load->peak);
+        const ray_sample sample = ray_block(view, r, &ray, row, column);
+        const wm counts = wm_and(wf_lt(sample.exponent, wf_set(view->exponent_end)),
+                                 wm_and(wf_lt(sample.key, passed), wf_le(nearest, sample.key)));
+        if (!wm_bits(counts)) continue;
+        const payload add =
+            payload_load(r, load, what & ADD_OPACITY ? &splats->opacities[index] : NULL, what);
+        const wf bell = exponential(wf_keep(counts, sample.exponent), view->doublings);
+        add_channels(edges->sums + at * tile->channel_count, tile->channel_count,
+                     wf_keep(counts, wf_mul(bell, sample.gain)), &add, sample.key, what);
+    }
+}
+
 static void edge_pass(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges, uint32_t row,
                       uint32_t column, ewa_edge_splats *splats, bool second_pass) {
-    if (!second_pass)
+    if (view->raycast && second_pass)
+        ray_edge_sum(view, tile, edges, row, column, splats);
+    else if (view->raycast)
+        ray_edge_raise(view, tile, edges, row, column, splats);
+    else if (!second_pass)
         edge_raise(view, tile, edges, row, column, splats);
     else if (tile->with_opacity)
         edge_sum(view, tile, edges, row, column, splats, ADD_NORMAL | ADD_OPACITY);

@@ -5,7 +5,7 @@
 #ifndef EWA_SRC_KERNELS_ROAD_RASTER_H
 #define EWA_SRC_KERNELS_ROAD_RASTER_H
 
-#include "kernels/road_project.h"
+#include "kernels/road_raycast.h"
 
 /// exp(-s) for s in [0, EWA_EXPONENT_END] within 3.0e-05 relative, squared `doublings` >= 2 times.
 static ALWAYS_INLINE wf exponential(wf s, uint32_t doublings) {
@@ -154,9 +154,50 @@ static ALWAYS_INLINE void raise_rows_beyond(const pass *p, uint32_t splat, uint3
     visibility_rows(p->view, p->tile, &p->run->records[splat], first_column, columns, rows, test, true);
 }
 
+/// A raycast splat at a block of its box.
+static ALWAYS_INLINE ray_sample ray_block(const ewa_view *view, const ewa_record *r, const ray_splat *ray,
+                                          uint32_t row, uint32_t column) {
+    const float x_px = (float)EWA_BLOCK_PX * ((float)column - (float)box_column(r->box)) + r->offset_x;
+    const float y_px = (float)EWA_BLOCK_PX * ((float)row - (float)box_row(r->box)) + r->offset_y;
+    return ray_evaluate(view, r, ray, wf_add(lanes_x(), wf_set(x_px)), wf_add(lanes_y(), wf_set(y_px)));
+}
+
+/// Raises the blocks' keys to that of z + eps; all raycast splats are steep or wide.
+static ALWAYS_INLINE void ray_raise(const ewa_record *r, const ray_sample *sample, wm counts,
+                                    float *nearest) {
+    const wf bound = r->bound_scale > 0 ? bound_key(r, sample->key, false) : bound_key(r, sample->key, true);
+    const wf old = wf_load(nearest);
+    wf_store(nearest, wf_select(counts, wf_max(bound, old), old));
+}
+
+/// Where a raycast splat counts in the block whose first number is `at`.
+static ALWAYS_INLINE wm ray_counts(const pass *p, const ray_sample *sample, size_t at) {
+    const wm within = wf_lt(sample->exponent, wf_set(p->view->exponent_end));
+    if (!p->tile->passed) return within;
+    return wm_and(within, wf_lt(sample->key, wf_load(p->tile->passed + at)));
+}
+
+static void ray_visibility(const pass *p) {
+    for (uint32_t i = 0; i < p->run->class_first[EWA_CLASS_COUNT]; i++) {
+        const ewa_record *r = &p->run->records[p->run->order[i]];
+        const ray_splat ray = ray_start(p->view, r, p->run->loads[p->run->order[i]].peak);
+        for (uint32_t row = box_row(r->box); row < box_row(r->box) + box_rows(r->box); row++) {
+            const size_t first = (size_t)row * p->tile->blocks_per_row;
+            for (uint32_t k = 0; k < box_columns(r->box); k++) {
+                const uint32_t column = box_column(r->box) + k;
+                const ray_sample sample = ray_block(p->view, r, &ray, row, column);
+                const wm counts = ray_counts(p, &sample, (first + column) * EWA_BLOCK_LANES);
+                ray_raise(r, &sample, counts, p->tile->nearest + (first + column) * EWA_BLOCK_LANES);
+            }
+        }
+    }
+}
+
 static void visibility(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run) {
     const pass p = {view, tile, run};
-    if (tile->passed)
+    if (view->raycast)
+        ray_visibility(&p);
+    else if (tile->passed)
         for_each_splat(&p, raise_rows_beyond);
     else
         for_each_splat(&p, raise_rows);
@@ -288,6 +329,33 @@ ACCUMULATE(add_color_beyond, BEYOND)
 ACCUMULATE(add_normal_beyond, ADD_NORMAL | BEYOND)
 ACCUMULATE(add_opacity_beyond, ADD_NORMAL | ADD_OPACITY | BEYOND)
 
+static void ray_accumulate(const pass *p) {
+    const ewa_view *view = p->view;
+    const ewa_tile *tile = p->tile;
+    const int what = (tile->with_normals ? ADD_NORMAL : 0) | (tile->with_opacity ? ADD_OPACITY : 0) |
+                     (tile->with_depth && !tile->passed ? ADD_DEPTH : 0);
+    for (uint32_t i = 0; i < p->run->class_first[EWA_CLASS_COUNT]; i++) {
+        const ewa_record *r = &p->run->records[p->run->order[i]];
+        const ewa_load *load = &p->run->loads[p->run->order[i]];
+        const ray_splat ray = ray_start(view, r, load->peak);
+        const payload add =
+            payload_load(r, load, what & ADD_OPACITY ? &p->run->opacities[p->run->order[i]] : NULL, what);
+        for (uint32_t row = box_row(r->box); row < box_row(r->box) + box_rows(r->box); row++) {
+            for (uint32_t k = 0; k < box_columns(r->box); k++) {
+                const uint32_t column = box_column(r->box) + k;
+                const size_t block = (size_t)row * tile->blocks_per_row + column;
+                const ray_sample sample = ray_block(view, r, &ray, row, column);
+                const wm counts = wm_and(ray_counts(p, &sample, block * EWA_BLOCK_LANES),
+                                         wf_le(wf_load(tile->nearest + block * EWA_BLOCK_LANES), sample.key));
+                if (!wm_bits(counts)) continue;
+                const wf bell = exponential(wf_keep(counts, sample.exponent), view->doublings);
+                add_channels(tile->sums + block * tile->channel_count * EWA_BLOCK_LANES, tile->channel_count,
+                             wf_keep(counts, wf_mul(bell, sample.gain)), &add, sample.key, what);
+            }
+        }
+    }
+}
+
 static void accumulate(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run) {
     typedef void add_run(const pass *p);
     static add_run *const sets[3][4] = {
@@ -296,6 +364,10 @@ static void accumulate(const ewa_view *view, const ewa_tile *tile, const ewa_sor
         {add_opacity, add_opacity_depth, add_opacity_height, add_opacity_beyond},
     };
     const pass p = {view, tile, run};
+    if (view->raycast) {
+        ray_accumulate(&p);
+        return;
+    }
     const int channels = tile->with_opacity ? 2 : tile->with_normals ? 1 : 0;
     const int kind = tile->passed ? 3 : !tile->with_depth ? 0 : view->orthographic ? 2 : 1;
     sets[channels][kind](&p);

@@ -74,7 +74,10 @@ ewa_status ewa_view_set(ewa_view *view, const ewa_surfels *surfels, const ewa_ca
     view->width_px = camera->width_px, view->height_px = camera->height_px;
     view->tile_px = tile_px;
     view->orthographic = camera->projection == EWA_ORTHOGRAPHIC;
-    view->affine = options->kernel == EWA_KERNEL_AFFINE;
+    view->affine = options->kernel != EWA_KERNEL_PERSPECTIVE;
+    view->source = options->kernel == EWA_KERNEL_SOURCE;
+    view->circular = options->kernel == EWA_KERNEL_CIRCULAR;
+    view->raycast = options->kernel == EWA_KERNEL_RAYCAST && !view->orthographic;
     view->cull_back = options->cull == EWA_CULL_BACK;
     view->ellipses = surfels->ellipses;
     return view->orthographic ? EWA_OK : set_sides(surfels->context, view, camera, cutoff * prefilter + 1);
