@@ -159,7 +159,7 @@ static void test_same_bytes_of_every_kernel(void **state) {
                 ewa_context *context = context_of(1 + (uint32_t)i, masks[i]);
                 scene of;
                 assert_int_equal(scene_make(context, kinds[k], POINTS / 4, 101, 97, &of), EWA_OK);
-                picture made = draw(context, of.cloud, &of.camera, NULL, &options);
+                picture made = picture_draw(context, of.cloud, &of.camera, NULL, &options);
                 if (i == 0) {
                     first = made;
                 } else {
@@ -187,9 +187,9 @@ static void test_source_is_affine(void **state) {
         options.edge_layers = 1;
         assert_int_equal(scene_make(context, (scene_kind)kind, POINTS, SIDE_PX, SIDE_PX, &of), EWA_OK);
         options.kernel = EWA_KERNEL_AFFINE;
-        picture affine = draw(context, of.cloud, &of.camera, NULL, &options);
+        picture affine = picture_draw(context, of.cloud, &of.camera, NULL, &options);
         options.kernel = EWA_KERNEL_SOURCE;
-        picture source = draw(context, of.cloud, &of.camera, NULL, &options);
+        picture source = picture_draw(context, of.cloud, &of.camera, NULL, &options);
         uint8_t *mask = calloc(SIDE_PX, SIDE_PX);
         of.unit_coverage = 1;
         picture_mark_edges(&of, NULL, &options, 1e-4, 1e-4, mask);
