@@ -53,9 +53,9 @@
 // Over the background (straight alpha bg): rgb = colour alpha + bg_rgb bg_a (1 - alpha), a = alpha + bg_a (1
 // - alpha). rgba8: divided by its alpha (black when 0), sRGB curve, rounded to nearest.
 //
-// Clip lines (math.md section 5): each pixel keeps the share clamp(1/2 + d, 0, 1) of a splat's weight, d how far
-// inside the line on the screen its centre is, in pixels; of two lines the smaller share (clip_mode 1: the
-// larger). A share of 0 does not count. math.md keeps where d >= 0; a share that falls over one pixel
+// Clip lines (math.md section 5): each pixel keeps the share clamp(1/2 + d, 0, 1) of a splat's weight, d how
+// far inside the line on the screen its centre is, in pixels; of two lines the smaller share (clip_mode 1:
+// the larger). A share of 0 does not count. math.md keeps where d >= 0; a share that falls over one pixel
 // antialiases the edge, and the shares of two surfaces that are clipped by one line add up to 1.
 //
 // Opacity: a surface whose weights are q has the opacity A = (sum of weight opacity) / q times the options',
