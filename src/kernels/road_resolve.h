@@ -58,11 +58,23 @@ typedef struct surface {
     wf alpha, color[3];
 } surface;
 
-/// `shade` is that of shade_block().
-static ALWAYS_INLINE surface gathered_surface(const ewa_resolve *to, const float *sums, const float *shade) {
+/// Coverage times opacity.
+static ALWAYS_INLINE wf surface_alpha(const ewa_tile *tile, const ewa_resolve *to, const float *sums) {
     const wf weight = wf_load(sums), one = wf_set(1);
-    surface s = {.alpha = to->edge_antialiasing ? wf_min(one, wf_mul(weight, wf_set(to->alpha_scale)))
-                                                : wf_keep(wf_lt(wf_set(0), weight), one)};
+    const wf coverage = to->edge_antialiasing ? wf_min(one, wf_mul(weight, wf_set(to->alpha_scale)))
+                                              : wf_keep(wf_lt(wf_set(0), weight), one);
+    if (!to->transparent) return coverage;
+    wf opacity = wf_set(to->opacity);
+    if (tile->with_opacity)
+        opacity = wf_mul(opacity, wf_mul(wf_load(sums + (size_t)(tile->channel_count - 1) * EWA_BLOCK_LANES),
+                                         inverse_weight(weight)));
+    return wf_mul(coverage, opacity);
+}
+
+/// `shade` is that of shade_block().
+static ALWAYS_INLINE surface gathered_surface(const ewa_tile *tile, const ewa_resolve *to, const float *sums,
+                                              const float *shade) {
+    surface s = {.alpha = surface_alpha(tile, to, sums)};
     if (shades_by_factor(to)) {
         const wf factor = wf_load(shade);
         for (int i = 0; i < 3; i++) s.color[i] = wf_mul(wf_load(sums + (1 + i) * EWA_BLOCK_LANES), factor);
@@ -127,7 +139,7 @@ static void store_planes(const ewa_tile *tile, const ewa_resolve *to, const floa
     const wf weight = wf_load(sums), zero = wf_set(0);
     const wm covered = wf_lt(zero, weight);
     if (to->depth) {
-        const float *depth = sums + (tile->channel_count - 1) * EWA_BLOCK_LANES;
+        const float *depth = sums + (tile->with_normals ? 7 : 4) * EWA_BLOCK_LANES;
         const wf z = wf_mul(wf_load(depth), inverse_weight(weight));
         wf_store(lanes, wf_select(covered, z, wf_set(__builtin_inff())));
         store_block(to->depth, 1, to, at, lanes);
@@ -180,7 +192,7 @@ static void resolve(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges
                 store_codes(&at_hand, &at, empty_codes);
             } else {
                 const surface s =
-                    gathered_surface(&at_hand, sums, shades + (size_t)column * EWA_SHADE_FLOATS);
+                    gathered_surface(&in_tile, &at_hand, sums, shades + (size_t)column * EWA_SHADE_FLOATS);
                 wf color[4];
                 composite(&at_hand, &s, marked >> column & 1 ? behind : NULL, color);
                 if (at_hand.rgba8) store_codes(&at_hand, &at, color_codes(color));

@@ -57,6 +57,11 @@ static ALWAYS_INLINE wf inverse_weight(wf weight) {
     return wf_keep(covered, wf_div(wf_set(1), wf_select(covered, weight, wf_set(1))));
 }
 
+/// The channel that colours are divided by: colours are weighted by opacity where surfels have one.
+static ALWAYS_INLINE uint32_t color_weight(const ewa_tile *tile) {
+    return tile->with_opacity ? tile->channel_count - 1 : 0;
+}
+
 /// Whether a block's colours are their weighted sums times one factor.
 static ALWAYS_INLINE bool shades_by_factor(const ewa_resolve *to) { return to->shading <= EWA_ROAD_LAMBERT; }
 
@@ -180,6 +185,7 @@ static void shade_surface(const ewa_tile *tile, const ewa_resolve *to, const flo
         return;
     }
     const wf inverse = inverse_weight(weight);
+    const wf inverse_color = inverse_weight(wf_load(sums + color_weight(tile) * LANES));
     wf normal[3], view[3], material[EWA_MATERIAL_CHANNELS];
     for (int i = 0; i < 3; i++) normal[i] = wf_load(sums + (4 + i) * LANES);
     const wf length2 = dot3(normal, normal);
@@ -187,15 +193,15 @@ static void shade_surface(const ewa_tile *tile, const ewa_resolve *to, const flo
     toward_eye(to, x, y, view);
     if (!to->orthographic) scale3(view, wf_inverse_root(dot3(view, view)));
     for (int i = 0; i < EWA_MATERIAL_CHANNELS; i++)
-        material[i] =
-            tile->with_materials ? wf_mul(wf_load(sums + (7 + i) * LANES), inverse) : wf_set(to->material[i]);
+        material[i] = tile->with_materials ? wf_mul(wf_load(sums + (MATERIAL_AT + i) * LANES), inverse)
+                                           : wf_set(to->material[i]);
     const block_light light = gather_light(to, normal, view, material[3]);
     wf mirrored[3] = {zero, zero, zero};
     const bool mirrors =
         to->shading == EWA_ROAD_PHONG && to->environment && wm_bits(wf_lt(zero, material[4])) & bits;
     if (mirrors) reflect(to, normal, view, bits, mirrored);
     for (int i = 0; i < 3; i++) {
-        const wf color = wf_mul(wf_load(sums + (1 + i) * LANES), inverse);
+        const wf color = wf_mul(wf_load(sums + (1 + i) * LANES), inverse_color);
         wf seen = wf_mul(color, wf_fma(material[1], light.diffuse[i], material[0]));
         if (to->shading == EWA_ROAD_PHONG) seen = wf_fma(material[2], light.specular[i], seen);
         if (mirrors) seen = wf_fma(material[4], mirrored[i], seen);
@@ -211,7 +217,7 @@ static ALWAYS_INLINE void shade_block(const ewa_tile *tile, const ewa_resolve *t
         shade_surface(tile, to, sums, x, y, shade);
         return;
     }
-    wf factor = inverse_weight(wf_load(sums));
+    wf factor = inverse_weight(wf_load(sums + color_weight(tile) * EWA_BLOCK_LANES));
     if (to->shading == EWA_ROAD_LAMBERT) {
         wf normal[3];
         for (int i = 0; i < 3; i++) normal[i] = wf_load(sums + (4 + i) * EWA_BLOCK_LANES);

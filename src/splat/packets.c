@@ -10,6 +10,7 @@
 #include "cloud/morton.h"
 #include "kernels/semantics.h"
 #include "splat/discs.h"
+#include "splat/extras.h"
 #include "splat/options.h"
 #include "splat/pack.h"
 #include "splat/surfel.h"
@@ -169,8 +170,8 @@ static void encode_color(const ewa_surfels *surfels, const double color_linear[3
     }
 }
 
-void ewa_packet_decode(const ewa_surfels *surfels, const ewa_packet *packet, uint32_t lane,
-                       ewa_packet_surfel *surfel) {
+void ewa_packet_decode(const ewa_surfels *surfels, uint32_t index, uint32_t lane, ewa_packet_surfel *surfel) {
+    const ewa_packet *packet = &surfels->packets[index];
     surfel->center = vec3_make((double)packet->x[lane], (double)packet->y[lane], (double)packet->z[lane]);
     surfel->normal = oct_decode(packet->oct_x[lane], packet->oct_y[lane]);
     ewa_vec3 first, second;
@@ -183,6 +184,7 @@ void ewa_packet_decode(const ewa_surfels *surfels, const ewa_packet *packet, uin
     const uint16_t codes[3] = {packet->red[lane], packet->green[lane], packet->blue[lane]};
     for (int k = 0; k < 3; k++)
         surfel->color[k] = codes[k] * (double)surfels->color_scale[k] + (double)surfels->color_offset[k];
+    surfel->opacity = surfels->opacities ? surfels->opacities[(size_t)index * LANES + lane] / 65535.0 : 1;
 }
 
 static void put_color(ewa_packet *packet, uint32_t lane, const uint16_t codes[3]) {
@@ -278,40 +280,6 @@ static void encode_part(void *data, uint32_t part, uint32_t worker) {
     const uint64_t groups = ((uint64_t)b->surfels->packet_count + LANES - 1) / LANES;
     const uint64_t end = ewa_split(groups, b->parts, part + 1);
     for (uint64_t g = ewa_split(groups, b->parts, part); g < end; g++) encode_group(b, g);
-}
-
-/// Writes the materials of one part of the packets; lanes that hold nothing get that of the first surfel.
-static void copy_materials(void *data, uint32_t part, uint32_t worker) {
-    (void)worker;
-    const build *b = data;
-    const ewa_surfels *s = b->surfels;
-    const uint64_t lanes = (uint64_t)s->packet_count * LANES, end = ewa_split(lanes, b->parts, part + 1);
-    for (uint64_t i = ewa_split(lanes, b->parts, part); i < end; i++) {
-        ewa_surfel surfel;
-        bool drawable;
-        ewa_surfel_read(&b->reader, b->order[i < s->count ? i : 0], 1, &surfel, &drawable);
-        s->materials[i] = (uint8_t)surfel.material;
-    }
-}
-
-/// Fills the materials; one that all surfels have needs no stream.
-static ewa_status set_materials(build *b, ewa_context *context) {
-    ewa_surfels *s = b->surfels;
-    const size_t lanes = (size_t)s->packet_count * LANES;
-    if (!b->reader.material || lanes == 0) return EWA_OK;
-    s->materials = ewa_allocate(context, lanes, sizeof *s->materials);
-    if (!s->materials) return EWA_ERROR_MEMORY;
-    ewa_parallel(context, copy_materials, b, b->parts);
-    s->material = s->materials[0];
-    bool several = false;
-    for (size_t i = 0; i < lanes; i++) {
-        several |= s->materials[i] != s->material;
-        if (s->materials[i] > s->most_material) s->most_material = s->materials[i];
-    }
-    if (several) return EWA_OK;
-    ewa_release(context, s->materials, lanes, sizeof *s->materials);
-    s->materials = NULL;
-    return EWA_OK;
 }
 
 /// A surfel with its point, for ordering what the Morton curve leaves in the order of the input.
@@ -440,7 +408,7 @@ static ewa_status build_surfels(build *b, ewa_context *context) {
     if (status != EWA_OK) return status;
     ewa_parallel(context, encode_part, b, b->parts);
     b->surfels->unit_coverage = ewa_packets_unit_coverage(b->surfels);
-    return set_materials(b, context);
+    return ewa_extras_make(context, b->surfels, &b->reader, b->order);
 }
 
 ewa_status ewa_surfels_create(const ewa_cloud *cloud, const ewa_surfels_options *options,
@@ -485,7 +453,7 @@ void ewa_surfels_destroy(ewa_surfels **surfels) {
     ewa_surfels *old = *surfels;
     ewa_context *context = old->context;
     ewa_release(context, old->packets, old->packet_count, sizeof *old->packets);
-    ewa_release(context, old->materials, (size_t)old->packet_count * LANES, sizeof *old->materials);
+    ewa_extras_free(context, old);
     ewa_release(context, old->bounds_floats, BOUNDS_STREAMS * old->bounds_stride, sizeof *old->bounds_floats);
     ewa_release(context, old, 1, sizeof *old);
     *surfels = NULL;
@@ -497,8 +465,9 @@ void ewa_surfels_describe(const ewa_surfels *surfels, ewa_surfels_info *info) {
         .left_out_count = surfels->left_out_count,
         .resident_bytes = sizeof *surfels + surfels->packet_count * sizeof *surfels->packets +
                           BOUNDS_STREAMS * surfels->bounds_stride * sizeof *surfels->bounds_floats +
-                          (surfels->materials ? surfels->packet_count * (size_t)LANES : 0),
+                          ewa_extras_bytes(surfels),
         .unit_coverage = surfels->unit_coverage,
+        .transparent = surfels->opacities != NULL,
         .bounds = surfels->extent,
         .material_count = (uint32_t)surfels->most_material + 1,
     };
