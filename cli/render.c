@@ -346,6 +346,7 @@ static bool save_cameras(cli_session *session, const char *path, const frame_cam
         many ? ewa_camera_save_list(session->context, frames->cameras, frames->count, path)
              : ewa_camera_save(session->context, frames->cameras, path);
     if (status != EWA_OK) session_failed(session, status);
+    session->subject = NULL;
     return status == EWA_OK;
 }
 

@@ -6,8 +6,11 @@
 #include "pattern.h"
 #include "video.h"
 
+#include <pthread.h>
 #include <stdio.h>
-#include <string.h>
+
+/// Frames that are written at the same time, at most: each holds its planes.
+enum { MAX_SLOTS = 8 };
 
 /// The files of one frame.
 typedef struct frame_files {
@@ -51,29 +54,6 @@ bool sequence_check(cli_session *session, const picture_paths *paths) {
     return number_files(session, paths, 0, &files) && picture_check_paths(session, &files.paths);
 }
 
-/// Draws and writes frame `index`; false after reporting.
-static bool draw_frame(cli_session *session, const sequence_output *output, const frame_cameras *frames,
-                       size_t index, ewa_renderer *renderer, const ewa_surfels *surfels,
-                       const ewa_render_options *options, cli_picture *picture, cli_video *video,
-                       render_report *report) {
-    const ewa_camera *camera = &frames->cameras[index];
-    frame_files files = {.paths = *output->paths};
-    if (output->numbered && !number_files(session, output->paths, index, &files)) return false;
-    session->subject = NULL;
-    ewa_render_stats stats = {.splat_count = 0};
-    const double started_s = clock_now_s();
-    const ewa_status status = ewa_render(renderer, surfels, camera, options, &picture->frame, &stats);
-    const double drawn_s = clock_now_s();
-    if (status != EWA_OK) {
-        session_failed(session, status);
-        return false;
-    }
-    return (!output->film || video_put(session, video, picture->rgba8)) &&
-           picture_save(session, &files.paths, camera, output->opaque, picture) &&
-           render_report_add(session, report, index, frames->count, &stats, drawn_s - started_s,
-                             clock_now_s() - drawn_s);
-}
-
 /// Whether all frames have one size, which a film needs; false after reporting.
 static bool check_sizes(cli_session *session, const char *film, const frame_cameras *frames) {
     const ewa_camera *first = frames->cameras;
@@ -89,23 +69,127 @@ static bool check_sizes(cli_session *session, const char *film, const frame_came
     return true;
 }
 
-/// Draws all frames with what is made; false after reporting.
-static bool draw_frames(cli_session *session, const sequence_output *output, const frame_cameras *frames,
-                        ewa_renderer *renderer, const ewa_surfels *surfels, const ewa_render_options *options,
-                        cli_video *video, render_report *report) {
-    cli_picture picture = {.rgba8 = NULL};
-    bool done = true;
-    for (size_t i = 0; i < frames->count && done; i++) {
-        const ewa_camera *camera = &frames->cameras[i], *last = i ? camera - 1 : NULL;
-        if (!last || camera->width_px != last->width_px || camera->height_px != last->height_px) {
-            picture_free(&picture);
-            done = picture_make(session, output->paths, camera, &picture);
-        }
-        done = done &&
-               draw_frame(session, output, frames, i, renderer, surfels, options, &picture, video, report) &&
-               (!output->numbered || session_step(session, "frame", i + 1, frames->count));
+/// A frame on its way: drawn by the main thread, written by one of its own. Everything that writing touches
+/// is of the context of the slot.
+typedef struct frame_slot {
+    cli_session *session, own; ///< the program's, or its own beside a thread
+    cli_picture picture;
+    frame_files files;
+    const ewa_camera *camera;
+    pthread_t thread;
+    bool busy, threaded; ///< a frame has to be collected; by waiting for the thread
+    bool saved, opaque;
+    size_t index;
+    double render_s, write_s;
+    ewa_render_stats stats;
+} frame_slot;
+
+/// All that the drawing of a sequence works on.
+typedef struct sequence {
+    cli_session *session;
+    const sequence_output *output;
+    const frame_cameras *frames;
+    const ewa_surfels *surfels;
+    const ewa_render_options *options;
+    ewa_renderer *renderer;
+    cli_video video;
+    frame_slot slots[MAX_SLOTS];
+    size_t slot_count;
+    render_report *report;
+} sequence;
+
+/// The thread of a slot.
+static void *save_slot(void *data) {
+    frame_slot *slot = data;
+    const double started_s = clock_now_s();
+    slot->saved = picture_save(slot->session, &slot->files.paths, slot->camera, slot->opaque, &slot->picture);
+    slot->write_s += clock_now_s() - started_s;
+    return NULL;
+}
+
+/// Waits until the frame of a slot is written and takes note of it; false when it could not be.
+static bool collect_slot(sequence *all, frame_slot *slot) {
+    if (!slot->busy) return true;
+    if (slot->threaded) pthread_join(slot->thread, NULL);
+    slot->busy = false;
+    return slot->saved &&
+           render_report_add(all->session, all->report, slot->index, all->frames->count, &slot->stats,
+                             slot->render_s, slot->write_s) &&
+           (!all->output->numbered ||
+            session_step(all->session, "frame", slot->index + 1, all->frames->count));
+}
+
+/// Starts writing what a slot holds.
+static void start_saving(sequence *all, frame_slot *slot) {
+    slot->busy = true;
+    slot->threaded = all->slot_count > 1 && pthread_create(&slot->thread, NULL, save_slot, slot) == 0;
+    if (!slot->threaded) save_slot(slot);
+}
+
+/// Draws frame `index` and hands it to a slot; false after reporting.
+static bool draw_frame(sequence *all, size_t index) {
+    frame_slot *slot = &all->slots[index % all->slot_count];
+    const ewa_camera *camera = &all->frames->cameras[index], *last = slot->camera;
+    if (!collect_slot(all, slot)) return false;
+    slot->camera = camera;
+    if (!last || camera->width_px != last->width_px || camera->height_px != last->height_px) {
+        picture_free(&slot->picture);
+        if (!picture_make(slot->session, all->output->paths, camera, &slot->picture)) return false;
     }
-    picture_free(&picture);
+    slot->index = index;
+    slot->files.paths = *all->output->paths;
+    if (all->output->numbered && !number_files(all->session, all->output->paths, index, &slot->files))
+        return false;
+    all->session->subject = NULL;
+    const double started_s = clock_now_s();
+    const ewa_status status =
+        ewa_render(all->renderer, all->surfels, camera, all->options, &slot->picture.frame, &slot->stats);
+    slot->render_s = clock_now_s() - started_s;
+    if (status != EWA_OK) {
+        session_failed(all->session, status);
+        return false;
+    }
+    const bool put = !all->output->film || video_put(all->session, &all->video, slot->picture.rgba8);
+    slot->write_s = clock_now_s() - started_s - slot->render_s;
+    if (put) start_saving(all, slot);
+    return put;
+}
+
+/// Makes the slots: one picture is written by all workers, many by one each. False after reporting.
+static bool make_slots(sequence *all) {
+    const size_t workers = ewa_context_worker_count(all->session->context);
+    const size_t wanted = all->frames->count < workers ? all->frames->count : workers;
+    all->slot_count = wanted < MAX_SLOTS ? wanted : MAX_SLOTS;
+    for (size_t i = 0; i < all->slot_count; i++) {
+        frame_slot *slot = &all->slots[i];
+        slot->session = all->session;
+        slot->opaque = all->output->opaque;
+        if (all->slot_count == 1) continue;
+        slot->session = &slot->own;
+        slot->own = *all->session;
+        // Its messages wipe the bar that the main thread may have drawn.
+        slot->own.bar_drawn = all->session->progress;
+        slot->own.progress = false;
+        slot->own.context = session_context(&slot->own, 1, EWA_CPU_ALL);
+        if (!slot->own.context) return false;
+    }
+    return true;
+}
+
+static void free_slots(sequence *all) {
+    for (size_t i = 0; i < MAX_SLOTS; i++) {
+        frame_slot *slot = &all->slots[i];
+        picture_free(&slot->picture);
+        ewa_context_destroy(&slot->own.context);
+    }
+}
+
+static bool draw_all(sequence *all) {
+    bool done = true;
+    for (size_t i = 0; i < all->frames->count && done; i++) done = draw_frame(all, i);
+    // In the order of the frames, whether or not one failed.
+    for (size_t i = 0; i < MAX_SLOTS; i++)
+        done = collect_slot(all, &all->slots[(all->frames->count + i) % all->slot_count]) && done;
     return done;
 }
 
@@ -116,20 +200,25 @@ bool sequence_draw(cli_session *session, const sequence_output *output, const fr
                                      .frames_per_s = output->frames_per_s,
                                      .quality = output->quality,
                                      .opaque = output->opaque};
-    ewa_renderer *renderer = NULL;
-    cli_video video = {.process = 0};
-    const ewa_status status = ewa_renderer_create(session->context, &renderer);
+    sequence all = {.session = session,
+                    .output = output,
+                    .frames = frames,
+                    .surfels = surfels,
+                    .options = options,
+                    .report = report};
+    const ewa_status status = ewa_renderer_create(session->context, &all.renderer);
     if (status != EWA_OK) session_failed(session, status);
-    bool done = status == EWA_OK &&
+    bool done = status == EWA_OK && make_slots(&all) &&
                 (!output->film || (check_sizes(session, output->film, frames) &&
-                                   video_start(session, output->film, &settings, &video))) &&
-                draw_frames(session, output, frames, renderer, surfels, options, &video, report);
+                                   video_start(session, output->film, &settings, &all.video))) &&
+                draw_all(&all);
     if (done && output->film) {
         const double started_s = clock_now_s();
-        done = video_finish(session, &video);
+        done = video_finish(session, &all.video);
         report->write_s += clock_now_s() - started_s;
     }
-    video_drop(&video);
-    ewa_renderer_destroy(&renderer);
+    video_drop(&all.video);
+    free_slots(&all);
+    ewa_renderer_destroy(&all.renderer);
     return done;
 }
