@@ -3,6 +3,7 @@
 //
 // Getting the whole of a cloud into a picture, as large as it goes.
 #include "framing.h"
+#include "rank.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -21,32 +22,6 @@ static const double MARGIN = 0.04;
 /// Cosine of 10 degrees.
 static const double FACING_COSINE = 0.9848;
 
-/// Integers in the order of the numbers.
-static uint64_t ordered_bits(double number) {
-    uint64_t bits;
-    memcpy(&bits, &number, sizeof bits);
-    return bits >> 63 ? ~bits : bits | (uint64_t)1 << 63;
-}
-
-/// Returns the number that would be at place `rank` if the numbers were sorted, and shuffles them: digit by
-/// digit from the top, only what shares the digits so far stays. Linear whatever the numbers.
-static double select_number(double *numbers, size_t count, size_t rank) {
-    enum { DIGIT_BITS = 11, BUCKETS = 1 << DIGIT_BITS };
-    for (int shift = 64; count > 1 && shift > 0;) {
-        const int low = shift > DIGIT_BITS ? shift - DIGIT_BITS : 0;
-        size_t sizes[BUCKETS] = {0};
-        for (size_t i = 0; i < count; i++) sizes[ordered_bits(numbers[i]) >> low & (BUCKETS - 1)]++;
-        size_t bucket = 0;
-        for (; rank >= sizes[bucket]; bucket++) rank -= sizes[bucket];
-        size_t kept = 0;
-        for (size_t i = 0; i < count; i++)
-            if ((ordered_bits(numbers[i]) >> low & (BUCKETS - 1)) == bucket) numbers[kept++] = numbers[i];
-        count = kept;
-        shift = low;
-    }
-    return numbers[0];
-}
-
 static double diagonal(const ewa_bounds *box) {
     double squared = 0;
     for (int c = 0; c < 3; c++) {
@@ -62,9 +37,9 @@ static void trim_box(double (*points)[3], size_t count, double *numbers, ewa_bou
     const size_t skipped = (size_t)(FAR_SHARE * (double)count);
     for (int c = 0; c < 3; c++) {
         for (size_t i = 0; i < count; i++) numbers[i] = points[i][c];
-        const double low = select_number(numbers, count, skipped);
+        const double low = rank_select(numbers, count, skipped);
         for (size_t i = 0; i < count; i++) numbers[i] = points[i][c];
-        const double high = select_number(numbers, count, count - 1 - skipped);
+        const double high = rank_select(numbers, count, count - 1 - skipped);
         // The rim that is cut off belongs to the object too: give some back.
         const double rim = 0.05 * (high - low);
         box->low_world[c] = low - rim;
@@ -116,7 +91,7 @@ static double median_radius(const ewa_cloud *cloud, size_t samples, double *numb
         const double reach = u ? surfels.cutoff * sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]) : r[0];
         if (reach > 0 && isfinite(reach)) numbers[count++] = reach;
     }
-    return count ? select_number(numbers, count, count / 2) : 0;
+    return count ? rank_select(numbers, count, count / 2) : 0;
 }
 
 bool framing_make(cli_session *session, const ewa_cloud *cloud, double radius_scale, cloud_framing *framing) {

@@ -23,7 +23,8 @@ typedef struct render_arguments {
     double cutoff, prefilter_px, radius_scale, tolerance, edge_threshold, ambient;
     bool edge_antialiasing, close_gaps;
     int64_t edge_layers;
-    option_vector light, range;
+    option_vector light;
+    option_bounds range;
     option_color background;
     const char *color_by;
 } render_arguments;
@@ -168,13 +169,11 @@ static const cli_option look_table[] = {
      .help = "colours for --color-by"},
     {.key = "range",
      .aliases = "coloring-range",
-     .kind = OPTION_VECTOR,
+     .kind = OPTION_BOUNDS,
      .offset = AT(range),
      .value = "a,b",
-     .low = 2,
-     .high = 2,
      .absent = "least to greatest",
-     .help = "numbers that get the first and the last colour"},
+     .help = "numbers that get the first and the last colour; with a percent sign, percentiles: 2%,98%"},
 };
 
 static void set_defaults(void *data) {
@@ -215,7 +214,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const char *missing = NULL;
     if (!arguments->output)
         missing = "render: no output; say -o FILE";
-    else if (!arguments->color_by && arguments->range.count)
+    else if (!arguments->color_by && arguments->range.given)
         missing = "--range needs --color-by";
     else if (arguments->light.count && !arguments->light.values[0] && !arguments->light.values[1] &&
              !arguments->light.values[2])

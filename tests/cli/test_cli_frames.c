@@ -179,6 +179,10 @@ static void test_film_fails(void **state) {
     run_fails(1, "a.mp4|signal 9",
               "PATH=$PWD/dying:$PATH && ewa render torus.ply -o films/a.mp4 --turntable 40 --size 320x240");
     run_fails(1, "nowhere", "PATH=$PWD/fake:$PATH && ewa render torus.ply -o nowhere/a.mp4 --turntable 4");
+    // One frame among those that are written at the same time cannot be: said once.
+    run("mkdir blocked_3.png");
+    run_fails(1, "blocked_3.png", "ewa render torus.ply -o blocked_%%d.png --turntable 9 --size 64x48");
+    assert_ptr_equal(strchr(last_run.err, '\n'), last_run.err + strlen(last_run.err) - 1);
     // Frames of two sizes.
     run_done("ewa render torus.ply -o x_%%d.png --turntable 2 --size 64x48 --save-camera k.json && "
              "sed '0,/\"width\": 64/s//\"width\": 60/' k.json >sizes.json && "
@@ -193,8 +197,9 @@ static void test_film_fails(void **state) {
 static void test_interrupt(void **state) {
     (void)state;
     run("rm -rf films && mkdir films");
-    const int ended = run("PATH=$PWD/fake:$PATH; $EWA_PROGRAM render torus.ply -o films/a.mp4 --turntable 100000 "
-                          "--size 640x480 & sleep 0.7; kill -TERM $!; wait $!");
+    const int ended =
+        run("PATH=$PWD/fake:$PATH; $EWA_PROGRAM render torus.ply -o films/a.mp4 --turntable 100000 "
+            "--size 640x480 & sleep 0.7; kill -TERM $!; wait $!");
     assert_int_equal(ended, 128 + 15);
     assert_int_equal(run("sleep 0.2; test $(ls -A films | wc -l) = 0"), 0);
 }
