@@ -63,7 +63,7 @@ static const cli_option work_table[] = {
     {.key = "kernel",
      .kind = OPTION_CHOICE,
      .offset = AT(kernel),
-     .range = "perspective|affine",
+     .range = "perspective|affine|source|circular|raycast",
      .help = "as for render"},
     {.key = "passes", .kind = OPTION_CHOICE, .offset = AT(passes), .range = "1|3", .help = "as for render"},
     {.key = "shading",

@@ -25,13 +25,13 @@ static void start_surface(const ewa_tile *tile, const ewa_edges *edges, size_t b
 static uint32_t find_edges(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges *edges) {
     enum { LANES = EWA_BLOCK_LANES };
     uint32_t count = 0;
-    const wf scale = wf_set(to->alpha_scale), one = wf_set(1), zero = wf_set(0);
+    const wf one = wf_set(1), zero = wf_set(0);
     for (uint32_t row = 0; row < tile->block_rows; row++) {
         edges->rows[row] = 0;
         for (uint32_t column = 0; column < tile->blocks_per_row; column++) {
             const size_t block = block_at(tile, row, column);
-            const wf q = wf_load(tile->sums + block * tile->channel_count * LANES);
-            const wm open = wm_and(wf_lt(zero, q), wf_lt(wf_mul(q, scale), one));
+            const float *sums = tile->sums + block * tile->channel_count * LANES;
+            const wm open = wm_and(wf_lt(zero, wf_load(sums)), wf_lt(surface_alpha(tile, to, sums), one));
             edges->reach[block] = -__builtin_inff();
             if (!wm_bits(open)) continue;
             edges->rows[row] |= 1u << column;
@@ -151,16 +151,16 @@ static ALWAYS_INLINE block_sample sample_block(const ewa_record *r, uint32_t row
     wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
     for (uint32_t i = box_row(r->box); i < row; i++)
         dy = wf_add(dy, wf_set(EWA_BLOCK_PX)); // as the passes over whole boxes step
-    const wf key = wf_add(c.key, wf_mul(wf_set(r->key_y), dy));
-    return (block_sample){block_exponent(&c, dy, wf_mul(wf_mul(wf_set(r->yy), dy), dy)),
-                          box_steep(r->box) ? clamped_key(r, key) : key};
+    const wf key = wf_fma(wf_set(r->key_y), dy, c.key);
+    return (block_sample){block_exponent(r, &c, dy), box_steep(r->box) ? clamped_key(r, key) : key};
 }
 
 /// Sixteen splats at one block: what its columns and rows of pixels share, a splat per lane.
 typedef struct splat_lanes {
     wf quadratic[EWA_BLOCK_PX], cross[EWA_BLOCK_PX], key_x[EWA_BLOCK_PX],
-        bound_x[EWA_BLOCK_PX];                                                               ///< by column
-    wf dy[EWA_BLOCK_PX], yy_dy2[EWA_BLOCK_PX], key_dy[EWA_BLOCK_PX], bound_dy[EWA_BLOCK_PX]; ///< by row
+        bound_x[EWA_BLOCK_PX]; ///< by column
+    wf dy[EWA_BLOCK_PX];       ///< by row
+    wf yy, key_y, bound_y;
     wm steep;
     wf key_low, key_high, bound_scale, bound_offset; ///< of steep ones
 } splat_lanes;
@@ -191,11 +191,7 @@ static ALWAYS_INLINE splat_lanes load_splats(const ewa_record *records, const ui
         if (!wm_bits(more)) break;
         for (int i = 0; i < EWA_BLOCK_PX; i++) s.dy[i] = wf_select(more, wf_add(s.dy[i], side), s.dy[i]);
     }
-    for (int i = 0; i < EWA_BLOCK_PX; i++) {
-        s.yy_dy2[i] = wf_mul(wf_mul(f[4], s.dy[i]), s.dy[i]);
-        s.key_dy[i] = wf_mul(f[7], s.dy[i]);
-        s.bound_dy[i] = wf_mul(f[10], s.dy[i]);
-    }
+    s.yy = f[4], s.key_y = f[7], s.bound_y = f[10];
     return s;
 }
 
@@ -221,8 +217,9 @@ static void edge_raise(const ewa_view *view, const ewa_tile *tile, const ewa_edg
         for (uint32_t left = open; left; left &= left - 1) {
             const uint32_t pixel = (uint32_t)__builtin_ctz(left), x = pixel % EWA_BLOCK_PX,
                            y = pixel / EWA_BLOCK_PX;
-            const wf exponent = wf_fma(s.cross[x], s.dy[y], wf_add(s.quadratic[x], s.yy_dy2[y]));
-            wf key = wf_add(s.key_x[x], s.key_dy[y]), bound = wf_add(s.bound_x[x], s.bound_dy[y]);
+            const wf exponent = wf_fma(s.dy[y], wf_fma(s.yy, s.dy[y], s.cross[x]), s.quadratic[x]);
+            wf key = wf_fma(s.key_y, s.dy[y], s.key_x[x]);
+            wf bound = wf_fma(s.bound_y, s.dy[y], s.bound_x[x]);
             if (any_steep) {
                 key = wf_select(s.steep, wf_min(wf_max(key, s.key_low), s.key_high), key);
                 bound = wf_select(s.steep, wf_fma(s.bound_scale, key, s.bound_offset), bound);
@@ -250,8 +247,7 @@ static void edge_raise(const ewa_view *view, const ewa_tile *tile, const ewa_edg
 }
 
 static ALWAYS_INLINE void edge_sum(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
-                                   uint32_t row, uint32_t column, const ewa_edge_splats *splats,
-                                   bool with_normals) {
+                                   uint32_t row, uint32_t column, const ewa_edge_splats *splats, int what) {
     const size_t block = block_at(tile, row, column), at = block * EWA_BLOCK_LANES;
     const wf passed = wf_load(edges->passed + at), nearest = wf_load(edges->nearest + at);
     const wf end = wf_set(view->exponent_end), never = wf_set(-__builtin_inff());
@@ -271,22 +267,71 @@ static ALWAYS_INLINE void edge_sum(const ewa_view *view, const ewa_tile *tile, c
             const wm beyond = wm_and(wf_lt(sample.exponent, end), wf_lt(sample.key, passed));
             const wm counts = wm_and(beyond, wf_le(nearest, sample.key));
             if (!wm_bits(counts)) continue;
-            const ewa_load *load = &splats->loads[index];
-            const payload add = payload_load(r, load, with_normals);
+            const payload add = payload_load(r, &splats->loads[index],
+                                             what & ADD_OPACITY ? &splats->opacities[index] : NULL, what);
             const wf weight = wf_keep(counts, exponential(sample.exponent, view->doublings));
-            add_channels(sums, weight, &add, sample.key, with_normals, false, false);
+            add_channels(sums, tile->channel_count, weight, &add, sample.key, what);
         }
+    }
+}
+
+/// edge_raise() for raycast splats.
+static void ray_edge_raise(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges, uint32_t row,
+                           uint32_t column, ewa_edge_splats *splats) {
+    const size_t at = block_at(tile, row, column) * EWA_BLOCK_LANES;
+    const wf end = wf_set(view->exponent_end), never = wf_set(-__builtin_inff());
+    const wf passed = wf_load(edges->passed + at);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < splats->count; i++) {
+        const uint32_t index = splats->indices[i];
+        const ewa_record *r = &splats->records[index];
+        const ray_splat ray = ray_start(view, r, splats->loads[index].peak);
+        const ray_sample sample = ray_block(view, r, &ray, row, column);
+        const wm beyond = wm_and(wf_lt(sample.exponent, end), wf_lt(sample.key, passed));
+        if (!wm_bits(beyond)) continue;
+        ray_raise(r, &sample, beyond, edges->nearest + at);
+        splats->indices[kept] = index;
+        splats->largest_keys[kept++] = largest_lane(wf_select(beyond, sample.key, never));
+    }
+    splats->count = kept;
+}
+
+static void ray_edge_sum(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges, uint32_t row,
+                         uint32_t column, const ewa_edge_splats *splats) {
+    const size_t block = block_at(tile, row, column), at = block * EWA_BLOCK_LANES;
+    const wf passed = wf_load(edges->passed + at), nearest = wf_load(edges->nearest + at);
+    const int what = (tile->with_normals ? ADD_NORMAL : 0) | (tile->with_opacity ? ADD_OPACITY : 0);
+    for (uint32_t i = 0; i < splats->count; i++) {
+        const uint32_t index = splats->indices[i];
+        const ewa_record *r = &splats->records[index];
+        const ewa_load *load = &splats->loads[index];
+        const ray_splat ray = ray_start(view, r, load->peak);
+        const ray_sample sample = ray_block(view, r, &ray, row, column);
+        const wm counts = wm_and(wf_lt(sample.exponent, wf_set(view->exponent_end)),
+                                 wm_and(wf_lt(sample.key, passed), wf_le(nearest, sample.key)));
+        if (!wm_bits(counts)) continue;
+        const payload add =
+            payload_load(r, load, what & ADD_OPACITY ? &splats->opacities[index] : NULL, what);
+        const wf bell = exponential(wf_keep(counts, sample.exponent), view->doublings);
+        add_channels(edges->sums + at * tile->channel_count, tile->channel_count,
+                     wf_keep(counts, wf_mul(bell, sample.gain)), &add, sample.key, what);
     }
 }
 
 static void edge_pass(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges, uint32_t row,
                       uint32_t column, ewa_edge_splats *splats, bool second_pass) {
-    if (!second_pass)
+    if (view->raycast && second_pass)
+        ray_edge_sum(view, tile, edges, row, column, splats);
+    else if (view->raycast)
+        ray_edge_raise(view, tile, edges, row, column, splats);
+    else if (!second_pass)
         edge_raise(view, tile, edges, row, column, splats);
+    else if (tile->with_opacity)
+        edge_sum(view, tile, edges, row, column, splats, ADD_NORMAL | ADD_OPACITY);
     else if (tile->with_normals)
-        edge_sum(view, tile, edges, row, column, splats, true);
+        edge_sum(view, tile, edges, row, column, splats, ADD_NORMAL);
     else
-        edge_sum(view, tile, edges, row, column, splats, false);
+        edge_sum(view, tile, edges, row, column, splats, 0);
 }
 
 static void edge_near_pass(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
@@ -306,12 +351,20 @@ static void edge_near_pass(const ewa_view *view, const ewa_tile *tile, const ewa
                     continue;
                 }
                 counts = wm_and(counts, wf_le(wf_load(nearest), key));
-                near_add(view, &records[i], &sample, counts, key,
-                         edges->sums + block * tile->channel_count * EWA_BLOCK_LANES, tile->with_normals,
-                         false);
+                near_add(view, tile, &records[i], &sample, counts, key,
+                         edges->sums + block * tile->channel_count * EWA_BLOCK_LANES, false);
             }
         }
     }
+}
+
+static void edge_take_all(const ewa_tile *tile, const ewa_edges *edges) {
+    const wf all = wf_set(-3e38f); // below every key, but unlike -infinity something that counts
+    for (uint32_t row = 0; row < tile->block_rows; row++)
+        for (uint32_t marked = edges->rows[row]; marked; marked &= marked - 1) {
+            const size_t block = block_at(tile, row, (uint32_t)__builtin_ctz(marked));
+            wf_store(edges->nearest + block * EWA_BLOCK_LANES, all);
+        }
 }
 
 /// Composites one block's gathered surface under what is in front of it; returns the pixels that stay open.
@@ -322,7 +375,7 @@ static wm compose_block(const ewa_tile *tile, const ewa_resolve *to, const ewa_e
     const float *sums = edges->sums + block * tile->channel_count * LANES;
     const wf scale = color_scale(tile, to, sums, (uint32_t)tile->x_px + column * EWA_BLOCK_PX,
                                  (uint32_t)tile->y_px + row * EWA_BLOCK_PX);
-    const surface found = gathered_surface(to, sums, scale);
+    const surface found = gathered_surface(tile, to, sums, scale);
     float *behind = edges->behind + block * 4 * LANES;
     const wf covered = wf_load(behind + 3 * LANES);
     const wf share = wf_mul(wf_sub(wf_set(1), covered), found.alpha);

@@ -136,6 +136,58 @@ static ALWAYS_INLINE void stage_place(const ewa_view *view, const ewa_packet *pa
     }
 }
 
+/// The conic of the source kernel (SS equation 8), pulled back: u = x A, A = J^-1, W = I + h^2 A'A, r^2 = x A
+/// W^-1 A' x'. In standard deviations the kernel is round, so that any frame of the surfel's plane serves:
+/// here that in which J is symmetric, the root of V = J'J.
+static ALWAYS_INLINE void source_shape(const ewa_view *view, wf v11, wf v12, wf v22, wf root_det, stage *t) {
+    const wf one = wf_set(1), h2 = wf_set(view->prefilter2_px2);
+    const wf least = wf_mul(wf_set((float)EWA_FLAT), wf_mul(v11, v22));
+    const wm invertible =
+        wm_and(wf_le(least, wf_mul(root_det, root_det)), wf_le(wf_set((float)EWA_LEAST_AREA), root_det));
+    t->alive = wm_and(t->alive, invertible);
+    root_det = wf_select(invertible, root_det, one);
+    // J = (V + |J| I) / g, its adjugate likewise; g^2 = V11 + V22 + 2 |J|.
+    const wf trace = wf_add(wf_add(v11, v22), wf_add(root_det, root_det));
+    const wf inverse_det = wf_reciprocal(root_det), scale = wf_mul(wf_inverse_root(trace), inverse_det);
+    const wf a11 = wf_mul(wf_add(v22, root_det), scale), a22 = wf_mul(wf_add(v11, root_det), scale);
+    const wf a12 = wf_negate(wf_mul(v12, scale));
+    const wf along_x = wf_fma(a11, a11, wf_mul(a12, a12)), along_y = wf_fma(a22, a22, wf_mul(a12, a12));
+    const wf cross = wf_mul(a12, wf_add(a11, a22));
+    // |W| = 1 + h^2 (|a|^2 + |b|^2) + h^4 |A|^2. A adj(W) A' = A A' + h^2 |A|^2 I.
+    const wf filter = wf_mul(h2, wf_mul(inverse_det, inverse_det));
+    const wf determinant = wf_fma(h2, wf_add(wf_add(along_x, along_y), filter), one);
+    const wf inverse_root = wf_inverse_root(determinant);
+    const wf scaled = wf_mul(wf_mul(inverse_root, inverse_root), wf_set(view->exponent_scale));
+    t->peak = wf_mul(inverse_root, wf_set((float)EWA_INVERSE_TWO_PI));
+    t->xx = wf_mul(wf_add(along_x, filter), scaled);
+    t->xy = wf_mul(wf_mul(cross, wf_set(2)), scaled);
+    t->yy = wf_mul(wf_add(along_y, filter), scaled);
+}
+
+/// The circle around the filtered ellipse (w11, w12, w22): its larger eigenvalue for a variance.
+static ALWAYS_INLINE void circular_shape(const ewa_view *view, wf w11, wf w12, wf w22, wf root_det,
+                                         stage *t) {
+    const wf mean = wf_mul(wf_set(0.5f), wf_add(w11, w22)), difference = wf_sub(mean, w22);
+    const wf variance = wf_add(mean, wf_sqrt(wf_fma(difference, difference, wf_mul(w12, w12))));
+    const wf inverse = wf_div(wf_set(1), variance);
+    t->peak = wf_mul(wf_mul(root_det, inverse), wf_set((float)EWA_INVERSE_TWO_PI));
+    t->xx = t->yy = wf_mul(inverse, wf_set(view->exponent_scale));
+    t->xy = wf_set(0);
+    t->half_x = t->half_y = wf_mul(wf_set(view->cutoff), wf_sqrt(variance));
+}
+
+/// V itself, for ray_evaluate(), and a box around all that it may make of it (w is largest where the disc is
+/// nearest).
+static ALWAYS_INLINE void raycast_shape(const ewa_view *view, wf v11, wf v12, wf v22, wf root_det, stage *t) {
+    const wf h2 = wf_set(view->prefilter2_px2);
+    const wf most = wf_mul(wf_mul(t->p[2], wf_add(t->p[2], t->range)), wf_mul(t->root_k, t->root_k));
+    const wf most2 = wf_mul(most, most);
+    t->xx = v11, t->xy = v12, t->yy = v22;
+    t->peak = wf_mul(root_det, wf_set((float)EWA_INVERSE_TWO_PI));
+    t->half_x = wf_mul(wf_set(view->cutoff), wf_sqrt(wf_fma(most2, v11, h2)));
+    t->half_y = wf_mul(wf_set(view->cutoff), wf_sqrt(wf_fma(most2, v22, h2)));
+}
+
 /// Second step: the filtered ellipse (math.md sections 3 and 4) and the slope of the key.
 static ALWAYS_INLINE void stage_shape(const ewa_view *view, stage *t) {
     const wf one = wf_set(1), zero = wf_set(0);
@@ -172,6 +224,14 @@ static ALWAYS_INLINE void stage_shape(const ewa_view *view, stage *t) {
     // The key's plane: n_xy / n.p, with |n.p| raised where the surfel is seen edge-on.
     const wf lowest2 = wf_set((float)(EWA_EDGE_ON * EWA_EDGE_ON));
     const wf ray2 = wf_fma(t->x0, t->x0, wf_fma(t->y0, t->y0, one)); // |p|^2 / pz^2; orthographic 1
+    if (view->source)
+        source_shape(view, v11, v12, v22, root_det, t);
+    else if (view->circular)
+        circular_shape(view, w11, v12, w22, root_det, t);
+    else if (view->raycast)
+        raycast_shape(view, v11, v12, v22, root_det, t);
+    if (view->raycast)
+        t->alive = wm_and(t->alive, wf_le(wf_mul(lowest2, ray2), wf_mul(t->facing, t->facing)));
     const wf raised2 = wf_max(wf_mul(t->facing, t->facing), wf_mul(lowest2, ray2));
     const wf tilt = wf_mul(wf_inverse_root(raised2), t->inverse_z);
     const wf signed_tilt = wf_select(wf_lt(t->facing, zero), wf_negate(tilt), tilt);
@@ -181,13 +241,14 @@ static ALWAYS_INLINE void stage_shape(const ewa_view *view, stage *t) {
 
 /// Appends the records of the lanes in `alive_bits`. May write EWA_PACKET_LANES entries whatever they are.
 static ALWAYS_INLINE void emit(ewa_run *run, uint32_t alive_bits, const wf records[16], const float loads[64],
-                               const uint8_t classes[16]) {
+                               const float opacities[16], const uint8_t classes[16]) {
     uint32_t at = run->count;
     if (alive_bits == 0xffff) { // most packets lie within one tile
         for (uint32_t lane = 0; lane < 16; lane++)
             wf_store((float *)(void *)&run->records[at + lane], records[lane]);
         memcpy(&run->loads[at], loads, 16 * sizeof run->loads[at]);
         memcpy(&run->classes[at], classes, 16);
+        if (run->opacities) memcpy(&run->opacities[at], opacities, 16 * sizeof *opacities);
         run->count = at + 16;
         return;
     }
@@ -195,14 +256,16 @@ static ALWAYS_INLINE void emit(ewa_run *run, uint32_t alive_bits, const wf recor
         wf_store((float *)(void *)&run->records[at], records[lane]);
         memcpy(&run->loads[at], &loads[4 * lane], sizeof run->loads[at]);
         run->classes[at] = classes[lane];
+        if (run->opacities) run->opacities[at] = opacities[lane];
         at += alive_bits >> lane & 1;
     }
     run->count = at;
 }
 
 /// Third step: tolerance, box in the tile, and the records of the lanes that are in it.
-static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *packet, const ewa_tile *tile,
-                                     stage *t, ewa_run *run, wf *least) {
+static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *packet,
+                                     const uint16_t *opacities_u16, const ewa_tile *tile, stage *t,
+                                     ewa_run *run, wf *least) {
     const wf one = wf_set(1), zero = wf_set(0), half = wf_set(0.5f);
     const wf fx = wf_set(view->fx_px), fy = wf_set(view->fy_px);
     const wf *p = t->p;
@@ -267,6 +330,9 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
     const wf low = wf_select(steep, wf_sub(key_low, margin), least_key);
     *least = wf_min(wf_select(alive, low, wf_set(__builtin_inff())), *least);
 
+    wf opacity = t->peak; // times the peak
+    if (opacities_u16)
+        opacity = wf_mul(t->peak, wf_mul(wf_from_i(wi_load_u16(opacities_u16)), wf_set(1.0f / 65535.0f)));
     wf lanes[16] = {
         wf_sub(wf_from_i(wi_shl(column, 2)), cx),
         wf_sub(wf_from_i(wi_shl(row, 2)), cy),
@@ -280,9 +346,9 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
         wf_select(steep, bound_offset, wf_mul(bound_scale, t->key_x)),
         wf_select(steep, wf_add(key_high, margin), wf_mul(bound_scale, t->key_y)),
         low,
-        wf_mul(t->peak, decode_color(view, packet->red, 0)),
-        wf_mul(t->peak, decode_color(view, packet->green, 1)),
-        wf_mul(t->peak, decode_color(view, packet->blue, 2)),
+        wf_mul(opacity, decode_color(view, packet->red, 0)),
+        wf_mul(opacity, decode_color(view, packet->green, 1)),
+        wf_mul(opacity, decode_color(view, packet->blue, 2)),
         wf_of_bits(box),
     };
     w_transpose(lanes);
@@ -293,13 +359,16 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
              t->peak);
     uint8_t classes[16];
     wi_store_u8(classes, box_classes(columns, rows, steep, wide));
-    emit(run, alive_bits, lanes, loads, classes);
+    float opacities[16];
+    wf_store(opacities, opacity);
+    emit(run, alive_bits, lanes, loads, opacities, classes);
 }
 
-static ALWAYS_INLINE void setup_run(const ewa_view *view, const ewa_packet *packets,
+static ALWAYS_INLINE void setup_run(const ewa_view *view, const ewa_packet_source *source,
                                     const uint32_t *packet_ids, uint32_t count, uint32_t announced,
                                     bool ellipses, const ewa_tile *tile, ewa_run *run) {
     enum { TOGETHER = 4, AHEAD = 12, LINE_BYTES = 64 };
+    const ewa_packet *packets = source->packets;
     stage stages[TOGETHER];
     run->count = 0;
     run->near_count = 0;
@@ -317,13 +386,16 @@ static ALWAYS_INLINE void setup_run(const ewa_view *view, const ewa_packet *pack
         }
         for (uint32_t i = 0; i < here; i++) stage_shape(view, &stages[i]);
         for (uint32_t i = 0; i < here; i++)
-            if (wm_bits(stages[i].alive)) stage_emit(view, &packets[ids[i]], tile, &stages[i], run, &least);
+            if (wm_bits(stages[i].alive))
+                stage_emit(view, &packets[ids[i]],
+                           source->opacities ? source->opacities + (size_t)ids[i] * EWA_PACKET_LANES : NULL,
+                           tile, &stages[i], run, &least);
     }
     run->least_key = -largest_lane(wf_negate(least));
 }
 
-static void setup(const ewa_view *view, const ewa_packet *packets, const uint32_t *packet_ids, uint32_t count,
-                  uint32_t announced, const ewa_tile *tile, ewa_run *run) {
+static void setup(const ewa_view *view, const ewa_packet_source *packets, const uint32_t *packet_ids,
+                  uint32_t count, uint32_t announced, const ewa_tile *tile, ewa_run *run) {
     if (view->ellipses)
         setup_run(view, packets, packet_ids, count, announced, true, tile, run);
     else

@@ -12,7 +12,7 @@
 // per surfel: where n.p > 0 (orthographic nz > 0) it is negated.
 //
 // Near surfels (perspective, pz <= EWA_NEAR_RATIO * R) touch or nearly touch the eye plane: their conic is no
-// safe ellipse. They are drawn by pixel rays (raycast of math.md section 9), whatever the kernel mode:
+// safe ellipse. They are drawn by pixel rays, whatever the kernel:
 //   ray d = ((x - cx)/fx, (y - cy)/fy, 1), z = n.p / n.d, q = z d - p, u = (q.tu / tu.tu, q.tv / tv.tv);
 //   a = du/dx, b = du/dy per pixel (exact derivatives); W = I + h^2 (a'a + b'b); r^2 = u W^-1 u';
 //   weight = exp(-r^2 / 2) / (2 pi sqrt|W|); the pixel counts where z > 0, r^2 < F^2 and u.u < 4 F^2 (the
@@ -20,10 +20,18 @@
 //   |p| is then dropped.
 //
 // All others: ellipse with variance V' = V + h^2 I around its centre, pixel counts where r^2 < F^2,
-// weight = sqrt(|V| / |V'|) exp(-r^2 / 2) / (2 pi) (math.md section 4); V by the perspective or the affine
-// kernel.
+// weight = sqrt(|V| / |V'|) exp(-r^2 / 2) / (2 pi) (math.md section 4); V by the perspective kernel, or V =
+// J'J around the projected centre, J the Jacobian there (affine).
 //
 // Without a prefilter a splat with |V'| < EWA_FLAT V'11 V'22 is a line: it covers no pixel.
+//
+// Other kernels of the affine map (orthographic: of the same ellipse):
+//   source: u = (x - c) J^-1, W = I + h^2 J^-T J^-1, r^2 = u W^-1 u', weight = exp(-r^2 / 2) / (2 pi
+//   sqrt|W|). It needs the inverse: a surfel with |V| < EWA_FLAT V11 V22 or sqrt|V| < EWA_LEAST_AREA is
+//   dropped. circular: V' is replaced by its larger eigenvalue times I, |V| stays. raycast (perspective
+//   cameras; orthographic ones see the affine kernel): V' = w^2 V + h^2 I and |V| w^4 for |V|, w(x) = pz /
+//   z(x), clamped to [pz / (pz + R), pz / (pz - R)], what it is on the disc. Since u = (x - c) J^-1 / w is
+//   the projective map, r^2 = u.u without a prefilter. A surfel with |n.p| < EWA_EDGE_ON |p| is dropped.
 //
 // Depth (both): key(x) = 1/z(x) = 1/pz + n.(d(x) - p/pz) / n.p with |n.p| raised to EWA_EDGE_ON |p| where
 // smaller (sign kept, + for 0); orthographic: key(x) = -z(x) = -pz + ((x - px) nx/fx + (y - py) ny/fy) / nz
@@ -71,7 +79,10 @@
 #define EWA_FREE_DEPTH 0.25
 
 /// Smallest |V'| / (V'11 V'22) that counts as an area.
-#define EWA_FLAT           1e-14
+#define EWA_FLAT 1e-14
+
+/// Smallest sqrt|V| that the source kernel inverts, in square pixels.
+#define EWA_LEAST_AREA     1e-15
 
 #define EWA_INVERSE_TWO_PI 0.15915494309189535
 

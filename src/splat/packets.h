@@ -14,6 +14,7 @@ struct ewa_surfels {
     uint32_t count, packet_count;
     uint64_t left_out_count;
     ewa_packet *packets;
+    uint16_t *opacities;      ///< [packet][lane], times 65535; NULL: all are opaque
     ewa_packet_bounds bounds; ///< views into `bounds_floats`
     float *bounds_floats;
     size_t bounds_stride;   ///< packet_count rounded up to a full vector
@@ -28,12 +29,11 @@ struct ewa_surfels {
 /// One surfel of a packet, local space, axes of length sigma.
 typedef struct ewa_packet_surfel {
     ewa_vec3 center, axis_u, axis_v, normal;
-    double color[3];
+    double color[3], opacity;
 } ewa_packet_surfel;
 
-/// Decodes lane `lane` of a packet, as the kernels do but in double precision.
-void ewa_packet_decode(const ewa_surfels *surfels, const ewa_packet *packet, uint32_t lane,
-                       ewa_packet_surfel *surfel);
+/// Decodes lane `lane` of packet `packet`, as the kernels do but in double precision.
+void ewa_packet_decode(const ewa_surfels *surfels, uint32_t packet, uint32_t lane, ewa_packet_surfel *surfel);
 
 /// Estimates q0 (math.md section 7): the median over a sample of surfels of sigma_u sigma_v density
 /// (1 - exp(-F^2 / 2)), each surfel counting at least itself within its own support.

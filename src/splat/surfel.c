@@ -20,12 +20,22 @@ static const double FULL_SCALE[] = {0, 0, 127, 255, 32767, 65535, 2147483647.0, 
 
 static double clamp01(double value) { return value < 0 ? 0 : value > 1 ? 1 : value; }
 
+static bool all_finite(const double *value, uint32_t count) {
+    bool finite = true;
+    for (uint32_t c = 0; c < count; c++) finite = finite && isfinite(value[c]);
+    return finite;
+}
+
+static double alpha_of(const ewa_attribute *color, const double *value) {
+    const double scale = FULL_SCALE[color->type];
+    if (color->component_count < 4 || !all_finite(value, color->component_count)) return 1;
+    return clamp01(scale > 0 ? value[3] / scale : value[3]);
+}
+
 static void read_color(const ewa_surfel_reader *reader, const double *value, ewa_surfel *surfel) {
     const ewa_attribute *color = reader->color;
     const double scale = FULL_SCALE[color->type];
-    const uint32_t components = color->component_count;
-    bool finite = true;
-    for (uint32_t c = 0; c < components; c++) finite = finite && isfinite(value[c]);
+    const bool finite = all_finite(value, color->component_count);
     for (int c = 0; c < 3; c++) {
         if (!finite)
             surfel->color_linear[c] = EWA_DEFAULT_GREY;
@@ -36,7 +46,7 @@ static void read_color(const ewa_surfel_reader *reader, const double *value, ewa
         else
             surfel->color_linear[c] = fmin(fmax(value[c], 0), EWA_SURFEL_LIMIT);
     }
-    surfel->alpha = components < 4 || !finite ? 1 : clamp01(scale > 0 ? value[3] / scale : value[3]);
+    surfel->alpha = alpha_of(color, value);
 }
 
 /// False for NaN too.
@@ -185,4 +195,11 @@ uint64_t ewa_surfel_read(const ewa_surfel_reader *reader, uint64_t first, uint64
         kept += read_block(reader, first + done, part, surfels + done, drawable + done);
     }
     return kept;
+}
+
+double ewa_surfel_alpha(const ewa_surfel_reader *reader, uint64_t point) {
+    double color[4] = {0};
+    if (!reader->color || reader->color->component_count != 4) return 1;
+    ewa_attribute_read_f64(reader->color, point, 1, color);
+    return alpha_of(reader->color, color);
 }

@@ -51,4 +51,7 @@ ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_opti
 uint64_t ewa_surfel_read(const ewa_surfel_reader *reader, uint64_t first, uint64_t count, ewa_surfel *surfels,
                          bool *drawable);
 
+/// Reads the alpha of one point as ewa_surfel_read() does. Any thread.
+double ewa_surfel_alpha(const ewa_surfel_reader *reader, uint64_t point);
+
 #endif

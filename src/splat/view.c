@@ -74,7 +74,10 @@ ewa_status ewa_view_set(ewa_view *view, const ewa_surfels *surfels, const ewa_ca
     view->width_px = camera->width_px, view->height_px = camera->height_px;
     view->tile_px = tile_px;
     view->orthographic = camera->projection == EWA_ORTHOGRAPHIC;
-    view->affine = options->kernel == EWA_KERNEL_AFFINE;
+    view->affine = options->kernel != EWA_KERNEL_PERSPECTIVE;
+    view->source = options->kernel == EWA_KERNEL_SOURCE;
+    view->circular = options->kernel == EWA_KERNEL_CIRCULAR;
+    view->raycast = options->kernel == EWA_KERNEL_RAYCAST && !view->orthographic;
     view->cull_back = options->cull == EWA_CULL_BACK;
     view->ellipses = surfels->ellipses;
     return view->orthographic ? EWA_OK : set_sides(surfels->context, view, camera, cutoff * prefilter + 1);
@@ -87,6 +90,7 @@ void ewa_resolve_set(ewa_resolve *resolve, const ewa_surfels *surfels, const ewa
     split_scale(camera, &rotation);
     resolve->unit_coverage_inverse = (float)(1 / surfels->unit_coverage);
     resolve->alpha_scale = (float)(1 / (options->edge_threshold * surfels->unit_coverage));
+    resolve->opacity = (float)options->opacity;
     resolve->one_pass = options->passes == 1;
     resolve->edge_antialiasing = options->edge_antialiasing && !resolve->one_pass;
     resolve->lambert = options->shading == EWA_SHADING_LAMBERT;
@@ -142,7 +146,7 @@ static void set_linear(float terms[3], ewa_vec3 n, const ewa_view *view, const e
 bool ewa_near_record_set(ewa_near_record *record, const ewa_surfels *surfels, uint32_t surfel,
                          const ewa_view *view, const ewa_tile *tile) {
     ewa_packet_surfel s;
-    ewa_packet_decode(surfels, &surfels->packets[surfel / EWA_PACKET_LANES], surfel % EWA_PACKET_LANES, &s);
+    ewa_packet_decode(surfels, surfel / EWA_PACKET_LANES, surfel % EWA_PACKET_LANES, &s);
     const double scale = (double)view->scale;
     const ewa_vec3 u = turn(view, s.axis_u, scale), v = turn(view, s.axis_v, scale),
                    n = turn(view, s.normal, 1);
@@ -171,10 +175,11 @@ bool ewa_near_record_set(ewa_near_record *record, const ewa_surfels *surfels, ui
         fmin((double)view->reach_px * per_px, EWA_GRAZING_TOLERANCE * surfels->cutoff * sigma);
     record->tolerance = (float)((double)view->tolerance * sigma + (double)view->grazing * grazing);
     const ewa_vec3 toward = vec3_scale(n, plane > 0 ? -1 : 1); // normals face the viewer
-    const double normal[3] = {toward.x, toward.y, toward.z};
+    const double normal[3] = {toward.x, toward.y, toward.z}, opacity = tile->with_opacity ? s.opacity : 1;
     for (int i = 0; i < 3; i++) {
-        record->color[i] = (float)s.color[i];
+        record->color[i] = (float)(s.color[i] * opacity);
         record->normal[i] = (float)normal[i];
     }
+    record->opacity = (float)opacity;
     return true;
 }

@@ -7,37 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-enum { SIDE_PX = 256, POINTS = 6000 };
+enum { SIDE_PX = PICTURE_SIDE_PX, POINTS = 6000 };
 
 static const double THRESHOLD = 1e-3;
-
-/// A scene whose q0 is the one that the surfels measure.
-static scene measured_scene(ewa_context *context, scene_kind kind, uint64_t points,
-                            const ewa_surfels_options *options) {
-    scene made;
-    assert_int_equal(scene_make(context, kind, points, SIDE_PX, SIDE_PX, &made), EWA_OK);
-    ewa_surfels *surfels = NULL;
-    assert_int_equal(ewa_surfels_create(made.cloud, options, &surfels), EWA_OK);
-    ewa_surfels_info info;
-    ewa_surfels_describe(surfels, &info);
-    made.unit_coverage = info.unit_coverage;
-    ewa_surfels_destroy(&surfels);
-    return made;
-}
-
-static picture draw(ewa_context *context, const ewa_cloud *cloud, const ewa_camera *camera,
-                    const ewa_surfels_options *surfels_options, const ewa_render_options *options) {
-    ewa_surfels *surfels = NULL;
-    ewa_renderer *renderer = NULL;
-    picture made = picture_make(camera->width_px, camera->height_px);
-    assert_int_equal(ewa_surfels_create(cloud, surfels_options, &surfels), EWA_OK);
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
-    for (int frame = 0; frame < 2; frame++) // the second frame runs in warm memory
-        assert_int_equal(ewa_render(renderer, surfels, camera, options, &made.frame, NULL), EWA_OK);
-    ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&surfels);
-    return made;
-}
 
 /// What the packets' 16-bit normals may do to pixels of surfels seen edge-on, whose weight is proportional to
 /// the small n.p: so much, in so many pixels. Their share grows as 1 / (sigma h): 21 pixels of the sphere.
@@ -48,7 +20,7 @@ static const double GRAZING_ERROR = 4e-3, GRAZING_SHARE = 4e-4;
 static void hold(scene_kind kind, const ewa_surfels_options *surfels_options,
                  const ewa_render_options *options, bool orthographic, const char *what) {
     ewa_context *context = check_context(0, NULL);
-    scene of = measured_scene(context, kind, POINTS, surfels_options);
+    scene of = picture_measured_scene(context, kind, POINTS, surfels_options);
     if (orthographic) {
         ewa_bounds bounds;
         const double direction[3] = {0.3, 0.8, -0.5}, up[3] = {0, 0, 1};
@@ -57,14 +29,15 @@ static void hold(scene_kind kind, const ewa_surfels_options *surfels_options,
         assert_int_equal(ewa_camera_frame(&of.camera, &bounds, direction, up, 0.05), EWA_OK);
     }
     picture reference = picture_of_scene(&of, surfels_options, options);
-    picture fast = draw(context, of.cloud, &of.camera, surfels_options, options);
+    picture fast = picture_draw(context, of.cloud, &of.camera, surfels_options, options);
     uint8_t *mask = calloc(SIDE_PX, SIDE_PX);
     picture_mark_edges(&of, surfels_options, options, 2e-3, 1e-3, mask);
     const picture_report report = picture_compare(&reference, &fast, THRESHOLD, mask);
     char name[96];
     snprintf(name, sizeof name, "%s, %s", scene_name(kind), what);
     picture_print(name, &report);
-    assert_true(report.over_count * 1000 < report.pixel_count);
+    // With one pass the surfels of a plane are equally near but for rounding: the mask knows.
+    assert_true(options->passes == 1 || report.over_count * 1000 < report.pixel_count);
     if (options->edge_layers == 1) { // the mask knows the nearest surface only
         const double elsewhere = (double)(report.over_count - report.edge_over_count);
         assert_true(elsewhere <= GRAZING_SHARE * (double)report.pixel_count);
@@ -88,6 +61,40 @@ static void test_defaults_hold(void **state) {
         hold((scene_kind)kind, NULL, &options, false, "defaults");
         options.edge_layers = 1;
         hold((scene_kind)kind, NULL, &options, false, "one edge layer");
+    }
+}
+
+static void test_kernels_hold(void **state) {
+    (void)state;
+    static const struct {
+        ewa_kernel kernel;
+        const char *name;
+    } kernels[] = {{EWA_KERNEL_PERSPECTIVE, "perspective"},
+                   {EWA_KERNEL_AFFINE, "affine"},
+                   {EWA_KERNEL_SOURCE, "source"},
+                   {EWA_KERNEL_CIRCULAR, "circular"},
+                   {EWA_KERNEL_RAYCAST, "raycast"}};
+    static const scene_kind kinds[] = {SCENE_PLANE, SCENE_TORUS, SCENE_CUBE, SCENE_ELLIPSES, SCENE_NEAR};
+    for (size_t k = 0; k < sizeof kernels / sizeof kernels[0]; k++) {
+        char what[64];
+        for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
+            ewa_render_options options;
+            ewa_render_options_init(&options, sizeof options);
+            options.kernel = kernels[k].kernel;
+            options.edge_layers = 3;
+            snprintf(what, sizeof what, "%s, three edge layers", kernels[k].name);
+            hold(kinds[i], NULL, &options, false, what);
+            options.edge_layers = 1;
+            hold(kinds[i], NULL, &options, false, kernels[k].name);
+            snprintf(what, sizeof what, "%s, orthographic", kernels[k].name);
+            if (kinds[i] != SCENE_PLANE && kinds[i] != SCENE_NEAR) hold(kinds[i], NULL, &options, true, what);
+            options.passes = 1;
+            snprintf(what, sizeof what, "%s, one pass", kernels[k].name);
+            hold(kinds[i], NULL, &options, false, what);
+            options.passes = 3, options.prefilter_px = 1;
+            snprintf(what, sizeof what, "%s, prefilter of the papers", kernels[k].name);
+            hold(kinds[i], NULL, &options, false, what);
+        }
     }
 }
 
@@ -138,6 +145,69 @@ static ewa_context *context_of(uint32_t threads, uint32_t cpu_mask) {
     return context;
 }
 
+static void test_same_bytes_of_every_kernel(void **state) {
+    (void)state;
+    static const uint32_t masks[] = {EWA_CPU_ALL, EWA_CPU_AVX2, 0};
+    static const scene_kind kinds[] = {SCENE_PLANE, SCENE_ELLIPSES, SCENE_NEAR};
+    for (int kernel = EWA_KERNEL_AFFINE; kernel <= EWA_KERNEL_RAYCAST; kernel++) {
+        for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
+            ewa_render_options options;
+            ewa_render_options_init(&options, sizeof options);
+            options.kernel = (ewa_kernel)kernel;
+            picture first = {0};
+            for (size_t i = 0; i < sizeof masks / sizeof masks[0]; i++) {
+                ewa_context *context = context_of(1 + (uint32_t)i, masks[i]);
+                scene of;
+                assert_int_equal(scene_make(context, kinds[k], POINTS / 4, 101, 97, &of), EWA_OK);
+                picture made = picture_draw(context, of.cloud, &of.camera, NULL, &options);
+                if (i == 0) {
+                    first = made;
+                } else {
+                    assert_same_bytes(&first, &made);
+                    picture_free(&made);
+                }
+                scene_free(&of);
+                ewa_context_destroy(&context);
+            }
+            picture_free(&first);
+        }
+    }
+}
+
+/// The source kernel is the affine one (SS 3.2: equations 7 and 8 are equivalent), in the road's single
+/// precision.
+static void test_source_is_affine(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    double worst = 0;
+    for (int kind = 0; kind < SCENE_COUNT; kind++) {
+        scene of;
+        ewa_render_options options;
+        ewa_render_options_init(&options, sizeof options);
+        options.edge_layers = 1;
+        assert_int_equal(scene_make(context, (scene_kind)kind, POINTS, SIDE_PX, SIDE_PX, &of), EWA_OK);
+        options.kernel = EWA_KERNEL_AFFINE;
+        picture affine = picture_draw(context, of.cloud, &of.camera, NULL, &options);
+        options.kernel = EWA_KERNEL_SOURCE;
+        picture source = picture_draw(context, of.cloud, &of.camera, NULL, &options);
+        uint8_t *mask = calloc(SIDE_PX, SIDE_PX);
+        of.unit_coverage = 1;
+        picture_mark_edges(&of, NULL, &options, 1e-4, 1e-4, mask);
+        const picture_report report = picture_compare(&affine, &source, 1e-4, mask);
+        char name[64];
+        snprintf(name, sizeof name, "%s, source against affine", scene_name((scene_kind)kind));
+        picture_print(name, &report);
+        worst = fmax(worst, fmax(report.color, fmax(report.depth, report.coverage)));
+        free(mask);
+        picture_free(&affine);
+        picture_free(&source);
+        scene_free(&of);
+    }
+    print_message("largest difference: %.2g\n", worst);
+    assert_true(worst < 1e-4);
+    ewa_context_destroy(&context);
+}
+
 static void test_same_bytes_on_all_threads_and_instruction_sets(void **state) {
     (void)state;
     static const struct {
@@ -151,7 +221,7 @@ static void test_same_bytes_on_all_threads_and_instruction_sets(void **state) {
             scene of;
             // Small, because plain C under sanitizers takes its time.
             assert_int_equal(scene_make(context, (scene_kind)kind, POINTS / 4, 101, 97, &of), EWA_OK);
-            picture made = draw(context, of.cloud, &of.camera, NULL, NULL);
+            picture made = picture_draw(context, of.cloud, &of.camera, NULL, NULL);
             if (i == 0) {
                 first = made;
             } else {
@@ -195,8 +265,8 @@ static void test_order_of_points_does_not_matter(void **state) {
         uint64_t step = 1009; // a prime that does not divide the count
         while (ewa_cloud_point_count(of.cloud) % step == 0) step += 2;
         ewa_cloud *same = reordered(of.cloud, 1), *other = reordered(of.cloud, step);
-        picture a = draw(context, same, &of.camera, NULL, NULL),
-                b = draw(context, other, &of.camera, NULL, NULL);
+        picture a = picture_draw(context, same, &of.camera, NULL, NULL),
+                b = picture_draw(context, other, &of.camera, NULL, NULL);
         assert_same_bytes(&a, &b);
         picture_free(&a);
         picture_free(&b);
@@ -220,7 +290,7 @@ static void test_crowded_tile_holds(void **state) {
     of.unit_coverage = info.unit_coverage;
     ewa_surfels_destroy(&surfels);
     picture reference = picture_of_scene(&of, NULL, NULL),
-            fast = draw(context, of.cloud, &of.camera, NULL, NULL);
+            fast = picture_draw(context, of.cloud, &of.camera, NULL, NULL);
     const picture_report report = picture_compare(&reference, &fast, THRESHOLD, NULL);
     picture_print("crowded tile", &report);
     assert_true(report.over_count <= 10 && report.color < GRAZING_ERROR);
@@ -244,7 +314,7 @@ static void test_empty_and_lonely(void **state) {
         ewa_camera_init(&camera, sizeof camera);
         camera.width_px = 65, camera.height_px = 63;
         assert_int_equal(ewa_camera_set_fov(&camera, 40), EWA_OK);
-        picture made = draw(context, cloud, &camera, NULL, NULL);
+        picture made = picture_draw(context, cloud, &camera, NULL, NULL);
         const size_t middle = 31 * 65 + 32;
         assert_true(made.frame.rgba[4 * middle + 3] == (float)count); // a lone disc is opaque in its middle
         assert_true(made.frame.rgba[3] == 0 && isinf(made.frame.depth[0]));
@@ -335,7 +405,10 @@ static void test_warm_frames_allocate_nothing(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_defaults_hold),
+        cmocka_unit_test(test_kernels_hold),
         cmocka_unit_test(test_options_hold),
+        cmocka_unit_test(test_same_bytes_of_every_kernel),
+        cmocka_unit_test(test_source_is_affine),
         cmocka_unit_test(test_same_bytes_on_all_threads_and_instruction_sets),
         cmocka_unit_test(test_order_of_points_does_not_matter),
         cmocka_unit_test(test_crowded_tile_holds),
