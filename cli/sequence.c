@@ -155,9 +155,12 @@ static bool draw_frame(sequence *all, size_t index) {
     return put;
 }
 
-/// Makes the slots: one picture is written by all workers, many by one each. False after reporting.
+/// Makes the slots: one picture is written by all workers, many by one each. A film alone needs no writing
+/// here. False after reporting.
 static bool make_slots(sequence *all) {
-    const size_t workers = ewa_context_worker_count(all->session->context);
+    const picture_paths *paths = all->output->paths;
+    const bool writes = paths->color || paths->depth[0] || paths->normal[0] || paths->coverage[0];
+    const size_t workers = writes ? ewa_context_worker_count(all->session->context) : 1;
     const size_t wanted = all->frames->count < workers ? all->frames->count : workers;
     all->slot_count = wanted < MAX_SLOTS ? wanted : MAX_SLOTS;
     for (size_t i = 0; i < all->slot_count; i++) {

@@ -141,6 +141,46 @@ static void test_circle(void **state) {
     }
 }
 
+/// Through uneven keys, the turn's speed and the eye's speed and acceleration go on without a jump.
+static void test_smooth(void **state) {
+    (void)state;
+    enum { KEYS = 6 };
+    ewa_camera keys[KEYS], frames[5];
+    check_random random = {11};
+    for (int i = 0; i < KEYS; i++)
+        keys[i] =
+            look(check_uniform(&random, -9, 9), check_uniform(&random, -9, 9), check_uniform(&random, -9, 9),
+                 check_uniform(&random, -1, 1), check_uniform(&random, -1, 1), 0);
+    for (int closed = 0; closed < 2; closed++) {
+        ewa_camera_path *path = make(keys, KEYS, closed);
+        for (int i = 1; i < KEYS - 1 + closed; i++) {
+            const double step = 1e-3;
+            double eyes[5][3];
+            for (int k = 0; k < 5; k++) {
+                assert_int_equal(ewa_camera_path_at(path, i + (k - 2) * step, &frames[k]), EWA_OK);
+                ewa_camera_eye(&frames[k], eyes[k]);
+            }
+            for (int c = 0; c < 3; c++) {
+                const double before = eyes[2][c] - eyes[1][c], after = eyes[3][c] - eyes[2][c];
+                assert_near(after / step, before / step, 0.2);
+                assert_near((eyes[4][c] - 2 * eyes[3][c] + eyes[2][c]) / (step * step),
+                            (eyes[2][c] - 2 * eyes[1][c] + eyes[0][c]) / (step * step), 0.5);
+            }
+            // Steps of the rotation before and after the key, as matrices.
+            for (int r = 0; r < 3; r++)
+                for (int c = 0; c < 3; c++) {
+                    double before = 0, after = 0;
+                    for (int k = 0; k < 3; k++) {
+                        before += frames[2].world_to_camera[4 * r + k] * frames[1].world_to_camera[4 * c + k];
+                        after += frames[3].world_to_camera[4 * r + k] * frames[2].world_to_camera[4 * c + k];
+                    }
+                    assert_near(after / step, before / step, 0.02);
+                }
+        }
+        ewa_camera_path_destroy(&path);
+    }
+}
+
 /// A loop over the pole, whose quaternions come with either sign: no step is much longer than the mean.
 static void test_pole(void **state) {
     (void)state;
@@ -237,9 +277,9 @@ static void test_orbit(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_functions), cmocka_unit_test(test_keys), cmocka_unit_test(test_circle),
-        cmocka_unit_test(test_pole),      cmocka_unit_test(test_few),  cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_orbit),
+        cmocka_unit_test(test_functions), cmocka_unit_test(test_keys),  cmocka_unit_test(test_circle),
+        cmocka_unit_test(test_smooth),    cmocka_unit_test(test_pole),  cmocka_unit_test(test_few),
+        cmocka_unit_test(test_refused),   cmocka_unit_test(test_orbit),
     };
     return cmocka_run_group_tests(tests, enter, leave);
 }
