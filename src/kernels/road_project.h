@@ -262,8 +262,18 @@ static ALWAYS_INLINE void emit(ewa_run *run, uint32_t alive_bits, const wf recor
     run->count = at;
 }
 
+/// Notes the records that the next emit() makes of clipped lanes.
+static ALWAYS_INLINE void list_clipped(ewa_run *run, uint32_t clipped_bits, uint32_t alive_bits,
+                                       uint32_t id) {
+    for (; clipped_bits; clipped_bits &= clipped_bits - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(clipped_bits);
+        const uint32_t before = (uint32_t)__builtin_popcount(alive_bits & ((1u << lane) - 1));
+        run->clipped[run->clipped_count++] = (ewa_clipped){run->count + before, id * EWA_PACKET_LANES + lane};
+    }
+}
+
 /// Third step: tolerance, box in the tile, and the records of the lanes that are in it.
-static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *packet,
+static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *packet, uint32_t id, wm clipped,
                                      const uint16_t *opacities_u16, const ewa_tile *tile, stage *t,
                                      ewa_run *run, wf *least) {
     const wf one = wf_set(1), zero = wf_set(0), half = wf_set(0.5f);
@@ -349,7 +359,7 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
         wf_mul(opacity, decode_color(view, packet->red, 0)),
         wf_mul(opacity, decode_color(view, packet->green, 1)),
         wf_mul(opacity, decode_color(view, packet->blue, 2)),
-        wf_of_bits(box),
+        wf_of_bits(wi_or(box, select_int(clipped, EWA_CLIP_BIT, wi_set(0)))),
     };
     w_transpose(lanes);
     // Normals face the viewer.
@@ -358,7 +368,8 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
     w_store4(loads, wf_mul(facing_peak, t->n[0]), wf_mul(facing_peak, t->n[1]), wf_mul(facing_peak, t->n[2]),
              t->peak);
     uint8_t classes[16];
-    wi_store_u8(classes, box_classes(columns, rows, steep, wide));
+    wi_store_u8(classes, select_int(clipped, EWA_CLIP_CLASS, box_classes(columns, rows, steep, wide)));
+    list_clipped(run, wm_bits(wm_and(alive, clipped)), alive_bits, id);
     float opacities[16];
     wf_store(opacities, opacity);
     emit(run, alive_bits, lanes, loads, opacities, classes);
@@ -371,7 +382,7 @@ static ALWAYS_INLINE void setup_run(const ewa_view *view, const ewa_packet_sourc
     const ewa_packet *packets = source->packets;
     stage stages[TOGETHER];
     run->count = 0;
-    run->near_count = 0;
+    run->near_count = run->clipped_count = 0;
     wf least = wf_set(__builtin_inff());
     for (uint32_t first = 0; first < count; first += TOGETHER) {
         const uint32_t here = count - first < TOGETHER ? count - first : TOGETHER;
@@ -387,7 +398,8 @@ static ALWAYS_INLINE void setup_run(const ewa_view *view, const ewa_packet_sourc
         for (uint32_t i = 0; i < here; i++) stage_shape(view, &stages[i]);
         for (uint32_t i = 0; i < here; i++)
             if (wm_bits(stages[i].alive))
-                stage_emit(view, &packets[ids[i]],
+                stage_emit(view, &packets[ids[i]], ids[i],
+                           wm_of_bits(source->clip_masks ? source->clip_masks[ids[i]] : 0),
                            source->opacities ? source->opacities + (size_t)ids[i] * EWA_PACKET_LANES : NULL,
                            tile, &stages[i], run, &least);
     }

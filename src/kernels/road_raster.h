@@ -33,7 +33,8 @@ static ALWAYS_INLINE wf lanes_y(void) {
 
 static ALWAYS_INLINE uint32_t box_column(uint32_t box) { return box & 0x7f; }
 static ALWAYS_INLINE bool box_steep(uint32_t box) { return box & EWA_STEEP_BIT; }
-static ALWAYS_INLINE uint32_t box_row(uint32_t box) { return box >> 8 & 0xff; }
+static ALWAYS_INLINE uint32_t box_row(uint32_t box) { return box >> 8 & 0x7f; }
+static ALWAYS_INLINE bool box_clipped(uint32_t box) { return box & EWA_CLIP_BIT; }
 static ALWAYS_INLINE uint32_t box_columns(uint32_t box) { return box >> 16 & 0xff; }
 static ALWAYS_INLINE uint32_t box_rows(uint32_t box) { return box >> 24; }
 
@@ -67,6 +68,37 @@ static ALWAYS_INLINE wf bound_key(const ewa_record *r, wf key, bool exact) {
     const wf offset = wf_set(r->bound_offset);
     if (exact) return wf_mul(key, wf_reciprocal(wf_fma(offset, key, wf_set(1))));
     return wf_fma(wf_set(r->bound_scale), key, offset);
+}
+
+/// The share of each pixel that clip lines leave: all of it half a pixel inside, nothing half a pixel
+/// outside. x, y: pixel centres in the tile.
+static ALWAYS_INLINE wf clip_share(const ewa_clip *clip, wf x, wf y) {
+    wf share[2];
+    for (int i = 0; i < 2; i++) {
+        const float *l = clip->line[i];
+        share[i] = wf_clamp(wf_fma(wf_set(l[0]), x, wf_fma(wf_set(l[1]), y, wf_set(l[2] + 0.5f))), 0, 1);
+    }
+    return clip->either ? wf_max(share[0], share[1]) : wf_min(share[0], share[1]);
+}
+
+static ALWAYS_INLINE wf clip_share_block(const ewa_clip *clip, uint32_t row, uint32_t column) {
+    return clip_share(clip, wf_add(lanes_x(), wf_set((float)(EWA_BLOCK_PX * column))),
+                      wf_add(lanes_y(), wf_set((float)(EWA_BLOCK_PX * row))));
+}
+
+/// s and key of a splat in one block of its box.
+typedef struct block_sample {
+    wf exponent, key, dy;
+} block_sample;
+
+static ALWAYS_INLINE block_sample sample_block(const ewa_record *r, uint32_t row, uint32_t column) {
+    const float first_px = (float)EWA_BLOCK_PX * ((float)column - (float)box_column(r->box));
+    const column_terms c = column_start(r, r->key, r->key_x, first_px);
+    wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
+    for (uint32_t i = box_row(r->box); i < row; i++)
+        dy = wf_add(dy, wf_set(EWA_BLOCK_PX)); // as the passes over whole boxes step
+    const wf key = wf_fma(wf_set(r->key_y), dy, c.key);
+    return (block_sample){block_exponent(r, &c, dy), box_steep(r->box) ? clamped_key(r, key) : key, dy};
 }
 
 /// With `beyond`, only where the key is below tile->passed.
@@ -154,12 +186,23 @@ static ALWAYS_INLINE void raise_rows_beyond(const pass *p, uint32_t splat, uint3
     visibility_rows(p->view, p->tile, &p->run->records[splat], first_column, columns, rows, test, true);
 }
 
+static ALWAYS_INLINE const ewa_clip *clip_of(const ewa_clip *clips, uint32_t record) {
+    return clips ? &clips[record] : NULL;
+}
+
 /// A raycast splat at a block of its box.
 static ALWAYS_INLINE ray_sample ray_block(const ewa_view *view, const ewa_record *r, const ray_splat *ray,
-                                          uint32_t row, uint32_t column) {
+                                          const ewa_clip *clip, uint32_t row, uint32_t column) {
     const float x_px = (float)EWA_BLOCK_PX * ((float)column - (float)box_column(r->box)) + r->offset_x;
     const float y_px = (float)EWA_BLOCK_PX * ((float)row - (float)box_row(r->box)) + r->offset_y;
-    return ray_evaluate(view, r, ray, wf_add(lanes_x(), wf_set(x_px)), wf_add(lanes_y(), wf_set(y_px)));
+    ray_sample sample =
+        ray_evaluate(view, r, ray, wf_add(lanes_x(), wf_set(x_px)), wf_add(lanes_y(), wf_set(y_px)));
+    if (box_clipped(r->box)) {
+        const wf share = clip_share_block(clip, row, column);
+        sample.gain = wf_mul(sample.gain, share);
+        sample.exponent = wf_select(wf_lt(wf_set(0), share), sample.exponent, wf_set(__builtin_inff()));
+    }
+    return sample;
 }
 
 /// Raises the blocks' keys to that of z + eps; all raycast splats are steep or wide.
@@ -185,12 +228,52 @@ static void ray_visibility(const pass *p) {
             const size_t first = (size_t)row * p->tile->blocks_per_row;
             for (uint32_t k = 0; k < box_columns(r->box); k++) {
                 const uint32_t column = box_column(r->box) + k;
-                const ray_sample sample = ray_block(p->view, r, &ray, row, column);
+                const ray_sample sample =
+                    ray_block(p->view, r, &ray, clip_of(p->run->clips, p->run->order[i]), row, column);
                 const wm counts = ray_counts(p, &sample, (first + column) * EWA_BLOCK_LANES);
                 ray_raise(r, &sample, counts, p->tile->nearest + (first + column) * EWA_BLOCK_LANES);
             }
         }
     }
+}
+
+typedef void clipped_block(const pass *p, uint32_t splat, uint32_t row, uint32_t column, int what);
+
+/// Calls `body` for every block of the splats with clip lines.
+static ALWAYS_INLINE void for_each_clipped(const pass *p, clipped_block *body, int what) {
+    const uint16_t *first = p->run->class_first + EWA_CLIP_CLASS;
+    for (uint32_t i = first[0]; i < first[1]; i++) {
+        const uint32_t splat = p->run->order[i], box = p->run->records[splat].box;
+        for (uint32_t row = box_row(box); row < box_row(box) + box_rows(box); row++)
+            for (uint32_t column = box_column(box); column < box_column(box) + box_columns(box); column++)
+                body(p, splat, row, column, what);
+    }
+}
+
+/// Where a splat with clip lines counts in the block whose first number is `at`.
+static ALWAYS_INLINE wm clipped_counts(const pass *p, const block_sample *sample, wf share, size_t at) {
+    const wm within = wm_and(wf_lt(sample->exponent, wf_set(p->view->exponent_end)), wf_lt(wf_set(0), share));
+    if (!p->tile->passed) return within;
+    return wm_and(within, wf_lt(sample->key, wf_load(p->tile->passed + at)));
+}
+
+/// The key of z + eps of a splat in a block.
+static ALWAYS_INLINE wf block_bound(const ewa_view *view, const ewa_record *r, const block_sample *sample,
+                                    uint32_t column) {
+    if (box_steep(r->box)) return bound_key(r, sample->key, !view->orthographic && !(r->bound_scale > 0));
+    const float first_px = (float)EWA_BLOCK_PX * ((float)column - (float)box_column(r->box));
+    return wf_fma(wf_set(r->bound_y), sample->dy, column_start(r, r->bound, r->bound_x, first_px).key);
+}
+
+static void clipped_raise(const pass *p, uint32_t splat, uint32_t row, uint32_t column, int what) {
+    (void)what;
+    const ewa_record *r = &p->run->records[splat];
+    const size_t at = ((size_t)row * p->tile->blocks_per_row + column) * EWA_BLOCK_LANES;
+    const block_sample sample = sample_block(r, row, column);
+    const wf share = clip_share_block(&p->run->clips[splat], row, column);
+    const wf old = wf_load(p->tile->nearest + at), bound = block_bound(p->view, r, &sample, column);
+    wf_store(p->tile->nearest + at,
+             wf_select(clipped_counts(p, &sample, share, at), wf_max(bound, old), old));
 }
 
 static void visibility(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run) {
@@ -201,6 +284,7 @@ static void visibility(const ewa_view *view, const ewa_tile *tile, const ewa_sor
         for_each_splat(&p, raise_rows_beyond);
     else
         for_each_splat(&p, raise_rows);
+    if (!view->raycast) for_each_clipped(&p, clipped_raise, 0);
 }
 
 static void clear(const ewa_tile *tile) {
@@ -344,7 +428,8 @@ static void ray_accumulate(const pass *p) {
             for (uint32_t k = 0; k < box_columns(r->box); k++) {
                 const uint32_t column = box_column(r->box) + k;
                 const size_t block = (size_t)row * tile->blocks_per_row + column;
-                const ray_sample sample = ray_block(view, r, &ray, row, column);
+                const ray_sample sample =
+                    ray_block(view, r, &ray, clip_of(p->run->clips, p->run->order[i]), row, column);
                 const wm counts = wm_and(ray_counts(p, &sample, block * EWA_BLOCK_LANES),
                                          wf_le(wf_load(tile->nearest + block * EWA_BLOCK_LANES), sample.key));
                 if (!wm_bits(counts)) continue;
@@ -354,6 +439,21 @@ static void ray_accumulate(const pass *p) {
             }
         }
     }
+}
+
+static void clipped_add(const pass *p, uint32_t splat, uint32_t row, uint32_t column, int what) {
+    const ewa_tile *tile = p->tile;
+    const ewa_record *r = &p->run->records[splat];
+    const size_t block = (size_t)row * tile->blocks_per_row + column, at = block * EWA_BLOCK_LANES;
+    const block_sample sample = sample_block(r, row, column);
+    const wf share = clip_share_block(&p->run->clips[splat], row, column);
+    const wm counts =
+        wm_and(clipped_counts(p, &sample, share, at), wf_le(wf_load(tile->nearest + at), sample.key));
+    if (!wm_bits(counts)) return;
+    const payload add =
+        payload_load(r, &p->run->loads[splat], what & ADD_OPACITY ? &p->run->opacities[splat] : NULL, what);
+    const wf weight = wf_keep(counts, wf_mul(share, exponential(sample.exponent, p->view->doublings)));
+    add_channels(tile->sums + at * tile->channel_count, tile->channel_count, weight, &add, sample.key, what);
 }
 
 static void accumulate(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run) {
@@ -371,6 +471,10 @@ static void accumulate(const ewa_view *view, const ewa_tile *tile, const ewa_sor
     const int channels = tile->with_opacity ? 2 : tile->with_normals ? 1 : 0;
     const int kind = tile->passed ? 3 : !tile->with_depth ? 0 : view->orthographic ? 2 : 1;
     sets[channels][kind](&p);
+    for_each_clipped(&p, clipped_add,
+                     (tile->with_normals ? ADD_NORMAL : 0) | (tile->with_opacity ? ADD_OPACITY : 0) |
+                         (tile->with_depth && !tile->passed ? ADD_DEPTH : 0) |
+                         (view->orthographic ? ORTHOGRAPHIC : 0));
 }
 
 /// A near surfel at a block's pixels, by pixel rays (semantics.h).
@@ -410,6 +514,11 @@ static ALWAYS_INLINE near_sample near_evaluate(const ewa_view *view, const ewa_n
                              wf_lt(wf_add(u2, v2), wf_set(4 * view->cutoff2)));
     sample.counts = wm_and(inside, wf_lt(wf_set(0), z));
     sample.z = wf_min(wf_max(z, wf_set(r->depth_low)), wf_set(r->depth_high));
+    if (r->clipped) {
+        const wf share = clip_share(&r->clip, x, y);
+        sample.weight = wf_mul(sample.weight, share);
+        sample.counts = wm_and(sample.counts, wf_lt(wf_set(0), share));
+    }
     return sample;
 }
 
