@@ -20,6 +20,8 @@ typedef struct render_arguments {
     double cutoff, prefilter_px, radius_scale, tolerance, edge_threshold, ambient;
     bool edge_antialiasing, close_gaps;
     int64_t edge_layers;
+    const char *layers;
+    double opacity;
     option_vector light, range;
     option_color background;
     const char *color_by;
@@ -114,6 +116,21 @@ static const cli_option splat_table[] = {
      .range = "[1, 8]",
      .help = "surfaces that show through each other at smoothed silhouettes; 1: the background shows through "
              "instead"},
+    {.key = "layers",
+     .kind = OPTION_TEXT,
+     .offset = AT(layers),
+     .value = "auto|L|exact",
+     .absent = "auto",
+     .help =
+         "transparent surfaces of a pixel that are composited: 1: the nearest as if it were opaque; L: the "
+         "L - 1 nearest and all that lies behind as one more; exact: all; auto: all when --opacity or the "
+         "file's alpha is below 1"},
+    {.key = "opacity",
+     .kind = OPTION_NUMBER,
+     .offset = AT(opacity),
+     .value = "A",
+     .range = "[0, 1]",
+     .help = "of every surface, times the alpha of the file's colours"},
     {.key = "tau",
      .kind = OPTION_NUMBER,
      .offset = AT(edge_threshold),
@@ -193,17 +210,33 @@ static void set_defaults(void *data) {
     arguments->edge_antialiasing = render.edge_antialiasing;
     arguments->close_gaps = true;
     arguments->edge_layers = render.edge_layers;
+    arguments->opacity = render.opacity;
     arguments->edge_threshold = render.edge_threshold;
     arguments->ambient = render.ambient;
     arguments->background = (option_color){{1, 1, 1, 1}};
 }
 
+/// Sets `layers` as ewa_render_options has them.
+static bool read_layers(const render_arguments *arguments, uint32_t *layers) {
+    const char *word = arguments->layers ? arguments->layers : "auto";
+    *layers = strcmp(word, "exact") == 0 ? EWA_LAYERS_EXACT : 0;
+    if (*layers || strcmp(word, "auto") == 0) return true;
+    for (; *word >= '0' && *word <= '9' && *layers <= 255; word++)
+        *layers = 10 * *layers + (uint32_t)(*word - '0');
+    return !*word && *layers >= 1 && *layers <= 255;
+}
+
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const render_arguments *arguments = data;
     picture_paths paths;
+    uint32_t layers;
     const char *missing = NULL;
     if (!arguments->output)
         missing = "render: no output; say -o FILE";
+    else if (!read_layers(arguments, &layers))
+        missing = "--layers: neither auto, nor exact, nor a number in [1, 255]";
+    else if (layers > 1 && arguments->passes == ONE_PASS)
+        missing = "--layers needs --passes 3";
     else if (!arguments->color_by && arguments->range.count)
         missing = "--range needs --color-by";
     else if (arguments->light.count && !arguments->light.values[0] && !arguments->light.values[1] &&
@@ -226,6 +259,8 @@ static ewa_render_options render_options(const render_arguments *arguments) {
     options.passes = arguments->passes == ONE_PASS ? 1 : 3;
     options.edge_antialiasing = arguments->edge_antialiasing;
     options.edge_layers = (uint32_t)arguments->edge_layers;
+    read_layers(arguments, &options.layers);
+    options.opacity = arguments->opacity;
     options.edge_threshold = arguments->edge_threshold;
     options.cull = (ewa_cull)arguments->cull;
     options.shading = (ewa_shading)arguments->shading;

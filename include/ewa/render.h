@@ -41,6 +41,7 @@ typedef struct ewa_surfels_info {
     uint64_t left_out_count; ///< of the cloud's points
     size_t resident_bytes;
     double unit_coverage; ///< q0 of math.md section 7: the sum of kernels that a covered pixel expects
+    bool transparent;     ///< some surfel's colour has an alpha below 1
     ewa_bounds bounds;    ///< of the centres
 } ewa_surfels_info;
 
@@ -66,6 +67,9 @@ typedef enum ewa_cull {
 
 enum { EWA_MAX_EDGE_LAYERS = 8 };
 
+/// More layers than a pixel has: see ewa_render_options.layers.
+#define EWA_LAYERS_EXACT UINT32_MAX
+
 /// How a picture is made. Fill with ewa_render_options_init().
 typedef struct ewa_render_options {
     size_t struct_size;
@@ -81,6 +85,15 @@ typedef struct ewa_render_options {
     /// covered pixels, front to back, up to this many surfaces; 1: the background shows through instead
     /// (math.md section 7); [1, EWA_MAX_EDGE_LAYERS]; default EWA_MAX_EDGE_LAYERS
     uint32_t edge_layers;
+    double
+        opacity; ///< of every surface, times the surfels' own (the alpha of their colour); [0, 1]; default 1
+    /// Surfaces of a pixel that are composited, front to back, where they are transparent (math.md section 8;
+    /// SS section 6): 1: the nearest only, as if opaque; L: the L - 1 nearest, and all that lies behind as
+    /// one more; EWA_LAYERS_EXACT: all. 0 (default): all if opacity or a surfel's alpha is below 1, else 1.
+    /// Surfaces are those of the visibility test, gathered one after another, so that neither the order of
+    /// the points nor the number of layers in front changes what a layer is: unlike the paper's A-buffer,
+    /// which merges whichever fragments it holds. With one pass: 1.
+    uint32_t layers;
     ewa_cull cull;
     ewa_shading shading;   ///< default EWA_SHADING_LAMBERT
     double light_world[3]; ///< direction towards the light; 0, 0, 0 (default): headlight, from the eye

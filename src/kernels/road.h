@@ -25,9 +25,11 @@ enum {
     EWA_COLUMN_CLASSES = 4,                                 ///< boxes of 1, 2, 3, 4 columns
     EWA_STEEP_CLASS = EWA_ROW_CLASSES * EWA_COLUMN_CLASSES, ///< first class of steep splats
     EWA_WIDE_CLASS = 2 * EWA_STEEP_CLASS,                   ///< wider boxes, parts of large splats
-    EWA_CLASS_COUNT = EWA_WIDE_CLASS + 1,
+    EWA_CLIP_CLASS = EWA_WIDE_CLASS + 1,                    ///< splats with clip lines
+    EWA_CLASS_COUNT = EWA_CLIP_CLASS + 1,
     EWA_STEEP_BIT = 1 << 7, ///< in ewa_record.box: steep or wide
-    EWA_MAX_CHANNELS = 8,
+    EWA_CLIP_BIT = 1 << 15, ///< in ewa_record.box: clipped
+    EWA_MAX_CHANNELS = 9,
     EWA_CELL_BLOCKS = 4, ///< along a side of a cell, for which one depth decides whether packets are hidden
     EWA_TILE_CELLS = 8,  ///< cells along a side of the largest tile
     EWA_GROUP_RECORDS = 64,
@@ -89,10 +91,24 @@ typedef struct ewa_record {
         };
     };
     float key_low;          ///< the key is nowhere below, plain or not
-    float red, green, blue; ///< times the resampling kernel's peak
-    uint32_t box; ///< first column | EWA_STEEP_BIT | first row << 8 | columns << 16 | rows << 24, in
-                  ///< blocks
+    float red, green, blue; ///< times the resampling kernel's peak and the surfel's opacity
+    uint32_t box; ///< first column | EWA_STEEP_BIT | first row << 8 | EWA_CLIP_BIT | columns << 16 | rows <<
+                  ///< 24, in blocks
 } ewa_record;
+
+/// Clip lines on the screen: of the pixel whose centre is x, y in the tile, line[0] x + line[1] y + line[2]
+/// pixels from the line is how far inside. A line that is not there is 0, 0, 1.
+typedef struct ewa_clip {
+    float line[2][3];
+    bool either; ///< what one line keeps is kept, else what both keep
+} ewa_clip;
+
+/// A splat of a run that has clip lines.
+typedef struct ewa_clipped {
+    uint32_t record;            ///< in the run
+    uint32_t surfel;            ///< packet * 16 + lane
+    float center[3], normal[3]; ///< camera space
+} ewa_clipped;
 
 /// A surfel that touches the eye plane, by pixel rays: U, V, W are linear in the tile's pixel coordinates;
 /// u = U/W, v = V/W in standard deviations, z = plane / W.
@@ -101,7 +117,10 @@ typedef struct ewa_near_record {
     float plane;            ///< n.p
     float depth_low, depth_high;
     float tolerance;
-    float color[3], normal[3];
+    float color[3], normal[3]; ///< colour times opacity
+    float opacity;
+    bool clipped;
+    ewa_clip clip;
 } ewa_near_record;
 
 /// The part of a splat that only the second pass reads.
@@ -110,14 +129,23 @@ typedef struct ewa_load {
     float peak;      ///< of the resampling kernel
 } ewa_load;
 
+/// Where packets are, and what belongs to them.
+typedef struct ewa_packet_source {
+    const ewa_packet *packets;
+    const uint16_t *opacities;  ///< [packet][lane], times 65535; NULL: all are opaque
+    const uint16_t *clip_masks; ///< [packet]: lanes with clip lines; NULL: none
+} ewa_packet_source;
+
 /// A run of packets as splats of a tile. `records` and `loads` have room for EWA_PACKET_LANES more than are
 /// written.
 typedef struct ewa_run {
     ewa_record *records;
     ewa_load *loads;
+    float *opacities; ///< times the kernel's peak; NULL: all are opaque
     uint8_t classes[EWA_RUN_RECORDS + EWA_PACKET_LANES];
     uint32_t near_surfels[EWA_RUN_RECORDS]; ///< packet * 16 + lane
-    uint32_t count, near_count;
+    ewa_clipped clipped[EWA_RUN_RECORDS];
+    uint32_t count, near_count, clipped_count;
     float least_key; ///< the smallest ewa_record.key_low
 } ewa_run;
 
@@ -125,6 +153,8 @@ typedef struct ewa_run {
 typedef struct ewa_sorted_run {
     const ewa_record *records;
     const ewa_load *loads;
+    const float *opacities; ///< NULL: all are opaque
+    const ewa_clip *clips;  ///< of the records that have EWA_CLIP_BIT
     const uint16_t *order;
     uint16_t class_first[EWA_CLASS_COUNT + 1];
 } ewa_sorted_run;
@@ -135,9 +165,11 @@ typedef struct ewa_tile {
     int32_t width_px, height_px; ///< part inside the picture
     uint32_t blocks_per_row, block_rows;
     float *nearest; ///< [block][16]: the smallest key that counts, the largest key of z + eps
-    float *sums;    ///< [block][channel][16]: weight, r, g, b [, normal x, y, z] [, z]
+    float *sums;    ///< [block][channel][16]: weight, r, g, b [, normal x, y, z] [, z] [, opacity]
     uint32_t channel_count;
     bool with_normals, with_depth;
+    bool with_opacity;   ///< with_normals then too
+    const float *passed; ///< [block][16]: only keys below count, for surfaces behind the first; NULL: all do
 } ewa_tile;
 
 /// The blocks of a tile whose edges show what lies behind, and what that is.
@@ -164,8 +196,10 @@ typedef struct ewa_edge_boxes {
 typedef struct ewa_edge_splats {
     const ewa_record *records;
     const ewa_load *loads;
-    uint32_t *indices;   ///< of records and loads
-    float *largest_keys; ///< no key of the splat that is beyond edges->passed is larger
+    const float *opacities; ///< NULL: all are opaque
+    const ewa_clip *clips;  ///< of the records that have EWA_CLIP_BIT
+    uint32_t *indices;      ///< of records and loads
+    float *largest_keys;    ///< no key of the splat that is beyond edges->passed is larger
     uint32_t count;
 } ewa_edge_splats;
 
@@ -173,7 +207,8 @@ typedef struct ewa_edge_splats {
 typedef struct ewa_resolve {
     float unit_coverage_inverse; ///< 1 / q0
     float alpha_scale;           ///< 1 / (tau q0)
-    bool edge_antialiasing, one_pass, lambert, headlight, orthographic;
+    float opacity;               ///< of all surfaces, beside the surfels' own
+    bool edge_antialiasing, transparent, one_pass, lambert, headlight, orthographic;
     float ambient;
     float light[3];           ///< unit, camera space
     float background[4];      ///< linear, premultiplied
@@ -208,8 +243,8 @@ typedef struct ewa_road_kernels {
 
     /// Sets up `count` <= EWA_RUN_PACKETS packets for one tile into `run`; `packet_ids` holds `announced` >=
     /// count numbers, those of later runs too, so that packets can be fetched ahead.
-    void (*setup)(const ewa_view *view, const ewa_packet *packets, const uint32_t *packet_ids, uint32_t count,
-                  uint32_t announced, const ewa_tile *tile, ewa_run *run);
+    void (*setup)(const ewa_view *view, const ewa_packet_source *packets, const uint32_t *packet_ids,
+                  uint32_t count, uint32_t announced, const ewa_tile *tile, ewa_run *run);
 
     /// Raises tile->nearest to the key of z + eps where a run's splats count.
     void (*visibility)(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run);
@@ -241,6 +276,9 @@ typedef struct ewa_road_kernels {
                       uint32_t column, ewa_edge_splats *splats, bool second_pass);
     void (*edge_near_pass)(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
                            const ewa_near_record *records, uint32_t count, bool second_pass);
+
+    /// Starts edges->nearest over: every splat beyond edges->passed counts for the next surface.
+    void (*edge_take_all)(const ewa_tile *tile, const ewa_edges *edges);
 
     /// Puts the gathered surface under edges->behind and starts the next one; unmarks blocks that are closed
     /// or have nothing more. Returns how many stay marked.

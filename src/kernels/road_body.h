@@ -25,6 +25,7 @@ const ewa_road_kernels ROAD_KERNELS = {
     .edge_list = edge_list,
     .edge_pass = edge_pass,
     .edge_near_pass = edge_near_pass,
+    .edge_take_all = edge_take_all,
     .edge_compose = edge_compose,
     .resolve = resolve,
 };

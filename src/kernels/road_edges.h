@@ -6,6 +6,7 @@
 #ifndef EWA_SRC_KERNELS_ROAD_EDGES_H
 #define EWA_SRC_KERNELS_ROAD_EDGES_H
 
+#include "kernels/road_near.h"
 #include "kernels/road_resolve.h"
 
 static size_t block_at(const ewa_tile *tile, uint32_t row, uint32_t column) {
@@ -25,13 +26,13 @@ static void start_surface(const ewa_tile *tile, const ewa_edges *edges, size_t b
 static uint32_t find_edges(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges *edges) {
     enum { LANES = EWA_BLOCK_LANES };
     uint32_t count = 0;
-    const wf scale = wf_set(to->alpha_scale), one = wf_set(1), zero = wf_set(0);
+    const wf one = wf_set(1), zero = wf_set(0);
     for (uint32_t row = 0; row < tile->block_rows; row++) {
         edges->rows[row] = 0;
         for (uint32_t column = 0; column < tile->blocks_per_row; column++) {
             const size_t block = block_at(tile, row, column);
-            const wf q = wf_load(tile->sums + block * tile->channel_count * LANES);
-            const wm open = wm_and(wf_lt(zero, q), wf_lt(wf_mul(q, scale), one));
+            const float *sums = tile->sums + block * tile->channel_count * LANES;
+            const wm open = wm_and(wf_lt(zero, wf_load(sums)), wf_lt(surface_alpha(tile, to, sums), one));
             edges->reach[block] = -__builtin_inff();
             if (!wm_bits(open)) continue;
             edges->rows[row] |= 1u << column;
@@ -58,7 +59,7 @@ static ALWAYS_INLINE void set_boxes(const ewa_record *records, uint32_t at, uint
     const wi some = wi_set((int32_t)records[at].box);
     const wi box = wi_of_bits(
         wf_select(there, wf_load_column((const float *)(const void *)&records[at].box), wf_of_bits(some)));
-    const wi first = wi_and(box, wi_set(0xffff & ~EWA_STEEP_BIT));
+    const wi first = wi_and(box, wi_set(0xffff & ~(EWA_STEEP_BIT | EWA_CLIP_BIT)));
     wi_store(boxes->first + at, first);
     wi_store(boxes->last + at, wi_add(wi_add(first, wi_sar(box, 16)), wi_set(EWA_BOX_GUARD - 0x0101)));
     wf_store(boxes->key_low + at,
@@ -140,34 +141,45 @@ static uint32_t edge_list(const ewa_edge_boxes levels[EWA_BOX_LEVELS], uint32_t 
     return listed;
 }
 
-/// s and key of a splat in one block of its box.
-typedef struct block_sample {
-    wf exponent, key;
-} block_sample;
-
-static ALWAYS_INLINE block_sample sample_block(const ewa_record *r, uint32_t row, uint32_t column) {
-    const float first_px = (float)EWA_BLOCK_PX * ((float)column - (float)box_column(r->box));
-    const column_terms c = column_start(r, r->key, r->key_x, first_px);
-    wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
-    for (uint32_t i = box_row(r->box); i < row; i++)
-        dy = wf_add(dy, wf_set(EWA_BLOCK_PX)); // as the passes over whole boxes step
-    const wf key = wf_add(c.key, wf_mul(wf_set(r->key_y), dy));
-    return (block_sample){block_exponent(&c, dy, wf_mul(wf_mul(wf_set(r->yy), dy), dy)),
-                          box_steep(r->box) ? clamped_key(r, key) : key};
-}
-
 /// Sixteen splats at one block: what its columns and rows of pixels share, a splat per lane.
 typedef struct splat_lanes {
     wf quadratic[EWA_BLOCK_PX], cross[EWA_BLOCK_PX], key_x[EWA_BLOCK_PX],
-        bound_x[EWA_BLOCK_PX];                                                               ///< by column
-    wf dy[EWA_BLOCK_PX], yy_dy2[EWA_BLOCK_PX], key_dy[EWA_BLOCK_PX], bound_dy[EWA_BLOCK_PX]; ///< by row
-    wm steep;
+        bound_x[EWA_BLOCK_PX]; ///< by column
+    wf dy[EWA_BLOCK_PX];       ///< by row
+    wf yy, key_y, bound_y;
+    wm steep, clipped;
+    wf line[2][3], either;                           ///< of clipped ones
     wf key_low, key_high, bound_scale, bound_offset; ///< of steep ones
 } splat_lanes;
 
+/// The clip lines of the lanes in `clipped_bits`; lines that keep everything for the others.
+static void load_lines(const ewa_clip *clips, const uint32_t *indices, uint32_t count, uint32_t clipped_bits,
+                       splat_lanes *s) {
+    float numbers[7][EWA_BLOCK_LANES];
+    for (uint32_t i = 0; i < EWA_BLOCK_LANES; i++) {
+        const bool clipped = clipped_bits >> i & 1;
+        const ewa_clip *clip = clipped ? &clips[indices[i < count ? i : count - 1]] : NULL;
+        for (int k = 0; k < 6; k++) numbers[k][i] = clip ? clip->line[k / 3][k % 3] : k % 3 == 2;
+        numbers[6][i] = clip && clip->either;
+    }
+    for (int k = 0; k < 6; k++) s->line[k / 3][k % 3] = wf_load(numbers[k]);
+    s->either = wf_load(numbers[6]);
+}
+
+/// clip_share() of sixteen splats at one pixel.
+static ALWAYS_INLINE wf lane_shares(const splat_lanes *s, float x, float y) {
+    wf share[2];
+    for (int i = 0; i < 2; i++) {
+        const wf offset = wf_add(s->line[i][2], wf_set(0.5f));
+        share[i] = wf_clamp(wf_fma(s->line[i][0], wf_set(x), wf_fma(s->line[i][1], wf_set(y), offset)), 0, 1);
+    }
+    return wf_select(wf_lt(wf_set(0), s->either), wf_max(share[0], share[1]), wf_min(share[0], share[1]));
+}
+
 /// The same numbers as column_terms and the passes over whole boxes get.
-static ALWAYS_INLINE splat_lanes load_splats(const ewa_record *records, const uint32_t *indices,
-                                             uint32_t count, uint32_t row, uint32_t column) {
+static ALWAYS_INLINE splat_lanes load_splats(const ewa_record *records, const ewa_clip *clips,
+                                             const uint32_t *indices, uint32_t count, uint32_t row,
+                                             uint32_t column) {
     wf f[EWA_BLOCK_LANES];
     for (uint32_t i = 0; i < EWA_BLOCK_LANES; i++)
         f[i] = wf_load(&records[indices[i < count ? i : count - 1]].offset_x);
@@ -175,8 +187,10 @@ static ALWAYS_INLINE splat_lanes load_splats(const ewa_record *records, const ui
     splat_lanes s = {.bound_scale = f[8], .bound_offset = f[9], .key_high = f[10], .key_low = f[11]};
     const wi box = wi_of_bits(f[15]);
     s.steep = wf_lt(wf_set(0), wf_from_i(wi_and(box, wi_set(EWA_STEEP_BIT))));
+    s.clipped = wf_lt(wf_set(0), wf_from_i(wi_and(box, wi_set(EWA_CLIP_BIT))));
+    if (wm_bits(s.clipped)) load_lines(clips, indices, count, wm_bits(s.clipped), &s);
     const wi columns = wi_sub(wi_set((int32_t)column), wi_and(box, wi_set(0x7f)));
-    const wf rows = wf_from_i(wi_sub(wi_set((int32_t)row), wi_and(wi_sar(box, 8), wi_set(0xff))));
+    const wf rows = wf_from_i(wi_sub(wi_set((int32_t)row), wi_and(wi_sar(box, 8), wi_set(0x7f))));
     const wf side = wf_set(EWA_BLOCK_PX), first_px = wf_add(f[0], wf_mul(side, wf_from_i(columns)));
     for (int i = 0; i < EWA_BLOCK_PX; i++) {
         const wf dx = wf_add(first_px, wf_set((float)i + 0.5f));
@@ -191,11 +205,7 @@ static ALWAYS_INLINE splat_lanes load_splats(const ewa_record *records, const ui
         if (!wm_bits(more)) break;
         for (int i = 0; i < EWA_BLOCK_PX; i++) s.dy[i] = wf_select(more, wf_add(s.dy[i], side), s.dy[i]);
     }
-    for (int i = 0; i < EWA_BLOCK_PX; i++) {
-        s.yy_dy2[i] = wf_mul(wf_mul(f[4], s.dy[i]), s.dy[i]);
-        s.key_dy[i] = wf_mul(f[7], s.dy[i]);
-        s.bound_dy[i] = wf_mul(f[10], s.dy[i]);
-    }
+    s.yy = f[4], s.key_y = f[7], s.bound_y = f[10];
     return s;
 }
 
@@ -213,21 +223,27 @@ static void edge_raise(const ewa_view *view, const ewa_tile *tile, const ewa_edg
     for (uint32_t first = 0; first < splats->count; first += EWA_BLOCK_LANES) {
         const uint32_t count = splats->count - first;
         uint32_t *indices = splats->indices + first;
-        const splat_lanes s = load_splats(splats->records, indices, count, row, column);
-        const bool any_steep = wm_bits(s.steep) != 0;
+        const splat_lanes s = load_splats(splats->records, splats->clips, indices, count, row, column);
+        const bool any_steep = wm_bits(s.steep) != 0, any_clipped = wm_bits(s.clipped) != 0;
         const wm is_exact = wm_and(s.steep, wf_le(s.bound_scale, zero));
         const bool any_exact = wm_bits(is_exact) != 0;
         wf largest_key = never;
         for (uint32_t left = open; left; left &= left - 1) {
             const uint32_t pixel = (uint32_t)__builtin_ctz(left), x = pixel % EWA_BLOCK_PX,
                            y = pixel / EWA_BLOCK_PX;
-            const wf exponent = wf_fma(s.cross[x], s.dy[y], wf_add(s.quadratic[x], s.yy_dy2[y]));
-            wf key = wf_add(s.key_x[x], s.key_dy[y]), bound = wf_add(s.bound_x[x], s.bound_dy[y]);
+            const wf exponent = wf_fma(s.dy[y], wf_fma(s.yy, s.dy[y], s.cross[x]), s.quadratic[x]);
+            wf key = wf_fma(s.key_y, s.dy[y], s.key_x[x]);
+            wf bound = wf_fma(s.bound_y, s.dy[y], s.bound_x[x]);
             if (any_steep) {
                 key = wf_select(s.steep, wf_min(wf_max(key, s.key_low), s.key_high), key);
                 bound = wf_select(s.steep, wf_fma(s.bound_scale, key, s.bound_offset), bound);
             }
-            const wm beyond = wm_and(wf_lt(exponent, end), wf_lt(key, wf_set(passed[pixel])));
+            wm beyond = wm_and(wf_lt(exponent, end), wf_lt(key, wf_set(passed[pixel])));
+            if (any_clipped) {
+                const float x_px = (float)(column * EWA_BLOCK_PX + x) + 0.5f;
+                const float y_px = (float)(row * EWA_BLOCK_PX + y) + 0.5f;
+                beyond = wm_and(beyond, wf_lt(zero, lane_shares(&s, x_px, y_px)));
+            }
             if (any_exact) {
                 const wf exact = wf_mul(key, wf_reciprocal(wf_fma(s.bound_offset, key, wf_set(1))));
                 bound = wf_select(is_exact, exact, bound);
@@ -250,8 +266,7 @@ static void edge_raise(const ewa_view *view, const ewa_tile *tile, const ewa_edg
 }
 
 static ALWAYS_INLINE void edge_sum(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
-                                   uint32_t row, uint32_t column, const ewa_edge_splats *splats,
-                                   bool with_normals) {
+                                   uint32_t row, uint32_t column, const ewa_edge_splats *splats, int what) {
     const size_t block = block_at(tile, row, column), at = block * EWA_BLOCK_LANES;
     const wf passed = wf_load(edges->passed + at), nearest = wf_load(edges->nearest + at);
     const wf end = wf_set(view->exponent_end), never = wf_set(-__builtin_inff());
@@ -269,12 +284,17 @@ static ALWAYS_INLINE void edge_sum(const ewa_view *view, const ewa_tile *tile, c
             const ewa_record *r = &splats->records[index];
             const block_sample sample = sample_block(r, row, column);
             const wm beyond = wm_and(wf_lt(sample.exponent, end), wf_lt(sample.key, passed));
-            const wm counts = wm_and(beyond, wf_le(nearest, sample.key));
+            wm counts = wm_and(beyond, wf_le(nearest, sample.key));
+            wf share = wf_set(1);
+            if (box_clipped(r->box)) {
+                share = clip_share_block(&splats->clips[index], row, column);
+                counts = wm_and(counts, wf_lt(wf_set(0), share));
+            }
             if (!wm_bits(counts)) continue;
-            const ewa_load *load = &splats->loads[index];
-            const payload add = payload_load(r, load, with_normals);
-            const wf weight = wf_keep(counts, exponential(sample.exponent, view->doublings));
-            add_channels(sums, weight, &add, sample.key, with_normals, false, false);
+            const payload add = payload_load(r, &splats->loads[index],
+                                             what & ADD_OPACITY ? &splats->opacities[index] : NULL, what);
+            const wf weight = wf_keep(counts, wf_mul(share, exponential(sample.exponent, view->doublings)));
+            add_channels(sums, tile->channel_count, weight, &add, sample.key, what);
         }
     }
 }
@@ -290,7 +310,7 @@ static void ray_edge_raise(const ewa_view *view, const ewa_tile *tile, const ewa
         const uint32_t index = splats->indices[i];
         const ewa_record *r = &splats->records[index];
         const ray_splat ray = ray_start(view, r, splats->loads[index].peak);
-        const ray_sample sample = ray_block(view, r, &ray, row, column);
+        const ray_sample sample = ray_block(view, r, &ray, clip_of(splats->clips, index), row, column);
         const wm beyond = wm_and(wf_lt(sample.exponent, end), wf_lt(sample.key, passed));
         if (!wm_bits(beyond)) continue;
         ray_raise(r, &sample, beyond, edges->nearest + at);
@@ -304,18 +324,21 @@ static void ray_edge_sum(const ewa_view *view, const ewa_tile *tile, const ewa_e
                          uint32_t column, const ewa_edge_splats *splats) {
     const size_t block = block_at(tile, row, column), at = block * EWA_BLOCK_LANES;
     const wf passed = wf_load(edges->passed + at), nearest = wf_load(edges->nearest + at);
+    const int what = (tile->with_normals ? ADD_NORMAL : 0) | (tile->with_opacity ? ADD_OPACITY : 0);
     for (uint32_t i = 0; i < splats->count; i++) {
-        const ewa_record *r = &splats->records[splats->indices[i]];
-        const ewa_load *load = &splats->loads[splats->indices[i]];
+        const uint32_t index = splats->indices[i];
+        const ewa_record *r = &splats->records[index];
+        const ewa_load *load = &splats->loads[index];
         const ray_splat ray = ray_start(view, r, load->peak);
-        const ray_sample sample = ray_block(view, r, &ray, row, column);
+        const ray_sample sample = ray_block(view, r, &ray, clip_of(splats->clips, index), row, column);
         const wm counts = wm_and(wf_lt(sample.exponent, wf_set(view->exponent_end)),
                                  wm_and(wf_lt(sample.key, passed), wf_le(nearest, sample.key)));
         if (!wm_bits(counts)) continue;
-        const payload add = payload_load(r, load, tile->with_normals);
+        const payload add =
+            payload_load(r, load, what & ADD_OPACITY ? &splats->opacities[index] : NULL, what);
         const wf bell = exponential(wf_keep(counts, sample.exponent), view->doublings);
-        add_channels(edges->sums + at * tile->channel_count, wf_keep(counts, wf_mul(bell, sample.gain)), &add,
-                     sample.key, tile->with_normals, false, false);
+        add_channels(edges->sums + at * tile->channel_count, tile->channel_count,
+                     wf_keep(counts, wf_mul(bell, sample.gain)), &add, sample.key, what);
     }
 }
 
@@ -327,10 +350,12 @@ static void edge_pass(const ewa_view *view, const ewa_tile *tile, const ewa_edge
         ray_edge_raise(view, tile, edges, row, column, splats);
     else if (!second_pass)
         edge_raise(view, tile, edges, row, column, splats);
+    else if (tile->with_opacity)
+        edge_sum(view, tile, edges, row, column, splats, ADD_NORMAL | ADD_OPACITY);
     else if (tile->with_normals)
-        edge_sum(view, tile, edges, row, column, splats, true);
+        edge_sum(view, tile, edges, row, column, splats, ADD_NORMAL);
     else
-        edge_sum(view, tile, edges, row, column, splats, false);
+        edge_sum(view, tile, edges, row, column, splats, 0);
 }
 
 static void edge_near_pass(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
@@ -350,12 +375,20 @@ static void edge_near_pass(const ewa_view *view, const ewa_tile *tile, const ewa
                     continue;
                 }
                 counts = wm_and(counts, wf_le(wf_load(nearest), key));
-                near_add(view, &records[i], &sample, counts, key,
-                         edges->sums + block * tile->channel_count * EWA_BLOCK_LANES, tile->with_normals,
-                         false);
+                near_add(view, tile, &records[i], &sample, counts, key,
+                         edges->sums + block * tile->channel_count * EWA_BLOCK_LANES, false);
             }
         }
     }
+}
+
+static void edge_take_all(const ewa_tile *tile, const ewa_edges *edges) {
+    const wf all = wf_set(-3e38f); // below every key, but unlike -infinity something that counts
+    for (uint32_t row = 0; row < tile->block_rows; row++)
+        for (uint32_t marked = edges->rows[row]; marked; marked &= marked - 1) {
+            const size_t block = block_at(tile, row, (uint32_t)__builtin_ctz(marked));
+            wf_store(edges->nearest + block * EWA_BLOCK_LANES, all);
+        }
 }
 
 /// Composites one block's gathered surface under what is in front of it; returns the pixels that stay open.
@@ -366,7 +399,7 @@ static wm compose_block(const ewa_tile *tile, const ewa_resolve *to, const ewa_e
     const float *sums = edges->sums + block * tile->channel_count * LANES;
     const wf scale = color_scale(tile, to, sums, (uint32_t)tile->x_px + column * EWA_BLOCK_PX,
                                  (uint32_t)tile->y_px + row * EWA_BLOCK_PX);
-    const surface found = gathered_surface(to, sums, scale);
+    const surface found = gathered_surface(tile, to, sums, scale);
     float *behind = edges->behind + block * 4 * LANES;
     const wf covered = wf_load(behind + 3 * LANES);
     const wf share = wf_mul(wf_sub(wf_set(1), covered), found.alpha);

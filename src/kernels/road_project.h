@@ -241,13 +241,14 @@ static ALWAYS_INLINE void stage_shape(const ewa_view *view, stage *t) {
 
 /// Appends the records of the lanes in `alive_bits`. May write EWA_PACKET_LANES entries whatever they are.
 static ALWAYS_INLINE void emit(ewa_run *run, uint32_t alive_bits, const wf records[16], const float loads[64],
-                               const uint8_t classes[16]) {
+                               const float opacities[16], const uint8_t classes[16]) {
     uint32_t at = run->count;
     if (alive_bits == 0xffff) { // most packets lie within one tile
         for (uint32_t lane = 0; lane < 16; lane++)
             wf_store((float *)(void *)&run->records[at + lane], records[lane]);
         memcpy(&run->loads[at], loads, 16 * sizeof run->loads[at]);
         memcpy(&run->classes[at], classes, 16);
+        if (run->opacities) memcpy(&run->opacities[at], opacities, 16 * sizeof *opacities);
         run->count = at + 16;
         return;
     }
@@ -255,14 +256,32 @@ static ALWAYS_INLINE void emit(ewa_run *run, uint32_t alive_bits, const wf recor
         wf_store((float *)(void *)&run->records[at], records[lane]);
         memcpy(&run->loads[at], &loads[4 * lane], sizeof run->loads[at]);
         run->classes[at] = classes[lane];
+        if (run->opacities) run->opacities[at] = opacities[lane];
         at += alive_bits >> lane & 1;
     }
     run->count = at;
 }
 
+/// Notes the records that the next emit() makes of clipped lanes.
+static void list_clipped(ewa_run *run, uint32_t clipped_bits, uint32_t alive_bits, uint32_t id,
+                         const stage *t) {
+    float center[3][16], normal[3][16];
+    for (int k = 0; k < 3; k++) wf_store(center[k], t->p[k]), wf_store(normal[k], t->n[k]);
+    for (; clipped_bits; clipped_bits &= clipped_bits - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(clipped_bits);
+        const uint32_t before = (uint32_t)__builtin_popcount(alive_bits & ((1u << lane) - 1));
+        run->clipped[run->clipped_count++] =
+            (ewa_clipped){run->count + before,
+                          id * EWA_PACKET_LANES + lane,
+                          {center[0][lane], center[1][lane], center[2][lane]},
+                          {normal[0][lane], normal[1][lane], normal[2][lane]}};
+    }
+}
+
 /// Third step: tolerance, box in the tile, and the records of the lanes that are in it.
-static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *packet, const ewa_tile *tile,
-                                     stage *t, ewa_run *run, wf *least) {
+static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *packet, uint32_t id, wm clipped,
+                                     const uint16_t *opacities_u16, const ewa_tile *tile, stage *t,
+                                     ewa_run *run, wf *least) {
     const wf one = wf_set(1), zero = wf_set(0), half = wf_set(0.5f);
     const wf fx = wf_set(view->fx_px), fy = wf_set(view->fy_px);
     const wf *p = t->p;
@@ -337,6 +356,9 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
     const wf low = wf_select(steep, lowest, least_key);
     *least = wf_min(wf_select(alive, low, wf_set(__builtin_inff())), *least);
 
+    wf opacity = t->peak; // times the peak
+    if (opacities_u16)
+        opacity = wf_mul(t->peak, wf_mul(wf_from_i(wi_load_u16(opacities_u16)), wf_set(1.0f / 65535.0f)));
     wf lanes[16] = {
         wf_sub(wf_from_i(wi_shl(column, 2)), cx),
         wf_sub(wf_from_i(wi_shl(row, 2)), cy),
@@ -350,10 +372,10 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
         wf_select(steep, bound_offset, wf_mul(bound_scale, t->key_x)),
         wf_select(steep, wf_add(key_high, margin), wf_mul(bound_scale, t->key_y)),
         low,
-        wf_mul(t->peak, decode_color(view, packet->red, 0)),
-        wf_mul(t->peak, decode_color(view, packet->green, 1)),
-        wf_mul(t->peak, decode_color(view, packet->blue, 2)),
-        wf_of_bits(box),
+        wf_mul(opacity, decode_color(view, packet->red, 0)),
+        wf_mul(opacity, decode_color(view, packet->green, 1)),
+        wf_mul(opacity, decode_color(view, packet->blue, 2)),
+        wf_of_bits(wi_or(box, select_int(clipped, EWA_CLIP_BIT, wi_set(0)))),
     };
     w_transpose(lanes);
     // Normals face the viewer.
@@ -362,17 +384,22 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
     w_store4(loads, wf_mul(facing_peak, t->n[0]), wf_mul(facing_peak, t->n[1]), wf_mul(facing_peak, t->n[2]),
              t->peak);
     uint8_t classes[16];
-    wi_store_u8(classes, box_classes(columns, rows, steep, wide));
-    emit(run, alive_bits, lanes, loads, classes);
+    wi_store_u8(classes, select_int(clipped, EWA_CLIP_CLASS, box_classes(columns, rows, steep, wide)));
+    if (wm_bits(wm_and(alive, clipped)))
+        list_clipped(run, wm_bits(wm_and(alive, clipped)), alive_bits, id, t);
+    float opacities[16];
+    wf_store(opacities, opacity);
+    emit(run, alive_bits, lanes, loads, opacities, classes);
 }
 
-static ALWAYS_INLINE void setup_run(const ewa_view *view, const ewa_packet *packets,
+static ALWAYS_INLINE void setup_run(const ewa_view *view, const ewa_packet_source *source,
                                     const uint32_t *packet_ids, uint32_t count, uint32_t announced,
                                     bool ellipses, const ewa_tile *tile, ewa_run *run) {
     enum { TOGETHER = 4, AHEAD = 12, LINE_BYTES = 64 };
+    const ewa_packet *packets = source->packets;
     stage stages[TOGETHER];
     run->count = 0;
-    run->near_count = 0;
+    run->near_count = run->clipped_count = 0;
     wf least = wf_set(__builtin_inff());
     for (uint32_t first = 0; first < count; first += TOGETHER) {
         const uint32_t here = count - first < TOGETHER ? count - first : TOGETHER;
@@ -387,13 +414,17 @@ static ALWAYS_INLINE void setup_run(const ewa_view *view, const ewa_packet *pack
         }
         for (uint32_t i = 0; i < here; i++) stage_shape(view, &stages[i]);
         for (uint32_t i = 0; i < here; i++)
-            if (wm_bits(stages[i].alive)) stage_emit(view, &packets[ids[i]], tile, &stages[i], run, &least);
+            if (wm_bits(stages[i].alive))
+                stage_emit(view, &packets[ids[i]], ids[i],
+                           wm_of_bits(source->clip_masks ? source->clip_masks[ids[i]] : 0),
+                           source->opacities ? source->opacities + (size_t)ids[i] * EWA_PACKET_LANES : NULL,
+                           tile, &stages[i], run, &least);
     }
     run->least_key = -largest_lane(wf_negate(least));
 }
 
-static void setup(const ewa_view *view, const ewa_packet *packets, const uint32_t *packet_ids, uint32_t count,
-                  uint32_t announced, const ewa_tile *tile, ewa_run *run) {
+static void setup(const ewa_view *view, const ewa_packet_source *packets, const uint32_t *packet_ids,
+                  uint32_t count, uint32_t announced, const ewa_tile *tile, ewa_run *run) {
     if (view->ellipses)
         setup_run(view, packets, packet_ids, count, announced, true, tile, run);
     else

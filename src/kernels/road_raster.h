@@ -33,7 +33,8 @@ static ALWAYS_INLINE wf lanes_y(void) {
 
 static ALWAYS_INLINE uint32_t box_column(uint32_t box) { return box & 0x7f; }
 static ALWAYS_INLINE bool box_steep(uint32_t box) { return box & EWA_STEEP_BIT; }
-static ALWAYS_INLINE uint32_t box_row(uint32_t box) { return box >> 8 & 0xff; }
+static ALWAYS_INLINE uint32_t box_row(uint32_t box) { return box >> 8 & 0x7f; }
+static ALWAYS_INLINE bool box_clipped(uint32_t box) { return box & EWA_CLIP_BIT; }
 static ALWAYS_INLINE uint32_t box_columns(uint32_t box) { return box >> 16 & 0xff; }
 static ALWAYS_INLINE uint32_t box_rows(uint32_t box) { return box >> 24; }
 
@@ -50,8 +51,8 @@ static ALWAYS_INLINE column_terms column_start(const ewa_record *r, float key, f
 }
 
 /// s of a block.
-static ALWAYS_INLINE wf block_exponent(const column_terms *c, wf dy, wf yy_dy2) {
-    return wf_fma(c->cross, dy, wf_add(c->quadratic, yy_dy2));
+static ALWAYS_INLINE wf block_exponent(const ewa_record *r, const column_terms *c, wf dy) {
+    return wf_fma(dy, wf_fma(wf_set(r->yy), dy, c->cross), c->quadratic);
 }
 
 /// How the splats of a class test their depth (ewa_record).
@@ -69,33 +70,76 @@ static ALWAYS_INLINE wf bound_key(const ewa_record *r, wf key, bool exact) {
     return wf_fma(wf_set(r->bound_scale), key, offset);
 }
 
+/// The share of each pixel that clip lines leave: all of it half a pixel inside, nothing half a pixel
+/// outside. x, y: pixel centres in the tile.
+static ALWAYS_INLINE wf clip_share(const ewa_clip *clip, wf x, wf y) {
+    wf share[2];
+    for (int i = 0; i < 2; i++) {
+        const float *l = clip->line[i];
+        share[i] = wf_clamp(wf_fma(wf_set(l[0]), x, wf_fma(wf_set(l[1]), y, wf_set(l[2] + 0.5f))), 0, 1);
+    }
+    return clip->either ? wf_max(share[0], share[1]) : wf_min(share[0], share[1]);
+}
+
+static ALWAYS_INLINE wf clip_share_block(const ewa_clip *clip, uint32_t row, uint32_t column) {
+    return clip_share(clip, wf_add(lanes_x(), wf_set((float)(EWA_BLOCK_PX * column))),
+                      wf_add(lanes_y(), wf_set((float)(EWA_BLOCK_PX * row))));
+}
+
+/// s and key of a splat in one block of its box.
+typedef struct block_sample {
+    wf exponent, key, dy;
+} block_sample;
+
+static ALWAYS_INLINE block_sample sample_block(const ewa_record *r, uint32_t row, uint32_t column) {
+    const float first_px = (float)EWA_BLOCK_PX * ((float)column - (float)box_column(r->box));
+    const column_terms c = column_start(r, r->key, r->key_x, first_px);
+    wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
+    for (uint32_t i = box_row(r->box); i < row; i++)
+        dy = wf_add(dy, wf_set(EWA_BLOCK_PX)); // as the passes over whole boxes step
+    const wf key = wf_fma(wf_set(r->key_y), dy, c.key);
+    return (block_sample){block_exponent(r, &c, dy), box_steep(r->box) ? clamped_key(r, key) : key, dy};
+}
+
+/// With `beyond`, only where the key is below tile->passed.
 static ALWAYS_INLINE void visibility_rows(const ewa_view *view, const ewa_tile *tile, const ewa_record *r,
                                           uint32_t first_column, uint32_t columns, uint32_t rows,
-                                          depth_test test) {
+                                          depth_test test, bool beyond) {
     const float plane = test == PLAIN ? r->bound : r->key;
     const float plane_x = test == PLAIN ? r->bound_x : r->key_x;
     const float plane_y = test == PLAIN ? r->bound_y : r->key_y;
     column_terms c[EWA_COLUMN_CLASSES];
+    wf keys[EWA_COLUMN_CLASSES];
     UNROLL_COLUMNS
-    for (uint32_t i = 0; i < columns; i++)
-        c[i] = column_start(r, plane, plane_x, (float)(EWA_BLOCK_PX * (first_column + i)));
+    for (uint32_t i = 0; i < columns; i++) {
+        const float first_px = (float)(EWA_BLOCK_PX * (first_column + i));
+        c[i] = column_start(r, plane, plane_x, first_px);
+        if (beyond) keys[i] = column_start(r, r->key, r->key_x, first_px).key;
+    }
     const wf end = wf_set(view->exponent_end);
     const size_t row_floats = (size_t)tile->blocks_per_row * EWA_BLOCK_LANES;
-    float *nearest = tile->nearest + box_row(r->box) * row_floats +
-                     (size_t)(box_column(r->box) + first_column) * EWA_BLOCK_LANES;
+    const size_t first_float =
+        box_row(r->box) * row_floats + (size_t)(box_column(r->box) + first_column) * EWA_BLOCK_LANES;
+    float *nearest = tile->nearest + first_float;
+    const float *passed = beyond ? tile->passed + first_float : NULL;
     wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
     for (uint32_t row = 0; row < rows; row++, nearest += row_floats, dy = wf_add(dy, wf_set(EWA_BLOCK_PX))) {
-        const wf yy_dy2 = wf_mul(wf_mul(wf_set(r->yy), dy), dy), plane_dy = wf_mul(wf_set(plane_y), dy);
         UNROLL_COLUMNS
         for (uint32_t i = 0; i < columns; i++) {
             float *block = nearest + (size_t)i * EWA_BLOCK_LANES;
             const wf old = wf_load(block);
-            wf bound = wf_add(c[i].key, plane_dy);
-            if (test != PLAIN)
-                bound = bound_key(r, clamped_key(r, bound), test == WIDE && !view->orthographic);
-            const wm counts = wf_lt(block_exponent(&c[i], dy, yy_dy2), end);
+            wf bound = wf_fma(wf_set(plane_y), dy, c[i].key), key = bound;
+            if (test != PLAIN) {
+                key = clamped_key(r, bound);
+                bound = bound_key(r, key, test == WIDE && !view->orthographic);
+            } else if (beyond) {
+                key = wf_fma(wf_set(r->key_y), dy, keys[i]);
+            }
+            wm counts = wf_lt(block_exponent(r, &c[i], dy), end);
+            if (beyond) counts = wm_and(counts, wf_lt(key, wf_load(passed + (size_t)i * EWA_BLOCK_LANES)));
             wf_store(block, wf_select(counts, wf_max(bound, old), old));
         }
+        if (beyond) passed += row_floats;
     }
 }
 
@@ -134,15 +178,31 @@ static ALWAYS_INLINE void for_each_splat(const pass *p, splat_rows *body) {
 
 static ALWAYS_INLINE void raise_rows(const pass *p, uint32_t splat, uint32_t first_column, uint32_t columns,
                                      uint32_t rows, depth_test test) {
-    visibility_rows(p->view, p->tile, &p->run->records[splat], first_column, columns, rows, test);
+    visibility_rows(p->view, p->tile, &p->run->records[splat], first_column, columns, rows, test, false);
+}
+
+static ALWAYS_INLINE void raise_rows_beyond(const pass *p, uint32_t splat, uint32_t first_column,
+                                            uint32_t columns, uint32_t rows, depth_test test) {
+    visibility_rows(p->view, p->tile, &p->run->records[splat], first_column, columns, rows, test, true);
+}
+
+static ALWAYS_INLINE const ewa_clip *clip_of(const ewa_clip *clips, uint32_t record) {
+    return clips ? &clips[record] : NULL;
 }
 
 /// A raycast splat at a block of its box.
 static ALWAYS_INLINE ray_sample ray_block(const ewa_view *view, const ewa_record *r, const ray_splat *ray,
-                                          uint32_t row, uint32_t column) {
+                                          const ewa_clip *clip, uint32_t row, uint32_t column) {
     const float x_px = (float)EWA_BLOCK_PX * ((float)column - (float)box_column(r->box)) + r->offset_x;
     const float y_px = (float)EWA_BLOCK_PX * ((float)row - (float)box_row(r->box)) + r->offset_y;
-    return ray_evaluate(view, r, ray, wf_add(lanes_x(), wf_set(x_px)), wf_add(lanes_y(), wf_set(y_px)));
+    ray_sample sample =
+        ray_evaluate(view, r, ray, wf_add(lanes_x(), wf_set(x_px)), wf_add(lanes_y(), wf_set(y_px)));
+    if (box_clipped(r->box)) {
+        const wf share = clip_share_block(clip, row, column);
+        sample.gain = wf_mul(sample.gain, share);
+        sample.exponent = wf_select(wf_lt(wf_set(0), share), sample.exponent, wf_set(__builtin_inff()));
+    }
+    return sample;
 }
 
 /// Raises the blocks' keys to that of z + eps; all raycast splats are steep or wide.
@@ -153,8 +213,14 @@ static ALWAYS_INLINE void ray_raise(const ewa_record *r, const ray_sample *sampl
     wf_store(nearest, wf_select(counts, wf_max(bound, old), old));
 }
 
+/// Where a raycast splat counts in the block whose first number is `at`.
+static ALWAYS_INLINE wm ray_counts(const pass *p, const ray_sample *sample, size_t at) {
+    const wm within = wf_lt(sample->exponent, wf_set(p->view->exponent_end));
+    if (!p->tile->passed) return within;
+    return wm_and(within, wf_lt(sample->key, wf_load(p->tile->passed + at)));
+}
+
 static void ray_visibility(const pass *p) {
-    const wf end = wf_set(p->view->exponent_end);
     for (uint32_t i = 0; i < p->run->class_first[EWA_CLASS_COUNT]; i++) {
         const ewa_record *r = &p->run->records[p->run->order[i]];
         const ray_splat ray = ray_start(p->view, r, p->run->loads[p->run->order[i]].peak);
@@ -162,20 +228,63 @@ static void ray_visibility(const pass *p) {
             const size_t first = (size_t)row * p->tile->blocks_per_row;
             for (uint32_t k = 0; k < box_columns(r->box); k++) {
                 const uint32_t column = box_column(r->box) + k;
-                const ray_sample sample = ray_block(p->view, r, &ray, row, column);
-                ray_raise(r, &sample, wf_lt(sample.exponent, end),
-                          p->tile->nearest + (first + column) * EWA_BLOCK_LANES);
+                const ray_sample sample =
+                    ray_block(p->view, r, &ray, clip_of(p->run->clips, p->run->order[i]), row, column);
+                const wm counts = ray_counts(p, &sample, (first + column) * EWA_BLOCK_LANES);
+                ray_raise(r, &sample, counts, p->tile->nearest + (first + column) * EWA_BLOCK_LANES);
             }
         }
     }
+}
+
+typedef void clipped_block(const pass *p, uint32_t splat, uint32_t row, uint32_t column, int what);
+
+/// Calls `body` for every block of the splats with clip lines.
+static ALWAYS_INLINE void for_each_clipped(const pass *p, clipped_block *body, int what) {
+    const uint16_t *first = p->run->class_first + EWA_CLIP_CLASS;
+    for (uint32_t i = first[0]; i < first[1]; i++) {
+        const uint32_t splat = p->run->order[i], box = p->run->records[splat].box;
+        for (uint32_t row = box_row(box); row < box_row(box) + box_rows(box); row++)
+            for (uint32_t column = box_column(box); column < box_column(box) + box_columns(box); column++)
+                body(p, splat, row, column, what);
+    }
+}
+
+/// Where a splat with clip lines counts in the block whose first number is `at`.
+static ALWAYS_INLINE wm clipped_counts(const pass *p, const block_sample *sample, wf share, size_t at) {
+    const wm within = wm_and(wf_lt(sample->exponent, wf_set(p->view->exponent_end)), wf_lt(wf_set(0), share));
+    if (!p->tile->passed) return within;
+    return wm_and(within, wf_lt(sample->key, wf_load(p->tile->passed + at)));
+}
+
+/// The key of z + eps of a splat in a block.
+static ALWAYS_INLINE wf block_bound(const ewa_view *view, const ewa_record *r, const block_sample *sample,
+                                    uint32_t column) {
+    if (box_steep(r->box)) return bound_key(r, sample->key, !view->orthographic && !(r->bound_scale > 0));
+    const float first_px = (float)EWA_BLOCK_PX * ((float)column - (float)box_column(r->box));
+    return wf_fma(wf_set(r->bound_y), sample->dy, column_start(r, r->bound, r->bound_x, first_px).key);
+}
+
+static void clipped_raise(const pass *p, uint32_t splat, uint32_t row, uint32_t column, int what) {
+    (void)what;
+    const ewa_record *r = &p->run->records[splat];
+    const size_t at = ((size_t)row * p->tile->blocks_per_row + column) * EWA_BLOCK_LANES;
+    const block_sample sample = sample_block(r, row, column);
+    const wf share = clip_share_block(&p->run->clips[splat], row, column);
+    const wf old = wf_load(p->tile->nearest + at), bound = block_bound(p->view, r, &sample, column);
+    wf_store(p->tile->nearest + at,
+             wf_select(clipped_counts(p, &sample, share, at), wf_max(bound, old), old));
 }
 
 static void visibility(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run) {
     const pass p = {view, tile, run};
     if (view->raycast)
         ray_visibility(&p);
+    else if (tile->passed)
+        for_each_splat(&p, raise_rows_beyond);
     else
         for_each_splat(&p, raise_rows);
+    if (!view->raycast) for_each_clipped(&p, clipped_raise, 0);
 }
 
 static void clear(const ewa_tile *tile) {
@@ -186,83 +295,104 @@ static void clear(const ewa_tile *tile) {
     for (size_t i = 0; i < floats; i += EWA_BLOCK_LANES) wf_store(tile->sums + i, zero);
 }
 
+/// Which channels a pass adds, and what is particular to it.
+enum {
+    ADD_NORMAL = 1,
+    ADD_DEPTH = 2,
+    ADD_OPACITY = 4,
+    ORTHOGRAPHIC = 8, ///< depths are -key
+    LONG = 16,        ///< cutoffs beyond 3, which need more than two doublings
+    BEYOND = 32,      ///< only beyond tile->passed; the depth, if there is one, is not added
+};
+
 /// What a record adds where its kernel is at its peak.
 typedef struct payload {
-    wf peak, color[3], normal[3];
+    wf peak, color[3], normal[3], opacity;
 } payload;
 
-static ALWAYS_INLINE payload payload_load(const ewa_record *r, const ewa_load *load, bool with_normals) {
+static ALWAYS_INLINE payload payload_load(const ewa_record *r, const ewa_load *load, const float *opacity,
+                                          int what) {
     payload p = {.peak = wf_set(load->peak), .color = {wf_set(r->red), wf_set(r->green), wf_set(r->blue)}};
-    if (with_normals)
+    if (what & ADD_NORMAL)
         for (int i = 0; i < 3; i++) p.normal[i] = wf_set(load->normal[i]);
+    if (what & ADD_OPACITY) p.opacity = wf_set(*opacity);
     return p;
 }
 
-/// `weight` is relative to the kernel's peak.
-static ALWAYS_INLINE void add_channels(float *sums, wf weight, const payload *p, wf key, bool with_normals,
-                                       bool with_depth, bool orthographic) {
+/// `weight` is relative to the kernel's peak; the opacity is the last of `channels`.
+static ALWAYS_INLINE void add_channels(float *sums, uint32_t channels, wf weight, const payload *p, wf key,
+                                       int what) {
     enum { LANES = EWA_BLOCK_LANES };
     wf_store(sums, wf_fma(weight, p->peak, wf_load(sums)));
     for (int i = 0; i < 3; i++)
         wf_store(sums + (1 + i) * LANES, wf_fma(weight, p->color[i], wf_load(sums + (1 + i) * LANES)));
-    if (with_normals)
+    if (what & ADD_NORMAL)
         for (int i = 0; i < 3; i++)
             wf_store(sums + (4 + i) * LANES, wf_fma(weight, p->normal[i], wf_load(sums + (4 + i) * LANES)));
-    if (with_depth) {
-        const int at = with_normals ? 7 : 4;
-        const wf z = orthographic ? wf_negate(key) : wf_div(wf_set(1), key);
+    if (what & ADD_DEPTH) {
+        const int at = what & ADD_NORMAL ? 7 : 4;
+        const wf z = what & ORTHOGRAPHIC ? wf_negate(key) : wf_div(wf_set(1), key);
         wf_store(sums + at * LANES, wf_fma(wf_mul(weight, p->peak), z, wf_load(sums + at * LANES)));
+    }
+    if (what & ADD_OPACITY) {
+        float *last = sums + (size_t)(channels - 1) * LANES;
+        wf_store(last, wf_fma(weight, p->opacity, wf_load(last)));
     }
 }
 
 static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_t first_column,
-                                          uint32_t columns, uint32_t rows, bool with_normals, bool with_depth,
-                                          bool orthographic, bool two_doublings, depth_test test) {
+                                          uint32_t columns, uint32_t rows, depth_test test, int what) {
     const ewa_view *view = p->view;
     const ewa_tile *tile = p->tile;
     const ewa_record *r = &p->run->records[splat];
-    const uint32_t channels = 4 + (with_normals ? 3 : 0) + (with_depth ? 1 : 0);
-    const uint32_t doublings = two_doublings ? 2 : view->doublings;
+    const uint32_t channels = what & BEYOND ? tile->channel_count
+                                            : 4 + (what & ADD_NORMAL ? 3u : 0) + (what & ADD_DEPTH ? 1u : 0) +
+                                                  (what & ADD_OPACITY ? 1u : 0);
+    const uint32_t doublings = what & LONG ? view->doublings : 2;
     column_terms c[EWA_COLUMN_CLASSES];
     UNROLL_COLUMNS
     for (uint32_t i = 0; i < columns; i++)
         c[i] = column_start(r, r->key, r->key_x, (float)(EWA_BLOCK_PX * (first_column + i)));
-    const payload add = payload_load(r, &p->run->loads[splat], with_normals);
+    const payload add =
+        payload_load(r, &p->run->loads[splat], what & ADD_OPACITY ? &p->run->opacities[splat] : NULL, what);
     const wf end = wf_set(view->exponent_end);
     const size_t row_blocks = tile->blocks_per_row;
     const size_t first_block = box_row(r->box) * row_blocks + box_column(r->box) + first_column;
     const float *nearest = tile->nearest + first_block * EWA_BLOCK_LANES;
+    const float *passed = what & BEYOND ? tile->passed + first_block * EWA_BLOCK_LANES : NULL;
     float *sums = tile->sums + first_block * channels * EWA_BLOCK_LANES;
     wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
     for (uint32_t row = 0; row < rows; row++) {
-        const wf yy_dy2 = wf_mul(wf_mul(wf_set(r->yy), dy), dy), key_dy = wf_mul(wf_set(r->key_y), dy);
         UNROLL_COLUMNS
         for (uint32_t i = 0; i < columns; i++) {
-            const wf s = block_exponent(&c[i], dy, yy_dy2);
-            wf key = wf_add(c[i].key, key_dy);
+            const wf s = block_exponent(r, &c[i], dy);
+            wf key = wf_fma(wf_set(r->key_y), dy, c[i].key);
             if (test != PLAIN) key = clamped_key(r, key);
-            const wm counts =
-                wm_and(wf_lt(s, end), wf_le(wf_load(nearest + (size_t)i * EWA_BLOCK_LANES), key));
+            wm counts = wm_and(wf_lt(s, end), wf_le(wf_load(nearest + (size_t)i * EWA_BLOCK_LANES), key));
+            if (what & BEYOND) {
+                counts = wm_and(counts, wf_lt(key, wf_load(passed + (size_t)i * EWA_BLOCK_LANES)));
+                if (!wm_bits(counts)) continue; // most splats are of other surfaces
+            }
             const wf weight = wf_keep(counts, exponential(s, doublings));
-            add_channels(sums + (size_t)i * channels * EWA_BLOCK_LANES, weight, &add, key, with_normals,
-                         with_depth, orthographic);
+            add_channels(sums + (size_t)i * channels * EWA_BLOCK_LANES, channels, weight, &add, key, what);
         }
         nearest += row_blocks * EWA_BLOCK_LANES;
+        if (what & BEYOND) passed += row_blocks * EWA_BLOCK_LANES;
         sums += row_blocks * channels * EWA_BLOCK_LANES;
         dy = wf_add(dy, wf_set(EWA_BLOCK_PX));
     }
 }
 
-/// The accumulation for one set of channels; cutoffs up to 3 need two doublings only.
-#define ACCUMULATE_ROWS(name, with_normals, with_depth, orthographic, two_doublings)                         \
-    static ALWAYS_INLINE void name(const pass *p, uint32_t splat, uint32_t first_column, uint32_t columns,   \
-                                   uint32_t rows, depth_test test) {                                         \
-        accumulate_rows(p, splat, first_column, columns, rows, with_normals, with_depth, orthographic,       \
-                        two_doublings, test);                                                                \
-    }
-#define ACCUMULATE(name, with_normals, with_depth, orthographic)                                             \
-    ACCUMULATE_ROWS(name##_rows, with_normals, with_depth, orthographic, true)                               \
-    ACCUMULATE_ROWS(name##_long_rows, with_normals, with_depth, orthographic, false)                         \
+/// The accumulation for one set of channels.
+#define ACCUMULATE(name, what)                                                                               \
+    static ALWAYS_INLINE void name##_rows(const pass *p, uint32_t splat, uint32_t first_column,              \
+                                          uint32_t columns, uint32_t rows, depth_test test) {                \
+        accumulate_rows(p, splat, first_column, columns, rows, test, what);                                  \
+    }                                                                                                        \
+    static ALWAYS_INLINE void name##_long_rows(const pass *p, uint32_t splat, uint32_t first_column,         \
+                                               uint32_t columns, uint32_t rows, depth_test test) {           \
+        accumulate_rows(p, splat, first_column, columns, rows, test, (what) | LONG);                         \
+    }                                                                                                        \
     static void name(const pass *p) {                                                                        \
         if (p->view->doublings == 2)                                                                         \
             for_each_splat(p, name##_rows);                                                                  \
@@ -270,156 +400,81 @@ static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_
             for_each_splat(p, name##_long_rows);                                                             \
     }
 
-ACCUMULATE(add_color, false, false, false)
-ACCUMULATE(add_color_depth, false, true, false)
-ACCUMULATE(add_color_height, false, true, true)
-ACCUMULATE(add_normal, true, false, false)
-ACCUMULATE(add_normal_depth, true, true, false)
-ACCUMULATE(add_normal_height, true, true, true)
+ACCUMULATE(add_color, 0)
+ACCUMULATE(add_color_depth, ADD_DEPTH)
+ACCUMULATE(add_color_height, ADD_DEPTH | ORTHOGRAPHIC)
+ACCUMULATE(add_normal, ADD_NORMAL)
+ACCUMULATE(add_normal_depth, ADD_NORMAL | ADD_DEPTH)
+ACCUMULATE(add_normal_height, ADD_NORMAL | ADD_DEPTH | ORTHOGRAPHIC)
+ACCUMULATE(add_opacity, ADD_NORMAL | ADD_OPACITY)
+ACCUMULATE(add_opacity_depth, ADD_NORMAL | ADD_OPACITY | ADD_DEPTH)
+ACCUMULATE(add_opacity_height, ADD_NORMAL | ADD_OPACITY | ADD_DEPTH | ORTHOGRAPHIC)
+ACCUMULATE(add_color_beyond, BEYOND)
+ACCUMULATE(add_normal_beyond, ADD_NORMAL | BEYOND)
+ACCUMULATE(add_opacity_beyond, ADD_NORMAL | ADD_OPACITY | BEYOND)
 
 static void ray_accumulate(const pass *p) {
     const ewa_view *view = p->view;
     const ewa_tile *tile = p->tile;
-    const wf end = wf_set(view->exponent_end);
+    const int what = (tile->with_normals ? ADD_NORMAL : 0) | (tile->with_opacity ? ADD_OPACITY : 0) |
+                     (tile->with_depth && !tile->passed ? ADD_DEPTH : 0);
     for (uint32_t i = 0; i < p->run->class_first[EWA_CLASS_COUNT]; i++) {
         const ewa_record *r = &p->run->records[p->run->order[i]];
         const ewa_load *load = &p->run->loads[p->run->order[i]];
         const ray_splat ray = ray_start(view, r, load->peak);
-        const payload add = payload_load(r, load, tile->with_normals);
+        const payload add =
+            payload_load(r, load, what & ADD_OPACITY ? &p->run->opacities[p->run->order[i]] : NULL, what);
         for (uint32_t row = box_row(r->box); row < box_row(r->box) + box_rows(r->box); row++) {
             for (uint32_t k = 0; k < box_columns(r->box); k++) {
                 const uint32_t column = box_column(r->box) + k;
                 const size_t block = (size_t)row * tile->blocks_per_row + column;
-                const ray_sample sample = ray_block(view, r, &ray, row, column);
-                const wm counts = wm_and(wf_lt(sample.exponent, end),
+                const ray_sample sample =
+                    ray_block(view, r, &ray, clip_of(p->run->clips, p->run->order[i]), row, column);
+                const wm counts = wm_and(ray_counts(p, &sample, block * EWA_BLOCK_LANES),
                                          wf_le(wf_load(tile->nearest + block * EWA_BLOCK_LANES), sample.key));
                 if (!wm_bits(counts)) continue;
                 const wf bell = exponential(wf_keep(counts, sample.exponent), view->doublings);
-                add_channels(tile->sums + block * tile->channel_count * EWA_BLOCK_LANES,
-                             wf_keep(counts, wf_mul(bell, sample.gain)), &add, sample.key, tile->with_normals,
-                             tile->with_depth, false);
+                add_channels(tile->sums + block * tile->channel_count * EWA_BLOCK_LANES, tile->channel_count,
+                             wf_keep(counts, wf_mul(bell, sample.gain)), &add, sample.key, what);
             }
         }
     }
+}
+
+static void clipped_add(const pass *p, uint32_t splat, uint32_t row, uint32_t column, int what) {
+    const ewa_tile *tile = p->tile;
+    const ewa_record *r = &p->run->records[splat];
+    const size_t block = (size_t)row * tile->blocks_per_row + column, at = block * EWA_BLOCK_LANES;
+    const block_sample sample = sample_block(r, row, column);
+    const wf share = clip_share_block(&p->run->clips[splat], row, column);
+    const wm counts =
+        wm_and(clipped_counts(p, &sample, share, at), wf_le(wf_load(tile->nearest + at), sample.key));
+    if (!wm_bits(counts)) return;
+    const payload add =
+        payload_load(r, &p->run->loads[splat], what & ADD_OPACITY ? &p->run->opacities[splat] : NULL, what);
+    const wf weight = wf_keep(counts, wf_mul(share, exponential(sample.exponent, p->view->doublings)));
+    add_channels(tile->sums + at * tile->channel_count, tile->channel_count, weight, &add, sample.key, what);
 }
 
 static void accumulate(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run) {
+    typedef void add_run(const pass *p);
+    static add_run *const sets[3][4] = {
+        {add_color, add_color_depth, add_color_height, add_color_beyond},
+        {add_normal, add_normal_depth, add_normal_height, add_normal_beyond},
+        {add_opacity, add_opacity_depth, add_opacity_height, add_opacity_beyond},
+    };
     const pass p = {view, tile, run};
     if (view->raycast) {
         ray_accumulate(&p);
-    } else if (!tile->with_depth) {
-        if (tile->with_normals)
-            add_normal(&p);
-        else
-            add_color(&p);
-    } else if (view->orthographic) {
-        if (tile->with_normals)
-            add_normal_height(&p);
-        else
-            add_color_height(&p);
-    } else {
-        if (tile->with_normals)
-            add_normal_depth(&p);
-        else
-            add_color_depth(&p);
+        return;
     }
-}
-
-/// A near surfel at a block's pixels, by pixel rays (semantics.h).
-typedef struct near_sample {
-    wf exponent; ///< s: exp(-r^2 / 2) = exp(-s)^(2^doublings)
-    wf weight;   ///< 1 / (2 pi sqrt|W|)
-    wf z;
-    wm counts;
-} near_sample;
-
-static ALWAYS_INLINE wf linear(const float terms[3], wf x, wf y) {
-    return wf_fma(wf_set(terms[1]), x, wf_fma(wf_set(terms[2]), y, wf_set(terms[0])));
-}
-
-static ALWAYS_INLINE near_sample near_evaluate(const ewa_view *view, const ewa_near_record *r, wf x, wf y) {
-    const wf one = wf_set(1), h2 = wf_set(view->prefilter2_px2);
-    const wf inverse = wf_div(one, linear(r->w, x, y));
-    const wf u = wf_mul(linear(r->u, x, y), inverse), v = wf_mul(linear(r->v, x, y), inverse);
-    const wf z = wf_mul(wf_set(r->plane), inverse);
-    const wf ux = wf_mul(wf_fnma(u, wf_set(r->w[1]), wf_set(r->u[1])), inverse);
-    const wf uy = wf_mul(wf_fnma(u, wf_set(r->w[2]), wf_set(r->u[2])), inverse);
-    const wf vx = wf_mul(wf_fnma(v, wf_set(r->w[1]), wf_set(r->v[1])), inverse);
-    const wf vy = wf_mul(wf_fnma(v, wf_set(r->w[2]), wf_set(r->v[2])), inverse);
-    const wf w11 = wf_fma(h2, wf_fma(ux, ux, wf_mul(uy, uy)), one);
-    const wf w22 = wf_fma(h2, wf_fma(vx, vx, wf_mul(vy, vy)), one);
-    const wf w12 = wf_mul(h2, wf_fma(ux, vx, wf_mul(uy, vy)));
-    // |I + h^2 (a'a + b'b)| = 1 + h^2 (|a|^2 + |b|^2) + h^4 (a x b)^2, free of cancellation.
-    const wf cross = wf_mul(h2, wf_fnma(uy, vx, wf_mul(ux, vy)));
-    const wf det = wf_fma(cross, cross, wf_sub(wf_add(w11, w22), one));
-    const wf u2 = wf_mul(u, u), v2 = wf_mul(v, v);
-    const wf numerator = wf_fma(w22, u2, wf_fma(w11, v2, wf_mul(wf_mul(wf_set(-2), w12), wf_mul(u, v))));
-    const wf r2 = wf_div(numerator, det);
-    near_sample sample;
-    sample.exponent = wf_max(wf_mul(r2, wf_set(view->exponent_scale)), wf_set(0));
-    sample.weight = wf_div(wf_set((float)EWA_INVERSE_TWO_PI), wf_sqrt(det));
-    const wm inside = wm_and(wf_lt(sample.exponent, wf_set(view->exponent_end)),
-                             wf_lt(wf_add(u2, v2), wf_set(4 * view->cutoff2)));
-    sample.counts = wm_and(inside, wf_lt(wf_set(0), z));
-    sample.z = wf_min(wf_max(z, wf_set(r->depth_low)), wf_set(r->depth_high));
-    return sample;
-}
-
-static ALWAYS_INLINE void near_raise(const ewa_near_record *r, const near_sample *sample, wm counts,
-                                     float *nearest) {
-    const wf old = wf_load(nearest);
-    const wf key = wf_div(wf_set(1), wf_add(sample->z, wf_set(r->tolerance)));
-    wf_store(nearest, wf_select(counts, wf_max(key, old), old));
-}
-
-static ALWAYS_INLINE void near_add(const ewa_view *view, const ewa_near_record *r, const near_sample *sample,
-                                   wm counts, wf key, float *sums, bool with_normals, bool with_depth) {
-    if (!wm_bits(counts)) return;
-    // Lanes that do not count may hold anything.
-    payload add = {.peak = wf_keep(counts, sample->weight)};
-    for (int k = 0; k < 3; k++) {
-        add.color[k] = wf_mul(add.peak, wf_set(r->color[k]));
-        add.normal[k] = wf_mul(add.peak, wf_set(r->normal[k]));
-    }
-    const wf e = exponential(wf_keep(counts, sample->exponent), view->doublings);
-    add_channels(sums, wf_keep(counts, e), &add, wf_select(counts, key, wf_set(1)), with_normals, with_depth,
-                 false);
-}
-
-static ALWAYS_INLINE near_sample near_block(const ewa_view *view, const ewa_near_record *r, uint32_t row,
-                                            uint32_t column) {
-    return near_evaluate(view, r, wf_add(lanes_x(), wf_set((float)(EWA_BLOCK_PX * column))),
-                         wf_add(lanes_y(), wf_set((float)(EWA_BLOCK_PX * row))));
-}
-
-static void near_visibility(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *records,
-                            uint32_t count) {
-    for (uint32_t i = 0; i < count; i++) {
-        float *nearest = tile->nearest;
-        for (uint32_t row = 0; row < tile->block_rows; row++) {
-            for (uint32_t column = 0; column < tile->blocks_per_row; column++, nearest += EWA_BLOCK_LANES) {
-                const near_sample sample = near_block(view, &records[i], row, column);
-                near_raise(&records[i], &sample, sample.counts, nearest);
-            }
-        }
-    }
-}
-
-static void near_accumulate(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *records,
-                            uint32_t count) {
-    for (uint32_t i = 0; i < count; i++) {
-        const float *nearest = tile->nearest;
-        float *sums = tile->sums;
-        for (uint32_t row = 0; row < tile->block_rows; row++) {
-            for (uint32_t column = 0; column < tile->blocks_per_row; column++, nearest += EWA_BLOCK_LANES) {
-                const near_sample sample = near_block(view, &records[i], row, column);
-                const wf key = wf_div(wf_set(1), sample.z);
-                const wm counts = wm_and(sample.counts, wf_le(wf_load(nearest), key));
-                near_add(view, &records[i], &sample, counts, key, sums, tile->with_normals, tile->with_depth);
-                sums += tile->channel_count * EWA_BLOCK_LANES;
-            }
-        }
-    }
+    const int channels = tile->with_opacity ? 2 : tile->with_normals ? 1 : 0;
+    const int kind = tile->passed ? 3 : !tile->with_depth ? 0 : view->orthographic ? 2 : 1;
+    sets[channels][kind](&p);
+    for_each_clipped(&p, clipped_add,
+                     (tile->with_normals ? ADD_NORMAL : 0) | (tile->with_opacity ? ADD_OPACITY : 0) |
+                         (tile->with_depth && !tile->passed ? ADD_DEPTH : 0) |
+                         (view->orthographic ? ORTHOGRAPHIC : 0));
 }
 
 #endif

@@ -86,10 +86,15 @@ static ALWAYS_INLINE wf inverse_weight(wf weight) {
     return wf_keep(covered, wf_div(wf_set(1), wf_select(covered, weight, wf_set(1))));
 }
 
+/// The channel that colours are divided by: colours are weighted by opacity where surfels have one.
+static ALWAYS_INLINE uint32_t color_weight(const ewa_tile *tile) {
+    return tile->with_opacity ? tile->channel_count - 1 : 0;
+}
+
 /// What turns a block's weighted sum of colours into the colour that is seen.
 static ALWAYS_INLINE wf color_scale(const ewa_tile *tile, const ewa_resolve *to, const float *sums,
                                     uint32_t x, uint32_t y) {
-    const wf inverse = inverse_weight(wf_load(sums));
+    const wf inverse = inverse_weight(wf_load(sums + color_weight(tile) * EWA_BLOCK_LANES));
     if (!tile->with_normals || !to->lambert) return inverse;
     wf normal[3];
     for (int i = 0; i < 3; i++) normal[i] = wf_load(sums + (4 + i) * EWA_BLOCK_LANES);
@@ -101,10 +106,22 @@ typedef struct surface {
     wf alpha, color[3];
 } surface;
 
-static ALWAYS_INLINE surface gathered_surface(const ewa_resolve *to, const float *sums, wf scale) {
+/// Coverage times opacity.
+static ALWAYS_INLINE wf surface_alpha(const ewa_tile *tile, const ewa_resolve *to, const float *sums) {
     const wf weight = wf_load(sums), one = wf_set(1);
-    surface s = {.alpha = to->edge_antialiasing ? wf_min(one, wf_mul(weight, wf_set(to->alpha_scale)))
-                                                : wf_keep(wf_lt(wf_set(0), weight), one)};
+    const wf coverage = to->edge_antialiasing ? wf_min(one, wf_mul(weight, wf_set(to->alpha_scale)))
+                                              : wf_keep(wf_lt(wf_set(0), weight), one);
+    if (!to->transparent) return coverage;
+    wf opacity = wf_set(to->opacity);
+    if (tile->with_opacity)
+        opacity = wf_mul(opacity, wf_mul(wf_load(sums + (size_t)(tile->channel_count - 1) * EWA_BLOCK_LANES),
+                                         inverse_weight(weight)));
+    return wf_mul(coverage, opacity);
+}
+
+static ALWAYS_INLINE surface gathered_surface(const ewa_tile *tile, const ewa_resolve *to, const float *sums,
+                                              wf scale) {
+    surface s = {.alpha = surface_alpha(tile, to, sums)};
     for (int i = 0; i < 3; i++) s.color[i] = wf_mul(wf_load(sums + (1 + i) * EWA_BLOCK_LANES), scale);
     return s;
 }
@@ -164,7 +181,7 @@ static void store_planes(const ewa_tile *tile, const ewa_resolve *to, const floa
     const wf weight = wf_load(sums), zero = wf_set(0);
     const wm covered = wf_lt(zero, weight);
     if (to->depth) {
-        const float *depth = sums + (tile->channel_count - 1) * EWA_BLOCK_LANES;
+        const float *depth = sums + (tile->with_normals ? 7 : 4) * EWA_BLOCK_LANES;
         const wf z = wf_mul(wf_load(depth), inverse_weight(weight));
         wf_store(lanes, wf_select(covered, z, wf_set(__builtin_inff())));
         store_block(to->depth, 1, to, at, lanes);
@@ -216,8 +233,8 @@ static void resolve(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges
             if (!planes && !wm_bits(wf_lt(wf_set(0), wf_load(sums)))) {
                 store_codes(&at_hand, &at, empty_codes);
             } else {
-                const surface s =
-                    gathered_surface(&at_hand, sums, wf_load(scales + (size_t)column * EWA_BLOCK_LANES));
+                const surface s = gathered_surface(&in_tile, &at_hand, sums,
+                                                   wf_load(scales + (size_t)column * EWA_BLOCK_LANES));
                 wf color[4];
                 composite(&at_hand, &s, marked >> column & 1 ? behind : NULL, color);
                 if (at_hand.rgba8) store_codes(&at_hand, &at, color_codes(color));

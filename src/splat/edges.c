@@ -31,7 +31,7 @@ static void draw_block(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_s
                        uint32_t row, uint32_t column, ewa_tile_pass what) {
     const uint32_t block = row * tile->blocks_per_row + column;
     const bool listed = from->list_count[block] != NOT_LISTED;
-    ewa_edge_splats splats = {s->records, s->loads, s->listed, s->listed_keys, 0};
+    ewa_edge_splats splats = {s->records, s->loads, s->opacities, s->clips, s->listed, s->listed_keys, 0};
     const uint32_t first = listed ? from->list_first[block] : from->used;
     splats.indices += first;
     splats.largest_keys += first;
@@ -57,15 +57,46 @@ static void draw_block(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_s
     }
 }
 
+/// One pass over the kept runs where most blocks are marked: as for the first surface, but beyond what has
+/// passed.
+static void draw_runs(const ewa_tile_job *job, const ewa_tile *tile, const ewa_tile_scratch *s,
+                      ewa_tile_pass what) {
+    ewa_tile behind = *tile;
+    behind.nearest = s->edges.nearest, behind.sums = s->edges.sums, behind.passed = s->edges.passed;
+    for (uint32_t i = 0; i < s->kept_count; i++) {
+        if (what == EWA_PASS_EDGE_VISIBILITY)
+            job->kernels->visibility(&job->view, &behind, &s->kept[i].sorted);
+        else
+            job->kernels->accumulate(&job->view, &behind, &s->kept[i].sorted);
+    }
+}
+
+/// One pass over the splats that are kept.
 static void draw_batch(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, batch *from,
-                       ewa_tile_pass what) {
-    for (uint32_t row = 0; row < tile->block_rows; row++)
-        for (uint32_t marked = s->edges.rows[row]; marked; marked &= marked - 1)
-            draw_block(job, tile, s, from, row, (uint32_t)__builtin_ctz(marked), what);
+                       ewa_tile_pass what, bool dense) {
+    if (dense)
+        draw_runs(job, tile, s, what);
+    else
+        for (uint32_t row = 0; row < tile->block_rows; row++)
+            for (uint32_t marked = s->edges.rows[row]; marked; marked &= marked - 1)
+                draw_block(job, tile, s, from, row, (uint32_t)__builtin_ctz(marked), what);
     for (uint32_t i = 0; i < s->kept_count; i++) {
         const ewa_kept_run *kept = &s->kept[i];
         ewa_tile_draw_near(job, tile, &s->edges, s->near_surfels + kept->near_first, kept->near_count, what);
     }
+}
+
+/// Whether so many blocks are marked that all splats are best drawn in all of them; then closes the others.
+static bool close_others(const ewa_tile *tile, const ewa_tile_scratch *s, uint32_t marked) {
+    enum { LEAST_SHARE = 4 };
+    if (LEAST_SHARE * marked < tile->blocks_per_row * tile->block_rows) return false;
+    for (uint32_t row = 0; row < tile->block_rows; row++)
+        for (uint32_t column = 0; column < tile->blocks_per_row; column++) {
+            float *passed = s->edges.passed + (size_t)(row * tile->blocks_per_row + column) * EWA_BLOCK_LANES;
+            for (int i = 0; i < EWA_BLOCK_LANES && !(s->edges.rows[row] >> column & 1); i++)
+                passed[i] = -INFINITY;
+        }
+    return true;
 }
 
 /// Hidden packets that may reach marked blocks go behind those that are shown; returns how many.
@@ -90,8 +121,9 @@ static bool something_behind(const ewa_tile *tile, const ewa_tile_scratch *s) {
 }
 
 bool ewa_tile_draw_edges(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, bool kept) {
-    if (job->edge_layers < 2 || !job->kernels->find_edges(tile, &job->resolve, &s->edges)) return false;
-    if (!something_behind(tile, s)) return false;
+    if (job->layers < 2) return false;
+    uint32_t marked = job->kernels->find_edges(tile, &job->resolve, &s->edges);
+    if (!marked || !something_behind(tile, s)) return false;
     memcpy(s->edge_rows, s->edges.rows, sizeof s->edge_rows);
     const uint32_t behind = s->hidden_count ? show_behind_edges(job, tile, s) : 0;
     const ewa_tile_packets all = {s->shown, s->shown_count + behind};
@@ -99,19 +131,26 @@ bool ewa_tile_draw_edges(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile
     if (kept) {
         const ewa_tile_packets more = {s->shown + s->shown_count, behind};
         ewa_tile_keep_runs(job, tile, s, &more, 0, ewa_run_count(&more), false);
-        start_batch(job, s, true, &current);
     }
-    for (uint32_t layer = 1; layer < job->edge_layers; layer++) {
-        for (ewa_tile_pass what = EWA_PASS_EDGE_VISIBILITY; what <= EWA_PASS_EDGE_ACCUMULATE; what++) {
-            if (kept) draw_batch(job, tile, s, &current, what);
+    bool listed = false; // `current` holds what is kept
+    for (uint32_t layer = 1; layer < job->layers && marked; layer++) {
+        const bool dense = close_others(tile, s, marked), last = job->merge_last && layer + 1 == job->layers;
+        if (last) job->kernels->edge_take_all(tile, &s->edges);
+        for (ewa_tile_pass what = last && dense ? EWA_PASS_EDGE_ACCUMULATE : EWA_PASS_EDGE_VISIBILITY;
+             what <= EWA_PASS_EDGE_ACCUMULATE; what++) {
+            if (kept) {
+                if (!dense && !listed) start_batch(job, s, listed = true, &current);
+                draw_batch(job, tile, s, &current, what, dense);
+            }
             for (uint64_t run = 0, end = kept ? 0 : ewa_run_count(&all); run < end;) {
                 ewa_tile_drop_runs(s);
                 run = ewa_tile_keep_runs(job, tile, s, &all, run, end, false);
-                start_batch(job, s, false, &current);
-                draw_batch(job, tile, s, &current, what);
+                if (!dense) start_batch(job, s, false, &current);
+                draw_batch(job, tile, s, &current, what, dense);
             }
+            if (last) job->kernels->edge_take_all(tile, &s->edges);
         }
-        if (!job->kernels->edge_compose(tile, &job->resolve, &s->edges)) break;
+        marked = job->kernels->edge_compose(tile, &job->resolve, &s->edges);
     }
     return true;
 }

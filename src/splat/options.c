@@ -65,6 +65,7 @@ static ewa_status check_render(ewa_context *context, const ewa_render_options *o
         status = check_range(context, "edge_threshold", options->edge_threshold, 0, true, HUGE_OPTION);
     if (status == EWA_OK)
         status = check_range(context, "edge_layers", options->edge_layers, 1, false, EWA_MAX_EDGE_LAYERS);
+    if (status == EWA_OK) status = check_range(context, "opacity", options->opacity, 0, false, 1);
     if (status == EWA_OK) status = check_range(context, "ambient", options->ambient, 0, false, 1);
     if (status == EWA_OK) status = check_vectors(context, options);
     return status;
@@ -109,6 +110,7 @@ void ewa_render_options_init(ewa_render_options *options, size_t struct_size) {
     options->edge_antialiasing = true;
     options->edge_threshold = 0.45;
     options->edge_layers = EWA_MAX_EDGE_LAYERS;
+    options->opacity = 1;
     options->cull = EWA_CULL_NONE;
     options->shading = EWA_SHADING_LAMBERT;
     options->ambient = 0.15;

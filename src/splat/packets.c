@@ -10,6 +10,7 @@
 #include "cloud/morton.h"
 #include "kernels/semantics.h"
 #include "splat/discs.h"
+#include "splat/extras.h"
 #include "splat/options.h"
 #include "splat/pack.h"
 #include "splat/surfel.h"
@@ -169,8 +170,8 @@ static void encode_color(const ewa_surfels *surfels, const double color_linear[3
     }
 }
 
-void ewa_packet_decode(const ewa_surfels *surfels, const ewa_packet *packet, uint32_t lane,
-                       ewa_packet_surfel *surfel) {
+void ewa_packet_decode(const ewa_surfels *surfels, uint32_t index, uint32_t lane, ewa_packet_surfel *surfel) {
+    const ewa_packet *packet = &surfels->packets[index];
     surfel->center = vec3_make((double)packet->x[lane], (double)packet->y[lane], (double)packet->z[lane]);
     surfel->normal = oct_decode(packet->oct_x[lane], packet->oct_y[lane]);
     ewa_vec3 first, second;
@@ -183,6 +184,7 @@ void ewa_packet_decode(const ewa_surfels *surfels, const ewa_packet *packet, uin
     const uint16_t codes[3] = {packet->red[lane], packet->green[lane], packet->blue[lane]};
     for (int k = 0; k < 3; k++)
         surfel->color[k] = codes[k] * (double)surfels->color_scale[k] + (double)surfels->color_offset[k];
+    surfel->opacity = surfels->opacities ? surfels->opacities[(size_t)index * LANES + lane] / 65535.0 : 1;
 }
 
 static void put_color(ewa_packet *packet, uint32_t lane, const uint16_t codes[3]) {
@@ -406,7 +408,7 @@ static ewa_status build_surfels(build *b, ewa_context *context) {
     if (status != EWA_OK) return status;
     ewa_parallel(context, encode_part, b, b->parts);
     b->surfels->unit_coverage = ewa_packets_unit_coverage(b->surfels);
-    return EWA_OK;
+    return ewa_extras_make(context, b->surfels, &b->reader, b->order);
 }
 
 ewa_status ewa_surfels_create(const ewa_cloud *cloud, const ewa_surfels_options *options,
@@ -451,6 +453,7 @@ void ewa_surfels_destroy(ewa_surfels **surfels) {
     ewa_surfels *old = *surfels;
     ewa_context *context = old->context;
     ewa_release(context, old->packets, old->packet_count, sizeof *old->packets);
+    ewa_extras_free(context, old);
     ewa_release(context, old->bounds_floats, BOUNDS_STREAMS * old->bounds_stride, sizeof *old->bounds_floats);
     ewa_release(context, old, 1, sizeof *old);
     *surfels = NULL;
@@ -461,8 +464,10 @@ void ewa_surfels_describe(const ewa_surfels *surfels, ewa_surfels_info *info) {
         .point_count = surfels->count,
         .left_out_count = surfels->left_out_count,
         .resident_bytes = sizeof *surfels + surfels->packet_count * sizeof *surfels->packets +
-                          BOUNDS_STREAMS * surfels->bounds_stride * sizeof *surfels->bounds_floats,
+                          BOUNDS_STREAMS * surfels->bounds_stride * sizeof *surfels->bounds_floats +
+                          ewa_extras_bytes(surfels),
         .unit_coverage = surfels->unit_coverage,
+        .transparent = surfels->opacities != NULL,
         .bounds = surfels->extent,
     };
 }

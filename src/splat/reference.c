@@ -25,8 +25,9 @@ typedef struct pixel {
     double bound;     ///< three passes: B(x) = min(z + eps); one pass: z of the nearest splat
     uint64_t nearest; ///< one pass: the splat that wins
     double weight;    ///< q, the sum of weights
-    ewa_vec3 color, normal_world;
-    double z;          ///< all three weighted
+    ewa_vec3 color;   ///< weighted by opacity too
+    ewa_vec3 normal_world;
+    double z, opacity; ///< all weighted
     double passed;     ///< B(x) of the surface before: splats up to there are done
     ewa_vec3 in_front; ///< premultiplied colour of the surfaces before
     double through;    ///< the share of the pixel that they leave open
@@ -39,6 +40,8 @@ typedef struct reference {
     double unit_coverage;
     uint64_t surfel_count;
     ewa_reference_splat *splats;
+    uint32_t layers; ///< surfaces that are composited at most
+    bool transparent, merge_last;
     uint32_t band_count;
     pixel *pixels;
     ewa_vec3 light_world; ///< unit, towards the light; zero: headlight
@@ -96,7 +99,9 @@ static void accumulate(const reference *work, pixel *at, uint64_t index, const e
     if (work->options.passes == 3 ? sample->z > at->bound : index != at->nearest) return;
     const double weight = work->options.passes == 3 ? sample->weight : 1;
     at->weight += weight;
-    at->color = vec3_add(at->color, vec3_scale(splat->color, weight));
+    const double opacity = work->transparent ? splat->opacity : 1;
+    at->color = vec3_add(at->color, vec3_scale(splat->color, weight * opacity));
+    at->opacity += weight * opacity;
     at->normal_world = vec3_add(at->normal_world, vec3_scale(splat->normal_world, weight));
     at->z += weight * sample->z;
 }
@@ -165,7 +170,8 @@ static bool resolve_surface(const reference *work, uint32_t layer, int32_t x, in
         coverage = work->options.passes == 3 ? q / work->unit_coverage : 1;
         alpha = work->options.edge_antialiasing ? fmin(1, coverage / work->options.edge_threshold) : 1;
         if (work->options.passes == 1) alpha = 1;
-        const double factor = shade(work, normal, x + 0.5, y + 0.5) / q;
+        if (work->transparent) alpha *= work->options.opacity * at->opacity / q;
+        const double factor = at->opacity > 0 ? shade(work, normal, x + 0.5, y + 0.5) / at->opacity : 0;
         at->in_front = vec3_add(at->in_front, vec3_scale(at->color, factor * alpha * at->through));
         at->through *= 1 - alpha;
     }
@@ -211,8 +217,9 @@ static void render_band(void *data, uint32_t index, uint32_t worker) {
     for (size_t i = first_pixel; i < end_pixel; i++)
         work->pixels[i] = (pixel){.bound = INFINITY, .nearest = NOBODY, .passed = -INFINITY, .through = 1};
     bool open = true;
-    for (uint32_t layer = 0; layer < work->options.edge_layers && open; layer++) {
-        walk(work, begin, end, lower_bound);
+    for (uint32_t layer = 0; layer < work->layers && open; layer++) {
+        // The last of so many layers is all that is left: there is no bound then.
+        if (!work->merge_last || layer + 1 < work->layers) walk(work, begin, end, lower_bound);
         walk(work, begin, end, accumulate);
         open = false;
         for (int32_t y = begin; y < end; y++)
@@ -242,6 +249,32 @@ static ewa_status render(ewa_context *context, reference *work) {
     return status;
 }
 
+/// Whether some surfel that can be drawn is not opaque.
+static bool any_transparent(const ewa_surfel_reader *reader, uint64_t count) {
+    ewa_surfel surfels[READ_POINTS];
+    bool drawable[READ_POINTS];
+    for (uint64_t first = 0; reader->color && first < count; first += READ_POINTS) {
+        const uint64_t here = count - first < READ_POINTS ? count - first : READ_POINTS;
+        ewa_surfel_read(reader, first, here, surfels, drawable);
+        for (uint64_t i = 0; i < here; i++)
+            if (drawable[i] && surfels[i].alpha < 1) return true;
+    }
+    return false;
+}
+
+/// math.md section 8, one surface after another: see ewa_render_options.layers.
+static void set_layers(reference *work) {
+    const ewa_render_options *options = &work->options;
+    work->transparent = options->layers != 1 && options->passes == 3 &&
+                        (options->opacity < 1 || any_transparent(&work->reader, work->surfel_count));
+    if (!work->transparent) {
+        work->layers = options->edge_layers;
+        return;
+    }
+    work->layers = options->layers == 0 ? EWA_LAYERS_EXACT : options->layers;
+    work->merge_last = work->layers != EWA_LAYERS_EXACT;
+}
+
 ewa_status ewa_render_reference(const ewa_cloud *cloud, const ewa_surfels_options *surfels_options,
                                 double unit_coverage, const ewa_camera *camera,
                                 const ewa_render_options *options, const ewa_frame *frame) {
@@ -260,6 +293,7 @@ ewa_status ewa_render_reference(const ewa_cloud *cloud, const ewa_surfels_option
     if (status == EWA_OK) status = ewa_camera_check(context, camera);
     if (status == EWA_OK) status = ewa_surfel_reader_open(cloud, &chosen, &work.reader);
     if (status != EWA_OK) return status;
+    set_layers(&work);
     ewa_reference_view_make(camera, chosen.cutoff, &work.options, &work.view);
     const ewa_vec3 light = vec3_load(work.options.light_world);
     const double largest = fmax(fabs(light.x), fmax(fabs(light.y), fabs(light.z)));

@@ -234,6 +234,52 @@ static void make_depth(const ewa_reference_view *view, double half_range, ewa_re
     }
 }
 
+/// Clip lines on the screen (math.md section 5, PAS 4.4): l' = M^-1 l by the adjugate of M with the rows tu,
+/// tv, p, with the sign that makes (x, y, 1).l' positive inside for z > 0. Orthographic: (x, y) - p is the
+/// picture of u tu + v tv, so (u, v) is its product with the inverse of the axes' first two components.
+static void make_clip(const ewa_reference_view *view, const ewa_surfel *surfel, ewa_reference_splat *splat) {
+    const ewa_vec3 u = splat->axis_u, v = splat->axis_v, p = splat->center;
+    splat->clip_either = surfel->clip_either == 1;
+    splat->clipped = false;
+    for (int k = 0; k < 2; k++) {
+        const double *l = surfel->clip[k];
+        double *line = splat->clip[k];
+        line[0] = line[1] = 0, line[2] = 1;
+        if (l[0] == 0 && l[1] == 0) {
+            splat->clip_either = false;
+            continue;
+        }
+        splat->clipped = true;
+        ewa_vec3 seen;
+        if (view->orthographic) {
+            const double determinant = u.x * v.y - u.y * v.x;
+            const double a = (l[0] * v.y - l[1] * u.y) / determinant,
+                         b = (l[1] * u.x - l[0] * v.x) / determinant;
+            seen = vec3_make(a, b, l[2] - a * p.x - b * p.y);
+        } else {
+            const ewa_mat3 m = mat3_from_rows(u, v, p), adjugate = mat3_adjugate(&m);
+            seen = vec3_scale(mat3_mul_vec3(&adjugate, vec3_make(l[0], l[1], l[2])),
+                              mat3_determinant(&m) < 0 ? -1 : 1);
+        }
+        // From (x, y) at z = 1 to pixels, and to pixels from the line.
+        const double a = seen.x / view->fx_px, b = seen.y / view->fy_px;
+        const double c = seen.z - a * view->cx_px - b * view->cy_px, length = hypot(a, b);
+        line[0] = length > 0 ? a / length : 0;
+        line[1] = length > 0 ? b / length : 0;
+        line[2] = length > 0 ? c / length : copysign(1, c);
+    }
+}
+
+/// The share of a pixel that clip lines leave: all of it half a pixel inside, nothing half a pixel outside.
+static double clip_share(const ewa_reference_splat *splat, double x_px, double y_px) {
+    double share[2];
+    for (int k = 0; k < 2; k++) {
+        const double *line = splat->clip[k];
+        share[k] = fmin(fmax(line[0] * x_px + line[1] * y_px + line[2] + 0.5, 0), 1);
+    }
+    return splat->clip_either ? fmax(share[0], share[1]) : fmin(share[0], share[1]);
+}
+
 void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *surfel,
                            ewa_reference_splat *splat) {
     splat->drawn = false;
@@ -258,8 +304,10 @@ void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *sur
     splat->normal = vec3_scale(n, sign);
     splat->normal_world = vec3_scale(vec3_load(surfel->normal_world), sign);
     splat->color = vec3_load(surfel->color_linear);
+    splat->opacity = surfel->alpha;
     splat->by_rays = by_rays;
     splat->half_range = half_range;
+    make_clip(view, surfel, splat);
     make_depth(view, half_range, splat);
     if (splat->by_rays)
         bound_near(view, splat);
@@ -326,7 +374,8 @@ static void sample_backward(const ewa_reference_view *view, const ewa_reference_
     sample_plane(view, u, by_x, by_y, sample);
 }
 
-bool ewa_reference_sample_at(const ewa_reference_view *view, const ewa_reference_splat *splat, double x_px,
+/// Without the clip lines.
+static bool sample_unclipped(const ewa_reference_view *view, const ewa_reference_splat *splat, double x_px,
                              double y_px, ewa_reference_sample *sample) {
     if (splat->by_rays) return sample_ray(view, splat, x_px, y_px, sample);
     if (by_backward_mapping(view)) {
@@ -341,5 +390,13 @@ bool ewa_reference_sample_at(const ewa_reference_view *view, const ewa_reference
     // Clamped before the division: a ray that misses the plane gets the far end of the disc.
     const double key = fmin(fmax(view->orthographic ? -plane : plane, splat->key_low), splat->key_high);
     sample->z = view->orthographic ? -key : 1 / key;
+    return true;
+}
+
+bool ewa_reference_sample_at(const ewa_reference_view *view, const ewa_reference_splat *splat, double x_px,
+                             double y_px, ewa_reference_sample *sample) {
+    const double share = splat->clipped ? clip_share(splat, x_px, y_px) : 1;
+    if (!(share > 0) || !sample_unclipped(view, splat, x_px, y_px, sample)) return false;
+    sample->weight *= share;
     return true;
 }

@@ -42,6 +42,10 @@ typedef struct ewa_reference_splat {
     ewa_vec3 center, axis_u, axis_v, normal; ///< camera space, normal unit, towards the viewer
     ewa_vec3 normal_world;
     ewa_vec3 color;
+    double opacity; ///< [0, 1]
+    bool clipped;
+    double clip[2][3]; ///< of the pixel x, y, clip . (x, y, 1) pixels from the line is how far inside
+    bool clip_either;
 } ewa_reference_splat;
 
 /// A splat at a pixel.

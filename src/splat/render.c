@@ -8,11 +8,11 @@
 
 #include <string.h>
 
-/// Large tiles share fewer packets, small ones spread a small picture over the threads. The picture alone
-/// decides, not the threads: tiles round differently.
-static uint32_t tile_side_px(const ewa_camera *camera) {
-    enum { LARGE_PX = 1 << 20 };
-    return (uint64_t)camera->width_px * camera->height_px >= LARGE_PX ? 128 : 64;
+/// Large tiles share fewer packets; small ones spread a small picture over the threads, and keep the records
+/// of crowded ones in the cache. The threads have no say: tiles round differently.
+static uint32_t tile_side_px(const ewa_camera *camera, const ewa_surfels *surfels) {
+    enum { LARGE_PX = 1 << 20, CROWD = 12000000 };
+    return (uint64_t)camera->width_px * camera->height_px >= LARGE_PX && surfels->count <= CROWD ? 128 : 64;
 }
 
 struct ewa_renderer {
@@ -80,6 +80,22 @@ static void gather_stats(const ewa_renderer *renderer, const ewa_surfels *surfel
     stats->total_s = ewa_now_s() - start_s;
 }
 
+/// How many surfaces are composited, and whether they are transparent.
+static void set_layers(ewa_tile_job *job, const ewa_render_options *options) {
+    const bool see_through = options->opacity < 1 || job->surfels->opacities;
+    job->resolve.transparent = see_through && options->layers != 1 && options->passes == 3;
+    if (job->resolve.transparent) {
+        job->layers =
+            options->layers == 0 || options->layers > EWA_MAX_LAYERS ? EWA_MAX_LAYERS : options->layers;
+        job->merge_last = job->layers == options->layers;
+        job->with_opacity = job->surfels->opacities != NULL;
+        job->with_normals |= job->with_opacity;
+        job->source.opacities = job->surfels->opacities;
+    } else {
+        job->layers = options->edge_antialiasing && options->passes == 3 ? options->edge_layers : 1;
+    }
+}
+
 ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const ewa_camera *camera,
                       const ewa_render_options *options, const ewa_frame *frame, ewa_render_stats *stats) {
     if (!renderer || !surfels || !camera || !frame) return EWA_ERROR_ARGUMENT;
@@ -92,16 +108,18 @@ ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const 
 
     ewa_tile_job job = {.kernels = renderer->kernels,
                         .surfels = surfels,
+                        .source = {.packets = surfels->packets, .clip_masks = surfels->clip_masks},
                         .bins = &renderer->bins,
                         .with_normals = chosen.shading == EWA_SHADING_LAMBERT || frame->normal,
                         .with_depth = frame->depth != NULL,
                         .count_fragments = stats != NULL,
                         .scratch = renderer->scratch};
-    job.edge_layers = chosen.edge_antialiasing && chosen.passes == 3 ? chosen.edge_layers : 1;
-    job.channel_count = 4 + (job.with_normals ? 3 : 0) + (job.with_depth ? 1 : 0);
-    status = ewa_view_set(&job.view, surfels, camera, &chosen, tile_side_px(camera));
-    if (status != EWA_OK) return status;
     ewa_resolve_set(&job.resolve, surfels, camera, &chosen, frame);
+    set_layers(&job, &chosen);
+    job.channel_count =
+        4 + (job.with_normals ? 3 : 0) + (job.with_depth ? 1 : 0) + (job.with_opacity ? 1 : 0);
+    status = ewa_view_set(&job.view, surfels, camera, &chosen, tile_side_px(camera, surfels));
+    if (status != EWA_OK) return status;
 
     status = ewa_bins_fill(context, &renderer->bins, renderer->kernels, &job.view, surfels);
     if (status != EWA_OK) return status;

@@ -39,6 +39,8 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
         {&s->list_buffer, 2 * (EWA_LISTS * records + EWA_BLOCK_LANES), sizeof *s->listed},
         {&s->box_buffer, 3 * box_count, sizeof(float)},
         {&s->near_buffer, records, sizeof *s->near_surfels},
+        {&s->clip_buffer, job->source.clip_masks ? records : 0, sizeof *s->clips},
+        {&s->opacity_buffer, job->with_opacity ? records + EWA_PACKET_LANES : 0, sizeof *s->opacities},
         {&s->kept_buffer, records / EWA_RUN_RECORDS + 2, sizeof *s->kept},
         {&s->pixel_buffer, pixel_floats, sizeof(float)},
         {&s->packet_buffer, 4 * packet_count, sizeof *s->shown},
@@ -60,6 +62,8 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
         s->boxes[i].key_low = (float *)(box_numbers + 2 * box_count);
     }
     s->near_surfels = s->near_buffer.data;
+    s->clips = job->source.clip_masks ? s->clip_buffer.data : NULL;
+    s->opacities = job->with_opacity ? s->opacity_buffer.data : NULL;
     s->kept = s->kept_buffer.data;
     s->nearest = s->pixel_buffer.data;
     s->sums = s->nearest + tile_floats;
@@ -81,9 +85,9 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
 }
 
 void ewa_tile_scratch_free(ewa_context *context, ewa_tile_scratch *s) {
-    ewa_buffer *const buffers[] = {&s->record_buffer, &s->load_buffer,  &s->order_buffer,
-                                   &s->list_buffer,   &s->box_buffer,   &s->near_buffer,
-                                   &s->kept_buffer,   &s->pixel_buffer, &s->packet_buffer};
+    ewa_buffer *const buffers[] = {&s->record_buffer, &s->load_buffer,    &s->order_buffer, &s->list_buffer,
+                                   &s->box_buffer,    &s->near_buffer,    &s->kept_buffer,  &s->pixel_buffer,
+                                   &s->packet_buffer, &s->opacity_buffer, &s->clip_buffer};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) ewa_buffer_free(context, buffers[i]);
 }
 
@@ -101,6 +105,7 @@ static void sort_run(const ewa_run *run, uint16_t *order, ewa_sorted_run *sorted
     for (uint32_t i = 0; i < run->count; i++) order[next[run->classes[i]]++] = (uint16_t)i;
     sorted->records = run->records;
     sorted->loads = run->loads;
+    sorted->opacities = run->opacities;
     sorted->order = order;
 }
 
@@ -147,12 +152,17 @@ static void prepare_run(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_
     const uint64_t first = index * EWA_RUN_PACKETS, left = packets->count - first;
     s->run.records = s->records + at;
     s->run.loads = s->loads + at;
+    s->run.opacities = s->opacities ? s->opacities + at : NULL;
     const uint32_t announced = left < 2 * EWA_RUN_PACKETS ? (uint32_t)left : 2 * EWA_RUN_PACKETS;
-    job->kernels->setup(&job->view, job->surfels->packets, packets->ids + first,
+    job->kernels->setup(&job->view, &job->source, packets->ids + first,
                         announced < EWA_RUN_PACKETS ? announced : EWA_RUN_PACKETS, announced, tile, &s->run);
     s->least_key = fminf(s->least_key, s->run.least_key);
     s->has_near |= s->run.near_count > 0;
     sort_run(&s->run, s->order + at, sorted);
+    sorted->clips = s->clips ? s->clips + at : NULL;
+    for (uint32_t i = 0; i < s->run.clipped_count; i++)
+        ewa_clip_set(&s->clips[at + s->run.clipped[i].record], job->surfels, &s->run.clipped[i], &job->view,
+                     tile);
 }
 
 static void visit_run(const ewa_tile_job *job, const ewa_tile *tile, const ewa_sorted_run *run,
@@ -261,7 +271,8 @@ static void draw_visible(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile
     s->has_near = false;
     ewa_tile_drop_runs(s);
     uint64_t drawn_runs = 0;
-    uint32_t passed = 0, to_pass = 1; // chunks since the last that was asked, and until the next
+    uint32_t passed = 0; // chunks since the last that was asked, and until the next
+    uint32_t to_pass = job->resolve.transparent ? UINT32_MAX : 1;
     for (uint64_t first = 0; first < count; first += CHUNK_PACKETS) {
         const uint32_t here = count - first < CHUNK_PACKETS ? (uint32_t)(count - first) : CHUNK_PACKETS;
         const double before = ewa_now_s();
@@ -302,7 +313,8 @@ void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
                      .sums = s->sums,
                      .channel_count = job->channel_count,
                      .with_normals = job->with_normals,
-                     .with_depth = job->with_depth};
+                     .with_depth = job->with_depth,
+                     .with_opacity = job->with_opacity};
     const int32_t side = (int32_t)view->tile_px;
     tile.width_px = (int32_t)view->width_px - tile.x_px < side ? (int32_t)view->width_px - tile.x_px : side;
     tile.height_px =
@@ -312,7 +324,9 @@ void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
     job->kernels->clear(&tile);
     const uint64_t first = job->bins->tile_first[index], count = job->bins->tile_first[index + 1] - first;
     const bool kept = count * EWA_PACKET_LANES <= s->record_capacity;
-    draw_visible(job, &tile, s, front_to_back(job, s, job->bins->entries + first, count), count, kept);
+    const uint32_t *ids = job->bins->entries + first;
+    draw_visible(job, &tile, s, job->resolve.transparent ? ids : front_to_back(job, s, ids, count), count,
+                 kept);
     const ewa_tile_packets shown = {s->shown, s->shown_count};
     const double accumulating = ewa_now_s();
     if (kept)

@@ -11,6 +11,7 @@
 enum {
     EWA_KEPT_RECORDS = 1 << 18, ///< 20 MiB per worker
     EWA_LISTS = 2,              ///< entries of lists per kept record
+    EWA_MAX_LAYERS = 255,       ///< surfaces of a pixel that are looked for
 };
 
 /// What a walk over a tile's splats is for.
@@ -38,6 +39,8 @@ typedef struct ewa_tile_scratch {
     ewa_run run;
     ewa_record *records;
     ewa_load *loads;
+    float *opacities; ///< NULL: all are opaque
+    ewa_clip *clips;  ///< of the records that have some; NULL: none has
     uint16_t *order;
     uint32_t *listed;   ///< splats behind marked blocks, block by block
     float *listed_keys; ///< ewa_edge_splats.largest_keys of them
@@ -54,8 +57,8 @@ typedef struct ewa_tile_scratch {
     float cells[EWA_TILE_CELLS * EWA_TILE_CELLS];
     float *nearest, *sums;
     ewa_edges edges;
-    ewa_buffer record_buffer, load_buffer, order_buffer, list_buffer, box_buffer, near_buffer, kept_buffer,
-        pixel_buffer, packet_buffer;
+    ewa_buffer record_buffer, load_buffer, order_buffer, list_buffer, box_buffer, near_buffer, opacity_buffer,
+        clip_buffer, kept_buffer, pixel_buffer, packet_buffer;
     uint32_t edge_rows[EWA_MAX_TILE_BLOCKS], edge_rows_left[EWA_MAX_TILE_BLOCKS];
     uint64_t drawn_count, fragment_count, hidden_splat_count;
     double setup_s, visibility_s, accumulate_s, edge_s, resolve_s;
@@ -65,11 +68,14 @@ typedef struct ewa_tile_scratch {
 typedef struct ewa_tile_job {
     const ewa_road_kernels *kernels;
     const ewa_surfels *surfels;
+    ewa_packet_source source;
     const ewa_bins *bins;
     ewa_view view;
     ewa_resolve resolve;
-    uint32_t channel_count, edge_layers;
-    bool with_normals, with_depth, count_fragments;
+    uint32_t channel_count;
+    uint32_t layers; ///< surfaces that are composited at most
+    bool merge_last; ///< the last of them is all that is left
+    bool with_normals, with_depth, with_opacity, count_fragments;
     ewa_tile_scratch *const *scratch; ///< [worker]
 } ewa_tile_job;
 

@@ -90,6 +90,7 @@ void ewa_resolve_set(ewa_resolve *resolve, const ewa_surfels *surfels, const ewa
     split_scale(camera, &rotation);
     resolve->unit_coverage_inverse = (float)(1 / surfels->unit_coverage);
     resolve->alpha_scale = (float)(1 / (options->edge_threshold * surfels->unit_coverage));
+    resolve->opacity = (float)options->opacity;
     resolve->one_pass = options->passes == 1;
     resolve->edge_antialiasing = options->edge_antialiasing && !resolve->one_pass;
     resolve->lambert = options->shading == EWA_SHADING_LAMBERT;
@@ -142,10 +143,60 @@ static void set_linear(float terms[3], ewa_vec3 n, const ewa_view *view, const e
     terms[2] = (float)(n.y / fy);
 }
 
+/// The clip lines of a surfel that has some.
+static const ewa_surfel_clip *find_clip(const ewa_surfels *surfels, uint32_t surfel) {
+    const uint32_t packet = surfel / EWA_PACKET_LANES, lane = surfel % EWA_PACKET_LANES;
+    const uint32_t before = surfels->clip_masks[packet] & ((1u << lane) - 1);
+    return &surfels->clips[surfels->clip_first[packet] + (uint32_t)__builtin_popcount(before)];
+}
+
+/// A line of the surfel's plane, keep g.(q - p) + d >= 0, on the screen. With q = z x on the ray x and z =
+/// n.p / n.x this is, divided by z > 0, x.(g - (g.p - d) / n.p n): math.md section 5, M^-1 l without the
+/// frame. Orthographic: z = pz - ((x - px) nx + (y - py) ny) / nz is linear itself.
+static void set_clip_line(float line[3], ewa_vec3 g, double d, ewa_vec3 n, ewa_vec3 p, const ewa_view *view,
+                          const ewa_tile *tile) {
+    if (view->orthographic) {
+        const double nz = copysign(fmax(fabs(n.z), EWA_EDGE_ON), n.z);
+        const double a = g.x - g.z * n.x / nz, b = g.y - g.z * n.y / nz;
+        set_linear(line, vec3_make(a, b, d - a * p.x - b * p.y), view, tile);
+    } else {
+        const double np = vec3_dot(n, p), least = EWA_EDGE_ON * vec3_length(p);
+        const double share = (vec3_dot(g, p) - d) / copysign(fmax(fabs(np), least), np);
+        set_linear(line, vec3_sub(g, vec3_scale(n, share)), view, tile);
+    }
+    // In pixels from the line; a line at infinity has only sides.
+    const float length = sqrtf(line[1] * line[1] + line[2] * line[2]), c = line[0];
+    line[0] = line[1], line[1] = line[2], line[2] = c;
+    if (length > 0 && isfinite(1 / length)) {
+        for (int i = 0; i < 3; i++) line[i] /= length;
+    } else {
+        line[0] = line[1] = 0, line[2] = c < 0 ? -1 : 1;
+    }
+}
+
+void ewa_clip_set(ewa_clip *clip, const ewa_surfels *surfels, const ewa_clipped *splat, const ewa_view *view,
+                  const ewa_tile *tile) {
+    const ewa_surfel_clip *from = find_clip(surfels, splat->surfel);
+    const float *p = splat->center, *n = splat->normal;
+    const ewa_vec3 center = vec3_make((double)p[0], (double)p[1], (double)p[2]);
+    const ewa_vec3 normal = vec3_make((double)n[0], (double)n[1], (double)n[2]);
+    clip->either = from->either;
+    for (int k = 0; k < 2; k++) {
+        const float *g = from->toward[k];
+        if (g[0] == 0 && g[1] == 0 && g[2] == 0) {
+            clip->line[k][0] = clip->line[k][1] = 0, clip->line[k][2] = 1;
+            continue;
+        }
+        const ewa_vec3 toward = vec3_make((double)g[0], (double)g[1], (double)g[2]);
+        set_clip_line(clip->line[k], turn(view, toward, 1), (double)view->scale * (double)from->offset[k],
+                      normal, center, view, tile);
+    }
+}
+
 bool ewa_near_record_set(ewa_near_record *record, const ewa_surfels *surfels, uint32_t surfel,
                          const ewa_view *view, const ewa_tile *tile) {
     ewa_packet_surfel s;
-    ewa_packet_decode(surfels, &surfels->packets[surfel / EWA_PACKET_LANES], surfel % EWA_PACKET_LANES, &s);
+    ewa_packet_decode(surfels, surfel / EWA_PACKET_LANES, surfel % EWA_PACKET_LANES, &s);
     const double scale = (double)view->scale;
     const ewa_vec3 u = turn(view, s.axis_u, scale), v = turn(view, s.axis_v, scale),
                    n = turn(view, s.normal, 1);
@@ -174,10 +225,19 @@ bool ewa_near_record_set(ewa_near_record *record, const ewa_surfels *surfels, ui
         fmin((double)view->reach_px * per_px, EWA_GRAZING_TOLERANCE * surfels->cutoff * sigma);
     record->tolerance = (float)((double)view->tolerance * sigma + (double)view->grazing * grazing);
     const ewa_vec3 toward = vec3_scale(n, plane > 0 ? -1 : 1); // normals face the viewer
-    const double normal[3] = {toward.x, toward.y, toward.z};
+    const double normal[3] = {toward.x, toward.y, toward.z}, opacity = tile->with_opacity ? s.opacity : 1;
     for (int i = 0; i < 3; i++) {
-        record->color[i] = (float)s.color[i];
+        record->color[i] = (float)(s.color[i] * opacity);
         record->normal[i] = (float)normal[i];
+    }
+    record->opacity = (float)opacity;
+    const uint32_t packet = surfel / EWA_PACKET_LANES, lane = surfel % EWA_PACKET_LANES;
+    record->clipped = surfels->clip_masks && surfels->clip_masks[packet] >> lane & 1;
+    if (record->clipped) {
+        const ewa_clipped splat = {.surfel = surfel,
+                                   .center = {(float)p.x, (float)p.y, (float)p.z},
+                                   .normal = {(float)n.x, (float)n.y, (float)n.z}};
+        ewa_clip_set(&record->clip, surfels, &splat, view, tile);
     }
     return true;
 }

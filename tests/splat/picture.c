@@ -176,3 +176,30 @@ void picture_print(const char *name, const picture_report *report) {
         (unsigned long long)report->edge_over_count, (unsigned long long)report->edge_count, report->color,
         report->depth, report->coverage, report->normal, report->worst_px[0], report->worst_px[1]);
 }
+
+scene picture_measured_scene(ewa_context *context, scene_kind kind, uint64_t points,
+                             const ewa_surfels_options *options) {
+    scene made;
+    assert_int_equal(scene_make(context, kind, points, PICTURE_SIDE_PX, PICTURE_SIDE_PX, &made), EWA_OK);
+    ewa_surfels *surfels = NULL;
+    assert_int_equal(ewa_surfels_create(made.cloud, options, &surfels), EWA_OK);
+    ewa_surfels_info info;
+    ewa_surfels_describe(surfels, &info);
+    made.unit_coverage = info.unit_coverage;
+    ewa_surfels_destroy(&surfels);
+    return made;
+}
+
+picture picture_draw(ewa_context *context, const ewa_cloud *cloud, const ewa_camera *camera,
+                     const ewa_surfels_options *surfels_options, const ewa_render_options *options) {
+    ewa_surfels *surfels = NULL;
+    ewa_renderer *renderer = NULL;
+    picture made = picture_make(camera->width_px, camera->height_px);
+    assert_int_equal(ewa_surfels_create(cloud, surfels_options, &surfels), EWA_OK);
+    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    for (int frame = 0; frame < 2; frame++) // the second frame runs in warm memory
+        assert_int_equal(ewa_render(renderer, surfels, camera, options, &made.frame, NULL), EWA_OK);
+    ewa_renderer_destroy(&renderer);
+    ewa_surfels_destroy(&surfels);
+    return made;
+}

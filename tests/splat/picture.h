@@ -21,6 +21,16 @@ void picture_free(picture *made);
 picture picture_of_scene(const scene *of, const ewa_surfels_options *surfels_options,
                          const ewa_render_options *options);
 
+enum { PICTURE_SIDE_PX = 256 };
+
+/// A scene of that size whose q0 is the one that the surfels measure.
+scene picture_measured_scene(ewa_context *context, scene_kind kind, uint64_t points,
+                             const ewa_surfels_options *options);
+
+/// The fast road's picture of a cloud; fails the test on errors.
+picture picture_draw(ewa_context *context, const ewa_cloud *cloud, const ewa_camera *camera,
+                     const ewa_surfels_options *surfels_options, const ewa_render_options *options);
+
 /// Pixels where a tiny difference of arithmetic may change which surfels take part.
 enum {
     PICTURE_ON_CUTOFF = 1, ///< some visible surfel's r^2 is within a band of F^2

@@ -170,8 +170,8 @@ static void test_discs_equal_surfels(void **state) {
     assert_int_equal(discs->count, surfels->count);
     for (uint32_t i = 0; i < discs->count; i++) {
         ewa_packet_surfel a, b;
-        ewa_packet_decode(discs, &discs->packets[i / 16], i % 16, &a);
-        ewa_packet_decode(surfels, &surfels->packets[i / 16], i % 16, &b);
+        ewa_packet_decode(discs, (uint32_t)(i / 16), i % 16, &a);
+        ewa_packet_decode(surfels, (uint32_t)(i / 16), i % 16, &b);
         assert_memory_equal(&a.center, &b.center, sizeof a.center);
         assert_memory_equal(a.color, b.color, sizeof a.color);
         assert_true(vec3_dot(a.normal, b.normal) > 1 - 1e-8);
@@ -201,7 +201,7 @@ static void test_normals_are_kept(void **state) {
         borrow(cloud, EWA_RADIUS, EWA_F32, 1, &radius, 0);
         ewa_surfels *surfels = make_surfels(cloud);
         ewa_packet_surfel surfel;
-        ewa_packet_decode(surfels, &surfels->packets[0], 0, &surfel);
+        ewa_packet_decode(surfels, (uint32_t)(0), 0, &surfel);
         ewa_vec3 given = vec3_make((double)normal[0], (double)normal[1], (double)normal[2]);
         assert_true(vec3_normalize(&given));
         assert_true(vec3_length(vec3_sub(surfel.normal, given)) < 1e-4);
@@ -223,7 +223,7 @@ static void test_bounds_hold(void **state) {
     for (uint32_t i = 0; i < surfels->count; i++) {
         const uint32_t p = i / 16;
         ewa_packet_surfel s;
-        ewa_packet_decode(surfels, &surfels->packets[p], i % 16, &s);
+        ewa_packet_decode(surfels, (uint32_t)(p), i % 16, &s);
         const ewa_vec3 center =
             vec3_make((double)b->center_x[p], (double)b->center_y[p], (double)b->center_z[p]);
         const ewa_vec3 axis = vec3_make((double)b->axis_x[p], (double)b->axis_y[p], (double)b->axis_z[p]);

@@ -9,37 +9,9 @@
 #include <math.h>
 #include <string.h>
 
-enum { SIDE_PX = 256, POINTS = 6000 };
+enum { SIDE_PX = PICTURE_SIDE_PX, POINTS = 6000 };
 
 static const double THRESHOLD = 1e-3;
-
-/// A scene whose q0 is the one that the surfels measure.
-static scene measured_scene(ewa_context *context, scene_kind kind, uint64_t points,
-                            const ewa_surfels_options *options) {
-    scene made;
-    assert_int_equal(scene_make(context, kind, points, SIDE_PX, SIDE_PX, &made), EWA_OK);
-    ewa_surfels *surfels = NULL;
-    assert_int_equal(ewa_surfels_create(made.cloud, options, &surfels), EWA_OK);
-    ewa_surfels_info info;
-    ewa_surfels_describe(surfels, &info);
-    made.unit_coverage = info.unit_coverage;
-    ewa_surfels_destroy(&surfels);
-    return made;
-}
-
-static picture draw(ewa_context *context, const ewa_cloud *cloud, const ewa_camera *camera,
-                    const ewa_surfels_options *surfels_options, const ewa_render_options *options) {
-    ewa_surfels *surfels = NULL;
-    ewa_renderer *renderer = NULL;
-    picture made = picture_make(camera->width_px, camera->height_px);
-    assert_int_equal(ewa_surfels_create(cloud, surfels_options, &surfels), EWA_OK);
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
-    for (int frame = 0; frame < 2; frame++) // the second frame runs in warm memory
-        assert_int_equal(ewa_render(renderer, surfels, camera, options, &made.frame, NULL), EWA_OK);
-    ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&surfels);
-    return made;
-}
 
 /// What the packets' 16-bit normals may do to pixels of surfels seen edge-on, whose weight is proportional to
 /// the small n.p: so much, in so many pixels. Their share grows as 1 / (sigma h): 21 pixels of the sphere.
@@ -50,7 +22,7 @@ static const double GRAZING_ERROR = 4e-3, GRAZING_SHARE = 4e-4;
 static void hold(scene_kind kind, const ewa_surfels_options *surfels_options,
                  const ewa_render_options *options, bool orthographic, const char *what) {
     ewa_context *context = check_context(0, NULL);
-    scene of = measured_scene(context, kind, POINTS, surfels_options);
+    scene of = picture_measured_scene(context, kind, POINTS, surfels_options);
     if (orthographic) {
         ewa_bounds bounds;
         const double direction[3] = {0.3, 0.8, -0.5}, up[3] = {0, 0, 1};
@@ -59,7 +31,7 @@ static void hold(scene_kind kind, const ewa_surfels_options *surfels_options,
         assert_int_equal(ewa_camera_frame(&of.camera, &bounds, direction, up, 0.05), EWA_OK);
     }
     picture reference = picture_of_scene(&of, surfels_options, options);
-    picture fast = draw(context, of.cloud, &of.camera, surfels_options, options);
+    picture fast = picture_draw(context, of.cloud, &of.camera, surfels_options, options);
     uint8_t *mask = calloc(SIDE_PX, SIDE_PX);
     picture_mark_edges(&of, surfels_options, options, 2e-3, 1e-3, mask);
     const picture_report report = picture_compare(&reference, &fast, THRESHOLD, mask);
@@ -192,7 +164,7 @@ static void test_same_bytes_of_every_kernel(void **state) {
                 ewa_context *context = context_of(1 + (uint32_t)i, masks[i]);
                 scene of;
                 assert_int_equal(scene_make(context, kinds[k], POINTS / 4, 101, 97, &of), EWA_OK);
-                picture made = draw(context, of.cloud, &of.camera, NULL, &options);
+                picture made = picture_draw(context, of.cloud, &of.camera, NULL, &options);
                 if (i == 0) {
                     first = made;
                 } else {
@@ -220,9 +192,9 @@ static void test_source_is_affine(void **state) {
         options.edge_layers = 1;
         assert_int_equal(scene_make(context, (scene_kind)kind, POINTS, SIDE_PX, SIDE_PX, &of), EWA_OK);
         options.kernel = EWA_KERNEL_AFFINE;
-        picture affine = draw(context, of.cloud, &of.camera, NULL, &options);
+        picture affine = picture_draw(context, of.cloud, &of.camera, NULL, &options);
         options.kernel = EWA_KERNEL_SOURCE;
-        picture source = draw(context, of.cloud, &of.camera, NULL, &options);
+        picture source = picture_draw(context, of.cloud, &of.camera, NULL, &options);
         uint8_t *mask = calloc(SIDE_PX, SIDE_PX);
         of.unit_coverage = 1;
         picture_mark_edges(&of, NULL, &options, 1e-4, 1e-4, mask);
@@ -254,7 +226,7 @@ static void test_same_bytes_on_all_threads_and_instruction_sets(void **state) {
             scene of;
             // Small, because plain C under sanitizers takes its time.
             assert_int_equal(scene_make(context, (scene_kind)kind, POINTS / 4, 101, 97, &of), EWA_OK);
-            picture made = draw(context, of.cloud, &of.camera, NULL, NULL);
+            picture made = picture_draw(context, of.cloud, &of.camera, NULL, NULL);
             if (i == 0) {
                 first = made;
             } else {
@@ -298,8 +270,8 @@ static void test_order_of_points_does_not_matter(void **state) {
         uint64_t step = 1009; // a prime that does not divide the count
         while (ewa_cloud_point_count(of.cloud) % step == 0) step += 2;
         ewa_cloud *same = reordered(of.cloud, 1), *other = reordered(of.cloud, step);
-        picture a = draw(context, same, &of.camera, NULL, NULL),
-                b = draw(context, other, &of.camera, NULL, NULL);
+        picture a = picture_draw(context, same, &of.camera, NULL, NULL),
+                b = picture_draw(context, other, &of.camera, NULL, NULL);
         assert_same_bytes(&a, &b);
         picture_free(&a);
         picture_free(&b);
@@ -323,7 +295,7 @@ static void test_crowded_tile_holds(void **state) {
     of.unit_coverage = info.unit_coverage;
     ewa_surfels_destroy(&surfels);
     picture reference = picture_of_scene(&of, NULL, NULL),
-            fast = draw(context, of.cloud, &of.camera, NULL, NULL);
+            fast = picture_draw(context, of.cloud, &of.camera, NULL, NULL);
     const picture_report report = picture_compare(&reference, &fast, THRESHOLD, NULL);
     picture_print("crowded tile", &report);
     assert_true(report.over_count <= 10 && report.color < GRAZING_ERROR);
@@ -347,7 +319,7 @@ static void test_empty_and_lonely(void **state) {
         ewa_camera_init(&camera, sizeof camera);
         camera.width_px = 65, camera.height_px = 63;
         assert_int_equal(ewa_camera_set_fov(&camera, 40), EWA_OK);
-        picture made = draw(context, cloud, &camera, NULL, NULL);
+        picture made = picture_draw(context, cloud, &camera, NULL, NULL);
         const size_t middle = 31 * 65 + 32;
         assert_true(made.frame.rgba[4 * middle + 3] == (float)count); // a lone disc is opaque in its middle
         assert_true(made.frame.rgba[3] == 0 && isinf(made.frame.depth[0]));

@@ -1,0 +1,247 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Transparent surfaces (math.md section 8): known answers, the fast road against the reference, order.
+#include "tests/splat/picture.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { POINTS = 4000, SIDE = 96 };
+
+/// Gives a cloud 8-bit colours with random alpha from `least` on; `step` > 1 also leaves every step-th point
+/// clear.
+static void add_alpha(ewa_cloud *cloud, int least, uint64_t step) {
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    const ewa_attribute *color = ewa_cloud_find(cloud, EWA_COLOR);
+    uint8_t *rgba = NULL, *copy = malloc(4 * count);
+    assert_non_null(copy);
+    check_random random = {7};
+    const double scale = color && color->type == EWA_F32 ? 255 : 1;
+    for (uint64_t i = 0; i < count; i++) {
+        double rgb[4] = {128, 128, 128, 255};
+        if (color) ewa_attribute_read_f64(color, i, 1, rgb);
+        for (int c = 0; c < 3; c++) copy[4 * i + (size_t)c] = (uint8_t)(scale * rgb[c]);
+        copy[4 * i + 3] = i % step == 1 ? 0 : (uint8_t)check_uniform(&random, least, 255.99);
+    }
+    if (color) ewa_cloud_remove(cloud, EWA_COLOR);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 4, (void **)&rgba), EWA_OK);
+    memcpy(rgba, copy, 4 * count);
+    free(copy);
+}
+
+static void hold(scene_kind kind, const ewa_render_options *options, int least_alpha, bool orthographic,
+                 const char *what) {
+    ewa_context *context = check_context(0, NULL);
+    scene of = picture_measured_scene(context, kind, POINTS, NULL);
+    if (least_alpha < 255) add_alpha(of.cloud, least_alpha, 9);
+    if (orthographic) {
+        ewa_bounds bounds;
+        const double direction[3] = {0.3, 0.8, -0.5}, up[3] = {0, 0, 1};
+        assert_int_equal(ewa_cloud_measure(of.cloud, &bounds), EWA_OK);
+        assert_int_equal(ewa_camera_set_ortho(&of.camera, 1), EWA_OK);
+        assert_int_equal(ewa_camera_frame(&of.camera, &bounds, direction, up, 0.05), EWA_OK);
+    }
+    picture reference = picture_of_scene(&of, NULL, options);
+    picture fast = picture_draw(context, of.cloud, &of.camera, NULL, options);
+    const picture_report report = picture_compare(&reference, &fast, 2e-3, NULL);
+    char name[96];
+    snprintf(name, sizeof name, "%s, %s", scene_name(kind), what);
+    picture_print(name, &report);
+    // Every layer has cutoffs and ties of its own.
+    assert_true(report.over_count * 200 < report.pixel_count);
+    picture_free(&reference);
+    picture_free(&fast);
+    scene_free(&of);
+    ewa_context_destroy(&context);
+}
+
+static void test_road_holds(void **state) {
+    (void)state;
+    static const scene_kind kinds[] = {SCENE_SPHERE, SCENE_TORUS, SCENE_ELLIPSES, SCENE_NEAR};
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
+        ewa_render_options o;
+        ewa_render_options_init(&o, sizeof o);
+        hold(kinds[i], &o, 0, false, "alpha");
+        o.opacity = 0.4;
+        hold(kinds[i], &o, 255, false, "opacity 0.4");
+        hold(kinds[i], &o, 50, false, "alpha and opacity");
+        o.layers = 2;
+        hold(kinds[i], &o, 0, false, "two layers");
+        o.layers = 3, o.shading = EWA_SHADING_NONE, o.edge_antialiasing = false;
+        hold(kinds[i], &o, 255, false, "three layers, no edges, no shading");
+        o.layers = 1;
+        hold(kinds[i], &o, 0, false, "one layer");
+    }
+    ewa_render_options o;
+    ewa_render_options_init(&o, sizeof o);
+    o.opacity = 0.3;
+    hold(SCENE_TORUS, &o, 30, true, "orthographic");
+    hold(SCENE_ELLIPSES, &o, 255, true, "orthographic");
+}
+
+/// Sheets of discs at depths 2, 3, 4 ... in front of a camera, with a colour each.
+static ewa_cloud *make_sheets(ewa_context *context, uint32_t sheet_count, const uint8_t rgba[][4]) {
+    enum { ROW = 60 };
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_cloud_create(context, (uint64_t)sheet_count * ROW * ROW, &cloud), EWA_OK);
+    float *position = NULL, *normal = NULL, *radius = NULL;
+    uint8_t *color = NULL;
+    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&position), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, (void **)&normal), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, (void **)&radius), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 4, (void **)&color), EWA_OK);
+    size_t i = 0;
+    for (uint32_t k = 0; k < sheet_count; k++) {
+        const float z = 2 + (float)k, spacing = 2 * z / ROW;
+        for (int y = 0; y < ROW; y++)
+            for (int x = 0; x < ROW; x++, i++) {
+                position[3 * i] = ((float)x + 0.5f - ROW / 2) * spacing;
+                position[3 * i + 1] = ((float)y + 0.5f - ROW / 2) * spacing;
+                position[3 * i + 2] = z;
+                normal[3 * i] = normal[3 * i + 1] = 0, normal[3 * i + 2] = -1;
+                radius[i] = 1.2f * spacing;
+                memcpy(&color[4 * i], rgba[k], 4);
+            }
+    }
+    return cloud;
+}
+
+static ewa_camera sheet_camera(void) {
+    ewa_camera camera;
+    ewa_camera_init(&camera, sizeof camera);
+    camera.width_px = camera.height_px = SIDE;
+    assert_int_equal(ewa_camera_set_fov(&camera, 40), EWA_OK);
+    return camera;
+}
+
+/// Colours over each other in front-to-back order, whatever the number of layers allows; a layer's own alpha
+/// is that of its surfels times the opacity.
+static void test_sheets_over_each_other(void **state) {
+    (void)state;
+    static const uint8_t rgba[4][4] = {
+        {255, 0, 0, 51}, {0, 255, 0, 102}, {0, 0, 255, 204}, {255, 255, 255, 255}};
+    ewa_context *context = check_context(0, NULL);
+    ewa_cloud *cloud = make_sheets(context, 4, rgba);
+    const ewa_camera camera = sheet_camera();
+    for (uint32_t layers = 1; layers <= 6; layers++) {
+        ewa_render_options o;
+        ewa_render_options_init(&o, sizeof o);
+        o.shading = EWA_SHADING_NONE;
+        o.layers = layers == 6 ? EWA_LAYERS_EXACT : layers;
+        o.opacity = 0.5;
+        double expected[4] = {0}, through = 1;
+        for (uint32_t k = 0; k < 4 && layers > 1; k++) {
+            double color[3] = {0}, weight = 0, alpha = 0, sheets = 0;
+            const bool merged = layers < 5 && k + 1 == layers; // the last layer is all that is left
+            for (uint32_t j = k; j < (merged ? 4 : k + 1); j++) {
+                const double a = rgba[j][3] / 255.0;
+                for (int c = 0; c < 3; c++) color[c] += a * (rgba[j][c] / 255.0);
+                weight += a, sheets += 1;
+            }
+            alpha = o.opacity * weight / sheets;
+            for (int c = 0; c < 3; c++) expected[c] += through * alpha * color[c] / weight;
+            through *= 1 - alpha;
+            if (merged) break;
+        }
+        expected[3] = 1 - through;
+        if (layers == 1) expected[0] = 1, expected[3] = 1; // opaque red
+        picture made = picture_draw(context, cloud, &camera, NULL, &o);
+        // The sheets' sums of kernels ripple by some percent, and with them a merged layer's shares.
+        const double allowed = layers > 1 && layers < 4 ? 0.03 : 1e-4;
+        for (int y = 20; y < SIDE - 20; y++)
+            for (int x = 20; x < SIDE - 20; x++)
+                for (int c = 0; c < 4; c++)
+                    assert_true(fabs((double)made.frame.rgba[4 * (y * SIDE + x) + c] - expected[c]) <
+                                allowed);
+        picture_free(&made);
+    }
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
+/// A transparent sphere's middle has even opacity: 1 - (1 - a)^2.
+static void test_sphere_is_even(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    scene of = picture_measured_scene(context, SCENE_SPHERE, 20000, NULL);
+    ewa_render_options o;
+    ewa_render_options_init(&o, sizeof o);
+    o.opacity = 0.3;
+    picture made = picture_draw(context, of.cloud, &of.camera, NULL, &o);
+    const double expected = 1 - 0.7 * 0.7;
+    double sum2 = 0, least = 1, most = 0;
+    int count = 0;
+    for (int y = PICTURE_SIDE_PX / 2 - 30; y < PICTURE_SIDE_PX / 2 + 30; y++)
+        for (int x = PICTURE_SIDE_PX / 2 - 30; x < PICTURE_SIDE_PX / 2 + 30; x++, count++) {
+            const double alpha = (double)made.frame.rgba[4 * (y * PICTURE_SIDE_PX + x) + 3];
+            least = fmin(least, alpha), most = fmax(most, alpha);
+            sum2 += (alpha - expected) * (alpha - expected);
+        }
+    printf("variance of alpha over a transparent sphere's middle: %.2g, from %.4f to %.4f\n", sum2 / count,
+           least, most);
+    // A few pixels of random points are not quite covered.
+    assert_true(sum2 / count < 1e-5 && most < expected + 1e-4);
+    picture_free(&made);
+    scene_free(&of);
+    ewa_context_destroy(&context);
+}
+
+static void assert_same(const picture *a, const picture *b) {
+    const size_t pixels = (size_t)a->width_px * a->height_px;
+    assert_memory_equal(a->frame.rgba8, b->frame.rgba8, 4 * pixels);
+    assert_memory_equal(a->frame.rgba, b->frame.rgba, 16 * pixels);
+    assert_memory_equal(a->frame.depth, b->frame.depth, 4 * pixels);
+}
+
+/// The same bytes from every instruction set, any number of threads, and the points in reverse.
+static void test_same_bytes(void **state) {
+    (void)state;
+    static const uint32_t threads[] = {1, 2, 7}, masks[] = {UINT32_MAX, EWA_CPU_AVX2, 0};
+    ewa_context *context = check_context(0, NULL);
+    scene of = picture_measured_scene(context, SCENE_TORUS, POINTS, NULL);
+    add_alpha(of.cloud, 20, 5);
+    ewa_render_options o;
+    ewa_render_options_init(&o, sizeof o);
+    o.opacity = 0.7;
+    picture first = picture_draw(context, of.cloud, &of.camera, NULL, &o);
+    for (int i = 0; i < 9; i++) {
+        ewa_context_options options;
+        ewa_context_options_init(&options, sizeof options);
+        options.thread_count = threads[i % 3];
+        options.cpu_mask = masks[i / 3];
+        ewa_context *other = NULL;
+        assert_int_equal(ewa_context_create(&options, &other), EWA_OK);
+        ewa_cloud *reversed = NULL;
+        const uint64_t count = ewa_cloud_point_count(of.cloud);
+        assert_int_equal(ewa_cloud_create(other, count, &reversed), EWA_OK);
+        for (uint32_t a = 0; a < ewa_cloud_attribute_count(of.cloud); a++) {
+            const ewa_attribute *from = ewa_cloud_attribute_at(of.cloud, a);
+            char *to = NULL;
+            assert_int_equal(
+                ewa_cloud_add(reversed, from->name, from->type, from->component_count, (void **)&to), EWA_OK);
+            const size_t bytes = from->component_count * ewa_type_bytes(from->type);
+            for (uint64_t k = 0; k < count; k++)
+                memcpy(to + k * bytes, (const char *)from->data + (count - 1 - k) * from->stride_bytes,
+                       bytes);
+        }
+        picture made = picture_draw(other, reversed, &of.camera, NULL, &o);
+        assert_same(&first, &made);
+        picture_free(&made);
+        ewa_cloud_destroy(&reversed);
+        ewa_context_destroy(&other);
+    }
+    picture_free(&first);
+    scene_free(&of);
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_sheets_over_each_other),
+        cmocka_unit_test(test_sphere_is_even),
+        cmocka_unit_test(test_same_bytes),
+        cmocka_unit_test(test_road_holds),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
