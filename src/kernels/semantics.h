@@ -26,12 +26,18 @@
 // Without a prefilter a splat with |V'| < EWA_FLAT V'11 V'22 is a line: it covers no pixel.
 //
 // Other kernels of the affine map (orthographic: of the same ellipse):
-//   source: u = (x - c) J^-1, W = I + h^2 J^-T J^-1, r^2 = u W^-1 u', weight = exp(-r^2 / 2) / (2 pi
-//   sqrt|W|). It needs the inverse: a surfel with |V| < EWA_FLAT V11 V22 or sqrt|V| < EWA_LEAST_AREA is
-//   dropped. circular: V' is replaced by its larger eigenvalue times I, |V| stays. raycast (perspective
-//   cameras; orthographic ones see the affine kernel): V' = w^2 V + h^2 I and |V| w^4 for |V|, w(x) = pz /
-//   z(x), clamped to [pz / (pz + R), pz / (pz - R)], what it is on the disc. Since u = (x - c) J^-1 / w is
-//   the projective map, r^2 = u.u without a prefilter. A surfel with |n.p| < EWA_EDGE_ON |p| is dropped.
+//
+// Source: u = (x - c) J^-1, W = I + h^2 J^-T J^-1, r^2 = u W^-1 u', weight = exp(-r^2 / 2) / (2 pi sqrt|W|).
+// It needs the inverse: a surfel with |V| < EWA_FLAT V11 V22 or sqrt|V| < EWA_LEAST_AREA is dropped.
+//
+// Circular: V' is replaced by its larger eigenvalue l times I, |V| stays. The circle reaches far beyond a
+// disc that is seen at a grazing angle: m below is larger by min(F sqrt(l) g, EWA_GRAZING_TOLERANCE F
+// s), and the key goes no lower than EWA_LEAST_KEY / pz.
+//
+// Raycast (perspective cameras; orthographic ones see the affine kernel): V' = w^2 V + h^2 I and |V| w^4 for
+// |V|, w(x) = pz / z(x), clamped to [pz / (pz + R), pz / (pz - R)], what it is on the disc. Since u = (x - c)
+// J^-1 / w is the projective map, r^2 = u.u without a prefilter. A surfel with |n.p| < EWA_EDGE_ON |p| is
+// dropped.
 //
 // Depth (both): key(x) = 1/z(x) = 1/pz + n.(d(x) - p/pz) / n.p with |n.p| raised to EWA_EDGE_ON |p| where
 // smaller (sign kept, + for 0); orthographic: key(x) = -z(x) = -pz + ((x - px) nx/fx + (y - py) ny/fy) / nz
@@ -89,6 +95,9 @@
 
 /// Smallest |V'| / (V'11 V'22) that counts as an area.
 #define EWA_FLAT 1e-14
+
+/// Smallest key of circular splats times pz: their z goes up to 16 pz.
+#define EWA_LEAST_KEY 0.0625
 
 /// Smallest sqrt|V| that the source kernel inverts, in square pixels.
 #define EWA_LEAST_AREA     1e-15
