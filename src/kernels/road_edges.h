@@ -320,15 +320,30 @@ static void edge_take_all(const ewa_tile *tile, const ewa_edges *edges) {
         }
 }
 
+/// Alpha of a layer that is all that is left, from that of one surface and the coverage (semantics.h,
+/// layers).
+static ALWAYS_INLINE wf merged_alpha(wf alpha, wf coverage) {
+    const wf zero = wf_set(0), one = wf_set(1);
+    wf through = wf_sub(one, alpha);
+    for (int i = 1; i < EWA_MERGED_SURFACES; i++) {
+        const wf share = wf_min(wf_max(wf_fma(coverage, wf_set(4), wf_set((float)(-4 * i - 2))), zero), one);
+        if (!wm_bits(wf_lt(zero, share))) break;
+        through = wf_mul(through, wf_sub(one, wf_mul(alpha, share)));
+    }
+    return wf_sub(one, through);
+}
+
 /// Composites one block's gathered surface under what is in front of it; returns the pixels that stay open.
-static wm compose_block(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges *edges, uint32_t row,
-                        uint32_t column) {
+static wm compose_block(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges *edges, bool merged,
+                        uint32_t row, uint32_t column) {
     enum { LANES = EWA_BLOCK_LANES };
     const size_t block = block_at(tile, row, column);
     const float *sums = edges->sums + block * tile->channel_count * LANES;
     const wf scale = color_scale(tile, to, sums, (uint32_t)tile->x_px + column * EWA_BLOCK_PX,
                                  (uint32_t)tile->y_px + row * EWA_BLOCK_PX);
-    const surface found = gathered_surface(tile, to, sums, scale);
+    surface found = gathered_surface(tile, to, sums, scale);
+    if (merged)
+        found.alpha = merged_alpha(found.alpha, wf_mul(wf_load(sums), wf_set(to->unit_coverage_inverse)));
     float *behind = edges->behind + block * 4 * LANES;
     const wf covered = wf_load(behind + 3 * LANES);
     const wf share = wf_mul(wf_sub(wf_set(1), covered), found.alpha);
@@ -339,13 +354,14 @@ static wm compose_block(const ewa_tile *tile, const ewa_resolve *to, const ewa_e
     return wm_and(wf_lt(wf_set(0), wf_load(sums)), wf_lt(total, wf_set(1)));
 }
 
-static uint32_t edge_compose(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges *edges) {
+static uint32_t edge_compose(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges *edges,
+                             bool merged) {
     uint32_t count = 0;
     for (uint32_t row = 0; row < tile->block_rows; row++) {
         for (uint32_t marked = edges->rows[row]; marked; marked &= marked - 1) {
             const uint32_t column = (uint32_t)__builtin_ctz(marked);
             const size_t block = block_at(tile, row, column);
-            const wm open = compose_block(tile, to, edges, row, column);
+            const wm open = compose_block(tile, to, edges, merged, row, column);
             if (wm_bits(open)) {
                 start_surface(tile, edges, block, open, wf_load(edges->nearest + block * EWA_BLOCK_LANES));
                 count++;

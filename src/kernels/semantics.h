@@ -49,6 +49,12 @@
 // same rules, and so on up to edge_layers surfaces, composited front to back before the background; depth,
 // normal and coverage are the first one's. One layer is math.md section 7, where the background shines
 // through silhouettes inside the object.
+//
+// Layers: with opacity or alpha below 1 the same, alpha being multiplied by the surface's opacity. With L
+// layers the last is the splats of all surfaces that are left. How many those are is what their coverage k =
+// q / q0 says: alpha becomes 1 - (1 - alpha) prod (1 - alpha share_i), share_i = clamp(4 (k - i) - 2, 0, 1),
+// i = 1, 2, ... below EWA_MERGED_SURFACES. A surface more counts from half of one on, not earlier, so that
+// the ripple of a single surface's coverage does not show.
 #ifndef EWA_SRC_KERNELS_SEMANTICS_H
 #define EWA_SRC_KERNELS_SEMANTICS_H
 
@@ -74,6 +80,9 @@
 #define EWA_FLAT           1e-14
 
 #define EWA_INVERSE_TWO_PI 0.15915494309189535
+
+/// Surfaces that a merged layer stands for at most.
+#define EWA_MERGED_SURFACES 64
 
 /// Linear colour of surfels that have none.
 #define EWA_DEFAULT_GREY 0.6
