@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SIDE = 400, POINTS = 40000, SPHERE_POINTS = 20000, LIMITS = 4, PANEL = 200, PANELS = 5 };
+enum { SIDE = 320, POINTS = 40000, SPHERE_POINTS = 20000, LIMITS = 4, PANEL = SIDE / 2 };
 
 static const uint32_t limits[LIMITS] = {1, 2, 3, 8};
 static const double OPACITY = 0.5;
@@ -118,7 +118,7 @@ static void measure_crossing(ewa_context *context, const char *folder) {
     check(layers_shuffle(cloud, &shuffled));
     subject of = subject_make(context, cloud);
     float *exact = make_plane(), *layers = make_plane(), *greedy = make_plane(), *other = make_plane();
-    float *wide = calloc((size_t)PANELS * PANEL * 2 * PANEL, 4 * sizeof *wide);
+    float *wide = calloc((size_t)LIMITS * PANEL * 2 * PANEL, 4 * sizeof *wide);
     if (!wide) check(EWA_ERROR_MEMORY);
     const ewa_frame frame = {.rgba = exact};
     check(ewa_render_reference(cloud, NULL, of.info.unit_coverage, &of.camera, &of.options, &frame));
@@ -131,18 +131,16 @@ static void measure_crossing(ewa_context *context, const char *folder) {
         printf("| %u | %.1f | %.1f | %.1f | %.1f |\n", limits[i], psnr_db(context, exact, layers),
                psnr_db(context, exact, greedy), psnr_db(context, exact, other),
                psnr_db(context, greedy, other));
-        put_panel(layers, wide, PANELS, i, 0);
-        put_panel(other, wide, PANELS, i, 1);
+        put_panel(layers, wide, LIMITS, i, 0);
+        put_panel(other, wide, LIMITS, i, 1);
     }
     draw(&of, EWA_LAYERS_EXACT, layers);
     draw_greedy(&of, cloud, 32, greedy);
     draw_greedy(&of, shuffled, 32, other);
     printf("| exact, 32 | %.1f | %.1f | %.1f | %.1f |\n\n", psnr_db(context, exact, layers),
            psnr_db(context, exact, greedy), psnr_db(context, exact, other), psnr_db(context, greedy, other));
-    put_panel(layers, wide, PANELS, LIMITS, 0);
-    put_panel(other, wide, PANELS, LIMITS, 1);
     save(context, folder, "layers_crossing.png", layers, SIDE, SIDE);
-    save(context, folder, "layers_greedy.png", wide, PANELS * PANEL, 2 * PANEL);
+    save(context, folder, "layers_greedy.png", wide, LIMITS * PANEL, 2 * PANEL);
     free(wide);
     free(exact);
     free(layers);
