@@ -9,13 +9,13 @@
 
 #include <stdlib.h>
 
-enum { WARM_FRAMES = 2, MAX_WAYS = 5 };
+enum { WARM_FRAMES = 2, MAX_WAYS = 6 };
 
 /// A way of drawing that costs more or less than another.
 typedef struct bench_way {
     const char *name;
     double opacity;
-    uint32_t layers;
+    uint32_t layers, edge_layers; ///< 0: the default, as the command line says
     bool without_edges, without_light;
 } bench_way;
 
@@ -24,6 +24,7 @@ static const bench_way all_ways[MAX_WAYS] = {
     {.name = "opaque", .opacity = 1},
     {.name = "3 layers", .opacity = 0.5, .layers = 3},
     {.name = "exact", .opacity = 0.5, .layers = EWA_LAYERS_EXACT},
+    {.name = "1 edge layer", .opacity = 1, .edge_layers = 1},
     {.name = "no edges", .opacity = 1, .without_edges = true},
     {.name = "no light", .opacity = 1, .without_light = true},
 };
@@ -81,6 +82,7 @@ static bool draw_frame(cli_session *session, bench_lane *lane, const ewa_camera 
     if (lane->way) {
         options.opacity = lane->way->opacity;
         options.layers = lane->way->layers;
+        if (lane->way->edge_layers) options.edge_layers = lane->way->edge_layers;
         if (lane->way->without_edges) options.edge_antialiasing = false;
         if (lane->way->without_light) options.shading = EWA_SHADING_NONE;
     }

@@ -285,6 +285,8 @@ bool bench_scene_make(cli_session *session, bench_scene_kind kind, uint64_t poin
     if (kind == BENCH_PEER)
         snprintf(scene->label, sizeof scene->label, "%s %.4g M %ux%u", scene->name,
                  1e-6 * (double)point_count, size->width_px, size->height_px);
+    else if (kind == BENCH_LAYERS)
+        snprintf(scene->label, sizeof scene->label, "%s %.4g M", scene->name, 1e-6 * (double)point_count);
     else
         snprintf(scene->label, sizeof scene->label, "%s %.4g M of %.3g px", scene->name,
                  1e-6 * (double)point_count, scene->covered_px);

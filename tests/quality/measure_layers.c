@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SIDE = 320, POINTS = 40000, SPHERE_POINTS = 20000, LIMITS = 4, PANEL = SIDE / 2 };
+enum { SIDE = 300, POINTS = 40000, SPHERE_POINTS = 20000, LIMITS = 4, PANEL = SIDE / 2 };
 
 static const uint32_t limits[LIMITS] = {1, 2, 3, 8};
 static const double OPACITY = 0.5;
