@@ -27,6 +27,7 @@ awk -v have_data="${EWA_DATA:+1}" -v have_ffmpeg="$have_ffmpeg" '
 
 ewa() { "$program" "$@"; }
 frustum() { "$(dirname "$program")/../examples/frustum" "$@"; }
+measure_layers() { "$(dirname "$program")/../tests/quality/measure_layers" "$@"; }
 cd "$work"
 set -x
 . ./commands
