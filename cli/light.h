@@ -5,7 +5,7 @@
 #ifndef EWA_CLI_LIGHT_H
 #define EWA_CLI_LIGHT_H
 
-#include "view.h"
+#include "frames.h"
 
 /// Options of shading.
 typedef struct light_arguments {
@@ -16,8 +16,8 @@ typedef struct light_arguments {
     option_vector environment_up;
 } light_arguments;
 
-/// Where a command's arguments have them: right after the view_arguments that they begin with.
-enum { LIGHT_OFFSET = sizeof(view_arguments) };
+/// Where a command's arguments have them: right after the frames_arguments that they begin with.
+enum { LIGHT_OFFSET = sizeof(frames_arguments) };
 
 extern const option_group light_options;
 

@@ -91,6 +91,12 @@ static void test_road_holds_to_the_reference(void **state) {
         hold(&of, &options, "one edge layer");
         options.passes = 1; // of coplanar discs anyone may be the nearest
         if (kind / 2 == SCENE_SPHERE || kind / 2 == SCENE_TORUS) hold(&of, &options, "one pass");
+        options = all_options(environment);
+        options.opacity = 0.6, options.layers = 3;
+        hold(&of, &options, "transparent");
+        options.opacity = 1, options.layers = 0, options.edge_layers = 1;
+        options.kernel = EWA_KERNEL_RAYCAST;
+        hold(&of, &options, "raycast");
         ewa_render_options_init(&options, sizeof options);
         options.shading = EWA_SHADING_PHONG;
         hold(&of, &options, "phong alone");
@@ -102,6 +108,33 @@ static void test_road_holds_to_the_reference(void **state) {
         scene_free(&of);
     }
     ewa_environment_destroy(&environment);
+    ewa_context_destroy(&context);
+}
+
+/// Surfels with an alpha and a material each: colours are weighted by the alpha, materials are not.
+static void test_transparent_materials_hold(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    const float white[3] = {1, 1, 1};
+    const double eye[3] = {1, 0.6, 4};
+    ewa_cloud *cloud = shade_sphere(context, 3000, white);
+    ewa_environment *environment = shade_environment(context, 64, shade_linear_light);
+    void *data = NULL;
+    ewa_cloud_remove(cloud, EWA_COLOR);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_F32, 4, &data), EWA_OK);
+    float *colors = data;
+    check_random random = {5};
+    for (uint64_t i = 0; i < 4 * ewa_cloud_point_count(cloud); i++)
+        colors[i] = (float)check_uniform(&random, 0.1, 1);
+    shade_set_material(cloud, slab);
+    for (int run = 0; run < 3; run++) {
+        const scene of = {.cloud = cloud, .camera = shade_camera(SIDE_PX, eye, 32, run == 2 ? 2.2 : 0)};
+        ewa_render_options options = all_options(environment);
+        options.layers = run == 0 ? 1 : 0; // as if opaque
+        hold(&of, &options, run == 0 ? "alpha not used" : "alpha");
+    }
+    ewa_environment_destroy(&environment);
+    ewa_cloud_destroy(&cloud);
     ewa_context_destroy(&context);
 }
 
@@ -377,6 +410,7 @@ static void test_every_failing_allocation_is_clean(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_road_holds_to_the_reference),
+        cmocka_unit_test(test_transparent_materials_hold),
         cmocka_unit_test(test_same_bytes_everywhere),
         cmocka_unit_test(test_order_of_materials_does_not_matter),
         cmocka_unit_test(test_materials_are_averaged),
