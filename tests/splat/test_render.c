@@ -356,7 +356,7 @@ static void test_one_pass_shows_one_surfel(void **state) {
     int others[2] = {0, 0}, covered = 0;
     for (int pass = 0; pass < 2; pass++) {
         options.passes = pass == 0 ? 1 : 3;
-        picture made = draw(context, of.cloud, &of.camera, NULL, &options);
+        picture made = picture_draw(context, of.cloud, &of.camera, NULL, &options);
         for (size_t i = 0; i < 96 * 96; i++) {
             const float *rgba = &made.frame.rgba[4 * i];
             if (rgba[3] == 0) continue;
