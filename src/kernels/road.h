@@ -280,9 +280,10 @@ typedef struct ewa_road_kernels {
     /// Starts edges->nearest over: every splat beyond edges->passed counts for the next surface.
     void (*edge_take_all)(const ewa_tile *tile, const ewa_edges *edges);
 
-    /// Puts the gathered surface under edges->behind and starts the next one; unmarks blocks that are closed
-    /// or have nothing more. Returns how many stay marked.
-    uint32_t (*edge_compose)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges);
+    /// Puts the gathered surface, `merged` or not from several, under edges->behind and starts the next one;
+    /// unmarks blocks that are closed or have nothing more. Returns how many stay marked.
+    uint32_t (*edge_compose)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges,
+                             bool merged);
 
     /// Writes the tile's pixels to the planes; edges->behind (`edges` may be NULL) is under the blocks that
     /// `edge_rows` marks.

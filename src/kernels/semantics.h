@@ -72,6 +72,9 @@
 // one's. Opaque surfaces go on at their antialiased edges, up to edge_layers surfaces (one layer is math.md
 // section 7, where the background shines through silhouettes inside the object); transparent ones everywhere,
 // until nothing is left, or up to L surfaces of which the last takes all that is left: B(x) is infinite then.
+// How many those are is what their coverage k = q / q0 says: alpha becomes 1 - (1 - alpha) prod (1 - alpha
+// share_i), share_i = clamp(4 (k - i) - 2, 0, 1), i = 1, 2, ... below EWA_MERGED_SURFACES. A surface more
+// counts from half of one on, not earlier, so that the ripple of a single surface's coverage does not show.
 #ifndef EWA_SRC_KERNELS_SEMANTICS_H
 #define EWA_SRC_KERNELS_SEMANTICS_H
 
@@ -103,6 +106,9 @@
 #define EWA_LEAST_AREA     1e-15
 
 #define EWA_INVERSE_TWO_PI 0.15915494309189535
+
+/// Surfaces that a merged layer stands for at most.
+#define EWA_MERGED_SURFACES 64
 
 /// Linear colour of surfels that have none.
 #define EWA_DEFAULT_GREY 0.6
