@@ -63,7 +63,7 @@ static const cli_option work_table[] = {
     {.key = "kernel",
      .kind = OPTION_CHOICE,
      .offset = AT(kernel),
-     .range = "perspective|affine",
+     .range = "perspective|affine|source|circular|raycast",
      .help = "as for render"},
     {.key = "passes", .kind = OPTION_CHOICE, .offset = AT(passes), .range = "1|3", .help = "as for render"},
     {.key = "shading",
@@ -196,7 +196,7 @@ static bool measure_files(bench_run *bench) {
     bench_scene scene = {.name = slash ? slash + 1 : path};
     snprintf(scene.label, sizeof scene.label, "%.24s", scene.name);
     scene.cloud = inputs_as_surfels(&bench->session, &view->common, NULL, &estimate_s);
-    const bool done = scene.cloud && view_make(&bench->session, view, scene.cloud, 1, &scene.camera) &&
+    const bool done = scene.cloud && view_make(&bench->session, view, scene.cloud, 1, &scene.camera, NULL) &&
                       measure_scene(bench, &scene);
     ewa_cloud_destroy(&scene.cloud);
     return done;

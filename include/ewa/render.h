@@ -50,6 +50,9 @@ EWA_API void ewa_surfels_describe(const ewa_surfels *surfels, ewa_surfels_info *
 typedef enum ewa_kernel {
     EWA_KERNEL_PERSPECTIVE = 0, ///< exact projected ellipse (PAS; math.md section 3)
     EWA_KERNEL_AFFINE = 1,      ///< Jacobian at the centre (SS; math.md section 3, last line)
+    EWA_KERNEL_SOURCE = 2,   ///< the same kernel in the surfel's plane, by backward mapping (SS equation 8)
+    EWA_KERNEL_CIRCULAR = 3, ///< circle around the affine, filtered ellipse (SS figure 8, third row)
+    EWA_KERNEL_RAYCAST = 4,  ///< exact projective kernel at each pixel (math.md section 9)
 } ewa_kernel;
 
 typedef enum ewa_shading {

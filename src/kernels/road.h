@@ -25,8 +25,10 @@ enum {
     EWA_COLUMN_CLASSES = 4,                                 ///< boxes of 1, 2, 3, 4 columns
     EWA_STEEP_CLASS = EWA_ROW_CLASSES * EWA_COLUMN_CLASSES, ///< first class of steep splats
     EWA_WIDE_CLASS = 2 * EWA_STEEP_CLASS,                   ///< wider boxes, parts of large splats
-    EWA_CLASS_COUNT = EWA_WIDE_CLASS + 1,
+    EWA_CLIP_CLASS = EWA_WIDE_CLASS + 1,                    ///< splats with clip lines
+    EWA_CLASS_COUNT = EWA_CLIP_CLASS + 1,
     EWA_STEEP_BIT = 1 << 7, ///< in ewa_record.box: steep or wide
+    EWA_CLIP_BIT = 1 << 15, ///< in ewa_record.box: clipped
     EWA_MAX_CHANNELS = 9,
     EWA_CELL_BLOCKS = 4, ///< along a side of a cell, for which one depth decides whether packets are hidden
     EWA_TILE_CELLS = 8,  ///< cells along a side of the largest tile
@@ -57,7 +59,9 @@ typedef struct ewa_view {
     uint32_t doublings;
     uint32_t width_px, height_px;
     uint32_t tile_px;
-    bool orthographic, affine, cull_back, ellipses;
+    bool orthographic, cull_back, ellipses;
+    bool affine;                    ///< V is that of the affine map: all kernels but perspective
+    bool source, circular, raycast; ///< what becomes of V; neither: affine
     float side_planes[4][3]; ///< inward unit normals of the frustum's sides through the eye, widened by F h
                              ///< and a pixel
 } ewa_view;
@@ -72,6 +76,8 @@ typedef struct ewa_tile_rect {
 /// Plain splats compare planes: their key, and that of z + eps (perspective: its tangent at the centre). The
 /// key of steep ones (semantics.h) is clamped first, and the key of z + eps made of it: bound_scale key +
 /// bound_offset; wide ones in perspective have bound_scale 0, bound_offset eps, and key / (1 + eps key).
+///
+/// Raycast splats hold V in xx, xy, yy (road_raycast.h).
 typedef struct ewa_record {
     float offset_x, offset_y; ///< upper left corner of the box minus the splat's centre, pixels
     float xx, xy, yy;         ///< s = xx dx^2 + xy dx dy + yy dy^2
@@ -86,9 +92,23 @@ typedef struct ewa_record {
     };
     float key_low;          ///< the key is nowhere below, plain or not
     float red, green, blue; ///< times the resampling kernel's peak and the surfel's opacity
-    uint32_t box; ///< first column | EWA_STEEP_BIT | first row << 8 | columns << 16 | rows << 24, in
-                  ///< blocks
+    uint32_t box; ///< first column | EWA_STEEP_BIT | first row << 8 | EWA_CLIP_BIT | columns << 16 | rows <<
+                  ///< 24, in blocks
 } ewa_record;
+
+/// Clip lines on the screen: of the pixel whose centre is x, y in the tile, line[0] x + line[1] y + line[2]
+/// pixels from the line is how far inside. A line that is not there is 0, 0, 1.
+typedef struct ewa_clip {
+    float line[2][3];
+    bool either; ///< what one line keeps is kept, else what both keep
+} ewa_clip;
+
+/// A splat of a run that has clip lines.
+typedef struct ewa_clipped {
+    uint32_t record;            ///< in the run
+    uint32_t surfel;            ///< packet * 16 + lane
+    float center[3], normal[3]; ///< camera space
+} ewa_clipped;
 
 /// A surfel that touches the eye plane, by pixel rays: U, V, W are linear in the tile's pixel coordinates;
 /// u = U/W, v = V/W in standard deviations, z = plane / W.
@@ -99,6 +119,8 @@ typedef struct ewa_near_record {
     float tolerance;
     float color[3], normal[3]; ///< colour times opacity
     float opacity;
+    bool clipped;
+    ewa_clip clip;
 } ewa_near_record;
 
 /// The part of a splat that only the second pass reads.
@@ -110,7 +132,8 @@ typedef struct ewa_load {
 /// Where packets are, and what belongs to them.
 typedef struct ewa_packet_source {
     const ewa_packet *packets;
-    const uint16_t *opacities; ///< [packet][lane], times 65535; NULL: all are opaque
+    const uint16_t *opacities;  ///< [packet][lane], times 65535; NULL: all are opaque
+    const uint16_t *clip_masks; ///< [packet]: lanes with clip lines; NULL: none
 } ewa_packet_source;
 
 /// A run of packets as splats of a tile. `records` and `loads` have room for EWA_PACKET_LANES more than are
@@ -121,7 +144,8 @@ typedef struct ewa_run {
     float *opacities; ///< times the kernel's peak; NULL: all are opaque
     uint8_t classes[EWA_RUN_RECORDS + EWA_PACKET_LANES];
     uint32_t near_surfels[EWA_RUN_RECORDS]; ///< packet * 16 + lane
-    uint32_t count, near_count;
+    ewa_clipped clipped[EWA_RUN_RECORDS];
+    uint32_t count, near_count, clipped_count;
     float least_key; ///< the smallest ewa_record.key_low
 } ewa_run;
 
@@ -130,6 +154,7 @@ typedef struct ewa_sorted_run {
     const ewa_record *records;
     const ewa_load *loads;
     const float *opacities; ///< NULL: all are opaque
+    const ewa_clip *clips;  ///< of the records that have EWA_CLIP_BIT
     const uint16_t *order;
     uint16_t class_first[EWA_CLASS_COUNT + 1];
 } ewa_sorted_run;
@@ -172,6 +197,7 @@ typedef struct ewa_edge_splats {
     const ewa_record *records;
     const ewa_load *loads;
     const float *opacities; ///< NULL: all are opaque
+    const ewa_clip *clips;  ///< of the records that have EWA_CLIP_BIT
     uint32_t *indices;      ///< of records and loads
     float *largest_keys;    ///< no key of the splat that is beyond edges->passed is larger
     uint32_t count;

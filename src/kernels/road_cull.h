@@ -45,8 +45,9 @@ static ALWAYS_INLINE packet_outline packet_outlines(const ewa_view *view, wf x, 
         o.near = wm_of_bits(0);
         o.x = wf_fma(c[0], wf_set(view->fx_px), wf_set(view->cx_px));
         o.y = wf_fma(c[1], wf_set(view->fy_px), wf_set(view->cy_px));
-        o.half_x = wf_mul(r, wf_set(view->fx_px));
-        o.half_y = wf_mul(r, wf_set(view->fy_px));
+        const float larger_px = view->fx_px > view->fy_px ? view->fx_px : view->fy_px;
+        o.half_x = wf_mul(r, wf_set(view->circular ? larger_px : view->fx_px));
+        o.half_y = wf_mul(r, wf_set(view->circular ? larger_px : view->fy_px));
     } else {
         o.near = wf_le(c[2], wf_mul(r, wf_set((float)EWA_NEAR_RATIO)));
         // The tight box of a sphere's outline: D = r^2 I - c'c (math.md section 3).
@@ -63,8 +64,10 @@ static ALWAYS_INLINE packet_outline packet_outlines(const ewa_view *view, wf x, 
             // Affine ellipses may leave the sphere's outline: |J t| <= (1 + |slope|) |t| / z around a
             // centre in it.
             const wf reach = wf_div(r, wf_sub(c[2], r));
-            o.half_x = wf_add(o.half_x, affine_reach(o.x, o.half_x, reach, view->fx_px, view->cx_px));
-            o.half_y = wf_add(o.half_y, affine_reach(o.y, o.half_y, reach, view->fy_px, view->cy_px));
+            const wf reach_x = affine_reach(o.x, o.half_x, reach, view->fx_px, view->cx_px);
+            const wf reach_y = affine_reach(o.y, o.half_y, reach, view->fy_px, view->cy_px);
+            o.half_x = wf_add(o.half_x, view->circular ? wf_add(reach_x, reach_y) : reach_x);
+            o.half_y = wf_add(o.half_y, view->circular ? wf_add(reach_x, reach_y) : reach_y);
         }
     }
     const wf margin_px = wf_set(view->reach_px + 1);
@@ -209,8 +212,10 @@ static uint32_t hide(const ewa_view *view, const ewa_packet_bounds *bounds, cons
         load_spheres(bounds, ids + first, here, sphere);
         const packet_outline o = packet_outlines(view, sphere[0], sphere[1], sphere[2], sphere[3]);
         // No key is beyond this: a disc's range, and how far its plane may go beyond (semantics.h), which is
-        // EWA_FREE_RADII support radii for affine ellipses and half of that for others.
-        const wf beyond = wf_mul(wf_set((float)EWA_FREE_RADII * (view->affine ? 1.0f : 0.5f)), o.radius);
+        // EWA_FREE_RADII support radii for affine ellipses, half of that for others, more for circles.
+        const float free_radii = (float)EWA_FREE_RADII * (view->affine ? 1.0f : 0.5f) +
+                                 (view->circular ? (float)EWA_GRAZING_TOLERANCE : 0);
+        const wf beyond = wf_mul(wf_set(free_radii), o.radius);
         wf key;
         if (view->orthographic) {
             key = wf_add(beyond, wf_sub(o.radius, o.center[2]));

@@ -6,6 +6,7 @@
 #ifndef EWA_SRC_KERNELS_ROAD_EDGES_H
 #define EWA_SRC_KERNELS_ROAD_EDGES_H
 
+#include "kernels/road_near.h"
 #include "kernels/road_resolve.h"
 
 static size_t block_at(const ewa_tile *tile, uint32_t row, uint32_t column) {
@@ -60,7 +61,7 @@ static ALWAYS_INLINE void set_boxes(const ewa_record *records, uint32_t at, uint
     const wi some = wi_set((int32_t)records[at].box);
     const wi box = wi_of_bits(
         wf_select(there, wf_load_column((const float *)(const void *)&records[at].box), wf_of_bits(some)));
-    const wi first = wi_and(box, wi_set(0xffff & ~EWA_STEEP_BIT));
+    const wi first = wi_and(box, wi_set(0xffff & ~(EWA_STEEP_BIT | EWA_CLIP_BIT)));
     wi_store(boxes->first + at, first);
     wi_store(boxes->last + at, wi_add(wi_add(first, wi_sar(box, 16)), wi_set(EWA_BOX_GUARD - 0x0101)));
     wf_store(boxes->key_low + at,
@@ -156,34 +157,45 @@ static uint32_t edge_list(const ewa_edge_boxes levels[EWA_BOX_LEVELS], uint32_t 
     return listed;
 }
 
-/// s and key of a splat in one block of its box.
-typedef struct block_sample {
-    wf exponent, key;
-} block_sample;
-
-static ALWAYS_INLINE block_sample sample_block(const ewa_record *r, uint32_t row, uint32_t column) {
-    const float first_px = (float)EWA_BLOCK_PX * ((float)column - (float)box_column(r->box));
-    const column_terms c = column_start(r, r->key, r->key_x, first_px);
-    wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
-    for (uint32_t i = box_row(r->box); i < row; i++)
-        dy = wf_add(dy, wf_set(EWA_BLOCK_PX)); // as the passes over whole boxes step
-    const wf key = wf_fma(wf_set(r->key_y), dy, c.key);
-    return (block_sample){block_exponent(r, &c, dy), box_steep(r->box) ? clamped_key(r, key) : key};
-}
-
 /// Sixteen splats at one block: what its columns and rows of pixels share, a splat per lane.
 typedef struct splat_lanes {
     wf quadratic[EWA_BLOCK_PX], cross[EWA_BLOCK_PX], key_x[EWA_BLOCK_PX],
         bound_x[EWA_BLOCK_PX]; ///< by column
     wf dy[EWA_BLOCK_PX];       ///< by row
     wf yy, key_y, bound_y;
-    wm steep;
+    wm steep, clipped;
+    wf line[2][3], either;                           ///< of clipped ones
     wf key_low, key_high, bound_scale, bound_offset; ///< of steep ones
 } splat_lanes;
 
+/// The clip lines of the lanes in `clipped_bits`; lines that keep everything for the others.
+static void load_lines(const ewa_clip *clips, const uint32_t *indices, uint32_t count, uint32_t clipped_bits,
+                       splat_lanes *s) {
+    float numbers[7][EWA_BLOCK_LANES];
+    for (uint32_t i = 0; i < EWA_BLOCK_LANES; i++) {
+        const bool clipped = clipped_bits >> i & 1;
+        const ewa_clip *clip = clipped ? &clips[indices[i < count ? i : count - 1]] : NULL;
+        for (int k = 0; k < 6; k++) numbers[k][i] = clip ? clip->line[k / 3][k % 3] : k % 3 == 2;
+        numbers[6][i] = clip && clip->either;
+    }
+    for (int k = 0; k < 6; k++) s->line[k / 3][k % 3] = wf_load(numbers[k]);
+    s->either = wf_load(numbers[6]);
+}
+
+/// clip_share() of sixteen splats at one pixel.
+static ALWAYS_INLINE wf lane_shares(const splat_lanes *s, float x, float y) {
+    wf share[2];
+    for (int i = 0; i < 2; i++) {
+        const wf offset = wf_add(s->line[i][2], wf_set(0.5f));
+        share[i] = wf_clamp(wf_fma(s->line[i][0], wf_set(x), wf_fma(s->line[i][1], wf_set(y), offset)), 0, 1);
+    }
+    return wf_select(wf_lt(wf_set(0), s->either), wf_max(share[0], share[1]), wf_min(share[0], share[1]));
+}
+
 /// The same numbers as column_terms and the passes over whole boxes get.
-static ALWAYS_INLINE splat_lanes load_splats(const ewa_record *records, const uint32_t *indices,
-                                             uint32_t count, uint32_t row, uint32_t column) {
+static ALWAYS_INLINE splat_lanes load_splats(const ewa_record *records, const ewa_clip *clips,
+                                             const uint32_t *indices, uint32_t count, uint32_t row,
+                                             uint32_t column) {
     wf f[EWA_BLOCK_LANES];
     for (uint32_t i = 0; i < EWA_BLOCK_LANES; i++)
         f[i] = wf_load(&records[indices[i < count ? i : count - 1]].offset_x);
@@ -191,8 +203,10 @@ static ALWAYS_INLINE splat_lanes load_splats(const ewa_record *records, const ui
     splat_lanes s = {.bound_scale = f[8], .bound_offset = f[9], .key_high = f[10], .key_low = f[11]};
     const wi box = wi_of_bits(f[15]);
     s.steep = wf_lt(wf_set(0), wf_from_i(wi_and(box, wi_set(EWA_STEEP_BIT))));
+    s.clipped = wf_lt(wf_set(0), wf_from_i(wi_and(box, wi_set(EWA_CLIP_BIT))));
+    if (wm_bits(s.clipped)) load_lines(clips, indices, count, wm_bits(s.clipped), &s);
     const wi columns = wi_sub(wi_set((int32_t)column), wi_and(box, wi_set(0x7f)));
-    const wf rows = wf_from_i(wi_sub(wi_set((int32_t)row), wi_and(wi_sar(box, 8), wi_set(0xff))));
+    const wf rows = wf_from_i(wi_sub(wi_set((int32_t)row), wi_and(wi_sar(box, 8), wi_set(0x7f))));
     const wf side = wf_set(EWA_BLOCK_PX), first_px = wf_add(f[0], wf_mul(side, wf_from_i(columns)));
     for (int i = 0; i < EWA_BLOCK_PX; i++) {
         const wf dx = wf_add(first_px, wf_set((float)i + 0.5f));
@@ -225,8 +239,8 @@ static void edge_raise(const ewa_view *view, const ewa_tile *tile, const ewa_edg
     for (uint32_t first = 0; first < splats->count; first += EWA_BLOCK_LANES) {
         const uint32_t count = splats->count - first;
         uint32_t *indices = splats->indices + first;
-        const splat_lanes s = load_splats(splats->records, indices, count, row, column);
-        const bool any_steep = wm_bits(s.steep) != 0;
+        const splat_lanes s = load_splats(splats->records, splats->clips, indices, count, row, column);
+        const bool any_steep = wm_bits(s.steep) != 0, any_clipped = wm_bits(s.clipped) != 0;
         const wm is_exact = wm_and(s.steep, wf_le(s.bound_scale, zero));
         const bool any_exact = wm_bits(is_exact) != 0;
         wf largest_key = never;
@@ -240,7 +254,12 @@ static void edge_raise(const ewa_view *view, const ewa_tile *tile, const ewa_edg
                 key = wf_select(s.steep, wf_min(wf_max(key, s.key_low), s.key_high), key);
                 bound = wf_select(s.steep, wf_fma(s.bound_scale, key, s.bound_offset), bound);
             }
-            const wm beyond = wm_and(wf_lt(exponent, end), wf_lt(key, wf_set(passed[pixel])));
+            wm beyond = wm_and(wf_lt(exponent, end), wf_lt(key, wf_set(passed[pixel])));
+            if (any_clipped) {
+                const float x_px = (float)(column * EWA_BLOCK_PX + x) + 0.5f;
+                const float y_px = (float)(row * EWA_BLOCK_PX + y) + 0.5f;
+                beyond = wm_and(beyond, wf_lt(zero, lane_shares(&s, x_px, y_px)));
+            }
             if (any_exact) {
                 const wf exact = wf_mul(key, wf_reciprocal(wf_fma(s.bound_offset, key, wf_set(1))));
                 bound = wf_select(is_exact, exact, bound);
@@ -281,19 +300,71 @@ static ALWAYS_INLINE void edge_sum(const ewa_view *view, const ewa_tile *tile, c
             const ewa_record *r = &splats->records[index];
             const block_sample sample = sample_block(r, row, column);
             const wm beyond = wm_and(wf_lt(sample.exponent, end), wf_lt(sample.key, passed));
-            const wm counts = wm_and(beyond, wf_le(nearest, sample.key));
+            wm counts = wm_and(beyond, wf_le(nearest, sample.key));
+            wf share = wf_set(1);
+            if (box_clipped(r->box)) {
+                share = clip_share_block(&splats->clips[index], row, column);
+                counts = wm_and(counts, wf_lt(wf_set(0), share));
+            }
             if (!wm_bits(counts)) continue;
             const payload add = payload_load(r, &splats->loads[index],
                                              what & ADD_OPACITY ? &splats->opacities[index] : NULL, what);
-            const wf weight = wf_keep(counts, exponential(sample.exponent, view->doublings));
+            const wf weight = wf_keep(counts, wf_mul(share, exponential(sample.exponent, view->doublings)));
             add_channels(sums, tile->channel_count, weight, &add, sample.key, what);
         }
     }
 }
 
+/// edge_raise() for raycast splats.
+static void ray_edge_raise(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges, uint32_t row,
+                           uint32_t column, ewa_edge_splats *splats) {
+    const size_t at = block_at(tile, row, column) * EWA_BLOCK_LANES;
+    const wf end = wf_set(view->exponent_end), never = wf_set(-__builtin_inff());
+    const wf passed = wf_load(edges->passed + at);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < splats->count; i++) {
+        const uint32_t index = splats->indices[i];
+        const ewa_record *r = &splats->records[index];
+        const ray_splat ray = ray_start(view, r, splats->loads[index].peak);
+        const ray_sample sample = ray_block(view, r, &ray, clip_of(splats->clips, index), row, column);
+        const wm beyond = wm_and(wf_lt(sample.exponent, end), wf_lt(sample.key, passed));
+        if (!wm_bits(beyond)) continue;
+        ray_raise(r, &sample, beyond, edges->nearest + at);
+        splats->indices[kept] = index;
+        splats->largest_keys[kept++] = largest_lane(wf_select(beyond, sample.key, never));
+    }
+    splats->count = kept;
+}
+
+static void ray_edge_sum(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges, uint32_t row,
+                         uint32_t column, const ewa_edge_splats *splats) {
+    const size_t block = block_at(tile, row, column), at = block * EWA_BLOCK_LANES;
+    const wf passed = wf_load(edges->passed + at), nearest = wf_load(edges->nearest + at);
+    const int what = (tile->with_normals ? ADD_NORMAL : 0) | (tile->with_opacity ? ADD_OPACITY : 0);
+    for (uint32_t i = 0; i < splats->count; i++) {
+        const uint32_t index = splats->indices[i];
+        const ewa_record *r = &splats->records[index];
+        const ewa_load *load = &splats->loads[index];
+        const ray_splat ray = ray_start(view, r, load->peak);
+        const ray_sample sample = ray_block(view, r, &ray, clip_of(splats->clips, index), row, column);
+        const wm counts = wm_and(wf_lt(sample.exponent, wf_set(view->exponent_end)),
+                                 wm_and(wf_lt(sample.key, passed), wf_le(nearest, sample.key)));
+        if (!wm_bits(counts)) continue;
+        const payload add =
+            payload_load(r, load, what & ADD_OPACITY ? &splats->opacities[index] : NULL, what);
+        const wf bell = exponential(wf_keep(counts, sample.exponent), view->doublings);
+        add_channels(edges->sums + at * tile->channel_count, tile->channel_count,
+                     wf_keep(counts, wf_mul(bell, sample.gain)), &add, sample.key, what);
+    }
+}
+
 static void edge_pass(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges, uint32_t row,
                       uint32_t column, ewa_edge_splats *splats, bool second_pass) {
-    if (!second_pass)
+    if (view->raycast && second_pass)
+        ray_edge_sum(view, tile, edges, row, column, splats);
+    else if (view->raycast)
+        ray_edge_raise(view, tile, edges, row, column, splats);
+    else if (!second_pass)
         edge_raise(view, tile, edges, row, column, splats);
     else if (tile->with_opacity)
         edge_sum(view, tile, edges, row, column, splats, ADD_NORMAL | ADD_OPACITY);

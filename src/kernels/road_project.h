@@ -136,6 +136,58 @@ static ALWAYS_INLINE void stage_place(const ewa_view *view, const ewa_packet *pa
     }
 }
 
+/// The conic of the source kernel (SS equation 8), pulled back: u = x A, A = J^-1, W = I + h^2 A'A, r^2 = x A
+/// W^-1 A' x'. In standard deviations the kernel is round, so that any frame of the surfel's plane serves:
+/// here that in which J is symmetric, the root of V = J'J.
+static ALWAYS_INLINE void source_shape(const ewa_view *view, wf v11, wf v12, wf v22, wf root_det, stage *t) {
+    const wf one = wf_set(1), h2 = wf_set(view->prefilter2_px2);
+    const wf least = wf_mul(wf_set((float)EWA_FLAT), wf_mul(v11, v22));
+    const wm invertible =
+        wm_and(wf_le(least, wf_mul(root_det, root_det)), wf_le(wf_set((float)EWA_LEAST_AREA), root_det));
+    t->alive = wm_and(t->alive, invertible);
+    root_det = wf_select(invertible, root_det, one);
+    // J = (V + |J| I) / g, its adjugate likewise; g^2 = V11 + V22 + 2 |J|.
+    const wf trace = wf_add(wf_add(v11, v22), wf_add(root_det, root_det));
+    const wf inverse_det = wf_reciprocal(root_det), scale = wf_mul(wf_inverse_root(trace), inverse_det);
+    const wf a11 = wf_mul(wf_add(v22, root_det), scale), a22 = wf_mul(wf_add(v11, root_det), scale);
+    const wf a12 = wf_negate(wf_mul(v12, scale));
+    const wf along_x = wf_fma(a11, a11, wf_mul(a12, a12)), along_y = wf_fma(a22, a22, wf_mul(a12, a12));
+    const wf cross = wf_mul(a12, wf_add(a11, a22));
+    // |W| = 1 + h^2 (|a|^2 + |b|^2) + h^4 |A|^2. A adj(W) A' = A A' + h^2 |A|^2 I.
+    const wf filter = wf_mul(h2, wf_mul(inverse_det, inverse_det));
+    const wf determinant = wf_fma(h2, wf_add(wf_add(along_x, along_y), filter), one);
+    const wf inverse_root = wf_inverse_root(determinant);
+    const wf scaled = wf_mul(wf_mul(inverse_root, inverse_root), wf_set(view->exponent_scale));
+    t->peak = wf_mul(inverse_root, wf_set((float)EWA_INVERSE_TWO_PI));
+    t->xx = wf_mul(wf_add(along_x, filter), scaled);
+    t->xy = wf_mul(wf_mul(cross, wf_set(2)), scaled);
+    t->yy = wf_mul(wf_add(along_y, filter), scaled);
+}
+
+/// The circle around the filtered ellipse (w11, w12, w22): its larger eigenvalue for a variance.
+static ALWAYS_INLINE void circular_shape(const ewa_view *view, wf w11, wf w12, wf w22, wf root_det,
+                                         stage *t) {
+    const wf mean = wf_mul(wf_set(0.5f), wf_add(w11, w22)), difference = wf_sub(mean, w22);
+    const wf variance = wf_add(mean, wf_sqrt(wf_fma(difference, difference, wf_mul(w12, w12))));
+    const wf inverse = wf_div(wf_set(1), variance);
+    t->peak = wf_mul(wf_mul(root_det, inverse), wf_set((float)EWA_INVERSE_TWO_PI));
+    t->xx = t->yy = wf_mul(inverse, wf_set(view->exponent_scale));
+    t->xy = wf_set(0);
+    t->half_x = t->half_y = wf_mul(wf_set(view->cutoff), wf_sqrt(variance));
+}
+
+/// V itself, for ray_evaluate(), and a box around all that it may make of it (w is largest where the disc is
+/// nearest).
+static ALWAYS_INLINE void raycast_shape(const ewa_view *view, wf v11, wf v12, wf v22, wf root_det, stage *t) {
+    const wf h2 = wf_set(view->prefilter2_px2);
+    const wf most = wf_mul(wf_mul(t->p[2], wf_add(t->p[2], t->range)), wf_mul(t->root_k, t->root_k));
+    const wf most2 = wf_mul(most, most);
+    t->xx = v11, t->xy = v12, t->yy = v22;
+    t->peak = wf_mul(root_det, wf_set((float)EWA_INVERSE_TWO_PI));
+    t->half_x = wf_mul(wf_set(view->cutoff), wf_sqrt(wf_fma(most2, v11, h2)));
+    t->half_y = wf_mul(wf_set(view->cutoff), wf_sqrt(wf_fma(most2, v22, h2)));
+}
+
 /// Second step: the filtered ellipse (math.md sections 3 and 4) and the slope of the key.
 static ALWAYS_INLINE void stage_shape(const ewa_view *view, stage *t) {
     const wf one = wf_set(1), zero = wf_set(0);
@@ -172,6 +224,14 @@ static ALWAYS_INLINE void stage_shape(const ewa_view *view, stage *t) {
     // The key's plane: n_xy / n.p, with |n.p| raised where the surfel is seen edge-on.
     const wf lowest2 = wf_set((float)(EWA_EDGE_ON * EWA_EDGE_ON));
     const wf ray2 = wf_fma(t->x0, t->x0, wf_fma(t->y0, t->y0, one)); // |p|^2 / pz^2; orthographic 1
+    if (view->source)
+        source_shape(view, v11, v12, v22, root_det, t);
+    else if (view->circular)
+        circular_shape(view, w11, v12, w22, root_det, t);
+    else if (view->raycast)
+        raycast_shape(view, v11, v12, v22, root_det, t);
+    if (view->raycast)
+        t->alive = wm_and(t->alive, wf_le(wf_mul(lowest2, ray2), wf_mul(t->facing, t->facing)));
     const wf raised2 = wf_max(wf_mul(t->facing, t->facing), wf_mul(lowest2, ray2));
     const wf tilt = wf_mul(wf_inverse_root(raised2), t->inverse_z);
     const wf signed_tilt = wf_select(wf_lt(t->facing, zero), wf_negate(tilt), tilt);
@@ -202,8 +262,24 @@ static ALWAYS_INLINE void emit(ewa_run *run, uint32_t alive_bits, const wf recor
     run->count = at;
 }
 
+/// Notes the records that the next emit() makes of clipped lanes.
+static void list_clipped(ewa_run *run, uint32_t clipped_bits, uint32_t alive_bits, uint32_t id,
+                         const stage *t) {
+    float center[3][16], normal[3][16];
+    for (int k = 0; k < 3; k++) wf_store(center[k], t->p[k]), wf_store(normal[k], t->n[k]);
+    for (; clipped_bits; clipped_bits &= clipped_bits - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(clipped_bits);
+        const uint32_t before = (uint32_t)__builtin_popcount(alive_bits & ((1u << lane) - 1));
+        run->clipped[run->clipped_count++] =
+            (ewa_clipped){run->count + before,
+                          id * EWA_PACKET_LANES + lane,
+                          {center[0][lane], center[1][lane], center[2][lane]},
+                          {normal[0][lane], normal[1][lane], normal[2][lane]}};
+    }
+}
+
 /// Third step: tolerance, box in the tile, and the records of the lanes that are in it.
-static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *packet,
+static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *packet, uint32_t id, wm clipped,
                                      const uint16_t *opacities_u16, const ewa_tile *tile, stage *t,
                                      ewa_run *run, wf *least) {
     const wf one = wf_set(1), zero = wf_set(0), half = wf_set(0.5f);
@@ -227,7 +303,12 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
         reach_depth = wf_mul(reach, wf_mul(p[2], p[2]));
         limit = wf_mul(limit, inverse_z2);
     }
-    const wf margin = wf_max(wf_sub(limit, reach), zero);
+    wf margin = wf_max(wf_sub(limit, reach), zero);
+    if (view->circular) {
+        const wf most = wf_mul(wf_set((float)EWA_GRAZING_TOLERANCE), support);
+        const wf most_key = view->orthographic ? most : wf_mul(most, wf_mul(t->inverse_z, t->inverse_z));
+        margin = wf_add(margin, wf_min(wf_mul(t->half_x, slope), most_key));
+    }
     const wf grazing = wf_min(wf_mul(wf_set(view->grazing), reach_depth),
                               wf_mul(wf_set((float)EWA_GRAZING_TOLERANCE), support));
     const wf tolerance = wf_fma(wf_set(view->tolerance), t->sigma, grazing);
@@ -250,8 +331,10 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
     // Wide splats are wide also where only a narrow part of them is in the tile: its pixels are far from the
     // centre.
     const wf half_end_px = wf_set(EWA_COLUMN_CLASSES * EWA_BLOCK_PX / 2);
-    const wm wide = wm_or(wf_lt(half_end_px, wf_max(t->half_x, t->half_y)),
-                          wf_lt(wf_set(EWA_COLUMN_CLASSES), wf_from_i(columns)));
+    wm wide = wm_or(wf_lt(half_end_px, wf_max(t->half_x, t->half_y)),
+                    wf_lt(wf_set(EWA_COLUMN_CLASSES), wf_from_i(columns)));
+    // The key of circular ones goes too far for a tangent.
+    if (view->circular) wide = wm_of_bits(0xffff);
     // Affine ellipses reach beyond what discs cover, so that their planes may end anywhere.
     const wm steep = wm_or(wide, view->affine ? wm_of_bits(0xffff) : wf_lt(margin, reach));
     const wi steep_bit = wi_of_bits(wf_keep(steep, wf_of_bits(wi_set(EWA_STEEP_BIT))));
@@ -267,7 +350,10 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
     }
     const wf least_key = wf_fnma(wf_abs(t->key_x), t->half_x, wf_fnma(wf_abs(t->key_y), t->half_y, key));
 
-    const wf low = wf_select(steep, wf_sub(key_low, margin), least_key);
+    wf lowest = wf_sub(key_low, margin);
+    if (view->circular && !view->orthographic)
+        lowest = wf_max(lowest, wf_mul(wf_set((float)EWA_LEAST_KEY), t->inverse_z));
+    const wf low = wf_select(steep, lowest, least_key);
     *least = wf_min(wf_select(alive, low, wf_set(__builtin_inff())), *least);
 
     wf opacity = t->peak; // times the peak
@@ -289,7 +375,7 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
         wf_mul(opacity, decode_color(view, packet->red, 0)),
         wf_mul(opacity, decode_color(view, packet->green, 1)),
         wf_mul(opacity, decode_color(view, packet->blue, 2)),
-        wf_of_bits(box),
+        wf_of_bits(wi_or(box, select_int(clipped, EWA_CLIP_BIT, wi_set(0)))),
     };
     w_transpose(lanes);
     // Normals face the viewer.
@@ -298,7 +384,9 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
     w_store4(loads, wf_mul(facing_peak, t->n[0]), wf_mul(facing_peak, t->n[1]), wf_mul(facing_peak, t->n[2]),
              t->peak);
     uint8_t classes[16];
-    wi_store_u8(classes, box_classes(columns, rows, steep, wide));
+    wi_store_u8(classes, select_int(clipped, EWA_CLIP_CLASS, box_classes(columns, rows, steep, wide)));
+    if (wm_bits(wm_and(alive, clipped)))
+        list_clipped(run, wm_bits(wm_and(alive, clipped)), alive_bits, id, t);
     float opacities[16];
     wf_store(opacities, opacity);
     emit(run, alive_bits, lanes, loads, opacities, classes);
@@ -311,7 +399,7 @@ static ALWAYS_INLINE void setup_run(const ewa_view *view, const ewa_packet_sourc
     const ewa_packet *packets = source->packets;
     stage stages[TOGETHER];
     run->count = 0;
-    run->near_count = 0;
+    run->near_count = run->clipped_count = 0;
     wf least = wf_set(__builtin_inff());
     for (uint32_t first = 0; first < count; first += TOGETHER) {
         const uint32_t here = count - first < TOGETHER ? count - first : TOGETHER;
@@ -327,7 +415,8 @@ static ALWAYS_INLINE void setup_run(const ewa_view *view, const ewa_packet_sourc
         for (uint32_t i = 0; i < here; i++) stage_shape(view, &stages[i]);
         for (uint32_t i = 0; i < here; i++)
             if (wm_bits(stages[i].alive))
-                stage_emit(view, &packets[ids[i]],
+                stage_emit(view, &packets[ids[i]], ids[i],
+                           wm_of_bits(source->clip_masks ? source->clip_masks[ids[i]] : 0),
                            source->opacities ? source->opacities + (size_t)ids[i] * EWA_PACKET_LANES : NULL,
                            tile, &stages[i], run, &least);
     }

@@ -5,7 +5,7 @@
 #ifndef EWA_SRC_KERNELS_ROAD_RASTER_H
 #define EWA_SRC_KERNELS_ROAD_RASTER_H
 
-#include "kernels/road_project.h"
+#include "kernels/road_raycast.h"
 
 /// exp(-s) for s in [0, EWA_EXPONENT_END] within 3.0e-05 relative, squared `doublings` >= 2 times.
 static ALWAYS_INLINE wf exponential(wf s, uint32_t doublings) {
@@ -33,7 +33,8 @@ static ALWAYS_INLINE wf lanes_y(void) {
 
 static ALWAYS_INLINE uint32_t box_column(uint32_t box) { return box & 0x7f; }
 static ALWAYS_INLINE bool box_steep(uint32_t box) { return box & EWA_STEEP_BIT; }
-static ALWAYS_INLINE uint32_t box_row(uint32_t box) { return box >> 8 & 0xff; }
+static ALWAYS_INLINE uint32_t box_row(uint32_t box) { return box >> 8 & 0x7f; }
+static ALWAYS_INLINE bool box_clipped(uint32_t box) { return box & EWA_CLIP_BIT; }
 static ALWAYS_INLINE uint32_t box_columns(uint32_t box) { return box >> 16 & 0xff; }
 static ALWAYS_INLINE uint32_t box_rows(uint32_t box) { return box >> 24; }
 
@@ -67,6 +68,37 @@ static ALWAYS_INLINE wf bound_key(const ewa_record *r, wf key, bool exact) {
     const wf offset = wf_set(r->bound_offset);
     if (exact) return wf_mul(key, wf_reciprocal(wf_fma(offset, key, wf_set(1))));
     return wf_fma(wf_set(r->bound_scale), key, offset);
+}
+
+/// The share of each pixel that clip lines leave: all of it half a pixel inside, nothing half a pixel
+/// outside. x, y: pixel centres in the tile.
+static ALWAYS_INLINE wf clip_share(const ewa_clip *clip, wf x, wf y) {
+    wf share[2];
+    for (int i = 0; i < 2; i++) {
+        const float *l = clip->line[i];
+        share[i] = wf_clamp(wf_fma(wf_set(l[0]), x, wf_fma(wf_set(l[1]), y, wf_set(l[2] + 0.5f))), 0, 1);
+    }
+    return clip->either ? wf_max(share[0], share[1]) : wf_min(share[0], share[1]);
+}
+
+static ALWAYS_INLINE wf clip_share_block(const ewa_clip *clip, uint32_t row, uint32_t column) {
+    return clip_share(clip, wf_add(lanes_x(), wf_set((float)(EWA_BLOCK_PX * column))),
+                      wf_add(lanes_y(), wf_set((float)(EWA_BLOCK_PX * row))));
+}
+
+/// s and key of a splat in one block of its box.
+typedef struct block_sample {
+    wf exponent, key, dy;
+} block_sample;
+
+static ALWAYS_INLINE block_sample sample_block(const ewa_record *r, uint32_t row, uint32_t column) {
+    const float first_px = (float)EWA_BLOCK_PX * ((float)column - (float)box_column(r->box));
+    const column_terms c = column_start(r, r->key, r->key_x, first_px);
+    wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
+    for (uint32_t i = box_row(r->box); i < row; i++)
+        dy = wf_add(dy, wf_set(EWA_BLOCK_PX)); // as the passes over whole boxes step
+    const wf key = wf_fma(wf_set(r->key_y), dy, c.key);
+    return (block_sample){block_exponent(r, &c, dy), box_steep(r->box) ? clamped_key(r, key) : key, dy};
 }
 
 /// With `beyond`, only where the key is below tile->passed.
@@ -154,12 +186,105 @@ static ALWAYS_INLINE void raise_rows_beyond(const pass *p, uint32_t splat, uint3
     visibility_rows(p->view, p->tile, &p->run->records[splat], first_column, columns, rows, test, true);
 }
 
+static ALWAYS_INLINE const ewa_clip *clip_of(const ewa_clip *clips, uint32_t record) {
+    return clips ? &clips[record] : NULL;
+}
+
+/// A raycast splat at a block of its box.
+static ALWAYS_INLINE ray_sample ray_block(const ewa_view *view, const ewa_record *r, const ray_splat *ray,
+                                          const ewa_clip *clip, uint32_t row, uint32_t column) {
+    const float x_px = (float)EWA_BLOCK_PX * ((float)column - (float)box_column(r->box)) + r->offset_x;
+    const float y_px = (float)EWA_BLOCK_PX * ((float)row - (float)box_row(r->box)) + r->offset_y;
+    ray_sample sample =
+        ray_evaluate(view, r, ray, wf_add(lanes_x(), wf_set(x_px)), wf_add(lanes_y(), wf_set(y_px)));
+    if (box_clipped(r->box)) {
+        const wf share = clip_share_block(clip, row, column);
+        sample.gain = wf_mul(sample.gain, share);
+        sample.exponent = wf_select(wf_lt(wf_set(0), share), sample.exponent, wf_set(__builtin_inff()));
+    }
+    return sample;
+}
+
+/// Raises the blocks' keys to that of z + eps; all raycast splats are steep or wide.
+static ALWAYS_INLINE void ray_raise(const ewa_record *r, const ray_sample *sample, wm counts,
+                                    float *nearest) {
+    const wf bound = r->bound_scale > 0 ? bound_key(r, sample->key, false) : bound_key(r, sample->key, true);
+    const wf old = wf_load(nearest);
+    wf_store(nearest, wf_select(counts, wf_max(bound, old), old));
+}
+
+/// Where a raycast splat counts in the block whose first number is `at`.
+static ALWAYS_INLINE wm ray_counts(const pass *p, const ray_sample *sample, size_t at) {
+    const wm within = wf_lt(sample->exponent, wf_set(p->view->exponent_end));
+    if (!p->tile->passed) return within;
+    return wm_and(within, wf_lt(sample->key, wf_load(p->tile->passed + at)));
+}
+
+static void ray_visibility(const pass *p) {
+    for (uint32_t i = 0; i < p->run->class_first[EWA_CLASS_COUNT]; i++) {
+        const ewa_record *r = &p->run->records[p->run->order[i]];
+        const ray_splat ray = ray_start(p->view, r, p->run->loads[p->run->order[i]].peak);
+        for (uint32_t row = box_row(r->box); row < box_row(r->box) + box_rows(r->box); row++) {
+            const size_t first = (size_t)row * p->tile->blocks_per_row;
+            for (uint32_t k = 0; k < box_columns(r->box); k++) {
+                const uint32_t column = box_column(r->box) + k;
+                const ray_sample sample =
+                    ray_block(p->view, r, &ray, clip_of(p->run->clips, p->run->order[i]), row, column);
+                const wm counts = ray_counts(p, &sample, (first + column) * EWA_BLOCK_LANES);
+                ray_raise(r, &sample, counts, p->tile->nearest + (first + column) * EWA_BLOCK_LANES);
+            }
+        }
+    }
+}
+
+typedef void clipped_block(const pass *p, uint32_t splat, uint32_t row, uint32_t column, int what);
+
+/// Calls `body` for every block of the splats with clip lines.
+static ALWAYS_INLINE void for_each_clipped(const pass *p, clipped_block *body, int what) {
+    const uint16_t *first = p->run->class_first + EWA_CLIP_CLASS;
+    for (uint32_t i = first[0]; i < first[1]; i++) {
+        const uint32_t splat = p->run->order[i], box = p->run->records[splat].box;
+        for (uint32_t row = box_row(box); row < box_row(box) + box_rows(box); row++)
+            for (uint32_t column = box_column(box); column < box_column(box) + box_columns(box); column++)
+                body(p, splat, row, column, what);
+    }
+}
+
+/// Where a splat with clip lines counts in the block whose first number is `at`.
+static ALWAYS_INLINE wm clipped_counts(const pass *p, const block_sample *sample, wf share, size_t at) {
+    const wm within = wm_and(wf_lt(sample->exponent, wf_set(p->view->exponent_end)), wf_lt(wf_set(0), share));
+    if (!p->tile->passed) return within;
+    return wm_and(within, wf_lt(sample->key, wf_load(p->tile->passed + at)));
+}
+
+/// The key of z + eps of a splat in a block.
+static ALWAYS_INLINE wf block_bound(const ewa_view *view, const ewa_record *r, const block_sample *sample,
+                                    uint32_t column) {
+    if (box_steep(r->box)) return bound_key(r, sample->key, !view->orthographic && !(r->bound_scale > 0));
+    const float first_px = (float)EWA_BLOCK_PX * ((float)column - (float)box_column(r->box));
+    return wf_fma(wf_set(r->bound_y), sample->dy, column_start(r, r->bound, r->bound_x, first_px).key);
+}
+
+static void clipped_raise(const pass *p, uint32_t splat, uint32_t row, uint32_t column, int what) {
+    (void)what;
+    const ewa_record *r = &p->run->records[splat];
+    const size_t at = ((size_t)row * p->tile->blocks_per_row + column) * EWA_BLOCK_LANES;
+    const block_sample sample = sample_block(r, row, column);
+    const wf share = clip_share_block(&p->run->clips[splat], row, column);
+    const wf old = wf_load(p->tile->nearest + at), bound = block_bound(p->view, r, &sample, column);
+    wf_store(p->tile->nearest + at,
+             wf_select(clipped_counts(p, &sample, share, at), wf_max(bound, old), old));
+}
+
 static void visibility(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run) {
     const pass p = {view, tile, run};
-    if (tile->passed)
+    if (view->raycast)
+        ray_visibility(&p);
+    else if (tile->passed)
         for_each_splat(&p, raise_rows_beyond);
     else
         for_each_splat(&p, raise_rows);
+    if (!view->raycast) for_each_clipped(&p, clipped_raise, 0);
 }
 
 static void clear(const ewa_tile *tile) {
@@ -288,6 +413,49 @@ ACCUMULATE(add_color_beyond, BEYOND)
 ACCUMULATE(add_normal_beyond, ADD_NORMAL | BEYOND)
 ACCUMULATE(add_opacity_beyond, ADD_NORMAL | ADD_OPACITY | BEYOND)
 
+static void ray_accumulate(const pass *p) {
+    const ewa_view *view = p->view;
+    const ewa_tile *tile = p->tile;
+    const int what = (tile->with_normals ? ADD_NORMAL : 0) | (tile->with_opacity ? ADD_OPACITY : 0) |
+                     (tile->with_depth && !tile->passed ? ADD_DEPTH : 0);
+    for (uint32_t i = 0; i < p->run->class_first[EWA_CLASS_COUNT]; i++) {
+        const ewa_record *r = &p->run->records[p->run->order[i]];
+        const ewa_load *load = &p->run->loads[p->run->order[i]];
+        const ray_splat ray = ray_start(view, r, load->peak);
+        const payload add =
+            payload_load(r, load, what & ADD_OPACITY ? &p->run->opacities[p->run->order[i]] : NULL, what);
+        for (uint32_t row = box_row(r->box); row < box_row(r->box) + box_rows(r->box); row++) {
+            for (uint32_t k = 0; k < box_columns(r->box); k++) {
+                const uint32_t column = box_column(r->box) + k;
+                const size_t block = (size_t)row * tile->blocks_per_row + column;
+                const ray_sample sample =
+                    ray_block(view, r, &ray, clip_of(p->run->clips, p->run->order[i]), row, column);
+                const wm counts = wm_and(ray_counts(p, &sample, block * EWA_BLOCK_LANES),
+                                         wf_le(wf_load(tile->nearest + block * EWA_BLOCK_LANES), sample.key));
+                if (!wm_bits(counts)) continue;
+                const wf bell = exponential(wf_keep(counts, sample.exponent), view->doublings);
+                add_channels(tile->sums + block * tile->channel_count * EWA_BLOCK_LANES, tile->channel_count,
+                             wf_keep(counts, wf_mul(bell, sample.gain)), &add, sample.key, what);
+            }
+        }
+    }
+}
+
+static void clipped_add(const pass *p, uint32_t splat, uint32_t row, uint32_t column, int what) {
+    const ewa_tile *tile = p->tile;
+    const ewa_record *r = &p->run->records[splat];
+    const size_t block = (size_t)row * tile->blocks_per_row + column, at = block * EWA_BLOCK_LANES;
+    const block_sample sample = sample_block(r, row, column);
+    const wf share = clip_share_block(&p->run->clips[splat], row, column);
+    const wm counts =
+        wm_and(clipped_counts(p, &sample, share, at), wf_le(wf_load(tile->nearest + at), sample.key));
+    if (!wm_bits(counts)) return;
+    const payload add =
+        payload_load(r, &p->run->loads[splat], what & ADD_OPACITY ? &p->run->opacities[splat] : NULL, what);
+    const wf weight = wf_keep(counts, wf_mul(share, exponential(sample.exponent, p->view->doublings)));
+    add_channels(tile->sums + at * tile->channel_count, tile->channel_count, weight, &add, sample.key, what);
+}
+
 static void accumulate(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run) {
     typedef void add_run(const pass *p);
     static add_run *const sets[3][4] = {
@@ -296,110 +464,17 @@ static void accumulate(const ewa_view *view, const ewa_tile *tile, const ewa_sor
         {add_opacity, add_opacity_depth, add_opacity_height, add_opacity_beyond},
     };
     const pass p = {view, tile, run};
+    if (view->raycast) {
+        ray_accumulate(&p);
+        return;
+    }
     const int channels = tile->with_opacity ? 2 : tile->with_normals ? 1 : 0;
     const int kind = tile->passed ? 3 : !tile->with_depth ? 0 : view->orthographic ? 2 : 1;
     sets[channels][kind](&p);
-}
-
-/// A near surfel at a block's pixels, by pixel rays (semantics.h).
-typedef struct near_sample {
-    wf exponent; ///< s: exp(-r^2 / 2) = exp(-s)^(2^doublings)
-    wf weight;   ///< 1 / (2 pi sqrt|W|)
-    wf z;
-    wm counts;
-} near_sample;
-
-static ALWAYS_INLINE wf linear(const float terms[3], wf x, wf y) {
-    return wf_fma(wf_set(terms[1]), x, wf_fma(wf_set(terms[2]), y, wf_set(terms[0])));
-}
-
-static ALWAYS_INLINE near_sample near_evaluate(const ewa_view *view, const ewa_near_record *r, wf x, wf y) {
-    const wf one = wf_set(1), h2 = wf_set(view->prefilter2_px2);
-    const wf inverse = wf_div(one, linear(r->w, x, y));
-    const wf u = wf_mul(linear(r->u, x, y), inverse), v = wf_mul(linear(r->v, x, y), inverse);
-    const wf z = wf_mul(wf_set(r->plane), inverse);
-    const wf ux = wf_mul(wf_fnma(u, wf_set(r->w[1]), wf_set(r->u[1])), inverse);
-    const wf uy = wf_mul(wf_fnma(u, wf_set(r->w[2]), wf_set(r->u[2])), inverse);
-    const wf vx = wf_mul(wf_fnma(v, wf_set(r->w[1]), wf_set(r->v[1])), inverse);
-    const wf vy = wf_mul(wf_fnma(v, wf_set(r->w[2]), wf_set(r->v[2])), inverse);
-    const wf w11 = wf_fma(h2, wf_fma(ux, ux, wf_mul(uy, uy)), one);
-    const wf w22 = wf_fma(h2, wf_fma(vx, vx, wf_mul(vy, vy)), one);
-    const wf w12 = wf_mul(h2, wf_fma(ux, vx, wf_mul(uy, vy)));
-    // |I + h^2 (a'a + b'b)| = 1 + h^2 (|a|^2 + |b|^2) + h^4 (a x b)^2, free of cancellation.
-    const wf cross = wf_mul(h2, wf_fnma(uy, vx, wf_mul(ux, vy)));
-    const wf det = wf_fma(cross, cross, wf_sub(wf_add(w11, w22), one));
-    const wf u2 = wf_mul(u, u), v2 = wf_mul(v, v);
-    const wf numerator = wf_fma(w22, u2, wf_fma(w11, v2, wf_mul(wf_mul(wf_set(-2), w12), wf_mul(u, v))));
-    const wf r2 = wf_div(numerator, det);
-    near_sample sample;
-    sample.exponent = wf_max(wf_mul(r2, wf_set(view->exponent_scale)), wf_set(0));
-    sample.weight = wf_div(wf_set((float)EWA_INVERSE_TWO_PI), wf_sqrt(det));
-    const wm inside = wm_and(wf_lt(sample.exponent, wf_set(view->exponent_end)),
-                             wf_lt(wf_add(u2, v2), wf_set(4 * view->cutoff2)));
-    sample.counts = wm_and(inside, wf_lt(wf_set(0), z));
-    sample.z = wf_min(wf_max(z, wf_set(r->depth_low)), wf_set(r->depth_high));
-    return sample;
-}
-
-static ALWAYS_INLINE void near_raise(const ewa_near_record *r, const near_sample *sample, wm counts,
-                                     float *nearest) {
-    const wf old = wf_load(nearest);
-    const wf key = wf_div(wf_set(1), wf_add(sample->z, wf_set(r->tolerance)));
-    wf_store(nearest, wf_select(counts, wf_max(key, old), old));
-}
-
-/// Adds a near surfel to the channels of a tile; its depth only with `with_depth`.
-static ALWAYS_INLINE void near_add(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *r,
-                                   const near_sample *sample, wm counts, wf key, float *sums,
-                                   bool with_depth) {
-    if (!wm_bits(counts)) return;
-    // Lanes that do not count may hold anything.
-    payload add = {.peak = wf_keep(counts, sample->weight)};
-    for (int k = 0; k < 3; k++) {
-        add.color[k] = wf_mul(add.peak, wf_set(r->color[k]));
-        add.normal[k] = wf_mul(add.peak, wf_set(r->normal[k]));
-    }
-    add.opacity = wf_mul(add.peak, wf_set(r->opacity));
-    const wf e = exponential(wf_keep(counts, sample->exponent), view->doublings);
-    add_channels(sums, tile->channel_count, wf_keep(counts, e), &add, wf_select(counts, key, wf_set(1)),
-                 (tile->with_normals ? ADD_NORMAL : 0) | (with_depth ? ADD_DEPTH : 0) |
-                     (tile->with_opacity ? ADD_OPACITY : 0));
-}
-
-static ALWAYS_INLINE near_sample near_block(const ewa_view *view, const ewa_near_record *r, uint32_t row,
-                                            uint32_t column) {
-    return near_evaluate(view, r, wf_add(lanes_x(), wf_set((float)(EWA_BLOCK_PX * column))),
-                         wf_add(lanes_y(), wf_set((float)(EWA_BLOCK_PX * row))));
-}
-
-static void near_visibility(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *records,
-                            uint32_t count) {
-    for (uint32_t i = 0; i < count; i++) {
-        float *nearest = tile->nearest;
-        for (uint32_t row = 0; row < tile->block_rows; row++) {
-            for (uint32_t column = 0; column < tile->blocks_per_row; column++, nearest += EWA_BLOCK_LANES) {
-                const near_sample sample = near_block(view, &records[i], row, column);
-                near_raise(&records[i], &sample, sample.counts, nearest);
-            }
-        }
-    }
-}
-
-static void near_accumulate(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *records,
-                            uint32_t count) {
-    for (uint32_t i = 0; i < count; i++) {
-        const float *nearest = tile->nearest;
-        float *sums = tile->sums;
-        for (uint32_t row = 0; row < tile->block_rows; row++) {
-            for (uint32_t column = 0; column < tile->blocks_per_row; column++, nearest += EWA_BLOCK_LANES) {
-                const near_sample sample = near_block(view, &records[i], row, column);
-                const wf key = wf_div(wf_set(1), sample.z);
-                const wm counts = wm_and(sample.counts, wf_le(wf_load(nearest), key));
-                near_add(view, tile, &records[i], &sample, counts, key, sums, tile->with_depth);
-                sums += tile->channel_count * EWA_BLOCK_LANES;
-            }
-        }
-    }
+    for_each_clipped(&p, clipped_add,
+                     (tile->with_normals ? ADD_NORMAL : 0) | (tile->with_opacity ? ADD_OPACITY : 0) |
+                         (tile->with_depth && !tile->passed ? ADD_DEPTH : 0) |
+                         (view->orthographic ? ORTHOGRAPHIC : 0));
 }
 
 #endif

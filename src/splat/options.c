@@ -54,7 +54,7 @@ static ewa_status check_render(ewa_context *context, const ewa_render_options *o
     if (options->passes != 1 && options->passes != 3)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "options: passes is %u, allowed are 1 and 3",
                         options->passes);
-    ewa_status status = check_choice(context, "kernel", (int)options->kernel, EWA_KERNEL_AFFINE);
+    ewa_status status = check_choice(context, "kernel", (int)options->kernel, EWA_KERNEL_RAYCAST);
     if (status == EWA_OK) status = check_choice(context, "cull", (int)options->cull, EWA_CULL_BACK);
     if (status == EWA_OK)
         status = check_choice(context, "shading", (int)options->shading, EWA_SHADING_LAMBERT);

@@ -10,6 +10,7 @@
 #include "cloud/morton.h"
 #include "kernels/semantics.h"
 #include "splat/discs.h"
+#include "splat/extras.h"
 #include "splat/options.h"
 #include "splat/pack.h"
 #include "splat/surfel.h"
@@ -32,7 +33,7 @@ typedef struct part_facts {
     uint64_t drawable_count;
     double low[3], high[3];
     double color_low[3], color_high[3];
-    bool ellipses, transparent;
+    bool ellipses;
 } part_facts;
 
 typedef struct build {
@@ -273,37 +274,6 @@ static void encode_group(const build *b, uint64_t group) {
     empty_lanes(&surfels->packets[first + packet_count - 1], count);
 }
 
-/// The opacities of some packets; notes whether one is not opaque.
-static void encode_opacities(void *data, uint32_t part, uint32_t worker) {
-    (void)worker;
-    build *b = data;
-    const ewa_surfels *surfels = b->surfels;
-    const uint64_t end = ewa_split(surfels->count, b->parts, part + 1);
-    bool transparent = false;
-    for (uint64_t i = ewa_split(surfels->count, b->parts, part); i < end; i++) {
-        const double alpha = ewa_surfel_alpha(&b->reader, b->order[i]);
-        surfels->opacities[i] = (uint16_t)(alpha * 65535 + 0.5);
-        transparent |= surfels->opacities[i] < 65535;
-    }
-    b->facts[part].transparent = transparent;
-}
-
-/// Makes the stream of opacities if some surfel is not opaque.
-static ewa_status set_opacities(build *b, ewa_context *context) {
-    ewa_surfels *surfels = b->surfels;
-    if (!b->reader.color || b->reader.color->component_count < 4) return EWA_OK;
-    const size_t lanes = (size_t)surfels->packet_count * LANES;
-    surfels->opacities = ewa_allocate(context, lanes, sizeof *surfels->opacities);
-    if (!surfels->opacities) return EWA_ERROR_MEMORY;
-    ewa_parallel(context, encode_opacities, b, b->parts);
-    for (size_t i = surfels->count; i < lanes; i++) surfels->opacities[i] = 0;
-    for (uint32_t part = 0; part < b->parts; part++)
-        if (b->facts[part].transparent) return EWA_OK;
-    ewa_release(context, surfels->opacities, lanes, sizeof *surfels->opacities);
-    surfels->opacities = NULL;
-    return EWA_OK;
-}
-
 static void encode_part(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const build *b = data;
@@ -438,7 +408,7 @@ static ewa_status build_surfels(build *b, ewa_context *context) {
     if (status != EWA_OK) return status;
     ewa_parallel(context, encode_part, b, b->parts);
     b->surfels->unit_coverage = ewa_packets_unit_coverage(b->surfels);
-    return set_opacities(b, context);
+    return ewa_extras_make(context, b->surfels, &b->reader, b->order);
 }
 
 ewa_status ewa_surfels_create(const ewa_cloud *cloud, const ewa_surfels_options *options,
@@ -483,7 +453,7 @@ void ewa_surfels_destroy(ewa_surfels **surfels) {
     ewa_surfels *old = *surfels;
     ewa_context *context = old->context;
     ewa_release(context, old->packets, old->packet_count, sizeof *old->packets);
-    ewa_release(context, old->opacities, (size_t)old->packet_count * LANES, sizeof *old->opacities);
+    ewa_extras_free(context, old);
     ewa_release(context, old->bounds_floats, BOUNDS_STREAMS * old->bounds_stride, sizeof *old->bounds_floats);
     ewa_release(context, old, 1, sizeof *old);
     *surfels = NULL;
@@ -493,10 +463,9 @@ void ewa_surfels_describe(const ewa_surfels *surfels, ewa_surfels_info *info) {
     *info = (ewa_surfels_info){
         .point_count = surfels->count,
         .left_out_count = surfels->left_out_count,
-        .resident_bytes =
-            sizeof *surfels + surfels->packet_count * sizeof *surfels->packets +
-            BOUNDS_STREAMS * surfels->bounds_stride * sizeof *surfels->bounds_floats +
-            (surfels->opacities ? LANES * surfels->packet_count * sizeof *surfels->opacities : 0),
+        .resident_bytes = sizeof *surfels + surfels->packet_count * sizeof *surfels->packets +
+                          BOUNDS_STREAMS * surfels->bounds_stride * sizeof *surfels->bounds_floats +
+                          ewa_extras_bytes(surfels),
         .unit_coverage = surfels->unit_coverage,
         .transparent = surfels->opacities != NULL,
         .bounds = surfels->extent,

@@ -9,12 +9,23 @@
 #include "kernels/packet.h"
 #include "math/vec.h"
 
+/// The clip lines of a surfel, local space: keep toward.(q - center) + offset >= 0 for q in its plane; toward
+/// is a unit vector of the plane, or 0 and offset 1 where there is no line.
+typedef struct ewa_surfel_clip {
+    float toward[2][3], offset[2];
+    bool either;
+} ewa_surfel_clip;
+
 struct ewa_surfels {
     ewa_context *context;
     uint32_t count, packet_count;
     uint64_t left_out_count;
     ewa_packet *packets;
-    uint16_t *opacities;      ///< [packet][lane], times 65535; NULL: all are opaque
+    uint16_t *opacities;    ///< [packet][lane], times 65535; NULL: all are opaque
+    uint16_t *clip_masks;   ///< [packet]: bit per lane that has a clip line; NULL: none has
+    uint32_t *clip_first;   ///< [packet]: of its lanes' in `clips`
+    ewa_surfel_clip *clips; ///< `clip_count` of them, in the order of packets and lanes
+    uint64_t clip_count;
     ewa_packet_bounds bounds; ///< views into `bounds_floats`
     float *bounds_floats;
     size_t bounds_stride;   ///< packet_count rounded up to a full vector

@@ -61,6 +61,74 @@ static void set_box(const ewa_reference_view *view, double x_low, double x_high,
     pixel_range(y_low, y_high, view->height_px, &splat->y_begin, &splat->y_end);
 }
 
+/// Whether the kernel is evaluated in the surfel's plane.
+static bool by_backward_mapping(const ewa_reference_view *view) {
+    return view->kernel == EWA_KERNEL_SOURCE || (view->kernel == EWA_KERNEL_RAYCAST && !view->orthographic);
+}
+
+/// The map from the picture back to the surfel's plane. Source: the inverse of (u, v) J, from the
+/// centre. Raycast: of x M ~ the ray, with M = [tu; tv; p] (PAS equation 4), scaled so that w =
+/// pz / z. Returns false where it has none to speak of. `root` is sqrt|V|.
+static bool make_backward_map(const ewa_reference_view *view, double jacobian[2][2], double root,
+                              ewa_reference_splat *splat) {
+    const ewa_vec3 p = splat->center;
+    if (view->kernel == EWA_KERNEL_RAYCAST) {
+        if (fabs(vec3_dot(splat->normal, p)) < EWA_EDGE_ON * vec3_length(p)) return false;
+        const ewa_mat3 map = mat3_from_rows(splat->axis_u, splat->axis_v, p), adjugate = mat3_adjugate(&map);
+        splat->plane_from_ray =
+            mat3_scale(&adjugate, p.z / vec3_dot(vec3_cross(splat->axis_u, splat->axis_v), p));
+        return true;
+    }
+    const double least = EWA_FLAT * splat->variance_px2[0] * splat->variance_px2[2];
+    if (!(root >= EWA_LEAST_AREA && root * root >= least)) return false;
+    const ewa_mat3 forward = {
+        {{jacobian[0][0], jacobian[0][1], 0}, {jacobian[1][0], jacobian[1][1], 0}, {0, 0, 1}}};
+    const ewa_mat3 adjugate = mat3_adjugate(&forward);
+    splat->plane_from_ray = mat3_scale(&adjugate, 1 / adjugate.m[2][2]); // the cofactor of the 1 is |J|
+    return true;
+}
+
+/// The resampling kernel (math.md sections 4 and 9) of a splat with its centre and V set, and its box. `root`
+/// is sqrt|V|. Returns whether there is one.
+static bool filter_ellipse(const ewa_reference_view *view, double jacobian[2][2], double root,
+                           ewa_reference_splat *splat) {
+    const double F = view->cutoff, h2 = view->prefilter_px * view->prefilter_px, z = splat->center.z;
+    const double *variance = splat->variance_px2, *center = splat->center_px;
+    // V' = V + h^2 I (math.md section 4); its determinant by a sum of positive terms.
+    double determinant = root * root + h2 * (variance[0] + variance[2]) + h2 * h2;
+    // Without a prefilter a splat from the edge is a line of no area.
+    if (!(determinant > EWA_FLAT * (variance[0] + h2) * (variance[2] + h2))) return false;
+    double filtered[3] = {variance[0] + h2, variance[1], variance[2] + h2}; // V'
+    if (view->kernel == EWA_KERNEL_CIRCULAR) {
+        const double mean = (filtered[0] + filtered[2]) / 2, difference = (filtered[0] - filtered[2]) / 2;
+        filtered[0] = filtered[2] = mean + hypot(difference, filtered[1]); // the larger eigenvalue
+        filtered[1] = 0;
+        determinant = filtered[0] * filtered[0];
+        const double radius = F * fmax(vec3_length(splat->axis_u), vec3_length(splat->axis_v));
+        const double reach = fmin(F * sqrt(filtered[0]) * hypot(splat->plane[0], splat->plane[1]),
+                                  EWA_GRAZING_TOLERANCE * radius / (view->orthographic ? 1 : z * z));
+        splat->key_low -= reach;
+        splat->key_high += reach;
+        if (!view->orthographic) splat->key_low = fmax(splat->key_low, EWA_LEAST_KEY / z);
+    }
+    splat->inverse[0] = filtered[2] / determinant;
+    splat->inverse[1] = -filtered[1] / determinant;
+    splat->inverse[2] = filtered[0] / determinant;
+    splat->peak = root / sqrt(determinant) / TWO_PI;
+    double half_width = F * sqrt(filtered[0]), half_height = F * sqrt(filtered[2]);
+    if (by_backward_mapping(view)) {
+        if (!make_backward_map(view, jacobian, root, splat)) return false;
+        if (view->kernel == EWA_KERNEL_RAYCAST) {
+            const double larger = z / (z - splat->half_range); // w where the disc is nearest
+            half_width = F * sqrt(larger * larger * variance[0] + h2);
+            half_height = F * sqrt(larger * larger * variance[2] + h2);
+        }
+    }
+    set_box(view, center[0] - half_width, center[0] + half_width, center[1] - half_height,
+            center[1] + half_height, splat);
+    return true;
+}
+
 /// The ellipse of a surfel at a distance (math.md section 3).
 ///
 /// The dual conic of the support's rim is D = F^2 Sigma - p'p. A shear G of the rays, x -= (px/pz) z, y -=
@@ -74,14 +142,16 @@ static void set_box(const ewa_reference_view *view, double x_low, double x_high,
 /// the same with D33 = -pz^2, c = 0, what is left for F -> 0. Orthographic cameras project t by dropping z.
 static bool make_ellipse(const ewa_reference_view *view, ewa_reference_splat *splat) {
     const ewa_vec3 p = splat->center;
-    const double F = view->cutoff, h2 = view->prefilter_px * view->prefilter_px;
+    const double F = view->cutoff;
     const double x0 = view->orthographic ? 0 : p.x / p.z, y0 = view->orthographic ? 0 : p.y / p.z;
     const ewa_vec3 axes[2] = {splat->axis_u, splat->axis_v};
     double s11 = 0, s12 = 0, s22 = 0, s13 = 0, s23 = 0, s33 = 0; // Sigma', x and y in pixels
+    double jacobian[2][2];
     for (int i = 0; i < 2; i++) {
         const double x = view->fx_px * (axes[i].x - x0 * axes[i].z),
                      y = view->fy_px * (axes[i].y - y0 * axes[i].z);
         const double z = axes[i].z;
+        jacobian[i][0] = view->orthographic ? x : x / p.z, jacobian[i][1] = view->orthographic ? y : y / p.z;
         s11 += x * x, s12 += x * y, s22 += y * y;
         s13 += x * z, s23 += y * z, s33 += z * z;
     }
@@ -93,7 +163,7 @@ static bool make_ellipse(const ewa_reference_view *view, ewa_reference_splat *sp
         variance[0] = s11, variance[1] = s12, variance[2] = s22;
         root = view->fx_px * view->fy_px * fabs(across.z);
     } else {
-        const bool affine = view->kernel == EWA_KERNEL_AFFINE;
+        const bool affine = view->kernel != EWA_KERNEL_PERSPECTIVE;
         const double d33 = (affine ? 0 : F * F * s33) - p.z * p.z;
         const double c1 = affine ? 0 : F * F * s13 / d33, c2 = affine ? 0 : F * F * s23 / d33;
         center[0] = view->fx_px * x0 + view->cx_px + c1;
@@ -103,18 +173,7 @@ static bool make_ellipse(const ewa_reference_view *view, ewa_reference_splat *sp
         variance[2] = c2 * c2 / (F * F) - s22 / d33;
         root = view->fx_px * view->fy_px * fabs(vec3_dot(across, p)) / (-d33 * sqrt(-d33));
     }
-    // V' = V + h^2 I (math.md section 4); its determinant by a sum of positive terms.
-    const double determinant = root * root + h2 * (variance[0] + variance[2]) + h2 * h2;
-    // Without a prefilter a splat from the edge is a line of no area.
-    if (!(determinant > EWA_FLAT * (variance[0] + h2) * (variance[2] + h2))) return false;
-    splat->inverse[0] = (variance[2] + h2) / determinant;
-    splat->inverse[1] = -variance[1] / determinant;
-    splat->inverse[2] = (variance[0] + h2) / determinant;
-    splat->peak = root / sqrt(determinant) / TWO_PI;
-    const double half_width = F * sqrt(variance[0] + h2), half_height = F * sqrt(variance[2] + h2);
-    set_box(view, center[0] - half_width, center[0] + half_width, center[1] - half_height,
-            center[1] + half_height, splat);
-    return true;
+    return filter_ellipse(view, jacobian, root, splat);
 }
 
 /// A box around the pixels whose rays may meet a near surfel within 2 F standard deviations: the corners of
@@ -175,6 +234,52 @@ static void make_depth(const ewa_reference_view *view, double half_range, ewa_re
     }
 }
 
+/// Clip lines on the screen (math.md section 5, PAS 4.4): l' = M^-1 l by the adjugate of M with the rows tu,
+/// tv, p, with the sign that makes (x, y, 1).l' positive inside for z > 0. Orthographic: (x, y) - p is the
+/// picture of u tu + v tv, so (u, v) is its product with the inverse of the axes' first two components.
+static void make_clip(const ewa_reference_view *view, const ewa_surfel *surfel, ewa_reference_splat *splat) {
+    const ewa_vec3 u = splat->axis_u, v = splat->axis_v, p = splat->center;
+    splat->clip_either = surfel->clip_either == 1;
+    splat->clipped = false;
+    for (int k = 0; k < 2; k++) {
+        const double *l = surfel->clip[k];
+        double *line = splat->clip[k];
+        line[0] = line[1] = 0, line[2] = 1;
+        if (l[0] == 0 && l[1] == 0) {
+            splat->clip_either = false;
+            continue;
+        }
+        splat->clipped = true;
+        ewa_vec3 seen;
+        if (view->orthographic) {
+            const double determinant = u.x * v.y - u.y * v.x;
+            const double a = (l[0] * v.y - l[1] * u.y) / determinant,
+                         b = (l[1] * u.x - l[0] * v.x) / determinant;
+            seen = vec3_make(a, b, l[2] - a * p.x - b * p.y);
+        } else {
+            const ewa_mat3 m = mat3_from_rows(u, v, p), adjugate = mat3_adjugate(&m);
+            seen = vec3_scale(mat3_mul_vec3(&adjugate, vec3_make(l[0], l[1], l[2])),
+                              mat3_determinant(&m) < 0 ? -1 : 1);
+        }
+        // From (x, y) at z = 1 to pixels, and to pixels from the line.
+        const double a = seen.x / view->fx_px, b = seen.y / view->fy_px;
+        const double c = seen.z - a * view->cx_px - b * view->cy_px, length = hypot(a, b);
+        line[0] = length > 0 ? a / length : 0;
+        line[1] = length > 0 ? b / length : 0;
+        line[2] = length > 0 ? c / length : copysign(1, c);
+    }
+}
+
+/// The share of a pixel that clip lines leave: all of it half a pixel inside, nothing half a pixel outside.
+static double clip_share(const ewa_reference_splat *splat, double x_px, double y_px) {
+    double share[2];
+    for (int k = 0; k < 2; k++) {
+        const double *line = splat->clip[k];
+        share[k] = fmin(fmax(line[0] * x_px + line[1] * y_px + line[2] + 0.5, 0), 1);
+    }
+    return splat->clip_either ? fmax(share[0], share[1]) : fmin(share[0], share[1]);
+}
+
 void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *surfel,
                            ewa_reference_splat *splat) {
     splat->drawn = false;
@@ -202,6 +307,7 @@ void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *sur
     splat->opacity = surfel->alpha;
     splat->by_rays = by_rays;
     splat->half_range = half_range;
+    make_clip(view, surfel, splat);
     make_depth(view, half_range, splat);
     if (splat->by_rays)
         bound_near(view, splat);
@@ -210,26 +316,11 @@ void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *sur
     splat->drawn = true;
 }
 
-/// The exact projective kernel along a ray (raycast of math.md section 9): q = z d - p in the tangent frame,
-/// u = (q.tu / tu.tu, q.tv / tv.tv), convolved with the prefilter carried over by the derivatives of u at
-/// this very pixel.
-static bool sample_ray(const ewa_reference_view *view, const ewa_reference_splat *splat, double x_px,
-                       double y_px, ewa_reference_sample *sample) {
-    const ewa_vec3 d = ewa_reference_ray(view, x_px, y_px), p = splat->center, n = splat->normal;
-    const double np = vec3_dot(n, p), nd = vec3_dot(n, d), z = np / nd;
-    if (!(z > 0) || !isfinite(z)) return false;
-    const ewa_vec3 tangents[2] = {splat->axis_u, splat->axis_v};
-    double coordinate[2], by_x[2], by_y[2];
-    for (int i = 0; i < 2; i++) {
-        const ewa_vec3 t = vec3_scale(tangents[i], 1 / vec3_dot(tangents[i], tangents[i]));
-        coordinate[i] = vec3_dot(vec3_sub(vec3_scale(d, z), p), t);
-        // d(z d)/dx = dz/dx d + z (1/fx, 0, 0), dz/dx = -z nx / (fx n.d); likewise y
-        by_x[i] = z / view->fx_px * (t.x - n.x / nd * vec3_dot(d, t));
-        by_y[i] = z / view->fy_px * (t.y - n.y / nd * vec3_dot(d, t));
-    }
-    const double u = coordinate[0], v = coordinate[1], F = view->cutoff;
-    if (!(u * u + v * v < 4 * F * F)) return false;
-    const double h2 = view->prefilter_px * view->prefilter_px;
+/// The kernel at (u, v) in the surfel's plane, in standard deviations, convolved with the prefilter that the
+/// derivatives of (u, v) per pixel carry over: variance I + h^2 (by_x'by_x + by_y'by_y).
+static void sample_plane(const ewa_reference_view *view, const double at[2], const double by_x[2],
+                         const double by_y[2], ewa_reference_sample *sample) {
+    const double u = at[0], v = at[1], h2 = view->prefilter_px * view->prefilter_px;
     const double w11 = 1 + h2 * (by_x[0] * by_x[0] + by_y[0] * by_y[0]);
     const double w12 = h2 * (by_x[0] * by_x[1] + by_y[0] * by_y[1]);
     const double w22 = 1 + h2 * (by_x[1] * by_x[1] + by_y[1] * by_y[1]);
@@ -237,20 +328,75 @@ static bool sample_ray(const ewa_reference_view *view, const ewa_reference_splat
     const double determinant = w11 + w22 - 1 + h2 * h2 * cross * cross; // |W|, without cancellation
     sample->distance2 = (u * u * w22 - 2 * u * v * w12 + v * v * w11) / determinant;
     sample->weight = exp(-0.5 * sample->distance2) / sqrt(determinant) / TWO_PI;
+}
+
+/// A near surfel along a ray: q = z d - p in the tangent frame, u = (q.tu / tu.tu, q.tv / tv.tv), with the
+/// derivatives of u at this very pixel.
+static bool sample_ray(const ewa_reference_view *view, const ewa_reference_splat *splat, double x_px,
+                       double y_px, ewa_reference_sample *sample) {
+    const ewa_vec3 d = ewa_reference_ray(view, x_px, y_px), p = splat->center, n = splat->normal;
+    const double np = vec3_dot(n, p), nd = vec3_dot(n, d), z = np / nd;
+    if (!(z > 0) || !isfinite(z)) return false;
+    const ewa_vec3 tangents[2] = {splat->axis_u, splat->axis_v};
+    double u[2], by_x[2], by_y[2];
+    for (int i = 0; i < 2; i++) {
+        const ewa_vec3 t = vec3_scale(tangents[i], 1 / vec3_dot(tangents[i], tangents[i]));
+        u[i] = vec3_dot(vec3_sub(vec3_scale(d, z), p), t);
+        // d(z d)/dx = dz/dx d + z (1/fx, 0, 0), dz/dx = -z nx / (fx n.d); likewise y
+        by_x[i] = z / view->fx_px * (t.x - n.x / nd * vec3_dot(d, t));
+        by_y[i] = z / view->fy_px * (t.y - n.y / nd * vec3_dot(d, t));
+    }
+    if (!(u[0] * u[0] + u[1] * u[1] < 4 * view->cutoff * view->cutoff)) return false;
+    sample_plane(view, u, by_x, by_y, sample);
     sample->z = fmin(fmax(z, p.z - splat->half_range), p.z + splat->half_range);
+    return true;
+}
+
+/// The source kernel (SS equation 8) and the raycast one: the pixel goes back to the surfel's plane and the
+/// kernel is evaluated there. Both maps are affine but for the division by w.
+static void sample_backward(const ewa_reference_view *view, const ewa_reference_splat *splat, double x_px,
+                            double y_px, ewa_reference_sample *sample) {
+    const bool raycast = view->kernel == EWA_KERNEL_RAYCAST;
+    const ewa_vec3 from = raycast ? ewa_reference_ray(view, x_px, y_px)
+                                  : vec3_make(x_px - splat->center_px[0], y_px - splat->center_px[1], 1);
+    const double x_unit = raycast ? view->fx_px : 1, y_unit = raycast ? view->fy_px : 1;
+    const double z = splat->center.z, range = splat->half_range;
+    double w = 1, u[2], by_x[2], by_y[2];
+    if (raycast)
+        w = fmin(fmax(vec3_dot(from, mat3_column(&splat->plane_from_ray, 2)), z / (z + range)),
+                 z / (z - range));
+    for (int i = 0; i < 2; i++) {
+        const ewa_vec3 column = mat3_column(&splat->plane_from_ray, i);
+        u[i] = vec3_dot(from, column) / w;
+        by_x[i] = column.x / x_unit / w;
+        by_y[i] = column.y / y_unit / w;
+    }
+    sample_plane(view, u, by_x, by_y, sample);
+}
+
+/// Without the clip lines.
+static bool sample_unclipped(const ewa_reference_view *view, const ewa_reference_splat *splat, double x_px,
+                             double y_px, ewa_reference_sample *sample) {
+    if (splat->by_rays) return sample_ray(view, splat, x_px, y_px, sample);
+    if (by_backward_mapping(view)) {
+        sample_backward(view, splat, x_px, y_px, sample);
+    } else {
+        const double dx = x_px - splat->center_px[0], dy = y_px - splat->center_px[1];
+        const double *q = splat->inverse;
+        sample->distance2 = q[0] * dx * dx + 2 * q[1] * dx * dy + q[2] * dy * dy;
+        sample->weight = splat->peak * exp(-0.5 * sample->distance2);
+    }
+    const double plane = splat->plane[0] * x_px + splat->plane[1] * y_px + splat->plane[2];
+    // Clamped before the division: a ray that misses the plane gets the far end of the disc.
+    const double key = fmin(fmax(view->orthographic ? -plane : plane, splat->key_low), splat->key_high);
+    sample->z = view->orthographic ? -key : 1 / key;
     return true;
 }
 
 bool ewa_reference_sample_at(const ewa_reference_view *view, const ewa_reference_splat *splat, double x_px,
                              double y_px, ewa_reference_sample *sample) {
-    if (splat->by_rays) return sample_ray(view, splat, x_px, y_px, sample);
-    const double dx = x_px - splat->center_px[0], dy = y_px - splat->center_px[1];
-    const double *q = splat->inverse;
-    sample->distance2 = q[0] * dx * dx + 2 * q[1] * dx * dy + q[2] * dy * dy;
-    sample->weight = splat->peak * exp(-0.5 * sample->distance2);
-    const double plane = splat->plane[0] * x_px + splat->plane[1] * y_px + splat->plane[2];
-    // Clamped before the division: a ray that misses the plane gets the far end of the disc.
-    const double key = fmin(fmax(view->orthographic ? -plane : plane, splat->key_low), splat->key_high);
-    sample->z = view->orthographic ? -key : 1 / key;
+    const double share = splat->clipped ? clip_share(splat, x_px, y_px) : 1;
+    if (!(share > 0) || !sample_unclipped(view, splat, x_px, y_px, sample)) return false;
+    sample->weight *= share;
     return true;
 }

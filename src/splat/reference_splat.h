@@ -32,6 +32,9 @@ typedef struct ewa_reference_splat {
     double variance_px2[3];                 ///< V: xx, xy, yy, without the prefilter
     double inverse[3];                      ///< V'^-1: xx, xy, yy
     double peak;                            ///< sqrt(|V| / |V'|) / 2 pi
+    /// Source, raycast: (w u, w v, w) = x times this, (u, v) in the surfel's plane; x = (x, y, 1) a pixel's
+    /// ray (source: its place relative to the centre, in pixels, with w = 1).
+    ewa_mat3 plane_from_ray;
     double plane[3];          ///< 1/z, orthographic: z, is plane . (x, y, 1) for pixel coordinates x, y
     double half_range;        ///< R of semantics.h
     double key_low, key_high; ///< range of 1/z (orthographic: -z)
@@ -40,6 +43,9 @@ typedef struct ewa_reference_splat {
     ewa_vec3 normal_world;
     ewa_vec3 color;
     double opacity; ///< [0, 1]
+    bool clipped;
+    double clip[2][3]; ///< of the pixel x, y, clip . (x, y, 1) pixels from the line is how far inside
+    bool clip_either;
 } ewa_reference_splat;
 
 /// A splat at a pixel.

@@ -108,7 +108,7 @@ ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const 
 
     ewa_tile_job job = {.kernels = renderer->kernels,
                         .surfels = surfels,
-                        .source = {.packets = surfels->packets},
+                        .source = {.packets = surfels->packets, .clip_masks = surfels->clip_masks},
                         .bins = &renderer->bins,
                         .with_normals = chosen.shading == EWA_SHADING_LAMBERT || frame->normal,
                         .with_depth = frame->depth != NULL,

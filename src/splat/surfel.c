@@ -67,8 +67,8 @@ static bool make_disc(ewa_vec3 n, double sigma, ewa_surfel *surfel) {
 
 /// An ellipse of two conjugate axes: turns them into the principal ones of the same covariance. A rotation of
 /// the pair by t keeps tu'tu + tv'tv and tu x tv; they become orthogonal for tan 2t = 2 tu.tv / (tu.tu -
-/// tv.tv). The normal is on the side of `given`, if that has one.
-static bool make_ellipse(ewa_vec3 tu, ewa_vec3 tv, ewa_vec3 given, ewa_surfel *surfel) {
+/// tv.tv). The normal is on the side of `given`, if that has one. `turn` is set to the cosine and sine of t.
+static bool make_ellipse(ewa_vec3 tu, ewa_vec3 tv, ewa_vec3 given, ewa_surfel *surfel, double turn[2]) {
     if (!within_limit(tu) || !within_limit(tv)) return false;
     const double difference = vec3_dot(tu, tu) - vec3_dot(tv, tv), mixed = 2 * vec3_dot(tu, tv);
     double cosine = 1, sine = 0;
@@ -89,8 +89,18 @@ static bool make_ellipse(ewa_vec3 tu, ewa_vec3 tv, ewa_vec3 given, ewa_surfel *s
     if (!vec3_normalize(&n)) return false;
     vec3_store(u, surfel->axis_u_world);
     vec3_store(v, surfel->axis_v_world);
+    turn[0] = cosine, turn[1] = sine;
     vec3_store(vec3_scale(n, vec3_dot(n, given) < 0 ? -1 : 1), surfel->normal_world);
     return true;
+}
+
+/// Sets a clip line from the file's, which is for the axes before they were scaled and turned.
+static void set_clip(const double line[3], double axis_scale, const double turn[2], double clip[3]) {
+    clip[0] = clip[1] = clip[2] = 0;
+    if (!all_finite(line, 3)) return;
+    clip[0] = axis_scale * (line[0] * turn[0] + line[1] * turn[1]);
+    clip[1] = axis_scale * (line[1] * turn[0] - line[0] * turn[1]);
+    clip[2] = line[2];
 }
 
 static ewa_status check_components(const ewa_cloud *cloud, const ewa_attribute *attribute, uint32_t low,
@@ -136,7 +146,14 @@ ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_opti
         .sigma_per_radius = options->radius_scale / options->cutoff,
         .axis_scale = options->radius_scale,
     };
+    if (reader->tangent_u && reader->tangent_v) {
+        reader->clip[0] = ewa_cloud_find(cloud, EWA_CLIP0);
+        reader->clip[1] = ewa_cloud_find(cloud, EWA_CLIP1);
+        reader->clip_mode = ewa_cloud_find(cloud, EWA_CLIP_MODE);
+    }
     ewa_status status = check_presence(cloud, reader);
+    for (int i = 0; i < 2 && status == EWA_OK; i++) status = check_components(cloud, reader->clip[i], 3, 3);
+    if (status == EWA_OK) status = check_components(cloud, reader->clip_mode, 1, 1);
     if (status == EWA_OK) status = check_components(cloud, reader->position, 3, 3);
     if (status == EWA_OK) status = check_components(cloud, reader->normal, 3, 3);
     if (status == EWA_OK) status = check_components(cloud, reader->color, 3, 4);
@@ -157,27 +174,33 @@ ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_opti
 static uint64_t read_block(const ewa_surfel_reader *reader, uint64_t first, uint64_t count,
                            ewa_surfel *surfels, bool *drawable) {
     double position[3 * BLOCK], normal[3 * BLOCK], first_axis[3 * BLOCK], second_axis[3 * BLOCK],
-        color[4 * BLOCK];
+        color[4 * BLOCK], clip[2][3 * BLOCK] = {{0}}, mode[BLOCK] = {0};
     ewa_attribute_read_f64(reader->position, first, count, position);
     if (reader->normal) ewa_attribute_read_f64(reader->normal, first, count, normal);
     if (reader->color) ewa_attribute_read_f64(reader->color, first, count, color);
     ewa_attribute_read_f64(reader->tangent_u ? reader->tangent_u : reader->radius, first, count, first_axis);
     if (reader->tangent_v) ewa_attribute_read_f64(reader->tangent_v, first, count, second_axis);
+    for (int k = 0; k < 2; k++)
+        if (reader->clip[k]) ewa_attribute_read_f64(reader->clip[k], first, count, clip[k]);
+    if (reader->clip_mode) ewa_attribute_read_f64(reader->clip_mode, first, count, mode);
     const ewa_vec3 origin = vec3_load(reader->origin_world);
     uint64_t kept = 0;
     for (uint64_t i = 0; i < count; i++) {
         ewa_surfel *surfel = &surfels[i];
+        double turn[2] = {1, 0};
         const ewa_vec3 center = vec3_add(vec3_load(&position[3 * i]), origin);
         vec3_store(center, surfel->center_world);
         const ewa_vec3 given = reader->normal ? vec3_load(&normal[3 * i]) : vec3_make(0, 0, 0);
         if (reader->tangent_u)
-            drawable[i] =
-                make_ellipse(vec3_scale(vec3_load(&first_axis[3 * i]), reader->axis_scale),
-                             vec3_scale(vec3_load(&second_axis[3 * i]), reader->axis_scale), given, surfel);
+            drawable[i] = make_ellipse(vec3_scale(vec3_load(&first_axis[3 * i]), reader->axis_scale),
+                                       vec3_scale(vec3_load(&second_axis[3 * i]), reader->axis_scale), given,
+                                       surfel, turn);
         else
             drawable[i] = make_disc(given, first_axis[i] * reader->sigma_per_radius, surfel);
         drawable[i] = drawable[i] && within_limit(center);
         kept += drawable[i];
+        for (int k = 0; k < 2; k++) set_clip(&clip[k][3 * i], reader->axis_scale, turn, surfel->clip[k]);
+        surfel->clip_either = mode[i] == 1;
         surfel->alpha = 1;
         if (reader->color)
             read_color(reader, &color[reader->color->component_count * i], surfel);
@@ -202,4 +225,13 @@ double ewa_surfel_alpha(const ewa_surfel_reader *reader, uint64_t point) {
     if (!reader->color || reader->color->component_count != 4) return 1;
     ewa_attribute_read_f64(reader->color, point, 1, color);
     return alpha_of(reader->color, color);
+}
+
+bool ewa_surfel_is_clipped(const ewa_surfel_reader *reader, uint64_t point) {
+    for (int k = 0; k < 2; k++) {
+        double line[3] = {0};
+        if (reader->clip[k]) ewa_attribute_read_f64(reader->clip[k], point, 1, line);
+        if (all_finite(line, 3) && (line[0] != 0 || line[1] != 0)) return true;
+    }
+    return false;
 }

@@ -15,6 +15,9 @@ typedef struct ewa_surfel {
     double normal_world[3]; ///< unit; +-(u x v), on the side of the cloud's normal if it has one
     double color_linear[3]; ///< [0, 1]
     double alpha;           ///< [0, 1]
+    /// Clip lines: keep a u + b v + c >= 0 at center + u axis_u + v axis_v; a = b = 0: no line.
+    double clip[2][3];
+    double clip_either; ///< 1: what one of two lines keeps is kept; 0: what both keep
 } ewa_surfel;
 
 /// Largest magnitude of a coordinate and of an axis, and the inverse of the smallest axis: surfels outside
@@ -27,6 +30,7 @@ typedef struct ewa_surfel {
 /// The streams of a cloud that make surfels. Valid until the cloud's streams change.
 typedef struct ewa_surfel_reader {
     const ewa_attribute *position, *normal, *radius, *tangent_u, *tangent_v, *color; ///< NULL: not used
+    const ewa_attribute *clip[2], *clip_mode;
     double origin_world[3];
     double sigma_per_radius; ///< radius_scale / F
     double axis_scale;       ///< radius_scale
@@ -35,6 +39,9 @@ typedef struct ewa_surfel_reader {
 
 /// Finds the streams: "position" with "tangent_u" and "tangent_v" (the axes win), or with "normal" and
 /// "radius".
+///
+/// Clip lines ("clip0", "clip1", "clip_mode") belong to tangent axes: without these they are not used. A line
+/// whose a and b are 0, or with a number that is not finite, is none.
 ///
 /// A "color" of 3 or 4 components is used when there is one: unsigned integers are sRGB over their whole
 /// range, signed ones over their non-negative half (alpha is linear), floats are linear and negative ones 0;
@@ -50,6 +57,9 @@ ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_opti
 /// thread.
 uint64_t ewa_surfel_read(const ewa_surfel_reader *reader, uint64_t first, uint64_t count, ewa_surfel *surfels,
                          bool *drawable);
+
+/// Whether a point has a clip line. Any thread.
+bool ewa_surfel_is_clipped(const ewa_surfel_reader *reader, uint64_t point);
 
 /// Reads the alpha of one point as ewa_surfel_read() does. Any thread.
 double ewa_surfel_alpha(const ewa_surfel_reader *reader, uint64_t point);

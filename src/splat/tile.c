@@ -39,6 +39,7 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
         {&s->list_buffer, 2 * (EWA_LISTS * records + EWA_BLOCK_LANES), sizeof *s->listed},
         {&s->box_buffer, 3 * box_count, sizeof(float)},
         {&s->near_buffer, records, sizeof *s->near_surfels},
+        {&s->clip_buffer, job->source.clip_masks ? records : 0, sizeof *s->clips},
         {&s->opacity_buffer, job->with_opacity ? records + EWA_PACKET_LANES : 0, sizeof *s->opacities},
         {&s->kept_buffer, records / EWA_RUN_RECORDS + 2, sizeof *s->kept},
         {&s->pixel_buffer, pixel_floats, sizeof(float)},
@@ -61,6 +62,7 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
         s->boxes[i].key_low = (float *)(box_numbers + 2 * box_count);
     }
     s->near_surfels = s->near_buffer.data;
+    s->clips = job->source.clip_masks ? s->clip_buffer.data : NULL;
     s->opacities = job->with_opacity ? s->opacity_buffer.data : NULL;
     s->kept = s->kept_buffer.data;
     s->nearest = s->pixel_buffer.data;
@@ -83,9 +85,9 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
 }
 
 void ewa_tile_scratch_free(ewa_context *context, ewa_tile_scratch *s) {
-    ewa_buffer *const buffers[] = {&s->record_buffer, &s->load_buffer,   &s->order_buffer, &s->list_buffer,
-                                   &s->box_buffer,    &s->near_buffer,   &s->kept_buffer,  &s->pixel_buffer,
-                                   &s->packet_buffer, &s->opacity_buffer};
+    ewa_buffer *const buffers[] = {&s->record_buffer, &s->load_buffer,    &s->order_buffer, &s->list_buffer,
+                                   &s->box_buffer,    &s->near_buffer,    &s->kept_buffer,  &s->pixel_buffer,
+                                   &s->packet_buffer, &s->opacity_buffer, &s->clip_buffer};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) ewa_buffer_free(context, buffers[i]);
 }
 
@@ -157,6 +159,10 @@ static void prepare_run(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_
     s->least_key = fminf(s->least_key, s->run.least_key);
     s->has_near |= s->run.near_count > 0;
     sort_run(&s->run, s->order + at, sorted);
+    sorted->clips = s->clips ? s->clips + at : NULL;
+    for (uint32_t i = 0; i < s->run.clipped_count; i++)
+        ewa_clip_set(&s->clips[at + s->run.clipped[i].record], job->surfels, &s->run.clipped[i], &job->view,
+                     tile);
 }
 
 static void visit_run(const ewa_tile_job *job, const ewa_tile *tile, const ewa_sorted_run *run,

@@ -40,6 +40,7 @@ typedef struct ewa_tile_scratch {
     ewa_record *records;
     ewa_load *loads;
     float *opacities; ///< NULL: all are opaque
+    ewa_clip *clips;  ///< of the records that have some; NULL: none has
     uint16_t *order;
     uint32_t *listed;   ///< splats behind marked blocks, block by block
     float *listed_keys; ///< ewa_edge_splats.largest_keys of them
@@ -57,7 +58,7 @@ typedef struct ewa_tile_scratch {
     float *nearest, *sums;
     ewa_edges edges;
     ewa_buffer record_buffer, load_buffer, order_buffer, list_buffer, box_buffer, near_buffer, opacity_buffer,
-        kept_buffer, pixel_buffer, packet_buffer;
+        clip_buffer, kept_buffer, pixel_buffer, packet_buffer;
     uint32_t edge_rows[EWA_MAX_TILE_BLOCKS], edge_rows_left[EWA_MAX_TILE_BLOCKS];
     uint64_t drawn_count, fragment_count, hidden_splat_count;
     double setup_s, visibility_s, accumulate_s, edge_s, resolve_s;

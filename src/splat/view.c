@@ -74,7 +74,10 @@ ewa_status ewa_view_set(ewa_view *view, const ewa_surfels *surfels, const ewa_ca
     view->width_px = camera->width_px, view->height_px = camera->height_px;
     view->tile_px = tile_px;
     view->orthographic = camera->projection == EWA_ORTHOGRAPHIC;
-    view->affine = options->kernel == EWA_KERNEL_AFFINE;
+    view->affine = options->kernel != EWA_KERNEL_PERSPECTIVE;
+    view->source = options->kernel == EWA_KERNEL_SOURCE;
+    view->circular = options->kernel == EWA_KERNEL_CIRCULAR;
+    view->raycast = options->kernel == EWA_KERNEL_RAYCAST && !view->orthographic;
     view->cull_back = options->cull == EWA_CULL_BACK;
     view->ellipses = surfels->ellipses;
     return view->orthographic ? EWA_OK : set_sides(surfels->context, view, camera, cutoff * prefilter + 1);
@@ -140,6 +143,56 @@ static void set_linear(float terms[3], ewa_vec3 n, const ewa_view *view, const e
     terms[2] = (float)(n.y / fy);
 }
 
+/// The clip lines of a surfel that has some.
+static const ewa_surfel_clip *find_clip(const ewa_surfels *surfels, uint32_t surfel) {
+    const uint32_t packet = surfel / EWA_PACKET_LANES, lane = surfel % EWA_PACKET_LANES;
+    const uint32_t before = surfels->clip_masks[packet] & ((1u << lane) - 1);
+    return &surfels->clips[surfels->clip_first[packet] + (uint32_t)__builtin_popcount(before)];
+}
+
+/// A line of the surfel's plane, keep g.(q - p) + d >= 0, on the screen. With q = z x on the ray x and z =
+/// n.p / n.x this is, divided by z > 0, x.(g - (g.p - d) / n.p n): math.md section 5, M^-1 l without the
+/// frame. Orthographic: z = pz - ((x - px) nx + (y - py) ny) / nz is linear itself.
+static void set_clip_line(float line[3], ewa_vec3 g, double d, ewa_vec3 n, ewa_vec3 p, const ewa_view *view,
+                          const ewa_tile *tile) {
+    if (view->orthographic) {
+        const double nz = copysign(fmax(fabs(n.z), EWA_EDGE_ON), n.z);
+        const double a = g.x - g.z * n.x / nz, b = g.y - g.z * n.y / nz;
+        set_linear(line, vec3_make(a, b, d - a * p.x - b * p.y), view, tile);
+    } else {
+        const double np = vec3_dot(n, p), least = EWA_EDGE_ON * vec3_length(p);
+        const double share = (vec3_dot(g, p) - d) / copysign(fmax(fabs(np), least), np);
+        set_linear(line, vec3_sub(g, vec3_scale(n, share)), view, tile);
+    }
+    // In pixels from the line; a line at infinity has only sides.
+    const float length = sqrtf(line[1] * line[1] + line[2] * line[2]), c = line[0];
+    line[0] = line[1], line[1] = line[2], line[2] = c;
+    if (length > 0 && isfinite(1 / length)) {
+        for (int i = 0; i < 3; i++) line[i] /= length;
+    } else {
+        line[0] = line[1] = 0, line[2] = c < 0 ? -1 : 1;
+    }
+}
+
+void ewa_clip_set(ewa_clip *clip, const ewa_surfels *surfels, const ewa_clipped *splat, const ewa_view *view,
+                  const ewa_tile *tile) {
+    const ewa_surfel_clip *from = find_clip(surfels, splat->surfel);
+    const float *p = splat->center, *n = splat->normal;
+    const ewa_vec3 center = vec3_make((double)p[0], (double)p[1], (double)p[2]);
+    const ewa_vec3 normal = vec3_make((double)n[0], (double)n[1], (double)n[2]);
+    clip->either = from->either;
+    for (int k = 0; k < 2; k++) {
+        const float *g = from->toward[k];
+        if (g[0] == 0 && g[1] == 0 && g[2] == 0) {
+            clip->line[k][0] = clip->line[k][1] = 0, clip->line[k][2] = 1;
+            continue;
+        }
+        const ewa_vec3 toward = vec3_make((double)g[0], (double)g[1], (double)g[2]);
+        set_clip_line(clip->line[k], turn(view, toward, 1), (double)view->scale * (double)from->offset[k],
+                      normal, center, view, tile);
+    }
+}
+
 bool ewa_near_record_set(ewa_near_record *record, const ewa_surfels *surfels, uint32_t surfel,
                          const ewa_view *view, const ewa_tile *tile) {
     ewa_packet_surfel s;
@@ -178,5 +231,13 @@ bool ewa_near_record_set(ewa_near_record *record, const ewa_surfels *surfels, ui
         record->normal[i] = (float)normal[i];
     }
     record->opacity = (float)opacity;
+    const uint32_t packet = surfel / EWA_PACKET_LANES, lane = surfel % EWA_PACKET_LANES;
+    record->clipped = surfels->clip_masks && surfels->clip_masks[packet] >> lane & 1;
+    if (record->clipped) {
+        const ewa_clipped splat = {.surfel = surfel,
+                                   .center = {(float)p.x, (float)p.y, (float)p.z},
+                                   .normal = {(float)n.x, (float)n.y, (float)n.z}};
+        ewa_clip_set(&record->clip, surfels, &splat, view, tile);
+    }
     return true;
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The fast road against the reference, and against itself: threads, instruction sets, order of the points.
+#include "image/srgb.h"
+#include "kernels/semantics.h"
 #include "tests/splat/picture.h"
 
 #include <math.h>
@@ -36,14 +38,18 @@ static void hold(scene_kind kind, const ewa_surfels_options *surfels_options,
     char name[96];
     snprintf(name, sizeof name, "%s, %s", scene_name(kind), what);
     picture_print(name, &report);
-    assert_true(report.over_count * 1000 < report.pixel_count);
+    // With one pass the surfels of a plane are equally near but for rounding: the mask knows.
+    assert_true(options->passes == 1 || report.over_count * 1000 < report.pixel_count);
     if (options->edge_layers == 1) { // the mask knows the nearest surface only
+        // Circles use planes 16 radii beyond the disc, not 2, and so the error of the normals.
+        const double farther =
+            options->kernel == EWA_KERNEL_CIRCULAR ? EWA_GRAZING_TOLERANCE / EWA_FREE_RADII : 1;
         const double elsewhere = (double)(report.over_count - report.edge_over_count);
-        assert_true(elsewhere <= GRAZING_SHARE * (double)report.pixel_count);
+        assert_true(elsewhere <= farther * GRAZING_SHARE * (double)report.pixel_count);
         // A surfel on the rule's edge between ellipse and pixel rays is one more tie that the mask does not
         // know.
         if (kind != SCENE_NEAR && kind != SCENE_ELLIPSES)
-            assert_true(report.color < GRAZING_ERROR && report.depth < THRESHOLD);
+            assert_true(report.color < GRAZING_ERROR && report.depth < farther * THRESHOLD);
     }
     free(mask);
     picture_free(&reference);
@@ -60,6 +66,40 @@ static void test_defaults_hold(void **state) {
         hold((scene_kind)kind, NULL, &options, false, "defaults");
         options.edge_layers = 1;
         hold((scene_kind)kind, NULL, &options, false, "one edge layer");
+    }
+}
+
+static void test_kernels_hold(void **state) {
+    (void)state;
+    static const struct {
+        ewa_kernel kernel;
+        const char *name;
+    } kernels[] = {{EWA_KERNEL_PERSPECTIVE, "perspective"},
+                   {EWA_KERNEL_AFFINE, "affine"},
+                   {EWA_KERNEL_SOURCE, "source"},
+                   {EWA_KERNEL_CIRCULAR, "circular"},
+                   {EWA_KERNEL_RAYCAST, "raycast"}};
+    static const scene_kind kinds[] = {SCENE_PLANE, SCENE_TORUS, SCENE_CUBE, SCENE_ELLIPSES, SCENE_NEAR};
+    for (size_t k = 0; k < sizeof kernels / sizeof kernels[0]; k++) {
+        char what[64];
+        for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
+            ewa_render_options options;
+            ewa_render_options_init(&options, sizeof options);
+            options.kernel = kernels[k].kernel;
+            options.edge_layers = 3;
+            snprintf(what, sizeof what, "%s, three edge layers", kernels[k].name);
+            hold(kinds[i], NULL, &options, false, what);
+            options.edge_layers = 1;
+            hold(kinds[i], NULL, &options, false, kernels[k].name);
+            snprintf(what, sizeof what, "%s, orthographic", kernels[k].name);
+            if (kinds[i] != SCENE_PLANE && kinds[i] != SCENE_NEAR) hold(kinds[i], NULL, &options, true, what);
+            options.passes = 1;
+            snprintf(what, sizeof what, "%s, one pass", kernels[k].name);
+            hold(kinds[i], NULL, &options, false, what);
+            options.passes = 3, options.prefilter_px = 1;
+            snprintf(what, sizeof what, "%s, prefilter of the papers", kernels[k].name);
+            hold(kinds[i], NULL, &options, false, what);
+        }
     }
 }
 
@@ -108,6 +148,69 @@ static ewa_context *context_of(uint32_t threads, uint32_t cpu_mask) {
     ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
     return context;
+}
+
+static void test_same_bytes_of_every_kernel(void **state) {
+    (void)state;
+    static const uint32_t masks[] = {EWA_CPU_ALL, EWA_CPU_AVX2, 0};
+    static const scene_kind kinds[] = {SCENE_PLANE, SCENE_ELLIPSES, SCENE_NEAR};
+    for (int kernel = EWA_KERNEL_AFFINE; kernel <= EWA_KERNEL_RAYCAST; kernel++) {
+        for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
+            ewa_render_options options;
+            ewa_render_options_init(&options, sizeof options);
+            options.kernel = (ewa_kernel)kernel;
+            picture first = {0};
+            for (size_t i = 0; i < sizeof masks / sizeof masks[0]; i++) {
+                ewa_context *context = context_of(1 + (uint32_t)i, masks[i]);
+                scene of;
+                assert_int_equal(scene_make(context, kinds[k], POINTS / 4, 101, 97, &of), EWA_OK);
+                picture made = picture_draw(context, of.cloud, &of.camera, NULL, &options);
+                if (i == 0) {
+                    first = made;
+                } else {
+                    assert_same_bytes(&first, &made);
+                    picture_free(&made);
+                }
+                scene_free(&of);
+                ewa_context_destroy(&context);
+            }
+            picture_free(&first);
+        }
+    }
+}
+
+/// The source kernel is the affine one (SS 3.2: equations 7 and 8 are equivalent), in the road's single
+/// precision.
+static void test_source_is_affine(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    double worst = 0;
+    for (int kind = 0; kind < SCENE_COUNT; kind++) {
+        scene of;
+        ewa_render_options options;
+        ewa_render_options_init(&options, sizeof options);
+        options.edge_layers = 1;
+        assert_int_equal(scene_make(context, (scene_kind)kind, POINTS, SIDE_PX, SIDE_PX, &of), EWA_OK);
+        options.kernel = EWA_KERNEL_AFFINE;
+        picture affine = picture_draw(context, of.cloud, &of.camera, NULL, &options);
+        options.kernel = EWA_KERNEL_SOURCE;
+        picture source = picture_draw(context, of.cloud, &of.camera, NULL, &options);
+        uint8_t *mask = calloc(SIDE_PX, SIDE_PX);
+        of.unit_coverage = 1;
+        picture_mark_edges(&of, NULL, &options, 1e-4, 1e-4, mask);
+        const picture_report report = picture_compare(&affine, &source, 1e-4, mask);
+        char name[64];
+        snprintf(name, sizeof name, "%s, source against affine", scene_name((scene_kind)kind));
+        picture_print(name, &report);
+        worst = fmax(worst, fmax(report.color, fmax(report.depth, report.coverage)));
+        free(mask);
+        picture_free(&affine);
+        picture_free(&source);
+        scene_free(&of);
+    }
+    print_message("largest difference: %.2g\n", worst);
+    assert_true(worst < 1e-4);
+    ewa_context_destroy(&context);
 }
 
 static void test_same_bytes_on_all_threads_and_instruction_sets(void **state) {
@@ -227,6 +330,50 @@ static void test_empty_and_lonely(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Whether a linear colour is, but for the packets' 16 bits, that of one of the surfels.
+static bool is_some_surfel(const ewa_cloud *cloud, const float rgb[3]) {
+    const ewa_attribute *color = ewa_cloud_find(cloud, EWA_COLOR);
+    const uint8_t *codes = color->data;
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
+        bool same = true;
+        for (int c = 0; c < 3; c++)
+            same = same && fabs((double)rgb[c] - ewa_srgb_decode(codes[3 * i + (uint64_t)c] / 255.0)) < 2e-5;
+        if (same) return true;
+    }
+    return false;
+}
+
+/// One pass (PAS 6): every pixel shows one surfel, opaque and whole; three passes blend.
+static void test_one_pass_shows_one_surfel(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    scene of;
+    assert_int_equal(scene_make(context, SCENE_ELLIPSES, 600, 96, 96, &of), EWA_OK);
+    ewa_render_options options;
+    ewa_render_options_init(&options, sizeof options);
+    options.shading = EWA_SHADING_NONE;
+    options.edge_antialiasing = false;
+    int others[2] = {0, 0}, covered = 0;
+    for (int pass = 0; pass < 2; pass++) {
+        options.passes = pass == 0 ? 1 : 3;
+        picture made = picture_draw(context, of.cloud, &of.camera, NULL, &options);
+        for (size_t i = 0; i < 96 * 96; i++) {
+            const float *rgba = &made.frame.rgba[4 * i];
+            if (rgba[3] == 0) continue;
+            assert_true(rgba[3] == 1);
+            if (pass == 0) assert_true(made.frame.coverage[i] == 1);
+            covered += pass == 0;
+            others[pass] += !is_some_surfel(of.cloud, rgba);
+        }
+        picture_free(&made);
+    }
+    print_message("%d pixels; of a mixed colour with one pass %d, with three %d\n", covered, others[0],
+                  others[1]);
+    assert_true(covered > 1000 && others[0] == 0 && others[1] > covered / 20);
+    scene_free(&of);
+    ewa_context_destroy(&context);
+}
+
 /// An allocator whose n-th call fails.
 typedef struct failing {
     long left, live;
@@ -307,9 +454,13 @@ static void test_warm_frames_allocate_nothing(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_defaults_hold),
+        cmocka_unit_test(test_kernels_hold),
         cmocka_unit_test(test_options_hold),
+        cmocka_unit_test(test_same_bytes_of_every_kernel),
+        cmocka_unit_test(test_source_is_affine),
         cmocka_unit_test(test_same_bytes_on_all_threads_and_instruction_sets),
         cmocka_unit_test(test_order_of_points_does_not_matter),
+        cmocka_unit_test(test_one_pass_shows_one_surfel),
         cmocka_unit_test(test_crowded_tile_holds),
         cmocka_unit_test(test_empty_and_lonely),
         cmocka_unit_test(test_every_failing_allocation_is_clean),

@@ -274,7 +274,8 @@ static void test_options(void **state) {
         if (!strstr(log.text, #member)) fail_msg("'%s' lacks " #member, log.text);                           \
     } while (0)
     REFUSES(struct_size, 8);
-    REFUSES(kernel, (ewa_kernel)2);
+    REFUSES(kernel, (ewa_kernel)5);
+    REFUSES(opacity, 1.5);
     REFUSES(cull, (ewa_cull)-1);
     REFUSES(shading, (ewa_shading)7);
     REFUSES(passes, 2);

@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Clip lines (math.md section 5): known answers, the fast road against the reference in every mode, what is
+// no line.
+#include "tests/splat/picture.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { POINTS = 3000, SIDE = 128 };
+
+/// Gives two thirds of the points one or two clip lines; scenes of discs get tangents first.
+static void add_clips(ewa_cloud *cloud) {
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    float *clip[2] = {NULL, NULL};
+    uint8_t *mode = NULL;
+    check_random random = {11};
+    assert_int_equal(ewa_cloud_add(cloud, EWA_CLIP0, EWA_F32, 3, (void **)&clip[0]), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_CLIP1, EWA_F32, 3, (void **)&clip[1]), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_CLIP_MODE, EWA_U8, 1, (void **)&mode), EWA_OK);
+    for (uint64_t i = 0; i < count; i++) {
+        for (int k = 0; k < 2; k++)
+            for (int c = 0; c < 3; c++)
+                clip[k][3 * i + (uint64_t)c] = i % 3 > (uint64_t)k ? (float)check_uniform(&random, -1, 1) : 0;
+        mode[i] = i % 2 == 0;
+    }
+}
+
+static void hold(scene_kind kind, const ewa_render_options *options, bool orthographic, const char *what) {
+    ewa_context *context = check_context(0, NULL);
+    scene of = picture_measured_scene(context, kind, POINTS, NULL);
+    add_clips(of.cloud);
+    if (orthographic) {
+        ewa_bounds bounds;
+        const double direction[3] = {0.3, 0.8, -0.5}, up[3] = {0, 0, 1};
+        assert_int_equal(ewa_cloud_measure(of.cloud, &bounds), EWA_OK);
+        assert_int_equal(ewa_camera_set_ortho(&of.camera, 1), EWA_OK);
+        assert_int_equal(ewa_camera_frame(&of.camera, &bounds, direction, up, 0.05), EWA_OK);
+    }
+    picture reference = picture_of_scene(&of, NULL, options);
+    picture fast = picture_draw(context, of.cloud, &of.camera, NULL, options);
+    const picture_report report = picture_compare(&reference, &fast, 2e-3, NULL);
+    char name[96];
+    snprintf(name, sizeof name, "%s, %s", scene_name(kind), what);
+    picture_print(name, &report);
+    assert_true(report.over_count * 200 < report.pixel_count);
+    picture_free(&reference);
+    picture_free(&fast);
+    scene_free(&of);
+    ewa_context_destroy(&context);
+}
+
+static void test_road_holds(void **state) {
+    (void)state;
+    static const scene_kind kinds[] = {SCENE_ELLIPSES, SCENE_NEAR};
+    static const char *const names[] = {"perspective", "affine", "source", "circular", "raycast"};
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
+        ewa_render_options o;
+        for (int kernel = 0; kernel < 5; kernel++) {
+            ewa_render_options_init(&o, sizeof o);
+            o.kernel = (ewa_kernel)kernel;
+            hold(kinds[i], &o, false, names[kernel]);
+        }
+        ewa_render_options_init(&o, sizeof o);
+        o.edge_layers = 1;
+        hold(kinds[i], &o, false, "one edge layer");
+        o.edge_layers = 8, o.opacity = 0.5;
+        hold(kinds[i], &o, false, "transparent");
+        o.layers = 2;
+        hold(kinds[i], &o, false, "two layers");
+    }
+    ewa_render_options o;
+    ewa_render_options_init(&o, sizeof o);
+    hold(SCENE_ELLIPSES, &o, true, "orthographic");
+}
+
+/// One ellipse with lines, seen straight on: `inside` pixels show, others do not.
+static ewa_cloud *one_surfel(ewa_context *context, const float lines[2][3], uint8_t mode) {
+    ewa_cloud *cloud = NULL;
+    float *position, *u, *v, *clip0, *clip1;
+    uint8_t *either;
+    assert_int_equal(ewa_cloud_create(context, 1, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&position), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_TANGENT_U, EWA_F32, 3, (void **)&u), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_TANGENT_V, EWA_F32, 3, (void **)&v), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_CLIP0, EWA_F32, 3, (void **)&clip0), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_CLIP1, EWA_F32, 3, (void **)&clip1), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_CLIP_MODE, EWA_U8, 1, (void **)&either), EWA_OK);
+    position[0] = position[1] = 0, position[2] = 4;
+    u[0] = 0, u[1] = 0.5f, u[2] = 0; // the shorter axis first: the lines have to follow the turn
+    v[0] = -1, v[1] = v[2] = 0;
+    memcpy(clip0, lines[0], 3 * sizeof(float));
+    memcpy(clip1, lines[1], 3 * sizeof(float));
+    *either = mode;
+    return cloud;
+}
+
+static void test_known_answers(void **state) {
+    (void)state;
+    // Picture x = -v, y = u / 2 in world units; 32 pixels per unit.
+    static const struct {
+        float lines[2][3];
+        uint8_t mode;
+        int quadrants; // bits: right lower, left lower, left upper, right upper
+    } rows[] = {
+        {{{1, 0, 0}, {0, 0, 0}}, 0, 0x3},  // u > 0: below the middle
+        {{{0, 1, 0}, {0, 0, 0}}, 0, 0x6},  // v > 0: left
+        {{{0, -3, 0}, {0, 0, 0}}, 1, 0x9}, // one line, whatever the mode
+        {{{1, 0, 0}, {0, 1, 0}}, 0, 0x2},  // convex corner
+        {{{1, 0, 0}, {0, 1, 0}}, 1, 0x7},  // concave corner
+        {{{0, 0, 0}, {0, 0, -5}}, 0, 0xf}, // no lines
+        {{{NAN, 1, 0}, {1, 0, INFINITY}}, 0, 0xf}, {{{0, 1, -9}, {0, 0, 0}}, 0, 0}, // all cut off
+    };
+    ewa_context *context = check_context(0, NULL);
+    ewa_camera camera;
+    ewa_camera_init(&camera, sizeof camera);
+    camera.width_px = camera.height_px = SIDE;
+    camera.fx_px = camera.fy_px = SIDE;
+    camera.cx_px = camera.cy_px = SIDE / 2;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        ewa_cloud *cloud = one_surfel(context, rows[i].lines, rows[i].mode);
+        for (int kernel = 0; kernel < 5; kernel++) {
+            ewa_render_options o;
+            ewa_render_options_init(&o, sizeof o);
+            o.kernel = (ewa_kernel)kernel;
+            o.shading = EWA_SHADING_NONE;
+            picture made = picture_draw(context, cloud, &camera, NULL, &o);
+            for (int q = 0; q < 4; q++) {
+                // Two pixels and more from the lines, well within the ellipse.
+                const int right = q == 0 || q == 3, below = q < 2;
+                for (int away = 2; away < 14; away++) {
+                    const int x = SIDE / 2 + (right ? away : -1 - away),
+                              y = SIDE / 2 + (below ? away : -1 - away);
+                    const float alpha = made.frame.rgba[4 * (y * SIDE + x) + 3];
+                    assert_true(alpha == (rows[i].quadrants >> q & 1 ? 1 : 0));
+                }
+            }
+            picture_free(&made);
+        }
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
+/// A scaled radius moves no line; a line elsewhere than through the centre is where it should be.
+static void test_line_stays(void **state) {
+    (void)state;
+    static const float lines[2][3] = {{0, 1, 0.25f},
+                                      {0, 0, 0}}; // v > -0.25: x < 0.25, 8 pixels right of the middle
+    ewa_context *context = check_context(0, NULL);
+    ewa_camera camera;
+    ewa_camera_init(&camera, sizeof camera);
+    camera.width_px = camera.height_px = SIDE;
+    camera.fx_px = camera.fy_px = SIDE;
+    camera.cx_px = camera.cy_px = SIDE / 2;
+    ewa_cloud *cloud = one_surfel(context, lines, 0);
+    for (double scale = 0.5; scale < 3; scale *= 2) {
+        ewa_surfels_options surfels;
+        ewa_surfels_options_init(&surfels, sizeof surfels);
+        surfels.radius_scale = scale;
+        picture made = picture_draw(context, cloud, &camera, &surfels, NULL);
+        const float *row = &made.frame.coverage[SIDE / 2 * SIDE];
+        assert_true(row[SIDE / 2 + 7] > 0 && row[SIDE / 2 + 8] == 0);
+        picture_free(&made);
+    }
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_known_answers),
+        cmocka_unit_test(test_line_stays),
+        cmocka_unit_test(test_road_holds),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
