@@ -83,11 +83,11 @@ void bench_report_head(const bench_sink *sink) {
             "ms of thread time");
 }
 
-static void write_frames(json_writer *json, const bench_frame_row *row) {
+static void write_frames(json_writer *json, const bench_frame_row *row, const char *label) {
     const bench_scene *scene = row->scene;
     const double points = (double)row->info.point_count;
     json_text(json, "scene", scene->name);
-    json_text(json, "label", scene->label);
+    json_text(json, "label", label);
     if (row->way) json_text(json, "way", row->way);
     json_count(json, "splats", row->info.point_count);
     if (scene->covered_px > 0) json_number(json, "covered_px", scene->covered_px);
@@ -131,7 +131,7 @@ void bench_report_frames(const bench_sink *sink, const bench_frame_row *row) {
     fprintf(sink->text, " %6.1f", (double)row->info.resident_bytes / points);
     if (sink->json) {
         json_object(sink->json, NULL);
-        write_frames(sink->json, row);
+        write_frames(sink->json, row, label);
     }
     const double peer_ms = row->threads == 2 ? bench_peer_ms(row->scene) : 0;
     if (peer_ms > 0) {
