@@ -88,13 +88,14 @@ typedef enum ewa_object {
     EWA_OBJECT_SPHERE,      ///< banded like a planet, poles on the z axis
     EWA_OBJECT_TORUS,       ///< about the z axis, tube radius 1/7 of the outer diameter, winding ribbons
     EWA_OBJECT_TERRAIN,     ///< fractal heights: water (z = 0), sand, grass, rock, snow
+    EWA_OBJECT_CSG,         ///< block of 1 x 0.7 x 0.4 edges with a slot, a notch and two round holes
 } ewa_object;
 
 /// What to generate. Fill with ewa_generate_options_init().
 typedef struct ewa_generate_options {
     size_t struct_size;
     ewa_object object;
-    uint64_t point_count; ///< exactly so many points; default 100000
+    uint64_t point_count; ///< exactly so many points (with rows on edges: at most); default 100000
     uint64_t seed;        ///< same seed, same bytes, on every machine; default 1
     double size_world;    ///< edge of plane, cube, terrain; diameter of sphere; outer diameter of torus;
                           ///< [1e-25, 1e25]; default 2
@@ -104,6 +105,8 @@ typedef struct ewa_generate_options {
     double radius_scale; ///< support radius in units of the local spacing; [1e-6, 1e6]; default 1.14.
                          ///< Discs leave no hole where it is at least 0.72 (1 + jitter)
     bool positions_only; ///< leave out normals and radii; default false
+    bool sharp; ///< cube and part: rows of points on every edge, and axes and clip lines in place of radii;
+                ///< default false
 } ewa_generate_options;
 
 EWA_API void ewa_generate_options_init(ewa_generate_options *options, size_t struct_size);
@@ -111,9 +114,18 @@ EWA_API void ewa_generate_options_init(ewa_generate_options *options, size_t str
 /// Makes a test object: "position" F32 3, "normal" F32 3 (unit, outward), "color" U8 3 (sRGB), "radius"
 /// F32 1. One point lies in each of `point_count` cells of equal area (terrain: of equal ground), about as
 /// wide as high, that fill the surface to its edge; the spacing is the square root of a cell's area (terrain:
-/// longer on slopes). `options` may be NULL for the defaults; the caller owns `*cloud`, which is NULL after a
+/// longer on slopes).
+///
+/// The part, and the cube when `sharp`, have rows of points on every edge instead, and the most points that
+/// fit in `point_count`. When `sharp`, "tangent_u", "tangent_v" (radius_scale / 3 of a cell long), "clip0",
+/// "clip1", "clip_mode" take the place of "radius": every kernel that reaches an edge is cut there; beside
+/// round holes centres lie up to 3/4 of a cell beyond the edge. The rows are regular: seed and jitter change
+/// nothing.
+///
+/// `options` may be NULL for the defaults; the caller owns `*cloud`, which is NULL after a
 /// failure. Every number depends on the options alone, not on the machine or the number of threads. Progress
-/// stage: "generate". Errors: EWA_ERROR_ARGUMENT (message names the member), EWA_ERROR_LIMIT,
+/// stage: "generate". Errors: EWA_ERROR_ARGUMENT (message names the member; too few points for rows on every
+/// edge), EWA_ERROR_LIMIT,
 /// EWA_ERROR_MEMORY, EWA_CANCELLED.
 EWA_API ewa_status ewa_cloud_generate(ewa_context *context, const ewa_generate_options *options,
                                       ewa_cloud **cloud);
