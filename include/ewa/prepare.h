@@ -80,6 +80,49 @@ typedef struct ewa_spacing {
 EWA_API ewa_status ewa_cloud_measure_spacing(const ewa_cloud *cloud, uint64_t sample_count,
                                              ewa_spacing *spacing);
 
+/// What is left of two solids.
+typedef enum ewa_csg_operation {
+    EWA_CSG_UNION = 0,
+    EWA_CSG_INTERSECTION = 1,
+    EWA_CSG_DIFFERENCE = 2, ///< A without B
+} ewa_csg_operation;
+
+/// How two solids are combined. Fill with ewa_csg_options_init().
+typedef struct ewa_csg_options {
+    size_t struct_size;
+    ewa_csg_operation operation; ///< default EWA_CSG_UNION
+    double cutoff; ///< F: standard deviations in a "radius" and in the support of a kernel; (0, 4]; default 3
+} ewa_csg_options;
+
+EWA_API void ewa_csg_options_init(ewa_csg_options *options, size_t struct_size);
+
+/// Combines two closed solids of surfels into one with sharp edges where their surfaces meet.
+///
+/// - Each cloud has "position", and "normal" with "radius", or "tangent_u" with "tangent_v"; normals point
+///   outward. Both belong to one context. Points that are no surfels (not finite, no normal, no size) are
+///   left out.
+/// - Inside and outside are told by the 16 nearest surfels of the other solid, as one plane or, where their
+///   normals part by over 37 degrees, as two that meet in a convex or a concave edge.
+/// - Surfels that the other surface cuts are split into four of 0.55 the size, up to four times, until they
+///   are no coarser than its surfels; clip lines cut them where its planes meet theirs. Centres are at most
+///   1.8 standard deviations beyond an edge: less than half a spacing for radii of the default scale.
+/// - Clip lines of the operands are kept. Where more than two would meet in one surfel it is split; in the
+///   smallest pieces the two lines that cut the most remain.
+/// - Where surfaces coincide (within 0.1 of the reach, 6 degrees) A's is kept: for union and intersection if
+///   the normals agree, for the difference if they are opposite.
+/// - The result has A's origin, A's surfels before B's, each in Morton order; "position", "normal",
+///   "tangent_u", "tangent_v", "clip0", "clip1", "clip_mode", and the other attributes that both clouds have
+///   (see ewa_cloud_merge()). It may have no points, which is reported as a warning.
+///
+/// `options` may be NULL; the caller owns `*result`, NULL after a failure. The bytes do not depend on the
+/// number of threads. Progress stage: "csg". Errors: EWA_ERROR_ARGUMENT (a missing attribute; an operand that
+/// is not closed: its normals weighted by area sum up to over a tenth of the area, or inside and outside of
+/// it meet without a surfel between), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_CANCELLED. Based on B. Adams and
+/// P. Dutre, "Interactive boolean operations on surfel-bounded solids", 2003, and M. Zwicker et al.,
+/// "Perspective Accurate Splatting", 2004, section 5.
+EWA_API ewa_status ewa_cloud_csg(const ewa_cloud *a, const ewa_cloud *b, const ewa_csg_options *options,
+                                 ewa_cloud **result);
+
 /// Test objects, centred at the origin. Plane, checker and terrain lie in x-y, z up.
 typedef enum ewa_object {
     EWA_OBJECT_PLANE = 0,   ///< light grey square
