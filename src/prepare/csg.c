@@ -144,13 +144,13 @@ static ewa_vec3 meet(const csg_job *job, const csg_piece *piece, ewa_vec3 own_no
     return vec3_scale(vec3_make(a, b, distance - a * at[0] - b * at[1]), side);
 }
 
-/// The lines that the other surface asks for; from the second look on at the place where it meets the disc.
-static line_set lines_of(const csg_job *job, const csg_piece *piece, ewa_local_surface *surface) {
-    enum { LOOKS = 3 };
+/// The lines that the other surface asks for, after `looks` looks: the second is at the place where the first
+/// saw it meet the disc, and so on.
+static line_set lines_of(const csg_job *job, const csg_piece *piece, int looks, ewa_local_surface *surface) {
     const ewa_vec3 own_normal = job->solid->surfels[piece->surfel].normal;
     double at[2] = {0, 0};
     line_set lines = {.count = 0};
-    for (int look = 0; look < LOOKS; look++) {
+    for (int look = 0; look < looks; look++) {
         const ewa_vec3 place = vec3_add(
             piece->center, vec3_add(vec3_scale(piece->axis[0], at[0]), vec3_scale(piece->axis[1], at[1])));
         ewa_local_surface seen;
@@ -191,7 +191,8 @@ static uint32_t cut(const csg_job *job, const csg_piece *piece, uint32_t level, 
     csg_piece left = *piece;
     if (prune(&left.lines, job->cutoff) == DISC_NONE) return 0;
     ewa_local_surface surface;
-    line_set asked = lines_of(job, piece, &surface);
+    // What is going to be split is looked at again in parts.
+    line_set asked = lines_of(job, piece, level == 0 ? 1 : 2, &surface);
     const disc_share share = prune(&asked, job->cutoff);
     if (share == DISC_NONE) return 0;
     if (share == DISC_PART) {
@@ -233,6 +234,7 @@ static void cut_near(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const csg_job *job = data;
     for (uint32_t i = part * TASK_SURFELS; i < (part + 1) * TASK_SURFELS && i < job->near_count; i++) {
+        if (job->piece_first[i] == job->piece_first[i + 1]) continue;
         const csg_piece piece = whole_surfel(job, job->near[i]);
         cut(job, &piece, 0, job->pieces + job->piece_first[i]);
     }
@@ -254,13 +256,15 @@ static uint32_t classify(const csg_job *job, uint32_t level, uint32_t index, cer
     if (end > solid->count) end = solid->count;
     const ewa_vec3 middle = vec3_scale(vec3_add(node->low, node->high), 0.5);
     const double radius = vec3_length(vec3_sub(node->high, middle)) + node->reach;
-    ewa_local_surface surface;
-    ewa_solid_look(job->other, middle, &surface);
+    double reach;
+    const double nearest = ewa_solid_nearest(job->other, middle, &reach);
     // Between samples the surface is nearer than they are, by less than their reach.
-    if (surface.nearest > radius + 2 * surface.reach) {
+    if (nearest > radius + 2 * reach) {
+        ewa_local_surface surface;
+        ewa_solid_look(job->other, middle, &surface);
         const bool outside = surface.signed_distance > 0;
         const ewa_vec3 step = vec3_sub(middle, last->place);
-        const double clear = surface.nearest - surface.reach;
+        const double clear = nearest - reach;
         const bool doubt =
             last->known && last->outside != outside && vec3_length(step) < fmax(clear, last->distance);
         *last = (certain_place){middle, clear, outside, true};

@@ -18,16 +18,22 @@
 #include <math.h>
 #include <string.h>
 
-enum { NEAREST = 16, TASK_SURFELS = 4096, FEWEST_OF_PLANE = 2 };
+enum { NEAREST = 16, TASK_SURFELS = 4096, RUN_SURFELS = 512, FEWEST_OF_PLANE = 2 };
 
 /// Cosine of the largest angle between the normals of one plane: 37 degrees.
 #define SAME_PLANE 0.8
+
+/// A place with its point, for sorting.
+typedef struct place_key {
+    double at[3];
+    uint32_t point;
+} place_key;
 
 typedef struct read_job {
     const ewa_attribute *position, *normal, *radius, *tangent[2];
     ewa_vec3 shift;
     double cutoff;
-    const uint32_t *order;
+    uint32_t *order;
     uint32_t count;
     ewa_solid_surfel *surfels;
 } read_job;
@@ -66,6 +72,71 @@ static bool read_surfel(const read_job *job, uint32_t point, ewa_solid_surfel *s
     }
     surfel->reach = job->cutoff * fmax(vec3_length(surfel->axis[0]), vec3_length(surfel->axis[1]));
     return vec3_is_finite(surfel->center) && isfinite(surfel->reach) && surfel->reach > 0;
+}
+
+/// Without branches, so that loops over it become vectors.
+static double larger(double a, double b) { return a > b ? a : b; }
+
+static bool comes_before(const place_key *a, const place_key *b, int axis) {
+    return a->at[axis] < b->at[axis] || (a->at[axis] == b->at[axis] && a->point < b->point);
+}
+
+/// Moves the `rank` first keys along an axis to the front (Hoare's selection).
+static void select_first(place_key *keys, uint32_t count, uint32_t rank, int axis) {
+    uint32_t low = 0, high = count - 1;
+    while (low < high) {
+        const place_key pivot = keys[low + (high - low) / 2];
+        uint32_t i = low, k = high;
+        for (;;) {
+            while (comes_before(&keys[i], &pivot, axis)) i++;
+            while (comes_before(&pivot, &keys[k], axis)) k--;
+            if (i >= k) break;
+            const place_key swapped = keys[i];
+            keys[i] = keys[k];
+            keys[k] = swapped;
+        }
+        // keys[k] is the pivot.
+        if (k == rank) return;
+        if (k < rank)
+            low = k + 1;
+        else
+            high = k - 1;
+    }
+}
+
+/// Orders keys so that nodes are compact boxes: halves along the longest side, again and again. Runs of the
+/// Z-order curve jump, and their boxes overlap.
+static void halve(place_key *keys, uint32_t count) {
+    if (count <= EWA_SOLID_ARITY) return;
+    double low[3], high[3];
+    for (int c = 0; c < 3; c++) low[c] = high[c] = keys[0].at[c];
+    for (uint32_t i = 1; i < count; i++)
+        for (int c = 0; c < 3; c++) {
+            low[c] = -larger(-low[c], -keys[i].at[c]);
+            high[c] = larger(high[c], keys[i].at[c]);
+        }
+    int axis = 0;
+    for (int c = 1; c < 3; c++)
+        if (high[c] - low[c] > high[axis] - low[axis]) axis = c;
+    uint32_t first = EWA_SOLID_ARITY;
+    while (2 * first < count) first *= 2;
+    select_first(keys, count, first, axis);
+    halve(keys, first);
+    halve(keys + first, count - first);
+}
+
+static void order_part(void *data, uint32_t part, uint32_t worker) {
+    (void)worker;
+    const read_job *job = data;
+    place_key keys[RUN_SURFELS];
+    const uint32_t first = part * RUN_SURFELS;
+    const uint32_t count = job->count - first < RUN_SURFELS ? job->count - first : RUN_SURFELS;
+    for (uint32_t i = 0; i < count; i++) {
+        keys[i].point = job->order[first + i];
+        ewa_attribute_read_f64(job->position, keys[i].point, 1, keys[i].at);
+    }
+    halve(keys, count);
+    for (uint32_t i = 0; i < count; i++) job->order[first + i] = keys[i].point;
 }
 
 static void read_part(void *data, uint32_t part, uint32_t worker) {
@@ -171,6 +242,7 @@ ewa_status ewa_solid_open(const ewa_cloud *cloud, const char *name, const double
     if (status == EWA_OK) {
         job.order = order;
         job.surfels = solid->surfels;
+        ewa_parallel(context, order_part, &job, (job.count + RUN_SURFELS - 1) / RUN_SURFELS);
         ewa_parallel(context, read_part, &job, (job.count + TASK_SURFELS - 1) / TASK_SURFELS);
         compact(solid, job.count);
         if (solid->count == 0)
@@ -229,18 +301,18 @@ double ewa_solid_openness(const ewa_solid *solid) {
 /// The nearest surfels so far, nearest first.
 typedef struct nearest_list {
     ewa_vec3 place;
-    uint32_t count;
+    uint32_t wanted, count;
     uint32_t surfel[NEAREST];
     double distance2[NEAREST];
 } nearest_list;
 
 static double limit2_of(const nearest_list *list) {
-    return list->count < NEAREST ? INFINITY : list->distance2[NEAREST - 1];
+    return list->count < list->wanted ? INFINITY : list->distance2[list->wanted - 1];
 }
 
 static void offer(nearest_list *list, uint32_t surfel, double distance2) {
     if (!(distance2 < limit2_of(list))) return;
-    uint32_t at = list->count < NEAREST ? list->count++ : NEAREST - 1;
+    uint32_t at = list->count < list->wanted ? list->count++ : list->wanted - 1;
     for (; at > 0 && list->distance2[at - 1] > distance2; at--) {
         list->distance2[at] = list->distance2[at - 1];
         list->surfel[at] = list->surfel[at - 1];
@@ -249,14 +321,10 @@ static void offer(nearest_list *list, uint32_t surfel, double distance2) {
     list->surfel[at] = surfel;
 }
 
-static double outside_of(double low, double high, double x) {
-    return x < low ? low - x : x > high ? x - high : 0;
-}
-
 static double box_distance2(const ewa_solid_node *node, ewa_vec3 p) {
-    const ewa_vec3 d =
-        vec3_make(outside_of(node->low.x, node->high.x, p.x), outside_of(node->low.y, node->high.y, p.y),
-                  outside_of(node->low.z, node->high.z, p.z));
+    const ewa_vec3 d = vec3_make(larger(larger(node->low.x - p.x, p.x - node->high.x), 0),
+                                 larger(larger(node->low.y - p.y, p.y - node->high.y), 0),
+                                 larger(larger(node->low.z - p.z, p.z - node->high.z), 0));
     return vec3_dot(d, d);
 }
 
@@ -273,6 +341,7 @@ static void search(const ewa_solid *solid, uint32_t level, uint32_t node, neares
     uint32_t order[EWA_SOLID_ARITY], count = 0;
     for (uint32_t i = first; i < first + EWA_SOLID_ARITY && i < solid->level_nodes[level - 1]; i++) {
         const double d2 = box_distance2(&solid->nodes[solid->level_first[level - 1] + i], list->place);
+        if (!(d2 < limit2_of(list))) continue;
         uint32_t at = count++;
         for (; at > 0 && distance2[at - 1] > d2; at--)
             distance2[at] = distance2[at - 1], order[at] = order[at - 1];
@@ -316,8 +385,15 @@ static plane_fit fit_plane(const ewa_solid *solid, const nearest_list *list, con
     return plane;
 }
 
+double ewa_solid_nearest(const ewa_solid *solid, ewa_vec3 place, double *reach) {
+    nearest_list list = {.place = place, .wanted = 1};
+    search(solid, solid->level_count - 1, 0, &list);
+    *reach = solid->surfels[list.surfel[0]].reach;
+    return sqrt(list.distance2[0]);
+}
+
 void ewa_solid_look(const ewa_solid *solid, ewa_vec3 place, ewa_local_surface *surface) {
-    nearest_list list = {.place = place};
+    nearest_list list = {.place = place, .wanted = NEAREST};
     search(solid, solid->level_count - 1, 0, &list);
     // Weights fall to nearly nothing at the last of them, so that the surface has no steps.
     double weight[NEAREST];
@@ -329,7 +405,6 @@ void ewa_solid_look(const ewa_solid *solid, ewa_vec3 place, ewa_local_surface *s
     uint32_t free = (1u << list.count) - 1;
     const plane_fit first = fit_plane(solid, &list, weight, free);
     *surface = (ewa_local_surface){.plane_count = 1};
-    surface->nearest = sqrt(list.distance2[0]);
     surface->reach = solid->surfels[list.surfel[0]].reach;
     surface->normal[0] = first.normal;
     surface->distance[0] = surface->signed_distance = first.distance;

@@ -61,10 +61,13 @@ typedef struct ewa_local_surface {
     ewa_vec3 normal[2];
     double distance[2];
     bool convex;            ///< two planes: inside is behind both of them; else behind either
-    double nearest;         ///< distance of the nearest centre
     double reach;           ///< of the nearest surfel
     double signed_distance; ///< negative inside
 } ewa_local_surface;
+
+/// Returns the distance of the nearest centre, and the reach of its surfel; the solid has surfels. Any
+/// thread.
+double ewa_solid_nearest(const ewa_solid *solid, ewa_vec3 place, double *reach);
 
 /// Looks at the surface near a place; the solid has surfels. Any thread.
 void ewa_solid_look(const ewa_solid *solid, ewa_vec3 place, ewa_local_surface *surface);
