@@ -29,6 +29,9 @@ enum { TASK_SURFELS = 512, SPLIT_LEVELS = 4, PIECES = 4 };
 #define SAME_SINE     0.1
 #define SAME_DISTANCE 0.1
 
+/// Where the nearest surfel is farther than this many of its reaches, there is no surface.
+#define FAR_OFF 2.0
+
 /// Share of the area that the normals of a closed surface may sum up to.
 #define MAX_OPENNESS 0.1
 
@@ -45,9 +48,11 @@ typedef struct csg_job {
     const ewa_solid *solid, *other;
     keep_rule rule;
     double cutoff;
-    uint8_t *fate;    // [solid->count]
-    uint32_t *doubts; // [parts] places whose side contradicts that of a place that no surface parts from them
-    uint32_t *near;   // surfels with FATE_NEAR, ascending
+    uint8_t *fate; // [solid->count]
+    // [parts] Places whose side contradicts that of a place that no surface parts from them, and pieces that
+    // are cut where there is no surface.
+    uint32_t *doubts;
+    uint32_t *near; // surfels with FATE_NEAR, ascending
     uint32_t near_count;
     uint32_t *piece_first; // [near_count + 1]
     struct csg_piece *pieces;
@@ -98,6 +103,46 @@ static bool is_beyond(const line_set *lines) {
     uint32_t beyond = 0;
     for (uint32_t k = 0; k < lines->count; k++) beyond += depth_of(lines->line[k]) < -BEYOND;
     return beyond > 0 && (!lines->either || beyond == lines->count);
+}
+
+/// Largest depth that a place of the disc has in both of two half-planes: at the far end of either's normal,
+/// or where both are as deep and the disc ends.
+static double common_depth(ewa_vec3 a, ewa_vec3 b, double cutoff) {
+    const double slope_a = sqrt(a.x * a.x + a.y * a.y), slope_b = sqrt(b.x * b.x + b.y * b.y);
+    const double n[2][3] = {{a.x / slope_a, a.y / slope_a, a.z / slope_a},
+                            {b.x / slope_b, b.y / slope_b, b.z / slope_b}};
+    double best = -INFINITY;
+    for (int k = 0; k < 2; k++) {
+        const double own = cutoff + n[k][2];
+        const double other = cutoff * (n[0][0] * n[1][0] + n[0][1] * n[1][1]) + n[1 - k][2];
+        best = fmax(best, fmin(own, other));
+    }
+    const double du = n[0][0] - n[1][0], dv = n[0][1] - n[1][1], d2 = du * du + dv * dv;
+    const double share = d2 > 0 ? (n[1][2] - n[0][2]) / d2 : INFINITY;
+    const double rest = cutoff * cutoff - share * share * d2;
+    if (!(rest > 0)) return best;
+    const double along = fabs(n[0][1] * du - n[0][0] * dv) * sqrt(rest / d2);
+    return fmax(best, share * (n[0][0] * du + n[0][1] * dv) + along + n[0][2]);
+}
+
+/// Whether no place of the disc is in both sets: each alternative of the one has a line that parts it from
+/// each of the other.
+static bool exclude(const line_set *a, const line_set *b, double cutoff) {
+    if (a->count == 0 || b->count == 0) return false;
+    const double nothing = 0.02; // standard deviations
+    bool apart[2][2];
+    for (uint32_t i = 0; i < a->count; i++)
+        for (uint32_t k = 0; k < b->count; k++)
+            apart[i][k] = common_depth(a->line[i], b->line[k], cutoff) < nothing;
+    for (uint32_t i = 0; i < (a->either ? a->count : 1); i++)
+        for (uint32_t k = 0; k < (b->either ? b->count : 1); k++) {
+            bool parted = false;
+            for (uint32_t m = a->either ? i : 0; m < (a->either ? i + 1 : a->count); m++)
+                for (uint32_t n = b->either ? k : 0; n < (b->either ? k + 1 : b->count); n++)
+                    parted |= apart[m][n];
+            if (!parted) return false;
+        }
+    return true;
 }
 
 /// Joins two sets that both have to hold; false when they are more than two lines, of which the two that cut
@@ -155,7 +200,7 @@ static line_set lines_of(const csg_job *job, const csg_piece *piece, int looks, 
             piece->center, vec3_add(vec3_scale(piece->axis[0], at[0]), vec3_scale(piece->axis[1], at[1])));
         ewa_local_surface seen;
         ewa_solid_look(job->other, place, &seen);
-        if (look == 0) *surface = seen;
+        *surface = seen;
         lines.count = seen.plane_count;
         for (uint32_t k = 0; k < seen.plane_count; k++)
             lines.line[k] = meet(job, piece, own_normal, seen.normal[k], seen.distance[k], at);
@@ -187,7 +232,10 @@ static csg_piece quarter(const csg_piece *piece, double su, double sv) {
 }
 
 /// Cuts a piece by the other surface; writes what is left at `out` unless that is NULL, returns its count.
-static uint32_t cut(const csg_job *job, const csg_piece *piece, uint32_t level, csg_piece *out) {
+///
+/// `*doubts` counts cuts that are farther from the other's surfels than these reach.
+static uint32_t cut(const csg_job *job, const csg_piece *piece, uint32_t level, csg_piece *out,
+                    uint32_t *doubts) {
     csg_piece left = *piece;
     if (prune(&left.lines, job->cutoff) == DISC_NONE) return 0;
     ewa_local_surface surface;
@@ -197,6 +245,7 @@ static uint32_t cut(const csg_job *job, const csg_piece *piece, uint32_t level, 
     if (share == DISC_NONE) return 0;
     if (share == DISC_PART) {
         const line_set own = left.lines;
+        if (exclude(&own, &asked, job->cutoff)) return 0;
         const bool complete = join(&own, &asked, &left.lines);
         const double reach = job->cutoff * fmax(vec3_length(piece->axis[0]), vec3_length(piece->axis[1]));
         const bool coarse = level == 0 || reach > 1.2 * surface.reach;
@@ -204,11 +253,12 @@ static uint32_t cut(const csg_job *job, const csg_piece *piece, uint32_t level, 
             uint32_t count = 0;
             for (int i = 0; i < PIECES; i++) {
                 const csg_piece part = quarter(piece, i & 1 ? 1 : -1, i & 2 ? 1 : -1);
-                count += cut(job, &part, level + 1, out ? out + count : NULL);
+                count += cut(job, &part, level + 1, out ? out + count : NULL, doubts);
             }
             return count;
         }
         if (is_beyond(&asked)) return 0;
+        *doubts += surface.nearest > FAR_OFF * surface.reach;
     }
     if (out) *out = left;
     return 1;
@@ -226,21 +276,23 @@ static void count_near(void *data, uint32_t part, uint32_t worker) {
     const csg_job *job = data;
     for (uint32_t i = part * TASK_SURFELS; i < (part + 1) * TASK_SURFELS && i < job->near_count; i++) {
         const csg_piece piece = whole_surfel(job, job->near[i]);
-        job->piece_first[i] = cut(job, &piece, 0, NULL);
+        job->piece_first[i] = cut(job, &piece, 0, NULL, &job->doubts[part]);
     }
 }
 
 static void cut_near(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const csg_job *job = data;
+    uint32_t doubts = 0; // counted before
     for (uint32_t i = part * TASK_SURFELS; i < (part + 1) * TASK_SURFELS && i < job->near_count; i++) {
         if (job->piece_first[i] == job->piece_first[i + 1]) continue;
         const csg_piece piece = whole_surfel(job, job->near[i]);
-        cut(job, &piece, 0, job->pieces + job->piece_first[i]);
+        cut(job, &piece, 0, job->pieces + job->piece_first[i], &doubts);
     }
 }
 
-/// The last place whose side was certain: no surface is within `distance` of it.
+/// The last place whose side was certain: no surface is within `distance` of it, so that a place whose own
+/// such ball meets this one is on the same side.
 typedef struct certain_place {
     ewa_vec3 place;
     double distance;
@@ -266,7 +318,7 @@ static uint32_t classify(const csg_job *job, uint32_t level, uint32_t index, cer
         const ewa_vec3 step = vec3_sub(middle, last->place);
         const double clear = nearest - reach;
         const bool doubt =
-            last->known && last->outside != outside && vec3_length(step) < fmax(clear, last->distance);
+            last->known && last->outside != outside && vec3_length(step) < clear + last->distance;
         *last = (certain_place){middle, clear, outside, true};
         memset(job->fate + first, outside == (job->rule.side > 0) ? FATE_KEEP : FATE_DROP, end - first);
         return doubt;
@@ -329,12 +381,20 @@ static ewa_status classify_all(csg_job *job, uint32_t *doubts) {
     return status;
 }
 
-static ewa_status cut_all(csg_job *job) {
+static ewa_status cut_all(csg_job *job, uint32_t *doubts) {
     ewa_context *context = job->solid->context;
     const uint32_t parts = (job->near_count + TASK_SURFELS - 1) / TASK_SURFELS;
     job->piece_first = ewa_allocate(context, (size_t)job->near_count + 1, sizeof *job->piece_first);
     if (!job->piece_first) return EWA_ERROR_MEMORY;
+    job->doubts = ewa_allocate_zeroed(context, parts, sizeof *job->doubts);
+    if (!job->doubts) {
+        job->piece_first[job->near_count] = 0;
+        return EWA_ERROR_MEMORY;
+    }
     ewa_parallel(context, count_near, job, parts);
+    for (uint32_t i = 0; i < parts; i++) *doubts += job->doubts[i];
+    ewa_release(context, job->doubts, parts, sizeof *job->doubts);
+    job->doubts = NULL;
     if (!add_up(job)) return ewa_fail(context, EWA_ERROR_LIMIT, "csg: over 2^32 pieces");
     job->pieces = ewa_allocate(context, job->piece_first[job->near_count], sizeof *job->pieces);
     if (!job->pieces) return EWA_ERROR_MEMORY;
@@ -503,6 +563,7 @@ static ewa_status combine(const ewa_cloud *const operands[2], const ewa_solid so
                             .cutoff = options->cutoff};
         uint32_t doubts = 0;
         if (status == EWA_OK) status = classify_all(&jobs[k], &doubts);
+        if (status == EWA_OK) status = cut_all(&jobs[k], &doubts);
         if (status == EWA_OK && doubts)
             status =
                 ewa_fail(context, EWA_ERROR_ARGUMENT,
@@ -510,7 +571,6 @@ static ewa_status combine(const ewa_cloud *const operands[2], const ewa_solid so
                          "of it meet with none of its surfels between",
                          k ? 'A' : 'B', doubts);
         if (status == EWA_OK) status = ewa_progress(context, "csg", 0.4 * (k + 1));
-        if (status == EWA_OK) status = cut_all(&jobs[k]);
     }
     if (status == EWA_OK) status = assemble(operands, jobs, result);
     for (int k = 0; k < 2; k++) free_job(&jobs[k]);

@@ -25,7 +25,7 @@ enum { NONE = -1 };
 #define HOLE_MARGIN 0.75
 
 /// Cells along the circumference of the smallest hole that still make it round.
-enum { MIN_HOLE_CELLS = 8 };
+enum { MIN_HOLE_CELLS = 32 };
 
 /// The grid along one axis: interval m of the lattice has start[m + 1] - start[m] cells.
 typedef struct grid_axis {

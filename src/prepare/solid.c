@@ -405,6 +405,7 @@ void ewa_solid_look(const ewa_solid *solid, ewa_vec3 place, ewa_local_surface *s
     uint32_t free = (1u << list.count) - 1;
     const plane_fit first = fit_plane(solid, &list, weight, free);
     *surface = (ewa_local_surface){.plane_count = 1};
+    surface->nearest = sqrt(list.distance2[0]);
     surface->reach = solid->surfels[list.surfel[0]].reach;
     surface->normal[0] = first.normal;
     surface->distance[0] = surface->signed_distance = first.distance;

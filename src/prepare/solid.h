@@ -61,7 +61,7 @@ typedef struct ewa_local_surface {
     ewa_vec3 normal[2];
     double distance[2];
     bool convex;            ///< two planes: inside is behind both of them; else behind either
-    double reach;           ///< of the nearest surfel
+    double nearest, reach;  ///< distance of the nearest centre, reach of its surfel
     double signed_distance; ///< negative inside
 } ewa_local_surface;
 
