@@ -29,9 +29,6 @@ enum { TASK_SURFELS = 512, SPLIT_LEVELS = 4, PIECES = 4 };
 #define SAME_SINE     0.1
 #define SAME_DISTANCE 0.1
 
-/// Where the nearest surfel is farther than this many of its reaches, there is no surface.
-#define FAR_OFF 2.0
-
 /// Share of the area that the normals of a closed surface may sum up to.
 #define MAX_OPENNESS 0.1
 
@@ -48,11 +45,9 @@ typedef struct csg_job {
     const ewa_solid *solid, *other;
     keep_rule rule;
     double cutoff;
-    uint8_t *fate; // [solid->count]
-    // [parts] Places whose side contradicts that of a place that no surface parts from them, and pieces that
-    // are cut where there is no surface.
-    uint32_t *doubts;
-    uint32_t *near; // surfels with FATE_NEAR, ascending
+    uint8_t *fate;    // [solid->count]
+    uint32_t *doubts; // [parts] places whose side contradicts that of a place that no surface parts from them
+    uint32_t *near;   // surfels with FATE_NEAR, ascending
     uint32_t near_count;
     uint32_t *piece_first; // [near_count + 1]
     struct csg_piece *pieces;
@@ -193,6 +188,7 @@ static ewa_vec3 meet(const csg_job *job, const csg_piece *piece, ewa_vec3 own_no
 /// saw it meet the disc, and so on.
 static line_set lines_of(const csg_job *job, const csg_piece *piece, int looks, ewa_local_surface *surface) {
     const ewa_vec3 own_normal = job->solid->surfels[piece->surfel].normal;
+    const double reach = job->cutoff * fmax(vec3_length(piece->axis[0]), vec3_length(piece->axis[1]));
     double at[2] = {0, 0};
     line_set lines = {.count = 0};
     for (int look = 0; look < looks; look++) {
@@ -201,6 +197,11 @@ static line_set lines_of(const csg_job *job, const csg_piece *piece, int looks, 
         ewa_local_surface seen;
         ewa_solid_look(job->other, place, &seen);
         *surface = seen;
+        if (look == 0 && seen.nearest > reach + seen.reach) {
+            // No surface here: planes that go on beyond their ends say nothing.
+            const bool keeps = (seen.mean_distance > 0) == (job->rule.side > 0);
+            return (line_set){.line = {vec3_make(0, 0, keeps ? 1 : -1)}, .count = 1};
+        }
         lines.count = seen.plane_count;
         for (uint32_t k = 0; k < seen.plane_count; k++)
             lines.line[k] = meet(job, piece, own_normal, seen.normal[k], seen.distance[k], at);
@@ -232,10 +233,7 @@ static csg_piece quarter(const csg_piece *piece, double su, double sv) {
 }
 
 /// Cuts a piece by the other surface; writes what is left at `out` unless that is NULL, returns its count.
-///
-/// `*doubts` counts cuts that are farther from the other's surfels than these reach.
-static uint32_t cut(const csg_job *job, const csg_piece *piece, uint32_t level, csg_piece *out,
-                    uint32_t *doubts) {
+static uint32_t cut(const csg_job *job, const csg_piece *piece, uint32_t level, csg_piece *out) {
     csg_piece left = *piece;
     if (prune(&left.lines, job->cutoff) == DISC_NONE) return 0;
     ewa_local_surface surface;
@@ -253,12 +251,11 @@ static uint32_t cut(const csg_job *job, const csg_piece *piece, uint32_t level, 
             uint32_t count = 0;
             for (int i = 0; i < PIECES; i++) {
                 const csg_piece part = quarter(piece, i & 1 ? 1 : -1, i & 2 ? 1 : -1);
-                count += cut(job, &part, level + 1, out ? out + count : NULL, doubts);
+                count += cut(job, &part, level + 1, out ? out + count : NULL);
             }
             return count;
         }
         if (is_beyond(&asked)) return 0;
-        *doubts += surface.nearest > FAR_OFF * surface.reach;
     }
     if (out) *out = left;
     return 1;
@@ -276,18 +273,17 @@ static void count_near(void *data, uint32_t part, uint32_t worker) {
     const csg_job *job = data;
     for (uint32_t i = part * TASK_SURFELS; i < (part + 1) * TASK_SURFELS && i < job->near_count; i++) {
         const csg_piece piece = whole_surfel(job, job->near[i]);
-        job->piece_first[i] = cut(job, &piece, 0, NULL, &job->doubts[part]);
+        job->piece_first[i] = cut(job, &piece, 0, NULL);
     }
 }
 
 static void cut_near(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const csg_job *job = data;
-    uint32_t doubts = 0; // counted before
     for (uint32_t i = part * TASK_SURFELS; i < (part + 1) * TASK_SURFELS && i < job->near_count; i++) {
         if (job->piece_first[i] == job->piece_first[i + 1]) continue;
         const csg_piece piece = whole_surfel(job, job->near[i]);
-        cut(job, &piece, 0, job->pieces + job->piece_first[i], &doubts);
+        cut(job, &piece, 0, job->pieces + job->piece_first[i]);
     }
 }
 
@@ -314,7 +310,7 @@ static uint32_t classify(const csg_job *job, uint32_t level, uint32_t index, cer
     if (nearest > radius + 2 * reach) {
         ewa_local_surface surface;
         ewa_solid_look(job->other, middle, &surface);
-        const bool outside = surface.signed_distance > 0;
+        const bool outside = surface.mean_distance > 0;
         const ewa_vec3 step = vec3_sub(middle, last->place);
         const double clear = nearest - reach;
         const bool doubt =
@@ -381,20 +377,12 @@ static ewa_status classify_all(csg_job *job, uint32_t *doubts) {
     return status;
 }
 
-static ewa_status cut_all(csg_job *job, uint32_t *doubts) {
+static ewa_status cut_all(csg_job *job) {
     ewa_context *context = job->solid->context;
     const uint32_t parts = (job->near_count + TASK_SURFELS - 1) / TASK_SURFELS;
     job->piece_first = ewa_allocate(context, (size_t)job->near_count + 1, sizeof *job->piece_first);
     if (!job->piece_first) return EWA_ERROR_MEMORY;
-    job->doubts = ewa_allocate_zeroed(context, parts, sizeof *job->doubts);
-    if (!job->doubts) {
-        job->piece_first[job->near_count] = 0;
-        return EWA_ERROR_MEMORY;
-    }
     ewa_parallel(context, count_near, job, parts);
-    for (uint32_t i = 0; i < parts; i++) *doubts += job->doubts[i];
-    ewa_release(context, job->doubts, parts, sizeof *job->doubts);
-    job->doubts = NULL;
     if (!add_up(job)) return ewa_fail(context, EWA_ERROR_LIMIT, "csg: over 2^32 pieces");
     job->pieces = ewa_allocate(context, job->piece_first[job->near_count], sizeof *job->pieces);
     if (!job->pieces) return EWA_ERROR_MEMORY;
@@ -563,7 +551,7 @@ static ewa_status combine(const ewa_cloud *const operands[2], const ewa_solid so
                             .cutoff = options->cutoff};
         uint32_t doubts = 0;
         if (status == EWA_OK) status = classify_all(&jobs[k], &doubts);
-        if (status == EWA_OK) status = cut_all(&jobs[k], &doubts);
+        if (status == EWA_OK) status = cut_all(&jobs[k]);
         if (status == EWA_OK && doubts)
             status =
                 ewa_fail(context, EWA_ERROR_ARGUMENT,

@@ -396,7 +396,7 @@ void ewa_solid_look(const ewa_solid *solid, ewa_vec3 place, ewa_local_surface *s
     nearest_list list = {.place = place, .wanted = NEAREST};
     search(solid, solid->level_count - 1, 0, &list);
     // Weights fall to nearly nothing at the last of them, so that the surface has no steps.
-    double weight[NEAREST];
+    double weight[NEAREST] = {0};
     const double range2 = 1.05 * list.distance2[list.count - 1];
     for (uint32_t i = 0; i < list.count; i++) {
         const double w = range2 > 0 ? 1 - list.distance2[i] / range2 : 1;
@@ -407,8 +407,15 @@ void ewa_solid_look(const ewa_solid *solid, ewa_vec3 place, ewa_local_surface *s
     *surface = (ewa_local_surface){.plane_count = 1};
     surface->nearest = sqrt(list.distance2[0]);
     surface->reach = solid->surfels[list.surfel[0]].reach;
+    double total = 0;
+    for (uint32_t i = 0; i < list.count; i++) {
+        const ewa_solid_surfel *surfel = &solid->surfels[list.surfel[i]];
+        total += weight[i];
+        surface->mean_distance += weight[i] * vec3_dot(vec3_sub(place, surfel->center), surfel->normal);
+    }
+    surface->mean_distance /= total;
     surface->normal[0] = first.normal;
-    surface->distance[0] = surface->signed_distance = first.distance;
+    surface->distance[0] = first.distance;
     free &= ~first.members;
     if (!free) return;
     const plane_fit second = fit_plane(solid, &list, weight, free);
@@ -418,6 +425,4 @@ void ewa_solid_look(const ewa_solid *solid, ewa_vec3 place, ewa_local_surface *s
     surface->normal[1] = second.normal;
     surface->distance[1] = second.distance;
     surface->convex = vec3_dot(across, first.normal) - vec3_dot(across, second.normal) < 0;
-    surface->signed_distance =
-        surface->convex ? fmax(first.distance, second.distance) : fmin(first.distance, second.distance);
 }

@@ -60,9 +60,10 @@ typedef struct ewa_local_surface {
     uint32_t plane_count;
     ewa_vec3 normal[2];
     double distance[2];
-    bool convex;            ///< two planes: inside is behind both of them; else behind either
-    double nearest, reach;  ///< distance of the nearest centre, reach of its surfel
-    double signed_distance; ///< negative inside
+    bool convex;           ///< two planes: inside is behind both of them; else behind either
+    double nearest, reach; ///< distance of the nearest centre, reach of its surfel
+    double mean_distance;  ///< from the planes of all the nearest surfels; its sign tells the side of a place
+                          ///< that is farther away than they are apart, at any kind of corner
 } ewa_local_surface;
 
 /// Returns the distance of the nearest centre, and the reach of its surfel; the solid has surfels. Any
