@@ -162,7 +162,7 @@ EWA_API void ewa_generate_options_init(ewa_generate_options *options, size_t str
 /// The part, and the cube when `sharp`, have rows of points on every edge instead, and the most points that
 /// fit in `point_count`. When `sharp`, "tangent_u", "tangent_v" (radius_scale / 3 of a cell long), "clip0",
 /// "clip1", "clip_mode" take the place of "radius": every kernel that reaches an edge is cut there; beside
-/// round holes centres lie up to 3/4 of a cell beyond the edge. The rows are regular: seed and jitter change
+/// round holes centres lie up to 3/8 of a cell beyond the edge. The rows are regular: seed and jitter change
 /// nothing.
 ///
 /// `options` may be NULL for the defaults; the caller owns `*cloud`, which is NULL after a

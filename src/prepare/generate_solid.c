@@ -183,20 +183,28 @@ static bool cut_by_quadrants(const bool face[2][2], const grid_node *u, const gr
     return true;
 }
 
-/// Cuts a surfel of a face by the holes through it; false when it is too far inside of one.
-static bool cut_by_holes(const solid_job *job, int axis, const grid_node *u, const grid_node *v,
-                         const double sigma[2], solid_surfel *surfel) {
-    const double cell = fmax(u->cell, v->cell);
+/// How far a node of a face is outside of the nearest hole through it (negative inside), and that hole.
+static double distance_from_holes(const solid_job *job, int axis, const grid_node *u, const grid_node *v,
+                                  const ewa_solid_hole **nearest) {
+    double least = INFINITY;
     for (uint32_t h = 0; h < job->shape->hole_count; h++) {
         const ewa_solid_hole *hole = &job->shape->holes[h];
         if (hole->axis != axis) continue;
         const double du = u->at - hole->center[0], dv = v->at - hole->center[1];
-        const double distance = sqrt(du * du + dv * dv), outside = distance - hole->radius;
-        if (outside < -HOLE_MARGIN * cell) return false;
-        if (outside > (double)job->options->radius_scale * cell || surfel->line_count == 2) continue;
-        add_line(surfel, sigma[0] * du / distance, sigma[1] * dv / distance, outside);
+        const double outside = sqrt(du * du + dv * dv) - hole->radius;
+        if (outside >= least) continue;
+        least = outside;
+        *nearest = hole;
     }
-    return true;
+    return least;
+}
+
+/// The line along the tangent of a hole at the place nearest to a node.
+static void add_tangent(solid_surfel *surfel, const ewa_solid_hole *hole, const grid_node *u,
+                        const grid_node *v, const double sigma[2]) {
+    const double du = u->at - hole->center[0], dv = v->at - hole->center[1],
+                 distance = sqrt(du * du + dv * dv);
+    add_line(surfel, sigma[0] * du / distance, sigma[1] * dv / distance, distance - hole->radius);
 }
 
 static void put(solid_job *job, const solid_surfel *surfel) {
@@ -239,6 +247,18 @@ static void color_surfel(const solid_job *job, int axis, int side, double u, dou
     memcpy(surfel->color, block.color[0], sizeof block.color[0]);
 }
 
+/// Puts a surfel of a face, whose lines are set, on a node.
+static void put_face_surfel(solid_job *job, int axis, int side, bool cut_in, const grid_node *u,
+                            const grid_node *v, solid_surfel *surfel) {
+    const int au = (axis + 1) % 3, av = (axis + 2) % 3;
+    surfel->position[au] = u->at;
+    surfel->position[av] = v->at;
+    surfel->axis[0][au] = u->cell;
+    surfel->axis[1][av] = v->cell;
+    color_surfel(job, axis, side, u->at, v->at, cut_in, surfel);
+    put(job, surfel);
+}
+
 /// One node of the grid on plane `plane` of `axis`, seen from its lower (0) or upper (1) side.
 static void put_face_node(solid_job *job, int axis, uint32_t plane, int side, const grid_node *u,
                           const grid_node *v) {
@@ -256,19 +276,30 @@ static void put_face_node(solid_job *job, int axis, uint32_t plane, int side, co
         }
     const double per_cell = job->options->radius_scale / EWA_SOLID_CUTOFF;
     const double sigma[2] = {per_cell * u->cell, per_cell * v->cell};
-    solid_surfel surfel = {0};
-    if (!cut_by_quadrants((const bool(*)[2])face, u, v, sigma, &surfel)) return;
-    if (!cut_by_holes(job, axis, u, v, sigma, &surfel)) return;
-    const grid_axis *grid = &job->axes[axis];
-    surfel.position[axis] = grid->at[plane];
-    surfel.position[au] = u->at;
-    surfel.position[av] = v->at;
+    const bool cut_in = plane > 0 && plane < job->axes[axis].interval_count;
+    solid_surfel surfel = {.line_count = 0};
+    surfel.position[axis] = job->axes[axis].at[plane];
     surfel.normal[axis] = side ? 1 : -1;
-    surfel.axis[0][au] = u->cell;
-    surfel.axis[1][av] = v->cell;
-    color_surfel(job, axis, side, surfel.position[au], surfel.position[av],
-                 plane > 0 && plane < grid->interval_count, &surfel);
-    put(job, &surfel);
+    if (!cut_by_quadrants((const bool(*)[2])face, u, v, sigma, &surfel)) return;
+    const ewa_solid_hole *hole = NULL;
+    const double reach = job->options->radius_scale * fmax(u->cell, v->cell);
+    if (surfel.line_count || distance_from_holes(job, axis, u, v, &hole) > reach) {
+        put_face_surfel(job, axis, side, cut_in, u, v, &surfel);
+        return;
+    }
+    // Tangents of a small hole leave its edge within a cell: four surfels half as large stay closer to it.
+    const double half[2] = {sigma[0] / 2, sigma[1] / 2};
+    for (int k = 0; k < 4; k++) {
+        grid_node pu = *u, pv = *v;
+        pu.cell /= 2, pv.cell /= 2;
+        pu.at += k & 1 ? pu.cell / 2 : -pu.cell / 2;
+        pv.at += k & 2 ? pv.cell / 2 : -pv.cell / 2;
+        const double outside = distance_from_holes(job, axis, &pu, &pv, &hole);
+        if (outside < -HOLE_MARGIN * fmax(pu.cell, pv.cell)) continue;
+        solid_surfel part = surfel;
+        if (outside < reach / 2) add_tangent(&part, hole, &pu, &pv, half);
+        put_face_surfel(job, axis, side, cut_in, &pu, &pv, &part);
+    }
 }
 
 static void put_faces(solid_job *job, int axis) {
