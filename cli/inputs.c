@@ -265,8 +265,7 @@ static bool drop_isolated(cli_session *session, const char *path, ewa_cloud **cl
     return true;
 }
 
-/// Loads one file and estimates what it lacks; NULL after reporting.
-static ewa_cloud *load_drawable(cli_session *session, const char *path, double *estimate_s) {
+ewa_cloud *input_as_surfels(cli_session *session, const char *path, double *estimate_s) {
     ewa_cloud *cloud = input_load(session, path);
     if (!cloud || cloud_is_drawable(cloud)) return cloud;
     const bool has_normals = ewa_cloud_find(cloud, EWA_NORMAL) != NULL;
@@ -298,7 +297,7 @@ ewa_cloud *inputs_as_surfels(cli_session *session, const common_arguments *commo
         return NULL;
     }
     for (size_t i = 0; i < count; i++) {
-        clouds[i] = load_drawable(session, common->operands[i], estimate_s);
+        clouds[i] = input_as_surfels(session, common->operands[i], estimate_s);
         if (!clouds[i]) {
             release_clouds(clouds, i);
             return NULL;
