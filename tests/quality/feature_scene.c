@@ -267,9 +267,8 @@ void feature_scene_free(feature_scene *scene) {
     *scene = (feature_scene){0};
 }
 
-void feature_scene_measure(ewa_context *context, const feature_scene *scene, double noise,
-                           feature_score *score) {
-    *score = (feature_score){0};
+ewa_cloud *feature_scene_detect(ewa_context *context, const feature_scene *scene, double noise,
+                                ewa_feature_counts *counts, double *seconds) {
     check_random random = {17};
     ewa_cloud *cloud = NULL;
     float *xyz = NULL;
@@ -284,14 +283,15 @@ void feature_scene_measure(ewa_context *context, const feature_scene *scene, dou
     ewa_feature_options options;
     ewa_feature_options_init(&options, sizeof options);
     const double started_s = now_s();
-    assert_int_equal(ewa_cloud_detect_features(cloud, &options, &score->counts), EWA_OK);
-    score->seconds = now_s() - started_s;
+    assert_int_equal(ewa_cloud_detect_features(cloud, &options, counts), EWA_OK);
+    *seconds = now_s() - started_s;
+    return cloud;
+}
+
+void feature_scene_measure(ewa_context *context, const feature_scene *scene, double noise,
+                           feature_score *score) {
+    *score = (feature_score){0};
+    ewa_cloud *cloud = feature_scene_detect(context, scene, noise, &score->counts, &score->seconds);
     compare(scene, cloud, score);
-    const char *save = getenv("EWA_FEATURES_SAVE");
-    if (save) {
-        char name[512];
-        snprintf(name, sizeof name, "%s_%d_%g.ply", save, (int)scene->solid, noise);
-        ewa_cloud_save(cloud, name, NULL);
-    }
     ewa_cloud_destroy(&cloud);
 }

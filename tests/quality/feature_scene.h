@@ -38,8 +38,12 @@ typedef struct feature_score {
     double seconds;
 } feature_score;
 
-/// Adds Gaussian noise of `noise` spacings to every coordinate, makes surfels of the bare positions, detects
-/// features and compares.
+/// Adds Gaussian noise of `noise` spacings to every coordinate, makes surfels of the bare positions and
+/// detects features; the caller owns the cloud.
+ewa_cloud *feature_scene_detect(ewa_context *context, const feature_scene *scene, double noise,
+                                ewa_feature_counts *counts, double *seconds);
+
+/// Detects features as above and compares them with the sharp edges.
 void feature_scene_measure(ewa_context *context, const feature_scene *scene, double noise,
                            feature_score *score);
 
