@@ -20,7 +20,7 @@ enum {
 // Noise below this share of the spacing is not told from a surface that is slightly bent.
 #define NOISE_FLOOR 0.04
 // How much better than a quadric an edge, and than an edge a corner, has to explain the points.
-#define EDGE_GAIN   1.4
+#define EDGE_GAIN   1.15
 #define CORNER_GAIN 1.4
 // Least share of the points on each plane.
 #define EDGE_SHARE   0.1
