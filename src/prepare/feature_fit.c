@@ -12,6 +12,7 @@ enum {
     SEED_POINTS = 9, // points of such a group
     REFINEMENTS = 8,
     QUADRIC = 6, // its coefficients
+    LANES = 8,   // FEATURE_POINTS is a multiple
     SWEEPS = 8,  // of Jacobi rotations: a 3 x 3 matrix is diagonal to the last bit after five or so
 };
 
@@ -20,8 +21,11 @@ enum {
 // Noise below this share of the spacing is not told from a surface that is slightly bent.
 #define NOISE_FLOOR 0.04
 // How much better than a quadric an edge, and than an edge a corner, has to explain the points.
-#define EDGE_GAIN   1.15
+#define EDGE_GAIN   1.3
 #define CORNER_GAIN 1.4
+// Squares that a good fit leaves, as a share of the noise: some of it goes into the planes, some is
+// truncated.
+#define GOOD_FIT 0.6
 // Least share of the points on each plane.
 #define EDGE_SHARE   0.1
 #define CORNER_SHARE 0.07
@@ -37,10 +41,14 @@ static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a
 static void decompose(double m[3][3], double vectors[3][3]) {
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) vectors[i][j] = i == j;
-    for (int sweep = 0; sweep < SWEEPS; sweep++) {
+    const double small = 1e-16 * (fabs(m[0][0]) + fabs(m[1][1]) + fabs(m[2][2]));
+    bool turned = true;
+    for (int sweep = 0; sweep < SWEEPS && turned; sweep++) {
+        turned = false;
         for (int p = 0; p < 2; p++) {
             for (int q = p + 1; q < 3; q++) {
-                if (m[p][q] == 0) continue;
+                if (fabs(m[p][q]) <= small) continue;
+                turned = true;
                 const double theta = (m[q][q] - m[p][p]) / (2 * m[p][q]);
                 const double t = copysign(1, theta) / (fabs(theta) + sqrt(theta * theta + 1));
                 const double c = 1 / sqrt(t * t + 1), s = t * c;
@@ -153,24 +161,43 @@ static double height_of(const plane *p, const feature_points *points, uint32_t i
            p->offset;
 }
 
+/// Heights of all points over planes, in single precision for the search; zero behind the last point.
+typedef float height_table[FEATURE_POINTS];
+
 static void find_heights(const feature_points *points, const plane *planes, uint32_t count,
-                         double (*heights)[FEATURE_POINTS]) {
-    for (uint32_t p = 0; p < count; p++)
-        for (uint32_t i = 0; i < points->count; i++) heights[p][i] = height_of(&planes[p], points, i);
+                         height_table *heights) {
+    for (uint32_t p = 0; p < count; p++) {
+        memset(heights[p], 0, sizeof heights[p]);
+        for (uint32_t i = 0; i < points->count; i++) heights[p][i] = (float)height_of(&planes[p], points, i);
+    }
 }
 
-static double cost_of_two(const double *a, const double *b, uint32_t count, bool larger, double most) {
-    double cost = 0;
-    for (uint32_t i = 0; i < count; i++) cost += truncated(pick(larger, a[i], b[i]), most);
-    return cost;
+static inline float pick_f32(bool larger, float a, float b) {
+    return larger ? (a > b ? a : b) : (a < b ? a : b);
 }
 
-static double cost_of_three(const double *a, const double *b, const double *c, uint32_t count, bool outer_max,
-                            bool inner_max, double most) {
-    double cost = 0;
-    for (uint32_t i = 0; i < count; i++)
-        cost += truncated(pick(outer_max, a[i], pick(inner_max, b[i], c[i])), most);
-    return cost;
+/// The truncated squares of outer(a, inner(b, c)). Sums LANES by LANES, which compilers turn into wide
+/// instructions; the flags are constants where this is inlined.
+static inline float sum_costs(const float *a, const float *b, const float *c, uint32_t count, bool outer_max,
+                              bool inner_max, float most) {
+    float sums[LANES] = {0}, sum = 0;
+    for (uint32_t i = 0; i < count; i += LANES)
+        for (uint32_t lane = 0; lane < LANES; lane++) {
+            const float inner = pick_f32(inner_max, b[i + lane], c[i + lane]);
+            const float height = pick_f32(outer_max, a[i + lane], inner), square = height * height;
+            sums[lane] += square < most ? square : most;
+        }
+    for (uint32_t lane = 0; lane < LANES; lane++) sum += sums[lane];
+    return sum;
+}
+
+static float cost_of(const float *a, const float *b, const float *c, uint32_t count, bool outer_max,
+                     bool inner_max, float most) {
+    if (outer_max)
+        return inner_max ? sum_costs(a, b, c, count, true, true, most)
+                         : sum_costs(a, b, c, count, true, false, most);
+    return inner_max ? sum_costs(a, b, c, count, false, true, most)
+                     : sum_costs(a, b, c, count, false, false, most);
 }
 
 static void set_plane(feature_model *model, uint32_t p, const plane *from) {
@@ -217,14 +244,15 @@ static double refine(const feature_points *points, double most, feature_model *m
 }
 
 /// The edge of two hypotheses with the least cost; false when all of them are much the same plane.
-static bool find_edge(const feature_points *points, const plane *seeds, double (*heights)[FEATURE_POINTS],
+static bool find_edge(const feature_points *points, const plane *seeds, const height_table *heights,
                       uint32_t seed_count, double cos_most, double most, feature_model *best) {
-    double least = INFINITY;
+    float least = INFINITY;
     for (uint32_t a = 0; a < seed_count; a++) {
         for (uint32_t b = a + 1; b < seed_count; b++) {
             if (dot(seeds[a].normal, seeds[b].normal) > cos_most) continue;
             for (int larger = 0; larger < 2; larger++) {
-                const double cost = cost_of_two(heights[a], heights[b], points->count, larger, most);
+                const float cost =
+                    cost_of(heights[a], heights[b], heights[b], points->count, larger, larger, (float)most);
                 if (cost >= least) continue;
                 least = cost;
                 *best = (feature_model){.plane_count = 2, .outer_max = larger, .inner_max = larger};
@@ -238,22 +266,23 @@ static bool find_edge(const feature_points *points, const plane *seeds, double (
 
 /// The corner of an edge's planes and a hypothesis with the least cost.
 static bool find_corner(const feature_points *points, const feature_model *edge, const plane *seeds,
-                        double (*heights)[FEATURE_POINTS], uint32_t seed_count, double cos_most, double most,
+                        const height_table *heights, uint32_t seed_count, double cos_most, double most,
                         feature_model *best) {
     const plane two[2] = {get_plane(edge, 0), get_plane(edge, 1)};
-    double two_heights[2][FEATURE_POINTS], least = INFINITY;
+    height_table two_heights[2];
+    float least = INFINITY;
     find_heights(points, two, 2, two_heights);
     for (uint32_t s = 0; s < seed_count; s++) {
         if (dot(seeds[s].normal, two[0].normal) > cos_most || dot(seeds[s].normal, two[1].normal) > cos_most)
             continue;
         const plane *planes[3] = {&two[0], &two[1], &seeds[s]};
-        const double *h[3] = {two_heights[0], two_heights[1], heights[s]};
+        const float *h[3] = {two_heights[0], two_heights[1], heights[s]};
         for (int way = 0; way < 12; way++) {
             // Which plane is the outer one matters for mixed corners only.
             const int a = way % 3, b = (a + 1) % 3, c = (a + 2) % 3;
             const bool outer_max = way / 3 & 1, inner_max = way / 6;
             if (outer_max == inner_max && a != 0) continue;
-            const double cost = cost_of_three(h[a], h[b], h[c], points->count, outer_max, inner_max, most);
+            const float cost = cost_of(h[a], h[b], h[c], points->count, outer_max, inner_max, (float)most);
             if (cost >= least) continue;
             least = cost;
             *best = (feature_model){.plane_count = 3, .outer_max = outer_max, .inner_max = inner_max};
@@ -362,7 +391,8 @@ double feature_quadric_residual(const feature_points *points) {
 void feature_fit(const feature_points *points, const feature_scale *scale, feature_model *model) {
     model->plane_count = 0;
     plane seeds[SEEDS];
-    double heights[SEEDS][FEATURE_POINTS], quadric[FEATURE_POINTS];
+    height_table heights[SEEDS];
+    double quadric[FEATURE_POINTS];
     if (points->count < 2 * SEED_POINTS || !find_quadric_heights(points, quadric)) return;
     const double deviation = fmax(scale->noise, NOISE_FLOOR * scale->spacing);
     const double most = TRUNCATION * TRUNCATION * deviation * deviation;
@@ -370,8 +400,9 @@ void feature_fit(const feature_points *points, const feature_scale *scale, featu
     const double rest = points->count * (NOISE_FLOOR * NOISE_FLOOR) * scale->spacing * scale->spacing;
     double smooth = 0;
     for (uint32_t i = 0; i < points->count; i++) smooth += truncated(quadric[i], most);
-    // Nothing to explain: the quadric leaves less than the noise.
-    if (smooth < 0.5 * points->count * deviation * deviation) return;
+    // What is left of a good fit.
+    const double least = rest + GOOD_FIT * points->count * scale->noise * scale->noise;
+    if (smooth + rest < EDGE_GAIN * least) return;
     smooth += rest;
     // Hypotheses are less certain than what is fitted to more points.
     const double cos_hypotheses = 1 - 0.5 * (1 - scale->cos_threshold);
@@ -384,6 +415,7 @@ void feature_fit(const feature_points *points, const feature_scale *scale, featu
     const bool is_edge = edge_cost * EDGE_GAIN < smooth &&
                          is_sharp(&edge, edge_labels, points->count, scale->cos_threshold, EDGE_SHARE);
     if (is_edge) *model = edge;
+    if (edge_cost < CORNER_GAIN * least) return;
     if (!find_corner(points, &edge, seeds, heights, seed_count, cos_hypotheses, most, &corner)) return;
     const double corner_cost = rest + refine(points, most, &corner, corner_labels);
     if (corner_cost * CORNER_GAIN < edge_cost && corner_cost * EDGE_GAIN < smooth &&
