@@ -283,9 +283,10 @@ static ewa_status detect(feature_job *job, const ewa_feature_options *options) {
         job->neighbour_count = wanted < EWA_NEIGHBOURS_MAX ? (uint32_t)wanted : EWA_NEIGHBOURS_MAX;
     const double half = ewa_tan(options->angle_deg * EWA_PI / 360), half2 = half * half;
     job->cos_threshold = (1 - half2) / (1 + half2);
-    // The neighbourhood is a disc of k spacings squared; its variance is half of its squared radius.
-    job->least_variation =
-        2 * EWA_PI * job->noise * job->noise / job->neighbour_count + FOLD_VARIATION * half2;
+    // The neighbourhood is a disc of k spacings squared; its variance is half of its squared radius. What
+    // noise adds varies by sqrt(2 / k) of itself.
+    const double k = job->neighbour_count, from_noise = 2 * EWA_PI * job->noise * job->noise / k;
+    job->least_variation = from_noise * (1 + 2 * sqrt(2 / k)) + FOLD_VARIATION * half2;
     ewa_visit_choice choice = {job->neighbour_count, 1, NULL, "choose"};
     if (status == EWA_OK) status = ewa_neighbours_visit(job->neighbours, &choice, visit_choose, job);
     if (status == EWA_OK) status = number_models(job);
