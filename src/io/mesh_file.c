@@ -1,0 +1,273 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Meshes through Assimp's C interface. Nothing that it returns is believed: counts, indices and names are
+// checked again before they are used.
+#include "base/base.h"
+#include "ewa/io.h"
+#include "ewa/mesh.h"
+#include "image/srgb.h"
+#include "io/file.h"
+
+#include <assimp/cimport.h>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+enum { PATH_BYTES = 4096, MAX_MATERIALS = 4096 };
+
+/// What the meshes of a scene come to.
+typedef struct scene_counts {
+    uint64_t vertices, triangles;
+    bool colors, texcoords;
+} scene_counts;
+
+static bool has_mesh_suffix(const char *path) {
+    static const char *const suffixes[] = {".obj", ".ply", ".stl", ".gltf", ".glb"};
+    const size_t length = strlen(path);
+    for (size_t i = 0; i < sizeof suffixes / sizeof suffixes[0]; i++) {
+        const size_t suffix = strlen(suffixes[i]);
+        if (length > suffix && strcasecmp(path + length - suffix, suffixes[i]) == 0) return true;
+    }
+    return false;
+}
+
+static bool is_regular(const char *path, uint64_t *size_bytes) {
+    struct stat information;
+    if (stat(path, &information) != 0 || !S_ISREG(information.st_mode)) return false;
+    *size_bytes = (uint64_t)information.st_size;
+    return true;
+}
+
+/// Adds up what can be used: triangles of meshes that have vertices.
+static ewa_status count_scene(ewa_context *context, const char *path, const struct aiScene *scene,
+                              scene_counts *counts) {
+    *counts = (scene_counts){0};
+    for (unsigned m = 0; scene->mMeshes && m < scene->mNumMeshes; m++) {
+        const struct aiMesh *mesh = scene->mMeshes[m];
+        if (!mesh || !mesh->mVertices || !mesh->mFaces) continue;
+        uint64_t triangles = 0;
+        for (unsigned f = 0; f < mesh->mNumFaces; f++) {
+            const struct aiFace *face = &mesh->mFaces[f];
+            if (face->mNumIndices != 3 || !face->mIndices) continue;
+            for (int c = 0; c < 3; c++)
+                if (face->mIndices[c] >= mesh->mNumVertices)
+                    return ewa_fail(context, EWA_ERROR_FORMAT,
+                                    "%s: face %u of mesh %u has vertex %u, there are %u", path, f, m,
+                                    face->mIndices[c], mesh->mNumVertices);
+            triangles++;
+        }
+        if (!triangles) continue;
+        counts->vertices += mesh->mNumVertices;
+        counts->triangles += triangles;
+        counts->colors = counts->colors || mesh->mColors[0];
+        counts->texcoords = counts->texcoords || mesh->mTextureCoords[0];
+    }
+    if (!counts->triangles)
+        return ewa_fail(context, EWA_ERROR_FORMAT, "%s: no triangles in the file", path);
+    if (counts->vertices > UINT32_MAX || counts->triangles > UINT32_MAX)
+        return ewa_fail(context, EWA_ERROR_LIMIT, "%s: %llu vertices and %llu triangles, 4294967295 can be",
+                        path, (unsigned long long)counts->vertices, (unsigned long long)counts->triangles);
+    return EWA_OK;
+}
+
+static float unit_or(float value, float otherwise) {
+    if (!(value >= 0)) return otherwise; // NaN too
+    return value < 1 ? value : 1;
+}
+
+static float linear_of(float srgb) { return (float)ewa_srgb_decode(unit_or(srgb, 0)); }
+
+/// Copies the streams of one mesh behind the first `vertex` vertices and `triangle` triangles.
+static void copy_mesh(const struct aiMesh *from, bool linear_colors, uint32_t vertex, uint32_t triangle,
+                      ewa_mesh *to) {
+    for (uint32_t i = 0; i < from->mNumVertices; i++) {
+        float *position = to->positions + 3 * (size_t)(vertex + i);
+        position[0] = from->mVertices[i].x;
+        position[1] = from->mVertices[i].y;
+        position[2] = from->mVertices[i].z;
+        if (to->texcoords && from->mTextureCoords[0]) {
+            to->texcoords[2 * (size_t)(vertex + i)] = from->mTextureCoords[0][i].x;
+            to->texcoords[2 * (size_t)(vertex + i) + 1] = from->mTextureCoords[0][i].y;
+        }
+        if (!to->colors) continue;
+        float *color = to->colors + 4 * (size_t)(vertex + i);
+        const struct aiColor4D *given = from->mColors[0] ? &from->mColors[0][i] : NULL;
+        const float values[3] = {given ? given->r : 1, given ? given->g : 1, given ? given->b : 1};
+        for (int c = 0; c < 3; c++) color[c] = linear_colors ? unit_or(values[c], 0) : linear_of(values[c]);
+        color[3] = given ? unit_or(given->a, 1) : 1;
+    }
+    for (uint32_t f = 0; f < from->mNumFaces; f++) {
+        const struct aiFace *face = &from->mFaces[f];
+        if (face->mNumIndices != 3 || !face->mIndices) continue;
+        for (int c = 0; c < 3; c++) to->triangles[3 * (size_t)triangle + c] = vertex + face->mIndices[c];
+        if (to->triangle_materials)
+            to->triangle_materials[triangle] =
+                from->mMaterialIndex < to->material_count ? from->mMaterialIndex : 0;
+        triangle++;
+    }
+}
+
+/// The picture that a path like "*0" or the name of an embedded one means; NULL: a file of its own.
+static const struct aiTexture *find_embedded(const struct aiScene *scene, const char *name) {
+    unsigned index = 0;
+    char end = 0;
+    if (sscanf(name, "*%u%c", &index, &end) == 1)
+        return scene->mTextures && index < scene->mNumTextures ? scene->mTextures[index] : NULL;
+    for (unsigned i = 0; scene->mTextures && i < scene->mNumTextures; i++)
+        if (scene->mTextures[i] && scene->mTextures[i]->mFilename.length &&
+            strcmp(scene->mTextures[i]->mFilename.data, name) == 0)
+            return scene->mTextures[i];
+    return NULL;
+}
+
+/// Path of a picture beside the mesh. Absolute paths and such that climb are cut to their last name, so that
+/// a mesh cannot have other files read.
+static bool find_beside(const char *mesh_path, const char *name, char path[PATH_BYTES]) {
+    char relative[PATH_BYTES];
+    const size_t length = strlen(name);
+    if (!length || length >= sizeof relative) return false;
+    for (size_t i = 0; i <= length; i++) relative[i] = name[i] == '\\' ? '/' : name[i];
+    const char *used = relative;
+    const char *slash = strrchr(relative, '/');
+    if (slash && (relative[0] == '/' || relative[1] == ':' || strstr(relative, "..") || strstr(relative, "://")))
+        used = slash + 1;
+    const char *folder_end = strrchr(mesh_path, '/');
+    const int folder = folder_end ? (int)(folder_end - mesh_path) + 1 : 0;
+    const int printed = snprintf(path, PATH_BYTES, "%.*s%s", folder, mesh_path, used);
+    return *used && printed > 0 && printed < PATH_BYTES;
+}
+
+/// Reads the picture of a material; one that cannot be had is a warning, and the base colour stays.
+static void load_texture(ewa_context *context, const char *path, const struct aiScene *scene, const char *name,
+                         ewa_image *texture) {
+    const struct aiTexture *embedded = find_embedded(scene, name);
+    char file[PATH_BYTES];
+    uint64_t size_bytes = 0;
+    ewa_status status = EWA_OK;
+    if (embedded || name[0] == '*') {
+        if (!embedded || embedded->mHeight != 0 || !embedded->pcData) {
+            ewa_report(context, EWA_SEVERITY_WARNING,
+                       "%s: the embedded picture %s is missing or has no file format; left out", path, name);
+            return;
+        }
+        snprintf(file, sizeof file, "%s: embedded picture", path);
+        status = ewa_image_load_memory(context, embedded->pcData, embedded->mWidth, file, texture);
+    } else if (!find_beside(path, name, file) || !is_regular(file, &size_bytes)) {
+        ewa_report(context, EWA_SEVERITY_WARNING, "%s: the picture '%.200s' is not beside the mesh; left out",
+                   path, name);
+        return;
+    } else {
+        status = ewa_image_load(context, file, texture);
+    }
+    const uint32_t channels = status == EWA_OK ? texture->channel_count : 0;
+    if (status == EWA_OK && (channels == 1 || channels == 3 || channels == 4)) return;
+    ewa_report(context, EWA_SEVERITY_WARNING, "%s: the picture '%.200s' cannot be used; left out", path, name);
+    ewa_image_free(texture);
+}
+
+static void load_materials(const char *path, const struct aiScene *scene, bool linear_colors, ewa_mesh *mesh) {
+    for (uint32_t i = 0; i < mesh->material_count; i++) {
+        ewa_mesh_material *material = &mesh->materials[i];
+        const struct aiMaterial *from = scene->mMaterials[i];
+        for (int c = 0; c < 4; c++) material->base_color[c] = 1;
+        if (!from) continue;
+        struct aiString name = {0};
+        bool textured = false;
+        static const enum aiTextureType kinds[] = {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE};
+        for (int k = 0; k < 2 && mesh->texcoords && !textured; k++)
+            textured = aiGetMaterialTexture(from, kinds[k], 0, &name, NULL, NULL, NULL, NULL, NULL, NULL) ==
+                           aiReturn_SUCCESS &&
+                       name.length > 0 && memchr(name.data, 0, sizeof name.data);
+        if (textured) load_texture(mesh->context, path, scene, name.data, &material->texture);
+        struct aiColor4D color;
+        if (aiGetMaterialColor(from, AI_MATKEY_COLOR_DIFFUSE, &color) == aiReturn_SUCCESS) {
+            const float values[3] = {color.r, color.g, color.b};
+            // In OBJ files a texture replaces Kd; in glTF it is multiplied with the factor.
+            for (int c = 0; c < 3; c++)
+                if (linear_colors || !material->texture.pixels)
+                    material->base_color[c] = linear_colors ? unit_or(values[c], 1) : linear_of(values[c]);
+            material->base_color[3] = unit_or(color.a, 1);
+        }
+    }
+}
+
+/// Whether some material says more than "grey": Assimp gives every mesh at least a default one.
+static bool materials_matter(const struct aiScene *scene) {
+    for (unsigned i = 0; scene->mMaterials && i < scene->mNumMaterials; i++) {
+        const struct aiMaterial *material = scene->mMaterials[i];
+        struct aiString name = {0};
+        if (!material) continue;
+        const bool is_default =
+            aiGetMaterialString(material, AI_MATKEY_NAME, &name) != aiReturn_SUCCESS ||
+            strncmp(name.data, AI_DEFAULT_MATERIAL_NAME, sizeof name.data) == 0 || name.length == 0;
+        if (!is_default || aiGetMaterialTextureCount(material, aiTextureType_DIFFUSE) > 0 ||
+            aiGetMaterialTextureCount(material, aiTextureType_BASE_COLOR) > 0)
+            return true;
+    }
+    return false;
+}
+
+static ewa_status take_scene(ewa_context *context, const char *path, const struct aiScene *scene,
+                             ewa_mesh *mesh) {
+    scene_counts counts;
+    ewa_status status = count_scene(context, path, scene, &counts);
+    if (status != EWA_OK) return status;
+    const uint32_t materials = materials_matter(scene) ? scene->mNumMaterials : 0;
+    if (materials > MAX_MATERIALS)
+        return ewa_fail(context, EWA_ERROR_LIMIT, "%s: %u materials, %d can be", path, materials, MAX_MATERIALS);
+    const uint32_t streams =
+        (counts.colors ? EWA_MESH_COLORS : 0u) | (counts.texcoords ? EWA_MESH_TEXCOORDS : 0u);
+    status = ewa_mesh_create(context, (uint32_t)counts.vertices, (uint32_t)counts.triangles, materials,
+                             streams, mesh);
+    if (status != EWA_OK) return status;
+    const size_t length = strlen(path);
+    const bool linear_colors =
+        strcasecmp(path + length - 4, "gltf") == 0 || strcasecmp(path + length - 4, ".glb") == 0;
+    uint32_t vertex = 0, triangle = 0;
+    for (unsigned m = 0; m < scene->mNumMeshes; m++) {
+        const struct aiMesh *from = scene->mMeshes[m];
+        if (!from || !from->mVertices || !from->mFaces) continue;
+        uint32_t triangles = 0;
+        for (unsigned f = 0; f < from->mNumFaces; f++)
+            triangles += from->mFaces[f].mNumIndices == 3 && from->mFaces[f].mIndices;
+        if (!triangles) continue;
+        copy_mesh(from, linear_colors, vertex, triangle, mesh);
+        vertex += from->mNumVertices;
+        triangle += triangles;
+    }
+    load_materials(path, scene, linear_colors, mesh);
+    return EWA_OK;
+}
+
+ewa_status ewa_mesh_load(ewa_context *context, const char *path, ewa_mesh *mesh) {
+    if (!context || !path || !mesh) return EWA_ERROR_ARGUMENT;
+    *mesh = (ewa_mesh){0};
+    if (!has_mesh_suffix(path))
+        return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
+                        "%s: the suffix is none of .obj .ply .stl .gltf .glb", path);
+    // Opening it first gives the system's own reason when that fails, which Assimp does not.
+    ewa_file file = {0};
+    ewa_status status = ewa_file_map(context, path, &file);
+    if (status != EWA_OK) return status;
+    const uint64_t size_bytes = file.size_bytes;
+    ewa_file_unmap(context, &file);
+    if (size_bytes > ewa_context_limits(context)->max_memory_bytes)
+        return ewa_fail(context, EWA_ERROR_LIMIT, "%s: %llu bytes, max_memory_bytes is %llu", path,
+                        (unsigned long long)size_bytes,
+                        (unsigned long long)ewa_context_limits(context)->max_memory_bytes);
+    uint64_t regular_bytes = 0;
+    if (!is_regular(path, &regular_bytes))
+        return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: a mesh has to be a file, no pipe", path);
+    const struct aiScene *scene =
+        aiImportFile(path, aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices);
+    if (!scene) return ewa_fail(context, EWA_ERROR_FORMAT, "%s: %s", path, aiGetErrorString());
+    status = take_scene(context, path, scene, mesh);
+    aiReleaseImport(scene);
+    if (status != EWA_OK) ewa_mesh_free(mesh);
+    return status;
+}
