@@ -43,6 +43,24 @@ static bool is_regular(const char *path, uint64_t *size_bytes) {
     return true;
 }
 
+/// Whether every face has only vertices that its mesh has. Assimp's own further steps rely on it, and some of
+/// its readers do not.
+static ewa_status check_faces(ewa_context *context, const char *path, const struct aiScene *scene) {
+    for (unsigned m = 0; m < scene->mNumMeshes; m++) {
+        const struct aiMesh *mesh = scene->mMeshes ? scene->mMeshes[m] : NULL;
+        if (!mesh || (mesh->mNumVertices && !mesh->mVertices) || (mesh->mNumFaces && !mesh->mFaces))
+            return ewa_fail(context, EWA_ERROR_FORMAT, "%s: mesh %u has no data", path, m);
+        for (unsigned f = 0; f < mesh->mNumFaces; f++) {
+            const struct aiFace *face = &mesh->mFaces[f];
+            for (unsigned c = 0; c < face->mNumIndices; c++)
+                if (!face->mIndices || face->mIndices[c] >= mesh->mNumVertices)
+                    return ewa_fail(context, EWA_ERROR_FORMAT, "%s: face %u of mesh %u has vertex %u, there are %u",
+                                    path, f, m, face->mIndices ? face->mIndices[c] : 0, mesh->mNumVertices);
+        }
+    }
+    return EWA_OK;
+}
+
 /// Adds up what can be used: triangles of meshes that have vertices.
 static ewa_status count_scene(ewa_context *context, const char *path, const struct aiScene *scene,
                               scene_counts *counts) {
@@ -52,14 +70,7 @@ static ewa_status count_scene(ewa_context *context, const char *path, const stru
         if (!mesh || !mesh->mVertices || !mesh->mFaces) continue;
         uint64_t triangles = 0;
         for (unsigned f = 0; f < mesh->mNumFaces; f++) {
-            const struct aiFace *face = &mesh->mFaces[f];
-            if (face->mNumIndices != 3 || !face->mIndices) continue;
-            for (int c = 0; c < 3; c++)
-                if (face->mIndices[c] >= mesh->mNumVertices)
-                    return ewa_fail(context, EWA_ERROR_FORMAT,
-                                    "%s: face %u of mesh %u has vertex %u, there are %u", path, f, m,
-                                    face->mIndices[c], mesh->mNumVertices);
-            triangles++;
+            triangles += mesh->mFaces[f].mNumIndices == 3;
         }
         if (!triangles) continue;
         counts->vertices += mesh->mNumVertices;
@@ -263,11 +274,18 @@ ewa_status ewa_mesh_load(ewa_context *context, const char *path, ewa_mesh *mesh)
     uint64_t regular_bytes = 0;
     if (!is_regular(path, &regular_bytes))
         return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: a mesh has to be a file, no pipe", path);
-    const struct aiScene *scene =
-        aiImportFile(path, aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices);
+    const struct aiScene *scene = aiImportFile(path, 0);
     if (!scene) return ewa_fail(context, EWA_ERROR_FORMAT, "%s: %s", path, aiGetErrorString());
-    status = take_scene(context, path, scene, mesh);
-    aiReleaseImport(scene);
+    status = check_faces(context, path, scene);
+    // After a failure of a further step the scene is freed, and NULL.
+    if (status == EWA_OK) {
+        scene = aiApplyPostProcessing(scene, aiProcess_Triangulate | aiProcess_SortByPType |
+                                                 aiProcess_PreTransformVertices);
+        status = scene ? check_faces(context, path, scene)
+                       : ewa_fail(context, EWA_ERROR_FORMAT, "%s: %s", path, aiGetErrorString());
+    }
+    if (status == EWA_OK) status = take_scene(context, path, scene, mesh);
+    if (scene) aiReleaseImport(scene);
     if (status != EWA_OK) ewa_mesh_free(mesh);
     return status;
 }

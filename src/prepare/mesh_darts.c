@@ -14,11 +14,14 @@
 #include <string.h>
 
 enum {
-    THROWS = 3,      // corners, rows, inside
+    CORNERS = 0,      // the first throw
+    ROWS = 1,         // the second
+    INNER_THROWS = 4, // the rest; several, because what is thrown at once takes memory
+    THROWS = 2 + INNER_THROWS,
     BLOCK_CELLS = 12, // along an edge of a block; a cell is as wide as the largest distance
     GRID_CELLS = BLOCK_CELLS + 2,
     GRID_SIZE = GRID_CELLS * GRID_CELLS * GRID_CELLS,
-    INNER_CANDIDATES = 6, // per point
+    INNER_CANDIDATES = 8, // per point
     ROW_CANDIDATES = 8,   // per spacing of an edge
     TASK_CANDIDATES = 1 << 14,
     TASK_BLOCKS = 16,
@@ -27,7 +30,9 @@ enum {
 /// Points of rows per spacing of an edge's side, less those of the inside whose place they take.
 #define ROW_POINTS 0.75
 
-static const double throw_distance[THROWS] = {0.4, MESH_ROW_DISTANCE, MESH_INNER_DISTANCE};
+static double throw_distance(uint32_t which) {
+    return which == CORNERS ? 0.4 : which == ROWS ? MESH_ROW_DISTANCE : MESH_INNER_DISTANCE;
+}
 
 typedef struct dart_block {
     int32_t at[3];
@@ -53,9 +58,11 @@ typedef struct dart_job {
     const mesh_surface *surface;
     double spacing, cell; // cell: in world units
     uint64_t key;
-    mesh_dart *pool, *thrown; // candidates in order of blocks; those of one throw before that
+    mesh_dart *pool;   // by throws and blocks: the darts so far, then the candidates of the present throw
+    mesh_dart *thrown; // candidates of the present throw, in order of area
     uint32_t *block_of;       // of `thrown`
-    uint64_t capacity, offset; // of the pool; where the present throw begins
+    uint64_t capacity, thrown_capacity; // of the pool and of `thrown`
+    uint64_t offset;                    // where the present throw begins in the pool
     uint64_t throw_count[THROWS];
     uint64_t *row_first; // by edge: sums of row candidates
     uint32_t which;      // the present throw
@@ -122,14 +129,14 @@ static void fill_rows(void *data, uint32_t part, uint32_t worker) {
     for (uint64_t e = ewa_split(surface->edge_count, parts, part); e < end; e++) {
         const uint64_t first = job->row_first[e], count = job->row_first[e + 1] - first;
         for (uint64_t i = 0; i < count; i++) {
-            const double along = ((double)i + unit_of(ewa_generate_random(job->key + 1, first + i))) / (double)count;
+            const double along = ((double)i + unit_of(ewa_generate_random(job->key + ROWS, first + i))) / (double)count;
             job->thrown[first + i] = row_dart(&surface->edges[e], along, MESH_ROW_INSET * job->spacing);
         }
     }
 }
 
 static uint32_t inner_parts(const dart_job *job) {
-    return (uint32_t)(job->throw_count[THROWS - 1] / TASK_CANDIDATES + 1);
+    return (uint32_t)(job->throw_count[job->which] / TASK_CANDIDATES + 1);
 }
 
 /// Candidate i lies at a random place of the i-th of equal shares of the area.
@@ -138,7 +145,7 @@ static void fill_inside(void *data, uint32_t part, uint32_t worker) {
     const dart_job *job = data;
     const mesh_surface *surface = job->surface;
     const double *below = surface->area_below;
-    const uint64_t count = job->throw_count[THROWS - 1];
+    const uint64_t count = job->throw_count[job->which], key = job->key + job->which;
     const uint64_t first = ewa_split(count, inner_parts(job), part), end = ewa_split(count, inner_parts(job), part + 1);
     const double share = below[surface->triangle_count] / (double)count;
     uint32_t low = 0, high = surface->triangle_count - 1;
@@ -152,8 +159,8 @@ static void fill_inside(void *data, uint32_t part, uint32_t worker) {
     uint32_t triangle = low, loaded = NONE;
     ewa_vec3 p[3] = {{0}};
     for (uint64_t i = first; i < end; i++) {
-        const uint64_t random = ewa_generate_random(job->key, 2 * i),
-                       place = ewa_generate_random(job->key, 2 * i + 1);
+        const uint64_t random = ewa_generate_random(key, 2 * i),
+                       place = ewa_generate_random(key, 2 * i + 1);
         const double target = ((double)i + unit_of(random)) * share;
         while (triangle + 1 < surface->triangle_count && below[triangle + 1] <= target) triangle++;
         if (triangle != loaded) {
@@ -248,7 +255,6 @@ static ewa_status sort_candidates(dart_job *job) {
         job->pool[job->blocks[job->block_of[i]].first[job->which]++] = job->thrown[i];
     for (uint32_t b = 0; b < job->block_count; b++)
         job->blocks[b].first[job->which] -= job->blocks[b].candidates[job->which];
-    job->offset = first;
     return EWA_OK;
 }
 
@@ -364,7 +370,7 @@ static void throw_block(const dart_job *job, dart_block *block, dart_scratch *sc
             }
         }
     }
-    const float distance = (float)throw_distance[job->which], distance2 = distance * distance;
+    const float distance = (float)throw_distance(job->which), distance2 = distance * distance;
     // Candidates come triangle by triangle; a stride near the golden section mixes them. Hits are marked by the
     // top bit of their triangle until all have been looked at.
     uint32_t stride = (uint32_t)(0.6180339887498949 * candidates) | 1, accepted = 0;
@@ -410,10 +416,18 @@ static ewa_status throw_all(dart_job *job) {
             if (((at[0] & 1) | (at[1] & 1) << 1 | (at[2] & 1) << 2) == parity) job->turn[job->turn_count++] = b;
         }
         ewa_parallel(context, throw_blocks, job, (job->turn_count + TASK_BLOCKS - 1) / TASK_BLOCKS);
-        if (job->which == THROWS - 1) status = ewa_progress(context, "sample", 0.3 + 0.05 * parity);
+        status = ewa_progress(context, "sample", 0.1 * job->which + 0.01 * parity);
     }
     ewa_release(context, job->turn, job->block_count, sizeof *job->turn);
     job->turn = NULL;
+    // What has hit moves together; the room of the rest is that of the next throw.
+    for (uint32_t b = 0; b < job->block_count; b++) {
+        dart_block *block = &job->blocks[b];
+        const uint32_t accepted = block->accepted[job->which];
+        memmove(job->pool + job->offset, job->pool + block->first[job->which], accepted * sizeof *job->pool);
+        block->first[job->which] = job->offset;
+        job->offset += accepted;
+    }
     return status;
 }
 
@@ -426,7 +440,7 @@ static ewa_status prepare(dart_job *job) {
     for (int c = 0; c < 3; c++) extent = fmax(extent, surface->high_world[c] - surface->low_world[c]);
     for (uint32_t e = 0; e < surface->edge_count; e++) {
         rows += ceil(ROW_CANDIDATES * edge_length(&surface->edges[e]) / job->spacing);
-        job->throw_count[0] += surface->edges[e].corner_a + surface->edges[e].corner_b;
+        job->throw_count[CORNERS] += surface->edges[e].corner_a + surface->edges[e].corner_b;
     }
     const double inner = ceil(INNER_CANDIDATES * area / (job->spacing * job->spacing)) + 64;
     const double limit = fmin((double)ewa_context_limits(context)->max_points * INNER_CANDIDATES, 4e9);
@@ -434,7 +448,7 @@ static ewa_status prepare(dart_job *job) {
         return ewa_fail(context, EWA_ERROR_LIMIT,
                         "sample: a spacing of %g gives about %.3g points, over the limit of %.3g", job->spacing,
                         ewa_mesh_dart_estimate(surface, job->spacing), limit / INNER_CANDIDATES);
-    job->throw_count[2] = (uint64_t)inner;
+    for (uint32_t k = ROWS + 1; k < THROWS; k++) job->throw_count[k] = (uint64_t)(inner / INNER_THROWS) + 1;
     job->row_first = ewa_allocate(context, (size_t)surface->edge_count + 1, sizeof *job->row_first);
     job->scratch = ewa_allocate_zeroed(context, ewa_context_worker_count(context), sizeof *job->scratch);
     if (!job->row_first || !job->scratch) return EWA_ERROR_MEMORY;
@@ -442,11 +456,14 @@ static ewa_status prepare(dart_job *job) {
     for (uint32_t e = 0; e < surface->edge_count; e++)
         job->row_first[e + 1] =
             job->row_first[e] + (uint64_t)ceil(ROW_CANDIDATES * edge_length(&surface->edges[e]) / job->spacing);
-    job->throw_count[1] = job->row_first[surface->edge_count];
-    job->capacity = job->throw_count[0] + job->throw_count[1] + job->throw_count[2];
+    job->throw_count[ROWS] = job->row_first[surface->edge_count];
+    for (uint32_t k = 0; k < THROWS; k++) {
+        job->capacity += job->throw_count[k];
+        if (job->throw_count[k] > job->thrown_capacity) job->thrown_capacity = job->throw_count[k];
+    }
     job->pool = ewa_allocate(context, job->capacity, sizeof *job->pool);
-    job->thrown = ewa_allocate(context, job->capacity, sizeof *job->thrown);
-    job->block_of = ewa_allocate(context, job->capacity, sizeof *job->block_of);
+    job->thrown = ewa_allocate(context, job->thrown_capacity, sizeof *job->thrown);
+    job->block_of = ewa_allocate(context, job->thrown_capacity, sizeof *job->block_of);
     return job->pool && job->thrown && job->block_of ? EWA_OK : EWA_ERROR_MEMORY;
 }
 
@@ -456,9 +473,9 @@ static ewa_status run(dart_job *job) {
     for (job->which = 0; job->which < THROWS && status == EWA_OK; job->which++) {
         status = ewa_progress(context, "sample", 0.1 * job->which);
         if (status != EWA_OK || !job->throw_count[job->which]) continue;
-        if (job->which == 0)
+        if (job->which == CORNERS)
             fill_corners(job, job->thrown);
-        else if (job->which == 1)
+        else if (job->which == ROWS)
             ewa_parallel(context, fill_rows, job, job->surface->edge_count / 64 + 1);
         else
             ewa_parallel(context, fill_inside, job, inner_parts(job));
@@ -482,20 +499,12 @@ ewa_status ewa_mesh_throw_darts(const mesh_surface *surface, double spacing_worl
     // A hair wider than the distance, so that rounding hides no conflict.
     job.cell = 1.0001 * MESH_INNER_DISTANCE * spacing_world;
     const ewa_status status = run(&job);
-    // The darts that hit, in the order of blocks, take the place of the candidates before they were sorted.
-    *count = 0;
-    for (uint32_t b = 0; b < job.block_count && status == EWA_OK; b++) {
-        for (uint32_t k = 0; k < THROWS; k++) {
-            memcpy(job.thrown + *count, job.pool + job.blocks[b].first[k],
-                   job.blocks[b].accepted[k] * sizeof *job.thrown);
-            *count += job.blocks[b].accepted[k];
-        }
-    }
-    *darts = status == EWA_OK ? job.thrown : NULL;
+    *darts = status == EWA_OK ? job.pool : NULL;
     *capacity = job.capacity;
-    if (status != EWA_OK) ewa_release(context, job.thrown, job.capacity, sizeof *job.thrown);
-    ewa_release(context, job.pool, job.capacity, sizeof *job.pool);
-    ewa_release(context, job.block_of, job.capacity, sizeof *job.block_of);
+    *count = job.offset;
+    if (status != EWA_OK) ewa_release(context, job.pool, job.capacity, sizeof *job.pool);
+    ewa_release(context, job.thrown, job.thrown_capacity, sizeof *job.thrown);
+    ewa_release(context, job.block_of, job.thrown_capacity, sizeof *job.block_of);
     ewa_release(context, job.row_first, (size_t)surface->edge_count + 1, sizeof *job.row_first);
     for (uint32_t w = 0; job.scratch && w < ewa_context_worker_count(context); w++)
         ewa_release(context, job.scratch[w].darts, job.scratch_darts, sizeof(grid_dart));
