@@ -153,9 +153,10 @@ const cli_command sample_command = {
     .name = "sample",
     .operands = "MESH -o OUT",
     .summary = "make surfels from a mesh (OBJ, PLY, STL, glTF), sharp edges as clip lines",
-    .details = "Points keep their distance (Poisson-disc) and are even in area; vertex colours and textures go "
-               "onto them. Radii close the surface. Where edges are sharp, the file gets tangent axes and clip "
-               "lines.",
+    .details =
+        "Points keep their distance (Poisson-disc) and are even in area; vertex colours and textures go "
+        "onto them. Radii close the surface. Where edges are sharp, the file gets tangent axes and clip "
+        "lines.",
     .examples = "ewa sample part.stl -o part.ply --points 200000\n"
                 "ewa sample scan.obj -o scan.ply --spacing 0.5 --crease 60\n"
                 "ewa sample model.glb -o - | ewa render - -o model.png\n",

@@ -24,10 +24,10 @@ typedef struct ewa_mesh_material {
 typedef struct ewa_mesh {
     ewa_context *context;
     uint32_t vertex_count, triangle_count, material_count;
-    float *positions;             ///< 3 per vertex, world units
-    float *colors;                ///< 4 per vertex: linear red green blue, straight alpha; NULL: none
-    float *texcoords;             ///< 2 per vertex, (0, 0) bottom left of the picture, which repeats; NULL: none
-    uint32_t *triangles;          ///< 3 vertices per triangle, counter-clockwise seen from outside
+    float *positions;    ///< 3 per vertex, world units
+    float *colors;       ///< 4 per vertex: linear red green blue, straight alpha; NULL: none
+    float *texcoords;    ///< 2 per vertex, (0, 0) bottom left of the picture, which repeats; NULL: none
+    uint32_t *triangles; ///< 3 vertices per triangle, counter-clockwise seen from outside
     uint32_t *triangle_materials; ///< 1 per triangle; NULL when there are no materials
     ewa_mesh_material *materials;
 } ewa_mesh;
@@ -66,7 +66,7 @@ typedef struct ewa_mesh_sample_options {
     double spacing_world;  ///< square root of the area per point away from edges; 0: from point_count
     uint64_t seed;         ///< same seed, same bytes; default 1
     double crease_degrees; ///< edges that bend by more are sharp; [0, 180]; default 35
-    double radius_scale;   ///< support radius in units of the spacing; [0.5, 10]; default 1.14
+    double radius_scale;   ///< support radius in units of the spacing; [0.5, 10]; default 1.5
     double cutoff;         ///< F: tangent axes are radius / F long; (0, 10]; default 3
     bool clip_lines;       ///< sharp edges and borders become clip lines; default true
     bool smooth_normals;   ///< interpolate normals between triangles that meet in no sharp edge; default true
@@ -75,7 +75,7 @@ typedef struct ewa_mesh_sample_options {
 EWA_API void ewa_mesh_sample_options_init(ewa_mesh_sample_options *options, size_t struct_size);
 
 /// Makes surfels on the triangles of a mesh: a Poisson-disc sampling, even in area, in which no two points of
-/// a smooth part are nearer than 0.72 of the spacing; along sharp edges and at corners rows of points on each
+/// a smooth part are nearer than 0.77 of the spacing; along sharp edges and at corners rows of points on each
 /// side, at least half a spacing apart.
 ///
 /// - "position" F32, "normal" F32 (unit), and with vertex colours, materials or textures "color" U8 (sRGB; 4

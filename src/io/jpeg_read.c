@@ -43,7 +43,8 @@ static void watch_scans(j_common_ptr decoder) {
 static ewa_status decode(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
                          jpeg_reader *reader, ewa_image *image) {
     struct jpeg_decompress_struct *decoder = &reader->decoder;
-    if (setjmp(reader->failed)) return ewa_fail(context, EWA_ERROR_FORMAT, "%s: JPEG: %s", name, reader->text);
+    if (setjmp(reader->failed))
+        return ewa_fail(context, EWA_ERROR_FORMAT, "%s: JPEG: %s", name, reader->text);
     jpeg_create_decompress(decoder);
     reader->progress.progress_monitor = watch_scans;
     decoder->progress = &reader->progress;
@@ -51,8 +52,9 @@ static ewa_status decode(ewa_context *context, const char *name, const uint8_t *
     jpeg_read_header(decoder, TRUE);
     const bool grey = decoder->jpeg_color_space == JCS_GRAYSCALE;
     if (!grey && decoder->jpeg_color_space != JCS_RGB && decoder->jpeg_color_space != JCS_YCbCr)
-        return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: JPEG of %d components in no RGB nor grey colour space",
-                        name, decoder->num_components);
+        return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
+                        "%s: JPEG of %d components in no RGB nor grey colour space", name,
+                        decoder->num_components);
     decoder->out_color_space = grey ? JCS_GRAYSCALE : JCS_RGB;
     const uint32_t width = decoder->image_width, height = decoder->image_height, channels = grey ? 1 : 3;
     const uint64_t image_bytes = (uint64_t)width * height * channels * sizeof(float);

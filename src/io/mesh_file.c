@@ -54,8 +54,9 @@ static ewa_status check_faces(ewa_context *context, const char *path, const stru
             const struct aiFace *face = &mesh->mFaces[f];
             for (unsigned c = 0; c < face->mNumIndices; c++)
                 if (!face->mIndices || face->mIndices[c] >= mesh->mNumVertices)
-                    return ewa_fail(context, EWA_ERROR_FORMAT, "%s: face %u of mesh %u has vertex %u, there are %u",
-                                    path, f, m, face->mIndices ? face->mIndices[c] : 0, mesh->mNumVertices);
+                    return ewa_fail(context, EWA_ERROR_FORMAT,
+                                    "%s: face %u of mesh %u has vertex %u, there are %u", path, f, m,
+                                    face->mIndices ? face->mIndices[c] : 0, mesh->mNumVertices);
         }
     }
     return EWA_OK;
@@ -78,8 +79,7 @@ static ewa_status count_scene(ewa_context *context, const char *path, const stru
         counts->colors = counts->colors || mesh->mColors[0];
         counts->texcoords = counts->texcoords || mesh->mTextureCoords[0];
     }
-    if (!counts->triangles)
-        return ewa_fail(context, EWA_ERROR_FORMAT, "%s: no triangles in the file", path);
+    if (!counts->triangles) return ewa_fail(context, EWA_ERROR_FORMAT, "%s: no triangles in the file", path);
     if (counts->vertices > UINT32_MAX || counts->triangles > UINT32_MAX)
         return ewa_fail(context, EWA_ERROR_LIMIT, "%s: %llu vertices and %llu triangles, 4294967295 can be",
                         path, (unsigned long long)counts->vertices, (unsigned long long)counts->triangles);
@@ -145,7 +145,8 @@ static bool find_beside(const char *mesh_path, const char *name, char path[PATH_
     for (size_t i = 0; i <= length; i++) relative[i] = name[i] == '\\' ? '/' : name[i];
     const char *used = relative;
     const char *slash = strrchr(relative, '/');
-    if (slash && (relative[0] == '/' || relative[1] == ':' || strstr(relative, "..") || strstr(relative, "://")))
+    if (slash &&
+        (relative[0] == '/' || relative[1] == ':' || strstr(relative, "..") || strstr(relative, "://")))
         used = slash + 1;
     const char *folder_end = strrchr(mesh_path, '/');
     const int folder = folder_end ? (int)(folder_end - mesh_path) + 1 : 0;
@@ -154,8 +155,8 @@ static bool find_beside(const char *mesh_path, const char *name, char path[PATH_
 }
 
 /// Reads the picture of a material; one that cannot be had is a warning, and the base colour stays.
-static void load_texture(ewa_context *context, const char *path, const struct aiScene *scene, const char *name,
-                         ewa_image *texture) {
+static void load_texture(ewa_context *context, const char *path, const struct aiScene *scene,
+                         const char *name, ewa_image *texture) {
     const struct aiTexture *embedded = find_embedded(scene, name);
     char file[PATH_BYTES];
     uint64_t size_bytes = 0;
@@ -177,11 +178,13 @@ static void load_texture(ewa_context *context, const char *path, const struct ai
     }
     const uint32_t channels = status == EWA_OK ? texture->channel_count : 0;
     if (status == EWA_OK && (channels == 1 || channels == 3 || channels == 4)) return;
-    ewa_report(context, EWA_SEVERITY_WARNING, "%s: the picture '%.200s' cannot be used; left out", path, name);
+    ewa_report(context, EWA_SEVERITY_WARNING, "%s: the picture '%.200s' cannot be used; left out", path,
+               name);
     ewa_image_free(texture);
 }
 
-static void load_materials(const char *path, const struct aiScene *scene, bool linear_colors, ewa_mesh *mesh) {
+static void load_materials(const char *path, const struct aiScene *scene, bool linear_colors,
+                           ewa_mesh *mesh) {
     for (uint32_t i = 0; i < mesh->material_count; i++) {
         ewa_mesh_material *material = &mesh->materials[i];
         const struct aiMaterial *from = scene->mMaterials[i];
@@ -213,9 +216,9 @@ static bool materials_matter(const struct aiScene *scene) {
         const struct aiMaterial *material = scene->mMaterials[i];
         struct aiString name = {0};
         if (!material) continue;
-        const bool is_default =
-            aiGetMaterialString(material, AI_MATKEY_NAME, &name) != aiReturn_SUCCESS ||
-            strncmp(name.data, AI_DEFAULT_MATERIAL_NAME, sizeof name.data) == 0 || name.length == 0;
+        const bool is_default = aiGetMaterialString(material, AI_MATKEY_NAME, &name) != aiReturn_SUCCESS ||
+                                strncmp(name.data, AI_DEFAULT_MATERIAL_NAME, sizeof name.data) == 0 ||
+                                name.length == 0;
         if (!is_default || aiGetMaterialTextureCount(material, aiTextureType_DIFFUSE) > 0 ||
             aiGetMaterialTextureCount(material, aiTextureType_BASE_COLOR) > 0)
             return true;
@@ -230,7 +233,8 @@ static ewa_status take_scene(ewa_context *context, const char *path, const struc
     if (status != EWA_OK) return status;
     const uint32_t materials = materials_matter(scene) ? scene->mNumMaterials : 0;
     if (materials > MAX_MATERIALS)
-        return ewa_fail(context, EWA_ERROR_LIMIT, "%s: %u materials, %d can be", path, materials, MAX_MATERIALS);
+        return ewa_fail(context, EWA_ERROR_LIMIT, "%s: %u materials, %d can be", path, materials,
+                        MAX_MATERIALS);
     const uint32_t streams =
         (counts.colors ? EWA_MESH_COLORS : 0u) | (counts.texcoords ? EWA_MESH_TEXCOORDS : 0u);
     status = ewa_mesh_create(context, (uint32_t)counts.vertices, (uint32_t)counts.triangles, materials,
@@ -259,8 +263,8 @@ ewa_status ewa_mesh_load(ewa_context *context, const char *path, ewa_mesh *mesh)
     if (!context || !path || !mesh) return EWA_ERROR_ARGUMENT;
     *mesh = (ewa_mesh){0};
     if (!has_mesh_suffix(path))
-        return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
-                        "%s: the suffix is none of .obj .ply .stl .gltf .glb", path);
+        return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: the suffix is none of .obj .ply .stl .gltf .glb",
+                        path);
     // Opening it first gives the system's own reason when that fails, which Assimp does not.
     ewa_file file = {0};
     ewa_status status = ewa_file_map(context, path, &file);

@@ -77,8 +77,10 @@ ewa_status ewa_mesh_edge_grid_make(const mesh_surface *surface, double reach_wor
     if (!surface->edge_count) return EWA_OK;
     double steps = 0;
     for (uint32_t e = 0; e < surface->edge_count; e++)
-        steps += vec3_length(vec3_sub(vec3_load(surface->edges[e].b_world), vec3_load(surface->edges[e].a_world))) /
-                     reach_world + 1;
+        steps += vec3_length(
+                     vec3_sub(vec3_load(surface->edges[e].b_world), vec3_load(surface->edges[e].a_world))) /
+                     reach_world +
+                 1;
     if (!(steps < 4e8)) return ewa_fail(context, EWA_ERROR_LIMIT, "sample: edges are %.3g discs long", steps);
     grid->bucket_count = 64;
     while ((double)grid->bucket_count < steps) grid->bucket_count *= 2;
@@ -104,15 +106,17 @@ void ewa_mesh_edge_grid_free(mesh_edge_grid *grid) {
 }
 
 /// Puts an edge into the disc's plane; false when it is of another part or out of the disc.
-static bool project(const mesh_surface *surface, const mesh_clip_disc *disc, uint32_t index, plane_edge *made) {
+static bool project(const mesh_surface *surface, const mesh_clip_disc *disc, uint32_t index,
+                    plane_edge *made) {
     const mesh_edge *edge = &surface->edges[index];
     if (surface->part[edge->triangle] != disc->part) return false;
     const float *facing = surface->normal[edge->triangle];
     const ewa_vec3 center = vec3_load(disc->center_world), u = vec3_load(disc->u), v = vec3_load(disc->v),
                    n = vec3_load(disc->normal);
-    if (vec3_dot(vec3_make((double)facing[0], (double)facing[1], (double)facing[2]), n) < MIN_FACING) return false;
-    const ewa_vec3 a = vec3_sub(vec3_load(edge->a_world), center), b = vec3_sub(vec3_load(edge->b_world), center),
-                   inward = vec3_load(edge->inward);
+    if (vec3_dot(vec3_make((double)facing[0], (double)facing[1], (double)facing[2]), n) < MIN_FACING)
+        return false;
+    const ewa_vec3 a = vec3_sub(vec3_load(edge->a_world), center),
+                   b = vec3_sub(vec3_load(edge->b_world), center), inward = vec3_load(edge->inward);
     const double from[2] = {vec3_dot(a, u), vec3_dot(a, v)}, to[2] = {vec3_dot(b, u), vec3_dot(b, v)};
     const double along[2] = {to[0] - from[0], to[1] - from[1]};
     const double length2 = along[0] * along[0] + along[1] * along[1];
@@ -120,7 +124,8 @@ static bool project(const mesh_surface *surface, const mesh_clip_disc *disc, uin
     // Where the line through the edge meets the circle: s of from + s along.
     const double middle = -(from[0] * along[0] + from[1] * along[1]) / length2;
     const double cross = from[0] * along[1] - from[1] * along[0];
-    const double half2 = disc->radius_world * disc->radius_world / length2 - cross * cross / (length2 * length2);
+    const double half2 =
+        disc->radius_world * disc->radius_world / length2 - cross * cross / (length2 * length2);
     if (!(half2 > 0)) return false;
     const double low = fmax(0, middle - sqrt(half2)), high = fmin(1, middle + sqrt(half2));
     if (!(low <= high)) return false;
@@ -142,7 +147,9 @@ static bool project(const mesh_surface *surface, const mesh_clip_disc *disc, uin
     return true;
 }
 
-static double side_of(const double line[3], const double at[2]) { return line[0] * at[0] + line[1] * at[1] + line[2]; }
+static double side_of(const double line[3], const double at[2]) {
+    return line[0] * at[0] + line[1] * at[1] + line[2];
+}
 
 static bool lies_on(const double line[3], const plane_edge *edge, double tolerance) {
     return fabs(side_of(line, edge->from)) <= tolerance && fabs(side_of(line, edge->to)) <= tolerance;
@@ -150,8 +157,8 @@ static bool lies_on(const double line[3], const plane_edge *edge, double toleran
 
 /// The nearest edge in the disc, but for those on `line` (may be NULL). Of equally near ones the one that is
 /// farther to the inside of its line, then the first.
-static bool find_nearest(const mesh_edge_grid *grid, const mesh_clip_disc *disc, size_t bucket, const double *line,
-                         plane_edge *nearest) {
+static bool find_nearest(const mesh_edge_grid *grid, const mesh_clip_disc *disc, size_t bucket,
+                         const double *line, plane_edge *nearest) {
     bool found = false;
     for (uint32_t i = grid->first[bucket]; i < grid->first[bucket + 1]; i++) {
         plane_edge edge;

@@ -47,8 +47,8 @@ ewa_status ewa_mesh_colors_make(const ewa_mesh *mesh, mesh_colors *colors) {
     bool opaque = true;
     for (uint32_t t = 0; mesh->material_count && t < mesh->triangle_count; t++)
         if (mesh->triangle_materials[t] >= mesh->material_count)
-            return ewa_fail(context, EWA_ERROR_ARGUMENT, "sample: triangle %u has material %u, there are %u", t,
-                            mesh->triangle_materials[t], mesh->material_count);
+            return ewa_fail(context, EWA_ERROR_ARGUMENT, "sample: triangle %u has material %u, there are %u",
+                            t, mesh->triangle_materials[t], mesh->material_count);
     for (uint32_t v = 0; mesh->colors && v < mesh->vertex_count; v++)
         opaque = opaque && mesh->colors[4 * (size_t)v + 3] >= 1;
     colors->textures = ewa_allocate_zeroed(context, mesh->material_count, sizeof *colors->textures);
@@ -59,8 +59,8 @@ ewa_status ewa_mesh_colors_make(const ewa_mesh *mesh, mesh_colors *colors) {
         opaque = opaque && mesh->materials[m].base_color[3] >= 1;
         if (!image->pixels || !mesh->texcoords) continue;
         if (image->channel_count != 1 && image->channel_count != 3 && image->channel_count != 4)
-            return ewa_fail(context, EWA_ERROR_ARGUMENT, "sample: the texture of material %u has %u channels", m,
-                            image->channel_count);
+            return ewa_fail(context, EWA_ERROR_ARGUMENT, "sample: the texture of material %u has %u channels",
+                            m, image->channel_count);
         opaque = opaque && is_opaque(image);
         texture->levels[0] = *image;
         texture->level_count = 1;
@@ -81,7 +81,8 @@ void ewa_mesh_colors_free(mesh_colors *colors) {
     for (uint32_t m = 0; m < colors->mesh->material_count; m++)
         for (uint32_t l = 1; l < colors->textures[m].level_count; l++)
             ewa_image_free(&colors->textures[m].levels[l]);
-    ewa_release(colors->mesh->context, colors->textures, colors->mesh->material_count, sizeof *colors->textures);
+    ewa_release(colors->mesh->context, colors->textures, colors->mesh->material_count,
+                sizeof *colors->textures);
     *colors = (mesh_colors){0};
 }
 
@@ -108,7 +109,8 @@ static void apply_texture(const mesh_texture *texture, double s, double t, doubl
         float row[2];
         for (int j = 0; j < 2; j++) {
             const float *line = image->pixels + (size_t)y[j] * image->width_px * image->channel_count + c;
-            const float a = line[(size_t)x[0] * image->channel_count], b = line[(size_t)x[1] * image->channel_count];
+            const float a = line[(size_t)x[0] * image->channel_count],
+                        b = line[(size_t)x[1] * image->channel_count];
             row[j] = a + share_x * (b - a);
         }
         sum[c] = row[0] + share_y * (row[1] - row[0]);
@@ -121,8 +123,8 @@ static void apply_texture(const mesh_texture *texture, double s, double t, doubl
     for (int c = 0; c < 3; c++) color[c] *= sum[c];
 }
 
-void ewa_mesh_color_at(const mesh_colors *colors, uint32_t triangle, const double weight[3], double area_world,
-                       double width_world, uint8_t color[4]) {
+void ewa_mesh_color_at(const mesh_colors *colors, uint32_t triangle, const double weight[3],
+                       double area_world, double width_world, uint8_t color[4]) {
     const ewa_mesh *mesh = colors->mesh;
     const uint32_t *vertex = mesh->triangles + 3 * (size_t)triangle;
     float mixed[4] = {1, 1, 1, 1};
@@ -143,11 +145,10 @@ void ewa_mesh_color_at(const mesh_colors *colors, uint32_t triangle, const doubl
                 at[0] += weight[k] * (double)uv[k][0];
                 at[1] += weight[k] * (double)uv[k][1];
             }
-            const double texels =
-                0.5 *
-                fabs((double)(uv[1][0] - uv[0][0]) * (double)(uv[2][1] - uv[0][1]) -
-                     (double)(uv[1][1] - uv[0][1]) * (double)(uv[2][0] - uv[0][0])) *
-                texture->levels[0].width_px * texture->levels[0].height_px;
+            const double texels = 0.5 *
+                                  fabs((double)(uv[1][0] - uv[0][0]) * (double)(uv[2][1] - uv[0][1]) -
+                                       (double)(uv[1][1] - uv[0][1]) * (double)(uv[2][0] - uv[0][0])) *
+                                  texture->levels[0].width_px * texture->levels[0].height_px;
             apply_texture(texture, at[0], at[1], width_world * sqrt(texels / area_world), mixed);
         }
     }

@@ -17,7 +17,7 @@ typedef struct mesh_texture {
 
 typedef struct mesh_colors {
     const ewa_mesh *mesh;
-    mesh_texture *textures; ///< by material
+    mesh_texture *textures;   ///< by material
     uint32_t component_count; ///< 0: the mesh has no colours; 3, or 4 when something is not opaque
 } mesh_colors;
 
@@ -28,7 +28,7 @@ void ewa_mesh_colors_free(mesh_colors *colors);
 
 /// Colour of a place of a triangle of the mesh: `weight` of its three vertices; textures are averaged over
 /// about `width_world`. `color` gets component_count bytes, sRGB. Any thread.
-void ewa_mesh_color_at(const mesh_colors *colors, uint32_t triangle, const double weight[3], double area_world,
-                       double width_world, uint8_t color[4]);
+void ewa_mesh_color_at(const mesh_colors *colors, uint32_t triangle, const double weight[3],
+                       double area_world, double width_world, uint8_t color[4]);
 
 #endif

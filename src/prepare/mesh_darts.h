@@ -14,7 +14,7 @@ typedef struct mesh_dart {
 
 /// Least distances within one smooth part, in spacings: between points of its inside and any, between points
 /// of the rows along its sharp edges. The first one makes the density one point per spacing squared.
-#define MESH_INNER_DISTANCE 0.728
+#define MESH_INNER_DISTANCE 0.775
 #define MESH_ROW_DISTANCE   0.62
 
 /// How far rows are from their edge, in spacings.

@@ -8,8 +8,6 @@
 #include "prepare/mesh_color.h"
 #include "prepare/mesh_darts.h"
 
-#include "ewa/prepare.h"
-
 #include <string.h>
 
 enum { TASK_POINTS = 1 << 12 };
@@ -33,15 +31,17 @@ void ewa_mesh_sample_options_init(ewa_mesh_sample_options *options, size_t struc
     options->point_count = 100000;
     options->seed = 1;
     options->crease_degrees = 35;
-    options->radius_scale = EWA_DEFAULT_RADIUS_SCALE;
+    options->radius_scale = 1.5;
     options->cutoff = 3;
     options->clip_lines = true;
     options->smooth_normals = true;
 }
 
-static ewa_status check_range(ewa_context *context, const char *member, double value, double low, double high) {
+static ewa_status check_range(ewa_context *context, const char *member, double value, double low,
+                              double high) {
     if (value >= low && value <= high) return EWA_OK;
-    return ewa_fail(context, EWA_ERROR_ARGUMENT, "sample: %s is %g, must be in [%g, %g]", member, value, low, high);
+    return ewa_fail(context, EWA_ERROR_ARGUMENT, "sample: %s is %g, must be in [%g, %g]", member, value, low,
+                    high);
 }
 
 static ewa_status check_options(ewa_context *context, const ewa_mesh_sample_options *options) {
@@ -70,7 +70,8 @@ static double weights_at(const mesh_surface *surface, const mesh_dart *dart, dou
     ewa_vec3 to[3];
     for (int c = 0; c < 3; c++) {
         const float *p = surface->mesh->positions + 3 * (size_t)vertex[c], *at = dart->position_world;
-        to[c] = vec3_make((double)p[0] - (double)at[0], (double)p[1] - (double)at[1], (double)p[2] - (double)at[2]);
+        to[c] = vec3_make((double)p[0] - (double)at[0], (double)p[1] - (double)at[1],
+                          (double)p[2] - (double)at[2]);
     }
     double sum = 0;
     for (int c = 0; c < 3; c++) {
@@ -206,13 +207,14 @@ static ewa_status sample(ewa_context *context, sample_job *job, ewa_cloud **clou
 }
 
 static ewa_status check_mesh(const ewa_mesh *mesh) {
-    const bool complete = (mesh->positions || !mesh->vertex_count) && (mesh->triangles || !mesh->triangle_count) &&
+    const bool complete = (mesh->positions || !mesh->vertex_count) &&
+                          (mesh->triangles || !mesh->triangle_count) &&
                           (!mesh->material_count || (mesh->materials && mesh->triangle_materials));
     if (!complete) return ewa_fail(mesh->context, EWA_ERROR_ARGUMENT, "sample: the mesh lacks a stream");
     // Half edges are numbered by 32 bits.
     if (mesh->triangle_count > UINT32_MAX / 4)
-        return ewa_fail(mesh->context, EWA_ERROR_LIMIT, "sample: %u triangles, %u can be", mesh->triangle_count,
-                        UINT32_MAX / 4);
+        return ewa_fail(mesh->context, EWA_ERROR_LIMIT, "sample: %u triangles, %u can be",
+                        mesh->triangle_count, UINT32_MAX / 4);
     return EWA_OK;
 }
 

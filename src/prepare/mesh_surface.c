@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Smooth parts and sharp edges of a triangle mesh: equal places are welded, half edges paired, triangles united
-// over edges that do not bend; what is left between two parts is sharp.
+// Smooth parts and sharp edges of a triangle mesh: equal places are welded, half edges paired, triangles
+// united over edges that do not bend; what is left between two parts is sharp.
 #include "prepare/mesh_surface.h"
 #include "base/base.h"
 #include "math/vec.h"
@@ -207,8 +207,8 @@ static void judge_edge(surface_job *job, const half_edge *halves, uint32_t count
         half_vertices(job, halves[1].half, &from[1], &to);
         // Two triangles that go along the edge the same way are wound differently: one normal is turned.
         const double sign = from[0] == from[1] ? -1 : 1;
-        const double cosine = sign * vec3_dot(normal_of(surface, halves[0].half / 3),
-                                              normal_of(surface, halves[1].half / 3));
+        const double cosine =
+            sign * vec3_dot(normal_of(surface, halves[0].half / 3), normal_of(surface, halves[1].half / 3));
         kind = cosine < job->cosine ? EDGE_CREASE : EDGE_SMOOTH;
         job->mate[halves[0].half] = halves[1].half;
         job->mate[halves[1].half] = halves[0].half;
@@ -375,7 +375,8 @@ static ewa_status mark_corners(surface_job *job, const uint32_t *half_of_edge) {
     }
     qsort(ends, count, sizeof *ends, compare_ends);
     for (size_t i = 0, next; i < count; i = next) {
-        for (next = i + 1; next < count && ends[next].vertex == ends[i].vertex && ends[next].part == ends[i].part;)
+        for (next = i + 1;
+             next < count && ends[next].vertex == ends[i].vertex && ends[next].part == ends[i].part;)
             next++;
         if (next - i != 2) continue;
         mesh_edge *a = &surface->edges[ends[i].edge], *b = &surface->edges[ends[i + 1].edge];
@@ -415,7 +416,8 @@ static ewa_status collect_edges(surface_job *job) {
 /// twice.
 static double cosine_of_degrees(double degrees) {
     const double x = degrees * (3.141592653589793 / 180) / 4, xx = x * x;
-    double cosine = 1 - xx / 2 * (1 - xx / 12 * (1 - xx / 30 * (1 - xx / 56 * (1 - xx / 90 * (1 - xx / 132)))));
+    double cosine =
+        1 - xx / 2 * (1 - xx / 12 * (1 - xx / 30 * (1 - xx / 56 * (1 - xx / 90 * (1 - xx / 132)))));
     for (int i = 0; i < 2; i++) cosine = 2 * cosine * cosine - 1;
     return cosine;
 }
@@ -458,8 +460,8 @@ ewa_status ewa_mesh_surface_make(const ewa_mesh *mesh, const ewa_mesh_sample_opt
         status = keep_triangles(surface);
         if (status == EWA_OK) {
             const double area = surface->area_below[surface->triangle_count];
-            job.spacing =
-                options->spacing_world > 0 ? options->spacing_world : sqrt(area / (double)options->point_count);
+            job.spacing = options->spacing_world > 0 ? options->spacing_world
+                                                     : sqrt(area / (double)options->point_count);
             status = run(&job, options);
         }
     }

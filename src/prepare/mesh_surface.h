@@ -13,8 +13,8 @@ typedef struct mesh_edge {
     double inward[3]; ///< unit, in the triangle's plane, perpendicular to the edge
     /// Height of the triangle over the edge and where its foot is, 0 at a and 1 at b.
     double height_world, foot;
-    uint32_t triangle;         ///< of the surface
-    bool corner_a, corner_b;   ///< the edge of this smooth part ends or turns there
+    uint32_t triangle;       ///< of the surface
+    bool corner_a, corner_b; ///< the edge of this smooth part ends or turns there
 } mesh_edge;
 
 /// The triangles that have an area, and their edges that stay sharp.
@@ -22,11 +22,11 @@ typedef struct mesh_surface {
     ewa_context *context;
     const ewa_mesh *mesh;
     uint32_t triangle_count;
-    uint32_t *source;      ///< triangle of the mesh
-    double *area_below;    ///< triangle_count + 1 sums of areas
-    float (*normal)[3];    ///< unit, of the triangles
-    uint32_t *part;        ///< the smooth part that the triangle belongs to
-    uint32_t *corner_group; ///< 3 per triangle: index into group_normal
+    uint32_t *source;         ///< triangle of the mesh
+    double *area_below;       ///< triangle_count + 1 sums of areas
+    float (*normal)[3];       ///< unit, of the triangles
+    uint32_t *part;           ///< the smooth part that the triangle belongs to
+    uint32_t *corner_group;   ///< 3 per triangle: index into group_normal
     float (*group_normal)[3]; ///< unit; of the triangles around a vertex that meet without a sharp edge
     mesh_edge *edges;
     uint32_t edge_count;
