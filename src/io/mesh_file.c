@@ -18,13 +18,44 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-enum { PATH_BYTES = 4096, MAX_MATERIALS = 4096 };
+enum { PATH_BYTES = 4096, MAX_MATERIALS = 4096, MAX_DEPTH = 256 };
 
-/// What the meshes of a scene come to.
-typedef struct scene_counts {
+/// Where a node puts its meshes: three rows of an affine map on column vectors.
+typedef struct placement {
+    double m[3][4];
+} placement;
+
+/// One way through the nodes of a scene, and what has been met.
+typedef struct scene_walk {
+    ewa_context *context;
+    const char *path;
+    const struct aiScene *scene;
+    ewa_mesh *mesh; ///< to fill; NULL: counts only
+    bool linear_colors;
     uint64_t vertices, triangles;
     bool colors, texcoords;
-} scene_counts;
+} scene_walk;
+
+static placement placement_in(const placement *above, const struct aiMatrix4x4 *own) {
+    const double rows[4][4] = {{(double)own->a1, (double)own->a2, (double)own->a3, (double)own->a4},
+                               {(double)own->b1, (double)own->b2, (double)own->b3, (double)own->b4},
+                               {(double)own->c1, (double)own->c2, (double)own->c3, (double)own->c4},
+                               {0, 0, 0, 1}};
+    placement made = {{{0}}};
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 4; c++) {
+            made.m[r][c] = c == 3 ? above->m[r][3] : 0;
+            for (int k = 0; k < 3; k++) made.m[r][c] += above->m[r][k] * rows[k][c];
+        }
+    return made;
+}
+
+static double determinant(const placement *at) {
+    const double(*m)[4] = at->m;
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+           m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+           m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+}
 
 static bool has_mesh_suffix(const char *path) {
     static const char *const suffixes[] = {".obj", ".ply", ".stl", ".gltf", ".glb"};
@@ -62,30 +93,6 @@ static ewa_status check_faces(ewa_context *context, const char *path, const stru
     return EWA_OK;
 }
 
-/// Adds up what can be used: triangles of meshes that have vertices.
-static ewa_status count_scene(ewa_context *context, const char *path, const struct aiScene *scene,
-                              scene_counts *counts) {
-    *counts = (scene_counts){0};
-    for (unsigned m = 0; scene->mMeshes && m < scene->mNumMeshes; m++) {
-        const struct aiMesh *mesh = scene->mMeshes[m];
-        if (!mesh || !mesh->mVertices || !mesh->mFaces) continue;
-        uint64_t triangles = 0;
-        for (unsigned f = 0; f < mesh->mNumFaces; f++) {
-            triangles += mesh->mFaces[f].mNumIndices == 3;
-        }
-        if (!triangles) continue;
-        counts->vertices += mesh->mNumVertices;
-        counts->triangles += triangles;
-        counts->colors = counts->colors || mesh->mColors[0];
-        counts->texcoords = counts->texcoords || mesh->mTextureCoords[0];
-    }
-    if (!counts->triangles) return ewa_fail(context, EWA_ERROR_FORMAT, "%s: no triangles in the file", path);
-    if (counts->vertices > UINT32_MAX || counts->triangles > UINT32_MAX)
-        return ewa_fail(context, EWA_ERROR_LIMIT, "%s: %llu vertices and %llu triangles, 4294967295 can be",
-                        path, (unsigned long long)counts->vertices, (unsigned long long)counts->triangles);
-    return EWA_OK;
-}
-
 static float unit_or(float value, float otherwise) {
     if (!(value >= 0)) return otherwise; // NaN too
     return value < 1 ? value : 1;
@@ -93,14 +100,16 @@ static float unit_or(float value, float otherwise) {
 
 static float linear_of(float srgb) { return (float)ewa_srgb_decode(unit_or(srgb, 0)); }
 
-/// Copies the streams of one mesh behind the first `vertex` vertices and `triangle` triangles.
-static void copy_mesh(const struct aiMesh *from, bool linear_colors, uint32_t vertex, uint32_t triangle,
-                      ewa_mesh *to) {
+/// Copies one mesh behind the first `vertex` vertices and `triangle` triangles; a placement that mirrors
+/// turns its triangles, so that they stay counter-clockwise seen from outside.
+static void copy_mesh(const struct aiMesh *from, const placement *at, bool linear_colors, uint32_t vertex,
+                      uint32_t triangle, ewa_mesh *to) {
     for (uint32_t i = 0; i < from->mNumVertices; i++) {
         float *position = to->positions + 3 * (size_t)(vertex + i);
-        position[0] = from->mVertices[i].x;
-        position[1] = from->mVertices[i].y;
-        position[2] = from->mVertices[i].z;
+        const double p[3] = {(double)from->mVertices[i].x, (double)from->mVertices[i].y,
+                             (double)from->mVertices[i].z};
+        for (int c = 0; c < 3; c++)
+            position[c] = (float)(at->m[c][0] * p[0] + at->m[c][1] * p[1] + at->m[c][2] * p[2] + at->m[c][3]);
         if (to->texcoords && from->mTextureCoords[0]) {
             to->texcoords[2 * (size_t)(vertex + i)] = from->mTextureCoords[0][i].x;
             to->texcoords[2 * (size_t)(vertex + i) + 1] = from->mTextureCoords[0][i].y;
@@ -112,15 +121,48 @@ static void copy_mesh(const struct aiMesh *from, bool linear_colors, uint32_t ve
         for (int c = 0; c < 3; c++) color[c] = linear_colors ? unit_or(values[c], 0) : linear_of(values[c]);
         color[3] = given ? unit_or(given->a, 1) : 1;
     }
+    const bool mirrors = determinant(at) < 0;
     for (uint32_t f = 0; f < from->mNumFaces; f++) {
         const struct aiFace *face = &from->mFaces[f];
-        if (face->mNumIndices != 3 || !face->mIndices) continue;
-        for (int c = 0; c < 3; c++) to->triangles[3 * (size_t)triangle + c] = vertex + face->mIndices[c];
+        if (face->mNumIndices != 3) continue;
+        for (uint32_t c = 0; c < 3; c++)
+            to->triangles[3 * (size_t)triangle + c] = vertex + face->mIndices[mirrors ? 2 - c : c];
         if (to->triangle_materials)
             to->triangle_materials[triangle] =
                 from->mMaterialIndex < to->material_count ? from->mMaterialIndex : 0;
         triangle++;
     }
+}
+
+/// Goes through the nodes: counts what their meshes come to and, with a mesh to fill, copies it.
+static ewa_status visit_node(scene_walk *walk, const struct aiNode *node, const placement *above,
+                             uint32_t depth) {
+    if (!node) return EWA_OK;
+    if (depth > MAX_DEPTH)
+        return ewa_fail(walk->context, EWA_ERROR_LIMIT, "%s: more than %d nodes in each other", walk->path,
+                        MAX_DEPTH);
+    const placement at = placement_in(above, &node->mTransformation);
+    for (unsigned i = 0; node->mMeshes && i < node->mNumMeshes; i++) {
+        if (node->mMeshes[i] >= walk->scene->mNumMeshes)
+            return ewa_fail(walk->context, EWA_ERROR_FORMAT, "%s: a node has mesh %u, there are %u",
+                            walk->path, node->mMeshes[i], walk->scene->mNumMeshes);
+        const struct aiMesh *mesh = walk->scene->mMeshes[node->mMeshes[i]];
+        uint32_t triangles = 0;
+        for (unsigned f = 0; f < mesh->mNumFaces; f++) triangles += mesh->mFaces[f].mNumIndices == 3;
+        if (!triangles) continue;
+        if (walk->mesh)
+            copy_mesh(mesh, &at, walk->linear_colors, (uint32_t)walk->vertices, (uint32_t)walk->triangles,
+                      walk->mesh);
+        walk->vertices += mesh->mNumVertices;
+        walk->triangles += triangles;
+        walk->colors = walk->colors || mesh->mColors[0];
+        walk->texcoords = walk->texcoords || mesh->mTextureCoords[0];
+    }
+    for (unsigned i = 0; node->mChildren && i < node->mNumChildren; i++) {
+        const ewa_status status = visit_node(walk, node->mChildren[i], &at, depth + 1);
+        if (status != EWA_OK) return status;
+    }
+    return EWA_OK;
 }
 
 /// The picture that a path like "*0" or the name of an embedded one means; NULL: a file of its own.
@@ -228,35 +270,39 @@ static bool materials_matter(const struct aiScene *scene) {
 
 static ewa_status take_scene(ewa_context *context, const char *path, const struct aiScene *scene,
                              ewa_mesh *mesh) {
-    scene_counts counts;
-    ewa_status status = count_scene(context, path, scene, &counts);
+    static const placement identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+    const size_t length = strlen(path);
+    scene_walk walk = {.context = context, .path = path, .scene = scene};
+    walk.linear_colors =
+        strcasecmp(path + length - 4, "gltf") == 0 || strcasecmp(path + length - 4, ".glb") == 0;
+    ewa_status status = visit_node(&walk, scene->mRootNode, &identity, 0);
     if (status != EWA_OK) return status;
+    if (!walk.triangles) return ewa_fail(context, EWA_ERROR_FORMAT, "%s: no triangles in the file", path);
+    if (walk.vertices > UINT32_MAX || walk.triangles > UINT32_MAX)
+        return ewa_fail(context, EWA_ERROR_LIMIT, "%s: %llu vertices and %llu triangles, 4294967295 can be",
+                        path, (unsigned long long)walk.vertices, (unsigned long long)walk.triangles);
     const uint32_t materials = materials_matter(scene) ? scene->mNumMaterials : 0;
     if (materials > MAX_MATERIALS)
         return ewa_fail(context, EWA_ERROR_LIMIT, "%s: %u materials, %d can be", path, materials,
                         MAX_MATERIALS);
     const uint32_t streams =
-        (counts.colors ? EWA_MESH_COLORS : 0u) | (counts.texcoords ? EWA_MESH_TEXCOORDS : 0u);
-    status = ewa_mesh_create(context, (uint32_t)counts.vertices, (uint32_t)counts.triangles, materials,
-                             streams, mesh);
+        (walk.colors ? EWA_MESH_COLORS : 0u) | (walk.texcoords ? EWA_MESH_TEXCOORDS : 0u);
+    status =
+        ewa_mesh_create(context, (uint32_t)walk.vertices, (uint32_t)walk.triangles, materials, streams, mesh);
     if (status != EWA_OK) return status;
-    const size_t length = strlen(path);
-    const bool linear_colors =
-        strcasecmp(path + length - 4, "gltf") == 0 || strcasecmp(path + length - 4, ".glb") == 0;
-    uint32_t vertex = 0, triangle = 0;
-    for (unsigned m = 0; m < scene->mNumMeshes; m++) {
-        const struct aiMesh *from = scene->mMeshes[m];
-        if (!from || !from->mVertices || !from->mFaces) continue;
-        uint32_t triangles = 0;
-        for (unsigned f = 0; f < from->mNumFaces; f++)
-            triangles += from->mFaces[f].mNumIndices == 3 && from->mFaces[f].mIndices;
-        if (!triangles) continue;
-        copy_mesh(from, linear_colors, vertex, triangle, mesh);
-        vertex += from->mNumVertices;
-        triangle += triangles;
-    }
-    load_materials(path, scene, linear_colors, mesh);
-    return EWA_OK;
+    walk.mesh = mesh;
+    walk.vertices = walk.triangles = 0;
+    status = visit_node(&walk, scene->mRootNode, &identity, 0);
+    if (status == EWA_OK) load_materials(path, scene, walk.linear_colors, mesh);
+    return status;
+}
+
+/// Whether some face has more than three corners.
+static bool has_polygons(const struct aiScene *scene) {
+    for (unsigned m = 0; m < scene->mNumMeshes; m++)
+        for (unsigned f = 0; f < scene->mMeshes[m]->mNumFaces; f++)
+            if (scene->mMeshes[m]->mFaces[f].mNumIndices > 3) return true;
+    return false;
 }
 
 ewa_status ewa_mesh_load(ewa_context *context, const char *path, ewa_mesh *mesh) {
@@ -281,10 +327,9 @@ ewa_status ewa_mesh_load(ewa_context *context, const char *path, ewa_mesh *mesh)
     const struct aiScene *scene = aiImportFile(path, 0);
     if (!scene) return ewa_fail(context, EWA_ERROR_FORMAT, "%s: %s", path, aiGetErrorString());
     status = check_faces(context, path, scene);
-    // After a failure of a further step the scene is freed, and NULL.
-    if (status == EWA_OK) {
-        scene = aiApplyPostProcessing(scene, aiProcess_Triangulate | aiProcess_SortByPType |
-                                                 aiProcess_PreTransformVertices);
+    if (status == EWA_OK && has_polygons(scene)) {
+        // After a failure of a further step the scene is freed, and NULL.
+        scene = aiApplyPostProcessing(scene, aiProcess_Triangulate);
         status = scene ? check_faces(context, path, scene)
                        : ewa_fail(context, EWA_ERROR_FORMAT, "%s: %s", path, aiGetErrorString());
     }
