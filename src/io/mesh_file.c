@@ -57,14 +57,21 @@ static double determinant(const placement *at) {
            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
+static bool has_suffix(const char *path, const char *suffix) {
+    const size_t length = strlen(path), suffix_length = strlen(suffix);
+    return length > suffix_length && strcasecmp(path + length - suffix_length, suffix) == 0;
+}
+
 static bool has_mesh_suffix(const char *path) {
     static const char *const suffixes[] = {".obj", ".ply", ".stl", ".gltf", ".glb"};
-    const size_t length = strlen(path);
-    for (size_t i = 0; i < sizeof suffixes / sizeof suffixes[0]; i++) {
-        const size_t suffix = strlen(suffixes[i]);
-        if (length > suffix && strcasecmp(path + length - suffix, suffixes[i]) == 0) return true;
-    }
+    for (size_t i = 0; i < sizeof suffixes / sizeof suffixes[0]; i++)
+        if (has_suffix(path, suffixes[i])) return true;
     return false;
+}
+
+static void ignore_line(void *user, const char *line) {
+    (void)user;
+    (void)line;
 }
 
 static bool is_regular(const char *path, uint64_t *size_bytes) {
@@ -271,10 +278,8 @@ static bool materials_matter(const struct aiScene *scene) {
 static ewa_status take_scene(ewa_context *context, const char *path, const struct aiScene *scene,
                              ewa_mesh *mesh) {
     static const placement identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
-    const size_t length = strlen(path);
     scene_walk walk = {.context = context, .path = path, .scene = scene};
-    walk.linear_colors =
-        strcasecmp(path + length - 4, "gltf") == 0 || strcasecmp(path + length - 4, ".glb") == 0;
+    walk.linear_colors = has_suffix(path, ".gltf") || has_suffix(path, ".glb");
     ewa_status status = visit_node(&walk, scene->mRootNode, &identity, 0);
     if (status != EWA_OK) return status;
     if (!walk.triangles) return ewa_fail(context, EWA_ERROR_FORMAT, "%s: no triangles in the file", path);
@@ -324,6 +329,9 @@ ewa_status ewa_mesh_load(ewa_context *context, const char *path, ewa_mesh *mesh)
     uint64_t regular_bytes = 0;
     if (!is_regular(path, &regular_bytes))
         return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: a mesh has to be a file, no pipe", path);
+    // Assimp's reader of PLY trusts its header; ours does not.
+    if (has_suffix(path, ".ply")) status = ewa_ply_describe(context, path, ignore_line, NULL);
+    if (status != EWA_OK) return status;
     const struct aiScene *scene = aiImportFile(path, 0);
     if (!scene) return ewa_fail(context, EWA_ERROR_FORMAT, "%s: %s", path, aiGetErrorString());
     status = check_faces(context, path, scene);
