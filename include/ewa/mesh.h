@@ -66,7 +66,7 @@ typedef struct ewa_mesh_sample_options {
     double spacing_world;  ///< square root of the area per point away from edges; 0: from point_count
     uint64_t seed;         ///< same seed, same bytes; default 1
     double crease_degrees; ///< edges that bend by more are sharp; [0, 180]; default 35
-    double radius_scale;   ///< support radius in units of the spacing; [0.5, 10]; default 1.5
+    double radius_scale;   ///< support radius in units of the spacing; [0.5, 10]; default 1.6
     double cutoff;         ///< F: tangent axes are radius / F long; (0, 10]; default 3
     bool clip_lines;       ///< sharp edges and borders become clip lines; default true
     bool smooth_normals;   ///< interpolate normals between triangles that meet in no sharp edge; default true

@@ -31,7 +31,7 @@ void ewa_mesh_sample_options_init(ewa_mesh_sample_options *options, size_t struc
     options->point_count = 100000;
     options->seed = 1;
     options->crease_degrees = 35;
-    options->radius_scale = 1.5;
+    options->radius_scale = 1.6;
     options->cutoff = 3;
     options->clip_lines = true;
     options->smooth_normals = true;

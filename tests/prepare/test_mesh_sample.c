@@ -37,7 +37,7 @@ static void test_cube_points(void **state) {
     assert_in_range(count, 5700, 6300);
     const float *p = stream(cloud, EWA_POSITION), *n = stream(cloud, EWA_NORMAL),
                 *u = stream(cloud, EWA_TANGENT_U);
-    const double radius = 3 * sqrt((double)(u[0] * u[0] + u[1] * u[1] + u[2] * u[2])), spacing = radius / 1.5;
+    const double radius = 3 * sqrt((double)(u[0] * u[0] + u[1] * u[1] + u[2] * u[2])), spacing = radius / 1.6;
     uint64_t of_face[6] = {0}, inner = 0;
     for (uint64_t i = 0; i < count; i++) {
         const int face = face_of(n + 3 * i);
