@@ -51,6 +51,7 @@ static void format_default(const cli_option *option, const void *defaults, char 
     switch (option->kind) {
     case OPTION_FLAG:
     case OPTION_TOGGLE:
+    case OPTION_BOUNDS:
         break;
     case OPTION_ON_OFF:
         snprintf(text, TEXT_BYTES, "%s", *(const bool *)member ? "on" : "off");

@@ -133,9 +133,21 @@ EWA_API ewa_status ewa_camera_file_count(ewa_context *context, const char *path,
 EWA_API ewa_status ewa_camera_load(ewa_context *context, const char *path, uint32_t index,
                                    ewa_camera *camera);
 
+/// Receives camera `index`, counted from 0, of a file; `*camera` is valid during the call.
+typedef void ewa_camera_callback(void *user, uint32_t index, const ewa_camera *camera);
+
+/// Hands over every camera of a file, in its order, having read it once; formats and errors as
+/// ewa_camera_load(). After a failure, none has been handed over.
+EWA_API ewa_status ewa_camera_load_each(ewa_context *context, const char *path, ewa_camera_callback *receive,
+                                        void *user);
+
 /// Writes a camera file of our format with every digit that a double needs.
 /// Errors: EWA_ERROR_ARGUMENT (as ewa_camera_check()), EWA_ERROR_IO, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_camera_save(ewa_context *context, const ewa_camera *camera, const char *path);
+
+/// Writes `count` >= 1 cameras as an array of our format. Errors as ewa_camera_save().
+EWA_API ewa_status ewa_camera_save_list(ewa_context *context, const ewa_camera *cameras, size_t count,
+                                        const char *path);
 
 #ifdef __cplusplus
 }

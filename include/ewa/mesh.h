@@ -75,8 +75,8 @@ typedef struct ewa_mesh_sample_options {
 EWA_API void ewa_mesh_sample_options_init(ewa_mesh_sample_options *options, size_t struct_size);
 
 /// Makes surfels on the triangles of a mesh: a Poisson-disc sampling, even in area, in which no two points of
-/// a smooth part are nearer than 0.77 of the spacing; along sharp edges and at corners rows of points on each
-/// side, at least half a spacing apart.
+/// a smooth part are nearer than 0.77 of the spacing; along sharp edges are rows of points on each side, at
+/// least 0.62 of the spacing from any other, and a point in each corner, at least 0.4.
 ///
 /// - "position" F32, "normal" F32 (unit), and with vertex colours, materials or textures "color" U8 (sRGB; 4
 ///   components where something is not opaque). Textures are read at the level of detail of the spacing.

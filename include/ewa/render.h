@@ -89,10 +89,11 @@ typedef struct ewa_render_options {
         opacity; ///< of every surface, times the surfels' own (the alpha of their colour); [0, 1]; default 1
     /// Surfaces of a pixel that are composited, front to back, where they are transparent (math.md section 8;
     /// SS section 6): 1: the nearest only, as if opaque; L: the L - 1 nearest, and all that lies behind as
-    /// one more; EWA_LAYERS_EXACT: all. 0 (default): all if opacity or a surfel's alpha is below 1, else 1.
-    /// Surfaces are those of the visibility test, gathered one after another, so that neither the order of
-    /// the points nor the number of layers in front changes what a layer is: unlike the paper's A-buffer,
-    /// which merges whichever fragments it holds. With one pass: 1.
+    /// one more, with the alpha of as many surfaces as its coverage is worth; EWA_LAYERS_EXACT: all. 0
+    /// (default): all if opacity or a surfel's alpha is below 1, else 1. Surfaces are those of the visibility
+    /// test, gathered one after another, so that neither the order of the points nor the number of layers in
+    /// front changes what a layer is: unlike the paper's A-buffer, which merges whichever fragments it holds.
+    /// With one pass: 1.
     uint32_t layers;
     ewa_cull cull;
     ewa_shading shading;   ///< default EWA_SHADING_LAMBERT

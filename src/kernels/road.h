@@ -105,8 +105,9 @@ typedef struct ewa_clip {
 
 /// A splat of a run that has clip lines.
 typedef struct ewa_clipped {
-    uint32_t record; ///< in the run
-    uint32_t surfel; ///< packet * 16 + lane
+    uint32_t record;            ///< in the run
+    uint32_t surfel;            ///< packet * 16 + lane
+    float center[3], normal[3]; ///< camera space
 } ewa_clipped;
 
 /// A surfel that touches the eye plane, by pixel rays: U, V, W are linear in the tile's pixel coordinates;
@@ -279,9 +280,10 @@ typedef struct ewa_road_kernels {
     /// Starts edges->nearest over: every splat beyond edges->passed counts for the next surface.
     void (*edge_take_all)(const ewa_tile *tile, const ewa_edges *edges);
 
-    /// Puts the gathered surface under edges->behind and starts the next one; unmarks blocks that are closed
-    /// or have nothing more. Returns how many stay marked.
-    uint32_t (*edge_compose)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges);
+    /// Puts the gathered surface, `merged` or not from several, under edges->behind and starts the next one;
+    /// unmarks blocks that are closed or have nothing more. Returns how many stay marked.
+    uint32_t (*edge_compose)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges,
+                             bool merged);
 
     /// Writes the tile's pixels to the planes; edges->behind (`edges` may be NULL) is under the blocks that
     /// `edge_rows` marks.

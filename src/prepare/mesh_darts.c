@@ -51,6 +51,7 @@ enum { NONE = UINT32_MAX, HIT = 1u << 31 };
 /// A dart in the small grid of a worker; lengths in spacings, from the low corner of the surface.
 typedef struct grid_dart {
     float at[3], normal[3];
+    float distance2; ///< that it keeps at most
     uint32_t part, next;
 } grid_dart;
 
@@ -315,8 +316,8 @@ static ewa_status make_scratch(dart_job *job) {
 }
 
 /// Makes a dart one of the grid's; false when it is beside the grid.
-static bool locate(const dart_job *job, const dart_block *block, const mesh_dart *dart, grid_dart *made,
-                   uint32_t *slot) {
+static bool locate(const dart_job *job, const dart_block *block, const mesh_dart *dart, uint32_t which,
+                   grid_dart *made, uint32_t *slot) {
     int64_t cell[3];
     cell_of(job, dart->position_world, cell);
     uint32_t local[3];
@@ -328,15 +329,19 @@ static bool locate(const dart_job *job, const dart_block *block, const mesh_dart
                               (double)block->at[c] * (BLOCK_CELLS * job->cell / job->spacing));
         made->normal[c] = job->surface->normal[dart->triangle][c];
     }
+    const float distance = (float)throw_distance(which);
+    made->distance2 = distance * distance;
     made->part = job->surface->part[dart->triangle];
     *slot = (local[2] * GRID_CELLS + local[1]) * GRID_CELLS + local[0];
     return true;
 }
 
-/// Whether two darts of a smooth part are too near. Sheets that face elsewhere or lie above each other do not
-/// see each other.
-static bool conflict(const grid_dart *a, const grid_dart *b, float distance2) {
+/// Whether two darts of a smooth part are too near. Rows let others come as near as their own: gaps beside
+/// them lack the kernels from beyond the edge. Sheets that face elsewhere or lie above each other do not see
+/// each other.
+static bool conflict(const grid_dart *a, const grid_dart *b) {
     if (a->part != b->part) return false;
+    const float distance2 = a->distance2 < b->distance2 ? a->distance2 : b->distance2;
     const float d[3] = {b->at[0] - a->at[0], b->at[1] - a->at[1], b->at[2] - a->at[2]};
     const float d2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
     if (d2 >= distance2) return false;
@@ -346,7 +351,7 @@ static bool conflict(const grid_dart *a, const grid_dart *b, float distance2) {
     return facing > 0.5f && above * above < 0.25f * distance2;
 }
 
-static bool is_free(const dart_scratch *scratch, const grid_dart *dart, uint32_t slot, float distance2) {
+static bool is_free(const dart_scratch *scratch, const grid_dart *dart, uint32_t slot) {
     static const int16_t order[3] = {0, -1, 1}; // the own cell first: most conflicts are there
     for (int z = 0; z < 3; z++)
         for (int y = 0; y < 3; y++)
@@ -354,7 +359,7 @@ static bool is_free(const dart_scratch *scratch, const grid_dart *dart, uint32_t
                 const int32_t near =
                     (int32_t)slot + (order[z] * GRID_CELLS + order[y]) * GRID_CELLS + order[x];
                 for (uint32_t i = scratch->head[near]; i != NONE; i = scratch->darts[i].next)
-                    if (conflict(dart, &scratch->darts[i], distance2)) return false;
+                    if (conflict(dart, &scratch->darts[i])) return false;
             }
     return true;
 }
@@ -378,14 +383,13 @@ static void throw_block(const dart_job *job, dart_block *block, dart_scratch *sc
         const dart_block *other = &job->blocks[block->neighbour[n]];
         for (uint32_t k = 0; k <= job->which; k++) {
             for (uint32_t i = 0; i < other->accepted[k]; i++) {
-                if (!locate(job, block, &job->pool[other->first[k] + i], &scratch->darts[used], &slot))
+                if (!locate(job, block, &job->pool[other->first[k] + i], k, &scratch->darts[used], &slot))
                     continue;
                 scratch->darts[used].next = scratch->head[slot];
                 scratch->head[slot] = used++;
             }
         }
     }
-    const float distance = (float)throw_distance(job->which), distance2 = distance * distance;
     // Candidates come triangle by triangle; a stride near the golden section mixes them. Hits are marked by
     // the top bit of their triangle until all have been looked at.
     uint32_t stride = (uint32_t)(0.6180339887498949 * candidates) | 1, accepted = 0;
@@ -394,7 +398,7 @@ static void throw_block(const dart_job *job, dart_block *block, dart_scratch *sc
     uint32_t at = 0;
     for (uint32_t i = 0; i < candidates; i++) {
         grid_dart *dart = &scratch->darts[used];
-        if (locate(job, block, &own[at], dart, &slot) && is_free(scratch, dart, slot, distance2)) {
+        if (locate(job, block, &own[at], job->which, dart, &slot) && is_free(scratch, dart, slot)) {
             dart->next = scratch->head[slot];
             scratch->head[slot] = used++;
             own[at].triangle |= HIT;

@@ -150,7 +150,7 @@ bool ewa_tile_draw_edges(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile
             }
             if (last) job->kernels->edge_take_all(tile, &s->edges);
         }
-        marked = job->kernels->edge_compose(tile, &job->resolve, &s->edges);
+        marked = job->kernels->edge_compose(tile, &job->resolve, &s->edges, last);
     }
     return true;
 }

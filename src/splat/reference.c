@@ -7,6 +7,7 @@
 // Rasanen, M. Botsch, C. Dachsbacher, M. Pauly, "Perspective Accurate Splatting", 2004, section 6.
 #include "base/base.h"
 #include "image/srgb.h"
+#include "kernels/semantics.h"
 #include "splat/options.h"
 #include "splat/reference_splat.h"
 
@@ -155,6 +156,14 @@ static void write_surface(const ewa_frame *frame, size_t index, double depth, ew
     if (frame->coverage) frame->coverage[index] = (float)coverage;
 }
 
+/// Alpha of a layer that is all that is left (semantics.h, layers).
+static double merged_alpha(double alpha, double coverage) {
+    double through = 1 - alpha;
+    for (int i = 1; i < EWA_MERGED_SURFACES; i++)
+        through *= 1 - alpha * fmin(fmax(4 * (coverage - i) - 2, 0), 1);
+    return 1 - through;
+}
+
 /// Third pass (SS 7): divide by the weights, shade, cover; then make the pixel ready for the surface behind.
 /// Returns whether one could show.
 static bool resolve_surface(const reference *work, uint32_t layer, int32_t x, int32_t y) {
@@ -171,6 +180,7 @@ static bool resolve_surface(const reference *work, uint32_t layer, int32_t x, in
         alpha = work->options.edge_antialiasing ? fmin(1, coverage / work->options.edge_threshold) : 1;
         if (work->options.passes == 1) alpha = 1;
         if (work->transparent) alpha *= work->options.opacity * at->opacity / q;
+        if (work->merge_last && layer + 1 == work->layers) alpha = merged_alpha(alpha, coverage);
         const double factor = at->opacity > 0 ? shade(work, normal, x + 0.5, y + 0.5) / at->opacity : 0;
         at->in_front = vec3_add(at->in_front, vec3_scale(at->color, factor * alpha * at->through));
         at->through *= 1 - alpha;
