@@ -8,10 +8,10 @@
 #include "options.h"
 
 extern const cli_command render_command, info_command, convert_command, surfels_command, features_command,
-    sample_command, csg_command,
+    sample_command, csg_command, generate_command, bench_command;
 
-    /// All commands, in the order of the help.
-    extern const cli_command *const all_commands[];
+/// All commands, in the order of the help.
+extern const cli_command *const all_commands[];
 extern const size_t all_commands_count;
 
 /// Finds a command by its name; NULL when there is none.
