@@ -8,6 +8,7 @@
 #include "bench_frames.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 enum { WARM_FRAMES = 2, MAX_WAYS = 6 };
 
@@ -153,6 +154,13 @@ bool bench_frames(cli_session *session, const bench_plan *plan, const bench_scen
     ewa_render_options options = *render;
     options.cull = scene->cull;
     if (scene->color_only) options.shading = EWA_SHADING_NONE;
+    if (scene->glossy) {
+        options.shading = EWA_SHADING_PHONG;
+        static const double direction[3] = {0.3, -0.2, 1};
+        options.light_count = 1;
+        ewa_light_init(&options.lights[0]);
+        memcpy(options.lights[0].direction_world, direction, sizeof direction);
+    }
     for (int64_t frame = -WARM_FRAMES; done && frame < (int64_t)plan->frame_count; frame++)
         for (size_t i = 0; done && i < lane_count; i++)
             done = draw_frame(session, &lanes[i], &scene->camera, &options, rgba8, frame);

@@ -24,6 +24,7 @@ const bench_recipe bench_recipes[BENCH_SCENE_COUNT] = {
     [BENCH_SEEN] = {"seen", {2.5e6}, {0}, {STANDARD_SIZE}},
     [BENCH_LAYERS] = {"layers", {1e6}, {0}, {STANDARD_SIZE}},
     [BENCH_PEER] = {"peer", {1e5, 1e6, 5e6}, {0}, {STANDARD_SIZE, {512, 512, false}}},
+    [BENCH_PHONG] = {"phong", {1e6}, {9}, {STANDARD_SIZE}},
 };
 
 /// Room around the object; its outermost discs stay in the picture.
@@ -268,12 +269,13 @@ static scene_maker *const makers[BENCH_SCENE_COUNT] = {
     [BENCH_PLANE] = make_plane,   [BENCH_COLOR] = make_plane,   [BENCH_LARGE] = make_plane,
     [BENCH_HIDDEN] = make_hidden, [BENCH_POINTS] = make_points, [BENCH_CULLED] = make_culled,
     [BENCH_CLOSED] = make_closed, [BENCH_SEEN] = make_seen,     [BENCH_PEER] = make_peer,
-    [BENCH_LAYERS] = make_layers,
+    [BENCH_PHONG] = make_plane,   [BENCH_LAYERS] = make_layers,
 };
 
 bool bench_scene_make(cli_session *session, bench_scene_kind kind, uint64_t point_count, double covered_px,
                       const option_size *size, double prefilter_px, bench_scene *scene) {
-    *scene = (bench_scene){.name = bench_recipes[kind].name, .color_only = kind == BENCH_COLOR};
+    *scene = (bench_scene){
+        .name = bench_recipes[kind].name, .color_only = kind == BENCH_COLOR, .glossy = kind == BENCH_PHONG};
     const ewa_status status = makers[kind](session, point_count, size, scene);
     if (status != EWA_OK) {
         session_failed(session, status);

@@ -307,8 +307,8 @@ static ALWAYS_INLINE void edge_sum(const ewa_view *view, const ewa_tile *tile, c
                 counts = wm_and(counts, wf_lt(wf_set(0), share));
             }
             if (!wm_bits(counts)) continue;
-            const payload add = payload_load(r, &splats->loads[index],
-                                             what & ADD_OPACITY ? &splats->opacities[index] : NULL, what);
+            const payload add = payload_load(view, r, &splats->loads[index], splats->opacities,
+                                             splats->materials, index, what);
             const wf weight = wf_keep(counts, wf_mul(share, exponential(sample.exponent, view->doublings)));
             add_channels(sums, tile->channel_count, weight, &add, sample.key, what);
         }
@@ -340,7 +340,7 @@ static void ray_edge_sum(const ewa_view *view, const ewa_tile *tile, const ewa_e
                          uint32_t column, const ewa_edge_splats *splats) {
     const size_t block = block_at(tile, row, column), at = block * EWA_BLOCK_LANES;
     const wf passed = wf_load(edges->passed + at), nearest = wf_load(edges->nearest + at);
-    const int what = (tile->with_normals ? ADD_NORMAL : 0) | (tile->with_opacity ? ADD_OPACITY : 0);
+    const int what = channels_of(tile);
     for (uint32_t i = 0; i < splats->count; i++) {
         const uint32_t index = splats->indices[i];
         const ewa_record *r = &splats->records[index];
@@ -350,8 +350,7 @@ static void ray_edge_sum(const ewa_view *view, const ewa_tile *tile, const ewa_e
         const wm counts = wm_and(wf_lt(sample.exponent, wf_set(view->exponent_end)),
                                  wm_and(wf_lt(sample.key, passed), wf_le(nearest, sample.key)));
         if (!wm_bits(counts)) continue;
-        const payload add =
-            payload_load(r, load, what & ADD_OPACITY ? &splats->opacities[index] : NULL, what);
+        const payload add = payload_load(view, r, load, splats->opacities, splats->materials, index, what);
         const wf bell = exponential(wf_keep(counts, sample.exponent), view->doublings);
         add_channels(edges->sums + at * tile->channel_count, tile->channel_count,
                      wf_keep(counts, wf_mul(bell, sample.gain)), &add, sample.key, what);
@@ -366,6 +365,10 @@ static void edge_pass(const ewa_view *view, const ewa_tile *tile, const ewa_edge
         ray_edge_raise(view, tile, edges, row, column, splats);
     else if (!second_pass)
         edge_raise(view, tile, edges, row, column, splats);
+    else if (tile->with_materials && tile->with_opacity)
+        edge_sum(view, tile, edges, row, column, splats, ADD_NORMAL | ADD_MATERIAL | ADD_OPACITY);
+    else if (tile->with_materials)
+        edge_sum(view, tile, edges, row, column, splats, ADD_NORMAL | ADD_MATERIAL);
     else if (tile->with_opacity)
         edge_sum(view, tile, edges, row, column, splats, ADD_NORMAL | ADD_OPACITY);
     else if (tile->with_normals)
@@ -426,9 +429,10 @@ static wm compose_block(const ewa_tile *tile, const ewa_resolve *to, const ewa_e
     enum { LANES = EWA_BLOCK_LANES };
     const size_t block = block_at(tile, row, column);
     const float *sums = edges->sums + block * tile->channel_count * LANES;
-    const wf scale = color_scale(tile, to, sums, (uint32_t)tile->x_px + column * EWA_BLOCK_PX,
-                                 (uint32_t)tile->y_px + row * EWA_BLOCK_PX);
-    surface found = gathered_surface(tile, to, sums, scale);
+    float shade[EWA_SHADE_FLOATS];
+    shade_block(tile, to, sums, (uint32_t)tile->x_px + column * EWA_BLOCK_PX,
+                (uint32_t)tile->y_px + row * EWA_BLOCK_PX, shade);
+    surface found = gathered_surface(tile, to, sums, shade);
     if (merged)
         found.alpha = merged_alpha(found.alpha, wf_mul(wf_load(sums), wf_set(to->unit_coverage_inverse)));
     float *behind = edges->behind + block * 4 * LANES;

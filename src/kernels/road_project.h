@@ -241,8 +241,13 @@ static ALWAYS_INLINE void stage_shape(const ewa_view *view, stage *t) {
 
 /// Appends the records of the lanes in `alive_bits`. May write EWA_PACKET_LANES entries whatever they are.
 static ALWAYS_INLINE void emit(ewa_run *run, uint32_t alive_bits, const wf records[16], const float loads[64],
-                               const float opacities[16], const uint8_t classes[16]) {
+                               const float opacities[16], const uint8_t *materials,
+                               const uint8_t classes[16]) {
     uint32_t at = run->count;
+    for (uint32_t lane = 0, to = at; run->materials && lane < 16; lane++) {
+        run->materials[to] = materials[lane];
+        to += alive_bits >> lane & 1;
+    }
     if (alive_bits == 0xffff) { // most packets lie within one tile
         for (uint32_t lane = 0; lane < 16; lane++)
             wf_store((float *)(void *)&run->records[at + lane], records[lane]);
@@ -280,8 +285,8 @@ static void list_clipped(ewa_run *run, uint32_t clipped_bits, uint32_t alive_bit
 
 /// Third step: tolerance, box in the tile, and the records of the lanes that are in it.
 static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *packet, uint32_t id, wm clipped,
-                                     const uint16_t *opacities_u16, const ewa_tile *tile, stage *t,
-                                     ewa_run *run, wf *least) {
+                                     const uint16_t *opacities_u16, const uint8_t *materials,
+                                     const ewa_tile *tile, stage *t, ewa_run *run, wf *least) {
     const wf one = wf_set(1), zero = wf_set(0), half = wf_set(0.5f);
     const wf fx = wf_set(view->fx_px), fy = wf_set(view->fy_px);
     const wf *p = t->p;
@@ -389,7 +394,7 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
         list_clipped(run, wm_bits(wm_and(alive, clipped)), alive_bits, id, t);
     float opacities[16];
     wf_store(opacities, opacity);
-    emit(run, alive_bits, lanes, loads, opacities, classes);
+    emit(run, alive_bits, lanes, loads, opacities, materials, classes);
 }
 
 static ALWAYS_INLINE void setup_run(const ewa_view *view, const ewa_packet_source *source,
@@ -418,6 +423,7 @@ static ALWAYS_INLINE void setup_run(const ewa_view *view, const ewa_packet_sourc
                 stage_emit(view, &packets[ids[i]], ids[i],
                            wm_of_bits(source->clip_masks ? source->clip_masks[ids[i]] : 0),
                            source->opacities ? source->opacities + (size_t)ids[i] * EWA_PACKET_LANES : NULL,
+                           source->materials ? source->materials + (size_t)ids[i] * EWA_PACKET_LANES : NULL,
                            tile, &stages[i], run, &least);
     }
     run->least_key = -largest_lane(wf_negate(least));

@@ -53,11 +53,24 @@
 // Three passes: B(x) = min (z + eps) over the surfels that count at x, then those with z <= B(x) are summed.
 // One pass: the surfel of smallest z wins, with weight 1 and full coverage.
 // Resolve: q = sum of weights; nothing where q = 0. Colour, depth: weighted means. Normal: weighted sum,
-// normalised. Coverage AOV: q / q0. alpha = min(1, q / (tau q0)) with edge antialiasing, else 1. Lambert:
-// colour * (ambient + (1 - ambient) max(0, N.L)); headlight: L from the surface point to the eye along the
-// pixel's ray (orthographic: against the view direction).
+// normalised. Coverage AOV: q / q0. alpha = min(1, q / (tau q0)) with edge antialiasing, else 1. Then
+// shading, surface by surface.
 // Over the background (straight alpha bg): rgb = colour alpha + bg_rgb bg_a (1 - alpha), a = alpha + bg_a (1
 // - alpha). rgba8: divided by its alpha (black when 0), sRGB curve, rounded to nearest.
+//
+// Shading: colour (ambient + diffuse sum light max(0, N.L)) [+ specular sum light max(0, N.H)^shininess where
+// N.L > 0, + reflection environment(R)], the part in brackets with EWA_SHADING_PHONG. V is the direction to
+// the eye along the pixel's ray (orthographic: against the view direction); a headlight has L = H = V, others
+// H halfway between L and V; R = 2 (N.V) N - V. A material's five numbers are weighted means like the colour,
+// where the surfels have several materials (but not by opacity, as normals). The environment is looked up
+// (image/environment.h) with the footprint |R - R'|, R' the reflection at the pixel's neighbour in x or in y
+// within its aligned 2x2 pixels, the larger one of those that have the surface too.
+//
+// Eye-dome lighting: the premultiplied colour, before the background, times exp(-EWA_DOME_GAIN strength
+// mean), mean over EWA_DOME_PAIRS pairs of opposite pixels at x +- d of max(0, (key(x + d) + key(x - d)) / 2
+// - key(x)) / key(x), 0 where one of the three shows nothing. d: (r, 0), (0, r), (r, r), (r, -r) for r of 1,
+// 2 and 4 pixels. Orthographic: divided by the height of the view in world units instead. Keys being linear
+// on planes, planes stay as they are.
 //
 // Clip lines (math.md section 5): each pixel keeps the share clamp(1/2 + d, 0, 1) of a splat's weight, d how
 // far inside the line on the screen its centre is, in pixels; of two lines the smaller share (clip_mode 1:
@@ -106,6 +119,11 @@
 #define EWA_LEAST_AREA     1e-15
 
 #define EWA_INVERSE_TWO_PI 0.15915494309189535
+
+/// Eye-dome lighting: pairs of opposite pixels, and what their mean is multiplied by at strength 1: a step of
+/// 1 % of the depth behind a straight edge takes about half of the light.
+#define EWA_DOME_PAIRS 12
+#define EWA_DOME_GAIN  300.0
 
 /// Surfaces that a merged layer stands for at most.
 #define EWA_MERGED_SURFACES 64

@@ -119,7 +119,7 @@ static void test_options_hold(void **state) {
         hold(kinds[i], NULL, &o, false, "no edges, no shading");
         o = init, o.cull = EWA_CULL_BACK, o.tolerance = 0.5;
         hold(kinds[i], NULL, &o, false, "culled, less tolerance");
-        o = init, o.light_world[0] = 1, o.light_world[2] = 2, o.background[1] = 0.5f, o.background[3] = 0.7f;
+        o = init, picture_set_light(&o, 1, 0, 2), o.background[1] = 0.5f, o.background[3] = 0.7f;
         hold(kinds[i], NULL, &o, false, "light and background");
         ewa_surfels_options surfels;
         ewa_surfels_options_init(&surfels, sizeof surfels);
