@@ -3,9 +3,11 @@
 //
 // Colours from an attribute.
 #include "color_by.h"
+#include "rank.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /// sRGB of numbers that are not finite.
@@ -53,42 +55,70 @@ bool color_by_find(cli_session *session, const ewa_cloud *cloud, const char *wor
     return false;
 }
 
+/// One component of an attribute, in world units.
+typedef struct scalar {
+    ewa_attribute attribute;
+    uint32_t component;
+    double shift; ///< added to the stored numbers
+    uint64_t count;
+} scalar;
+
+static double read_scalar(const scalar *from, uint64_t index) {
+    double numbers[4];
+    ewa_attribute_read_f64(&from->attribute, index, 1, numbers);
+    return numbers[from->component] + from->shift;
+}
+
+/// Finds the numbers of the first and the last colour; false after reporting.
+static bool find_range(cli_session *session, const scalar *from, const option_bounds *range, double ends[2]) {
+    const option_bounds all = {.values = {0, 100}, .percent = {true, true}};
+    if (!range->given) range = &all;
+    memcpy(ends, range->values, sizeof range->values);
+    double *numbers = malloc((from->count + 1) * sizeof *numbers);
+    if (!numbers) {
+        session_fail(session, "--range: out of memory for %llu numbers", (unsigned long long)from->count);
+        return false;
+    }
+    for (int end = 0; end < 2; end++) {
+        if (!range->percent[end]) continue;
+        size_t count = 0;
+        for (uint64_t i = 0; i < from->count; i++) {
+            numbers[count] = read_scalar(from, i);
+            count += isfinite(numbers[count]) ? 1 : 0;
+        }
+        const double place = range->values[end] / 100 * ((double)count - 1);
+        ends[end] = count ? rank_select(numbers, count, (size_t)(place + 0.5)) : 0;
+    }
+    free(numbers);
+    return true;
+}
+
 bool color_by(cli_session *session, ewa_cloud *cloud, const char *word, ewa_colormap colormap,
-              const option_vector *range) {
+              const option_bounds *range) {
     char name[EWA_NAME_BYTES];
     uint32_t component;
     if (!color_by_find(session, cloud, word, name, &component)) return false;
     const uint64_t count = ewa_cloud_point_count(cloud);
-    const ewa_attribute attribute = *ewa_cloud_find(cloud, name);
-    double origin_world[3] = {0, 0, 0}, shift = 0, low = INFINITY, high = -INFINITY, number[4];
+    scalar from = {*ewa_cloud_find(cloud, name), component, 0, count};
     if (strcmp(name, EWA_POSITION) == 0) {
+        double origin_world[3] = {0, 0, 0};
         ewa_cloud_origin(cloud, origin_world);
-        shift = origin_world[component];
+        from.shift = origin_world[component];
     }
-    for (uint64_t i = 0; i < count; i++) {
-        ewa_attribute_read_f64(&attribute, i, 1, number);
-        if (!isfinite(number[component])) continue;
-        low = fmin(low, number[component] + shift);
-        high = fmax(high, number[component] + shift);
-    }
-    if (range->count == 2) {
-        low = range->values[0];
-        high = range->values[1];
-    } else {
-        session_say(session, "--color-by: %s from %g to %g", word, low, high);
-    }
+    double ends[2];
+    if (!find_range(session, &from, range, ends)) return false;
+    session_say(session, "--color-by: %s from %g to %g", word, ends[0], ends[1]);
+    const double extent = ends[1] - ends[0];
     uint8_t(*colors)[3] = NULL;
     // Under a name of its own first: the colours themselves may be what is read.
     static const char made[] = "ewa_color_by";
     ewa_status status = ewa_cloud_add(cloud, made, EWA_U8, 3, (void **)&colors);
     for (uint64_t i = 0; status == EWA_OK && i < count; i++) {
-        ewa_attribute_read_f64(&attribute, i, 1, number);
-        if (isfinite(number[component])) {
-            const double place = (number[component] + shift - low) / (high > low ? high - low : 1);
-            ewa_colormap_color(colormap, high > low ? place : 0.5, colors[i]);
-        } else {
+        const double number = read_scalar(&from, i);
+        if (isfinite(number))
+            ewa_colormap_color(colormap, extent > 0 ? (number - ends[0]) / extent : 0.5, colors[i]);
+        else
             memset(colors[i], GREY_SRGB, 3);
-        }
     }
     void *data = NULL;
     if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, &data);

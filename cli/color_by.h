@@ -13,8 +13,8 @@ bool color_by_find(cli_session *session, const ewa_cloud *cloud, const char *wor
                    uint32_t *component);
 
 /// Replaces the colours of a cloud by those of one component of an attribute; numbers that are not finite
-/// become grey. `range` without numbers: from the least to the greatest. Returns false after reporting.
+/// become grey. A `range` that is not given: from the least to the greatest. Returns false after reporting.
 bool color_by(cli_session *session, ewa_cloud *cloud, const char *word, ewa_colormap colormap,
-              const option_vector *range);
+              const option_bounds *range);
 
 #endif

@@ -3,6 +3,7 @@
 //
 // Getting the whole of a cloud into a picture, as large as it goes.
 #include "framing.h"
+#include "rank.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -21,32 +22,6 @@ static const double MARGIN = 0.04;
 /// Cosine of 10 degrees.
 static const double FACING_COSINE = 0.9848;
 
-/// Integers in the order of the numbers.
-static uint64_t ordered_bits(double number) {
-    uint64_t bits;
-    memcpy(&bits, &number, sizeof bits);
-    return bits >> 63 ? ~bits : bits | (uint64_t)1 << 63;
-}
-
-/// Returns the number that would be at place `rank` if the numbers were sorted, and shuffles them: digit by
-/// digit from the top, only what shares the digits so far stays. Linear whatever the numbers.
-static double select_number(double *numbers, size_t count, size_t rank) {
-    enum { DIGIT_BITS = 11, BUCKETS = 1 << DIGIT_BITS };
-    for (int shift = 64; count > 1 && shift > 0;) {
-        const int low = shift > DIGIT_BITS ? shift - DIGIT_BITS : 0;
-        size_t sizes[BUCKETS] = {0};
-        for (size_t i = 0; i < count; i++) sizes[ordered_bits(numbers[i]) >> low & (BUCKETS - 1)]++;
-        size_t bucket = 0;
-        for (; rank >= sizes[bucket]; bucket++) rank -= sizes[bucket];
-        size_t kept = 0;
-        for (size_t i = 0; i < count; i++)
-            if ((ordered_bits(numbers[i]) >> low & (BUCKETS - 1)) == bucket) numbers[kept++] = numbers[i];
-        count = kept;
-        shift = low;
-    }
-    return numbers[0];
-}
-
 static double diagonal(const ewa_bounds *box) {
     double squared = 0;
     for (int c = 0; c < 3; c++) {
@@ -62,9 +37,9 @@ static void trim_box(double (*points)[3], size_t count, double *numbers, ewa_bou
     const size_t skipped = (size_t)(FAR_SHARE * (double)count);
     for (int c = 0; c < 3; c++) {
         for (size_t i = 0; i < count; i++) numbers[i] = points[i][c];
-        const double low = select_number(numbers, count, skipped);
+        const double low = rank_select(numbers, count, skipped);
         for (size_t i = 0; i < count; i++) numbers[i] = points[i][c];
-        const double high = select_number(numbers, count, count - 1 - skipped);
+        const double high = rank_select(numbers, count, count - 1 - skipped);
         // The rim that is cut off belongs to the object too: give some back.
         const double rim = 0.05 * (high - low);
         box->low_world[c] = low - rim;
@@ -116,7 +91,7 @@ static double median_radius(const ewa_cloud *cloud, size_t samples, double *numb
         const double reach = u ? surfels.cutoff * sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]) : r[0];
         if (reach > 0 && isfinite(reach)) numbers[count++] = reach;
     }
-    return count ? select_number(numbers, count, count / 2) : 0;
+    return count ? rank_select(numbers, count, count / 2) : 0;
 }
 
 bool framing_make(cli_session *session, const ewa_cloud *cloud, double radius_scale, cloud_framing *framing) {
@@ -217,4 +192,98 @@ ewa_status framing_fit(const cloud_framing *framing, const double direction_worl
         m[4 * r + 3] =
             -place[r] - (m[4 * r] * middle[0] + m[4 * r + 1] * middle[1] + m[4 * r + 2] * middle[2]);
     return EWA_OK;
+}
+
+/// Slices of a body of revolution along its axis, and corners of the polygon that stands for a circle.
+enum { SLICES = 256, CORNERS = 64 };
+
+/// Cosine and sine of a step from corner to corner; how far out a corner must be for its polygon to hold the
+/// circle.
+static const double STEP_COSINE = 0.99518472667219693, STEP_SINE = 0.098017140329560604,
+                    OUTSIDE = 1.0012059964150579;
+
+static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// Makes `v` perpendicular to the unit vector `axis` and scales it to length 1; false when nothing is left.
+static bool make_perpendicular(const double axis[3], double v[3]) {
+    const double along = dot(axis, v), length = sqrt(dot(v, v));
+    for (int c = 0; c < 3; c++) v[c] -= along * axis[c];
+    const double left = sqrt(dot(v, v));
+    for (int c = 0; c < 3; c++) v[c] /= left;
+    return left > 1e-6 * length;
+}
+
+/// Largest distance from the axis of the points in each slice of [low, high] along it; -1: no point.
+static void measure_slices(const cloud_framing *framing, const double shift[3], const double axis[3],
+                           double low, double high, double reach[SLICES]) {
+    for (int k = 0; k < SLICES; k++) reach[k] = -1;
+    for (size_t i = 0; i < framing->count; i++) {
+        double p[3];
+        for (int c = 0; c < 3; c++) p[c] = framing->offsets[i][c] + shift[c];
+        const double height = dot(axis, p);
+        const int slice = high > low ? (int)((height - low) / (high - low) * (SLICES - 1)) : 0;
+        for (int c = 0; c < 3; c++) p[c] -= height * axis[c];
+        reach[slice] = fmax(reach[slice], sqrt(dot(p, p)));
+    }
+}
+
+bool framing_revolve(cli_session *session, const cloud_framing *framing, const double pivot_world[3],
+                     const double axis_world[3], const double direction_world[3], cloud_framing *solid) {
+    *solid = (cloud_framing){.rim_world = framing->rim_world};
+    double axis[3], shift[3], ahead[3], low = INFINITY, high = -INFINITY;
+    const double length = sqrt(dot(axis_world, axis_world));
+    for (int c = 0; c < 3; c++) {
+        axis[c] = axis_world[c] / length;
+        solid->middle_world[c] = pivot_world[c];
+        shift[c] = framing->middle_world[c] - pivot_world[c];
+        ahead[c] = direction_world[c];
+    }
+    // The corners lie evenly about the camera's direction, so that it is aimed at the axis. Seen along the
+    // axis any direction will do.
+    for (int k = 0; !make_perpendicular(axis, ahead) && k < 3; k++)
+        for (int c = 0; c < 3; c++) ahead[c] = c == k;
+    const double side[3] = {axis[1] * ahead[2] - axis[2] * ahead[1], axis[2] * ahead[0] - axis[0] * ahead[2],
+                            axis[0] * ahead[1] - axis[1] * ahead[0]};
+    if (framing->count == 0) { // no sample is finite: the ball around the box
+        const double reach = 0.5 * diagonal(&framing->box) + sqrt(dot(shift, shift));
+        for (int c = 0; c < 3; c++) {
+            solid->box.low_world[c] = pivot_world[c] - reach;
+            solid->box.high_world[c] = pivot_world[c] + reach;
+        }
+        return true;
+    }
+    for (size_t i = 0; i < framing->count; i++) {
+        const double height = dot(axis, framing->offsets[i]) + dot(axis, shift);
+        low = fmin(low, height);
+        high = fmax(high, height);
+    }
+    solid->offsets = malloc(2 * SLICES * CORNERS * sizeof *solid->offsets);
+    if (!solid->offsets) {
+        session_fail(session, "out of memory");
+        return false;
+    }
+    double reach[SLICES];
+    measure_slices(framing, shift, axis, low, high, reach);
+    ewa_bounds *box = &solid->box;
+    *box = (ewa_bounds){.low_world = {INFINITY, INFINITY, INFINITY},
+                        .high_world = {-INFINITY, -INFINITY, -INFINITY}};
+    for (int k = 0; k < 2 * SLICES; k++) {
+        if (reach[k / 2] < 0) continue;
+        // Both faces of the slice.
+        const double height = low + (high - low) * fmin(1, (double)(k / 2 + k % 2) / (SLICES - 1));
+        double x = OUTSIDE * reach[k / 2], y = 0;
+        for (int corner = 0; corner < CORNERS; corner++) {
+            double *p = solid->offsets[solid->count++];
+            for (int c = 0; c < 3; c++) {
+                p[c] = height * axis[c] + x * ahead[c] + y * side[c];
+                box->low_world[c] = fmin(box->low_world[c], pivot_world[c] + p[c]);
+                box->high_world[c] = fmax(box->high_world[c], pivot_world[c] + p[c]);
+            }
+            const double turned = STEP_COSINE * x - STEP_SINE * y;
+            y = STEP_SINE * x + STEP_COSINE * y;
+            x = turned;
+        }
+    }
+    box->finite_count = framing->box.finite_count;
+    return true;
 }

@@ -28,4 +28,9 @@ void framing_free(cloud_framing *framing);
 ewa_status framing_fit(const cloud_framing *framing, const double direction_world[3],
                        const double up_world[3], ewa_camera *camera);
 
+/// Makes the framing of all that a cloud covers while it turns about an axis through `pivot_world`;
+/// `direction` is that of the camera. Returns false after reporting; free in any case.
+bool framing_revolve(cli_session *session, const cloud_framing *framing, const double pivot_world[3],
+                     const double axis_world[3], const double direction_world[3], cloud_framing *solid);
+
 #endif

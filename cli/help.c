@@ -51,6 +51,7 @@ static void format_default(const cli_option *option, const void *defaults, char 
     switch (option->kind) {
     case OPTION_FLAG:
     case OPTION_TOGGLE:
+    case OPTION_BOUNDS:
         break;
     case OPTION_ON_OFF:
         snprintf(text, TEXT_BYTES, "%s", *(const bool *)member ? "on" : "off");
@@ -85,6 +86,8 @@ static void format_default(const cli_option *option, const void *defaults, char 
                 (uint32_t)snprintf(text + used, TEXT_BYTES - used, "%s%g", i ? "," : "", vector->values[i]);
         break;
     }
+    case OPTION_VECTORS: // none until they are given
+        break;
     case OPTION_COLOR: {
         const double *rgba = ((const option_color *)member)->rgba;
         if (rgba[3] == 0)

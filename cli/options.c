@@ -119,6 +119,34 @@ static bool parse_vector(const cli_option *option, const char *text, option_vect
     return true;
 }
 
+static bool parse_one_more(const cli_option *option, const char *text, option_vectors *vectors,
+                           char message[OPTION_ERROR_BYTES]) {
+    if (vectors->count == OPTION_VECTORS_MAX)
+        return wrong(message, "--%s: given more than %d times", option->key, OPTION_VECTORS_MAX);
+    if (!parse_vector(option, text, &vectors->each[vectors->count], message)) return false;
+    vectors->count++;
+    return true;
+}
+
+static bool parse_bounds(const cli_option *option, const char *text, option_bounds *bounds,
+                         char message[OPTION_ERROR_BYTES]) {
+    option_bounds read = {.given = true};
+    const char *next = text;
+    bool good = true;
+    for (int i = 0; i < 2 && good; i++) {
+        good = read_number(next, &read.values[i], &next);
+        read.percent[i] = good && *next == '%';
+        next += read.percent[i];
+        good = good && *next == (i == 0 ? ',' : 0);
+        next += good;
+        if (good && read.percent[i] && !in_range(read.values[i], "[0, 100]"))
+            return wrong(message, "--%s: %g%% is outside [0, 100]", option->key, read.values[i]);
+    }
+    if (!good) return wrong(message, "--%s: '%.80s' is not %s", option->key, text, option->value);
+    *bounds = read;
+    return true;
+}
+
 static bool parse_color(const cli_option *option, const char *text, option_color *color,
                         char message[OPTION_ERROR_BYTES]) {
     if (strcmp(text, "transparent") == 0) {
@@ -197,6 +225,10 @@ static bool parse_value(const cli_option *option, const char *text, void *member
         return parse_integer(option, text, member, message);
     case OPTION_VECTOR:
         return parse_vector(option, text, member, message);
+    case OPTION_VECTORS:
+        return parse_one_more(option, text, member, message);
+    case OPTION_BOUNDS:
+        return parse_bounds(option, text, member, message);
     case OPTION_COLOR:
         return parse_color(option, text, member, message);
     case OPTION_SIZE:

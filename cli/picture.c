@@ -19,6 +19,8 @@ static bool has_suffix(const char *path, const char *suffix) {
 
 static bool is_png(const char *path) { return strcmp(path, "-") == 0 || has_suffix(path, ".png"); }
 
+static bool is_exr(const char *path) { return path && has_suffix(path, ".exr"); }
+
 /// Takes one "name=FILE" of --aov.
 static bool take_aov(const char *word, size_t length, picture_paths *paths,
                      char message[OPTION_ERROR_BYTES]) {
@@ -43,7 +45,7 @@ static bool take_aov(const char *word, size_t length, picture_paths *paths,
 bool picture_parse_paths(const char *color, const char *aov, picture_paths *paths,
                          char message[OPTION_ERROR_BYTES]) {
     *paths = (picture_paths){.color = color};
-    if (!is_png(color) && !has_suffix(color, ".exr") && !has_suffix(color, ".pfm")) {
+    if (color && !is_png(color) && !has_suffix(color, ".exr") && !has_suffix(color, ".pfm")) {
         snprintf(message, OPTION_ERROR_BYTES, "--output: '%.200s' is no .png, .exr or .pfm file", color);
         return false;
     }
@@ -56,7 +58,8 @@ bool picture_parse_paths(const char *color, const char *aov, picture_paths *path
 }
 
 bool picture_check_paths(cli_session *session, const picture_paths *paths) {
-    return output_check(session, paths->color) && (!paths->depth[0] || output_check(session, paths->depth)) &&
+    return (!paths->color || output_check(session, paths->color)) &&
+           (!paths->depth[0] || output_check(session, paths->depth)) &&
            (!paths->normal[0] || output_check(session, paths->normal)) &&
            (!paths->coverage[0] || output_check(session, paths->coverage));
 }
@@ -66,7 +69,7 @@ bool picture_make(cli_session *session, const picture_paths *paths, const ewa_ca
     *picture = (cli_picture){.rgba8 = NULL};
     ewa_context *context = session->context;
     const uint32_t width = camera->width_px, height = camera->height_px;
-    const bool exr = has_suffix(paths->color, ".exr"), png = is_png(paths->color);
+    const bool exr = is_exr(paths->color), png = !paths->color || is_png(paths->color);
     session->subject = paths->color;
     ewa_status status = EWA_OK;
     if (png) {
@@ -159,7 +162,7 @@ bool picture_save(cli_session *session, const picture_paths *paths, const ewa_ca
         status = ewa_image_save(planes[i].image, planes[i].path, &options);
     }
     options.channel_names = NULL;
-    if (status == EWA_OK) {
+    if (status == EWA_OK && paths->color) {
         session->subject = paths->color;
         status = picture->rgba8 ? save_png(session->context, paths->color, camera, opaque, picture->rgba8)
                                 : save_linear(paths, &options, picture);

@@ -9,11 +9,12 @@
 
 /// Paths of what is written of a frame; NULL: not asked for. All paths were checked by picture_check_paths().
 typedef struct picture_paths {
-    const char *color;                              ///< .png, .exr or .pfm; "-": PNG to standard output
+    /// .png, .exr or .pfm; "-": PNG to standard output; NULL: the 8-bit picture is made, but not written here
+    const char *color;
     char depth[1024], normal[1024], coverage[1024]; ///< .exr or .pfm; empty: not asked for
 } picture_paths;
 
-/// Fills the paths from -o and --aov; says in `message` what is wrong with them. `aov` may be NULL.
+/// Fills the paths from -o, or NULL, and --aov; says in `message` what is wrong with them. `aov` may be NULL.
 bool picture_parse_paths(const char *color, const char *aov, picture_paths *paths,
                          char message[OPTION_ERROR_BYTES]);
 

@@ -4,25 +4,30 @@
 // ewa render: clouds to a picture.
 #include "color_by.h"
 #include "commands.h"
+#include "frames.h"
 #include "inputs.h"
 #include "json.h"
+#include "light.h"
 #include "picture.h"
-#include "view.h"
+#include "render_report.h"
+#include "sequence.h"
+#include "video.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 typedef struct render_arguments {
-    view_arguments view; // first: it begins with the common arguments
+    frames_arguments frames; // first: it begins with the common arguments
+    light_arguments light;   // second
     const char *output, *aov, *save_camera_path, *stats_path;
-    int kernel, passes, cull, shading, colormap;
-    double cutoff, prefilter_px, radius_scale, tolerance, edge_threshold, ambient;
+    int kernel, passes, cull, colormap;
+    double cutoff, prefilter_px, radius_scale, tolerance, edge_threshold;
     bool edge_antialiasing, close_gaps;
     int64_t edge_layers;
     const char *layers;
     double opacity;
-    option_vector light, range;
+    option_bounds range;
     option_color background;
     const char *color_by;
 } render_arguments;
@@ -34,6 +39,7 @@ static const double GAP_RADIUS = 1;
 
 #define AT(member) offsetof(render_arguments, member)
 
+_Static_assert(offsetof(render_arguments, light) == LIGHT_OFFSET, "light_options says so");
 _Static_assert(EWA_MAX_EDGE_LAYERS == 8, "the range of --edge-layers says so");
 
 static const cli_option output_table[] = {
@@ -44,7 +50,8 @@ static const cli_option output_table[] = {
      .value = "FILE",
      .help = "the picture: .png (8-bit sRGB), .exr (linear floats, premultiplied: R G B A Z N.X N.Y N.Z "
              "coverage), "
-             ".pfm (linear RGB); -: PNG to standard output"},
+             ".pfm (linear RGB); -: PNG to standard output. Frames: NAME_%04d.png and such, or a film: .mp4, "
+             ".mkv (H.264), .webm (VP9), .gif, by the program ffmpeg"},
     {.key = "aov",
      .kind = OPTION_TEXT,
      .offset = AT(aov),
@@ -56,7 +63,7 @@ static const cli_option output_table[] = {
      .kind = OPTION_TEXT,
      .offset = AT(save_camera_path),
      .value = "FILE",
-     .help = "write the camera that was used, for --camera"},
+     .help = "write the camera that was used, for --camera; of frames all cameras, for --path"},
     {.key = "stats",
      .kind = OPTION_TEXT,
      .offset = AT(stats_path),
@@ -145,25 +152,6 @@ static const cli_option splat_table[] = {
 };
 
 static const cli_option look_table[] = {
-    {.key = "shading",
-     .kind = OPTION_CHOICE,
-     .offset = AT(shading),
-     .range = "none|lambert",
-     .help = "light: none gives the bare colours"},
-    {.key = "light",
-     .kind = OPTION_VECTOR,
-     .offset = AT(light),
-     .value = "x,y,z",
-     .low = 3,
-     .high = 3,
-     .absent = "headlight",
-     .help = "direction towards the light"},
-    {.key = "ambient",
-     .kind = OPTION_NUMBER,
-     .offset = AT(ambient),
-     .value = "A",
-     .range = "[0, 1]",
-     .help = "share of the light that comes from everywhere"},
     {.key = "background",
      .aliases = "background-color",
      .kind = OPTION_COLOR,
@@ -179,22 +167,20 @@ static const cli_option look_table[] = {
     {.key = "colormap",
      .kind = OPTION_CHOICE,
      .offset = AT(colormap),
-     .range = "viridis|turbo|gray",
+     .range = "viridis|turbo|gray|plasma|inferno|magma|cividis|coolwarm",
      .help = "colours for --color-by"},
     {.key = "range",
      .aliases = "coloring-range",
-     .kind = OPTION_VECTOR,
+     .kind = OPTION_BOUNDS,
      .offset = AT(range),
      .value = "a,b",
-     .low = 2,
-     .high = 2,
      .absent = "least to greatest",
-     .help = "numbers that get the first and the last colour"},
+     .help = "numbers that get the first and the last colour; with a percent sign, percentiles: 2%,98%"},
 };
 
 static void set_defaults(void *data) {
     render_arguments *arguments = data;
-    view_set_defaults(&arguments->view);
+    frames_set_defaults(&arguments->frames);
     ewa_surfels_options surfels;
     ewa_surfels_options_init(&surfels, sizeof surfels);
     arguments->cutoff = surfels.cutoff;
@@ -204,7 +190,7 @@ static void set_defaults(void *data) {
     arguments->kernel = (int)render.kernel;
     arguments->passes = render.passes == 1 ? ONE_PASS : THREE_PASSES;
     arguments->cull = (int)render.cull;
-    arguments->shading = (int)render.shading;
+    light_set_defaults(&arguments->light);
     arguments->prefilter_px = render.prefilter_px;
     arguments->tolerance = render.tolerance;
     arguments->edge_antialiasing = render.edge_antialiasing;
@@ -212,8 +198,16 @@ static void set_defaults(void *data) {
     arguments->edge_layers = render.edge_layers;
     arguments->opacity = render.opacity;
     arguments->edge_threshold = render.edge_threshold;
-    arguments->ambient = render.ambient;
     arguments->background = (option_color){{1, 1, 1, 1}};
+}
+
+/// Paths of the picture, or of all frames: then with the place of their number. A film is none of the
+/// pictures.
+static bool parse_paths(const render_arguments *arguments, picture_paths *paths,
+                        char message[OPTION_ERROR_BYTES]) {
+    const char *color = video_find_format(arguments->output) ? NULL : arguments->output;
+    return picture_parse_paths(color, arguments->aov, paths, message) &&
+           (!frames_many(&arguments->frames) || sequence_check_paths(paths, message));
 }
 
 /// Sets `layers` as ewa_render_options has them.
@@ -237,20 +231,18 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         missing = "--layers: neither auto, nor exact, nor a number in [1, 255]";
     else if (layers > 1 && arguments->passes == ONE_PASS)
         missing = "--layers needs --passes 3";
-    else if (!arguments->color_by && arguments->range.count)
+    else if (!arguments->color_by && arguments->range.given)
         missing = "--range needs --color-by";
-    else if (arguments->light.count && !arguments->light.values[0] && !arguments->light.values[1] &&
-             !arguments->light.values[2])
-        missing = "--light: 0,0,0 has no direction";
     if (missing) {
         snprintf(message, OPTION_ERROR_BYTES, "%s", missing);
         return false;
     }
-    return view_check(&arguments->view, message) &&
-           picture_parse_paths(arguments->output, arguments->aov, &paths, message);
+    return light_check(&arguments->light, message) &&
+           frames_check(&arguments->frames, arguments->output, arguments->background.rgba[3] == 1, message) &&
+           parse_paths(arguments, &paths, message);
 }
 
-static ewa_render_options render_options(const render_arguments *arguments) {
+static ewa_render_options render_options(const render_arguments *arguments, const light_objects *lit_by) {
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
     options.kernel = (ewa_kernel)arguments->kernel;
@@ -263,65 +255,11 @@ static ewa_render_options render_options(const render_arguments *arguments) {
     options.opacity = arguments->opacity;
     options.edge_threshold = arguments->edge_threshold;
     options.cull = (ewa_cull)arguments->cull;
-    options.shading = (ewa_shading)arguments->shading;
-    options.ambient = arguments->ambient;
-    memcpy(options.light_world, arguments->light.values, sizeof options.light_world);
+    light_apply(&arguments->light, lit_by, &options);
     for (int c = 0; c < 3; c++)
         options.background[c] = ewa_linear_from_srgb((float)arguments->background.rgba[c]);
     options.background[3] = (float)arguments->background.rgba[3];
     return options;
-}
-
-/// What a run took and drew.
-typedef struct render_report {
-    uint64_t point_count;
-    double load_s, estimate_s, surfels_s, render_s, write_s;
-    ewa_surfels_info surfels;
-    ewa_render_stats stats;
-} render_report;
-
-static bool write_stats(cli_session *session, const render_arguments *arguments, const ewa_camera *camera,
-                        const render_report *report) {
-    text_file text;
-    if (!text_file_open(session, &text, arguments->stats_path)) return false;
-    json_writer json;
-    json_start(&json, text.file);
-    json_text(&json, "version", ewa_version());
-    json_array(&json, "inputs");
-    for (size_t i = 0; i < arguments->view.common.operand_count; i++)
-        json_text(&json, NULL, arguments->view.common.operands[i]);
-    json_close(&json, ']');
-    json_count(&json, "width", camera->width_px);
-    json_count(&json, "height", camera->height_px);
-    json_count(&json, "threads", ewa_context_worker_count(session->context));
-    json_count(&json, "points", report->point_count);
-    json_count(&json, "points_left_out", report->surfels.left_out_count);
-    json_count(&json, "resident_bytes", report->surfels.resident_bytes);
-    json_number(&json, "unit_coverage", report->surfels.unit_coverage);
-    json_count(&json, "splats", report->stats.splat_count);
-    json_count(&json, "splats_culled", report->stats.culled_count);
-    json_count(&json, "splats_hidden", report->stats.hidden_count);
-    json_count(&json, "splats_drawn", report->stats.drawn_count);
-    json_count(&json, "fragment_blocks", report->stats.fragment_count);
-    json_object(&json, "wall_s");
-    json_number(&json, "load", report->load_s);
-    json_number(&json, "estimate", report->estimate_s);
-    json_number(&json, "surfels", report->surfels_s);
-    json_number(&json, "render", report->render_s);
-    json_number(&json, "write", report->write_s);
-    json_number(&json, "total", clock_now_s() - session->started_s);
-    json_close(&json, '}');
-    json_object(&json, "thread_s");
-    json_number(&json, "bin", report->stats.bin_s);
-    json_number(&json, "setup", report->stats.setup_s);
-    json_number(&json, "visibility", report->stats.visibility_s);
-    json_number(&json, "accumulate", report->stats.accumulate_s);
-    json_number(&json, "edges", report->stats.edge_s);
-    json_number(&json, "resolve", report->stats.resolve_s);
-    json_close(&json, '}');
-    json_count(&json, "peak_memory_bytes", memory_peak_bytes());
-    json_end(&json);
-    return text_file_close(session, &text);
 }
 
 static bool make_surfels(cli_session *session, const render_arguments *arguments, const ewa_cloud *cloud,
@@ -377,10 +315,10 @@ static bool close_gaps(cli_session *session, const render_arguments *arguments, 
     return make_surfels(session, arguments, *cloud, surfels, report);
 }
 
-/// Loads, colours, and makes surfels and the camera; the clouds are gone afterwards. False after reporting.
-static bool make_scene(cli_session *session, const render_arguments *arguments, ewa_camera *camera,
+/// Loads, colours, and makes surfels and the cameras; the clouds are gone afterwards. False after reporting.
+static bool make_scene(cli_session *session, const render_arguments *arguments, frame_cameras *frames,
                        ewa_surfels **surfels, render_report *report) {
-    const common_arguments *common = &arguments->view.common;
+    const common_arguments *common = &arguments->frames.view.common;
     const double started_s = clock_now_s();
     const char *by = arguments->color_by;
     ewa_cloud *cloud = inputs_as_surfels(session, common, by, &report->estimate_s);
@@ -389,7 +327,7 @@ static bool make_scene(cli_session *session, const render_arguments *arguments, 
     report->point_count = ewa_cloud_point_count(cloud);
     session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
     bool done = (!by || color_by(session, cloud, by, (ewa_colormap)arguments->colormap, &arguments->range)) &&
-                view_make(session, &arguments->view, cloud, arguments->radius_scale, camera);
+                frames_make(session, &arguments->frames, cloud, arguments->radius_scale, frames);
     session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
     done = done && make_surfels(session, arguments, cloud, surfels, report) &&
            close_gaps(session, arguments, &cloud, surfels, report);
@@ -416,61 +354,75 @@ static bool make_scene(cli_session *session, const render_arguments *arguments, 
     return true;
 }
 
+static bool save_cameras(cli_session *session, const char *path, const frame_cameras *frames, bool many) {
+    session->subject = path;
+    const ewa_status status =
+        many ? ewa_camera_save_list(session->context, frames->cameras, frames->count, path)
+             : ewa_camera_save(session->context, frames->cameras, path);
+    if (status != EWA_OK) session_failed(session, status);
+    session->subject = NULL;
+    return status == EWA_OK;
+}
+
 /// Draws and writes everything. False after reporting.
 static bool draw(cli_session *session, const render_arguments *arguments, const picture_paths *paths,
-                 const ewa_camera *camera, const ewa_surfels *surfels, render_report *report) {
-    cli_picture picture;
-    ewa_renderer *renderer = NULL;
-    bool done = picture_make(session, paths, camera, &picture);
-    if (done) {
-        const ewa_render_options options = render_options(arguments);
-        session->subject = NULL;
-        const double started_s = clock_now_s();
-        ewa_status status = ewa_renderer_create(session->context, &renderer);
-        if (status == EWA_OK)
-            status = ewa_render(renderer, surfels, camera, &options, &picture.frame, &report->stats);
-        report->render_s = clock_now_s() - started_s;
-        done = status == EWA_OK;
-        if (!done) session_failed(session, status);
-    }
-    if (done) {
-        const double started_s = clock_now_s();
-        done = picture_save(session, paths, camera, arguments->background.rgba[3] == 1, &picture);
-        report->write_s = clock_now_s() - started_s;
-    }
-    if (done && arguments->save_camera_path) {
-        session->subject = arguments->save_camera_path;
-        const ewa_status status = ewa_camera_save(session->context, camera, arguments->save_camera_path);
-        done = status == EWA_OK;
-        if (!done) session_failed(session, status);
-    }
-    ewa_renderer_destroy(&renderer);
-    picture_free(&picture);
-    return done;
+                 const frame_cameras *frames, const light_objects *lit_by, const ewa_surfels *surfels,
+                 render_report *report) {
+    const bool many = frames_many(&arguments->frames);
+    const ewa_render_options options = render_options(arguments, lit_by);
+    const sequence_output output = {
+        .paths = paths,
+        .numbered = many,
+        .film = video_find_format(arguments->output) ? arguments->output : NULL,
+        .frames_per_s = arguments->frames.frames_per_s > 0 ? arguments->frames.frames_per_s : 30,
+        .quality = arguments->frames.quality >= 0 ? (int)arguments->frames.quality : 75,
+        .opaque = arguments->background.rgba[3] == 1,
+    };
+    return sequence_draw(session, &output, frames, surfels, &options, report) &&
+           (!arguments->save_camera_path || save_cameras(session, arguments->save_camera_path, frames, many));
+}
+
+/// Whether all files can be written, before the work; false after reporting.
+static bool check_outputs(cli_session *session, const render_arguments *arguments,
+                          const picture_paths *paths) {
+    return (frames_many(&arguments->frames) ? sequence_check(session, paths)
+                                            : picture_check_paths(session, paths)) &&
+           (!video_find_format(arguments->output) || video_check(session, arguments->output)) &&
+           (!arguments->save_camera_path || output_check(session, arguments->save_camera_path)) &&
+           (!arguments->stats_path || output_check(session, arguments->stats_path));
 }
 
 static int run(const void *data) {
     const render_arguments *arguments = data;
+    const common_arguments *common = &arguments->frames.view.common;
     cli_session session;
-    if (!session_start(&session, &arguments->view.common)) return session_end(&session, EXIT_FAILED);
+    if (!session_start(&session, common)) return session_end(&session, EXIT_FAILED);
     picture_paths paths;
     char message[OPTION_ERROR_BYTES];
-    ewa_camera camera;
+    frame_cameras frames = {.count = 0};
     ewa_surfels *surfels = NULL;
+    light_objects lit_by = {.material_count = 0};
     render_report report = {.load_s = 0};
-    bool done = picture_parse_paths(arguments->output, arguments->aov, &paths, message) &&
-                picture_check_paths(&session, &paths) &&
-                (!arguments->save_camera_path || output_check(&session, arguments->save_camera_path)) &&
-                (!arguments->stats_path || output_check(&session, arguments->stats_path)) &&
-                make_scene(&session, arguments, &camera, &surfels, &report) &&
-                draw(&session, arguments, &paths, &camera, surfels, &report) &&
-                (!arguments->stats_path || write_stats(&session, arguments, &camera, &report));
-    if (done)
+    bool done =
+        parse_paths(arguments, &paths, message) && check_outputs(&session, arguments, &paths) &&
+        light_load(&session, &arguments->light, &lit_by) &&
+        make_scene(&session, arguments, &frames, &surfels, &report) &&
+        draw(&session, arguments, &paths, &frames, &lit_by, surfels, &report) &&
+        (!arguments->stats_path || render_report_write(&session, common, frames_many(&arguments->frames),
+                                                       &frames, &report, arguments->stats_path));
+    if (done && !frames_many(&arguments->frames))
         session_say(&session, "%s: %llu of %llu splats drawn in %.1f ms, %.3f s in all", arguments->output,
                     (unsigned long long)(report.stats.splat_count - report.stats.culled_count),
                     (unsigned long long)report.stats.splat_count, 1e3 * report.render_s,
                     clock_now_s() - session.started_s);
+    else if (done)
+        session_say(&session, "%s: %zu frames, each drawn in %.1f ms, %.3f s in all", arguments->output,
+                    frames.count, 1e3 * report.render_s / (double)frames.count,
+                    clock_now_s() - session.started_s);
+    render_report_free(&report);
+    frames_free(&frames);
     ewa_surfels_destroy(&surfels);
+    light_free(&lit_by);
     return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
 }
 
@@ -479,7 +431,8 @@ static int run(const void *data) {
 static const option_group output_options = {"Output", output_table, COUNT(output_table)};
 static const option_group splat_options = {"Splats", splat_table, COUNT(splat_table)};
 static const option_group look_options = {"Look", look_table, COUNT(look_table)};
-static const option_group *const groups[] = {&output_options, &view_options, &splat_options, &look_options};
+static const option_group *const groups[] = {&output_options, &view_options,  &frames_options,
+                                             &splat_options,  &light_options, &look_options};
 
 const cli_command render_command = {
     .name = "render",
@@ -503,7 +456,9 @@ const cli_command render_command = {
         "ewa render scan.ply -o scan.png\n"
         "ewa render scan.ply -o side.png --view right --size 1920x1080 --background transparent\n"
         "ewa render tile1.ply tile2.ply -o height.png --color-by z --colormap turbo --shading lambert\n"
-        "ewa render scan.ply -o scan.exr --camera camera.json --aov depth=depth.pfm,normal=normal.exr\n",
+        "ewa render scan.ply -o scan.exr --camera camera.json --aov depth=depth.pfm,normal=normal.exr\n"
+        "ewa render scan.ply -o turn.mp4 --turntable 120 --elevation 20\n"
+        "ewa render scan.ply -o fly_%04d.png --path keys.json --frames 300\n",
     .low_operands = 1,
     .high_operands = 4096,
     .groups = groups,

@@ -40,19 +40,34 @@ static void wipe_bar(cli_session *session) {
     session->bar_drawn = false;
 }
 
+/// Draws the bar when it is time to.
+static void draw_bar(cli_session *session, const char *label, double fraction) {
+    const double now_s = clock_now_s();
+    if (!session->progress || now_s - session->started_s <= BAR_DELAY_S ||
+        (now_s - session->bar_time_s <= BAR_STEP_S && fraction < 1))
+        return;
+    const double share = fraction < 0 ? 0 : fraction > 1 ? 1 : fraction;
+    const int filled = (int)(share * BAR_COLUMNS);
+    fprintf(stderr, "\r\033[K%-12s [", label);
+    for (int i = 0; i < BAR_COLUMNS; i++) fputc(i < filled ? '#' : '.', stderr);
+    fprintf(stderr, "] %3d %%", (int)(100 * share));
+    session->bar_drawn = true;
+    session->bar_time_s = now_s;
+}
+
 static bool on_progress(void *user, const char *stage, double fraction) {
     cli_session *session = user;
-    const double now_s = clock_now_s();
-    if (session->progress && now_s - session->started_s > BAR_DELAY_S &&
-        (now_s - session->bar_time_s > BAR_STEP_S || fraction >= 1)) {
-        const double share = fraction < 0 ? 0 : fraction > 1 ? 1 : fraction;
-        const int filled = (int)(share * BAR_COLUMNS);
-        fprintf(stderr, "\r\033[K%-12s [", stage);
-        for (int i = 0; i < BAR_COLUMNS; i++) fputc(i < filled ? '#' : '.', stderr);
-        fprintf(stderr, "] %3d %%", (int)(100 * share));
-        session->bar_drawn = true;
-        session->bar_time_s = now_s;
-    }
+    if (!session->stepping) draw_bar(session, stage, fraction);
+    return caught_signal == 0;
+}
+
+bool session_interrupted(void) { return caught_signal != 0; }
+
+bool session_step(cli_session *session, const char *what, uint64_t done, uint64_t count) {
+    char label[64];
+    snprintf(label, sizeof label, "%s %llu/%llu", what, (unsigned long long)done, (unsigned long long)count);
+    session->stepping = true;
+    draw_bar(session, label, (double)done / (double)count);
     return caught_signal == 0;
 }
 

@@ -17,6 +17,7 @@ typedef struct cli_session {
     bool reported;     ///< an error was printed
     bool progress;     ///< a bar may be drawn
     bool bar_drawn;    ///< there is one on the line
+    bool stepping;     ///< the bar counts steps of the command, not of the library
     double started_s;  ///< when the session began
     double bar_time_s; ///< when the bar was last drawn
 } cli_session;
@@ -44,6 +45,13 @@ void session_note(cli_session *session, const char *format, ...) __attribute__((
 
 /// Prints with --verbose only.
 void session_say(cli_session *session, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/// Whether a signal asks the run to stop; loops of the program ask between steps, the library by its
+/// progress.
+bool session_interrupted(void);
+
+/// Shows that `done` of `count` steps are done ("WHAT 3/60"); false when a signal asks to stop.
+bool session_step(cli_session *session, const char *what, uint64_t done, uint64_t count);
 
 /// Monotonic time in seconds.
 double clock_now_s(void);

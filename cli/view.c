@@ -70,6 +70,21 @@ static const cli_option view_table[] = {
      .range = "front|back|left|right|top|bottom|iso",
      .absent = "see above",
      .help = "side from which the cloud is seen, framed whole"},
+    {.key = "azimuth",
+     .aliases = "camera-azimuth-angle",
+     .kind = OPTION_NUMBER,
+     .offset = offsetof(view_arguments, azimuth_deg),
+     .value = "DEG",
+     .range = "[-360, 360]",
+     .help =
+         "carries the camera about the up axis from there, counter-clockwise seen from above, in degrees"},
+    {.key = "elevation",
+     .aliases = "camera-elevation-angle",
+     .kind = OPTION_NUMBER,
+     .offset = offsetof(view_arguments, elevation_deg),
+     .value = "DEG",
+     .range = "[-180, 180]",
+     .help = "then raises it by so many degrees"},
     {.key = "size",
      .aliases = "resolution",
      .kind = OPTION_SIZE,
@@ -99,6 +114,7 @@ void view_set_defaults(view_arguments *arguments) {
 
 bool view_check(const view_arguments *arguments, char message[OPTION_ERROR_BYTES]) {
     const bool placed = arguments->eye.count || arguments->target.count || arguments->up.count;
+    const bool turned = arguments->azimuth_deg != 0 || arguments->elevation_deg != 0;
     const char *clash = NULL;
     if (arguments->camera_path && (placed || arguments->ortho_height > 0 || arguments->view >= 0))
         clash = "--camera excludes --eye, --target, --up, --ortho and --view";
@@ -106,11 +122,19 @@ bool view_check(const view_arguments *arguments, char message[OPTION_ERROR_BYTES
         clash = "--camera-index needs --camera";
     else if (arguments->eye.count && arguments->view >= 0)
         clash = "--eye and --view exclude each other";
+    else if (turned && (arguments->eye.count || arguments->camera_path))
+        clash = "--azimuth and --elevation exclude --eye and --camera";
     else if (arguments->up.count && !arguments->up.values[0] && !arguments->up.values[1] &&
              !arguments->up.values[2])
         clash = "--up: 0,0,0 has no direction";
     if (clash) snprintf(message, OPTION_ERROR_BYTES, "%s", clash);
     return !clash;
+}
+
+bool view_is_placed(const view_arguments *arguments) {
+    return arguments->camera_path || arguments->camera_index > 0 || arguments->eye.count ||
+           arguments->target.count || arguments->up.count || arguments->ortho_height > 0 ||
+           arguments->view >= 0 || arguments->azimuth_deg != 0 || arguments->elevation_deg != 0;
 }
 
 /// Which axis of the world is up; see the help of render.
@@ -143,9 +167,27 @@ static void view_direction(int view, int up_axis, double direction[3]) {
     direction[2] = up_axis == 2 ? d[2] : -d[1];
 }
 
-/// The up vector and, for a camera without --eye, the direction in which it looks.
+/// Carries a direction, seen as that of a camera that looks at the origin, by --azimuth and --elevation. Its
+/// up goes along, so that nothing flips at the poles.
+static void turn_direction(const view_arguments *arguments, const double axis_world[3], double direction[3],
+                           double up_world[3]) {
+    static const double origin[3] = {0, 0, 0};
+    ewa_camera camera;
+    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_look_at(&camera, origin, direction, up_world);
+    ewa_camera_orbit(&camera, origin, axis_world, arguments->azimuth_deg);
+    const double *m = camera.world_to_camera, right[3] = {m[0], m[1], m[2]};
+    ewa_camera_orbit(&camera, origin, right, -arguments->elevation_deg);
+    for (int c = 0; c < 3; c++) {
+        up_world[c] = -m[4 + c];
+        direction[c] = m[8 + c];
+    }
+}
+
+/// The up vector of the picture, the axis of a turntable and, for a camera without --eye, the direction in
+/// which it looks.
 static void choose_direction(const view_arguments *arguments, const cloud_framing *framing,
-                             double direction[3], double up_world[3]) {
+                             double direction[3], double up_world[3], double axis_world[3]) {
     const ewa_bounds *box = &framing->box;
     int up_axis = guess_up_axis(framing);
     if (arguments->up.count) {
@@ -154,6 +196,7 @@ static void choose_direction(const view_arguments *arguments, const cloud_framin
     } else {
         for (int c = 0; c < 3; c++) up_world[c] = c == up_axis;
     }
+    memcpy(axis_world, up_world, 3 * sizeof *axis_world);
     const double height = box->high_world[up_axis] - box->low_world[up_axis];
     const int side = up_axis == 2 ? 1 : 2;
     const double across =
@@ -168,10 +211,12 @@ static void choose_direction(const view_arguments *arguments, const cloud_framin
         view_direction(view == VIEW_TOP ? VIEW_FRONT : VIEW_BACK, up_axis, ahead);
         memcpy(up_world, ahead, sizeof ahead);
     }
+    if (arguments->azimuth_deg != 0 || arguments->elevation_deg != 0)
+        turn_direction(arguments, axis_world, direction, up_world);
 }
 
-/// Scales a camera's picture to another size.
-static void resize_camera(ewa_camera *camera, const option_size *size) {
+void view_resize(ewa_camera *camera, const option_size *size) {
+    if (!size->given) return;
     const double x = (double)size->width_px / camera->width_px,
                  y = (double)size->height_px / camera->height_px;
     camera->fx_px *= x;
@@ -186,7 +231,7 @@ static bool load_camera(cli_session *session, const view_arguments *arguments, e
     session->subject = arguments->camera_path;
     ewa_status status =
         ewa_camera_load(session->context, arguments->camera_path, (uint32_t)arguments->camera_index, camera);
-    if (status == EWA_OK && arguments->size.given) resize_camera(camera, &arguments->size);
+    if (status == EWA_OK) view_resize(camera, &arguments->size);
     if (status == EWA_OK) status = ewa_camera_check(session->context, camera);
     if (status != EWA_OK) session_failed(session, status);
     return status == EWA_OK;
@@ -205,11 +250,13 @@ static ewa_status aim_at(ewa_camera *camera, const double direction[3], const do
     return ewa_camera_look_at(camera, aimed_world, target_world, up_world);
 }
 
-/// Places a camera whose picture and projection are set.
+/// Places a camera whose picture and projection are set. With `turn`, whose pivot is set, the cloud is framed
+/// in all its turns.
 static ewa_status place_camera(cli_session *session, const view_arguments *arguments,
-                               const cloud_framing *framing, ewa_camera *camera) {
-    double direction[3], up_world[3];
-    choose_direction(arguments, framing, direction, up_world);
+                               const cloud_framing *framing, ewa_camera *camera, view_turn *turn) {
+    double direction[3], up_world[3], axis_world[3];
+    choose_direction(arguments, framing, direction, up_world, axis_world);
+    if (turn) memcpy(turn->axis_world, axis_world, sizeof axis_world);
     const option_vector *eye = &arguments->eye, *target = &arguments->target;
     if (eye->count) {
         const double *target_world = target->count ? target->values : framing->middle_world;
@@ -222,27 +269,43 @@ static ewa_status place_camera(cli_session *session, const view_arguments *argum
     if (framing->trimmed)
         session_note(session,
                      "a few points lie far off and are left outside the picture; --eye decides otherwise");
-    ewa_status status = framing_fit(framing, direction, up_world, camera);
-    if (status == EWA_OK && target->count)
-        status = aim_at(camera, direction, framing->middle_world, target->values, up_world);
+    ewa_status status;
+    if (turn) {
+        cloud_framing solid;
+        if (!framing_revolve(session, framing, turn->pivot_world, axis_world, direction, &solid))
+            return EWA_ERROR_MEMORY;
+        status = framing_fit(&solid, direction, up_world, camera);
+        framing_free(&solid);
+    } else {
+        status = framing_fit(framing, direction, up_world, camera);
+        if (status == EWA_OK && target->count)
+            status = aim_at(camera, direction, framing->middle_world, target->values, up_world);
+    }
     if (status == EWA_OK && arguments->ortho_height > 0)
         status = ewa_camera_set_ortho(camera, arguments->ortho_height);
     return status;
 }
 
 bool view_make(cli_session *session, const view_arguments *arguments, const ewa_cloud *cloud,
-               double radius_scale, ewa_camera *camera) {
+               double radius_scale, ewa_camera *camera, view_turn *turn) {
     ewa_camera_init(camera, sizeof *camera);
-    if (arguments->camera_path) return load_camera(session, arguments, camera);
-    camera->width_px = arguments->size.width_px;
-    camera->height_px = arguments->size.height_px;
+    if (arguments->camera_path && !load_camera(session, arguments, camera)) return false;
+    if (arguments->camera_path && !turn) return true;
     cloud_framing framing;
     bool done = framing_make(session, cloud, radius_scale, &framing);
-    if (done) {
+    if (done && turn)
+        memcpy(turn->pivot_world, arguments->target.count ? arguments->target.values : framing.middle_world,
+               sizeof turn->pivot_world);
+    if (done && arguments->camera_path) {
+        double direction[3], up_world[3];
+        choose_direction(arguments, &framing, direction, up_world, turn->axis_world);
+    } else if (done) {
+        camera->width_px = arguments->size.width_px;
+        camera->height_px = arguments->size.height_px;
         ewa_status status = arguments->ortho_height > 0
                                 ? ewa_camera_set_ortho(camera, arguments->ortho_height)
                                 : ewa_camera_set_fov(camera, arguments->fov_deg);
-        if (status == EWA_OK) status = place_camera(session, arguments, &framing, camera);
+        if (status == EWA_OK) status = place_camera(session, arguments, &framing, camera, turn);
         done = status == EWA_OK;
         if (!done) session_failed(session, status);
     }

@@ -16,6 +16,7 @@ typedef struct view_arguments {
     double fov_deg;
     double ortho_height; ///< 0: perspective
     int view;            ///< index of a named view; -1: none given
+    double azimuth_deg, elevation_deg;
     option_size size;
 } view_arguments;
 
@@ -26,9 +27,21 @@ void view_set_defaults(view_arguments *arguments);
 /// What is wrong with the options of the camera together; see command.check.
 bool view_check(const view_arguments *arguments, char message[OPTION_ERROR_BYTES]);
 
+/// Whether an option says where the camera is or where it looks.
+bool view_is_placed(const view_arguments *arguments);
+
+/// What a turntable turns about.
+typedef struct view_turn {
+    double pivot_world[3], axis_world[3];
+} view_turn;
+
 /// Makes the camera that the options ask for, looking at a cloud whose radii are drawn times `radius_scale`.
-/// Returns false after reporting.
+/// With `turn`, which may be NULL, it is the first of a turntable: the cloud is framed so that all is in the
+/// picture whichever way it is turned. Returns false after reporting.
 bool view_make(cli_session *session, const view_arguments *arguments, const ewa_cloud *cloud,
-               double radius_scale, ewa_camera *camera);
+               double radius_scale, ewa_camera *camera, view_turn *turn);
+
+/// Scales a camera's picture to another size, if one is given.
+void view_resize(ewa_camera *camera, const option_size *size);
 
 #endif

@@ -4,25 +4,32 @@
 #
 # Makes the pictures of docs/gallery anew from the commands that docs/gallery/README.md shows: gallery.sh EWA
 #
-# Blocks that name $EWA_DATA, a folder with scans that are not ours to distribute, are left out when it is not set.
+# Blocks that name $EWA_DATA, a folder with scans that are not ours to distribute, are left out when it is not set;
+# those that call ffmpeg, to put pictures side by side, when it is not installed.
 set -eu
 program=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
+tools=$(cd "$(dirname "$0")" && pwd)
 gallery=$(cd "$(dirname "$0")/../docs/gallery" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-awk -v have_data="${EWA_DATA:+1}" '
+have_ffmpeg=$(command -v ffmpeg || true)
+
+awk -v have_data="${EWA_DATA:+1}" -v have_ffmpeg="$have_ffmpeg" '
     /^```sh$/ { inside = 1; block = ""; next }
     /^```$/ && inside {
         inside = 0
-        if (block !~ /\$EWA_DATA/ || have_data) printf "%s", block
-        else print "skipped, for EWA_DATA is not set:\n" block >"/dev/stderr"
+        if (block ~ /\$EWA_DATA/ && !have_data) print "skipped, for EWA_DATA is not set:\n" block >"/dev/stderr"
+        else if (block ~ /ffmpeg/ && !have_ffmpeg) print "skipped, for want of ffmpeg:\n" block >"/dev/stderr"
+        else printf "%s", block
         next
     }
     inside { block = block $0 "\n" }' "$gallery/README.md" >"$work/commands"
 
 ewa() { "$program" "$@"; }
 frustum() { "$(dirname "$program")/../examples/frustum" "$@"; }
+make_environment() { python3 "$tools/make_environment.py" "$@"; }
+measure_layers() { "$(dirname "$program")/../tests/quality/measure_layers" "$@"; }
 cd "$work"
 set -x
 . ./commands

@@ -69,6 +69,32 @@ EWA_API void ewa_camera_eye(const ewa_camera *camera, double eye_world[3]);
 EWA_API ewa_status ewa_camera_frame(ewa_camera *camera, const ewa_bounds *bounds,
                                     const double direction_world[3], const double up_world[3], double margin);
 
+/// Carries the camera about the axis `axis_world` through the point `pivot_world`, right-handed by
+/// `angle_deg` degrees: a turntable. Multiples of 90 degrees are exact but for one rounding. Errors (camera
+/// unchanged): EWA_ERROR_ARGUMENT, EWA_ERROR_NUMERIC for a zero axis or what is not finite.
+EWA_API ewa_status ewa_camera_orbit(ewa_camera *camera, const double pivot_world[3],
+                                    const double axis_world[3], double angle_deg);
+
+/// A smooth way through key cameras that are evenly spaced in time. The eye follows the cubic spline with
+/// continuous acceleration through the keys (natural ends, or periodic), the rotation follows squad through
+/// their unit quaternions by the shorter way, intrinsics and scale change linearly between two keys.
+/// Based on: K. Shoemake, "Quaternion Calculus and Fast Animation", SIGGRAPH 1987 course 10 (squad).
+typedef struct ewa_camera_path ewa_camera_path;
+
+/// Makes a path through `count` >= 1 cameras of one size and projection; a closed one goes on from the last
+/// key to the first. The keys are copied; the caller owns `*path`, which is NULL after a failure. Errors,
+/// with the number of the key: EWA_ERROR_ARGUMENT, EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_camera_path_create(ewa_context *context, const ewa_camera *keys, size_t count,
+                                          bool closed, ewa_camera_path **path);
+
+/// Frees a path; sets `*path` to NULL; accepts NULL and a pointer to NULL.
+EWA_API void ewa_camera_path_destroy(ewa_camera_path **path);
+
+/// Gives the camera at `place`, counted in keys: 0 is the first key, 1.5 is half-way from the second to the
+/// third, `count` is the first key again on a closed path. Whole numbers give the keys bit by bit; places
+/// outside of the path give its nearest end. Errors: EWA_ERROR_ARGUMENT (NaN, NULL). Any thread.
+EWA_API ewa_status ewa_camera_path_at(const ewa_camera_path *path, double place, ewa_camera *camera);
+
 #ifdef __cplusplus
 }
 #endif

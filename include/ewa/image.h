@@ -48,9 +48,14 @@ EWA_API ewa_status ewa_image_compare(const ewa_image *a, const ewa_image *b, dou
                                      ewa_difference *difference, ewa_image *heat);
 
 typedef enum ewa_colormap {
-    EWA_COLORMAP_VIRIDIS = 0, ///< dark blue to yellow, even in lightness
-    EWA_COLORMAP_TURBO = 1,   ///< rainbow, even in hue
-    EWA_COLORMAP_GRAY = 2,    ///< black to white, even in sRGB
+    EWA_COLORMAP_VIRIDIS = 0,  ///< dark blue to yellow, even in lightness
+    EWA_COLORMAP_TURBO = 1,    ///< rainbow, even in hue
+    EWA_COLORMAP_GRAY = 2,     ///< black to white, even in sRGB
+    EWA_COLORMAP_PLASMA = 3,   ///< blue over magenta to yellow, even in lightness
+    EWA_COLORMAP_INFERNO = 4,  ///< black over red to pale yellow, even in lightness
+    EWA_COLORMAP_MAGMA = 5,    ///< black over magenta to cream, even in lightness
+    EWA_COLORMAP_CIVIDIS = 6,  ///< blue to yellow, the same without colour vision
+    EWA_COLORMAP_COOLWARM = 7, ///< blue over light grey to red, for numbers about a middle
 } ewa_colormap;
 
 /// Gives the 8-bit sRGB colour of a number, which is clamped to [0, 1]; NaN counts as 0. Any thread.

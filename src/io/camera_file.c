@@ -84,6 +84,16 @@ ewa_status ewa_camera_load(ewa_context *context, const char *path, uint32_t inde
     return status;
 }
 
+ewa_status ewa_camera_load_each(ewa_context *context, const char *path, ewa_camera_callback *receive,
+                                void *user) {
+    if (!context || !path || !receive) return EWA_ERROR_ARGUMENT;
+    ewa_camera_list list = {.context = context, .name = path};
+    const ewa_status status = read_list(&list, path);
+    for (size_t i = 0; status == EWA_OK && i < list.count; i++) receive(user, (uint32_t)i, &list.cameras[i]);
+    ewa_camera_list_free(&list);
+    return status;
+}
+
 static void put_text(ewa_writer *writer, const char *text) { ewa_writer_put(writer, text, strlen(text)); }
 
 static void put_number(ewa_writer *writer, double value) {
@@ -99,12 +109,8 @@ static void put_member(ewa_writer *writer, const char *name, double value) {
     put_text(writer, ",\n");
 }
 
-ewa_status ewa_camera_save(ewa_context *context, const ewa_camera *camera, const char *path) {
-    if (!context || !camera || !path) return EWA_ERROR_ARGUMENT;
-    ewa_status status = ewa_camera_check(context, camera);
-    ewa_writer *writer = NULL;
-    if (status == EWA_OK) status = ewa_writer_open(context, path, &writer);
-    if (status != EWA_OK) return status;
+/// Writes one camera as an object.
+static void put_camera(ewa_writer *writer, const ewa_camera *camera) {
     put_text(writer, "{\n");
     if (camera->projection == EWA_ORTHOGRAPHIC) put_text(writer, "  \"projection\": \"orthographic\",\n");
     put_member(writer, "width", camera->width_px);
@@ -118,6 +124,32 @@ ewa_status ewa_camera_save(ewa_context *context, const ewa_camera *camera, const
         put_text(writer, i == 0 ? "\n    " : i % 4 ? ", " : ",\n    ");
         put_number(writer, camera->world_to_camera[i]);
     }
-    put_text(writer, "\n  ]\n}\n");
+    put_text(writer, "\n  ]\n}");
+}
+
+ewa_status ewa_camera_save(ewa_context *context, const ewa_camera *camera, const char *path) {
+    if (!context || !camera || !path) return EWA_ERROR_ARGUMENT;
+    ewa_status status = ewa_camera_check(context, camera);
+    ewa_writer *writer = NULL;
+    if (status == EWA_OK) status = ewa_writer_open(context, path, &writer);
+    if (status != EWA_OK) return status;
+    put_camera(writer, camera);
+    put_text(writer, "\n");
+    return ewa_writer_commit(&writer);
+}
+
+ewa_status ewa_camera_save_list(ewa_context *context, const ewa_camera *cameras, size_t count,
+                                const char *path) {
+    if (!context || !cameras || count == 0 || !path) return EWA_ERROR_ARGUMENT;
+    ewa_status status = EWA_OK;
+    for (size_t i = 0; i < count && status == EWA_OK; i++) status = ewa_camera_check(context, &cameras[i]);
+    ewa_writer *writer = NULL;
+    if (status == EWA_OK) status = ewa_writer_open(context, path, &writer);
+    if (status != EWA_OK) return status;
+    for (size_t i = 0; i < count; i++) {
+        put_text(writer, i ? ",\n" : "[\n");
+        put_camera(writer, &cameras[i]);
+    }
+    put_text(writer, "\n]\n");
     return ewa_writer_commit(&writer);
 }

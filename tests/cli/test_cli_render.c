@@ -196,11 +196,17 @@ static void test_looks_differ(void **state) {
         "--shading none",
         "--light 1,0,0",
         "--ambient 0.8",
+        "--light 0,0,0,1,0,0",
+        "--light 1,0,0 --light 0,1,0",
+        "--shading phong",
+        "--edl 1",
         "--cull back --view top --eye 0,0,0.1 --target 1,0,0.1",
         "--color-by z",
         "--color-by normal.x",
         "--color-by z --colormap turbo",
         "--color-by z --range 0,0.1",
+        "--azimuth 30",
+        "--elevation -30",
         "--tau 2",
         "--edge-layers 1",
         "--tolerance 0.01",
@@ -217,6 +223,33 @@ static void test_looks_differ(void **state) {
               "torus.ply: --color-by: there is no attribute 'foo'; there are position, normal, color, radius",
               "ewa render torus.ply -o look2.png --color-by foo");
     assert_int_equal(scratch_size("look2.png"), -1);
+}
+
+/// Percentiles of numbers 0, 1, ..., 100 are the numbers; every colormap is another picture.
+static void test_colors(void **state) {
+    (void)state;
+    static char text[8192] = "ply\nformat ascii 1.0\nelement vertex 102\nproperty float x\nproperty float y\n"
+                             "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
+                             "property float radius\nproperty float q\nend_header\n";
+    for (int i = 0; i <= 101; i++) {
+        const size_t used = strlen(text);
+        const int number = i * 37 % 101; // in any order, with one that is none
+        if (i < 101)
+            snprintf(text + used, sizeof text - used, "%d 0 0 0 0 1 1 %d\n", number, number);
+        else
+            snprintf(text + used, sizeof text - used, "50 1 0 0 0 1 1 nan\n");
+    }
+    scratch_text("row.ply", text);
+    run_done("ewa render row.ply -o a.png --size 96x16 --view top --color-by q --range 10%%,75%% && "
+             "ewa render row.ply -o b.png --size 96x16 --view top --color-by q --range 10,75 && "
+             "ewa render row.ply -o c.png --size 96x16 --view top --color-by q --range 10,75%%");
+    assert_true(scratch_same("a.png", "b.png") && scratch_same("a.png", "c.png"));
+    run_done("ewa render row.ply -o a.png --size 96x16 --view top --color-by q && "
+             "ewa render row.ply -o b.png --size 96x16 --view top --color-by q --range 0%%,100%%");
+    assert_true(scratch_same("a.png", "b.png"));
+    run_done("for map in viridis turbo gray plasma inferno magma cividis coolwarm; do "
+             "ewa render row.ply -o m_$map.png --size 96x16 --view top --color-by q --colormap $map; done; "
+             "test $(md5sum m_*.png | cut -c1-32 | sort -u | wc -l) = 8");
 }
 
 static void test_several_inputs(void **state) {
@@ -254,11 +287,17 @@ static void test_streams(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_png),          cmocka_unit_test(test_exr),
-        cmocka_unit_test(test_planes),       cmocka_unit_test(test_camera),
-        cmocka_unit_test(test_views),        cmocka_unit_test(test_default_view),
-        cmocka_unit_test(test_far_points),   cmocka_unit_test(test_isolated_point),
-        cmocka_unit_test(test_looks_differ), cmocka_unit_test(test_several_inputs),
+        cmocka_unit_test(test_png),
+        cmocka_unit_test(test_exr),
+        cmocka_unit_test(test_planes),
+        cmocka_unit_test(test_camera),
+        cmocka_unit_test(test_views),
+        cmocka_unit_test(test_default_view),
+        cmocka_unit_test(test_far_points),
+        cmocka_unit_test(test_isolated_point),
+        cmocka_unit_test(test_looks_differ),
+        cmocka_unit_test(test_colors),
+        cmocka_unit_test(test_several_inputs),
         cmocka_unit_test(test_streams),
     };
     return cmocka_run_group_tests(tests, enter, leave);

@@ -18,8 +18,10 @@ typedef struct sample_arguments {
     const char *text;
     int choice;
     option_vector vector;
+    option_vectors vectors;
     option_color color;
     option_size size;
+    option_bounds bounds;
     uint32_t set;
 } sample_arguments;
 
@@ -51,8 +53,16 @@ static const cli_option sample_table[] = {
      .low = 2,
      .high = 3,
      .help = "h"},
+    {.key = "vectors",
+     .kind = OPTION_VECTORS,
+     .offset = AT(vectors),
+     .value = "x,y",
+     .low = 2,
+     .high = 2,
+     .help = "h"},
     {.key = "color", .kind = OPTION_COLOR, .offset = AT(color), .value = "r,g,b[,a]", .help = "h"},
     {.key = "size", .kind = OPTION_SIZE, .offset = AT(size), .value = "WxH", .help = "h"},
+    {.key = "bounds", .kind = OPTION_BOUNDS, .offset = AT(bounds), .value = "a,b", .help = "h"},
     {.key = "set",
      .kind = OPTION_SET,
      .offset = AT(set),
@@ -107,8 +117,17 @@ static void test_values(void **state) {
     assert_int_equal(arguments.size.width_px, 640);
     assert_int_equal(arguments.size.height_px, 480);
     assert_int_equal(arguments.integer, 4);
+    assert_true(parse("--bounds -1,2e3") && arguments.bounds.given);
+    assert_true(arguments.bounds.values[0] == -1 && arguments.bounds.values[1] == 2000);
+    assert_false(arguments.bounds.percent[0] || arguments.bounds.percent[1]);
+    assert_true(parse("--bounds 2.5%,100%") && arguments.bounds.values[0] == 2.5);
+    assert_true(arguments.bounds.percent[0] && arguments.bounds.percent[1]);
+    assert_true(parse("--bounds 0,98%") && !arguments.bounds.percent[0] && arguments.bounds.percent[1]);
     assert_true(parse("--color=transparent --size 3,4 --figure 1 --value 4"));
     assert_true(arguments.color.rgba[3] == 0 && arguments.size.given && arguments.number == 4);
+    assert_true(parse("--vectors 1,2 --number 1 --vectors=-3,4"));
+    assert_int_equal(arguments.vectors.count, 2);
+    assert_true(arguments.vectors.each[0].values[1] == 2 && arguments.vectors.each[1].values[0] == -3);
     assert_true(parse("--set three,one,three"));
     assert_int_equal(arguments.set, 5);
     assert_true(parse("--text --flag"));
@@ -151,6 +170,13 @@ static void test_refusals(void **state) {
         {"--vector 1,2,3,4", "--vector: '1,2,3,4' is not x,y[,z]"},
         {"--vector 1,,2", "--vector: '1,,2' is not x,y[,z]"},
         {"--vector 1,2,", "--vector: '1,2,' is not x,y[,z]"},
+        {"--vectors 1,2 --vectors 3", "--vectors: '3' is not x,y"},
+        {"--bounds 1", "--bounds: '1' is not a,b"},
+        {"--bounds 1,2,3", "--bounds: '1,2,3' is not a,b"},
+        {"--bounds %,3", "--bounds: '%,3' is not a,b"},
+        {"--bounds 1%%,3", "--bounds: '1%%,3' is not a,b"},
+        {"--bounds 1,101%", "--bounds: 101% is outside [0, 100]"},
+        {"--bounds -1%,2", "--bounds: -1% is outside [0, 100]"},
         {"--color 1,2,3", "--color: 2 is outside [0, 1]"},
         {"--color red", "--color: 'red' is not r,g,b[,a]"},
         {"--size abc", "--size: 'abc' is not WxH"},

@@ -244,6 +244,50 @@ static void test_every_truncation_is_refused(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// The cameras that ewa_camera_load_each() hands over.
+typedef struct received {
+    ewa_camera cameras[4];
+    uint32_t count;
+} received;
+
+static void receive(void *user, uint32_t index, const ewa_camera *camera) {
+    received *all = user;
+    assert_int_equal(index, all->count);
+    assert_true(index < 4);
+    all->cameras[all->count++] = *camera;
+}
+
+/// A list that was written comes back bit by bit, in order; a broken file hands over nothing.
+static void test_list(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    char path[512];
+    scratch_path("list.json", path);
+    ewa_camera cameras[3];
+    for (int i = 0; i < 3; i++) {
+        const double eye[3] = {i + 0.1, 2, 3}, target[3] = {0, 0, 0}, up[3] = {0, 0, 1};
+        ewa_camera_init(&cameras[i], sizeof cameras[i]);
+        assert_int_equal(ewa_camera_look_at(&cameras[i], eye, target, up), EWA_OK);
+    }
+    cameras[1].projection = EWA_ORTHOGRAPHIC;
+    received all = {.count = 0};
+    assert_int_equal(ewa_camera_save_list(context, cameras, 3, path), EWA_OK);
+    assert_int_equal(ewa_camera_load_each(context, path, receive, &all), EWA_OK);
+    assert_int_equal(all.count, 3);
+    assert_memory_equal(all.cameras, cameras, sizeof cameras);
+    cameras[2].fx_px = -1;
+    assert_int_equal(ewa_camera_save_list(context, cameras, 3, path), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_camera_save_list(context, cameras, 0, path), EWA_ERROR_ARGUMENT);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs("[{\"width\": 2}]", file);
+    fclose(file);
+    all.count = 0;
+    assert_int_equal(ewa_camera_load_each(context, path, receive, &all), EWA_ERROR_FORMAT);
+    assert_int_equal(all.count, 0);
+    ewa_context_destroy(&context);
+}
+
 static void test_refuses_to_write_nonsense(void **state) {
     (void)state;
     check_log log = {0};
@@ -478,6 +522,7 @@ int main(void) {
         cmocka_unit_test(test_transforms_lens),
         cmocka_unit_test(test_messages_name_the_member),
         cmocka_unit_test(test_every_truncation_is_refused),
+        cmocka_unit_test(test_list),
         cmocka_unit_test(test_refuses_to_write_nonsense),
         cmocka_unit_test(test_colmap),
         cmocka_unit_test(test_broken_colmap),

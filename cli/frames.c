@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Many pictures of one cloud: turntables and camera paths, numbered files and films.
+#include "frames.h"
+#include "pattern.h"
+#include "video.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const cli_option frames_table[] = {
+    {.key = "turntable",
+     .kind = OPTION_INTEGER,
+     .offset = offsetof(frames_arguments, turntable),
+     .value = "N",
+     .range = "[1, 1000000]",
+     .absent = "one picture",
+     .help =
+         "N frames of one turn about the up axis through --target, starting at the view that the options "
+         "of the camera give. Without --eye and --camera, the distance is such that all is in every frame"},
+    {.key = "path",
+     .kind = OPTION_TEXT,
+     .offset = offsetof(frames_arguments, path_file),
+     .value = "FILE",
+     .help = "one frame for each camera of a file, in its order; formats as --camera"},
+    {.key = "frames",
+     .kind = OPTION_INTEGER,
+     .offset = offsetof(frames_arguments, path_frames),
+     .value = "N",
+     .range = "[1, 1000000]",
+     .absent = "the cameras as they are",
+     .help = "N frames on a smooth way through the cameras of --path, which are evenly spaced in time"},
+    {.key = "loop",
+     .kind = OPTION_FLAG,
+     .offset = offsetof(frames_arguments, loop),
+     .help = "with --frames: the way goes on from the last camera to the first"},
+    {.key = "fps",
+     .kind = OPTION_NUMBER,
+     .offset = offsetof(frames_arguments, frames_per_s),
+     .value = "F",
+     .range = "(0, 1000]",
+     .absent = "30",
+     .help = "frames per second of a film"},
+    {.key = "quality",
+     .kind = OPTION_INTEGER,
+     .offset = offsetof(frames_arguments, quality),
+     .value = "Q",
+     .range = "[0, 100]",
+     .absent = "75",
+     .help = "quality of a film, from 0 (small) to 100 (good)"},
+};
+
+const option_group frames_options = {"Frames", frames_table, sizeof frames_table / sizeof frames_table[0]};
+
+void frames_set_defaults(frames_arguments *arguments) {
+    view_set_defaults(&arguments->view);
+    arguments->quality = -1;
+}
+
+bool frames_many(const frames_arguments *arguments) { return arguments->turntable || arguments->path_file; }
+
+/// What is wrong with the output of several frames or one; NULL: nothing.
+static const char *check_output(const frames_arguments *arguments, const char *output, bool opaque) {
+    const video_format *film = video_find_format(output);
+    if (!film && (arguments->frames_per_s > 0 || arguments->quality >= 0))
+        return "--fps and --quality are for films: -o FILE.mp4, .webm, .mkv or .gif";
+    if (film && !video_has_quality(film) && arguments->quality >= 0)
+        return "--quality: .gif has one quality only";
+    if (film && !frames_many(arguments)) return "--output: a film needs --turntable or --path";
+    if (film && !video_has_alpha(film) && !opaque)
+        return "--background: this film has no transparency; .webm has, and so have numbered pictures";
+    if (!film && frames_many(arguments) && !pattern_is_numbered(output))
+        return "--output: frames go to a film (.mp4, .webm, .mkv, .gif) or to numbered files: one %d, %4d or "
+               "%04d in the name, %% for a percent sign";
+    return NULL;
+}
+
+bool frames_check(const frames_arguments *arguments, const char *output, bool opaque,
+                  char message[OPTION_ERROR_BYTES]) {
+    const view_arguments *view = &arguments->view;
+    const char *wrong = NULL;
+    if (arguments->turntable && arguments->path_file)
+        wrong = "--turntable and --path exclude each other";
+    else if (arguments->path_frames && !arguments->path_file)
+        wrong = "--frames needs --path";
+    else if (arguments->loop && !arguments->path_frames)
+        wrong = "--loop needs --frames";
+    else if (arguments->path_file && view_is_placed(view))
+        wrong = "--path excludes every other option of the camera but --size";
+    else
+        wrong = check_output(arguments, output, opaque);
+    if (wrong) snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
+    return !wrong && view_check(view, message);
+}
+
+/// Makes room for cameras; false after reporting.
+static bool allocate(cli_session *session, size_t count, frame_cameras *frames) {
+    frames->cameras = calloc(count, sizeof *frames->cameras);
+    frames->count = count;
+    if (!frames->cameras) session_fail(session, "out of memory for %zu cameras", count);
+    return frames->cameras != NULL;
+}
+
+static bool make_turntable(cli_session *session, const frames_arguments *arguments, const ewa_cloud *cloud,
+                           double radius_scale, frame_cameras *frames) {
+    const size_t count = (size_t)arguments->turntable;
+    ewa_camera first;
+    view_turn turn;
+    if (!allocate(session, count, frames) ||
+        !view_make(session, &arguments->view, cloud, radius_scale, &first, &turn))
+        return false;
+    ewa_status status = EWA_OK;
+    for (size_t i = 0; i < count && status == EWA_OK; i++) {
+        frames->cameras[i] = first;
+        status = ewa_camera_orbit(&frames->cameras[i], turn.pivot_world, turn.axis_world,
+                                  360 * (double)i / (double)count);
+    }
+    if (status != EWA_OK) session_failed(session, status);
+    return status == EWA_OK;
+}
+
+/// Cameras as they come from a file.
+typedef struct camera_keys {
+    ewa_camera *cameras;
+    size_t count, capacity;
+    bool full; // out of memory
+} camera_keys;
+
+static void take_key(void *user, uint32_t index, const ewa_camera *camera) {
+    (void)index;
+    camera_keys *keys = user;
+    if (keys->count == keys->capacity && !keys->full) {
+        const size_t capacity = keys->capacity ? 2 * keys->capacity : 64;
+        ewa_camera *larger = realloc(keys->cameras, capacity * sizeof *larger);
+        keys->full = !larger;
+        if (!larger) return;
+        keys->cameras = larger;
+        keys->capacity = capacity;
+    }
+    if (!keys->full) keys->cameras[keys->count++] = *camera;
+}
+
+/// Puts frames on the smooth way through the keys.
+static ewa_status interpolate(cli_session *session, const frames_arguments *arguments,
+                              const camera_keys *keys, frame_cameras *frames) {
+    ewa_camera_path *path = NULL;
+    ewa_status status =
+        ewa_camera_path_create(session->context, keys->cameras, keys->count, arguments->loop, &path);
+    // A loop's last frame is the one before the first.
+    const double length = (double)keys->count - !arguments->loop;
+    const double steps = arguments->loop ? (double)frames->count : (double)frames->count - 1;
+    for (size_t i = 0; i < frames->count && status == EWA_OK; i++)
+        status = ewa_camera_path_at(path, i ? length * (double)i / steps : 0, &frames->cameras[i]);
+    ewa_camera_path_destroy(&path);
+    return status;
+}
+
+static bool make_path(cli_session *session, const frames_arguments *arguments, frame_cameras *frames) {
+    camera_keys keys = {.count = 0};
+    session->subject = arguments->path_file;
+    ewa_status status = ewa_camera_load_each(session->context, arguments->path_file, take_key, &keys);
+    if (keys.full) status = EWA_ERROR_MEMORY;
+    for (size_t i = 0; i < keys.count && status == EWA_OK; i++) {
+        view_resize(&keys.cameras[i], &arguments->view.size);
+        status = ewa_camera_check(session->context, &keys.cameras[i]);
+    }
+    if (status == EWA_OK && arguments->path_frames) {
+        status = allocate(session, (size_t)arguments->path_frames, frames) ? EWA_OK : EWA_ERROR_MEMORY;
+        if (status == EWA_OK) status = interpolate(session, arguments, &keys, frames);
+        free(keys.cameras);
+    } else {
+        *frames = (frame_cameras){keys.cameras, keys.count};
+    }
+    if (status != EWA_OK) session_failed(session, status);
+    session->subject = NULL;
+    return status == EWA_OK;
+}
+
+bool frames_make(cli_session *session, const frames_arguments *arguments, const ewa_cloud *cloud,
+                 double radius_scale, frame_cameras *frames) {
+    *frames = (frame_cameras){.count = 0};
+    if (arguments->path_file) return make_path(session, arguments, frames);
+    if (arguments->turntable) return make_turntable(session, arguments, cloud, radius_scale, frames);
+    return allocate(session, 1, frames) &&
+           view_make(session, &arguments->view, cloud, radius_scale, frames->cameras, NULL);
+}
+
+void frames_free(frame_cameras *frames) {
+    free(frames->cameras);
+    *frames = (frame_cameras){.count = 0};
+}

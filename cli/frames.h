@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Many pictures of one cloud: turntables and camera paths, numbered files and films.
+#ifndef EWA_CLI_FRAMES_H
+#define EWA_CLI_FRAMES_H
+
+#include "view.h"
+
+/// Options of the frames, first in the arguments of a command that has them.
+typedef struct frames_arguments {
+    view_arguments view; // first: it begins with the common arguments
+    int64_t turntable;   ///< frames; 0: not asked for
+    const char *path_file;
+    int64_t path_frames; ///< 0: the cameras as they are
+    bool loop;
+    double frames_per_s; ///< 0: not given
+    int64_t quality;     ///< -1: not given
+} frames_arguments;
+
+extern const option_group frames_options;
+
+void frames_set_defaults(frames_arguments *arguments);
+
+/// Whether several pictures are asked for.
+bool frames_many(const frames_arguments *arguments);
+
+/// What is wrong with the options of camera and frames together and with the output, a numbered file or a
+/// film when there are several; see command.check.
+bool frames_check(const frames_arguments *arguments, const char *output, bool opaque,
+                  char message[OPTION_ERROR_BYTES]);
+
+/// The cameras of all frames, one when a single picture is asked for.
+typedef struct frame_cameras {
+    ewa_camera *cameras;
+    size_t count;
+} frame_cameras;
+
+/// Makes the cameras that the options ask for, looking at a cloud whose radii are drawn times `radius_scale`.
+/// Returns false after reporting; free in any case.
+bool frames_make(cli_session *session, const frames_arguments *arguments, const ewa_cloud *cloud,
+                 double radius_scale, frame_cameras *frames);
+void frames_free(frame_cameras *frames);
+
+#endif

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Names of numbered files, such as name_%04d.png.
+#ifndef EWA_CLI_PATTERN_H
+#define EWA_CLI_PATTERN_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/// Whether a path holds exactly one number: %d, %4d or %04d with a width of 1 to 9; %% stands for a percent
+/// sign, nothing else may follow one.
+bool pattern_is_numbered(const char *path);
+
+/// Writes the path with number `number` to `text`; false when it is longer than `text_bytes` allows.
+bool pattern_expand(const char *path, uint64_t number, size_t text_bytes, char *text);
+
+#endif

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Drawing one picture or many with one renderer, into files, numbered files or a film.
+#ifndef EWA_CLI_SEQUENCE_H
+#define EWA_CLI_SEQUENCE_H
+
+#include "picture.h"
+#include "render_report.h"
+
+/// Where the pictures go.
+typedef struct sequence_output {
+    const picture_paths *paths; ///< numbered ones have the place of their number
+    bool numbered;
+    const char *film; ///< NULL: none
+    double frames_per_s;
+    int quality; ///< of the film, 0 to 100
+    bool opaque; ///< alpha says nothing
+} sequence_output;
+
+/// Says in `message` which of the paths has no place for a number; returns false then.
+bool sequence_check_paths(const picture_paths *paths, char message[OPTION_ERROR_BYTES]);
+
+/// Whether the first frame's files can be created; false after reporting.
+bool sequence_check(cli_session *session, const picture_paths *paths);
+
+/// Draws a frame for each camera and writes it. Returns false after reporting; whole files stay, a film is
+/// removed then.
+bool sequence_draw(cli_session *session, const sequence_output *output, const frame_cameras *frames,
+                   const ewa_surfels *surfels, const ewa_render_options *options, render_report *report);
+
+#endif

@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// render: turntables, camera paths, numbered files, films. Films go through a stand-in for ffmpeg that notes
+// what it is asked for and counts bytes, and through the real one where it is installed.
+#include "run_ewa.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static ewa_context *context;
+
+/// Writes an ffmpeg of shell lines into the folder `name` of the scratch folder.
+static void stand_in(const char *name, const char *lines) {
+    char text[1024], path[256];
+    run("mkdir -p %s", name);
+    snprintf(text, sizeof text, "#!/bin/sh\n%s\n", lines);
+    snprintf(path, sizeof path, "%s/ffmpeg", name);
+    scratch_text(path, text);
+    run("chmod +x %s", path);
+}
+
+static int enter(void **state) {
+    (void)state;
+    context = check_context(0, NULL);
+    if (scratch_enter("cli_frames") != 0) return -1;
+    // The last word is file:PATH.
+    stand_in("fake", "printf '%s\\n' \"$@\" >words\nfor last; do :; done\nwc -c >\"${last#file:}\"");
+    stand_in("broken", "echo 'Unknown encoder' >&2\nexit 3");
+    stand_in("dying", "kill -9 $$");
+    return run("ewa generate torus -n 5000 -o torus.ply && ewa generate cube -n 3000 -o cube.ply");
+}
+
+static int leave(void **state) {
+    (void)state;
+    ewa_context_destroy(&context);
+    return 0;
+}
+
+static ewa_image load(const char *name) {
+    ewa_image image = {0};
+    assert_int_equal(ewa_image_load(context, scratch_path(name), &image), EWA_OK);
+    return image;
+}
+
+/// Whole in every frame, with little room to spare in the worst, and the first frame again after a full turn.
+static void test_turntable(void **state) {
+    (void)state;
+    static const char *const objects[] = {"torus", "cube"};
+    static const char *const views[] = {
+        "", "--elevation 30", "--view top", "--up 1,1,0.3", "--azimuth 45", "--target 0.3,0.2,0.1"};
+    for (size_t k = 0; k < 12; k++) {
+        run_done("rm -f f_*.exr; ewa render %s.ply -o f_%%02d.exr --turntable 7 --size 96x72 %s "
+                 "--background transparent",
+                 objects[k % 2], views[k / 2]);
+        assert_int_equal(scratch_size("f_07.exr"), -1);
+        double nearest = 1e9;
+        for (int i = 0; i < 7; i++) {
+            char name[32];
+            snprintf(name, sizeof name, "f_%02d.exr", i);
+            ewa_image image = load(name);
+            double border = 0;
+            uint32_t low_x = 96, high_x = 0, low_y = 72, high_y = 0;
+            for (uint32_t y = 0; y < 72; y++)
+                for (uint32_t x = 0; x < 96; x++) {
+                    const float alpha = image.pixels[4 * (y * 96 + x) + 3];
+                    if (x == 0 || x == 95 || y == 0 || y == 71) border += (double)alpha;
+                    if (alpha <= 0.5f) continue;
+                    low_x = x < low_x ? x : low_x;
+                    high_x = x > high_x ? x : high_x;
+                    low_y = y < low_y ? y : low_y;
+                    high_y = y > high_y ? y : high_y;
+                }
+            assert_true(border == 0);
+            nearest = fmin(nearest, fmin(fmin(low_x, 95 - high_x), fmin(low_y, 71 - high_y)));
+            ewa_image_free(&image);
+        }
+        assert_true(nearest < 14);
+    }
+}
+
+static void test_turntable_camera(void **state) {
+    (void)state;
+    // A quarter of the turn is what the camera sees from there: right-handed about up.
+    run_done(
+        "ewa render torus.ply -o q_%%d.png --turntable 4 --size 80x60 --eye 0,-5,1 --target 0,0,0 "
+        "--up 0,0,1 && ewa render torus.ply -o eye.png --size 80x60 --eye 5,0,1 --target 0,0,0 --up 0,0,1");
+    assert_true(scratch_same("q_1.png", "eye.png"));
+    // The cameras that were used, as a path, give the same frames; and so does a still with the same azimuth.
+    run_done(
+        "ewa render torus.ply -o a_%%d.png --turntable 6 --size 80x60 --elevation 20 --save-camera c.json && "
+        "ewa render torus.ply -o b_%%d.png --path c.json");
+    for (int i = 0; i < 6; i++) {
+        char a[16], b[16];
+        snprintf(a, sizeof a, "a_%d.png", i);
+        snprintf(b, sizeof b, "b_%d.png", i);
+        assert_true(scratch_same(a, b));
+    }
+    run_done("ewa render torus.ply -o c_%%d.png --turntable 2 --camera c.json");
+    assert_true(scratch_same("a_0.png", "c_0.png"));
+}
+
+static void test_path(void **state) {
+    (void)state;
+    run_done("ewa render torus.ply -o k_%%d.exr --turntable 4 --size 64x48 --save-camera keys.json && "
+             "ewa render torus.ply -o p_%%02d.exr --path keys.json --frames 8 --loop && "
+             "ewa render torus.ply -o o_%%02d.exr --path keys.json --frames 7 && "
+             "ewa render torus.ply -o s_%%02d.exr --path keys.json --size 128x96");
+    // Keys are met by every second frame of the loop and of the open way; the loop has its last step too.
+    assert_true(scratch_same("k_1.exr", "p_02.exr"));
+    assert_true(scratch_same("k_3.exr", "p_06.exr"));
+    assert_true(scratch_same("k_3.exr", "o_06.exr"));
+    assert_true(scratch_size("p_07.exr") > 0 && scratch_size("p_08.exr") == -1);
+    ewa_image image = load("s_03.exr");
+    assert_int_equal(image.width_px, 128);
+    ewa_image_free(&image);
+    // Each frame's own planes.
+    run_done("ewa render torus.ply -o r_%%d.png --path keys.json --aov depth=d_%%03d.pfm,normal=n%%d.exr");
+    assert_true(scratch_size("d_003.pfm") > 0 && scratch_size("n0.exr") > 0);
+}
+
+static void test_usage(void **state) {
+    (void)state;
+    static const struct {
+        const char *options, *said;
+    } cases[] = {
+        {"-o a.png --turntable 4", "--output|%04d"},
+        {"-o a_%d_%d.png --turntable 4", "--output|%04d"},
+        {"-o a_%s.png --turntable 4", "--output|%04d"},
+        {"-o a_%d.png --turntable 0", "--turntable|[1,"},
+        {"-o a_%d.png --turntable 4 --aov depth=d.pfm", "d.pfm|numbered"},
+        {"-o a_%d.png --turntable 4 --path c.json", "exclude"},
+        {"-o a_%d.png --frames 4", "--frames needs --path"},
+        {"-o a_%d.png --path c.json --loop", "--loop needs --frames"},
+        {"-o a_%d.png --path c.json --view top", "--path excludes"},
+        {"-o a_%d.png --turntable 4 --fps 20", "--fps"},
+        {"-o a.gif --turntable 4 --quality 20", "--quality"},
+        {"-o a.mp4", "--turntable or --path"},
+        {"-o a.mp4 --turntable 4 --background transparent", "transparency|.webm"},
+        {"-o a.png --eye 0,0,9 --azimuth 20", "--azimuth"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+        run_fails(2, cases[i].said, "ewa render torus.ply %s", cases[i].options);
+}
+
+static void test_stats(void **state) {
+    (void)state;
+    run_done("ewa render torus.ply -o t_%%d.png --turntable 3 --size 64x48 --stats s.json && "
+             "test $(grep -c render_s s.json) = 3 && grep -q '\"frame_count\": 3' s.json");
+    run_done("ewa render torus.ply -o t.png --size 64x48 --stats s.json && ! grep -q frame s.json");
+}
+
+/// What the stand-in is asked for, every byte of every frame, and nothing beside the film at the end.
+static void test_film(void **state) {
+    (void)state;
+    run_done("rm -rf films && mkdir films && PATH=$PWD/fake:$PATH && "
+             "ewa render torus.ply -o films/a.mp4 --turntable 5 --size 64x48 --fps 24 --quality 100 && "
+             "test $(cat films/a.mp4) = %d && test $(ls -A films) = a.mp4 && "
+             "grep -qx 64x48 words && grep -qx 24 words && grep -qx rgb0 words && grep -qx libx264 words && "
+             "grep -qx yuv420p words && grep -qx -- -crf words && grep -qx 10 words",
+             5 * 64 * 48 * 4);
+    run_done("PATH=$PWD/fake:$PATH && ewa render torus.ply -o 'films/b c:d.webm' --turntable 2 --size 31x17 "
+             "--background transparent && test $(cat 'films/b c:d.webm') = %d && grep -qx rgba words && "
+             "grep -qx yuva420p words && grep -qx 30 words",
+             2 * 31 * 17 * 4);
+    run_done("PATH=$PWD/fake:$PATH && ewa render torus.ply -o films/a.gif --turntable 2 --size 32x16 && "
+             "! grep -q -- -crf words && test $(ls -A films | wc -l) = 3");
+}
+
+static void test_film_fails(void **state) {
+    (void)state;
+    run_done("rm -rf films && mkdir films");
+    // Under PATH=/nonexistent the shell finds its own commands only.
+    run_fails(1, "a.mp4|ffmpeg|not in PATH",
+              "PATH=/nonexistent; ewa render torus.ply -o films/a.mp4 --turntable 5");
+    run_fails(1, "a.mp4|status 3|Unknown encoder",
+              "PATH=$PWD/broken:$PATH && ewa render torus.ply -o films/a.mp4 --turntable 40 --size 320x240");
+    run_fails(1, "a.mp4|signal 9",
+              "PATH=$PWD/dying:$PATH && ewa render torus.ply -o films/a.mp4 --turntable 40 --size 320x240");
+    run_fails(1, "nowhere", "PATH=$PWD/fake:$PATH && ewa render torus.ply -o nowhere/a.mp4 --turntable 4");
+    // One frame among those that are written at the same time cannot be: said once.
+    run("mkdir blocked_3.png");
+    run_fails(1, "blocked_3.png", "ewa render torus.ply -o blocked_%%d.png --turntable 9 --size 64x48");
+    assert_ptr_equal(strchr(last_run.err, '\n'), last_run.err + strlen(last_run.err) - 1);
+    // Frames of two sizes.
+    run_done("ewa render torus.ply -o x_%%d.png --turntable 2 --size 64x48 --save-camera k.json && "
+             "sed '0,/\"width\": 64/s//\"width\": 60/' k.json >sizes.json && "
+             "ewa render torus.ply -o y_%%d.png --path sizes.json");
+    run_fails(1, "one size|60 x 48|--size",
+              "PATH=$PWD/fake:$PATH && ewa render torus.ply -o films/a.mp4 --path sizes.json");
+    run_fails(1, "camera path|key 1", "ewa render torus.ply -o y_%%d.png --path sizes.json --frames 4");
+    assert_int_equal(run("test $(ls -A films | wc -l) = 0"), 0);
+}
+
+/// An interrupt removes the film and what was begun, and ends by the signal.
+static void test_interrupt(void **state) {
+    (void)state;
+    run("rm -rf films && mkdir films");
+    const int ended =
+        run("PATH=$PWD/fake:$PATH; $EWA_PROGRAM render torus.ply -o films/a.mp4 --turntable 100000 "
+            "--size 640x480 & sleep 0.7; kill -TERM $!; wait $!");
+    assert_int_equal(ended, 128 + 15);
+    assert_int_equal(run("sleep 0.2; test $(ls -A films | wc -l) = 0"), 0);
+}
+
+static void test_real_film(void **state) {
+    (void)state;
+    if (run("command -v ffmpeg && command -v ffprobe") != 0) skip();
+    static const char *const films[] = {"a.mp4", "a.mkv", "a.webm"};
+    run("rm -rf films && mkdir films");
+    for (size_t i = 0; i < 3; i++) {
+        run_done("ewa render torus.ply -o films/%s --turntable 6 --size 65x48", films[i]);
+        run_done(
+            "ffprobe -v error -count_frames -show_entries stream=width,height,nb_read_frames,color_space "
+            "-of csv=p=0 films/%s",
+            films[i]);
+        assert_string_equal(last_run.out, "66,48,bt709,6\n");
+    }
+    // The middle frame comes back in its colours.
+    run_done("ewa render torus.ply -o films/b.mp4 --turntable 4 --size 128x96 --quality 100 && "
+             "ewa render torus.ply -o f_%%d.png --turntable 4 --size 128x96 && "
+             "ffmpeg -v error -i films/b.mp4 -vf 'select=eq(n\\,2)' -frames:v 1 back.png");
+    ewa_image film = load("back.png"), frame = load("f_2.png");
+    double mean = 0;
+    for (size_t i = 0; i < 128 * 96 * 3; i++)
+        mean += fabs((double)ewa_srgb_from_linear(film.pixels[i]) -
+                     (double)ewa_srgb_from_linear(frame.pixels[i])) /
+                (128 * 96 * 3);
+    assert_true(mean < 0.02);
+    ewa_image_free(&film);
+    ewa_image_free(&frame);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_turntable),  cmocka_unit_test(test_turntable_camera),
+        cmocka_unit_test(test_path),       cmocka_unit_test(test_usage),
+        cmocka_unit_test(test_stats),      cmocka_unit_test(test_film),
+        cmocka_unit_test(test_film_fails), cmocka_unit_test(test_interrupt),
+        cmocka_unit_test(test_real_film),
+    };
+    return cmocka_run_group_tests(tests, enter, leave);
+}
