@@ -72,6 +72,9 @@ static void test_road_holds(void **state) {
         hold(kinds[i], &o, 255, false, "three layers, no edges, no shading");
         o.layers = 1;
         hold(kinds[i], &o, 0, false, "one layer");
+        ewa_render_options_init(&o, sizeof o);
+        o.opacity = 0.4, o.layers = 3, o.kernel = EWA_KERNEL_RAYCAST;
+        hold(kinds[i], &o, 50, false, "raycast, three layers");
     }
     ewa_render_options o;
     ewa_render_options_init(&o, sizeof o);
