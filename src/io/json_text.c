@@ -10,12 +10,11 @@ enum {
     MAX_FILE_BYTES = 1 << 26,
 };
 
-static ewa_status fail_syntax(ewa_context *context, const char *name, const uint8_t *bytes,
-                              const uint8_t *at) {
+static ewa_status fail_syntax(ewa_context *context, const char *name, const char *text, const char *at) {
     size_t line = 1, column = 1;
-    for (; bytes < at; bytes++) {
-        column = *bytes == '\n' ? 1 : column + 1;
-        line += *bytes == '\n';
+    for (; text < at; text++) {
+        column = *text == '\n' ? 1 : column + 1;
+        line += *text == '\n';
     }
     return ewa_fail(context, EWA_ERROR_FORMAT, "%s:%zu:%zu: not JSON from here on", name, line, column);
 }
@@ -32,7 +31,7 @@ ewa_status ewa_json_parse(ewa_context *context, const char *name, const char *wh
     while (parsed && end < last && (*end == ' ' || *end == '\t' || *end == '\r' || *end == '\n')) end++;
     if (!parsed || end != last) {
         cJSON_Delete(parsed);
-        return fail_syntax(context, name, bytes, (const uint8_t *)(end < last ? end : last));
+        return fail_syntax(context, name, text, end < last ? end : last);
     }
     *root = parsed;
     return EWA_OK;

@@ -150,7 +150,9 @@ static void add_level(const ewa_environment_level *level, float u, float v, floa
             turn = level->width / 2; // over the pole
         }
         for (int column = 0; column < 2; column++) {
-            const int64_t texel_x = ((int64_t)x_floor + column + turn + level->width) % level->width;
+            int64_t texel_x = (int64_t)x_floor + column + turn; // in [-1, 2 width)
+            if (texel_x < 0) texel_x += level->width;
+            if (texel_x >= level->width) texel_x -= level->width;
             const float *texel = level->texels + 3 * ((size_t)texel_y * level->width + (size_t)texel_x);
             const float share = weight * (row ? share_y : 1 - share_y) * (column ? share_x : 1 - share_x);
             for (int c = 0; c < 3; c++) light[c] += share * texel[c];
