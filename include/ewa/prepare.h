@@ -123,6 +123,55 @@ EWA_API void ewa_csg_options_init(ewa_csg_options *options, size_t struct_size);
 EWA_API ewa_status ewa_cloud_csg(const ewa_cloud *a, const ewa_cloud *b, const ewa_csg_options *options,
                                  ewa_cloud **result);
 
+/// How edges and corners are found. Fill with ewa_feature_options_init().
+typedef struct ewa_feature_options {
+    size_t struct_size;
+    uint32_t neighbour_count; ///< k, the point itself not counted: 16 to 64, or 0: 24 for exact points up to
+                              ///< 64 for noisy ones; default 0
+    double angle_deg; ///< least angle between the normals of two planes that meet in an edge; [10, 120];
+                      ///< default 30
+    double noise;  ///< standard deviation of the points from the surface in units of the spacing; [0, 1], or
+                   ///< negative: measured; default -1
+    double cutoff; ///< F: axes made of "radius" are radius / F long; default 3
+    bool project;  ///< move the points of an edge onto their plane; default true
+} ewa_feature_options;
+
+EWA_API void ewa_feature_options_init(ewa_feature_options *options, size_t struct_size);
+
+/// What was found.
+typedef struct ewa_feature_counts {
+    uint64_t snapped_count; ///< points whose normal is now that of their plane
+    uint64_t edge_count;    ///< of them: with one clip line
+    uint64_t corner_count;  ///< of them: with two
+    double noise;           ///< of the points, in units of the spacing
+    uint32_t neighbour_count;
+} ewa_feature_counts;
+
+/// Finds sharp edges and corners of a sampled surface and cuts the surfels there: "clip0", "clip1",
+/// "clip_mode".
+///
+/// - Neighbourhoods that are not flat are explained by two or three planes, and by a quadric; planes win
+/// where
+///   they leave clearly less of the points. Neighbours vote: lines that half of the points along them do not
+///   confirm are dropped, planes of neighbours that agree are averaged.
+/// - A point beside an edge gets the normal of its own plane, is moved onto it (`project`), and gets axes of
+/// the
+///   size that it had: along the line and across, longer across, because behind the line nothing adds to the
+///   coverage. The line is where the planes meet; two lines, for a corner, hold both or either.
+/// - All other points keep the bytes of their positions, normals and colours. "radius" becomes axes of the
+/// same
+///   size, because clip lines belong to axes. Without edges the cloud stays as it was, but for older clip
+///   lines.
+/// - Points with coordinates that are not finite stay as they are. Positions and normals of integers become
+/// floats.
+///
+/// The cloud needs "position", "normal", and "radius" or tangent axes (ewa_cloud_estimate()); normals have to
+/// agree along the surface. `counts` may be NULL. The result does not depend on threads or instruction sets.
+/// After a failure the cloud may lack the streams that were to be made. Errors: EWA_ERROR_ARGUMENT,
+/// EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_CANCELLED. One thread per context. Cost: docs/features.md.
+EWA_API ewa_status ewa_cloud_detect_features(ewa_cloud *cloud, const ewa_feature_options *options,
+                                             ewa_feature_counts *counts);
+
 /// Test objects, centred at the origin. Plane, checker and terrain lie in x-y, z up.
 typedef enum ewa_object {
     EWA_OBJECT_PLANE = 0,   ///< light grey square
