@@ -105,8 +105,9 @@ typedef struct ewa_clip {
 
 /// A splat of a run that has clip lines.
 typedef struct ewa_clipped {
-    uint32_t record; ///< in the run
-    uint32_t surfel; ///< packet * 16 + lane
+    uint32_t record;            ///< in the run
+    uint32_t surfel;            ///< packet * 16 + lane
+    float center[3], normal[3]; ///< camera space
 } ewa_clipped;
 
 /// A surfel that touches the eye plane, by pixel rays: U, V, W are linear in the tile's pixel coordinates;

@@ -6,6 +6,7 @@
 #ifndef EWA_SRC_KERNELS_ROAD_EDGES_H
 #define EWA_SRC_KERNELS_ROAD_EDGES_H
 
+#include "kernels/road_near.h"
 #include "kernels/road_resolve.h"
 
 static size_t block_at(const ewa_tile *tile, uint32_t row, uint32_t column) {

@@ -263,12 +263,18 @@ static ALWAYS_INLINE void emit(ewa_run *run, uint32_t alive_bits, const wf recor
 }
 
 /// Notes the records that the next emit() makes of clipped lanes.
-static ALWAYS_INLINE void list_clipped(ewa_run *run, uint32_t clipped_bits, uint32_t alive_bits,
-                                       uint32_t id) {
+static void list_clipped(ewa_run *run, uint32_t clipped_bits, uint32_t alive_bits, uint32_t id,
+                         const stage *t) {
+    float center[3][16], normal[3][16];
+    for (int k = 0; k < 3; k++) wf_store(center[k], t->p[k]), wf_store(normal[k], t->n[k]);
     for (; clipped_bits; clipped_bits &= clipped_bits - 1) {
         const uint32_t lane = (uint32_t)__builtin_ctz(clipped_bits);
         const uint32_t before = (uint32_t)__builtin_popcount(alive_bits & ((1u << lane) - 1));
-        run->clipped[run->clipped_count++] = (ewa_clipped){run->count + before, id * EWA_PACKET_LANES + lane};
+        run->clipped[run->clipped_count++] =
+            (ewa_clipped){run->count + before,
+                          id * EWA_PACKET_LANES + lane,
+                          {center[0][lane], center[1][lane], center[2][lane]},
+                          {normal[0][lane], normal[1][lane], normal[2][lane]}};
     }
 }
 
@@ -369,7 +375,8 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
              t->peak);
     uint8_t classes[16];
     wi_store_u8(classes, select_int(clipped, EWA_CLIP_CLASS, box_classes(columns, rows, steep, wide)));
-    list_clipped(run, wm_bits(wm_and(alive, clipped)), alive_bits, id);
+    if (wm_bits(wm_and(alive, clipped)))
+        list_clipped(run, wm_bits(wm_and(alive, clipped)), alive_bits, id, t);
     float opacities[16];
     wf_store(opacities, opacity);
     emit(run, alive_bits, lanes, loads, opacities, classes);

@@ -53,10 +53,19 @@
 // Over the background (straight alpha bg): rgb = colour alpha + bg_rgb bg_a (1 - alpha), a = alpha + bg_a (1
 // - alpha). rgba8: divided by its alpha (black when 0), sRGB curve, rounded to nearest.
 //
-// Edge layers: where alpha < 1 and there is something, the splats with z > B(x) make the next surface by the
-// same rules, and so on up to edge_layers surfaces, composited front to back before the background; depth,
-// normal and coverage are the first one's. One layer is math.md section 7, where the background shines
-// through silhouettes inside the object.
+// Clip lines (math.md section 5): each pixel keeps the share clamp(1/2 + d, 0, 1) of a splat's weight, d how
+// far inside the line on the screen its centre is, in pixels; of two lines the smaller share (clip_mode 1:
+// the larger). A share of 0 does not count. math.md keeps where d >= 0; a share that falls over one pixel
+// antialiases the edge, and the shares of two surfaces that are clipped by one line add up to 1.
+//
+// Opacity: a surface whose weights are q has the opacity A = (sum of weight opacity) / q times the options',
+// and alpha min(1, q / (tau q0)) A; its colour is the mean by weight opacity. Opaque surfaces have A = 1.
+//
+// Layers: where alpha < 1 and there is something, the splats with z > B(x) make the next surface by the same
+// rules, and so on, composited front to back before the background; depth, normal and coverage are the first
+// one's. Opaque surfaces go on at their antialiased edges, up to edge_layers surfaces (one layer is math.md
+// section 7, where the background shines through silhouettes inside the object); transparent ones everywhere,
+// until nothing is left, or up to L surfaces of which the last takes all that is left: B(x) is infinite then.
 #ifndef EWA_SRC_KERNELS_SEMANTICS_H
 #define EWA_SRC_KERNELS_SEMANTICS_H
 

@@ -161,8 +161,8 @@ static void prepare_run(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_
     sort_run(&s->run, s->order + at, sorted);
     sorted->clips = s->clips ? s->clips + at : NULL;
     for (uint32_t i = 0; i < s->run.clipped_count; i++)
-        ewa_clip_set(&s->clips[at + s->run.clipped[i].record], job->surfels, s->run.clipped[i].surfel,
-                     &job->view, tile);
+        ewa_clip_set(&s->clips[at + s->run.clipped[i].record], job->surfels, &s->run.clipped[i], &job->view,
+                     tile);
 }
 
 static void visit_run(const ewa_tile_job *job, const ewa_tile *tile, const ewa_sorted_run *run,

@@ -174,15 +174,12 @@ static void set_clip_line(float line[3], ewa_vec3 g, double d, ewa_vec3 n, ewa_v
     }
 }
 
-void ewa_clip_set(ewa_clip *clip, const ewa_surfels *surfels, uint32_t surfel, const ewa_view *view,
+void ewa_clip_set(ewa_clip *clip, const ewa_surfels *surfels, const ewa_clipped *splat, const ewa_view *view,
                   const ewa_tile *tile) {
-    const ewa_surfel_clip *from = find_clip(surfels, surfel);
-    ewa_packet_surfel s;
-    ewa_packet_decode(surfels, surfel / EWA_PACKET_LANES, surfel % EWA_PACKET_LANES, &s);
-    const double scale = (double)view->scale;
-    const ewa_vec3 shift =
-        vec3_make((double)view->translation[0], (double)view->translation[1], (double)view->translation[2]);
-    const ewa_vec3 n = turn(view, s.normal, 1), p = vec3_add(turn(view, s.center, scale), shift);
+    const ewa_surfel_clip *from = find_clip(surfels, splat->surfel);
+    const float *p = splat->center, *n = splat->normal;
+    const ewa_vec3 center = vec3_make((double)p[0], (double)p[1], (double)p[2]);
+    const ewa_vec3 normal = vec3_make((double)n[0], (double)n[1], (double)n[2]);
     clip->either = from->either;
     for (int k = 0; k < 2; k++) {
         const float *g = from->toward[k];
@@ -191,8 +188,8 @@ void ewa_clip_set(ewa_clip *clip, const ewa_surfels *surfels, uint32_t surfel, c
             continue;
         }
         const ewa_vec3 toward = vec3_make((double)g[0], (double)g[1], (double)g[2]);
-        set_clip_line(clip->line[k], turn(view, toward, 1), scale * (double)from->offset[k], n, p, view,
-                      tile);
+        set_clip_line(clip->line[k], turn(view, toward, 1), (double)view->scale * (double)from->offset[k],
+                      normal, center, view, tile);
     }
 }
 
@@ -236,6 +233,11 @@ bool ewa_near_record_set(ewa_near_record *record, const ewa_surfels *surfels, ui
     record->opacity = (float)opacity;
     const uint32_t packet = surfel / EWA_PACKET_LANES, lane = surfel % EWA_PACKET_LANES;
     record->clipped = surfels->clip_masks && surfels->clip_masks[packet] >> lane & 1;
-    if (record->clipped) ewa_clip_set(&record->clip, surfels, surfel, view, tile);
+    if (record->clipped) {
+        const ewa_clipped splat = {.surfel = surfel,
+                                   .center = {(float)p.x, (float)p.y, (float)p.z},
+                                   .normal = {(float)n.x, (float)n.y, (float)n.z}};
+        ewa_clip_set(&record->clip, surfels, &splat, view, tile);
+    }
     return true;
 }

@@ -20,8 +20,8 @@ void ewa_resolve_set(ewa_resolve *resolve, const ewa_surfels *surfels, const ewa
 bool ewa_near_record_set(ewa_near_record *record, const ewa_surfels *surfels, uint32_t surfel,
                          const ewa_view *view, const ewa_tile *tile);
 
-/// Sets the clip lines of a surfel that has some, on the screen of a tile.
-void ewa_clip_set(ewa_clip *clip, const ewa_surfels *surfels, uint32_t surfel, const ewa_view *view,
+/// Sets the clip lines of a surfel that has some, on the screen of a tile; splat->record is not used.
+void ewa_clip_set(ewa_clip *clip, const ewa_surfels *surfels, const ewa_clipped *splat, const ewa_view *view,
                   const ewa_tile *tile);
 
 #endif
