@@ -69,8 +69,8 @@ static const cli_option work_table[] = {
     {.key = "shading",
      .kind = OPTION_CHOICE,
      .offset = AT(shading),
-     .range = "none|lambert",
-     .help = "lambert needs normals in each pixel, none does not"},
+     .range = "none|lambert|phong",
+     .help = "lambert and phong need normals in each pixel, none does not"},
     {.key = "edge-layers",
      .kind = OPTION_INTEGER,
      .offset = AT(edge_layers),
@@ -281,7 +281,10 @@ const cli_command bench_command = {
                "seen from behind, and hidden. points: a plane of discs of a quarter of a pixel. culled: one "
                "sheet shows its back, another lies beside the picture. closed: three spheres one inside "
                "another, so that half of the splats show their backs and a third are hidden. seen: as many, "
-               "all on the side that is seen. peer: sphere and torus, closed. Back faces are culled in "
+               "all on the side that is seen. peer: sphere and torus, closed. layers: the same without "
+               "culling, opaque, in 3 "
+               "transparent layers, in all, with 1 edge layer, without edges, without light; beside each "
+               "what it is of the first. Back faces are culled in "
                "hidden, culled, closed, seen and peer. ratio: how many times faster than one thread, by "
                "lower quartiles. B/pt: resident bytes per point. Goals and the times of the best other "
                "program stand beside the figures that have them.",

@@ -8,11 +8,31 @@
 #include "bench_frames.h"
 
 #include <stdlib.h>
+#include <string.h>
 
-enum { WARM_FRAMES = 2 };
+enum { WARM_FRAMES = 2, MAX_WAYS = 6 };
 
-/// One context, what it draws with, what it measured.
+/// A way of drawing that costs more or less than another.
+typedef struct bench_way {
+    const char *name;
+    double opacity;
+    uint32_t layers, edge_layers; ///< 0: the default, as the command line says
+    bool without_edges, without_light;
+} bench_way;
+
+/// The first is what the command line says and what the others are compared with.
+static const bench_way all_ways[MAX_WAYS] = {
+    {.name = "opaque", .opacity = 1},
+    {.name = "3 layers", .opacity = 0.5, .layers = 3},
+    {.name = "exact", .opacity = 0.5, .layers = EWA_LAYERS_EXACT},
+    {.name = "1 edge layer", .opacity = 1, .edge_layers = 1},
+    {.name = "no edges", .opacity = 1, .without_edges = true},
+    {.name = "no light", .opacity = 1, .without_light = true},
+};
+
+/// One context, what it draws with and how, what it measured.
 typedef struct bench_lane {
+    const bench_way *way; ///< NULL: as the command line says, the only one
     const bench_sets *sets;
     ewa_context *context;
     ewa_surfels *surfels;
@@ -59,8 +79,16 @@ static bool draw_frame(cli_session *session, bench_lane *lane, const ewa_camera 
                        const ewa_render_options *render, uint8_t *rgba8, int64_t frame) {
     const ewa_frame planes = {.rgba8 = rgba8};
     ewa_render_stats *last = &lane->last;
+    ewa_render_options options = *render;
+    if (lane->way) {
+        options.opacity = lane->way->opacity;
+        options.layers = lane->way->layers;
+        if (lane->way->edge_layers) options.edge_layers = lane->way->edge_layers;
+        if (lane->way->without_edges) options.edge_antialiasing = false;
+        if (lane->way->without_light) options.shading = EWA_SHADING_NONE;
+    }
     const double started_s = clock_now_s();
-    const ewa_status status = ewa_render(lane->renderer, lane->surfels, camera, render, &planes, last);
+    const ewa_status status = ewa_render(lane->renderer, lane->surfels, camera, &options, &planes, last);
     const double took_s = clock_now_s() - started_s;
     if (status != EWA_OK) {
         session_failed(session, status);
@@ -74,15 +102,15 @@ static bool draw_frame(cli_session *session, bench_lane *lane, const ewa_camera 
     return true;
 }
 
-static void report(const bench_plan *plan, const bench_scene *scene, bench_lane *lanes,
+static void report(const bench_plan *plan, const bench_scene *scene, bench_lane *lanes, size_t lane_count,
                    const bench_sink *sink) {
     const double clock_ghz = bench_clock_ghz();
-    const size_t lane_count = plan->thread_counts * plan->set_count;
-    bench_frame_row rows[OPTION_VECTOR_MAX * BENCH_MAX_SETS];
+    bench_frame_row rows[OPTION_VECTOR_MAX * BENCH_MAX_SETS * MAX_WAYS];
     for (size_t i = 0; i < lane_count; i++) {
         bench_lane *lane = &lanes[i];
         bench_frame_row *row = &rows[i];
         *row = (bench_frame_row){.scene = scene,
+                                 .way = lane->way ? lane->way->name : NULL,
                                  .cpu = lane->sets->name,
                                  .threads = ewa_context_worker_count(lane->context),
                                  .total = bench_summarise(lane->total_s, plan->frame_count),
@@ -94,6 +122,12 @@ static void report(const bench_plan *plan, const bench_scene *scene, bench_lane 
     }
     for (size_t i = 0; i < lane_count; i++) {
         for (size_t k = 0; k < lane_count; k++) {
+            if (lanes[k].way != lanes[i].way) {
+                if (lanes[k].way == all_ways && rows[k].cpu == rows[i].cpu &&
+                    rows[k].threads == rows[i].threads)
+                    rows[i].first_way_s = rows[k].total.quartile;
+                continue;
+            }
             if (rows[k].cpu == rows[i].cpu && rows[k].threads == 1 && rows[i].threads > 1)
                 rows[i].one_thread_s = rows[k].total.quartile;
             if (rows[k].cpu == plan->sets[0].name && rows[i].cpu != rows[k].cpu &&
@@ -106,20 +140,31 @@ static void report(const bench_plan *plan, const bench_scene *scene, bench_lane 
 
 bool bench_frames(cli_session *session, const bench_plan *plan, const bench_scene *scene,
                   const ewa_render_options *render, uint8_t *rgba8, const bench_sink *sink) {
-    const size_t lane_count = plan->thread_counts * plan->set_count;
+    const size_t way_count = scene->in_all_ways ? MAX_WAYS : 1;
+    const size_t lane_count = way_count * plan->thread_counts * plan->set_count;
     bench_lane *lanes = calloc(lane_count, sizeof *lanes);
     bool done = lanes != NULL;
     if (!done) session_fail(session, "out of memory for %zu measurements", lane_count);
-    for (size_t i = 0; done && i < lane_count; i++)
-        done = open_lane(session, &lanes[i], &plan->sets[i / plan->thread_counts],
-                         plan->threads[i % plan->thread_counts], scene->cloud);
+    for (size_t i = 0; done && i < lane_count; i++) {
+        const size_t count = i / way_count;
+        if (scene->in_all_ways) lanes[i].way = &all_ways[i % way_count];
+        done = open_lane(session, &lanes[i], &plan->sets[count / plan->thread_counts],
+                         plan->threads[count % plan->thread_counts], scene->cloud);
+    }
     ewa_render_options options = *render;
     options.cull = scene->cull;
     if (scene->color_only) options.shading = EWA_SHADING_NONE;
+    if (scene->glossy) {
+        options.shading = EWA_SHADING_PHONG;
+        static const double direction[3] = {0.3, -0.2, 1};
+        options.light_count = 1;
+        ewa_light_init(&options.lights[0]);
+        memcpy(options.lights[0].direction_world, direction, sizeof direction);
+    }
     for (int64_t frame = -WARM_FRAMES; done && frame < (int64_t)plan->frame_count; frame++)
         for (size_t i = 0; done && i < lane_count; i++)
             done = draw_frame(session, &lanes[i], &scene->camera, &options, rgba8, frame);
-    if (done) report(plan, scene, lanes, sink);
+    if (done) report(plan, scene, lanes, lane_count, sink);
     for (size_t i = 0; lanes && i < lane_count; i++) close_lane(&lanes[i]);
     free(lanes);
     return done;

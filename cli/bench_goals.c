@@ -19,6 +19,17 @@ static const struct frame_goal {
     {"large", 1e7, 9, 150, 95}, {"points", 1e6, 0, 10, 6},  {"hidden", 2.5e6, 9, 22, 14},
 };
 
+/// What a way of drawing may cost: its time over that of the scene as it is, or the other way round.
+static const struct way_goal {
+    const char *way, *figure;
+    bool is_less; ///< the way leaves out what the figure is about
+    double floor, target;
+} way_goals[] = {
+    {"3 layers", "3 layers to opaque", false, 2.5, 2},
+    {"no edges", "edges on to off", true, 1.05, 1.03},
+    {"no light", "light on to off", true, 1.1, 1.05},
+};
+
 /// Milliseconds of a frame of sphere and torus, back faces culled, by MeshLab's splatting code through
 /// software OpenGL on two cores: the best of the programs that draw true splats.
 static const struct peer_time {
@@ -58,6 +69,14 @@ size_t bench_goals_frames(const bench_frame_row *row, bench_goal goals[BENCH_MAX
         const double bin_s = row->stage_s[0] / row->threads;
         goals[count++] =
             (bench_goal){"culled whole", "G/s", 1e-9 * (double)row->stats.culled_count / bin_s, 2, 5};
+    }
+    for (size_t i = 0;
+         standard && all_sets && row->first_way_s > 0 && i < sizeof way_goals / sizeof way_goals[0]; i++) {
+        const struct way_goal *goal = &way_goals[i];
+        if (strcmp(goal->way, row->way) != 0) continue;
+        const double more = row->total.quartile / row->first_way_s;
+        goals[count++] =
+            (bench_goal){goal->figure, "x", goal->is_less ? 1 / more : more, goal->floor, goal->target};
     }
     return count;
 }

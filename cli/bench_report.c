@@ -83,11 +83,12 @@ void bench_report_head(const bench_sink *sink) {
             "ms of thread time");
 }
 
-static void write_frames(json_writer *json, const bench_frame_row *row) {
+static void write_frames(json_writer *json, const bench_frame_row *row, const char *label) {
     const bench_scene *scene = row->scene;
     const double points = (double)row->info.point_count;
     json_text(json, "scene", scene->name);
-    json_text(json, "label", scene->label);
+    json_text(json, "label", label);
+    if (row->way) json_text(json, "way", row->way);
     json_count(json, "splats", row->info.point_count);
     if (scene->covered_px > 0) json_number(json, "covered_px", scene->covered_px);
     if (scene->unseen_share > 0) json_number(json, "unseen_share", scene->unseen_share);
@@ -101,6 +102,7 @@ static void write_frames(json_writer *json, const bench_frame_row *row) {
     json_number(json, "splats_per_s", points / row->total.median);
     if (row->one_thread_s > 0) json_number(json, "speedup", row->one_thread_s / row->total.quartile);
     if (row->all_sets_s > 0) json_number(json, "ratio_to_all_sets", row->total.quartile / row->all_sets_s);
+    if (row->first_way_s > 0) json_number(json, "ratio_to_first_way", row->total.quartile / row->first_way_s);
     json_number(json, "resident_bytes_per_point", (double)row->info.resident_bytes / points);
     json_count(json, "splats_culled", row->stats.culled_count);
     json_count(json, "splats_drawn", row->stats.drawn_count);
@@ -117,7 +119,9 @@ static void write_frames(json_writer *json, const bench_frame_row *row) {
 
 void bench_report_frames(const bench_sink *sink, const bench_frame_row *row) {
     const double points = (double)row->info.point_count;
-    fprintf(sink->text, "%-26s %-5s %3u %8.2f %8.2f %8.1f ", row->scene->label, row->cpu, row->threads,
+    char label[96];
+    snprintf(label, sizeof label, row->way ? "%s, %s" : "%s", row->scene->label, row->way);
+    fprintf(sink->text, "%-26s %-5s %3u %8.2f %8.2f %8.1f ", label, row->cpu, row->threads,
             1e3 * row->total.median, 1e3 * row->total.quartile, 1e-6 * points / row->total.median);
     if (row->one_thread_s > 0)
         fprintf(sink->text, "%6.2f ", row->one_thread_s / row->total.quartile);
@@ -127,7 +131,7 @@ void bench_report_frames(const bench_sink *sink, const bench_frame_row *row) {
     fprintf(sink->text, " %6.1f", (double)row->info.resident_bytes / points);
     if (sink->json) {
         json_object(sink->json, NULL);
-        write_frames(sink->json, row);
+        write_frames(sink->json, row, label);
     }
     const double peer_ms = row->threads == 2 ? bench_peer_ms(row->scene) : 0;
     if (peer_ms > 0) {
@@ -138,6 +142,8 @@ void bench_report_frames(const bench_sink *sink, const bench_frame_row *row) {
             json_number(sink->json, "times_faster_than_peer", ratio);
         }
     }
+    if (row->first_way_s > 0)
+        fprintf(sink->text, "  %.3f of the first", row->total.quartile / row->first_way_s);
     bench_goal goals[BENCH_MAX_GOALS];
     report_goals(sink, goals, bench_goals_frames(row, goals));
     if (sink->json) json_close(sink->json, '}');

@@ -31,6 +31,7 @@ enum { BENCH_FRAME_STAGES = 6 };
 /// What the frames of one scene took with one context.
 typedef struct bench_frame_row {
     const bench_scene *scene;
+    const char *way; ///< of drawing, where a scene is drawn in several
     const char *cpu; ///< instruction sets
     uint32_t threads;
     bench_sample total;                 ///< seconds
@@ -40,6 +41,7 @@ typedef struct bench_frame_row {
     double clock_ghz;
     double one_thread_s; ///< lower quartile of the same scene and instruction sets with one thread; 0: none
     double all_sets_s;   ///< the same with all instruction sets and as many threads; 0: none
+    double first_way_s;  ///< the same drawn in the first of several ways; 0: none
 } bench_frame_row;
 
 /// Prints the heads of the columns.

@@ -22,7 +22,9 @@ const bench_recipe bench_recipes[BENCH_SCENE_COUNT] = {
     [BENCH_CULLED] = {"culled", {1e7}, {9}, {STANDARD_SIZE}},
     [BENCH_CLOSED] = {"closed", {2.5e6}, {0}, {STANDARD_SIZE}},
     [BENCH_SEEN] = {"seen", {2.5e6}, {0}, {STANDARD_SIZE}},
+    [BENCH_LAYERS] = {"layers", {1e6}, {0}, {STANDARD_SIZE}},
     [BENCH_PEER] = {"peer", {1e5, 1e6, 5e6}, {0}, {STANDARD_SIZE, {512, 512, false}}},
+    [BENCH_PHONG] = {"phong", {1e6}, {9}, {STANDARD_SIZE}},
 };
 
 /// Room around the object; its outermost discs stay in the picture.
@@ -252,6 +254,14 @@ static ewa_status make_peer(cli_session *session, uint64_t point_count, const op
     return status == EWA_OK ? frame(scene->cloud, size, 30, ahead, up, &scene->camera) : status;
 }
 
+static ewa_status make_layers(cli_session *session, uint64_t point_count, const option_size *size,
+                              bench_scene *scene) {
+    const ewa_status status = make_peer(session, point_count, size, scene);
+    scene->cull = EWA_CULL_NONE;
+    scene->in_all_ways = true;
+    return status;
+}
+
 typedef ewa_status scene_maker(cli_session *session, uint64_t point_count, const option_size *size,
                                bench_scene *scene);
 
@@ -259,11 +269,13 @@ static scene_maker *const makers[BENCH_SCENE_COUNT] = {
     [BENCH_PLANE] = make_plane,   [BENCH_COLOR] = make_plane,   [BENCH_LARGE] = make_plane,
     [BENCH_HIDDEN] = make_hidden, [BENCH_POINTS] = make_points, [BENCH_CULLED] = make_culled,
     [BENCH_CLOSED] = make_closed, [BENCH_SEEN] = make_seen,     [BENCH_PEER] = make_peer,
+    [BENCH_PHONG] = make_plane,   [BENCH_LAYERS] = make_layers,
 };
 
 bool bench_scene_make(cli_session *session, bench_scene_kind kind, uint64_t point_count, double covered_px,
                       const option_size *size, double prefilter_px, bench_scene *scene) {
-    *scene = (bench_scene){.name = bench_recipes[kind].name, .color_only = kind == BENCH_COLOR};
+    *scene = (bench_scene){
+        .name = bench_recipes[kind].name, .color_only = kind == BENCH_COLOR, .glossy = kind == BENCH_PHONG};
     const ewa_status status = makers[kind](session, point_count, size, scene);
     if (status != EWA_OK) {
         session_failed(session, status);
@@ -275,6 +287,8 @@ bool bench_scene_make(cli_session *session, bench_scene_kind kind, uint64_t poin
     if (kind == BENCH_PEER)
         snprintf(scene->label, sizeof scene->label, "%s %.4g M %ux%u", scene->name,
                  1e-6 * (double)point_count, size->width_px, size->height_px);
+    else if (kind == BENCH_LAYERS)
+        snprintf(scene->label, sizeof scene->label, "%s %.4g M", scene->name, 1e-6 * (double)point_count);
     else
         snprintf(scene->label, sizeof scene->label, "%s %.4g M of %.3g px", scene->name,
                  1e-6 * (double)point_count, scene->covered_px);

@@ -18,11 +18,13 @@ typedef enum bench_scene_kind {
     BENCH_CLOSED, ///< a sphere that hides two others
     BENCH_SEEN,   ///< as many points on the side of the outer sphere that is seen
     BENCH_PEER,   ///< sphere and torus with the radii that close them
+    BENCH_LAYERS, ///< the same without culling, drawn in several ways: what layers, edges and light cost
+    BENCH_PHONG,  ///< the plane with highlights from a light of one direction
     BENCH_SCENE_COUNT
 } bench_scene_kind;
 
 /// The words for the kinds, as option_set takes them.
-#define BENCH_SCENES "plane|color|large|hidden|points|culled|closed|seen|peer"
+#define BENCH_SCENES "plane|color|large|hidden|points|culled|closed|seen|peer|layers|phong"
 
 enum { BENCH_VARIANTS = 3 };
 
@@ -45,6 +47,8 @@ typedef struct bench_scene {
     ewa_camera camera;
     ewa_cull cull;
     bool color_only;
+    bool glossy;         ///< shaded with highlights from one direction
+    bool in_all_ways;    ///< transparent, without edges, without light: beside the picture as it is
     double covered_px;   ///< by a splat on average; 0: unknown
     double unseen_share; ///< of the points: seen from behind, hidden, or outside
 } bench_scene;

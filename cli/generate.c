@@ -11,7 +11,7 @@
 typedef struct generate_arguments {
     common_arguments common; // first
     const char *output;
-    bool ascii, positions_only;
+    bool ascii, positions_only, sharp;
     int64_t point_count, seed;
     double size_world, jitter, checks, radius_scale;
 } generate_arguments;
@@ -19,7 +19,7 @@ typedef struct generate_arguments {
 #define AT(member) offsetof(generate_arguments, member)
 
 /// In the order of ewa_object.
-static const char *const objects[] = {"plane", "checker", "cube", "sphere", "torus", "terrain"};
+static const char *const objects[] = {"plane", "checker", "cube", "sphere", "torus", "terrain", "csg"};
 
 static const cli_option output_table[] = {
     {.key = "output",
@@ -53,7 +53,8 @@ static const cli_option object_table[] = {
      .offset = AT(size_world),
      .value = "SIZE",
      .range = "(0, inf)",
-     .help = "edge of plane, cube and terrain, outer diameter of sphere and torus, in world units"},
+     .help = "edge of plane, cube and terrain, outer diameter of sphere and torus, length of csg, in world "
+             "units"},
     {.key = "jitter",
      .kind = OPTION_NUMBER,
      .offset = AT(jitter),
@@ -76,6 +77,10 @@ static const cli_option object_table[] = {
      .kind = OPTION_FLAG,
      .offset = AT(positions_only),
      .help = "leave out normals and radii, as a scanner does"},
+    {.key = "sharp",
+     .kind = OPTION_FLAG,
+     .offset = AT(sharp),
+     .help = "cube and csg: clip lines on every edge, and points on the edges"},
 };
 
 static void set_defaults(void *data) {
@@ -105,7 +110,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     if (find_object(word) == OBJECT_COUNT) {
         const char *nearest = options_nearest(word, OBJECT_COUNT, objects);
         snprintf(message, OPTION_ERROR_BYTES,
-                 "generate: '%.80s' is none of plane, checker, cube, sphere, torus, terrain%s%s", word,
+                 "generate: '%.80s' is none of plane, checker, cube, sphere, torus, terrain, csg%s%s", word,
                  nearest ? "; did you mean " : "", nearest ? nearest : "");
         return false;
     }
@@ -127,6 +132,7 @@ static int run(const void *data) {
     options.checks = arguments->checks;
     options.radius_scale = arguments->radius_scale;
     options.positions_only = arguments->positions_only;
+    options.sharp = arguments->sharp;
     session.subject = arguments->output;
     ewa_cloud *cloud = NULL;
     bool done = output_check(&session, arguments->output);
@@ -155,12 +161,13 @@ static const option_group *const groups[] = {&output_options, &object_options};
 const cli_command generate_command = {
     .name = "generate",
     .operands = "KIND -o OUT",
-    .summary = "make test objects: plane, checker, cube, sphere, torus, terrain",
+    .summary = "make test objects: plane, checker, cube, sphere, torus, terrain, csg",
     .details = "The object is centred at the origin. Plane, checker and terrain lie in x-y with z up; the "
                "axis of the "
-               "torus is z.",
+               "torus is z. csg is a block with a slot, a notch and two round holes.",
     .examples = "ewa generate torus -o torus.ply --points 200000\n"
                 "ewa generate terrain -o terrain.ply -n 4000000 --seed 7\n"
+                "ewa generate csg --sharp -n 7000 -o part.ply\n"
                 "ewa generate checker -o - --jitter 0 | ewa render - -o checker.png --shading none\n",
     .low_operands = 1,
     .high_operands = 1,

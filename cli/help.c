@@ -86,6 +86,8 @@ static void format_default(const cli_option *option, const void *defaults, char 
                 (uint32_t)snprintf(text + used, TEXT_BYTES - used, "%s%g", i ? "," : "", vector->values[i]);
         break;
     }
+    case OPTION_VECTORS: // none until they are given
+        break;
     case OPTION_COLOR: {
         const double *rgba = ((const option_color *)member)->rgba;
         if (rgba[3] == 0)

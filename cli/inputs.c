@@ -114,11 +114,25 @@ static ewa_status colors_to_linear(ewa_cloud *cloud) {
     return status;
 }
 
+/// Replaces the materials, or their absence, by doubles, which all can become; without one it is 0.
+static ewa_status materials_to_doubles(ewa_cloud *cloud) {
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    double *numbers = calloc(count ? count : 1, sizeof *numbers);
+    if (!numbers) return EWA_ERROR_MEMORY;
+    const ewa_attribute *found = ewa_cloud_find(cloud, EWA_MATERIAL);
+    if (found && found->component_count == 1) ewa_attribute_read_f64(found, 0, count, numbers);
+    void *data = NULL;
+    const ewa_status status = ewa_cloud_add(cloud, EWA_MATERIAL, EWA_F64, 1, &data);
+    if (status == EWA_OK) memcpy(data, numbers, count * sizeof *numbers);
+    free(numbers);
+    return status;
+}
+
 /// Removes what is not drawn, so that the merge need not speak about it; the attribute that `wanted`
 /// (may be NULL) begins with stays.
 static void drop_undrawn(ewa_cloud *cloud, const char *wanted) {
-    static const char *const drawn[] = {EWA_POSITION, EWA_NORMAL,    EWA_COLOR,
-                                        EWA_RADIUS,   EWA_TANGENT_U, EWA_TANGENT_V};
+    static const char *const drawn[] = {EWA_POSITION,  EWA_NORMAL,    EWA_COLOR,   EWA_RADIUS,
+                                        EWA_TANGENT_U, EWA_TANGENT_V, EWA_MATERIAL};
     for (uint32_t k = ewa_cloud_attribute_count(cloud); k-- > 0;) {
         const ewa_attribute *attribute = ewa_cloud_attribute_at(cloud, k);
         const size_t length = strlen(attribute->name);
@@ -133,15 +147,17 @@ static void drop_undrawn(ewa_cloud *cloud, const char *wanted) {
 
 /// Gives clouds that are drawn together the same kinds of colours and axes, and nothing that only some have.
 static ewa_status make_alike(ewa_cloud *const *clouds, size_t count, const char *wanted) {
-    bool any_axes = false, colors_differ = false, normals_differ = false;
+    bool any_axes = false, colors_differ = false, normals_differ = false, materials_differ = false;
     for (size_t i = 0; i < count; i++) {
         any_axes |= has_axes(clouds[i]);
         colors_differ |= streams_differ(clouds[0], clouds[i], EWA_COLOR);
         normals_differ |= !ewa_cloud_find(clouds[i], EWA_NORMAL);
+        materials_differ |= streams_differ(clouds[0], clouds[i], EWA_MATERIAL);
     }
     for (size_t i = 0; i < count; i++) {
         ewa_status status = any_axes && !has_axes(clouds[i]) ? discs_to_axes(clouds[i]) : EWA_OK;
         if (status == EWA_OK && colors_differ) status = colors_to_linear(clouds[i]);
+        if (status == EWA_OK && materials_differ) status = materials_to_doubles(clouds[i]);
         if (status != EWA_OK) return status;
         if (any_axes) ewa_cloud_remove(clouds[i], EWA_RADIUS);
         if (normals_differ) ewa_cloud_remove(clouds[i], EWA_NORMAL);
@@ -249,8 +265,7 @@ static bool drop_isolated(cli_session *session, const char *path, ewa_cloud **cl
     return true;
 }
 
-/// Loads one file and estimates what it lacks; NULL after reporting.
-static ewa_cloud *load_drawable(cli_session *session, const char *path, double *estimate_s) {
+ewa_cloud *input_as_surfels(cli_session *session, const char *path, double *estimate_s) {
     ewa_cloud *cloud = input_load(session, path);
     if (!cloud || cloud_is_drawable(cloud)) return cloud;
     const bool has_normals = ewa_cloud_find(cloud, EWA_NORMAL) != NULL;
@@ -282,7 +297,7 @@ ewa_cloud *inputs_as_surfels(cli_session *session, const common_arguments *commo
         return NULL;
     }
     for (size_t i = 0; i < count; i++) {
-        clouds[i] = load_drawable(session, common->operands[i], estimate_s);
+        clouds[i] = input_as_surfels(session, common->operands[i], estimate_s);
         if (!clouds[i]) {
             release_clouds(clouds, i);
             return NULL;

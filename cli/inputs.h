@@ -10,6 +10,10 @@
 /// Loads one file that has at least one point; NULL after reporting.
 ewa_cloud *input_load(cli_session *session, const char *path);
 
+/// Loads one file and estimates what a surfel needs and it lacks; NULL after reporting. `*estimate_s` grows
+/// by the time that the estimation took.
+ewa_cloud *input_as_surfels(cli_session *session, const char *path, double *estimate_s);
+
 /// Loads the operands and makes one cloud of them; attributes that not all have are dropped with a warning.
 /// NULL after reporting.
 ewa_cloud *inputs_merge(cli_session *session, const common_arguments *common);

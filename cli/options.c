@@ -119,6 +119,15 @@ static bool parse_vector(const cli_option *option, const char *text, option_vect
     return true;
 }
 
+static bool parse_one_more(const cli_option *option, const char *text, option_vectors *vectors,
+                           char message[OPTION_ERROR_BYTES]) {
+    if (vectors->count == OPTION_VECTORS_MAX)
+        return wrong(message, "--%s: given more than %d times", option->key, OPTION_VECTORS_MAX);
+    if (!parse_vector(option, text, &vectors->each[vectors->count], message)) return false;
+    vectors->count++;
+    return true;
+}
+
 static bool parse_bounds(const cli_option *option, const char *text, option_bounds *bounds,
                          char message[OPTION_ERROR_BYTES]) {
     option_bounds read = {.given = true};
@@ -216,6 +225,8 @@ static bool parse_value(const cli_option *option, const char *text, void *member
         return parse_integer(option, text, member, message);
     case OPTION_VECTOR:
         return parse_vector(option, text, member, message);
+    case OPTION_VECTORS:
+        return parse_one_more(option, text, member, message);
     case OPTION_BOUNDS:
         return parse_bounds(option, text, member, message);
     case OPTION_COLOR:

@@ -20,19 +20,26 @@ typedef enum option_kind {
     OPTION_TEXT,    ///< const char *, not empty
     OPTION_CHOICE,  ///< int: index of the word in `range`
     OPTION_VECTOR,  ///< option_vector: finite numbers separated by commas
+    OPTION_VECTORS, ///< option_vectors: the same, several times
     OPTION_BOUNDS,  ///< option_bounds: two numbers, each a percentile when a percent sign follows
     OPTION_COLOR,   ///< option_color
     OPTION_SIZE,    ///< option_size
     OPTION_SET,     ///< uint32_t: bits of words in `range`, separated by commas
 } option_kind;
 
-enum { OPTION_VECTOR_MAX = 16 };
+enum { OPTION_VECTOR_MAX = 16, OPTION_VECTORS_MAX = 8 };
 
 /// Numbers of a vector; count 0: not given.
 typedef struct option_vector {
     double values[OPTION_VECTOR_MAX];
     uint32_t count;
 } option_vector;
+
+/// The vectors of an option in the order in which they were given.
+typedef struct option_vectors {
+    option_vector each[OPTION_VECTORS_MAX];
+    uint32_t count;
+} option_vectors;
 
 /// Two ends of a range.
 typedef struct option_bounds {

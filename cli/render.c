@@ -7,6 +7,7 @@
 #include "frames.h"
 #include "inputs.h"
 #include "json.h"
+#include "light.h"
 #include "picture.h"
 #include "render_report.h"
 #include "sequence.h"
@@ -18,14 +19,14 @@
 
 typedef struct render_arguments {
     frames_arguments frames; // first: it begins with the common arguments
+    light_arguments light;   // second
     const char *output, *aov, *save_camera_path, *stats_path;
-    int kernel, passes, cull, shading, colormap;
-    double cutoff, prefilter_px, radius_scale, tolerance, edge_threshold, ambient;
+    int kernel, passes, cull, colormap;
+    double cutoff, prefilter_px, radius_scale, tolerance, edge_threshold;
     bool edge_antialiasing, close_gaps;
     int64_t edge_layers;
     const char *layers;
     double opacity;
-    option_vector light;
     option_bounds range;
     option_color background;
     const char *color_by;
@@ -38,6 +39,7 @@ static const double GAP_RADIUS = 1;
 
 #define AT(member) offsetof(render_arguments, member)
 
+_Static_assert(offsetof(render_arguments, light) == LIGHT_OFFSET, "light_options says so");
 _Static_assert(EWA_MAX_EDGE_LAYERS == 8, "the range of --edge-layers says so");
 
 static const cli_option output_table[] = {
@@ -150,25 +152,6 @@ static const cli_option splat_table[] = {
 };
 
 static const cli_option look_table[] = {
-    {.key = "shading",
-     .kind = OPTION_CHOICE,
-     .offset = AT(shading),
-     .range = "none|lambert",
-     .help = "light: none gives the bare colours"},
-    {.key = "light",
-     .kind = OPTION_VECTOR,
-     .offset = AT(light),
-     .value = "x,y,z",
-     .low = 3,
-     .high = 3,
-     .absent = "headlight",
-     .help = "direction towards the light"},
-    {.key = "ambient",
-     .kind = OPTION_NUMBER,
-     .offset = AT(ambient),
-     .value = "A",
-     .range = "[0, 1]",
-     .help = "share of the light that comes from everywhere"},
     {.key = "background",
      .aliases = "background-color",
      .kind = OPTION_COLOR,
@@ -207,7 +190,7 @@ static void set_defaults(void *data) {
     arguments->kernel = (int)render.kernel;
     arguments->passes = render.passes == 1 ? ONE_PASS : THREE_PASSES;
     arguments->cull = (int)render.cull;
-    arguments->shading = (int)render.shading;
+    light_set_defaults(&arguments->light);
     arguments->prefilter_px = render.prefilter_px;
     arguments->tolerance = render.tolerance;
     arguments->edge_antialiasing = render.edge_antialiasing;
@@ -215,7 +198,6 @@ static void set_defaults(void *data) {
     arguments->edge_layers = render.edge_layers;
     arguments->opacity = render.opacity;
     arguments->edge_threshold = render.edge_threshold;
-    arguments->ambient = render.ambient;
     arguments->background = (option_color){{1, 1, 1, 1}};
 }
 
@@ -251,18 +233,16 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         missing = "--layers needs --passes 3";
     else if (!arguments->color_by && arguments->range.given)
         missing = "--range needs --color-by";
-    else if (arguments->light.count && !arguments->light.values[0] && !arguments->light.values[1] &&
-             !arguments->light.values[2])
-        missing = "--light: 0,0,0 has no direction";
     if (missing) {
         snprintf(message, OPTION_ERROR_BYTES, "%s", missing);
         return false;
     }
-    return frames_check(&arguments->frames, arguments->output, arguments->background.rgba[3] == 1, message) &&
+    return light_check(&arguments->light, message) &&
+           frames_check(&arguments->frames, arguments->output, arguments->background.rgba[3] == 1, message) &&
            parse_paths(arguments, &paths, message);
 }
 
-static ewa_render_options render_options(const render_arguments *arguments) {
+static ewa_render_options render_options(const render_arguments *arguments, const light_objects *lit_by) {
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
     options.kernel = (ewa_kernel)arguments->kernel;
@@ -275,9 +255,7 @@ static ewa_render_options render_options(const render_arguments *arguments) {
     options.opacity = arguments->opacity;
     options.edge_threshold = arguments->edge_threshold;
     options.cull = (ewa_cull)arguments->cull;
-    options.shading = (ewa_shading)arguments->shading;
-    options.ambient = arguments->ambient;
-    memcpy(options.light_world, arguments->light.values, sizeof options.light_world);
+    light_apply(&arguments->light, lit_by, &options);
     for (int c = 0; c < 3; c++)
         options.background[c] = ewa_linear_from_srgb((float)arguments->background.rgba[c]);
     options.background[3] = (float)arguments->background.rgba[3];
@@ -388,9 +366,10 @@ static bool save_cameras(cli_session *session, const char *path, const frame_cam
 
 /// Draws and writes everything. False after reporting.
 static bool draw(cli_session *session, const render_arguments *arguments, const picture_paths *paths,
-                 const frame_cameras *frames, const ewa_surfels *surfels, render_report *report) {
+                 const frame_cameras *frames, const light_objects *lit_by, const ewa_surfels *surfels,
+                 render_report *report) {
     const bool many = frames_many(&arguments->frames);
-    const ewa_render_options options = render_options(arguments);
+    const ewa_render_options options = render_options(arguments, lit_by);
     const sequence_output output = {
         .paths = paths,
         .numbered = many,
@@ -422,11 +401,13 @@ static int run(const void *data) {
     char message[OPTION_ERROR_BYTES];
     frame_cameras frames = {.count = 0};
     ewa_surfels *surfels = NULL;
+    light_objects lit_by = {.material_count = 0};
     render_report report = {.load_s = 0};
     bool done =
         parse_paths(arguments, &paths, message) && check_outputs(&session, arguments, &paths) &&
+        light_load(&session, &arguments->light, &lit_by) &&
         make_scene(&session, arguments, &frames, &surfels, &report) &&
-        draw(&session, arguments, &paths, &frames, surfels, &report) &&
+        draw(&session, arguments, &paths, &frames, &lit_by, surfels, &report) &&
         (!arguments->stats_path || render_report_write(&session, common, frames_many(&arguments->frames),
                                                        &frames, &report, arguments->stats_path));
     if (done && !frames_many(&arguments->frames))
@@ -441,6 +422,7 @@ static int run(const void *data) {
     render_report_free(&report);
     frames_free(&frames);
     ewa_surfels_destroy(&surfels);
+    light_free(&lit_by);
     return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
 }
 
@@ -449,8 +431,8 @@ static int run(const void *data) {
 static const option_group output_options = {"Output", output_table, COUNT(output_table)};
 static const option_group splat_options = {"Splats", splat_table, COUNT(splat_table)};
 static const option_group look_options = {"Look", look_table, COUNT(look_table)};
-static const option_group *const groups[] = {&output_options, &view_options, &frames_options, &splat_options,
-                                             &look_options};
+static const option_group *const groups[] = {&output_options, &view_options,  &frames_options,
+                                             &splat_options,  &light_options, &look_options};
 
 const cli_command render_command = {
     .name = "render",

@@ -17,7 +17,7 @@ import subprocess
 import tempfile
 import time
 
-SCENES = ["plane", "color", "large", "hidden", "points", "culled", "closed,seen", "peer"]
+SCENES = ["plane", "color", "large", "hidden", "points", "culled", "closed,seen", "peer", "layers"]
 JOBS = [1_000_000, 10_000_000]
 
 

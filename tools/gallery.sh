@@ -8,6 +8,7 @@
 # those that call ffmpeg, to put pictures side by side, when it is not installed.
 set -eu
 program=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
+tools=$(cd "$(dirname "$0")" && pwd)
 gallery=$(cd "$(dirname "$0")/../docs/gallery" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -27,6 +28,8 @@ awk -v have_data="${EWA_DATA:+1}" -v have_ffmpeg="$have_ffmpeg" '
 
 ewa() { "$program" "$@"; }
 frustum() { "$(dirname "$program")/../examples/frustum" "$@"; }
+make_environment() { python3 "$tools/make_environment.py" "$@"; }
+measure_layers() { "$(dirname "$program")/../tests/quality/measure_layers" "$@"; }
 cd "$work"
 set -x
 . ./commands

@@ -13,5 +13,6 @@
 #include "ewa/math.h"
 #include "ewa/prepare.h"
 #include "ewa/render.h"
+#include "ewa/shade.h"
 
 #endif

@@ -11,6 +11,7 @@
 #include "ewa/camera.h"
 #include "ewa/cloud.h"
 #include "ewa/image.h"
+#include "ewa/shade.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -100,17 +101,26 @@ EWA_API ewa_status ewa_image_save(const ewa_image *image, const char *path,
 EWA_API ewa_status ewa_png_save(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px,
                                 uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes);
 
-/// Reads PNG, OpenEXR or PFM, by content; "-" reads standard input. The caller frees the image.
-/// PNG: sRGB of up to 16 bits to linear light; grey gives 1 channel, RGB and palettes 3, anything with alpha
-/// 4, premultiplied; gamma and colour profiles are not looked at. OpenEXR: the data window of the first part,
-/// scan lines or tiles; R G B [A] when present, else its channels in alphabetical order, at most 16. PFM: 1
-/// or 3 channels, either byte order. Errors (image empty): EWA_ERROR_IO, EWA_ERROR_FORMAT,
-/// EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+/// Reads PNG, OpenEXR, PFM or Radiance (.hdr), by content; "-" reads standard input. The caller frees the
+/// image. PNG: sRGB of up to 16 bits to linear light; grey gives 1 channel, RGB and palettes 3, anything with
+/// alpha 4, premultiplied; gamma and colour profiles are not looked at. OpenEXR: the data window of the first
+/// part, scan lines or tiles; R G B [A] when present, else its channels in alphabetical order, at most 16.
+/// PFM: 1 or 3 channels, either byte order. Radiance: RGBE, plain or run-length encoded, divided by its
+/// exposure; 3 channels. Errors (image empty): EWA_ERROR_IO, EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED,
+/// EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_image_load(ewa_context *context, const char *path, ewa_image *image);
 
 /// The same from `size_bytes` bytes in memory; `name` stands for the file in messages.
 EWA_API ewa_status ewa_image_load_memory(ewa_context *context, const void *bytes, size_t size_bytes,
                                          const char *name, ewa_image *image);
+
+/// Reads a material table from JSON: an array of objects, or an object whose "materials" is one, with any of
+/// the members "ambient", "diffuse", "specular", "shininess", "reflection" of ewa_material and "name", which
+/// is not looked at; members that are not there have the default. `*count` gets how many there are, 1 to
+/// EWA_MAX_MATERIALS; 0 after a failure. "-" reads standard input. Errors, with the member: EWA_ERROR_IO,
+/// EWA_ERROR_FORMAT, EWA_ERROR_LIMIT (more than EWA_MAX_MATERIALS), EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_materials_load(ewa_context *context, const char *path,
+                                      ewa_material materials[EWA_MAX_MATERIALS], uint32_t *count);
 
 /// Counts the cameras of a file, to go through them with ewa_camera_load(). Errors as there.
 EWA_API ewa_status ewa_camera_file_count(ewa_context *context, const char *path, uint32_t *count);

@@ -80,6 +80,98 @@ typedef struct ewa_spacing {
 EWA_API ewa_status ewa_cloud_measure_spacing(const ewa_cloud *cloud, uint64_t sample_count,
                                              ewa_spacing *spacing);
 
+/// What is left of two solids.
+typedef enum ewa_csg_operation {
+    EWA_CSG_UNION = 0,
+    EWA_CSG_INTERSECTION = 1,
+    EWA_CSG_DIFFERENCE = 2, ///< A without B
+} ewa_csg_operation;
+
+/// How two solids are combined. Fill with ewa_csg_options_init().
+typedef struct ewa_csg_options {
+    size_t struct_size;
+    ewa_csg_operation operation; ///< default EWA_CSG_UNION
+    double cutoff; ///< F: standard deviations in a "radius" and in the support of a kernel; (0, 4]; default 3
+} ewa_csg_options;
+
+EWA_API void ewa_csg_options_init(ewa_csg_options *options, size_t struct_size);
+
+/// Combines two closed solids of surfels into one with sharp edges where their surfaces meet.
+///
+/// - Each cloud has "position", and "normal" with "radius", or "tangent_u" with "tangent_v"; normals point
+///   outward. Both belong to one context. Points that are no surfels (not finite, no normal, no size) are
+///   left out.
+/// - Inside and outside are told by the 16 nearest surfels of the other solid, as one plane or, where their
+///   normals part by over 37 degrees, as two that meet in a convex or a concave edge.
+/// - Surfels that the other surface cuts are split into four of 0.55 the size, up to four times, until they
+///   are no coarser than its surfels; clip lines cut them where its planes meet theirs. Centres are at most
+///   1.8 standard deviations beyond an edge: less than half a spacing for radii of the default scale.
+/// - Clip lines of the operands are kept. Where more than two would meet in one surfel it is split; in the
+///   smallest pieces the two lines that cut the most remain.
+/// - Where surfaces coincide (within 0.1 of the reach, 6 degrees) A's is kept: for union and intersection if
+///   the normals agree, for the difference if they are opposite.
+/// - The result has A's origin, A's surfels before B's, each in Morton order; "position", "normal",
+///   "tangent_u", "tangent_v", "clip0", "clip1", "clip_mode", and the other attributes that both clouds have
+///   (see ewa_cloud_merge()). It may have no points, which is reported as a warning.
+///
+/// `options` may be NULL; the caller owns `*result`, NULL after a failure. The bytes do not depend on the
+/// number of threads. Progress stage: "csg". Errors: EWA_ERROR_ARGUMENT (a missing attribute; an operand that
+/// is not closed: its normals weighted by area sum up to over a tenth of the area, or inside and outside of
+/// it meet without a surfel between), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_CANCELLED. Based on B. Adams and
+/// P. Dutre, "Interactive boolean operations on surfel-bounded solids", 2003, and M. Zwicker et al.,
+/// "Perspective Accurate Splatting", 2004, section 5.
+EWA_API ewa_status ewa_cloud_csg(const ewa_cloud *a, const ewa_cloud *b, const ewa_csg_options *options,
+                                 ewa_cloud **result);
+
+/// How edges and corners are found. Fill with ewa_feature_options_init().
+typedef struct ewa_feature_options {
+    size_t struct_size;
+    uint32_t neighbour_count; ///< k, the point itself not counted: 16 to 64, or 0: 24 for exact points up to
+                              ///< 64 for noisy ones; default 0
+    double angle_deg; ///< least angle between the normals of two planes that meet in an edge; [10, 120];
+                      ///< default 30
+    double noise;  ///< standard deviation of the points from the surface in units of the spacing; [0, 1], or
+                   ///< negative: measured; default -1
+    double cutoff; ///< F: axes made of "radius" are radius / F long; default 3
+    bool project;  ///< move the points of an edge onto their plane; default true
+} ewa_feature_options;
+
+EWA_API void ewa_feature_options_init(ewa_feature_options *options, size_t struct_size);
+
+/// What was found.
+typedef struct ewa_feature_counts {
+    uint64_t snapped_count; ///< points whose normal is now that of their plane
+    uint64_t edge_count;    ///< of them: with one clip line
+    uint64_t corner_count;  ///< of them: with two
+    double noise;           ///< of the points, in units of the spacing
+    uint32_t neighbour_count;
+} ewa_feature_counts;
+
+/// Finds sharp edges and corners of a sampled surface and cuts the surfels there: "clip0", "clip1",
+/// "clip_mode".
+///
+/// - Neighbourhoods that are not flat are explained by two or three planes, and by a quadric; planes win
+/// where
+///   they leave clearly less of the points. Neighbours vote: lines that half of the points along them do not
+///   confirm are dropped, planes of neighbours that agree are averaged.
+/// - A point beside an edge gets the normal of its own plane, is moved onto it (`project`), and gets axes of
+/// the
+///   size that it had: along the line and across, longer across, because behind the line nothing adds to the
+///   coverage. The line is where the planes meet; two lines, for a corner, hold both or either.
+/// - All other points keep the bytes of their positions, normals and colours. "radius" becomes axes of the
+/// same
+///   size, because clip lines belong to axes. Without edges the cloud stays as it was, but for older clip
+///   lines.
+/// - Points with coordinates that are not finite stay as they are. Positions and normals of integers become
+/// floats.
+///
+/// The cloud needs "position", "normal", and "radius" or tangent axes (ewa_cloud_estimate()); normals have to
+/// agree along the surface. `counts` may be NULL. The result does not depend on threads or instruction sets.
+/// After a failure the cloud may lack the streams that were to be made. Errors: EWA_ERROR_ARGUMENT,
+/// EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_CANCELLED. One thread per context. Cost: docs/features.md.
+EWA_API ewa_status ewa_cloud_detect_features(ewa_cloud *cloud, const ewa_feature_options *options,
+                                             ewa_feature_counts *counts);
+
 /// Test objects, centred at the origin. Plane, checker and terrain lie in x-y, z up.
 typedef enum ewa_object {
     EWA_OBJECT_PLANE = 0,   ///< light grey square
@@ -88,13 +180,14 @@ typedef enum ewa_object {
     EWA_OBJECT_SPHERE,      ///< banded like a planet, poles on the z axis
     EWA_OBJECT_TORUS,       ///< about the z axis, tube radius 1/7 of the outer diameter, winding ribbons
     EWA_OBJECT_TERRAIN,     ///< fractal heights: water (z = 0), sand, grass, rock, snow
+    EWA_OBJECT_CSG,         ///< block of 1 x 0.7 x 0.4 edges with a slot, a notch and two round holes
 } ewa_object;
 
 /// What to generate. Fill with ewa_generate_options_init().
 typedef struct ewa_generate_options {
     size_t struct_size;
     ewa_object object;
-    uint64_t point_count; ///< exactly so many points; default 100000
+    uint64_t point_count; ///< exactly so many points (with rows on edges: at most); default 100000
     uint64_t seed;        ///< same seed, same bytes, on every machine; default 1
     double size_world;    ///< edge of plane, cube, terrain; diameter of sphere; outer diameter of torus;
                           ///< [1e-25, 1e25]; default 2
@@ -104,6 +197,8 @@ typedef struct ewa_generate_options {
     double radius_scale; ///< support radius in units of the local spacing; [1e-6, 1e6]; default 1.14.
                          ///< Discs leave no hole where it is at least 0.72 (1 + jitter)
     bool positions_only; ///< leave out normals and radii; default false
+    bool sharp; ///< cube and part: rows of points on every edge, and axes and clip lines in place of radii;
+                ///< default false
 } ewa_generate_options;
 
 EWA_API void ewa_generate_options_init(ewa_generate_options *options, size_t struct_size);
@@ -111,9 +206,18 @@ EWA_API void ewa_generate_options_init(ewa_generate_options *options, size_t str
 /// Makes a test object: "position" F32 3, "normal" F32 3 (unit, outward), "color" U8 3 (sRGB), "radius"
 /// F32 1. One point lies in each of `point_count` cells of equal area (terrain: of equal ground), about as
 /// wide as high, that fill the surface to its edge; the spacing is the square root of a cell's area (terrain:
-/// longer on slopes). `options` may be NULL for the defaults; the caller owns `*cloud`, which is NULL after a
+/// longer on slopes).
+///
+/// The part, and the cube when `sharp`, have rows of points on every edge instead, and the most points that
+/// fit in `point_count`. When `sharp`, "tangent_u", "tangent_v" (radius_scale / 3 of a cell long), "clip0",
+/// "clip1", "clip_mode" take the place of "radius": every kernel that reaches an edge is cut there; beside
+/// round holes centres lie up to 3/8 of a cell beyond the edge. The rows are regular: seed and jitter change
+/// nothing.
+///
+/// `options` may be NULL for the defaults; the caller owns `*cloud`, which is NULL after a
 /// failure. Every number depends on the options alone, not on the machine or the number of threads. Progress
-/// stage: "generate". Errors: EWA_ERROR_ARGUMENT (message names the member), EWA_ERROR_LIMIT,
+/// stage: "generate". Errors: EWA_ERROR_ARGUMENT (message names the member; too few points for rows on every
+/// edge), EWA_ERROR_LIMIT,
 /// EWA_ERROR_MEMORY, EWA_CANCELLED.
 EWA_API ewa_status ewa_cloud_generate(ewa_context *context, const ewa_generate_options *options,
                                       ewa_cloud **cloud);

@@ -8,6 +8,7 @@
 #include "ewa/base.h"
 #include "ewa/camera.h"
 #include "ewa/cloud.h"
+#include "ewa/shade.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -22,15 +23,17 @@ typedef struct ewa_surfels_options {
 
 EWA_API void ewa_surfels_options_init(ewa_surfels_options *options, size_t struct_size);
 
-/// The resident form of a cloud: Morton order, packets of 16, at most 32 bytes per point. Immutable once
+/// The resident form of a cloud: Morton order, packets of 16, at most 32 bytes per point, and one
+/// more where there are several materials. Immutable once
 /// made; any number of renderers of the same context may draw it.
 typedef struct ewa_surfels ewa_surfels;
 
 /// Makes surfels from a cloud that has "position", "normal" and "radius", or "position", "tangent_u" and
 /// "tangent_v" (see ewa_cloud_estimate() for clouds that have less). Points that cannot be drawn (coordinates
 /// not finite, no normal, radius not positive) are left out and counted. The cloud is not needed afterwards.
-/// Colourless clouds are light grey. The result does not depend on the order of the points. `options` may be
-/// NULL. Errors: EWA_ERROR_ARGUMENT (missing attribute, named), EWA_ERROR_MEMORY.
+/// Colourless clouds are light grey; a "material" that is no whole number in [0, 255] counts as 0. The result
+/// does not depend on the order of the points. `options` may be NULL. Errors: EWA_ERROR_ARGUMENT (missing
+/// attribute, named), EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_surfels_create(const ewa_cloud *cloud, const ewa_surfels_options *options,
                                       ewa_surfels **surfels);
 EWA_API void ewa_surfels_destroy(ewa_surfels **surfels);
@@ -40,9 +43,10 @@ typedef struct ewa_surfels_info {
     uint64_t point_count;    ///< that can be drawn
     uint64_t left_out_count; ///< of the cloud's points
     size_t resident_bytes;
-    double unit_coverage; ///< q0 of math.md section 7: the sum of kernels that a covered pixel expects
-    bool transparent;     ///< some surfel's colour has an alpha below 1
-    ewa_bounds bounds;    ///< of the centres
+    double unit_coverage;    ///< q0 of math.md section 7: the sum of kernels that a covered pixel expects
+    bool transparent;        ///< some surfel's colour has an alpha below 1
+    ewa_bounds bounds;       ///< of the centres
+    uint32_t material_count; ///< 1 + the largest "material"
 } ewa_surfels_info;
 
 EWA_API void ewa_surfels_describe(const ewa_surfels *surfels, ewa_surfels_info *info);
@@ -57,7 +61,8 @@ typedef enum ewa_kernel {
 
 typedef enum ewa_shading {
     EWA_SHADING_NONE = 0,    ///< the surfels' colour
-    EWA_SHADING_LAMBERT = 1, ///< times ambient + (1 - ambient) * max(0, normal . light)
+    EWA_SHADING_LAMBERT = 1, ///< times ambient + (1 - ambient) * sum of light max(0, normal . light)
+    EWA_SHADING_PHONG = 2,   ///< materials, highlights after Blinn, and the environment (ewa_material)
 } ewa_shading;
 
 typedef enum ewa_cull {
@@ -89,16 +94,30 @@ typedef struct ewa_render_options {
         opacity; ///< of every surface, times the surfels' own (the alpha of their colour); [0, 1]; default 1
     /// Surfaces of a pixel that are composited, front to back, where they are transparent (math.md section 8;
     /// SS section 6): 1: the nearest only, as if opaque; L: the L - 1 nearest, and all that lies behind as
-    /// one more; EWA_LAYERS_EXACT: all. 0 (default): all if opacity or a surfel's alpha is below 1, else 1.
-    /// Surfaces are those of the visibility test, gathered one after another, so that neither the order of
-    /// the points nor the number of layers in front changes what a layer is: unlike the paper's A-buffer,
-    /// which merges whichever fragments it holds. With one pass: 1.
+    /// one more, with the alpha of as many surfaces as its coverage is worth; EWA_LAYERS_EXACT: all. 0
+    /// (default): all if opacity or a surfel's alpha is below 1, else 1. Surfaces are those of the visibility
+    /// test, gathered one after another, so that neither the order of the points nor the number of layers in
+    /// front changes what a layer is: unlike the paper's A-buffer, which merges whichever fragments it holds.
+    /// With one pass: 1.
     uint32_t layers;
     ewa_cull cull;
-    ewa_shading shading;   ///< default EWA_SHADING_LAMBERT
-    double light_world[3]; ///< direction towards the light; 0, 0, 0 (default): headlight, from the eye
-    double ambient;        ///< [0, 1]; default 0.15
-    float background[4];   ///< linear, straight alpha; default transparent black
+    ewa_shading shading; ///< default EWA_SHADING_LAMBERT
+    ewa_light lights[EWA_MAX_LIGHTS];
+    uint32_t light_count; ///< of `lights`; 0 (default): one white headlight
+    double ambient;       ///< of surfaces without a material table; [0, 1]; default 0.15
+    /// For EWA_SHADING_PHONG, borrowed during the call: material k is that of the surfels whose "material" is
+    /// k (0 where a cloud has none). NULL: ewa_material_init() with `ambient` and diffuse = 1 - ambient, for
+    /// all. Where surfels of several materials meet in a pixel, the numbers of ewa_material are averaged by
+    /// the surfels' weights, as colours and normals are.
+    const ewa_material *materials;
+    uint32_t material_count;            ///< [1, EWA_MAX_MATERIALS]; 0 without `materials`
+    const ewa_environment *environment; ///< for EWA_SHADING_PHONG, borrowed during the call; NULL: none
+    double environment_up[3]; ///< where the environment's +y is in the world; default 0, 1, 0. It is turned
+                              ///< there the shortest way: with 0, 0, 1 its +z is the world's -y
+    /// Eye-dome lighting: darkens what lies behind its surroundings on the screen, whatever the shading;
+    /// needs no normals. [0, 100]; 0 (default): none; 1: strong.
+    double eye_dome;
+    float background[4]; ///< linear, straight alpha; default transparent black
 } ewa_render_options;
 
 EWA_API void ewa_render_options_init(ewa_render_options *options, size_t struct_size);
@@ -133,7 +152,8 @@ EWA_API void ewa_renderer_destroy(ewa_renderer **renderer);
 
 /// Draws surfels. The same bytes for every number of threads, every instruction set and every order of the
 /// points. `options` and `stats` may be NULL. Implements math.md sections 3 to 7; held to
-/// ewa_render_reference() by tests. Errors: EWA_ERROR_ARGUMENT (camera, options), EWA_ERROR_MEMORY,
+/// ewa_render_reference() by tests. Errors: EWA_ERROR_ARGUMENT (camera, options, a surfel's material that the
+/// table does not have), EWA_ERROR_MEMORY,
 /// EWA_CANCELLED.
 EWA_API ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const ewa_camera *camera,
                               const ewa_render_options *options, const ewa_frame *frame,

@@ -7,20 +7,16 @@
 #include "base/base.h"
 #include "io/camera_file.h"
 #include "io/file.h"
+#include "io/json_text.h"
 #include "io/png.h"
 #include "math/angle.h"
 
-#include <cjson/cJSON.h>
 #include <limits.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
-enum {
-    // cJSON takes up to 40 bytes of memory per byte of text.
-    MAX_FILE_BYTES = 1 << 26,
-    WHERE_BYTES = 64,
-};
+enum { WHERE_BYTES = 64 };
 
 typedef struct source {
     ewa_camera_list *list;
@@ -340,33 +336,13 @@ static ewa_status read_root(source *in, const cJSON *root) {
     return read_native(in, root);
 }
 
-static ewa_status fail_syntax(const ewa_camera_list *list, const uint8_t *bytes, const uint8_t *at) {
-    size_t line = 1, column = 1;
-    for (; bytes < at; bytes++) {
-        column = *bytes == '\n' ? 1 : column + 1;
-        line += *bytes == '\n';
-    }
-    return ewa_fail(list->context, EWA_ERROR_FORMAT, "%s:%zu:%zu: not JSON from here on", list->name, line,
-                    column);
-}
-
 ewa_status ewa_camera_list_read_json(ewa_camera_list *list, const char *path, const uint8_t *bytes,
                                      size_t size_bytes) {
-    if (size_bytes > MAX_FILE_BYTES)
-        return ewa_fail(list->context, EWA_ERROR_LIMIT,
-                        "%s: %zu bytes, more than a camera file may have (%d)", list->name, size_bytes,
-                        MAX_FILE_BYTES);
-    const char *text = size_bytes ? (const char *)bytes : "", *end = text;
-    cJSON *root = cJSON_ParseWithLengthOpts(text, size_bytes, &end, false);
-    const char *last = text + size_bytes;
-    while (root && end < last && (*end == ' ' || *end == '\t' || *end == '\r' || *end == '\n')) end++;
-    ewa_status status;
-    if (!root || end != last) {
-        status = fail_syntax(list, bytes, (const uint8_t *)(end < last ? end : last));
-    } else {
-        source in = {.list = list, .path = path};
-        status = read_root(&in, root);
-    }
+    cJSON *root;
+    ewa_status status = ewa_json_parse(list->context, list->name, "a camera file", bytes, size_bytes, &root);
+    if (status != EWA_OK) return status;
+    source in = {.list = list, .path = path};
+    status = read_root(&in, root);
     cJSON_Delete(root);
     return status;
 }

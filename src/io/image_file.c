@@ -7,6 +7,7 @@
 #include "image/srgb.h"
 #include "io/exr.h"
 #include "io/file.h"
+#include "io/hdr.h"
 #include "io/pfm.h"
 #include "io/png.h"
 
@@ -102,8 +103,9 @@ ewa_status ewa_image_load_memory(ewa_context *context, const void *bytes, size_t
     if (ewa_png_recognise(bytes, size_bytes)) return ewa_png_decode(context, name, bytes, size_bytes, image);
     if (ewa_exr_recognise(bytes, size_bytes)) return ewa_exr_decode(context, name, bytes, size_bytes, image);
     if (ewa_pfm_recognise(bytes, size_bytes)) return ewa_pfm_decode(context, name, bytes, size_bytes, image);
+    if (ewa_hdr_recognise(bytes, size_bytes)) return ewa_hdr_decode(context, name, bytes, size_bytes, image);
     return ewa_fail(context, EWA_ERROR_FORMAT,
-                    "%s: no picture: neither PNG nor OpenEXR nor PFM by its first bytes", name);
+                    "%s: no picture: neither PNG nor OpenEXR nor PFM nor Radiance by its first bytes", name);
 }
 
 ewa_status ewa_image_load(ewa_context *context, const char *path, ewa_image *image) {

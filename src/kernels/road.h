@@ -11,6 +11,7 @@
 #ifndef EWA_SRC_KERNELS_ROAD_H
 #define EWA_SRC_KERNELS_ROAD_H
 
+#include "image/environment.h"
 #include "kernels/packet.h"
 
 #include <stdbool.h>
@@ -27,14 +28,16 @@ enum {
     EWA_WIDE_CLASS = 2 * EWA_STEEP_CLASS,                   ///< wider boxes, parts of large splats
     EWA_CLIP_CLASS = EWA_WIDE_CLASS + 1,                    ///< splats with clip lines
     EWA_CLASS_COUNT = EWA_CLIP_CLASS + 1,
-    EWA_STEEP_BIT = 1 << 7, ///< in ewa_record.box: steep or wide
-    EWA_CLIP_BIT = 1 << 15, ///< in ewa_record.box: clipped
-    EWA_MAX_CHANNELS = 9,
+    EWA_STEEP_BIT = 1 << 7,    ///< in ewa_record.box: steep or wide
+    EWA_CLIP_BIT = 1 << 15,    ///< in ewa_record.box: clipped
+    EWA_MATERIAL_CHANNELS = 5, ///< ambient, diffuse, specular, shininess, reflection
+    EWA_MAX_CHANNELS = 9 + EWA_MATERIAL_CHANNELS,
     EWA_CELL_BLOCKS = 4, ///< along a side of a cell, for which one depth decides whether packets are hidden
     EWA_TILE_CELLS = 8,  ///< cells along a side of the largest tile
     EWA_GROUP_RECORDS = 64,
     EWA_BOX_LEVELS = 3,       ///< of ewa_edge_boxes
     EWA_BOX_GUARD = 0x8080,   ///< a bit above each number, so that they can be compared by one subtraction
+    EWA_DOME_REACH = 4,       ///< pixels that eye-dome lighting looks away
     EWA_MAX_TILE_BLOCKS = 32, ///< along a side, so that a row of blocks is a word of bits
 };
 
@@ -62,6 +65,7 @@ typedef struct ewa_view {
     bool orthographic, cull_back, ellipses;
     bool affine;                    ///< V is that of the affine map: all kernels but perspective
     bool source, circular, raycast; ///< what becomes of V; neither: affine
+    const float (*materials)[EWA_MATERIAL_CHANNELS]; ///< [code]; NULL: surfels have no codes
     float side_planes[4][3]; ///< inward unit normals of the frustum's sides through the eye, widened by F h
                              ///< and a pixel
 } ewa_view;
@@ -119,6 +123,7 @@ typedef struct ewa_near_record {
     float tolerance;
     float color[3], normal[3]; ///< colour times opacity
     float opacity;
+    float material[EWA_MATERIAL_CHANNELS];
     bool clipped;
     ewa_clip clip;
 } ewa_near_record;
@@ -134,6 +139,7 @@ typedef struct ewa_packet_source {
     const ewa_packet *packets;
     const uint16_t *opacities;  ///< [packet][lane], times 65535; NULL: all are opaque
     const uint16_t *clip_masks; ///< [packet]: lanes with clip lines; NULL: none
+    const uint8_t *materials;   ///< [packet][lane]: codes; NULL: all have the same
 } ewa_packet_source;
 
 /// A run of packets as splats of a tile. `records` and `loads` have room for EWA_PACKET_LANES more than are
@@ -141,7 +147,8 @@ typedef struct ewa_packet_source {
 typedef struct ewa_run {
     ewa_record *records;
     ewa_load *loads;
-    float *opacities; ///< times the kernel's peak; NULL: all are opaque
+    float *opacities;   ///< times the kernel's peak; NULL: all are opaque
+    uint8_t *materials; ///< NULL: all have the same
     uint8_t classes[EWA_RUN_RECORDS + EWA_PACKET_LANES];
     uint32_t near_surfels[EWA_RUN_RECORDS]; ///< packet * 16 + lane
     ewa_clipped clipped[EWA_RUN_RECORDS];
@@ -153,8 +160,9 @@ typedef struct ewa_run {
 typedef struct ewa_sorted_run {
     const ewa_record *records;
     const ewa_load *loads;
-    const float *opacities; ///< NULL: all are opaque
-    const ewa_clip *clips;  ///< of the records that have EWA_CLIP_BIT
+    const float *opacities;   ///< NULL: all are opaque
+    const uint8_t *materials; ///< NULL: all have the same
+    const ewa_clip *clips;    ///< of the records that have EWA_CLIP_BIT
     const uint16_t *order;
     uint16_t class_first[EWA_CLASS_COUNT + 1];
 } ewa_sorted_run;
@@ -165,10 +173,11 @@ typedef struct ewa_tile {
     int32_t width_px, height_px; ///< part inside the picture
     uint32_t blocks_per_row, block_rows;
     float *nearest; ///< [block][16]: the smallest key that counts, the largest key of z + eps
-    float *sums;    ///< [block][channel][16]: weight, r, g, b [, normal x, y, z] [, z] [, opacity]
+    float *sums; ///< [block][channel][16]: weight, r, g, b [, normal x, y, z] [, z] [, material] [, opacity]
     uint32_t channel_count;
     bool with_normals, with_depth;
     bool with_opacity;   ///< with_normals then too
+    bool with_materials; ///< with_normals and with_depth then too
     const float *passed; ///< [block][16]: only keys below count, for surfaces behind the first; NULL: all do
 } ewa_tile;
 
@@ -196,28 +205,63 @@ typedef struct ewa_edge_boxes {
 typedef struct ewa_edge_splats {
     const ewa_record *records;
     const ewa_load *loads;
-    const float *opacities; ///< NULL: all are opaque
-    const ewa_clip *clips;  ///< of the records that have EWA_CLIP_BIT
-    uint32_t *indices;      ///< of records and loads
-    float *largest_keys;    ///< no key of the splat that is beyond edges->passed is larger
+    const float *opacities;   ///< NULL: all are opaque
+    const uint8_t *materials; ///< NULL: all have the same
+    const ewa_clip *clips;    ///< of the records that have EWA_CLIP_BIT
+    uint32_t *indices;        ///< of records and loads
+    float *largest_keys;      ///< no key of the splat that is beyond edges->passed is larger
     uint32_t count;
 } ewa_edge_splats;
+
+/// A light in camera space.
+typedef struct ewa_road_light {
+    bool headlight;  ///< from the eye: no direction of its own but in orthographic views
+    float toward[3]; ///< unit
+    float color[3];
+} ewa_road_light;
+
+/// How surfaces are shaded.
+typedef enum ewa_road_shading {
+    EWA_ROAD_UNSHADED,
+    EWA_ROAD_LAMBERT, ///< one white light on the one material's ambient and diffuse: a factor for all colours
+    EWA_ROAD_LIGHTS,  ///< any lights, no highlights
+    EWA_ROAD_PHONG,   ///< everything
+} ewa_road_shading;
 
 /// How pixels become colours, and where they go. Planes as in ewa_frame, of the whole picture.
 typedef struct ewa_resolve {
     float unit_coverage_inverse; ///< 1 / q0
     float alpha_scale;           ///< 1 / (tau q0)
     float opacity;               ///< of all surfaces, beside the surfels' own
-    bool edge_antialiasing, transparent, one_pass, lambert, headlight, orthographic;
-    float ambient;
-    float light[3];           ///< unit, camera space
-    float background[4];      ///< linear, premultiplied
-    float ray_x[2], ray_y[2]; ///< slope = ray[0] pixel + ray[1]
-    float to_world[9];        ///< world from camera, row-major, without scale
+    bool edge_antialiasing, transparent, one_pass, orthographic;
+    ewa_road_shading shading;
+    uint32_t light_count;
+    ewa_road_light lights[EWA_MAX_LIGHTS];
+    float material[EWA_MATERIAL_CHANNELS]; ///< of all surfaces in tiles without materials
+    const ewa_environment *environment;    ///< NULL: none
+    float environment_from_camera[9];      ///< rotation, row-major
+    float background[4];                   ///< linear, premultiplied
+    float ray_x[2], ray_y[2];              ///< slope = ray[0] pixel + ray[1]
+    float to_world[9];                     ///< world from camera, row-major, without scale
     uint32_t width_px;
     uint8_t *rgba8;
     float *rgba, *depth, *normal, *coverage;
 } ewa_resolve;
+
+/// A picture that gets eye-dome lighting.
+typedef struct ewa_eye_dome {
+    uint32_t width_px, height_px;
+    bool orthographic;
+    float inverse_height;  ///< orthographic: 1 / the height of the view in world units
+    float exponent;        ///< light = 2^(exponent sum over all pairs)
+    const float *depth;    ///< as ewa_frame's
+    const float *surfaces; ///< as ewa_frame's rgba, over nothing
+    float *keys;           ///< [height + 2 EWA_DOME_REACH][key_stride], the picture in the middle
+    size_t key_stride;     ///< a multiple of 16, at least width + 2 EWA_DOME_REACH + 15
+    float background[4];   ///< linear, premultiplied
+    uint8_t *rgba8;        ///< may be NULL
+    float *rgba;           ///< may be NULL, may be `surfaces`
+} ewa_eye_dome;
 
 /// The kernels of one instruction set.
 typedef struct ewa_road_kernels {
@@ -280,14 +324,20 @@ typedef struct ewa_road_kernels {
     /// Starts edges->nearest over: every splat beyond edges->passed counts for the next surface.
     void (*edge_take_all)(const ewa_tile *tile, const ewa_edges *edges);
 
-    /// Puts the gathered surface under edges->behind and starts the next one; unmarks blocks that are closed
-    /// or have nothing more. Returns how many stay marked.
-    uint32_t (*edge_compose)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges);
+    /// Puts the gathered surface, `merged` or not from several, under edges->behind and starts the next one;
+    /// unmarks blocks that are closed or have nothing more. Returns how many stay marked.
+    uint32_t (*edge_compose)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges,
+                             bool merged);
 
     /// Writes the tile's pixels to the planes; edges->behind (`edges` may be NULL) is under the blocks that
     /// `edge_rows` marks.
     void (*resolve)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges,
                     const uint32_t *edge_rows);
+
+    /// Eye-dome lighting: fills row [0, height + 2 EWA_DOME_REACH) of the keys.
+    void (*dome_keys)(const ewa_eye_dome *dome, uint32_t row);
+    /// Writes row [0, height) of the picture, when all keys are there.
+    void (*dome_shade)(const ewa_eye_dome *dome, uint32_t row);
 } ewa_road_kernels;
 
 /// Chooses the widest of `cpu_features` (EWA_CPU_* bits); plain C when there is none.

@@ -6,6 +6,7 @@
 // the versions among themselves: the same bytes.
 #include "kernels/road_cull.h"
 #include "kernels/road_edges.h"
+#include "kernels/road_eye_dome.h"
 #include "kernels/road_variants.h"
 
 const ewa_road_kernels ROAD_KERNELS = {
@@ -28,6 +29,8 @@ const ewa_road_kernels ROAD_KERNELS = {
     .edge_take_all = edge_take_all,
     .edge_compose = edge_compose,
     .resolve = resolve,
+    .dome_keys = dome_keys,
+    .dome_shade = dome_shade,
 };
 
 #undef ROAD_NAME

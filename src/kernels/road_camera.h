@@ -1,34 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of road_body.h: roots, and vectors of the packets in camera space.
+// Part of road_body.h: the root, and vectors of the packets in camera space.
 #ifndef EWA_SRC_KERNELS_ROAD_CAMERA_H
 #define EWA_SRC_KERNELS_ROAD_CAMERA_H
 
 #include "kernels/road.h"
 #include "kernels/semantics.h"
-#include "math/wide.h"
-
-/// 1 / x for normal x > 0 within 1.2e-7 relative: a guess from the bits, two cubic steps. Cheaper than a
-/// division, and the same on every machine.
-static ALWAYS_INLINE wf wf_reciprocal(wf x) {
-    wf y = wf_of_bits(wi_sub(wi_set(0x7ef311c3), wi_of_bits(x)));
-    for (int i = 0; i < 2; i++) {
-        const wf e = wf_fnma(x, y, wf_set(1));
-        y = wf_fma(y, wf_fma(e, e, e), y);
-    }
-    return y;
-}
-
-/// 1 / sqrt(x) for normal x > 0 within 1.5e-7 relative, likewise; x = 0 gives a large finite number.
-static ALWAYS_INLINE wf wf_inverse_root(wf x) {
-    wf y = wf_of_bits(wi_sub(wi_set(0x5f375a86), wi_sar(wi_of_bits(x), 1)));
-    for (int i = 0; i < 2; i++) {
-        const wf e = wf_fnma(wf_mul(x, y), y, wf_set(1));
-        y = wf_fma(wf_mul(y, e), wf_fma(e, wf_set(0.375f), wf_set(0.5f)), y);
-    }
-    return y;
-}
+#include "math/wide_functions.h"
 
 /// sqrt(x) for x >= 0 within 2e-7 relative.
 static ALWAYS_INLINE wf wf_root(wf x) { return wf_mul(x, wf_inverse_root(x)); }

@@ -212,8 +212,10 @@ static uint32_t hide(const ewa_view *view, const ewa_packet_bounds *bounds, cons
         load_spheres(bounds, ids + first, here, sphere);
         const packet_outline o = packet_outlines(view, sphere[0], sphere[1], sphere[2], sphere[3]);
         // No key is beyond this: a disc's range, and how far its plane may go beyond (semantics.h), which is
-        // EWA_FREE_RADII support radii for affine ellipses and half of that for others.
-        const wf beyond = wf_mul(wf_set((float)EWA_FREE_RADII * (view->affine ? 1.0f : 0.5f)), o.radius);
+        // EWA_FREE_RADII support radii for affine ellipses, half of that for others, more for circles.
+        const float free_radii = (float)EWA_FREE_RADII * (view->affine ? 1.0f : 0.5f) +
+                                 (view->circular ? (float)EWA_GRAZING_TOLERANCE : 0);
+        const wf beyond = wf_mul(wf_set(free_radii), o.radius);
         wf key;
         if (view->orthographic) {
             key = wf_add(beyond, wf_sub(o.radius, o.center[2]));

@@ -44,11 +44,13 @@ static uint32_t find_edges(const ewa_tile *tile, const ewa_resolve *to, const ew
     return count;
 }
 
-static int32_t largest_of(wi v) {
-    int32_t lanes[EWA_BLOCK_LANES];
-    wi_store(lanes, v);
-    int32_t largest = lanes[0];
-    for (int i = 1; i < EWA_BLOCK_LANES; i++) largest = lanes[i] > largest ? lanes[i] : largest;
+/// Lane i: the largest lane of v[i].
+static ALWAYS_INLINE wi largest_of_each(const wi v[EWA_BLOCK_LANES]) {
+    wf f[EWA_BLOCK_LANES];
+    for (int i = 0; i < EWA_BLOCK_LANES; i++) f[i] = wf_of_bits(v[i]);
+    w_transpose(f);
+    wi largest = wi_of_bits(f[0]);
+    for (int i = 1; i < EWA_BLOCK_LANES; i++) largest = wi_max(largest, wi_of_bits(f[i]));
     return largest;
 }
 
@@ -66,11 +68,18 @@ static ALWAYS_INLINE void set_boxes(const ewa_record *records, uint32_t at, uint
              wf_select(there, wf_load_column(&records[at].key_low), wf_set(__builtin_inff())));
 }
 
-/// Sets a group to the box and the key around sixteen-lane rows [at, end) of `boxes`.
-static ALWAYS_INLINE void set_group(const ewa_edge_boxes *boxes, uint32_t at, uint32_t end,
-                                    ewa_edge_boxes *groups, uint32_t group) {
+/// What boxes span, by extremes that only grow: columns and rows, those of the first counted from 127 down,
+/// and keys. Zero but for the keys: nothing.
+typedef struct box_spans {
+    wi left[EWA_BLOCK_LANES], above[EWA_BLOCK_LANES], right[EWA_BLOCK_LANES], below[EWA_BLOCK_LANES];
+    wf nearer[EWA_BLOCK_LANES];
+} box_spans;
+
+/// Sets spans `i` to those of sixteen-lane rows [at, end) of `boxes`.
+static ALWAYS_INLINE void span_boxes(const ewa_edge_boxes *boxes, uint32_t at, uint32_t end, box_spans *spans,
+                                     uint32_t i) {
     const wi byte = wi_set(0x7f);
-    wi left = wi_set(0), above = left, right = left, below = left; // left and above counted from 127 down
+    wi left = wi_set(0), above = left, right = left, below = left;
     wf nearer = wf_set(-__builtin_inff());
     for (; at < end; at += EWA_BLOCK_LANES) {
         const wi first = wi_load(boxes->first + at), last = wi_load(boxes->last + at);
@@ -80,23 +89,30 @@ static ALWAYS_INLINE void set_group(const ewa_edge_boxes *boxes, uint32_t at, ui
         below = wi_max(below, wi_and(wi_sar(last, 8), byte));
         nearer = wf_max(nearer, wf_negate(wf_load(boxes->key_low + at)));
     }
-    groups->first[group] = (127 - largest_of(left)) | (127 - largest_of(above)) << 8;
-    groups->last[group] = largest_of(right) | largest_of(below) << 8 | EWA_BOX_GUARD;
-    groups->key_low[group] = -largest_lane(nearer);
+    spans->left[i] = left, spans->above[i] = above, spans->right[i] = right, spans->below[i] = below;
+    spans->nearer[i] = nearer;
 }
 
-/// Makes a level of boxes from the one below, `each` of its entries to a box, and fills up the last vector
-/// with boxes that hold nothing.
+/// Makes a level of boxes from the one below, `each` of its entries to a box, sixteen boxes at a time; what
+/// is too many in the last vector holds nothing.
 static ALWAYS_INLINE void set_level(const ewa_edge_boxes *from, uint32_t each, ewa_edge_boxes *level) {
+    const wi byte = wi_set(0x7f);
     level->count = (from->count + each - 1) / each;
-    for (uint32_t g = 0; g < level->count; g++) {
-        const uint32_t first = g * each, left = from->count - first;
-        set_group(from, first, first + (left < each ? left : each), level, g);
-    }
-    for (uint32_t g = level->count; g % EWA_BLOCK_LANES; g++) {
-        level->first[g] = 0x7f7f;
-        level->last[g] = EWA_BOX_GUARD;
-        level->key_low[g] = __builtin_inff();
+    for (uint32_t g = 0; g < level->count; g += EWA_BLOCK_LANES) {
+        box_spans spans;
+        for (uint32_t i = 0; i < EWA_BLOCK_LANES; i++) {
+            const uint32_t first = (g + i) * each, end = first + each;
+            span_boxes(from, first, end < from->count ? end : from->count, &spans, i);
+        }
+        const wi left = wi_sub(byte, largest_of_each(spans.left)),
+                 above = wi_sub(byte, largest_of_each(spans.above)), right = largest_of_each(spans.right),
+                 below = largest_of_each(spans.below);
+        wi_store(level->first + g, wi_or(left, wi_shl(above, 8)));
+        wi_store(level->last + g, wi_or(wi_or(right, wi_shl(below, 8)), wi_set(EWA_BOX_GUARD)));
+        w_transpose(spans.nearer);
+        wf nearest = spans.nearer[0];
+        for (int i = 1; i < EWA_BLOCK_LANES; i++) nearest = wf_max(nearest, spans.nearer[i]);
+        wf_store(level->key_low + g, wf_negate(nearest));
     }
 }
 
@@ -291,8 +307,8 @@ static ALWAYS_INLINE void edge_sum(const ewa_view *view, const ewa_tile *tile, c
                 counts = wm_and(counts, wf_lt(wf_set(0), share));
             }
             if (!wm_bits(counts)) continue;
-            const payload add = payload_load(r, &splats->loads[index],
-                                             what & ADD_OPACITY ? &splats->opacities[index] : NULL, what);
+            const payload add = payload_load(view, r, &splats->loads[index], splats->opacities,
+                                             splats->materials, index, what);
             const wf weight = wf_keep(counts, wf_mul(share, exponential(sample.exponent, view->doublings)));
             add_channels(sums, tile->channel_count, weight, &add, sample.key, what);
         }
@@ -324,7 +340,7 @@ static void ray_edge_sum(const ewa_view *view, const ewa_tile *tile, const ewa_e
                          uint32_t column, const ewa_edge_splats *splats) {
     const size_t block = block_at(tile, row, column), at = block * EWA_BLOCK_LANES;
     const wf passed = wf_load(edges->passed + at), nearest = wf_load(edges->nearest + at);
-    const int what = (tile->with_normals ? ADD_NORMAL : 0) | (tile->with_opacity ? ADD_OPACITY : 0);
+    const int what = channels_of(tile);
     for (uint32_t i = 0; i < splats->count; i++) {
         const uint32_t index = splats->indices[i];
         const ewa_record *r = &splats->records[index];
@@ -334,8 +350,7 @@ static void ray_edge_sum(const ewa_view *view, const ewa_tile *tile, const ewa_e
         const wm counts = wm_and(wf_lt(sample.exponent, wf_set(view->exponent_end)),
                                  wm_and(wf_lt(sample.key, passed), wf_le(nearest, sample.key)));
         if (!wm_bits(counts)) continue;
-        const payload add =
-            payload_load(r, load, what & ADD_OPACITY ? &splats->opacities[index] : NULL, what);
+        const payload add = payload_load(view, r, load, splats->opacities, splats->materials, index, what);
         const wf bell = exponential(wf_keep(counts, sample.exponent), view->doublings);
         add_channels(edges->sums + at * tile->channel_count, tile->channel_count,
                      wf_keep(counts, wf_mul(bell, sample.gain)), &add, sample.key, what);
@@ -350,6 +365,10 @@ static void edge_pass(const ewa_view *view, const ewa_tile *tile, const ewa_edge
         ray_edge_raise(view, tile, edges, row, column, splats);
     else if (!second_pass)
         edge_raise(view, tile, edges, row, column, splats);
+    else if (tile->with_materials && tile->with_opacity)
+        edge_sum(view, tile, edges, row, column, splats, ADD_NORMAL | ADD_MATERIAL | ADD_OPACITY);
+    else if (tile->with_materials)
+        edge_sum(view, tile, edges, row, column, splats, ADD_NORMAL | ADD_MATERIAL);
     else if (tile->with_opacity)
         edge_sum(view, tile, edges, row, column, splats, ADD_NORMAL | ADD_OPACITY);
     else if (tile->with_normals)
@@ -391,15 +410,31 @@ static void edge_take_all(const ewa_tile *tile, const ewa_edges *edges) {
         }
 }
 
+/// Alpha of a layer that is all that is left, from that of one surface and the coverage (semantics.h,
+/// layers).
+static ALWAYS_INLINE wf merged_alpha(wf alpha, wf coverage) {
+    const wf zero = wf_set(0), one = wf_set(1);
+    wf through = wf_sub(one, alpha);
+    for (int i = 1; i < EWA_MERGED_SURFACES; i++) {
+        const wf share = wf_min(wf_max(wf_fma(coverage, wf_set(4), wf_set((float)(-4 * i - 2))), zero), one);
+        if (!wm_bits(wf_lt(zero, share))) break;
+        through = wf_mul(through, wf_sub(one, wf_mul(alpha, share)));
+    }
+    return wf_sub(one, through);
+}
+
 /// Composites one block's gathered surface under what is in front of it; returns the pixels that stay open.
-static wm compose_block(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges *edges, uint32_t row,
-                        uint32_t column) {
+static wm compose_block(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges *edges, bool merged,
+                        uint32_t row, uint32_t column) {
     enum { LANES = EWA_BLOCK_LANES };
     const size_t block = block_at(tile, row, column);
     const float *sums = edges->sums + block * tile->channel_count * LANES;
-    const wf scale = color_scale(tile, to, sums, (uint32_t)tile->x_px + column * EWA_BLOCK_PX,
-                                 (uint32_t)tile->y_px + row * EWA_BLOCK_PX);
-    const surface found = gathered_surface(tile, to, sums, scale);
+    float shade[EWA_SHADE_FLOATS];
+    shade_block(tile, to, sums, (uint32_t)tile->x_px + column * EWA_BLOCK_PX,
+                (uint32_t)tile->y_px + row * EWA_BLOCK_PX, shade);
+    surface found = gathered_surface(tile, to, sums, shade);
+    if (merged)
+        found.alpha = merged_alpha(found.alpha, wf_mul(wf_load(sums), wf_set(to->unit_coverage_inverse)));
     float *behind = edges->behind + block * 4 * LANES;
     const wf covered = wf_load(behind + 3 * LANES);
     const wf share = wf_mul(wf_sub(wf_set(1), covered), found.alpha);
@@ -410,13 +445,14 @@ static wm compose_block(const ewa_tile *tile, const ewa_resolve *to, const ewa_e
     return wm_and(wf_lt(wf_set(0), wf_load(sums)), wf_lt(total, wf_set(1)));
 }
 
-static uint32_t edge_compose(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges *edges) {
+static uint32_t edge_compose(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges *edges,
+                             bool merged) {
     uint32_t count = 0;
     for (uint32_t row = 0; row < tile->block_rows; row++) {
         for (uint32_t marked = edges->rows[row]; marked; marked &= marked - 1) {
             const uint32_t column = (uint32_t)__builtin_ctz(marked);
             const size_t block = block_at(tile, row, column);
-            const wm open = compose_block(tile, to, edges, row, column);
+            const wm open = compose_block(tile, to, edges, merged, row, column);
             if (wm_bits(open)) {
                 start_surface(tile, edges, block, open, wf_load(edges->nearest + block * EWA_BLOCK_LANES));
                 count++;

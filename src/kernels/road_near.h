@@ -71,10 +71,11 @@ static ALWAYS_INLINE void near_add(const ewa_view *view, const ewa_tile *tile, c
         add.normal[k] = wf_mul(add.peak, wf_set(r->normal[k]));
     }
     add.opacity = wf_mul(add.peak, wf_set(r->opacity));
+    for (int k = 0; k < EWA_MATERIAL_CHANNELS; k++)
+        add.material[k] = wf_mul(add.peak, wf_set(r->material[k]));
     const wf e = exponential(wf_keep(counts, sample->exponent), view->doublings);
     add_channels(sums, tile->channel_count, wf_keep(counts, e), &add, wf_select(counts, key, wf_set(1)),
-                 (tile->with_normals ? ADD_NORMAL : 0) | (with_depth ? ADD_DEPTH : 0) |
-                     (tile->with_opacity ? ADD_OPACITY : 0));
+                 channels_of(tile) | (with_depth ? ADD_DEPTH : 0));
 }
 
 static ALWAYS_INLINE near_sample near_block(const ewa_view *view, const ewa_near_record *r, uint32_t row,

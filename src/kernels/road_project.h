@@ -241,8 +241,13 @@ static ALWAYS_INLINE void stage_shape(const ewa_view *view, stage *t) {
 
 /// Appends the records of the lanes in `alive_bits`. May write EWA_PACKET_LANES entries whatever they are.
 static ALWAYS_INLINE void emit(ewa_run *run, uint32_t alive_bits, const wf records[16], const float loads[64],
-                               const float opacities[16], const uint8_t classes[16]) {
+                               const float opacities[16], const uint8_t *materials,
+                               const uint8_t classes[16]) {
     uint32_t at = run->count;
+    for (uint32_t lane = 0, to = at; run->materials && lane < 16; lane++) {
+        run->materials[to] = materials[lane];
+        to += alive_bits >> lane & 1;
+    }
     if (alive_bits == 0xffff) { // most packets lie within one tile
         for (uint32_t lane = 0; lane < 16; lane++)
             wf_store((float *)(void *)&run->records[at + lane], records[lane]);
@@ -280,8 +285,8 @@ static void list_clipped(ewa_run *run, uint32_t clipped_bits, uint32_t alive_bit
 
 /// Third step: tolerance, box in the tile, and the records of the lanes that are in it.
 static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *packet, uint32_t id, wm clipped,
-                                     const uint16_t *opacities_u16, const ewa_tile *tile, stage *t,
-                                     ewa_run *run, wf *least) {
+                                     const uint16_t *opacities_u16, const uint8_t *materials,
+                                     const ewa_tile *tile, stage *t, ewa_run *run, wf *least) {
     const wf one = wf_set(1), zero = wf_set(0), half = wf_set(0.5f);
     const wf fx = wf_set(view->fx_px), fy = wf_set(view->fy_px);
     const wf *p = t->p;
@@ -303,7 +308,12 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
         reach_depth = wf_mul(reach, wf_mul(p[2], p[2]));
         limit = wf_mul(limit, inverse_z2);
     }
-    const wf margin = wf_max(wf_sub(limit, reach), zero);
+    wf margin = wf_max(wf_sub(limit, reach), zero);
+    if (view->circular) {
+        const wf most = wf_mul(wf_set((float)EWA_GRAZING_TOLERANCE), support);
+        const wf most_key = view->orthographic ? most : wf_mul(most, wf_mul(t->inverse_z, t->inverse_z));
+        margin = wf_add(margin, wf_min(wf_mul(t->half_x, slope), most_key));
+    }
     const wf grazing = wf_min(wf_mul(wf_set(view->grazing), reach_depth),
                               wf_mul(wf_set((float)EWA_GRAZING_TOLERANCE), support));
     const wf tolerance = wf_fma(wf_set(view->tolerance), t->sigma, grazing);
@@ -326,8 +336,10 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
     // Wide splats are wide also where only a narrow part of them is in the tile: its pixels are far from the
     // centre.
     const wf half_end_px = wf_set(EWA_COLUMN_CLASSES * EWA_BLOCK_PX / 2);
-    const wm wide = wm_or(wf_lt(half_end_px, wf_max(t->half_x, t->half_y)),
-                          wf_lt(wf_set(EWA_COLUMN_CLASSES), wf_from_i(columns)));
+    wm wide = wm_or(wf_lt(half_end_px, wf_max(t->half_x, t->half_y)),
+                    wf_lt(wf_set(EWA_COLUMN_CLASSES), wf_from_i(columns)));
+    // The key of circular ones goes too far for a tangent.
+    if (view->circular) wide = wm_of_bits(0xffff);
     // Affine ellipses reach beyond what discs cover, so that their planes may end anywhere.
     const wm steep = wm_or(wide, view->affine ? wm_of_bits(0xffff) : wf_lt(margin, reach));
     const wi steep_bit = wi_of_bits(wf_keep(steep, wf_of_bits(wi_set(EWA_STEEP_BIT))));
@@ -343,7 +355,10 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
     }
     const wf least_key = wf_fnma(wf_abs(t->key_x), t->half_x, wf_fnma(wf_abs(t->key_y), t->half_y, key));
 
-    const wf low = wf_select(steep, wf_sub(key_low, margin), least_key);
+    wf lowest = wf_sub(key_low, margin);
+    if (view->circular && !view->orthographic)
+        lowest = wf_max(lowest, wf_mul(wf_set((float)EWA_LEAST_KEY), t->inverse_z));
+    const wf low = wf_select(steep, lowest, least_key);
     *least = wf_min(wf_select(alive, low, wf_set(__builtin_inff())), *least);
 
     wf opacity = t->peak; // times the peak
@@ -379,7 +394,7 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
         list_clipped(run, wm_bits(wm_and(alive, clipped)), alive_bits, id, t);
     float opacities[16];
     wf_store(opacities, opacity);
-    emit(run, alive_bits, lanes, loads, opacities, classes);
+    emit(run, alive_bits, lanes, loads, opacities, materials, classes);
 }
 
 static ALWAYS_INLINE void setup_run(const ewa_view *view, const ewa_packet_source *source,
@@ -408,6 +423,7 @@ static ALWAYS_INLINE void setup_run(const ewa_view *view, const ewa_packet_sourc
                 stage_emit(view, &packets[ids[i]], ids[i],
                            wm_of_bits(source->clip_masks ? source->clip_masks[ids[i]] : 0),
                            source->opacities ? source->opacities + (size_t)ids[i] * EWA_PACKET_LANES : NULL,
+                           source->materials ? source->materials + (size_t)ids[i] * EWA_PACKET_LANES : NULL,
                            tile, &stages[i], run, &least);
     }
     run->least_key = -largest_lane(wf_negate(least));

@@ -303,19 +303,34 @@ enum {
     ORTHOGRAPHIC = 8, ///< depths are -key
     LONG = 16,        ///< cutoffs beyond 3, which need more than two doublings
     BEYOND = 32,      ///< only beyond tile->passed; the depth, if there is one, is not added
+    ADD_MATERIAL = 64,
 };
+
+/// Where the material's channels begin.
+enum { MATERIAL_AT = 8 };
+
+/// The channels of a tile but for the depth.
+static ALWAYS_INLINE int channels_of(const ewa_tile *tile) {
+    return (tile->with_normals ? ADD_NORMAL : 0) | (tile->with_opacity ? ADD_OPACITY : 0) |
+           (tile->with_materials ? ADD_MATERIAL : 0);
+}
 
 /// What a record adds where its kernel is at its peak.
 typedef struct payload {
-    wf peak, color[3], normal[3], opacity;
+    wf peak, color[3], normal[3], opacity, material[EWA_MATERIAL_CHANNELS];
 } payload;
 
-static ALWAYS_INLINE payload payload_load(const ewa_record *r, const ewa_load *load, const float *opacity,
+/// Of splat `index` of a list.
+static ALWAYS_INLINE payload payload_load(const ewa_view *view, const ewa_record *r, const ewa_load *load,
+                                          const float *opacities, const uint8_t *materials, uint32_t index,
                                           int what) {
     payload p = {.peak = wf_set(load->peak), .color = {wf_set(r->red), wf_set(r->green), wf_set(r->blue)}};
     if (what & ADD_NORMAL)
         for (int i = 0; i < 3; i++) p.normal[i] = wf_set(load->normal[i]);
-    if (what & ADD_OPACITY) p.opacity = wf_set(*opacity);
+    if (what & ADD_OPACITY) p.opacity = wf_set(opacities[index]);
+    if (what & ADD_MATERIAL)
+        for (int i = 0; i < EWA_MATERIAL_CHANNELS; i++)
+            p.material[i] = wf_set(view->materials[materials[index]][i] * load->peak);
     return p;
 }
 
@@ -334,6 +349,10 @@ static ALWAYS_INLINE void add_channels(float *sums, uint32_t channels, wf weight
         const wf z = what & ORTHOGRAPHIC ? wf_negate(key) : wf_div(wf_set(1), key);
         wf_store(sums + at * LANES, wf_fma(wf_mul(weight, p->peak), z, wf_load(sums + at * LANES)));
     }
+    if (what & ADD_MATERIAL)
+        for (int i = MATERIAL_AT; i < MATERIAL_AT + EWA_MATERIAL_CHANNELS; i++)
+            wf_store(sums + i * LANES,
+                     wf_fma(weight, p->material[i - MATERIAL_AT], wf_load(sums + i * LANES)));
     if (what & ADD_OPACITY) {
         float *last = sums + (size_t)(channels - 1) * LANES;
         wf_store(last, wf_fma(weight, p->opacity, wf_load(last)));
@@ -347,6 +366,7 @@ static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_
     const ewa_record *r = &p->run->records[splat];
     const uint32_t channels = what & BEYOND ? tile->channel_count
                                             : 4 + (what & ADD_NORMAL ? 3u : 0) + (what & ADD_DEPTH ? 1u : 0) +
+                                                  (what & ADD_MATERIAL ? EWA_MATERIAL_CHANNELS + 0u : 0) +
                                                   (what & ADD_OPACITY ? 1u : 0);
     const uint32_t doublings = what & LONG ? view->doublings : 2;
     column_terms c[EWA_COLUMN_CLASSES];
@@ -354,7 +374,7 @@ static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_
     for (uint32_t i = 0; i < columns; i++)
         c[i] = column_start(r, r->key, r->key_x, (float)(EWA_BLOCK_PX * (first_column + i)));
     const payload add =
-        payload_load(r, &p->run->loads[splat], what & ADD_OPACITY ? &p->run->opacities[splat] : NULL, what);
+        payload_load(view, r, &p->run->loads[splat], p->run->opacities, p->run->materials, splat, what);
     const wf end = wf_set(view->exponent_end);
     const size_t row_blocks = tile->blocks_per_row;
     const size_t first_block = box_row(r->box) * row_blocks + box_column(r->box) + first_column;
@@ -412,18 +432,23 @@ ACCUMULATE(add_opacity_height, ADD_NORMAL | ADD_OPACITY | ADD_DEPTH | ORTHOGRAPH
 ACCUMULATE(add_color_beyond, BEYOND)
 ACCUMULATE(add_normal_beyond, ADD_NORMAL | BEYOND)
 ACCUMULATE(add_opacity_beyond, ADD_NORMAL | ADD_OPACITY | BEYOND)
+ACCUMULATE(add_material_depth, ADD_NORMAL | ADD_MATERIAL | ADD_DEPTH)
+ACCUMULATE(add_material_height, ADD_NORMAL | ADD_MATERIAL | ADD_DEPTH | ORTHOGRAPHIC)
+ACCUMULATE(add_material_beyond, ADD_NORMAL | ADD_MATERIAL | BEYOND)
+ACCUMULATE(add_all_depth, ADD_NORMAL | ADD_MATERIAL | ADD_OPACITY | ADD_DEPTH)
+ACCUMULATE(add_all_height, ADD_NORMAL | ADD_MATERIAL | ADD_OPACITY | ADD_DEPTH | ORTHOGRAPHIC)
+ACCUMULATE(add_all_beyond, ADD_NORMAL | ADD_MATERIAL | ADD_OPACITY | BEYOND)
 
 static void ray_accumulate(const pass *p) {
     const ewa_view *view = p->view;
     const ewa_tile *tile = p->tile;
-    const int what = (tile->with_normals ? ADD_NORMAL : 0) | (tile->with_opacity ? ADD_OPACITY : 0) |
-                     (tile->with_depth && !tile->passed ? ADD_DEPTH : 0);
+    const int what = channels_of(tile) | (tile->with_depth && !tile->passed ? ADD_DEPTH : 0);
     for (uint32_t i = 0; i < p->run->class_first[EWA_CLASS_COUNT]; i++) {
         const ewa_record *r = &p->run->records[p->run->order[i]];
         const ewa_load *load = &p->run->loads[p->run->order[i]];
         const ray_splat ray = ray_start(view, r, load->peak);
         const payload add =
-            payload_load(r, load, what & ADD_OPACITY ? &p->run->opacities[p->run->order[i]] : NULL, what);
+            payload_load(view, r, load, p->run->opacities, p->run->materials, p->run->order[i], what);
         for (uint32_t row = box_row(r->box); row < box_row(r->box) + box_rows(r->box); row++) {
             for (uint32_t k = 0; k < box_columns(r->box); k++) {
                 const uint32_t column = box_column(r->box) + k;
@@ -451,29 +476,33 @@ static void clipped_add(const pass *p, uint32_t splat, uint32_t row, uint32_t co
         wm_and(clipped_counts(p, &sample, share, at), wf_le(wf_load(tile->nearest + at), sample.key));
     if (!wm_bits(counts)) return;
     const payload add =
-        payload_load(r, &p->run->loads[splat], what & ADD_OPACITY ? &p->run->opacities[splat] : NULL, what);
+        payload_load(p->view, r, &p->run->loads[splat], p->run->opacities, p->run->materials, splat, what);
     const wf weight = wf_keep(counts, wf_mul(share, exponential(sample.exponent, p->view->doublings)));
     add_channels(tile->sums + at * tile->channel_count, tile->channel_count, weight, &add, sample.key, what);
 }
 
 static void accumulate(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run) {
     typedef void add_run(const pass *p);
-    static add_run *const sets[3][4] = {
+    static add_run *const sets[5][4] = {
         {add_color, add_color_depth, add_color_height, add_color_beyond},
         {add_normal, add_normal_depth, add_normal_height, add_normal_beyond},
         {add_opacity, add_opacity_depth, add_opacity_height, add_opacity_beyond},
+        {NULL, add_material_depth, add_material_height, add_material_beyond}, // never without a depth
+        {NULL, add_all_depth, add_all_height, add_all_beyond},
     };
     const pass p = {view, tile, run};
     if (view->raycast) {
         ray_accumulate(&p);
         return;
     }
-    const int channels = tile->with_opacity ? 2 : tile->with_normals ? 1 : 0;
+    const int channels = tile->with_materials ? (tile->with_opacity ? 4 : 3)
+                         : tile->with_opacity ? 2
+                         : tile->with_normals ? 1
+                                              : 0;
     const int kind = tile->passed ? 3 : !tile->with_depth ? 0 : view->orthographic ? 2 : 1;
     sets[channels][kind](&p);
     for_each_clipped(&p, clipped_add,
-                     (tile->with_normals ? ADD_NORMAL : 0) | (tile->with_opacity ? ADD_OPACITY : 0) |
-                         (tile->with_depth && !tile->passed ? ADD_DEPTH : 0) |
+                     channels_of(tile) | (tile->with_depth && !tile->passed ? ADD_DEPTH : 0) |
                          (view->orthographic ? ORTHOGRAPHIC : 0));
 }
 

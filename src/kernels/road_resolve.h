@@ -7,7 +7,7 @@
 #ifndef EWA_SRC_KERNELS_ROAD_RESOLVE_H
 #define EWA_SRC_KERNELS_ROAD_RESOLVE_H
 
-#include "kernels/road_raster.h"
+#include "kernels/road_shade.h"
 
 /// The sRGB curve times 255, rounded to nearest, for values in [0, 1]: 255 (1.055 x^(1/2.4) - 0.055) with
 /// x^(1/2.4) from the octave and a polynomial in the mantissa, within 0.0003 of a code.
@@ -53,54 +53,6 @@ static void store_vectors(float *plane, const ewa_resolve *to, const block_place
     store_block(plane, 3, to, at, packed);
 }
 
-static inline void scale3(wf v[3], wf by) {
-    for (int i = 0; i < 3; i++) v[i] = wf_mul(v[i], by);
-}
-
-static inline wf dot3(const wf a[3], const wf b[3]) {
-    return wf_fma(a[0], b[0], wf_fma(a[1], b[1], wf_mul(a[2], b[2])));
-}
-
-/// The share of light that a pixel with weighted normals' sum `normal` returns: ambient + (1 - ambient)
-/// max(0, N.L).
-static ALWAYS_INLINE wf lambert(const ewa_resolve *to, const wf normal[3], uint32_t x, uint32_t y) {
-    wf light[3], length2 = dot3(normal, normal);
-    const wm defined = wf_lt(wf_set(0), length2);
-    if (to->headlight && !to->orthographic) {
-        const wf px = wf_add(lanes_x(), wf_set((float)x)), py = wf_add(lanes_y(), wf_set((float)y));
-        light[0] = wf_fma(px, wf_set(-to->ray_x[0]), wf_set(-to->ray_x[1]));
-        light[1] = wf_fma(py, wf_set(-to->ray_y[0]), wf_set(-to->ray_y[1]));
-        light[2] = wf_set(-1);
-        length2 = wf_mul(length2, dot3(light, light));
-    } else {
-        for (int i = 0; i < 3; i++) light[i] = wf_set(to->light[i]);
-    }
-    const wf inverse = wf_keep(defined, wf_inverse_root(length2));
-    const wf facing = wf_max(wf_mul(dot3(normal, light), inverse), wf_set(0));
-    return wf_fma(wf_set(1 - to->ambient), facing, wf_set(to->ambient));
-}
-
-/// 1 / weight, 0 where there is none.
-static ALWAYS_INLINE wf inverse_weight(wf weight) {
-    const wm covered = wf_lt(wf_set(0), weight);
-    return wf_keep(covered, wf_div(wf_set(1), wf_select(covered, weight, wf_set(1))));
-}
-
-/// The channel that colours are divided by: colours are weighted by opacity where surfels have one.
-static ALWAYS_INLINE uint32_t color_weight(const ewa_tile *tile) {
-    return tile->with_opacity ? tile->channel_count - 1 : 0;
-}
-
-/// What turns a block's weighted sum of colours into the colour that is seen.
-static ALWAYS_INLINE wf color_scale(const ewa_tile *tile, const ewa_resolve *to, const float *sums,
-                                    uint32_t x, uint32_t y) {
-    const wf inverse = inverse_weight(wf_load(sums + color_weight(tile) * EWA_BLOCK_LANES));
-    if (!tile->with_normals || !to->lambert) return inverse;
-    wf normal[3];
-    for (int i = 0; i < 3; i++) normal[i] = wf_load(sums + (4 + i) * EWA_BLOCK_LANES);
-    return wf_mul(inverse, lambert(to, normal, x, y));
-}
-
 /// A block's gathered surface: straight colour, shaded.
 typedef struct surface {
     wf alpha, color[3];
@@ -119,10 +71,16 @@ static ALWAYS_INLINE wf surface_alpha(const ewa_tile *tile, const ewa_resolve *t
     return wf_mul(coverage, opacity);
 }
 
+/// `shade` is that of shade_block().
 static ALWAYS_INLINE surface gathered_surface(const ewa_tile *tile, const ewa_resolve *to, const float *sums,
-                                              wf scale) {
+                                              const float *shade) {
     surface s = {.alpha = surface_alpha(tile, to, sums)};
-    for (int i = 0; i < 3; i++) s.color[i] = wf_mul(wf_load(sums + (1 + i) * EWA_BLOCK_LANES), scale);
+    if (shades_by_factor(to)) {
+        const wf factor = wf_load(shade);
+        for (int i = 0; i < 3; i++) s.color[i] = wf_mul(wf_load(sums + (1 + i) * EWA_BLOCK_LANES), factor);
+    } else {
+        for (int i = 0; i < 3; i++) s.color[i] = wf_load(shade + i * EWA_BLOCK_LANES);
+    }
     return s;
 }
 
@@ -219,13 +177,13 @@ static void resolve(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges
     const wi empty_codes = color_codes(empty);
     const float *sums = tile->sums, *behind = edges ? edges->behind : NULL;
     const size_t block_floats = (size_t)tile->channel_count * EWA_BLOCK_LANES;
-    float scales[EWA_MAX_TILE_BLOCKS * EWA_BLOCK_LANES];
+    float shades[EWA_MAX_TILE_BLOCKS * EWA_SHADE_FLOATS];
     for (uint32_t row = 0; row < in_tile.block_rows; row++) {
         // Long chains of operations: a row's worth of each at a time keeps the processor busy.
         for (uint32_t column = 0; column < in_tile.blocks_per_row; column++) {
             const block_place at = place_of(&in_tile, row, column);
-            wf_store(scales + (size_t)column * EWA_BLOCK_LANES,
-                     color_scale(&in_tile, &at_hand, sums + column * block_floats, at.x, at.y));
+            shade_block(&in_tile, &at_hand, sums + column * block_floats, at.x, at.y,
+                        shades + (size_t)column * EWA_SHADE_FLOATS);
         }
         const uint32_t marked = edges ? edge_rows[row] : 0;
         for (uint32_t column = 0; column < in_tile.blocks_per_row; column++, sums += block_floats) {
@@ -233,8 +191,8 @@ static void resolve(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges
             if (!planes && !wm_bits(wf_lt(wf_set(0), wf_load(sums)))) {
                 store_codes(&at_hand, &at, empty_codes);
             } else {
-                const surface s = gathered_surface(&in_tile, &at_hand, sums,
-                                                   wf_load(scales + (size_t)column * EWA_BLOCK_LANES));
+                const surface s =
+                    gathered_surface(&in_tile, &at_hand, sums, shades + (size_t)column * EWA_SHADE_FLOATS);
                 wf color[4];
                 composite(&at_hand, &s, marked >> column & 1 ? behind : NULL, color);
                 if (at_hand.rgba8) store_codes(&at_hand, &at, color_codes(color));

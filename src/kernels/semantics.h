@@ -26,12 +26,18 @@
 // Without a prefilter a splat with |V'| < EWA_FLAT V'11 V'22 is a line: it covers no pixel.
 //
 // Other kernels of the affine map (orthographic: of the same ellipse):
-//   source: u = (x - c) J^-1, W = I + h^2 J^-T J^-1, r^2 = u W^-1 u', weight = exp(-r^2 / 2) / (2 pi
-//   sqrt|W|). It needs the inverse: a surfel with |V| < EWA_FLAT V11 V22 or sqrt|V| < EWA_LEAST_AREA is
-//   dropped. circular: V' is replaced by its larger eigenvalue times I, |V| stays. raycast (perspective
-//   cameras; orthographic ones see the affine kernel): V' = w^2 V + h^2 I and |V| w^4 for |V|, w(x) = pz /
-//   z(x), clamped to [pz / (pz + R), pz / (pz - R)], what it is on the disc. Since u = (x - c) J^-1 / w is
-//   the projective map, r^2 = u.u without a prefilter. A surfel with |n.p| < EWA_EDGE_ON |p| is dropped.
+//
+// Source: u = (x - c) J^-1, W = I + h^2 J^-T J^-1, r^2 = u W^-1 u', weight = exp(-r^2 / 2) / (2 pi sqrt|W|).
+// It needs the inverse: a surfel with |V| < EWA_FLAT V11 V22 or sqrt|V| < EWA_LEAST_AREA is dropped.
+//
+// Circular: V' is replaced by its larger eigenvalue l times I, |V| stays. The circle reaches far beyond a
+// disc that is seen at a grazing angle: m below is larger by min(F sqrt(l) g, EWA_GRAZING_TOLERANCE F
+// s), and the key goes no lower than EWA_LEAST_KEY / pz.
+//
+// Raycast (perspective cameras; orthographic ones see the affine kernel): V' = w^2 V + h^2 I and |V| w^4 for
+// |V|, w(x) = pz / z(x), clamped to [pz / (pz + R), pz / (pz - R)], what it is on the disc. Since u = (x - c)
+// J^-1 / w is the projective map, r^2 = u.u without a prefilter. A surfel with |n.p| < EWA_EDGE_ON |p| is
+// dropped.
 //
 // Depth (both): key(x) = 1/z(x) = 1/pz + n.(d(x) - p/pz) / n.p with |n.p| raised to EWA_EDGE_ON |p| where
 // smaller (sign kept, + for 0); orthographic: key(x) = -z(x) = -pz + ((x - px) nx/fx + (y - py) ny/fy) / nz
@@ -47,11 +53,24 @@
 // Three passes: B(x) = min (z + eps) over the surfels that count at x, then those with z <= B(x) are summed.
 // One pass: the surfel of smallest z wins, with weight 1 and full coverage.
 // Resolve: q = sum of weights; nothing where q = 0. Colour, depth: weighted means. Normal: weighted sum,
-// normalised. Coverage AOV: q / q0. alpha = min(1, q / (tau q0)) with edge antialiasing, else 1. Lambert:
-// colour * (ambient + (1 - ambient) max(0, N.L)); headlight: L from the surface point to the eye along the
-// pixel's ray (orthographic: against the view direction).
+// normalised. Coverage AOV: q / q0. alpha = min(1, q / (tau q0)) with edge antialiasing, else 1. Then
+// shading, surface by surface.
 // Over the background (straight alpha bg): rgb = colour alpha + bg_rgb bg_a (1 - alpha), a = alpha + bg_a (1
 // - alpha). rgba8: divided by its alpha (black when 0), sRGB curve, rounded to nearest.
+//
+// Shading: colour (ambient + diffuse sum light max(0, N.L)) [+ specular sum light max(0, N.H)^shininess where
+// N.L > 0, + reflection environment(R)], the part in brackets with EWA_SHADING_PHONG. V is the direction to
+// the eye along the pixel's ray (orthographic: against the view direction); a headlight has L = H = V, others
+// H halfway between L and V; R = 2 (N.V) N - V. A material's five numbers are weighted means like the colour,
+// where the surfels have several materials (but not by opacity, as normals). The environment is looked up
+// (image/environment.h) with the footprint |R - R'|, R' the reflection at the pixel's neighbour in x or in y
+// within its aligned 2x2 pixels, the larger one of those that have the surface too.
+//
+// Eye-dome lighting: the premultiplied colour, before the background, times exp(-EWA_DOME_GAIN strength
+// mean), mean over EWA_DOME_PAIRS pairs of opposite pixels at x +- d of max(0, (key(x + d) + key(x - d)) / 2
+// - key(x)) / key(x), 0 where one of the three shows nothing. d: (r, 0), (0, r), (r, r), (r, -r) for r of 1,
+// 2 and 4 pixels. Orthographic: divided by the height of the view in world units instead. Keys being linear
+// on planes, planes stay as they are.
 //
 // Clip lines (math.md section 5): each pixel keeps the share clamp(1/2 + d, 0, 1) of a splat's weight, d how
 // far inside the line on the screen its centre is, in pixels; of two lines the smaller share (clip_mode 1:
@@ -66,6 +85,9 @@
 // one's. Opaque surfaces go on at their antialiased edges, up to edge_layers surfaces (one layer is math.md
 // section 7, where the background shines through silhouettes inside the object); transparent ones everywhere,
 // until nothing is left, or up to L surfaces of which the last takes all that is left: B(x) is infinite then.
+// How many those are is what their coverage k = q / q0 says: alpha becomes 1 - (1 - alpha) prod (1 - alpha
+// share_i), share_i = clamp(4 (k - i) - 2, 0, 1), i = 1, 2, ... below EWA_MERGED_SURFACES. A surface more
+// counts from half of one on, not earlier, so that the ripple of a single surface's coverage does not show.
 #ifndef EWA_SRC_KERNELS_SEMANTICS_H
 #define EWA_SRC_KERNELS_SEMANTICS_H
 
@@ -90,10 +112,21 @@
 /// Smallest |V'| / (V'11 V'22) that counts as an area.
 #define EWA_FLAT 1e-14
 
+/// Smallest key of circular splats times pz: their z goes up to 16 pz.
+#define EWA_LEAST_KEY 0.0625
+
 /// Smallest sqrt|V| that the source kernel inverts, in square pixels.
 #define EWA_LEAST_AREA     1e-15
 
 #define EWA_INVERSE_TWO_PI 0.15915494309189535
+
+/// Eye-dome lighting: pairs of opposite pixels, and what their mean is multiplied by at strength 1: a step of
+/// 1 % of the depth behind a straight edge takes about half of the light.
+#define EWA_DOME_PAIRS 12
+#define EWA_DOME_GAIN  300.0
+
+/// Surfaces that a merged layer stands for at most.
+#define EWA_MERGED_SURFACES 64
 
 /// Linear colour of surfels that have none.
 #define EWA_DEFAULT_GREY 0.6

@@ -10,6 +10,7 @@
 // point alone.
 #include "prepare/generate.h"
 #include "base/base.h"
+#include "prepare/generate_solid.h"
 
 #include <math.h>
 #include <string.h>
@@ -59,9 +60,13 @@ static ewa_status check_options(ewa_context *context, const ewa_generate_options
     if (options->struct_size != sizeof *options)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "generate: struct_size is %zu, must be %zu",
                         options->struct_size, sizeof *options);
-    if ((unsigned)options->object > EWA_OBJECT_TERRAIN)
+    if ((unsigned)options->object > EWA_OBJECT_CSG)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "generate: object is %d, must be 0 to %d",
-                        (int)options->object, EWA_OBJECT_TERRAIN);
+                        (int)options->object, EWA_OBJECT_CSG);
+    if (options->sharp && !ewa_solid_shape_of(options->object))
+        return ewa_fail(context, EWA_ERROR_ARGUMENT,
+                        "generate: sharp goes with the cube and the part only, object is %d",
+                        (int)options->object);
     ewa_status status = check_range(context, "size_world", options->size_world, MIN_SIZE, MAX_SIZE);
     if (status == EWA_OK) status = check_range(context, "jitter", options->jitter, 0, 1);
     if (status == EWA_OK)
@@ -141,6 +146,8 @@ static void fill_block(const generate_job *job, ewa_generate_block *block) {
         break;
     case EWA_OBJECT_TERRAIN:
         ewa_generate_terrain(&job->terrain, block);
+        break;
+    case EWA_OBJECT_CSG: // has no cells of equal area: generate_solid.c
         break;
     }
 }
@@ -239,6 +246,12 @@ ewa_status ewa_cloud_generate(ewa_context *context, const ewa_generate_options *
     ewa_status status = check_options(context, options);
     if (status != EWA_OK) return status;
     ewa_cloud *made = NULL;
+    if (options->sharp || options->object == EWA_OBJECT_CSG) {
+        status = ewa_generate_solid(context, options, &made);
+        if (status != EWA_OK) ewa_cloud_destroy(&made);
+        *cloud = made;
+        return status;
+    }
     status = ewa_cloud_create(context, options->point_count, &made);
     if (status != EWA_OK) return status;
 

@@ -19,6 +19,7 @@ typedef struct local_surface {
     /// ... and an ellipse of the above axes whose shorter times longer axis is this squared does.
     float ellipse_reach[EWA_BLOCK_LANES];
     float mean_distance[EWA_BLOCK_LANES]; ///< of the neighbours
+    float variation[EWA_BLOCK_LANES];     ///< share of the variance along the normal, [0, 1/3]
     uint32_t thin;                        ///< bits of the lanes whose neighbours are almost on a line
     uint32_t degenerate; ///< bits of the lanes without a plane: fewer than 3 places, or on one line
 } local_surface;

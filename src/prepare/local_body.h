@@ -166,6 +166,7 @@ static eigen decompose(symmetric a) {
 /// The tangent frame and what it says: unit vectors, normal = u x v up to sign.
 typedef struct frame {
     vec u, v, normal;
+    wf variation;
     wm thin, degenerate;
 } frame;
 
@@ -183,7 +184,7 @@ static frame find_frame(const moments *m) {
     c = (symmetric){wf_mul(c.xx, scale), wf_mul(c.xy, scale), wf_mul(c.xz, scale),
                     wf_mul(c.yy, scale), wf_mul(c.yz, scale), wf_mul(c.zz, scale)};
     const eigen e = decompose(c);
-    frame f = {.u = e.vector[0], .v = e.vector[1], .normal = e.vector[2]};
+    frame f = {.u = e.vector[0], .v = e.vector[1], .normal = e.vector[2], .variation = e.value[2]};
     const wm few = wf_lt(m->count, wf_set(3));
     f.thin = wm_or(few, wf_le(e.value[1], wf_mul(e.value[0], wf_set(THIN_VARIANCE))));
     f.degenerate = wm_or(few, wf_le(e.value[1], wf_mul(e.value[0], wf_set(LINE_VARIANCE))));
@@ -391,6 +392,7 @@ static void measure(const ewa_block *block, uint32_t wanted, local_surface *surf
     const wf spacing = find_spacing(&m, &f);
     v_store(surface->normal, f.normal);
     wf_store(surface->spacing, spacing);
+    wf_store(surface->variation, f.variation);
     surface->thin = wm_bits(f.thin);
     surface->degenerate = wm_bits(f.degenerate);
     if (!wanted) return;

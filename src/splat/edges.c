@@ -31,7 +31,8 @@ static void draw_block(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_s
                        uint32_t row, uint32_t column, ewa_tile_pass what) {
     const uint32_t block = row * tile->blocks_per_row + column;
     const bool listed = from->list_count[block] != NOT_LISTED;
-    ewa_edge_splats splats = {s->records, s->loads, s->opacities, s->clips, s->listed, s->listed_keys, 0};
+    ewa_edge_splats splats = {s->records, s->loads,  s->opacities,   s->materials,
+                              s->clips,   s->listed, s->listed_keys, 0};
     const uint32_t first = listed ? from->list_first[block] : from->used;
     splats.indices += first;
     splats.largest_keys += first;
@@ -150,7 +151,7 @@ bool ewa_tile_draw_edges(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile
             }
             if (last) job->kernels->edge_take_all(tile, &s->edges);
         }
-        marked = job->kernels->edge_compose(tile, &job->resolve, &s->edges);
+        marked = job->kernels->edge_compose(tile, &job->resolve, &s->edges, last);
     }
     return true;
 }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Opacities, two bytes for each surfel of clouds that have some; clip lines, for the surfels that have them.
+// Opacities, two bytes for each surfel of clouds that have some; materials, one byte for each surfel of
+// clouds that have several; clip lines, for the surfels that have them.
 #include "splat/extras.h"
 #include "base/base.h"
 
@@ -47,6 +48,33 @@ static ewa_status set_opacities(ewa_context *context, work *w) {
     ewa_release(context, surfels->opacities, (size_t)surfels->packet_count * LANES,
                 sizeof *surfels->opacities);
     surfels->opacities = NULL;
+    return EWA_OK;
+}
+
+static void copy_materials(void *data, uint32_t part, uint32_t worker) {
+    (void)worker;
+    const work *w = data;
+    const ewa_surfels *surfels = w->surfels;
+    for (uint64_t i = (uint64_t)part * PART_PACKETS * LANES; i < part_end(w, part) * LANES; i++)
+        surfels->materials[i] = ewa_surfel_material(w->reader, w->order[i < surfels->count ? i : 0]);
+}
+
+static ewa_status set_materials(ewa_context *context, work *w) {
+    ewa_surfels *surfels = w->surfels;
+    const size_t lanes = (size_t)surfels->packet_count * LANES;
+    if (!w->reader->material || lanes == 0) return EWA_OK;
+    surfels->materials = ewa_allocate(context, lanes, sizeof *surfels->materials);
+    if (!surfels->materials) return EWA_ERROR_MEMORY;
+    ewa_parallel(context, copy_materials, w, part_count(surfels));
+    surfels->material = surfels->materials[0];
+    bool several = false;
+    for (size_t i = 0; i < lanes; i++) {
+        several |= surfels->materials[i] != surfels->material;
+        if (surfels->materials[i] > surfels->most_material) surfels->most_material = surfels->materials[i];
+    }
+    if (several) return EWA_OK;
+    ewa_release(context, surfels->materials, lanes, sizeof *surfels->materials);
+    surfels->materials = NULL;
     return EWA_OK;
 }
 
@@ -116,13 +144,16 @@ static ewa_status set_clips(ewa_context *context, work *w) {
 ewa_status ewa_extras_make(ewa_context *context, ewa_surfels *surfels, const ewa_surfel_reader *reader,
                            const uint32_t *order) {
     work w = {surfels, reader, order};
-    const ewa_status status = set_opacities(context, &w);
+    ewa_status status = set_opacities(context, &w);
+    if (status == EWA_OK) status = set_materials(context, &w);
     return status == EWA_OK ? set_clips(context, &w) : status;
 }
 
 void ewa_extras_free(ewa_context *context, ewa_surfels *surfels) {
     ewa_release(context, surfels->opacities, (size_t)surfels->packet_count * LANES,
                 sizeof *surfels->opacities);
+    ewa_release(context, surfels->materials, (size_t)surfels->packet_count * LANES,
+                sizeof *surfels->materials);
     ewa_release(context, surfels->clip_masks, surfels->packet_count, sizeof *surfels->clip_masks);
     ewa_release(context, surfels->clip_first, surfels->packet_count, sizeof *surfels->clip_first);
     ewa_release(context, surfels->clips, surfels->clip_count, sizeof *surfels->clips);
@@ -131,6 +162,7 @@ void ewa_extras_free(ewa_context *context, ewa_surfels *surfels) {
 size_t ewa_extras_bytes(const ewa_surfels *surfels) {
     size_t bytes = surfels->clip_count * sizeof *surfels->clips;
     if (surfels->opacities) bytes += (size_t)surfels->packet_count * LANES * sizeof *surfels->opacities;
+    if (surfels->materials) bytes += (size_t)surfels->packet_count * LANES * sizeof *surfels->materials;
     if (surfels->clip_masks)
         bytes += surfels->packet_count * (sizeof *surfels->clip_masks + sizeof *surfels->clip_first);
     return bytes;

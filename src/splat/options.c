@@ -4,6 +4,7 @@
 // Defaults and checks of surfels' and pictures' options.
 #include "splat/options.h"
 #include "base/base.h"
+#include "image/material.h"
 
 #include <math.h>
 #include <string.h>
@@ -37,11 +38,49 @@ static ewa_status check_surfels(ewa_context *context, const ewa_surfels_options 
     return status;
 }
 
-static ewa_status check_vectors(ewa_context *context, const ewa_render_options *options) {
-    const double *light = options->light_world;
-    if (!isfinite(light[0]) || !isfinite(light[1]) || !isfinite(light[2]))
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "options: light_world is %g, %g, %g: not finite",
-                        light[0], light[1], light[2]);
+static ewa_status check_direction(ewa_context *context, const char *member, const double v[3]) {
+    if (isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2])) return EWA_OK;
+    return ewa_fail(context, EWA_ERROR_ARGUMENT, "options: %s is %g, %g, %g: not finite", member, v[0], v[1],
+                    v[2]);
+}
+
+static ewa_status check_lights(ewa_context *context, const ewa_render_options *options) {
+    static const double MOST = 1e6;
+    ewa_status status = check_range(context, "light_count", options->light_count, 0, false, EWA_MAX_LIGHTS);
+    for (uint32_t i = 0; status == EWA_OK && i < options->light_count; i++) {
+        const ewa_light *light = &options->lights[i];
+        status = check_direction(context, "a light's direction_world", light->direction_world);
+        for (int c = 0; c < 3 && status == EWA_OK; c++)
+            status = check_range(context, "a light's color", (double)light->color[c], 0, false, MOST);
+    }
+    return status;
+}
+
+static ewa_status check_materials(ewa_context *context, const ewa_render_options *options) {
+    if (!options->materials != !options->material_count)
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "options: material_count is %u %s materials",
+                        options->material_count, options->materials ? "with" : "without");
+    ewa_status status =
+        check_range(context, "material_count", options->material_count, 0, false, EWA_MAX_MATERIALS);
+    for (uint32_t i = 0; status == EWA_OK && i < options->material_count; i++)
+        status = ewa_material_check(context, "options", i, &options->materials[i]);
+    return status;
+}
+
+static ewa_status check_shading(ewa_context *context, const ewa_render_options *options) {
+    ewa_status status = check_choice(context, "shading", (int)options->shading, EWA_SHADING_PHONG);
+    if (status == EWA_OK) status = check_lights(context, options);
+    if (status == EWA_OK) status = check_range(context, "ambient", options->ambient, 0, false, 1);
+    if (status == EWA_OK) status = check_materials(context, options);
+    if (status == EWA_OK) status = check_range(context, "eye_dome", options->eye_dome, 0, false, 100);
+    const double *up = options->environment_up;
+    if (status == EWA_OK) status = check_direction(context, "environment_up", up);
+    if (status == EWA_OK && up[0] == 0 && up[1] == 0 && up[2] == 0)
+        status = ewa_fail(context, EWA_ERROR_ARGUMENT, "options: environment_up is 0, 0, 0");
+    return status;
+}
+
+static ewa_status check_background(ewa_context *context, const ewa_render_options *options) {
     static const char *const names[] = {"background[0]", "background[1]", "background[2]", "background[3]"};
     ewa_status status = EWA_OK;
     for (int c = 0; c < 4 && status == EWA_OK; c++)
@@ -56,8 +95,6 @@ static ewa_status check_render(ewa_context *context, const ewa_render_options *o
                         options->passes);
     ewa_status status = check_choice(context, "kernel", (int)options->kernel, EWA_KERNEL_RAYCAST);
     if (status == EWA_OK) status = check_choice(context, "cull", (int)options->cull, EWA_CULL_BACK);
-    if (status == EWA_OK)
-        status = check_choice(context, "shading", (int)options->shading, EWA_SHADING_LAMBERT);
     if (status == EWA_OK) status = check_range(context, "prefilter_px", options->prefilter_px, 0, false, 4);
     if (status == EWA_OK)
         status = check_range(context, "tolerance", options->tolerance, 0, false, HUGE_OPTION);
@@ -66,8 +103,8 @@ static ewa_status check_render(ewa_context *context, const ewa_render_options *o
     if (status == EWA_OK)
         status = check_range(context, "edge_layers", options->edge_layers, 1, false, EWA_MAX_EDGE_LAYERS);
     if (status == EWA_OK) status = check_range(context, "opacity", options->opacity, 0, false, 1);
-    if (status == EWA_OK) status = check_range(context, "ambient", options->ambient, 0, false, 1);
-    if (status == EWA_OK) status = check_vectors(context, options);
+    if (status == EWA_OK) status = check_shading(context, options);
+    if (status == EWA_OK) status = check_background(context, options);
     return status;
 }
 
@@ -114,4 +151,5 @@ void ewa_render_options_init(ewa_render_options *options, size_t struct_size) {
     options->cull = EWA_CULL_NONE;
     options->shading = EWA_SHADING_LAMBERT;
     options->ambient = 0.15;
+    options->environment_up[1] = 1;
 }

@@ -469,5 +469,6 @@ void ewa_surfels_describe(const ewa_surfels *surfels, ewa_surfels_info *info) {
         .unit_coverage = surfels->unit_coverage,
         .transparent = surfels->opacities != NULL,
         .bounds = surfels->extent,
+        .material_count = (uint32_t)surfels->most_material + 1,
     };
 }

@@ -21,6 +21,8 @@ struct ewa_surfels {
     uint32_t count, packet_count;
     uint64_t left_out_count;
     ewa_packet *packets;
+    uint8_t *materials; ///< [packet][lane]; NULL: all are `material`
+    uint8_t material, most_material;
     uint16_t *opacities;    ///< [packet][lane], times 65535; NULL: all are opaque
     uint16_t *clip_masks;   ///< [packet]: bit per lane that has a clip line; NULL: none has
     uint32_t *clip_first;   ///< [packet]: of its lanes' in `clips`

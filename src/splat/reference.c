@@ -7,7 +7,9 @@
 // Rasanen, M. Botsch, C. Dachsbacher, M. Pauly, "Perspective Accurate Splatting", 2004, section 6.
 #include "base/base.h"
 #include "image/srgb.h"
+#include "kernels/semantics.h"
 #include "splat/options.h"
+#include "splat/reference_shade.h"
 #include "splat/reference_splat.h"
 
 #include <string.h>
@@ -27,10 +29,13 @@ typedef struct pixel {
     double weight;    ///< q, the sum of weights
     ewa_vec3 color;   ///< weighted by opacity too
     ewa_vec3 normal_world;
-    double z, opacity; ///< all weighted
-    double passed;     ///< B(x) of the surface before: splats up to there are done
-    ewa_vec3 in_front; ///< premultiplied colour of the surfaces before
-    double through;    ///< the share of the pixel that they leave open
+    double z, opacity;
+    double material[5]; ///< ambient, diffuse, specular, shininess, reflection; all weighted
+    ewa_vec3 shaded;    ///< straight colour
+    double depth;       ///< of the first surface; +infinity: nothing
+    double passed;      ///< B(x) of the surface before: splats up to there are done
+    ewa_vec3 in_front;  ///< premultiplied colour of the surfaces before
+    double through;     ///< the share of the pixel that they leave open
 } pixel;
 
 typedef struct reference {
@@ -40,11 +45,12 @@ typedef struct reference {
     double unit_coverage;
     uint64_t surfel_count;
     ewa_reference_splat *splats;
-    uint32_t layers; ///< surfaces that are composited at most
+    uint8_t *materials; ///< [surfel]
+    uint32_t layers;    ///< surfaces that are composited at most
     bool transparent, merge_last;
     uint32_t band_count;
     pixel *pixels;
-    ewa_vec3 light_world; ///< unit, towards the light; zero: headlight
+    ewa_shading_setup shading;
     ewa_frame frame;
 } reference;
 
@@ -63,6 +69,7 @@ static void project_piece(void *data, uint32_t index, uint32_t worker) {
                 ewa_reference_project(&work->view, &surfels[i], &work->splats[first + i]);
             else
                 work->splats[first + i].drawn = false;
+            work->materials[first + i] = drawable[i] ? (uint8_t)surfels[i].material : 0;
         }
     }
 }
@@ -104,6 +111,9 @@ static void accumulate(const reference *work, pixel *at, uint64_t index, const e
     at->opacity += weight * opacity;
     at->normal_world = vec3_add(at->normal_world, vec3_scale(splat->normal_world, weight));
     at->z += weight * sample->z;
+    const ewa_material *m = &work->shading.materials[work->shading.has_table ? work->materials[index] : 0];
+    const float numbers[5] = {m->ambient, m->diffuse, m->specular, m->shininess, m->reflection};
+    for (int i = 0; i < 5; i++) at->material[i] += weight * (double)numbers[i];
 }
 
 typedef void splat_pass(const reference *work, pixel *at, uint64_t index, const ewa_reference_sample *sample);
@@ -128,19 +138,37 @@ static void walk(const reference *work, int32_t y_begin, int32_t y_end, splat_pa
     }
 }
 
-/// Lambert's factor with the ambient share; the headlight shines along the pixel's ray.
-static double shade(const reference *work, ewa_vec3 normal_world, double x_px, double y_px) {
-    if (work->options.shading == EWA_SHADING_NONE) return 1;
-    ewa_vec3 light = work->light_world;
-    if (vec3_length(light) == 0) {
-        // From the surface to the eye, back to world space: -d A, A being a rotation but for its scale.
-        const ewa_vec3 d = ewa_reference_ray(&work->view, x_px, y_px);
-        for (int row = 0; row < 3; row++)
-            light = vec3_sub(light, vec3_scale(work->view.rows[row], row == 0 ? d.x : row == 1 ? d.y : d.z));
-        light = vec3_scale(light, 1 / vec3_length(light));
-    }
-    const double ambient = work->options.ambient;
-    return ambient + (1 - ambient) * fmax(0, vec3_dot(normal_world, light));
+/// The surface that has gathered at a pixel.
+static ewa_reference_surface surface_at(const reference *work, int32_t x, int32_t y) {
+    if (x >= work->view.width_px || y >= work->view.height_px) return (ewa_reference_surface){.there = false};
+    const pixel *at = &work->pixels[(size_t)y * (size_t)work->view.width_px + (size_t)x];
+    if (!(at->weight > 0)) return (ewa_reference_surface){.there = false};
+    const double inverse = 1 / at->weight, length = vec3_length(at->normal_world);
+    ewa_reference_surface surface = {.there = true,
+                                     .color = vec3_scale(at->color, at->opacity > 0 ? 1 / at->opacity : 0),
+                                     .normal_world =
+                                         vec3_scale(at->normal_world, length > 0 ? 1 / length : 0),
+                                     .ambient = at->material[0] * inverse,
+                                     .diffuse = at->material[1] * inverse,
+                                     .specular = at->material[2] * inverse,
+                                     .shininess = at->material[3] * inverse,
+                                     .reflection = at->material[4] * inverse};
+    // From the surface to the eye, back to world space: -d A, A being a rotation but for its scale.
+    const ewa_vec3 d = ewa_reference_ray(&work->view, x + 0.5, y + 0.5);
+    ewa_vec3 view = vec3_make(0, 0, 0);
+    for (int row = 0; row < 3; row++)
+        view = vec3_sub(view, vec3_scale(work->view.rows[row], row == 0 ? d.x : row == 1 ? d.y : d.z));
+    surface.view_world = vec3_scale(view, 1 / vec3_length(view));
+    return surface;
+}
+
+/// Shades the surface of a pixel, whose neighbours must still have theirs.
+static void shade(const reference *work, int32_t x, int32_t y) {
+    const ewa_reference_surface at = surface_at(work, x, y);
+    if (!at.there) return;
+    const ewa_reference_surface beside = surface_at(work, x ^ 1, y), below = surface_at(work, x, y ^ 1);
+    work->pixels[(size_t)y * (size_t)work->view.width_px + (size_t)x].shaded =
+        ewa_reference_shade(&work->shading, work->options.environment, &at, &beside, &below);
 }
 
 /// Writes what belongs to the nearest surface.
@@ -153,6 +181,14 @@ static void write_surface(const ewa_frame *frame, size_t index, double depth, ew
         frame->normal[3 * index + 2] = (float)normal.z;
     }
     if (frame->coverage) frame->coverage[index] = (float)coverage;
+}
+
+/// Alpha of a layer that is all that is left (semantics.h, layers).
+static double merged_alpha(double alpha, double coverage) {
+    double through = 1 - alpha;
+    for (int i = 1; i < EWA_MERGED_SURFACES; i++)
+        through *= 1 - alpha * fmin(fmax(4 * (coverage - i) - 2, 0), 1);
+    return 1 - through;
 }
 
 /// Third pass (SS 7): divide by the weights, shade, cover; then make the pixel ready for the surface behind.
@@ -171,28 +207,51 @@ static bool resolve_surface(const reference *work, uint32_t layer, int32_t x, in
         alpha = work->options.edge_antialiasing ? fmin(1, coverage / work->options.edge_threshold) : 1;
         if (work->options.passes == 1) alpha = 1;
         if (work->transparent) alpha *= work->options.opacity * at->opacity / q;
-        const double factor = at->opacity > 0 ? shade(work, normal, x + 0.5, y + 0.5) / at->opacity : 0;
-        at->in_front = vec3_add(at->in_front, vec3_scale(at->color, factor * alpha * at->through));
+        if (work->merge_last && layer + 1 == work->layers) alpha = merged_alpha(alpha, coverage);
+        at->in_front = vec3_add(at->in_front, vec3_scale(at->shaded, alpha * at->through));
         at->through *= 1 - alpha;
     }
-    if (layer == 0) write_surface(&work->frame, index, depth, normal, coverage);
+    if (layer == 0) {
+        write_surface(&work->frame, index, depth, normal, coverage);
+        at->depth = depth;
+    }
     const bool open = q > 0 && at->through > 0;
     *at = (pixel){.bound = open ? INFINITY : -INFINITY,
                   .nearest = NOBODY,
                   .passed = open ? at->bound : INFINITY,
+                  .depth = at->depth,
                   .in_front = at->in_front,
                   .through = at->through};
     return open;
 }
 
+static double depth_of_pixel(const void *pixels, size_t index) {
+    const pixel *at = pixels;
+    return at[index].depth;
+}
+
+/// The share of a pixel's light that eye-dome lighting leaves.
+static double eye_dome(const reference *work, size_t index) {
+    if (work->options.eye_dome == 0) return 1;
+    const ewa_reference_view *view = &work->view;
+    const ewa_reference_depths depths = {.width_px = (uint32_t)view->width_px,
+                                         .height_px = (uint32_t)view->height_px,
+                                         .orthographic = view->orthographic,
+                                         .view_height_world = view->height_px / view->fy_px,
+                                         .depth = depth_of_pixel,
+                                         .data = work->pixels};
+    return ewa_reference_eye_dome(&depths, work->options.eye_dome, (uint32_t)(index % depths.width_px),
+                                  (uint32_t)(index / depths.width_px));
+}
+
 /// Puts the pixel over the background.
 static void write_color(const reference *work, size_t index) {
     const pixel *at = &work->pixels[index];
+    const ewa_vec3 front = vec3_scale(at->in_front, eye_dome(work, index));
     const float *background = work->options.background;
     const double behind = (double)background[3] * at->through, a = 1 - at->through + behind;
-    const double rgb[3] = {at->in_front.x + (double)background[0] * behind,
-                           at->in_front.y + (double)background[1] * behind,
-                           at->in_front.z + (double)background[2] * behind};
+    const double rgb[3] = {front.x + (double)background[0] * behind, front.y + (double)background[1] * behind,
+                           front.z + (double)background[2] * behind};
     const ewa_frame *frame = &work->frame;
     if (frame->rgba) {
         for (int c = 0; c < 3; c++) frame->rgba[4 * index + (size_t)c] = (float)rgb[c];
@@ -205,13 +264,18 @@ static void write_color(const reference *work, size_t index) {
     }
 }
 
+/// The first row of a piece of the picture: an even one, as shading looks at 2x2 pixels.
+static int32_t band_begin(const reference *work, uint32_t index) {
+    const int32_t rows = work->view.height_px;
+    const int32_t begin = 2 * (int32_t)ewa_split(((uint32_t)rows + 1) / 2, work->band_count, index);
+    return begin < rows ? begin : rows;
+}
+
 /// All passes over some rows of the picture; no pixel is touched by two pieces.
 static void render_band(void *data, uint32_t index, uint32_t worker) {
     (void)worker;
     const reference *work = data;
-    const uint32_t rows = (uint32_t)work->view.height_px;
-    const int32_t begin = (int32_t)ewa_split(rows, work->band_count, index);
-    const int32_t end = (int32_t)ewa_split(rows, work->band_count, index + 1);
+    const int32_t begin = band_begin(work, index), end = band_begin(work, index + 1);
     const size_t width = (size_t)work->view.width_px;
     const size_t first_pixel = (size_t)begin * width, end_pixel = (size_t)end * width;
     for (size_t i = first_pixel; i < end_pixel; i++)
@@ -223,28 +287,47 @@ static void render_band(void *data, uint32_t index, uint32_t worker) {
         walk(work, begin, end, accumulate);
         open = false;
         for (int32_t y = begin; y < end; y++)
+            for (int32_t x = 0; x < work->view.width_px; x++) shade(work, x, y);
+        for (int32_t y = begin; y < end; y++)
             for (int32_t x = 0; x < work->view.width_px; x++) open |= resolve_surface(work, layer, x, y);
     }
-    for (size_t i = first_pixel; i < end_pixel; i++) write_color(work, i);
+}
+
+static void write_band(void *data, uint32_t index, uint32_t worker) {
+    (void)worker;
+    const reference *work = data;
+    const size_t width = (size_t)work->view.width_px, end = (size_t)band_begin(work, index + 1) * width;
+    for (size_t i = (size_t)band_begin(work, index) * width; i < end; i++) write_color(work, i);
+}
+
+static ewa_status check_materials(ewa_context *context, const reference *work) {
+    uint8_t largest = 0;
+    for (uint64_t i = 0; i < work->surfel_count; i++)
+        if (work->materials[i] > largest) largest = work->materials[i];
+    return ewa_shading_check_materials(context, &work->shading, largest);
 }
 
 /// With `work` complete but for the memory: allocates, projects, draws.
 static ewa_status render(ewa_context *context, reference *work) {
     const size_t pixel_count = (size_t)work->view.width_px * (size_t)work->view.height_px;
     work->splats = ewa_allocate(context, work->surfel_count, sizeof *work->splats);
+    work->materials = ewa_allocate(context, work->surfel_count, sizeof *work->materials);
     work->pixels = ewa_allocate(context, pixel_count, sizeof *work->pixels);
-    ewa_status status = work->splats && work->pixels ? EWA_OK : EWA_ERROR_MEMORY;
+    ewa_status status = work->splats && work->materials && work->pixels ? EWA_OK : EWA_ERROR_MEMORY;
     if (status == EWA_OK) status = ewa_progress(context, "reference", 0);
     if (status == EWA_OK) {
         const uint64_t pieces = (work->surfel_count + PROJECT_POINTS - 1) / PROJECT_POINTS;
         ewa_parallel(context, project_piece, work, (uint32_t)pieces);
-        status = ewa_progress(context, "reference", 0.25);
+        status = check_materials(context, work);
     }
+    if (status == EWA_OK) status = ewa_progress(context, "reference", 0.25);
     if (status == EWA_OK) {
         ewa_parallel(context, render_band, work, work->band_count);
+        ewa_parallel(context, write_band, work, work->band_count);
         status = ewa_progress(context, "reference", 1);
     }
     ewa_release(context, work->pixels, pixel_count, sizeof *work->pixels);
+    ewa_release(context, work->materials, work->surfel_count, sizeof *work->materials);
     ewa_release(context, work->splats, work->surfel_count, sizeof *work->splats);
     return status;
 }
@@ -295,13 +378,7 @@ ewa_status ewa_render_reference(const ewa_cloud *cloud, const ewa_surfels_option
     if (status != EWA_OK) return status;
     set_layers(&work);
     ewa_reference_view_make(camera, chosen.cutoff, &work.options, &work.view);
-    const ewa_vec3 light = vec3_load(work.options.light_world);
-    const double largest = fmax(fabs(light.x), fmax(fabs(light.y), fabs(light.z)));
-    if (largest > 0) {
-        // By way of the largest component, so that no square overflows.
-        const ewa_vec3 shorter = vec3_make(light.x / largest, light.y / largest, light.z / largest);
-        work.light_world = vec3_scale(shorter, 1 / vec3_length(shorter));
-    }
+    ewa_shading_setup_make(&work.options, &work.shading);
     const uint64_t bands = (uint64_t)ewa_context_worker_count(context) * BANDS_PER_WORKER;
     work.band_count = bands < camera->height_px ? (uint32_t)bands : camera->height_px;
     return render(context, &work);

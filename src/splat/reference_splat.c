@@ -104,6 +104,12 @@ static bool filter_ellipse(const ewa_reference_view *view, double jacobian[2][2]
         filtered[0] = filtered[2] = mean + hypot(difference, filtered[1]); // the larger eigenvalue
         filtered[1] = 0;
         determinant = filtered[0] * filtered[0];
+        const double radius = F * fmax(vec3_length(splat->axis_u), vec3_length(splat->axis_v));
+        const double reach = fmin(F * sqrt(filtered[0]) * hypot(splat->plane[0], splat->plane[1]),
+                                  EWA_GRAZING_TOLERANCE * radius / (view->orthographic ? 1 : z * z));
+        splat->key_low -= reach;
+        splat->key_high += reach;
+        if (!view->orthographic) splat->key_low = fmax(splat->key_low, EWA_LEAST_KEY / z);
     }
     splat->inverse[0] = filtered[2] / determinant;
     splat->inverse[1] = -filtered[1] / determinant;

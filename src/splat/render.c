@@ -3,6 +3,7 @@
 //
 // The renderer: an object whose memory survives, and the order of a frame's stages. Reference: reference.c.
 #include "base/base.h"
+#include "splat/eye_dome.h"
 #include "splat/options.h"
 #include "splat/tile.h"
 
@@ -19,6 +20,7 @@ struct ewa_renderer {
     ewa_context *context;
     const ewa_road_kernels *kernels;
     ewa_bins bins;
+    ewa_dome_pass dome;
     uint32_t worker_count;
     ewa_tile_scratch *scratch[]; ///< one per worker
 };
@@ -34,7 +36,7 @@ ewa_status ewa_renderer_create(ewa_context *context, ewa_renderer **renderer) {
     ewa_renderer *made = ewa_allocate_zeroed(context, 1, renderer_bytes(worker_count));
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
-    made->kernels = ewa_road_kernels_choose(ewa_context_cpu_features(context));
+    made->kernels = made->dome.kernels = ewa_road_kernels_choose(ewa_context_cpu_features(context));
     made->worker_count = worker_count;
     for (uint32_t i = 0; i < worker_count; i++) {
         made->scratch[i] = ewa_allocate_zeroed(context, 1, sizeof *made->scratch[i]);
@@ -56,6 +58,7 @@ void ewa_renderer_destroy(ewa_renderer **renderer) {
         ewa_release(context, old->scratch[i], 1, sizeof *old->scratch[i]);
     }
     ewa_bins_free(context, &old->bins);
+    ewa_dome_pass_free(context, &old->dome);
     ewa_release(context, old, 1, renderer_bytes(old->worker_count));
     *renderer = NULL;
 }
@@ -96,6 +99,17 @@ static void set_layers(ewa_tile_job *job, const ewa_render_options *options) {
     }
 }
 
+/// Materials that differ from surfel to surfel are summed per pixel.
+static void set_materials(ewa_tile_job *job, const ewa_shading_setup *shading) {
+    job->with_materials = shading->has_table && job->surfels->materials;
+    if (!job->with_materials) return;
+    job->with_depth = true;
+    job->source.materials = job->surfels->materials;
+    for (uint32_t i = 0; i < shading->material_count; i++)
+        ewa_material_numbers(&shading->materials[i], job->materials[i]);
+    job->view.materials = (const float(*)[EWA_MATERIAL_CHANNELS])job->materials;
+}
+
 ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const ewa_camera *camera,
                       const ewa_render_options *options, const ewa_frame *frame, ewa_render_stats *stats) {
     if (!renderer || !surfels || !camera || !frame) return EWA_ERROR_ARGUMENT;
@@ -105,21 +119,30 @@ ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const 
     ewa_status status = ewa_render_options_choose(context, options, &chosen);
     if (status == EWA_OK) status = ewa_camera_check(context, camera);
     if (status != EWA_OK) return status;
+    ewa_shading_setup shading;
+    ewa_shading_setup_make(&chosen, &shading);
+    status = ewa_shading_check_materials(context, &shading, surfels->most_material);
+    const bool with_dome = chosen.eye_dome > 0 && (frame->rgba8 || frame->rgba);
+    ewa_frame drawn = *frame;
+    if (status == EWA_OK && with_dome)
+        status = ewa_dome_pass_start(context, &renderer->dome, camera, frame, &chosen, &drawn);
+    if (status != EWA_OK) return status;
 
     ewa_tile_job job = {.kernels = renderer->kernels,
                         .surfels = surfels,
                         .source = {.packets = surfels->packets, .clip_masks = surfels->clip_masks},
                         .bins = &renderer->bins,
-                        .with_normals = chosen.shading == EWA_SHADING_LAMBERT || frame->normal,
-                        .with_depth = frame->depth != NULL,
+                        .with_normals = shading.lit || drawn.normal,
+                        .with_depth = drawn.depth != NULL,
                         .count_fragments = stats != NULL,
                         .scratch = renderer->scratch};
-    ewa_resolve_set(&job.resolve, surfels, camera, &chosen, frame);
-    set_layers(&job, &chosen);
-    job.channel_count =
-        4 + (job.with_normals ? 3 : 0) + (job.with_depth ? 1 : 0) + (job.with_opacity ? 1 : 0);
     status = ewa_view_set(&job.view, surfels, camera, &chosen, tile_side_px(camera, surfels));
     if (status != EWA_OK) return status;
+    ewa_resolve_set(&job.resolve, surfels, camera, &chosen, &shading, &drawn);
+    set_layers(&job, &chosen);
+    set_materials(&job, &shading);
+    job.channel_count = 4 + (job.with_normals ? 3 : 0) + (job.with_depth ? 1 : 0) +
+                        (job.with_materials ? EWA_MATERIAL_CHANNELS : 0) + (job.with_opacity ? 1 : 0);
 
     status = ewa_bins_fill(context, &renderer->bins, renderer->kernels, &job.view, surfels);
     if (status != EWA_OK) return status;
@@ -128,6 +151,7 @@ ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const 
         status = ewa_tile_scratch_reserve(context, renderer->scratch[i], &job, renderer->bins.largest_bin);
     if (status != EWA_OK) return status;
     ewa_parallel(context, ewa_tile_draw, &job, renderer->bins.tiles_x * renderer->bins.tiles_y);
+    if (with_dome) ewa_dome_pass_finish(context, &renderer->dome);
     if (stats) gather_stats(renderer, surfels, start_s, binned_s, stats);
     return EWA_OK;
 }

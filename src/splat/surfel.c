@@ -103,6 +103,12 @@ static void set_clip(const double line[3], double axis_scale, const double turn[
     clip[2] = line[2];
 }
 
+uint8_t ewa_surfel_material(const ewa_surfel_reader *reader, uint64_t point) {
+    double value = 0;
+    if (reader->material) ewa_attribute_read_f64(reader->material, point, 1, &value);
+    return value >= 0 && value <= UINT8_MAX && value == floor(value) ? (uint8_t)value : 0;
+}
+
 static ewa_status check_components(const ewa_cloud *cloud, const ewa_attribute *attribute, uint32_t low,
                                    uint32_t high) {
     if (!attribute || (attribute->component_count >= low && attribute->component_count <= high))
@@ -143,6 +149,7 @@ ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_opti
         .tangent_u = ewa_cloud_find(cloud, EWA_TANGENT_U),
         .tangent_v = ewa_cloud_find(cloud, EWA_TANGENT_V),
         .color = ewa_cloud_find(cloud, EWA_COLOR),
+        .material = ewa_cloud_find(cloud, EWA_MATERIAL),
         .sigma_per_radius = options->radius_scale / options->cutoff,
         .axis_scale = options->radius_scale,
     };
@@ -157,6 +164,7 @@ ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_opti
     if (status == EWA_OK) status = check_components(cloud, reader->position, 3, 3);
     if (status == EWA_OK) status = check_components(cloud, reader->normal, 3, 3);
     if (status == EWA_OK) status = check_components(cloud, reader->color, 3, 4);
+    if (status == EWA_OK) status = check_components(cloud, reader->material, 1, 1);
     if (reader->tangent_u && reader->tangent_v) {
         reader->radius = NULL;
         if (status == EWA_OK) status = check_components(cloud, reader->tangent_u, 3, 3);
@@ -202,6 +210,7 @@ static uint64_t read_block(const ewa_surfel_reader *reader, uint64_t first, uint
         for (int k = 0; k < 2; k++) set_clip(&clip[k][3 * i], reader->axis_scale, turn, surfel->clip[k]);
         surfel->clip_either = mode[i] == 1;
         surfel->alpha = 1;
+        surfel->material = ewa_surfel_material(reader, first + i);
         if (reader->color)
             read_color(reader, &color[reader->color->component_count * i], surfel);
         else

@@ -15,6 +15,7 @@ typedef struct ewa_surfel {
     double normal_world[3]; ///< unit; +-(u x v), on the side of the cloud's normal if it has one
     double color_linear[3]; ///< [0, 1]
     double alpha;           ///< [0, 1]
+    double material;        ///< whole, [0, 255]
     /// Clip lines: keep a u + b v + c >= 0 at center + u axis_u + v axis_v; a = b = 0: no line.
     double clip[2][3];
     double clip_either; ///< 1: what one of two lines keeps is kept; 0: what both keep
@@ -30,7 +31,7 @@ typedef struct ewa_surfel {
 /// The streams of a cloud that make surfels. Valid until the cloud's streams change.
 typedef struct ewa_surfel_reader {
     const ewa_attribute *position, *normal, *radius, *tangent_u, *tangent_v, *color; ///< NULL: not used
-    const ewa_attribute *clip[2], *clip_mode;
+    const ewa_attribute *clip[2], *clip_mode, *material;
     double origin_world[3];
     double sigma_per_radius; ///< radius_scale / F
     double axis_scale;       ///< radius_scale
@@ -46,8 +47,8 @@ typedef struct ewa_surfel_reader {
 /// A "color" of 3 or 4 components is used when there is one: unsigned integers are sRGB over their whole
 /// range, signed ones over their non-negative half (alpha is linear), floats are linear and negative ones 0;
 /// alpha is clamped to [0, 1]. A component that is not finite makes the colour an opaque EWA_DEFAULT_GREY, as
-/// no colour does. `options` are checked ones. Errors: EWA_ERROR_ARGUMENT with a message that names the
-/// missing or misshapen attribute.
+/// no colour does. A "material" that is no whole number in [0, 255] is 0. `options` are checked ones. Errors:
+/// EWA_ERROR_ARGUMENT with a message that names the missing or misshapen attribute.
 ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_options *options,
                                   ewa_surfel_reader *reader);
 
@@ -60,6 +61,9 @@ uint64_t ewa_surfel_read(const ewa_surfel_reader *reader, uint64_t first, uint64
 
 /// Whether a point has a clip line. Any thread.
 bool ewa_surfel_is_clipped(const ewa_surfel_reader *reader, uint64_t point);
+
+/// Reads the material of one point as ewa_surfel_read() does. Any thread.
+uint8_t ewa_surfel_material(const ewa_surfel_reader *reader, uint64_t point);
 
 /// Reads the alpha of one point as ewa_surfel_read() does. Any thread.
 double ewa_surfel_alpha(const ewa_surfel_reader *reader, uint64_t point);

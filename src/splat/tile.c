@@ -41,6 +41,7 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
         {&s->near_buffer, records, sizeof *s->near_surfels},
         {&s->clip_buffer, job->source.clip_masks ? records : 0, sizeof *s->clips},
         {&s->opacity_buffer, job->with_opacity ? records + EWA_PACKET_LANES : 0, sizeof *s->opacities},
+        {&s->material_buffer, job->with_materials ? records + EWA_PACKET_LANES : 0, sizeof *s->materials},
         {&s->kept_buffer, records / EWA_RUN_RECORDS + 2, sizeof *s->kept},
         {&s->pixel_buffer, pixel_floats, sizeof(float)},
         {&s->packet_buffer, 4 * packet_count, sizeof *s->shown},
@@ -64,6 +65,7 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     s->near_surfels = s->near_buffer.data;
     s->clips = job->source.clip_masks ? s->clip_buffer.data : NULL;
     s->opacities = job->with_opacity ? s->opacity_buffer.data : NULL;
+    s->materials = job->with_materials ? s->material_buffer.data : NULL;
     s->kept = s->kept_buffer.data;
     s->nearest = s->pixel_buffer.data;
     s->sums = s->nearest + tile_floats;
@@ -85,9 +87,10 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
 }
 
 void ewa_tile_scratch_free(ewa_context *context, ewa_tile_scratch *s) {
-    ewa_buffer *const buffers[] = {&s->record_buffer, &s->load_buffer,    &s->order_buffer, &s->list_buffer,
-                                   &s->box_buffer,    &s->near_buffer,    &s->kept_buffer,  &s->pixel_buffer,
-                                   &s->packet_buffer, &s->opacity_buffer, &s->clip_buffer};
+    ewa_buffer *const buffers[] = {&s->record_buffer,  &s->load_buffer,  &s->order_buffer,
+                                   &s->list_buffer,    &s->box_buffer,   &s->near_buffer,
+                                   &s->kept_buffer,    &s->pixel_buffer, &s->packet_buffer,
+                                   &s->opacity_buffer, &s->clip_buffer,  &s->material_buffer};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) ewa_buffer_free(context, buffers[i]);
 }
 
@@ -106,6 +109,7 @@ static void sort_run(const ewa_run *run, uint16_t *order, ewa_sorted_run *sorted
     sorted->records = run->records;
     sorted->loads = run->loads;
     sorted->opacities = run->opacities;
+    sorted->materials = run->materials;
     sorted->order = order;
 }
 
@@ -153,6 +157,7 @@ static void prepare_run(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_
     s->run.records = s->records + at;
     s->run.loads = s->loads + at;
     s->run.opacities = s->opacities ? s->opacities + at : NULL;
+    s->run.materials = s->materials ? s->materials + at : NULL;
     const uint32_t announced = left < 2 * EWA_RUN_PACKETS ? (uint32_t)left : 2 * EWA_RUN_PACKETS;
     job->kernels->setup(&job->view, &job->source, packets->ids + first,
                         announced < EWA_RUN_PACKETS ? announced : EWA_RUN_PACKETS, announced, tile, &s->run);
@@ -314,7 +319,8 @@ void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
                      .channel_count = job->channel_count,
                      .with_normals = job->with_normals,
                      .with_depth = job->with_depth,
-                     .with_opacity = job->with_opacity};
+                     .with_opacity = job->with_opacity,
+                     .with_materials = job->with_materials};
     const int32_t side = (int32_t)view->tile_px;
     tile.width_px = (int32_t)view->width_px - tile.x_px < side ? (int32_t)view->width_px - tile.x_px : side;
     tile.height_px =

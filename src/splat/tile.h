@@ -39,8 +39,9 @@ typedef struct ewa_tile_scratch {
     ewa_run run;
     ewa_record *records;
     ewa_load *loads;
-    float *opacities; ///< NULL: all are opaque
-    ewa_clip *clips;  ///< of the records that have some; NULL: none has
+    float *opacities;   ///< NULL: all are opaque
+    uint8_t *materials; ///< NULL: all have the same
+    ewa_clip *clips;    ///< of the records that have some; NULL: none has
     uint16_t *order;
     uint32_t *listed;   ///< splats behind marked blocks, block by block
     float *listed_keys; ///< ewa_edge_splats.largest_keys of them
@@ -58,7 +59,7 @@ typedef struct ewa_tile_scratch {
     float *nearest, *sums;
     ewa_edges edges;
     ewa_buffer record_buffer, load_buffer, order_buffer, list_buffer, box_buffer, near_buffer, opacity_buffer,
-        clip_buffer, kept_buffer, pixel_buffer, packet_buffer;
+        material_buffer, clip_buffer, kept_buffer, pixel_buffer, packet_buffer;
     uint32_t edge_rows[EWA_MAX_TILE_BLOCKS], edge_rows_left[EWA_MAX_TILE_BLOCKS];
     uint64_t drawn_count, fragment_count, hidden_splat_count;
     double setup_s, visibility_s, accumulate_s, edge_s, resolve_s;
@@ -72,10 +73,11 @@ typedef struct ewa_tile_job {
     const ewa_bins *bins;
     ewa_view view;
     ewa_resolve resolve;
+    float materials[EWA_MAX_MATERIALS][EWA_MATERIAL_CHANNELS];
     uint32_t channel_count;
     uint32_t layers; ///< surfaces that are composited at most
     bool merge_last; ///< the last of them is all that is left
-    bool with_normals, with_depth, with_opacity, count_fragments;
+    bool with_normals, with_depth, with_opacity, with_materials, count_fragments;
     ewa_tile_scratch *const *scratch; ///< [worker]
 } ewa_tile_job;
 

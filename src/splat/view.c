@@ -83,8 +83,49 @@ ewa_status ewa_view_set(ewa_view *view, const ewa_surfels *surfels, const ewa_ca
     return view->orthographic ? EWA_OK : set_sides(surfels->context, view, camera, cutoff * prefilter + 1);
 }
 
+void ewa_material_numbers(const ewa_material *material, float numbers[EWA_MATERIAL_CHANNELS]) {
+    numbers[0] = material->ambient, numbers[1] = material->diffuse, numbers[2] = material->specular;
+    numbers[3] = material->shininess, numbers[4] = material->reflection;
+}
+
+static void store_matrix(const ewa_mat3 *from, float to[9]) {
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) to[3 * i + j] = (float)from->m[i][j];
+}
+
+/// Lights, the one material and the environment; `rotation` is camera from world.
+static void set_shading(ewa_resolve *resolve, const ewa_surfels *surfels, const ewa_render_options *options,
+                        const ewa_shading_setup *shading, const ewa_mat3 *rotation) {
+    bool plain = shading->light_count == 1;
+    resolve->light_count = shading->light_count;
+    for (uint32_t i = 0; i < shading->light_count; i++) {
+        const ewa_shading_light *from = &shading->lights[i];
+        ewa_road_light *to = &resolve->lights[i];
+        to->headlight = from->headlight;
+        const ewa_vec3 toward = from->headlight
+                                    ? vec3_make(0, 0, -1) // against the orthographic view direction
+                                    : mat3_mul_vec3(rotation, from->toward_world);
+        to->toward[0] = (float)toward.x, to->toward[1] = (float)toward.y, to->toward[2] = (float)toward.z;
+        for (int c = 0; c < 3; c++) {
+            to->color[c] = (float)from->color[c];
+            plain &= from->color[c] == 1;
+        }
+    }
+    ewa_material_numbers(&shading->materials[shading->has_table ? surfels->material : 0], resolve->material);
+    resolve->shading = !shading->lit         ? EWA_ROAD_UNSHADED
+                       : shading->highlights ? EWA_ROAD_PHONG
+                       : plain               ? EWA_ROAD_LAMBERT
+                                             : EWA_ROAD_LIGHTS;
+    resolve->environment = options->environment;
+    const ewa_mat3 world = mat3_transpose(rotation);
+    const ewa_mat3 turn = mat3_multiply(&shading->environment_from_world, &world);
+    store_matrix(&turn, resolve->environment_from_camera);
+    store_matrix(&world, resolve->to_world);
+}
+
 void ewa_resolve_set(ewa_resolve *resolve, const ewa_surfels *surfels, const ewa_camera *camera,
-                     const ewa_render_options *options, const ewa_frame *frame) {
+                     const ewa_render_options *options, const ewa_shading_setup *shading,
+                     const ewa_frame *frame) {
     ewa_mat3 rotation;
     memset(resolve, 0, sizeof *resolve);
     split_scale(camera, &rotation);
@@ -93,24 +134,9 @@ void ewa_resolve_set(ewa_resolve *resolve, const ewa_surfels *surfels, const ewa
     resolve->opacity = (float)options->opacity;
     resolve->one_pass = options->passes == 1;
     resolve->edge_antialiasing = options->edge_antialiasing && !resolve->one_pass;
-    resolve->lambert = options->shading == EWA_SHADING_LAMBERT;
     resolve->orthographic = camera->projection == EWA_ORTHOGRAPHIC;
-    resolve->ambient = (float)options->ambient;
-    const ewa_vec3 light = vec3_load(options->light_world);
-    // By way of the largest component, so that no square overflows.
-    const double largest = fmax(fabs(light.x), fmax(fabs(light.y), fabs(light.z)));
-    resolve->headlight = largest == 0;
-    ewa_vec3 toward = vec3_make(0, 0, -1); // orthographic headlight: against the view direction
-    if (!resolve->headlight) {
-        const ewa_vec3 shorter = vec3_make(light.x / largest, light.y / largest, light.z / largest);
-        toward = vec3_scale(mat3_mul_vec3(&rotation, shorter), 1 / vec3_length(shorter));
-    }
-    resolve->light[0] = (float)toward.x, resolve->light[1] = (float)toward.y,
-    resolve->light[2] = (float)toward.z;
-    for (int i = 0; i < 3; i++) {
-        resolve->background[i] = options->background[i] * options->background[3];
-        for (int j = 0; j < 3; j++) resolve->to_world[3 * i + j] = (float)rotation.m[j][i];
-    }
+    set_shading(resolve, surfels, options, shading, &rotation);
+    for (int i = 0; i < 3; i++) resolve->background[i] = options->background[i] * options->background[3];
     resolve->background[3] = options->background[3];
     resolve->ray_x[0] = (float)(1 / camera->fx_px),
     resolve->ray_x[1] = (float)(-camera->cx_px / camera->fx_px);
@@ -231,6 +257,10 @@ bool ewa_near_record_set(ewa_near_record *record, const ewa_surfels *surfels, ui
         record->normal[i] = (float)normal[i];
     }
     record->opacity = (float)opacity;
+    if (tile->with_materials)
+        memcpy(record->material, view->materials[surfels->materials[surfel]], sizeof record->material);
+    else
+        memset(record->material, 0, sizeof record->material);
     const uint32_t packet = surfel / EWA_PACKET_LANES, lane = surfel % EWA_PACKET_LANES;
     record->clipped = surfels->clip_masks && surfels->clip_masks[packet] >> lane & 1;
     if (record->clipped) {

@@ -7,13 +7,18 @@
 
 #include "kernels/road.h"
 #include "splat/packets.h"
+#include "splat/shading.h"
 
 /// All arguments are checked ones. Errors: EWA_ERROR_NUMERIC for a camera without a view volume.
 ewa_status ewa_view_set(ewa_view *view, const ewa_surfels *surfels, const ewa_camera *camera,
                         const ewa_render_options *options, uint32_t tile_px);
 
 void ewa_resolve_set(ewa_resolve *resolve, const ewa_surfels *surfels, const ewa_camera *camera,
-                     const ewa_render_options *options, const ewa_frame *frame);
+                     const ewa_render_options *options, const ewa_shading_setup *shading,
+                     const ewa_frame *frame);
+
+/// Sets the numbers of a material in the order in which the kernels have them.
+void ewa_material_numbers(const ewa_material *material, float numbers[EWA_MATERIAL_CHANNELS]);
 
 /// Sets the record of a surfel that touches the eye plane (packet * 16 + lane) for one tile; false: not
 /// drawn.

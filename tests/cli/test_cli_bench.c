@@ -94,10 +94,27 @@ static void test_refusals(void **state) {
     run_fails(2, "--cpu: 'sse' is not one of all", "ewa bench --cpu all,sse");
 }
 
+/// Every way of drawing has its row, and all but the first say what they are of it.
+static void test_ways(void **state) {
+    (void)state;
+    run_done("ewa bench --scene layers --splats 5000 --size 128x96 --frames 1 --workers 1,2 --stages off "
+             "--json - 2>tables");
+    static const char *const ways[] = {"opaque", "3 layers", "exact", "1 edge layer", "no edges", "no light"};
+    for (size_t i = 0; i < sizeof ways / sizeof ways[0]; i++) {
+        char key[64];
+        snprintf(key, sizeof key, "\"way\": \"%s\"", ways[i]);
+        const char *row = strstr(last_run.out, key);
+        assert_non_null(row);
+        const char *end = strstr(row, "\"cycles_per_splat\""), *ratio = strstr(row, "\"ratio_to_first_way\"");
+        assert_non_null(end);
+        assert_true((ratio && ratio < end) == (i > 0));
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_stages),  cmocka_unit_test(test_files),    cmocka_unit_test(test_unseen),
-        cmocka_unit_test(test_recipes), cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_stages),  cmocka_unit_test(test_files), cmocka_unit_test(test_unseen),
+        cmocka_unit_test(test_recipes), cmocka_unit_test(test_ways),  cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, enter, NULL);
 }

@@ -76,6 +76,12 @@ static void test_wrong_usage(void **state) {
     run_fails(2, "--aov: 'd.png' is no .exr or .pfm file", "ewa render a.ply -o a.png --aov depth=d.png");
     run_fails(2, "--range needs --color-by", "ewa render a.ply -o a.png --range 0,1");
     run_fails(2, "--light: 0,0,0", "ewa render a.ply -o a.png --light 0,0,0");
+    run_fails(2, "--light: neither", "ewa render a.ply -o a.png --light 1,2,3,4");
+    run_fails(2, "--light: a colour", "ewa render a.ply -o a.png --light 1,2,3,0,-1,0");
+    run_fails(2, "--light: given more than 8 times",
+              "ewa render a.ply -o a.png $(for i in 1 2 3 4 5 6 7 8 9; do echo --light 1,2,$i; done)");
+    run_fails(2, "--materials and --env need", "ewa render a.ply -o a.png --shading lambert --env e.exr");
+    run_fails(2, "--env-up: 0,0,0", "ewa render a.ply -o a.png --env-up 0,0,0");
     run_fails(2, "--camera excludes", "ewa render a.ply -o a.png --camera c.json --view top");
     run_fails(2, "--eye and --view", "ewa render a.ply -o a.png --eye 1,2,3 --view top");
     run_fails(2, "--ascii and --big-endian", "ewa convert a.ply -o b.ply --ascii --big-endian");

@@ -18,6 +18,7 @@ typedef struct sample_arguments {
     const char *text;
     int choice;
     option_vector vector;
+    option_vectors vectors;
     option_color color;
     option_size size;
     option_bounds bounds;
@@ -51,6 +52,13 @@ static const cli_option sample_table[] = {
      .value = "x,y[,z]",
      .low = 2,
      .high = 3,
+     .help = "h"},
+    {.key = "vectors",
+     .kind = OPTION_VECTORS,
+     .offset = AT(vectors),
+     .value = "x,y",
+     .low = 2,
+     .high = 2,
      .help = "h"},
     {.key = "color", .kind = OPTION_COLOR, .offset = AT(color), .value = "r,g,b[,a]", .help = "h"},
     {.key = "size", .kind = OPTION_SIZE, .offset = AT(size), .value = "WxH", .help = "h"},
@@ -117,6 +125,9 @@ static void test_values(void **state) {
     assert_true(parse("--bounds 0,98%") && !arguments.bounds.percent[0] && arguments.bounds.percent[1]);
     assert_true(parse("--color=transparent --size 3,4 --figure 1 --value 4"));
     assert_true(arguments.color.rgba[3] == 0 && arguments.size.given && arguments.number == 4);
+    assert_true(parse("--vectors 1,2 --number 1 --vectors=-3,4"));
+    assert_int_equal(arguments.vectors.count, 2);
+    assert_true(arguments.vectors.each[0].values[1] == 2 && arguments.vectors.each[1].values[0] == -3);
     assert_true(parse("--set three,one,three"));
     assert_int_equal(arguments.set, 5);
     assert_true(parse("--text --flag"));
@@ -159,6 +170,7 @@ static void test_refusals(void **state) {
         {"--vector 1,2,3,4", "--vector: '1,2,3,4' is not x,y[,z]"},
         {"--vector 1,,2", "--vector: '1,,2' is not x,y[,z]"},
         {"--vector 1,2,", "--vector: '1,2,' is not x,y[,z]"},
+        {"--vectors 1,2 --vectors 3", "--vectors: '3' is not x,y"},
         {"--bounds 1", "--bounds: '1' is not a,b"},
         {"--bounds 1,2,3", "--bounds: '1,2,3' is not a,b"},
         {"--bounds %,3", "--bounds: '%,3' is not a,b"},

@@ -490,9 +490,54 @@ static void test_progress_cancels(void **state) {
     ewa_context_destroy(&context);
 }
 
+static void test_sharp_objects(void **state) {
+    (void)state;
+    check_log log = {.count = 0};
+    ewa_context *context = check_context(0, &log);
+    for (int object = 0; object <= EWA_OBJECT_CSG; object++) {
+        ewa_generate_options options = options_of((ewa_object)object, 7000);
+        options.sharp = true;
+        ewa_cloud *cloud = NULL;
+        const bool has_edges = object == EWA_OBJECT_CUBE || object == EWA_OBJECT_CSG;
+        const ewa_status status = ewa_cloud_generate(context, &options, &cloud);
+        assert_int_equal(status, has_edges ? EWA_OK : EWA_ERROR_ARGUMENT);
+        if (!has_edges) continue;
+        const uint64_t count = ewa_cloud_point_count(cloud);
+        assert_true(count <= 7000 && count > 6000);
+        assert_null(ewa_cloud_find(cloud, EWA_RADIUS));
+        const float *clip[2] = {data_of(cloud, EWA_CLIP0), data_of(cloud, EWA_CLIP1)};
+        const uint8_t *mode = data_of(cloud, EWA_CLIP_MODE);
+        uint64_t lines[3] = {0}, either = 0;
+        for (uint64_t i = 0; i < count; i++) {
+            uint32_t found = 0;
+            for (int k = 0; k < 2; k++) found += clip[k][3 * i] != 0 || clip[k][3 * i + 1] != 0;
+            lines[found]++;
+            either += mode[i];
+        }
+        assert_true(lines[0] > lines[1] && lines[1] > lines[2]);
+        // The cube has four convex corners on each face: the surfel on it, two beside it, one across.
+        if (object == EWA_OBJECT_CUBE) assert_int_equal(lines[2], 6 * 4 * 4);
+        assert_true((either > 0) == (object == EWA_OBJECT_CSG));
+        ewa_cloud_destroy(&cloud);
+        options.sharp = false;
+        cloud = generate(context, &options);
+        assert_null(ewa_cloud_find(cloud, EWA_CLIP0));
+        assert_non_null(ewa_cloud_find(cloud, EWA_RADIUS));
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_generate_options few = options_of(EWA_OBJECT_CSG, 100);
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_cloud_generate(context, &few, &cloud), EWA_ERROR_ARGUMENT);
+    assert_non_null(strstr(log.text, "point_count is 100"));
+    few.point_count = 0;
+    assert_int_equal(ewa_cloud_generate(context, &few, &cloud), EWA_ERROR_ARGUMENT);
+    ewa_context_destroy(&context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sine_and_cosine),
+        cmocka_unit_test(test_sharp_objects),
         cmocka_unit_test(test_counts_and_attributes),
         cmocka_unit_test(test_positions_and_normals),
         cmocka_unit_test(test_terrain_normals_are_its_derivatives),

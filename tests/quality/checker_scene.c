@@ -110,11 +110,12 @@ static void trace_row(void *data, uint32_t index, uint32_t worker) {
     for (int x = 0; x < SIDE; x++) truth->gauss[y][x] /= weight_sum;
 }
 
-void checker_trace(ewa_context *context, checker_truth *truth) {
+void checker_trace(ewa_context *context, double zoom, checker_truth *truth) {
     const double eye[3] = {0, -1, EYE_HEIGHT}, target[3] = {0, 0, EYE_HEIGHT}, up[3] = {0, 0, 1};
     ewa_camera_init(&truth->camera, sizeof truth->camera);
     truth->camera.width_px = truth->camera.height_px = SIDE;
     ewa_camera_set_fov(&truth->camera, 60);
+    truth->camera.fx_px *= zoom, truth->camera.fy_px *= zoom;
     ewa_camera_look_at(&truth->camera, eye, target, up);
     trace_job job = {.truth = truth};
     double sum = 0;
@@ -141,11 +142,15 @@ static void compare(const checker_truth *truth, const float *rgba, checker_error
             errors->hole_count += pixel[3] == 0;
         }
     }
+    double box_sum = 0, gauss_sum = 0;
     for (int band = 0; band < CHECKER_BANDS; band++) {
+        box_sum += box[band], gauss_sum += gauss[band];
         errors->box_percent[band] = 100 * sqrt(box[band] / (double)counts[band]);
         errors->gauss_percent[band] = 100 * sqrt(gauss[band] / (double)counts[band]);
         errors->pixel_count += counts[band];
     }
+    errors->box_psnr_db = 10 * log10((double)errors->pixel_count / box_sum);
+    errors->gauss_psnr_db = 10 * log10((double)errors->pixel_count / gauss_sum);
 }
 
 static void measure_alpha(const checker_truth *truth, const float *rgba, checker_errors *errors) {
@@ -160,9 +165,7 @@ static void measure_alpha(const checker_truth *truth, const float *rgba, checker
     errors->translucent_percent = 100 * (double)translucent / (double)errors->pixel_count;
 }
 
-ewa_status checker_measure(ewa_context *context, const checker_truth *truth, const checker_setting *setting,
-                           checker_errors *errors) {
-    *errors = (checker_errors){0};
+ewa_status checker_make(ewa_context *context, const checker_setting *setting, ewa_surfels **surfels) {
     ewa_generate_options board;
     ewa_generate_options_init(&board, sizeof board);
     board.object = EWA_OBJECT_CHECKER;
@@ -170,24 +173,38 @@ ewa_status checker_measure(ewa_context *context, const checker_truth *truth, con
     board.checks = CHECKS;
     board.jitter = setting->jitter;
     board.radius_scale = setting->cutoff * setting->sigma;
-    ewa_surfels_options surfels_options;
-    ewa_surfels_options_init(&surfels_options, sizeof surfels_options);
-    surfels_options.cutoff = setting->cutoff;
+    ewa_surfels_options options;
+    ewa_surfels_options_init(&options, sizeof options);
+    options.cutoff = setting->cutoff;
+    ewa_cloud *cloud = NULL;
+    ewa_status status = ewa_cloud_generate(context, &board, &cloud);
+    if (status == EWA_OK) status = ewa_surfels_create(cloud, &options, surfels);
+    ewa_cloud_destroy(&cloud);
+    return status;
+}
+
+ewa_render_options checker_options(const checker_setting *setting) {
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
     options.kernel = setting->kernel;
     options.prefilter_px = setting->prefilter_px;
+    options.passes = setting->one_pass ? 1 : 3;
     options.shading = EWA_SHADING_NONE;
-    ewa_cloud *cloud = NULL;
+    options.edge_antialiasing = false;
+    return options;
+}
+
+ewa_status checker_measure(ewa_context *context, const checker_truth *truth, const checker_setting *setting,
+                           checker_errors *errors) {
+    *errors = (checker_errors){0};
+    ewa_render_options options = checker_options(setting);
     ewa_surfels *surfels = NULL;
     ewa_renderer *renderer = NULL;
     float *rgba = ewa_allocate(context, (size_t)SIDE * SIDE, 4 * sizeof *rgba);
     const ewa_frame frame = {.rgba = rgba};
     ewa_status status = rgba ? EWA_OK : EWA_ERROR_MEMORY;
-    if (status == EWA_OK) status = ewa_cloud_generate(context, &board, &cloud);
-    if (status == EWA_OK) status = ewa_surfels_create(cloud, &surfels_options, &surfels);
+    if (status == EWA_OK) status = checker_make(context, setting, &surfels);
     if (status == EWA_OK) status = ewa_renderer_create(context, &renderer);
-    options.edge_antialiasing = false;
     if (status == EWA_OK) status = ewa_render(renderer, surfels, &truth->camera, &options, &frame, NULL);
     if (status == EWA_OK) compare(truth, rgba, errors);
     options.edge_antialiasing = true;
@@ -195,7 +212,6 @@ ewa_status checker_measure(ewa_context *context, const checker_truth *truth, con
     if (status == EWA_OK) measure_alpha(truth, rgba, errors);
     ewa_renderer_destroy(&renderer);
     ewa_surfels_destroy(&surfels);
-    ewa_cloud_destroy(&cloud);
     ewa_release(context, rgba, (size_t)SIDE * SIDE, 4 * sizeof *rgba);
     return status;
 }

@@ -32,19 +32,28 @@ typedef struct checker_setting {
     double prefilter_px; ///< h
     double sigma;        ///< standard deviation of the kernels in units of the spacing
     double jitter;       ///< 0.4 is the board of the documented tables
+    bool one_pass;       ///< the nearest splat wins
 } checker_setting;
 
 /// What came out, by bands: far, middle, near.
 typedef struct checker_errors {
     double box_percent[CHECKER_BANDS];   ///< RMSE in % of the contrast, edge antialiasing off
     double gauss_percent[CHECKER_BANDS]; ///< the same against the Gaussian truth
+    double box_psnr_db, gauss_psnr_db;   ///< all bands, peak 1
     uint64_t pixel_count, hole_count;    ///< all bands: pixels compared, pixels that no surfel reached
     double translucent_percent;          ///< pixels with alpha < 0.999 when edge antialiasing is on
     double lowest_alpha;                 ///< with edge antialiasing on
 } checker_errors;
 
-/// Traces the truth: rows are cut into 32 lines each, the board is integrated along them exactly.
-void checker_trace(ewa_context *context, checker_truth *truth);
+/// Traces the truth: rows are cut into 32 lines each, the board is integrated along them exactly. `zoom`
+/// multiplies the focal length; 1 is the picture that is described above.
+void checker_trace(ewa_context *context, double zoom, checker_truth *truth);
+
+/// Makes the board's surfels; the caller destroys them. Errors are those of the library.
+ewa_status checker_make(ewa_context *context, const checker_setting *setting, ewa_surfels **surfels);
+
+/// The options that a setting asks for, without light and without edge antialiasing.
+ewa_render_options checker_options(const checker_setting *setting);
 
 /// Draws the board with ewa_render() and compares. Errors are those of the library.
 ewa_status checker_measure(ewa_context *context, const checker_truth *truth, const checker_setting *setting,

@@ -27,25 +27,37 @@ int main(int argument_count, char **arguments) {
     const double jitter = argument_count > 1 ? strtod(arguments[1], NULL) : 0.4;
     static const double root2 = 1.4142135623730951;
     const checker_setting settings[] = {
-        {EWA_KERNEL_PERSPECTIVE, root2, 1, 0.7, jitter},  {EWA_KERNEL_PERSPECTIVE, root2, 0.5, 0.7, jitter},
-        {EWA_KERNEL_PERSPECTIVE, 2, 0.5, 0.6, jitter},    {EWA_KERNEL_AFFINE, 2, 0.5, 0.6, jitter},
-        {EWA_KERNEL_PERSPECTIVE, 2, 0, 0.6, jitter},      {EWA_KERNEL_PERSPECTIVE, 2, 0.5, 0.5, jitter},
-        {EWA_KERNEL_PERSPECTIVE, 2, 0.4, 0.6, jitter},    {EWA_KERNEL_PERSPECTIVE, 2, 0.4, 0.5, jitter},
-        {EWA_KERNEL_PERSPECTIVE, 2, 0.35, 0.5, jitter},   {EWA_KERNEL_PERSPECTIVE, 2.5, 0.5, 0.44, jitter},
-        {EWA_KERNEL_PERSPECTIVE, 2.5, 0.4, 0.48, jitter}, {EWA_KERNEL_PERSPECTIVE, 2.5, 0.4, 0.44, jitter},
-        {EWA_KERNEL_AFFINE, 2.5, 0.4, 0.44, jitter},      {EWA_KERNEL_PERSPECTIVE, 2.5, 0, 0.44, jitter},
-        {EWA_KERNEL_PERSPECTIVE, 2.5, 0.4, 0.4, jitter},  {EWA_KERNEL_PERSPECTIVE, 2.5, 0.3, 0.44, jitter},
-        {EWA_KERNEL_PERSPECTIVE, 3, 0.4, 0.45, jitter},   {EWA_KERNEL_PERSPECTIVE, 3, 0.4, 0.4, jitter},
-        {EWA_KERNEL_PERSPECTIVE, 3, 0.4, 0.38, jitter},   {EWA_KERNEL_PERSPECTIVE, 3, 0.4, 0.35, jitter},
-        {EWA_KERNEL_PERSPECTIVE, 3, 0.35, 0.4, jitter},   {EWA_KERNEL_PERSPECTIVE, 3, 0.35, 0.38, jitter},
-        {EWA_KERNEL_AFFINE, 3, 0.35, 0.38, jitter},       {EWA_KERNEL_PERSPECTIVE, 3, 0, 0.38, jitter},
-        {EWA_KERNEL_PERSPECTIVE, 3, 0.35, 0.367, jitter},
+        {EWA_KERNEL_PERSPECTIVE, root2, 1, 0.7, jitter, false},
+        {EWA_KERNEL_PERSPECTIVE, root2, 0.5, 0.7, jitter, false},
+        {EWA_KERNEL_PERSPECTIVE, 2, 0.5, 0.6, jitter, false},
+        {EWA_KERNEL_AFFINE, 2, 0.5, 0.6, jitter, false},
+        {EWA_KERNEL_PERSPECTIVE, 2, 0, 0.6, jitter, false},
+        {EWA_KERNEL_PERSPECTIVE, 2, 0.5, 0.5, jitter, false},
+        {EWA_KERNEL_PERSPECTIVE, 2, 0.4, 0.6, jitter, false},
+        {EWA_KERNEL_PERSPECTIVE, 2, 0.4, 0.5, jitter, false},
+        {EWA_KERNEL_PERSPECTIVE, 2, 0.35, 0.5, jitter, false},
+        {EWA_KERNEL_PERSPECTIVE, 2.5, 0.5, 0.44, jitter, false},
+        {EWA_KERNEL_PERSPECTIVE, 2.5, 0.4, 0.48, jitter, false},
+        {EWA_KERNEL_PERSPECTIVE, 2.5, 0.4, 0.44, jitter, false},
+        {EWA_KERNEL_AFFINE, 2.5, 0.4, 0.44, jitter, false},
+        {EWA_KERNEL_PERSPECTIVE, 2.5, 0, 0.44, jitter, false},
+        {EWA_KERNEL_PERSPECTIVE, 2.5, 0.4, 0.4, jitter, false},
+        {EWA_KERNEL_PERSPECTIVE, 2.5, 0.3, 0.44, jitter, false},
+        {EWA_KERNEL_PERSPECTIVE, 3, 0.4, 0.45, jitter, false},
+        {EWA_KERNEL_PERSPECTIVE, 3, 0.4, 0.4, jitter, false},
+        {EWA_KERNEL_PERSPECTIVE, 3, 0.4, 0.38, jitter, false},
+        {EWA_KERNEL_PERSPECTIVE, 3, 0.4, 0.35, jitter, false},
+        {EWA_KERNEL_PERSPECTIVE, 3, 0.35, 0.4, jitter, false},
+        {EWA_KERNEL_PERSPECTIVE, 3, 0.35, 0.38, jitter, false},
+        {EWA_KERNEL_AFFINE, 3, 0.35, 0.38, jitter, false},
+        {EWA_KERNEL_PERSPECTIVE, 3, 0, 0.38, jitter, false},
+        {EWA_KERNEL_PERSPECTIVE, 3, 0.35, 0.367, jitter, false},
     };
     ewa_context *context = NULL;
     if (ewa_context_create(NULL, &context) != EWA_OK) return 1;
     checker_truth *truth = malloc(sizeof *truth);
     if (!truth) return 1;
-    checker_trace(context, truth);
+    checker_trace(context, 1, truth);
     printf("| kernel | F | h px | sigma/spacing | RMSE %%, box: far / middle / near | RMSE %%, Gaussian | "
            "holes | "
            "alpha < 1 | lowest alpha |\n|---|---|---|---|---|---|---|---|---|\n");

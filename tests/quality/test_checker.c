@@ -17,7 +17,7 @@ static int set_up(void **state) {
     fixture *made = malloc(sizeof *made);
     if (!made) return -1;
     made->context = check_context(0, NULL);
-    checker_trace(made->context, &made->truth);
+    checker_trace(made->context, 1, &made->truth);
     *state = made;
     return 0;
 }
@@ -57,7 +57,7 @@ static void test_truth_is_the_board(void **state) {
 }
 
 static void test_ahead_of_peers_in_every_band(void **state) {
-    const checker_setting setting = {EWA_KERNEL_PERSPECTIVE, 3, 0.35, 0.38, 0.4};
+    const checker_setting setting = {EWA_KERNEL_PERSPECTIVE, 3, 0.35, 0.38, 0.4, false};
     checker_errors errors;
     measure(*state, &setting, &errors);
     // The better one of surface_splatting's EWA (14.8 / 10.0 / 16.3 against the box) and MeshLab's code (32.5
@@ -68,7 +68,7 @@ static void test_ahead_of_peers_in_every_band(void **state) {
 }
 
 static void test_prefilter_matters(void **state) {
-    const checker_setting setting = {EWA_KERNEL_PERSPECTIVE, 3, 0, 0.38, 0.4};
+    const checker_setting setting = {EWA_KERNEL_PERSPECTIVE, 3, 0, 0.38, 0.4, false};
     checker_errors errors;
     measure(*state, &setting, &errors);
     assert_true(errors.box_percent[0] > 20);

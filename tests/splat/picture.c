@@ -14,6 +14,12 @@ static void *allocate(size_t count, size_t size_bytes) {
     return memory;
 }
 
+void picture_set_light(ewa_render_options *options, double x, double y, double z) {
+    options->light_count = 1;
+    ewa_light_init(&options->lights[0]);
+    vec3_store(vec3_make(x, y, z), options->lights[0].direction_world);
+}
+
 picture picture_make(uint32_t width_px, uint32_t height_px) {
     const size_t count = (size_t)width_px * height_px;
     return (picture){width_px,

@@ -14,6 +14,9 @@ typedef struct picture {
     ewa_frame frame;
 } picture;
 
+/// Sets one white light from a direction.
+void picture_set_light(ewa_render_options *options, double x, double y, double z);
+
 picture picture_make(uint32_t width_px, uint32_t height_px);
 void picture_free(picture *made);
 

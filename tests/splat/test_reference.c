@@ -165,7 +165,7 @@ static void test_invariance(void **state) {
         scene made = make_scene(context, (scene_kind)(kind / 2)), other = made;
         ewa_render_options options = default_options();
         options.passes = kind % 2 ? 1 : 3;
-        options.light_world[1] = -1;
+        picture_set_light(&options, 0, -1, 0);
         picture wanted = picture_of_scene(&made, NULL, &options);
         const uint64_t count = ewa_cloud_point_count(made.cloud);
 
@@ -184,10 +184,8 @@ static void test_invariance(void **state) {
         other.cloud = copy_surfels(made.cloud, &turn, 1, far_away, 1, NULL);
         move_camera(&other.camera, &turn, 1, far_away);
         ewa_render_options turned = options;
-        const ewa_vec3 light = mat3_mul_vec3(&turn, vec3_load(options.light_world));
-        turned.light_world[0] = light.x;
-        turned.light_world[1] = light.y;
-        turned.light_world[2] = light.z;
+        const ewa_vec3 light = mat3_mul_vec3(&turn, vec3_make(0, -1, 0));
+        picture_set_light(&turned, light.x, light.y, light.z);
         shown = picture_of_scene(&other, NULL, &turned);
         for (size_t i = 0; i < SIZE * SIZE; i++) { // the normal turns with the world
             float *n = &shown.frame.normal[3 * i];
@@ -485,8 +483,8 @@ static void test_resolve(void **state) {
         ewa_render_options chosen = options;
         double a = alpha, shade = sight;
         if (i == 1) chosen.edge_antialiasing = false, a = 1;
-        if (i == 2) chosen.light_world[1] = 5, shade = 0.2 + 0.8 * 0.6;
-        if (i == 3) chosen.light_world[2] = 1, shade = 0.2; // from behind
+        if (i == 2) picture_set_light(&chosen, 0, 5, 0), shade = 0.2 + 0.8 * 0.6;
+        if (i == 3) picture_set_light(&chosen, 0, 0, 1), shade = 0.2; // from behind
         picture shown = picture_of_scene(&made, NULL, &chosen);
         const ewa_frame *frame = &shown.frame;
         assert_true(fabs((double)frame->coverage[0] - q / 0.5) < 1e-6);

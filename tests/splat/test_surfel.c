@@ -287,9 +287,10 @@ static void test_options(void **state) {
     REFUSES(background[3], 1.5f);
     REFUSES(background[0], NAN);
     ewa_render_options_init(&render, sizeof render);
-    render.light_world[1] = INFINITY;
+    render.light_count = 1;
+    render.lights[0].direction_world[1] = INFINITY;
     assert_int_equal(ewa_render_options_choose(context, &render, &chosen), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "light_world"));
+    assert_non_null(strstr(log.text, "direction_world"));
     ewa_context_destroy(&context);
 }
 

@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// ewa features: clip lines at the sharp edges and corners of a scan.
+#include "commands.h"
+#include "inputs.h"
+#include "json.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct features_arguments {
+    common_arguments common; // first
+    const char *output;
+    bool ascii, keep_normals, keep_radii, project;
+    int64_t neighbours;
+    option_vector viewpoint;
+    double angle_deg, noise, radius_scale, cutoff;
+} features_arguments;
+
+#define AT(member) offsetof(features_arguments, member)
+
+static const cli_option output_table[] = {
+    {.key = "output",
+     .letter = 'o',
+     .kind = OPTION_TEXT,
+     .offset = AT(output),
+     .value = "FILE",
+     .help = "file to write (.ply); -: PLY to standard output"},
+    {.key = "ascii",
+     .kind = OPTION_FLAG,
+     .offset = AT(ascii),
+     .help = "write text instead of little-endian binary"},
+};
+
+static const cli_option detection_table[] = {
+    {.key = "angle",
+     .kind = OPTION_NUMBER,
+     .offset = AT(angle_deg),
+     .value = "DEGREES",
+     .range = "[10, 120]",
+     .help = "least angle between the normals of two planes that meet in an edge; less is a smooth surface"},
+    {.key = "neighbours",
+     .aliases = "neighbors",
+     .kind = OPTION_INTEGER,
+     .offset = AT(neighbours),
+     .value = "K",
+     .range = "[0, 64]",
+     .help = "nearest neighbours that planes are fitted to, 16 or more; 0: 24 for exact points up to 64 for "
+             "noisy "
+             "ones"},
+    {.key = "noise",
+     .kind = OPTION_NUMBER,
+     .offset = AT(noise),
+     .value = "SIGMA",
+     .range = "(-inf, 1]",
+     .help = "standard deviation of the points from the surface in units of the spacing; negative: measured"},
+    {.key = "project",
+     .kind = OPTION_ON_OFF,
+     .offset = AT(project),
+     .help = "move the points beside an edge onto their plane"},
+};
+
+static const cli_option surfel_table[] = {
+    {.key = "keep-normals",
+     .kind = OPTION_ON_OFF,
+     .offset = AT(keep_normals),
+     .help = "start from the normals that the file has; else, and where it has none, they are estimated"},
+    {.key = "keep-radii",
+     .kind = OPTION_ON_OFF,
+     .offset = AT(keep_radii),
+     .help =
+         "start from the radii or axes that the file has; else, and where it has none, they are estimated"},
+    {.key = "viewpoint",
+     .kind = OPTION_VECTOR,
+     .offset = AT(viewpoint),
+     .value = "x,y,z",
+     .low = 3,
+     .high = 3,
+     .absent = "none",
+     .help = "place that estimated normals point to, such as the scanner's; none: outward"},
+    {.key = "radius-scale",
+     .kind = OPTION_NUMBER,
+     .offset = AT(radius_scale),
+     .value = "S",
+     .range = "(0, inf)",
+     .help = "estimated support radius in units of the local spacing"},
+    {.key = "cutoff",
+     .kind = OPTION_NUMBER,
+     .offset = AT(cutoff),
+     .value = "F",
+     .range = "(0, 4]",
+     .help = "standard deviations at which kernels end: axes are support radius / F long"},
+};
+
+static void set_defaults(void *data) {
+    features_arguments *arguments = data;
+    ewa_feature_options options;
+    ewa_feature_options_init(&options, sizeof options);
+    arguments->angle_deg = options.angle_deg;
+    arguments->neighbours = options.neighbour_count;
+    arguments->noise = options.noise;
+    arguments->project = options.project;
+    ewa_estimate_options estimate;
+    ewa_estimate_options_init(&estimate, sizeof estimate);
+    arguments->keep_normals = estimate.keep_normals;
+    arguments->keep_radii = estimate.keep_radii;
+    arguments->radius_scale = estimate.radius_scale;
+    arguments->cutoff = options.cutoff;
+}
+
+static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
+    const features_arguments *arguments = data;
+    const char *problem = NULL;
+    if (!arguments->output)
+        problem = "features: no output; say -o FILE";
+    else if (arguments->neighbours > 0 && arguments->neighbours < 16)
+        problem = "--neighbours is 0 or 16 to 64";
+    if (problem) snprintf(message, OPTION_ERROR_BYTES, "%s", problem);
+    return !problem;
+}
+
+static ewa_status detect(cli_session *session, const features_arguments *arguments, ewa_cloud **cloud) {
+    ewa_estimate_options estimate;
+    ewa_estimate_options_init(&estimate, sizeof estimate);
+    estimate.keep_normals = arguments->keep_normals;
+    estimate.keep_radii = arguments->keep_radii;
+    estimate.radius_scale = arguments->radius_scale;
+    estimate.cutoff = arguments->cutoff;
+    if (arguments->viewpoint.count) estimate.orientation = EWA_ORIENT_VIEWPOINT;
+    memcpy(estimate.viewpoint_world, arguments->viewpoint.values, sizeof estimate.viewpoint_world);
+    ewa_feature_options options;
+    ewa_feature_options_init(&options, sizeof options);
+    options.angle_deg = arguments->angle_deg;
+    options.neighbour_count = (uint32_t)arguments->neighbours;
+    options.noise = arguments->noise;
+    options.project = arguments->project;
+    options.cutoff = arguments->cutoff;
+    const double started_s = clock_now_s();
+    ewa_status status = ewa_cloud_estimate(cloud, &estimate);
+    const double estimated_s = clock_now_s();
+    ewa_feature_counts counts;
+    if (status == EWA_OK) status = ewa_cloud_detect_features(*cloud, &options, &counts);
+    if (status == EWA_OK)
+        session_say(session,
+                    "%s: %llu surfels with one clip line, %llu with two, %llu snapped of %llu; noise %.3f "
+                    "spacings, %u neighbours; %.3f s + %.3f s for missing normals and radii",
+                    arguments->common.operands[0], (unsigned long long)counts.edge_count,
+                    (unsigned long long)counts.corner_count, (unsigned long long)counts.snapped_count,
+                    (unsigned long long)ewa_cloud_point_count(*cloud), counts.noise, counts.neighbour_count,
+                    clock_now_s() - estimated_s, estimated_s - started_s);
+    return status;
+}
+
+static int run(const void *data) {
+    const features_arguments *arguments = data;
+    cli_session session;
+    if (!session_start(&session, &arguments->common)) return session_end(&session, EXIT_FAILED);
+    const char *path = arguments->common.operands[0];
+    ewa_cloud *cloud = output_check(&session, arguments->output) ? input_load(&session, path) : NULL;
+    ewa_status status = cloud ? detect(&session, arguments, &cloud) : EWA_OK;
+    if (cloud && status == EWA_OK) {
+        ewa_cloud_save_options options;
+        ewa_cloud_save_options_init(&options, sizeof options);
+        if (arguments->ascii) options.ply_encoding = EWA_PLY_ASCII;
+        session.subject = arguments->output;
+        status = ewa_cloud_save(cloud, arguments->output, &options);
+    }
+    if (status != EWA_OK) session_failed(&session, status);
+    const bool done = cloud && status == EWA_OK;
+    ewa_cloud_destroy(&cloud);
+    return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
+}
+
+static const option_group output_options = {"Output", output_table,
+                                            sizeof output_table / sizeof output_table[0]};
+static const option_group detection_options = {"Detection", detection_table,
+                                               sizeof detection_table / sizeof detection_table[0]};
+static const option_group surfel_options = {"Surfels", surfel_table,
+                                            sizeof surfel_table / sizeof surfel_table[0]};
+static const option_group *const groups[] = {&output_options, &detection_options, &surfel_options};
+
+const cli_command features_command = {
+    .name = "features",
+    .operands = "IN -o OUT",
+    .summary = "detect sharp edges and corners, cut surfels there by clip lines",
+    .examples = "ewa features scan.ply -o sharp.ply\n"
+                "ewa features scan.ply -o sharp.ply --angle 45 --neighbours 48\n",
+    .low_operands = 1,
+    .high_operands = 1,
+    .groups = groups,
+    .group_count = sizeof groups / sizeof groups[0],
+    .arguments_bytes = sizeof(features_arguments),
+    .set_defaults = set_defaults,
+    .check = check,
+    .run = run,
+};

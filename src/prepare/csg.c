@@ -1,0 +1,605 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Constructive solid geometry of two closed surfel solids.
+//
+// Surfels far from the other surface are kept or left out node by node. Those that its planes may cut become
+// four smaller ones, again until they are as fine as the other's and no more than two lines meet in one of
+// them; each piece is kept, left out, or kept with the lines in which the other's planes meet its own.
+//
+// Based on B. Adams, P. Dutre, "Interactive boolean operations on surfel-bounded solids", 2003 (sections 4
+// and 5: classification, resampling near the intersection), with the clip lines of M. Zwicker et al.,
+// "Perspective Accurate Splatting", 2004, section 5, in place of its many small surfels.
+#include "base/base.h"
+#include "prepare/solid.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { TASK_SURFELS = 512, SPLIT_LEVELS = 4, PIECES = 4 };
+
+/// A piece's axes, and how far it is from the middle of its parent along each axis, in units of the parent's.
+#define PIECE_SIZE  0.55
+#define PIECE_SHIFT 0.66
+
+/// Pieces whose centre is farther than this beyond a line, in standard deviations, add next to nothing.
+#define BEYOND 1.8
+
+/// Surfaces are the same where the sine of their angle and the distance in units of the reach are below.
+#define SAME_SINE     0.1
+#define SAME_DISTANCE 0.1
+
+/// Share of the area that the normals of a closed surface may sum up to.
+#define MAX_OPENNESS 0.1
+
+typedef enum fate { FATE_DROP = 0, FATE_KEEP = 1, FATE_NEAR = 2 } fate;
+
+/// What one operand keeps of itself.
+typedef struct keep_rule {
+    double side;                  ///< 1: what is outside of the other, -1: inside
+    bool flip;                    ///< normals are turned
+    bool same_keeps, other_keeps; ///< where surfaces coincide, with normals along or against each other
+} keep_rule;
+
+typedef struct csg_job {
+    const ewa_solid *solid, *other;
+    keep_rule rule;
+    double cutoff;
+    uint8_t *fate;    // [solid->count]
+    uint32_t *doubts; // [parts] places whose side contradicts that of a place that no surface parts from them
+    uint32_t *near;   // surfels with FATE_NEAR, ascending
+    uint32_t near_count;
+    uint32_t *piece_first; // [near_count + 1]
+    struct csg_piece *pieces;
+} csg_job;
+
+/// Up to two lines, which have to hold both, or either.
+typedef struct line_set {
+    ewa_vec3 line[2];
+    uint32_t count;
+    bool either;
+} line_set;
+
+/// What is left of a surfel that the other surface cuts.
+typedef struct csg_piece {
+    ewa_vec3 center, axis[2];
+    uint32_t surfel;
+    line_set lines;
+} csg_piece;
+
+/// What may be left of a disc after lines.
+typedef enum disc_share { DISC_NONE, DISC_PART, DISC_ALL } disc_share;
+
+static disc_share share_of(ewa_vec3 line, double cutoff) {
+    const double reach = cutoff * sqrt(line.x * line.x + line.y * line.y);
+    return line.z >= reach ? DISC_ALL : line.z <= -reach ? DISC_NONE : DISC_PART;
+}
+
+/// Removes the lines that decide nothing within the disc; says what is left of it.
+static disc_share prune(line_set *lines, double cutoff) {
+    line_set kept = {.either = lines->either};
+    const disc_share decides = lines->either ? DISC_ALL : DISC_NONE;
+    for (uint32_t k = 0; k < lines->count; k++) {
+        const disc_share share = share_of(lines->line[k], cutoff);
+        if (share == decides) return decides;
+        if (share == DISC_PART) kept.line[kept.count++] = lines->line[k];
+    }
+    const disc_share rest = lines->either && lines->count ? DISC_NONE : DISC_ALL;
+    kept.either = kept.either && kept.count == 2;
+    *lines = kept;
+    return kept.count ? DISC_PART : rest;
+}
+
+/// Distance of the centre from a line, in standard deviations, positive on the side that is kept.
+static double depth_of(ewa_vec3 line) { return line.z / sqrt(line.x * line.x + line.y * line.y); }
+
+/// Whether the centre is so far beyond the lines that little of the kernel is left.
+static bool is_beyond(const line_set *lines) {
+    uint32_t beyond = 0;
+    for (uint32_t k = 0; k < lines->count; k++) beyond += depth_of(lines->line[k]) < -BEYOND;
+    return beyond > 0 && (!lines->either || beyond == lines->count);
+}
+
+/// Largest depth that a place of the disc has in both of two half-planes: at the far end of either's normal,
+/// or where both are as deep and the disc ends.
+static double common_depth(ewa_vec3 a, ewa_vec3 b, double cutoff) {
+    const double slope_a = sqrt(a.x * a.x + a.y * a.y), slope_b = sqrt(b.x * b.x + b.y * b.y);
+    const double n[2][3] = {{a.x / slope_a, a.y / slope_a, a.z / slope_a},
+                            {b.x / slope_b, b.y / slope_b, b.z / slope_b}};
+    double best = -INFINITY;
+    for (int k = 0; k < 2; k++) {
+        const double own = cutoff + n[k][2];
+        const double other = cutoff * (n[0][0] * n[1][0] + n[0][1] * n[1][1]) + n[1 - k][2];
+        best = fmax(best, fmin(own, other));
+    }
+    const double du = n[0][0] - n[1][0], dv = n[0][1] - n[1][1], d2 = du * du + dv * dv;
+    const double share = d2 > 0 ? (n[1][2] - n[0][2]) / d2 : INFINITY;
+    const double rest = cutoff * cutoff - share * share * d2;
+    if (!(rest > 0)) return best;
+    const double along = fabs(n[0][1] * du - n[0][0] * dv) * sqrt(rest / d2);
+    return fmax(best, share * (n[0][0] * du + n[0][1] * dv) + along + n[0][2]);
+}
+
+/// Whether no place of the disc is in both sets: each alternative of the one has a line that parts it from
+/// each of the other.
+static bool exclude(const line_set *a, const line_set *b, double cutoff) {
+    if (a->count == 0 || b->count == 0) return false;
+    const double nothing = 0.02; // standard deviations
+    bool apart[2][2];
+    for (uint32_t i = 0; i < a->count; i++)
+        for (uint32_t k = 0; k < b->count; k++)
+            apart[i][k] = common_depth(a->line[i], b->line[k], cutoff) < nothing;
+    for (uint32_t i = 0; i < (a->either ? a->count : 1); i++)
+        for (uint32_t k = 0; k < (b->either ? b->count : 1); k++) {
+            bool parted = false;
+            for (uint32_t m = a->either ? i : 0; m < (a->either ? i + 1 : a->count); m++)
+                for (uint32_t n = b->either ? k : 0; n < (b->either ? k + 1 : b->count); n++)
+                    parted |= apart[m][n];
+            if (!parted) return false;
+        }
+    return true;
+}
+
+/// Joins two sets that both have to hold; false when they are more than two lines, of which the two that cut
+/// the most remain, an either-pair standing for the one that cuts less.
+static bool join(const line_set *a, const line_set *b, line_set *joined) {
+    if (a->count == 0 || b->count == 0) {
+        *joined = a->count ? *a : *b;
+        return true;
+    }
+    const line_set *sets[2] = {a, b};
+    ewa_vec3 all[4];
+    uint32_t count = 0;
+    for (int s = 0; s < 2; s++) {
+        const line_set *set = sets[s];
+        const uint32_t less = set->either && depth_of(set->line[1]) > depth_of(set->line[0]);
+        if (set->either)
+            all[count++] = set->line[less];
+        else
+            for (uint32_t k = 0; k < set->count; k++) all[count++] = set->line[k];
+    }
+    const bool complete = a->count + b->count == 2;
+    for (uint32_t i = 0; i < 2; i++)
+        for (uint32_t k = i + 1; k < count; k++)
+            if (depth_of(all[k]) < depth_of(all[i])) {
+                const ewa_vec3 swapped = all[i];
+                all[i] = all[k];
+                all[k] = swapped;
+            }
+    *joined = (line_set){.line = {all[0], all[1]}, .count = 2};
+    return complete;
+}
+
+/// The line in which a plane of the other surface, seen from `at` = (u, v) of the disc, meets the disc's
+/// plane.
+static ewa_vec3 meet(const csg_job *job, const csg_piece *piece, ewa_vec3 own_normal, ewa_vec3 normal,
+                     double distance, const double at[2]) {
+    const double along = vec3_dot(normal, own_normal), side = job->rule.side;
+    const double reach = job->cutoff * fmax(vec3_length(piece->axis[0]), vec3_length(piece->axis[1]));
+    if (1 - along * along < SAME_SINE * SAME_SINE && fabs(distance) < SAME_DISTANCE * reach) {
+        const bool keeps = along > 0 ? job->rule.same_keeps : job->rule.other_keeps;
+        return vec3_make(0, 0, keeps ? 1 : -1);
+    }
+    const double a = vec3_dot(normal, piece->axis[0]), b = vec3_dot(normal, piece->axis[1]);
+    return vec3_scale(vec3_make(a, b, distance - a * at[0] - b * at[1]), side);
+}
+
+/// The lines that the other surface asks for, after `looks` looks: the second is at the place where the first
+/// saw it meet the disc, and so on.
+static line_set lines_of(const csg_job *job, const csg_piece *piece, int looks, ewa_local_surface *surface) {
+    const ewa_vec3 own_normal = job->solid->surfels[piece->surfel].normal;
+    const double reach = job->cutoff * fmax(vec3_length(piece->axis[0]), vec3_length(piece->axis[1]));
+    double at[2] = {0, 0};
+    line_set lines = {.count = 0};
+    for (int look = 0; look < looks; look++) {
+        const ewa_vec3 place = vec3_add(
+            piece->center, vec3_add(vec3_scale(piece->axis[0], at[0]), vec3_scale(piece->axis[1], at[1])));
+        ewa_local_surface seen;
+        ewa_solid_look(job->other, place, &seen);
+        *surface = seen;
+        if (look == 0 && seen.nearest > reach + seen.reach) {
+            // No surface here: planes that go on beyond their ends say nothing.
+            const bool keeps = (seen.mean_distance > 0) == (job->rule.side > 0);
+            return (line_set){.line = {vec3_make(0, 0, keeps ? 1 : -1)}, .count = 1};
+        }
+        lines.count = seen.plane_count;
+        for (uint32_t k = 0; k < seen.plane_count; k++)
+            lines.line[k] = meet(job, piece, own_normal, seen.normal[k], seen.distance[k], at);
+        // Outside of a convex edge is in front of either plane; inside is behind both.
+        lines.either = seen.plane_count == 2 && seen.convex == (job->rule.side > 0);
+        uint32_t nearest = 0;
+        if (lines.count == 2 && fabs(depth_of(lines.line[1])) < fabs(depth_of(lines.line[0]))) nearest = 1;
+        if (share_of(lines.line[nearest], job->cutoff) != DISC_PART) break;
+        const ewa_vec3 l = lines.line[nearest];
+        const double scale = -l.z / (l.x * l.x + l.y * l.y);
+        at[0] = scale * l.x;
+        at[1] = scale * l.y;
+    }
+    return lines;
+}
+
+/// The quarter of a piece at a sign along each axis, its own lines with it.
+static csg_piece quarter(const csg_piece *piece, double su, double sv) {
+    const double u = su * PIECE_SHIFT, v = sv * PIECE_SHIFT;
+    csg_piece part = *piece;
+    part.center =
+        vec3_add(piece->center, vec3_add(vec3_scale(piece->axis[0], u), vec3_scale(piece->axis[1], v)));
+    for (int k = 0; k < 2; k++) part.axis[k] = vec3_scale(piece->axis[k], PIECE_SIZE);
+    for (uint32_t k = 0; k < piece->lines.count; k++) {
+        const ewa_vec3 l = piece->lines.line[k];
+        part.lines.line[k] = vec3_make(PIECE_SIZE * l.x, PIECE_SIZE * l.y, l.z + l.x * u + l.y * v);
+    }
+    return part;
+}
+
+/// Cuts a piece by the other surface; writes what is left at `out` unless that is NULL, returns its count.
+static uint32_t cut(const csg_job *job, const csg_piece *piece, uint32_t level, csg_piece *out) {
+    csg_piece left = *piece;
+    if (prune(&left.lines, job->cutoff) == DISC_NONE) return 0;
+    ewa_local_surface surface;
+    // What is going to be split is looked at again in parts.
+    line_set asked = lines_of(job, piece, level == 0 ? 1 : 2, &surface);
+    const disc_share share = prune(&asked, job->cutoff);
+    if (share == DISC_NONE) return 0;
+    if (share == DISC_PART) {
+        const line_set own = left.lines;
+        if (exclude(&own, &asked, job->cutoff)) return 0;
+        const bool complete = join(&own, &asked, &left.lines);
+        const double reach = job->cutoff * fmax(vec3_length(piece->axis[0]), vec3_length(piece->axis[1]));
+        const bool coarse = level == 0 || reach > 1.2 * surface.reach;
+        if (level < SPLIT_LEVELS && (coarse || !complete)) {
+            uint32_t count = 0;
+            for (int i = 0; i < PIECES; i++) {
+                const csg_piece part = quarter(piece, i & 1 ? 1 : -1, i & 2 ? 1 : -1);
+                count += cut(job, &part, level + 1, out ? out + count : NULL);
+            }
+            return count;
+        }
+        if (is_beyond(&asked)) return 0;
+    }
+    if (out) *out = left;
+    return 1;
+}
+
+static csg_piece whole_surfel(const csg_job *job, uint32_t index) {
+    const ewa_solid_surfel *surfel = &job->solid->surfels[index];
+    csg_piece piece = {.center = surfel->center, .axis = {surfel->axis[0], surfel->axis[1]}, .surfel = index};
+    piece.lines.count = ewa_solid_lines(job->solid, index, piece.lines.line, &piece.lines.either);
+    return piece;
+}
+
+static void count_near(void *data, uint32_t part, uint32_t worker) {
+    (void)worker;
+    const csg_job *job = data;
+    for (uint32_t i = part * TASK_SURFELS; i < (part + 1) * TASK_SURFELS && i < job->near_count; i++) {
+        const csg_piece piece = whole_surfel(job, job->near[i]);
+        job->piece_first[i] = cut(job, &piece, 0, NULL);
+    }
+}
+
+static void cut_near(void *data, uint32_t part, uint32_t worker) {
+    (void)worker;
+    const csg_job *job = data;
+    for (uint32_t i = part * TASK_SURFELS; i < (part + 1) * TASK_SURFELS && i < job->near_count; i++) {
+        if (job->piece_first[i] == job->piece_first[i + 1]) continue;
+        const csg_piece piece = whole_surfel(job, job->near[i]);
+        cut(job, &piece, 0, job->pieces + job->piece_first[i]);
+    }
+}
+
+/// The last place whose side was certain: no surface is within `distance` of it, so that a place whose own
+/// such ball meets this one is on the same side.
+typedef struct certain_place {
+    ewa_vec3 place;
+    double distance;
+    bool outside, known;
+} certain_place;
+
+/// Decides a node, or the surfels under it where the other surface is near.
+static uint32_t classify(const csg_job *job, uint32_t level, uint32_t index, certain_place *last) {
+    const ewa_solid *solid = job->solid;
+    const ewa_solid_node *node = &solid->nodes[solid->level_first[level] + index];
+    uint64_t first = index, end = (uint64_t)index + 1;
+    for (uint32_t k = 0; k <= level; k++) first *= EWA_SOLID_ARITY, end *= EWA_SOLID_ARITY;
+    if (end > solid->count) end = solid->count;
+    const ewa_vec3 middle = vec3_scale(vec3_add(node->low, node->high), 0.5);
+    const double radius = vec3_length(vec3_sub(node->high, middle)) + node->reach;
+    double reach;
+    const double nearest = ewa_solid_nearest(job->other, middle, &reach);
+    // Between samples the surface is nearer than they are, by less than their reach.
+    if (nearest > radius + 2 * reach) {
+        ewa_local_surface surface;
+        ewa_solid_look(job->other, middle, &surface);
+        const bool outside = surface.mean_distance > 0;
+        const ewa_vec3 step = vec3_sub(middle, last->place);
+        const double clear = nearest - reach;
+        const bool doubt =
+            last->known && last->outside != outside && vec3_length(step) < clear + last->distance;
+        *last = (certain_place){middle, clear, outside, true};
+        memset(job->fate + first, outside == (job->rule.side > 0) ? FATE_KEEP : FATE_DROP, end - first);
+        return doubt;
+    }
+    if (level == 0) {
+        memset(job->fate + first, FATE_NEAR, end - first);
+        return 0;
+    }
+    uint32_t doubts = 0;
+    for (uint32_t i = index * EWA_SOLID_ARITY;
+         i < (index + 1) * EWA_SOLID_ARITY && i < solid->level_nodes[level - 1]; i++)
+        doubts += classify(job, level - 1, i, last);
+    return doubts;
+}
+
+/// Nodes of one task: those of the third level, or the topmost.
+static uint32_t task_level(const ewa_solid *solid) {
+    return solid->level_count > 3 ? 3 : solid->level_count - 1;
+}
+
+static void classify_part(void *data, uint32_t part, uint32_t worker) {
+    (void)worker;
+    const csg_job *job = data;
+    certain_place last = {.known = false};
+    job->doubts[part] = classify(job, task_level(job->solid), part, &last);
+}
+
+static void list_near(csg_job *job) {
+    for (uint32_t i = 0; i < job->solid->count; i++)
+        if (job->fate[i] == FATE_NEAR) job->near[job->near_count++] = i;
+}
+
+/// Turns counts into first indices; false when there are too many pieces.
+static bool add_up(csg_job *job) {
+    uint64_t sum = 0;
+    for (uint32_t i = 0; i < job->near_count; i++) {
+        const uint32_t count = job->piece_first[i];
+        job->piece_first[i] = (uint32_t)sum;
+        sum += count;
+        if (sum >= UINT32_MAX) return false;
+    }
+    job->piece_first[job->near_count] = (uint32_t)sum;
+    return true;
+}
+
+static ewa_status classify_all(csg_job *job, uint32_t *doubts) {
+    ewa_context *context = job->solid->context;
+    const uint32_t parts = job->solid->level_nodes[task_level(job->solid)];
+    job->doubts = ewa_allocate(context, parts, sizeof *job->doubts);
+    job->fate = ewa_allocate(context, job->solid->count, sizeof *job->fate);
+    job->near = ewa_allocate(context, job->solid->count, sizeof *job->near);
+    ewa_status status = job->doubts && job->fate && job->near ? EWA_OK : EWA_ERROR_MEMORY;
+    if (status == EWA_OK) {
+        ewa_parallel(context, classify_part, job, parts);
+        for (uint32_t i = 0; i < parts; i++) *doubts += job->doubts[i];
+        list_near(job);
+    }
+    ewa_release(context, job->doubts, parts, sizeof *job->doubts);
+    job->doubts = NULL;
+    return status;
+}
+
+static ewa_status cut_all(csg_job *job) {
+    ewa_context *context = job->solid->context;
+    const uint32_t parts = (job->near_count + TASK_SURFELS - 1) / TASK_SURFELS;
+    job->piece_first = ewa_allocate(context, (size_t)job->near_count + 1, sizeof *job->piece_first);
+    if (!job->piece_first) return EWA_ERROR_MEMORY;
+    ewa_parallel(context, count_near, job, parts);
+    if (!add_up(job)) return ewa_fail(context, EWA_ERROR_LIMIT, "csg: over 2^32 pieces");
+    job->pieces = ewa_allocate(context, job->piece_first[job->near_count], sizeof *job->pieces);
+    if (!job->pieces) return EWA_ERROR_MEMORY;
+    ewa_parallel(context, cut_near, job, parts);
+    return EWA_OK;
+}
+
+static void free_job(csg_job *job) {
+    ewa_context *context = job->solid->context;
+    if (job->piece_first)
+        ewa_release(context, job->pieces, job->piece_first[job->near_count], sizeof *job->pieces);
+    ewa_release(context, job->piece_first, (size_t)job->near_count + 1, sizeof *job->piece_first);
+    ewa_release(context, job->near, job->solid->count, sizeof *job->near);
+    ewa_release(context, job->fate, job->solid->count, sizeof *job->fate);
+}
+
+/// The streams that a result gets anew.
+typedef struct csg_streams {
+    ewa_attribute position;
+    float *normal, *tangent[2], *clip[2];
+    uint8_t *mode;
+} csg_streams;
+
+static void store_vec3(float *stream, uint64_t i, ewa_vec3 v) {
+    stream[3 * i] = (float)v.x, stream[3 * i + 1] = (float)v.y, stream[3 * i + 2] = (float)v.z;
+}
+
+static void store_piece(const csg_job *job, const csg_piece *piece, uint64_t i, const csg_streams *streams) {
+    const double turn = job->rule.flip ? -1 : 1;
+    store_vec3(streams->normal, i, vec3_scale(job->solid->surfels[piece->surfel].normal, turn));
+    for (uint32_t k = 0; k < 2; k++) {
+        store_vec3(streams->tangent[k], i, piece->axis[k]);
+        store_vec3(streams->clip[k], i, k < piece->lines.count ? piece->lines.line[k] : vec3_make(0, 0, 0));
+    }
+    streams->mode[i] = piece->lines.either;
+    double center[3];
+    vec3_store(piece->center, center);
+    for (uint64_t c = 0; c < 3; c++) {
+        if (streams->position.type == EWA_F64)
+            ((double *)streams->position.data)[3 * i + c] = center[c];
+        else
+            ((float *)streams->position.data)[3 * i + c] = (float)center[c];
+    }
+}
+
+/// Calls for what is left, in order: with `streams` it is stored, with `indices` its source is. Returns how
+/// many there are from `first` on.
+static uint64_t gather(const csg_job *job, uint64_t first, uint32_t point_shift, uint64_t *indices,
+                       const csg_streams *streams) {
+    uint64_t to = first;
+    for (uint32_t i = 0, near = 0; i < job->solid->count; i++) {
+        const uint64_t source = (uint64_t)point_shift + job->solid->surfels[i].point;
+        if (job->fate[i] == FATE_KEEP) {
+            if (indices) indices[to] = source;
+            if (streams) {
+                const csg_piece piece = whole_surfel(job, i);
+                store_piece(job, &piece, to, streams);
+            }
+            to++;
+        } else if (job->fate[i] == FATE_NEAR) {
+            for (uint32_t k = job->piece_first[near]; k < job->piece_first[near + 1]; k++, to++) {
+                if (indices) indices[to] = source;
+                if (streams) store_piece(job, &job->pieces[k], to, streams);
+            }
+            near++;
+        }
+    }
+    return to;
+}
+
+/// Both operands without what the result gets anew, one after the other.
+static ewa_status merge_rest(const ewa_cloud *const operands[2], ewa_cloud **merged) {
+    static const char *const anew[] = {EWA_NORMAL, EWA_RADIUS, EWA_TANGENT_U, EWA_TANGENT_V,
+                                       EWA_CLIP0,  EWA_CLIP1,  EWA_CLIP_MODE};
+    ewa_cloud *rest[2] = {NULL, NULL};
+    ewa_status status = EWA_OK;
+    for (int k = 0; k < 2 && status == EWA_OK; k++) {
+        double origin_world[3];
+        ewa_cloud_origin(operands[k], origin_world);
+        status =
+            ewa_cloud_create(ewa_cloud_context(operands[0]), ewa_cloud_point_count(operands[k]), &rest[k]);
+        if (status == EWA_OK) ewa_cloud_set_origin(rest[k], origin_world);
+        const ewa_attribute *from;
+        for (uint32_t a = 0; status == EWA_OK && (from = ewa_cloud_attribute_at(operands[k], a)); a++) {
+            bool made_anew = false;
+            for (size_t n = 0; n < sizeof anew / sizeof anew[0]; n++)
+                made_anew |= strcmp(from->name, anew[n]) == 0;
+            if (!made_anew)
+                status = ewa_cloud_borrow(rest[k], from->name, from->type, from->component_count, from->data,
+                                          from->stride_bytes);
+        }
+    }
+    if (status == EWA_OK) status = ewa_cloud_merge((const ewa_cloud *const *)rest, 2, merged);
+    for (int k = 0; k < 2; k++) ewa_cloud_destroy(&rest[k]);
+    return status;
+}
+
+static ewa_status add_streams(ewa_cloud *cloud, csg_streams *streams) {
+    void *data[6] = {NULL};
+    static const char *const names[] = {EWA_NORMAL, EWA_TANGENT_U, EWA_TANGENT_V, EWA_CLIP0, EWA_CLIP1};
+    ewa_status status = EWA_OK;
+    for (int i = 0; i < 5 && status == EWA_OK; i++)
+        status = ewa_cloud_add(cloud, names[i], EWA_F32, 3, &data[i]);
+    if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_CLIP_MODE, EWA_U8, 1, &data[5]);
+    if (status != EWA_OK) return status;
+    const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
+    if (position->type != EWA_F32 && position->type != EWA_F64) {
+        status = ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, NULL);
+        if (status != EWA_OK) return status;
+        position = ewa_cloud_find(cloud, EWA_POSITION);
+    }
+    streams->position = *position;
+    streams->normal = data[0];
+    for (int k = 0; k < 2; k++) streams->tangent[k] = data[1 + k], streams->clip[k] = data[3 + k];
+    streams->mode = data[5];
+    return EWA_OK;
+}
+
+static ewa_status assemble(const ewa_cloud *const operands[2], const csg_job jobs[2], ewa_cloud **result) {
+    ewa_context *context = ewa_cloud_context(operands[0]);
+    const uint32_t shift = (uint32_t)ewa_cloud_point_count(operands[0]);
+    const uint64_t of_first = gather(&jobs[0], 0, 0, NULL, NULL);
+    const uint64_t count = gather(&jobs[1], of_first, shift, NULL, NULL);
+    if (count == 0) ewa_report(context, EWA_SEVERITY_WARNING, "csg: nothing is left");
+    uint64_t *indices = ewa_allocate(context, count, sizeof *indices);
+    if (!indices) return EWA_ERROR_MEMORY;
+    gather(&jobs[0], 0, 0, indices, NULL);
+    gather(&jobs[1], of_first, shift, indices, NULL);
+    ewa_cloud *merged = NULL;
+    ewa_status status = merge_rest(operands, &merged);
+    if (status == EWA_OK) status = ewa_cloud_select(merged, indices, count, result);
+    ewa_cloud_destroy(&merged);
+    ewa_release(context, indices, count, sizeof *indices);
+    csg_streams streams;
+    if (status == EWA_OK) status = add_streams(*result, &streams);
+    if (status != EWA_OK) return status;
+    gather(&jobs[0], 0, 0, NULL, &streams);
+    gather(&jobs[1], of_first, shift, NULL, &streams);
+    return EWA_OK;
+}
+
+static ewa_status check_closed(const ewa_solid *solid, char which) {
+    const double openness = ewa_solid_openness(solid);
+    if (openness <= MAX_OPENNESS) return EWA_OK;
+    return ewa_fail(
+        solid->context, EWA_ERROR_ARGUMENT,
+        "csg: operand %c is not closed: its normals, weighted by area, sum up to %.0f %% of the area "
+        "(closed: 0); are normals turned outward and no side missing?",
+        which, 100 * openness);
+}
+
+static ewa_status combine(const ewa_cloud *const operands[2], const ewa_solid solids[2],
+                          const ewa_csg_options *options, ewa_cloud **result) {
+    static const keep_rule rules[3][2] = {
+        [EWA_CSG_UNION] = {{1, false, true, false}, {1, false, false, false}},
+        [EWA_CSG_INTERSECTION] = {{-1, false, true, false}, {-1, false, false, false}},
+        [EWA_CSG_DIFFERENCE] = {{1, false, false, true}, {-1, true, false, false}},
+    };
+    ewa_context *context = ewa_cloud_context(operands[0]);
+    csg_job jobs[2];
+    ewa_status status = EWA_OK;
+    for (int k = 0; k < 2; k++) {
+        jobs[k] = (csg_job){.solid = &solids[k],
+                            .other = &solids[1 - k],
+                            .rule = rules[options->operation][k],
+                            .cutoff = options->cutoff};
+        uint32_t doubts = 0;
+        if (status == EWA_OK) status = classify_all(&jobs[k], &doubts);
+        if (status == EWA_OK) status = cut_all(&jobs[k]);
+        if (status == EWA_OK && doubts)
+            status =
+                ewa_fail(context, EWA_ERROR_ARGUMENT,
+                         "csg: operand %c is not closed: at %u places, what is inside and what is outside "
+                         "of it meet with none of its surfels between",
+                         k ? 'A' : 'B', doubts);
+        if (status == EWA_OK) status = ewa_progress(context, "csg", 0.4 * (k + 1));
+    }
+    if (status == EWA_OK) status = assemble(operands, jobs, result);
+    for (int k = 0; k < 2; k++) free_job(&jobs[k]);
+    return status == EWA_OK ? ewa_progress(context, "csg", 1) : status;
+}
+
+void ewa_csg_options_init(ewa_csg_options *options, size_t struct_size) {
+    if (!options || struct_size < sizeof *options) return;
+    memset(options, 0, struct_size);
+    options->struct_size = struct_size;
+    options->operation = EWA_CSG_UNION;
+    options->cutoff = 3;
+}
+
+ewa_status ewa_cloud_csg(const ewa_cloud *a, const ewa_cloud *b, const ewa_csg_options *options,
+                         ewa_cloud **result) {
+    if (!a || !b || !result) return EWA_ERROR_ARGUMENT;
+    *result = NULL;
+    ewa_context *context = ewa_cloud_context(a);
+    ewa_csg_options defaults;
+    ewa_csg_options_init(&defaults, sizeof defaults);
+    if (!options) options = &defaults;
+    if (options->struct_size != sizeof *options || (unsigned)options->operation > EWA_CSG_DIFFERENCE ||
+        !(options->cutoff > 0 && options->cutoff <= 4))
+        return ewa_fail(context, EWA_ERROR_ARGUMENT,
+                        "csg: operation is %d, must be 0 to 2; cutoff is %g, must be in (0, 4]",
+                        (int)options->operation, options->cutoff);
+    const ewa_cloud *const operands[2] = {a, b};
+    double origin_world[3];
+    ewa_cloud_origin(a, origin_world);
+    ewa_solid solids[2] = {{.context = context}, {.context = context}};
+    ewa_status status = ewa_progress(context, "csg", 0);
+    for (int k = 0; k < 2 && status == EWA_OK; k++) {
+        status = ewa_solid_open(operands[k], k ? "csg: operand B" : "csg: operand A", origin_world,
+                                options->cutoff, &solids[k]);
+        if (status == EWA_OK) status = check_closed(&solids[k], k ? 'B' : 'A');
+    }
+    ewa_cloud *made = NULL;
+    if (status == EWA_OK) status = combine(operands, solids, options, &made);
+    for (int k = 0; k < 2; k++) ewa_solid_close(&solids[k]);
+    if (status != EWA_OK) ewa_cloud_destroy(&made);
+    *result = made;
+    return status;
+}

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Fuzz target: any bytes as a material table. What is read can be drawn with.
+#include "fuzz.h"
+#include "image/material.h"
+#include "io/materials.h"
+
+#include <stdlib.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.thread_count = 1;
+    ewa_context *context = NULL;
+    if (ewa_context_create(&options, &context) != EWA_OK) return 0;
+    ewa_material materials[EWA_MAX_MATERIALS];
+    uint32_t count;
+    const ewa_status status = ewa_materials_read(context, "fuzz", bytes, size_bytes, materials, &count);
+    if ((status == EWA_OK) != (count > 0)) abort();
+    for (uint32_t i = 0; i < count; i++)
+        if (ewa_material_check(context, "fuzz", i, &materials[i]) != EWA_OK) abort();
+    ewa_context_destroy(&context);
+    return 0;
+}

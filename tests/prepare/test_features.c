@@ -1,0 +1,362 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Tests of src/prepare/feature*.c: creases and corners whose lines are known, smooth surfaces that have none,
+// what stays as it was, odd input.
+#include "prepare/check_prepare.h"
+
+enum { SIDE = 40, MOST = 5 * SIDE * SIDE };
+
+/// Adds a jittered grid of unit spacing: corner + s a + t b for s, t in [0, SIDE); returns the new count.
+static uint32_t add_square(const double corner[3], const double a[3], const double b[3],
+                           const double normal[3], uint64_t seed, float *xyz, float *normals,
+                           uint32_t count) {
+    check_random random = {seed};
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const double s = i % SIDE + check_uniform(&random, 0.2, 0.8),
+                     t = i / SIDE + check_uniform(&random, 0.2, 0.8);
+        for (int c = 0; c < 3; c++) {
+            xyz[3 * count + (uint32_t)c] = (float)(corner[c] + s * a[c] + t * b[c]);
+            normals[3 * count + (uint32_t)c] = (float)normal[c];
+        }
+        count++;
+    }
+    return count;
+}
+
+/// A cloud of squares with discs of the default size; the normals are blurred where the surface bends.
+static ewa_cloud *make_cloud(ewa_context *context, uint32_t count, const float *xyz, const float *normals) {
+    ewa_cloud *cloud = NULL;
+    float *positions, *n;
+    uint8_t *color;
+    assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&positions), EWA_OK);
+    memcpy(positions, xyz, 3 * count * sizeof *xyz);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, (void **)&n), EWA_OK);
+    memcpy(n, normals, 3 * count * sizeof *normals);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, (void **)&color), EWA_OK);
+    for (uint32_t i = 0; i < 3 * count; i++) color[i] = (uint8_t)(i * 7);
+    const ewa_estimate_options estimate = check_estimate_options();
+    assert_int_equal(ewa_cloud_estimate(&cloud, &estimate), EWA_OK);
+    return cloud;
+}
+
+static ewa_feature_options default_options(void) {
+    ewa_feature_options options;
+    ewa_feature_options_init(&options, sizeof options);
+    return options;
+}
+
+/// Two squares that meet along the y axis; their normals differ by `angle`, upwards (convex) or as a valley.
+static ewa_cloud *make_crease(ewa_context *context, double angle_deg, bool valley) {
+    static float xyz[3 * MOST], normals[3 * MOST];
+    const double half = angle_deg * 3.141592653589793 / 360, c = cos(half),
+                 s = valley ? sin(half) : -sin(half);
+    const double origin[3] = {0, 0, 0}, y[3] = {0, 1, 0};
+    uint32_t count = 0;
+    for (int side = -1; side < 2; side += 2) {
+        const double a[3] = {side * c, 0, s}, normal[3] = {-side * s, 0, c};
+        count = add_square(origin, a, y, normal, (uint64_t)(side + 5), xyz, normals, count);
+    }
+    return make_cloud(context, count, xyz, normals);
+}
+
+static bool has_line(const float *clip, uint64_t i) { return clip[3 * i] != 0 || clip[3 * i + 1] != 0; }
+
+/// The point of a clip line nearest to the surfel's centre, and the direction of the line.
+static void line_in_world(const ewa_cloud *cloud, const float *clip, uint64_t i, double foot[3]) {
+    const float *p = check_stream(cloud, EWA_POSITION), *u = check_stream(cloud, EWA_TANGENT_U),
+                *v = check_stream(cloud, EWA_TANGENT_V);
+    double uu = 0, vv = 0, across[3], length2 = 0;
+    for (int c = 0; c < 3; c++) uu += u[3 * i + c] * u[3 * i + c], vv += v[3 * i + c] * v[3 * i + c];
+    for (int c = 0; c < 3; c++) {
+        across[c] = clip[3 * i] * u[3 * i + c] / uu + clip[3 * i + 1] * v[3 * i + c] / vv;
+        length2 += across[c] * across[c];
+    }
+    for (int c = 0; c < 3; c++) foot[c] = p[3 * i + c] - clip[3 * i + 2] * across[c] / length2;
+}
+
+static void check_crease(double angle_deg, bool valley) {
+    ewa_context *context = check_context(2, NULL);
+    ewa_cloud *cloud = make_crease(context, angle_deg, valley),
+              *before = make_crease(context, angle_deg, valley);
+    ewa_feature_options options = default_options();
+    if (angle_deg < 35) options.angle_deg = angle_deg - 6;
+    ewa_feature_counts counts;
+    assert_int_equal(ewa_cloud_detect_features(cloud, &options, &counts), EWA_OK);
+    assert_true(counts.noise < 0.01 && counts.corner_count == 0);
+    const float *clip = check_stream(cloud, EWA_CLIP0), *normal = check_stream(cloud, EWA_NORMAL);
+    const float *position = check_stream(cloud, EWA_POSITION), *old = check_stream(before, EWA_POSITION);
+    const float *old_normal = check_stream(before, EWA_NORMAL);
+    assert_null(ewa_cloud_find(cloud, EWA_RADIUS));
+    uint32_t near = 0, clipped = 0;
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
+        const double distance = hypot(old[3 * i], old[3 * i + 2]);
+        const bool inner = old[3 * i + 1] > 3 && old[3 * i + 1] < SIDE - 3;
+        if (inner && distance < 1) near++, clipped += has_line(clip, i);
+        if (distance > 7) {
+            assert_false(has_line(clip, i));
+            assert_memory_equal(&position[3 * i], &old[3 * i], 3 * sizeof *old);
+            assert_memory_equal(&normal[3 * i], &old_normal[3 * i], 3 * sizeof *old);
+        }
+        if (!has_line(clip, i)) continue;
+        assert_true(distance < 2.5);
+        double foot[3], dot = 0;
+        line_in_world(cloud, clip, i, foot);
+        assert_true(fabs(foot[0]) < 0.02 && fabs(foot[2]) < 0.02);
+        assert_true(fabs(foot[1] - (double)old[3 * i + 1]) < 0.05);
+        assert_true(clip[3 * i + 2] > -0.05f); // what is kept holds the centre
+        for (int c = 0; c < 3; c++) dot += (double)normal[3 * i + c] * (double)old_normal[3 * i + c];
+        assert_true(dot > 0.9999);
+    }
+    print_message("%g degrees, %s: %u of %u clipped\n", angle_deg, valley ? "valley" : "ridge", clipped,
+                  near);
+    assert_true(near > 50 && clipped >= near - near / 50);
+    ewa_cloud_destroy(&cloud);
+    ewa_cloud_destroy(&before);
+    ewa_context_destroy(&context);
+}
+
+static void test_creases(void **state) {
+    (void)state;
+    static const double angles[] = {25, 40, 60, 90, 120};
+    for (size_t i = 0; i < sizeof angles / sizeof angles[0]; i++) {
+        check_crease(angles[i], false);
+        check_crease(angles[i], true);
+    }
+}
+
+/// Below the threshold nothing changes, not even the streams.
+static void test_threshold(void **state) {
+    (void)state;
+    ewa_context *context = check_context(2, NULL);
+    ewa_cloud *cloud = make_crease(context, 22, false), *before = make_crease(context, 22, false);
+    const ewa_feature_options options = default_options();
+    ewa_feature_counts counts;
+    assert_int_equal(ewa_cloud_detect_features(cloud, &options, &counts), EWA_OK);
+    assert_int_equal(counts.snapped_count, 0);
+    assert_int_equal(ewa_cloud_attribute_count(cloud), ewa_cloud_attribute_count(before));
+    assert_memory_equal(check_stream(cloud, EWA_RADIUS), check_stream(before, EWA_RADIUS),
+                        sizeof(float) * ewa_cloud_point_count(cloud));
+    ewa_cloud_destroy(&cloud);
+    ewa_cloud_destroy(&before);
+    ewa_context_destroy(&context);
+}
+
+/// Squares that meet in the origin at right angles; returns how many points.
+typedef enum corner_kind { CORNER_CUBE, CORNER_ROOM, CORNER_NOTCH } corner_kind;
+
+static uint32_t make_corner(corner_kind kind, float *xyz, float *normals) {
+    static const double axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    static const double west[3] = {-1, 0, 0}, south[3] = {0, -1, 0}, down[3] = {0, 0, -1},
+                        origin[3] = {0, 0, 0};
+    uint32_t count = 0;
+    if (kind == CORNER_NOTCH) {
+        // A solid below z = 0 without its quadrant x, y > 0: the top's surfels are bounded by either wall.
+        count = add_square(origin, west, south, axis[2], 3, xyz, normals, count);
+        count = add_square(origin, axis[0], south, axis[2], 4, xyz, normals, count);
+        count = add_square(origin, west, axis[1], axis[2], 5, xyz, normals, count);
+        count = add_square(origin, axis[1], down, axis[0], 6, xyz, normals, count);
+        return add_square(origin, axis[0], down, axis[1], 7, xyz, normals, count);
+    }
+    for (int n = 0; n < 3; n++) {
+        double normal[3] = {0};
+        normal[n] = kind == CORNER_CUBE ? -1 : 1; // the solid is at positive places, or all around them
+        count = add_square(origin, axis[(n + 1) % 3], axis[(n + 2) % 3], normal, (uint64_t)n + 3, xyz,
+                           normals, count);
+    }
+    return count;
+}
+
+static void check_corner(corner_kind kind) {
+    static float xyz[3 * MOST], normals[3 * MOST];
+    ewa_context *context = check_context(2, NULL);
+    const uint32_t count = make_corner(kind, xyz, normals);
+    ewa_cloud *cloud = make_cloud(context, count, xyz, normals);
+    const ewa_feature_options options = default_options();
+    ewa_feature_counts counts;
+    assert_int_equal(ewa_cloud_detect_features(cloud, &options, &counts), EWA_OK);
+    const float *clip[2] = {check_stream(cloud, EWA_CLIP0), check_stream(cloud, EWA_CLIP1)};
+    const float *normal = check_stream(cloud, EWA_NORMAL);
+    const uint8_t *mode = ewa_cloud_find(cloud, EWA_CLIP_MODE)->data;
+    uint32_t two = 0, either = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        if (!has_line(clip[1], i)) continue;
+        two++;
+        either += mode[i];
+        assert_int_equal(mode[i], kind == CORNER_NOTCH && normal[3 * i + 2] > 0.9f);
+        for (int k = 0; k < 2; k++) {
+            double foot[3];
+            line_in_world(cloud, clip[k], i, foot);
+            int zeros = 0; // the lines are the axes
+            for (int c = 0; c < 3; c++) zeros += fabs(foot[c]) < 0.05;
+            assert_true(zeros >= 2);
+            assert_true(mode[i] || clip[k][3 * i + 2] > -0.05f);
+        }
+    }
+    print_message("corner %d: %u surfels with two lines, %u of them hold either\n", (int)kind, two, either);
+    assert_true(two >= 3 && two == counts.corner_count);
+    assert_true(kind != CORNER_NOTCH || either > 0);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
+static void test_corners(void **state) {
+    (void)state;
+    for (int kind = CORNER_CUBE; kind <= CORNER_NOTCH; kind++) check_corner((corner_kind)kind);
+}
+
+/// Smooth objects have no edges, exact or noisy; their bytes stay.
+static void test_smooth(void **state) {
+    (void)state;
+    static const ewa_object objects[] = {EWA_OBJECT_PLANE, EWA_OBJECT_SPHERE, EWA_OBJECT_TORUS};
+    ewa_context *context = check_context(0, NULL);
+    for (int i = 0; i < 6; i++) {
+        ewa_generate_options generate;
+        ewa_generate_options_init(&generate, sizeof generate);
+        generate.object = objects[i / 2];
+        generate.point_count = 20000;
+        ewa_cloud *cloud = NULL;
+        assert_int_equal(ewa_cloud_generate(context, &generate, &cloud), EWA_OK);
+        float *p = ewa_cloud_find(cloud, EWA_POSITION)->data;
+        check_random random = {5};
+        ewa_spacing spacing;
+        assert_int_equal(ewa_cloud_measure_spacing(cloud, 0, &spacing), EWA_OK);
+        const double noise = i % 2 ? 0.25 * sqrt(3) * spacing.median_world : 0;
+        for (uint64_t j = 0; j < 3 * generate.point_count; j++)
+            p[j] += (float)(noise * check_uniform(&random, -1, 1));
+        const ewa_feature_options options = default_options();
+        ewa_feature_counts counts;
+        assert_int_equal(ewa_cloud_detect_features(cloud, &options, &counts), EWA_OK);
+        print_message("object %d, noise %.3f: %llu clipped\n", (int)objects[i / 2], counts.noise,
+                      (unsigned long long)(counts.edge_count + counts.corner_count));
+        assert_int_equal(counts.snapped_count, 0);
+        assert_non_null(ewa_cloud_find(cloud, EWA_RADIUS));
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
+static void test_threads(void **state) {
+    (void)state;
+    static const uint32_t threads[] = {1, 2, 5};
+    static const char *const names[] = {EWA_POSITION,  EWA_NORMAL, EWA_TANGENT_U,
+                                        EWA_TANGENT_V, EWA_CLIP0,  EWA_CLIP1};
+    ewa_cloud *first = NULL;
+    ewa_context *contexts[3];
+    for (int t = 0; t < 3; t++) {
+        contexts[t] = check_context(threads[t], NULL);
+        ewa_generate_options generate;
+        ewa_generate_options_init(&generate, sizeof generate);
+        generate.object = EWA_OBJECT_CUBE;
+        generate.point_count = 20000;
+        ewa_cloud *cloud = NULL;
+        assert_int_equal(ewa_cloud_generate(contexts[t], &generate, &cloud), EWA_OK);
+        const ewa_feature_options options = default_options();
+        assert_int_equal(ewa_cloud_detect_features(cloud, &options, NULL), EWA_OK);
+        for (size_t i = 0; first && i < sizeof names / sizeof names[0]; i++)
+            assert_memory_equal(check_stream(cloud, names[i]), check_stream(first, names[i]),
+                                3 * sizeof(float) * generate.point_count);
+        if (first)
+            ewa_cloud_destroy(&cloud);
+        else
+            first = cloud;
+    }
+    ewa_cloud_destroy(&first);
+    for (int t = 0; t < 3; t++) ewa_context_destroy(&contexts[t]);
+}
+
+/// Clouds of few points, of one place, on a line, and with coordinates that are not finite.
+static void test_odd_clouds(void **state) {
+    (void)state;
+    ewa_context *context = check_context(2, NULL);
+    for (uint32_t count = 0; count < 90; count += count < 8 ? 1 : 27) {
+        for (int kind = 0; kind < 3; kind++) {
+            float *xyz;
+            ewa_cloud *cloud = check_cloud(context, count, &xyz);
+            for (uint32_t i = 0; i < 3 * count; i++)
+                xyz[i] = kind == 0 ? 1 : kind == 1 ? (float)(i / 3) : (float)(i * 2654435761u % 1000);
+            const ewa_estimate_options estimate = check_estimate_options();
+            assert_int_equal(ewa_cloud_estimate(&cloud, &estimate), EWA_OK);
+            const ewa_feature_options options = default_options();
+            assert_int_equal(ewa_cloud_detect_features(cloud, &options, NULL), EWA_OK);
+            ewa_cloud_destroy(&cloud);
+        }
+    }
+    ewa_cloud *cloud = make_crease(context, 90, false);
+    float *position = ewa_cloud_find(cloud, EWA_POSITION)->data,
+          *normal = ewa_cloud_find(cloud, EWA_NORMAL)->data;
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i += 11)
+        position[3 * i + i % 3] = i % 2 ? NAN : INFINITY;
+    for (uint64_t i = 5; i < ewa_cloud_point_count(cloud); i += 30) normal[3 * i] = NAN;
+    const ewa_feature_options options = default_options();
+    ewa_feature_counts counts;
+    assert_int_equal(ewa_cloud_detect_features(cloud, &options, &counts), EWA_OK);
+    assert_true(counts.edge_count > 50);
+    const float *clip = check_stream(cloud, EWA_CLIP0);
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i += 11) assert_false(has_line(clip, i));
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
+/// Doubles stay doubles, borrowed memory is not written to, axes that are there keep their size.
+static void test_streams(void **state) {
+    (void)state;
+    ewa_context *context = check_context(2, NULL);
+    ewa_cloud *cloud = make_crease(context, 90, false);
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    double *position = malloc(3 * count * sizeof *position), *copy = malloc(3 * count * sizeof *copy);
+    assert_non_null(position);
+    assert_non_null(copy);
+    ewa_attribute_read_f64(ewa_cloud_find(cloud, EWA_POSITION), 0, count, position);
+    memcpy(copy, position, 3 * count * sizeof *copy);
+    assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F64, 3, position, 0), EWA_OK);
+    ewa_estimate_options estimate = check_estimate_options();
+    estimate.keep_radii = false;
+    estimate.shape = EWA_SHAPE_ELLIPSE;
+    assert_int_equal(ewa_cloud_estimate(&cloud, &estimate), EWA_OK);
+    const ewa_feature_options options = default_options();
+    ewa_feature_counts counts;
+    assert_int_equal(ewa_cloud_detect_features(cloud, &options, &counts), EWA_OK);
+    assert_true(counts.edge_count > 50);
+    assert_int_equal(ewa_cloud_find(cloud, EWA_POSITION)->type, EWA_F64);
+    assert_memory_equal(position, copy, 3 * count * sizeof *copy);
+    ewa_cloud_destroy(&cloud);
+    free(copy);
+    free(position);
+    ewa_context_destroy(&context);
+}
+
+static void test_refusals(void **state) {
+    (void)state;
+    check_log log = {{0}, 0};
+    ewa_context *context = check_context(1, &log);
+    ewa_cloud *cloud = make_crease(context, 90, false);
+    ewa_feature_options options = default_options();
+    options.neighbour_count = 15;
+    assert_int_equal(ewa_cloud_detect_features(cloud, &options, NULL), EWA_ERROR_ARGUMENT);
+    assert_non_null(strstr(log.text, "neighbour_count is 15"));
+    options = default_options();
+    options.angle_deg = 5;
+    assert_int_equal(ewa_cloud_detect_features(cloud, &options, NULL), EWA_ERROR_ARGUMENT);
+    assert_non_null(strstr(log.text, "angle_deg is 5"));
+    options = default_options();
+    options.noise = NAN;
+    assert_int_equal(ewa_cloud_detect_features(cloud, &options, NULL), EWA_ERROR_ARGUMENT);
+    options = default_options();
+    ewa_cloud_remove(cloud, EWA_NORMAL);
+    assert_int_equal(ewa_cloud_detect_features(cloud, &options, NULL), EWA_ERROR_ARGUMENT);
+    assert_non_null(strstr(log.text, "normal"));
+    assert_int_equal(ewa_cloud_detect_features(NULL, &options, NULL), EWA_ERROR_ARGUMENT);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_creases), cmocka_unit_test(test_threshold), cmocka_unit_test(test_corners),
+        cmocka_unit_test(test_smooth),  cmocka_unit_test(test_threads),   cmocka_unit_test(test_odd_clouds),
+        cmocka_unit_test(test_streams), cmocka_unit_test(test_refusals),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Clip lines keep edges: the cube and the part, close up, with and without clip lines against the ray-traced
+// solid, and no holes along edges from random cameras.
+//
+// EWA_QUALITY_CAMERAS sets the number of cameras (default 20; the documented run takes 500).
+#include "check.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+#include "quality/solid_scene.h"
+
+enum { SIDE = 256, EDGE_REACH_PX = 5, RAYS = 8 };
+
+static uint32_t camera_count(void) {
+    const char *text = getenv("EWA_QUALITY_CAMERAS");
+    const long wanted = text ? strtol(text, NULL, 10) : 0;
+    return wanted > 0 && wanted <= 1000000 ? (uint32_t)wanted : 20;
+}
+
+static ewa_camera camera_at(const double eye[3], const double target[3], double fov_deg) {
+    static const double up[3] = {0.1, 0.05, 1};
+    ewa_camera camera;
+    ewa_camera_init(&camera, sizeof camera);
+    camera.width_px = camera.height_px = SIDE;
+    assert_int_equal(ewa_camera_set_fov(&camera, fov_deg), EWA_OK);
+    assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
+    return camera;
+}
+
+static ewa_cloud *make_solid(ewa_context *context, ewa_object object, uint64_t points, bool sharp) {
+    ewa_generate_options options;
+    ewa_generate_options_init(&options, sizeof options);
+    options.object = object;
+    options.point_count = points;
+    options.jitter = 0;
+    options.sharp = sharp;
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_OK);
+    solid_color_cloud(cloud);
+    return cloud;
+}
+
+static void draw(ewa_renderer *renderer, const ewa_cloud *cloud, const ewa_camera *camera,
+                 const ewa_frame *frame) {
+    ewa_surfels *surfels = NULL;
+    ewa_render_options options;
+    ewa_render_options_init(&options, sizeof options);
+    options.shading = EWA_SHADING_NONE;
+    options.cull = EWA_CULL_BACK;
+    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    assert_int_equal(ewa_render(renderer, surfels, camera, &options, frame, NULL), EWA_OK);
+    ewa_surfels_destroy(&surfels);
+}
+
+/// PSNR over the marked pixels, of premultiplied linear colours and alpha.
+static double psnr(const float *picture, const float *truth, const uint8_t *mask) {
+    double sum = 0;
+    uint64_t count = 0;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        if (!mask[i]) continue;
+        for (int c = 0; c < 4; c++) {
+            const double difference = (double)picture[4 * i + c] - (double)truth[4 * i + c];
+            sum += difference * difference;
+        }
+        count += 4;
+    }
+    assert_true(count > 0);
+    return 10 * log10((double)count / sum);
+}
+
+static void test_edges_close_up(void **state) {
+    (void)state;
+    static const struct {
+        const char *name;
+        ewa_object object;
+        uint64_t points;
+        double eye[3], target[3], fov_deg;
+    } views[] = {
+        {"cube, edge", EWA_OBJECT_CUBE, 6000, {2.2, -2.6, 1.9}, {0.9, -1, 0.5}, 22},
+        {"cube, corner", EWA_OBJECT_CUBE, 6000, {2.2, -2.6, 1.9}, {1, -1, 1}, 10},
+        {"part", EWA_OBJECT_CSG, 7000, {1.2, -2.5, 2.4}, {0, 0, 0}, 40},
+        {"part, slot", EWA_OBJECT_CSG, 7000, {1.1, -1.6, 1.4}, {0.3, -0.6, 0.2}, 22},
+        {"part, notch", EWA_OBJECT_CSG, 7000, {1.9, 1.8, 1.5}, {0.8, 0.4, 0.2}, 18},
+        {"part, round hole", EWA_OBJECT_CSG, 7000, {-0.9, -1.2, 1.6}, {-0.45, 0.1, 0.3}, 22},
+    };
+    static float truth[4 * SIDE * SIDE], rgba[4 * SIDE * SIDE];
+    static uint8_t mask[SIDE * SIDE];
+    ewa_context *context = check_context(0, NULL);
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    for (size_t i = 0; i < sizeof views / sizeof views[0]; i++) {
+        const ewa_solid_shape *shape = ewa_solid_shape_of(views[i].object);
+        const ewa_camera camera = camera_at(views[i].eye, views[i].target, views[i].fov_deg);
+        solid_picture(shape, &camera, RAYS, truth);
+        solid_mark_edges(shape, &camera, EDGE_REACH_PX, mask);
+        const ewa_frame frame = {.rgba = rgba};
+        ewa_cloud *sharp = make_solid(context, views[i].object, views[i].points, true);
+        draw(renderer, sharp, &camera, &frame);
+        const double with_lines = psnr(rgba, truth, mask);
+        ewa_cloud_remove(sharp, EWA_CLIP0);
+        ewa_cloud_remove(sharp, EWA_CLIP1);
+        draw(renderer, sharp, &camera, &frame);
+        const double without = psnr(rgba, truth, mask);
+        double plain = without;
+        if (views[i].object == EWA_OBJECT_CUBE) {
+            // Rows half a spacing inside: as much as can be had without lines.
+            ewa_cloud *inside = make_solid(context, views[i].object, views[i].points, false);
+            draw(renderer, inside, &camera, &frame);
+            plain = psnr(rgba, truth, mask);
+            ewa_cloud_destroy(&inside);
+        }
+        print_message("%s: %.1f dB with clip lines, %.1f dB without, %.1f dB with no points on edges\n",
+                      views[i].name, with_lines, without, plain);
+        assert_true(with_lines >= without + 10);
+        assert_true(with_lines >= plain + 10);
+        ewa_cloud_destroy(&sharp);
+    }
+    ewa_renderer_destroy(&renderer);
+    ewa_context_destroy(&context);
+}
+
+/// Whether a pixel and its surroundings of half a pixel are all within the solid's picture.
+static bool is_inside(const ewa_solid_shape *shape, const ewa_camera *camera, int x, int y) {
+    for (int k = 0; k < 25; k++)
+        if (!solid_trace_px(shape, camera, x - 0.5 + 0.5 * (k % 5), y - 0.5 + 0.5 * (k / 5)).any)
+            return false;
+    return true;
+}
+
+static void count_holes(ewa_object object, uint64_t points) {
+    static float rgba[4 * SIDE * SIDE], coverage[SIDE * SIDE];
+    static uint8_t mask[SIDE * SIDE];
+    ewa_context *context = check_context(0, NULL);
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_cloud *cloud = make_solid(context, object, points, true);
+    const ewa_solid_shape *shape = ewa_solid_shape_of(object);
+    check_random random = {2004};
+    uint64_t inside = 0, holes = 0, thin = 0;
+    double least = 1;
+    const uint32_t cameras = camera_count();
+    for (uint32_t i = 0; i < cameras; i++) {
+        double eye[3], length = 0, target[3];
+        for (int c = 0; c < 3; c++) {
+            eye[c] = check_uniform(&random, -1, 1);
+            length += eye[c] * eye[c];
+            target[c] = check_uniform(&random, -0.8, 0.8);
+        }
+        // Beyond the cube's corners, at sqrt(3).
+        const double distance = exp(check_uniform(&random, log(1.9), log(6))) / sqrt(length);
+        for (int c = 0; c < 3; c++) eye[c] *= distance;
+        const ewa_camera camera = camera_at(eye, target, check_uniform(&random, 10, 60));
+        const ewa_frame frame = {.rgba = rgba, .coverage = coverage};
+        draw(renderer, cloud, &camera, &frame);
+        solid_mark_edges(shape, &camera, EDGE_REACH_PX, mask);
+        for (int y = 1; y + 1 < SIDE; y++)
+            for (int x = 1; x + 1 < SIDE; x++) {
+                const int at = y * SIDE + x;
+                if (!mask[at] || !is_inside(shape, &camera, x, y)) continue;
+                inside++;
+                holes += !(coverage[at] > 0) || rgba[4 * at + 3] < 0.5f;
+                thin += rgba[4 * at + 3] < 0.99f;
+                least = fmin(least, (double)rgba[4 * at + 3]);
+            }
+    }
+    print_message(
+        "%u cameras: of %llu pixels along edges %llu are holes, %llu not opaque (least alpha %.3f)\n",
+        cameras, (unsigned long long)inside, (unsigned long long)holes, (unsigned long long)thin, least);
+    assert_true(inside > 1000);
+    assert_int_equal(holes, 0);
+    ewa_cloud_destroy(&cloud);
+    ewa_renderer_destroy(&renderer);
+    ewa_context_destroy(&context);
+}
+
+static void test_no_holes_along_edges(void **state) {
+    (void)state;
+    count_holes(EWA_OBJECT_CUBE, 6000);
+    count_holes(EWA_OBJECT_CSG, 7000);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_edges_close_up),
+        cmocka_unit_test(test_no_holes_along_edges),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
