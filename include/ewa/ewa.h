@@ -11,6 +11,7 @@
 #include "ewa/image.h"
 #include "ewa/io.h"
 #include "ewa/math.h"
+#include "ewa/mesh.h"
 #include "ewa/prepare.h"
 #include "ewa/render.h"
 #include "ewa/shade.h"

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Memory of triangle meshes.
+#include "ewa/mesh.h"
+#include "base/base.h"
+
+#include <string.h>
+
+static void free_stream(ewa_context *context, void *stream, size_t count, size_t size_bytes) {
+    if (stream) ewa_release(context, stream, count, size_bytes);
+}
+
+ewa_status ewa_mesh_create(ewa_context *context, uint32_t vertex_count, uint32_t triangle_count,
+                           uint32_t material_count, uint32_t streams, ewa_mesh *mesh) {
+    if (!context || !mesh) return EWA_ERROR_ARGUMENT;
+    *mesh = (ewa_mesh){0};
+    const bool colors = streams & EWA_MESH_COLORS, texcoords = streams & EWA_MESH_TEXCOORDS;
+    const ewa_limits *limits = ewa_context_limits(context);
+    const uint64_t vertex_bytes = sizeof(float) * (3u + (colors ? 4u : 0u) + (texcoords ? 2u : 0u));
+    const uint64_t triangle_bytes = sizeof(uint32_t) * (material_count ? 4u : 3u);
+    const uint64_t bytes = vertex_count * vertex_bytes + triangle_count * triangle_bytes +
+                           material_count * (uint64_t)sizeof(ewa_mesh_material);
+    if (vertex_count > limits->max_points || triangle_count > limits->max_points)
+        return ewa_fail(context, EWA_ERROR_LIMIT, "mesh: %u vertices and %u triangles, max_points is %llu",
+                        vertex_count, triangle_count, (unsigned long long)limits->max_points);
+    if (bytes > limits->max_memory_bytes)
+        return ewa_fail(context, EWA_ERROR_LIMIT, "mesh: %llu bytes, max_memory_bytes is %llu",
+                        (unsigned long long)bytes, (unsigned long long)limits->max_memory_bytes);
+    ewa_mesh made = {.context = context,
+                     .vertex_count = vertex_count,
+                     .triangle_count = triangle_count,
+                     .material_count = material_count};
+    made.positions = ewa_allocate_zeroed(context, vertex_count, 3 * sizeof(float));
+    made.triangles = ewa_allocate_zeroed(context, triangle_count, 3 * sizeof(uint32_t));
+    if (colors) made.colors = ewa_allocate_zeroed(context, vertex_count, 4 * sizeof(float));
+    if (texcoords) made.texcoords = ewa_allocate_zeroed(context, vertex_count, 2 * sizeof(float));
+    if (material_count) {
+        made.triangle_materials = ewa_allocate_zeroed(context, triangle_count, sizeof(uint32_t));
+        made.materials = ewa_allocate_zeroed(context, material_count, sizeof(ewa_mesh_material));
+    }
+    *mesh = made;
+    if (made.positions && made.triangles && (made.colors || !colors) && (made.texcoords || !texcoords) &&
+        (!material_count || (made.triangle_materials && made.materials)))
+        return EWA_OK;
+    ewa_mesh_free(mesh);
+    return EWA_ERROR_MEMORY;
+}
+
+void ewa_mesh_free(ewa_mesh *mesh) {
+    if (!mesh || !mesh->context) return;
+    ewa_context *context = mesh->context;
+    for (uint32_t i = 0; mesh->materials && i < mesh->material_count; i++)
+        ewa_image_free(&mesh->materials[i].texture);
+    free_stream(context, mesh->positions, mesh->vertex_count, 3 * sizeof(float));
+    free_stream(context, mesh->colors, mesh->vertex_count, 4 * sizeof(float));
+    free_stream(context, mesh->texcoords, mesh->vertex_count, 2 * sizeof(float));
+    free_stream(context, mesh->triangles, mesh->triangle_count, 3 * sizeof(uint32_t));
+    free_stream(context, mesh->triangle_materials, mesh->triangle_count, sizeof(uint32_t));
+    free_stream(context, mesh->materials, mesh->material_count, sizeof(ewa_mesh_material));
+    *mesh = (ewa_mesh){0};
+}

@@ -1,0 +1,236 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// From a mesh to surfels: options, and what every point gets once the places are chosen.
+#include "base/base.h"
+#include "math/vec.h"
+#include "prepare/mesh_clip.h"
+#include "prepare/mesh_color.h"
+#include "prepare/mesh_darts.h"
+
+#include <string.h>
+
+enum { TASK_POINTS = 1 << 12 };
+
+typedef struct sample_job {
+    const mesh_surface *surface;
+    const ewa_mesh_sample_options *options;
+    const mesh_dart *darts;
+    uint64_t count;
+    double spacing;
+    mesh_edge_grid grid;
+    mesh_colors colors;
+    float *position, *normal, *radius, *tangent_u, *tangent_v, *clip[2];
+    uint8_t *color, *clip_mode;
+} sample_job;
+
+void ewa_mesh_sample_options_init(ewa_mesh_sample_options *options, size_t struct_size) {
+    if (!options || struct_size < sizeof *options) return;
+    memset(options, 0, struct_size);
+    options->struct_size = struct_size;
+    options->point_count = 100000;
+    options->seed = 1;
+    options->crease_degrees = 35;
+    options->radius_scale = 1.6;
+    options->cutoff = 3;
+    options->clip_lines = true;
+    options->smooth_normals = true;
+}
+
+static ewa_status check_range(ewa_context *context, const char *member, double value, double low,
+                              double high) {
+    if (value >= low && value <= high) return EWA_OK;
+    return ewa_fail(context, EWA_ERROR_ARGUMENT, "sample: %s is %g, must be in [%g, %g]", member, value, low,
+                    high);
+}
+
+static ewa_status check_options(ewa_context *context, const ewa_mesh_sample_options *options) {
+    if (options->struct_size != sizeof *options)
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "sample: struct_size is %zu, must be %zu",
+                        options->struct_size, sizeof *options);
+    if (!(options->spacing_world >= 0 && options->spacing_world < INFINITY))
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "sample: spacing_world is %g, must be in [0, inf)",
+                        options->spacing_world);
+    const uint64_t limit = ewa_context_limits(context)->max_points;
+    if (options->spacing_world == 0 && (options->point_count == 0 || options->point_count > limit))
+        return ewa_fail(context, options->point_count ? EWA_ERROR_LIMIT : EWA_ERROR_ARGUMENT,
+                        "sample: point_count is %llu, must be in [1, %llu]",
+                        (unsigned long long)options->point_count, (unsigned long long)limit);
+    ewa_status status = check_range(context, "crease_degrees", options->crease_degrees, 0, 180);
+    if (status == EWA_OK) status = check_range(context, "radius_scale", options->radius_scale, 0.5, 10);
+    if (status == EWA_OK) status = check_range(context, "cutoff", options->cutoff, 1e-3, 10);
+    return status;
+}
+
+/// Weights of the three vertices of a triangle at a place on it.
+static double weights_at(const mesh_surface *surface, const mesh_dart *dart, double weight[3]) {
+    const uint32_t *vertex = surface->mesh->triangles + 3 * (size_t)surface->source[dart->triangle];
+    const float *facing = surface->normal[dart->triangle];
+    const ewa_vec3 n = vec3_make((double)facing[0], (double)facing[1], (double)facing[2]);
+    ewa_vec3 to[3];
+    for (int c = 0; c < 3; c++) {
+        const float *p = surface->mesh->positions + 3 * (size_t)vertex[c], *at = dart->position_world;
+        to[c] = vec3_make((double)p[0] - (double)at[0], (double)p[1] - (double)at[1],
+                          (double)p[2] - (double)at[2]);
+    }
+    double sum = 0;
+    for (int c = 0; c < 3; c++) {
+        weight[c] = fmax(0, vec3_dot(vec3_cross(to[(c + 1) % 3], to[(c + 2) % 3]), n));
+        sum += weight[c];
+    }
+    for (int c = 0; c < 3; c++) weight[c] = sum > 0 ? weight[c] / sum : 1.0 / 3;
+    return 0.5 * sum;
+}
+
+static ewa_vec3 normal_at(const mesh_surface *surface, uint32_t triangle, const double weight[3]) {
+    ewa_vec3 sum = {0, 0, 0};
+    for (int c = 0; c < 3; c++) {
+        const float *n = surface->group_normal[surface->corner_group[3 * (size_t)triangle + c]];
+        sum = vec3_add(sum, vec3_scale(vec3_make((double)n[0], (double)n[1], (double)n[2]), weight[c]));
+    }
+    const float *facing = surface->normal[triangle];
+    const ewa_vec3 flat = vec3_make((double)facing[0], (double)facing[1], (double)facing[2]);
+    return vec3_normalize(&sum) && vec3_dot(sum, flat) > 0 ? sum : flat;
+}
+
+static void store(float *to, ewa_vec3 v, double scale) {
+    to[0] = (float)(v.x * scale);
+    to[1] = (float)(v.y * scale);
+    to[2] = (float)(v.z * scale);
+}
+
+static void finish_clip(const sample_job *job, uint64_t i, ewa_vec3 normal) {
+    const double radius = job->options->radius_scale * job->spacing, sigma = radius / job->options->cutoff;
+    const ewa_vec3 axis = fabs(normal.x) < 0.6 ? vec3_make(1, 0, 0) : vec3_make(0, 1, 0);
+    ewa_vec3 u = vec3_cross(axis, normal);
+    vec3_normalize(&u);
+    const ewa_vec3 v = vec3_cross(normal, u);
+    mesh_clip_disc disc = {.radius_world = radius, .part = job->surface->part[job->darts[i].triangle]};
+    for (int c = 0; c < 3; c++) disc.center_world[c] = (double)job->position[3 * i + (size_t)c];
+    vec3_store(u, disc.u);
+    vec3_store(v, disc.v);
+    vec3_store(normal, disc.normal);
+    ewa_mesh_clip_disc(&job->grid, &disc);
+    store(job->tangent_u + 3 * i, u, sigma);
+    store(job->tangent_v + 3 * i, v, sigma);
+    for (int k = 0; k < 2; k++) {
+        float *line = job->clip[k] + 3 * i;
+        line[0] = (float)disc.line[k][0];
+        line[1] = (float)disc.line[k][1];
+        line[2] = (float)(disc.line[k][2] / sigma);
+    }
+    job->clip_mode[i] = disc.either;
+}
+
+static void finish_points(void *data, uint32_t part, uint32_t worker) {
+    (void)worker;
+    const sample_job *job = data;
+    const uint64_t first = (uint64_t)part * TASK_POINTS;
+    const uint64_t end = first + TASK_POINTS < job->count ? first + TASK_POINTS : job->count;
+    for (uint64_t i = first; i < end; i++) {
+        const mesh_dart *dart = &job->darts[i];
+        double weight[3];
+        const double area = weights_at(job->surface, dart, weight);
+        const ewa_vec3 normal = normal_at(job->surface, dart->triangle, weight);
+        memcpy(job->position + 3 * i, dart->position_world, sizeof dart->position_world);
+        store(job->normal + 3 * i, normal, 1);
+        if (job->color)
+            ewa_mesh_color_at(&job->colors, job->surface->source[dart->triangle], weight, area, job->spacing,
+                              job->color + job->colors.component_count * i);
+        if (job->radius)
+            job->radius[i] = (float)(job->options->radius_scale * job->spacing);
+        else
+            finish_clip(job, i, normal);
+    }
+}
+
+static ewa_status add_attributes(sample_job *job, ewa_cloud *cloud) {
+    const bool sharp = job->surface->edge_count > 0;
+    const struct {
+        const char *name;
+        ewa_type type;
+        uint32_t component_count;
+        bool wanted;
+        void *data;
+    } rows[] = {
+        {EWA_POSITION, EWA_F32, 3, true, &job->position},
+        {EWA_NORMAL, EWA_F32, 3, true, &job->normal},
+        {EWA_COLOR, EWA_U8, job->colors.component_count, job->colors.component_count > 0, &job->color},
+        {EWA_RADIUS, EWA_F32, 1, !sharp, &job->radius},
+        {EWA_TANGENT_U, EWA_F32, 3, sharp, &job->tangent_u},
+        {EWA_TANGENT_V, EWA_F32, 3, sharp, &job->tangent_v},
+        {EWA_CLIP0, EWA_F32, 3, sharp, &job->clip[0]},
+        {EWA_CLIP1, EWA_F32, 3, sharp, &job->clip[1]},
+        {EWA_CLIP_MODE, EWA_U8, 1, sharp, &job->clip_mode},
+    };
+    ewa_status status = EWA_OK;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0] && status == EWA_OK; i++)
+        if (rows[i].wanted)
+            status = ewa_cloud_add(cloud, rows[i].name, rows[i].type, rows[i].component_count, rows[i].data);
+    return status;
+}
+
+/// The spacing that gives about so many points: of area / s^2 + rows / s = count.
+static double choose_spacing(const mesh_surface *surface, const ewa_mesh_sample_options *options) {
+    if (options->spacing_world > 0) return options->spacing_world;
+    const double count = (double)options->point_count, area = surface->area_below[surface->triangle_count];
+    const double rows = ewa_mesh_dart_estimate(surface, 1) - area;
+    return (rows + sqrt(rows * rows + 4 * area * count)) / (2 * count);
+}
+
+static ewa_status sample(ewa_context *context, sample_job *job, ewa_cloud **cloud) {
+    mesh_dart *darts = NULL;
+    uint64_t capacity = 0;
+    job->spacing = choose_spacing(job->surface, job->options);
+    ewa_status status =
+        ewa_mesh_throw_darts(job->surface, job->spacing, job->options->seed, &darts, &capacity, &job->count);
+    if (status != EWA_OK) return status;
+    job->darts = darts;
+    ewa_cloud *made = NULL;
+    status = ewa_mesh_edge_grid_make(job->surface, job->options->radius_scale * job->spacing, &job->grid);
+    if (status == EWA_OK) status = ewa_mesh_colors_make(job->surface->mesh, &job->colors);
+    if (status == EWA_OK) status = ewa_cloud_create(context, job->count, &made);
+    if (status == EWA_OK) status = add_attributes(job, made);
+    if (status == EWA_OK) status = ewa_progress(context, "sample", 0.7);
+    if (status == EWA_OK) {
+        ewa_parallel(context, finish_points, job, (uint32_t)((job->count + TASK_POINTS - 1) / TASK_POINTS));
+        ewa_report(context, EWA_SEVERITY_INFO, "sample: spacing %g, %u triangles, %u sides of sharp edges",
+                   job->spacing, job->surface->triangle_count, job->surface->edge_count);
+        status = ewa_progress(context, "sample", 1);
+    }
+    if (status != EWA_OK) ewa_cloud_destroy(&made);
+    *cloud = made;
+    ewa_mesh_colors_free(&job->colors);
+    ewa_mesh_edge_grid_free(&job->grid);
+    ewa_release(context, darts, capacity, sizeof *darts);
+    return status;
+}
+
+static ewa_status check_mesh(const ewa_mesh *mesh) {
+    const bool complete = (mesh->positions || !mesh->vertex_count) &&
+                          (mesh->triangles || !mesh->triangle_count) &&
+                          (!mesh->material_count || (mesh->materials && mesh->triangle_materials));
+    if (!complete) return ewa_fail(mesh->context, EWA_ERROR_ARGUMENT, "sample: the mesh lacks a stream");
+    // Half edges are numbered by 32 bits.
+    if (mesh->triangle_count > UINT32_MAX / 4)
+        return ewa_fail(mesh->context, EWA_ERROR_LIMIT, "sample: %u triangles, %u can be",
+                        mesh->triangle_count, UINT32_MAX / 4);
+    return EWA_OK;
+}
+
+ewa_status ewa_mesh_sample(const ewa_mesh *mesh, const ewa_mesh_sample_options *options, ewa_cloud **cloud) {
+    if (!mesh || !mesh->context || !cloud) return EWA_ERROR_ARGUMENT;
+    *cloud = NULL;
+    ewa_mesh_sample_options defaults;
+    ewa_mesh_sample_options_init(&defaults, sizeof defaults);
+    if (!options) options = &defaults;
+    ewa_status status = check_options(mesh->context, options);
+    if (status == EWA_OK) status = check_mesh(mesh);
+    mesh_surface surface;
+    if (status == EWA_OK) status = ewa_mesh_surface_make(mesh, options, &surface);
+    if (status != EWA_OK) return status;
+    sample_job job = {.surface = &surface, .options = options};
+    status = sample(mesh->context, &job, cloud);
+    ewa_mesh_surface_free(&surface);
+    return status;
+}

@@ -1,0 +1,330 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Surfels from meshes: where they are, how far apart, which lines they get, what bad meshes give.
+#include "mesh_shapes.h"
+
+static const float *stream(const ewa_cloud *cloud, const char *name) {
+    const ewa_attribute *attribute = ewa_cloud_find(cloud, name);
+    assert_non_null(attribute);
+    assert_int_equal(attribute->type, EWA_F32);
+    return attribute->data;
+}
+
+static ewa_mesh_sample_options options_of(uint64_t point_count) {
+    ewa_mesh_sample_options options;
+    ewa_mesh_sample_options_init(&options, sizeof options);
+    options.point_count = point_count;
+    return options;
+}
+
+static int face_of(const float *normal) {
+    for (int c = 0; c < 3; c++)
+        if (fabsf(normal[c]) > 0.999f) return 2 * c + (normal[c] > 0);
+    return -1;
+}
+
+/// All on the faces, as many on each, within the count, no two of a face too near, bytes the same for any
+/// number of threads.
+static void test_cube_points(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL), *many = check_context(5, NULL);
+    ewa_mesh mesh;
+    shape_cube(context, &mesh);
+    const ewa_mesh_sample_options options = options_of(6000);
+    ewa_cloud *cloud = shape_sample(&mesh, &options);
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    assert_in_range(count, 5700, 6300);
+    const float *p = stream(cloud, EWA_POSITION), *n = stream(cloud, EWA_NORMAL),
+                *u = stream(cloud, EWA_TANGENT_U);
+    const double radius = 3 * sqrt((double)(u[0] * u[0] + u[1] * u[1] + u[2] * u[2])), spacing = radius / 1.6;
+    uint64_t of_face[6] = {0}, inner = 0;
+    bool *is_inner = calloc(count, 1);
+    assert_non_null(is_inner);
+    for (uint64_t i = 0; i < count; i++) {
+        const int face = face_of(n + 3 * i);
+        assert_true(face >= 0);
+        of_face[face]++;
+        for (int c = 0; c < 3; c++)
+            assert_true(c == face / 2 ? p[3 * i + c] == (face & 1 ? 1.0f : -1.0f) : fabsf(p[3 * i + c]) <= 1);
+        bool near_edge = false;
+        for (int c = 0; c < 3; c++)
+            near_edge = near_edge || (c != face / 2 && 1 - fabsf(p[3 * i + c]) < 0.21 * spacing);
+        is_inner[i] = !near_edge;
+        inner += !near_edge;
+        for (uint64_t k = 0; k < i; k++) {
+            if (face_of(n + 3 * k) != face) continue;
+            double d2 = 0;
+            for (int c = 0; c < 3; c++) d2 += pow((double)p[3 * i + c] - (double)p[3 * k + c], 2);
+            // Rows along edges are closer than the inside, corners closest.
+            assert_true(d2 > pow(0.39 * spacing, 2));
+            if (is_inner[i] && is_inner[k]) assert_true(d2 > pow(0.77 * spacing, 2));
+        }
+    }
+    free(is_inner);
+    for (int f = 0; f < 6; f++)
+        assert_true(fabs((double)of_face[f] - (double)count / 6) < 0.05 * (double)count / 6);
+    assert_true((double)inner > 0.7 * (double)count);
+    mesh.context = many;
+    ewa_cloud *other = shape_sample(&mesh, &options);
+    mesh.context = context;
+    assert_int_equal(ewa_cloud_point_count(other), count);
+    for (uint32_t a = 0; a < ewa_cloud_attribute_count(cloud); a++) {
+        const ewa_attribute *x = ewa_cloud_attribute_at(cloud, a), *y = ewa_cloud_attribute_at(other, a);
+        assert_memory_equal(x->data, y->data, count * x->stride_bytes);
+    }
+    ewa_cloud_destroy(&other);
+    ewa_cloud_destroy(&cloud);
+    ewa_mesh_free(&mesh);
+    ewa_context_destroy(&many);
+    ewa_context_destroy(&context);
+}
+
+/// Whether a place of the plane of point i is kept by its lines.
+static bool keeps(const ewa_cloud *cloud, uint64_t i, const double at[3]) {
+    const float *p = stream(cloud, EWA_POSITION) + 3 * i, *u = stream(cloud, EWA_TANGENT_U) + 3 * i,
+                *v = stream(cloud, EWA_TANGENT_V) + 3 * i;
+    const float *lines[2] = {stream(cloud, EWA_CLIP0) + 3 * i, stream(cloud, EWA_CLIP1) + 3 * i};
+    const bool either = ((const uint8_t *)ewa_cloud_find(cloud, EWA_CLIP_MODE)->data)[i];
+    double a = 0, b = 0, uu = 0, vv = 0;
+    bool kept[2];
+    int count = 0;
+    for (int c = 0; c < 3; c++) {
+        const double d = at[c] - (double)p[c];
+        a += d * (double)u[c], b += d * (double)v[c];
+        uu += (double)u[c] * (double)u[c], vv += (double)v[c] * (double)v[c];
+    }
+    for (int k = 0; k < 2; k++)
+        if (lines[k][0] != 0 || lines[k][1] != 0)
+            kept[count++] =
+                (double)lines[k][0] * a / uu + (double)lines[k][1] * b / vv + (double)lines[k][2] >= 0;
+    return count == 0 || (count == 1 ? kept[0] : either ? kept[0] || kept[1] : kept[0] && kept[1]);
+}
+
+/// How far a place is inside of the outline that a face of the shape has; negative: outside.
+typedef double outline(const float *normal, const double at[3]);
+
+static double cube_outline(const float *normal, const double at[3]) {
+    double least = INFINITY;
+    for (int c = 0; c < 3; c++)
+        if (fabsf(normal[c]) < 0.5f) least = fmin(least, 1 - fabs(at[c]));
+    return least;
+}
+
+static double angle_outline(const float *normal, const double at[3]) {
+    const double y = 1 - fabs(at[1]), x = 1 - fabs(at[0]), z = 1 - fabs(at[2]);
+    if (fabsf(normal[1]) > 0.5f) return fmin(fmin(x, z), fmax(-at[0], -at[2]));
+    const int along = fabsf(normal[0]) > 0.5f ? 2 : 0, across = 2 - along;
+    if (normal[across] < 0) return fmin(y, along == 0 ? x : z);
+    // Of the two faces towards a positive axis one is at 1, below 0 along the other, one at 0, above it.
+    return at[across] > 0.5 ? fmin(y, fmin(along == 0 ? x : z, -at[along]))
+                            : fmin(y, fmin(along == 0 ? x : z, at[along]));
+}
+
+/// What all discs keep is just what lies within the outline of their face, up to rounding.
+static void hold_outline(void (*make)(ewa_context *, ewa_mesh *), outline *inside) {
+    ewa_context *context = check_context(0, NULL);
+    ewa_mesh mesh;
+    make(context, &mesh);
+    const ewa_mesh_sample_options options = options_of(4000);
+    ewa_cloud *cloud = shape_sample(&mesh, &options);
+    check_random random = {5};
+    const float *p = stream(cloud, EWA_POSITION), *n = stream(cloud, EWA_NORMAL),
+                *u = stream(cloud, EWA_TANGENT_U), *v = stream(cloud, EWA_TANGENT_V);
+    uint64_t lines[3] = {0};
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
+        const float *clips[2] = {stream(cloud, EWA_CLIP0) + 3 * i, stream(cloud, EWA_CLIP1) + 3 * i};
+        lines[(clips[0][0] != 0 || clips[0][1] != 0) + (clips[1][0] != 0 || clips[1][1] != 0)]++;
+        for (int k = 0; k < 20; k++) {
+            const double a = check_uniform(&random, -3, 3), b = check_uniform(&random, -3, 3);
+            if (a * a + b * b > 9) continue;
+            double at[3];
+            for (int c = 0; c < 3; c++)
+                at[c] = (double)p[3 * i + c] + a * (double)u[3 * i + c] + b * (double)v[3 * i + c];
+            const double depth = inside(n + 3 * i, at);
+            if (fabs(depth) < 1e-5) continue;
+            assert_int_equal(keeps(cloud, i, at), depth > 0);
+        }
+    }
+    assert_true(lines[0] > 500 && lines[1] > 500 && lines[2] >= 24);
+    ewa_cloud_destroy(&cloud);
+    ewa_mesh_free(&mesh);
+    ewa_context_destroy(&context);
+}
+
+static void test_cube_lines(void **state) {
+    (void)state;
+    hold_outline(shape_cube, cube_outline);
+}
+
+/// Its ends have a concave corner, where one of two lines is enough.
+static void test_angle_lines(void **state) {
+    (void)state;
+    hold_outline(shape_angle, angle_outline);
+}
+
+/// No sharp edges: radii, smooth normals, no lines; an opened one has lines along its border only.
+static void test_sphere(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    ewa_mesh mesh;
+    shape_sphere(context, 32, &mesh);
+    const ewa_mesh_sample_options options = options_of(5000);
+    ewa_cloud *cloud = shape_sample(&mesh, &options);
+    assert_null(ewa_cloud_find(cloud, EWA_CLIP0));
+    assert_null(ewa_cloud_find(cloud, EWA_TANGENT_U));
+    assert_non_null(ewa_cloud_find(cloud, EWA_RADIUS));
+    const float *p = stream(cloud, EWA_POSITION), *n = stream(cloud, EWA_NORMAL);
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
+        const float *a = p + 3 * i, *b = n + 3 * i;
+        const float length = sqrtf(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+        assert_true(length > 0.99f && length < 1.0001f);
+        assert_true(a[0] * b[0] + a[1] * b[1] + a[2] * b[2] > 0.9995f * length);
+    }
+    ewa_cloud_destroy(&cloud);
+
+    mesh.triangle_count /= 2; // the upper half
+    cloud = shape_sample(&mesh, &options);
+    p = stream(cloud, EWA_POSITION);
+    const float *clip = stream(cloud, EWA_CLIP0), *u = stream(cloud, EWA_TANGENT_U);
+    const float reach = 3 * sqrtf(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+    uint64_t clipped = 0;
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
+        if (clip[3 * i] == 0 && clip[3 * i + 1] == 0) continue;
+        assert_true(p[3 * i + 2] < 1.05f * reach);
+        clipped++;
+    }
+    assert_true(clipped > 100);
+    mesh.triangle_count *= 2;
+    ewa_cloud_destroy(&cloud);
+    ewa_mesh_free(&mesh);
+    ewa_context_destroy(&context);
+}
+
+static void test_colors(void **state) {
+    (void)state;
+    static const float positions[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0},
+                       texcoords[8] = {0, 0, 1, 0, 1, 1, 0, 1};
+    static const uint32_t triangles[6] = {0, 1, 2, 0, 2, 3};
+    ewa_context *context = check_context(0, NULL);
+    ewa_mesh mesh;
+    assert_int_equal(ewa_mesh_create(context, 4, 2, 1, EWA_MESH_COLORS | EWA_MESH_TEXCOORDS, &mesh), EWA_OK);
+    memcpy(mesh.positions, positions, sizeof positions);
+    memcpy(mesh.texcoords, texcoords, sizeof texcoords);
+    memcpy(mesh.triangles, triangles, sizeof triangles);
+    for (int i = 0; i < 16; i++) mesh.colors[i] = i % 4 == 1 ? 0.5f : 1;
+    for (int c = 0; c < 4; c++) mesh.materials[0].base_color[c] = 1;
+    // Left half black, right half white; rows from the top: the upper right quarter is red.
+    assert_int_equal(ewa_image_create(context, 64, 64, 3, &mesh.materials[0].texture), EWA_OK);
+    float *pixels = mesh.materials[0].texture.pixels;
+    for (int i = 0; i < 64 * 64; i++)
+        for (int c = 0; c < 3; c++) pixels[3 * i + c] = i % 64 >= 32 && (c == 0 || i / 64 >= 32) ? 1 : 0;
+    const ewa_mesh_sample_options options = options_of(400);
+    ewa_cloud *cloud = shape_sample(&mesh, &options);
+    const ewa_attribute *color = ewa_cloud_find(cloud, EWA_COLOR);
+    assert_int_equal(color->component_count, 3);
+    const float *p = stream(cloud, EWA_POSITION);
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
+        const uint8_t *rgb = (const uint8_t *)color->data + 3 * i;
+        const float x = p[3 * i], y = p[3 * i + 1];
+        if (fabsf(x - 0.5f) < 0.1f || fabsf(y - 0.5f) < 0.1f || x < 0.1f || x > 0.9f || y < 0.1f || y > 0.9f)
+            continue;
+        assert_int_equal(rgb[0], x > 0.5f ? 255 : 0);
+        assert_int_equal(rgb[1], x > 0.5f && y < 0.5f ? 188 : 0); // 0.5 of linear light
+        assert_int_equal(rgb[2], x > 0.5f && y < 0.5f ? 255 : 0);
+    }
+    ewa_cloud_destroy(&cloud);
+    mesh.materials[0].base_color[3] = 0.5f;
+    cloud = shape_sample(&mesh, &options);
+    color = ewa_cloud_find(cloud, EWA_COLOR);
+    assert_int_equal(color->component_count, 4);
+    assert_int_equal(((const uint8_t *)color->data)[3], 128);
+    ewa_cloud_destroy(&cloud);
+    ewa_mesh_free(&mesh);
+    ewa_context_destroy(&context);
+}
+
+/// Fails with a status and a message that has `text` in it.
+static void refuse(const ewa_mesh *mesh, const ewa_mesh_sample_options *options, const check_log *log,
+                   ewa_status status, const char *text) {
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_mesh_sample(mesh, options, &cloud), status);
+    assert_null(cloud);
+    if (!strstr(log->text, text)) fail_msg("'%s' is not in '%s'", text, log->text);
+}
+
+static void test_bad_meshes(void **state) {
+    (void)state;
+    check_log log = {0};
+    ewa_context *context = check_context(0, &log);
+    ewa_mesh mesh;
+    shape_cube(context, &mesh);
+    ewa_mesh_sample_options options = options_of(1000);
+    options.crease_degrees = 181;
+    refuse(&mesh, &options, &log, EWA_ERROR_ARGUMENT, "crease_degrees is 181");
+    options = options_of(0);
+    refuse(&mesh, &options, &log, EWA_ERROR_ARGUMENT, "point_count is 0");
+    options.spacing_world = NAN;
+    refuse(&mesh, &options, &log, EWA_ERROR_ARGUMENT, "spacing_world is nan");
+    options.spacing_world = 1e-12;
+    refuse(&mesh, &options, &log, EWA_ERROR_LIMIT, "a spacing of 1e-12 gives");
+    options = options_of(1000);
+    mesh.triangles[7] = 8;
+    refuse(&mesh, &options, &log, EWA_ERROR_ARGUMENT, "triangle 2 has vertex 8, there are 8");
+    mesh.triangles[7] = 3;
+    // A triangle that is a line, one that is a point, one with a place that is no number: the rest is
+    // sampled.
+    mesh.triangles[0] = mesh.triangles[1];
+    memset(mesh.triangles + 3, 0, 3 * sizeof *mesh.triangles);
+    mesh.positions[3 * 7] = NAN;
+    ewa_cloud *cloud = shape_sample(&mesh, &options);
+    const float *p = stream(cloud, EWA_POSITION);
+    for (uint64_t i = 0; i < 3 * ewa_cloud_point_count(cloud); i++) assert_true(fabsf(p[i]) <= 1);
+    ewa_cloud_destroy(&cloud);
+    for (int i = 0; i < 24; i++) mesh.positions[i] = 1;
+    refuse(&mesh, &options, &log, EWA_ERROR_NUMERIC, "none of 12 triangles has an area");
+    for (int i = 0; i < 24; i++) mesh.positions[i] = i % 2 ? INFINITY : NAN;
+    refuse(&mesh, &options, &log, EWA_ERROR_NUMERIC, "none of 12 triangles has an area");
+    mesh.triangle_count = 0;
+    refuse(&mesh, &options, &log, EWA_ERROR_NUMERIC, "none of 0 triangles");
+    mesh.triangle_count = 12;
+    ewa_mesh_free(&mesh);
+    ewa_context_destroy(&context);
+}
+
+/// Random triangles through each other, with huge, tiny and doubled ones: finite surfels on their planes.
+static void test_soup(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    for (uint64_t seed = 1; seed < 20; seed++) {
+        check_random random = {seed};
+        ewa_mesh mesh;
+        assert_int_equal(ewa_mesh_create(context, 40, 60, 0, 0, &mesh), EWA_OK);
+        const double size = pow(10, check_uniform(&random, -6, 6));
+        for (int i = 0; i < 120; i++)
+            mesh.positions[i] = (float)(size * check_uniform(&random, -1, 1) * (i < 60 ? 1 : 1e-3));
+        for (int i = 0; i < 180; i++) mesh.triangles[i] = (uint32_t)(check_random_u64(&random) % 40);
+        const ewa_mesh_sample_options options = options_of(2000);
+        ewa_cloud *cloud = shape_sample(&mesh, &options);
+        assert_true(ewa_cloud_point_count(cloud) > 200);
+        for (uint32_t a = 0; a < ewa_cloud_attribute_count(cloud); a++) {
+            const ewa_attribute *attribute = ewa_cloud_attribute_at(cloud, a);
+            if (attribute->type != EWA_F32) continue;
+            for (uint64_t i = 0; i < ewa_cloud_point_count(cloud) * attribute->component_count; i++)
+                assert_true(isfinite(((const float *)attribute->data)[i]));
+        }
+        ewa_cloud_destroy(&cloud);
+        ewa_mesh_free(&mesh);
+    }
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_cube_points), cmocka_unit_test(test_cube_lines),
+        cmocka_unit_test(test_angle_lines), cmocka_unit_test(test_sphere),
+        cmocka_unit_test(test_colors),      cmocka_unit_test(test_bad_meshes),
+        cmocka_unit_test(test_soup),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Sampled meshes against the solids they are: from random cameras, far and close to their edges, no pixel
+// inside shows the background, and none more than a pixel outside shows the solid, but at its sharpest
+// corners.
+//
+// EWA_QUALITY_CAMERAS sets the number of cameras (default 30; the documented run takes 500).
+#include "../prepare/mesh_shapes.h"
+
+#include <stdbool.h>
+
+enum { SIDE = 160 };
+
+/// A solid as one or two boxes.
+typedef struct solid {
+    void (*make)(ewa_context *context, ewa_mesh *mesh);
+    double low[2][3], high[2][3];
+} solid;
+
+static const solid cube = {shape_cube, {{-1, -1, -1}, {-1, -1, -1}}, {{1, 1, 1}, {1, 1, 1}}};
+static const solid angle = {shape_angle, {{-1, -1, -1}, {-1, -1, -1}}, {{1, 1, 0}, {0, 1, 1}}};
+
+typedef struct edge_counts {
+    uint64_t inside, outside, holes, thin, excess;
+} edge_counts;
+
+static uint32_t camera_count(void) {
+    const char *text = getenv("EWA_QUALITY_CAMERAS");
+    const long wanted = text ? strtol(text, NULL, 10) : 0;
+    return wanted > 0 && wanted <= 1000000 ? (uint32_t)wanted : 30;
+}
+
+static bool hits(const solid *of, const ewa_camera *camera, const double eye[3], double x_px, double y_px) {
+    const double x = (x_px - camera->cx_px) / camera->fx_px, y = (y_px - camera->cy_px) / camera->fy_px;
+    const double *m = camera->world_to_camera;
+    for (int b = 0; b < 2; b++) {
+        double enter = 0, leave = INFINITY;
+        for (int c = 0; c < 3; c++) {
+            const double ray = m[c] * x + m[4 + c] * y + m[8 + c];
+            const double t0 = (of->low[b][c] - eye[c]) / ray, t1 = (of->high[b][c] - eye[c]) / ray;
+            enter = fmax(enter, fmin(t0, t1));
+            leave = fmin(leave, fmax(t0, t1));
+        }
+        if (enter < leave) return true;
+    }
+    return false;
+}
+
+/// Looks at a place of an edge, a corner or a face, from half a spacing to the whole solid away.
+static void random_camera(check_random *random, ewa_camera *camera, double eye[3]) {
+    double target[3], direction[3], length2 = 0;
+    for (int c = 0; c < 3; c++) {
+        const double at = check_uniform(random, -1.5, 1.5);
+        target[c] = fmax(-1, fmin(1, at));
+        direction[c] = check_uniform(random, 0.05, 1) * (target[c] < 0 ? -1 : 1);
+        length2 += direction[c] * direction[c];
+    }
+    const double distance = exp(check_uniform(random, log(0.1), log(5)));
+    for (int c = 0; c < 3; c++) eye[c] = target[c] + direction[c] * distance / sqrt(length2);
+    // Outside of both solids: beyond the nearest face at least a little.
+    int farthest = 0;
+    for (int c = 1; c < 3; c++)
+        if (fabs(eye[c]) > fabs(eye[farthest])) farthest = c;
+    if (fabs(eye[farthest]) < 1.05) eye[farthest] = eye[farthest] < 0 ? -1.05 : 1.05;
+    const double up[3] = {check_uniform(random, -1, 1), 0.3, check_uniform(random, -1, 1)};
+    ewa_camera_init(camera, sizeof *camera);
+    camera->width_px = camera->height_px = SIDE;
+    assert_int_equal(ewa_camera_set_fov(camera, check_uniform(random, 20, 80)), EWA_OK);
+    assert_int_equal(ewa_camera_look_at(camera, eye, target, up), EWA_OK);
+}
+
+/// A pixel is inside when it and its neighbours are hit all over, outside when none of them is.
+static void count_pixels(const solid *of, const ewa_camera *camera, const double eye[3],
+                         const ewa_frame *frame, edge_counts *counts) {
+    static bool hit[SIDE + 3][SIDE + 3];
+    for (int y = 0; y < SIDE + 3; y++)
+        for (int x = 0; x < SIDE + 3; x++) hit[y][x] = hits(of, camera, eye, x - 1, y - 1);
+    for (int y = 0; y < SIDE; y++) {
+        for (int x = 0; x < SIDE; x++) {
+            int sum = 0;
+            for (int k = 0; k < 16; k++) sum += hit[y + k / 4][x + k % 4];
+            const float coverage = frame->coverage[y * SIDE + x], alpha = frame->rgba[4 * (y * SIDE + x) + 3];
+            counts->inside += sum == 16;
+            counts->outside += sum == 0;
+            counts->holes += sum == 16 && !(coverage > 0);
+            counts->thin += sum == 16 && alpha < 0.99f;
+            counts->excess += sum == 0 && coverage > 0;
+        }
+    }
+}
+
+static void render_cameras(const solid *of, uint64_t points, ewa_cull cull, edge_counts *counts) {
+    *counts = (edge_counts){0};
+    ewa_context *context = check_context(0, NULL);
+    ewa_mesh mesh;
+    of->make(context, &mesh);
+    ewa_mesh_sample_options sample;
+    ewa_mesh_sample_options_init(&sample, sizeof sample);
+    sample.point_count = points;
+    ewa_cloud *cloud = shape_sample(&mesh, &sample);
+    ewa_surfels *surfels = NULL;
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_render_options options;
+    ewa_render_options_init(&options, sizeof options);
+    options.cull = cull;
+    static float coverage[SIDE * SIDE], rgba[4 * SIDE * SIDE];
+    const ewa_frame frame = {.coverage = coverage, .rgba = rgba};
+    check_random random = {77};
+    for (uint32_t i = 0; i < camera_count(); i++) {
+        ewa_camera camera;
+        double eye[3];
+        random_camera(&random, &camera, eye);
+        assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &frame, NULL), EWA_OK);
+        count_pixels(of, &camera, eye, &frame, counts);
+    }
+    print_message("%llu pixels inside: %llu holes, %llu not opaque; %llu outside: %llu drawn\n",
+                  (unsigned long long)counts->inside, (unsigned long long)counts->holes,
+                  (unsigned long long)counts->thin, (unsigned long long)counts->outside,
+                  (unsigned long long)counts->excess);
+    ewa_renderer_destroy(&renderer);
+    ewa_surfels_destroy(&surfels);
+    ewa_cloud_destroy(&cloud);
+    ewa_mesh_free(&mesh);
+    ewa_context_destroy(&context);
+}
+
+static void hold(const solid *of) {
+    edge_counts counts;
+    static const ewa_cull culls[] = {EWA_CULL_NONE, EWA_CULL_BACK};
+    for (int c = 0; c < 2; c++) {
+        render_cameras(of, 3000, culls[c], &counts);
+        assert_true(counts.inside > 100000 && counts.outside > 30000);
+        assert_int_equal(counts.holes, 0);
+        // Where two antialiased lines meet at a sharp angle, their corner is longer than a pixel.
+        assert_true(counts.excess * 2000 < counts.outside);
+        // The widest gaps between 3,000 points shine a little where no back side is behind them.
+        assert_true(counts.thin * (culls[c] == EWA_CULL_NONE ? 1000 : 25) < counts.inside);
+    }
+}
+
+static void test_cube(void **state) {
+    (void)state;
+    hold(&cube);
+}
+
+static void test_angle(void **state) {
+    (void)state;
+    hold(&angle);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_cube), cmocka_unit_test(test_angle)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
