@@ -105,10 +105,11 @@ ewa_status ewa_image_load_memory(ewa_context *context, const void *bytes, size_t
     if (ewa_exr_recognise(bytes, size_bytes)) return ewa_exr_decode(context, name, bytes, size_bytes, image);
     if (ewa_pfm_recognise(bytes, size_bytes)) return ewa_pfm_decode(context, name, bytes, size_bytes, image);
     if (ewa_hdr_recognise(bytes, size_bytes)) return ewa_hdr_decode(context, name, bytes, size_bytes, image);
-    if (ewa_jpeg_recognise(bytes, size_bytes)) return ewa_jpeg_decode(context, name, bytes, size_bytes, image);
-    return ewa_fail(context, EWA_ERROR_FORMAT,
-                    "%s: no picture: neither PNG nor JPEG nor OpenEXR nor PFM nor Radiance by its first bytes",
-                    name);
+    if (ewa_jpeg_recognise(bytes, size_bytes))
+        return ewa_jpeg_decode(context, name, bytes, size_bytes, image);
+    return ewa_fail(
+        context, EWA_ERROR_FORMAT,
+        "%s: no picture: neither PNG nor JPEG nor OpenEXR nor PFM nor Radiance by its first bytes", name);
 }
 
 ewa_status ewa_image_load(ewa_context *context, const char *path, ewa_image *image) {

@@ -215,7 +215,7 @@ static double assign(const feature_points *points, const feature_model *model, d
     double cost = 0;
     for (uint32_t i = 0; i < points->count; i++) {
         const double place[3] = {points->x[i], points->y[i], points->z[i]};
-        const uint32_t active = feature_active(model, place);
+        const uint32_t active = ewa_feature_active(model, place);
         const double square = truncated(feature_height(model, active, place), most);
         labels[i] = square < most ? (uint8_t)active : UINT8_MAX;
         cost += square;
@@ -370,7 +370,7 @@ static bool find_quadric_heights(const feature_points *points, double *heights) 
     return true;
 }
 
-uint32_t feature_active(const feature_model *model, const double place[3]) {
+uint32_t ewa_feature_active(const feature_model *model, const double place[3]) {
     const double first = feature_height(model, 0, place);
     uint32_t other = 1;
     double height = feature_height(model, 1, place);
@@ -381,14 +381,14 @@ uint32_t feature_active(const feature_model *model, const double place[3]) {
     return pick(model->outer_max, first, height) == first ? 0 : other;
 }
 
-double feature_quadric_residual(const feature_points *points) {
+double ewa_feature_quadric_residual(const feature_points *points) {
     double heights[FEATURE_POINTS], sum = 0;
     if (points->count <= QUADRIC || !find_quadric_heights(points, heights)) return 0;
     for (uint32_t i = 0; i < points->count; i++) sum += heights[i] * heights[i];
     return sqrt(sum / (points->count - QUADRIC));
 }
 
-void feature_fit(const feature_points *points, const feature_scale *scale, feature_model *model) {
+void ewa_feature_fit(const feature_points *points, const feature_scale *scale, feature_model *model) {
     model->plane_count = 0;
     plane seeds[SEEDS];
     height_table heights[SEEDS];

@@ -38,7 +38,7 @@ typedef struct feature_scale {
 } feature_scale;
 
 /// Returns the index of the plane that the surface follows at a place.
-uint32_t feature_active(const feature_model *model, const double place[3]);
+uint32_t ewa_feature_active(const feature_model *model, const double place[3]);
 
 /// Returns the height of a place over plane p.
 static inline double feature_height(const feature_model *model, uint32_t p, const double place[3]) {
@@ -48,7 +48,7 @@ static inline double feature_height(const feature_model *model, uint32_t p, cons
 
 /// Returns the root mean square distance of the points from the quadric that fits them best, with as many
 /// degrees of freedom taken off as that has; 0 for six points or less.
-double feature_quadric_residual(const feature_points *points);
+double ewa_feature_quadric_residual(const feature_points *points);
 
 /// Fits an edge or a corner. `model->plane_count` is 0 when a quadric describes the points as well, when the
 /// planes differ by less than the threshold, or when one has hardly any points.
@@ -56,6 +56,6 @@ double feature_quadric_residual(const feature_points *points);
 /// Hypotheses are planes through small groups of points spread over the neighbourhood. The pair and then the
 /// triple with the least truncated squares is refined by assigning points and fitting planes in turns. No
 /// random numbers: the same points in the same order give the same bytes.
-void feature_fit(const feature_points *points, const feature_scale *scale, feature_model *model);
+void ewa_feature_fit(const feature_points *points, const feature_scale *scale, feature_model *model);
 
 #endif

@@ -97,7 +97,7 @@ static uint32_t snap(write_job *job, uint64_t point, const feature_model *model,
     feature_line lines[2];
     bool either;
     const uint32_t count =
-        feature_lines(model, active, middle, FEATURE_REACH * sigma * job->cutoff, lines, &either);
+        ewa_feature_lines(model, active, middle, FEATURE_REACH * sigma * job->cutoff, lines, &either);
     double side = 0, u[3], v[3];
     for (int c = 0; c < 3; c++) side += n[c] * get(&job->normal, point, c);
     const double sign = side < 0 ? -1 : 1;
@@ -143,7 +143,7 @@ static void write_task(void *data, uint32_t task, uint32_t worker) {
         if (slot != UINT32_MAX && result->models[slot].plane_count) {
             const feature_model *model = &result->models[slot];
             const double spacing = (double)result->spacing[place];
-            const uint32_t active = feature_active(model, middle);
+            const uint32_t active = ewa_feature_active(model, middle);
             const double height = feature_height(model, active, middle);
             if (fabs(height) <= spacing * fmax(OUTLIER_NOISE * result->noise, OUTLIER_SPACING)) {
                 const uint32_t lines = snap(job, point, model, active, height);

@@ -70,7 +70,8 @@ static void visit_noise(void *user, const ewa_block *block, uint32_t worker) {
     feature_points points;
     gather(job, block, 0, &points);
     const double spacing = (double)s.spacing[0];
-    if (spacing > 0) job->noise_of[block->first_place] = (float)(feature_quadric_residual(&points) / spacing);
+    if (spacing > 0)
+        job->noise_of[block->first_place] = (float)(ewa_feature_quadric_residual(&points) / spacing);
 }
 
 /// Chooses the places whose neighbourhoods are not flat.
@@ -97,7 +98,7 @@ static void visit_fit(void *user, const ewa_block *block, uint32_t worker) {
         const double spacing = (double)job->spacing[place] / block->unit_world;
         const feature_scale scale = {spacing, job->noise * spacing, job->cos_threshold};
         feature_model *model = &job->models[slot];
-        feature_fit(&points, &scale, model);
+        ewa_feature_fit(&points, &scale, model);
         for (uint32_t p = 0; p < model->plane_count; p++) model->offset[p] *= block->unit_world;
     }
 }
@@ -137,7 +138,7 @@ typedef struct neighbour_model {
 static bool is_near(const feature_model *model, const double place[3], double reach) {
     feature_line lines[2];
     bool either;
-    return feature_lines(model, feature_active(model, place), place, reach, lines, &either) > 0;
+    return ewa_feature_lines(model, ewa_feature_active(model, place), place, reach, lines, &either) > 0;
 }
 
 /// Adopts the model of the nearest neighbour whose edge is in reach, where the place has none.
@@ -367,8 +368,8 @@ static ewa_status check(const ewa_cloud *cloud, const ewa_feature_options *optio
     return EWA_OK;
 }
 
-uint32_t feature_lines(const feature_model *model, uint32_t active, const double place[3], double reach,
-                       feature_line lines[2], bool *either) {
+uint32_t ewa_feature_lines(const feature_model *model, uint32_t active, const double place[3], double reach,
+                           feature_line lines[2], bool *either) {
     const double above = feature_height(model, active, place), *n = model->normal[active];
     uint32_t count = 0;
     *either = model->plane_count == 3 && active == 0 && model->outer_max != model->inner_max;

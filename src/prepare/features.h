@@ -18,8 +18,8 @@ typedef struct feature_line {
 
 /// Finds the lines that bound plane `active` of a model within `reach` of the foot of a place; returns how
 /// many, the nearest first. `either`: one of two lines holds, not both.
-uint32_t feature_lines(const feature_model *model, uint32_t active, const double place[3], double reach,
-                       feature_line lines[2], bool *either);
+uint32_t ewa_feature_lines(const feature_model *model, uint32_t active, const double place[3], double reach,
+                           feature_line lines[2], bool *either);
 
 /// What was detected, by place.
 typedef struct feature_result {

@@ -63,7 +63,7 @@ typedef struct ewa_local_surface {
     bool convex;           ///< two planes: inside is behind both of them; else behind either
     double nearest, reach; ///< distance of the nearest centre, reach of its surfel
     double mean_distance;  ///< from the planes of all the nearest surfels; its sign tells the side of a place
-                          ///< that is farther away than they are apart, at any kind of corner
+                           ///< that is farther away than they are apart, at any kind of corner
 } ewa_local_surface;
 
 /// Returns the distance of the nearest centre, and the reach of its surfel; the solid has surfels. Any
