@@ -188,7 +188,7 @@ static void test_truncations(void **state) {
 
 #if defined(__SANITIZE_ADDRESS__)
 /// Assimp's reader of glTF leaks what it had read of files that end too early.
-const char *__lsan_default_suppressions(void);
+__attribute__((visibility("default"))) const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void) { return "leak:libassimp.so\n"; }
 #endif
 
