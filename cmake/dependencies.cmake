@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 #
 # What Debian's packages give us: spng (PNG in), libdeflate (PNG out), OpenEXRCore (EXR), cJSON (camera
-# files), libjpeg (JPEG in), Assimp (meshes in), pthreads.
+# files), libjpeg (JPEG in), Assimp (meshes in), CHOLMOD of SuiteSparse (sparse factors), Teem's nrrd and niftiio
+# (volumes in), zlib, pthreads.
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(SPNG REQUIRED IMPORTED_TARGET spng)
@@ -10,8 +11,21 @@ pkg_check_modules(DEFLATE REQUIRED IMPORTED_TARGET libdeflate)
 pkg_check_modules(CJSON REQUIRED IMPORTED_TARGET libcjson)
 pkg_check_modules(JPEG REQUIRED IMPORTED_TARGET libjpeg)
 pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp>=5.0)
+pkg_check_modules(ZLIB REQUIRED IMPORTED_TARGET zlib)
 find_package(OpenEXR CONFIG REQUIRED)
+
+# These three come without a pkg-config file.
+function(ewa_find_library target header library)
+  find_path(${target}_INCLUDE ${header} PATH_SUFFIXES ${ARGN} REQUIRED)
+  find_library(${target}_LIBRARY ${library} REQUIRED)
+  add_library(${target} INTERFACE)
+  target_include_directories(${target} SYSTEM INTERFACE ${${target}_INCLUDE})
+  target_link_libraries(${target} INTERFACE ${${target}_LIBRARY})
+endfunction()
+ewa_find_library(ewa_cholmod cholmod.h cholmod suitesparse)
+ewa_find_library(ewa_teem teem/nrrd.h teem)
+ewa_find_library(ewa_nifti nifti1_io.h niftiio nifti)
 
 add_library(ewa_dependencies INTERFACE)
 target_link_libraries(ewa_dependencies INTERFACE PkgConfig::SPNG PkgConfig::DEFLATE PkgConfig::CJSON
-  PkgConfig::JPEG PkgConfig::ASSIMP OpenEXR::OpenEXRCore Threads::Threads m)
+  PkgConfig::JPEG PkgConfig::ASSIMP PkgConfig::ZLIB ewa_cholmod ewa_teem ewa_nifti OpenEXR::OpenEXRCore Threads::Threads m)

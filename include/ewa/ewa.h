@@ -15,5 +15,6 @@
 #include "ewa/prepare.h"
 #include "ewa/render.h"
 #include "ewa/shade.h"
+#include "ewa/volume.h"
 
 #endif
