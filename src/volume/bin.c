@@ -24,37 +24,8 @@ static int32_t clamp_px(double px, uint32_t side_px) {
     return !(px > 0) ? 0 : px >= side_px ? (int32_t)side_px : (int32_t)px;
 }
 
-/// The box on the screen of a block's voxels with their kernels; the whole picture where they reach the eye.
-static void find_box(const bin_job *job, const ewa_voxel_block *block, ewa_block_view *view) {
-    const ewa_grid_view *grid = job->grid;
-    const ewa_camera *camera = job->camera;
-    const double low_end = -grid->cutoff * grid->kernel_steps, high_end = grid->cutoff * grid->kernel_steps;
-    double box[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
-    bool whole = false;
-    for (int corner = 0; corner < 8; corner++) {
-        double at[3];
-        for (int axis = 0; axis < 3; axis++)
-            at[axis] = EWA_BLOCK_SIDE * (double)block->place[axis] +
-                       (corner >> axis & 1 ? block->high[axis] + high_end : block->low[axis] + low_end);
-        const ewa_vec3 p = ewa_grid_place(grid, at[0], at[1], at[2]);
-        whole |= !grid->orthographic && !(p.z > 0);
-        const double inverse = grid->orthographic ? 1 : 1 / p.z;
-        const double x = grid->fx_px * p.x * inverse + grid->cx_px;
-        const double y = grid->fy_px * p.y * inverse + grid->cy_px;
-        box[0] = fmin(box[0], x), box[1] = fmin(box[1], y);
-        box[2] = fmax(box[2], x), box[3] = fmax(box[3], y);
-    }
-    // The pixel filter of splats, or the window of points.
-    const double margin = fmax(grid->cutoff * sqrt(grid->prefilter2_px2), 3) + 1;
-    view->left = whole ? 0 : clamp_px(floor(box[0] - margin), camera->width_px);
-    view->top = whole ? 0 : clamp_px(floor(box[1] - margin), camera->height_px);
-    view->right = whole ? (int32_t)camera->width_px : clamp_px(ceil(box[2] + margin), camera->width_px);
-    view->bottom = whole ? (int32_t)camera->height_px : clamp_px(ceil(box[3] + margin), camera->height_px);
-    if (view->left >= view->right || view->top >= view->bottom) view->right = 0;
-}
-
-/// The slices of a block's voxels; none where they are all behind the eye.
-static void find_slices(const bin_job *job, const ewa_voxel_block *block, ewa_block_view *view) {
+/// The slices of a block's voxels; false where they are all behind the eye.
+static bool find_slices(const bin_job *job, const ewa_voxel_block *block, ewa_block_view *view) {
     double low = INFINITY, high = -INFINITY;
     for (int corner = 0; corner < 8; corner++) {
         double at[3];
@@ -64,12 +35,58 @@ static void find_slices(const bin_job *job, const ewa_voxel_block *block, ewa_bl
         const double z = ewa_grid_place(job->grid, at[0], at[1], at[2]).z;
         low = fmin(low, z), high = fmax(high, z);
     }
-    if (!(high > job->grid->near)) view->right = 0;
     const double last = job->slices->count - 1.0;
     const double first_slice = floor(low / job->slices->unit) - job->slices->first_unit;
     const double last_slice = floor(high / job->slices->unit) - job->slices->first_unit;
     view->slice_first = (int32_t)fmin(fmax(first_slice, 0), last);
     view->slice_last = (int32_t)fmin(fmax(last_slice, 0), last);
+    return high > job->grid->near;
+}
+
+/// Widens a box by the projections of a block's corners, all `steps` outside of its voxels' centres; false
+/// where one reaches the eye.
+static bool add_corners(const bin_job *job, const ewa_voxel_block *block, double steps, double box[4]) {
+    const ewa_grid_view *grid = job->grid;
+    bool in_front = true;
+    for (int corner = 0; corner < 8; corner++) {
+        double at[3];
+        for (int axis = 0; axis < 3; axis++)
+            at[axis] = EWA_BLOCK_SIDE * (double)block->place[axis] +
+                       (corner >> axis & 1 ? block->high[axis] + steps : block->low[axis] - steps);
+        const ewa_vec3 p = ewa_grid_place(grid, at[0], at[1], at[2]);
+        in_front &= grid->orthographic || p.z > 0;
+        const double inverse = grid->orthographic ? 1 : 1 / p.z;
+        const double x = grid->fx_px * p.x * inverse + grid->cx_px;
+        const double y = grid->fy_px * p.y * inverse + grid->cy_px;
+        box[0] = fmin(box[0], x), box[1] = fmin(box[1], y);
+        box[2] = fmax(box[2], x), box[3] = fmax(box[3], y);
+    }
+    return in_front;
+}
+
+/// The box on the screen of a block's voxels with their kernels; the whole picture where they reach the eye.
+static void find_box(const bin_job *job, const ewa_voxel_block *block, ewa_block_view *view) {
+    enum { POINT_WINDOW_PX = 2, SAFETY_PX = 1 };
+    const ewa_grid_view *grid = job->grid;
+    const ewa_camera *camera = job->camera;
+    double box[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY}, wide[4];
+    memcpy(wide, box, sizeof wide);
+    bool in_front = add_corners(job, block, 0, box);
+    if (view->slice_first >= job->slices->point_slice) {
+        for (int side = 0; side < 4; side++) box[side] += (side < 2 ? -1 : 1) * (POINT_WINDOW_PX + 0.01);
+    } else {
+        in_front &= add_corners(job, block, grid->cutoff * grid->kernel_steps, wide);
+        for (int side = 0; side < 4; side++) {
+            const double reach = hypot(wide[side] - box[side], grid->cutoff * sqrt(grid->prefilter2_px2));
+            box[side] += (side < 2 ? -1 : 1) * fmax(reach + SAFETY_PX, POINT_WINDOW_PX + 0.01);
+        }
+    }
+    const double width = camera->width_px, height = camera->height_px;
+    view->left = in_front ? clamp_px(floor(box[0]), camera->width_px) : 0;
+    view->top = in_front ? clamp_px(floor(box[1]), camera->height_px) : 0;
+    view->right = clamp_px(in_front ? ceil(box[2]) : width, camera->width_px);
+    view->bottom = clamp_px(in_front ? ceil(box[3]) : height, camera->height_px);
+    if (view->left >= view->right || view->top >= view->bottom) view->right = 0;
 }
 
 static void find_blocks(void *data, uint32_t index, uint32_t worker) {
@@ -79,8 +96,9 @@ static void find_blocks(void *data, uint32_t index, uint32_t worker) {
     for (uint64_t b = begin; b < begin + TASK_BLOCKS && b < job->level->block_count; b++) {
         ewa_block_view *view = &job->found[b];
         view->block = (uint32_t)b;
+        const bool ahead = find_slices(job, &job->level->blocks[b], view);
         find_box(job, &job->level->blocks[b], view);
-        find_slices(job, &job->level->blocks[b], view);
+        if (!ahead) view->right = 0;
     }
 }
 

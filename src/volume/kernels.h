@@ -92,7 +92,7 @@ typedef struct ewa_volume_view {
     float ambient, diffuse, specular, shininess;
     uint32_t light_count;
     ewa_volume_light lights[EWA_MAX_LIGHTS];
-    ewa_footprint_table table;
+    const ewa_footprint_table *table;
 } ewa_volume_view;
 
 /// The voxels of a block, and how it lies.

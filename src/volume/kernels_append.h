@@ -155,7 +155,11 @@ static ALWAYS_INLINE ewa_volume_record *next_record(ewa_volume_pages *pages, ewa
     return &pages->pages[bucket->last_page].records[slot];
 }
 
-static uint32_t append(const ewa_volume_view *view, const ewa_volume_source *source, ewa_volume_tile *tile) {
+static uint32_t append(const ewa_volume_view *frame_view, const ewa_volume_source *block,
+                       ewa_volume_tile *tile) {
+    // Records that are written cannot change these.
+    const ewa_volume_view view_here = *frame_view, *view = &view_here;
+    const ewa_volume_source source_here = *block, *source = &source_here;
     const wf tile_x = wf_set(view->cx_px - (float)tile->x_px),
              tile_y = wf_set(view->cy_px - (float)tile->y_px);
     const wf width = wf_set((float)tile->width_px), height = wf_set((float)tile->height_px), zero = wf_set(0);

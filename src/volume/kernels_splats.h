@@ -159,7 +159,7 @@ static void set_index_row(const ewa_volume_view *view, float sine2, float start[
     const float at = sine2 * (float)((EWA_FOOTPRINT_ANGLES - 1) / EWA_FOOTPRINT_END);
     const int row = at < EWA_FOOTPRINT_ANGLES - 2 ? (int)at : EWA_FOOTPRINT_ANGLES - 2;
     const wf share = wf_set(at - (float)row);
-    const ewa_footprint_table *table = &view->table;
+    const ewa_footprint_table *table = view->table;
     const wf start0 = wf_load(table->start[row]), growth0 = wf_load(table->growth[row]);
     wf_store(start, wf_fma(share, wf_sub(wf_load(table->start[row + 1]), start0), start0));
     wf_store(growth, wf_fma(share, wf_sub(wf_load(table->growth[row + 1]), growth0), growth0));

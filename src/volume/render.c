@@ -13,6 +13,7 @@ struct ewa_volume_renderer {
     ewa_volume_bins bins;
     uint32_t worker_count;
     ewa_point_filter filters[EWA_FILTER_COUNT];
+    ewa_footprint_table table;
     ewa_volume_scratch *scratch[]; ///< one per worker
 };
 
@@ -30,6 +31,7 @@ ewa_status ewa_volume_renderer_create(ewa_context *context, ewa_volume_renderer 
     made->kernels = ewa_volume_kernels_choose(ewa_context_cpu_features(context));
     made->worker_count = worker_count;
     ewa_point_filters_make(made->filters);
+    ewa_footprint_table_make(&made->table);
     for (uint32_t i = 0; i < worker_count; i++) {
         made->scratch[i] = ewa_allocate_zeroed(context, 1, sizeof *made->scratch[i]);
         if (!made->scratch[i]) {
@@ -106,7 +108,7 @@ ewa_status ewa_volume_render(ewa_volume_renderer *renderer, const ewa_voxels *vo
                           .surface_depth = chosen.surface_depth,
                           .with_times = stats != NULL,
                           .scratch = renderer->scratch};
-    ewa_volume_view_set(&job.view, &grid, &slices, voxels, camera, &chosen, &shading);
+    ewa_volume_view_set(&job.view, &grid, &slices, voxels, camera, &chosen, &shading, &renderer->table);
     job.view.with_depth = frame->depth != NULL;
     ewa_volume_target_set(&job.target, camera, &chosen, frame);
     status = ewa_volume_bins_fill(context, &renderer->bins, level, &grid, &slices, camera);

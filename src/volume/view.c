@@ -7,6 +7,9 @@
 #include <math.h>
 #include <string.h>
 
+/// Standard deviation up to which points are as good as splats: 60 dB.
+static const double WIDEST_POINT_PX = 0.8;
+
 static double focal_px(const ewa_grid_view *grid) { return fmax(grid->fx_px, grid->fy_px); }
 
 /// Depths of the grid's corners in front of the eye.
@@ -35,14 +38,22 @@ void ewa_volume_slices_make(ewa_volume_slices *slices, const ewa_voxel_level *le
     *slices = (ewa_volume_slices){.unit = unit, .first_unit = floor(low / unit)};
     slices->count = (uint32_t)(floor(high / unit) - slices->first_unit) + 1;
     const int32_t all = 0, none = (int32_t)slices->count;
+    // From this depth on (orthographic: at 1) voxels are as small as asked for, and their filter as narrow as
+    // four taps hold well.
+    const double widest2 = WIDEST_POINT_PX * WIDEST_POINT_PX;
+    const double nearest_points =
+        fmax(grid->longest_step * focal_px(grid) / options->point_threshold_px,
+             sqrt(grid->mean_variance * grid->fx_px * grid->fy_px / (widest2 - grid->prefilter2_px2)));
     if (options->method == EWA_VOLUME_POINTS) {
         slices->point_slice = all;
     } else if (options->method == EWA_VOLUME_SPLATS || options->point_threshold_px == 0) {
         slices->point_slice = none;
+    } else if (grid->prefilter2_px2 >= widest2) {
+        slices->point_slice = none;
     } else if (grid->orthographic) {
-        slices->point_slice = grid->longest_step * focal_px(grid) <= options->point_threshold_px ? all : none;
+        slices->point_slice = nearest_points <= 1 ? all : none;
     } else {
-        const double z = grid->longest_step * focal_px(grid) / options->point_threshold_px;
+        const double z = nearest_points;
         const double first = ceil(z / unit - 0.5) - slices->first_unit; // whose middle is beyond z
         slices->point_slice = first <= 0 ? all : first >= none ? none : (int32_t)first;
     }
@@ -77,7 +88,8 @@ static void set_shading(ewa_volume_view *view, const ewa_grid_view *grid, const 
 
 void ewa_volume_view_set(ewa_volume_view *view, const ewa_grid_view *grid, const ewa_volume_slices *slices,
                          const ewa_voxels *voxels, const ewa_camera *camera,
-                         const ewa_volume_options *options, const ewa_shading_setup *shading) {
+                         const ewa_volume_options *options, const ewa_shading_setup *shading,
+                         const ewa_footprint_table *table) {
     memset(view, 0, sizeof *view);
     view->orthographic = grid->orthographic;
     view->exact = options->index == EWA_INDEX_EXACT;
@@ -101,7 +113,7 @@ void ewa_volume_view_set(ewa_volume_view *view, const ewa_grid_view *grid, const
     view->least_transmittance = (float)options->least_transmittance;
     view->surface_reach = (float)(0.75 * sqrt(2 * 3.14159265358979323846) * grid->depth_sigma);
     set_shading(view, grid, camera, shading);
-    ewa_footprint_table_make(&view->table);
+    view->table = table;
 }
 
 void ewa_volume_target_set(ewa_volume_target *target, const ewa_camera *camera,

@@ -24,7 +24,8 @@ void ewa_volume_slices_make(ewa_volume_slices *slices, const ewa_voxel_level *le
 
 void ewa_volume_view_set(ewa_volume_view *view, const ewa_grid_view *grid, const ewa_volume_slices *slices,
                          const ewa_voxels *voxels, const ewa_camera *camera,
-                         const ewa_volume_options *options, const ewa_shading_setup *shading);
+                         const ewa_volume_options *options, const ewa_shading_setup *shading,
+                         const ewa_footprint_table *table);
 
 void ewa_volume_target_set(ewa_volume_target *target, const ewa_camera *camera,
                            const ewa_volume_options *options, const ewa_frame *frame);
