@@ -142,6 +142,7 @@ void ewa_point_filters_make(ewa_point_filter filters[EWA_FILTER_COUNT]) {
             }
             for (int i = 0; i < 4; i++) {
                 taps[i] = exp((nearest - taps[i] * taps[i]) / (2 * sigma * sigma));
+                if (taps[i] < 1e-9) taps[i] = 0; // far from where floats get slow
                 sum += taps[i];
             }
             for (int i = 0; i < 4; i++) filters[f][phase][i] = (float)(taps[i] / sum);
