@@ -64,12 +64,10 @@ static void library_release(void *user, void *memory) { release_for_library(user
 static bool start_stream(ewa_source *source) {
     source->finished = false;
     if (source->packing == EWA_PACKING_DEFLATE) {
-        source->deflate =
-            (z_stream){.zalloc = deflate_allocate, .zfree = library_release, .opaque = source};
+        source->deflate = (z_stream){.zalloc = deflate_allocate, .zfree = library_release, .opaque = source};
         source->started = inflateInit2(&source->deflate, AUTOMATIC_WINDOW) == Z_OK;
     } else {
-        source->bzip2 =
-            (bz_stream){.bzalloc = bzip2_allocate, .bzfree = library_release, .opaque = source};
+        source->bzip2 = (bz_stream){.bzalloc = bzip2_allocate, .bzfree = library_release, .opaque = source};
         source->started = BZ2_bzDecompressInit(&source->bzip2, 0, 0) == BZ_OK;
     }
     return source->started;
@@ -142,10 +140,9 @@ static ewa_status read_streams(ewa_source *source, uint8_t *to, size_t size_byte
         }
         if (!source->started && !start_stream(source)) return fail(source, "the decompressor does not start");
         size_t got = 0;
-        const char *wrong =
-            source->packing == EWA_PACKING_DEFLATE
-                ? step_deflate(source, to + *got_bytes, size_bytes - *got_bytes, &got)
-                : step_bzip2(source, to + *got_bytes, size_bytes - *got_bytes, &got);
+        const char *wrong = source->packing == EWA_PACKING_DEFLATE
+                                ? step_deflate(source, to + *got_bytes, size_bytes - *got_bytes, &got)
+                                : step_bzip2(source, to + *got_bytes, size_bytes - *got_bytes, &got);
         *got_bytes += got;
         if (wrong) return fail(source, wrong);
     }

@@ -67,16 +67,26 @@ static void swap_numbers(uint8_t *numbers, size_t count, size_t size_bytes) {
 
 static void numbers_to_doubles(int type, const uint8_t *bytes, size_t count, double *numbers) {
     switch (type) {
-    case EWA_F32: READ_AS(float);
-    case EWA_F64: READ_AS(double);
-    case EWA_I8: READ_AS(int8_t);
-    case EWA_U8: READ_AS(uint8_t);
-    case EWA_I16: READ_AS(int16_t);
-    case EWA_U16: READ_AS(uint16_t);
-    case EWA_I32: READ_AS(int32_t);
-    case EWA_U32: READ_AS(uint32_t);
-    case EWA_FILE_I64: READ_AS(int64_t);
-    default: READ_AS(uint64_t);
+    case EWA_F32:
+        READ_AS(float);
+    case EWA_F64:
+        READ_AS(double);
+    case EWA_I8:
+        READ_AS(int8_t);
+    case EWA_U8:
+        READ_AS(uint8_t);
+    case EWA_I16:
+        READ_AS(int16_t);
+    case EWA_U16:
+        READ_AS(uint16_t);
+    case EWA_I32:
+        READ_AS(int32_t);
+    case EWA_U32:
+        READ_AS(uint32_t);
+    case EWA_FILE_I64:
+        READ_AS(int64_t);
+    default:
+        READ_AS(uint64_t);
     }
 }
 
@@ -135,14 +145,13 @@ static ewa_status check_piece_size(const decoder *job, uint64_t packed_bytes) {
     if (there >= needed && (!exact || there == needed)) return EWA_OK;
     const uint64_t *dims = header->dims;
     const bool bound = header->packing != EWA_PACKING_NONE;
-    return ewa_volume_fail(job->in, EWA_ERROR_FORMAT,
-                           "%llu x %llu x %llu voxels of %u %s%s need %llu %s, but %s%llu are there",
-                           (unsigned long long)dims[0], (unsigned long long)dims[1],
-                           (unsigned long long)dims[2], header->component_count,
-                           ewa_file_number_name(header->number),
-                           header->pieces.count > 1 ? " in equal files" : "", (unsigned long long)needed,
-                           header->packing == EWA_PACKING_TEXT ? "numbers" : "bytes",
-                           bound ? "at most " : "", (unsigned long long)there);
+    return ewa_volume_fail(
+        job->in, EWA_ERROR_FORMAT, "%llu x %llu x %llu voxels of %u %s%s need %llu %s, but %s%llu are there",
+        (unsigned long long)dims[0], (unsigned long long)dims[1], (unsigned long long)dims[2],
+        header->component_count, ewa_file_number_name(header->number),
+        header->pieces.count > 1 ? " in equal files" : "", (unsigned long long)needed,
+        header->packing == EWA_PACKING_TEXT ? "numbers" : "bytes", bound ? "at most " : "",
+        (unsigned long long)there);
 }
 
 static ewa_status skip_bytes(const decoder *job, uint64_t count) {
@@ -188,12 +197,10 @@ static ewa_status close_piece(decoder *job) {
     if (job->source && job->header->exact) {
         status = ewa_source_read(job->source, more, sizeof more, &got);
         if (status == EWA_OK && got)
-            status = ewa_volume_fail(job->in, EWA_ERROR_FORMAT,
-                                     "more bytes than %llu x %llu x %llu voxels of %s need",
-                                     (unsigned long long)job->header->dims[0],
-                                     (unsigned long long)job->header->dims[1],
-                                     (unsigned long long)job->header->dims[2],
-                                     ewa_file_number_name(job->header->number));
+            status = ewa_volume_fail(
+                job->in, EWA_ERROR_FORMAT, "more bytes than %llu x %llu x %llu voxels of %s need",
+                (unsigned long long)job->header->dims[0], (unsigned long long)job->header->dims[1],
+                (unsigned long long)job->header->dims[2], ewa_file_number_name(job->header->number));
     }
     ewa_source_close(&job->source);
     job->piece++;
@@ -222,10 +229,10 @@ static ewa_status read_binary(decoder *job, size_t count, uint8_t *bytes) {
     const ewa_status status = ewa_source_read(job->source, bytes, wanted, &got);
     if (status != EWA_OK) return status;
     if (got < wanted)
-        return ewa_volume_fail(job->in, EWA_ERROR_FORMAT, "the data end after %llu of %llu numbers",
-                               (unsigned long long)(job->piece_numbers - job->left_numbers +
-                                                    got / number_bytes),
-                               (unsigned long long)job->piece_numbers);
+        return ewa_volume_fail(
+            job->in, EWA_ERROR_FORMAT, "the data end after %llu of %llu numbers",
+            (unsigned long long)(job->piece_numbers - job->left_numbers + got / number_bytes),
+            (unsigned long long)job->piece_numbers);
     if (number_bytes > 1 && job->header->big_endian != machine_is_big_endian())
         swap_numbers(bytes, count, number_bytes);
     return EWA_OK;
@@ -240,8 +247,8 @@ static ewa_status read_block(decoder *job, size_t count, uint8_t *bytes, double 
     const ewa_type type = job->volume->type;
     if (!text && !scaled && (int)type == header->number && components == 1 && type != EWA_F32)
         return read_binary(job, count, voxels);
-    ewa_status status = text ? read_text(job, count * components, numbers)
-                             : read_binary(job, count * components, bytes);
+    ewa_status status =
+        text ? read_text(job, count * components, numbers) : read_binary(job, count * components, bytes);
     if (status != EWA_OK) return status;
     if (!text) numbers_to_doubles(header->number, bytes, count * components, numbers);
     if (components > 1) fold_colors(components, count, numbers);
@@ -354,11 +361,10 @@ static ewa_status check_header(const ewa_volume_input *in, const ewa_volume_head
         // Numbers have at most 8 bytes, voxels at most 4 of them.
         if (dims[axis] > UINT32_MAX || *voxel_count > limit / dims[axis] ||
             *voxel_count * dims[axis] > UINT64_MAX / 32)
-            return ewa_volume_fail(in, EWA_ERROR_LIMIT,
-                                   "%llu x %llu x %llu voxels of %s, the limit is %llu bytes",
-                                   (unsigned long long)dims[0], (unsigned long long)dims[1],
-                                   (unsigned long long)dims[2], ewa_file_number_name(header->number),
-                                   (unsigned long long)limit);
+            return ewa_volume_fail(
+                in, EWA_ERROR_LIMIT, "%llu x %llu x %llu voxels of %s, the limit is %llu bytes",
+                (unsigned long long)dims[0], (unsigned long long)dims[1], (unsigned long long)dims[2],
+                ewa_file_number_name(header->number), (unsigned long long)limit);
         *voxel_count *= dims[axis];
     }
     if (*voxel_count % header->pieces.count)
@@ -397,7 +403,8 @@ ewa_status ewa_volume_decode(const ewa_volume_input *in, const ewa_volume_header
                    ewa_file_number_name(header->number),
                    header->component_count > 1 ? " colours, as their luminance," : " numbers");
     if (job.not_finite_count)
-        ewa_report(in->context, EWA_SEVERITY_WARNING, "%s: %llu of %llu voxels are no finite numbers: nothing is there",
-                   in->name, (unsigned long long)job.not_finite_count, (unsigned long long)voxel_count);
+        ewa_report(in->context, EWA_SEVERITY_WARNING,
+                   "%s: %llu of %llu voxels are no finite numbers: nothing is there", in->name,
+                   (unsigned long long)job.not_finite_count, (unsigned long long)voxel_count);
     return EWA_OK;
 }

@@ -52,16 +52,27 @@ ewa_status ewa_volume_add_bytes(const ewa_volume_input *in, const uint8_t *bytes
     return add_piece(in, &(ewa_file){.bytes = bytes, .size_bytes = size_bytes}, pieces);
 }
 
+/// Puts a name beside the input's file; false when that makes no usable path.
+static bool make_path(const ewa_volume_input *in, const char *file_name, char path[PATH_MAX]) {
+    const char *slash = file_name[0] == '/' ? NULL : strrchr(in->path, '/');
+    const int folder = slash ? (int)(slash - in->path) + 1 : 0;
+    const int length = snprintf(path, PATH_MAX, "%.*s%s", folder, in->path, file_name);
+    return file_name[0] && length >= 0 && length < PATH_MAX;
+}
+
+bool ewa_volume_has_file(const ewa_volume_input *in, const char *file_name) {
+    char path[PATH_MAX];
+    struct stat facts;
+    return in->path && make_path(in, file_name, path) && stat(path, &facts) == 0;
+}
+
 ewa_status ewa_volume_add_file(const ewa_volume_input *in, const char *file_name, ewa_volume_pieces *pieces) {
     if (!in->path)
         return ewa_volume_fail(in, EWA_ERROR_UNSUPPORTED,
                                "the voxels are in another file, which needs the name of this one");
     char path[PATH_MAX];
-    const char *slash = file_name[0] == '/' ? NULL : strrchr(in->path, '/');
-    const int folder = slash ? (int)(slash - in->path) + 1 : 0;
-    const int length = snprintf(path, sizeof path, "%.*s%s", folder, in->path, file_name);
     struct stat facts;
-    if (!file_name[0] || length < 0 || (size_t)length >= sizeof path)
+    if (!make_path(in, file_name, path))
         return ewa_volume_fail(in, EWA_ERROR_FORMAT, "no usable name of the file with the voxels");
     // A header from elsewhere must not make us wait for a pipe or read a device.
     if (stat(path, &facts) == 0 && !S_ISREG(facts.st_mode))

@@ -6,6 +6,7 @@
 #ifndef EWA_SRC_VOLUME_FILE_H
 #define EWA_SRC_VOLUME_FILE_H
 
+#include "ewa/io.h"
 #include "ewa/volume.h"
 #include "io/file.h"
 #include "io/source.h"
@@ -65,6 +66,8 @@ ewa_status ewa_volume_add_bytes(const ewa_volume_input *in, const uint8_t *bytes
                                 ewa_volume_pieces *pieces);
 /// Adds a file that is named relative to the input's folder; it must be a regular file.
 ewa_status ewa_volume_add_file(const ewa_volume_input *in, const char *file_name, ewa_volume_pieces *pieces);
+/// Whether there is a file of that name.
+bool ewa_volume_has_file(const ewa_volume_input *in, const char *file_name);
 /// Adds the files of "PATTERN FIRST LAST STEP", where PATTERN has one %d, %3d or %03d.
 ewa_status ewa_volume_add_pattern(const ewa_volume_input *in, const char *text, ewa_volume_pieces *pieces);
 /// Adds a file for each line of a text.

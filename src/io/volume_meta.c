@@ -21,10 +21,18 @@ typedef struct meta {
 } meta;
 
 static const ewa_text_word types[] = {
-    {"MET_CHAR", EWA_I8},    {"MET_UCHAR", EWA_U8},           {"MET_SHORT", EWA_I16},
-    {"MET_USHORT", EWA_U16}, {"MET_INT", EWA_I32},            {"MET_UINT", EWA_U32},
-    {"MET_LONG", EWA_I32},   {"MET_ULONG", EWA_U32},          {"MET_LONG_LONG", EWA_FILE_I64},
-    {"MET_FLOAT", EWA_F32},  {"MET_ULONG_LONG", EWA_FILE_U64}, {"MET_DOUBLE", EWA_F64},
+    {"MET_CHAR", EWA_I8},
+    {"MET_UCHAR", EWA_U8},
+    {"MET_SHORT", EWA_I16},
+    {"MET_USHORT", EWA_U16},
+    {"MET_INT", EWA_I32},
+    {"MET_UINT", EWA_U32},
+    {"MET_LONG", EWA_I32},
+    {"MET_ULONG", EWA_U32},
+    {"MET_LONG_LONG", EWA_FILE_I64},
+    {"MET_FLOAT", EWA_F32},
+    {"MET_ULONG_LONG", EWA_FILE_U64},
+    {"MET_DOUBLE", EWA_F64},
 };
 
 static ewa_status broken(const meta *file, const char *key, const char *value) {
@@ -91,7 +99,8 @@ static ewa_status take_tag(meta *file, const char *key, const char *value) {
     } else if (strcmp(key, "ElementType") == 0) {
         header->number = ewa_text_find(types, sizeof types / sizeof types[0], value);
         if (header->number < 0)
-            return ewa_volume_fail(file->in, EWA_ERROR_UNSUPPORTED, "MetaImage: ElementType = '%.80s'", value);
+            return ewa_volume_fail(file->in, EWA_ERROR_UNSUPPORTED, "MetaImage: ElementType = '%.80s'",
+                                   value);
     } else if (strcmp(key, "ElementDataFile") == 0) {
         if (!*value) return broken(file, key, value);
         snprintf(file->data_file, sizeof file->data_file, "%s", value);
@@ -139,8 +148,7 @@ static ewa_status take_axes(meta *file) {
         // Each row of the matrix is the direction of one axis.
         for (uint64_t k = 0; k < 3; k++)
             direction[k] = spacing * (file->has_matrix && k < n ? file->matrix[n * axis + k] : k == axis);
-        if (spacing == 0)
-            return ewa_volume_fail(file->in, EWA_ERROR_FORMAT, "MetaImage: a spacing of zero");
+        if (spacing == 0) return ewa_volume_fail(file->in, EWA_ERROR_FORMAT, "MetaImage: a spacing of zero");
         header->first_world[axis] = file->offset[axis];
     }
     for (uint64_t axis = n; axis < 3; axis++) memset(header->directions[axis], 0, sizeof(double[3]));

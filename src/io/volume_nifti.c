@@ -8,7 +8,6 @@
 
 #include <limits.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 enum {
@@ -65,8 +64,7 @@ static void read_fields(nifti *file) {
         file->steps[i] = read_real(file, second ? 104 : 76, i);
     }
     file->type = read_i16(file, second ? 12 : 70);
-    file->offset_bytes =
-        second ? (double)(int64_t)read_bits(file, 168, 8) : read_real(file, 108, 0);
+    file->offset_bytes = second ? (double)(int64_t)read_bits(file, 168, 8) : read_real(file, 108, 0);
     file->slope = read_real(file, second ? 176 : 112, 0);
     file->intercept = read_real(file, second ? 184 : 116, 0);
     if (!file->nifti) return;
@@ -111,8 +109,8 @@ static ewa_status find_head(const ewa_volume_input *in, uint8_t head[HEADER2_BYT
     *size_bytes = in->size_bytes;
     if (!is_gzip(in->bytes, in->size_bytes)) return EWA_OK;
     ewa_source *source;
-    ewa_status status = ewa_source_open(in->context, in->name, EWA_PACKING_DEFLATE, in->bytes, in->size_bytes,
-                                        &source);
+    ewa_status status =
+        ewa_source_open(in->context, in->name, EWA_PACKING_DEFLATE, in->bytes, in->size_bytes, &source);
     if (status != EWA_OK) return status;
     status = ewa_source_read(source, head, HEADER2_BYTES, size_bytes);
     ewa_source_close(&source);
@@ -135,10 +133,9 @@ static ewa_status take_type(const ewa_volume_input *in, int type, ewa_volume_hea
         int code, number;
         uint32_t component_count;
     } types[] = {
-        {2, EWA_U8, 1},          {4, EWA_I16, 1},          {8, EWA_I32, 1},  {16, EWA_F32, 1},
-        {64, EWA_F64, 1},        {128, EWA_U8, 3},         {256, EWA_I8, 1}, {512, EWA_U16, 1},
-        {768, EWA_U32, 1},       {1024, EWA_FILE_I64, 1},  {1280, EWA_FILE_U64, 1},
-        {2304, EWA_U8, 4},
+        {2, EWA_U8, 1},    {4, EWA_I16, 1},         {8, EWA_I32, 1},         {16, EWA_F32, 1},
+        {64, EWA_F64, 1},  {128, EWA_U8, 3},        {256, EWA_I8, 1},        {512, EWA_U16, 1},
+        {768, EWA_U32, 1}, {1024, EWA_FILE_I64, 1}, {1280, EWA_FILE_U64, 1}, {2304, EWA_U8, 4},
     };
     for (size_t i = 0; i < sizeof types / sizeof types[0]; i++) {
         if (types[i].code != type) continue;
@@ -181,10 +178,9 @@ static void place_by_quaternion(const nifti *file, double m[3][4]) {
     } else {
         a = sqrt(a);
     }
-    const double rotation[3][3] = {
-        {a * a + b * b - c * c - d * d, 2 * (b * c - a * d), 2 * (b * d + a * c)},
-        {2 * (b * c + a * d), a * a + c * c - b * b - d * d, 2 * (c * d - a * b)},
-        {2 * (b * d - a * c), 2 * (c * d + a * b), a * a + d * d - c * c - b * b}};
+    const double rotation[3][3] = {{a * a + b * b - c * c - d * d, 2 * (b * c - a * d), 2 * (b * d + a * c)},
+                                   {2 * (b * c + a * d), a * a + c * c - b * b - d * d, 2 * (c * d - a * b)},
+                                   {2 * (b * d - a * c), 2 * (c * d + a * b), a * a + d * d - c * c - b * b}};
     for (int k = 0; k < 3; k++) {
         for (int axis = 0; axis < 3; axis++) m[k][axis] = rotation[k][axis] * fabs(file->steps[axis + 1]);
         if (file->steps[0] < 0) m[k][2] = -m[k][2];
@@ -222,16 +218,12 @@ static ewa_status add_image_file(const ewa_volume_input *in, ewa_volume_header *
     size_t length = strlen(base);
     if (length > 3 && strcmp(base + length - 3, ".gz") == 0) length -= 3;
     if (length < 5 || length >= sizeof name - 8 || strncmp(base + length - 4, ".hdr", 4) != 0)
-        return ewa_volume_fail(in, EWA_ERROR_FORMAT, "NIfTI: the voxels are in another file, but the name of "
-                                                     "this one does not end in .hdr");
+        return ewa_volume_fail(in, EWA_ERROR_FORMAT,
+                               "NIfTI: the voxels are in another file, but the name of "
+                               "this one does not end in .hdr");
     memcpy(name, base, length - 3);
     memcpy(name + length - 3, "img", 4);
-    const size_t folder = (size_t)(base - in->path);
-    char path[PATH_MAX];
-    snprintf(path, sizeof path, "%.*s%s", (int)folder, in->path, name);
-    FILE *there = fopen(path, "rb");
-    if (there) fclose(there);
-    if (!there) memcpy(name + length, ".gz", 4);
+    if (!ewa_volume_has_file(in, name)) memcpy(name + length, ".gz", 4);
     const ewa_status status = ewa_volume_add_file(in, name, &header->pieces);
     if (status == EWA_OK && is_gzip(header->pieces.files[0].bytes, header->pieces.files[0].size_bytes))
         header->packing = EWA_PACKING_DEFLATE;

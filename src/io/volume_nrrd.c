@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// NRRD headers. Based on: G. Kindlmann, "Definition of NRRD File Format", teem.sourceforge.net/nrrd/format.html,
-// 2009, sections 3 to 7.
+// NRRD headers. Based on: G. Kindlmann, "Definition of NRRD File Format",
+// teem.sourceforge.net/nrrd/format.html, 2009, sections 3 to 7.
 #include "base/base.h"
 #include "io/volume_file.h"
 #include "io/volume_text.h"
@@ -28,37 +28,57 @@ typedef struct nrrd {
 } nrrd;
 
 static const ewa_text_word types[] = {
-    {"signed char", EWA_I8},          {"int8", EWA_I8},
-    {"int8_t", EWA_I8},               {"uchar", EWA_U8},
-    {"unsigned char", EWA_U8},        {"uint8", EWA_U8},
-    {"uint8_t", EWA_U8},              {"short", EWA_I16},
-    {"short int", EWA_I16},           {"signed short", EWA_I16},
-    {"signed short int", EWA_I16},    {"int16", EWA_I16},
-    {"int16_t", EWA_I16},             {"ushort", EWA_U16},
-    {"unsigned short", EWA_U16},      {"unsigned short int", EWA_U16},
-    {"uint16", EWA_U16},              {"uint16_t", EWA_U16},
-    {"int", EWA_I32},                 {"signed int", EWA_I32},
-    {"int32", EWA_I32},               {"int32_t", EWA_I32},
-    {"uint", EWA_U32},                {"unsigned int", EWA_U32},
-    {"uint32", EWA_U32},              {"uint32_t", EWA_U32},
-    {"longlong", EWA_FILE_I64},       {"long long", EWA_FILE_I64},
-    {"long long int", EWA_FILE_I64},  {"signed long long", EWA_FILE_I64},
-    {"int64", EWA_FILE_I64},          {"int64_t", EWA_FILE_I64},
-    {"ulonglong", EWA_FILE_U64},      {"unsigned long long", EWA_FILE_U64},
-    {"uint64", EWA_FILE_U64},         {"uint64_t", EWA_FILE_U64},
-    {"float", EWA_F32},               {"double", EWA_F64},
-    {"signed long long int", EWA_FILE_I64}, {"unsigned long long int", EWA_FILE_U64},
+    {"signed char", EWA_I8},
+    {"int8", EWA_I8},
+    {"int8_t", EWA_I8},
+    {"uchar", EWA_U8},
+    {"unsigned char", EWA_U8},
+    {"uint8", EWA_U8},
+    {"uint8_t", EWA_U8},
+    {"short", EWA_I16},
+    {"short int", EWA_I16},
+    {"signed short", EWA_I16},
+    {"signed short int", EWA_I16},
+    {"int16", EWA_I16},
+    {"int16_t", EWA_I16},
+    {"ushort", EWA_U16},
+    {"unsigned short", EWA_U16},
+    {"unsigned short int", EWA_U16},
+    {"uint16", EWA_U16},
+    {"uint16_t", EWA_U16},
+    {"int", EWA_I32},
+    {"signed int", EWA_I32},
+    {"int32", EWA_I32},
+    {"int32_t", EWA_I32},
+    {"uint", EWA_U32},
+    {"unsigned int", EWA_U32},
+    {"uint32", EWA_U32},
+    {"uint32_t", EWA_U32},
+    {"longlong", EWA_FILE_I64},
+    {"long long", EWA_FILE_I64},
+    {"long long int", EWA_FILE_I64},
+    {"signed long long", EWA_FILE_I64},
+    {"int64", EWA_FILE_I64},
+    {"int64_t", EWA_FILE_I64},
+    {"ulonglong", EWA_FILE_U64},
+    {"unsigned long long", EWA_FILE_U64},
+    {"uint64", EWA_FILE_U64},
+    {"uint64_t", EWA_FILE_U64},
+    {"float", EWA_F32},
+    {"double", EWA_F64},
+    {"signed long long int", EWA_FILE_I64},
+    {"unsigned long long int", EWA_FILE_U64},
 };
 
 static const ewa_text_word encodings[] = {
-    {"raw", EWA_PACKING_NONE},     {"gz", EWA_PACKING_DEFLATE}, {"gzip", EWA_PACKING_DEFLATE},
-    {"bz2", EWA_PACKING_BZIP2},    {"bzip2", EWA_PACKING_BZIP2}, {"txt", EWA_PACKING_TEXT},
-    {"text", EWA_PACKING_TEXT},    {"ascii", EWA_PACKING_TEXT}, {"hex", EWA_PACKING_HEX},
+    {"raw", EWA_PACKING_NONE},  {"gz", EWA_PACKING_DEFLATE},  {"gzip", EWA_PACKING_DEFLATE},
+    {"bz2", EWA_PACKING_BZIP2}, {"bzip2", EWA_PACKING_BZIP2}, {"txt", EWA_PACKING_TEXT},
+    {"text", EWA_PACKING_TEXT}, {"ascii", EWA_PACKING_TEXT},  {"hex", EWA_PACKING_HEX},
 };
 
 static const ewa_text_word kinds[] = {
-    {"domain", AXIS_SPACE},      {"space", AXIS_SPACE},       {"???", AXIS_SPACE},
-    {"none", AXIS_SPACE},        {"RGB-color", AXIS_COLOR3},  {"3-color", AXIS_COLOR3},
+    {"domain", AXIS_SPACE},      {"space", AXIS_SPACE},      {"???", AXIS_SPACE},
+    {"none", AXIS_SPACE},        {"RGB-color", AXIS_COLOR3}, {"3-color", AXIS_COLOR3},
     {"RGBA-color", AXIS_COLOR4}, {"4-color", AXIS_COLOR4},
 };
 
@@ -225,8 +245,10 @@ static ewa_status read_fields(nrrd *file, ewa_reader *reader) {
         if (strncmp(file->data_file, "LIST", 4) == 0) return EWA_OK;
     }
     if (reader->failed)
-        return ewa_volume_fail(file->in, EWA_ERROR_FORMAT, "NRRD: a line of over %d bytes", EWA_LINE_BYTES - 1);
-    if (!file->data_file[0]) return ewa_volume_fail(file->in, EWA_ERROR_FORMAT, "NRRD: the header does not end");
+        return ewa_volume_fail(file->in, EWA_ERROR_FORMAT, "NRRD: a line of over %d bytes",
+                               EWA_LINE_BYTES - 1);
+    if (!file->data_file[0])
+        return ewa_volume_fail(file->in, EWA_ERROR_FORMAT, "NRRD: the header does not end");
     return EWA_OK;
 }
 
@@ -305,11 +327,11 @@ ewa_status ewa_nrrd_parse(const ewa_volume_input *in, ewa_volume_header *header)
     ewa_reader reader = {.bytes = in->bytes, .size_bytes = in->size_bytes};
     ewa_status status = read_fields(&file, &reader);
     if (status != EWA_OK) return status;
-    const char *missing = !file.axis_count        ? "dimension"
-                          : !file.has_sizes       ? "sizes"
-                          : header->number < 0    ? "type"
-                          : !file.has_encoding    ? "encoding"
-                                                  : NULL;
+    const char *missing = !file.axis_count     ? "dimension"
+                          : !file.has_sizes    ? "sizes"
+                          : header->number < 0 ? "type"
+                          : !file.has_encoding ? "encoding"
+                                               : NULL;
     if (missing) return ewa_volume_fail(in, EWA_ERROR_FORMAT, "NRRD: no field '%s'", missing);
     const bool bytes = header->packing != EWA_PACKING_TEXT && ewa_file_number_bytes(header->number) > 1;
     if (bytes && !file.has_endian) return ewa_volume_fail(in, EWA_ERROR_FORMAT, "NRRD: no field 'endian'");

@@ -14,13 +14,13 @@ static const struct {
     ewa_type type;
     bool big_endian;
 } types[] = {
-    {"uint8", EWA_U8, false},     {"uchar", EWA_U8, false},     {"u8", EWA_U8, false},
-    {"int8", EWA_I8, false},      {"uint16", EWA_U16, false},   {"uint16le", EWA_U16, false},
-    {"uint16be", EWA_U16, true},  {"ushort", EWA_U16, false},   {"u16", EWA_U16, false},
-    {"int16", EWA_I16, false},    {"int16le", EWA_I16, false},  {"int16be", EWA_I16, true},
-    {"short", EWA_I16, false},    {"i16", EWA_I16, false},      {"uint32", EWA_U32, false},
-    {"int32", EWA_I32, false},    {"float32", EWA_F32, false},  {"float32le", EWA_F32, false},
-    {"float32be", EWA_F32, true}, {"float", EWA_F32, false},    {"f32", EWA_F32, false},
+    {"uint8", EWA_U8, false},     {"uchar", EWA_U8, false},    {"u8", EWA_U8, false},
+    {"int8", EWA_I8, false},      {"uint16", EWA_U16, false},  {"uint16le", EWA_U16, false},
+    {"uint16be", EWA_U16, true},  {"ushort", EWA_U16, false},  {"u16", EWA_U16, false},
+    {"int16", EWA_I16, false},    {"int16le", EWA_I16, false}, {"int16be", EWA_I16, true},
+    {"short", EWA_I16, false},    {"i16", EWA_I16, false},     {"uint32", EWA_U32, false},
+    {"int32", EWA_I32, false},    {"float32", EWA_F32, false}, {"float32le", EWA_F32, false},
+    {"float32be", EWA_F32, true}, {"float", EWA_F32, false},   {"f32", EWA_F32, false},
     {"float64", EWA_F64, false},  {"double", EWA_F64, false},
 };
 
@@ -65,9 +65,10 @@ ewa_status ewa_raw_parse(const ewa_volume_input *in, const ewa_volume_load_optio
     const bool told = options->dims[0] || options->dims[1] || options->dims[2];
     const bool guessed = guess(in->name, header);
     if (!told && !guessed)
-        return ewa_volume_fail(in, EWA_ERROR_FORMAT,
-                               "no volume: neither NRRD nor NIfTI nor MetaImage nor VTK by its first bytes; raw "
-                               "numbers need their dims");
+        return ewa_volume_fail(
+            in, EWA_ERROR_FORMAT,
+            "no volume: neither NRRD nor NIfTI nor MetaImage nor VTK by its first bytes; raw "
+            "numbers need their dims");
     if (told)
         for (int axis = 0; axis < 3; axis++) header->dims[axis] = options->dims[axis];
     if (options->type >= 0) {

@@ -14,14 +14,14 @@ static ewa_status broken(const ewa_volume_input *in, const char *what, const cha
 }
 
 static const ewa_text_word legacy_types[] = {
-    {"char", EWA_I8},    {"unsigned_char", EWA_U8},   {"short", EWA_I16},  {"unsigned_short", EWA_U16},
-    {"int", EWA_I32},    {"unsigned_int", EWA_U32},   {"float", EWA_F32},  {"double", EWA_F64},
+    {"char", EWA_I8},       {"unsigned_char", EWA_U8},       {"short", EWA_I16}, {"unsigned_short", EWA_U16},
+    {"int", EWA_I32},       {"unsigned_int", EWA_U32},       {"float", EWA_F32}, {"double", EWA_F64},
     {"long", EWA_FILE_I64}, {"unsigned_long", EWA_FILE_U64},
 };
 
 static const ewa_text_word xml_types[] = {
-    {"Int8", EWA_I8},     {"UInt8", EWA_U8},   {"Int16", EWA_I16},        {"UInt16", EWA_U16},
-    {"Int32", EWA_I32},   {"UInt32", EWA_U32}, {"Int64", EWA_FILE_I64},   {"UInt64", EWA_FILE_U64},
+    {"Int8", EWA_I8},     {"UInt8", EWA_U8},    {"Int16", EWA_I16},      {"UInt16", EWA_U16},
+    {"Int32", EWA_I32},   {"UInt32", EWA_U32},  {"Int64", EWA_FILE_I64}, {"UInt64", EWA_FILE_U64},
     {"Float32", EWA_F32}, {"Float64", EWA_F64},
 };
 
@@ -70,11 +70,12 @@ static ewa_status take_line(const ewa_volume_input *in, const char *line, bool *
         header->placed = true;
         if (ewa_text_numbers(rest, 3, header->first_world) != 3) return broken(in, "the line", line);
     } else if (strcasecmp(words[0], "SCALARS") == 0) {
-        header->number = count > 2 ? ewa_text_find(legacy_types, sizeof legacy_types / sizeof legacy_types[0],
-                                                   words[2])
-                                   : -1;
+        header->number =
+            count > 2 ? ewa_text_find(legacy_types, sizeof legacy_types / sizeof legacy_types[0], words[2])
+                      : -1;
         if (header->number < 0) return ewa_volume_fail(in, EWA_ERROR_UNSUPPORTED, "VTK: '%.80s'", line);
-        if (count > 3 && strcmp(words[3], "3") != 0 && strcmp(words[3], "4") != 0 && strcmp(words[3], "1") != 0)
+        if (count > 3 && strcmp(words[3], "3") != 0 && strcmp(words[3], "4") != 0 &&
+            strcmp(words[3], "1") != 0)
             return ewa_volume_fail(in, EWA_ERROR_UNSUPPORTED, "VTK: '%.80s' numbers per voxel", words[3]);
         header->component_count = count > 3 ? (uint32_t)(words[3][0] - '0') : 1;
     } else if (strcasecmp(words[0], "LOOKUP_TABLE") == 0) {

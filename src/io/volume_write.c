@@ -33,11 +33,16 @@ static const char *triple(const double *numbers, char text[TRIPLE_BYTES]) {
 
 static const char *type_word(ewa_type type) {
     switch (type) {
-    case EWA_U8: return "uint8";
-    case EWA_I8: return "int8";
-    case EWA_U16: return "uint16";
-    case EWA_I16: return "int16";
-    default: return "float";
+    case EWA_U8:
+        return "uint8";
+    case EWA_I8:
+        return "int8";
+    case EWA_U16:
+        return "uint16";
+    case EWA_I16:
+        return "int16";
+    default:
+        return "float";
     }
 }
 
@@ -82,8 +87,8 @@ ewa_status ewa_volume_save(const ewa_volume *volume, const char *path,
     if (strcmp(path, "-") != 0 && (length < 6 || strcasecmp(path + length - 5, ".nrrd") != 0))
         return ewa_fail(volume->context, EWA_ERROR_UNSUPPORTED, "%s: the suffix of a volume is .nrrd", path);
     const bool plain = options && options->plain;
-    const size_t size_bytes = (size_t)volume->dims[0] * volume->dims[1] * volume->dims[2] *
-                              ewa_type_bytes(volume->type);
+    const size_t size_bytes =
+        (size_t)volume->dims[0] * volume->dims[1] * volume->dims[2] * ewa_type_bytes(volume->type);
     ewa_writer *writer;
     ewa_status status = ewa_writer_open(volume->context, path, &writer);
     if (status != EWA_OK) return status;
