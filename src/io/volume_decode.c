@@ -339,10 +339,10 @@ static ewa_status make_place(const ewa_volume_input *in, const ewa_volume_header
     for (int k = 0; k < 3; k++) {
         double middle = 0;
         for (int axis = 0; axis < 3; axis++) {
-            index_to_world[4 * k + axis] = directions[axis][k];
+            index_to_world[4 * k + axis] = directions[axis][k] + 0.0; // no -0
             middle += 0.5 * ((double)header->dims[axis] - 1) * directions[axis][k];
         }
-        index_to_world[4 * k + 3] = header->placed ? header->first_world[k] : -middle;
+        index_to_world[4 * k + 3] = (header->placed ? header->first_world[k] : -middle) + 0.0;
     }
     return EWA_OK;
 }

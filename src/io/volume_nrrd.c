@@ -126,9 +126,9 @@ static const char *read_vector(const char *text, uint32_t count, double vector[3
 }
 
 static ewa_status take_directions(nrrd *file, const char *value) {
-    if (!file->axis_count || !file->space_count)
-        return ewa_volume_fail(file->in, EWA_ERROR_FORMAT,
-                               "NRRD: space directions before dimension and space");
+    if (!file->axis_count)
+        return ewa_volume_fail(file->in, EWA_ERROR_FORMAT, "NRRD: space directions before dimension");
+    if (!file->space_count) file->space_count = 3; // missing in files of some writers
     const char *text = value;
     for (uint32_t axis = 0; axis < file->axis_count; axis++) {
         text = ewa_text_skip_blanks(text);
@@ -214,8 +214,8 @@ static ewa_status take_field(nrrd *file, const char *field, const char *value) {
         return take_directions(file, value);
     } else if (strcasecmp(field, "space origin") == 0) {
         file->has_origin = true;
-        if (!file->space_count || !read_vector(value, file->space_count, file->origin))
-            return broken(file, field, value);
+        if (!file->space_count) file->space_count = 3;
+        if (!read_vector(value, file->space_count, file->origin)) return broken(file, field, value);
     } else if (strcasecmp(field, "kinds") == 0) {
         return take_kinds(file, value);
     } else if (strcasecmp(field, "line skip") == 0 || strcasecmp(field, "lineskip") == 0) {

@@ -96,7 +96,8 @@ ewa_status ewa_vtk_parse(const ewa_volume_input *in, ewa_volume_header *header) 
     char line[EWA_LINE_BYTES] = "";
     ewa_text_line(&reader, line); // magic
     ewa_text_line(&reader, line); // title
-    if (!ewa_text_line(&reader, line)) line[0] = 0;
+    line[0] = 0;
+    while (!line[0] && ewa_text_line(&reader, line)) continue;
     const bool text = strcasecmp(line, "ASCII") == 0;
     if (!text && strcasecmp(line, "BINARY") != 0) return broken(in, "the encoding", line);
     header->packing = text ? EWA_PACKING_TEXT : EWA_PACKING_NONE;
