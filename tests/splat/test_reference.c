@@ -597,27 +597,6 @@ static void test_arguments(void **state) {
     ewa_context_destroy(&context);
 }
 
-/// Memory that ends after a number of allocations.
-typedef struct scarce_memory {
-    int left;
-    int64_t held_bytes;
-} scarce_memory;
-
-static void *scarce_allocate(void *user, size_t size_bytes) {
-    scarce_memory *memory = user;
-    if (memory->left-- <= 0) return NULL;
-    memory->held_bytes += (int64_t)size_bytes;
-    void *block = aligned_alloc(64, (size_bytes + 63) / 64 * 64);
-    // So that a sanitizer sees what is read before it is written.
-    if (block) memset(block, 0xa5, size_bytes);
-    return block;
-}
-
-static void scarce_release(void *user, void *memory, size_t size_bytes) {
-    ((scarce_memory *)user)->held_bytes -= (int64_t)size_bytes;
-    free(memory);
-}
-
 static bool refuse_to_go_on(void *user, const char *stage, double fraction) {
     (void)stage;
     return fraction < *(const double *)user;
@@ -626,11 +605,11 @@ static bool refuse_to_go_on(void *user, const char *stage, double fraction) {
 /// Every allocation that fails and every moment to cancel gives its status and frees what there was.
 static void test_failures(void **state) {
     (void)state;
-    scarce_memory memory = {.left = 1000};
+    check_memory memory = {.calls_left = -1};
     double patience = 2;
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
-    options.allocator = (ewa_allocator){&memory, scarce_allocate, scarce_release};
+    options.allocator = check_allocator(&memory);
     options.progress = refuse_to_go_on;
     options.progress_user = &patience;
     ewa_context *context = NULL;
@@ -642,12 +621,12 @@ static void test_failures(void **state) {
     const int64_t held_bytes = memory.held_bytes;
     ewa_status status = EWA_ERROR_MEMORY;
     for (int allowed = 0; status == EWA_ERROR_MEMORY; allowed++) {
-        memory.left = allowed;
+        memory.calls_left = allowed;
         status = ewa_render_reference(made.cloud, NULL, 1, &made.camera, NULL, &shown.frame);
         assert_true(memory.held_bytes == held_bytes && allowed < 10);
     }
     assert_int_equal(status, EWA_OK);
-    memory.left = 1000;
+    memory.calls_left = -1;
     for (patience = 0; patience <= 1; patience += 0.25)
         assert_int_equal(ewa_render_reference(made.cloud, NULL, 1, &made.camera, NULL, &shown.frame),
                          EWA_CANCELLED);
