@@ -65,6 +65,27 @@ static inline int scratch_each(const char *relative, void (*visit)(void *user, c
     return count;
 }
 
+/// Broken pictures: each loads or is refused with a message that begins with its path.
+typedef struct scratch_pictures {
+    ewa_context *context;
+    check_log log; ///< of `context`
+    int refused;
+} scratch_pictures;
+
+static inline void scratch_load_picture(void *user, const char *path) {
+    scratch_pictures *pictures = user;
+    pictures->log = (check_log){0};
+    ewa_image image;
+    const ewa_status status = ewa_image_load(pictures->context, path, &image);
+    if (status == EWA_OK) {
+        ewa_image_free(&image);
+        return;
+    }
+    assert_null(image.pixels);
+    assert_true(pictures->log.count > 0 && strncmp(pictures->log.text, path, strlen(path)) == 0);
+    pictures->refused++;
+}
+
 /// A context of one worker on `memory`.
 static inline ewa_context *scratch_context(check_memory *memory, check_log *log) {
     ewa_context_options options;

@@ -10,15 +10,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-enum { SIZE = 96 };
-
-/// Makes the scenes small enough for tests.
-static scene make_scene(ewa_context *context, scene_kind kind) {
-    scene made;
-    const uint64_t count = kind == SCENE_ELLIPSES || kind == SCENE_NEAR ? 500 : 3000;
-    assert_int_equal(scene_make(context, kind, count, SIZE, SIZE, &made), EWA_OK);
-    return made;
-}
+enum { SIZE = PICTURE_SMALL_PX };
 
 static ewa_render_options default_options(void) {
     ewa_render_options options;
@@ -102,7 +94,7 @@ static void test_sphere(void **state) {
 static void test_plane_depth(void **state) {
     (void)state;
     ewa_context *context = check_context(0, NULL);
-    scene made = make_scene(context, SCENE_PLANE);
+    scene made = picture_small_scene(context, SCENE_PLANE);
     const double eye[3] = {0.3, -1.1, 0.8}, target[3] = {0, 0, 0}, up[3] = {0, 0, 1};
     assert_int_equal(ewa_camera_look_at(&made.camera, eye, target, up), EWA_OK);
     for (int i = 0; i < 4; i++) {
@@ -304,7 +296,7 @@ static void test_arguments(void **state) {
     (void)state;
     check_log log = {0};
     ewa_context *context = check_context(0, &log);
-    scene made = make_scene(context, SCENE_SPHERE);
+    scene made = picture_small_scene(context, SCENE_SPHERE);
     const ewa_frame nothing = {NULL};
     assert_int_equal(ewa_render_reference(NULL, NULL, 1, &made.camera, NULL, &nothing), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_render_reference(made.cloud, NULL, 1, NULL, NULL, &nothing), EWA_ERROR_ARGUMENT);
@@ -320,7 +312,7 @@ static void test_arguments(void **state) {
                      EWA_ERROR_ARGUMENT);
     assert_non_null(strstr(log.text, "radius"));
     scene_free(&made);
-    made = make_scene(context, SCENE_SPHERE);
+    made = picture_small_scene(context, SCENE_SPHERE);
     assert_int_equal(ewa_render_reference(made.cloud, NULL, 1, &made.camera, NULL, &nothing), EWA_OK);
     ewa_cloud_destroy(&made.cloud);
     assert_int_equal(ewa_cloud_create(context, 0, &made.cloud), EWA_OK);
@@ -352,7 +344,7 @@ static void test_failures(void **state) {
     options.progress_user = &patience;
     ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
-    scene made = make_scene(context, SCENE_NEAR);
+    scene made = picture_small_scene(context, SCENE_NEAR);
     float *tangents = ewa_cloud_find(made.cloud, EWA_TANGENT_U)->data;
     for (int i = 0; i < 30; i++) tangents[3 * i] = NAN; // points that cannot be drawn
     picture shown = picture_make(SIZE, SIZE);
@@ -379,7 +371,7 @@ static void test_failures(void **state) {
 static void test_comparison(void **state) {
     (void)state;
     ewa_context *context = check_context(0, NULL);
-    scene made = make_scene(context, SCENE_TORUS);
+    scene made = picture_small_scene(context, SCENE_TORUS);
     for (uint32_t passes = 1; passes <= 3; passes += 2) {
         ewa_render_options options = default_options();
         options.passes = passes;

@@ -8,15 +8,7 @@
 
 #include <string.h>
 
-enum { SIZE = 96 };
-
-/// Makes the scenes small enough for tests.
-static scene make_scene(ewa_context *context, scene_kind kind) {
-    scene made;
-    const uint64_t count = kind == SCENE_ELLIPSES || kind == SCENE_NEAR ? 500 : 3000;
-    assert_int_equal(scene_make(context, kind, count, SIZE, SIZE, &made), EWA_OK);
-    return made;
-}
+enum { SIZE = PICTURE_SMALL_PX };
 
 static ewa_render_options default_options(void) {
     ewa_render_options options;
@@ -101,7 +93,7 @@ static void test_constant_color(void **state) {
     ewa_context *context = check_context(0, NULL);
     const float color[3] = {0.25f, 0.5f, 0.75f};
     for (int kind = 0; kind < 2 * SCENE_COUNT; kind++) {
-        scene made = make_scene(context, (scene_kind)(kind / 2));
+        scene made = picture_small_scene(context, (scene_kind)(kind / 2));
         ewa_cloud *plain = copy_surfels(made.cloud, &IDENTITY, 1, NOWHERE, 1, color);
         ewa_cloud_destroy(&made.cloud);
         made.cloud = plain;
@@ -133,7 +125,7 @@ static void test_shift(void **state) {
     (void)state;
     ewa_context *context = check_context(0, NULL);
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
-        scene made = make_scene(context, (scene_kind)kind);
+        scene made = picture_small_scene(context, (scene_kind)kind);
         picture before = picture_of_scene(&made, NULL, NULL);
         made.camera.cx_px += 7;
         made.camera.cy_px -= 5;
@@ -160,7 +152,7 @@ static void test_invariance(void **state) {
     (void)state;
     ewa_context *context = check_context(0, NULL), *lonely = check_context(1, NULL);
     for (int kind = 0; kind < 2 * SCENE_COUNT; kind++) {
-        scene made = make_scene(context, (scene_kind)(kind / 2)), other = made;
+        scene made = picture_small_scene(context, (scene_kind)(kind / 2)), other = made;
         ewa_render_options options = default_options();
         options.passes = kind % 2 ? 1 : 3;
         picture_set_light(&options, 0, -1, 0);
@@ -229,7 +221,7 @@ static void test_quarter_turn(void **state) {
     (void)state;
     ewa_context *context = check_context(0, NULL);
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
-        scene made = make_scene(context, (scene_kind)kind);
+        scene made = picture_small_scene(context, (scene_kind)kind);
         made.camera.cx_px = made.camera.cy_px = SIZE / 2.0;
         picture before = picture_of_scene(&made, NULL, NULL);
         double *m = made.camera.world_to_camera;
