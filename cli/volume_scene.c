@@ -10,6 +10,9 @@
 
 enum { BINS = 256, CORNERS = 8, VIEW_FRONT = 0 };
 
+/// Share of what can be seen that may be outside of the picture on each side: noise.
+static const double NOISE_SHARE = 0.0005;
+
 bool volume_scene_is_preset(const char *word) {
     const char *name;
     for (uint32_t i = 0; (name = ewa_transfer_preset_name(i, NULL)); i++)
@@ -96,8 +99,9 @@ static bool classify(cli_session *session, const ewa_volume *volume, const ewa_t
     ewa_voxels_options_init(&options, sizeof options);
     options.level_count = level_count;
     const double started_s = clock_now_s();
-    const ewa_status status = ewa_voxels_create(volume, transfer, &options, &scene->voxels);
+    ewa_status status = ewa_voxels_create(volume, transfer, &options, &scene->voxels);
     scene->classify_s = clock_now_s() - started_s;
+    if (status == EWA_OK) status = ewa_volume_measure_visible(volume, transfer, NOISE_SHARE, &scene->bounds);
     if (status != EWA_OK) {
         session_failed(session, status);
         return false;
@@ -133,7 +137,7 @@ void volume_scene_free(volume_scene *scene) {
 
 /// A box that holds everything; false when there is nothing.
 static bool find_box(const volume_scene *scene, ewa_bounds *box) {
-    const ewa_bounds *parts[] = {&scene->info.bounds, scene->surfels ? &scene->surfels_bounds : NULL};
+    const ewa_bounds *parts[] = {&scene->bounds, scene->surfels ? &scene->surfels_bounds : NULL};
     *box = (ewa_bounds){.finite_count = 0};
     for (int i = 0; i < 2; i++) {
         if (!parts[i] || !parts[i]->finite_count) continue;
@@ -162,11 +166,9 @@ bool volume_scene_frame(cli_session *session, const frames_arguments *arguments,
         return false;
     }
     double *positions = data;
-    // Half a voxel beyond the centres, so that a single one has a size as well.
-    const double rim = 0.5 * scene->info.spacing_world;
     for (int i = 0; i < CORNERS; i++)
         for (int k = 0; k < 3; k++)
-            positions[3 * i + k] = i >> k & 1 ? box.high_world[k] + rim : box.low_world[k] - rim;
+            positions[3 * i + k] = i >> k & 1 ? box.high_world[k] : box.low_world[k];
     // Scanners' volumes stand on z, whatever their proportions.
     frames_arguments chosen = *arguments;
     chosen.view.up_axis = 2;

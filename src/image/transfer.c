@@ -16,8 +16,9 @@ enum { BINS = 256, SMOOTH = 3, UNITS = 128 };
 static const double PEAK_END = 0.01;
 
 /// Optical depth that the veil and what is inside of it should have along a ray that goes through its share
-/// of the volume, and the least and the greatest extinction per unit that this may lead to.
-static const double VEIL_DEPTH = 0.5, BODY_DEPTH = 4, LEAST = 0.002, SOLID = 0.7;
+/// of the volume; the least extinction per unit that this may lead to, the greatest of a veil (a thin haze is
+/// noise), and that of solid matter.
+static const double VEIL_DEPTH = 0.5, BODY_DEPTH = 4, LEAST = 0.002, THICK = 0.05, SOLID = 0.7;
 
 static const uint32_t VEIL_COLOR = 0xc98a66, BODY_COLOR = 0xe8c9a0, SOLID_COLOR = 0xfff8ec;
 
@@ -150,12 +151,11 @@ ewa_status ewa_transfer_automatic(const ewa_volume *volume, const ewa_volume_fac
     const int empty = find_empty_end(smoothed);
     const int body = split(facts->histogram, empty), solid = split(facts->histogram, body);
     const double step = (facts->high - facts->low) / (BINS - 1);
-    const double veil = extinction_for(facts, empty, body, VEIL_DEPTH),
+    const double veil = fmin(extinction_for(facts, empty, body, VEIL_DEPTH), THICK),
                  inner = fmax(extinction_for(facts, body, solid, BODY_DEPTH), veil);
     *transfer = (ewa_transfer){.unit_length_world = ewa_transfer_unit(facts)};
     const double edge = 0.5 * (empty + body), middle = 0.5 * (body + solid), top = 0.5 * (solid + BINS - 1);
     ewa_transfer_add(transfer, facts->low + step * empty, VEIL_COLOR, 0);
-    ewa_transfer_add(transfer, facts->low + step * fmin(empty + 8.0, edge), VEIL_COLOR, veil);
     ewa_transfer_add(transfer, facts->low + step * edge, VEIL_COLOR, veil);
     ewa_transfer_add(transfer, facts->low + step * middle, BODY_COLOR, inner);
     ewa_transfer_add(transfer, facts->low + step * top, SOLID_COLOR, fmax(SOLID, inner));
