@@ -23,6 +23,7 @@ void ewa_grid_view_make(ewa_grid_view *view, const double index_to_world[12], co
                        .fy_px = camera->fy_px,
                        .cx_px = camera->cx_px,
                        .cy_px = camera->cy_px,
+                       .kernel_steps = sigma,
                        .cutoff = options->cutoff,
                        .cutoff2 = options->cutoff * options->cutoff,
                        .prefilter2_px2 = options->prefilter_px * options->prefilter_px};

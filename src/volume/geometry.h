@@ -17,6 +17,7 @@ typedef struct ewa_grid_view {
     ewa_vec3 origin;        ///< voxel 0, 0, 0 in camera space
     ewa_mat3 covariance;    ///< Sigma of every voxel
     ewa_mat3 inverse;       ///< Sigma^-1
+    double kernel_steps;    ///< standard deviation of a voxel in steps of the grid
     double depth_sigma;     ///< sqrt(Sigma33)
     double mean_variance;   ///< a third of Sigma's trace
     double longest_step;    ///< in camera units

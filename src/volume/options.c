@@ -23,7 +23,7 @@ void ewa_volume_options_init(ewa_volume_options *options, size_t struct_size) {
     options->sigma = 0.6;
     options->cutoff = 3;
     options->prefilter_px = 0.35;
-    options->point_threshold_px = 1;
+    options->point_threshold_px = 1.2;
     options->depth_unit = 1;
     options->density_scale = 1;
     options->least_transmittance = 1.0 / 512;
