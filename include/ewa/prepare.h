@@ -7,6 +7,7 @@
 
 #include "ewa/base.h"
 #include "ewa/cloud.h"
+#include "ewa/volume.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -194,8 +195,9 @@ typedef struct ewa_generate_options {
     double jitter; ///< 0: points in the middle of their cells, 1: anywhere in them; [0, 1]; default 0.5
     double checks; ///< squares along one edge of the checker plane and of the cube's faces; [1e-6, 1e6];
                    ///< default 16
-    double radius_scale; ///< support radius in units of the local spacing; [1e-6, 1e6]; default 1.14.
-                         ///< Discs leave no hole where it is at least 0.72 (1 + jitter)
+    double radius_scale; ///< support radius in units of the local spacing; [1e-6, 1e6], or 0 (default): so
+                         ///< that pixels inside are opaque: 1.14 (1 + 0.8 jitter), for rows 1.14. Discs
+                         ///< touch everywhere from 0.72 (1 + jitter) on
     bool positions_only; ///< leave out normals and radii; default false
     bool sharp; ///< cube and part: rows of points on every edge, and axes and clip lines in place of radii;
                 ///< default false
@@ -221,6 +223,37 @@ EWA_API void ewa_generate_options_init(ewa_generate_options *options, size_t str
 /// EWA_ERROR_MEMORY, EWA_CANCELLED.
 EWA_API ewa_status ewa_cloud_generate(ewa_context *context, const ewa_generate_options *options,
                                       ewa_cloud **cloud);
+
+/// Volumes whose line integrals are known; s is size_world, r the distance from the middle.
+typedef enum ewa_volume_object {
+    /// U8: a box of 3/4 s of solid cubes, 96 and 255 in turns, empty around; `checks` along its edge
+    EWA_VOLUME_CHECKERBOX = 0,
+    /// F32: exp(-r^2 / (2 q^2)), q = s / 10. A line at distance d from the middle: q sqrt(2 pi) exp(-d^2 / (2
+    /// q^2))
+    EWA_VOLUME_BLOB = 1,
+    /// F32: (1 - r^2 / R^2)^2 within R = 0.4 s. A line at distance d < R: 16/15 (R^2 - d^2)^(5/2) / R^4
+    EWA_VOLUME_BALL = 2,
+    /// U8: a tree of thin tubes of radii from s / 40 down to s / 250, 255 in their middles
+    EWA_VOLUME_VESSELS = 3,
+} ewa_volume_object;
+
+/// What volume is made. Fill with ewa_volume_generate_options_init().
+typedef struct ewa_volume_generate_options {
+    size_t struct_size;
+    ewa_volume_object object;
+    uint32_t dims[3];  ///< default 128, 128, 128; each >= 2
+    double size_world; ///< distance of the outermost voxels along the longest axis; cubes; > 0; default 1
+    double checks;     ///< of EWA_VOLUME_CHECKERBOX; > 0; default 8
+    uint64_t seed;     ///< of EWA_VOLUME_VESSELS; default 0
+} ewa_volume_generate_options;
+
+EWA_API void ewa_volume_generate_options_init(ewa_volume_generate_options *options, size_t struct_size);
+
+/// Makes a test volume with its middle at the origin, the same bytes on every machine; s is along the longest
+/// axis, shorter ones cut. The caller frees it. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT,
+/// EWA_ERROR_MEMORY, EWA_CANCELLED.
+EWA_API ewa_status ewa_volume_generate(ewa_context *context, const ewa_volume_generate_options *options,
+                                       ewa_volume *volume);
 
 #ifdef __cplusplus
 }
