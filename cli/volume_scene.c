@@ -167,8 +167,7 @@ bool volume_scene_frame(cli_session *session, const frames_arguments *arguments,
     }
     double *positions = data;
     for (int i = 0; i < CORNERS; i++)
-        for (int k = 0; k < 3; k++)
-            positions[3 * i + k] = i >> k & 1 ? box.high_world[k] : box.low_world[k];
+        for (int k = 0; k < 3; k++) positions[3 * i + k] = i >> k & 1 ? box.high_world[k] : box.low_world[k];
     // Scanners' volumes stand on z, whatever their proportions.
     frames_arguments chosen = *arguments;
     chosen.view.up_axis = 2;

@@ -109,7 +109,8 @@ ewa_status ewa_volume_measure_visible(const ewa_volume *volume, const ewa_transf
     bounds->finite_count = m.visible_count;
     if (m.visible_count) {
         double ranges[3][2];
-        for (int axis = 0; axis < 3; axis++) find_range(m.sums[axis], dims[axis], left_out_share, ranges[axis]);
+        for (int axis = 0; axis < 3; axis++)
+            find_range(m.sums[axis], dims[axis], left_out_share, ranges[axis]);
         make_bounds(volume, ranges, bounds);
     }
     ewa_release(volume->context, sums, room, sizeof *sums);
