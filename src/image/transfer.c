@@ -26,11 +26,16 @@ double ewa_extinction_of_opacity(double opacity) {
     double left = 1 - opacity;
     if (!(left > 0x1p-20)) left = 0x1p-20;
     int exponent;
-    // log m = 2 artanh((m - 1) / (m + 1)), by its series: |s| <= 1/3.
-    const double m = frexp(left, &exponent), s = (m - 1) / (m + 1), ss = s * s;
+    double m = frexp(left, &exponent);
+    if (m < 0.7071067811865476) {
+        m *= 2;
+        exponent--;
+    }
+    // log m = 2 artanh((m - 1) / (m + 1)), by its series: |s| < 0.172.
+    const double s = (m - 1) / (m + 1), ss = s * s;
     double sum = 0;
-    for (int k = 33; k >= 1; k -= 2) sum = sum * ss + 1.0 / k;
-    return -(2 * s * sum + 0.6931471805599453 * exponent);
+    for (int k = 21; k >= 1; k -= 2) sum = sum * ss + 1.0 / k;
+    return 0 - (2 * s * sum + 0.6931471805599453 * exponent);
 }
 
 void ewa_transfer_add(ewa_transfer *transfer, double value, uint32_t srgb, double extinction) {
