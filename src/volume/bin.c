@@ -36,8 +36,8 @@ static bool find_slices(const bin_job *job, const ewa_voxel_block *block, ewa_bl
         low = fmin(low, z), high = fmax(high, z);
     }
     const double last = job->slices->count - 1.0;
-    const double first_slice = floor(low / job->slices->unit) - job->slices->first_unit;
-    const double last_slice = floor(high / job->slices->unit) - job->slices->first_unit;
+    const double first_slice = floor((low - job->slices->start) / job->slices->unit);
+    const double last_slice = floor((high - job->slices->start) / job->slices->unit);
     view->slice_first = (int32_t)fmin(fmax(first_slice, 0), last);
     view->slice_last = (int32_t)fmin(fmax(last_slice, 0), last);
     return high > job->grid->near;

@@ -10,35 +10,6 @@
 
 #include <math.h>
 
-static ewa_status check_transfer(ewa_context *context, const ewa_transfer *transfer) {
-    if (transfer->point_count < 2 || transfer->point_count > EWA_MAX_TRANSFER_POINTS)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "transfer function: %u points, allowed are 2 to %d",
-                        transfer->point_count, EWA_MAX_TRANSFER_POINTS);
-    for (uint32_t i = 0; i < transfer->point_count; i++) {
-        const ewa_transfer_point *p = &transfer->points[i];
-        if (!isfinite(p->value) || !isfinite(p->extinction) || p->extinction < 0)
-            return ewa_fail(context, EWA_ERROR_ARGUMENT,
-                            "transfer function: point %u has value %g and extinction %g", i, p->value,
-                            (double)p->extinction);
-        for (int c = 0; c < 3; c++)
-            if (!(p->color[c] >= 0) || !isfinite(p->color[c]))
-                return ewa_fail(context, EWA_ERROR_ARGUMENT, "transfer function: point %u has a colour of %g",
-                                i, (double)p->color[c]);
-        if (i > 0 && p->value < p[-1].value)
-            return ewa_fail(context, EWA_ERROR_ARGUMENT,
-                            "transfer function: the value of point %u, %g, is below that before it, %g", i,
-                            p->value, p[-1].value);
-    }
-    if (!isfinite(transfer->unit_length_world) || transfer->unit_length_world < 0)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "transfer function: unit_length_world is %g",
-                        transfer->unit_length_world);
-    if (!isfinite(transfer->gradient_low) || !isfinite(transfer->gradient_high) ||
-        transfer->gradient_high < transfer->gradient_low)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "transfer function: a gradient ramp from %g to %g",
-                        transfer->gradient_low, transfer->gradient_high);
-    return EWA_OK;
-}
-
 static ewa_status check_volume(ewa_context *context, const ewa_volume *volume) {
     enum { MOST = 1 << 21 };
     if (!volume->voxels) return ewa_fail(context, EWA_ERROR_ARGUMENT, "volume: no voxels");
@@ -66,7 +37,7 @@ static ewa_status check_volume(ewa_context *context, const ewa_volume *volume) {
 ewa_status ewa_classifier_make(ewa_context *context, const ewa_volume *volume, const ewa_transfer *transfer,
                                ewa_classifier *classifier) {
     ewa_status status = check_volume(context, volume);
-    if (status == EWA_OK) status = check_transfer(context, transfer);
+    if (status == EWA_OK) status = ewa_transfer_check(context, "transfer function", transfer);
     if (status != EWA_OK) return status;
     const double *m = volume->index_to_world;
     ewa_classifier c = {.volume = volume, .transfer = transfer, .spacing_world = INFINITY};

@@ -39,7 +39,7 @@ enum {
 typedef float ewa_point_filter[EWA_FILTER_PHASES][4];
 
 /// A voxel on its way. Points: r, g, b, 1, all times the mass; where the window begins in the sums; phases
-/// and blocks touched (point_info); depth. Splats: r, g, b; extinction; x, y in the tile; depth.
+/// and blocks touched (point_info); depth. Splats: r, g, b; extinction; x, y in the tile; depth; distance.
 typedef struct ewa_volume_record {
     float color[4];
     union {
@@ -48,7 +48,7 @@ typedef struct ewa_volume_record {
         } point;
         float place_px[2];
     };
-    float z, unused;
+    float z, distance;
 } ewa_volume_record;
 
 typedef struct ewa_volume_page {
@@ -79,9 +79,9 @@ typedef struct ewa_volume_view {
     float fx_px, fy_px, cx_px, cy_px;
     float axes[3][3];         ///< steps along i, j, k in camera space
     float near, near_inverse; ///< voxels fade in between near and twice that; 0 for orthographic cameras
-    float unit_inverse, first_unit; ///< slice = floor(z unit_inverse - first_unit)
-    int32_t point_slice;            ///< slices from there on are of points
-    float color_scale;              ///< of 16-bit colours
+    float unit_inverse, unit_offset; ///< slice = floor(z unit_inverse + unit_offset)
+    int32_t point_slice;             ///< slices from there on are of points
+    float color_scale;               ///< of 16-bit colours
     float point_mass, splat_peak, density;
     float covariance[6], inverse[6]; ///< xx xy xz yy yz zz
     float cutoff, cutoff2, prefilter2_px2, reach;

@@ -8,8 +8,7 @@
 #ifndef EWA_SRC_VOLUME_KERNELS_POINTS_H
 #define EWA_SRC_VOLUME_KERNELS_POINTS_H
 
-#include "math/wide_functions.h"
-#include "volume/kernels.h"
+#include "volume/kernels_append.h"
 
 /// 1 - exp(-t) for t >= 0, also where t is small.
 static ALWAYS_INLINE wf absorbed(wf t) {
@@ -32,7 +31,8 @@ static ALWAYS_INLINE void absorb(const ewa_volume_view *view, float *pixels, wf 
                                  wf z) {
     const wf through = wf_load(pixels + 48);
     for (int c = 0; c < 3; c++) wf_store(pixels + 16 * c, wf_fma(weight, color[c], wf_load(pixels + 16 * c)));
-    const wf rest = wf_sub(through, weight);
+    wf rest = wf_sub(through, weight);
+    rest = wf_keep(wf_lt(wf_set(TINY), rest), rest);
     wf_store(pixels + 48, rest);
     if (view->with_depth) {
         const wf half = wf_set(0.5f);

@@ -13,6 +13,7 @@
 #include "volume/footprint.h"
 #include "volume/geometry.h"
 #include "volume/options.h"
+#include "volume/view.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -23,6 +24,8 @@ enum { BANDS_PER_WORKER = 4 }; ///< pieces of the picture, so that uneven ones l
 typedef struct splat {
     uint64_t number; ///< of the voxel: decides between equal depths
     ewa_vec3 place;  ///< camera space
+    double unit;     ///< number of its depth unit
+    double distance; ///< perspective: from the eye; orthographic: depth
     ewa_vec3 color;  ///< shaded
     double extinction;
     double center_px[2];
@@ -42,6 +45,7 @@ typedef struct reference {
     ewa_grid_view grid;
     ewa_classifier classifier;
     ewa_shading_setup shading;
+    double depth_unit;
     splat *splats;
     uint64_t splat_count;
     pixel *pixels;
@@ -122,6 +126,8 @@ static bool make_splat(const reference *work, const ewa_voxel *voxel, ewa_vec3 p
     made->unfilter[0][0] = l[0] / m[0], made->unfilter[0][1] = 0;
     made->unfilter[1][0] = (l[1] - l[2] * m[1] / m[2]) / m[0], made->unfilter[1][1] = l[2] / m[2];
     made->place = place;
+    made->unit = ewa_volume_unit_of(grid, work->depth_unit, place.z);
+    made->distance = grid->orthographic ? place.z : vec3_length(place);
     made->color = shade(work, voxel, place);
     made->extinction = voxel->extinction * work->options.density_scale;
     if (!grid->orthographic) made->extinction *= fmin(1, (place.z - grid->near) / grid->near);
@@ -233,9 +239,11 @@ static void render_band(void *data, uint32_t index, uint32_t worker) {
     for (size_t i = (size_t)begin * width; i < (size_t)end * width; i++) write_pixel(work, i);
 }
 
+/// By depth unit, then by distance: see tile.c.
 static int by_depth(const void *a, const void *b) {
     const splat *left = a, *right = b;
-    if (left->place.z != right->place.z) return left->place.z < right->place.z ? -1 : 1;
+    if (left->unit != right->unit) return left->unit < right->unit ? -1 : 1;
+    if (left->distance != right->distance) return left->distance < right->distance ? -1 : 1;
     return left->number < right->number ? -1 : left->number > right->number;
 }
 
@@ -293,5 +301,6 @@ ewa_status ewa_volume_render_reference(const ewa_volume *volume, const ewa_trans
     if (status != EWA_OK) return status;
     ewa_grid_view_make(&work.grid, volume->index_to_world, camera, &work.options);
     ewa_volume_shading_make(&work.options, &work.shading);
+    work.depth_unit = ewa_volume_depth_unit(&work.grid, &work.options);
     return render(context, &work);
 }

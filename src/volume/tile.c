@@ -156,10 +156,10 @@ static void add_block(const ewa_volume_job *job, ewa_volume_tile *tile, const ew
     job->kernels->append(&job->view, &source, tile);
 }
 
-static uint32_t bits_of(float z) {
+static uint32_t bits_of(float distance) {
     uint32_t bits;
-    memcpy(&bits, &z, sizeof bits);
-    return bits; // depths are positive: they sort as their bits do
+    memcpy(&bits, &distance, sizeof bits);
+    return bits; // distances are positive: they sort as their bits do
 }
 
 /// Sorts `count` numbers by keys, ties as they come; returns the list in which they end up. Both lists are
@@ -197,6 +197,9 @@ static uint32_t *sort_by_keys(uint32_t *numbers, uint32_t *keys, uint32_t count,
     return numbers;
 }
 
+/// Within a depth unit splats go by their distances from the eye. By depth alone, whole layers of voxels that
+/// overlap would change places at once whenever a diagonal of the grid turns through the picture's plane; so
+/// they do it one after another, each when its own ray is there.
 static void draw_splats(const ewa_volume_job *job, ewa_volume_scratch *scratch, ewa_volume_tile *tile,
                         const ewa_volume_bucket *bucket) {
     uint32_t *numbers = scratch->order.data, *keys = scratch->keys.data, count = 0;
@@ -204,7 +207,7 @@ static void draw_splats(const ewa_volume_job *job, ewa_volume_scratch *scratch, 
     while (count < bucket->count) {
         for (uint32_t slot = 0; slot < EWA_PAGE_RECORDS && count < bucket->count; slot++, count++) {
             numbers[count] = page * EWA_PAGE_RECORDS + slot;
-            keys[count] = bits_of(tile->pages.pages[page].records[slot].z);
+            keys[count] = bits_of(tile->pages.pages[page].records[slot].distance);
         }
         page = tile->pages.next[page];
     }

@@ -26,6 +26,12 @@ static void depth_range(const ewa_voxel_level *level, const ewa_grid_view *grid,
     *high = fmax(*low, *high);
 }
 
+double ewa_volume_depth_unit(const ewa_grid_view *grid, const ewa_volume_options *options) {
+    double shortest = INFINITY;
+    for (int axis = 0; axis < 3; axis++) shortest = fmin(shortest, vec3_length(mat3_row(&grid->axes, axis)));
+    return shortest * options->depth_unit;
+}
+
 void ewa_volume_slices_make(ewa_volume_slices *slices, const ewa_voxel_level *level,
                             const ewa_grid_view *grid, const ewa_volume_options *options) {
     enum { MOST_SLICES = 1 << 20 };
@@ -35,8 +41,9 @@ void ewa_volume_slices_make(ewa_volume_slices *slices, const ewa_voxel_level *le
     double unit = shortest * options->depth_unit;
     // Slabs of flat voxels would be cut into more slices than there is anything in.
     while ((high - low) / unit > MOST_SLICES) unit *= 2;
-    *slices = (ewa_volume_slices){.unit = unit, .first_unit = floor(low / unit)};
-    slices->count = (uint32_t)(floor(high / unit) - slices->first_unit) + 1;
+    const double first_unit = ewa_volume_unit_of(grid, unit, low);
+    *slices = (ewa_volume_slices){.unit = unit, .start = grid->origin.z + (first_unit - 0.5) * unit};
+    slices->count = (uint32_t)(ewa_volume_unit_of(grid, unit, high) - first_unit) + 1;
     const int32_t all = 0, none = (int32_t)slices->count;
     // From this depth on (orthographic: at 1) voxels are as small as asked for, and their filter as narrow as
     // four taps hold well.
@@ -54,7 +61,7 @@ void ewa_volume_slices_make(ewa_volume_slices *slices, const ewa_voxel_level *le
         slices->point_slice = nearest_points <= 1 ? all : none;
     } else {
         const double z = nearest_points;
-        const double first = ceil(z / unit - 0.5) - slices->first_unit; // whose middle is beyond z
+        const double first = ceil((z - slices->start) / unit - 0.5); // whose middle is beyond z
         slices->point_slice = first <= 0 ? all : first >= none ? none : (int32_t)first;
     }
 }
@@ -99,7 +106,8 @@ void ewa_volume_view_set(ewa_volume_view *view, const ewa_grid_view *grid, const
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) view->axes[i][j] = (float)grid->axes.m[i][j];
     view->near = (float)grid->near, view->near_inverse = grid->orthographic ? 0 : (float)(1 / grid->near);
-    view->unit_inverse = (float)(1 / slices->unit), view->first_unit = (float)slices->first_unit;
+    view->unit_inverse = (float)(1 / slices->unit),
+    view->unit_offset = (float)(-slices->start / slices->unit);
     view->point_slice = slices->point_slice;
     view->color_scale = (float)(voxels->color_scale / 65535);
     view->point_mass = (float)grid->point_mass, view->splat_peak = (float)grid->splat_peak;
@@ -142,6 +150,7 @@ void ewa_point_filters_make(ewa_point_filter filters[EWA_FILTER_COUNT]) {
             }
             for (int i = 0; i < 4; i++) {
                 taps[i] = exp((nearest - taps[i] * taps[i]) / (2 * sigma * sigma));
+                if (taps[i] < 1e-9) taps[i] = 0; // far from where floats get slow
                 sum += taps[i];
             }
             for (int i = 0; i < 4; i++) filters[f][phase][i] = (float)(taps[i] / sum);

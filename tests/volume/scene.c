@@ -99,16 +99,31 @@ ewa_voxels *scene_voxels(const ewa_volume *volume, const ewa_transfer *transfer)
     return voxels;
 }
 
+static ewa_volume_stats draw(ewa_context *context, const ewa_voxels *voxels, const ewa_camera *camera,
+                             const ewa_volume_options *options, ewa_image *image) {
+    ewa_volume_renderer *renderer;
+    ewa_volume_stats stats;
+    require(ewa_image_create(context, camera->width_px, camera->height_px, 4, image), "image");
+    require(ewa_volume_renderer_create(context, &renderer), "renderer");
+    const ewa_frame frame = {.rgba = image->pixels};
+    require(ewa_volume_render(renderer, voxels, camera, options, &frame, &stats), "render");
+    ewa_volume_renderer_destroy(&renderer);
+    return stats;
+}
+
 ewa_image scene_draw(ewa_context *context, const ewa_voxels *voxels, const ewa_camera *camera,
                      const ewa_volume_options *options) {
     ewa_image image;
-    ewa_volume_renderer *renderer;
-    require(ewa_image_create(context, camera->width_px, camera->height_px, 4, &image), "image");
-    require(ewa_volume_renderer_create(context, &renderer), "renderer");
-    const ewa_frame frame = {.rgba = image.pixels};
-    require(ewa_volume_render(renderer, voxels, camera, options, &frame, NULL), "render");
-    ewa_volume_renderer_destroy(&renderer);
+    draw(context, voxels, camera, options, &image);
     return image;
+}
+
+double scene_point_share(ewa_context *context, const ewa_voxels *voxels, const ewa_camera *camera,
+                         const ewa_volume_options *options) {
+    ewa_image image;
+    const ewa_volume_stats stats = draw(context, voxels, camera, options, &image);
+    ewa_image_free(&image);
+    return stats.point_share;
 }
 
 ewa_image scene_draw_reference(const ewa_volume *volume, const ewa_transfer *transfer,

@@ -44,6 +44,10 @@ ewa_image scene_draw(ewa_context *context, const ewa_voxels *voxels, const ewa_c
 ewa_image scene_draw_reference(const ewa_volume *volume, const ewa_transfer *transfer,
                                const ewa_camera *camera, const ewa_volume_options *options);
 
+/// The share of points in what a picture draws. Ends the program on failure.
+double scene_point_share(ewa_context *context, const ewa_voxels *voxels, const ewa_camera *camera,
+                         const ewa_volume_options *options);
+
 /// Voxels with the default options. Ends the program on failure.
 ewa_voxels *scene_voxels(const ewa_volume *volume, const ewa_transfer *transfer);
 
