@@ -201,42 +201,7 @@ static void test_automatic(void **state) {
         assert_true(fabs(shifted.points[i].value + 5100 - transfer.points[i].value) < 1e-6);
         assert_true(shifted.points[i].extinction == transfer.points[i].extinction);
     }
-    // What can be seen has a box; nothing is empty all over.
-    ewa_bounds bounds;
-    assert_int_equal(ewa_volume_measure_visible(&volume, &transfer, 0, &bounds), EWA_OK);
-    assert_true(bounds.finite_count > 1000 && bounds.high_world[2] == 8 && bounds.low_world[2] < 8);
     ewa_volume_free(&other);
-    ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
-}
-
-static void test_visible_box(void **state) {
-    (void)state;
-    ewa_context *context = check_context(1, NULL);
-    ewa_volume volume;
-    assert_int_equal(ewa_volume_create(context, (const uint32_t[3]){20, 20, 20}, EWA_U8, &volume), EWA_OK);
-    static const double place[12] = {0, -2, 0, 10, 1, 0, 0, 20, 0, 0, 3, 30};
-    memcpy(volume.index_to_world, place, sizeof place);
-    uint8_t *voxels = volume.voxels;
-    for (int k = 5; k < 9; k++)
-        for (int j = 2; j < 4; j++)
-            for (int i = 7; i < 17; i++) voxels[400 * k + 20 * j + i] = 200;
-    voxels[399] = 200; // one that strays
-    ewa_transfer transfer = {.point_count = 2};
-    transfer.points[0] = (ewa_transfer_point){100, {1, 1, 1}, 0};
-    transfer.points[1] = (ewa_transfer_point){255, {1, 1, 1}, 1};
-    ewa_bounds bounds;
-    assert_int_equal(ewa_volume_measure_visible(&volume, &transfer, 0.02, &bounds), EWA_OK);
-    assert_int_equal(bounds.finite_count, 81);
-    // x is -2 j + 10, y is i + 20, z is 3 k + 30, each half a voxel wider.
-    assert_true(bounds.low_world[0] == 10 - 2 * 3.5 && bounds.high_world[0] == 10 - 2 * 1.5);
-    assert_true(bounds.low_world[1] == 20 + 6.5 && bounds.high_world[1] == 20 + 16.5);
-    assert_true(bounds.low_world[2] == 30 + 3 * 4.5 && bounds.high_world[2] == 30 + 3 * 8.5);
-    assert_int_equal(ewa_volume_measure_visible(&volume, &transfer, 0, &bounds), EWA_OK);
-    assert_true(bounds.low_world[2] == 30 - 3 * 0.5);
-    memset(voxels, 0, 8000);
-    assert_int_equal(ewa_volume_measure_visible(&volume, &transfer, 0, &bounds), EWA_OK);
-    assert_int_equal(bounds.finite_count, 0);
     ewa_volume_free(&volume);
     ewa_context_destroy(&context);
 }
@@ -301,15 +266,11 @@ static void test_failing_allocations(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_opacity),
-        cmocka_unit_test(test_known_file),
-        cmocka_unit_test(test_broken_files),
-        cmocka_unit_test(test_every_truncation_fails),
-        cmocka_unit_test(test_too_many_points),
-        cmocka_unit_test(test_automatic),
-        cmocka_unit_test(test_visible_box),
-        cmocka_unit_test(test_presets),
-        cmocka_unit_test(test_failing_allocations),
+        cmocka_unit_test(test_opacity),         cmocka_unit_test(test_known_file),
+        cmocka_unit_test(test_broken_files),    cmocka_unit_test(test_every_truncation_fails),
+        cmocka_unit_test(test_too_many_points), cmocka_unit_test(test_automatic),
+
+        cmocka_unit_test(test_presets),         cmocka_unit_test(test_failing_allocations),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

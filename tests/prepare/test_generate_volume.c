@@ -123,6 +123,49 @@ static void test_vessels(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// The box of an outline.
+static ewa_bounds outline_box(const ewa_volume *volume, const ewa_transfer *transfer, double share) {
+    ewa_cloud *cloud = NULL;
+    ewa_bounds bounds;
+    assert_int_equal(ewa_volume_outline(volume, transfer, share, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_measure(cloud, &bounds), EWA_OK);
+    ewa_cloud_destroy(&cloud);
+    return bounds;
+}
+
+static void test_outline(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    ewa_volume volume;
+    assert_int_equal(ewa_volume_create(context, (const uint32_t[3]){20, 20, 20}, EWA_U8, &volume), EWA_OK);
+    static const double place[12] = {0, -2, 0, 10, 1, 0, 0, 20, 0, 0, 3, 30};
+    memcpy(volume.index_to_world, place, sizeof place);
+    uint8_t *voxels = volume.voxels;
+    for (int k = 5; k < 9; k++)
+        for (int j = 2; j < 4; j++)
+            for (int i = 7; i < 17; i++) voxels[400 * k + 20 * j + i] = 200;
+    voxels[399] = 200; // one that strays
+    ewa_transfer transfer = {.point_count = 2};
+    transfer.points[0] = (ewa_transfer_point){100, {1, 1, 1}, 0};
+    transfer.points[1] = (ewa_transfer_point){255, {1, 1, 1}, 1};
+    ewa_bounds bounds = outline_box(&volume, &transfer, 0.02);
+    assert_int_equal(bounds.finite_count, 2 * 8); // two for each of 4 x 2 rows
+    // x is -2 j + 10, y is i + 20, z is 3 k + 30, each half a voxel wider.
+    assert_true(bounds.low_world[0] == 10 - 2 * 3.5 && bounds.high_world[0] == 10 - 2 * 1.5);
+    assert_true(bounds.low_world[1] == 20 + 6.5 && bounds.high_world[1] == 20 + 16.5);
+    assert_true(bounds.low_world[2] == 30 + 3 * 4.5 && bounds.high_world[2] == 30 + 3 * 8.5);
+    bounds = outline_box(&volume, &transfer, 0);
+    assert_int_equal(bounds.finite_count, 2 * 9);
+    assert_true(bounds.low_world[2] == 30 - 3 * 0.5);
+    // Faint matter counts when there is no other.
+    for (int i = 0; i < 8000; i++) voxels[i] = voxels[i] ? 101 : 0;
+    assert_int_equal(outline_box(&volume, &transfer, 0).finite_count, 2 * 9);
+    memset(voxels, 0, 8000);
+    assert_int_equal(outline_box(&volume, &transfer, 0).finite_count, 0);
+    ewa_volume_free(&volume);
+    ewa_context_destroy(&context);
+}
+
 static void test_bad_options(void **state) {
     (void)state;
     ewa_context *context = check_context(1, NULL);
@@ -151,7 +194,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_line_integrals), cmocka_unit_test(test_checkerbox),
         cmocka_unit_test(test_same_bytes),     cmocka_unit_test(test_vessels),
-        cmocka_unit_test(test_bad_options),
+        cmocka_unit_test(test_bad_options),    cmocka_unit_test(test_outline),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
