@@ -105,13 +105,14 @@ static double look_up(const ewa_transfer *transfer, double value, double color[3
     return (double)a->extinction + t * ((double)b->extinction - (double)a->extinction);
 }
 
-bool ewa_classifier_sees(const ewa_classifier *classifier, double value) {
+/// Whether a value can be seen where the gradient does not take it away.
+static bool sees(const ewa_classifier *classifier, double value) {
     double color[3];
     return look_up(classifier->transfer, value, color) > 0;
 }
 
 bool ewa_classifier_reaches(const ewa_classifier *classifier, double low, double high) {
-    if (ewa_classifier_sees(classifier, low) || ewa_classifier_sees(classifier, high)) return true;
+    if (sees(classifier, low) || sees(classifier, high)) return true;
     const ewa_transfer *transfer = classifier->transfer;
     for (uint32_t i = 0; i < transfer->point_count; i++) {
         const ewa_transfer_point *p = &transfer->points[i];
@@ -141,18 +142,21 @@ static ewa_vec3 gradient_world(const ewa_classifier *classifier, uint32_t i, uin
     return mat3_mul_vec3(&classifier->world_to_index, vec3_load(slope));
 }
 
-bool ewa_classify(const ewa_classifier *classifier, uint32_t i, uint32_t j, uint32_t k, ewa_voxel *voxel) {
+bool ewa_classify(const ewa_classifier *classifier, uint32_t i, uint32_t j, uint32_t k, bool with_normal,
+                  ewa_voxel *voxel) {
     const ewa_transfer *transfer = classifier->transfer;
     const double value = ewa_volume_value(classifier->volume, i, j, k);
-    double extinction = look_up(transfer, value, voxel->color);
+    const double extinction = look_up(transfer, value, voxel->color);
     if (!(extinction > 0)) return false;
+    voxel->extinction = extinction / classifier->unit_length_world;
+    voxel->normal_world = vec3_make(0, 0, 0);
+    if (!with_normal && !classifier->with_ramp) return voxel->extinction > 0;
     const ewa_vec3 gradient = gradient_world(classifier, i, j, k, value);
     if (classifier->with_ramp) {
         const double low = transfer->gradient_low, high = transfer->gradient_high;
         const double length = vec3_length(gradient);
-        extinction *= length >= high ? 1 : length <= low ? 0 : (length - low) / (high - low);
+        voxel->extinction *= length >= high ? 1 : length <= low ? 0 : (length - low) / (high - low);
     }
-    voxel->extinction = extinction / classifier->unit_length_world;
     voxel->normal_world = vec3_scale(gradient, -1);
     if (!vec3_normalize(&voxel->normal_world)) voxel->normal_world = vec3_make(0, 0, 0);
     return voxel->extinction > 0;

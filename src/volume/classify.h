@@ -37,11 +37,10 @@ double ewa_volume_value(const ewa_volume *volume, uint32_t i, uint32_t j, uint32
 /// Whether a value within [low, high] could be seen.
 bool ewa_classifier_reaches(const ewa_classifier *classifier, double low, double high);
 
-/// Whether a value can be seen where the gradient does not take it away.
-bool ewa_classifier_sees(const ewa_classifier *classifier, double value);
-
-/// Whether the voxel at a place can be seen, and what it looks like then.
-bool ewa_classify(const ewa_classifier *classifier, uint32_t i, uint32_t j, uint32_t k, ewa_voxel *voxel);
+/// Whether the voxel at a place can be seen, and what it looks like then; without its normal where that is
+/// not asked for.
+bool ewa_classify(const ewa_classifier *classifier, uint32_t i, uint32_t j, uint32_t k, bool with_normal,
+                  ewa_voxel *voxel);
 
 /// The world place of a whole or broken index.
 static inline ewa_vec3 ewa_volume_place(const double index_to_world[12], double i, double j, double k) {

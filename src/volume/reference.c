@@ -256,7 +256,7 @@ static uint64_t gather(const reference *work, splat *splats) {
             for (uint32_t i = 0; i < dims[0]; i++, number++) {
                 ewa_voxel voxel;
                 splat made = {.number = number};
-                if (!ewa_classify(&work->classifier, i, j, k, &voxel)) continue;
+                if (!ewa_classify(&work->classifier, i, j, k, splats != NULL, &voxel)) continue;
                 if (!make_splat(work, &voxel, ewa_grid_place(&work->grid, i, j, k), &made)) continue;
                 if (splats) splats[count] = made;
                 count++;

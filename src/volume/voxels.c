@@ -7,6 +7,7 @@
 // be; here by least and largest value against the transfer function).
 #include "volume/voxels.h"
 #include "base/base.h"
+#include "image/volume.h"
 #include "volume/classify.h"
 #include "volume/options.h"
 
@@ -48,24 +49,42 @@ static void block_place(const uint32_t grid[3], uint64_t block, uint32_t place[3
     place[2] = (uint32_t)(block / grid[0] / grid[1]);
 }
 
-/// Whether no voxel of a block can be seen, by its least and largest value.
-static bool is_empty(const builder *b, const uint32_t place[3]) {
-    const ewa_volume *volume = b->classifier->volume;
-    double low = INFINITY, high = -INFINITY;
-    for (uint32_t k = place[2] * EWA_BLOCK_SIDE; k < (place[2] + 1) * EWA_BLOCK_SIDE && k < volume->dims[2];
-         k++)
-        for (uint32_t j = place[1] * EWA_BLOCK_SIDE;
-             j < (place[1] + 1) * EWA_BLOCK_SIDE && j < volume->dims[1]; j++)
-            for (uint32_t i = place[0] * EWA_BLOCK_SIDE;
-                 i < (place[0] + 1) * EWA_BLOCK_SIDE && i < volume->dims[0]; i++) {
-                const double value = ewa_volume_value(volume, i, j, k);
-                low = value < low ? value : low; // a NaN is no value
-                high = value > high ? value : high;
-            }
-    return !(low <= high) || !ewa_classifier_reaches(b->classifier, low, high);
+/// Calls `row` for every row of a block's values.
+typedef void block_row(void *data, const float *values, uint32_t count);
+
+static void each_row(const ewa_volume *volume, const uint32_t place[3], block_row *row, void *data) {
+    uint32_t first[3], count[3];
+    for (int axis = 0; axis < 3; axis++) {
+        first[axis] = place[axis] * EWA_BLOCK_SIDE;
+        const uint32_t left = volume->dims[axis] - first[axis];
+        count[axis] = left < EWA_BLOCK_SIDE ? left : EWA_BLOCK_SIDE;
+    }
+    float values[EWA_BLOCK_SIDE];
+    for (uint32_t k = first[2]; k < first[2] + count[2]; k++)
+        for (uint32_t j = first[1]; j < first[1] + count[1]; j++) {
+            const uint64_t at = ((uint64_t)k * volume->dims[1] + j) * volume->dims[0] + first[0];
+            ewa_volume_read(volume, at, count[0], values);
+            row(data, values, count[0]);
+        }
 }
 
-static void gather_values(const builder *b, const uint32_t place[3], open_block *open) {
+static void widen_range(void *data, const float *values, uint32_t count) {
+    float *range = data;
+    for (uint32_t i = 0; i < count; i++) {
+        range[0] = values[i] < range[0] ? values[i] : range[0]; // a NaN is no value
+        range[1] = values[i] > range[1] ? values[i] : range[1];
+    }
+}
+
+/// Whether no voxel of a block can be seen, by its least and largest value.
+static bool is_empty(const builder *b, const uint32_t place[3]) {
+    float range[2] = {INFINITY, -INFINITY};
+    each_row(b->classifier->volume, place, widen_range, range);
+    return !(range[0] <= range[1]) ||
+           !ewa_classifier_reaches(b->classifier, (double)range[0], (double)range[1]);
+}
+
+static void gather_values(const builder *b, const uint32_t place[3], bool with_normals, open_block *open) {
     const uint32_t *dims = b->classifier->volume->dims;
     open->count = 0;
     for (uint32_t n = 0; n < EWA_BLOCK_VOXELS; n++) {
@@ -74,7 +93,7 @@ static void gather_values(const builder *b, const uint32_t place[3], open_block 
         const uint32_t j = place[1] * EWA_BLOCK_SIDE + (at >> 3 & 7);
         const uint32_t k = place[2] * EWA_BLOCK_SIDE + (at >> 6);
         if (i >= dims[0] || j >= dims[1] || k >= dims[2]) continue;
-        if (!ewa_classify(b->classifier, i, j, k, &open->voxels[open->count])) continue;
+        if (!ewa_classify(b->classifier, i, j, k, with_normals, &open->voxels[open->count])) continue;
         // What the resident float would round to nothing is nothing.
         if ((float)open->voxels[open->count].extinction > 0) open->places[open->count++] = at;
     }
@@ -128,13 +147,13 @@ static void gather_finer(const builder *b, const uint32_t place[3], open_block *
     }
 }
 
-static void gather(const builder *b, uint64_t block, open_block *open) {
+static void gather(const builder *b, uint64_t block, bool with_normals, open_block *open) {
     uint32_t place[3];
     block_place(b->grid, block, place);
     if (b->fine)
         gather_finer(b, place, open);
     else
-        gather_values(b, place, open);
+        gather_values(b, place, with_normals, open);
 }
 
 static void count_row(void *data, uint32_t index, uint32_t worker) {
@@ -146,7 +165,7 @@ static void count_row(void *data, uint32_t index, uint32_t worker) {
         block_place(b->grid, block, place);
         b->skipped[block] = !b->fine && is_empty(b, place);
         open.count = 0;
-        if (!b->skipped[block]) gather(b, block, &open);
+        if (!b->skipped[block]) gather(b, block, false, &open);
         b->counts[block] = (uint16_t)open.count;
     }
 }
@@ -184,7 +203,7 @@ static void fill_row(void *data, uint32_t index, uint32_t worker) {
     open_block open;
     for (uint64_t block = (uint64_t)index * b->grid[0]; block < ((uint64_t)index + 1) * b->grid[0]; block++) {
         if (b->block_of[block] == NO_BLOCK) continue;
-        gather(b, block, &open);
+        gather(b, block, true, &open);
         pack(b, &open, &b->level->blocks[b->block_of[block]]);
     }
 }

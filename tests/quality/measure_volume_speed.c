@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // How fast volumes are drawn: a gyroid whose walls take up a tenth of the voxels, from 64^3 to 512^3, at
-// 400x400, transparent and nearly opaque. Prints the table of docs/volume.md.
+// 400x400, transparent and nearly opaque, seen as VTK frames it (its sphere in 30 degrees) and from near.
+// Prints the table of docs/volume.md.
 //
-// measure_volume_speed [SIDE [TRANSPARENT EXTINCTION]]
+// measure_volume_speed [SIDE [EXTINCTION [near]]]
 #include "base/base.h"
 #include "ewa/ewa.h"
 #include "volume/scene.h"
@@ -42,7 +43,7 @@ static ewa_volume make_volume(ewa_context *context, uint32_t side) {
     return volume;
 }
 
-static void measure(ewa_context *context, uint32_t side, float extinction) {
+static void measure(ewa_context *context, uint32_t side, float extinction, bool near, uint32_t side_px) {
     static const double direction[3] = {0.5, 0.35, -1};
     ewa_volume volume = make_volume(context, side);
     ewa_transfer transfer = {.point_count = 3};
@@ -54,9 +55,10 @@ static void measure(ewa_context *context, uint32_t side, float extinction) {
     const double made_s = ewa_now_s() - start_s;
     ewa_voxels_info info;
     ewa_voxels_describe(voxels, &info);
-    const ewa_camera camera = scene_camera(SIDE_PX, SIDE_PX, direction, 2.2 * side);
+    ewa_camera camera = scene_camera(side_px, side_px, direction, (near ? 2.2 : 3.35) * side);
+    if (!near && ewa_camera_set_fov(&camera, 30) != EWA_OK) exit(1);
     ewa_volume_renderer *renderer;
-    uint8_t *pixels = malloc(4 * SIDE_PX * SIDE_PX);
+    uint8_t *pixels = malloc(4 * (size_t)side_px * side_px);
     if (!pixels || ewa_volume_renderer_create(context, &renderer) != EWA_OK) exit(1);
     const ewa_frame frame = {.rgba8 = pixels};
     ewa_volume_options options;
@@ -73,10 +75,10 @@ static void measure(ewa_context *context, uint32_t side, float extinction) {
     }
     qsort(times_s, FRAMES, sizeof *times_s, by_value);
     const double voxel_count = (double)info.occupied_count;
-    printf("| %u^3 | %g | %.2f M (%.1f %%) | %.0f %% | %.1f | %.1f | %.1f | %.0f ms |\n", side,
-           (double)extinction, voxel_count * 1e-6, 100 * voxel_count / (double)info.voxel_count,
-           100 * stats.point_share, times_s[FRAMES / 4] * 1e3, times_s[FRAMES / 4] * 1e9 / voxel_count,
-           (double)info.resident_bytes / voxel_count, made_s * 1e3);
+    printf("| %u³ | %g | %s, %u px | %.2f M (%.1f %%) | %.0f %% | %.1f | %.1f | %.1f | %.0f ms |\n", side,
+           (double)extinction, near ? "near" : "whole", side_px, voxel_count * 1e-6,
+           100 * voxel_count / (double)info.voxel_count, 100 * stats.point_share, times_s[FRAMES / 4] * 1e3,
+           times_s[FRAMES / 4] * 1e9 / voxel_count, (double)info.resident_bytes / voxel_count, made_s * 1e3);
     printf(
         "<!-- thread ms: bin %.1f, set-up %.1f, points %.1f, splats %.1f, resolve %.1f; hidden %.2f M -->\n",
         stats.bin_s * 1e3, stats.setup_s * 1e3, stats.points_s * 1e3, stats.splats_s * 1e3,
@@ -90,15 +92,21 @@ static void measure(ewa_context *context, uint32_t side, float extinction) {
 int main(int argc, char **argv) {
     ewa_context *context;
     if (ewa_context_create(NULL, &context) != EWA_OK) return 1;
-    printf("| volume | extinction | occupied | points | ms | ns per voxel | bytes per voxel | made in |\n"
-           "|---|---|---|---|---|---|---|---|\n");
+    printf(
+        "| volume | extinction | view | occupied | points | ms | ns per voxel | bytes per voxel | made in |\n"
+        "|---|---|---|---|---|---|---|---|---|\n");
     if (argc > 1) {
-        measure(context, (uint32_t)atoi(argv[1]), argc > 2 ? (float)atof(argv[2]) : 0.02f);
+        measure(context, (uint32_t)atoi(argv[1]), argc > 2 ? (float)atof(argv[2]) : 0.02f, argc > 3, SIDE_PX);
     } else {
-        for (uint32_t side = 64; side <= 512; side *= 2) {
-            measure(context, side, 0.02f);
-            measure(context, side, 1);
+        for (int near = 0; near < 2; near++) {
+            measure(context, 256, 0.02f, near, SIDE_PX);
+            measure(context, 256, 1, near, SIDE_PX);
         }
+        // Voxels as large on the screen whatever their number, then a picture of one size.
+        for (uint32_t side = 64; side <= 512; side *= 2)
+            measure(context, side, 0.02f, false, SIDE_PX * side / 256);
+        for (uint32_t side = 64; side <= 512; side *= 2)
+            if (side != 256) measure(context, side, 0.02f, false, SIDE_PX);
     }
     ewa_context_destroy(&context);
     return 0;

@@ -54,17 +54,10 @@ static void save(ewa_image *const images[], uint32_t count, const char *folder, 
     ewa_image_free(&row);
 }
 
-int main(int argc, char **argv) {
-    static const uint32_t dims[3] = {128, 128, 128};
-    static const double spacing[3] = {1, 1, 1}, direction[3] = {0.4, 0.25, -1}, half = 56;
-    ewa_context *context;
-    check(ewa_context_create(NULL, &context));
-    ewa_volume volume = scene_volume(context, dims, spacing, scene_vessels, &half);
-    const ewa_transfer transfer = scene_linear(0.95f, 0.45f, 0.3f, 1.5f);
-    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
-    printf(
-        "| px per voxel | hybrid | all splats | all splats, no filter | all points | points in the hybrid |\n"
-        "|---|---|---|---|---|---|\n");
+static void zoom(ewa_context *context, const ewa_volume *volume, float extinction, const char *folder) {
+    static const double direction[3] = {0.4, 0.25, -1};
+    const ewa_transfer transfer = scene_linear(0.95f, 0.45f, 0.3f, extinction);
+    ewa_voxels *voxels = scene_voxels(volume, &transfer);
     for (double pixels = 3; pixels > 0.1; pixels /= sqrt(2)) {
         ewa_camera camera = scene_camera(SIDE_PX, SIDE_PX, direction, 1);
         const double distance = camera.fy_px / pixels;
@@ -83,14 +76,27 @@ int main(int argc, char **argv) {
             check(ewa_image_compare(&drawn[m], &truth, 1, 0, &difference, NULL));
             psnr_db[m] = difference.psnr_db;
         }
-        printf("| %.2f | %.1f | %.1f | %.1f | %.1f | %.0f %% |\n", pixels, psnr_db[0], psnr_db[1], psnr_db[2],
-               psnr_db[3], 100 * share);
+        printf("| %g | %.2f | %.1f | %.1f | %.1f | %.1f | %.0f %% |\n", (double)extinction, pixels,
+               psnr_db[0], psnr_db[1], psnr_db[2], psnr_db[3], 100 * share);
         ewa_image *const row[] = {&truth, &drawn[0], &drawn[2], &drawn[3]};
-        if (argc > 1) save(row, 4, argv[1], pixels);
+        if (folder) save(row, 4, folder, pixels);
         ewa_image_free(&truth);
         for (int m = 0; m < METHODS; m++) ewa_image_free(&drawn[m]);
     }
     ewa_voxels_destroy(&voxels);
+}
+
+int main(int argc, char **argv) {
+    static const uint32_t dims[3] = {128, 128, 128};
+    static const double spacing[3] = {1, 1, 1}, half = 56;
+    ewa_context *context;
+    check(ewa_context_create(NULL, &context));
+    ewa_volume volume = scene_volume(context, dims, spacing, scene_vessels, &half);
+    printf(
+        "| extinction per voxel | px per voxel | hybrid | all splats | all splats, no filter | all points | "
+        "points in the hybrid |\n|---|---|---|---|---|---|---|\n");
+    zoom(context, &volume, 0.3f, argc > 1 ? argv[1] : NULL);
+    zoom(context, &volume, 1.5f, NULL);
     ewa_volume_free(&volume);
     ewa_context_destroy(&context);
     return 0;
