@@ -101,7 +101,7 @@ static bool classify(cli_session *session, const ewa_volume *volume, const ewa_t
     const double started_s = clock_now_s();
     ewa_status status = ewa_voxels_create(volume, transfer, &options, &scene->voxels);
     scene->classify_s = clock_now_s() - started_s;
-    if (status == EWA_OK) status = ewa_volume_measure_visible(volume, transfer, NOISE_SHARE, &scene->bounds);
+    if (status == EWA_OK) status = ewa_volume_outline(volume, transfer, NOISE_SHARE, &scene->outline);
     if (status != EWA_OK) {
         session_failed(session, status);
         return false;
@@ -133,42 +133,41 @@ bool volume_scene_load(cli_session *session, const volume_input_arguments *input
 void volume_scene_free(volume_scene *scene) {
     ewa_voxels_destroy(&scene->voxels);
     ewa_surfels_destroy(&scene->surfels);
+    ewa_cloud_destroy(&scene->outline);
 }
 
-/// A box that holds everything; false when there is nothing.
-static bool find_box(const volume_scene *scene, ewa_bounds *box) {
-    const ewa_bounds *parts[] = {&scene->bounds, scene->surfels ? &scene->surfels_bounds : NULL};
-    *box = (ewa_bounds){.finite_count = 0};
-    for (int i = 0; i < 2; i++) {
-        if (!parts[i] || !parts[i]->finite_count) continue;
-        for (int k = 0; k < 3; k++) {
-            const double low = parts[i]->low_world[k], high = parts[i]->high_world[k];
-            box->low_world[k] = box->finite_count ? fmin(box->low_world[k], low) : low;
-            box->high_world[k] = box->finite_count ? fmax(box->high_world[k], high) : high;
-        }
-        box->finite_count += parts[i]->finite_count;
+/// Adds the corners of the surfaces' box, or of any box when there is nothing at all, to the outline of the
+/// volume. NULL after reporting.
+static ewa_cloud *make_outline(cli_session *session, const volume_scene *scene) {
+    const ewa_bounds *box = &scene->surfels_bounds;
+    static const ewa_bounds any = {.low_world = {-1, -1, -1}, .high_world = {1, 1, 1}};
+    const bool surfels = scene->surfels && box->finite_count;
+    const uint64_t count = ewa_cloud_point_count(scene->outline);
+    if (!surfels && !count) box = &any;
+    const uint64_t corners = surfels || !count ? CORNERS : 0;
+    ewa_cloud *cloud = NULL;
+    void *data = NULL;
+    ewa_status status = ewa_cloud_create(session->context, count + corners, &cloud);
+    if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &data);
+    if (status != EWA_OK) {
+        session_failed(session, status);
+        ewa_cloud_destroy(&cloud);
+        return NULL;
     }
-    return box->finite_count > 0;
+    double *positions = data;
+    ewa_attribute_read_f64(ewa_cloud_find(scene->outline, EWA_POSITION), 0, count, positions);
+    positions += 3 * count;
+    for (uint64_t i = 0; i < corners; i++)
+        for (int k = 0; k < 3; k++)
+            positions[3 * i + (uint64_t)k] = i >> k & 1 ? box->high_world[k] : box->low_world[k];
+    return cloud;
 }
 
 bool volume_scene_frame(cli_session *session, const frames_arguments *arguments, const volume_scene *scene,
                         frame_cameras *frames) {
     *frames = (frame_cameras){.count = 0};
-    ewa_bounds box;
-    if (!find_box(scene, &box)) box = (ewa_bounds){.low_world = {-1, -1, -1}, .high_world = {1, 1, 1}};
-    ewa_cloud *cloud = NULL;
-    void *data = NULL;
-    ewa_status status = ewa_cloud_create(session->context, CORNERS, &cloud);
-    if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &data);
-    if (status != EWA_OK) {
-        session_failed(session, status);
-        ewa_cloud_destroy(&cloud);
-        return false;
-    }
-    double *positions = data;
-    for (int i = 0; i < CORNERS; i++)
-        for (int k = 0; k < 3; k++)
-            positions[3 * i + k] = i >> k & 1 ? box.high_world[k] : box.low_world[k];
+    ewa_cloud *cloud = make_outline(session, scene);
+    if (!cloud) return false;
     // Scanners' volumes stand on z, whatever their proportions.
     frames_arguments chosen = *arguments;
     chosen.view.up_axis = 2;

@@ -18,7 +18,7 @@ typedef struct volume_scene_arguments {
 typedef struct volume_scene {
     ewa_voxels *voxels;
     ewa_voxels_info info;
-    ewa_bounds bounds; ///< of what can be seen of it
+    ewa_cloud *outline;   ///< of what can be seen of it
     ewa_surfels *surfels; ///< NULL: none
     ewa_bounds surfels_bounds;
     bool flat; ///< the transfer function is one of those that look best without light

@@ -126,9 +126,9 @@ EWA_API ewa_status ewa_materials_load(ewa_context *context, const char *path,
 /// What a volume file does not say itself. Fill with ewa_volume_load_options_init().
 typedef struct ewa_volume_load_options {
     size_t struct_size;
-    uint32_t dims[3]; ///< given: the file is raw numbers, x fastest; default zeros: as the file says
-    int type;         ///< ewa_type of raw numbers; default -1: from the file's name, or EWA_U8
-    bool big_endian;  ///< of raw numbers; default false
+    uint32_t dims[3];        ///< given: the file is raw numbers, x fastest; default zeros: as the file says
+    int type;                ///< ewa_type of raw numbers; default -1: from the file's name, or EWA_U8
+    bool big_endian;         ///< of raw numbers; default false
     uint64_t header_bytes;   ///< in front of raw numbers; default 0
     double spacing_world[3]; ///< distances of voxels, of every format; default zeros: as the file says, or 1
 } ewa_volume_load_options;
@@ -136,7 +136,8 @@ typedef struct ewa_volume_load_options {
 EWA_API void ewa_volume_load_options_init(ewa_volume_load_options *options, size_t struct_size);
 
 /// Reads a volume, the format by content; "-" reads standard input:
-/// - NRRD, attached and detached (.nhdr): encodings raw, gzip, bzip2, ascii, hex; lists and patterns of files;
+/// - NRRD, attached and detached (.nhdr): encodings raw, gzip, bzip2, ascii, hex; lists and patterns of
+/// files;
 /// - NIfTI-1 and -2 and Analyze: .nii, .nii.gz, pairs .hdr and .img; sform before qform; slope and intercept;
 /// - MetaImage: .mha, .mhd; zlib; lists and patterns of files;
 /// - VTK: legacy structured points, and .vti with appended raw data, plain or zlib;

@@ -233,7 +233,8 @@ typedef enum ewa_volume_object {
     EWA_VOLUME_BLOB = 1,
     /// F32: (1 - r^2 / R^2)^2 within R = 0.4 s. A line at distance d < R: 16/15 (R^2 - d^2)^(5/2) / R^4
     EWA_VOLUME_BALL = 2,
-    /// U8: a tree of thin tubes of radii from s / 40 down to s / 250, 255 in their middles
+    /// U8: a tree of thin tubes of radii from s / 40 down to s / 250, 255 in their middles; those thinner than
+    /// 0.9 voxels are that wide and as much fainter
     EWA_VOLUME_VESSELS = 3,
 } ewa_volume_object;
 
@@ -254,6 +255,14 @@ EWA_API void ewa_volume_generate_options_init(ewa_volume_generate_options *optio
 /// EWA_ERROR_MEMORY, EWA_CANCELLED.
 EWA_API ewa_status ewa_volume_generate(ewa_context *context, const ewa_volume_generate_options *options,
                                        ewa_volume *volume);
+
+/// Makes a cloud of the outermost places of a volume that a transfer function lets see, two for each row of
+/// voxels that has any: what a camera has to have in its picture. Veils count as much as what is dense;
+/// `left_out_share` ([0, 0.4]) of all that can be seen may lie beyond each side of the box that is looked
+/// into, since volumes have noise everywhere. The caller owns `*cloud`, which has positions only (F64) and no
+/// point when nothing can be seen. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_volume_outline(const ewa_volume *volume, const ewa_transfer *transfer,
+                                      double left_out_share, ewa_cloud **cloud);
 
 #ifdef __cplusplus
 }

@@ -82,13 +82,6 @@ EWA_API const char *ewa_transfer_preset_name(uint32_t index, const char **what);
 EWA_API ewa_status ewa_transfer_preset(const ewa_volume *volume, const ewa_volume_facts *facts,
                                        const char *name, ewa_transfer *transfer);
 
-/// Measures the box around what a transfer function lets see, its veils counting as much as what is dense, up
-/// to the outermost half voxel: `left_out_share` ([0, 0.4]) of it may lie beyond each side, since volumes have
-/// noise everywhere. `bounds->finite_count` is the count of voxels that can be seen; all zero without any.
-/// Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_MEMORY.
-EWA_API ewa_status ewa_volume_measure_visible(const ewa_volume *volume, const ewa_transfer *transfer,
-                                              double left_out_share, ewa_bounds *bounds);
-
 /// Checks what ewa_transfer says of its members; `name` is for the message. Errors: EWA_ERROR_ARGUMENT.
 EWA_API ewa_status ewa_transfer_check(ewa_context *context, const char *name, const ewa_transfer *transfer);
 

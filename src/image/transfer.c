@@ -26,11 +26,16 @@ double ewa_extinction_of_opacity(double opacity) {
     double left = 1 - opacity;
     if (!(left > 0x1p-20)) left = 0x1p-20;
     int exponent;
-    // log m = 2 artanh((m - 1) / (m + 1)), by its series: |s| <= 1/3.
-    const double m = frexp(left, &exponent), s = (m - 1) / (m + 1), ss = s * s;
+    double m = frexp(left, &exponent);
+    if (m < 0.7071067811865476) {
+        m *= 2;
+        exponent--;
+    }
+    // log m = 2 artanh((m - 1) / (m + 1)), by its series: |s| < 0.172.
+    const double s = (m - 1) / (m + 1), ss = s * s;
     double sum = 0;
-    for (int k = 33; k >= 1; k -= 2) sum = sum * ss + 1.0 / k;
-    return -(2 * s * sum + 0.6931471805599453 * exponent);
+    for (int k = 21; k >= 1; k -= 2) sum = sum * ss + 1.0 / k;
+    return 0 - (2 * s * sum + 0.6931471805599453 * exponent);
 }
 
 void ewa_transfer_add(ewa_transfer *transfer, double value, uint32_t srgb, double extinction) {
@@ -141,6 +146,11 @@ static double extinction_for(const ewa_volume_facts *facts, int first, int last,
     return path_units > 0 ? fmin(fmax(depth / path_units, LEAST), SOLID) : SOLID;
 }
 
+/// The value in the middle of a bin; never beyond the range, whatever is rounded.
+static double value_at(const ewa_volume_facts *facts, double bin) {
+    return fmin(facts->low + (facts->high - facts->low) * bin / (BINS - 1), facts->high);
+}
+
 ewa_status ewa_transfer_automatic(const ewa_volume *volume, const ewa_volume_facts *facts,
                                   ewa_transfer *transfer) {
     if (!volume || !facts || !transfer) return EWA_ERROR_ARGUMENT;
@@ -150,15 +160,14 @@ ewa_status ewa_transfer_automatic(const ewa_volume *volume, const ewa_volume_fac
     smooth(facts->histogram, smoothed);
     const int empty = find_empty_end(smoothed);
     const int body = split(facts->histogram, empty), solid = split(facts->histogram, body);
-    const double step = (facts->high - facts->low) / (BINS - 1);
     const double veil = fmin(extinction_for(facts, empty, body, VEIL_DEPTH), THICK),
                  inner = fmax(extinction_for(facts, body, solid, BODY_DEPTH), veil);
     *transfer = (ewa_transfer){.unit_length_world = ewa_transfer_unit(facts)};
     const double edge = 0.5 * (empty + body), middle = 0.5 * (body + solid), top = 0.5 * (solid + BINS - 1);
-    ewa_transfer_add(transfer, facts->low + step * empty, VEIL_COLOR, 0);
-    ewa_transfer_add(transfer, facts->low + step * edge, VEIL_COLOR, veil);
-    ewa_transfer_add(transfer, facts->low + step * middle, BODY_COLOR, inner);
-    ewa_transfer_add(transfer, facts->low + step * top, SOLID_COLOR, fmax(SOLID, inner));
+    ewa_transfer_add(transfer, value_at(facts, empty), VEIL_COLOR, 0);
+    ewa_transfer_add(transfer, value_at(facts, edge), VEIL_COLOR, veil);
+    ewa_transfer_add(transfer, value_at(facts, middle), BODY_COLOR, inner);
+    ewa_transfer_add(transfer, value_at(facts, top), SOLID_COLOR, fmax(SOLID, inner));
     ewa_transfer_add(transfer, facts->high, SOLID_COLOR, fmax(SOLID, inner));
     return EWA_OK;
 }

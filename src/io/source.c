@@ -25,6 +25,7 @@ struct ewa_source {
     size_t left_bytes;
     bool started;  // the library's state is there
     bool finished; // the last stream ended
+    bool settling; // no further stream is begun
     bool memory;   // an allocation failed
     z_stream deflate;
     bz_stream bzip2;
@@ -135,7 +136,7 @@ static ewa_status fail(ewa_source *source, const char *what) {
 static ewa_status read_streams(ewa_source *source, uint8_t *to, size_t size_bytes, size_t *got_bytes) {
     while (*got_bytes < size_bytes) {
         if (source->finished) {
-            if (!next_stream_begins(source)) return EWA_OK;
+            if (source->settling || !next_stream_begins(source)) return EWA_OK;
             end_stream(source);
         }
         if (!source->started && !start_stream(source)) return fail(source, "the decompressor does not start");
@@ -192,6 +193,18 @@ ewa_status ewa_source_read(ewa_source *source, void *to, size_t size_bytes, size
     source->next += *got_bytes;
     source->left_bytes -= *got_bytes;
     return EWA_OK;
+}
+
+ewa_status ewa_source_settle(ewa_source *source, bool *more) {
+    const bool streams = source->packing == EWA_PACKING_DEFLATE || source->packing == EWA_PACKING_BZIP2;
+    uint8_t next;
+    size_t got = 0;
+    ewa_status status = EWA_OK;
+    // What begins behind a finished stream is not looked into: it may be something else.
+    source->settling = true;
+    if (!streams || !source->finished) status = ewa_source_read(source, &next, 1, &got);
+    *more = got > 0 || (streams && next_stream_begins(source));
+    return status;
 }
 
 void ewa_source_close(ewa_source **source) {

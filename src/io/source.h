@@ -27,6 +27,10 @@ ewa_status ewa_source_open(ewa_context *context, const char *name, ewa_packing p
 /// data that are broken or end early), EWA_ERROR_MEMORY.
 ewa_status ewa_source_read(ewa_source *source, void *to, size_t size_bytes, size_t *got_bytes);
 
+/// Goes to the end of a packed stream whose bytes were all read, so that its checksum is looked at; `*more`:
+/// there were bytes left to read, of this stream or of others. Errors as ewa_source_read().
+ewa_status ewa_source_settle(ewa_source *source, bool *more);
+
 /// Frees the source and sets `*source` to NULL; accepts a pointer to NULL.
 void ewa_source_close(ewa_source **source);
 

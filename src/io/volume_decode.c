@@ -189,19 +189,16 @@ static ewa_status open_piece(decoder *job) {
     return status == EWA_OK ? skip_bytes(job, header->skipped_bytes) : status;
 }
 
-/// After the last number of a piece: says when more follow.
+/// After the last number of a piece: what packs it must end well, and nothing may follow where the header
+/// says all.
 static ewa_status close_piece(decoder *job) {
-    uint8_t more[8];
-    size_t got = 0;
-    ewa_status status = EWA_OK;
-    if (job->source && job->header->exact) {
-        status = ewa_source_read(job->source, more, sizeof more, &got);
-        if (status == EWA_OK && got)
-            status = ewa_volume_fail(
-                job->in, EWA_ERROR_FORMAT, "more bytes than %llu x %llu x %llu voxels of %s need",
-                (unsigned long long)job->header->dims[0], (unsigned long long)job->header->dims[1],
-                (unsigned long long)job->header->dims[2], ewa_file_number_name(job->header->number));
-    }
+    bool more = false;
+    ewa_status status = job->source ? ewa_source_settle(job->source, &more) : EWA_OK;
+    if (status == EWA_OK && more && job->header->exact)
+        status = ewa_volume_fail(
+            job->in, EWA_ERROR_FORMAT, "more bytes than %llu x %llu x %llu voxels of %s need",
+            (unsigned long long)job->header->dims[0], (unsigned long long)job->header->dims[1],
+            (unsigned long long)job->header->dims[2], ewa_file_number_name(job->header->number));
     ewa_source_close(&job->source);
     job->piece++;
     return status;
@@ -294,25 +291,24 @@ static void cross3(const double a[3], const double b[3], double c[3]) {
     for (int k = 0; k < 3; k++) c[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
-/// Chooses the steps of axes that the file gives none to (pictures and rows of numbers): of length one,
+/// Chooses the steps of axes that the file does not have (pictures and rows of numbers): of length one,
 /// across the others.
-static void complete_directions(double directions[3][3]) {
-    for (int axis = 0; axis < 3; axis++) {
-        double *d = directions[axis];
-        if (d[0] != 0 || d[1] != 0 || d[2] != 0) continue;
-        const double *a = directions[(axis + 1) % 3], *b = directions[(axis + 2) % 3];
-        if (length3(a) == 0 || length3(b) == 0) {
-            // Only one axis is given: the unit vector that is most across it.
-            const double *given = length3(a) == 0 ? b : a;
-            int across = 0;
-            for (int k = 1; k < 3; k++)
-                if (fabs(given[k]) < fabs(given[across])) across = k;
-            d[across] = 1;
-        } else {
-            cross3(a, b, d);
-            const double length = length3(d);
-            for (int k = 0; k < 3 && length > 0; k++) d[k] /= length;
-        }
+static void complete_directions(uint32_t axis_count, double directions[3][3]) {
+    for (uint32_t axis = axis_count; axis < 3; axis++) memset(directions[axis], 0, sizeof directions[axis]);
+    if (axis_count == 1) {
+        const double *given = directions[0];
+        int across = 0;
+        for (int k = 1; k < 3; k++)
+            if (fabs(given[k]) < fabs(given[across])) across = k;
+        // Across the first axis, as near to an axis of the world as can be.
+        const double length2 = given[0] * given[0] + given[1] * given[1] + given[2] * given[2];
+        for (int k = 0; k < 3 && length2 > 0; k++)
+            directions[1][k] = (k == across) - given[across] * given[k] / length2;
+    }
+    if (axis_count < 3) cross3(directions[0], directions[1], directions[2]);
+    for (uint32_t axis = axis_count; axis < 3; axis++) {
+        const double length = length3(directions[axis]);
+        for (int k = 0; k < 3 && length > 0; k++) directions[axis][k] /= length;
     }
 }
 
@@ -321,7 +317,7 @@ static ewa_status make_place(const ewa_volume_input *in, const ewa_volume_header
                              const double spacing_world[3], double index_to_world[12]) {
     double directions[3][3], across[3];
     memcpy(directions, header->directions, sizeof directions);
-    complete_directions(directions);
+    complete_directions(header->axis_count, directions);
     for (int axis = 0; axis < 3; axis++) {
         const double length = length3(directions[axis]);
         if (!(length > 0) || !isfinite(length) || !isfinite(header->first_world[axis]))

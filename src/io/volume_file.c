@@ -27,7 +27,8 @@ ewa_status ewa_volume_fail(const ewa_volume_input *in, ewa_status status, const 
 }
 
 void ewa_volume_header_init(ewa_volume_header *header) {
-    *header = (ewa_volume_header){.dims = {1, 1, 1}, .component_count = 1, .number = -1, .slope = 1};
+    *header = (ewa_volume_header){
+        .dims = {1, 1, 1}, .component_count = 1, .number = -1, .slope = 1, .axis_count = 3};
     for (int axis = 0; axis < 3; axis++) header->directions[axis][axis] = 1;
 }
 

@@ -39,7 +39,8 @@ typedef struct ewa_volume_header {
     bool at_end;            ///< the voxels are the last bytes of each piece, which is not packed
     bool exact;             ///< bytes beyond the voxels contradict the header
     double slope, intercept;
-    double directions[3][3]; ///< world steps from voxel to voxel along each axis; an axis of zeros: to choose
+    double directions[3][3]; ///< world steps from voxel to voxel along each axis
+    uint32_t axis_count;     ///< those that the file has; the steps of the others are to choose
     double first_world[3];   ///< the first voxel's centre
     bool placed;             ///< first_world is said; else the middle goes to the origin
     ewa_volume_pieces pieces;

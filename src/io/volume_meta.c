@@ -151,7 +151,7 @@ static ewa_status take_axes(meta *file) {
         if (spacing == 0) return ewa_volume_fail(file->in, EWA_ERROR_FORMAT, "MetaImage: a spacing of zero");
         header->first_world[axis] = file->offset[axis];
     }
-    for (uint64_t axis = n; axis < 3; axis++) memset(header->directions[axis], 0, sizeof(double[3]));
+    header->axis_count = n < 3 ? (uint32_t)n : 3;
     header->placed = file->has_offset;
     return EWA_OK;
 }

@@ -198,12 +198,12 @@ static void take_place(const nifti *file, ewa_volume_header *header) {
     } else {
         for (int axis = 0; axis < 3; axis++) m[axis][axis] = fabs(file->steps[axis + 1]);
     }
+    header->axis_count = file->dims[0] < 3 ? (uint32_t)file->dims[0] : 3;
     header->placed = file->sform_code > 0 || file->qform_code > 0;
     for (int k = 0; k < 3; k++) {
         // Without a place nothing says that the axes are a patient's: they stay as they are.
         const double mirror = header->placed && k < 2 ? -1 : 1;
-        for (int axis = 0; axis < 3; axis++)
-            header->directions[axis][k] = axis < file->dims[0] ? mirror * m[k][axis] : 0;
+        for (int axis = 0; axis < 3; axis++) header->directions[axis][k] = mirror * m[k][axis];
         header->first_world[k] = mirror * m[k][3];
     }
 }

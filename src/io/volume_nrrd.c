@@ -299,9 +299,7 @@ static ewa_status sort_axes(nrrd *file) {
         }
     }
     if (!placed) return ewa_volume_fail(file->in, EWA_ERROR_FORMAT, "NRRD: no axis of space");
-    // Those that are missing: ewa_volume_decode() finds directions across the others.
-    for (uint32_t axis = placed; axis < 3; axis++)
-        for (int k = 0; k < 3; k++) header->directions[axis][k] = 0;
+    header->axis_count = placed;
     header->placed = file->has_origin;
     for (int k = 0; k < 3; k++) header->first_world[k] = file->mirror[k] * file->origin[k];
     return EWA_OK;

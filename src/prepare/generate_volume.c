@@ -23,6 +23,9 @@ static const double BOX_HALF = 0.375, BLOB_DEVIATION = 0.1, BALL_RADIUS = 0.4;
 /// The tree: radius and length of the trunk in units of the size, and what becomes of them at each fork.
 static const double TRUNK_RADIUS = 1.0 / 40, TRUNK_LENGTH = 0.26, RADIUS_RATIO = 0.795, LENGTH_RATIO = 0.8;
 
+/// Radius in voxels below which a tube is drawn this wide, and fainter instead, so that it has no gaps.
+static const double LEAST_RADIUS = 0.9;
+
 /// A tube between two places, thinner towards its end; lengths in units of the size.
 typedef struct tube {
     double from[3], along[3], length; // along: unit
@@ -134,30 +137,35 @@ static bool find_voxels(const generator *job, int axis, double a, double b, doub
     return true;
 }
 
-/// Raises a voxel to what a tube has there: 255 in its middle, falling as a parabola.
-static void raise_voxel(const tube *t, const double p[3], uint8_t *voxel) {
+/// Raises a voxel to what a tube has there: 255 in its middle, falling as a parabola. `least_radius`: see
+/// LEAST_RADIUS.
+static void raise_voxel(const tube *t, double least_radius, const double p[3], uint8_t *voxel) {
     double from[3], along = 0, distance2 = 0;
     for (int k = 0; k < 3; k++) {
         from[k] = p[k] - t->from[k];
         along += from[k] * t->along[k];
     }
     along = along < 0 ? 0 : along > t->length ? t->length : along;
-    const double radius = t->radius * (1 + (RADIUS_RATIO - 1) * along / t->length);
+    const double true_radius = t->radius * (1 + (RADIUS_RATIO - 1) * along / t->length);
+    const double radius = true_radius > least_radius ? true_radius : least_radius;
+    const double share = true_radius / radius;
     for (int k = 0; k < 3; k++) {
         const double off = from[k] - along * t->along[k];
         distance2 += off * off;
     }
-    const double value = 255 * (1 - distance2 / (radius * radius)) + 0.5;
+    const double value = 255 * share * share * (1 - distance2 / (radius * radius)) + 0.5;
     if (value > *voxel) *voxel = (uint8_t)value;
 }
 
 static void draw_tube(const generator *job, const tube *t) {
     uint32_t x[2], y[2], z[2];
+    const double least_radius = LEAST_RADIUS * job->step;
+    const double reach = t->radius > least_radius ? t->radius : least_radius;
     double end[3], p[3];
     for (int k = 0; k < 3; k++) end[k] = t->from[k] + t->length * t->along[k];
-    if (!find_voxels(job, 0, t->from[0], end[0], t->radius, x) ||
-        !find_voxels(job, 1, t->from[1], end[1], t->radius, y) ||
-        !find_voxels(job, 2, t->from[2], end[2], t->radius, z))
+    if (!find_voxels(job, 0, t->from[0], end[0], reach, x) ||
+        !find_voxels(job, 1, t->from[1], end[1], reach, y) ||
+        !find_voxels(job, 2, t->from[2], end[2], reach, z))
         return;
     const uint32_t *dims = job->volume->dims;
     uint8_t *voxels = job->volume->voxels;
@@ -167,7 +175,7 @@ static void draw_tube(const generator *job, const tube *t) {
                 p[0] = job->first[0] + i * job->step;
                 p[1] = job->first[1] + j * job->step;
                 p[2] = job->first[2] + k * job->step;
-                raise_voxel(t, p, voxels + ((size_t)k * dims[1] + j) * dims[0] + i);
+                raise_voxel(t, least_radius, p, voxels + ((size_t)k * dims[1] + j) * dims[0] + i);
             }
 }
 
