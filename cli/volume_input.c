@@ -26,9 +26,9 @@ bool volume_input_check(const volume_input_arguments *arguments, char message[OP
 }
 
 bool volume_input_is_named(const char *path) {
-    static const char *const suffixes[] = {".nrrd", ".nhdr",   ".nii",   ".nii.gz", ".mha",
-                                           ".mhd",  ".raw",    ".vti",   ".vtk",    ".raw.gz",
-                                           ".img",  ".img.gz", ".hdr.gz"};
+    static const char *const suffixes[] = {".nrrd", ".nhdr",   ".nii", ".nii.gz", ".mha",
+                                           ".mhd",  ".raw",    ".vti", ".vtk",    ".raw.gz",
+                                           ".img",  ".img.gz", ".hdr", ".hdr.gz"};
     const size_t length = strlen(path);
     for (size_t i = 0; i < sizeof suffixes / sizeof suffixes[0]; i++) {
         const size_t suffix = strlen(suffixes[i]);

@@ -6,6 +6,7 @@
 #include "inputs.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { BINS = 256, CORNERS = 8, VIEW_FRONT = 0 };
@@ -18,6 +19,17 @@ bool volume_scene_is_preset(const char *word) {
     for (uint32_t i = 0; (name = ewa_transfer_preset_name(i, NULL)); i++)
         if (strcmp(name, word) == 0) return true;
     return false;
+}
+
+/// Says what else --transfer could have meant.
+static void note_presets(cli_session *session) {
+    char names[256] = "auto";
+    const char *name;
+    for (uint32_t i = 0; (name = ewa_transfer_preset_name(i, NULL)); i++) {
+        const size_t length = strlen(names);
+        snprintf(names + length, sizeof names - length, ", %s", name);
+    }
+    session_note(session, "the presets of --transfer are %s", names);
 }
 
 /// The value at an end of --range: a number, or that below which so many per cent of the voxels lie.
@@ -65,6 +77,7 @@ static bool choose_transfer(cli_session *session, const volume_scene_arguments *
                                                      : ewa_transfer_automatic(volume, &facts, transfer);
     if (status != EWA_OK) {
         session_failed(session, status);
+        if (file && status == EWA_ERROR_IO) note_presets(session);
         return false;
     }
     session->subject = subject;
