@@ -219,9 +219,7 @@ static const option_group *const groups[] = {&cloud_output_options, &object_opti
 const cli_command generate_command = {
     .name = "generate",
     .operands = "KIND -o OUT",
-    .summary =
-        "make test objects: plane, checker, cube, sphere, torus, terrain, csg, and volumes: checkerbox, "
-        "blob, ball, vessels",
+    .summary = "make test objects: plane, checker, cube, sphere, torus, terrain, csg; and volumes",
     .details =
         "The object is centred at the origin. Plane, checker and terrain lie in x-y with z up; the "
         "axis of the "
