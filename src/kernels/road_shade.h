@@ -34,11 +34,18 @@ static ALWAYS_INLINE void toward_eye(const ewa_resolve *to, uint32_t x, uint32_t
     out[2] = wf_set(-1);
 }
 
+/// The square of what sums of weighted normals are divided by for shading.
+static ALWAYS_INLINE wf shaded_length2(const wf normal[3], wf weight) {
+    const wf least = wf_mul(weight, wf_set((float)EWA_SHADED_NORMAL));
+    return wf_max(dot3(normal, normal), wf_mul(least, least));
+}
+
 /// The share of light that a pixel with weighted normals' sum `normal` returns: ambient + diffuse
 /// max(0, N.L).
-static ALWAYS_INLINE wf lambert(const ewa_resolve *to, const wf normal[3], uint32_t x, uint32_t y) {
+static ALWAYS_INLINE wf lambert(const ewa_resolve *to, const wf normal[3], wf weight, uint32_t x,
+                                uint32_t y) {
     const ewa_road_light *from = &to->lights[0];
-    wf light[3], length2 = dot3(normal, normal);
+    wf light[3], length2 = shaded_length2(normal, weight);
     const wm defined = wf_lt(wf_set(0), length2);
     if (from->headlight && !to->orthographic) {
         toward_eye(to, x, y, light);
@@ -190,7 +197,7 @@ static void shade_surface(const ewa_tile *tile, const ewa_resolve *to, const flo
     const wf inverse_color = inverse_weight(wf_load(sums + color_weight(tile) * LANES));
     wf normal[3], view[3], material[EWA_MATERIAL_CHANNELS];
     for (int i = 0; i < 3; i++) normal[i] = wf_load(sums + (4 + i) * LANES);
-    const wf length2 = dot3(normal, normal);
+    const wf length2 = shaded_length2(normal, weight);
     scale3(normal, wf_keep(wf_lt(zero, length2), wf_inverse_root(length2)));
     toward_eye(to, x, y, view);
     if (!to->orthographic) scale3(view, wf_inverse_root(dot3(view, view)));
@@ -223,7 +230,7 @@ static ALWAYS_INLINE void shade_block(const ewa_tile *tile, const ewa_resolve *t
     if (to->shading == EWA_ROAD_LAMBERT) {
         wf normal[3];
         for (int i = 0; i < 3; i++) normal[i] = wf_load(sums + (4 + i) * EWA_BLOCK_LANES);
-        factor = wf_mul(factor, lambert(to, normal, x, y));
+        factor = wf_mul(factor, lambert(to, normal, wf_load(sums), x, y));
     }
     wf_store(shade, factor);
 }

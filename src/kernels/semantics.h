@@ -58,6 +58,9 @@
 // Over the background (straight alpha bg): rgb = colour alpha + bg_rgb bg_a (1 - alpha), a = alpha + bg_a (1
 // - alpha). rgba8: divided by its alpha (black when 0), sRGB curve, rounded to nearest.
 //
+// The normal that is shaded by is the weighted sum over max(its length, EWA_SHADED_NORMAL q): of unit length
+// where the normals of a pixel agree, shorter where they cancel. Both sides of a silhouette do, as each is
+// turned to the viewer: a unit normal would face him there, and draw a bright rim around what is closed.
 // Shading: colour (ambient + diffuse sum light max(0, N.L)) [+ specular sum light max(0, N.H)^shininess where
 // N.L > 0, + reflection environment(R)], the part in brackets with EWA_SHADING_PHONG. V is the direction to
 // the eye along the pixel's ray (orthographic: against the view direction); a headlight has L = H = V, others
@@ -119,6 +122,9 @@
 #define EWA_LEAST_AREA     1e-15
 
 #define EWA_INVERSE_TWO_PI 0.15915494309189535
+
+/// Length of the mean of a pixel's unit normals below which it is shaded as if turned away.
+#define EWA_SHADED_NORMAL 0.5
 
 /// Eye-dome lighting: pairs of opposite pixels, and what their mean is multiplied by at strength 1: a step of
 /// 1 % of the depth behind a straight edge takes about half of the light.

@@ -143,11 +143,11 @@ static ewa_reference_surface surface_at(const reference *work, int32_t x, int32_
     if (x >= work->view.width_px || y >= work->view.height_px) return (ewa_reference_surface){.there = false};
     const pixel *at = &work->pixels[(size_t)y * (size_t)work->view.width_px + (size_t)x];
     if (!(at->weight > 0)) return (ewa_reference_surface){.there = false};
-    const double inverse = 1 / at->weight, length = vec3_length(at->normal_world);
+    const double inverse = 1 / at->weight;
+    const double length = fmax(vec3_length(at->normal_world), EWA_SHADED_NORMAL * at->weight);
     ewa_reference_surface surface = {.there = true,
                                      .color = vec3_scale(at->color, at->opacity > 0 ? 1 / at->opacity : 0),
-                                     .normal_world =
-                                         vec3_scale(at->normal_world, length > 0 ? 1 / length : 0),
+                                     .normal_world = vec3_scale(at->normal_world, 1 / length),
                                      .ambient = at->material[0] * inverse,
                                      .diffuse = at->material[1] * inverse,
                                      .specular = at->material[2] * inverse,

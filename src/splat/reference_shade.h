@@ -12,7 +12,7 @@
 typedef struct ewa_reference_surface {
     bool there;            ///< else nothing below is set
     ewa_vec3 color;        ///< straight
-    ewa_vec3 normal_world; ///< unit; zero where it is undefined
+    ewa_vec3 normal_world; ///< unit, or shorter where the normals of the pixel cancel
     ewa_vec3 view_world;   ///< unit, towards the eye
     double ambient, diffuse, specular, shininess, reflection;
 } ewa_reference_surface;
