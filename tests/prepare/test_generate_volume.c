@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Tests of the test volumes: closed forms, line integrals, the same bytes again.
-#include "check.h"
+#include "io/scratch.h"
 
 #include <math.h>
 
@@ -191,11 +191,39 @@ static void test_bad_options(void **state) {
     ewa_context_destroy(&context);
 }
 
+static ewa_status generate_and_outline(ewa_context *context, void *user) {
+    ewa_volume_generate_options options;
+    ewa_volume_generate_options_init(&options, sizeof options);
+    options.object = *(ewa_volume_object *)user;
+    options.dims[0] = options.dims[1] = options.dims[2] = 8;
+    ewa_volume volume;
+    ewa_volume_facts facts;
+    ewa_transfer transfer;
+    ewa_cloud *cloud = NULL;
+    ewa_status status = ewa_volume_generate(context, &options, &volume);
+    if (status == EWA_OK) status = ewa_volume_measure(&volume, &facts);
+    if (status == EWA_OK) status = ewa_transfer_automatic(&volume, &facts, &transfer);
+    if (status == EWA_OK) status = ewa_volume_outline(&volume, &transfer, 0, &cloud);
+    assert_true((status == EWA_OK) == (cloud != NULL));
+    ewa_cloud_destroy(&cloud);
+    ewa_volume_free(&volume);
+    return status;
+}
+
+static void test_failing_allocations(void **state) {
+    (void)state;
+    for (int object = 0; object < 4; object++) {
+        ewa_volume_object chosen = (ewa_volume_object)object;
+        scratch_fail_each(generate_and_outline, &chosen);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_line_integrals), cmocka_unit_test(test_checkerbox),
-        cmocka_unit_test(test_same_bytes),     cmocka_unit_test(test_vessels),
-        cmocka_unit_test(test_bad_options),    cmocka_unit_test(test_outline),
+        cmocka_unit_test(test_line_integrals),      cmocka_unit_test(test_checkerbox),
+        cmocka_unit_test(test_same_bytes),          cmocka_unit_test(test_vessels),
+        cmocka_unit_test(test_bad_options),         cmocka_unit_test(test_outline),
+        cmocka_unit_test(test_failing_allocations),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
