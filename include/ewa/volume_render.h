@@ -74,8 +74,9 @@ typedef enum ewa_volume_index {
 ///
 /// Every voxel is a Gaussian of standard deviation `sigma` voxels along each axis of the grid, that is
 /// Sigma = sigma^2 A A' for the grid's axes A, whose integral is the voxel's extinction times its size. A ray
-/// that meets the optical depth t of a voxel keeps exp(-t) of what is behind. Splats are composited one by
-/// one in the order of the depths of their centres; points of one depth unit are summed, then composited.
+/// that meets the optical depth t of a voxel keeps exp(-t) of what is behind. Front to back by depth units,
+/// splats are composited one by one, those of a unit in the order of their distances; points of a unit are
+/// summed, then composited.
 typedef struct ewa_volume_options {
     size_t struct_size;
     ewa_volume_method method;
