@@ -87,7 +87,7 @@ typedef struct ewa_volume_options {
     double
         point_threshold_px; ///< spacing on the screen up to which voxels are points, while the filter with
                             ///< which these are as good as splats holds them (0.8 px); [0, 1.5]; default 1.2
-    double depth_unit;      ///< of points, in smallest spacings of the grid; [0.25, 16]; default 1
+    double depth_unit;      ///< in smallest spacings of the grid; [0.25, 16]; default 1
     uint32_t level;         ///< which of the voxels' levels; 0 (default): all voxels
     double density_scale;   ///< multiplies every extinction; [0, 1e15]; default 1
     /// Where less than this of what is behind would show, nothing more is drawn; [0, 1); 0: everything is
