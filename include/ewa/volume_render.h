@@ -74,8 +74,9 @@ typedef enum ewa_volume_index {
 ///
 /// Every voxel is a Gaussian of standard deviation `sigma` voxels along each axis of the grid, that is
 /// Sigma = sigma^2 A A' for the grid's axes A, whose integral is the voxel's extinction times its size. A ray
-/// that meets the optical depth t of a voxel keeps exp(-t) of what is behind. Splats are composited one by
-/// one in the order of the depths of their centres; points of one depth unit are summed, then composited.
+/// that meets the optical depth t of a voxel keeps exp(-t) of what is behind. Front to back by depth units,
+/// splats are composited one by one, those of a unit in the order of their distances; points of a unit are
+/// summed, then composited.
 typedef struct ewa_volume_options {
     size_t struct_size;
     ewa_volume_method method;
@@ -86,7 +87,7 @@ typedef struct ewa_volume_options {
     double
         point_threshold_px; ///< spacing on the screen up to which voxels are points, while the filter with
                             ///< which these are as good as splats holds them (0.8 px); [0, 1.5]; default 1.2
-    double depth_unit;      ///< of points, in smallest spacings of the grid; [0.25, 16]; default 1
+    double depth_unit;      ///< in smallest spacings of the grid; [0.25, 16]; default 1
     uint32_t level;         ///< which of the voxels' levels; 0 (default): all voxels
     double density_scale;   ///< multiplies every extinction; [0, 1e15]; default 1
     /// Where less than this of what is behind would show, nothing more is drawn; [0, 1); 0: everything is

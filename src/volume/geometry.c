@@ -45,6 +45,8 @@ void ewa_grid_view_make(ewa_grid_view *view, const double index_to_world[12], co
     const double cell = fabs(mat3_determinant(&v.axes)), spread = sigma * sigma * sigma * cell;
     const ewa_mat3 adjugate = mat3_adjugate(&v.covariance);
     v.inverse = mat3_scale(&adjugate, 1 / (spread * spread));
+    // Half of 1 / D, for an eye at D = height / (2 tan 20 degrees).
+    v.bend = v.orthographic ? 0.36397023426620234 * v.fy_px / camera->height_px : 0;
     v.depth_sigma = sqrt(v.covariance.m[2][2]);
     v.mean_variance = (v.covariance.m[0][0] + v.covariance.m[1][1] + v.covariance.m[2][2]) / 3;
     v.near = v.orthographic ? 0 : v.cutoff * v.depth_sigma;

@@ -84,6 +84,7 @@ typedef struct ewa_volume_view {
     float color_scale;               ///< of 16-bit colours
     float point_mass, splat_peak, density;
     float covariance[6], inverse[6]; ///< xx xy xz yy yz zz
+    float bend;                      ///< of ewa_grid_view
     float cutoff, cutoff2, prefilter2_px2, reach;
     float least_transmittance;
     float surface_reach;    ///< half of the depth over which a voxel passes a surface

@@ -212,7 +212,10 @@ static uint32_t append(const ewa_volume_view *frame_view, const ewa_volume_sourc
         float colors[64], places[64];
         int32_t slices[16];
         w_store4(colors, wf_mul(color[0], factor), wf_mul(color[1], factor), wf_mul(color[2], factor), last);
-        w_store4(places, place_x, place_y, v.z, wf_mul(v.z, v.length));
+        const wf distance = view->orthographic
+                                ? wf_fma(wf_fma(v.x, v.x, wf_mul(v.y, v.y)), wf_set(view->bend), v.z)
+                                : wf_mul(v.z, v.length);
+        w_store4(places, place_x, place_y, v.z, distance);
         wi_store(slices, slice);
         added += (uint32_t)__builtin_popcount(bits);
         for (; bits; bits &= bits - 1) {

@@ -25,7 +25,7 @@ typedef struct splat {
     uint64_t number; ///< of the voxel: decides between equal depths
     ewa_vec3 place;  ///< camera space
     double unit;     ///< number of its depth unit
-    double distance; ///< perspective: from the eye; orthographic: depth
+    double distance; ///< of ewa_grid_distance()
     ewa_vec3 color;  ///< shaded
     double extinction;
     double center_px[2];
@@ -127,7 +127,7 @@ static bool make_splat(const reference *work, const ewa_voxel *voxel, ewa_vec3 p
     made->unfilter[1][0] = (l[1] - l[2] * m[1] / m[2]) / m[0], made->unfilter[1][1] = l[2] / m[2];
     made->place = place;
     made->unit = ewa_volume_unit_of(grid, work->depth_unit, place.z);
-    made->distance = grid->orthographic ? place.z : vec3_length(place);
+    made->distance = ewa_grid_distance(grid, place);
     made->color = shade(work, voxel, place);
     made->extinction = voxel->extinction * work->options.density_scale;
     if (!grid->orthographic) made->extinction *= fmin(1, (place.z - grid->near) / grid->near);
@@ -239,7 +239,7 @@ static void render_band(void *data, uint32_t index, uint32_t worker) {
     for (size_t i = (size_t)begin * width; i < (size_t)end * width; i++) write_pixel(work, i);
 }
 
-/// By depth unit, then by distance: see tile.c.
+/// By depth unit, then by distance.
 static int by_depth(const void *a, const void *b) {
     const splat *left = a, *right = b;
     if (left->unit != right->unit) return left->unit < right->unit ? -1 : 1;

@@ -197,9 +197,7 @@ static uint32_t *sort_by_keys(uint32_t *numbers, uint32_t *keys, uint32_t count,
     return numbers;
 }
 
-/// Within a depth unit splats go by their distances from the eye. By depth alone, whole layers of voxels that
-/// overlap would change places at once whenever a diagonal of the grid turns through the picture's plane; so
-/// they do it one after another, each when its own ray is there.
+/// Splats of one depth unit, by their distances (ewa_grid_distance()).
 static void draw_splats(const ewa_volume_job *job, ewa_volume_scratch *scratch, ewa_volume_tile *tile,
                         const ewa_volume_bucket *bucket) {
     uint32_t *numbers = scratch->order.data, *keys = scratch->keys.data, count = 0;

@@ -114,6 +114,7 @@ void ewa_volume_view_set(ewa_volume_view *view, const ewa_grid_view *grid, const
     view->density = (float)options->density_scale;
     store_symmetric(&grid->covariance, view->covariance);
     store_symmetric(&grid->inverse, view->inverse);
+    view->bend = (float)grid->bend;
     view->cutoff = (float)grid->cutoff, view->cutoff2 = (float)grid->cutoff2;
     view->prefilter2_px2 = (float)grid->prefilter2_px2;
     // The trace bounds the largest variance whatever the angles between the axes.
