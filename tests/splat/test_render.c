@@ -344,6 +344,27 @@ static bool is_some_surfel(const ewa_cloud *cloud, const float rgb[3]) {
 }
 
 /// One pass (PAS 6): every pixel shows one surfel, opaque and whole; three passes blend.
+/// Cameras whose scale takes depths beyond the range of floats draw something or nothing, safely.
+static void test_scales_beyond_floats(void **state) {
+    (void)state;
+    enum { MANY = 20000 }; // so that a tile has several runs
+    static const double scales[] = {1e-40, 1e-30, 1e20, 3e38, 1e60};
+    ewa_context *context = check_context(1, NULL);
+    scene of;
+    assert_int_equal(scene_make(context, SCENE_SPHERE, MANY, SIDE_PX, SIDE_PX, &of), EWA_OK);
+    for (size_t i = 0; i < 2 * sizeof scales / sizeof scales[0]; i++) {
+        ewa_camera camera = of.camera;
+        for (int k = 0; k < 12; k++) camera.world_to_camera[k] *= scales[i / 2];
+        if (i % 2) camera.world_to_camera[3] = camera.world_to_camera[7] = camera.world_to_camera[11] = 0;
+        ewa_render_options options;
+        ewa_render_options_init(&options, sizeof options);
+        picture drawn = picture_draw(context, of.cloud, &camera, NULL, &options);
+        picture_free(&drawn);
+    }
+    scene_free(&of);
+    ewa_context_destroy(&context);
+}
+
 static void test_one_pass_shows_one_surfel(void **state) {
     (void)state;
     ewa_context *context = check_context(0, NULL);
@@ -444,6 +465,7 @@ int main(void) {
         cmocka_unit_test(test_order_of_points_does_not_matter),
         cmocka_unit_test(test_one_pass_shows_one_surfel),
         cmocka_unit_test(test_crowded_tile_holds),
+        cmocka_unit_test(test_scales_beyond_floats),
         cmocka_unit_test(test_empty_and_lonely),
         cmocka_unit_test(test_every_failing_allocation_is_clean),
         cmocka_unit_test(test_warm_frames_allocate_nothing),
