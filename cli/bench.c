@@ -191,11 +191,13 @@ static bool measure_kind(bench_run *bench, bench_scene_kind kind) {
 
 static bool measure_files(bench_run *bench) {
     const view_arguments *view = &bench->arguments->view;
+    ewa_surfels_options surfels;
+    ewa_surfels_options_init(&surfels, sizeof surfels);
     double estimate_s;
     const char *path = view->common.operands[0], *slash = strrchr(path, '/');
     bench_scene scene = {.name = slash ? slash + 1 : path};
     snprintf(scene.label, sizeof scene.label, "%.24s", scene.name);
-    scene.cloud = inputs_as_surfels(&bench->session, &view->common, NULL, &estimate_s);
+    scene.cloud = inputs_as_surfels(&bench->session, &view->common, NULL, surfels.cutoff, &estimate_s);
     const bool done = scene.cloud && view_make(&bench->session, view, scene.cloud, 1, &scene.camera, NULL) &&
                       measure_scene(bench, &scene);
     ewa_cloud_destroy(&scene.cloud);
@@ -281,7 +283,8 @@ const cli_command bench_command = {
                "seen from behind, and hidden. points: a plane of discs of a quarter of a pixel. culled: one "
                "sheet shows its back, another lies beside the picture. closed: three spheres one inside "
                "another, so that half of the splats show their backs and a third are hidden. seen: as many, "
-               "all on the side that is seen. peer: sphere and torus, closed. layers: the same without "
+               "all on the side that is seen. phong: the plane with materials and a light from the side. "
+               "peer: sphere and torus, closed. layers: the same without "
                "culling, opaque, in 3 "
                "transparent layers, in all, with 1 edge layer, without edges, without light; beside each "
                "what it is of the first. Back faces are culled in "

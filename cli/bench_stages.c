@@ -115,13 +115,20 @@ static ewa_status time_estimate(ewa_cloud **cloud, double *time_s) {
 
 /// Samples a cloud about the origin as unevenly as a scanner there does: distances r become r^3, so that the
 /// density of a plane falls with their power of -4/3.
-static void crowd(ewa_cloud *cloud) {
-    float *position = ewa_cloud_find(cloud, EWA_POSITION)->data;
-    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++, position += 3) {
-        const float squared =
-            position[0] * position[0] + position[1] * position[1] + position[2] * position[2];
-        for (int r = 0; r < 3; r++) position[r] *= squared;
+static ewa_status crowd(ewa_cloud *cloud) {
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    const ewa_attribute given = *ewa_cloud_find(cloud, EWA_POSITION);
+    float *numbers = malloc((3 * count + 1) * sizeof *numbers), *position = NULL;
+    if (!numbers) return EWA_ERROR_MEMORY;
+    ewa_attribute_read_f32(&given, 0, count, numbers);
+    const ewa_status status = ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&position);
+    for (uint64_t i = 0; status == EWA_OK && i < count; i++) {
+        const float *p = &numbers[3 * i];
+        const float squared = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
+        for (int r = 0; r < 3; r++) position[3 * i + (uint64_t)r] = squared * p[r];
     }
+    free(numbers);
+    return status;
 }
 
 /// Reading and writing the cloud, surfels, normals and radii from bare positions.
@@ -141,10 +148,8 @@ static ewa_status time_cloud(stage_lane *lane, const stage_input *input, size_t 
     lap(&lane->time_s[STAGE_PACK][run], &started_s);
     ewa_surfels_destroy(&surfels);
     if (status == EWA_OK) status = time_estimate(&loaded, &lane->time_s[STAGE_ESTIMATE][run]);
-    if (status == EWA_OK) {
-        crowd(loaded);
-        status = time_estimate(&loaded, &lane->time_s[STAGE_ESTIMATE_UNEVEN][run]);
-    }
+    if (status == EWA_OK) status = crowd(loaded);
+    if (status == EWA_OK) status = time_estimate(&loaded, &lane->time_s[STAGE_ESTIMATE_UNEVEN][run]);
     ewa_cloud_destroy(&loaded);
     return status;
 }

@@ -116,7 +116,7 @@ bool color_by(cli_session *session, ewa_cloud *cloud, const char *word, ewa_colo
     for (uint64_t i = 0; status == EWA_OK && i < count; i++) {
         const double number = read_scalar(&from, i);
         if (isfinite(number))
-            ewa_colormap_color(colormap, extent > 0 ? (number - ends[0]) / extent : 0.5, colors[i]);
+            ewa_colormap_color(colormap, extent != 0 ? (number - ends[0]) / extent : 0.5, colors[i]);
         else
             memset(colors[i], GREY_SRGB, 3);
     }

@@ -32,16 +32,17 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
 
 static ewa_cloud *make(cli_session *session, const void *data) {
     const csg_arguments *arguments = data;
+    ewa_csg_options options;
+    ewa_csg_options_init(&options, sizeof options);
+    options.operation = (ewa_csg_operation)arguments->operation;
     ewa_cloud *operands[2] = {NULL, NULL}, *result = NULL;
     double estimate_s = 0;
     for (int k = 0; k < 2; k++) {
-        operands[k] = input_as_surfels(session, arguments->output.common.operands[k], &estimate_s);
+        operands[k] =
+            input_as_surfels(session, arguments->output.common.operands[k], options.cutoff, &estimate_s);
         if (!operands[k]) break;
     }
     if (operands[0] && operands[1]) {
-        ewa_csg_options options;
-        ewa_csg_options_init(&options, sizeof options);
-        options.operation = (ewa_csg_operation)arguments->operation;
         session->subject = NULL;
         const double started_s = clock_now_s();
         const ewa_status status = ewa_cloud_csg(operands[0], operands[1], &options, &result);

@@ -16,6 +16,9 @@ static const char *const mesh_suffixes[] = {".obj", ".stl", ".gltf", ".glb"};
 /// A mesh is drawn from at least so many points, and from so many per triangle.
 static const uint64_t MESH_POINTS = 200000, MESH_POINTS_PER_TRIANGLE = 4;
 
+/// Least cutoff that axes of a mesh's points are made for.
+static const double MESH_CUTOFF = 1e-3;
+
 /// sRGB of files without colours that are merged with coloured ones: as bright as the renderer's grey, linear
 /// 0.6.
 static const uint8_t GREY_SRGB = 203;
@@ -43,7 +46,7 @@ static bool is_mesh(const char *path) {
 }
 
 /// Samples the triangles of a file; NULL after reporting.
-static ewa_cloud *load_mesh(cli_session *session, const char *path) {
+static ewa_cloud *load_mesh(cli_session *session, const char *path, double cutoff) {
     session->subject = path;
     const double started_s = clock_now_s();
     ewa_mesh mesh = {0};
@@ -52,6 +55,7 @@ static ewa_cloud *load_mesh(cli_session *session, const char *path) {
     if (status == EWA_OK) {
         ewa_mesh_sample_options options;
         ewa_mesh_sample_options_init(&options, sizeof options);
+        options.cutoff = fmax(cutoff, MESH_CUTOFF);
         options.point_count = MESH_POINTS_PER_TRIANGLE * mesh.triangle_count;
         if (options.point_count < MESH_POINTS) options.point_count = MESH_POINTS;
         status = ewa_mesh_sample(&mesh, &options, &cloud);
@@ -99,14 +103,12 @@ bool cloud_is_drawable(const ewa_cloud *cloud) {
 }
 
 /// Gives discs two equal axes, so that they can be merged with ellipses.
-static ewa_status discs_to_axes(ewa_cloud *cloud) {
+static ewa_status discs_to_axes(ewa_cloud *cloud, double cutoff) {
     const uint64_t count = ewa_cloud_point_count(cloud);
     void *u_data = NULL, *v_data = NULL;
     ewa_status status = ewa_cloud_add(cloud, EWA_TANGENT_U, EWA_F32, 3, &u_data);
     if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_TANGENT_V, EWA_F32, 3, &v_data);
     if (status != EWA_OK) return status;
-    ewa_surfels_options surfels;
-    ewa_surfels_options_init(&surfels, sizeof surfels);
     const ewa_attribute *normal = ewa_cloud_find(cloud, EWA_NORMAL),
                         *radius = ewa_cloud_find(cloud, EWA_RADIUS);
     float *u = u_data, *v = v_data;
@@ -115,7 +117,7 @@ static ewa_status discs_to_axes(ewa_cloud *cloud) {
         ewa_attribute_read_f64(normal, i, 1, n);
         ewa_attribute_read_f64(radius, i, 1, &r);
         const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-        const double scale = length > 0 ? 1 / length : 0, sigma_world = r / surfels.cutoff;
+        const double scale = length > 0 ? 1 / length : 0, sigma_world = r / cutoff;
         for (int c = 0; c < 3; c++) n[c] *= scale;
         // Any direction across the normal: the axis in which the normal is shortest leads to a safe one.
         const int least =
@@ -207,7 +209,7 @@ static ewa_status add_clip_lines(ewa_cloud *cloud, const bool wanted[3]) {
 }
 
 /// Gives clouds that are drawn together the same kinds of colours and axes, and nothing that only some have.
-static ewa_status make_alike(ewa_cloud *const *clouds, size_t count, const char *wanted) {
+static ewa_status make_alike(ewa_cloud *const *clouds, size_t count, const char *wanted, double cutoff) {
     bool any_axes = false, colors_differ = false, normals_differ = false, materials_differ = false;
     bool clip[3] = {false};
     for (size_t i = 0; i < count; i++) {
@@ -220,7 +222,7 @@ static ewa_status make_alike(ewa_cloud *const *clouds, size_t count, const char 
         clip[2] |= ewa_cloud_find(clouds[i], EWA_CLIP_MODE) != NULL;
     }
     for (size_t i = 0; i < count; i++) {
-        ewa_status status = any_axes && !has_axes(clouds[i]) ? discs_to_axes(clouds[i]) : EWA_OK;
+        ewa_status status = any_axes && !has_axes(clouds[i]) ? discs_to_axes(clouds[i], cutoff) : EWA_OK;
         if (status == EWA_OK && colors_differ) status = colors_to_linear(clouds[i]);
         if (status == EWA_OK && materials_differ) status = materials_to_doubles(clouds[i]);
         if (status == EWA_OK) status = add_clip_lines(clouds[i], clip);
@@ -331,8 +333,8 @@ static bool drop_isolated(cli_session *session, const char *path, ewa_cloud **cl
     return true;
 }
 
-ewa_cloud *input_as_surfels(cli_session *session, const char *path, double *estimate_s) {
-    ewa_cloud *cloud = is_mesh(path) ? load_mesh(session, path) : input_load(session, path);
+ewa_cloud *input_as_surfels(cli_session *session, const char *path, double cutoff, double *estimate_s) {
+    ewa_cloud *cloud = is_mesh(path) ? load_mesh(session, path, cutoff) : input_load(session, path);
     if (!cloud || cloud_is_drawable(cloud)) return cloud;
     const bool has_normals = ewa_cloud_find(cloud, EWA_NORMAL) != NULL;
     const bool has_radii = ewa_cloud_find(cloud, EWA_RADIUS) != NULL;
@@ -354,7 +356,7 @@ ewa_cloud *input_as_surfels(cli_session *session, const char *path, double *esti
 }
 
 ewa_cloud *inputs_as_surfels(cli_session *session, const common_arguments *common, const char *wanted,
-                             double *estimate_s) {
+                             double cutoff, double *estimate_s) {
     *estimate_s = 0;
     const size_t count = common->operand_count;
     ewa_cloud **clouds = calloc(count, sizeof *clouds);
@@ -363,13 +365,13 @@ ewa_cloud *inputs_as_surfels(cli_session *session, const common_arguments *commo
         return NULL;
     }
     for (size_t i = 0; i < count; i++) {
-        clouds[i] = input_as_surfels(session, common->operands[i], estimate_s);
+        clouds[i] = input_as_surfels(session, common->operands[i], cutoff, estimate_s);
         if (!clouds[i]) {
             release_clouds(clouds, i);
             return NULL;
         }
     }
-    const ewa_status status = count > 1 ? make_alike(clouds, count, wanted) : EWA_OK;
+    const ewa_status status = count > 1 ? make_alike(clouds, count, wanted, cutoff) : EWA_OK;
     if (status != EWA_OK) {
         session->subject = NULL;
         session_failed(session, status);

@@ -11,8 +11,9 @@
 ewa_cloud *input_load(cli_session *session, const char *path);
 
 /// Loads one file and estimates what a surfel needs and it lacks; a mesh is sampled; NULL after reporting.
-/// `*estimate_s` grows by the time that the estimation took.
-ewa_cloud *input_as_surfels(cli_session *session, const char *path, double *estimate_s);
+/// Axes that are made of a mesh are for kernels that end at `cutoff` standard deviations. `*estimate_s` grows
+/// by the time that the estimation took.
+ewa_cloud *input_as_surfels(cli_session *session, const char *path, double cutoff, double *estimate_s);
 
 /// Loads the operands and makes one cloud of them; attributes that not all have are dropped with a warning.
 /// NULL after reporting.
@@ -20,10 +21,11 @@ ewa_cloud *inputs_merge(cli_session *session, const common_arguments *common);
 
 /// Loads the operands as one cloud that can be drawn: what a surfel needs and a file lacks is estimated file
 /// by file, files without colours become grey beside others that have some. Of several files, only what is
-/// drawn is kept, and the attribute that `wanted` (may be NULL) names. NULL after reporting. `*estimate_s`
-/// gets the time that the estimation took.
+/// drawn is kept, and the attribute that `wanted` (may be NULL) names. Axes that are made of radii or of a
+/// mesh are for kernels that end at `cutoff` standard deviations. NULL after reporting. `*estimate_s` gets
+/// the time that the estimation took.
 ewa_cloud *inputs_as_surfels(cli_session *session, const common_arguments *common, const char *wanted,
-                             double *estimate_s);
+                             double cutoff, double *estimate_s);
 
 /// Whether a cloud has all that a surfel needs.
 bool cloud_is_drawable(const ewa_cloud *cloud);

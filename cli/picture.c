@@ -54,6 +54,14 @@ bool picture_parse_paths(const char *color, const char *aov, picture_paths *path
         if (!take_aov(aov, length, paths, message)) return false;
         aov = aov[length] ? aov + length + 1 : NULL;
     }
+    const char *const all[] = {color ? color : "", paths->depth, paths->normal, paths->coverage};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        for (size_t k = 0; k < i; k++) {
+            if (!all[i][0] || strcmp(all[i], all[k]) != 0) continue;
+            snprintf(message, OPTION_ERROR_BYTES, "--aov: '%.200s' would be written twice", all[i]);
+            return false;
+        }
+    }
     return true;
 }
 

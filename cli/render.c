@@ -168,6 +168,7 @@ static const cli_option look_table[] = {
      .kind = OPTION_CHOICE,
      .offset = AT(colormap),
      .range = "viridis|turbo|gray|plasma|inferno|magma|cividis|coolwarm",
+     .absent = "viridis",
      .help = "colours for --color-by"},
     {.key = "range",
      .aliases = "coloring-range",
@@ -190,6 +191,7 @@ static void set_defaults(void *data) {
     arguments->kernel = (int)render.kernel;
     arguments->passes = render.passes == 1 ? ONE_PASS : THREE_PASSES;
     arguments->cull = (int)render.cull;
+    arguments->colormap = -1;
     light_set_defaults(&arguments->light);
     arguments->prefilter_px = render.prefilter_px;
     arguments->tolerance = render.tolerance;
@@ -231,8 +233,12 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         missing = "--layers: neither auto, nor exact, nor a number in [1, 255]";
     else if (layers > 1 && arguments->passes == ONE_PASS)
         missing = "--layers needs --passes 3";
+    else if (arguments->opacity < 1 && arguments->passes == ONE_PASS)
+        missing = "--opacity below 1 needs --passes 3";
     else if (!arguments->color_by && arguments->range.given)
         missing = "--range needs --color-by";
+    else if (!arguments->color_by && arguments->colormap >= 0)
+        missing = "--colormap needs --color-by";
     if (missing) {
         snprintf(message, OPTION_ERROR_BYTES, "%s", missing);
         return false;
@@ -280,10 +286,11 @@ static bool make_surfels(cli_session *session, const render_arguments *arguments
 }
 
 /// The discs' median support radius in units of the spacing 1 / sqrt(d) (d: density): from the unit coverage
-/// q = s^2 d (1 - exp(-F^2 / 2)) with s = radius / F.
+/// q = s^2 d (1 - exp(-F^2 / 2)) with s = radius / F. Before --radius-scale where that shrinks discs: whoever
+/// does so wants gaps.
 static double radius_in_spacings(const render_arguments *arguments, const ewa_surfels_info *surfels) {
     const double f = arguments->cutoff, kernel = 1 - exp(-0.5 * f * f);
-    return f * sqrt(surfels->unit_coverage / kernel);
+    return f * sqrt(surfels->unit_coverage / kernel) / fmin(arguments->radius_scale, 1);
 }
 
 /// Measures the radii anew where the file's are so small that there are gaps between the discs; says so.
@@ -321,12 +328,14 @@ static bool make_scene(cli_session *session, const render_arguments *arguments, 
     const common_arguments *common = &arguments->frames.view.common;
     const double started_s = clock_now_s();
     const char *by = arguments->color_by;
-    ewa_cloud *cloud = inputs_as_surfels(session, common, by, &report->estimate_s);
+    ewa_cloud *cloud = inputs_as_surfels(session, common, by, arguments->cutoff, &report->estimate_s);
     if (!cloud) return false;
     report->load_s = clock_now_s() - started_s - report->estimate_s;
     report->point_count = ewa_cloud_point_count(cloud);
     session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
-    bool done = (!by || color_by(session, cloud, by, (ewa_colormap)arguments->colormap, &arguments->range)) &&
+    const ewa_colormap colormap =
+        arguments->colormap >= 0 ? (ewa_colormap)arguments->colormap : EWA_COLORMAP_VIRIDIS;
+    bool done = (!by || color_by(session, cloud, by, colormap, &arguments->range)) &&
                 frames_make(session, &arguments->frames, cloud, arguments->radius_scale, frames);
     session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
     done = done && make_surfels(session, arguments, cloud, surfels, report) &&

@@ -56,6 +56,7 @@ static const cli_option view_table[] = {
      .offset = offsetof(view_arguments, fov_deg),
      .value = "DEG",
      .range = "(0, 180)",
+     .absent = "30",
      .help = "vertical field of view in degrees"},
     {.key = "ortho",
      .kind = OPTION_NUMBER,
@@ -104,10 +105,12 @@ static const double FLAT_RATIO = 0.4, TALL_RATIO = 1.3, MAP_RATIO = 100;
 /// has 0.17.
 static const double FLOOR_SHARE = 0.12, ONE_SIDED = 0.6;
 
+/// Where neither --fov nor --ortho says.
+static const double DEFAULT_FOV_DEG = 30;
+
 enum { VIEW_FRONT, VIEW_BACK, VIEW_LEFT, VIEW_RIGHT, VIEW_TOP, VIEW_BOTTOM, VIEW_ISO };
 
 void view_set_defaults(view_arguments *arguments) {
-    arguments->fov_deg = 30;
     arguments->view = -1;
     arguments->size = (option_size){1280, 720, false};
 }
@@ -116,8 +119,11 @@ bool view_check(const view_arguments *arguments, char message[OPTION_ERROR_BYTES
     const bool placed = arguments->eye.count || arguments->target.count || arguments->up.count;
     const bool turned = arguments->azimuth_deg != 0 || arguments->elevation_deg != 0;
     const char *clash = NULL;
-    if (arguments->camera_path && (placed || arguments->ortho_height > 0 || arguments->view >= 0))
-        clash = "--camera excludes --eye, --target, --up, --ortho and --view";
+    if (arguments->camera_path &&
+        (placed || arguments->fov_deg > 0 || arguments->ortho_height > 0 || arguments->view >= 0))
+        clash = "--camera excludes --eye, --target, --up, --fov, --ortho and --view";
+    else if (arguments->fov_deg > 0 && arguments->ortho_height > 0)
+        clash = "--fov and --ortho exclude each other";
     else if (!arguments->camera_path && arguments->camera_index > 0)
         clash = "--camera-index needs --camera";
     else if (arguments->eye.count && arguments->view >= 0)
@@ -133,8 +139,9 @@ bool view_check(const view_arguments *arguments, char message[OPTION_ERROR_BYTES
 
 bool view_is_placed(const view_arguments *arguments) {
     return arguments->camera_path || arguments->camera_index > 0 || arguments->eye.count ||
-           arguments->target.count || arguments->up.count || arguments->ortho_height > 0 ||
-           arguments->view >= 0 || arguments->azimuth_deg != 0 || arguments->elevation_deg != 0;
+           arguments->target.count || arguments->up.count || arguments->fov_deg > 0 ||
+           arguments->ortho_height > 0 || arguments->view >= 0 || arguments->azimuth_deg != 0 ||
+           arguments->elevation_deg != 0;
 }
 
 /// Which axis of the world is up; see the help of render.
@@ -302,12 +309,20 @@ bool view_make(cli_session *session, const view_arguments *arguments, const ewa_
     } else if (done) {
         camera->width_px = arguments->size.width_px;
         camera->height_px = arguments->size.height_px;
-        ewa_status status = arguments->ortho_height > 0
-                                ? ewa_camera_set_ortho(camera, arguments->ortho_height)
-                                : ewa_camera_set_fov(camera, arguments->fov_deg);
+        ewa_status status =
+            arguments->ortho_height > 0
+                ? ewa_camera_set_ortho(camera, arguments->ortho_height)
+                : ewa_camera_set_fov(camera, arguments->fov_deg > 0 ? arguments->fov_deg : DEFAULT_FOV_DEG);
         if (status == EWA_OK) status = place_camera(session, arguments, &framing, camera, turn);
         done = status == EWA_OK;
-        if (!done) session_failed(session, status);
+        if (status == EWA_ERROR_NUMERIC && !session->reported)
+            session_fail(session,
+                         "no camera can be placed: the coordinates, from %g,%g,%g to %g,%g,%g, or the "
+                         "numbers of its options are too large",
+                         framing.box.low_world[0], framing.box.low_world[1], framing.box.low_world[2],
+                         framing.box.high_world[0], framing.box.high_world[1], framing.box.high_world[2]);
+        else if (!done)
+            session_failed(session, status);
     }
     framing_free(&framing);
     return done;

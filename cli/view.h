@@ -13,7 +13,7 @@ typedef struct view_arguments {
     const char *camera_path;
     int64_t camera_index;
     option_vector eye, target, up;
-    double fov_deg;
+    double fov_deg;      ///< 0: not given
     double ortho_height; ///< 0: perspective
     int view;            ///< index of a named view; -1: none given
     int up_axis;         ///< 1 y, 2 z: which is up without --up; 0: by the cloud's shape; no option

@@ -96,11 +96,13 @@ static bool choose_transfer(cli_session *session, const volume_scene_arguments *
 
 /// Loads the surfaces within. Returns false after reporting.
 static bool load_surfels(cli_session *session, const char *path, volume_scene *scene) {
+    ewa_surfels_options options;
+    ewa_surfels_options_init(&options, sizeof options);
     double estimate_s = 0;
-    ewa_cloud *cloud = input_as_surfels(session, path, &estimate_s);
+    ewa_cloud *cloud = input_as_surfels(session, path, options.cutoff, &estimate_s);
     if (!cloud) return false;
     ewa_status status = ewa_cloud_measure(cloud, &scene->surfels_bounds);
-    if (status == EWA_OK) status = ewa_surfels_create(cloud, NULL, &scene->surfels);
+    if (status == EWA_OK) status = ewa_surfels_create(cloud, &options, &scene->surfels);
     if (status != EWA_OK) session_failed(session, status);
     ewa_cloud_destroy(&cloud);
     return status == EWA_OK;

@@ -102,13 +102,13 @@ EWA_API ewa_status ewa_image_save(const ewa_image *image, const char *path,
 EWA_API ewa_status ewa_png_save(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px,
                                 uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes);
 
-/// Reads PNG, OpenEXR, PFM or Radiance (.hdr), by content; "-" reads standard input. The caller frees the
-/// image. PNG: sRGB of up to 16 bits to linear light; grey gives 1 channel, RGB and palettes 3, anything with
-/// alpha 4, premultiplied; gamma and colour profiles are not looked at. OpenEXR: the data window of the first
-/// part, scan lines or tiles; R G B [A] when present, else its channels in alphabetical order, at most 16.
-/// PFM: 1 or 3 channels, either byte order. Radiance: RGBE, plain or run-length encoded, divided by its
-/// exposure; 3 channels. Errors (image empty): EWA_ERROR_IO, EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED,
-/// EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+/// Reads PNG, JPEG, OpenEXR, PFM or Radiance (.hdr), by content; "-" reads standard input. The caller frees
+/// the image. PNG: sRGB of up to 16 bits to linear light; grey gives 1 channel, RGB and palettes 3, anything
+/// with alpha 4, premultiplied; gamma and colour profiles are not looked at. JPEG: grey or colour, sRGB.
+/// OpenEXR: the data window of the first part, scan lines or tiles; R G B [A] when present, else its channels
+/// in alphabetical order, at most 16. PFM: 1 or 3 channels, either byte order. Radiance: RGBE, plain or
+/// run-length encoded, divided by its exposure; 3 channels. Errors (image empty): EWA_ERROR_IO,
+/// EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_image_load(ewa_context *context, const char *path, ewa_image *image);
 
 /// The same from `size_bytes` bytes in memory; `name` stands for the file in messages.

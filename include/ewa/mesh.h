@@ -50,13 +50,13 @@ EWA_API void ewa_mesh_free(ewa_mesh *mesh);
 /// Reads a triangle mesh through Assimp: OBJ (with MTL), PLY, STL, glTF and GLB, by suffix.
 ///
 /// Polygons become triangles, nodes are put into place, points and lines are left out; normals of the file
-/// are not looked at. Vertex colours of 8 bits are sRGB. Pictures are PNG, JPEG, OpenEXR or PFM, beside the
-/// mesh or embedded in it; a path that leads out of the mesh's folder is cut to its last name. One that is
-/// missing or broken is left out with a warning that names it. Whatever Assimp returns is checked again:
-/// triangles with a vertex beyond the last are an error, those with a coordinate that is not finite are left
-/// to ewa_mesh_sample(). The caller frees `*mesh`, which is zeroed after a failure. Errors: EWA_ERROR_IO,
-/// EWA_ERROR_FORMAT (what Assimp says, no triangles), EWA_ERROR_UNSUPPORTED (suffix), EWA_ERROR_LIMIT,
-/// EWA_ERROR_MEMORY.
+/// are not looked at. Vertex colours of 8 bits are sRGB. Pictures, of any format that ewa_image_load() reads,
+/// are beside the mesh or embedded in it; a path that leads out of the mesh's folder is cut to its last name.
+/// One that is missing or broken is left out with a warning that names it. Whatever Assimp returns is checked
+/// again: triangles with a vertex beyond the last are an error, those with a coordinate that is not finite
+/// are left to ewa_mesh_sample(). The caller frees `*mesh`, which is zeroed after a failure. Errors:
+/// EWA_ERROR_IO, EWA_ERROR_FORMAT (what Assimp says, no triangles), EWA_ERROR_UNSUPPORTED (suffix),
+/// EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_mesh_load(ewa_context *context, const char *path, ewa_mesh *mesh);
 
 /// How a mesh becomes surfels. Fill with ewa_mesh_sample_options_init().
@@ -67,7 +67,7 @@ typedef struct ewa_mesh_sample_options {
     uint64_t seed;         ///< same seed, same bytes; default 1
     double crease_degrees; ///< edges that bend by more are sharp; [0, 180]; default 35
     double radius_scale;   ///< support radius in units of the spacing; [0.5, 10]; default 1.6
-    double cutoff;         ///< F: tangent axes are radius / F long; (0, 10]; default 3
+    double cutoff;         ///< F: tangent axes are radius / F long; [0.001, 10]; default 3
     bool clip_lines;       ///< sharp edges and borders become clip lines; default true
     bool smooth_normals;   ///< interpolate normals between triangles that meet in no sharp edge; default true
 } ewa_mesh_sample_options;

@@ -100,8 +100,8 @@ EWA_API void ewa_csg_options_init(ewa_csg_options *options, size_t struct_size);
 /// Combines two closed solids of surfels into one with sharp edges where their surfaces meet.
 ///
 /// - Each cloud has "position", and "normal" with "radius", or "tangent_u" with "tangent_v"; normals point
-///   outward. Both belong to one context. Points that are no surfels (not finite, no normal, no size) are
-///   left out.
+///   outward. Both belong to one context. Points that are no surfels (not finite or beyond 1e100,
+///   no normal, no size) are left out.
 /// - Inside and outside are told by the 16 nearest surfels of the other solid, as one plane or, where their
 ///   normals part by over 37 degrees, as two that meet in a convex or a concave edge.
 /// - Surfels that the other surface cuts are split into four of 0.55 the size, up to four times, until they

@@ -11,6 +11,7 @@
 #include "base/base.h"
 #include "cloud/neighbours_tree.h"
 
+#include <float.h>
 #include <math.h>
 
 enum {
@@ -92,6 +93,9 @@ static void shift_of(const ewa_neighbours *tree, const tree_query *query, uint32
     for (int c = 0; c < 3; c++) shift[c] = (float)((anchor[c] - query->anchor[c]) * query->per_unit);
 }
 
+/// What a query compares with: never infinite, as the distance of boxes that are not there is.
+static double finite_square(double radius) { return fmin(radius * radius, DBL_MAX); }
+
 /// Receives a leaf near enough to the query's box; returns false to stop.
 typedef bool leaf_visit(const search_job *job, const tree_query *query, uint32_t leaf, void *user);
 
@@ -148,7 +152,7 @@ static bool list_leaf(const search_job *job, const tree_query *query, uint32_t l
 /// Lists the leaves within `radius` of a group of leaves, unless they are too many.
 static void make_list(const search_job *job, uint32_t group, double radius, near_list *list) {
     const tree_group *leaves = &job->tree->groups[group];
-    tree_query query = {.radius2 = radius * radius};
+    tree_query query = {.radius2 = finite_square(radius)};
     for (int c = 0; c < 3; c++) {
         query.low[c] = INFINITY, query.high[c] = -INFINITY;
         for (int i = 0; i < TREE_ARITY; i++) {
@@ -274,7 +278,7 @@ static double set_query(const ewa_neighbours *tree, const attempt *a, tree_query
     exponent = exponent < -MAX_UNIT_EXPONENT ? -MAX_UNIT_EXPONENT : exponent;
     exponent = exponent > MAX_UNIT_EXPONENT ? MAX_UNIT_EXPONENT : exponent;
     query->per_unit = (float)ldexp(1, -exponent);
-    query->radius2 = a->radius * a->radius;
+    query->radius2 = finite_square(a->radius);
     const double local_radius = a->radius * query->per_unit * (1 + ROUNDING_MARGIN);
     query->local_radius2 = (float)(local_radius * local_radius);
     for (int c = 0; c < 3; c++) {

@@ -137,7 +137,8 @@ static ewa_status fill_levels(ewa_environment *environment, const ewa_image *ima
 ewa_status ewa_environment_create(const ewa_image *image, ewa_environment **environment) {
     if (!environment) return EWA_ERROR_ARGUMENT;
     *environment = NULL;
-    if (!image || !image->pixels || !image->context) return EWA_ERROR_ARGUMENT;
+    if (!image || !image->pixels || !image->context || !image->width_px || !image->height_px)
+        return EWA_ERROR_ARGUMENT;
     ewa_context *context = image->context;
     if (image->channel_count != 1 && image->channel_count != 3 && image->channel_count != 4)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "environment: an image of %u channels, not 1, 3 or 4",

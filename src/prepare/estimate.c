@@ -86,8 +86,18 @@ static void set_radius(const estimate_job *job, uint32_t place, const local_surf
     set_points(job, place, job->radius_out, &radius, 1);
 }
 
-static void set_lane(const estimate_job *job, uint32_t place, const local_surface *s, uint32_t lane,
-                     double unit) {
+/// Gives a place that is so far off that single precision overflows around it no plane and no size.
+static void drop_overflow(local_surface *s, uint32_t lane) {
+    float sum = s->spacing[lane];
+    for (int c = 0; c < 3; c++) sum += s->normal[c][lane];
+    if (isfinite(sum)) return;
+    for (int c = 0; c < 3; c++) s->normal[c][lane] = c == 2, s->major[c][lane] = c == 0;
+    s->spacing[lane] = s->reach[lane] = s->ellipse_reach[lane] = 0;
+    s->aspect[lane] = 1;
+}
+
+static void set_lane(const estimate_job *job, uint32_t place, local_surface *s, uint32_t lane, double unit) {
+    drop_overflow(s, lane);
     if (job->spacing) job->spacing[place] = (float)((double)s->spacing[lane] * unit);
     if (job->normals)
         for (int c = 0; c < 3; c++) job->normals[3 * (size_t)place + (size_t)c] = s->normal[c][lane];

@@ -23,6 +23,9 @@ enum { NEAREST = 16, TASK_SURFELS = 4096, RUN_SURFELS = 512, FEWEST_OF_PLANE = 2
 /// Cosine of the largest angle between the normals of one plane: 37 degrees.
 #define SAME_PLANE 0.8
 
+/// Surfels with larger coordinates or reaches are none: squares of their distances could overflow.
+#define LARGEST 1e100
+
 /// A place with its point, for sorting.
 typedef struct place_key {
     double at[3];
@@ -53,6 +56,9 @@ static void span_plane(ewa_vec3 normal, double length, ewa_vec3 axis[2]) {
     axis[0] = vec3_scale(axis[0], length);
 }
 
+/// False for NaN too.
+static bool within(double value) { return fabs(value) <= LARGEST; }
+
 /// False when the point is no surfel.
 static bool read_surfel(const read_job *job, uint32_t point, ewa_solid_surfel *surfel) {
     surfel->point = point;
@@ -71,7 +77,8 @@ static bool read_surfel(const read_job *job, uint32_t point, ewa_solid_surfel *s
         span_plane(surfel->normal, radius / job->cutoff, surfel->axis);
     }
     surfel->reach = job->cutoff * fmax(vec3_length(surfel->axis[0]), vec3_length(surfel->axis[1]));
-    return vec3_is_finite(surfel->center) && isfinite(surfel->reach) && surfel->reach > 0;
+    return within(surfel->center.x) && within(surfel->center.y) && within(surfel->center.z) &&
+           within(surfel->reach) && surfel->reach > 0;
 }
 
 /// Without branches, so that loops over it become vectors.

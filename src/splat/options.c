@@ -7,6 +7,7 @@
 #include "image/material.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static const double HUGE_OPTION = 1e15;
@@ -37,21 +38,23 @@ static ewa_status check_surfels(ewa_context *context, const ewa_surfels_options 
     return status;
 }
 
-static ewa_status check_direction(ewa_context *context, const char *member, const double v[3]) {
-    if (isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2])) return EWA_OK;
-    return ewa_fail(context, EWA_ERROR_ARGUMENT, "options: %s is %g, %g, %g: not finite", member, v[0], v[1],
-                    v[2]);
-}
+static bool is_finite(const double v[3]) { return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]); }
 
 ewa_status ewa_option_check_lights(ewa_context *context, const ewa_light *lights, uint32_t light_count) {
     static const double MOST = 1e6;
     ewa_status status = ewa_option_check_range(context, "light_count", light_count, 0, false, EWA_MAX_LIGHTS);
     for (uint32_t i = 0; status == EWA_OK && i < light_count; i++) {
         const ewa_light *light = &lights[i];
-        status = check_direction(context, "a light's direction_world", light->direction_world);
-        for (int c = 0; c < 3 && status == EWA_OK; c++)
-            status =
-                ewa_option_check_range(context, "a light's color", (double)light->color[c], 0, false, MOST);
+        const double *direction = light->direction_world;
+        if (!is_finite(direction))
+            status = ewa_fail(context, EWA_ERROR_ARGUMENT,
+                              "options: lights[%u].direction_world is %g, %g, %g: not finite", i,
+                              direction[0], direction[1], direction[2]);
+        char member[32];
+        for (int c = 0; c < 3 && status == EWA_OK; c++) {
+            snprintf(member, sizeof member, "lights[%u].color[%d]", i, c);
+            status = ewa_option_check_range(context, member, (double)light->color[c], 0, false, MOST);
+        }
     }
     return status;
 }
@@ -75,9 +78,10 @@ static ewa_status check_shading(ewa_context *context, const ewa_render_options *
     if (status == EWA_OK)
         status = ewa_option_check_range(context, "eye_dome", options->eye_dome, 0, false, 100);
     const double *up = options->environment_up;
-    if (status == EWA_OK) status = check_direction(context, "environment_up", up);
-    if (status == EWA_OK && up[0] == 0 && up[1] == 0 && up[2] == 0)
-        status = ewa_fail(context, EWA_ERROR_ARGUMENT, "options: environment_up is 0, 0, 0");
+    if (status == EWA_OK && (!is_finite(up) || (up[0] == 0 && up[1] == 0 && up[2] == 0)))
+        status = ewa_fail(context, EWA_ERROR_ARGUMENT,
+                          "options: environment_up is %g, %g, %g: not finite, or no direction", up[0], up[1],
+                          up[2]);
     return status;
 }
 

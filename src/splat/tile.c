@@ -237,11 +237,18 @@ uint64_t ewa_tile_keep_runs(const ewa_tile_job *job, const ewa_tile *tile, ewa_t
     return i;
 }
 
+enum { DEPTH_BUCKETS = 64 };
+
+/// The first or the last bucket for depths beyond the range of floats, of which differences say nothing.
+static int depth_bucket(float depth, float nearest, float per_depth) {
+    const float place = (depth - nearest) * per_depth;
+    return place > 0 ? (place < DEPTH_BUCKETS - 1 ? (int)place : DEPTH_BUCKETS - 1) : 0;
+}
+
 /// The tile's packets with nearer runs first: what lies behind them need not be set up. By a counting sort,
 /// which leaves runs of about one depth in their order along the curve.
 static const uint32_t *front_to_back(const ewa_tile_job *job, ewa_tile_scratch *s, const uint32_t *ids,
                                      uint64_t count) {
-    enum { BUCKETS = 64 };
     const uint64_t run_count = count / EWA_RUN_PACKETS; // the rest stays at the end
     float *depths = s->depths_world, nearest = INFINITY, farthest = -INFINITY;
     job->kernels->depths(&job->view, &job->surfels->bounds, ids, (uint32_t)count, depths);
@@ -253,12 +260,12 @@ static const uint32_t *front_to_back(const ewa_tile_job *job, ewa_tile_scratch *
         nearest = fminf(nearest, begin), farthest = fmaxf(farthest, begin);
     }
     if (!(nearest < farthest)) return ids;
-    const float scale = (BUCKETS - 1) / (farthest - nearest);
-    uint64_t next[BUCKETS + 1] = {0};
-    for (uint64_t run = 0; run < run_count; run++) next[(int)((depths[run] - nearest) * scale) + 1]++;
-    for (int i = 0; i < BUCKETS; i++) next[i + 1] += next[i];
+    const float per_depth = (DEPTH_BUCKETS - 1) / (farthest - nearest);
+    uint64_t next[DEPTH_BUCKETS + 1] = {0};
+    for (uint64_t run = 0; run < run_count; run++) next[depth_bucket(depths[run], nearest, per_depth) + 1]++;
+    for (int i = 0; i < DEPTH_BUCKETS; i++) next[i + 1] += next[i];
     for (uint64_t run = 0; run < run_count; run++) {
-        const uint64_t at = next[(int)((depths[run] - nearest) * scale)]++;
+        const uint64_t at = next[depth_bucket(depths[run], nearest, per_depth)]++;
         memcpy(s->ordered + at * EWA_RUN_PACKETS, ids + run * EWA_RUN_PACKETS, EWA_RUN_PACKETS * sizeof *ids);
     }
     const uint64_t done = run_count * EWA_RUN_PACKETS;

@@ -250,6 +250,55 @@ static void test_colors(void **state) {
     run_done("for map in viridis turbo gray plasma inferno magma cividis coolwarm; do "
              "ewa render row.ply -o m_$map.png --size 96x16 --view top --color-by q --colormap $map; done; "
              "test $(md5sum m_*.png | cut -c1-32 | sort -u | wc -l) = 8");
+    // A range may go down.
+    for (int down = 0; down < 2; down++) {
+        run_done("ewa render row.ply -o a.pfm --size 96x16 --view top --color-by q --colormap gray "
+                 "--shading none --range %s",
+                 down ? "100,0" : "0,100");
+        ewa_image image = load("a.pfm");
+        const float left = image.pixels[3 * (8 * 96 + 24)], right = image.pixels[3 * (8 * 96 + 72)];
+        assert_true(down ? left > right + 0.2f : right > left + 0.2f);
+        ewa_image_free(&image);
+    }
+}
+
+/// Discs that the options make small stay so: gaps are closed where the file has them.
+static void test_small_discs(void **state) {
+    (void)state;
+    run_done("ewa render ball.ply -o a.png --size 90x90 --radius-scale 0.3");
+    assert_null(strstr(last_run.err, "gaps"));
+    run_done("ewa render ball.ply -o b.png --size 90x90 --radius-scale 0.3 --close-gaps off");
+    assert_true(scratch_same("a.png", "b.png"));
+}
+
+/// The radii of discs do not depend on the cutoff, also beside files with axes, for which they become axes.
+static void test_cutoff_of_several(void **state) {
+    (void)state;
+    scratch_text(
+        "beside.ply",
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+        "property float tu_x\nproperty float tu_y\nproperty float tu_z\nproperty float tv_x\n"
+        "property float tv_y\nproperty float tv_z\nend_header\n0 0 9 0.5 0 0 0 0.2 0\n");
+    static const char *const view =
+        "--cutoff 1.5 --eye 0,-5,0 --target 0,0,0 --up 0,0,1 --fov 30 --size 90x90 --color-by z --range -1,1 "
+        "--background transparent";
+    run_done("ewa render ball.ply -o alone.png %s && ewa render ball.ply beside.ply -o both.png %s", view,
+             view);
+    ewa_image alone = load("alone.png"), both = load("both.png");
+    ewa_difference difference;
+    assert_int_equal(ewa_image_compare(&alone, &both, 1, 0.02, &difference, NULL), EWA_OK);
+    assert_int_equal(difference.over_threshold_count, 0);
+    ewa_image_free(&alone);
+    ewa_image_free(&both);
+}
+
+/// Coordinates whose differences are not finite are an error that says so.
+static void test_huge_coordinates(void **state) {
+    (void)state;
+    scratch_text("huge.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
+                             "property double z\nend_header\n1e300 0 0\n-1e300 1 0\n0 1e300 2\n");
+    run_fails(1, "huge.ply: no camera can be placed: the coordinates, from -1e+300,0,0",
+              "ewa render huge.ply -o huge.png");
 }
 
 static void test_several_inputs(void **state) {
@@ -331,6 +380,9 @@ int main(void) {
         cmocka_unit_test(test_isolated_point),
         cmocka_unit_test(test_looks_differ),
         cmocka_unit_test(test_colors),
+        cmocka_unit_test(test_small_discs),
+        cmocka_unit_test(test_cutoff_of_several),
+        cmocka_unit_test(test_huge_coordinates),
         cmocka_unit_test(test_several_inputs),
         cmocka_unit_test(test_mesh),
         cmocka_unit_test(test_clip_lines_of_one_file),

@@ -74,7 +74,12 @@ static void test_wrong_usage(void **state) {
     run_fails(2, "--output: 'a.jpg' is no .png, .exr or .pfm file", "ewa render a.ply -o a.jpg");
     run_fails(2, "--aov: 'depth' is not", "ewa render a.ply -o a.png --aov depth");
     run_fails(2, "--aov: 'd.png' is no .exr or .pfm file", "ewa render a.ply -o a.png --aov depth=d.png");
+    run_fails(2, "--aov: 'a.exr' would be written twice", "ewa render a.ply -o a.exr --aov depth=a.exr");
+    run_fails(2, "--aov: 'd.exr' would be written twice",
+              "ewa render a.ply -o a.png --aov depth=d.exr,normal=d.exr");
     run_fails(2, "--range needs --color-by", "ewa render a.ply -o a.png --range 0,1");
+    run_fails(2, "--colormap needs --color-by", "ewa render a.ply -o a.png --colormap turbo");
+    run_fails(2, "--opacity below 1 needs --passes 3", "ewa render a.ply -o a.png --opacity 0.5 --passes 1");
     run_fails(2, "--light: 0,0,0", "ewa render a.ply -o a.png --light 0,0,0");
     run_fails(2, "--light: neither", "ewa render a.ply -o a.png --light 1,2,3,4");
     run_fails(2, "--light: a colour", "ewa render a.ply -o a.png --light 1,2,3,0,-1,0");
@@ -83,6 +88,9 @@ static void test_wrong_usage(void **state) {
     run_fails(2, "--materials and --env need", "ewa render a.ply -o a.png --shading lambert --env e.exr");
     run_fails(2, "--env-up: 0,0,0", "ewa render a.ply -o a.png --env-up 0,0,0");
     run_fails(2, "--camera excludes", "ewa render a.ply -o a.png --camera c.json --view top");
+    run_fails(2, "--camera excludes", "ewa render a.ply -o a.png --camera c.json --fov 60");
+    run_fails(2, "--path excludes", "ewa render a.ply -o a_%%d.png --path c.json --fov 60");
+    run_fails(2, "--fov and --ortho exclude", "ewa render a.ply -o a.png --ortho 2 --fov 60");
     run_fails(2, "--eye and --view", "ewa render a.ply -o a.png --eye 1,2,3 --view top");
     run_fails(2, "--ascii and --big-endian", "ewa convert a.ply -o b.ply --ascii --big-endian");
     run_fails(2, "--subsample", "ewa convert a.ply -o b.ply --subsample 2.5");

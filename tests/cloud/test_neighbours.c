@@ -319,6 +319,38 @@ static void test_clumps(void **state) {
     free(xyz);
 }
 
+static void check_places(void *user, const ewa_block *block, uint32_t worker) {
+    (void)worker;
+    const uint32_t places = *(const uint32_t *)user;
+    assert_in_range(block->candidate_count, 0, EWA_BLOCK_CANDIDATES);
+    for (uint32_t i = 0; i < block->candidate_count; i++) assert_in_range(block->place[i], 0, places - 1);
+}
+
+/// Doubles whose squared distances overflow: only places that are there are found, or none.
+static void test_overflow(void **state) {
+    (void)state;
+    enum { COUNT = 600 };
+    double *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
+    check_random random = {7};
+    for (uint32_t i = 0; i < 3 * COUNT; i++) xyz[i] = check_uniform(&random, -1, 1);
+    xyz[0] = 1e200, xyz[3] = -1e200, xyz[7] = 1.7e308;
+    const ewa_attribute position = {
+        .type = EWA_F64, .component_count = 3, .stride_bytes = 3 * sizeof *xyz, .data = xyz};
+    ewa_context *context = check_context(1, NULL);
+    for (int all = 0; all < 2; all++) { // a few far ones, then nothing else
+        for (uint32_t i = 0; all && i < 3 * COUNT; i++) xyz[i] = 1e300 * check_uniform(&random, -1, 1);
+        ewa_neighbours *tree = NULL;
+        assert_int_equal(ewa_neighbours_create(context, &position, COUNT, &tree), EWA_OK);
+        uint32_t places = ewa_neighbours_place_count(tree);
+        assert_int_equal(places, COUNT);
+        const ewa_visit_choice choice = {16, 1, NULL, "test"};
+        assert_int_equal(ewa_neighbours_visit(tree, &choice, check_places, &places), EWA_OK);
+        ewa_neighbours_destroy(&tree);
+    }
+    ewa_context_destroy(&context);
+    free(xyz);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_against_brute_force),
@@ -327,6 +359,7 @@ int main(void) {
         cmocka_unit_test(test_double),
         cmocka_unit_test(test_positions),
         cmocka_unit_test(test_clumps),
+        cmocka_unit_test(test_overflow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

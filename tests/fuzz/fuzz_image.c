@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Fuzz target: any bytes as a picture file (PNG, OpenEXR, PFM, Radiance by their first bytes).
+// Fuzz target: any bytes as a picture file (PNG, JPEG, OpenEXR, PFM, Radiance by their first bytes).
 #include "ewa/io.h"
 #include "fuzz.h"
 

@@ -130,6 +130,9 @@ static void test_wild_numbers(void **state) {
     assert_int_equal(ewa_environment_create(&image, &made), EWA_ERROR_ARGUMENT);
     assert_non_null(strstr(log.text, "2 channels"));
     assert_null(made);
+    image.width_px = 0; // pixels without a size
+    assert_int_equal(ewa_environment_create(&image, &made), EWA_ERROR_ARGUMENT);
+    image.width_px = 2;
     ewa_image_free(&image);
     assert_int_equal(ewa_environment_create(&image, &made), EWA_ERROR_ARGUMENT);
     ewa_context_destroy(&context);

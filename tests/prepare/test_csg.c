@@ -392,6 +392,31 @@ static void test_same_bytes(void **state) {
     }
 }
 
+/// A point so far off that squares overflow is no surfel, in either operand.
+static void test_overflow(void **state) {
+    (void)state;
+    enum { POINTS = 500 };
+    ewa_context *context = check_context(1, NULL);
+    const double here[3] = {0, 0, 0}, aside[3] = {0.5, 0, 0};
+    ewa_cloud *clouds[2] = {make(context, EWA_OBJECT_SPHERE, POINTS, 2, here),
+                            make(context, EWA_OBJECT_SPHERE, POINTS, 2, aside)};
+    double numbers[3 * POINTS], *position = NULL;
+    ewa_attribute_read_f64(ewa_cloud_find(clouds[0], EWA_POSITION), 0, POINTS, numbers);
+    assert_int_equal(ewa_cloud_add(clouds[0], EWA_POSITION, EWA_F64, 3, (void **)&position), EWA_OK);
+    memcpy(position, numbers, sizeof numbers);
+    position[0] = 1e200;
+    for (int k = 0; k < 2; k++) {
+        ewa_cloud *both = combine(clouds[k], clouds[1 - k], EWA_CSG_UNION);
+        double *found = read_stream(both, EWA_POSITION, 3);
+        assert_true(ewa_cloud_point_count(both) > POINTS);
+        for (uint64_t i = 0; i < 3 * ewa_cloud_point_count(both); i++) assert_true(fabs(found[i]) < 2);
+        free(found);
+        ewa_cloud_destroy(&both);
+    }
+    for (int k = 0; k < 2; k++) ewa_cloud_destroy(&clouds[k]);
+    ewa_context_destroy(&context);
+}
+
 static void test_refused(void **state) {
     (void)state;
     check_log log = {.count = 0};
@@ -431,9 +456,13 @@ static void test_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_against_closed_form),  cmocka_unit_test(test_coinciding_faces),
-        cmocka_unit_test(test_far_apart_and_within), cmocka_unit_test(test_open_operands),
-        cmocka_unit_test(test_same_bytes),           cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_against_closed_form),
+        cmocka_unit_test(test_coinciding_faces),
+        cmocka_unit_test(test_far_apart_and_within),
+        cmocka_unit_test(test_open_operands),
+        cmocka_unit_test(test_same_bytes),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_overflow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

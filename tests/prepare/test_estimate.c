@@ -366,6 +366,34 @@ static ewa_cloud *estimate_uneven(uint32_t threads, uint32_t mask, const float *
     return cloud;
 }
 
+/// Around doubles beyond the range of floats there are no numbers, but nothing that is not finite comes out.
+static void test_overflow(void **state) {
+    (void)state;
+    enum { COUNT = 400 };
+    for (int shape = 0; shape < 2; shape++) {
+        ewa_context *context = check_context(1, NULL);
+        ewa_cloud *cloud = NULL;
+        double *xyz;
+        assert_int_equal(ewa_cloud_create(context, COUNT, &cloud), EWA_OK);
+        assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, (void **)&xyz), EWA_OK);
+        check_random random = {8};
+        for (uint32_t i = 0; i < 3 * COUNT; i++) xyz[i] = i % 3 == 2 ? 0 : check_uniform(&random, -1, 1);
+        xyz[0] = 1e200, xyz[3] = -1e200, xyz[7] = 1.7e308;
+        ewa_estimate_options options = check_estimate_options();
+        options.shape = shape ? EWA_SHAPE_ELLIPSE : EWA_SHAPE_DISC;
+        assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+        const float *normal = check_stream(cloud, EWA_NORMAL);
+        const float *size = check_stream(cloud, shape ? EWA_TANGENT_U : EWA_RADIUS);
+        for (uint32_t i = 0; i < COUNT; i++) {
+            const float *n = &normal[3 * i];
+            assert_true(fabsf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] - 1) < 1e-5f);
+        }
+        for (uint32_t i = 0; i < (shape ? 3u : 1u) * COUNT; i++) assert_true(isfinite(size[i]));
+        ewa_cloud_destroy(&cloud);
+        ewa_context_destroy(&context);
+    }
+}
+
 static void test_threads_and_machines(void **state) {
     (void)state;
     enum { COUNT = 60000 };
@@ -521,6 +549,7 @@ int main(void) {
         cmocka_unit_test(test_normals),
         cmocka_unit_test(test_keep),
         cmocka_unit_test(test_degenerate),
+        cmocka_unit_test(test_overflow),
         cmocka_unit_test(test_threads_and_machines),
         cmocka_unit_test(test_order_of_points),
         cmocka_unit_test(test_out_of_memory),

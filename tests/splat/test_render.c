@@ -344,6 +344,35 @@ static bool is_some_surfel(const ewa_cloud *cloud, const float rgb[3]) {
 }
 
 /// One pass (PAS 6): every pixel shows one surfel, opaque and whole; three passes blend.
+/// Cameras whose scale takes depths beyond the range of floats draw something or nothing, safely.
+static void test_scales_beyond_floats(void **state) {
+    (void)state;
+    static const double scales[] = {1e-40, 1e-30, 1e20, 3e38, 1e60};
+    ewa_context *context = check_context(1, NULL);
+    ewa_generate_options generate;
+    ewa_generate_options_init(&generate, sizeof generate);
+    generate.object = EWA_OBJECT_SPHERE;
+    generate.point_count = 40000; // so that a tile has several runs
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_cloud_generate(context, &generate, &cloud), EWA_OK);
+    for (size_t i = 0; i < 2 * sizeof scales / sizeof scales[0]; i++) {
+        ewa_camera camera;
+        ewa_camera_init(&camera, sizeof camera);
+        camera.width_px = 200, camera.height_px = 150;
+        camera.fx_px = camera.fy_px = 200, camera.cx_px = 100, camera.cy_px = 75;
+        const double s = scales[i / 2], away = i % 2 ? 3 * s : 0; // from the middle, and from afar
+        const double rows[12] = {s, 0, 0, 0, 0, -s, 0, 0, 0, 0, -s, away};
+        memcpy(camera.world_to_camera, rows, sizeof rows);
+        ewa_render_options options;
+        ewa_render_options_init(&options, sizeof options);
+        options.kernel = EWA_KERNEL_AFFINE; // whose packets are not culled by the sides of the view
+        picture drawn = picture_draw(context, cloud, &camera, NULL, &options);
+        picture_free(&drawn);
+    }
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
 static void test_one_pass_shows_one_surfel(void **state) {
     (void)state;
     ewa_context *context = check_context(0, NULL);
@@ -444,6 +473,7 @@ int main(void) {
         cmocka_unit_test(test_order_of_points_does_not_matter),
         cmocka_unit_test(test_one_pass_shows_one_surfel),
         cmocka_unit_test(test_crowded_tile_holds),
+        cmocka_unit_test(test_scales_beyond_floats),
         cmocka_unit_test(test_empty_and_lonely),
         cmocka_unit_test(test_every_failing_allocation_is_clean),
         cmocka_unit_test(test_warm_frames_allocate_nothing),

@@ -324,7 +324,9 @@ static void test_wrong_options_are_refused(void **state) {
     options = all_options(NULL), options.light_count = 9;
     refuse(context, &log, &of, &options, "light_count");
     options = all_options(NULL), options.lights[2].color[1] = -1;
-    refuse(context, &log, &of, &options, "color");
+    refuse(context, &log, &of, &options, "lights[2].color[1] is -1");
+    options = all_options(NULL), options.lights[1].direction_world[0] = INFINITY;
+    refuse(context, &log, &of, &options, "lights[1].direction_world is inf");
     options = all_options(NULL), options.environment_up[1] = NAN;
     refuse(context, &log, &of, &options, "environment_up");
     options = all_options(NULL), memset(options.environment_up, 0, sizeof options.environment_up);
