@@ -16,5 +16,6 @@
 #include "ewa/render.h"
 #include "ewa/shade.h"
 #include "ewa/volume.h"
+#include "ewa/warp.h"
 
 #endif

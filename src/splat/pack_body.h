@@ -74,6 +74,59 @@ static inline void decode_normals(const ewa_packet *packet, wf n[3]) {
     n[0] = wf_div(x, length), n[1] = wf_div(y, length), n[2] = wf_div(z, length);
 }
 
+static inline wf dot(const wf a[3], const wf b[3]) {
+    return wf_fma(a[0], b[0], wf_fma(a[1], b[1], wf_mul(a[2], b[2])));
+}
+
+/// A rotation of the pair of axes by t keeps their covariance; they become orthogonal for tan 2t = 2 u.v /
+/// (u.u - v.v), as in surfel.c.
+static void code_axes(const float axis_u[3][LANES], const float axis_v[3][LANES], ewa_packet *packet) {
+    const wf zero = wf_set(0), one = wf_set(1), half = wf_set(0.5f);
+    wf u[3], v[3], largest = zero;
+    for (int c = 0; c < 3; c++) {
+        u[c] = wf_load(axis_u[c]), v[c] = wf_load(axis_v[c]);
+        largest = wf_max(wf_max(wf_abs(u[c]), wf_abs(v[c])), largest);
+    }
+    const wf inverse = wf_div(one, largest); // squares neither overflow nor vanish
+    for (int c = 0; c < 3; c++) u[c] = wf_mul(u[c], inverse), v[c] = wf_mul(v[c], inverse);
+    const wf uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), difference = wf_sub(uu, vv), twice = wf_add(uv, uv);
+    const wf length = wf_sqrt(wf_fma(difference, difference, wf_mul(twice, twice)));
+    const wm round = wf_le(length, wf_mul(wf_add(uu, vv), wf_set(1e-6f)));
+    const wf safe = wf_select(round, one, length);
+    const wf larger = wf_sqrt(wf_fma(wf_div(wf_abs(difference), safe), half, half));
+    const wf smaller = wf_div(wf_div(wf_abs(twice), safe), wf_add(larger, larger));
+    const wm first = wf_le(zero, difference);
+    const wf cosine = wf_select(first, larger, smaller);
+    const wf sine = with_sign_of(wf_select(first, smaller, larger), twice);
+    wf axis[3];
+    for (int c = 0; c < 3; c++) axis[c] = wf_fma(cosine, u[c], wf_mul(sine, v[c]));
+    const wf major2 = wf_mul(wf_add(wf_add(uu, vv), length), half);
+    // The area of the pair is that of the principal axes.
+    const wf cx = wf_sub(wf_mul(u[1], v[2]), wf_mul(u[2], v[1])), cy = wf_sub(wf_mul(u[2], v[0]), wf_mul(u[0], v[2])),
+             cz = wf_sub(wf_mul(u[0], v[1]), wf_mul(u[1], v[0]));
+    const wf area = wf_sqrt(wf_fma(cx, cx, wf_fma(cy, cy, wf_mul(cz, cz))));
+    const wf ratio = wf_select(round, one, wf_min(wf_div(area, major2), one));
+    wf_store(packet->sigma, wf_mul(wf_sqrt(major2), largest));
+
+    // The angle in the frame of the decoded normal: packet_frame() of packets.c.
+    wf n[3];
+    decode_normals(packet, n);
+    const wf sign = wf_select(wf_lt(n[2], zero), wf_set(-1), one);
+    const wf a = wf_div(wf_set(-1), wf_add(sign, n[2])), b = wf_mul(wf_mul(n[0], n[1]), a);
+    const wf frame_u[3] = {wf_fma(wf_mul(sign, n[0]), wf_mul(n[0], a), one), wf_mul(sign, b),
+                           wf_sub(zero, wf_mul(sign, n[0]))};
+    const wf frame_v[3] = {b, wf_fma(wf_mul(n[1], n[1]), a, sign), wf_sub(zero, n[1])};
+    wf c = dot(axis, frame_u), s = dot(axis, frame_v);
+    c = wf_select(wf_lt(s, zero), wf_sub(zero, c), c), s = wf_abs(s); // the axis has no sign
+    const wf sum = wf_add(wf_abs(c), s);
+    const wf diamond = wf_select(wf_lt(zero, sum), wf_sub(one, wf_div(c, wf_select(wf_lt(zero, sum), sum, one))), zero);
+    int32_t angles[LANES], ratios[LANES];
+    wi_store(angles, wi_from_f(wf_fma(wf_select(round, zero, diamond), wf_set(32768), half)));
+    wi_store(ratios, wi_from_f(wf_fma(ratio, wf_set(65535), half)));
+    for (int i = 0; i < LANES; i++) packet->angle[i] = (uint16_t)angles[i];
+    for (int i = 0; i < LANES; i++) packet->ratio[i] = (uint16_t)ratios[i];
+}
+
 /// The sum, the least or the greatest number of each row: lane k of the result is that of rows[k].
 static inline wf sum_rows(wf rows[LANES]) {
     w_transpose(rows);
@@ -177,4 +230,4 @@ static void bound_packets(const ewa_packet *packets, uint32_t count, float cutof
     bound_normals(all, bounds, first);
 }
 
-const ewa_pack_kernels PACK_KERNELS = {survey, code_normals, bound_packets};
+const ewa_pack_kernels PACK_KERNELS = {survey, code_normals, code_axes, bound_packets};
