@@ -94,7 +94,8 @@ typedef struct ewa_warp_facts {
 EWA_API ewa_status ewa_warp_take(ewa_warp *warp, const ewa_depth_image *images, uint32_t count,
                                  const ewa_warp_options *options, ewa_warp_facts *facts);
 
-/// Sets ewa_render_options to those of warping: as ewa_render_options_init(), but colours without light.
+/// Sets ewa_render_options to those of warping: as ewa_render_options_init(), but colours without light and
+/// a prefilter of 0.25 px, since samples of a grid need less smoothing than scattered ones.
 EWA_API void ewa_warp_render_options_init(ewa_render_options *options, size_t struct_size);
 
 /// Draws the samples for another camera. `options` NULL: ewa_warp_render_options_init(). `holes` (NULL: not

@@ -15,7 +15,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { BLOCKS_PER_CELL = EWA_WARP_CELL_PX / EWA_WARP_BLOCK_PX };
+enum { BLOCKS_PER_CELL = EWA_WARP_CELL_PX / EWA_WARP_BLOCK_PX, FINISH_PARTS = 64, PACKETS_AHEAD = 10 };
 
 /// Largest rate at which keys may change per pixel on a plane, and largest second difference there, over the
 /// jump that is allowed at any rate.
@@ -261,6 +261,13 @@ static uint64_t measure_strip(const taking *t, const ewa_warp_source *source, ui
     return dropped;
 }
 
+/// Asks for the memory of a packet that is written soon: packets are far more than a cache holds.
+static inline void prefetch_packet(const ewa_packet *packet) {
+    enum { LINE_BYTES = 64 };
+    for (size_t line = 0; line < sizeof *packet; line += LINE_BYTES)
+        __builtin_prefetch((const char *)packet + line, 1);
+}
+
 /// Makes the surfels of one block; returns the mask of those that exist.
 static uint16_t make_block(const taking *t, const ewa_warp_source *source, const ewa_warp_rows *rows,
                            uint32_t x, uint32_t y, ewa_packet *packet) {
@@ -270,9 +277,8 @@ static uint16_t make_block(const taking *t, const ewa_warp_source *source, const
         t->kernels->block(&source->lens, x, y, rows->keys + at, rows->slope_x + at, rows->slope_y + at,
                           rows->stride, packet, normal, axis_u, axis_v);
     if (!mask) return 0;
-    const ewa_pack_kernels *pack = t->warp->grid.kernels;
-    pack->code_normals((const float(*)[16])normal, packet);
-    pack->code_axes((const float(*)[16])axis_u, (const float(*)[16])axis_v, packet);
+    t->warp->grid.kernels->code_ellipses((const float(*)[16])normal, (const float(*)[16])axis_u,
+                                         (const float(*)[16])axis_v, packet);
     set_colors(t, &source->image, x, y, packet);
     return (uint16_t)mask;
 }
@@ -293,8 +299,9 @@ static void take_strip(void *data, uint32_t strip, uint32_t worker) {
         for (uint32_t k = 0; k < EWA_GRID_GROUP; k++) {
             const uint32_t x = cell * EWA_WARP_CELL_PX + k % BLOCKS_PER_CELL * EWA_WARP_BLOCK_PX;
             const uint32_t y = first_y + k / BLOCKS_PER_CELL * EWA_WARP_BLOCK_PX;
-            masks[k] = make_block(t, source, &rows, x, y,
-                                  &warp->grid.surfels.packets[group * EWA_GRID_GROUP + k]);
+            ewa_packet *packet = &warp->grid.surfels.packets[group * EWA_GRID_GROUP + k];
+            prefetch_packet(packet + PACKETS_AHEAD);
+            masks[k] = make_block(t, source, &rows, x, y, packet);
             facts->sample_count += (uint64_t)__builtin_popcount(masks[k]);
         }
         ewa_grid_end_group(&warp->grid, group, masks);
@@ -363,7 +370,7 @@ void ewa_warp_destroy(ewa_warp **warp) {
     ewa_grid_free(context, &old->grid);
     ewa_warp_nearest_free(context, &old->nearest);
     ewa_buffer *const buffers[] = {&old->source_buffer, &old->strip_buffer, &old->row_buffer,
-                                   &old->coverage_buffer};
+                                   &old->surface_buffer};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) ewa_buffer_free(context, buffers[i]);
     ewa_release(context, old, 1, sizeof *old);
     *warp = NULL;
@@ -406,12 +413,59 @@ ewa_status ewa_warp_take(ewa_warp *warp, const ewa_depth_image *images, uint32_t
     return EWA_OK;
 }
 
-/// Marks pixels of which less than half is covered.
-static void mark_holes(const ewa_camera *target, double edge_threshold, const float *coverage,
-                       uint8_t *holes) {
+/// What finishes pictures whose holes are wanted: they are drawn over nothing.
+typedef struct finishing {
+    const ewa_frame *frame;
+    const float *surfaces; // premultiplied, over nothing
+    float background[4];   // straight
+    uint8_t *holes;
+    size_t pixel_count;
+} finishing;
+
+static void finish_part(void *data, uint32_t part, uint32_t worker) {
+    (void)worker;
+    const finishing *f = data;
+    const float *background = f->background;
+    const size_t end = (size_t)ewa_split(f->pixel_count, FINISH_PARTS, part + 1);
+    for (size_t i = (size_t)ewa_split(f->pixel_count, FINISH_PARTS, part); i < end; i++) {
+        const float *from = f->surfaces + 4 * i, through = background[3] * (1 - from[3]);
+        f->holes[i] = from[3] < 0.5f ? 255 : 0;
+        if (background[3] == 0) continue;
+        const float alpha = from[3] + through, inverse = alpha > 0 ? 1 / alpha : 0;
+        float light[3];
+        for (int c = 0; c < 3; c++) light[c] = from[c] + background[c] * through;
+        if (f->frame->rgba8) {
+            for (int c = 0; c < 3; c++)
+                f->frame->rgba8[4 * i + c] = ewa_srgb8_from_linear(light[c] * inverse);
+            f->frame->rgba8[4 * i + 3] = (uint8_t)(255 * (alpha < 1 ? alpha : 1) + 0.5f);
+        }
+        if (f->frame->rgba) {
+            memcpy(f->frame->rgba + 4 * i, light, sizeof light);
+            f->frame->rgba[4 * i + 3] = alpha;
+        }
+    }
+}
+
+/// Draws over nothing, whose alpha tells the holes, and puts the background behind.
+static ewa_status draw_with_holes(ewa_warp *warp, const ewa_camera *target, const ewa_render_options *options,
+                                  const ewa_frame *frame, uint8_t *holes, ewa_render_stats *stats) {
     const size_t pixel_count = (size_t)target->width_px * target->height_px;
-    const float half = (float)(0.5 * edge_threshold);
-    for (size_t i = 0; i < pixel_count; i++) holes[i] = coverage[i] < half ? 255 : 0;
+    ewa_frame drawn = *frame;
+    if (!drawn.rgba) {
+        const ewa_status status = ewa_buffer_reserve(warp->context, &warp->surface_buffer, pixel_count,
+                                                     4 * sizeof *drawn.rgba);
+        if (status != EWA_OK) return status;
+        drawn.rgba = warp->surface_buffer.data;
+    }
+    finishing f = {.frame = frame, .surfaces = drawn.rgba, .holes = holes, .pixel_count = pixel_count};
+    memcpy(f.background, options->background, sizeof f.background);
+    ewa_render_options over_nothing = *options;
+    memset(over_nothing.background, 0, sizeof over_nothing.background);
+    if (f.background[3] > 0) drawn.rgba8 = NULL;
+    const ewa_status status =
+        ewa_render(warp->renderer, &warp->grid.surfels, target, &over_nothing, &drawn, stats);
+    if (status == EWA_OK) ewa_parallel(warp->context, finish_part, &f, FINISH_PARTS);
+    return status;
 }
 
 ewa_status ewa_warp_draw(ewa_warp *warp, const ewa_camera *target, ewa_warp_method method,
@@ -429,14 +483,6 @@ ewa_status ewa_warp_draw(ewa_warp *warp, const ewa_camera *target, ewa_warp_meth
     if (method == EWA_WARP_MCMILLAN) return ewa_warp_draw_nearest(warp, target, &chosen, frame, holes);
     if (method != EWA_WARP_HYBRID)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "warp: method %d is none of EWA_WARP_*", (int)method);
-    ewa_frame drawn = *frame;
-    if (holes && !drawn.coverage) {
-        status = ewa_buffer_reserve(context, &warp->coverage_buffer,
-                                    (size_t)target->width_px * target->height_px, sizeof *drawn.coverage);
-        if (status != EWA_OK) return status;
-        drawn.coverage = warp->coverage_buffer.data;
-    }
-    status = ewa_render(warp->renderer, &warp->grid.surfels, target, &chosen, &drawn, stats);
-    if (status == EWA_OK && holes) mark_holes(target, chosen.edge_threshold, drawn.coverage, holes);
-    return status;
+    if (holes) return draw_with_holes(warp, target, &chosen, frame, holes, stats);
+    return ewa_render(warp->renderer, &warp->grid.surfels, target, &chosen, frame, stats);
 }

@@ -36,7 +36,7 @@ struct ewa_warp {
     ewa_grid grid;
     ewa_warp_source *sources; ///< in `source_buffer`
     uint32_t source_count, strip_count;
-    ewa_buffer source_buffer, strip_buffer, row_buffer, coverage_buffer;
+    ewa_buffer source_buffer, strip_buffer, row_buffer, surface_buffer;
     ewa_warp_nearest nearest;
 };
 

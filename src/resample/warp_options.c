@@ -37,6 +37,7 @@ void ewa_warp_render_options_init(ewa_render_options *options, size_t struct_siz
     if (!options || struct_size < sizeof *options) return;
     ewa_render_options_init(options, struct_size);
     options->shading = EWA_SHADING_NONE;
+    options->prefilter_px = 0.25;
 }
 
 static ewa_status check_range(ewa_context *context, const char *name, double value, double low, bool low_open,

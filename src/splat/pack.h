@@ -26,11 +26,11 @@ typedef struct ewa_pack_kernels {
     /// Sets the normal codes of a packet from normals of any length but zero, one array per coordinate.
     void (*code_normals)(const float normal[3][EWA_PACKET_LANES], ewa_packet *packet);
 
-    /// Sets sigmas, ratios and angles of a packet, whose normal codes are set, from conjugate axes of its
-    /// kernels: tangent to the surfels, of magnitudes in [1e-30, 1e30], possibly skewed, one array per
-    /// coordinate. The longer principal axis is at least as long as 1e-6 of the larger one.
-    void (*code_axes)(const float axis_u[3][EWA_PACKET_LANES], const float axis_v[3][EWA_PACKET_LANES],
-                      ewa_packet *packet);
+    /// Sets normals, sigmas, ratios and angles of a packet from normals whose largest coordinate is in
+    /// [1e-15, 1e15] and from conjugate axes of the kernels, tangent to the surfels and possibly skewed, the
+    /// longer one's largest coordinate in [1e-30, 1e30]; one array per coordinate.
+    void (*code_ellipses)(const float normal[3][EWA_PACKET_LANES], const float axis_u[3][EWA_PACKET_LANES],
+                          const float axis_v[3][EWA_PACKET_LANES], ewa_packet *packet);
 
     /// Sets `bounds` [first, first + 16): spheres around the supports of `cutoff` sigmas, cones around the
     /// normals. `packets` are the `count` (1 to 16) packets there; all their lanes count. The entries of

@@ -103,6 +103,7 @@ static const struct {
              {"aside 0.3", {0.3, 0, 0}},
              {"ahead 1.0 (magnified)", {0, 0, 1.0}},
              {"back 2.0 (minified)", {0, 0, -2.0}},
+             {"back 12 (minified 3 times)", {0, 0, -12}},
              {"aside 0.6, up 0.4, ahead 0.5", {0.6, -0.4, 0.5}}};
 
 static void quality(void) {
