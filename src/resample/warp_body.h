@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The sampling kernels over the wide type: a stub defines which one that is and WARP_KERNELS, the name of the
-// table.
+// The sampling kernels over the wide type: the file that includes it defines which one that is, and
+// WARP_KERNELS, the name of the table.
 //
 // Based on: Yuan et al., "Hybrid Forward Resampling and Volume Rendering", 2003, section 3 (splat sizes from
 // neighbours of the same surface, normals).
