@@ -15,7 +15,12 @@
 #include <math.h>
 #include <string.h>
 
-enum { BLOCKS_PER_CELL = EWA_WARP_CELL_PX / EWA_WARP_BLOCK_PX, FINISH_PARTS = 64, PACKETS_AHEAD = 10 };
+enum {
+    BLOCKS_PER_CELL = EWA_WARP_CELL_PX / EWA_WARP_BLOCK_PX,
+    MEASURED_ROWS = EWA_WARP_STRIP_PX + 2 * EWA_WARP_REACH, // that the slopes of a strip look at
+    FINISH_PARTS = 64,
+    PACKETS_AHEAD = 10,
+};
 
 /// Largest rate at which keys may change per pixel on a plane, and largest second difference there, over the
 /// jump that is allowed at any rate.
@@ -75,6 +80,7 @@ static void set_source(ewa_warp_source *source, const ewa_warp_options *options)
     lens->jump = (float)options->depth_jump, lens->steep = (float)STEEP;
     lens->bend = (float)(BEND_PER_JUMP * options->depth_jump);
     lens->crease_x = (float)(CREASE / camera->fx_px), lens->crease_y = (float)(CREASE / camera->fy_px);
+    lens->noise = (float)options->depth_noise;
     lens->drop_flying = options->drop_flying ? 1 : 0;
     source->key_low = (float)(1 / options->farthest_world), source->key_high = (float)(1 / options->nearest_world);
     source->key_scale = (float)image->depth_scale;
@@ -235,29 +241,45 @@ static void set_colors(const taking *t, const ewa_depth_image *image, uint32_t x
     }
 }
 
+/// Reads keys of rows [first_y, first_y + count) of a picture, NaN outside of it.
+static void read_rows(const taking *t, const ewa_warp_source *source, int64_t first_y, uint32_t count,
+                      float *keys) {
+    for (uint32_t i = 0; i < count; i++) {
+        const int64_t y = first_y + i;
+        if (y < 0 || y >= source->image.camera.height_px)
+            set_row_nan(t, keys + i * t->stride);
+        else
+            read_keys(t, source, (uint32_t)y, keys + i * t->stride);
+    }
+}
+
 /// Keys and slopes of a strip; returns how many samples were dropped as flying.
 static uint64_t measure_strip(const taking *t, const ewa_warp_source *source, uint32_t first_y, float *memory,
                               ewa_warp_rows *rows) {
-    enum { READ_ROWS = EWA_WARP_STRIP_PX + 2 * EWA_WARP_REACH };
-    const ewa_camera *camera = &source->image.camera;
     const size_t stride = t->stride, plane = EWA_WARP_STRIP_PX * stride;
-    float *read = memory;
-    *rows = (ewa_warp_rows){.keys = memory + READ_ROWS * stride + EWA_WARP_FRONT, .stride = stride};
+    const uint32_t count = source->cells_x * EWA_WARP_CELL_PX;
+    float *keys = memory;
+    *rows = (ewa_warp_rows){.keys = memory + MEASURED_ROWS * stride + EWA_WARP_FRONT, .stride = stride};
     rows->slope_x = rows->keys + plane;
     rows->slope_y = rows->slope_x + plane;
-    for (uint32_t i = 0; i < READ_ROWS; i++) {
-        const int64_t y = (int64_t)first_y + i - EWA_WARP_REACH;
-        if (y < 0 || y >= camera->height_px)
-            set_row_nan(t, read + i * stride);
-        else
-            read_keys(t, source, (uint32_t)y, read + i * stride);
+    rows->distance_x = rows->slope_y + plane;
+    rows->distance_y = rows->distance_x + plane;
+    const float noise = source->lens.noise;
+    if (noise > 0) {
+        float *noisy = rows->distance_y + plane - EWA_WARP_FRONT;
+        read_rows(t, source, (int64_t)first_y - 2 * EWA_WARP_REACH, MEASURED_ROWS + 2 * EWA_WARP_REACH, noisy);
+        for (uint32_t i = 0; i < MEASURED_ROWS; i++) {
+            set_row_nan(t, keys + i * stride);
+            t->kernels->smooth(noise, noisy + (i + EWA_WARP_REACH) * stride + EWA_WARP_FRONT, stride, count,
+                               keys + i * stride + EWA_WARP_FRONT);
+        }
+    } else {
+        read_rows(t, source, (int64_t)first_y - EWA_WARP_REACH, MEASURED_ROWS, keys);
     }
     uint64_t dropped = 0;
     for (uint32_t i = 0; i < EWA_WARP_STRIP_PX; i++)
-        dropped += t->kernels->slopes(
-            &source->lens, read + (i + EWA_WARP_REACH) * stride + EWA_WARP_FRONT, stride,
-            source->cells_x * EWA_WARP_CELL_PX, rows->keys + i * stride, rows->slope_x + i * stride,
-            rows->slope_y + i * stride);
+        dropped += t->kernels->slopes(&source->lens, keys + (i + EWA_WARP_REACH) * stride + EWA_WARP_FRONT,
+                                      stride, count, rows, i * stride);
     return dropped;
 }
 
@@ -272,10 +294,9 @@ static inline void prefetch_packet(const ewa_packet *packet) {
 static uint16_t make_block(const taking *t, const ewa_warp_source *source, const ewa_warp_rows *rows,
                            uint32_t x, uint32_t y, ewa_packet *packet) {
     float normal[3][16], axis_u[3][16], axis_v[3][16];
-    const size_t at = y % EWA_WARP_STRIP_PX * rows->stride + x;
     const uint32_t mask =
-        t->kernels->block(&source->lens, x, y, rows->keys + at, rows->slope_x + at, rows->slope_y + at,
-                          rows->stride, packet, normal, axis_u, axis_v);
+        t->kernels->block(&source->lens, x, y, rows, y % EWA_WARP_STRIP_PX * rows->stride + x, packet, normal,
+                          axis_u, axis_v);
     if (!mask) return 0;
     t->warp->grid.kernels->code_ellipses((const float(*)[16])normal, (const float(*)[16])axis_u,
                                          (const float(*)[16])axis_v, packet);
@@ -324,7 +345,7 @@ static double unit_coverage(const ewa_warp_options *options) {
 
 static ewa_status reserve(taking *t, uint64_t group_count, uint32_t widest_px,
                           const ewa_warp_options *options) {
-    enum { ROWS = 4 * EWA_WARP_STRIP_PX + 2 * EWA_WARP_REACH };
+    enum { ROWS = MEASURED_ROWS + 5 * EWA_WARP_STRIP_PX + MEASURED_ROWS + 2 * EWA_WARP_REACH };
     ewa_warp *warp = t->warp;
     ewa_context *context = warp->context;
     ewa_status status =

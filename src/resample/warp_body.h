@@ -12,8 +12,29 @@
 /// A second difference that is not known.
 static const float UNKNOWN = 1e30f;
 
+/// Keys closer than so many times the noise are averaged.
+static const float CLOSE = 2.5f;
+
 /// How many times straighter one side of a crease is than the crease.
 static const float STRAIGHTER = 4;
+
+static void smooth(float noise, const float *keys, size_t stride, uint32_t count, float *smoothed) {
+    const wf most = wf_set(CLOSE * noise), one = wf_set(1);
+    for (uint32_t x = 0; x < count; x += 16) {
+        const wf key = wf_load(keys + x);
+        wf sum = wf_set(0), weight = sum;
+        const float *row = keys + x - EWA_WARP_REACH * stride - EWA_WARP_REACH;
+        for (int i = 0; i <= 2 * EWA_WARP_REACH; i++, row += stride) {
+            for (int k = 0; k <= 2 * EWA_WARP_REACH; k++) {
+                const wf difference = wf_sub(wf_load(row + k), key);
+                const wm close = wf_le(wf_abs(difference), most);
+                sum = wf_add(sum, wf_keep(close, difference));
+                weight = wf_add(weight, wf_keep(close, one));
+            }
+        }
+        wf_store(smoothed + x, wf_add(key, wf_div(sum, weight))); // NaN stays
+    }
+}
 
 /// Whether a neighbour is on the same surface: it is near, or it continues the differences on one side.
 static ALWAYS_INLINE wm same_surface(const ewa_warp_lens *lens, wf key, wf neighbour, wf difference,
@@ -25,35 +46,58 @@ static ALWAYS_INLINE wm same_surface(const ewa_warp_lens *lens, wf key, wf neigh
     return wm_or(near, wm_and(straight, wf_le(size, wf_mul(wf_set(lens->steep), larger))));
 }
 
-/// The slope of the key along one direction from five keys; adds to `flying` what hangs between its
-/// neighbours.
-static ALWAYS_INLINE wf slope_along(const ewa_warp_lens *lens, float crease, const wf key[5], wm *flying) {
-    const wf zero = wf_set(0), unknown = wf_set(UNKNOWN);
-    const wf left = wf_sub(key[2], key[1]), right = wf_sub(key[3], key[2]);
-    const wf bend = wf_abs(wf_sub(right, left));
-    const wf left_bend = wf_abs(wf_sub(left, wf_sub(key[1], key[0])));
-    const wf right_bend = wf_abs(wf_sub(wf_sub(key[4], key[3]), right));
-    const wm has_left = same_surface(lens, key[2], key[1], left, bend, left_bend);
-    const wm has_right = same_surface(lens, key[2], key[3], right, bend, right_bend);
+/// What is on one side of a sample.
+typedef struct side {
+    wf rate; ///< of the key per pixel, outward
+    wf distance;
+    wf bend; ///< of the rate farther out; UNKNOWN there is none
+    wf neighbour, difference;
+} side;
+
+/// Looks at a neighbour, or past it where it has no depth: sensors leave single pixels out.
+static ALWAYS_INLINE side look(wf key, wf next, wf beyond) {
+    const wf half = wf_set(0.5f), one = wf_set(1);
+    const wm is_next = wf_le(wf_set(0), next);
+    side s = {.neighbour = wf_select(is_next, next, beyond)};
+    s.difference = wf_sub(s.neighbour, key);
+    s.rate = wf_select(is_next, s.difference, wf_mul(s.difference, half));
+    s.distance = wf_select(is_next, one, wf_set(2));
+    s.bend = wf_min(wf_abs(wf_sub(wf_sub(beyond, next), s.rate)), wf_set(UNKNOWN)); // NaN gives that
+    return s;
+}
+
+/// The slope of the key along one direction from five keys, and the distance to the neighbours; adds to
+/// `flying` what hangs between these.
+static ALWAYS_INLINE wf slope_along(const ewa_warp_lens *lens, float crease, const wf key[5], wf *distance,
+                                    wm *flying) {
+    const wf zero = wf_set(0), half = wf_set(0.5f);
+    const side left = look(key[2], key[1], key[0]), right = look(key[2], key[3], key[4]);
+    const wf bend = wf_abs(wf_add(right.rate, left.rate));
+    const wm has_left = same_surface(lens, key[2], left.neighbour, left.difference, bend, left.bend);
+    const wm has_right = same_surface(lens, key[2], right.neighbour, right.difference, bend, right.bend);
     // On a crease the straighter side has the sample.
-    const wf left_known = wf_min(left_bend, unknown), right_known = wf_min(right_bend, unknown);
-    const wf least = wf_min(left_known, right_known);
+    const wf least = wf_min(left.bend, right.bend);
     const wm creased = wm_and(wf_lt(wf_mul(wf_set(crease), key[2]), bend),
                               wf_lt(wf_mul(wf_set(STRAIGHTER), least), bend));
-    const wf one_side = wf_select(wf_lt(left_known, right_known), left, right);
-    const wf middle = wf_mul(wf_add(left, right), wf_set(0.5f));
-    const wf single = wf_select(has_left, left, wf_keep(has_right, right));
+    const wm takes_left = wf_lt(left.bend, right.bend), has_both = wm_and(has_left, has_right);
+    const wf from_left = wf_sub(zero, left.rate);
+    const wf one_side = wf_select(takes_left, from_left, right.rate);
+    const wf middle = wf_mul(wf_add(from_left, right.rate), half);
+    const wf single = wf_select(has_left, from_left, wf_keep(has_right, right.rate));
+    const wf single_distance =
+        wf_select(has_left, left.distance, wf_select(has_right, right.distance, wf_set(1)));
+    *distance = wf_select(has_both, wf_max(left.distance, right.distance), single_distance);
     const wm torn = wm_not(wm_or(has_left, has_right));
-    *flying = wm_or(*flying, wm_and(torn, wf_lt(zero, wf_mul(left, right))));
-    return wf_select(wm_and(has_left, has_right), wf_select(creased, one_side, middle), single);
+    *flying = wm_or(*flying, wm_and(torn, wf_lt(wf_mul(left.rate, right.rate), zero)));
+    return wf_select(has_both, wf_select(creased, one_side, middle), single);
 }
 
 static uint32_t slopes(const ewa_warp_lens *lens, const float *keys, size_t stride, uint32_t count,
-                       float *kept_keys, float *slope_x, float *slope_y) {
+                       const ewa_warp_rows *rows, size_t at) {
     uint32_t dropped = 0;
     const wm drop = wf_lt(wf_set(0), wf_set(lens->drop_flying));
     for (uint32_t x = 0; x < count; x += 16) {
-        wf along[5], down[5];
+        wf along[5], down[5], distance_x, distance_y;
         for (int i = 0; i < 5; i++) {
             along[i] = wf_load(keys + x + i - EWA_WARP_REACH);
             down[i] = i == EWA_WARP_REACH ? along[i]
@@ -62,11 +106,13 @@ static uint32_t slopes(const ewa_warp_lens *lens, const float *keys, size_t stri
                           : wf_load(keys + x + (size_t)(i - EWA_WARP_REACH) * stride);
         }
         wm flying = wm_of_bits(0);
-        wf_store(slope_x + x, slope_along(lens, lens->crease_x, along, &flying));
-        wf_store(slope_y + x, slope_along(lens, lens->crease_y, down, &flying));
+        wf_store(rows->slope_x + at + x, slope_along(lens, lens->crease_x, along, &distance_x, &flying));
+        wf_store(rows->slope_y + at + x, slope_along(lens, lens->crease_y, down, &distance_y, &flying));
+        wf_store(rows->distance_x + at + x, distance_x);
+        wf_store(rows->distance_y + at + x, distance_y);
         flying = wm_and(flying, drop);
         dropped += (uint32_t)__builtin_popcount(wm_bits(flying));
-        wf_store(kept_keys + x, wf_select(flying, wf_set(__builtin_nanf("")), along[EWA_WARP_REACH]));
+        wf_store(rows->keys + at + x, wf_select(flying, wf_set(__builtin_nanf("")), along[EWA_WARP_REACH]));
     }
     return dropped;
 }
@@ -77,19 +123,20 @@ static ALWAYS_INLINE void store_turned(const float m[9], const wf v[3], float ou
                                 wf_fma(wf_set(m[3 * i + 1]), v[1], wf_mul(wf_set(m[3 * i + 2]), v[2]))));
 }
 
-static uint32_t block(const ewa_warp_lens *lens, uint32_t x, uint32_t y, const float *keys,
-                      const float *slope_x, const float *slope_y, size_t stride, ewa_packet *packet,
-                      float normal[3][16], float axis_u[3][16], float axis_v[3][16]) {
+static uint32_t block(const ewa_warp_lens *lens, uint32_t x, uint32_t y, const ewa_warp_rows *samples,
+                      size_t at, ewa_packet *packet, float normal[3][16], float axis_u[3][16],
+                      float axis_v[3][16]) {
     static const float columns[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3},
                        rows[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
     const wf zero = wf_set(0), one = wf_set(1);
-    wf key = wf_load_rows(keys, stride);
+    const size_t stride = samples->stride;
+    wf key = wf_load_rows(samples->keys + at, stride);
     const wm exists = wf_lt(zero, key);
     const uint32_t mask = wm_bits(exists);
     if (!mask) return 0;
     key = wf_select(exists, key, one);
-    const wf gx = wf_keep(exists, wf_load_rows(slope_x, stride));
-    const wf gy = wf_keep(exists, wf_load_rows(slope_y, stride));
+    const wf gx = wf_keep(exists, wf_load_rows(samples->slope_x + at, stride));
+    const wf gy = wf_keep(exists, wf_load_rows(samples->slope_y + at, stride));
     const wf ray_x = wf_fma(wf_set(lens->ray_x[0]), wf_add(wf_load(columns), wf_set((float)x)),
                             wf_set(lens->ray_x[1]));
     const wf ray_y =
@@ -97,10 +144,12 @@ static uint32_t block(const ewa_warp_lens *lens, uint32_t x, uint32_t y, const f
     const wf z = wf_div(one, key);
     // p = z d with the ray d = (X, Y, 1): dp/dx = z (dd/dx - r d), r = (dkey/dx) / key, likewise along y.
     const wf r = wf_mul(gx, z), q = wf_mul(gy, z), size = wf_mul(z, wf_set(lens->sigma));
-    const wf u[3] = {wf_mul(size, wf_fnma(r, ray_x, wf_set(lens->ray_x[0]))),
-                     wf_mul(size, wf_fnma(r, ray_y, zero)), wf_mul(size, wf_sub(zero, r))};
-    const wf v[3] = {wf_mul(size, wf_fnma(q, ray_x, zero)),
-                     wf_mul(size, wf_fnma(q, ray_y, wf_set(lens->ray_y[0]))), wf_mul(size, wf_sub(zero, q))};
+    const wf size_x = wf_mul(size, wf_load_rows(samples->distance_x + at, stride));
+    const wf size_y = wf_mul(size, wf_load_rows(samples->distance_y + at, stride));
+    const wf u[3] = {wf_mul(size_x, wf_fnma(r, ray_x, wf_set(lens->ray_x[0]))),
+                     wf_mul(size_x, wf_fnma(r, ray_y, zero)), wf_mul(size_x, wf_sub(zero, r))};
+    const wf v[3] = {wf_mul(size_y, wf_fnma(q, ray_x, zero)),
+                     wf_mul(size_y, wf_fnma(q, ray_y, wf_set(lens->ray_y[0]))), wf_mul(size_y, wf_sub(zero, q))};
     // -(u x v) over its length along the ray: it looks at the eye whatever the slopes.
     const wf rf = wf_mul(r, wf_set(1 / lens->ray_x[0])), qf = wf_mul(q, wf_set(1 / lens->ray_y[0]));
     const wf n[3] = {wf_sub(zero, rf), wf_sub(zero, qf), wf_fma(rf, ray_x, wf_fma(qf, ray_y, wf_set(-1)))};
@@ -116,4 +165,4 @@ static uint32_t block(const ewa_warp_lens *lens, uint32_t x, uint32_t y, const f
     return mask;
 }
 
-const ewa_warp_kernels WARP_KERNELS = {slopes, block};
+const ewa_warp_kernels WARP_KERNELS = {smooth, slopes, block};

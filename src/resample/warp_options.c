@@ -60,6 +60,7 @@ ewa_status ewa_warp_options_choose(ewa_context *context, const ewa_warp_options 
     if (status == EWA_OK)
         status = check_range(context, "radius_spacings", chosen->radius_spacings, 0.5, false, 10);
     if (status == EWA_OK) status = check_range(context, "depth_jump", chosen->depth_jump, 0, true, 1);
+    if (status == EWA_OK) status = check_range(context, "depth_noise", chosen->depth_noise, 0, false, MOST_DEPTH);
     if (status == EWA_OK)
         status = check_range(context, "nearest_world", chosen->nearest_world, LEAST_DEPTH, false, MOST_DEPTH);
     if (status == EWA_OK)

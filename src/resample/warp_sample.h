@@ -29,6 +29,7 @@ typedef struct ewa_warp_lens {
     float jump, steep;         ///< largest differences of keys over the larger one: at any rate, of planes
     float bend;                ///< largest second difference of a plane, likewise
     float crease_x, crease_y;  ///< second difference from which two sides are two planes
+    float noise;               ///< of the keys; 0: none
     float drop_flying;         ///< 1 or 0
 } ewa_warp_lens;
 
@@ -36,21 +37,27 @@ typedef struct ewa_warp_lens {
 typedef struct ewa_warp_rows {
     float *keys;               ///< first sample of the first row; NaN: masked
     float *slope_x, *slope_y;  ///< what the key changes per pixel
+    float *distance_x, *distance_y; ///< to the neighbours, in pixels
     size_t stride;
 } ewa_warp_rows;
 
 typedef struct ewa_warp_kernels {
-    /// Measures `count` samples of a row: the slopes of their keys, and which of them stay. `keys` points
-    /// into rows of EWA_WARP_REACH more on each side, `stride` apart; writes up to a multiple of 16. Returns
-    /// how many were dropped as flying.
-    uint32_t (*slopes)(const ewa_warp_lens *lens, const float *keys, size_t stride, uint32_t count,
-                       float *kept_keys, float *slope_x, float *slope_y);
+    /// Averages each of `count` keys of a row with those within EWA_WARP_REACH pixels that differ by little
+    /// more than the noise: the mean of a plane's keys around a pixel is that pixel's. Rows as for slopes().
+    void (*smooth)(float noise, const float *keys, size_t stride, uint32_t count, float *smoothed);
 
-    /// Makes surfels of the 4 x 4 samples at column x, row y of the picture: positions into the packet,
-    /// normals and axes. Returns the mask of those that exist; the others have harmless numbers.
-    uint32_t (*block)(const ewa_warp_lens *lens, uint32_t x, uint32_t y, const float *keys,
-                      const float *slope_x, const float *slope_y, size_t stride, ewa_packet *packet,
-                      float normal[3][16], float axis_u[3][16], float axis_v[3][16]);
+    /// Measures `count` samples of a row into `rows` from number `at` on: slopes, distances and which of the
+    /// keys stay. `keys` points into rows of EWA_WARP_REACH more on each side, `stride` apart; writes up to a
+    /// multiple of 16. Returns how many were dropped as flying.
+    uint32_t (*slopes)(const ewa_warp_lens *lens, const float *keys, size_t stride, uint32_t count,
+                       const ewa_warp_rows *rows, size_t at);
+
+    /// Makes surfels of the 4 x 4 samples at column x, row y of the picture, number `at` of `samples`:
+    /// positions into the packet, normals and axes. Returns the mask of those that exist; the others have
+    /// harmless numbers.
+    uint32_t (*block)(const ewa_warp_lens *lens, uint32_t x, uint32_t y, const ewa_warp_rows *samples,
+                      size_t at, ewa_packet *packet, float normal[3][16], float axis_u[3][16],
+                      float axis_v[3][16]);
 } ewa_warp_kernels;
 
 extern const ewa_warp_kernels ewa_warp_kernels_portable;
