@@ -108,8 +108,9 @@ static const cli_option warp_table[] = {
      .offset = AT(depth_noise),
      .value = "N",
      .range = "[0, 1000000]",
-     .help = "steps of a sensor's depths at distance 1, growing with its square: depths that differ by little "
-             "more are averaged over 5 x 5 pixels. 0.0036 for a first Kinect in metres; 0: taken as they are"},
+     .help =
+         "steps of a sensor's depths at distance 1, growing with its square: depths that differ by little "
+         "more are averaged over 5 x 5 pixels. 0.0036 for a first Kinect in metres; 0: taken as they are"},
     {.key = "drop-flying",
      .kind = OPTION_ON_OFF,
      .offset = AT(drop_flying),
@@ -294,7 +295,8 @@ static bool draw(cli_session *session, const warp_arguments *arguments, const pi
                                                 &picture.frame, holes, NULL);
         if (status != EWA_OK) session_failed(session, status);
         done = status == EWA_OK;
-        if (done) session_say(session, "%s: drawn in %.1f ms", paths->color, 1e3 * (clock_now_s() - started_s));
+        if (done)
+            session_say(session, "%s: drawn in %.1f ms", paths->color, 1e3 * (clock_now_s() - started_s));
     }
     if (done) report_holes(session, target, holes);
     done = done && picture_save(session, paths, target, arguments->background.rgba[3] == 1, &picture);

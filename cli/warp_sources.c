@@ -22,9 +22,10 @@ static const cli_option source_table[] = {
      .offset = AT(camera_paths),
      .value = "FILE[,FILE...]",
      .absent = "at the origin, looking along +z",
-     .help = "cameras of the pictures: one file for each pair, or one file with a camera for each; formats as "
-             "--camera of render, or poses as text (.txt, .log, .tum: 4 x 4 matrices or TUM's lines, camera "
-             "to world), which need --intrinsics"},
+     .help =
+         "cameras of the pictures: one file for each pair, or one file with a camera for each; formats as "
+         "--camera of render, or poses as text (.txt, .log, .tum: 4 x 4 matrices or TUM's lines, camera "
+         "to world), which need --intrinsics"},
     {.key = "source-index",
      .kind = OPTION_VECTOR,
      .offset = AT(camera_indices),
@@ -111,8 +112,10 @@ bool sources_check(const source_arguments *arguments, char message[OPTION_ERROR_
     char path[MAX_PATH];
     const char *wrong = NULL;
     for (size_t i = 0; i < files && !wrong; i++) {
-        if (!path_at(arguments->camera_paths, i, path)) wrong = "--source-camera: an empty or overlong name";
-        else poses |= holds_poses(path);
+        if (!path_at(arguments->camera_paths, i, path))
+            wrong = "--source-camera: an empty or overlong name";
+        else
+            poses |= holds_poses(path);
     }
     if (wrong)
         ;

@@ -11,7 +11,7 @@ enum { WARP_MAX_SOURCES = 16 };
 
 /// Options that say what the pictures are, first in the arguments of a command.
 typedef struct source_arguments {
-    common_arguments common; // first
+    common_arguments common;  // first
     const char *camera_paths; ///< separated by commas
     option_vector camera_indices, intrinsics;
     int depth_kind;

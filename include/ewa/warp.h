@@ -24,16 +24,16 @@ typedef enum ewa_depth_kind {
 /// A picture with depths, borrowed while it is taken; nothing is copied. Fill with ewa_depth_image_init().
 typedef struct ewa_depth_image {
     size_t struct_size;
-    ewa_camera camera; ///< that took it; perspective; its size is that of both planes
-    const void *depth; ///< rows from the top, numbers of a row side by side, aligned to their type
-    ewa_type depth_type;       ///< EWA_U16 or EWA_F32
-    size_t depth_stride_bytes; ///< between rows; 0: tightly packed
-    ewa_depth_kind kind;       ///< default EWA_DEPTH_Z
-    double depth_scale;        ///< numbers per unit, such as 1000 for millimetres; > 0; default 1
-    double baseline_world;     ///< EWA_DEPTH_DISPARITY: distance of the two eyes; > 0
-    double disparity_offset_px; ///< EWA_DEPTH_DISPARITY: difference of the principal points; default 0
-    const void *color;          ///< likewise; NULL: grey
-    ewa_type color_type;        ///< EWA_U8: sRGB; EWA_F32: linear, premultiplied if there is an alpha
+    ewa_camera camera;            ///< that took it; perspective; its size is that of both planes
+    const void *depth;            ///< rows from the top, numbers of a row side by side, aligned to their type
+    ewa_type depth_type;          ///< EWA_U16 or EWA_F32
+    size_t depth_stride_bytes;    ///< between rows; 0: tightly packed
+    ewa_depth_kind kind;          ///< default EWA_DEPTH_Z
+    double depth_scale;           ///< numbers per unit, such as 1000 for millimetres; > 0; default 1
+    double baseline_world;        ///< EWA_DEPTH_DISPARITY: distance of the two eyes; > 0
+    double disparity_offset_px;   ///< EWA_DEPTH_DISPARITY: difference of the principal points; default 0
+    const void *color;            ///< likewise; NULL: grey
+    ewa_type color_type;          ///< EWA_U8: sRGB; EWA_F32: linear, premultiplied if there is an alpha
     uint32_t color_channel_count; ///< 1 grey, 3 RGB or 4 RGBA; pixels whose alpha is 0 are masked
     size_t color_stride_bytes;    ///< between rows; 0: tightly packed
 } ewa_depth_image;
@@ -46,7 +46,7 @@ EWA_API void ewa_depth_image_init(ewa_depth_image *image, size_t struct_size);
 /// what is nearer or farther than the limits.
 typedef struct ewa_warp_options {
     size_t struct_size;
-    double cutoff; ///< F, standard deviations at which kernels end; (0, 4]; default 3
+    double cutoff;          ///< F, standard deviations at which kernels end; (0, 4]; default 3
     double radius_spacings; ///< support radius over the distance to the neighbours; [0.5, 10]; default 1.14
     /// Neighbours whose depths differ by more than this share of the smaller one are on different surfaces,
     /// unless their depths continue those beyond them as a plane does; (0, 1]; default 0.02.

@@ -163,9 +163,10 @@ ewa_status ewa_png_decode_numbers(ewa_context *context, const char *name, const 
     reader in = {.context = context, .name = name};
     ewa_status status = open_png(&in, bytes, size_bytes);
     if (status == EWA_OK && (in.header.color_type != SPNG_COLOR_TYPE_GRAYSCALE || in.header.bit_depth < 8))
-        status = ewa_fail(context, EWA_ERROR_UNSUPPORTED,
-                          "%s: depths have to be grey of 8 or 16 bits, this PNG has colours, alpha or %u bits",
-                          name, in.header.bit_depth);
+        status =
+            ewa_fail(context, EWA_ERROR_UNSUPPORTED,
+                     "%s: depths have to be grey of 8 or 16 bits, this PNG has colours, alpha or %u bits",
+                     name, in.header.bit_depth);
     if (status == EWA_OK) status = check_size(&in, size_bytes);
     if (status == EWA_OK) status = read_numbers(&in, image);
     spng_ctx_free(in.png);

@@ -81,7 +81,8 @@ static inline wf wf_lookup(const float table[16], wi index) {
 
 /// Lanes 4 i .. 4 i + 3 from p + i stride numbers.
 static inline wf wf_load_rows(const float *p, size_t stride) {
-    const __m256 low = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(p)), _mm_loadu_ps(p + stride), 1);
+    const __m256 low =
+        _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(p)), _mm_loadu_ps(p + stride), 1);
     const __m256 high = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(p + 2 * stride)),
                                              _mm_loadu_ps(p + 3 * stride), 1);
     return _mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);

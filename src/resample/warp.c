@@ -82,7 +82,8 @@ static void set_source(ewa_warp_source *source, const ewa_warp_options *options)
     lens->crease_x = (float)(CREASE / camera->fx_px), lens->crease_y = (float)(CREASE / camera->fy_px);
     lens->noise = (float)options->depth_noise;
     lens->drop_flying = options->drop_flying ? 1 : 0;
-    source->key_low = (float)(1 / options->farthest_world), source->key_high = (float)(1 / options->nearest_world);
+    source->key_low = (float)(1 / options->farthest_world),
+    source->key_high = (float)(1 / options->nearest_world);
     source->key_scale = (float)image->depth_scale;
     source->key_offset = 0;
     if (image->kind == EWA_DEPTH_DISPARITY) {
@@ -118,7 +119,8 @@ static ewa_status lay_out(ewa_warp *warp, const ewa_depth_image *images, uint32_
         source->strip_count = (camera->height_px + EWA_WARP_STRIP_PX - 1) / EWA_WARP_STRIP_PX;
         *group_count += (uint64_t)source->cells_x * source->strip_count;
         if (UINT32_MAX - warp->strip_count < source->strip_count || *group_count > UINT32_MAX)
-            return ewa_fail(context, EWA_ERROR_LIMIT, "%u depth images are more than a renderer holds", count);
+            return ewa_fail(context, EWA_ERROR_LIMIT, "%u depth images are more than a renderer holds",
+                            count);
         warp->strip_count += source->strip_count;
         if (camera->width_px > *widest_px) *widest_px = camera->width_px;
     }
@@ -221,8 +223,8 @@ static void set_colors(const taking *t, const ewa_depth_image *image, uint32_t x
             for (uint32_t i = 4 * r; i < 4 * r + columns; i++)
                 packet->red[i] = packet->green[i] = packet->blue[i] = grey;
         } else if (image->color_type == EWA_U8) {
-            const uint8_t *color =
-                (const uint8_t *)row_of(image->color, image->color_stride_bytes, y + r) + (size_t)x * channels;
+            const uint8_t *color = (const uint8_t *)row_of(image->color, image->color_stride_bytes, y + r) +
+                                   (size_t)x * channels;
             for (uint32_t i = 4 * r; i < 4 * r + columns; i++, color += channels) {
                 packet->red[i] = t->codes[color[0]];
                 packet->green[i] = t->codes[color[green]];
@@ -267,7 +269,8 @@ static uint64_t measure_strip(const taking *t, const ewa_warp_source *source, ui
     const float noise = source->lens.noise;
     if (noise > 0) {
         float *noisy = rows->distance_y + plane - EWA_WARP_FRONT;
-        read_rows(t, source, (int64_t)first_y - 2 * EWA_WARP_REACH, MEASURED_ROWS + 2 * EWA_WARP_REACH, noisy);
+        read_rows(t, source, (int64_t)first_y - 2 * EWA_WARP_REACH, MEASURED_ROWS + 2 * EWA_WARP_REACH,
+                  noisy);
         for (uint32_t i = 0; i < MEASURED_ROWS; i++) {
             set_row_nan(t, keys + i * stride);
             t->kernels->smooth(noise, noisy + (i + EWA_WARP_REACH) * stride + EWA_WARP_FRONT, stride, count,
@@ -294,9 +297,8 @@ static inline void prefetch_packet(const ewa_packet *packet) {
 static uint16_t make_block(const taking *t, const ewa_warp_source *source, const ewa_warp_rows *rows,
                            uint32_t x, uint32_t y, ewa_packet *packet) {
     float normal[3][16], axis_u[3][16], axis_v[3][16];
-    const uint32_t mask =
-        t->kernels->block(&source->lens, x, y, rows, y % EWA_WARP_STRIP_PX * rows->stride + x, packet, normal,
-                          axis_u, axis_v);
+    const uint32_t mask = t->kernels->block(
+        &source->lens, x, y, rows, y % EWA_WARP_STRIP_PX * rows->stride + x, packet, normal, axis_u, axis_v);
     if (!mask) return 0;
     t->warp->grid.kernels->code_ellipses((const float(*)[16])normal, (const float(*)[16])axis_u,
                                          (const float(*)[16])axis_v, packet);
@@ -473,8 +475,8 @@ static ewa_status draw_with_holes(ewa_warp *warp, const ewa_camera *target, cons
     const size_t pixel_count = (size_t)target->width_px * target->height_px;
     ewa_frame drawn = *frame;
     if (!drawn.rgba) {
-        const ewa_status status = ewa_buffer_reserve(warp->context, &warp->surface_buffer, pixel_count,
-                                                     4 * sizeof *drawn.rgba);
+        const ewa_status status =
+            ewa_buffer_reserve(warp->context, &warp->surface_buffer, pixel_count, 4 * sizeof *drawn.rgba);
         if (status != EWA_OK) return status;
         drawn.rgba = warp->surface_buffer.data;
     }

@@ -43,7 +43,8 @@ struct ewa_warp {
 /// Packet of the sample at column x, row y of a source.
 static inline uint64_t ewa_warp_packet(const ewa_warp_source *source, uint32_t x, uint32_t y) {
     const uint64_t cell = (uint64_t)(y / EWA_WARP_CELL_PX) * source->cells_x + x / EWA_WARP_CELL_PX;
-    const uint32_t row = y % EWA_WARP_CELL_PX / EWA_WARP_BLOCK_PX, column = x % EWA_WARP_CELL_PX / EWA_WARP_BLOCK_PX;
+    const uint32_t row = y % EWA_WARP_CELL_PX / EWA_WARP_BLOCK_PX,
+                   column = x % EWA_WARP_CELL_PX / EWA_WARP_BLOCK_PX;
     return (source->first_group + cell) * EWA_GRID_GROUP + row * EWA_WARP_BLOCK_PX + column;
 }
 

@@ -77,8 +77,8 @@ static ALWAYS_INLINE wf slope_along(const ewa_warp_lens *lens, float crease, con
     const wm has_right = same_surface(lens, key[2], right.neighbour, right.difference, bend, right.bend);
     // On a crease the straighter side has the sample.
     const wf least = wf_min(left.bend, right.bend);
-    const wm creased = wm_and(wf_lt(wf_mul(wf_set(crease), key[2]), bend),
-                              wf_lt(wf_mul(wf_set(STRAIGHTER), least), bend));
+    const wm creased =
+        wm_and(wf_lt(wf_mul(wf_set(crease), key[2]), bend), wf_lt(wf_mul(wf_set(STRAIGHTER), least), bend));
     const wm takes_left = wf_lt(left.bend, right.bend), has_both = wm_and(has_left, has_right);
     const wf from_left = wf_sub(zero, left.rate);
     const wf one_side = wf_select(takes_left, from_left, right.rate);
@@ -100,10 +100,9 @@ static uint32_t slopes(const ewa_warp_lens *lens, const float *keys, size_t stri
         wf along[5], down[5], distance_x, distance_y;
         for (int i = 0; i < 5; i++) {
             along[i] = wf_load(keys + x + i - EWA_WARP_REACH);
-            down[i] = i == EWA_WARP_REACH ? along[i]
-                      : i < EWA_WARP_REACH
-                          ? wf_load(keys + x - (size_t)(EWA_WARP_REACH - i) * stride)
-                          : wf_load(keys + x + (size_t)(i - EWA_WARP_REACH) * stride);
+            down[i] = i == EWA_WARP_REACH  ? along[i]
+                      : i < EWA_WARP_REACH ? wf_load(keys + x - (size_t)(EWA_WARP_REACH - i) * stride)
+                                           : wf_load(keys + x + (size_t)(i - EWA_WARP_REACH) * stride);
         }
         wm flying = wm_of_bits(0);
         wf_store(rows->slope_x + at + x, slope_along(lens, lens->crease_x, along, &distance_x, &flying));
@@ -137,8 +136,8 @@ static uint32_t block(const ewa_warp_lens *lens, uint32_t x, uint32_t y, const e
     key = wf_select(exists, key, one);
     const wf gx = wf_keep(exists, wf_load_rows(samples->slope_x + at, stride));
     const wf gy = wf_keep(exists, wf_load_rows(samples->slope_y + at, stride));
-    const wf ray_x = wf_fma(wf_set(lens->ray_x[0]), wf_add(wf_load(columns), wf_set((float)x)),
-                            wf_set(lens->ray_x[1]));
+    const wf ray_x =
+        wf_fma(wf_set(lens->ray_x[0]), wf_add(wf_load(columns), wf_set((float)x)), wf_set(lens->ray_x[1]));
     const wf ray_y =
         wf_fma(wf_set(lens->ray_y[0]), wf_add(wf_load(rows), wf_set((float)y)), wf_set(lens->ray_y[1]));
     const wf z = wf_div(one, key);
@@ -149,7 +148,8 @@ static uint32_t block(const ewa_warp_lens *lens, uint32_t x, uint32_t y, const e
     const wf u[3] = {wf_mul(size_x, wf_fnma(r, ray_x, wf_set(lens->ray_x[0]))),
                      wf_mul(size_x, wf_fnma(r, ray_y, zero)), wf_mul(size_x, wf_sub(zero, r))};
     const wf v[3] = {wf_mul(size_y, wf_fnma(q, ray_x, zero)),
-                     wf_mul(size_y, wf_fnma(q, ray_y, wf_set(lens->ray_y[0]))), wf_mul(size_y, wf_sub(zero, q))};
+                     wf_mul(size_y, wf_fnma(q, ray_y, wf_set(lens->ray_y[0]))),
+                     wf_mul(size_y, wf_sub(zero, q))};
     // -(u x v) over its length along the ray: it looks at the eye whatever the slopes.
     const wf rf = wf_mul(r, wf_set(1 / lens->ray_x[0])), qf = wf_mul(q, wf_set(1 / lens->ray_y[0]));
     const wf n[3] = {wf_sub(zero, rf), wf_sub(zero, qf), wf_fma(rf, ray_x, wf_fma(qf, ray_y, wf_set(-1)))};

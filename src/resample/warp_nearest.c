@@ -121,7 +121,8 @@ static void write_in_order(const drawing *d, uint32_t *winners) {
     const double *m = camera->world_to_camera;
     if (d->target->projection == EWA_ORTHOGRAPHIC) { // an eye infinitely far back
         for (int r = 0; r < 3; r++)
-            eye[r] = -(m[4 * r] * d->rotation[6] + m[4 * r + 1] * d->rotation[7] + m[4 * r + 2] * d->rotation[8]);
+            eye[r] =
+                -(m[4 * r] * d->rotation[6] + m[4 * r + 1] * d->rotation[7] + m[4 * r + 2] * d->rotation[8]);
     } else {
         ewa_camera_eye(d->target, eye_world);
         for (int r = 0; r < 3; r++)
@@ -156,7 +157,8 @@ static void merge_rows(void *data, uint32_t task, uint32_t worker) {
     (void)worker;
     const drawing *d = data;
     const size_t width = d->target->width_px, first = (size_t)task * ROWS_PER_TASK;
-    const size_t end = first + ROWS_PER_TASK < d->target->height_px ? first + ROWS_PER_TASK : d->target->height_px;
+    const size_t end =
+        first + ROWS_PER_TASK < d->target->height_px ? first + ROWS_PER_TASK : d->target->height_px;
     for (size_t i = first * width; i < end * width; i++)
         if (d->layer[i] && (!d->winners[i] || depth_of(d, d->layer[i]) < depth_of(d, d->winners[i])))
             d->winners[i] = d->layer[i];
@@ -202,7 +204,8 @@ static void resolve_rows(void *data, uint32_t task, uint32_t worker) {
     const drawing *d = data;
     const ewa_frame *frame = d->frame;
     const size_t width = d->target->width_px, first = (size_t)task * ROWS_PER_TASK;
-    const size_t end = first + ROWS_PER_TASK < d->target->height_px ? first + ROWS_PER_TASK : d->target->height_px;
+    const size_t end =
+        first + ROWS_PER_TASK < d->target->height_px ? first + ROWS_PER_TASK : d->target->height_px;
     for (size_t i = first * width; i < end * width; i++) {
         const uint32_t winner = d->winners[i];
         put_color(d, i, winner);

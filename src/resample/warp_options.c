@@ -60,7 +60,8 @@ ewa_status ewa_warp_options_choose(ewa_context *context, const ewa_warp_options 
     if (status == EWA_OK)
         status = check_range(context, "radius_spacings", chosen->radius_spacings, 0.5, false, 10);
     if (status == EWA_OK) status = check_range(context, "depth_jump", chosen->depth_jump, 0, true, 1);
-    if (status == EWA_OK) status = check_range(context, "depth_noise", chosen->depth_noise, 0, false, MOST_DEPTH);
+    if (status == EWA_OK)
+        status = check_range(context, "depth_noise", chosen->depth_noise, 0, false, MOST_DEPTH);
     if (status == EWA_OK)
         status = check_range(context, "nearest_world", chosen->nearest_world, LEAST_DEPTH, false, MOST_DEPTH);
     if (status == EWA_OK)
@@ -86,8 +87,9 @@ static ewa_status check_depth(ewa_context *context, uint32_t number, const ewa_d
                         number, image->depth_scale, MOST_DEPTH);
     if (image->kind != EWA_DEPTH_DISPARITY) return EWA_OK;
     if (!(image->baseline_world > 0 && image->baseline_world <= MOST_DEPTH))
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "depth image %u: baseline_world is %g, allowed is (0, %g]",
-                        number, image->baseline_world, MOST_DEPTH);
+        return ewa_fail(context, EWA_ERROR_ARGUMENT,
+                        "depth image %u: baseline_world is %g, allowed is (0, %g]", number,
+                        image->baseline_world, MOST_DEPTH);
     if (!(fabs(image->disparity_offset_px) <= MOST_DEPTH))
         return fail_image(context, number, "disparity_offset_px is no number of pixels");
     return EWA_OK;
@@ -100,7 +102,8 @@ static ewa_status check_color(ewa_context *context, uint32_t number, const ewa_d
     const uint32_t channels = image->color_channel_count;
     if (channels != 1 && channels != 3 && channels != 4)
         return ewa_fail(context, EWA_ERROR_ARGUMENT,
-                        "depth image %u: color_channel_count is %u, allowed are 1, 3 and 4", number, channels);
+                        "depth image %u: color_channel_count is %u, allowed are 1, 3 and 4", number,
+                        channels);
     if (image->color_stride_bytes / ewa_type_bytes(image->color_type) / channels < image->camera.width_px)
         return fail_image(context, number, "color_stride_bytes is less than a row");
     return EWA_OK;
@@ -123,8 +126,7 @@ ewa_status ewa_depth_image_choose(ewa_context *context, uint32_t number, const e
         chosen->depth_stride_bytes = width * ewa_type_bytes(chosen->depth_type);
     const bool known_color = chosen->color_type == EWA_U8 || chosen->color_type == EWA_F32;
     if (chosen->color_stride_bytes == 0 && known_color)
-        chosen->color_stride_bytes =
-            width * chosen->color_channel_count * ewa_type_bytes(chosen->color_type);
+        chosen->color_stride_bytes = width * chosen->color_channel_count * ewa_type_bytes(chosen->color_type);
     const ewa_status depth = check_depth(context, number, chosen);
     return depth != EWA_OK ? depth : check_color(context, number, chosen);
 }

@@ -22,21 +22,21 @@ enum {
 
 /// A source camera and the limits of its surfaces, in single precision.
 typedef struct ewa_warp_lens {
-    float ray_x[2], ray_y[2];  ///< slope of column x: ray_x[0] x + ray_x[1], at the pixel's centre
-    float from_camera[9];      ///< world from camera, row-major, scale included
-    float eye[3];              ///< world, from the surfels' origin
-    float sigma;               ///< of a sample, in units of the spacing
-    float jump, steep;         ///< largest differences of keys over the larger one: at any rate, of planes
-    float bend;                ///< largest second difference of a plane, likewise
-    float crease_x, crease_y;  ///< second difference from which two sides are two planes
-    float noise;               ///< of the keys; 0: none
-    float drop_flying;         ///< 1 or 0
+    float ray_x[2], ray_y[2]; ///< slope of column x: ray_x[0] x + ray_x[1], at the pixel's centre
+    float from_camera[9];     ///< world from camera, row-major, scale included
+    float eye[3];             ///< world, from the surfels' origin
+    float sigma;              ///< of a sample, in units of the spacing
+    float jump, steep;        ///< largest differences of keys over the larger one: at any rate, of planes
+    float bend;               ///< largest second difference of a plane, likewise
+    float crease_x, crease_y; ///< second difference from which two sides are two planes
+    float noise;              ///< of the keys; 0: none
+    float drop_flying;        ///< 1 or 0
 } ewa_warp_lens;
 
 /// Rows of numbers of one strip of a picture, `stride` apart, with room before and behind.
 typedef struct ewa_warp_rows {
-    float *keys;               ///< first sample of the first row; NaN: masked
-    float *slope_x, *slope_y;  ///< what the key changes per pixel
+    float *keys;                    ///< first sample of the first row; NaN: masked
+    float *slope_x, *slope_y;       ///< what the key changes per pixel
     float *distance_x, *distance_y; ///< to the neighbours, in pixels
     size_t stride;
 } ewa_warp_rows;

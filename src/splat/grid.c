@@ -75,7 +75,8 @@ void ewa_grid_end_group(ewa_grid *grid, uint64_t group, const uint16_t masks[EWA
         grid->kernels->bound_packets(packets, EWA_GRID_GROUP, (float)s->cutoff, &s->bounds, first);
     } else {
         for (int i = 0; i < EWA_BOUNDS_STREAMS; i++)
-            memset(s->bounds_floats + (size_t)i * s->bounds_stride + first, 0, EWA_GRID_GROUP * sizeof(float));
+            memset(s->bounds_floats + (size_t)i * s->bounds_stride + first, 0,
+                   EWA_GRID_GROUP * sizeof(float));
     }
     for (uint32_t k = 0; k < EWA_GRID_GROUP; k++)
         if (!masks[k]) s->bounds.radius[first + k] = -INFINITY;

@@ -389,8 +389,8 @@ static ewa_status allocate_packets(ewa_surfels *surfels) {
     surfels->packet_count = (uint32_t)(((uint64_t)surfels->count + LANES - 1) / LANES);
     surfels->bounds_stride = ((size_t)surfels->packet_count + LANES - 1) / LANES * LANES;
     surfels->packets = ewa_allocate(context, surfels->packet_count, sizeof *surfels->packets);
-    surfels->bounds_floats =
-        ewa_allocate_zeroed(context, EWA_BOUNDS_STREAMS * surfels->bounds_stride, sizeof *surfels->bounds_floats);
+    surfels->bounds_floats = ewa_allocate_zeroed(context, EWA_BOUNDS_STREAMS * surfels->bounds_stride,
+                                                 sizeof *surfels->bounds_floats);
     if (!surfels->packets || !surfels->bounds_floats) return EWA_ERROR_MEMORY;
     ewa_packets_view_bounds(surfels);
     return EWA_OK;
@@ -456,7 +456,8 @@ void ewa_surfels_destroy(ewa_surfels **surfels) {
     ewa_context *context = old->context;
     ewa_release(context, old->packets, old->packet_count, sizeof *old->packets);
     ewa_extras_free(context, old);
-    ewa_release(context, old->bounds_floats, EWA_BOUNDS_STREAMS * old->bounds_stride, sizeof *old->bounds_floats);
+    ewa_release(context, old->bounds_floats, EWA_BOUNDS_STREAMS * old->bounds_stride,
+                sizeof *old->bounds_floats);
     ewa_release(context, old, 1, sizeof *old);
     *surfels = NULL;
 }

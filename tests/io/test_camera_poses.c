@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Poses as text, and the numbers of depth images.
-#include "io/camera_file.h"
 #include "ewa/io.h"
+#include "io/camera_file.h"
 #include "scratch.h"
 
 #include <math.h>
@@ -127,7 +127,8 @@ static void test_files(void **state) {
     uint32_t count = 0;
     assert_int_equal(ewa_camera_load_poses(context, path, &camera, count_pose, &count), EWA_OK);
     assert_int_equal(count, 2);
-    assert_int_equal(ewa_camera_load_poses(context, "not there.txt", &camera, count_pose, &count), EWA_ERROR_IO);
+    assert_int_equal(ewa_camera_load_poses(context, "not there.txt", &camera, count_pose, &count),
+                     EWA_ERROR_IO);
     assert_int_equal(ewa_camera_load_poses(context, path, NULL, count_pose, &count), EWA_ERROR_ARGUMENT);
     if (check_data("rgbd/livingroom/trajectory.log", path, sizeof path)) {
         count = 0;
@@ -175,7 +176,8 @@ static void test_depths(void **state) {
     assert_non_null(strstr(log.text, "3 channels"));
     assert_null(depth.pixels);
     ewa_image_free(&image);
-    assert_int_equal(ewa_depth_load_memory(context, "P5 1 1 255\n1", 12, "raw", &depth), EWA_ERROR_UNSUPPORTED);
+    assert_int_equal(ewa_depth_load_memory(context, "P5 1 1 255\n1", 12, "raw", &depth),
+                     EWA_ERROR_UNSUPPORTED);
     ewa_context_destroy(&context);
 }
 
@@ -201,9 +203,9 @@ static void test_cut_short(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_matrices), cmocka_unit_test(test_tum),
-        cmocka_unit_test(test_broken),   cmocka_unit_test(test_failing_allocations),
-        cmocka_unit_test(test_files),    cmocka_unit_test(test_depths),
+        cmocka_unit_test(test_matrices),  cmocka_unit_test(test_tum),
+        cmocka_unit_test(test_broken),    cmocka_unit_test(test_failing_allocations),
+        cmocka_unit_test(test_files),     cmocka_unit_test(test_depths),
         cmocka_unit_test(test_cut_short),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -149,7 +149,8 @@ static void settings(void) {
     warp_scene_picture(&source, color, depth);
     const ewa_depth_image image = image_of(&source, depth, color);
     static const double radii[] = {0.9, 1.0, 1.14, 1.3}, prefilters[] = {0.2, 0.25, 0.3, 0.35, 0.5};
-    puts("| radius, prefilter | move | holes | holes where seen | PSNR dB | SSIM |\n|---|---|---|---|---|---|");
+    puts("| radius, prefilter | move | holes | holes where seen | PSNR dB | SSIM "
+         "|\n|---|---|---|---|---|---|");
     for (size_t i = 0; i < sizeof MOVES / sizeof MOVES[0]; i++) {
         const double *s = MOVES[i].shift;
         const ewa_camera target = warp_scene_camera(width, height, s[0], s[1], s[2]);
@@ -192,8 +193,9 @@ static void take_pose(void *user, uint32_t index, const ewa_camera *camera) {
 }
 
 /// Loads a view; `depth_name` and `pose_name` may be NULL.
-static view load_view(ewa_context *context, const char *folder, const char *color_name, const char *depth_name,
-                      const char *pose_name, uint32_t pose, const double intrinsics[4]) {
+static view load_view(ewa_context *context, const char *folder, const char *color_name,
+                      const char *depth_name, const char *pose_name, uint32_t pose,
+                      const double intrinsics[4]) {
     view v = {.color = {0}};
     char path[1024];
     snprintf(path, sizeof path, "%s/%s", folder, color_name);
@@ -245,8 +247,7 @@ static void compare_real(ewa_context *context, const char *what, const view *fro
     uint8_t *truth = get(pixel_count, 3), *either = get(pixel_count, 1), *both = get(pixel_count, 1);
     for (size_t i = 0; i < pixel_count; i++) {
         for (int c = 0; c < 3; c++)
-            truth[3 * i + c] =
-                (uint8_t)(255 * ewa_srgb_from_linear(to->color.pixels[3 * i + c]) + 0.5f);
+            truth[3 * i + c] = (uint8_t)(255 * ewa_srgb_from_linear(to->color.pixels[3 * i + c]) + 0.5f);
         either[i] = !w[0].holes[i] || !w[1].holes[i];
         both[i] = !w[0].holes[i] && !w[1].holes[i];
     }
@@ -264,7 +265,8 @@ static void compare_real(ewa_context *context, const char *what, const view *fro
 
 static void real(const char *data) {
     // Principal points are those of the data sets, whose pixel centres are whole numbers, plus half a pixel.
-    static const double room_lens[4] = {525, 525, 320, 240}, box_lens[4] = {615.195, 615.195, 298.943, 248.019},
+    static const double room_lens[4] = {525, 525, 320, 240},
+                        box_lens[4] = {615.195, 615.195, 298.943, 248.019},
                         stereo_lens[4] = {994.978, 994.978, 311.693, 255.377};
     char folder[1024];
     ewa_context *context = make_context(0);
@@ -283,15 +285,16 @@ static void real(const char *data) {
     compare_real(context, "living room, 0 and 2 to 4", room, 2, &room[2], &common, 0.0036);
     for (int i = 0; i < 3; i++) free_view(&room[i]);
     snprintf(folder, sizeof folder, "%s/rgbd/sensor_sequence", data);
-    view box[2] = {load_view(context, folder, "frame-000065.color.png", "frame-000065.depth.png",
-                             "frame-000065.pose.txt", 0, box_lens),
-                   load_view(context, folder, "frame-000085.color.png", NULL, "frame-000085.pose.txt", 0,
-                             box_lens)};
+    view box[2] = {
+        load_view(context, folder, "frame-000065.color.png", "frame-000065.depth.png",
+                  "frame-000065.pose.txt", 0, box_lens),
+        load_view(context, folder, "frame-000085.color.png", NULL, "frame-000085.pose.txt", 0, box_lens)};
     compare_real(context, "sensor, 65 to 85", box, 1, &box[1], &common, 0.003);
     for (int i = 0; i < 2; i++) free_view(&box[i]);
     snprintf(folder, sizeof folder, "%s/rgbd/stereo", data);
-    view eyes[2] = {load_view(context, folder, "motorcycle_left.png", "motorcycle_disp.pfm", NULL, 0, stereo_lens),
-                    load_view(context, folder, "motorcycle_right.png", NULL, NULL, 0, stereo_lens)};
+    view eyes[2] = {
+        load_view(context, folder, "motorcycle_left.png", "motorcycle_disp.pfm", NULL, 0, stereo_lens),
+        load_view(context, folder, "motorcycle_right.png", NULL, NULL, 0, stereo_lens)};
     eyes[1].camera.cx_px += 31.086;
     eyes[1].camera.world_to_camera[3] = -193.001;
     common.depth_scale = 1;
@@ -317,7 +320,8 @@ static double lower_quartile(double times_s[ROUNDS]) {
 static void speed(void) {
     static const uint32_t sizes[][2] = {{640, 480}, {1920, 1080}};
     static const size_t moves[] = {0, 1, 2, 3};
-    puts("| picture | move | threads | take ms | hybrid ms | together ms | mcmillan ms |\n|---|---|---|---|---|---|---|");
+    puts("| picture | move | threads | take ms | hybrid ms | together ms | mcmillan ms "
+         "|\n|---|---|---|---|---|---|---|");
     for (size_t k = 0; k < 2; k++) {
         const uint32_t width = sizes[k][0], height = sizes[k][1];
         const size_t count = (size_t)width * height;
@@ -353,9 +357,9 @@ static void speed(void) {
                     all_s[at] = drawn_s - started_s;
                     nearest_s[at] = now_s() - drawn_s;
                 }
-                printf("| %ux%u | %s | %u | %.2f | %.2f | %.2f | %.2f |\n", width, height, MOVES[moves[m]].name,
-                       threads, lower_quartile(take_s), lower_quartile(draw_s), lower_quartile(all_s),
-                       lower_quartile(nearest_s));
+                printf("| %ux%u | %s | %u | %.2f | %.2f | %.2f | %.2f |\n", width, height,
+                       MOVES[moves[m]].name, threads, lower_quartile(take_s), lower_quartile(draw_s),
+                       lower_quartile(all_s), lower_quartile(nearest_s));
             }
             ewa_warp_destroy(&warp);
             ewa_context_destroy(&context);

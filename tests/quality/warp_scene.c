@@ -75,8 +75,8 @@ ewa_camera warp_scene_camera(uint32_t width_px, uint32_t height_px, double shift
     camera.width_px = width_px;
     camera.height_px = height_px;
     ewa_camera_set_fov(&camera, 50);
-    const double eye[3] = {shift_x, -0.2 + shift_y, shift_z}, target[3] = {0.6 * shift_x, 0.15 + 0.5 * shift_y, 4},
-                 up[3] = {0, -1, 0};
+    const double eye[3] = {shift_x, -0.2 + shift_y, shift_z},
+                 target[3] = {0.6 * shift_x, 0.15 + 0.5 * shift_y, 4}, up[3] = {0, -1, 0};
     ewa_camera_look_at(&camera, eye, target, up);
     return camera;
 }
@@ -105,9 +105,11 @@ void warp_scene_seen(const ewa_camera *target, const ewa_camera *from, uint8_t *
             const warp_hit hit = warp_scene_hit(target, x + 0.5, y + 0.5);
             double p[3];
             for (int r = 0; r < 3; r++) p[r] = dot(&m[4 * r], hit.point_world) + m[4 * r + 3];
-            const double u = from->fx_px * p[0] / p[2] + from->cx_px, v = from->fy_px * p[1] / p[2] + from->cy_px;
+            const double u = from->fx_px * p[0] / p[2] + from->cx_px,
+                         v = from->fy_px * p[1] / p[2] + from->cy_px;
             // A pixel from the border on, so that the surface goes on to all sides.
-            const bool inside = p[2] > 0 && u > 1 && v > 1 && u < from->width_px - 1 && v < from->height_px - 1;
+            const bool inside =
+                p[2] > 0 && u > 1 && v > 1 && u < from->width_px - 1 && v < from->height_px - 1;
             seen[(size_t)y * target->width_px + x] =
                 inside && warp_scene_hit(from, u, v).z > p[2] * (1 - 1e-6) ? 255 : 0;
         }
@@ -127,7 +129,8 @@ static double window_ssim(uint32_t width, const uint8_t *a, const uint8_t *b) {
     }
     const double n = WINDOW * WINDOW, c1 = 0.01 * 255 * 0.01 * 255, c2 = 0.03 * 255 * 0.03 * 255;
     const double mean_a = sum_a / n, mean_b = sum_b / n;
-    const double var_a = (sum_aa - n * mean_a * mean_a) / (n - 1), var_b = (sum_bb - n * mean_b * mean_b) / (n - 1);
+    const double var_a = (sum_aa - n * mean_a * mean_a) / (n - 1),
+                 var_b = (sum_bb - n * mean_b * mean_b) / (n - 1);
     const double covariance = (sum_ab - n * mean_a * mean_b) / (n - 1);
     return (2 * mean_a * mean_b + c1) * (2 * covariance + c2) /
            ((mean_a * mean_a + mean_b * mean_b + c1) * (var_a + var_b + c2));

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// A room to warp pictures of: a textured floor and wall, spheres and a board in front of them, ray-cast exactly.
+// A room to warp pictures of: a textured floor and wall, spheres and a board in front of them, ray-cast
+// exactly.
 #ifndef EWA_TESTS_WARP_SCENE_H
 #define EWA_TESTS_WARP_SCENE_H
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Depth images to surfels: which pixels count, kinds of depth, memory layouts, options, failures.
-#include "resample/warp.h"
 #include "io/scratch.h"
+#include "resample/warp.h"
 #include "warp_planes.h"
 
 static plane_image plane;
@@ -84,7 +84,9 @@ static void test_kinds(void **state) {
             const double x = (i % PLANE_WIDTH + 0.5 - PLANE_WIDTH / 2) / 80,
                          y = (i / PLANE_WIDTH + 0.5 - PLANE_HEIGHT / 2) / 80;
             const double z = -at / (n[0] * x + n[1] * y + n[2]), ray = sqrt(1 + x * x + y * y);
-            plane.depth[i] = (float)(kind == EWA_DEPTH_Z ? z : kind == EWA_DEPTH_RAY ? z * ray : 4 * (80 * 0.25 / z - 3));
+            plane.depth[i] = (float)(kind == EWA_DEPTH_Z     ? z
+                                     : kind == EWA_DEPTH_RAY ? z * ray
+                                                             : 4 * (80 * 0.25 / z - 3));
         }
         plane_take(warp, &plane, NULL);
         plane_draw(warp, &plane.image.camera, EWA_WARP_HYBRID, &drawn);
@@ -109,7 +111,8 @@ static void test_packed_ellipses(void **state) {
     plane.image.camera.fy_px = 50; // samples that are no squares
     const double n[3] = {0.6, 0.3, -0.74161984871}, at = -2 * n[2];
     for (int i = 0; i < PLANE_PIXELS; i++) {
-        const double x = (i % PLANE_WIDTH + 0.5 - PLANE_WIDTH / 2) / 80, y = (i / PLANE_WIDTH + 0.5 - PLANE_HEIGHT / 2) / 50;
+        const double x = (i % PLANE_WIDTH + 0.5 - PLANE_WIDTH / 2) / 80,
+                     y = (i / PLANE_WIDTH + 0.5 - PLANE_HEIGHT / 2) / 50;
         plane.depth[i] = (float)(-at / (n[0] * x + n[1] * y + n[2]));
     }
     plane_take(warp, &plane, NULL);
@@ -131,7 +134,8 @@ static void test_packed_ellipses(void **state) {
         for (int r = 0; r < 3; r++)
             for (int c = 0; c < 3; c++)
                 assert_true(fabs(u[r] * u[c] + v[r] * v[c] - a[r] * a[c] - b[r] * b[c]) < 4e-3 * scale);
-        assert_true(fabs(surfel.center.x - z * x) + fabs(surfel.center.y - z * y) + fabs(surfel.center.z - z) < 1e-5);
+        assert_true(
+            fabs(surfel.center.x - z * x) + fabs(surfel.center.y - z * y) + fabs(surfel.center.z - z) < 1e-5);
     }
     ewa_warp_destroy(&warp);
     ewa_context_destroy(&context);
@@ -168,7 +172,8 @@ static void test_layouts(void **state) {
         plane.image.color_stride_bytes = 4 * STRIDE * (kind ? sizeof *color : 1);
         plane_take(warp, &plane, NULL);
         plane_draw(warp, &target, EWA_WARP_HYBRID, &other);
-        for (int i = 0; i < 4 * PLANE_PIXELS; i++) assert_in_range(other.rgba8[i] - drawn.rgba8[i] + 1, 0, kind ? 2 : 1);
+        for (int i = 0; i < 4 * PLANE_PIXELS; i++)
+            assert_in_range(other.rgba8[i] - drawn.rgba8[i] + 1, 0, kind ? 2 : 1);
         if (!kind) assert_memory_equal(other.rgba, drawn.rgba, sizeof drawn.rgba);
         color8[4 * 5 + 3] = 0;
         color[4 * 5 + 3] = 0;
@@ -238,7 +243,8 @@ static void test_bad_images(void **state) {
     expect(warp, &log, EWA_OK, "");
     ewa_camera broken = plane.image.camera;
     broken.width_px = 0;
-    assert_int_equal(ewa_warp_draw(warp, &broken, EWA_WARP_MCMILLAN, NULL, &frame, NULL, NULL), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_warp_draw(warp, &broken, EWA_WARP_MCMILLAN, NULL, &frame, NULL, NULL),
+                     EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_warp_draw(warp, &plane.image.camera, (ewa_warp_method)9, NULL, &frame, NULL, NULL),
                      EWA_ERROR_ARGUMENT);
     ewa_warp_destroy(&warp);
@@ -252,12 +258,17 @@ static void test_bad_options(void **state) {
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
     for (int k = 0; k < 8; k++) {
-        static const char *const said[] = {"struct_size", "cutoff", "radius_spacings", "depth_jump",
-                                           "depth_noise", "nearest_world", "farthest_world", "cutoff"};
+        static const char *const said[] = {"struct_size", "cutoff",        "radius_spacings", "depth_jump",
+                                           "depth_noise", "nearest_world", "farthest_world",  "cutoff"};
         ewa_warp_options options;
         ewa_warp_options_init(&options, sizeof options);
-        double *const members[] = {NULL, &options.cutoff, &options.radius_spacings, &options.depth_jump,
-                                   &options.depth_noise, &options.nearest_world, &options.farthest_world,
+        double *const members[] = {NULL,
+                                   &options.cutoff,
+                                   &options.radius_spacings,
+                                   &options.depth_jump,
+                                   &options.depth_noise,
+                                   &options.nearest_world,
+                                   &options.farthest_world,
                                    &options.cutoff};
         static const double bad[] = {0, 0, 0.1, 0, -1, 0, 1e-6, NAN};
         if (k == 0)
@@ -284,7 +295,8 @@ static ewa_status work(ewa_context *context, void *user) {
     if (status == EWA_OK) status = ewa_warp_take(warp, images, 2, NULL, NULL);
     const ewa_frame frame = {.rgba8 = drawn.rgba8, .depth = drawn.depth};
     for (int method = 0; method < 2 && status == EWA_OK; method++)
-        status = ewa_warp_draw(warp, &image->camera, (ewa_warp_method)method, NULL, &frame, drawn.holes, NULL);
+        status =
+            ewa_warp_draw(warp, &image->camera, (ewa_warp_method)method, NULL, &frame, drawn.holes, NULL);
     ewa_warp_destroy(&warp);
     return status;
 }

@@ -19,7 +19,8 @@ static void z_buffer(const ewa_camera *target, double nearest[PLANE_PIXELS]) {
         double q[3];
         for (int r = 0; r < 3; r++)
             q[r] = m[4 * r] * p[0] + m[4 * r + 1] * p[1] + m[4 * r + 2] * p[2] + m[4 * r + 3];
-        const double x = floor(80 * q[0] / q[2] + PLANE_WIDTH / 2), y = floor(80 * q[1] / q[2] + PLANE_HEIGHT / 2);
+        const double x = floor(80 * q[0] / q[2] + PLANE_WIDTH / 2),
+                     y = floor(80 * q[1] / q[2] + PLANE_HEIGHT / 2);
         if (!(q[2] > 0) || !(x >= 0 && x < PLANE_WIDTH && y >= 0 && y < PLANE_HEIGHT)) continue;
         double *at = &nearest[(int)y * PLANE_WIDTH + (int)x];
         if (q[2] < *at) *at = q[2];
@@ -36,12 +37,12 @@ static void make_scene(void) {
     }
 }
 
-/// From in front, behind, all sides, and where the epipole is in the picture, on its border, far outside or at
-/// infinity: no more than rounding separates the order from the depth test.
+/// From in front, behind, all sides, and where the epipole is in the picture, on its border, far outside or
+/// at infinity: no more than rounding separates the order from the depth test.
 static void test_order(void **state) {
     (void)state;
-    static const double places[][3] = {{0, 0, 0.5},    {0.1, 0.05, 0.6}, {0, 0, -1},      {0.3, 0.1, -0.8},
-                                       {0.4, 0, 0},    {-0.4, 0, 0},     {0, 0.3, 0},     {0, -0.3, 0},
+    static const double places[][3] = {{0, 0, 0.5},    {0.1, 0.05, 0.6}, {0, 0, -1},        {0.3, 0.1, -0.8},
+                                       {0.4, 0, 0},    {-0.4, 0, 0},     {0, 0.3, 0},       {0, -0.3, 0},
                                        {0.3, 0.3, 0},  {-0.3, 0.2, 0.1}, {-0.3, -0.3, 0.7}, {0.5, -0.2, -0.3},
                                        {0.24, 0, 0.4}, {0, 0, 0}};
     ewa_context *context = check_context(2, NULL);

@@ -159,7 +159,8 @@ static void test_noise(void **state) {
     const float step = 0.004f;
     check_random random = {9};
     for (int i = 0; i < PLANE_PIXELS; i++) {
-        const float key = (i % PLANE_WIDTH < 48 ? 1.0f : 0.5f) + step * (check_random_u64(&random) & 1 ? 0.5f : -0.5f);
+        const float key =
+            (i % PLANE_WIDTH < 48 ? 1.0f : 0.5f) + step * (check_random_u64(&random) & 1 ? 0.5f : -0.5f);
         plane.depth[i] = 1 / key;
     }
     double error[2];
@@ -172,7 +173,8 @@ static void test_noise(void **state) {
         error[k] = 0;
         for (int i = 0; i < PLANE_PIXELS; i++) {
             const int x = i % PLANE_WIDTH;
-            if (x < 46 || x > 49) error[k] = fmax(error[k], fabs((double)drawn.depth[i] * (x < 48 ? 1 : 0.5) - 1));
+            if (x < 46 || x > 49)
+                error[k] = fmax(error[k], fabs((double)drawn.depth[i] * (x < 48 ? 1 : 0.5) - 1));
         }
     }
     assert_true(error[0] > 1.5e-3 && error[1] < 0.6 * error[0]);
@@ -213,7 +215,8 @@ static void test_same_bytes(void **state) {
     check_random random = {77};
     plane_set(&plane, 2);
     for (int i = 0; i < PLANE_PIXELS; i++)
-        plane.depth[i] = check_uniform(&random, 0, 1) < 0.1 ? NAN : (float)(2 + 0.3 * sin(0.1 * (i % 61)) + (i % 53 < 20));
+        plane.depth[i] =
+            check_uniform(&random, 0, 1) < 0.1 ? NAN : (float)(2 + 0.3 * sin(0.1 * (i % 61)) + (i % 53 < 20));
     plane.image.camera.width_px = 61;
     plane.image.camera.height_px = 53;
     for (size_t k = 0; k < sizeof machines / sizeof machines[0]; k++) {
@@ -256,8 +259,9 @@ static void test_strange_cameras(void **state) {
     for (int method = 0; method < 2; method++) {
         for (int cull = 0; cull < 2; cull++) {
             options.cull = (ewa_cull)cull;
-            assert_int_equal(ewa_warp_draw(warp, &behind, (ewa_warp_method)method, &options, &frame, drawn.holes, NULL),
-                             EWA_OK);
+            assert_int_equal(
+                ewa_warp_draw(warp, &behind, (ewa_warp_method)method, &options, &frame, drawn.holes, NULL),
+                EWA_OK);
             assert_int_equal(drawn.holes[PLANE_PIXELS / 2 + PLANE_WIDTH / 2], cull ? 255 : 0);
         }
         ewa_camera inside = plane_camera_at(0, 0, 1.999), blind = plane_camera();
@@ -282,7 +286,8 @@ static void test_background(void **state) {
     const float background[4] = {0.2f, 0.5f, 0.9f, 0.5f};
     memcpy(options.background, background, sizeof background);
     const ewa_camera target = plane_camera_at(0.4, 0.1, -0.3);
-    const ewa_frame a = {.rgba8 = drawn.rgba8, .rgba = drawn.rgba}, b = {.rgba8 = other.rgba8, .rgba = other.rgba};
+    const ewa_frame a = {.rgba8 = drawn.rgba8, .rgba = drawn.rgba},
+                    b = {.rgba8 = other.rgba8, .rgba = other.rgba};
     assert_int_equal(ewa_warp_draw(warp, &target, EWA_WARP_HYBRID, &options, &a, drawn.holes, NULL), EWA_OK);
     assert_int_equal(ewa_warp_draw(warp, &target, EWA_WARP_HYBRID, &options, &b, NULL, NULL), EWA_OK);
     for (int i = 0; i < 4 * PLANE_PIXELS; i++) {
@@ -322,10 +327,10 @@ static void test_likeness(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_identity),      cmocka_unit_test(test_shift),
-        cmocka_unit_test(test_constant),      cmocka_unit_test(test_step),
-        cmocka_unit_test(test_flying),        cmocka_unit_test(test_noise),
-        cmocka_unit_test(test_source_order),  cmocka_unit_test(test_same_bytes),
+        cmocka_unit_test(test_identity),        cmocka_unit_test(test_shift),
+        cmocka_unit_test(test_constant),        cmocka_unit_test(test_step),
+        cmocka_unit_test(test_flying),          cmocka_unit_test(test_noise),
+        cmocka_unit_test(test_source_order),    cmocka_unit_test(test_same_bytes),
         cmocka_unit_test(test_strange_cameras), cmocka_unit_test(test_background),
         cmocka_unit_test(test_likeness),
     };
