@@ -15,6 +15,10 @@ static const float UNKNOWN = 1e30f;
 /// Keys closer than so many times the noise are averaged.
 static const float CLOSE = 2.5f;
 
+/// Size of the last sample before a farther surface: half a pixel of it is that surface's, and what it is
+/// drawn out to is no longer seen.
+static const float RIM = 0.7f;
+
 /// How many times straighter one side of a crease is than the crease.
 static const float STRAIGHTER = 4;
 
@@ -84,8 +88,11 @@ static ALWAYS_INLINE wf slope_along(const ewa_warp_lens *lens, float crease, con
     const wf one_side = wf_select(takes_left, from_left, right.rate);
     const wf middle = wf_mul(wf_add(from_left, right.rate), half);
     const wf single = wf_select(has_left, from_left, wf_keep(has_right, right.rate));
-    const wf single_distance =
-        wf_select(has_left, left.distance, wf_select(has_right, right.distance, wf_set(1)));
+    const wf rim = wf_set(RIM), one = wf_set(1);
+    const wf left_reach = wf_select(wf_lt(right.neighbour, key[2]), rim, one);
+    const wf right_reach = wf_select(wf_lt(left.neighbour, key[2]), rim, one);
+    const wf single_distance = wf_select(has_left, wf_mul(left.distance, left_reach),
+                                         wf_select(has_right, wf_mul(right.distance, right_reach), one));
     *distance = wf_select(has_both, wf_max(left.distance, right.distance), single_distance);
     const wm torn = wm_not(wm_or(has_left, has_right));
     *flying = wm_or(*flying, wm_and(torn, wf_lt(wf_mul(left.rate, right.rate), zero)));

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Prints the tables of docs/warp.md: measure_warp quality|settings|real DATA|speed.
+// Prints the tables of docs/warp.md: measure_warp quality|settings|speed|real DATA; writes the files of the
+// gallery's pictures into the working folder: measure_warp scene.
 #include "warp_scene.h"
 
 #include <math.h>
@@ -368,6 +369,28 @@ static void speed(void) {
     }
 }
 
+/// Writes the room for the gallery: a picture with its depth and camera, and the truth of another camera.
+static void scene(void) {
+    const uint32_t width = 320, height = 240;
+    const size_t count = (size_t)width * height;
+    ewa_context *context = make_context(0);
+    uint8_t *rgb8 = get(count, 3);
+    ewa_image depth;
+    check(ewa_image_create(context, width, height, 1, &depth));
+    const ewa_camera source = warp_scene_camera(width, height, 0, 0, 0),
+                     target = warp_scene_camera(width, height, 0.4, -0.3, 1.1);
+    warp_scene_picture(&source, rgb8, depth.pixels);
+    check(ewa_png_save(context, "warp_source.png", width, height, 3, rgb8, 3 * (size_t)width));
+    check(ewa_image_save(&depth, "warp_depth.pfm", NULL));
+    check(ewa_camera_save(context, &source, "warp_source.json"));
+    warp_scene_picture(&target, rgb8, NULL);
+    check(ewa_png_save(context, "warp_truth.png", width, height, 3, rgb8, 3 * (size_t)width));
+    check(ewa_camera_save(context, &target, "warp_target.json"));
+    ewa_image_free(&depth);
+    free(rgb8);
+    ewa_context_destroy(&context);
+}
+
 int main(int argc, char **argv) {
     const char *what = argc > 1 ? argv[1] : "";
     if (strcmp(what, "quality") == 0)
@@ -376,9 +399,11 @@ int main(int argc, char **argv) {
         settings();
     else if (strcmp(what, "speed") == 0)
         speed();
+    else if (strcmp(what, "scene") == 0)
+        scene();
     else if (strcmp(what, "real") == 0 && argc > 2)
         real(argv[2]);
     else
-        fputs("measure_warp quality|settings|speed|real DATA\n", stderr);
+        fputs("measure_warp quality|settings|speed|scene|real DATA\n", stderr);
     return 0;
 }
