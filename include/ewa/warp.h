@@ -92,7 +92,8 @@ typedef struct ewa_warp_facts {
 /// same surface: across jumps of depth and creases they are those of the other side, without neighbours
 /// parallel to the picture. The same surfels for any number of threads and every instruction set; the order
 /// of the sources changes nothing but the rounding of sums. `options` and `facts` may be NULL. Errors (the
-/// samples are gone): EWA_ERROR_ARGUMENT (a camera, an option, a plane, by number and name), EWA_ERROR_LIMIT,
+/// samples are gone): EWA_ERROR_ARGUMENT (a camera, an option, a plane, by number and name),
+/// EWA_ERROR_UNSUPPORTED (other cameras), EWA_ERROR_LIMIT,
 /// EWA_ERROR_MEMORY. Based on: Yuan et al., "Hybrid Forward Resampling and Volume Rendering", 2003, section
 /// 3.
 EWA_API ewa_status ewa_warp_take(ewa_warp *warp, const ewa_depth_image *images, uint32_t count,

@@ -11,6 +11,9 @@
 /// Limits of z: squares and cubes of what is within are floats.
 static const double LEAST_DEPTH = 1e-9, MOST_DEPTH = 1e12;
 
+/// Limit of focal lengths, principal points and scales, and the inverse of the least one.
+static const double MOST_CAMERA = 1e6;
+
 void ewa_depth_image_init(ewa_depth_image *image, size_t struct_size) {
     if (!image || struct_size < sizeof *image) return;
     memset(image, 0, struct_size);
@@ -74,6 +77,27 @@ static ewa_status fail_image(ewa_context *context, uint32_t number, const char *
     return ewa_fail(context, EWA_ERROR_ARGUMENT, "depth image %u: %s", number, what);
 }
 
+/// Checks that a source camera's numbers and their products are floats.
+static ewa_status check_lens(ewa_context *context, uint32_t number, const ewa_camera *camera) {
+    if (camera->projection != EWA_PERSPECTIVE)
+        return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
+                        "depth image %u: the camera is orthographic; depth images need a perspective one",
+                        number);
+    const double *m = camera->world_to_camera;
+    const double scale = sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
+    const double focal[2] = {camera->fx_px, camera->fy_px}, principal[2] = {camera->cx_px, camera->cy_px};
+    bool fits = scale >= 1 / MOST_CAMERA && scale <= MOST_CAMERA;
+    for (int i = 0; i < 2; i++)
+        fits = fits && focal[i] >= 1 / MOST_CAMERA && focal[i] <= MOST_CAMERA &&
+               fabs(principal[i]) <= MOST_CAMERA;
+    for (int r = 0; r < 3; r++) fits = fits && fabs(m[4 * r + 3]) <= MOST_DEPTH;
+    if (fits) return EWA_OK;
+    return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
+                    "depth image %u: focal lengths, principal point or scale of the camera are not within "
+                    "%g to %g",
+                    number, 1 / MOST_CAMERA, MOST_CAMERA);
+}
+
 static ewa_status check_depth(ewa_context *context, uint32_t number, const ewa_depth_image *image) {
     if (!image->depth) return fail_image(context, number, "no depth");
     if (image->depth_type != EWA_U16 && image->depth_type != EWA_F32)
@@ -114,12 +138,9 @@ ewa_status ewa_depth_image_choose(ewa_context *context, uint32_t number, const e
     if (given->struct_size != sizeof *chosen)
         return fail_image(context, number, "struct_size is not that of ewa_depth_image_init()");
     *chosen = *given;
-    const ewa_status status = ewa_camera_check(context, &chosen->camera);
+    ewa_status status = ewa_camera_check(context, &chosen->camera);
+    if (status == EWA_OK) status = check_lens(context, number, &chosen->camera);
     if (status != EWA_OK) return status;
-    if (chosen->camera.projection != EWA_PERSPECTIVE)
-        return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
-                        "depth image %u: the camera is orthographic; depth images need a perspective one",
-                        number);
     const size_t width = chosen->camera.width_px;
     const bool known = chosen->depth_type == EWA_U16 || chosen->depth_type == EWA_F32;
     if (chosen->depth_stride_bytes == 0 && known)
@@ -127,6 +148,6 @@ ewa_status ewa_depth_image_choose(ewa_context *context, uint32_t number, const e
     const bool known_color = chosen->color_type == EWA_U8 || chosen->color_type == EWA_F32;
     if (chosen->color_stride_bytes == 0 && known_color)
         chosen->color_stride_bytes = width * chosen->color_channel_count * ewa_type_bytes(chosen->color_type);
-    const ewa_status depth = check_depth(context, number, chosen);
-    return depth != EWA_OK ? depth : check_color(context, number, chosen);
+    status = check_depth(context, number, chosen);
+    return status != EWA_OK ? status : check_color(context, number, chosen);
 }

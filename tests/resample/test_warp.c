@@ -214,6 +214,10 @@ static void test_bad_images(void **state) {
     expect(warp, &log, EWA_ERROR_ARGUMENT, "fx");
     plane.image.camera.projection = EWA_ORTHOGRAPHIC;
     expect(warp, &log, EWA_ERROR_UNSUPPORTED, "orthographic");
+    plane.image.camera.fx_px = 1e9;
+    expect(warp, &log, EWA_ERROR_UNSUPPORTED, "focal lengths");
+    plane.image.camera.world_to_camera[3] = 1e13;
+    expect(warp, &log, EWA_ERROR_UNSUPPORTED, "scale of the camera");
     plane.image.depth = NULL;
     expect(warp, &log, EWA_ERROR_ARGUMENT, "no depth");
     plane.image.depth_type = EWA_F64;
