@@ -24,7 +24,9 @@ typedef enum ewa_depth_kind {
 /// A picture with depths, borrowed while it is taken; nothing is copied. Fill with ewa_depth_image_init().
 typedef struct ewa_depth_image {
     size_t struct_size;
-    ewa_camera camera;            ///< that took it; perspective; its size is that of both planes
+    /// That took it; perspective; focal lengths, principal point and scale within 1e-6 to 1e6; its size is
+    /// that of both planes.
+    ewa_camera camera;
     const void *depth;            ///< rows from the top, numbers of a row side by side, aligned to their type
     ewa_type depth_type;          ///< EWA_U16 or EWA_F32
     size_t depth_stride_bytes;    ///< between rows; 0: tightly packed
@@ -93,9 +95,8 @@ typedef struct ewa_warp_facts {
 /// parallel to the picture. The same surfels for any number of threads and every instruction set; the order
 /// of the sources changes nothing but the rounding of sums. `options` and `facts` may be NULL. Errors (the
 /// samples are gone): EWA_ERROR_ARGUMENT (a camera, an option, a plane, by number and name),
-/// EWA_ERROR_UNSUPPORTED (other cameras), EWA_ERROR_LIMIT,
-/// EWA_ERROR_MEMORY. Based on: Yuan et al., "Hybrid Forward Resampling and Volume Rendering", 2003, section
-/// 3.
+/// EWA_ERROR_UNSUPPORTED (other cameras), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY. Based on: Yuan et al., "Hybrid
+/// Forward Resampling and Volume Rendering", 2003, section 3.
 EWA_API ewa_status ewa_warp_take(ewa_warp *warp, const ewa_depth_image *images, uint32_t count,
                                  const ewa_warp_options *options, ewa_warp_facts *facts);
 

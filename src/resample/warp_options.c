@@ -93,9 +93,9 @@ static ewa_status check_lens(ewa_context *context, uint32_t number, const ewa_ca
     for (int r = 0; r < 3; r++) fits = fits && fabs(m[4 * r + 3]) <= MOST_DEPTH;
     if (fits) return EWA_OK;
     return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
-                    "depth image %u: focal lengths, principal point or scale of the camera are not within "
-                    "%g to %g",
-                    number, 1 / MOST_CAMERA, MOST_CAMERA);
+                    "depth image %u: focal lengths, principal point, scale or place of the camera are too "
+                    "large or too small",
+                    number);
 }
 
 static ewa_status check_depth(ewa_context *context, uint32_t number, const ewa_depth_image *image) {

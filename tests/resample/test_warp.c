@@ -217,7 +217,7 @@ static void test_bad_images(void **state) {
     plane.image.camera.fx_px = 1e9;
     expect(warp, &log, EWA_ERROR_UNSUPPORTED, "focal lengths");
     plane.image.camera.world_to_camera[3] = 1e13;
-    expect(warp, &log, EWA_ERROR_UNSUPPORTED, "scale of the camera");
+    expect(warp, &log, EWA_ERROR_UNSUPPORTED, "place of the camera");
     plane.image.depth = NULL;
     expect(warp, &log, EWA_ERROR_ARGUMENT, "no depth");
     plane.image.depth_type = EWA_F64;
