@@ -5,7 +5,6 @@
 #include "warp_sources.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
@@ -104,40 +103,50 @@ static size_t path_count(const char *list) {
     return count;
 }
 
-bool sources_check(const source_arguments *arguments, char message[OPTION_ERROR_BYTES]) {
+/// Whether cameras come without lenses; says in `wrong` which name is no file's.
+static bool needs_lens(const char *camera_paths, const char **wrong) {
+    bool poses = !camera_paths;
+    char path[MAX_PATH];
+    for (size_t i = 0; camera_paths && i < path_count(camera_paths); i++) {
+        if (path_at(camera_paths, i, path))
+            poses |= holds_poses(path);
+        else
+            *wrong = "--source-camera: an empty or overlong name";
+    }
+    return poses;
+}
+
+/// What is wrong with the cameras; NULL: nothing.
+static const char *check_cameras(const source_arguments *arguments) {
     const size_t pairs = arguments->common.operand_count / 2;
     const size_t files = arguments->camera_paths ? path_count(arguments->camera_paths) : 0;
-    const bool disparity = arguments->depth_kind == EWA_DEPTH_DISPARITY;
-    bool poses = !arguments->camera_paths;
-    char path[MAX_PATH];
+    const option_vector *intrinsics = &arguments->intrinsics;
     const char *wrong = NULL;
-    for (size_t i = 0; i < files && !wrong; i++) {
-        if (!path_at(arguments->camera_paths, i, path))
-            wrong = "--source-camera: an empty or overlong name";
-        else
-            poses |= holds_poses(path);
-    }
-    if (wrong)
-        ;
-    else if (arguments->common.operand_count % 2)
+    const bool no_lens = needs_lens(arguments->camera_paths, &wrong);
+    if (wrong) return wrong;
+    if (files > 1 && files != pairs) return "--source-camera: neither one file nor one for each pair";
+    if (!files && pairs > 1) return "--source-camera: several pairs need cameras";
+    if (arguments->camera_indices.count && (!files || arguments->camera_indices.count != pairs))
+        return "--source-index: one number for each pair, with --source-camera";
+    if (no_lens && !intrinsics->count)
+        return "--intrinsics fx,fy,cx,cy: needed without a camera file, and with poses";
+    if (!no_lens && intrinsics->count) return "--intrinsics: the camera file has them";
+    if (intrinsics->count && !(intrinsics->values[0] > 0 && intrinsics->values[1] > 0))
+        return "--intrinsics: the focal lengths have to be positive";
+    return NULL;
+}
+
+bool sources_check(const source_arguments *arguments, char message[OPTION_ERROR_BYTES]) {
+    const bool disparity = arguments->depth_kind == EWA_DEPTH_DISPARITY;
+    const char *wrong;
+    if (arguments->common.operand_count % 2)
         wrong = "warp: pictures and depths come in pairs: COLOR DEPTH";
-    else if (files > 1 && files != pairs)
-        wrong = "--source-camera: neither one file nor one for each pair";
-    else if (!files && pairs > 1)
-        wrong = "--source-camera: several pairs need cameras";
-    else if (arguments->camera_indices.count && (!files || arguments->camera_indices.count != pairs))
-        wrong = "--source-index: one number for each pair, with --source-camera";
-    else if (poses && !arguments->intrinsics.count)
-        wrong = "--intrinsics fx,fy,cx,cy: needed without a camera file, and with poses";
-    else if (!poses && arguments->intrinsics.count)
-        wrong = "--intrinsics: the camera file has them";
-    else if (arguments->intrinsics.count &&
-             !(arguments->intrinsics.values[0] > 0 && arguments->intrinsics.values[1] > 0))
-        wrong = "--intrinsics: the focal lengths have to be positive";
     else if (disparity && !(arguments->baseline_world > 0))
         wrong = "--depth-is disparity needs --baseline";
     else if (!disparity && (arguments->baseline_world > 0 || arguments->disparity_offset_px != 0))
         wrong = "--baseline and --disparity-offset need --depth-is disparity";
+    else
+        wrong = check_cameras(arguments);
     if (wrong) snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
     return !wrong;
 }

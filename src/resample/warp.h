@@ -25,7 +25,7 @@ typedef struct ewa_warp_source {
     float key_offset;        ///< disparities: in numbers
 } ewa_warp_source;
 
-/// Planes of one byte order for the nearest pixels: see warp_nearest.c.
+/// Memory of warp_nearest.c: where each sample of a source falls, and which samples the pixels show.
 typedef struct ewa_warp_nearest {
     ewa_buffer pixel_buffer, winner_buffer, layer_buffer;
 } ewa_warp_nearest;
