@@ -150,6 +150,26 @@ static void test_flying(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Rows and columns without depth, as depth cameras leave them, are covered; wider gaps are not.
+static void test_lattice(void **state) {
+    (void)state;
+    ewa_context *context = check_context(2, NULL);
+    ewa_warp *warp = plane_warp(context);
+    const ewa_camera target = plane_camera_at(0.02, 0.01, 0.3);
+    for (int gap = 1; gap < 3; gap++) {
+        plane_set(&plane, 2);
+        for (int i = 0; i < PLANE_PIXELS; i++)
+            if (i % PLANE_WIDTH % 6 < gap || i / PLANE_WIDTH % 6 < gap) plane.depth[i] = 0;
+        plane_take(warp, &plane, NULL);
+        plane_draw(warp, &target, EWA_WARP_HYBRID, &drawn);
+        int hole_count = 0;
+        for (int i = 0; i < PLANE_PIXELS; i++) hole_count += drawn.holes[i] > 0;
+        assert_true(gap == 1 ? hole_count == 0 : hole_count > PLANE_PIXELS / 20);
+    }
+    ewa_warp_destroy(&warp);
+    ewa_context_destroy(&context);
+}
+
 /// Steps of a sensor fade out; edges stay.
 static void test_noise(void **state) {
     (void)state;
@@ -327,12 +347,12 @@ static void test_likeness(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_identity),        cmocka_unit_test(test_shift),
-        cmocka_unit_test(test_constant),        cmocka_unit_test(test_step),
-        cmocka_unit_test(test_flying),          cmocka_unit_test(test_noise),
-        cmocka_unit_test(test_source_order),    cmocka_unit_test(test_same_bytes),
-        cmocka_unit_test(test_strange_cameras), cmocka_unit_test(test_background),
-        cmocka_unit_test(test_likeness),
+        cmocka_unit_test(test_identity),   cmocka_unit_test(test_shift),
+        cmocka_unit_test(test_constant),   cmocka_unit_test(test_step),
+        cmocka_unit_test(test_flying),     cmocka_unit_test(test_lattice),
+        cmocka_unit_test(test_noise),      cmocka_unit_test(test_source_order),
+        cmocka_unit_test(test_same_bytes), cmocka_unit_test(test_strange_cameras),
+        cmocka_unit_test(test_background), cmocka_unit_test(test_likeness),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
