@@ -16,6 +16,7 @@
 #include "ewa/render.h"
 #include "ewa/shade.h"
 #include "ewa/volume.h"
+#include "ewa/volume_render.h"
 #include "ewa/warp.h"
 
 #endif
