@@ -30,6 +30,7 @@ ewa() { "$program" "$@"; }
 frustum() { "$(dirname "$program")/../examples/frustum" "$@"; }
 make_environment() { python3 "$tools/make_environment.py" "$@"; }
 measure_layers() { "$(dirname "$program")/../tests/quality/measure_layers" "$@"; }
+measure_warp() { "$(dirname "$program")/../tests/quality/measure_warp" "$@"; }
 cd "$work"
 set -x
 . ./commands

@@ -17,5 +17,6 @@
 #include "ewa/shade.h"
 #include "ewa/volume.h"
 #include "ewa/volume_render.h"
+#include "ewa/warp.h"
 
 #endif

@@ -115,6 +115,16 @@ EWA_API ewa_status ewa_image_load(ewa_context *context, const char *path, ewa_im
 EWA_API ewa_status ewa_image_load_memory(ewa_context *context, const void *bytes, size_t size_bytes,
                                          const char *name, ewa_image *image);
 
+/// Reads the numbers of a depth image into one channel, by content; "-" reads standard input. The caller
+/// frees the image. PNG: grey of 8 or 16 bits, the integers themselves, but for 65535, which says that
+/// nothing was measured and becomes infinity. OpenEXR, PFM: the only channel. Errors (image empty):
+/// EWA_ERROR_IO, EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED (other pictures), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_depth_load(ewa_context *context, const char *path, ewa_image *depth);
+
+/// The same from `size_bytes` bytes in memory; `name` stands for the file in messages.
+EWA_API ewa_status ewa_depth_load_memory(ewa_context *context, const void *bytes, size_t size_bytes,
+                                         const char *name, ewa_image *depth);
+
 /// Reads a material table from JSON: an array of objects, or an object whose "materials" is one, with any of
 /// the members "ambient", "diffuse", "specular", "shininess", "reflection" of ewa_material and "name", which
 /// is not looked at; members that are not there have the default. `*count` gets how many there are, 1 to
@@ -209,6 +219,14 @@ typedef void ewa_camera_callback(void *user, uint32_t index, const ewa_camera *c
 /// ewa_camera_load(). After a failure, none has been handed over.
 EWA_API ewa_status ewa_camera_load_each(ewa_context *context, const char *path, ewa_camera_callback *receive,
                                         void *user);
+
+/// Hands over a camera for every pose of a text file, in its order: `lens` there. Poses are camera to world,
+/// with OpenCV's axes: matrices of four lines of four numbers, a line of up to three numbers before each left
+/// out (trajectories of Open3D and Redwood); or lines of time, position and quaternion x y z w (TUM). Blank
+/// lines and what follows a '#' are skipped. Errors, with the line; none has been handed over then:
+/// EWA_ERROR_IO, EWA_ERROR_FORMAT, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_camera_load_poses(ewa_context *context, const char *path, const ewa_camera *lens,
+                                         ewa_camera_callback *receive, void *user);
 
 /// Writes a camera file of our format with every digit that a double needs.
 /// Errors: EWA_ERROR_ARGUMENT (as ewa_camera_check()), EWA_ERROR_IO, EWA_ERROR_MEMORY.

@@ -94,6 +94,21 @@ ewa_status ewa_camera_load_each(ewa_context *context, const char *path, ewa_came
     return status;
 }
 
+ewa_status ewa_camera_load_poses(ewa_context *context, const char *path, const ewa_camera *lens,
+                                 ewa_camera_callback *receive, void *user) {
+    if (!context || !path || !lens || lens->struct_size != sizeof *lens || !receive)
+        return EWA_ERROR_ARGUMENT;
+    ewa_file file;
+    ewa_status status = ewa_file_map(context, path, &file);
+    if (status != EWA_OK) return status;
+    ewa_camera_list list = {.context = context, .name = path};
+    status = ewa_camera_list_read_poses(&list, lens, file.bytes, file.size_bytes);
+    ewa_file_unmap(context, &file);
+    for (size_t i = 0; status == EWA_OK && i < list.count; i++) receive(user, (uint32_t)i, &list.cameras[i]);
+    ewa_camera_list_free(&list);
+    return status;
+}
+
 static void put_text(ewa_writer *writer, const char *text) { ewa_writer_put(writer, text, strlen(text)); }
 
 static void put_number(ewa_writer *writer, double value) {

@@ -34,6 +34,10 @@ ewa_status ewa_camera_list_read_colmap_memory(ewa_camera_list *list, bool is_tex
                                               size_t cameras_bytes, const uint8_t *images,
                                               size_t images_bytes);
 
+/// Reads the poses of a text file as cameras with the lens of `lens`: see ewa_camera_load_poses().
+ewa_status ewa_camera_list_read_poses(ewa_camera_list *list, const ewa_camera *lens, const uint8_t *bytes,
+                                      size_t size_bytes);
+
 /// Sets world_to_camera from the rotation (row-major, possibly scaled) and translation of camera to world.
 void ewa_camera_set_inverse(ewa_camera *camera, const double rotation[9], const double centre_world[3]);
 

@@ -112,14 +112,43 @@ ewa_status ewa_image_load_memory(ewa_context *context, const void *bytes, size_t
         "%s: no picture: neither PNG nor JPEG nor OpenEXR nor PFM nor Radiance by its first bytes", name);
 }
 
-ewa_status ewa_image_load(ewa_context *context, const char *path, ewa_image *image) {
+ewa_status ewa_depth_load_memory(ewa_context *context, const void *bytes, size_t size_bytes, const char *name,
+                                 ewa_image *depth) {
+    if (!context || !depth || !name || (!bytes && size_bytes)) return EWA_ERROR_ARGUMENT;
+    *depth = (ewa_image){0};
+    if (ewa_png_recognise(bytes, size_bytes))
+        return ewa_png_decode_numbers(context, name, bytes, size_bytes, depth);
+    if (!ewa_exr_recognise(bytes, size_bytes) && !ewa_pfm_recognise(bytes, size_bytes))
+        return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
+                        "%s: depths are PNG, OpenEXR or PFM, this is none by its first bytes", name);
+    const ewa_status status = ewa_image_load_memory(context, bytes, size_bytes, name, depth);
+    if (status != EWA_OK || depth->channel_count == 1) return status;
+    const uint32_t channel_count = depth->channel_count;
+    ewa_image_free(depth);
+    return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: a picture of %u channels; depths are one", name,
+                    channel_count);
+}
+
+/// A reader of pictures from memory.
+typedef ewa_status load_memory(ewa_context *context, const void *bytes, size_t size_bytes, const char *name,
+                               ewa_image *image);
+
+static ewa_status load_file(ewa_context *context, const char *path, load_memory *load, ewa_image *image) {
     if (!context || !path || !image) return EWA_ERROR_ARGUMENT;
     *image = (ewa_image){0};
     ewa_file file;
     ewa_status status = ewa_file_map(context, path, &file);
     if (status != EWA_OK) return status;
     const char *name = strcmp(path, "-") == 0 ? "standard input" : path;
-    status = ewa_image_load_memory(context, file.bytes, file.size_bytes, name, image);
+    status = load(context, file.bytes, file.size_bytes, name, image);
     ewa_file_unmap(context, &file);
     return status;
+}
+
+ewa_status ewa_depth_load(ewa_context *context, const char *path, ewa_image *depth) {
+    return load_file(context, path, ewa_depth_load_memory, depth);
+}
+
+ewa_status ewa_image_load(ewa_context *context, const char *path, ewa_image *image) {
+    return load_file(context, path, ewa_image_load_memory, image);
 }

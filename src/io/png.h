@@ -15,6 +15,10 @@ bool ewa_png_recognise(const uint8_t *bytes, size_t size_bytes);
 ewa_status ewa_png_decode(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
                           ewa_image *image);
 
+/// Decodes a grey PNG file of 8 or 16 bits to its numbers, one channel; the largest of 16 bits to infinity.
+ewa_status ewa_png_decode_numbers(ewa_context *context, const char *name, const uint8_t *bytes,
+                                  size_t size_bytes, ewa_image *image);
+
 /// Reads the size from the head of a PNG file.
 ewa_status ewa_png_size(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
                         uint32_t *width_px, uint32_t *height_px);

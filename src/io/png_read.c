@@ -6,6 +6,7 @@
 #include "image/srgb.h"
 #include "io/png.h"
 
+#include <math.h>
 #include <spng.h>
 #include <string.h>
 
@@ -132,6 +133,42 @@ ewa_status ewa_png_decode(ewa_context *context, const char *name, const uint8_t 
     ewa_status status = open_png(&in, bytes, size_bytes);
     if (status == EWA_OK) status = check_size(&in, size_bytes);
     if (status == EWA_OK) status = read_pixels(&in, image);
+    spng_ctx_free(in.png);
+    return status;
+}
+
+static ewa_status read_numbers(const reader *in, ewa_image *image) {
+    const bool deep = in->header.bit_depth == 16;
+    const size_t pixel_count = (size_t)in->header.width * in->header.height, number_bytes = deep ? 2 : 1;
+    void *numbers = ewa_allocate(in->context, pixel_count, number_bytes);
+    if (!numbers) return EWA_ERROR_MEMORY;
+    // 16 bits as they are in the file, in the machine's byte order.
+    int error =
+        spng_decode_image(in->png, numbers, pixel_count * number_bytes, deep ? SPNG_FMT_PNG : SPNG_FMT_G8, 0);
+    if (!error) error = spng_decode_chunks(in->png);
+    ewa_status status = error ? fail_spng(in, error) : EWA_OK;
+    if (status == EWA_OK)
+        status = ewa_image_create(in->context, in->header.width, in->header.height, 1, image);
+    for (size_t i = 0; status == EWA_OK && i < pixel_count; i++) {
+        const uint32_t number = deep ? ((const uint16_t *)numbers)[i] : ((const uint8_t *)numbers)[i];
+        image->pixels[i] = number < UINT16_MAX ? (float)number : INFINITY;
+    }
+    ewa_release(in->context, numbers, pixel_count, number_bytes);
+    return status;
+}
+
+ewa_status ewa_png_decode_numbers(ewa_context *context, const char *name, const uint8_t *bytes,
+                                  size_t size_bytes, ewa_image *image) {
+    *image = (ewa_image){0};
+    reader in = {.context = context, .name = name};
+    ewa_status status = open_png(&in, bytes, size_bytes);
+    if (status == EWA_OK && (in.header.color_type != SPNG_COLOR_TYPE_GRAYSCALE || in.header.bit_depth < 8))
+        status =
+            ewa_fail(context, EWA_ERROR_UNSUPPORTED,
+                     "%s: depths have to be grey of 8 or 16 bits, this PNG has colours, alpha or %u bits",
+                     name, in.header.bit_depth);
+    if (status == EWA_OK) status = check_size(&in, size_bytes);
+    if (status == EWA_OK) status = read_numbers(&in, image);
     spng_ctx_free(in.png);
     return status;
 }

@@ -26,7 +26,8 @@ typedef struct ewa_packet {
 
 /// Bounds of all packets, one entry each: a sphere around the supports, and a cone that holds all normals.
 typedef struct ewa_packet_bounds {
-    float *center_x, *center_y, *center_z, *radius;
+    float *center_x, *center_y, *center_z;
+    float *radius;                   ///< -infinity: the packet is empty, and outside of every view
     float *axis_x, *axis_y, *axis_z; ///< unit
     float *cone_sine;                ///< sine of the cone's half angle; 2 when it is 90 degrees or more
 } ewa_packet_bounds;

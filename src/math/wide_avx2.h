@@ -136,6 +136,15 @@ static inline wf wf_lookup(const float table[16], wi index) {
     return PAIR(wf, lookup_half(table, index.l), lookup_half(table, index.h));
 }
 
+/// Lanes 4 i .. 4 i + 3 from p + i stride numbers.
+static inline wf wf_load_rows(const float *p, size_t stride) {
+    wf result;
+    result.l = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(p)), _mm_loadu_ps(p + stride), 1);
+    result.h = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(p + 2 * stride)),
+                                    _mm_loadu_ps(p + 3 * stride), 1);
+    return result;
+}
+
 /// Writes lanes 4 i .. 4 i + 3 to out + i stride_bytes.
 static inline void wi_store_rows(uint8_t *out, size_t stride_bytes, wi a) {
     _mm_storeu_si128((__m128i *)(void *)out, _mm256_castsi256_si128(a.l));

@@ -79,6 +79,15 @@ static inline wf wf_lookup(const float table[16], wi index) {
     return _mm512_permutexvar_ps(index, _mm512_loadu_ps(table));
 }
 
+/// Lanes 4 i .. 4 i + 3 from p + i stride numbers.
+static inline wf wf_load_rows(const float *p, size_t stride) {
+    const __m256 low =
+        _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(p)), _mm_loadu_ps(p + stride), 1);
+    const __m256 high = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(p + 2 * stride)),
+                                             _mm_loadu_ps(p + 3 * stride), 1);
+    return _mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);
+}
+
 /// Writes lanes 4 i .. 4 i + 3 to out + i stride_bytes.
 static inline void wi_store_rows(uint8_t *out, size_t stride_bytes, wi a) {
     _mm_storeu_si128((__m128i *)(void *)out, _mm512_castsi512_si128(a));

@@ -93,6 +93,13 @@ FUSED wf wf_load_column(const float *p) { EACH(wf, p[16 * i]); }
 /// table[index mod 16] per lane.
 FUSED wf wf_lookup(const float table[16], wi index) { EACH(wf, table[index[i] & 15]); }
 
+/// Lanes 4 i .. 4 i + 3 from p + i stride numbers.
+static inline wf wf_load_rows(const float *p, size_t stride) {
+    wf result;
+    for (size_t i = 0; i < 4; i++) memcpy((char *)&result + 16 * i, p + i * stride, 16);
+    return result;
+}
+
 /// Writes lanes 4 i .. 4 i + 3 to out + i stride_bytes.
 static inline void wi_store_rows(uint8_t *out, size_t stride_bytes, wi a) {
     for (size_t i = 0; i < 4; i++) memcpy(out + i * stride_bytes, (const char *)&a + 16 * i, 16);

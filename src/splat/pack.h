@@ -26,6 +26,12 @@ typedef struct ewa_pack_kernels {
     /// Sets the normal codes of a packet from normals of any length but zero, one array per coordinate.
     void (*code_normals)(const float normal[3][EWA_PACKET_LANES], ewa_packet *packet);
 
+    /// Sets normals, sigmas, ratios and angles of a packet from normals whose largest coordinate is in
+    /// [1e-15, 1e15] and from conjugate axes of the kernels, tangent to the surfels and possibly skewed, the
+    /// longer one's largest coordinate in [1e-30, 1e30]; one array per coordinate.
+    void (*code_ellipses)(const float normal[3][EWA_PACKET_LANES], const float axis_u[3][EWA_PACKET_LANES],
+                          const float axis_v[3][EWA_PACKET_LANES], ewa_packet *packet);
+
     /// Sets `bounds` [first, first + 16): spheres around the supports of `cutoff` sigmas, cones around the
     /// normals. `packets` are the `count` (1 to 16) packets there; all their lanes count. The entries of
     /// packets that do not exist get those of the first.
@@ -37,5 +43,8 @@ extern const ewa_pack_kernels ewa_pack_kernels_portable;
 #if defined(__x86_64__)
 extern const ewa_pack_kernels ewa_pack_kernels_avx2, ewa_pack_kernels_avx512;
 #endif
+
+/// The fastest kernels for EWA_CPU_* bits.
+const ewa_pack_kernels *ewa_pack_kernels_choose(uint32_t features);
 
 #endif

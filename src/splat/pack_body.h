@@ -5,7 +5,7 @@
 // PACK_KERNELS, the name of the table.
 //
 // Octahedral normals: Meyer et al., "On Floating-Point Normal Vectors", 2010.
-#include "math/wide.h"
+#include "math/wide_functions.h"
 #include "splat/pack.h"
 
 enum { LANES = EWA_PACKET_LANES };
@@ -44,12 +44,8 @@ static inline wf with_sign_of(wf magnitude, wf sign) {
     return wf_select(wf_lt(sign, wf_set(0)), wf_sub(wf_set(0), magnitude), magnitude);
 }
 
-static void code_normals(const float normal[3][LANES], ewa_packet *packet) {
-    wf n[3];
-    for (int c = 0; c < 3; c++) n[c] = wf_load(normal[c]);
-    // Tiny and huge normals keep their direction.
-    const wf largest = wf_max(wf_abs(n[0]), wf_max(wf_abs(n[1]), wf_abs(n[2])));
-    for (int c = 0; c < 3; c++) n[c] = wf_div(n[c], largest);
+/// Sets the codes of normals of which no sum overflows or vanishes.
+static ALWAYS_INLINE void code_directions(const wf n[3], ewa_packet *packet) {
     const wf sum = wf_add(wf_add(wf_abs(n[0]), wf_abs(n[1])), wf_abs(n[2]));
     const wf u = wf_div(n[0], sum), v = wf_div(n[1], sum), one = wf_set(1);
     const wm below = wf_lt(n[2], wf_set(0));
@@ -63,6 +59,15 @@ static void code_normals(const float normal[3][LANES], ewa_packet *packet) {
     for (int i = 0; i < LANES; i++) packet->oct_y[i] = (int16_t)code_y[i];
 }
 
+static void code_normals(const float normal[3][LANES], ewa_packet *packet) {
+    wf n[3];
+    for (int c = 0; c < 3; c++) n[c] = wf_load(normal[c]);
+    // Tiny and huge normals keep their direction.
+    const wf largest = wf_max(wf_abs(n[0]), wf_max(wf_abs(n[1]), wf_abs(n[2])));
+    for (int c = 0; c < 3; c++) n[c] = wf_div(n[c], largest);
+    code_directions(n, packet);
+}
+
 static inline void decode_normals(const ewa_packet *packet, wf n[3]) {
     const wf unit = wf_set(1.0f / 32767.0f), zero = wf_set(0);
     const wf u = wf_mul(wf_from_i(wi_load_i16(packet->oct_x)), unit);
@@ -70,8 +75,68 @@ static inline void decode_normals(const ewa_packet *packet, wf n[3]) {
     const wf z = wf_sub(wf_sub(wf_set(1), wf_abs(u)), wf_abs(v));
     const wf fold = wf_max(wf_sub(zero, z), zero);
     const wf x = wf_sub(u, with_sign_of(fold, u)), y = wf_sub(v, with_sign_of(fold, v));
-    const wf length = wf_sqrt(wf_fma(x, x, wf_fma(y, y, wf_mul(z, z))));
-    n[0] = wf_div(x, length), n[1] = wf_div(y, length), n[2] = wf_div(z, length);
+    const wf inverse = wf_inverse_root(wf_fma(x, x, wf_fma(y, y, wf_mul(z, z))));
+    n[0] = wf_mul(x, inverse), n[1] = wf_mul(y, inverse), n[2] = wf_mul(z, inverse);
+}
+
+static inline wf dot(const wf a[3], const wf b[3]) {
+    return wf_fma(a[0], b[0], wf_fma(a[1], b[1], wf_mul(a[2], b[2])));
+}
+
+/// A rotation of the pair of axes by t keeps their covariance; they become orthogonal for tan 2t = 2 u.v /
+/// (u.u - v.v), as in surfel.c.
+static void code_ellipses(const float normal[3][LANES], const float axis_u[3][LANES],
+                          const float axis_v[3][LANES], ewa_packet *packet) {
+    const wf zero = wf_set(0), one = wf_set(1), half = wf_set(0.5f);
+    wf n[3], u[3], v[3], largest = zero;
+    for (int c = 0; c < 3; c++) {
+        n[c] = wf_load(normal[c]), u[c] = wf_load(axis_u[c]), v[c] = wf_load(axis_v[c]);
+        largest = wf_max(wf_max(wf_abs(u[c]), wf_abs(v[c])), largest);
+    }
+    code_directions(n, packet);
+    const wf inverse = wf_reciprocal(largest); // squares neither overflow nor vanish
+    for (int c = 0; c < 3; c++) u[c] = wf_mul(u[c], inverse), v[c] = wf_mul(v[c], inverse);
+    const wf uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), sum = wf_add(uu, vv);
+    const wf difference = wf_sub(uu, vv), twice = wf_add(uv, uv);
+    const wf length2 = wf_fma(difference, difference, wf_mul(twice, twice));
+    const wm round = wf_le(length2, wf_mul(wf_mul(sum, sum), wf_set(1e-12f)));
+    const wf safe2 = wf_select(round, one, length2), inverse_length = wf_inverse_root(safe2);
+    const wf length = wf_mul(safe2, inverse_length);
+    const wf larger2 = wf_fma(wf_mul(wf_abs(difference), inverse_length), half, half);
+    const wf inverse_larger = wf_inverse_root(larger2), larger = wf_mul(larger2, inverse_larger);
+    const wf smaller = wf_mul(wf_mul(wf_abs(twice), inverse_length), wf_mul(inverse_larger, half));
+    const wm first = wf_le(zero, difference);
+    const wf cosine = wf_select(first, larger, smaller);
+    const wf sine = with_sign_of(wf_select(first, smaller, larger), twice);
+    wf axis[3];
+    for (int c = 0; c < 3; c++) axis[c] = wf_fma(cosine, u[c], wf_mul(sine, v[c]));
+    const wf major2 = wf_select(round, wf_mul(sum, half), wf_mul(wf_add(sum, length), half));
+    const wf inverse_major = wf_inverse_root(major2);
+    // The area of the pair is that of the principal axes.
+    const wf cross[3] = {wf_sub(wf_mul(u[1], v[2]), wf_mul(u[2], v[1])),
+                         wf_sub(wf_mul(u[2], v[0]), wf_mul(u[0], v[2])),
+                         wf_sub(wf_mul(u[0], v[1]), wf_mul(u[1], v[0]))};
+    const wf area = wf_sqrt(dot(cross, cross));
+    const wf thin = wf_min(wf_mul(area, wf_mul(inverse_major, inverse_major)), one);
+    const wf ratio = wf_select(round, one, thin);
+    wf_store(packet->sigma, wf_mul(wf_mul(major2, inverse_major), largest));
+
+    // The angle in the frame of the decoded normal: packet_frame() of packets.c.
+    decode_normals(packet, n);
+    const wf sign = wf_select(wf_lt(n[2], zero), wf_set(-1), one);
+    const wf a = wf_div(wf_set(-1), wf_add(sign, n[2])), b = wf_mul(wf_mul(n[0], n[1]), a);
+    const wf frame_u[3] = {wf_fma(wf_mul(sign, n[0]), wf_mul(n[0], a), one), wf_mul(sign, b),
+                           wf_sub(zero, wf_mul(sign, n[0]))};
+    const wf frame_v[3] = {b, wf_fma(wf_mul(n[1], n[1]), a, sign), wf_sub(zero, n[1])};
+    wf c = dot(axis, frame_u), s = dot(axis, frame_v);
+    c = wf_select(wf_lt(s, zero), wf_sub(zero, c), c), s = wf_abs(s); // the axis has no sign
+    const wf extent = wf_max(wf_add(wf_abs(c), s), wf_set(0x1p-100f));
+    const wf diamond = wf_keep(wm_not(round), wf_sub(one, wf_div(c, extent)));
+    int32_t angles[LANES], ratios[LANES];
+    wi_store(angles, wi_from_f(wf_fma(diamond, wf_set(32768), half)));
+    wi_store(ratios, wi_from_f(wf_fma(ratio, wf_set(65535), half)));
+    for (int i = 0; i < LANES; i++) packet->angle[i] = (uint16_t)angles[i];
+    for (int i = 0; i < LANES; i++) packet->ratio[i] = (uint16_t)ratios[i];
 }
 
 /// The sum, the least or the greatest number of each row: lane k of the result is that of rows[k].
@@ -114,8 +179,10 @@ static inline wf radii(const ewa_packet *const packets[LANES], float cutoff, con
         const wf z = wf_sub(wf_load(p->z), wf_set(center[2][k]));
         // By way of the largest one: squares of coordinates may overflow.
         const wf largest = wf_max(wf_max(wf_abs(x), wf_max(wf_abs(y), wf_abs(z))), wf_set(0x1p-100f));
-        const wf a = wf_div(x, largest), b = wf_div(y, largest), c = wf_div(z, largest);
-        const wf length = wf_sqrt(wf_fma(a, a, wf_fma(b, b, wf_mul(c, c))));
+        const wf inverse = wf_reciprocal(largest);
+        const wf a = wf_mul(x, inverse), b = wf_mul(y, inverse), c = wf_mul(z, inverse);
+        const wf square = wf_fma(a, a, wf_fma(b, b, wf_mul(c, c)));
+        const wf length = wf_mul(square, wf_inverse_root(square));
         reach[k] = wf_fma(length, largest, wf_mul(wf_set(cutoff), wf_load(p->sigma)));
     }
     return greatest_of_rows(reach);
@@ -177,4 +244,4 @@ static void bound_packets(const ewa_packet *packets, uint32_t count, float cutof
     bound_normals(all, bounds, first);
 }
 
-const ewa_pack_kernels PACK_KERNELS = {survey, code_normals, bound_packets};
+const ewa_pack_kernels PACK_KERNELS = {survey, code_normals, code_ellipses, bound_packets};

@@ -23,7 +23,6 @@ enum {
     LANES = EWA_PACKET_LANES,
     READ_BLOCK = 256,
     MAX_PARTS = 64,
-    BOUNDS_STREAMS = 8,
     PREFETCH_POINTS = 64, // between asking for a point's numbers and reading them: four packets
     TIE_BLOCK = 64,       // points that are looked at together for ties, which are rare
 };
@@ -161,8 +160,7 @@ static uint16_t encode_angle(const ewa_packet *packet, uint32_t lane, ewa_vec3 a
     return (uint16_t)((uint32_t)((sum > 0 ? 1 - c / sum : 0) * 32768 + 0.5) & 0xffff);
 }
 
-/// Encodes the colours of one lane.
-static void encode_color(const ewa_surfels *surfels, const double color_linear[3], uint16_t codes[3]) {
+void ewa_packets_encode_color(const ewa_surfels *surfels, const double color_linear[3], uint16_t codes[3]) {
     for (int k = 0; k < 3; k++) {
         const double value =
             (color_linear[k] - (double)surfels->color_offset[k]) / (double)surfels->color_scale[k];
@@ -231,7 +229,7 @@ static void encode_surfels(const build *b, const uint32_t *points, uint32_t coun
         packet->ratio[i] = (uint16_t)(least(minor / major, 1) * 65535 + 0.5);
         for (int c = 0; c < 3; c++) normal[c][i] = (float)s->normal_world[c];
         uint16_t codes[3];
-        encode_color(b->surfels, s->color_linear, codes);
+        ewa_packets_encode_color(b->surfels, s->color_linear, codes);
         put_color(packet, i, codes);
     }
     b->kernels->code_normals(normal, packet);
@@ -354,7 +352,7 @@ static ewa_status order_points(build *b, ewa_context *context) {
     return status;
 }
 
-static const ewa_pack_kernels *choose_kernels(uint32_t features) {
+const ewa_pack_kernels *ewa_pack_kernels_choose(uint32_t features) {
     const ewa_pack_kernels *kernels = &ewa_pack_kernels_portable;
 #if defined(__x86_64__)
     if (features & EWA_CPU_AVX2) kernels = &ewa_pack_kernels_avx2;
@@ -368,13 +366,22 @@ static const ewa_pack_kernels *choose_kernels(uint32_t features) {
 /// Makes tables from the colours that discs can have to their codes.
 static void set_color_codes(build *b) {
     const double grey[3] = {EWA_DEFAULT_GREY, EWA_DEFAULT_GREY, EWA_DEFAULT_GREY};
-    encode_color(b->surfels, grey, b->grey_codes);
+    ewa_packets_encode_color(b->surfels, grey, b->grey_codes);
     for (int value = 0; value < 256; value++) {
         const double linear = b->reader.linear_from_u8[value], color[3] = {linear, linear, linear};
         uint16_t codes[3];
-        encode_color(b->surfels, color, codes);
+        ewa_packets_encode_color(b->surfels, color, codes);
         for (int k = 0; k < 3; k++) b->color_codes[k][value] = codes[k];
     }
+}
+
+void ewa_packets_view_bounds(ewa_surfels *surfels) {
+    float **const streams[EWA_BOUNDS_STREAMS] = {&surfels->bounds.center_x, &surfels->bounds.center_y,
+                                                 &surfels->bounds.center_z, &surfels->bounds.radius,
+                                                 &surfels->bounds.axis_x,   &surfels->bounds.axis_y,
+                                                 &surfels->bounds.axis_z,   &surfels->bounds.cone_sine};
+    for (int i = 0; i < EWA_BOUNDS_STREAMS; i++)
+        *streams[i] = surfels->bounds_floats + i * surfels->bounds_stride;
 }
 
 static ewa_status allocate_packets(ewa_surfels *surfels) {
@@ -382,15 +389,10 @@ static ewa_status allocate_packets(ewa_surfels *surfels) {
     surfels->packet_count = (uint32_t)(((uint64_t)surfels->count + LANES - 1) / LANES);
     surfels->bounds_stride = ((size_t)surfels->packet_count + LANES - 1) / LANES * LANES;
     surfels->packets = ewa_allocate(context, surfels->packet_count, sizeof *surfels->packets);
-    surfels->bounds_floats =
-        ewa_allocate_zeroed(context, BOUNDS_STREAMS * surfels->bounds_stride, sizeof *surfels->bounds_floats);
+    surfels->bounds_floats = ewa_allocate_zeroed(context, EWA_BOUNDS_STREAMS * surfels->bounds_stride,
+                                                 sizeof *surfels->bounds_floats);
     if (!surfels->packets || !surfels->bounds_floats) return EWA_ERROR_MEMORY;
-    float **const streams[BOUNDS_STREAMS] = {&surfels->bounds.center_x, &surfels->bounds.center_y,
-                                             &surfels->bounds.center_z, &surfels->bounds.radius,
-                                             &surfels->bounds.axis_x,   &surfels->bounds.axis_y,
-                                             &surfels->bounds.axis_z,   &surfels->bounds.cone_sine};
-    for (int i = 0; i < BOUNDS_STREAMS; i++)
-        *streams[i] = surfels->bounds_floats + i * surfels->bounds_stride;
+    ewa_packets_view_bounds(surfels);
     return EWA_OK;
 }
 
@@ -398,7 +400,7 @@ static ewa_status build_surfels(build *b, ewa_context *context) {
     b->drawable = ewa_allocate(context, b->point_count, sizeof *b->drawable);
     b->order = ewa_allocate(context, b->point_count, sizeof *b->order);
     if (!b->drawable || !b->order) return EWA_ERROR_MEMORY;
-    b->kernels = choose_kernels(ewa_context_cpu_features(context));
+    b->kernels = ewa_pack_kernels_choose(ewa_context_cpu_features(context));
     b->are_discs = ewa_discs_open(&b->reader, b->kernels, &b->discs);
     ewa_parallel(context, survey_part, b, b->parts);
     settle(b);
@@ -454,7 +456,8 @@ void ewa_surfels_destroy(ewa_surfels **surfels) {
     ewa_context *context = old->context;
     ewa_release(context, old->packets, old->packet_count, sizeof *old->packets);
     ewa_extras_free(context, old);
-    ewa_release(context, old->bounds_floats, BOUNDS_STREAMS * old->bounds_stride, sizeof *old->bounds_floats);
+    ewa_release(context, old->bounds_floats, EWA_BOUNDS_STREAMS * old->bounds_stride,
+                sizeof *old->bounds_floats);
     ewa_release(context, old, 1, sizeof *old);
     *surfels = NULL;
 }
@@ -464,7 +467,7 @@ void ewa_surfels_describe(const ewa_surfels *surfels, ewa_surfels_info *info) {
         .point_count = surfels->count,
         .left_out_count = surfels->left_out_count,
         .resident_bytes = sizeof *surfels + surfels->packet_count * sizeof *surfels->packets +
-                          BOUNDS_STREAMS * surfels->bounds_stride * sizeof *surfels->bounds_floats +
+                          EWA_BOUNDS_STREAMS * surfels->bounds_stride * sizeof *surfels->bounds_floats +
                           ewa_extras_bytes(surfels),
         .unit_coverage = surfels->unit_coverage,
         .transparent = surfels->opacities != NULL,

@@ -39,6 +39,14 @@ struct ewa_surfels {
     ewa_bounds extent;
 };
 
+enum { EWA_BOUNDS_STREAMS = 8 };
+
+/// Sets the views of `bounds` into `bounds_floats`.
+void ewa_packets_view_bounds(ewa_surfels *surfels);
+
+/// Encodes one linear colour.
+void ewa_packets_encode_color(const ewa_surfels *surfels, const double color_linear[3], uint16_t codes[3]);
+
 /// One surfel of a packet, local space, axes of length sigma.
 typedef struct ewa_packet_surfel {
     ewa_vec3 center, axis_u, axis_v, normal;

@@ -1,0 +1,379 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// ewa warp: pictures with depths to a new camera.
+#include "commands.h"
+#include "json.h"
+#include "picture.h"
+#include "view.h"
+#include "warp_sources.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+typedef struct warp_arguments {
+    source_arguments sources; // first: it begins with the common arguments
+    const char *output, *aov, *hole_path, *save_camera_path, *camera_path;
+    int64_t camera_index;
+    option_vector shift;
+    option_size size;
+    int method, cull;
+    double cutoff, radius_spacings, depth_jump, depth_noise, nearest_world, farthest_world;
+    double prefilter_px, tolerance, edge_threshold;
+    bool drop_flying, edge_antialiasing;
+    option_color background;
+} warp_arguments;
+
+#define AT(member) offsetof(warp_arguments, member)
+
+static const cli_option output_table[] = {
+    {.key = "output",
+     .letter = 'o',
+     .kind = OPTION_TEXT,
+     .offset = AT(output),
+     .value = "FILE",
+     .help = "the picture: .png (8-bit sRGB), .exr (linear floats, premultiplied: R G B A Z N.X N.Y N.Z "
+             "coverage), .pfm (linear RGB); -: PNG to standard output"},
+    {.key = "aov",
+     .kind = OPTION_TEXT,
+     .offset = AT(aov),
+     .value = "NAME=FILE,...",
+     .help = "further planes, .pfm or .exr: depth (camera z, infinite where nothing is), normal (world, "
+             "towards the viewer), coverage (1: covered)"},
+    {.key = "hole-mask",
+     .kind = OPTION_TEXT,
+     .offset = AT(hole_path),
+     .value = "FILE",
+     .help = "a grey .png: white where less than half of a pixel is covered"},
+    {.key = "save-camera",
+     .kind = OPTION_TEXT,
+     .offset = AT(save_camera_path),
+     .value = "FILE",
+     .help = "write the camera that was used"},
+};
+
+static const cli_option target_table[] = {
+    {.key = "camera",
+     .kind = OPTION_TEXT,
+     .offset = AT(camera_path),
+     .value = "FILE",
+     .absent = "that of the first pair",
+     .help = "the new camera; formats as --source-camera. Poses have the lens of the first pair"},
+    {.key = "camera-index",
+     .kind = OPTION_INTEGER,
+     .offset = AT(camera_index),
+     .value = "N",
+     .range = "[0, 4294967295]",
+     .help = "which camera of the file, counted from 0"},
+    {.key = "shift",
+     .kind = OPTION_VECTOR,
+     .offset = AT(shift),
+     .value = "x,y,z",
+     .low = 3,
+     .high = 3,
+     .absent = "0,0,0",
+     .help = "moves the new camera so far to its right, down and ahead, in world units"},
+    {.key = "size",
+     .aliases = "resolution",
+     .kind = OPTION_SIZE,
+     .offset = AT(size),
+     .value = "WxH",
+     .absent = "the camera's",
+     .help = "scales the picture to so many pixels"},
+};
+
+static const cli_option warp_table[] = {
+    {.key = "method",
+     .kind = OPTION_CHOICE,
+     .offset = AT(method),
+     .range = "hybrid|mcmillan",
+     .help = "hybrid: splats of the size of their surroundings, filtered and blended; mcmillan: each sample "
+             "to its nearest pixel"},
+    {.key = "radius",
+     .kind = OPTION_NUMBER,
+     .offset = AT(radius_spacings),
+     .value = "R",
+     .range = "[0.5, 10]",
+     .help = "support radius of a splat in units of the distance to its neighbours"},
+    {.key = "depth-jump",
+     .kind = OPTION_NUMBER,
+     .offset = AT(depth_jump),
+     .value = "J",
+     .range = "(0, 1]",
+     .help = "relative difference of depth from which neighbours are on different surfaces, unless they "
+             "continue a plane"},
+    {.key = "depth-noise",
+     .kind = OPTION_NUMBER,
+     .offset = AT(depth_noise),
+     .value = "N",
+     .range = "[0, 1000000]",
+     .help =
+         "steps of a sensor's depths at distance 1, growing with its square: depths that differ by little "
+         "more are averaged over 5 x 5 pixels. 0.0036 for a first Kinect in metres; 0: taken as they are"},
+    {.key = "drop-flying",
+     .kind = OPTION_ON_OFF,
+     .offset = AT(drop_flying),
+     .help = "leave out samples that hang between two surfaces"},
+    {.key = "near",
+     .kind = OPTION_NUMBER,
+     .offset = AT(nearest_world),
+     .value = "Z",
+     .range = "[0.000000001, 1000000000000]",
+     .help = "nearer depths are left out"},
+    {.key = "far",
+     .kind = OPTION_NUMBER,
+     .offset = AT(farthest_world),
+     .value = "Z",
+     .range = "[0.000000001, 1000000000000]",
+     .help = "farther depths are left out"},
+    {.key = "cull",
+     .kind = OPTION_CHOICE,
+     .offset = AT(cull),
+     .range = "none|back",
+     .help = "leave out samples that face away from the new camera"},
+    {.key = "cutoff",
+     .kind = OPTION_NUMBER,
+     .offset = AT(cutoff),
+     .value = "F",
+     .range = "(0, 4]",
+     .help = "standard deviations at which a kernel ends"},
+    {.key = "prefilter",
+     .kind = OPTION_NUMBER,
+     .offset = AT(prefilter_px),
+     .value = "H",
+     .range = "[0, 4]",
+     .help = "standard deviation of the pixel filter in pixels; 0: none"},
+    {.key = "tolerance",
+     .kind = OPTION_NUMBER,
+     .offset = AT(tolerance),
+     .value = "K",
+     .range = "[0, inf)",
+     .help = "splats closer in depth than K support radii are blended as one surface"},
+    {.key = "edge-aa",
+     .kind = OPTION_ON_OFF,
+     .offset = AT(edge_antialiasing),
+     .help = "smooth silhouettes by coverage"},
+    {.key = "tau",
+     .kind = OPTION_NUMBER,
+     .offset = AT(edge_threshold),
+     .value = "T",
+     .range = "(0, 4]",
+     .help = "coverage, as a share of a covered pixel's, from which a pixel is opaque"},
+    {.key = "background",
+     .aliases = "background-color",
+     .kind = OPTION_COLOR,
+     .offset = AT(background),
+     .value = "r,g,b[,a]",
+     .help = "sRGB numbers in [0, 1], or transparent"},
+};
+
+static void set_defaults(void *data) {
+    warp_arguments *arguments = data;
+    sources_set_defaults(&arguments->sources);
+    ewa_warp_options warp;
+    ewa_warp_options_init(&warp, sizeof warp);
+    arguments->cutoff = warp.cutoff;
+    arguments->radius_spacings = warp.radius_spacings;
+    arguments->depth_jump = warp.depth_jump;
+    arguments->depth_noise = warp.depth_noise;
+    arguments->drop_flying = warp.drop_flying;
+    arguments->nearest_world = warp.nearest_world;
+    arguments->farthest_world = warp.farthest_world;
+    ewa_render_options render;
+    ewa_warp_render_options_init(&render, sizeof render);
+    arguments->cull = (int)render.cull;
+    arguments->prefilter_px = render.prefilter_px;
+    arguments->tolerance = render.tolerance;
+    arguments->edge_antialiasing = render.edge_antialiasing;
+    arguments->edge_threshold = render.edge_threshold;
+    arguments->method = EWA_WARP_HYBRID;
+    arguments->background = (option_color){{0, 0, 0, 0}};
+}
+
+static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
+    const warp_arguments *arguments = data;
+    picture_paths paths;
+    const char *wrong = NULL;
+    if (!arguments->output)
+        wrong = "warp: no output; say -o FILE";
+    else if (!arguments->camera_path && !arguments->shift.count)
+        wrong = "warp: no new camera; say --camera FILE or --shift x,y,z";
+    else if (!arguments->camera_path && arguments->camera_index > 0)
+        wrong = "--camera-index needs --camera";
+    else if (arguments->nearest_world >= arguments->farthest_world)
+        wrong = "--near has to be less than --far";
+    if (wrong) snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
+    return !wrong && sources_check(&arguments->sources, message) &&
+           picture_parse_paths(arguments->output, arguments->aov, &paths, message);
+}
+
+static bool make_target(cli_session *session, const warp_arguments *arguments, const ewa_camera *first,
+                        ewa_camera *target) {
+    *target = *first;
+    if (arguments->camera_path && !sources_load_camera(session, arguments->camera_path,
+                                                       (uint32_t)arguments->camera_index, first, target))
+        return false;
+    double scale2 = 0; // camera space may be a scaled world
+    for (int i = 0; i < 3; i++) scale2 += target->world_to_camera[i] * target->world_to_camera[i];
+    for (int i = 0; i < 3 && arguments->shift.count; i++)
+        target->world_to_camera[4 * i + 3] -= sqrt(scale2) * arguments->shift.values[i];
+    view_resize(target, &arguments->size);
+    const ewa_status status = ewa_camera_check(session->context, target);
+    if (status != EWA_OK) session_failed(session, status);
+    return status == EWA_OK;
+}
+
+static ewa_render_options render_options(const warp_arguments *arguments) {
+    ewa_render_options options;
+    ewa_warp_render_options_init(&options, sizeof options);
+    options.prefilter_px = arguments->prefilter_px;
+    options.tolerance = arguments->tolerance;
+    options.edge_antialiasing = arguments->edge_antialiasing;
+    options.edge_threshold = arguments->edge_threshold;
+    options.cull = (ewa_cull)arguments->cull;
+    for (int c = 0; c < 3; c++)
+        options.background[c] = ewa_linear_from_srgb((float)arguments->background.rgba[c]);
+    options.background[3] = (float)arguments->background.rgba[3];
+    return options;
+}
+
+/// Takes the samples; warns when there is none.
+static bool take(cli_session *session, const warp_arguments *arguments, const warp_sources *sources,
+                 ewa_warp *warp) {
+    ewa_warp_options options;
+    ewa_warp_options_init(&options, sizeof options);
+    options.cutoff = arguments->cutoff;
+    options.radius_spacings = arguments->radius_spacings;
+    options.depth_jump = arguments->depth_jump;
+    options.depth_noise = arguments->depth_noise;
+    options.drop_flying = arguments->drop_flying;
+    options.nearest_world = arguments->nearest_world;
+    options.farthest_world = arguments->farthest_world;
+    ewa_warp_facts facts;
+    const ewa_status status = ewa_warp_take(warp, sources->images, sources->count, &options, &facts);
+    if (status != EWA_OK) {
+        session_failed(session, status);
+        return false;
+    }
+    if (facts.sample_count == 0) {
+        session_fail(session, "%s: no pixel has a depth between %g and %g",
+                     arguments->sources.common.operands[1], options.nearest_world, options.farthest_world);
+        return false;
+    }
+    session_say(session, "%llu of %llu pixels have a depth, %llu were dropped between surfaces; %.1f ms",
+                (unsigned long long)facts.sample_count, (unsigned long long)facts.pixel_count,
+                (unsigned long long)facts.flying_count, 1e3 * facts.take_s);
+    return true;
+}
+
+/// Warns when nothing of the sources is in the picture; says how much is not.
+static void report_holes(cli_session *session, const ewa_camera *target, const uint8_t *holes) {
+    const size_t count = (size_t)target->width_px * target->height_px;
+    size_t hole_count = 0;
+    for (size_t i = 0; i < count; i++) hole_count += holes[i] > 0;
+    if (hole_count == count)
+        session_warn(session, "the new camera sees nothing of the pictures");
+    else
+        session_say(session, "holes: %.2f %% of the picture", 100 * (double)hole_count / (double)count);
+}
+
+static bool draw(cli_session *session, const warp_arguments *arguments, const picture_paths *paths,
+                 const ewa_camera *target, ewa_warp *warp) {
+    const ewa_render_options options = render_options(arguments);
+    const size_t pixel_count = (size_t)target->width_px * target->height_px;
+    cli_picture picture;
+    uint8_t *holes = malloc(pixel_count);
+    bool done = picture_make(session, paths, target, &picture);
+    if (done && !holes) {
+        session_fail(session, "out of memory for %zu pixels", pixel_count);
+        done = false;
+    }
+    if (done) {
+        const double started_s = clock_now_s();
+        const ewa_status status = ewa_warp_draw(warp, target, (ewa_warp_method)arguments->method, &options,
+                                                &picture.frame, holes, NULL);
+        if (status != EWA_OK) session_failed(session, status);
+        done = status == EWA_OK;
+        if (done)
+            session_say(session, "%s: drawn in %.1f ms", paths->color, 1e3 * (clock_now_s() - started_s));
+    }
+    if (done) report_holes(session, target, holes);
+    done = done && picture_save(session, paths, target, arguments->background.rgba[3] == 1, &picture);
+    if (done && arguments->hole_path) {
+        session->subject = arguments->hole_path;
+        const ewa_status status = ewa_png_save(session->context, arguments->hole_path, target->width_px,
+                                               target->height_px, 1, holes, target->width_px);
+        if (status != EWA_OK) session_failed(session, status);
+        done = status == EWA_OK;
+    }
+    if (done && arguments->save_camera_path) {
+        session->subject = arguments->save_camera_path;
+        const ewa_status status = ewa_camera_save(session->context, target, arguments->save_camera_path);
+        if (status != EWA_OK) session_failed(session, status);
+        done = status == EWA_OK;
+    }
+    picture_free(&picture);
+    free(holes);
+    return done;
+}
+
+static int run(const void *data) {
+    const warp_arguments *arguments = data;
+    cli_session session;
+    if (!session_start(&session, &arguments->sources.common)) return session_end(&session, EXIT_FAILED);
+    picture_paths paths;
+    char message[OPTION_ERROR_BYTES];
+    warp_sources sources = {.count = 0};
+    ewa_camera target;
+    ewa_warp *warp = NULL;
+    bool done = picture_parse_paths(arguments->output, arguments->aov, &paths, message) &&
+                picture_check_paths(&session, &paths) &&
+                (!arguments->hole_path || output_check(&session, arguments->hole_path)) &&
+                (!arguments->save_camera_path || output_check(&session, arguments->save_camera_path)) &&
+                sources_load(&session, &arguments->sources, &sources) &&
+                make_target(&session, arguments, &sources.images[0].camera, &target);
+    const ewa_status status = done ? ewa_warp_create(session.context, &warp) : EWA_OK;
+    if (status != EWA_OK) session_failed(&session, status);
+    done = done && status == EWA_OK && take(&session, arguments, &sources, warp);
+    sources_free(&sources);
+    done = done && draw(&session, arguments, &paths, &target, warp);
+    ewa_warp_destroy(&warp);
+    return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
+}
+
+#define COUNT(table) (sizeof(table) / sizeof(table)[0])
+
+static const option_group output_options = {"Output", output_table, COUNT(output_table)};
+static const option_group target_options = {"New camera", target_table, COUNT(target_table)};
+static const option_group warp_options = {"Warping", warp_table, COUNT(warp_table)};
+static const option_group *const groups[] = {&output_options, &source_options, &target_options,
+                                             &warp_options};
+
+const cli_command warp_command = {
+    .name = "warp",
+    .operands = "COLOR DEPTH [COLOR DEPTH...] --camera FILE -o OUT",
+    .summary = "draw pictures with depths as another camera sees them",
+    .details =
+        "COLOR is a picture, DEPTH one of the same size with a number for each pixel: PNG (grey, 8 or 16 "
+        "bits), PFM or OpenEXR. 0, negative and infinite numbers, NaN and the largest of 16 bits mean that "
+        "there is no depth; so do pixels of COLOR whose alpha is 0. Several pairs are drawn together.\n"
+        "\n"
+        "docs/warp.md says how it is done and how good it is.",
+    .examples =
+        "ewa warp color.png depth.png --source-camera camera.json --camera other.json -o warped.png\n"
+        "ewa warp color.png depth.png --intrinsics 525,525,320,240 --shift 0.2,0,0 -o aside.png "
+        "--hole-mask holes.png\n"
+        "ewa warp a.jpg a.png b.jpg b.png --source-camera trajectory.log --intrinsics 525,525,320,240 "
+        "--camera trajectory.log --camera-index 2 -o between.png\n"
+        "ewa warp left.png disparity.pfm --intrinsics 994.978,994.978,311.193,254.877 --depth-is disparity "
+        "--baseline 193.001 --disparity-offset 31.086 --shift 193,0,0 -o right.png\n",
+    .low_operands = 2,
+    .high_operands = 2 * WARP_MAX_SOURCES,
+    .groups = groups,
+    .group_count = COUNT(groups),
+    .arguments_bytes = sizeof(warp_arguments),
+    .set_defaults = set_defaults,
+    .check = check,
+    .run = run,
+};

@@ -1,0 +1,269 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Pairs of pictures and depths with their cameras.
+#include "warp_sources.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+enum { MAX_PATH = 1024 };
+
+/// Numbers per unit in PNG files, where most sensors and programs write millimetres.
+static const double PNG_DEPTH_SCALE = 1000;
+
+#define AT(member) offsetof(source_arguments, member)
+
+static const cli_option source_table[] = {
+    {.key = "source-camera",
+     .kind = OPTION_TEXT,
+     .offset = AT(camera_paths),
+     .value = "FILE[,FILE...]",
+     .absent = "at the origin, looking along +z",
+     .help =
+         "cameras of the pictures: one file for each pair, or one file with a camera for each; formats as "
+         "--camera of render, or poses as text (.txt, .log, .tum: 4 x 4 matrices or TUM's lines, camera "
+         "to world), which need --intrinsics"},
+    {.key = "source-index",
+     .kind = OPTION_VECTOR,
+     .offset = AT(camera_indices),
+     .value = "N[,N...]",
+     .range = "[0, 4294967295]",
+     .low = 1,
+     .high = OPTION_VECTOR_MAX,
+     .absent = "0,1,2,... of one file, 0 of each of several",
+     .help = "which camera of its file each pair has, counted from 0"},
+    {.key = "intrinsics",
+     .kind = OPTION_VECTOR,
+     .offset = AT(intrinsics),
+     .value = "fx,fy,cx,cy",
+     .low = 4,
+     .high = 4,
+     .absent = "those of --source-camera",
+     .help = "focal lengths and principal point in pixels, for poses; where pixel centres count as whole "
+             "numbers, as in OpenCV, add 0.5 to cx and cy"},
+    {.key = "depth-is",
+     .kind = OPTION_CHOICE,
+     .offset = AT(depth_kind),
+     .range = "z|ray|disparity",
+     .help = "what the numbers are: depth along the view, distance to the eye, or a shift in pixels"},
+    {.key = "depth-scale",
+     .kind = OPTION_NUMBER,
+     .offset = AT(depth_scale),
+     .value = "S",
+     .range = "[0, 1000000000]",
+     .absent = "1000 for PNG, else 1",
+     .help = "numbers per unit: 1000 for millimetres in metres, 5000 for TUM's files"},
+    {.key = "baseline",
+     .kind = OPTION_NUMBER,
+     .offset = AT(baseline_world),
+     .value = "B",
+     .range = "[0, 1000000000]",
+     .absent = "none",
+     .help = "with --depth-is disparity: distance of the two eyes; z = fx B / (disparity + offset)"},
+    {.key = "disparity-offset",
+     .kind = OPTION_NUMBER,
+     .offset = AT(disparity_offset_px),
+     .value = "PX",
+     .range = "[-1000000, 1000000]",
+     .help = "with --depth-is disparity: difference of the two principal points"},
+};
+
+const option_group source_options = {"Sources", source_table, sizeof source_table / sizeof source_table[0]};
+
+void sources_set_defaults(source_arguments *arguments) { arguments->depth_kind = EWA_DEPTH_Z; }
+
+static bool has_suffix(const char *path, const char *suffix) {
+    const size_t path_length = strlen(path), length = strlen(suffix);
+    return path_length > length && strcasecmp(path + path_length - length, suffix) == 0;
+}
+
+static bool holds_poses(const char *path) {
+    return has_suffix(path, ".txt") || has_suffix(path, ".log") || has_suffix(path, ".tum");
+}
+
+/// Copies path `index` of a list with commas; false when there is none or it is too long.
+static bool path_at(const char *list, size_t index, char path[MAX_PATH]) {
+    for (; index > 0; index--) {
+        list = strchr(list, ',');
+        if (!list) return false;
+        list++;
+    }
+    const size_t length = strcspn(list, ",");
+    if (length == 0 || length >= MAX_PATH) return false;
+    memcpy(path, list, length);
+    path[length] = 0;
+    return true;
+}
+
+static size_t path_count(const char *list) {
+    size_t count = 1;
+    for (; *list; list++) count += *list == ',';
+    return count;
+}
+
+/// Whether cameras come without lenses; says in `wrong` which name is no file's.
+static bool needs_lens(const char *camera_paths, const char **wrong) {
+    bool poses = !camera_paths;
+    char path[MAX_PATH];
+    for (size_t i = 0; camera_paths && i < path_count(camera_paths); i++) {
+        if (path_at(camera_paths, i, path))
+            poses |= holds_poses(path);
+        else
+            *wrong = "--source-camera: an empty or overlong name";
+    }
+    return poses;
+}
+
+/// What is wrong with the cameras; NULL: nothing.
+static const char *check_cameras(const source_arguments *arguments) {
+    const size_t pairs = arguments->common.operand_count / 2;
+    const size_t files = arguments->camera_paths ? path_count(arguments->camera_paths) : 0;
+    const option_vector *intrinsics = &arguments->intrinsics;
+    const char *wrong = NULL;
+    const bool no_lens = needs_lens(arguments->camera_paths, &wrong);
+    if (wrong) return wrong;
+    if (files > 1 && files != pairs) return "--source-camera: neither one file nor one for each pair";
+    if (!files && pairs > 1) return "--source-camera: several pairs need cameras";
+    if (arguments->camera_indices.count && (!files || arguments->camera_indices.count != pairs))
+        return "--source-index: one number for each pair, with --source-camera";
+    if (no_lens && !intrinsics->count)
+        return "--intrinsics fx,fy,cx,cy: needed without a camera file, and with poses";
+    if (!no_lens && intrinsics->count) return "--intrinsics: the camera file has them";
+    if (intrinsics->count && !(intrinsics->values[0] > 0 && intrinsics->values[1] > 0))
+        return "--intrinsics: the focal lengths have to be positive";
+    return NULL;
+}
+
+bool sources_check(const source_arguments *arguments, char message[OPTION_ERROR_BYTES]) {
+    const bool disparity = arguments->depth_kind == EWA_DEPTH_DISPARITY;
+    const char *wrong;
+    if (arguments->common.operand_count % 2)
+        wrong = "warp: pictures and depths come in pairs: COLOR DEPTH";
+    else if (disparity && !(arguments->baseline_world > 0))
+        wrong = "--depth-is disparity needs --baseline";
+    else if (!disparity && (arguments->baseline_world > 0 || arguments->disparity_offset_px != 0))
+        wrong = "--baseline and --disparity-offset need --depth-is disparity";
+    else
+        wrong = check_cameras(arguments);
+    if (wrong) snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
+    return !wrong;
+}
+
+/// The pose that is looked for among those of a file.
+typedef struct wanted_pose {
+    uint32_t index, count;
+    ewa_camera *camera;
+} wanted_pose;
+
+static void take_pose(void *user, uint32_t index, const ewa_camera *camera) {
+    wanted_pose *wanted = user;
+    if (index == wanted->index) *wanted->camera = *camera;
+    wanted->count = index + 1;
+}
+
+bool sources_load_camera(cli_session *session, const char *path, uint32_t index, const ewa_camera *lens,
+                         ewa_camera *camera) {
+    session->subject = path;
+    ewa_status status;
+    if (holds_poses(path) && lens) {
+        wanted_pose wanted = {.index = index, .camera = camera};
+        status = ewa_camera_load_poses(session->context, path, lens, take_pose, &wanted);
+        if (status == EWA_OK && index >= wanted.count) {
+            session_fail(session, "%s: pose %u wanted, %u there (counted from 0)", path, index, wanted.count);
+            return false;
+        }
+    } else {
+        ewa_camera_init(camera, sizeof *camera);
+        status = ewa_camera_load(session->context, path, index, camera);
+    }
+    if (status != EWA_OK) session_failed(session, status);
+    session->subject = NULL;
+    return status == EWA_OK;
+}
+
+static bool load_camera(cli_session *session, const source_arguments *arguments, uint32_t pair,
+                        const ewa_image *depth, ewa_camera *camera) {
+    ewa_camera_init(camera, sizeof *camera);
+    camera->width_px = depth->width_px;
+    camera->height_px = depth->height_px;
+    const double *numbers = arguments->intrinsics.values;
+    if (arguments->intrinsics.count) {
+        camera->fx_px = numbers[0], camera->fy_px = numbers[1];
+        camera->cx_px = numbers[2], camera->cy_px = numbers[3];
+    }
+    if (!arguments->camera_paths) return true;
+    char path[MAX_PATH];
+    const bool one_file = path_count(arguments->camera_paths) == 1;
+    path_at(arguments->camera_paths, one_file ? 0 : pair, path);
+    uint32_t index = one_file ? pair : 0;
+    if (arguments->camera_indices.count) index = (uint32_t)arguments->camera_indices.values[pair];
+    const ewa_camera lens = *camera;
+    if (!sources_load_camera(session, path, index, &lens, camera)) return false;
+    if (camera->width_px == depth->width_px && camera->height_px == depth->height_px) return true;
+    session_fail(session, "%s: camera %u is for pictures of %u x %u pixels, %s has %u x %u", path, index,
+                 camera->width_px, camera->height_px, arguments->common.operands[2 * pair + 1],
+                 depth->width_px, depth->height_px);
+    return false;
+}
+
+static bool load_pair(cli_session *session, const source_arguments *arguments, uint32_t pair,
+                      warp_sources *sources) {
+    const char *color_path = arguments->common.operands[2 * pair],
+               *depth_path = arguments->common.operands[2 * pair + 1];
+    ewa_image *color = &sources->colors[pair], *depth = &sources->depths[pair];
+    session->subject = color_path;
+    ewa_status status = ewa_image_load(session->context, color_path, color);
+    if (status == EWA_OK) {
+        session->subject = depth_path;
+        status = ewa_depth_load(session->context, depth_path, depth);
+    }
+    if (status != EWA_OK) {
+        session_failed(session, status);
+        return false;
+    }
+    if (color->width_px != depth->width_px || color->height_px != depth->height_px) {
+        session_fail(session, "%s has %u x %u pixels, %s has %u x %u", color_path, color->width_px,
+                     color->height_px, depth_path, depth->width_px, depth->height_px);
+        return false;
+    }
+    if (color->channel_count != 1 && color->channel_count != 3 && color->channel_count != 4) {
+        session_fail(session, "%s: a picture of %u channels; colours are 1, 3 or 4", color_path,
+                     color->channel_count);
+        return false;
+    }
+    const bool png = has_suffix(depth_path, ".png");
+    const double standard = png && arguments->depth_kind != EWA_DEPTH_DISPARITY ? PNG_DEPTH_SCALE : 1;
+    if (standard != 1 && arguments->depth_scale == 0 && pair == 0)
+        session_note(session, "%s: depths are taken as 1/%g units; --depth-scale says otherwise", depth_path,
+                     standard);
+    ewa_depth_image *image = &sources->images[pair];
+    ewa_depth_image_init(image, sizeof *image);
+    image->depth = depth->pixels;
+    image->depth_type = EWA_F32;
+    image->kind = (ewa_depth_kind)arguments->depth_kind;
+    image->depth_scale = arguments->depth_scale > 0 ? arguments->depth_scale : standard;
+    image->baseline_world = arguments->baseline_world;
+    image->disparity_offset_px = arguments->disparity_offset_px;
+    image->color = color->pixels;
+    image->color_type = EWA_F32;
+    image->color_channel_count = color->channel_count;
+    return load_camera(session, arguments, pair, depth, &image->camera);
+}
+
+bool sources_load(cli_session *session, const source_arguments *arguments, warp_sources *sources) {
+    *sources = (warp_sources){.count = (uint32_t)(arguments->common.operand_count / 2)};
+    for (uint32_t i = 0; i < sources->count; i++)
+        if (!load_pair(session, arguments, i, sources)) return false;
+    session->subject = NULL;
+    return true;
+}
+
+void sources_free(warp_sources *sources) {
+    for (uint32_t i = 0; i < sources->count; i++) {
+        ewa_image_free(&sources->colors[i]);
+        ewa_image_free(&sources->depths[i]);
+    }
+    *sources = (warp_sources){.count = 0};
+}

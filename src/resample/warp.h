@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The samples of warping, the inner side: sources side by side in one grid of packets.
+#ifndef EWA_SRC_WARP_H
+#define EWA_SRC_WARP_H
+
+#include "ewa/warp.h"
+#include "resample/warp_sample.h"
+#include "splat/grid.h"
+
+enum {
+    EWA_WARP_STRIP_PX = 16, ///< rows that are sampled together
+    EWA_WARP_CELL_PX = 16,  ///< a cell of 16 x 16 samples is a group of packets
+};
+
+/// A source that was taken; its image is only valid during ewa_warp_take().
+typedef struct ewa_warp_source {
+    ewa_depth_image image;
+    ewa_warp_lens lens;
+    uint64_t first_group; ///< of its cells, row by row
+    uint32_t cells_x, first_strip, strip_count;
+    float key_low, key_high; ///< limits
+    float key_scale;         ///< key of a number 1; disparities: of a number above the offset
+    float key_offset;        ///< disparities: in numbers
+} ewa_warp_source;
+
+/// Memory of warp_nearest.c: where each sample of a source falls, and which samples the pixels show.
+typedef struct ewa_warp_nearest {
+    ewa_buffer pixel_buffer, winner_buffer, layer_buffer;
+} ewa_warp_nearest;
+
+struct ewa_warp {
+    ewa_context *context;
+    ewa_renderer *renderer;
+    ewa_grid grid;
+    ewa_warp_source *sources; ///< in `source_buffer`
+    uint32_t source_count, strip_count;
+    ewa_buffer source_buffer, strip_buffer, row_buffer, surface_buffer;
+    ewa_warp_nearest nearest;
+};
+
+/// Packet of the sample at column x, row y of a source.
+static inline uint64_t ewa_warp_packet(const ewa_warp_source *source, uint32_t x, uint32_t y) {
+    const uint64_t cell = (uint64_t)(y / EWA_WARP_CELL_PX) * source->cells_x + x / EWA_WARP_CELL_PX;
+    const uint32_t row = y % EWA_WARP_CELL_PX / EWA_WARP_BLOCK_PX,
+                   column = x % EWA_WARP_CELL_PX / EWA_WARP_BLOCK_PX;
+    return (source->first_group + cell) * EWA_GRID_GROUP + row * EWA_WARP_BLOCK_PX + column;
+}
+
+/// Lane of it there.
+static inline uint32_t ewa_warp_lane(uint32_t x, uint32_t y) {
+    return y % EWA_WARP_BLOCK_PX * EWA_WARP_BLOCK_PX + x % EWA_WARP_BLOCK_PX;
+}
+
+/// EWA_WARP_MCMILLAN; `options` are checked ones.
+ewa_status ewa_warp_draw_nearest(ewa_warp *warp, const ewa_camera *target, const ewa_render_options *options,
+                                 const ewa_frame *frame, uint8_t *holes);
+
+void ewa_warp_nearest_free(ewa_context *context, ewa_warp_nearest *nearest);
+
+#endif
