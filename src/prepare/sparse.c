@@ -12,8 +12,10 @@ static const uint64_t DEFAULT_FACTOR_BYTES = (uint64_t)1 << 30;
 static const double DEFAULT_TOLERANCE = 1e-10;
 enum {
     DEFAULT_ITERATIONS = 5000,
-    // Measured on Gram matrices of surfels in the plane (docs/colors.md): below, the factor is the faster.
-    FACTOR_ROWS = 20000,
+    // AUTO, measured (docs/colors.md): up to so many rows a factor takes milliseconds and is exact; above,
+    // the gradient is many times the faster unless it needs more steps than this.
+    FACTOR_ROWS = 4096,
+    PATIENT_ITERATIONS = 500,
 };
 
 typedef struct check_job {
@@ -127,6 +129,7 @@ typedef struct solve_job {
     ewa_sparse_options options;
     ewa_sparse_report report;
     sparse_factor *factor;               // NULL: gradient
+    bool unfit;                          // a factor would be over its limit
     double *sides, *solution, *residual; // of one group, tightly interleaved
     double *partial;                     // [block_count][2 * SPARSE_SIDES]
 } solve_job;
@@ -141,67 +144,78 @@ static double largest_residual(const double residual2[SPARSE_SIDES], const doubl
     return most;
 }
 
-/// Solves for what is in job->sides; one step of refinement takes most of what the factor's rounding lost.
-static ewa_status solve_group(solve_job *job, uint32_t count, double start, double end) {
-    const ewa_sparse *matrix = job->matrix;
+static ewa_status apply_factor(solve_job *job, uint32_t count) {
     double residual2[SPARSE_SIDES], side2[SPARSE_SIDES];
-    uint32_t iterations = 1;
-    ewa_status status;
-    if (job->factor) {
-        status = ewa_sparse_factor_apply(job->factor, count, job->sides, job->solution);
-        if (status != EWA_OK) return status;
-        ewa_sparse_residual(job->context, matrix, count, job->sides, job->solution, job->residual,
-                            job->partial, residual2, side2);
-        status = ewa_sparse_factor_apply(job->factor, count, job->residual, job->residual);
-        if (status != EWA_OK) return status;
-        for (size_t i = 0; i < (size_t)matrix->size * count; i++) job->solution[i] += job->residual[i];
-    } else {
-        const sparse_gradient gradient = {.matrix = matrix,
-                                          .count = count,
-                                          .sides = job->sides,
-                                          .solution = job->solution,
-                                          .residual = job->residual,
-                                          .partial = job->partial,
-                                          .tolerance = job->options.tolerance,
-                                          .max_iterations = job->options.max_iterations,
-                                          .start = start,
-                                          .end = end};
-        status = ewa_sparse_gradient_run(job->context, &gradient, &iterations);
-        if (status != EWA_OK) return status;
+    ewa_status status = ewa_sparse_factor_apply(job->factor, count, job->sides, job->solution);
+    if (status != EWA_OK) return status;
+    ewa_sparse_residual(job->context, job->matrix, count, job->sides, job->solution, job->residual,
+                        job->partial, residual2, side2);
+    status = ewa_sparse_factor_apply(job->factor, count, job->residual, job->residual);
+    for (size_t i = 0; status == EWA_OK && i < (size_t)job->matrix->size * count; i++)
+        job->solution[i] += job->residual[i];
+    return status;
+}
+
+/// Makes the factor; job->factor stays NULL where it does not fit.
+static ewa_status make_factor(solve_job *job) {
+    uint64_t bytes = 0;
+    ewa_status status = ewa_sparse_factor_analyse(job->context, job->matrix, &job->factor, &bytes);
+    if (status != EWA_OK) return status;
+    if (bytes > job->options.max_factor_bytes) {
+        ewa_sparse_factor_destroy(&job->factor);
+        if (job->options.method == EWA_SPARSE_AUTO) return EWA_OK;
+        return ewa_fail(job->context, EWA_ERROR_LIMIT,
+                        "solve: the factor of %u rows needs %llu bytes, the limit is %llu", job->matrix->size,
+                        (unsigned long long)bytes, (unsigned long long)job->options.max_factor_bytes);
     }
-    ewa_sparse_residual(job->context, matrix, count, job->sides, job->solution, job->residual, job->partial,
-                        residual2, side2);
+    job->report.factor_bytes = bytes;
+    return ewa_sparse_factor_make(job->factor);
+}
+
+/// Solves for what is in job->sides by the factor, else by gradients; where those take long, AUTO makes a
+/// factor after all.
+static ewa_status find_solution(solve_job *job, uint32_t count, uint32_t *iterations) {
+    sparse_gradient gradient = {.matrix = job->matrix,
+                                .count = count,
+                                .sides = job->sides,
+                                .solution = job->solution,
+                                .residual = job->residual,
+                                .partial = job->partial,
+                                .tolerance = job->options.tolerance,
+                                .max_iterations = job->options.max_iterations};
+    if (job->factor) {
+        *iterations = 1;
+        return apply_factor(job, count);
+    }
+    const bool may_change = job->options.method == EWA_SPARSE_AUTO && !job->unfit &&
+                            job->matrix->row_starts[job->matrix->size] <= INT32_MAX &&
+                            gradient.max_iterations > PATIENT_ITERATIONS;
+    if (may_change) gradient.max_iterations = PATIENT_ITERATIONS;
+    ewa_status status = ewa_sparse_gradient_run(job->context, &gradient, iterations);
+    if (status != EWA_OK || !may_change || *iterations < PATIENT_ITERATIONS) return status;
+    status = make_factor(job);
+    job->unfit = !job->factor;
+    return status == EWA_OK ? find_solution(job, count, iterations) : status;
+}
+
+static ewa_status solve_group(solve_job *job, uint32_t count) {
+    double residual2[SPARSE_SIDES], side2[SPARSE_SIDES];
+    uint32_t iterations = 0;
+    const ewa_status status = find_solution(job, count, &iterations);
+    if (status != EWA_OK) return status;
+    ewa_sparse_residual(job->context, job->matrix, count, job->sides, job->solution, job->residual,
+                        job->partial, residual2, side2);
     const double residual = largest_residual(residual2, side2, count);
     // What a recurrence calls converged may, recomputed, be a little off.
     if (!(residual <= 2 * job->options.tolerance))
         return ewa_fail(job->context, EWA_ERROR_NUMERIC,
                         "solve: the residual of %u rows is %.3g after %u %s, must be %.3g; the matrix is "
                         "singular or nearly so",
-                        matrix->size, residual, iterations, job->factor ? "refinement" : "iterations",
+                        job->matrix->size, residual, iterations, job->factor ? "refinement" : "iterations",
                         job->options.tolerance);
     job->report.residual = fmax(job->report.residual, residual);
     if (iterations > job->report.iterations) job->report.iterations = iterations;
-    return ewa_progress(job->context, "solve", end);
-}
-
-/// Makes the factor where it is wanted and fits.
-static ewa_status choose(solve_job *job) {
-    const ewa_sparse_method method = job->options.method;
-    if (method == EWA_SPARSE_GRADIENT || (method == EWA_SPARSE_AUTO && job->matrix->size > FACTOR_ROWS))
-        return EWA_OK;
-    uint64_t bytes = 0;
-    ewa_status status = ewa_sparse_factor_analyse(job->context, job->matrix, &job->factor, &bytes);
-    if (status != EWA_OK) return status;
-    if (bytes > job->options.max_factor_bytes) {
-        ewa_sparse_factor_destroy(&job->factor);
-        if (method == EWA_SPARSE_AUTO) return EWA_OK;
-        return ewa_fail(job->context, EWA_ERROR_LIMIT,
-                        "solve: the factor of %u rows needs %llu bytes, the limit is %llu", job->matrix->size,
-                        (unsigned long long)bytes, (unsigned long long)job->options.max_factor_bytes);
-    }
-    job->report.factor_bytes = bytes;
-    status = ewa_progress(job->context, "solve", 0.1);
-    return status != EWA_OK ? status : ewa_sparse_factor_make(job->factor, 0.1);
+    return EWA_OK;
 }
 
 static ewa_status solve_groups(solve_job *job, uint32_t side_count, const double *sides, double *solution) {
@@ -211,14 +225,13 @@ static ewa_status solve_groups(solve_job *job, uint32_t side_count, const double
         for (size_t i = 0; i < size; i++)
             for (uint32_t s = 0; s < count; s++)
                 job->sides[i * count + s] = sides[i * side_count + first + s];
-        const ewa_status status = solve_group(job, count, job->factor ? 1 : (double)first / side_count,
-                                              job->factor ? 1 : (double)(first + count) / side_count);
+        const ewa_status status = solve_group(job, count);
         if (status != EWA_OK) return status;
         for (size_t i = 0; i < size; i++)
             for (uint32_t s = 0; s < count; s++)
                 solution[i * side_count + first + s] = job->solution[i * count + s];
     }
-    return EWA_OK;
+    return ewa_progress(job->context, "solve", 1);
 }
 
 ewa_status ewa_sparse_solve(ewa_context *context, const ewa_sparse *matrix, uint32_t side_count,
@@ -243,7 +256,12 @@ ewa_status ewa_sparse_solve(ewa_context *context, const ewa_sparse *matrix, uint
     if (bad && job.sides && job.solution && job.residual && job.partial)
         status = check(context, &(check_job){matrix, sides, side_count, bad});
     if (status == EWA_OK) status = ewa_progress(context, "solve", 0);
-    if (status == EWA_OK) status = choose(&job);
+    const ewa_sparse_method method = job.options.method;
+    if (status == EWA_OK &&
+        (method == EWA_SPARSE_FACTOR || (method == EWA_SPARSE_AUTO && size <= FACTOR_ROWS))) {
+        status = make_factor(&job);
+        job.unfit = !job.factor;
+    }
     if (status == EWA_OK) status = solve_groups(&job, side_count, sides, solution);
     job.report.method = job.factor ? EWA_SPARSE_FACTOR : EWA_SPARSE_GRADIENT;
     if (report && status == EWA_OK) *report = job.report;

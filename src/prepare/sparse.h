@@ -17,7 +17,7 @@ typedef struct ewa_sparse {
 } ewa_sparse;
 
 typedef enum ewa_sparse_method {
-    EWA_SPARSE_AUTO = 0, ///< factor where that is the faster and fits, else gradient
+    EWA_SPARSE_AUTO = 0, ///< a factor of few rows or where the gradient takes long and it fits, else gradient
     EWA_SPARSE_FACTOR, ///< Cholesky factor: one cost for any conditioning, memory grows faster than the size
     EWA_SPARSE_GRADIENT, ///< conjugate gradient: no memory to speak of, steps grow with the conditioning
 } ewa_sparse_method;
@@ -41,7 +41,8 @@ typedef struct ewa_sparse_report {
 /// numbers, those of one row together; they must not overlap. `options` and `report` may be NULL.
 ///
 /// The result does not depend on the number of threads. The factor's memory comes from malloc() and not from
-/// the context's allocator (see sparse_factor.c). Progress stage: "solve". Errors: EWA_ERROR_ARGUMENT (rows
+/// the context's allocator (see sparse_factor.c). Progress stage: "solve", begun
+/// anew for every four right sides and where the method changes. Errors: EWA_ERROR_ARGUMENT (rows
 /// or columns out of order), EWA_ERROR_NUMERIC (a number that is not finite, a matrix that is not positive
 /// definite, a residual over the tolerance), EWA_ERROR_LIMIT (method FACTOR, factor over max_factor_bytes),
 /// EWA_ERROR_MEMORY, EWA_CANCELLED; `solution` then holds nothing of use.

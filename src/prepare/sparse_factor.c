@@ -84,7 +84,7 @@ ewa_status ewa_sparse_factor_analyse(ewa_context *context, const ewa_sparse *mat
     return EWA_OK;
 }
 
-ewa_status ewa_sparse_factor_make(sparse_factor *self, double start) {
+ewa_status ewa_sparse_factor_make(sparse_factor *self) {
     const size_t size = self->matrix.nrow;
     // The lower half in the factor's order, transposed: the upper one, by columns, as cholmod_rowfac takes
     // it.
@@ -105,7 +105,7 @@ ewa_status ewa_sparse_factor_make(sparse_factor *self, double start) {
         else if (self->common.status != CHOLMOD_OK)
             status = fail(self, "factor");
         else
-            status = ewa_progress(self->context, "solve", start + (1 - start) * (double)end / (double)size);
+            status = ewa_progress(self->context, "solve", 0.99 * (double)end / (double)size);
     }
     cholmod_free_sparse(&ordered, &self->common);
     return status;

@@ -178,8 +178,7 @@ static ewa_status iterate(ewa_context *context, gradient_state *state, uint32_t 
         if (most == 0 || *iterations == job->max_iterations) return EWA_OK;
         ewa_parallel(context, turn_block, state, blocks);
         const double share = most < most_start ? log(most_start / most) / log(most_start) : 0;
-        const ewa_status status =
-            ewa_progress(context, "solve", job->start + (job->end - job->start) * share);
+        const ewa_status status = ewa_progress(context, "solve", 0.99 * share);
         if (status != EWA_OK) return status;
     }
 }

@@ -38,8 +38,8 @@ typedef struct sparse_factor sparse_factor;
 ewa_status ewa_sparse_factor_analyse(ewa_context *context, const ewa_sparse *matrix, sparse_factor **factor,
                                      uint64_t *factor_bytes);
 
-/// Computes the numbers. Progress from `start` on to 1.
-ewa_status ewa_sparse_factor_make(sparse_factor *factor, double start);
+/// Computes the numbers; tells progress.
+ewa_status ewa_sparse_factor_make(sparse_factor *factor);
 
 /// Writes A^-1 b for `count` tightly interleaved sides.
 ewa_status ewa_sparse_factor_apply(sparse_factor *factor, uint32_t count, const double *sides,
@@ -47,8 +47,8 @@ ewa_status ewa_sparse_factor_apply(sparse_factor *factor, uint32_t count, const 
 void ewa_sparse_factor_destroy(sparse_factor **factor);
 
 /// Solves for `count` tightly interleaved sides by conjugate gradients until every |r| <= tolerance |b| or
-/// max_iterations are done. `residual` (size * count) and `partial` (2 * SPARSE_SIDES per block) are
-/// workspace; progress runs from `start` to `end`.
+/// max_iterations are done; tells progress. `residual` (size * count) and `partial` (2 * SPARSE_SIDES per
+/// block) are workspace.
 typedef struct sparse_gradient {
     const ewa_sparse *matrix;
     uint32_t count;
@@ -56,7 +56,6 @@ typedef struct sparse_gradient {
     double *solution, *residual, *partial;
     double tolerance;
     uint32_t max_iterations;
-    double start, end;
 } sparse_gradient;
 ewa_status ewa_sparse_gradient_run(ewa_context *context, const sparse_gradient *job, uint32_t *iterations);
 

@@ -206,6 +206,35 @@ static void test_limits(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// AUTO takes the gradient for many rows, and a factor where that needs more than 500 steps.
+static void test_choice(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    const struct {
+        double sigma;
+        uint64_t max_factor_bytes;
+        ewa_sparse_method method;
+    } rows[] = {
+        {0.5, 0, EWA_SPARSE_GRADIENT}, {0.85, 0, EWA_SPARSE_FACTOR}, {0.85, 1000, EWA_SPARSE_GRADIENT}};
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
+        owned matrix = make_gram(70, rows[r].sigma);
+        double *truth, *sides = make_sides(&matrix.view, 2, &truth);
+        double *solution = malloc(2 * matrix.view.size * sizeof(double));
+        assert_non_null(solution);
+        const ewa_sparse_options options = {.max_factor_bytes = rows[r].max_factor_bytes};
+        ewa_sparse_report report;
+        assert_int_equal(ewa_sparse_solve(context, &matrix.view, 2, sides, solution, &options, &report),
+                         EWA_OK);
+        assert_int_equal(report.method, rows[r].method);
+        assert_true(rows[r].max_factor_bytes ? report.iterations > 500 : report.iterations <= 500);
+        free(solution);
+        free(sides);
+        free(truth);
+        owned_free(&matrix);
+    }
+    ewa_context_destroy(&context);
+}
+
 typedef struct system_of_equations {
     const ewa_sparse *matrix;
     const double *sides;
@@ -267,9 +296,9 @@ static void test_cancel_and_memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_known_solution),    cmocka_unit_test(test_small),
-        cmocka_unit_test(test_unsolvable),        cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_cancel_and_memory),
+        cmocka_unit_test(test_known_solution), cmocka_unit_test(test_small),
+        cmocka_unit_test(test_unsolvable),     cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_choice),         cmocka_unit_test(test_cancel_and_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
