@@ -17,9 +17,14 @@ typedef struct convert_arguments {
     output_arguments output; // first
     option_vector crop, transform, scale, translate;
     double subsample; ///< 0: all points; under 1: a share; else a count
+    int refit;        ///< REFIT_*
+    double cutoff;
 } convert_arguments;
 
 #define AT(member) offsetof(convert_arguments, member)
+
+/// In the order of the words of --refit-colors.
+enum { REFIT_OFF, REFIT_INTERPOLATE, REFIT_FIT };
 
 static const cli_option change_table[] = {
     {.key = "crop",
@@ -59,7 +64,26 @@ static const cli_option change_table[] = {
      .low = 3,
      .high = 3,
      .help = "add to coordinates"},
+    {.key = "refit-colors",
+     .kind = OPTION_CHOICE,
+     .offset = AT(refit),
+     .range = "off|interpolate|fit",
+     .help = "turn colours into coefficients, so that pictures of the surfels are sharper: they show each "
+             "point's colour at the point, or nearly (fit: for noisy or aliased colours)"},
+    {.key = "cutoff",
+     .kind = OPTION_NUMBER,
+     .offset = AT(cutoff),
+     .value = "F",
+     .range = "(0, 4]",
+     .help = "--refit-colors: standard deviations at which kernels end, as for ewa render"},
 };
+
+static void set_defaults(void *data) {
+    convert_arguments *arguments = data;
+    ewa_refit_options refit;
+    ewa_refit_options_init(&refit, sizeof refit);
+    arguments->cutoff = refit.cutoff;
+}
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const convert_arguments *arguments = data;
@@ -167,13 +191,36 @@ static bool move(cli_session *session, ewa_cloud *cloud, const convert_arguments
     return status == EWA_OK;
 }
 
+/// Turns colours into coefficients; normals and radii that the cloud lacks are estimated first.
+static bool refit(cli_session *session, ewa_cloud **cloud, const convert_arguments *arguments) {
+    const double started_s = clock_now_s();
+    ewa_refit_options options;
+    ewa_refit_options_init(&options, sizeof options);
+    options.goal = arguments->refit == REFIT_FIT ? EWA_REFIT_FIT : EWA_REFIT_INTERPOLATE;
+    options.cutoff = arguments->cutoff;
+    ewa_refit_report report;
+    ewa_status status = cloud_is_drawable(*cloud) ? EWA_OK : ewa_cloud_estimate(cloud, NULL);
+    if (status == EWA_OK) status = ewa_cloud_refit_colors(*cloud, &options, &report);
+    if (status != EWA_OK)
+        session_failed(session, status);
+    else
+        session_say(
+            session,
+            "colours refitted in %.3f s, %u steps: error at the points %.4f -> %.4f, coefficients %.3g "
+            "to %.3g",
+            clock_now_s() - started_s, report.iteration_count, report.before_rms, report.after_rms,
+            (double)report.low, (double)report.high);
+    return status == EWA_OK;
+}
+
 static ewa_cloud *make(cli_session *session, const void *data) {
     const convert_arguments *arguments = data;
     ewa_cloud *cloud = inputs_merge(session, &arguments->output.common);
     if (arguments->output.common.operand_count > 1) session->subject = NULL;
     const bool done = cloud && (!arguments->crop.count || crop(session, &cloud, arguments->crop.values)) &&
                       (arguments->subsample == 0 || subsample(session, &cloud, arguments->subsample)) &&
-                      move(session, cloud, arguments);
+                      move(session, cloud, arguments) &&
+                      (arguments->refit == REFIT_OFF || refit(session, &cloud, arguments));
     if (!done) ewa_cloud_destroy(&cloud);
     return cloud;
 }
@@ -195,12 +242,14 @@ const cli_command convert_command = {
         "written with double coordinates.",
     .examples = "ewa convert scan.ply -o scan_text.ply --ascii\n"
                 "ewa convert a.ply b.ply -o both.ply --subsample 1000000\n"
+                "ewa convert scan.ply -o sharp.ply --refit-colors fit\n"
                 "ewa convert mm.ply -o m.ply --scale 0.001 --crop -1,-1,0,1,1,2\n",
     .low_operands = 1,
     .high_operands = 4096,
     .groups = groups,
     .group_count = sizeof groups / sizeof groups[0],
     .arguments_bytes = sizeof(convert_arguments),
+    .set_defaults = set_defaults,
     .check = check,
     .run = run,
 };
