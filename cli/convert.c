@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "inputs.h"
 #include "json.h"
+#include "procedure.h"
 
 #include <float.h>
 #include <math.h>
@@ -14,7 +15,8 @@
 #include <string.h>
 
 typedef struct convert_arguments {
-    output_arguments output; // first
+    output_arguments output;       // first
+    procedure_arguments procedure; // second
     option_vector crop, transform, scale, translate;
     double subsample; ///< 0: all points; under 1: a share; else a count
     int refit;        ///< REFIT_*
@@ -22,6 +24,7 @@ typedef struct convert_arguments {
 } convert_arguments;
 
 #define AT(member) offsetof(convert_arguments, member)
+_Static_assert(offsetof(convert_arguments, procedure) == PROCEDURE_OFFSET, "procedure_options says so");
 
 /// In the order of the words of --refit-colors.
 enum { REFIT_OFF, REFIT_INTERPOLATE, REFIT_FIT };
@@ -75,11 +78,12 @@ static const cli_option change_table[] = {
      .offset = AT(cutoff),
      .value = "F",
      .range = "(0, 4]",
-     .help = "--refit-colors: standard deviations at which kernels end, as for ewa render"},
+     .help = "standard deviations at which kernels end, as for ewa render, where colours are made"},
 };
 
 static void set_defaults(void *data) {
     convert_arguments *arguments = data;
+    procedure_set_defaults(&arguments->procedure);
     ewa_refit_options refit;
     ewa_refit_options_init(&refit, sizeof refit);
     arguments->cutoff = refit.cutoff;
@@ -94,7 +98,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     else if (arguments->subsample > 1 && arguments->subsample != floor(arguments->subsample))
         problem = "--subsample: over 1, N has to be a whole number";
     if (problem) snprintf(message, OPTION_ERROR_BYTES, "%s", problem);
-    return !problem;
+    return !problem && procedure_check(&arguments->procedure, message);
 }
 
 /// Replaces a cloud by some of its points; false after reporting.
@@ -191,16 +195,25 @@ static bool move(cli_session *session, ewa_cloud *cloud, const convert_arguments
     return status == EWA_OK;
 }
 
-/// Turns colours into coefficients; normals and radii that the cloud lacks are estimated first.
-static bool refit(cli_session *session, ewa_cloud **cloud, const convert_arguments *arguments) {
+/// Estimates normals and radii that the cloud lacks for new colours; returns false after reporting.
+static bool complete(cli_session *session, ewa_cloud **cloud, const convert_arguments *arguments) {
+    const bool wanted = arguments->refit != REFIT_OFF ||
+                        (arguments->procedure.procedure && arguments->procedure.prefilter > 0);
+    if (!wanted || cloud_is_drawable(*cloud)) return true;
+    const ewa_status status = ewa_cloud_estimate(cloud, NULL);
+    if (status != EWA_OK) session_failed(session, status);
+    return status == EWA_OK;
+}
+
+/// Turns colours into coefficients.
+static bool refit(cli_session *session, ewa_cloud *cloud, const convert_arguments *arguments) {
     const double started_s = clock_now_s();
     ewa_refit_options options;
     ewa_refit_options_init(&options, sizeof options);
     options.goal = arguments->refit == REFIT_FIT ? EWA_REFIT_FIT : EWA_REFIT_INTERPOLATE;
     options.cutoff = arguments->cutoff;
     ewa_refit_report report;
-    ewa_status status = cloud_is_drawable(*cloud) ? EWA_OK : ewa_cloud_estimate(cloud, NULL);
-    if (status == EWA_OK) status = ewa_cloud_refit_colors(*cloud, &options, &report);
+    const ewa_status status = ewa_cloud_refit_colors(cloud, &options, &report);
     if (status != EWA_OK)
         session_failed(session, status);
     else
@@ -219,8 +232,9 @@ static ewa_cloud *make(cli_session *session, const void *data) {
     if (arguments->output.common.operand_count > 1) session->subject = NULL;
     const bool done = cloud && (!arguments->crop.count || crop(session, &cloud, arguments->crop.values)) &&
                       (arguments->subsample == 0 || subsample(session, &cloud, arguments->subsample)) &&
-                      move(session, cloud, arguments) &&
-                      (arguments->refit == REFIT_OFF || refit(session, &cloud, arguments));
+                      move(session, cloud, arguments) && complete(session, &cloud, arguments) &&
+                      procedure_apply(session, &arguments->procedure, arguments->cutoff, cloud) &&
+                      (arguments->refit == REFIT_OFF || refit(session, cloud, arguments));
     if (!done) ewa_cloud_destroy(&cloud);
     return cloud;
 }
@@ -229,7 +243,7 @@ static int run(const void *data) { return cloud_output_run(data, make); }
 
 static const option_group change_options = {"Changes, in this order", change_table,
                                             sizeof change_table / sizeof change_table[0]};
-static const option_group *const groups[] = {&cloud_output_options, &change_options};
+static const option_group *const groups[] = {&cloud_output_options, &change_options, &procedure_options};
 
 const cli_command convert_command = {
     .name = "convert",

@@ -5,18 +5,21 @@
 #include "cloud_output.h"
 #include "commands.h"
 #include "json.h"
+#include "procedure.h"
 
 #include <stdio.h>
 #include <string.h>
 
 typedef struct generate_arguments {
-    output_arguments output; // first
+    output_arguments output;       // first
+    procedure_arguments procedure; // second
     bool positions_only, sharp;
     int64_t point_count, seed;
     double size_world, jitter, checks, radius_scale;
 } generate_arguments;
 
 #define AT(member) offsetof(generate_arguments, member)
+_Static_assert(offsetof(generate_arguments, procedure) == PROCEDURE_OFFSET, "procedure_options says so");
 
 /// In the order of ewa_object.
 static const char *const objects[] = {"plane", "checker", "cube", "sphere", "torus", "terrain", "csg"};
@@ -73,6 +76,7 @@ static const cli_option object_table[] = {
 
 static void set_defaults(void *data) {
     generate_arguments *arguments = data;
+    procedure_set_defaults(&arguments->procedure);
     ewa_generate_options options;
     ewa_generate_options_init(&options, sizeof options);
     arguments->point_count = (int64_t)options.point_count;
@@ -102,8 +106,16 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
                  nearest ? "; did you mean " : "", nearest ? nearest : "");
         return false;
     }
-    return cloud_output_check(&arguments->output, message);
+    const procedure_arguments *procedure = &arguments->procedure;
+    if (arguments->positions_only && procedure->procedure && procedure->prefilter > 0) {
+        snprintf(message, OPTION_ERROR_BYTES, "--procedure with --positions-only needs --prefilter-scale 0");
+        return false;
+    }
+    return procedure_check(procedure, message) && cloud_output_check(&arguments->output, message);
 }
+
+/// What the radii of generated objects are meant for, as everywhere by default.
+static const double GENERATED_CUTOFF = 3;
 
 static ewa_cloud *make(cli_session *session, const void *data) {
     const generate_arguments *arguments = data;
@@ -121,7 +133,10 @@ static ewa_cloud *make(cli_session *session, const void *data) {
     session->subject = arguments->output.path;
     ewa_cloud *cloud = NULL;
     const ewa_status status = ewa_cloud_generate(session->context, &options, &cloud);
-    if (status != EWA_OK) session_failed(session, status);
+    if (status != EWA_OK)
+        session_failed(session, status);
+    else if (!procedure_apply(session, &arguments->procedure, GENERATED_CUTOFF, cloud))
+        ewa_cloud_destroy(&cloud);
     return cloud;
 }
 
@@ -129,7 +144,7 @@ static int run(const void *data) { return cloud_output_run(data, make); }
 
 static const option_group object_options = {"Object", object_table,
                                             sizeof object_table / sizeof object_table[0]};
-static const option_group *const groups[] = {&cloud_output_options, &object_options};
+static const option_group *const groups[] = {&cloud_output_options, &object_options, &procedure_options};
 
 const cli_command generate_command = {
     .name = "generate",

@@ -5,18 +5,21 @@
 #include "cloud_output.h"
 #include "commands.h"
 #include "json.h"
+#include "procedure.h"
 #include "session.h"
 
 #include <stdio.h>
 
 typedef struct sample_arguments {
-    output_arguments output; // first
+    output_arguments output;       // first
+    procedure_arguments procedure; // second
     bool clip_lines, smooth_normals;
     int64_t point_count, seed;
     double spacing_world, crease_degrees, radius_scale, cutoff;
 } sample_arguments;
 
 #define AT(member) offsetof(sample_arguments, member)
+_Static_assert(offsetof(sample_arguments, procedure) == PROCEDURE_OFFSET, "procedure_options says so");
 
 static const cli_option sample_table[] = {
     {.key = "points",
@@ -69,6 +72,7 @@ static const cli_option sample_table[] = {
 
 static void set_defaults(void *data) {
     sample_arguments *arguments = data;
+    procedure_set_defaults(&arguments->procedure);
     ewa_mesh_sample_options options;
     ewa_mesh_sample_options_init(&options, sizeof options);
     arguments->point_count = (int64_t)options.point_count;
@@ -83,7 +87,7 @@ static void set_defaults(void *data) {
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const sample_arguments *arguments = data;
-    return cloud_output_check(&arguments->output, message);
+    return procedure_check(&arguments->procedure, message) && cloud_output_check(&arguments->output, message);
 }
 
 static ewa_cloud *make(cli_session *session, const void *data) {
@@ -114,6 +118,8 @@ static ewa_cloud *make(cli_session *session, const void *data) {
         session_failed(session, status);
     }
     ewa_mesh_free(&mesh);
+    if (cloud && !procedure_apply(session, &arguments->procedure, arguments->cutoff, cloud))
+        ewa_cloud_destroy(&cloud);
     return cloud;
 }
 
@@ -121,7 +127,7 @@ static int run(const void *data) { return cloud_output_run(data, make); }
 
 static const option_group sample_options = {"Sampling", sample_table,
                                             sizeof sample_table / sizeof sample_table[0]};
-static const option_group *const groups[] = {&cloud_output_options, &sample_options};
+static const option_group *const groups[] = {&cloud_output_options, &sample_options, &procedure_options};
 
 const cli_command sample_command = {
     .name = "sample",

@@ -27,19 +27,32 @@ static inline void ewa_color_table_make(ewa_color_table *table) {
 
 static inline double ewa_color_clamp01(double value) { return value < 0 ? 0 : value > 1 ? 1 : value; }
 
-/// Turns the 3 or 4 numbers of a point into linear light and straight alpha: unsigned integers are sRGB over
-/// their whole range, signed ones over their non-negative half, alpha is linear and clamped to [0, 1]; floats
-/// are linear, of any sign. False, with an opaque EWA_DEFAULT_GREY, where a number is not finite.
-static inline bool ewa_color_decode(const ewa_color_table *table, const ewa_attribute *color,
-                                    const double *value, double linear[3], double *alpha) {
-    // Full scale of each ewa_type, 0 for floats.
+/// Full scale of a type of colours, 0 for floats.
+static inline double ewa_color_full_scale(ewa_type type) {
     static const double full_scale[] = {0, 0, 127, 255, 32767, 65535, 2147483647.0, 4294967295.0};
-    const double scale = full_scale[color->type];
+    return full_scale[type];
+}
+
+static inline bool ewa_color_is_finite(const ewa_attribute *color, const double *value) {
     bool finite = true;
     for (uint32_t c = 0; c < color->component_count; c++) finite = finite && isfinite(value[c]);
-    *alpha = 1;
-    if (finite && color->component_count == 4)
-        *alpha = ewa_color_clamp01(scale > 0 ? value[3] / scale : value[3]);
+    return finite;
+}
+
+/// Straight alpha, [0, 1]; 1 where there is none or a number is not finite.
+static inline double ewa_color_alpha(const ewa_attribute *color, const double *value) {
+    const double scale = ewa_color_full_scale(color->type);
+    if (color->component_count < 4 || !ewa_color_is_finite(color, value)) return 1;
+    return ewa_color_clamp01(scale > 0 ? value[3] / scale : value[3]);
+}
+
+/// Turns the 3 or 4 numbers of a point into linear light: unsigned integers are sRGB over their whole range,
+/// signed ones over their non-negative half, floats are linear, of any sign. False, with EWA_DEFAULT_GREY,
+/// where a number is not finite.
+static inline bool ewa_color_decode(const ewa_color_table *table, const ewa_attribute *color,
+                                    const double *value, double linear[3]) {
+    const double scale = ewa_color_full_scale(color->type);
+    const bool finite = ewa_color_is_finite(color, value);
     for (int c = 0; c < 3; c++) {
         if (!finite)
             linear[c] = EWA_DEFAULT_GREY;

@@ -188,9 +188,9 @@ static void read_block(void *data, uint32_t block, uint32_t worker) {
     ewa_color_table table;
     ewa_color_table_make(&table);
     for (uint32_t row = block * BLOCK_ROWS; row < block_end(job, block); row++) {
-        double value[4], alpha;
+        double value[4];
         ewa_attribute_read_f64(color, job->solid.surfels[row].point, 1, value);
-        ewa_color_decode(&table, color, value, job->color + (size_t)row * CHANNELS, &alpha);
+        ewa_color_decode(&table, color, value, job->color + (size_t)row * CHANNELS);
     }
 }
 
@@ -227,11 +227,11 @@ static ewa_status write_colors(ewa_cloud *cloud, const refit_job *job, ewa_refit
     ewa_color_table table;
     ewa_color_table_make(&table);
     for (uint64_t i = 0; i < point_count; i++) {
-        double value[4], rgb[3], alpha;
+        double value[4], rgb[3];
         ewa_attribute_read_f64(color, i, 1, value);
-        ewa_color_decode(&table, color, value, rgb, &alpha);
+        ewa_color_decode(&table, color, value, rgb);
         for (int c = 0; c < CHANNELS; c++) linear[i * components + (uint64_t)c] = (float)rgb[c];
-        if (components == 4) linear[4 * i + 3] = (float)alpha;
+        if (components == 4) linear[4 * i + 3] = (float)ewa_color_alpha(color, value);
     }
     for (uint32_t row = 0; row < job->matrix.count; row++) {
         float *to = linear + (size_t)job->solid.surfels[row].point * components;

@@ -183,11 +183,13 @@ static uint64_t read_block(const ewa_surfel_reader *reader, uint64_t first, uint
         surfel->clip_either = mode[i] == 1;
         surfel->alpha = 1;
         surfel->material = ewa_surfel_material(reader, first + i);
-        if (reader->color)
-            ewa_color_decode(&reader->colors, reader->color, &color[reader->color->component_count * i],
-                             surfel->color_linear, &surfel->alpha);
-        else
+        if (reader->color) {
+            const double *value = &color[reader->color->component_count * i];
+            ewa_color_decode(&reader->colors, reader->color, value, surfel->color_linear);
+            surfel->alpha = ewa_color_alpha(reader->color, value);
+        } else {
             surfel->color_linear[0] = surfel->color_linear[1] = surfel->color_linear[2] = EWA_DEFAULT_GREY;
+        }
     }
     return kept;
 }
@@ -203,11 +205,10 @@ uint64_t ewa_surfel_read(const ewa_surfel_reader *reader, uint64_t first, uint64
 }
 
 double ewa_surfel_alpha(const ewa_surfel_reader *reader, uint64_t point) {
-    double color[4] = {0}, linear[3], alpha;
+    double color[4] = {0};
     if (!reader->color || reader->color->component_count != 4) return 1;
     ewa_attribute_read_f64(reader->color, point, 1, color);
-    ewa_color_decode(&reader->colors, reader->color, color, linear, &alpha);
-    return alpha;
+    return ewa_color_alpha(reader->color, color);
 }
 
 bool ewa_surfel_is_clipped(const ewa_surfel_reader *reader, uint64_t point) {

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Solid textures: the options of commands that colour what they make.
+#ifndef EWA_CLI_PROCEDURE_H
+#define EWA_CLI_PROCEDURE_H
+
+#include "cloud_output.h"
+
+/// Options of solid textures.
+typedef struct procedure_arguments {
+    int procedure; ///< 0: off; else 1 + ewa_procedure
+    double frequency, prefilter;
+    int64_t seed;
+    option_vector colors[2]; ///< linear
+} procedure_arguments;
+
+/// Where a command's arguments have them: right after the output_arguments that they begin with.
+enum { PROCEDURE_OFFSET = sizeof(output_arguments) };
+
+extern const option_group procedure_options;
+
+void procedure_set_defaults(procedure_arguments *arguments);
+
+/// Says in `message` what is wrong with the options together; see command.check.
+bool procedure_check(const procedure_arguments *arguments, char message[OPTION_ERROR_BYTES]);
+
+/// Colours a cloud as the options say; `cutoff` as for the surfels. Returns false after reporting.
+bool procedure_apply(cli_session *session, const procedure_arguments *arguments, double cutoff,
+                     ewa_cloud *cloud);
+
+#endif
