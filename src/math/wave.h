@@ -15,9 +15,18 @@ static inline double ewa_wave(double turns) {
     const double sign = t > 0.25 ? -1 : 1;
     if (t > 0.25) t = 0.5 - t;
     const double x = 6.283185307179586 * t, square = x * x;
-    double sum = 1;
-    for (int even = 20; even > 0; even -= 2) sum = 1 - square / ((even - 1) * even) * sum;
-    return sign * sum;
+    static const double terms[] = {-1.0 / 2,
+                                   1.0 / 24,
+                                   -1.0 / 720,
+                                   1.0 / 40320,
+                                   -1.0 / 3628800,
+                                   1.0 / 479001600,
+                                   -1.0 / 87178291200,
+                                   1.0 / 20922789888000,
+                                   -1.0 / 6402373705728000};
+    double sum = terms[8];
+    for (int i = 7; i >= 0; i--) sum = terms[i] + square * sum;
+    return sign * (1 + square * sum);
 }
 
 #endif

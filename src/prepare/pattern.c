@@ -28,12 +28,13 @@ static double next_uniform(uint64_t *state) {
     return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
 }
 
-/// Fills a field with octaves from `frequency` up; `stretch` multiplies the wave vectors per axis.
-static void make_noise(uint64_t seed, double frequency, ewa_vec3 stretch, pattern_noise *noise) {
+/// Fills a field with octaves from `frequency` up, each `gain` times as strong as the one before; `stretch`
+/// multiplies the wave vectors per axis.
+static void make_noise(uint64_t seed, double frequency, double gain, ewa_vec3 stretch, pattern_noise *noise) {
     uint64_t state = seed;
-    double variance = 0, gain = 1;
+    double variance = 0, amplitude = 1;
     pattern_wave *wave = noise->waves;
-    for (int octave = 0; octave < PATTERN_OCTAVES; octave++, frequency *= 2, gain *= 0.55)
+    for (int octave = 0; octave < PATTERN_OCTAVES; octave++, frequency *= 2, amplitude *= gain)
         for (int i = 0; i < PATTERN_OCTAVE_WAVES; i++, wave++) {
             ewa_vec3 k;
             double length2;
@@ -46,8 +47,8 @@ static void make_noise(uint64_t seed, double frequency, ewa_vec3 stretch, patter
             const double length = frequency * (0.7 + 0.7 * next_uniform(&state)) / sqrt(length2);
             wave->k = vec3_make(k.x * length * stretch.x, k.y * length * stretch.y, k.z * length * stretch.z);
             wave->phase = next_uniform(&state);
-            wave->amplitude = gain;
-            variance += 0.5 * gain * gain;
+            wave->amplitude = amplitude;
+            variance += 0.5 * amplitude * amplitude;
         }
     for (int i = 0; i < PATTERN_OCTAVES * PATTERN_OCTAVE_WAVES; i++)
         noise->waves[i].amplitude /= sqrt(variance);
@@ -133,7 +134,7 @@ static double mean_of_wood(const pattern *self, const pattern_footprint *footpri
     const noise_mean noise = mean_of_noise(&self->noise, footprint),
                      grain = mean_of_noise(&self->grain, footprint);
     const double rings = mean_of_bands(&self->profile, self->frequency * radius,
-                                       vec3_scale(outward, self->frequency), 0.22, &noise, footprint);
+                                       vec3_scale(outward, self->frequency), 0.5, &noise, footprint);
     return 0.85 * rings + 0.08 + 0.045 * grain.value;
 }
 
@@ -148,12 +149,14 @@ void ewa_pattern_make(const ewa_procedure_options *options, pattern *made) {
         samples[i] = wood ? late : crest * crest * crest * crest * crest * crest;
     }
     make_profile(samples, &made->profile);
-    make_noise(options->seed,
-               wood                                         ? 0.3 * f
-               : options->procedure == EWA_PROCEDURE_MARBLE ? 0.5 * f
-                                                            : f,
-               wood ? vec3_make(1, 1, 0.25) : vec3_make(1, 1, 1), &made->noise);
-    if (wood) make_noise(options->seed + 1, 4 * f, vec3_make(1, 1, 0.04), &made->grain);
+    const ewa_vec3 even = vec3_make(1, 1, 1);
+    if (wood) {
+        make_noise(options->seed, 0.12 * f, 0.4, vec3_make(1, 1, 0.3), &made->noise);
+        make_noise(options->seed + 1, 4 * f, 0.55, vec3_make(1, 1, 0.04), &made->grain);
+    } else {
+        make_noise(options->seed, options->procedure == EWA_PROCEDURE_MARBLE ? 0.5 * f : f, 0.55, even,
+                   &made->noise);
+    }
 }
 
 double ewa_pattern_mean(const pattern *self, const pattern_footprint *footprint) {
