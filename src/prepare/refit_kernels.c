@@ -19,13 +19,14 @@ static const double LEAST_COSINE = 0.5;
 
 typedef struct build_job {
     const ewa_solid *solid;
-    double cutoff;
+    double cutoff2;
+    bool clipped; // some surfels have clip lines
     refit_matrix *matrix;
 } build_job;
 
 typedef struct entry {
     uint32_t column;
-    float weight;
+    double r2; // of the kernel exp(-r2 / 2), then the kernel
 } entry;
 
 /// Whether the clip lines of a surfel keep the place (u, v) of its plane, in standard deviations.
@@ -38,62 +39,61 @@ static bool kept(const ewa_solid *solid, uint32_t surfel, double u, double v) {
     return either ? held > 0 : held == count;
 }
 
-/// The kernel of a surfel at a place of a surface with that normal; 0: it does not take part.
-static double weight_at(const build_job *job, uint32_t index, ewa_vec3 place, ewa_vec3 normal) {
+/// r^2 of the kernel of a surfel at a place of a surface with that normal; negative: it does not take part.
+static double r2_at(const build_job *job, uint32_t index, ewa_vec3 place, ewa_vec3 normal) {
     const ewa_solid_surfel *surfel = &job->solid->surfels[index];
     const ewa_vec3 d = vec3_sub(place, surfel->center);
-    if (!(vec3_dot(d, d) < surfel->reach * surfel->reach)) return 0;
-    if (vec3_dot(surfel->normal, normal) < LEAST_COSINE) return 0;
+    if (!(vec3_dot(d, d) < surfel->reach * surfel->reach)) return -1;
+    if (vec3_dot(surfel->normal, normal) < LEAST_COSINE) return -1;
     // d = u tu + v tv + (...) n, for axes that need not be orthogonal.
     const ewa_vec3 tu = surfel->axis[0], tv = surfel->axis[1];
     const double uu = vec3_dot(tu, tu), uv = vec3_dot(tu, tv), vv = vec3_dot(tv, tv), a = vec3_dot(d, tu),
                  b = vec3_dot(d, tv), determinant = uu * vv - uv * uv;
     const double u = (a * vv - b * uv) / determinant, v = (b * uu - a * uv) / determinant;
     const double r2 = u * u + v * v;
-    if (!(r2 < job->cutoff * job->cutoff) || !kept(job->solid, index, u, v)) return 0;
-    return ewa_exp(-0.5 * r2);
+    return r2 < job->cutoff2 && (!job->clipped || kept(job->solid, index, u, v)) ? r2 : -1;
+}
+
+/// Without libm's care for what is not a number, of which there is none here.
+static inline double beyond(double low, double high, double p) {
+    const double below = low - p, above = p - high, outside = below > above ? below : above;
+    return outside > 0 ? outside : 0;
 }
 
 /// Finds the kernels at the centre of surfel `row`, ascending; returns how many there are, 0 where there is
 /// no equation.
 static uint32_t find_row(const build_job *job, uint32_t row, entry entries[REFIT_ROW_MOST]) {
     const ewa_solid *solid = job->solid;
-    const ewa_solid_surfel *surfel = &solid->surfels[row];
-    const ewa_vec3 p = surfel->center;
+    const ewa_vec3 p = solid->surfels[row].center, normal = solid->surfels[row].normal;
     struct {
         uint32_t level, index;
     } stack[STACK_NODES];
     uint32_t depth = 1, count = 0;
     bool own = false;
-    double sum = 0;
     stack[0].level = solid->level_count - 1;
     stack[0].index = 0;
     while (depth) {
         depth--;
-        const uint32_t level = stack[depth].level, index = stack[depth].index;
-        const ewa_solid_node *node = &solid->nodes[solid->level_first[level] + index];
-        const double x = fmax(fmax(node->low.x - p.x, p.x - node->high.x), 0),
-                     y = fmax(fmax(node->low.y - p.y, p.y - node->high.y), 0),
-                     z = fmax(fmax(node->low.z - p.z, p.z - node->high.z), 0);
-        if (x * x + y * y + z * z > node->reach * node->reach) continue;
-        const uint32_t first = index * EWA_SOLID_ARITY,
+        const uint32_t level = stack[depth].level, first = stack[depth].index * EWA_SOLID_ARITY,
                        most = level ? solid->level_nodes[level - 1] : solid->count,
                        end = first + EWA_SOLID_ARITY < most ? first + EWA_SOLID_ARITY : most;
-        if (level) {
-            for (uint32_t child = end; child-- > first; depth++)
-                stack[depth].level = level - 1, stack[depth].index = child;
-            continue;
+        for (uint32_t child = end; level && child-- > first;) {
+            const ewa_solid_node *node = &solid->nodes[solid->level_first[level - 1] + child];
+            const double x = beyond(node->low.x, node->high.x, p.x),
+                         y = beyond(node->low.y, node->high.y, p.y),
+                         z = beyond(node->low.z, node->high.z, p.z);
+            if (x * x + y * y + z * z > node->reach * node->reach) continue;
+            stack[depth].level = level - 1, stack[depth].index = child;
+            depth++;
         }
-        for (uint32_t k = first; k < end; k++) {
-            const double weight = weight_at(job, k, p, surfel->normal);
-            if (!(weight > 0)) continue;
+        for (uint32_t k = first; !level && k < end; k++) {
+            const double r2 = r2_at(job, k, p, normal);
+            if (r2 < 0) continue;
             if (count == REFIT_ROW_MOST) return 0;
-            entries[count++] = (entry){k, (float)weight};
-            sum += weight;
+            entries[count++] = (entry){k, r2};
             own = own || k == row;
         }
     }
-    for (uint32_t e = 0; e < count; e++) entries[e].weight = (float)((double)entries[e].weight / sum);
     return own ? count : 0;
 }
 
@@ -114,9 +114,11 @@ static void fill_rows(void *data, uint32_t part, uint32_t worker) {
     const uint32_t first = part * TASK_ROWS, left = job->matrix->count - first;
     for (uint32_t i = 0; i < (left < TASK_ROWS ? left : TASK_ROWS); i++) {
         const uint32_t count = find_row(job, first + i, entries);
+        double sum = 0;
+        for (uint32_t e = 0; e < count; e++) sum += entries[e].r2 = ewa_exp(-0.5 * entries[e].r2);
         for (uint32_t e = 0; e < count; e++) {
             rows->columns[rows->starts[first + i] + e] = entries[e].column;
-            rows->values[rows->starts[first + i] + e] = entries[e].weight;
+            rows->values[rows->starts[first + i] + e] = (float)(entries[e].r2 / sum);
         }
     }
 }
@@ -154,7 +156,8 @@ ewa_status ewa_refit_matrix_make(const ewa_solid *solid, double cutoff, refit_ma
     forward->starts = ewa_allocate_zeroed(context, (size_t)count + 1, sizeof *forward->starts);
     backward->starts = ewa_allocate_zeroed(context, (size_t)count + 1, sizeof *backward->starts);
     if (!forward->starts || !backward->starts) return EWA_ERROR_MEMORY;
-    build_job job = {solid, cutoff, matrix};
+    const bool clipped = ewa_cloud_find(solid->cloud, EWA_CLIP0) || ewa_cloud_find(solid->cloud, EWA_CLIP1);
+    build_job job = {solid, cutoff * cutoff, clipped, matrix};
     ewa_parallel(context, count_rows, &job, parts);
     for (uint32_t i = 0; i < count; i++) {
         matrix->empty_count += forward->starts[i + 1] == 0;
