@@ -171,7 +171,7 @@ double ewa_pattern_mean(const pattern *self, const pattern_footprint *footprint)
     } else if (self->procedure == EWA_PROCEDURE_WOOD) {
         mean = mean_of_wood(self, footprint);
     } else {
-        mean = 0.5 + 0.22 * mean_of_noise(&self->noise, footprint).value;
+        mean = 0.5 + 0.17 * mean_of_noise(&self->noise, footprint).value;
     }
     return mean < 0 ? 0 : mean > 1 ? 1 : mean;
 }

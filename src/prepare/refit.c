@@ -167,7 +167,7 @@ static ewa_status solve(refit_job *job, ewa_refit_report *report) {
         }
         if (step == 0) most_start = most;
         report->iteration_count = step;
-        if (most == 0 || step == MOST_STEPS) return EWA_OK;
+        if (most == 0 || step == MOST_STEPS) return ewa_progress(job->context, "refit", 1);
         const double share = most < most_start ? log(most_start / most) / log(most_start) : 0;
         const ewa_status status = ewa_progress(job->context, "refit", 0.3 + 0.7 * share);
         if (status != EWA_OK) return status;

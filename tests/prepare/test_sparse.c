@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Sparse positive definite systems: known answers, both methods, what is not solvable, threads, memory.
-#include "check.h"
+#include "check_prepare.h"
 #include "io/scratch.h"
 #include "prepare/sparse.h"
-
-#include <math.h>
-#include <string.h>
 
 /// A matrix with memory of its own.
 typedef struct owned {
@@ -248,19 +245,6 @@ static ewa_status solve_system(ewa_context *context, void *user) {
     return ewa_sparse_solve(context, system->matrix, 2, system->sides, system->solution, &options, NULL);
 }
 
-typedef struct stop_after {
-    int calls_left;
-    double last;
-} stop_after;
-
-static bool stop(void *user, const char *stage, double fraction) {
-    stop_after *after = user;
-    assert_string_equal(stage, "solve");
-    assert_true(fraction >= after->last && fraction <= 1);
-    after->last = fraction;
-    return after->calls_left-- > 0;
-}
-
 /// Progress grows to 1; it may cancel at any call; each allocation may fail; nothing leaks.
 static void test_cancel_and_memory(void **state) {
     (void)state;
@@ -271,22 +255,7 @@ static void test_cancel_and_memory(void **state) {
     for (int method = EWA_SPARSE_FACTOR; method <= EWA_SPARSE_GRADIENT; method++) {
         system_of_equations system = {&matrix.view, sides, solution, (ewa_sparse_method)method};
         scratch_fail_each(solve_system, &system);
-        for (int calls = 0;; calls++) {
-            stop_after after = {.calls_left = calls};
-            ewa_context_options options;
-            ewa_context_options_init(&options, sizeof options);
-            options.progress = stop;
-            options.progress_user = &after;
-            ewa_context *context = NULL;
-            assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
-            const ewa_status status = solve_system(context, &system);
-            ewa_context_destroy(&context);
-            if (status == EWA_OK) {
-                assert_true(after.last == 1 && calls > 3);
-                break;
-            }
-            assert_int_equal(status, EWA_CANCELLED);
-        }
+        assert_true(check_cancel_each("solve", solve_system, &system) > 3);
     }
     free(solution);
     free(sides);
