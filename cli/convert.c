@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // ewa convert: clouds to another file, whole or in part, moved or merged.
+#include "cloud_output.h"
 #include "commands.h"
 #include "inputs.h"
 #include "json.h"
@@ -13,28 +14,12 @@
 #include <string.h>
 
 typedef struct convert_arguments {
-    common_arguments common; // first
-    const char *output;
-    bool ascii, big_endian;
+    output_arguments output; // first
     option_vector crop, transform, scale, translate;
     double subsample; ///< 0: all points; under 1: a share; else a count
 } convert_arguments;
 
 #define AT(member) offsetof(convert_arguments, member)
-
-static const cli_option output_table[] = {
-    {.key = "output",
-     .letter = 'o',
-     .kind = OPTION_TEXT,
-     .offset = AT(output),
-     .value = "FILE",
-     .help = "file to write (.ply); -: PLY to standard output"},
-    {.key = "ascii",
-     .kind = OPTION_FLAG,
-     .offset = AT(ascii),
-     .help = "write text instead of little-endian binary"},
-    {.key = "big-endian", .kind = OPTION_FLAG, .offset = AT(big_endian), .help = "write big-endian binary"},
-};
 
 static const cli_option change_table[] = {
     {.key = "crop",
@@ -78,12 +63,9 @@ static const cli_option change_table[] = {
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const convert_arguments *arguments = data;
+    if (!cloud_output_check(&arguments->output, message)) return false;
     const char *problem = NULL;
-    if (!arguments->output)
-        problem = "convert: no output; say -o FILE";
-    else if (arguments->ascii && arguments->big_endian)
-        problem = "--ascii and --big-endian exclude each other";
-    else if (arguments->scale.count == 2)
+    if (arguments->scale.count == 2)
         problem = "--scale: two numbers are neither s nor x,y,z";
     else if (arguments->subsample > 1 && arguments->subsample != floor(arguments->subsample))
         problem = "--subsample: over 1, N has to be a whole number";
@@ -185,39 +167,22 @@ static bool move(cli_session *session, ewa_cloud *cloud, const convert_arguments
     return status == EWA_OK;
 }
 
-static int run(const void *data) {
+static ewa_cloud *make(cli_session *session, const void *data) {
     const convert_arguments *arguments = data;
-    cli_session session;
-    if (!session_start(&session, &arguments->common)) return session_end(&session, EXIT_FAILED);
-    ewa_cloud *cloud =
-        output_check(&session, arguments->output) ? inputs_merge(&session, &arguments->common) : NULL;
-    if (arguments->common.operand_count > 1) session.subject = NULL;
-    bool done = cloud && (!arguments->crop.count || crop(&session, &cloud, arguments->crop.values)) &&
-                (arguments->subsample == 0 || subsample(&session, &cloud, arguments->subsample)) &&
-                move(&session, cloud, arguments);
-    if (done) {
-        ewa_cloud_save_options options;
-        ewa_cloud_save_options_init(&options, sizeof options);
-        if (arguments->ascii) options.ply_encoding = EWA_PLY_ASCII;
-        if (arguments->big_endian) options.ply_encoding = EWA_PLY_BINARY_BIG_ENDIAN;
-        session.subject = arguments->output;
-        const ewa_status status = ewa_cloud_save(cloud, arguments->output, &options);
-        done = status == EWA_OK;
-        if (!done)
-            session_failed(&session, status);
-        else
-            session_say(&session, "%s: %llu points written", arguments->output,
-                        (unsigned long long)ewa_cloud_point_count(cloud));
-    }
-    ewa_cloud_destroy(&cloud);
-    return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
+    ewa_cloud *cloud = inputs_merge(session, &arguments->output.common);
+    if (arguments->output.common.operand_count > 1) session->subject = NULL;
+    const bool done = cloud && (!arguments->crop.count || crop(session, &cloud, arguments->crop.values)) &&
+                      (arguments->subsample == 0 || subsample(session, &cloud, arguments->subsample)) &&
+                      move(session, cloud, arguments);
+    if (!done) ewa_cloud_destroy(&cloud);
+    return cloud;
 }
 
-static const option_group output_options = {"Output", output_table,
-                                            sizeof output_table / sizeof output_table[0]};
+static int run(const void *data) { return cloud_output_run(data, make); }
+
 static const option_group change_options = {"Changes, in this order", change_table,
                                             sizeof change_table / sizeof change_table[0]};
-static const option_group *const groups[] = {&output_options, &change_options};
+static const option_group *const groups[] = {&cloud_output_options, &change_options};
 
 const cli_command convert_command = {
     .name = "convert",

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // ewa csg: union, intersection and difference of two solids.
+#include "cloud_output.h"
 #include "commands.h"
 #include "inputs.h"
 #include "json.h"
@@ -9,9 +10,7 @@
 #include <stdio.h>
 
 typedef struct csg_arguments {
-    common_arguments common; // first
-    const char *output;
-    bool ascii;
+    output_arguments output; // first
     int operation;
 } csg_arguments;
 
@@ -24,30 +23,19 @@ static const cli_option option_table[] = {
      .value = "OP",
      .range = "union|intersection|difference",
      .help = "what to keep; difference: A without B"},
-    {.key = "output",
-     .letter = 'o',
-     .kind = OPTION_TEXT,
-     .offset = AT(output),
-     .value = "FILE",
-     .help = "file to write (.ply); -: PLY to standard output"},
-    {.key = "ascii",
-     .kind = OPTION_FLAG,
-     .offset = AT(ascii),
-     .help = "write text instead of little-endian binary"},
 };
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const csg_arguments *arguments = data;
-    if (!arguments->output) snprintf(message, OPTION_ERROR_BYTES, "csg: no output; say -o FILE");
-    return arguments->output != NULL;
+    return cloud_output_check(&arguments->output, message);
 }
 
-/// Combines the operands; NULL after reporting.
-static ewa_cloud *combine(cli_session *session, const csg_arguments *arguments) {
+static ewa_cloud *make(cli_session *session, const void *data) {
+    const csg_arguments *arguments = data;
     ewa_cloud *operands[2] = {NULL, NULL}, *result = NULL;
     double estimate_s = 0;
     for (int k = 0; k < 2; k++) {
-        operands[k] = input_as_surfels(session, arguments->common.operands[k], &estimate_s);
+        operands[k] = input_as_surfels(session, arguments->output.common.operands[k], &estimate_s);
         if (!operands[k]) break;
     }
     if (operands[0] && operands[1]) {
@@ -68,32 +56,11 @@ static ewa_cloud *combine(cli_session *session, const csg_arguments *arguments) 
     return result;
 }
 
-static int run(const void *data) {
-    const csg_arguments *arguments = data;
-    cli_session session;
-    if (!session_start(&session, &arguments->common)) return session_end(&session, EXIT_FAILED);
-    ewa_cloud *result = output_check(&session, arguments->output) ? combine(&session, arguments) : NULL;
-    bool done = result != NULL;
-    if (done) {
-        ewa_cloud_save_options save;
-        ewa_cloud_save_options_init(&save, sizeof save);
-        if (arguments->ascii) save.ply_encoding = EWA_PLY_ASCII;
-        session.subject = arguments->output;
-        const ewa_status status = ewa_cloud_save(result, arguments->output, &save);
-        done = status == EWA_OK;
-        if (!done)
-            session_failed(&session, status);
-        else
-            session_say(&session, "%s: %llu points written", arguments->output,
-                        (unsigned long long)ewa_cloud_point_count(result));
-    }
-    ewa_cloud_destroy(&result);
-    return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
-}
+static int run(const void *data) { return cloud_output_run(data, make); }
 
 static const option_group csg_options = {"Combination", option_table,
                                          sizeof option_table / sizeof option_table[0]};
-static const option_group *const groups[] = {&csg_options};
+static const option_group *const groups[] = {&cloud_output_options, &csg_options};
 
 const cli_command csg_command = {
     .name = "csg",

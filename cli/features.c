@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // ewa features: clip lines at the sharp edges and corners of a scan.
+#include "cloud_output.h"
 #include "commands.h"
 #include "inputs.h"
 #include "json.h"
@@ -10,28 +11,14 @@
 #include <string.h>
 
 typedef struct features_arguments {
-    common_arguments common; // first
-    const char *output;
-    bool ascii, keep_normals, keep_radii, project;
+    output_arguments output; // first
+    bool keep_normals, keep_radii, project;
     int64_t neighbours;
     option_vector viewpoint;
     double angle_deg, noise, radius_scale, cutoff;
 } features_arguments;
 
 #define AT(member) offsetof(features_arguments, member)
-
-static const cli_option output_table[] = {
-    {.key = "output",
-     .letter = 'o',
-     .kind = OPTION_TEXT,
-     .offset = AT(output),
-     .value = "FILE",
-     .help = "file to write (.ply); -: PLY to standard output"},
-    {.key = "ascii",
-     .kind = OPTION_FLAG,
-     .offset = AT(ascii),
-     .help = "write text instead of little-endian binary"},
-};
 
 static const cli_option detection_table[] = {
     {.key = "angle",
@@ -111,11 +98,9 @@ static void set_defaults(void *data) {
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const features_arguments *arguments = data;
+    if (!cloud_output_check(&arguments->output, message)) return false;
     const char *problem = NULL;
-    if (!arguments->output)
-        problem = "features: no output; say -o FILE";
-    else if (arguments->neighbours > 0 && arguments->neighbours < 16)
-        problem = "--neighbours is 0 or 16 to 64";
+    if (arguments->neighbours > 0 && arguments->neighbours < 16) problem = "--neighbours is 0 or 16 to 64";
     if (problem) snprintf(message, OPTION_ERROR_BYTES, "%s", problem);
     return !problem;
 }
@@ -145,40 +130,31 @@ static ewa_status detect(cli_session *session, const features_arguments *argumen
         session_say(session,
                     "%s: %llu surfels with one clip line, %llu with two, %llu snapped of %llu; noise %.3f "
                     "spacings, %u neighbours; %.3f s + %.3f s for missing normals and radii",
-                    arguments->common.operands[0], (unsigned long long)counts.edge_count,
+                    arguments->output.common.operands[0], (unsigned long long)counts.edge_count,
                     (unsigned long long)counts.corner_count, (unsigned long long)counts.snapped_count,
                     (unsigned long long)ewa_cloud_point_count(*cloud), counts.noise, counts.neighbour_count,
                     clock_now_s() - estimated_s, estimated_s - started_s);
     return status;
 }
 
-static int run(const void *data) {
+static ewa_cloud *make(cli_session *session, const void *data) {
     const features_arguments *arguments = data;
-    cli_session session;
-    if (!session_start(&session, &arguments->common)) return session_end(&session, EXIT_FAILED);
-    const char *path = arguments->common.operands[0];
-    ewa_cloud *cloud = output_check(&session, arguments->output) ? input_load(&session, path) : NULL;
-    ewa_status status = cloud ? detect(&session, arguments, &cloud) : EWA_OK;
-    if (cloud && status == EWA_OK) {
-        ewa_cloud_save_options options;
-        ewa_cloud_save_options_init(&options, sizeof options);
-        if (arguments->ascii) options.ply_encoding = EWA_PLY_ASCII;
-        session.subject = arguments->output;
-        status = ewa_cloud_save(cloud, arguments->output, &options);
+    ewa_cloud *cloud = input_load(session, arguments->output.common.operands[0]);
+    const ewa_status status = cloud ? detect(session, arguments, &cloud) : EWA_OK;
+    if (status != EWA_OK) {
+        session_failed(session, status);
+        ewa_cloud_destroy(&cloud);
     }
-    if (status != EWA_OK) session_failed(&session, status);
-    const bool done = cloud && status == EWA_OK;
-    ewa_cloud_destroy(&cloud);
-    return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
+    return cloud;
 }
 
-static const option_group output_options = {"Output", output_table,
-                                            sizeof output_table / sizeof output_table[0]};
+static int run(const void *data) { return cloud_output_run(data, make); }
+
 static const option_group detection_options = {"Detection", detection_table,
                                                sizeof detection_table / sizeof detection_table[0]};
 static const option_group surfel_options = {"Surfels", surfel_table,
                                             sizeof surfel_table / sizeof surfel_table[0]};
-static const option_group *const groups[] = {&output_options, &detection_options, &surfel_options};
+static const option_group *const groups[] = {&cloud_output_options, &detection_options, &surfel_options};
 
 const cli_command features_command = {
     .name = "features",

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // ewa generate: test objects.
+#include "cloud_output.h"
 #include "commands.h"
 #include "json.h"
 
@@ -9,9 +10,8 @@
 #include <string.h>
 
 typedef struct generate_arguments {
-    common_arguments common; // first
-    const char *output;
-    bool ascii, positions_only, sharp;
+    output_arguments output; // first
+    bool positions_only, sharp;
     int64_t point_count, seed;
     double size_world, jitter, checks, radius_scale;
 } generate_arguments;
@@ -20,19 +20,6 @@ typedef struct generate_arguments {
 
 /// In the order of ewa_object.
 static const char *const objects[] = {"plane", "checker", "cube", "sphere", "torus", "terrain", "csg"};
-
-static const cli_option output_table[] = {
-    {.key = "output",
-     .letter = 'o',
-     .kind = OPTION_TEXT,
-     .offset = AT(output),
-     .value = "FILE",
-     .help = "file to write (.ply); -: PLY to standard output"},
-    {.key = "ascii",
-     .kind = OPTION_FLAG,
-     .offset = AT(ascii),
-     .help = "write text instead of little-endian binary"},
-};
 
 static const cli_option object_table[] = {
     {.key = "points",
@@ -106,7 +93,7 @@ static size_t find_object(const char *word) {
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const generate_arguments *arguments = data;
-    const char *word = arguments->common.operands[0];
+    const char *word = arguments->output.common.operands[0];
     if (find_object(word) == OBJECT_COUNT) {
         const char *nearest = options_nearest(word, OBJECT_COUNT, objects);
         snprintf(message, OPTION_ERROR_BYTES,
@@ -114,17 +101,14 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
                  nearest ? "; did you mean " : "", nearest ? nearest : "");
         return false;
     }
-    if (!arguments->output) snprintf(message, OPTION_ERROR_BYTES, "generate: no output; say -o FILE");
-    return arguments->output != NULL;
+    return cloud_output_check(&arguments->output, message);
 }
 
-static int run(const void *data) {
+static ewa_cloud *make(cli_session *session, const void *data) {
     const generate_arguments *arguments = data;
-    cli_session session;
-    if (!session_start(&session, &arguments->common)) return session_end(&session, EXIT_FAILED);
     ewa_generate_options options;
     ewa_generate_options_init(&options, sizeof options);
-    options.object = (ewa_object)find_object(arguments->common.operands[0]);
+    options.object = (ewa_object)find_object(arguments->output.common.operands[0]);
     options.point_count = (uint64_t)arguments->point_count;
     options.seed = (uint64_t)arguments->seed;
     options.size_world = arguments->size_world;
@@ -133,30 +117,18 @@ static int run(const void *data) {
     options.radius_scale = arguments->radius_scale;
     options.positions_only = arguments->positions_only;
     options.sharp = arguments->sharp;
-    session.subject = arguments->output;
+    session->subject = arguments->output.path;
     ewa_cloud *cloud = NULL;
-    bool done = output_check(&session, arguments->output);
-    ewa_status status = done ? ewa_cloud_generate(session.context, &options, &cloud) : EWA_OK;
-    if (done && status == EWA_OK) {
-        ewa_cloud_save_options save;
-        ewa_cloud_save_options_init(&save, sizeof save);
-        if (arguments->ascii) save.ply_encoding = EWA_PLY_ASCII;
-        status = ewa_cloud_save(cloud, arguments->output, &save);
-    }
-    if (status != EWA_OK) session_failed(&session, status);
-    done = done && status == EWA_OK;
-    if (done)
-        session_say(&session, "%s: %llu points in %.3f s", arguments->output,
-                    (unsigned long long)ewa_cloud_point_count(cloud), clock_now_s() - session.started_s);
-    ewa_cloud_destroy(&cloud);
-    return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
+    const ewa_status status = ewa_cloud_generate(session->context, &options, &cloud);
+    if (status != EWA_OK) session_failed(session, status);
+    return cloud;
 }
 
-static const option_group output_options = {"Output", output_table,
-                                            sizeof output_table / sizeof output_table[0]};
+static int run(const void *data) { return cloud_output_run(data, make); }
+
 static const option_group object_options = {"Object", object_table,
                                             sizeof object_table / sizeof object_table[0]};
-static const option_group *const groups[] = {&output_options, &object_options};
+static const option_group *const groups[] = {&cloud_output_options, &object_options};
 
 const cli_command generate_command = {
     .name = "generate",

@@ -7,6 +7,13 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
+
+/// Files that hold triangles and no points.
+static const char *const mesh_suffixes[] = {".obj", ".stl", ".gltf", ".glb"};
+
+/// A mesh is drawn from at least so many points, and from so many per triangle.
+static const uint64_t MESH_POINTS = 200000, MESH_POINTS_PER_TRIANGLE = 4;
 
 /// sRGB of files without colours that are merged with coloured ones: as bright as the renderer's grey, linear
 /// 0.6.
@@ -27,8 +34,43 @@ static bool streams_differ(const ewa_cloud *a, const ewa_cloud *b, const char *n
     return first->type != second->type || first->component_count != second->component_count;
 }
 
+static bool is_mesh(const char *path) {
+    const char *suffix = strrchr(path, '.');
+    for (size_t i = 0; suffix && i < sizeof mesh_suffixes / sizeof mesh_suffixes[0]; i++)
+        if (strcasecmp(suffix, mesh_suffixes[i]) == 0) return true;
+    return false;
+}
+
+/// Samples the triangles of a file; NULL after reporting.
+static ewa_cloud *load_mesh(cli_session *session, const char *path) {
+    session->subject = path;
+    const double started_s = clock_now_s();
+    ewa_mesh mesh = {0};
+    ewa_cloud *cloud = NULL;
+    ewa_status status = ewa_mesh_load(session->context, path, &mesh);
+    if (status == EWA_OK) {
+        ewa_mesh_sample_options options;
+        ewa_mesh_sample_options_init(&options, sizeof options);
+        options.point_count = MESH_POINTS_PER_TRIANGLE * mesh.triangle_count;
+        if (options.point_count < MESH_POINTS) options.point_count = MESH_POINTS;
+        status = ewa_mesh_sample(&mesh, &options, &cloud);
+    }
+    if (status != EWA_OK)
+        session_failed(session, status);
+    else
+        session_say(session, "%s: %llu points on %u triangles in %.3f s; `ewa sample` has options for this",
+                    path, (unsigned long long)ewa_cloud_point_count(cloud), mesh.triangle_count,
+                    clock_now_s() - started_s);
+    ewa_mesh_free(&mesh);
+    return cloud;
+}
+
 ewa_cloud *input_load(cli_session *session, const char *path) {
     session->subject = path;
+    if (is_mesh(path)) {
+        session_fail(session, "%s: a mesh; `ewa sample %s -o FILE.ply` makes points of it", path, path);
+        return NULL;
+    }
     const double started_s = clock_now_s();
     ewa_cloud *cloud = NULL;
     const ewa_status status = ewa_cloud_load(session->context, path, &cloud);
@@ -131,8 +173,8 @@ static ewa_status materials_to_doubles(ewa_cloud *cloud) {
 /// Removes what is not drawn, so that the merge need not speak about it; the attribute that `wanted`
 /// (may be NULL) begins with stays.
 static void drop_undrawn(ewa_cloud *cloud, const char *wanted) {
-    static const char *const drawn[] = {EWA_POSITION,  EWA_NORMAL,    EWA_COLOR,   EWA_RADIUS,
-                                        EWA_TANGENT_U, EWA_TANGENT_V, EWA_MATERIAL};
+    static const char *const drawn[] = {EWA_POSITION,  EWA_NORMAL,   EWA_COLOR, EWA_RADIUS, EWA_TANGENT_U,
+                                        EWA_TANGENT_V, EWA_MATERIAL, EWA_CLIP0, EWA_CLIP1,  EWA_CLIP_MODE};
     for (uint32_t k = ewa_cloud_attribute_count(cloud); k-- > 0;) {
         const ewa_attribute *attribute = ewa_cloud_attribute_at(cloud, k);
         const size_t length = strlen(attribute->name);
@@ -145,19 +187,38 @@ static void drop_undrawn(ewa_cloud *cloud, const char *wanted) {
     }
 }
 
+/// Adds the clip lines that another cloud has: zeros, which cut nothing.
+static ewa_status add_clip_lines(ewa_cloud *cloud, const bool wanted[3]) {
+    static const char *const names[3] = {EWA_CLIP0, EWA_CLIP1, EWA_CLIP_MODE};
+    ewa_status status = EWA_OK;
+    for (int k = 0; k < 3 && status == EWA_OK; k++) {
+        if (!wanted[k] || ewa_cloud_find(cloud, names[k])) continue;
+        const uint32_t components = k < 2 ? 3 : 1;
+        void *data = NULL;
+        status = ewa_cloud_add(cloud, names[k], EWA_F32, components, &data);
+        if (status == EWA_OK) memset(data, 0, ewa_cloud_point_count(cloud) * components * sizeof(float));
+    }
+    return status;
+}
+
 /// Gives clouds that are drawn together the same kinds of colours and axes, and nothing that only some have.
 static ewa_status make_alike(ewa_cloud *const *clouds, size_t count, const char *wanted) {
     bool any_axes = false, colors_differ = false, normals_differ = false, materials_differ = false;
+    bool clip[3] = {false};
     for (size_t i = 0; i < count; i++) {
         any_axes |= has_axes(clouds[i]);
         colors_differ |= streams_differ(clouds[0], clouds[i], EWA_COLOR);
         normals_differ |= !ewa_cloud_find(clouds[i], EWA_NORMAL);
         materials_differ |= streams_differ(clouds[0], clouds[i], EWA_MATERIAL);
+        clip[0] |= ewa_cloud_find(clouds[i], EWA_CLIP0) != NULL;
+        clip[1] |= ewa_cloud_find(clouds[i], EWA_CLIP1) != NULL;
+        clip[2] |= ewa_cloud_find(clouds[i], EWA_CLIP_MODE) != NULL;
     }
     for (size_t i = 0; i < count; i++) {
         ewa_status status = any_axes && !has_axes(clouds[i]) ? discs_to_axes(clouds[i]) : EWA_OK;
         if (status == EWA_OK && colors_differ) status = colors_to_linear(clouds[i]);
         if (status == EWA_OK && materials_differ) status = materials_to_doubles(clouds[i]);
+        if (status == EWA_OK) status = add_clip_lines(clouds[i], clip);
         if (status != EWA_OK) return status;
         if (any_axes) ewa_cloud_remove(clouds[i], EWA_RADIUS);
         if (normals_differ) ewa_cloud_remove(clouds[i], EWA_NORMAL);
@@ -266,7 +327,7 @@ static bool drop_isolated(cli_session *session, const char *path, ewa_cloud **cl
 }
 
 ewa_cloud *input_as_surfels(cli_session *session, const char *path, double *estimate_s) {
-    ewa_cloud *cloud = input_load(session, path);
+    ewa_cloud *cloud = is_mesh(path) ? load_mesh(session, path) : input_load(session, path);
     if (!cloud || cloud_is_drawable(cloud)) return cloud;
     const bool has_normals = ewa_cloud_find(cloud, EWA_NORMAL) != NULL;
     const bool has_radii = ewa_cloud_find(cloud, EWA_RADIUS) != NULL;

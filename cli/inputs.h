@@ -7,11 +7,11 @@
 
 #include "session.h"
 
-/// Loads one file that has at least one point; NULL after reporting.
+/// Loads one file that has at least one point; NULL after reporting, also for a mesh.
 ewa_cloud *input_load(cli_session *session, const char *path);
 
-/// Loads one file and estimates what a surfel needs and it lacks; NULL after reporting. `*estimate_s` grows
-/// by the time that the estimation took.
+/// Loads one file and estimates what a surfel needs and it lacks; a mesh is sampled; NULL after reporting.
+/// `*estimate_s` grows by the time that the estimation took.
 ewa_cloud *input_as_surfels(cli_session *session, const char *path, double *estimate_s);
 
 /// Loads the operands and makes one cloud of them; attributes that not all have are dropped with a warning.

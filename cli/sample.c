@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // ewa sample: surfels from a triangle mesh.
+#include "cloud_output.h"
 #include "commands.h"
 #include "json.h"
 #include "session.h"
@@ -9,27 +10,13 @@
 #include <stdio.h>
 
 typedef struct sample_arguments {
-    common_arguments common; // first
-    const char *output;
-    bool ascii, clip_lines, smooth_normals;
+    output_arguments output; // first
+    bool clip_lines, smooth_normals;
     int64_t point_count, seed;
     double spacing_world, crease_degrees, radius_scale, cutoff;
 } sample_arguments;
 
 #define AT(member) offsetof(sample_arguments, member)
-
-static const cli_option output_table[] = {
-    {.key = "output",
-     .letter = 'o',
-     .kind = OPTION_TEXT,
-     .offset = AT(output),
-     .value = "FILE",
-     .help = "file to write (.ply); -: PLY to standard output"},
-    {.key = "ascii",
-     .kind = OPTION_FLAG,
-     .offset = AT(ascii),
-     .help = "write text instead of little-endian binary"},
-};
 
 static const cli_option sample_table[] = {
     {.key = "points",
@@ -96,15 +83,12 @@ static void set_defaults(void *data) {
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const sample_arguments *arguments = data;
-    if (!arguments->output) snprintf(message, OPTION_ERROR_BYTES, "sample: no output; say -o FILE");
-    return arguments->output != NULL;
+    return cloud_output_check(&arguments->output, message);
 }
 
-static int run(const void *data) {
+static ewa_cloud *make(cli_session *session, const void *data) {
     const sample_arguments *arguments = data;
-    cli_session session;
-    if (!session_start(&session, &arguments->common)) return session_end(&session, EXIT_FAILED);
-    const char *path = arguments->common.operands[0];
+    const char *path = arguments->output.common.operands[0];
     ewa_mesh_sample_options options;
     ewa_mesh_sample_options_init(&options, sizeof options);
     options.point_count = (uint64_t)arguments->point_count;
@@ -115,39 +99,29 @@ static int run(const void *data) {
     options.smooth_normals = arguments->smooth_normals;
     options.radius_scale = arguments->radius_scale;
     options.cutoff = arguments->cutoff;
-    session.subject = path;
+    session->subject = path;
     ewa_mesh mesh = {0};
     ewa_cloud *cloud = NULL;
-    bool done = output_check(&session, arguments->output);
-    ewa_status status = done ? ewa_mesh_load(session.context, path, &mesh) : EWA_OK;
+    ewa_status status = ewa_mesh_load(session->context, path, &mesh);
     const double loaded_s = clock_now_s();
-    if (done && status == EWA_OK) status = ewa_mesh_sample(&mesh, &options, &cloud);
-    const double sampled_s = clock_now_s();
-    ewa_cloud_save_options save;
-    ewa_cloud_save_options_init(&save, sizeof save);
-    if (arguments->ascii) save.ply_encoding = EWA_PLY_ASCII;
-    if (done && status == EWA_OK) {
-        session_say(&session, "%s: %u triangles in %.3f s", path, mesh.triangle_count,
-                    loaded_s - session.started_s);
-        session.subject = arguments->output;
-        status = ewa_cloud_save(cloud, arguments->output, &save);
+    if (status == EWA_OK) status = ewa_mesh_sample(&mesh, &options, &cloud);
+    if (status == EWA_OK) {
+        const double sampled_s = clock_now_s() - loaded_s;
+        session_say(session, "%s: %u triangles in %.3f s, %.3g million points per second", path,
+                    mesh.triangle_count, loaded_s - session->started_s,
+                    (double)ewa_cloud_point_count(cloud) / sampled_s / 1e6);
+    } else {
+        session_failed(session, status);
     }
-    if (status != EWA_OK) session_failed(&session, status);
-    done = done && status == EWA_OK;
-    if (done)
-        session_say(&session, "%s: %llu points in %.3f s, %.3g million per second", arguments->output,
-                    (unsigned long long)ewa_cloud_point_count(cloud), sampled_s - loaded_s,
-                    (double)ewa_cloud_point_count(cloud) / (sampled_s - loaded_s) / 1e6);
-    ewa_cloud_destroy(&cloud);
     ewa_mesh_free(&mesh);
-    return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
+    return cloud;
 }
 
-static const option_group output_options = {"Output", output_table,
-                                            sizeof output_table / sizeof output_table[0]};
+static int run(const void *data) { return cloud_output_run(data, make); }
+
 static const option_group sample_options = {"Sampling", sample_table,
                                             sizeof sample_table / sizeof sample_table[0]};
-static const option_group *const groups[] = {&output_options, &sample_options};
+static const option_group *const groups[] = {&cloud_output_options, &sample_options};
 
 const cli_command sample_command = {
     .name = "sample",

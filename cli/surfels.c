@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // ewa surfels: normals, radii or axes for positions.
+#include "cloud_output.h"
 #include "commands.h"
 #include "inputs.h"
 #include "json.h"
@@ -10,9 +11,8 @@
 #include <string.h>
 
 typedef struct surfels_arguments {
-    common_arguments common; // first
-    const char *output;
-    bool ascii, keep_normals, keep_radii;
+    output_arguments output; // first
+    bool keep_normals, keep_radii;
     int64_t neighbours;
     int orientation, shape;
     option_vector viewpoint;
@@ -20,19 +20,6 @@ typedef struct surfels_arguments {
 } surfels_arguments;
 
 #define AT(member) offsetof(surfels_arguments, member)
-
-static const cli_option output_table[] = {
-    {.key = "output",
-     .letter = 'o',
-     .kind = OPTION_TEXT,
-     .offset = AT(output),
-     .value = "FILE",
-     .help = "file to write (.ply); -: PLY to standard output"},
-    {.key = "ascii",
-     .kind = OPTION_FLAG,
-     .offset = AT(ascii),
-     .help = "write text instead of little-endian binary"},
-};
 
 static const cli_option estimate_table[] = {
     {.key = "neighbours",
@@ -109,10 +96,9 @@ static void set_defaults(void *data) {
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const surfels_arguments *arguments = data;
+    if (!cloud_output_check(&arguments->output, message)) return false;
     const char *problem = NULL;
-    if (!arguments->output)
-        problem = "surfels: no output; say -o FILE";
-    else if (arguments->orientation == EWA_ORIENT_VIEWPOINT && !arguments->viewpoint.count)
+    if (arguments->orientation == EWA_ORIENT_VIEWPOINT && !arguments->viewpoint.count)
         problem = "--orient viewpoint needs --viewpoint x,y,z";
     else if (arguments->orientation == EWA_ORIENT_NONE && arguments->viewpoint.count)
         problem = "--viewpoint and --orient none exclude each other";
@@ -120,52 +106,42 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     return !problem;
 }
 
-static int run(const void *data) {
+static ewa_cloud *make(cli_session *session, const void *data) {
     const surfels_arguments *arguments = data;
-    cli_session session;
-    if (!session_start(&session, &arguments->common)) return session_end(&session, EXIT_FAILED);
-    const char *path = arguments->common.operands[0];
-    ewa_cloud *cloud = output_check(&session, arguments->output) ? input_load(&session, path) : NULL;
-    ewa_status status = EWA_OK;
-    if (cloud) {
-        ewa_estimate_options options;
-        ewa_estimate_options_init(&options, sizeof options);
-        options.neighbour_count = (uint32_t)arguments->neighbours;
-        options.orientation =
-            arguments->viewpoint.count ? EWA_ORIENT_VIEWPOINT : (ewa_orientation)arguments->orientation;
-        memcpy(options.viewpoint_world, arguments->viewpoint.values, sizeof options.viewpoint_world);
-        options.shape = (ewa_surfel_shape)arguments->shape;
-        options.radius_scale = arguments->radius_scale;
-        options.cutoff = arguments->cutoff;
-        options.keep_normals = arguments->keep_normals;
-        options.keep_radii = arguments->keep_radii;
-        options.outlier_factor = arguments->outlier_factor;
-        const uint64_t before = ewa_cloud_point_count(cloud);
-        const double started_s = clock_now_s();
-        status = ewa_cloud_estimate(&cloud, &options);
-        if (status == EWA_OK)
-            session_say(&session, "%s: surfels from %u neighbours in %.3f s, %llu outliers removed", path,
-                        options.neighbour_count, clock_now_s() - started_s,
-                        (unsigned long long)(before - ewa_cloud_point_count(cloud)));
+    const char *path = arguments->output.common.operands[0];
+    ewa_cloud *cloud = input_load(session, path);
+    if (!cloud) return NULL;
+    ewa_estimate_options options;
+    ewa_estimate_options_init(&options, sizeof options);
+    options.neighbour_count = (uint32_t)arguments->neighbours;
+    options.orientation =
+        arguments->viewpoint.count ? EWA_ORIENT_VIEWPOINT : (ewa_orientation)arguments->orientation;
+    memcpy(options.viewpoint_world, arguments->viewpoint.values, sizeof options.viewpoint_world);
+    options.shape = (ewa_surfel_shape)arguments->shape;
+    options.radius_scale = arguments->radius_scale;
+    options.cutoff = arguments->cutoff;
+    options.keep_normals = arguments->keep_normals;
+    options.keep_radii = arguments->keep_radii;
+    options.outlier_factor = arguments->outlier_factor;
+    const uint64_t before = ewa_cloud_point_count(cloud);
+    const double started_s = clock_now_s();
+    const ewa_status status = ewa_cloud_estimate(&cloud, &options);
+    if (status != EWA_OK) {
+        session_failed(session, status);
+        ewa_cloud_destroy(&cloud);
+        return NULL;
     }
-    if (cloud && status == EWA_OK) {
-        ewa_cloud_save_options options;
-        ewa_cloud_save_options_init(&options, sizeof options);
-        if (arguments->ascii) options.ply_encoding = EWA_PLY_ASCII;
-        session.subject = arguments->output;
-        status = ewa_cloud_save(cloud, arguments->output, &options);
-    }
-    if (status != EWA_OK) session_failed(&session, status);
-    const bool done = cloud && status == EWA_OK;
-    ewa_cloud_destroy(&cloud);
-    return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
+    session_say(session, "%s: surfels from %u neighbours in %.3f s, %llu outliers removed", path,
+                options.neighbour_count, clock_now_s() - started_s,
+                (unsigned long long)(before - ewa_cloud_point_count(cloud)));
+    return cloud;
 }
 
-static const option_group output_options = {"Output", output_table,
-                                            sizeof output_table / sizeof output_table[0]};
+static int run(const void *data) { return cloud_output_run(data, make); }
+
 static const option_group estimate_options = {"Estimation", estimate_table,
                                               sizeof estimate_table / sizeof estimate_table[0]};
-static const option_group *const groups[] = {&output_options, &estimate_options};
+static const option_group *const groups[] = {&cloud_output_options, &estimate_options};
 
 const cli_command surfels_command = {
     .name = "surfels",

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Where clouds go.
+#include "cloud_output.h"
+#include "json.h"
+
+#define AT(member) offsetof(output_arguments, member)
+
+static const cli_option output_table[] = {
+    {.key = "output",
+     .letter = 'o',
+     .kind = OPTION_TEXT,
+     .offset = AT(path),
+     .value = "FILE",
+     .help = "file to write (.ply); -: PLY to standard output"},
+    {.key = "ascii",
+     .kind = OPTION_FLAG,
+     .offset = AT(ascii),
+     .help = "write text instead of little-endian binary"},
+    {.key = "big-endian", .kind = OPTION_FLAG, .offset = AT(big_endian), .help = "write big-endian binary"},
+};
+
+const option_group cloud_output_options = {"Output", output_table,
+                                           sizeof output_table / sizeof output_table[0]};
+
+bool cloud_output_check(const output_arguments *output, char message[OPTION_ERROR_BYTES]) {
+    const char *problem = NULL;
+    if (!output->path)
+        problem = "no output; say -o FILE";
+    else if (output->ascii && output->big_endian)
+        problem = "--ascii and --big-endian exclude each other";
+    if (problem) snprintf(message, OPTION_ERROR_BYTES, "%s", problem);
+    return !problem;
+}
+
+/// Writes a cloud; returns false after reporting.
+static bool save(cli_session *session, const output_arguments *output, const ewa_cloud *cloud) {
+    ewa_cloud_save_options options;
+    ewa_cloud_save_options_init(&options, sizeof options);
+    if (output->ascii) options.ply_encoding = EWA_PLY_ASCII;
+    if (output->big_endian) options.ply_encoding = EWA_PLY_BINARY_BIG_ENDIAN;
+    session->subject = output->path;
+    const ewa_status status = ewa_cloud_save(cloud, output->path, &options);
+    if (status != EWA_OK) {
+        session_failed(session, status);
+        return false;
+    }
+    session_say(session, "%s: %llu points written", output->path,
+                (unsigned long long)ewa_cloud_point_count(cloud));
+    return true;
+}
+
+int cloud_output_run(const void *arguments, ewa_cloud *(*make)(cli_session *session, const void *arguments)) {
+    const output_arguments *output = arguments;
+    cli_session session;
+    if (!session_start(&session, &output->common)) return session_end(&session, EXIT_FAILED);
+    ewa_cloud *cloud = output_check(&session, output->path) ? make(&session, arguments) : NULL;
+    const bool done = cloud && save(&session, output, cloud);
+    ewa_cloud_destroy(&cloud);
+    return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
+}
