@@ -53,7 +53,7 @@ typedef struct ewa_acquire_options {
                            ///< in pixels; [0.3, 8]; SS has 1; default 0.5
     double cutoff;         ///< F: a "radius" is so many standard deviations; (0, 4]; default 3
     double ridge;          ///< pull of the optimal colours towards the filtered ones, in units of a
-                           ///< kernel's own square; [1e-6, 1]; default 1e-3
+                           ///< kernel's own square; [1e-6, 1]; default 5e-3
     bool modulate;         ///< multiply with the "color" that the cloud has; default false: replace it
 } ewa_acquire_options;
 

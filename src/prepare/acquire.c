@@ -35,7 +35,7 @@ void ewa_acquire_options_init(ewa_acquire_options *options, size_t struct_size) 
     options->filter = EWA_TEXTURE_OPTIMAL;
     options->pixel_sigma_px = 0.5;
     options->cutoff = 3;
-    options->ridge = 1e-3;
+    options->ridge = 5e-3;
 }
 
 static ewa_status check_range(ewa_context *context, const char *member, double value, double low,

@@ -23,7 +23,7 @@ enum { TASK_POINTS = 256, STRETCH_POINTS = 1 << 16, RIDGE_TRIES = 4 };
 /// that under the kernel.
 #define NEAR_EXPONENT      7
 
-#define SOLUTION_TOLERANCE 1e-8
+#define SOLUTION_TOLERANCE 1e-7
 
 typedef struct optimal_job {
     const ewa_acquire_set *set;

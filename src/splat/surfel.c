@@ -44,7 +44,7 @@ static void read_color(const ewa_surfel_reader *reader, const double *value, ewa
         else if (scale > 0)
             surfel->color_linear[c] = ewa_srgb_decode(clamp01(value[c] / scale));
         else
-            surfel->color_linear[c] = fmin(fmax(value[c], 0), EWA_SURFEL_LIMIT);
+            surfel->color_linear[c] = fmin(fmax(value[c], -EWA_SURFEL_LIMIT), EWA_SURFEL_LIMIT);
     }
     surfel->alpha = alpha_of(color, value);
 }
