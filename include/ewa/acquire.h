@@ -15,8 +15,8 @@ extern "C" {
 
 /// Streams that say where points are on a picture: "texcoord" F32 2 (s, t), (0, 0) bottom left and (1, 1) top
 /// right of the picture; "texcoord_s" and "texcoord_t" F32 3, what s and t gain along the surface, per world
-/// unit (gradients within the surface); "texture" U16 1, which picture it is, the first without this stream.
-/// Points whose coordinates are not finite, or of a picture that there is not, have no texture.
+/// unit (gradients within the surface); "texture" 1 (an integer type), which picture it is, the first without
+/// this stream. Points whose coordinates are not finite, or of a picture that there is not, have no texture.
 #define EWA_TEXCOORD   "texcoord"
 #define EWA_TEXCOORD_S "texcoord_s"
 #define EWA_TEXCOORD_T "texcoord_t"
@@ -39,7 +39,7 @@ typedef enum ewa_texture_wrap {
 typedef enum ewa_texture_fit {
     EWA_FIT_NORMALIZED = 0, ///< |S f - sum w_k r_k|^2: the error of the drawn, normalised surface, weighted
                             ///< by S^2. A constant texture gives constant colours
-    EWA_FIT_SUM = 1, ///< |f - sum w_k r_k|^2, SS equation 10, times the mean of S
+    EWA_FIT_SUM = 1,        ///< |f - sum w_k r_k|^2, SS equation 10, times the mean of S
 } ewa_texture_fit;
 
 /// How a texture comes onto points. Fill with ewa_acquire_options_init().
@@ -51,7 +51,7 @@ typedef struct ewa_acquire_options {
     ewa_texture_wrap wrap_t;   ///< default EWA_TEXTURE_REPEAT
     double pixel_sigma_px; ///< standard deviation of the Gaussian that stands for one pixel of the picture,
                            ///< in pixels; [0.3, 8]; SS has 1; default 0.5
-    double cutoff;         ///< F: a "radius" is so many standard deviations; (0, 4]; default 3
+    double cutoff;         ///< F: a "radius" is so many standard deviations; (0, 10]; default 3
     double ridge;          ///< pull of the optimal colours towards the filtered ones, in units of a
                            ///< kernel's own square; [1e-6, 1]; default 5e-3
     bool modulate;         ///< multiply with the "color" that the cloud has; default false: replace it

@@ -42,6 +42,8 @@ static void copy_pixels(const ewa_image *image, ewa_texture *texture) {
         const float *from = image->pixels + i * channels;
         for (uint32_t c = 0; c < 3; c++) to[c] = from[channels == 1 ? 0 : c];
         to[3] = channels == 4 ? from[3] : 1;
+        for (uint32_t c = 0; c < 4; c++)
+            if (!isfinite(to[c])) to[c] = 0;
         texture->opaque = texture->opaque && to[3] >= 1;
     }
 }

@@ -61,7 +61,7 @@ static ewa_status check_options(ewa_context *context, const ewa_acquire_options 
             return ewa_fail(context, EWA_ERROR_ARGUMENT, "texture: %s is %d, must be 0 to %d",
                             choices[i].name, choices[i].value, choices[i].last);
     ewa_status status = check_range(context, "pixel_sigma_px", options->pixel_sigma_px, 0.3, 8);
-    if (status == EWA_OK) status = check_range(context, "cutoff", options->cutoff, 1e-3, 4);
+    if (status == EWA_OK) status = check_range(context, "cutoff", options->cutoff, 1e-3, 10);
     if (status == EWA_OK) status = check_range(context, "ridge", options->ridge, 1e-6, 1);
     return status;
 }
@@ -124,6 +124,8 @@ static void read_tint(const acquire_job *job, uint64_t index, float tint[4]) {
             color[c] = c < 3 ? ewa_srgb_decode(unit) : unit;
         }
     }
+    for (int c = 0; c < 4; c++)
+        if (!isfinite(color[c])) color[c] = 1;
     for (int c = 0; c < 3; c++) tint[c] = (float)(color[c] * color[3]);
     tint[3] = (float)color[3];
 }

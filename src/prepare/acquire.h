@@ -31,7 +31,7 @@ typedef struct ewa_acquire_set {
     ewa_acquire_point *points;
     ewa_texture *textures;
     double cutoff, pixel_variance_px2;
-    double mean_sigma_world; ///< of the longer axes
+    double mean_sigma_world; ///< of the longer axes; also the thickness of all kernels
 } ewa_acquire_set;
 
 /// A plane through two kernels, and their product in it: a Gaussian of its own.
@@ -46,7 +46,8 @@ typedef struct ewa_acquire_pair {
 
 /// Multiplies two kernels of peak 1 in the plane between them, both cut by the half spaces of both. Always in
 /// the same order, so that rounding does not depend on who asks. `a` may be `b`.
-void ewa_acquire_multiply(const ewa_acquire_point *a, const ewa_acquire_point *b, ewa_acquire_pair *pair);
+void ewa_acquire_multiply(const ewa_acquire_set *set, const ewa_acquire_point *a, const ewa_acquire_point *b,
+                          ewa_acquire_pair *pair);
 
 /// One kernel alone: as a pair, its integral, mean and covariance.
 void ewa_acquire_single(const ewa_acquire_point *point, ewa_acquire_pair *pair);

@@ -89,9 +89,9 @@ static void fill_row(const optimal_job *job, uint32_t row, const uint32_t *other
         const uint32_t other = others[i];
         const ewa_acquire_point *partner = &set->points[other];
         if (row <= other)
-            ewa_acquire_multiply(point, partner, &pair);
+            ewa_acquire_multiply(set, point, partner, &pair);
         else
-            ewa_acquire_multiply(partner, point, &pair);
+            ewa_acquire_multiply(set, partner, point, &pair);
         const double value = job->scale * pair.integral;
         job->values[start + i] = value;
         if (other == row) job->diagonal[row] = value;

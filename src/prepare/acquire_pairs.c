@@ -4,7 +4,13 @@
 // What two kernels have to do with each other: who interacts with whom, inner products in closed form, and
 // the texture under a product.
 //
-// The product of two Gaussians is a Gaussian. Kernels that are cut at an edge leave a Gaussian cut at that
+// The product of two Gaussians is a Gaussian. On a curved surface kernels get a thickness, the same for all:
+// inner products of Gaussians in space always make a positive definite matrix, in a plane they are those of
+// the plane, and sheets that lie above each other come apart. So they do by a factor ((1 + cos) / 2)^4 of the
+// angle between the normals, which is a positive definite matrix too, as is the product by entries of both
+// (Schur). The texture is looked up in the plane between the two.
+//
+// Kernels that are cut at an edge leave a Gaussian cut at that
 // edge: its integral is the share of the normal distribution on this side, and it is looked up on the picture
 // as the Gaussian of the same mean and covariance.
 // Based on M. Zwicker, H. Pfister, J. van Baar, M. Gross, "Surface Splatting", 2001, appendix A; the moments
@@ -14,7 +20,7 @@
 #include "prepare/acquire.h"
 
 /// Least cosine between the normals of kernels that interact.
-#define MIN_FACING 0.5
+#define MIN_FACING (-0.2)
 
 /// Centres this far behind a clip line, in standard deviations, are still on its side.
 #define BEHIND 0.05
@@ -81,6 +87,32 @@ static double cut(const ewa_acquire_point *point, const ewa_vec3 axis[2], const 
     return fmax(left, MIN_SHARE);
 }
 
+/// Integral of the product of two kernels with a thickness, over that of the thickness alone.
+static double integrate(const ewa_acquire_point *a, const ewa_acquire_point *b, double thickness_world) {
+    const ewa_vec3 na = load(a->normal), nb = load(b->normal);
+    const ewa_vec3 ua = load(a->axis[0]), va = load(a->axis[1]), ub = load(b->axis[0]), vb = load(b->axis[1]);
+    const ewa_vec3 d = vec3_sub(vec3_load(b->place), vec3_load(a->place));
+    const double t = thickness_world;
+    const ewa_vec3 spread[6] = {ua, va, vec3_scale(na, t), ub, vb, vec3_scale(nb, t)};
+    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+    for (int k = 0; k < 6; k++) {
+        const ewa_vec3 s = spread[k];
+        xx += s.x * s.x, xy += s.x * s.y, xz += s.x * s.z;
+        yy += s.y * s.y, yz += s.y * s.z, zz += s.z * s.z;
+    }
+    const double axx = yy * zz - yz * yz, axy = xz * yz - xy * zz, axz = xy * yz - xz * yy,
+                 ayy = xx * zz - xz * xz, ayz = xy * xz - xx * yz, azz = xx * yy - xy * xy;
+    const double determinant = xx * axx + xy * axy + xz * axz;
+    const double square = (d.x * d.x * axx + d.y * d.y * ayy + d.z * d.z * azz +
+                           2 * (d.x * d.y * axy + d.x * d.z * axz + d.y * d.z * ayz)) /
+                          determinant;
+    const double volumes = fabs(vec3_dot(vec3_cross(ua, va), na)) * fabs(vec3_dot(vec3_cross(ub, vb), nb));
+    const double facing = 0.5 + 0.5 * vec3_dot(na, nb), facing2 = facing * facing;
+    // (2 pi)^3/2 in space, over sqrt(pi) t of two equal thicknesses.
+    return 8.885765876316732 * t * volumes / sqrt(determinant) * ewa_exp(-0.5 * fmin(square, 1200)) *
+           facing2 * facing2;
+}
+
 void ewa_acquire_single(const ewa_acquire_point *point, ewa_acquire_pair *pair) {
     double covariance[3];
     const double origin[2] = {0, 0};
@@ -93,7 +125,8 @@ void ewa_acquire_single(const ewa_acquire_point *point, ewa_acquire_pair *pair) 
     pair->xx = covariance[0], pair->xy = covariance[1], pair->yy = covariance[2];
 }
 
-void ewa_acquire_multiply(const ewa_acquire_point *a, const ewa_acquire_point *b, ewa_acquire_pair *pair) {
+void ewa_acquire_multiply(const ewa_acquire_set *set, const ewa_acquire_point *a, const ewa_acquire_point *b,
+                          ewa_acquire_pair *pair) {
     ewa_vec3 normal = vec3_add(load(a->normal), load(b->normal));
     vec3_normalize(&normal);
     frame_of(normal, pair->axis);
@@ -113,7 +146,6 @@ void ewa_acquire_multiply(const ewa_acquire_point *a, const ewa_acquire_point *b
     // P (P + Q)^-1 Q = (|Q| P + |P| Q) / |P + Q|.
     double covariance[3];
     for (int c = 0; c < 3; c++) covariance[c] = (of_q * p[c] + of_p * q[c]) / sum;
-    const double whole = 6.283185307179586 * sqrt(of_p * of_q / sum) * ewa_exp(-fmin(pair->exponent, 600));
     // Kernels cut by one and the same line are cut once; of a kernel that no line reaches, nothing is off.
     const double origin[2] = {0, 0};
     double by_a[2] = {pair->mean[0], pair->mean[1]}, by_b[2] = {pair->mean[0], pair->mean[1]};
@@ -122,7 +154,7 @@ void ewa_acquire_multiply(const ewa_acquire_point *a, const ewa_acquire_point *b
     const double share_a = cut(a, pair->axis, origin, by_a, of_a),
                  share_b = cut(b, pair->axis, d, by_b, of_b);
     const double *mean = share_a <= share_b ? by_a : by_b, *moments = share_a <= share_b ? of_a : of_b;
-    pair->integral = whole * fmin(share_a, share_b);
+    pair->integral = integrate(a, b, set->mean_sigma_world) * fmin(share_a, share_b);
     pair->mean[0] = mean[0], pair->mean[1] = mean[1];
     pair->xx = moments[0], pair->xy = moments[1], pair->yy = moments[2];
 }

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What commands that put pictures onto points have in common.
+#ifndef EWA_CLI_TEXTURED_H
+#define EWA_CLI_TEXTURED_H
+
+#include "cloud_output.h"
+
+/// What the arguments of such a command begin with.
+typedef struct textured_arguments {
+    output_arguments output; // first
+    const char *picture;     ///< NULL: none
+    int filter;              ///< ewa_texture_filter
+    double pixel_sigma_px;
+} textured_arguments;
+
+/// The options of textured_arguments but for the output's.
+extern const option_group textured_options;
+
+void textured_set_defaults(textured_arguments *arguments);
+
+/// Reads the picture that was asked for. Returns false after reporting; the caller frees `*picture`, which is
+/// zeroed when there is none.
+bool textured_load(cli_session *session, const textured_arguments *arguments, ewa_image *picture);
+
+#endif
