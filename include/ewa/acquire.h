@@ -64,8 +64,9 @@ typedef struct ewa_acquire_report {
     uint64_t textured_count; ///< points that have a texture
     uint64_t pair_count;     ///< entries of the matrix (EWA_TEXTURE_OPTIMAL)
     uint32_t iterations;     ///< of the conjugate gradient; 0: a factor
-    double gradient;         ///< largest |b - A w| / |b| over the channels: what is left of the gradient
-    double ridge;            ///< that the colours were made with
+    double gradient; ///< what is left of the gradient, over that at the filtered colours; the largest of the
+                     ///< channels
+    double ridge;    ///< that the colours were made with
 } ewa_acquire_report;
 
 /// Gives surfels with texture coordinates the colours of pictures: "color" F32, linear, 3 components, or 4

@@ -160,8 +160,10 @@ static uint32_t wrap(int64_t index, uint32_t size, bool repeats) {
 /// Adds a run of pixels of one row. `weight` is that of the first, `ratio` the second's over it, which
 /// changes by the factor `bend` from pixel to pixel.
 static void add_run(const float *row, int64_t first, int64_t last, uint32_t width, bool repeats,
-                    double weight, double ratio, double bend, float sum[5]) {
-    if (first >= 0 && last < width) {
+                    double weight, double ratio, double bend, double total[5]) {
+    float sum[5] = {0};
+    const bool is_inside = first >= 0 && last < width;
+    if (is_inside) {
         for (const float *pixel = row + 4 * first; pixel <= row + 4 * last; pixel += 4) {
             const float w = (float)weight;
             for (int c = 0; c < 4; c++) sum[c] += w * pixel[c];
@@ -169,15 +171,15 @@ static void add_run(const float *row, int64_t first, int64_t last, uint32_t widt
             weight *= ratio;
             ratio *= bend;
         }
-        return;
     }
-    for (int64_t x = first; x <= last; x++) {
+    for (int64_t x = first; x <= last && !is_inside; x++) {
         const float *pixel = row + 4 * (size_t)wrap(x, width, repeats), w = (float)weight;
         for (int c = 0; c < 4; c++) sum[c] += w * pixel[c];
         sum[4] += w;
         weight *= ratio;
         ratio *= bend;
     }
+    for (int c = 0; c < 5; c++) total[c] += (double)sum[c];
 }
 
 /// A side of the Gaussian that is many times the picture's needs no more: everything is under it already.
@@ -217,7 +219,7 @@ void ewa_texture_mean(const ewa_texture *texture, uint32_t index, const ewa_text
         return;
     }
     const double half_height = sqrt(REACH2 * g.yy_px2), bend = ewa_exp(-a);
-    float sum[5] = {0};
+    double sum[5] = {0};
     const int64_t low = (int64_t)ceil(g.y_px - half_height - 0.5),
                   high = (int64_t)floor(g.y_px + half_height - 0.5);
     for (int64_t y = low; y <= high; y++) {
@@ -239,5 +241,5 @@ void ewa_texture_mean(const ewa_texture *texture, uint32_t index, const ewa_text
         ewa_texture_nearest(texture, gauss->x_px, gauss->y_px, color);
         return;
     }
-    for (int k = 0; k < 4; k++) color[k] = (double)sum[k] / (double)sum[4];
+    for (int k = 0; k < 4; k++) color[k] = sum[k] / sum[4];
 }

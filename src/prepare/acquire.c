@@ -242,7 +242,7 @@ static void filter_points(void *data, uint32_t part, uint32_t worker) {
         if (job->options->filter != EWA_TEXTURE_NEAREST && is_surfel(point)) {
             ewa_acquire_pair alone;
             ewa_acquire_single(point, &alone);
-            ewa_acquire_look(set, point, NULL, &alone, color);
+            ewa_acquire_look(set, point, &alone, color);
             continue;
         }
         for (int c = 0; c < 4; c++) color[c] = 1;
@@ -296,28 +296,47 @@ static ewa_status make_textures(acquire_job *job) {
     return EWA_OK;
 }
 
+/// The larger standard deviation of a kernel.
+static double sigma_of(const ewa_acquire_point *point) {
+    double most = 0;
+    for (int k = 0; k < 2; k++) {
+        const ewa_vec3 t =
+            vec3_make((double)point->axis[k][0], (double)point->axis[k][1], (double)point->axis[k][2]);
+        most = fmax(most, vec3_dot(t, t));
+    }
+    return sqrt(most);
+}
+
+/// Mean of the sizes that have the binary exponent of the median: what is usual, whatever the outliers.
+static double usual_sigma(const ewa_acquire_set *set) {
+    enum { EXPONENTS = 512 }; // of floats, and of their squares' roots
+    uint32_t counts[EXPONENTS] = {0}, surfels = 0, below = 0;
+    double sums[EXPONENTS] = {0};
+    for (uint32_t i = 0; i < set->count; i++) {
+        if (!is_surfel(&set->points[i])) continue;
+        const double sigma = sigma_of(&set->points[i]);
+        int exponent;
+        frexp(sigma, &exponent);
+        counts[exponent + EXPONENTS / 2]++;
+        sums[exponent + EXPONENTS / 2] += sigma;
+        surfels++;
+    }
+    int middle = 0;
+    while (middle < EXPONENTS - 1 && 2 * (below + counts[middle]) < surfels + 1) below += counts[middle++];
+    return surfels ? sums[middle] / counts[middle] : 1;
+}
+
 /// Counts what is textured, and finds out about sizes and alpha.
 static void survey(acquire_job *job, ewa_acquire_report *report) {
     ewa_acquire_set *set = &job->set;
-    double sum = 0;
-    uint32_t surfels = 0;
     bool opaque = true;
     for (uint32_t i = 0; i < set->count; i++) {
         const ewa_acquire_point *point = &set->points[i];
         report->textured_count += point->texture != EWA_ACQUIRE_NO_TEXTURE;
         opaque = opaque && point->tint[3] >= 1 &&
                  (point->texture == EWA_ACQUIRE_NO_TEXTURE || set->textures[point->texture].opaque);
-        if (!is_surfel(point)) continue;
-        double most = 0;
-        for (int k = 0; k < 2; k++) {
-            const float *t = point->axis[k];
-            most = fmax(most, (double)t[0] * (double)t[0] + (double)t[1] * (double)t[1] +
-                                  (double)t[2] * (double)t[2]);
-        }
-        sum += sqrt(most);
-        surfels++;
     }
-    set->mean_sigma_world = surfels ? sum / surfels : 1;
+    set->usual_sigma_world = usual_sigma(set);
     job->channel_count = opaque ? 3 : 4;
 }
 

@@ -31,7 +31,7 @@ typedef struct ewa_acquire_set {
     ewa_acquire_point *points;
     ewa_texture *textures;
     double cutoff, pixel_variance_px2;
-    double mean_sigma_world; ///< of the longer axes; also the thickness of all kernels
+    double usual_sigma_world; ///< of the longer axes; also the thickness of all kernels
 } ewa_acquire_set;
 
 /// A plane through two kernels, and their product in it: a Gaussian of its own.
@@ -52,11 +52,15 @@ void ewa_acquire_multiply(const ewa_acquire_set *set, const ewa_acquire_point *a
 /// One kernel alone: as a pair, its integral, mean and covariance.
 void ewa_acquire_single(const ewa_acquire_point *point, ewa_acquire_pair *pair);
 
-/// Mean of the texture under a Gaussian in a plane through the point, times the point's tint; premultiplied.
-/// `other` (may be NULL) is a second point that the chart between them is interpolated with, where they are
-/// on one piece of the picture; the Gaussian is that of their pair, seen from `point`.
+/// Mean of the texture under one kernel, times the point's tint; premultiplied.
 void ewa_acquire_look(const ewa_acquire_set *set, const ewa_acquire_point *point,
-                      const ewa_acquire_point *other, const ewa_acquire_pair *pair, double color[4]);
+                      const ewa_acquire_pair *alone, double color[4]);
+
+/// The same under the product of two kernels, `a` the first of the pair. Where both are on one piece of the
+/// picture, the chart between them is interpolated; else it is the mean of what both say, and
+/// by how much they disagree is returned.
+double ewa_acquire_look_between(const ewa_acquire_set *set, const ewa_acquire_point *a,
+                                const ewa_acquire_point *b, const ewa_acquire_pair *pair, double color[4]);
 
 /// Finds pairs that interact.
 typedef struct ewa_acquire_grid {

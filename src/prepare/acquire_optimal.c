@@ -12,6 +12,7 @@
 // bounds what kernels that are nearly the same, and pairs that were left out, can do. Based on M. Zwicker, H.
 // Pfister, J. van Baar, M. Gross, "Surface Splatting", 2001, section 5 and appendix A.
 #include "base/base.h"
+#include "math/gaussian.h"
 #include "prepare/acquire.h"
 #include "prepare/sparse.h"
 
@@ -21,9 +22,14 @@ enum { TASK_POINTS = 256, STRETCH_POINTS = 1 << 16, RIDGE_TRIES = 4 };
 
 /// The texture under a product that is smaller than a kernel's square by more than exp(-this) may as well be
 /// that under the kernel.
-#define NEAR_EXPONENT      7
+#define NEAR_EXPONENT 7
 
-#define SOLUTION_TOLERANCE 1e-7
+/// Kernels on nearly the same place, of which charts say different things (coincident triangles), are held to
+/// their filtered colours: by a ridge as large as the difference, times the kernels' closeness to this power.
+#define HOLD_POWER 8
+
+/// What may be left of the gradient at the filtered colours.
+#define SOLUTION_TOLERANCE 1e-6
 
 typedef struct optimal_job {
     const ewa_acquire_set *set;
@@ -35,8 +41,8 @@ typedef struct optimal_job {
     uint64_t *row_starts;
     uint32_t *columns;
     double *values, *sides, *solution;
-    double *diagonal, *mass;
-    uint64_t *crowded; ///< by worker: 1 + a point with too many partners
+    double *diagonal, *mass, *hold; ///< hold: ridge of a row where charts disagree
+    uint64_t *crowded;              ///< by worker: 1 + a point with too many partners
 } optimal_job;
 
 /// Calls a task for all points, with progress from `begin` to `end`.
@@ -68,14 +74,6 @@ static void count_rows(void *data, uint32_t part, uint32_t worker) {
     }
 }
 
-/// Turns a pair around, so that it is seen from the second kernel.
-static void turn(ewa_acquire_pair *pair) {
-    for (int c = 0; c < 2; c++) {
-        pair->mean[c] -= pair->between[c];
-        pair->between[c] = -pair->between[c];
-    }
-}
-
 static void fill_row(const optimal_job *job, uint32_t row, const uint32_t *others) {
     const ewa_acquire_set *set = job->set;
     const uint64_t start = job->row_starts[row];
@@ -85,20 +83,21 @@ static void fill_row(const optimal_job *job, uint32_t row, const uint32_t *other
     ewa_acquire_pair pair;
     memcpy(job->columns + start, others, count * sizeof *others);
     for (uint32_t c = 0; c < channels; c++) side[c] = 0;
+    job->hold[row] = 0;
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t other = others[i];
         const ewa_acquire_point *partner = &set->points[other];
-        if (row <= other)
-            ewa_acquire_multiply(set, point, partner, &pair);
-        else
-            ewa_acquire_multiply(set, partner, point, &pair);
+        const ewa_acquire_point *a = row <= other ? point : partner, *b = row <= other ? partner : point;
+        ewa_acquire_multiply(set, a, b, &pair);
         const double value = job->scale * pair.integral;
         job->values[start + i] = value;
         if (other == row) job->diagonal[row] = value;
         if (job->fit == EWA_FIT_SUM) continue;
-        if (row > other) turn(&pair);
         const bool is_near = pair.exponent < NEAR_EXPONENT;
-        if (is_near) ewa_acquire_look(set, point, other == row ? NULL : partner, &pair, look);
+        if (is_near) {
+            const double gap = ewa_acquire_look_between(set, a, b, &pair, look);
+            if (gap > 0) job->hold[row] += gap * ewa_exp(-HOLD_POWER * pair.exponent);
+        }
         for (uint32_t c = 0; c < channels; c++) side[c] += value * (is_near ? look[c] : job->colors[row][c]);
     }
     ewa_acquire_single(point, &pair);
@@ -111,7 +110,7 @@ static void fill_row(const optimal_job *job, uint32_t row, const uint32_t *other
 static void fill_alone(const optimal_job *job, uint32_t row) {
     job->columns[job->row_starts[row]] = row;
     job->values[job->row_starts[row]] = job->diagonal[row] = 1;
-    job->mass[row] = 0;
+    job->mass[row] = job->hold[row] = 0;
     for (uint32_t c = 0; c < job->channel_count; c++)
         job->sides[(size_t)row * job->channel_count + c] = job->colors[row][c];
 }
@@ -151,15 +150,25 @@ static ewa_status count_pairs(optimal_job *job) {
     return status;
 }
 
-/// Adds `more` of each kernel's own square to the matrix, and as much of the filtered colours to the sides.
-static void add_ridge(const optimal_job *job, double more) {
+/// Adds `more` of each kernel's own square to the matrix, and `held` of what holds it.
+static void add_ridge(const optimal_job *job, double more, double held) {
     for (uint32_t row = 0; row < job->set->count; row++) {
         uint64_t k = job->row_starts[row];
         while (job->columns[k] != row) k++;
-        job->values[k] += more * job->diagonal[row];
-        for (uint32_t c = 0; c < job->channel_count; c++)
-            job->sides[(size_t)row * job->channel_count + c] +=
-                more * job->diagonal[row] * job->colors[row][c];
+        job->values[k] += (more + held * job->hold[row]) * job->diagonal[row];
+    }
+}
+
+/// Takes R e off the sides: what is left to correct, so that a solution is as exact as that is small.
+static void subtract_filtered(void *data, uint32_t part, uint32_t worker) {
+    (void)worker;
+    const optimal_job *job = data;
+    const uint32_t first = job->first_point + part * TASK_POINTS, end = task_end(job, first);
+    for (uint32_t row = first; row < end; row++) {
+        double *side = job->sides + (size_t)row * job->channel_count;
+        for (uint64_t k = job->row_starts[row]; k < job->row_starts[row + 1]; k++)
+            for (uint32_t c = 0; c < job->channel_count; c++)
+                side[c] -= job->values[k] * job->colors[job->columns[k]][c];
     }
 }
 
@@ -183,14 +192,14 @@ static ewa_status solve(optimal_job *job, const ewa_acquire_options *options, ew
     for (int try = 0; try < RIDGE_TRIES && status == EWA_ERROR_NUMERIC; try++) {
         const double next = try ? 10 * ridge : options->ridge;
         if (try) ewa_report(context, EWA_SEVERITY_INFO, "texture: not definite, the ridge becomes %g", next);
-        add_ridge(job, next - ridge);
+        add_ridge(job, next - ridge, try ? 0 : 1);
         ridge = next;
         status = ewa_sparse_solve(context, &matrix, channels, job->sides, job->solution, &how, &solved);
     }
     if (status != EWA_OK) return status;
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t c = 0; c < channels; c++)
-            job->colors[i][c] = scale * job->solution[(size_t)i * channels + c];
+            job->colors[i][c] = scale * (job->colors[i][c] + job->solution[(size_t)i * channels + c]);
     report->iterations = solved.method == EWA_SPARSE_GRADIENT ? solved.iterations : 0;
     report->gradient = solved.residual;
     report->ridge = ridge;
@@ -202,16 +211,18 @@ ewa_status ewa_acquire_optimize(const ewa_acquire_set *set, const ewa_acquire_op
     ewa_context *context = set->context;
     const size_t count = set->count;
     optimal_job job = {.set = set, .fit = options->fit, .channel_count = channel_count, .colors = colors};
-    job.scale = 1 / (3.141592653589793 * set->mean_sigma_world * set->mean_sigma_world);
+    job.scale = 1 / (3.141592653589793 * set->usual_sigma_world * set->usual_sigma_world);
     if (!(job.scale < INFINITY)) job.scale = 1;
     uint64_t pairs = 0;
     ewa_status status = ewa_acquire_grid_make(set, &job.grid);
     job.row_starts = ewa_allocate(context, count + 1, sizeof *job.row_starts);
     job.diagonal = ewa_allocate(context, count, sizeof *job.diagonal);
     job.mass = ewa_allocate(context, count, sizeof *job.mass);
+    job.hold = ewa_allocate(context, count, sizeof *job.hold);
     job.sides = ewa_allocate(context, count * channel_count, sizeof *job.sides);
     job.solution = ewa_allocate(context, count * channel_count, sizeof *job.solution);
-    if (status == EWA_OK && !(job.row_starts && job.diagonal && job.mass && job.sides && job.solution))
+    if (status == EWA_OK &&
+        !(job.row_starts && job.diagonal && job.mass && job.hold && job.sides && job.solution))
         status = EWA_ERROR_MEMORY;
     if (status == EWA_OK) status = count_pairs(&job);
     if (status == EWA_OK) {
@@ -220,12 +231,14 @@ ewa_status ewa_acquire_optimize(const ewa_acquire_set *set, const ewa_acquire_op
         job.values = ewa_allocate(context, pairs, sizeof *job.values);
         if (!job.columns || !job.values) status = EWA_ERROR_MEMORY;
     }
-    if (status == EWA_OK) status = run_over(&job, fill_rows, 0.3, 1);
+    if (status == EWA_OK) status = run_over(&job, fill_rows, 0.3, 0.95);
+    if (status == EWA_OK) status = run_over(&job, subtract_filtered, 0.95, 1);
     ewa_acquire_grid_free(&job.grid);
     if (status == EWA_OK) status = solve(&job, options, report);
     ewa_release(context, job.row_starts, count + 1, sizeof *job.row_starts);
     ewa_release(context, job.diagonal, count, sizeof *job.diagonal);
     ewa_release(context, job.mass, count, sizeof *job.mass);
+    ewa_release(context, job.hold, count, sizeof *job.hold);
     ewa_release(context, job.sides, count * channel_count, sizeof *job.sides);
     ewa_release(context, job.solution, count * channel_count, sizeof *job.solution);
     ewa_release(context, job.columns, pairs, sizeof *job.columns);

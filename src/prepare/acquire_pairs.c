@@ -25,7 +25,7 @@
 /// Centres this far behind a clip line, in standard deviations, are still on its side.
 #define BEHIND 0.05
 
-/// Kernels this many times as large as the mean reach no farther.
+/// Kernels this many times as large as is usual reach no farther.
 #define MAX_SIZE 8
 
 /// Less than this share of a kernel is never left by its clip lines.
@@ -154,7 +154,7 @@ void ewa_acquire_multiply(const ewa_acquire_set *set, const ewa_acquire_point *a
     const double share_a = cut(a, pair->axis, origin, by_a, of_a),
                  share_b = cut(b, pair->axis, d, by_b, of_b);
     const double *mean = share_a <= share_b ? by_a : by_b, *moments = share_a <= share_b ? of_a : of_b;
-    pair->integral = integrate(a, b, set->mean_sigma_world) * fmin(share_a, share_b);
+    pair->integral = integrate(a, b, set->usual_sigma_world) * fmin(share_a, share_b);
     pair->mean[0] = mean[0], pair->mean[1] = mean[1];
     pair->xx = moments[0], pair->xy = moments[1], pair->yy = moments[2];
 }
@@ -169,7 +169,7 @@ static void jacobian(const ewa_acquire_point *point, const ewa_vec3 axis[2], dou
 static bool find_middle(const ewa_acquire_set *set, const ewa_acquire_point *point,
                         const ewa_acquire_point *other, double j[2][2], double o[2][2], const double d[2],
                         double middle[2]) {
-    if (point->texture != other->texture) return false;
+    if (point->texture != other->texture || point->texture == EWA_ACQUIRE_NO_TEXTURE) return false;
     const ewa_texture *texture = &set->textures[point->texture];
     double gap2 = 0, step2 = 0;
     for (int k = 0; k < 2; k++) {
@@ -185,32 +185,24 @@ static bool find_middle(const ewa_acquire_set *set, const ewa_acquire_point *poi
     return gap2 <= SAME_CHART * SAME_CHART * step2 + 1e-6;
 }
 
-void ewa_acquire_look(const ewa_acquire_set *set, const ewa_acquire_point *point,
-                      const ewa_acquire_point *other, const ewa_acquire_pair *pair, double color[4]) {
+/// Where a plane is on the picture: a place on both, and the Jacobian, rows x and y of the picture.
+typedef struct plane_chart {
+    double plane[2], at_px[2], j[2][2];
+} plane_chart;
+
+/// Mean of the point's texture under the Gaussian of a pair, times a tint.
+static void look(const ewa_acquire_set *set, const ewa_acquire_point *point, const plane_chart *chart,
+                 const ewa_acquire_pair *pair, double color[4]) {
     for (int c = 0; c < 4; c++) color[c] = (double)point->tint[c];
-    if (other && other->texture == point->texture)
-        for (int c = 0; c < 4; c++) color[c] = 0.5 * (color[c] + (double)other->tint[c]);
     if (point->texture == EWA_ACQUIRE_NO_TEXTURE) return;
-    double j[2][2], at[2] = {point->at_px[0], point->at_px[1]}, from[2] = {0, 0};
-    jacobian(point, pair->axis, j);
-    if (other) {
-        double o[2][2], middle[2];
-        jacobian(other, pair->axis, o);
-        if (find_middle(set, point, other, j, o, pair->between, middle)) {
-            for (int k = 0; k < 2; k++) {
-                at[k] = middle[k];
-                from[k] = 0.5 * pair->between[k];
-                for (int c = 0; c < 2; c++) j[k][c] = 0.5 * (j[k][c] + o[k][c]);
-            }
-        }
-    }
-    const double d[2] = {pair->mean[0] - from[0], pair->mean[1] - from[1]};
-    // J C J' in rows x, y of the picture.
+    const double d[2] = {pair->mean[0] - chart->plane[0], pair->mean[1] - chart->plane[1]};
+    const double(*j)[2] = chart->j;
+    // J C J'.
     const double ax = j[0][0] * pair->xx + j[0][1] * pair->xy, ay = j[0][0] * pair->xy + j[0][1] * pair->yy;
     const double bx = j[1][0] * pair->xx + j[1][1] * pair->xy, by = j[1][0] * pair->xy + j[1][1] * pair->yy;
     ewa_texture_gauss gauss = {
-        .x_px = at[0] + j[0][0] * d[0] + j[0][1] * d[1],
-        .y_px = at[1] + j[1][0] * d[0] + j[1][1] * d[1],
+        .x_px = chart->at_px[0] + j[0][0] * d[0] + j[0][1] * d[1],
+        .y_px = chart->at_px[1] + j[1][0] * d[0] + j[1][1] * d[1],
         .xx_px2 = ax * j[0][0] + ay * j[0][1] + set->pixel_variance_px2,
         .xy_px2 = ax * j[1][0] + ay * j[1][1],
         .yy_px2 = bx * j[1][0] + by * j[1][1] + set->pixel_variance_px2,
@@ -220,6 +212,41 @@ void ewa_acquire_look(const ewa_acquire_set *set, const ewa_acquire_point *point
     ewa_texture_round(&gauss);
     ewa_texture_mean(texture, ewa_texture_level_of(texture, &gauss), &gauss, mean);
     for (int c = 0; c < 4; c++) color[c] *= mean[c];
+}
+
+void ewa_acquire_look(const ewa_acquire_set *set, const ewa_acquire_point *point,
+                      const ewa_acquire_pair *alone, double color[4]) {
+    plane_chart chart = {.at_px = {point->at_px[0], point->at_px[1]}};
+    jacobian(point, alone->axis, chart.j);
+    look(set, point, &chart, alone, color);
+}
+
+double ewa_acquire_look_between(const ewa_acquire_set *set, const ewa_acquire_point *a,
+                                const ewa_acquire_point *b, const ewa_acquire_pair *pair, double color[4]) {
+    plane_chart of_a = {.at_px = {a->at_px[0], a->at_px[1]}},
+                of_b = {.plane = {pair->between[0], pair->between[1]}, .at_px = {b->at_px[0], b->at_px[1]}},
+                middle;
+    double other[4];
+    jacobian(a, pair->axis, of_a.j);
+    jacobian(b, pair->axis, of_b.j);
+    if (find_middle(set, a, b, of_a.j, of_b.j, pair->between, middle.at_px)) {
+        for (int k = 0; k < 2; k++) {
+            middle.plane[k] = 0.5 * pair->between[k];
+            for (int c = 0; c < 2; c++) middle.j[k][c] = 0.5 * (of_a.j[k][c] + of_b.j[k][c]);
+        }
+        ewa_acquire_point both = *a;
+        for (int c = 0; c < 4; c++) both.tint[c] = 0.5f * (a->tint[c] + b->tint[c]);
+        look(set, &both, &middle, pair, color);
+        return 0;
+    }
+    look(set, a, &of_a, pair, color);
+    look(set, b, &of_b, pair, other);
+    double most = 0;
+    for (int c = 0; c < 4; c++) {
+        most = fmax(most, fabs(color[c] - other[c]));
+        color[c] = 0.5 * (color[c] + other[c]);
+    }
+    return most;
 }
 
 static bool is_surfel(const ewa_acquire_point *point) {
@@ -270,7 +297,7 @@ ewa_status ewa_acquire_grid_make(const ewa_acquire_set *set, ewa_acquire_grid *g
             grid->low[c] = any ? fmin(grid->low[c], set->points[i].place[c]) : set->points[i].place[c];
         any = true;
     }
-    grid->cell_world = 2 * set->cutoff * fmin(most, MAX_SIZE * set->mean_sigma_world);
+    grid->cell_world = 2 * set->cutoff * fmin(most, MAX_SIZE * set->usual_sigma_world);
     if (!(grid->cell_world > 0)) grid->cell_world = 1;
     while (grid->bucket_count < set->count) grid->bucket_count *= 2;
     grid->first = ewa_allocate_zeroed(set->context, grid->bucket_count + 2, sizeof *grid->first);
