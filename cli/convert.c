@@ -15,8 +15,7 @@
 #include <string.h>
 
 typedef struct convert_arguments {
-    output_arguments output;       // first
-    procedure_arguments procedure; // second
+    procedure_arguments procedure; // first
     option_vector crop, transform, scale, translate;
     double subsample; ///< 0: all points; under 1: a share; else a count
     int refit;        ///< REFIT_*
@@ -24,7 +23,6 @@ typedef struct convert_arguments {
 } convert_arguments;
 
 #define AT(member) offsetof(convert_arguments, member)
-_Static_assert(offsetof(convert_arguments, procedure) == PROCEDURE_OFFSET, "procedure_options says so");
 
 /// In the order of the words of --refit-colors.
 enum { REFIT_OFF, REFIT_INTERPOLATE, REFIT_FIT };
@@ -91,14 +89,14 @@ static void set_defaults(void *data) {
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const convert_arguments *arguments = data;
-    if (!cloud_output_check(&arguments->output, message)) return false;
+    if (!procedure_check(&arguments->procedure, message)) return false;
     const char *problem = NULL;
     if (arguments->scale.count == 2)
         problem = "--scale: two numbers are neither s nor x,y,z";
     else if (arguments->subsample > 1 && arguments->subsample != floor(arguments->subsample))
         problem = "--subsample: over 1, N has to be a whole number";
     if (problem) snprintf(message, OPTION_ERROR_BYTES, "%s", problem);
-    return !problem && procedure_check(&arguments->procedure, message);
+    return !problem;
 }
 
 /// Replaces a cloud by some of its points; false after reporting.
@@ -228,8 +226,8 @@ static bool refit(cli_session *session, ewa_cloud *cloud, const convert_argument
 
 static ewa_cloud *make(cli_session *session, const void *data) {
     const convert_arguments *arguments = data;
-    ewa_cloud *cloud = inputs_merge(session, &arguments->output.common);
-    if (arguments->output.common.operand_count > 1) session->subject = NULL;
+    ewa_cloud *cloud = inputs_merge(session, &arguments->procedure.output.common);
+    if (arguments->procedure.output.common.operand_count > 1) session->subject = NULL;
     const bool done = cloud && (!arguments->crop.count || crop(session, &cloud, arguments->crop.values)) &&
                       (arguments->subsample == 0 || subsample(session, &cloud, arguments->subsample)) &&
                       move(session, cloud, arguments) && complete(session, &cloud, arguments) &&

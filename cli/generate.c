@@ -2,24 +2,21 @@
 // SPDX-License-Identifier: MIT
 //
 // ewa generate: test objects.
-#include "cloud_output.h"
 #include "commands.h"
 #include "json.h"
-#include "procedure.h"
+#include "textured.h"
 
 #include <stdio.h>
 #include <string.h>
 
 typedef struct generate_arguments {
-    output_arguments output;       // first
-    procedure_arguments procedure; // second
+    textured_arguments textured; // first
     bool positions_only, sharp;
     int64_t point_count, seed;
     double size_world, jitter, checks, radius_scale;
 } generate_arguments;
 
 #define AT(member) offsetof(generate_arguments, member)
-_Static_assert(offsetof(generate_arguments, procedure) == PROCEDURE_OFFSET, "procedure_options says so");
 
 /// In the order of ewa_object.
 static const char *const objects[] = {"plane", "checker", "cube", "sphere", "torus", "terrain", "csg"};
@@ -76,7 +73,6 @@ static const cli_option object_table[] = {
 
 static void set_defaults(void *data) {
     generate_arguments *arguments = data;
-    procedure_set_defaults(&arguments->procedure);
     ewa_generate_options options;
     ewa_generate_options_init(&options, sizeof options);
     arguments->point_count = (int64_t)options.point_count;
@@ -86,6 +82,7 @@ static void set_defaults(void *data) {
     arguments->checks = options.checks;
     arguments->radius_scale = options.radius_scale;
     arguments->positions_only = options.positions_only;
+    textured_set_defaults(&arguments->textured);
 }
 
 enum { OBJECT_COUNT = sizeof objects / sizeof objects[0] };
@@ -98,7 +95,7 @@ static size_t find_object(const char *word) {
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const generate_arguments *arguments = data;
-    const char *word = arguments->output.common.operands[0];
+    const char *word = arguments->textured.procedure.output.common.operands[0];
     if (find_object(word) == OBJECT_COUNT) {
         const char *nearest = options_nearest(word, OBJECT_COUNT, objects);
         snprintf(message, OPTION_ERROR_BYTES,
@@ -106,12 +103,28 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
                  nearest ? "; did you mean " : "", nearest ? nearest : "");
         return false;
     }
-    const procedure_arguments *procedure = &arguments->procedure;
+    const procedure_arguments *procedure = &arguments->textured.procedure;
     if (arguments->positions_only && procedure->procedure && procedure->prefilter > 0) {
         snprintf(message, OPTION_ERROR_BYTES, "--procedure with --positions-only needs --prefilter-scale 0");
         return false;
     }
-    return procedure_check(procedure, message) && cloud_output_check(&arguments->output, message);
+    return textured_check(&arguments->textured, message);
+}
+
+/// Puts the picture onto a new object. It goes on where the object closes upon itself.
+static ewa_status add_picture(const textured_arguments *textured, ewa_object object, const ewa_image *picture,
+                              ewa_cloud *cloud) {
+    ewa_acquire_options options;
+    ewa_acquire_options_init(&options, sizeof options);
+    options.filter = (ewa_texture_filter)textured->filter;
+    options.pixel_sigma_px = textured->pixel_sigma_px;
+    if (object != EWA_OBJECT_SPHERE && object != EWA_OBJECT_TORUS) options.wrap_s = EWA_TEXTURE_CLAMP;
+    if (object != EWA_OBJECT_TORUS) options.wrap_t = EWA_TEXTURE_CLAMP;
+    const ewa_status status = ewa_cloud_acquire(cloud, picture, 1, &options, NULL);
+    ewa_cloud_remove(cloud, EWA_TEXCOORD);
+    ewa_cloud_remove(cloud, EWA_TEXCOORD_S);
+    ewa_cloud_remove(cloud, EWA_TEXCOORD_T);
+    return status;
 }
 
 /// What the radii of generated objects are meant for, as everywhere by default.
@@ -121,7 +134,7 @@ static ewa_cloud *make(cli_session *session, const void *data) {
     const generate_arguments *arguments = data;
     ewa_generate_options options;
     ewa_generate_options_init(&options, sizeof options);
-    options.object = (ewa_object)find_object(arguments->output.common.operands[0]);
+    options.object = (ewa_object)find_object(arguments->textured.procedure.output.common.operands[0]);
     options.point_count = (uint64_t)arguments->point_count;
     options.seed = (uint64_t)arguments->seed;
     options.size_world = arguments->size_world;
@@ -130,12 +143,18 @@ static ewa_cloud *make(cli_session *session, const void *data) {
     options.radius_scale = arguments->radius_scale;
     options.positions_only = arguments->positions_only;
     options.sharp = arguments->sharp;
-    session->subject = arguments->output.path;
+    ewa_image picture;
+    if (!textured_load(session, &arguments->textured, &picture)) return NULL;
+    options.texcoords = picture.pixels != NULL;
+    session->subject = arguments->textured.procedure.output.path;
     ewa_cloud *cloud = NULL;
-    const ewa_status status = ewa_cloud_generate(session->context, &options, &cloud);
-    if (status != EWA_OK)
-        session_failed(session, status);
-    else if (!procedure_apply(session, &arguments->procedure, GENERATED_CUTOFF, cloud))
+    ewa_status status = ewa_cloud_generate(session->context, &options, &cloud);
+    if (status == EWA_OK && picture.pixels)
+        status = add_picture(&arguments->textured, options.object, &picture, cloud);
+    ewa_image_free(&picture);
+    if (status != EWA_OK) session_failed(session, status);
+    if (status != EWA_OK ||
+        !procedure_apply(session, &arguments->textured.procedure, GENERATED_CUTOFF, cloud))
         ewa_cloud_destroy(&cloud);
     return cloud;
 }
@@ -144,17 +163,22 @@ static int run(const void *data) { return cloud_output_run(data, make); }
 
 static const option_group object_options = {"Object", object_table,
                                             sizeof object_table / sizeof object_table[0]};
-static const option_group *const groups[] = {&cloud_output_options, &object_options, &procedure_options};
+static const option_group *const groups[] = {&cloud_output_options, &object_options, &procedure_options,
+                                             &textured_options};
 
 const cli_command generate_command = {
     .name = "generate",
     .operands = "KIND -o OUT",
     .summary = "make test objects: plane, checker, cube, sphere, torus, terrain, csg",
-    .details = "The object is centred at the origin. Plane, checker and terrain lie in x-y with z up; the "
-               "axis of the "
-               "torus is z. csg is a block with a slot, a notch and two round holes.",
+    .details =
+        "The object is centred at the origin. Plane, checker and terrain lie in x-y with z up; the "
+        "axis of the "
+        "torus is z. csg is a block with a slot, a notch and two round holes. --texture lays a picture upon "
+        "plane, checker and terrain, onto every face of the cube and of csg, by longitude and latitude "
+        "around the sphere, and around ring and tube of the torus.",
     .examples = "ewa generate torus -o torus.ply --points 200000\n"
                 "ewa generate terrain -o terrain.ply -n 4000000 --seed 7\n"
+                "ewa generate sphere --texture earth.png -n 1000000 -o earth.ply\n"
                 "ewa generate csg --sharp -n 7000 -o part.ply\n"
                 "ewa generate checker -o - --jitter 0 | ewa render - -o checker.png --shading none\n",
     .low_operands = 1,

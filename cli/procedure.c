@@ -6,7 +6,7 @@
 
 #include <stdio.h>
 
-#define AT(member) (PROCEDURE_OFFSET + offsetof(procedure_arguments, member))
+#define AT(member) offsetof(procedure_arguments, member)
 
 static const cli_option procedure_table[] = {
     {.key = "procedure",
@@ -74,7 +74,7 @@ bool procedure_check(const procedure_arguments *arguments, char message[OPTION_E
                             : "--first-color: numbers must be in [0, 1]";
     }
     if (problem) snprintf(message, OPTION_ERROR_BYTES, "%s", problem);
-    return !problem;
+    return !problem && cloud_output_check(&arguments->output, message);
 }
 
 /// Eight features along the longest side of the cloud's box.

@@ -7,22 +7,21 @@
 
 #include "cloud_output.h"
 
-/// Options of solid textures.
+/// What the arguments of such a command begin with.
 typedef struct procedure_arguments {
-    int procedure; ///< 0: off; else 1 + ewa_procedure
+    output_arguments output; // first
+    int procedure;           ///< 0: off; else 1 + ewa_procedure
     double frequency, prefilter;
     int64_t seed;
     option_vector colors[2]; ///< linear
 } procedure_arguments;
 
-/// Where a command's arguments have them: right after the output_arguments that they begin with.
-enum { PROCEDURE_OFFSET = sizeof(output_arguments) };
-
+/// The options of procedure_arguments but for the output's.
 extern const option_group procedure_options;
 
 void procedure_set_defaults(procedure_arguments *arguments);
 
-/// Says in `message` what is wrong with the options together; see command.check.
+/// Says in `message` what is wrong with the options together, the output's too; see command.check.
 bool procedure_check(const procedure_arguments *arguments, char message[OPTION_ERROR_BYTES]);
 
 /// Colours a cloud as the options say; `cutoff` as for the surfels. Returns false after reporting.

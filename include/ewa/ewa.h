@@ -5,6 +5,7 @@
 #ifndef EWA_EWA_H
 #define EWA_EWA_H
 
+#include "ewa/acquire.h"
 #include "ewa/base.h"
 #include "ewa/camera.h"
 #include "ewa/cloud.h"

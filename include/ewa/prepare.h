@@ -240,6 +240,7 @@ typedef struct ewa_generate_options {
     bool positions_only; ///< leave out normals and radii; default false
     bool sharp; ///< cube and part: rows of points on every edge, and axes and clip lines in place of radii;
                 ///< default false
+    bool texcoords; ///< add "texcoord", "texcoord_s", "texcoord_t" (ewa/acquire.h); default false
 } ewa_generate_options;
 
 EWA_API void ewa_generate_options_init(ewa_generate_options *options, size_t struct_size);
@@ -254,6 +255,10 @@ EWA_API void ewa_generate_options_init(ewa_generate_options *options, size_t str
 /// "clip1", "clip_mode" take the place of "radius": every kernel that reaches an edge is cut there; beside
 /// round holes centres lie up to 3/8 of a cell beyond the edge. The rows are regular: seed and jitter change
 /// nothing.
+///
+/// Texture coordinates: plane, checker and terrain lie upon the picture, cube and part have it on every face
+/// (by the largest component of the normal), the sphere has longitude and latitude, the torus the turns
+/// around the ring and around the tube.
 ///
 /// `options` may be NULL for the defaults; the caller owns `*cloud`, which is NULL after a
 /// failure. Every number depends on the options alone, not on the machine or the number of threads. Progress

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Prints the tables of docs/acquisition.md, and writes their pictures when a folder is given: a checkerboard
+// (and a photograph, when its path follows) on irregular points, by every filter, from far away to very near.
+#include "quality/acquire_scene.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { VIEWS = 3, WAYS = 4 };
+
+static const double views_px_per_cell[VIEWS] = {0.125, 4, 20};
+static const char *const view_names[VIEWS] = {"minified", "magnified", "extreme"};
+
+typedef struct way {
+    const char *name;
+    ewa_texture_filter filter;
+    ewa_texture_fit fit;
+} way;
+
+static const way ways[WAYS] = {
+    {"nearest", EWA_TEXTURE_NEAREST, EWA_FIT_NORMALIZED},
+    {"ewa", EWA_TEXTURE_EWA, EWA_FIT_NORMALIZED},
+    {"optimal", EWA_TEXTURE_OPTIMAL, EWA_FIT_NORMALIZED},
+    {"optimal-sum", EWA_TEXTURE_OPTIMAL, EWA_FIT_SUM},
+};
+
+static void check(ewa_status status, const char *what) {
+    if (status == EWA_OK) return;
+    fprintf(stderr, "measure_acquire: %s: %s\n", what, ewa_status_name(status));
+    exit(1);
+}
+
+static void save(const char *folder, const char *scene, const char *name, const char *view,
+                 const ewa_image *picture) {
+    char path[1024];
+    if (!folder) return;
+    snprintf(path, sizeof path, "%s/%s_%s_%s.png", folder, scene, name, view);
+    check(ewa_image_save(picture, path, NULL), path);
+}
+
+static void measure(acquire_scene *scene, const char *name, const char *folder) {
+    double rms[WAYS][VIEWS];
+    ewa_acquire_report reports[WAYS];
+    for (int w = 0; w < WAYS; w++) {
+        ewa_acquire_options options;
+        ewa_acquire_options_init(&options, sizeof options);
+        options.filter = ways[w].filter;
+        options.fit = ways[w].fit;
+        options.wrap_s = options.wrap_t = EWA_TEXTURE_CLAMP;
+        if (scene->pixel_sigma_px > 0) options.pixel_sigma_px = scene->pixel_sigma_px;
+        if (getenv("RIDGE")) options.ridge = atof(getenv("RIDGE"));
+        ewa_cloud *cloud = NULL;
+        check(acquire_points(scene, &cloud), "points");
+        check(ewa_cloud_acquire(cloud, &scene->texture, 1, &options, &reports[w]), ways[w].name);
+        for (int v = 0; v < VIEWS; v++) {
+            ewa_image truth = {0}, picture = {0};
+            scene->view_px_per_cell = views_px_per_cell[v];
+            check(acquire_truth(scene, &truth), "truth");
+            check(acquire_draw(scene, cloud, &picture), "picture");
+            rms[w][v] = acquire_rms(scene, &truth, &picture);
+            save(folder, name, ways[w].name, view_names[v], &picture);
+            if (w == 0) save(folder, name, "truth", view_names[v], &truth);
+            ewa_image_free(&truth);
+            ewa_image_free(&picture);
+        }
+        ewa_cloud_destroy(&cloud);
+    }
+    for (int w = 0; w < WAYS; w++) {
+        printf("| %s | %.3g | %g | %s |", name, scene->radius_scale, scene->pixel_sigma_px, ways[w].name);
+        for (int v = 0; v < VIEWS; v++) printf(" %.2f (%+.0f %%) |", 100 * rms[w][v], 100 * (rms[w][v] / rms[1][v] - 1));
+        printf(" %.2g | %u |\n", reports[w].gradient, reports[w].iterations);
+    }
+}
+
+int main(int argument_count, char **arguments) {
+    const char *folder = argument_count > 1 && *arguments[1] ? arguments[1] : NULL;
+    ewa_context *context = NULL;
+    check(ewa_context_create(NULL, &context), "context");
+    static const double radii[] = {1.14, 1.44, 1.6};
+    static const double sigmas[] = {1, 0.5, 0};
+    printf("| picture | radius / spacing | pixel sigma | filter | minified | magnified | extreme | gradient | iterations |\n"
+           "|---|---|---|---|---|---|---|---|---|\n");
+    for (int r = 0; r < 3; r++) {
+        if (getenv("ONLY") && r != atoi(getenv("ONLY"))) continue;
+        for (int s = 0; s < 3; s++) {
+        if (getenv("SIG") && s != atoi(getenv("SIG"))) continue;
+            acquire_scene scene = {.context = context, .radius_scale = radii[r], .jitter = radii[r] < 1.2 ? 0.5 : 1, .pixel_sigma_px = sigmas[s]};
+            check(acquire_checker(context, 1024, 8, &scene.texture), "checker");
+            measure(&scene, "checker", r == 1 && s == 0 ? folder : NULL);
+            ewa_image_free(&scene.texture);
+            if (argument_count > 2) {
+                check(ewa_image_load(context, arguments[2], &scene.texture), arguments[2]);
+                measure(&scene, "photo", r == 1 && s == 0 ? folder : NULL);
+                ewa_image_free(&scene.texture);
+            }
+        }
+    }
+    ewa_context_destroy(&context);
+    return 0;
+}
