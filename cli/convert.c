@@ -198,7 +198,10 @@ static bool complete(cli_session *session, ewa_cloud **cloud, const convert_argu
     const bool wanted = arguments->refit != REFIT_OFF ||
                         (arguments->procedure.procedure && arguments->procedure.prefilter > 0);
     if (!wanted || cloud_is_drawable(*cloud)) return true;
-    const ewa_status status = ewa_cloud_estimate(cloud, NULL);
+    ewa_estimate_options options;
+    ewa_estimate_options_init(&options, sizeof options);
+    options.cutoff = arguments->cutoff;
+    const ewa_status status = ewa_cloud_estimate(cloud, &options);
     if (status != EWA_OK) session_failed(session, status);
     return status == EWA_OK;
 }
