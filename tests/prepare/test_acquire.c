@@ -456,8 +456,6 @@ static void test_odd_points(void **state) {
     for (int i = 0; i < 3; i++) s[3 * 500 + i] = 0, s[3 * 501 + i] = 1e20f;
     assert_int_equal(ewa_cloud_acquire(cloud, &image, 1, NULL, NULL), EWA_OK);
     const float *color = check_stream(cloud, EWA_COLOR);
-    for (int i = 0; i < 6000; i++)
-        if (!(isfinite(color[i]) && fabsf(color[i]) < 10)) print_message("%d %g\n", i / 3, color[i]);
     for (int i = 0; i < 6000; i++) assert_true(isfinite(color[i]) && fabsf(color[i]) < 10);
     ewa_cloud_destroy(&cloud);
     cloud = make_object(context, EWA_OBJECT_PLANE, 0, 1.5);
@@ -590,15 +588,13 @@ static void test_charts_of_objects(void **state) {
         for (uint64_t i = 0; i + 1 < COUNT; i++) {
             const ewa_vec3 d = vec3_sub(load(p + 3 * i + 3), load(p + 3 * i));
             assert_true(at[2 * i] >= 0 && at[2 * i] <= 1 && at[2 * i + 1] >= 0 && at[2 * i + 1] <= 1);
+            if (objects[k] == EWA_OBJECT_SPHERE && hypotf(p[3 * i], p[3 * i + 1]) < 0.2f) continue;
             if (vec3_length(d) > 0.05 || vec3_dot(load(n + 3 * i), load(n + 3 * i + 3)) < 0.99) continue;
             for (uint64_t c = 0; c < 2; c++) {
                 const ewa_vec3 g =
                     vec3_scale(vec3_add(load(gradient[c] + 3 * i), load(gradient[c] + 3 * i + 3)), 0.5);
                 const double step = (double)at[2 * i + 2 + c] - (double)at[2 * i + c];
                 if (fabs(step) > 0.5 || vec3_length(g) > 0.6) continue; // seams and poles
-                if (fabs(vec3_dot(g, d) - step) > 2e-3)
-                    print_message("obj %d i %d c %d g %g %g %g d %g %g %g at %g %g\n", (int)k, (int)i, (int)c,
-                                  g.x, g.y, g.z, d.x, d.y, d.z, p[3 * i], p[3 * i + 1]);
                 assert_float_equal(vec3_dot(g, d), step, 2e-3);
                 compared++;
             }

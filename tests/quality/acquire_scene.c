@@ -112,8 +112,7 @@ ewa_status acquire_draw(const acquire_scene *scene, const ewa_cloud *cloud, ewa_
     ewa_image drawn = {0};
     ewa_status status = ewa_surfels_create(cloud, NULL, &surfels);
     if (status == EWA_OK) status = ewa_renderer_create(scene->context, &renderer);
-    if (status == EWA_OK)
-        status = ewa_image_create(scene->context, ACQUIRE_SIDE, ACQUIRE_SIDE, 4, &drawn);
+    if (status == EWA_OK) status = ewa_image_create(scene->context, ACQUIRE_SIDE, ACQUIRE_SIDE, 4, &drawn);
     const ewa_frame frame = {.rgba = drawn.pixels};
     if (status == EWA_OK) status = ewa_render(renderer, surfels, &camera, &options, &frame, NULL);
     if (status == EWA_OK) status = ewa_image_create(scene->context, ACQUIRE_SIDE, ACQUIRE_SIDE, 3, picture);

@@ -70,7 +70,8 @@ static void measure(acquire_scene *scene, const char *name, const char *folder) 
     }
     for (int w = 0; w < WAYS; w++) {
         printf("| %s | %.3g | %g | %s |", name, scene->radius_scale, scene->pixel_sigma_px, ways[w].name);
-        for (int v = 0; v < VIEWS; v++) printf(" %.2f (%+.0f %%) |", 100 * rms[w][v], 100 * (rms[w][v] / rms[1][v] - 1));
+        for (int v = 0; v < VIEWS; v++)
+            printf(" %.2f (%+.0f %%) |", 100 * rms[w][v], 100 * (rms[w][v] / rms[1][v] - 1));
         printf(" %.2g | %u |\n", reports[w].gradient, reports[w].iterations);
     }
 }
@@ -81,13 +82,17 @@ int main(int argument_count, char **arguments) {
     check(ewa_context_create(NULL, &context), "context");
     static const double radii[] = {1.14, 1.44, 1.6};
     static const double sigmas[] = {1, 0.5, 0};
-    printf("| picture | radius / spacing | pixel sigma | filter | minified | magnified | extreme | gradient | iterations |\n"
+    printf("| picture | radius / spacing | pixel sigma | filter | minified | magnified | extreme | gradient "
+           "| iterations |\n"
            "|---|---|---|---|---|---|---|---|---|\n");
     for (int r = 0; r < 3; r++) {
         if (getenv("ONLY") && r != atoi(getenv("ONLY"))) continue;
         for (int s = 0; s < 3; s++) {
-        if (getenv("SIG") && s != atoi(getenv("SIG"))) continue;
-            acquire_scene scene = {.context = context, .radius_scale = radii[r], .jitter = radii[r] < 1.2 ? 0.5 : 1, .pixel_sigma_px = sigmas[s]};
+            if (getenv("SIG") && s != atoi(getenv("SIG"))) continue;
+            acquire_scene scene = {.context = context,
+                                   .radius_scale = radii[r],
+                                   .jitter = radii[r] < 1.2 ? 0.5 : 1,
+                                   .pixel_sigma_px = sigmas[s]};
             check(acquire_checker(context, 1024, 8, &scene.texture), "checker");
             measure(&scene, "checker", r == 1 && s == 0 ? folder : NULL);
             ewa_image_free(&scene.texture);
