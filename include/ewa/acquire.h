@@ -17,10 +17,11 @@ extern "C" {
 /// right of the picture; "texcoord_s" and "texcoord_t" F32 3, what s and t gain along the surface, per world
 /// unit (gradients within the surface); "texture" 1 (an integer type), which picture it is, the first without
 /// this stream. Points whose coordinates are not finite, or of a picture that there is not, have no texture.
-#define EWA_TEXCOORD   "texcoord"
-#define EWA_TEXCOORD_S "texcoord_s"
-#define EWA_TEXCOORD_T "texcoord_t"
-#define EWA_TEXTURE    "texture"
+#define EWA_TEXCOORD     "texcoord"
+#define EWA_TEXCOORD_S   "texcoord_s"
+#define EWA_TEXCOORD_T   "texcoord_t"
+#define EWA_TEXTURE      "texture"
+#define EWA_TEXTURE_PART "texture_part"
 
 /// How the colours of points are made from a texture.
 typedef enum ewa_texture_filter {
@@ -79,10 +80,11 @@ typedef struct ewa_acquire_report {
 /// - Pixels are Gaussians, mapped by the Jacobian of each point; kernels wider than some pixels read smaller
 ///   copies of the picture. The filtered colour is the mean of the texture under the kernel, cut by its clip
 ///   lines.
-/// - Optimal: all kernels whose supports overlap and whose normals agree within 60 degrees interact, but for
-///   those beyond each other's clip lines, in the plane between them. One sparse, symmetric, positive
-///   definite system, all channels at once. Where it is not quite definite (kernels that overlap by far too
-///   much) the ridge is raised.
+/// - Optimal: kernels of one part whose supports overlap interact, the less the more their normals differ.
+/// One
+///   sparse, symmetric, positive definite system, all channels at once. Should it not be definite (kernels
+///   that overlap by far too much), the ridge is raised. Kernels on the same place of which two charts say
+///   different things stay near their filtered colours.
 ///
 /// `options` and `report` may be NULL. The result does not depend on the number of threads. Progress stages:
 /// "texture", and that of the solver. After a failure the cloud keeps its colours. Errors: EWA_ERROR_ARGUMENT

@@ -78,8 +78,8 @@ typedef struct ewa_mesh_sample_options {
     bool smooth_normals;   ///< interpolate normals between triangles that meet in no sharp edge; default true
     ewa_texture_filter texture_filter; ///< how pictures come onto the points; default EWA_TEXTURE_OPTIMAL
     double pixel_sigma_px;             ///< see ewa_acquire_options; default 0.5
-    bool texcoords; ///< keep "texcoord", "texcoord_s", "texcoord_t" and with materials "texture" (their
-                    ///< number), for ewa_cloud_acquire(); default false
+    bool texcoords; ///< keep "texcoord", "texcoord_s", "texcoord_t", "texture_part" and with materials
+                    ///< "texture" (their number), for ewa_cloud_acquire(); default false
 } ewa_mesh_sample_options;
 
 EWA_API void ewa_mesh_sample_options_init(ewa_mesh_sample_options *options, size_t struct_size);

@@ -21,7 +21,7 @@ typedef struct acquire_job {
     const ewa_acquire_options *options;
     const ewa_image *images;
     const ewa_attribute *position, *normal, *radius, *tangent[2], *clip[2], *clip_mode;
-    const ewa_attribute *texcoord, *gradient[2], *texture, *color;
+    const ewa_attribute *texcoord, *gradient[2], *texture, *part, *color;
     uint32_t first_point, end_point; ///< of the present stretch
     double (*colors)[4];
     uint32_t channel_count;
@@ -80,7 +80,7 @@ static ewa_status find_streams(const ewa_cloud *cloud, acquire_job *job) {
         {EWA_TANGENT_U, 3, false, &job->tangent[0]},  {EWA_TANGENT_V, 3, false, &job->tangent[1]},
         {EWA_CLIP0, 3, false, &job->clip[0]},         {EWA_CLIP1, 3, false, &job->clip[1]},
         {EWA_CLIP_MODE, 1, false, &job->clip_mode},   {EWA_TEXTURE, 1, false, &job->texture},
-        {EWA_COLOR, 0, false, &job->color},
+        {EWA_TEXTURE_PART, 1, false, &job->part},     {EWA_COLOR, 0, false, &job->color},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const ewa_attribute *found = ewa_cloud_find(cloud, rows[i].name);
@@ -100,6 +100,7 @@ static ewa_status find_streams(const ewa_cloud *cloud, acquire_job *job) {
                         "texture: the cloud has neither '%s' with '%s' nor '%s' with '%s'", EWA_NORMAL,
                         EWA_RADIUS, EWA_TANGENT_U, EWA_TANGENT_V);
     if (!job->options->modulate) job->color = NULL;
+    job->set.has_parts = job->part != NULL;
     return EWA_OK;
 }
 
@@ -188,11 +189,13 @@ static void read_sides(const acquire_job *job, uint64_t index, ewa_acquire_point
 }
 
 static void read_chart(const acquire_job *job, uint64_t index, ewa_acquire_point *point) {
-    double at[2] = {0}, gradient[2][3] = {{0}}, texture = 0;
+    double at[2] = {0}, gradient[2][3] = {{0}}, texture = 0, part = 0;
     read_vector(job->texcoord, index, at);
     read_vector(job->gradient[0], index, gradient[0]);
     read_vector(job->gradient[1], index, gradient[1]);
     read_vector(job->texture, index, &texture);
+    read_vector(job->part, index, &part);
+    point->part = part >= 0 && part <= UINT32_MAX ? (uint32_t)part : 0;
     point->texture = EWA_ACQUIRE_NO_TEXTURE;
     if (!(texture >= 0 && texture < job->set.texture_count)) return;
     const ewa_texture *picture = &job->set.textures[(uint32_t)texture];

@@ -16,7 +16,7 @@ typedef struct ewa_acquire_point {
     double place[3];
     float normal[3], axis[2][3]; ///< axes one standard deviation long; all zero: no surfel
     float side[2][4];            ///< half spaces that keep: s[0..2] . (x - place) + s[3] >= 0, s[0..2] unit
-    uint32_t side_count;
+    uint32_t side_count, part;
     uint32_t texture;     ///< EWA_ACQUIRE_NO_TEXTURE: white
     double at_px[2];      ///< on the picture, y down
     float gradient[2][3]; ///< of at_px, per world unit
@@ -27,6 +27,7 @@ typedef struct ewa_acquire_point {
 typedef struct ewa_acquire_set {
     ewa_context *context;
     uint32_t count, texture_count;
+    bool has_parts;  ///< parts, and not clip lines, tell who interacts
     uint32_t *order; ///< by place along the curve: point of the cloud
     ewa_acquire_point *points;
     ewa_texture *textures;
@@ -44,12 +45,12 @@ typedef struct ewa_acquire_pair {
     double xx, xy, yy; ///< its covariance
 } ewa_acquire_pair;
 
-/// Multiplies two kernels of peak 1 in the plane between them, both cut by the half spaces of both. Always in
+/// Multiplies two kernels of peak 1; mean and covariance are cut by the half spaces of both. Always in
 /// the same order, so that rounding does not depend on who asks. `a` may be `b`.
 void ewa_acquire_multiply(const ewa_acquire_set *set, const ewa_acquire_point *a, const ewa_acquire_point *b,
                           ewa_acquire_pair *pair);
 
-/// One kernel alone: as a pair, its integral, mean and covariance.
+/// One kernel alone: its integral, mean and covariance; the latter two are cut.
 void ewa_acquire_single(const ewa_acquire_point *point, ewa_acquire_pair *pair);
 
 /// Mean of the texture under one kernel, times the point's tint; premultiplied.

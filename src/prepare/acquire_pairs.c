@@ -10,9 +10,9 @@
 // angle between the normals, which is a positive definite matrix too, as is the product by entries of both
 // (Schur). The texture is looked up in the plane between the two.
 //
-// Kernels that are cut at an edge leave a Gaussian cut at that
-// edge: its integral is the share of the normal distribution on this side, and it is looked up on the picture
-// as the Gaussian of the same mean and covariance.
+// Inner products are those of whole kernels, also at edges: kernels cut by different lines would not keep the
+// matrix definite. The texture is looked up under what is cut, as the Gaussian of the same mean and
+// covariance, so that nothing beyond the edge of a chart comes in.
 // Based on M. Zwicker, H. Pfister, J. van Baar, M. Gross, "Surface Splatting", 2001, appendix A; the moments
 // of what is cut after N. L. Johnson, S. Kotz, "Continuous Univariate Distributions 1", 1970, chapter 13.
 #include "base/base.h"
@@ -20,7 +20,7 @@
 #include "prepare/acquire.h"
 
 /// Least cosine between the normals of kernels that interact.
-#define MIN_FACING (-0.2)
+#define MIN_FACING (-0.5)
 
 /// Centres this far behind a clip line, in standard deviations, are still on its side.
 #define BEHIND 0.05
@@ -120,8 +120,8 @@ void ewa_acquire_single(const ewa_acquire_point *point, ewa_acquire_pair *pair) 
     frame_of(load(point->normal), pair->axis);
     project(point, pair->axis, covariance);
     const double determinant = fmax(covariance[0] * covariance[2] - covariance[1] * covariance[1], 0);
-    const double share = cut(point, pair->axis, origin, pair->mean, covariance);
-    pair->integral = 6.283185307179586 * sqrt(determinant) * share;
+    cut(point, pair->axis, origin, pair->mean, covariance);
+    pair->integral = 6.283185307179586 * sqrt(determinant);
     pair->xx = covariance[0], pair->xy = covariance[1], pair->yy = covariance[2];
 }
 
@@ -154,7 +154,7 @@ void ewa_acquire_multiply(const ewa_acquire_set *set, const ewa_acquire_point *a
     const double share_a = cut(a, pair->axis, origin, by_a, of_a),
                  share_b = cut(b, pair->axis, d, by_b, of_b);
     const double *mean = share_a <= share_b ? by_a : by_b, *moments = share_a <= share_b ? of_a : of_b;
-    pair->integral = integrate(a, b, set->usual_sigma_world) * fmin(share_a, share_b);
+    pair->integral = integrate(a, b, set->usual_sigma_world);
     pair->mean[0] = mean[0], pair->mean[1] = mean[1];
     pair->xx = moments[0], pair->xy = moments[1], pair->yy = moments[2];
 }
@@ -270,6 +270,8 @@ static bool interact(const ewa_acquire_grid *grid, const ewa_acquire_point *a, d
         !(distance2 <= 2 * cutoff * cutoff * (sigma_a * sigma_a + sigma_b * sigma_b)))
         return false;
     if (vec3_dot(load(a->normal), load(b->normal)) < MIN_FACING) return false;
+    if (a->part != b->part) return false;
+    if (grid->set->has_parts) return true;
     return !is_behind(a, between, sigma_a) && !is_behind(b, vec3_scale(between, -1), sigma_b);
 }
 

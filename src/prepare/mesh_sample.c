@@ -24,7 +24,7 @@ typedef struct sample_job {
     float *position, *normal, *radius, *tangent_u, *tangent_v, *clip[2];
     uint8_t *color, *clip_mode;
     float *tint, *texcoord, *gradient[2]; // of meshes with pictures, the tint in place of the color
-    uint32_t *texture;
+    uint32_t *texture, *part;
 } sample_job;
 
 void ewa_mesh_sample_options_init(ewa_mesh_sample_options *options, size_t struct_size) {
@@ -153,6 +153,7 @@ static void finish_points(void *data, uint32_t part, uint32_t worker) {
         memcpy(job->position + 3 * i, dart->position_world, sizeof dart->position_world);
         store(job->normal + 3 * i, normal, 1);
         if (job->colors.component_count) finish_color(job, i, weight);
+        if (job->part) job->part[i] = job->surface->part[dart->triangle];
         if (job->texcoord)
             ewa_mesh_chart_at(job->surface->mesh, job->surface->source[dart->triangle], weight,
                               job->texcoord + 2 * i, job->gradient[0] + 3 * i, job->gradient[1] + 3 * i);
@@ -180,6 +181,7 @@ static ewa_status add_attributes(sample_job *job, ewa_cloud *cloud) {
         {EWA_TEXCOORD, EWA_F32, 2, charts, &job->texcoord},
         {EWA_TEXCOORD_S, EWA_F32, 3, charts, &job->gradient[0]},
         {EWA_TEXCOORD_T, EWA_F32, 3, charts, &job->gradient[1]},
+        {EWA_TEXTURE_PART, EWA_U32, 1, charts, &job->part},
         {EWA_TEXTURE, EWA_U32, 1, charts && job->surface->mesh->material_count > 0, &job->texture},
         {EWA_RADIUS, EWA_F32, 1, !sharp, &job->radius},
         {EWA_TANGENT_U, EWA_F32, 3, sharp, &job->tangent_u},
@@ -222,6 +224,7 @@ static ewa_status add_pictures(const sample_job *job, ewa_cloud *cloud) {
     ewa_cloud_remove(cloud, EWA_TEXCOORD_S);
     ewa_cloud_remove(cloud, EWA_TEXCOORD_T);
     ewa_cloud_remove(cloud, EWA_TEXTURE);
+    ewa_cloud_remove(cloud, EWA_TEXTURE_PART);
     return status;
 }
 
