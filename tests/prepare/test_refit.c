@@ -244,6 +244,44 @@ static void test_pictures(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Coefficients of any sign are drawn as the reference draws them.
+static void test_drawn(void **state) {
+    (void)state;
+    enum { SIDE = 48 };
+    ewa_context *context = check_context(0, NULL);
+    ewa_cloud *cloud = generate(context, EWA_OBJECT_PLANE, 400, false);
+    float *color = random_colors(cloud, 3), lowest = 0;
+    for (uint64_t i = 0; i < 3 * ewa_cloud_point_count(cloud); i++) color[i] = 6 * color[i] - 3;
+    ewa_camera camera;
+    ewa_camera_init(&camera, sizeof camera);
+    camera.width_px = camera.height_px = SIDE;
+    ewa_camera_look_at(&camera, (double[3]){0, 0, 5}, (double[3]){0, 0, 0}, (double[3]){0, 1, 0});
+    ewa_camera_set_ortho(&camera, 1.5);
+    ewa_render_options look;
+    ewa_render_options_init(&look, sizeof look);
+    look.shading = EWA_SHADING_NONE;
+    ewa_surfels *surfels = NULL;
+    ewa_renderer *renderer = NULL;
+    ewa_surfels_info info;
+    static float fast[4 * SIDE * SIDE], slow[4 * SIDE * SIDE];
+    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels_describe(surfels, &info);
+    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    assert_int_equal(ewa_render(renderer, surfels, &camera, &look, &(ewa_frame){.rgba = fast}, NULL), EWA_OK);
+    assert_int_equal(
+        ewa_render_reference(cloud, NULL, info.unit_coverage, &camera, &look, &(ewa_frame){.rgba = slow}),
+        EWA_OK);
+    for (int i = 0; i < 4 * SIDE * SIDE; i++) {
+        assert_true(fabsf(fast[i] - slow[i]) < 2e-3f);
+        lowest = fminf(lowest, fast[i]);
+    }
+    assert_true(lowest < -0.5f);
+    ewa_renderer_destroy(&renderer);
+    ewa_surfels_destroy(&surfels);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
 /// Coefficients of any sign survive a file.
 static void test_file(void **state) {
     (void)state;
@@ -268,7 +306,8 @@ int main(void) {
         cmocka_unit_test(test_reconstruction), cmocka_unit_test(test_constant),
         cmocka_unit_test(test_threads),        cmocka_unit_test(test_bad_points),
         cmocka_unit_test(test_arguments),      cmocka_unit_test(test_cancel_and_memory),
-        cmocka_unit_test(test_pictures),       cmocka_unit_test(test_file),
+        cmocka_unit_test(test_pictures),       cmocka_unit_test(test_drawn),
+        cmocka_unit_test(test_file),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
