@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Prints the tables of docs/acquisition.md, and writes their pictures when a folder is given: a checkerboard
-// (and a photograph, when its path follows) on irregular points, by every filter, from far away to very near.
+// Prints a table of docs/acquisition.md: a checkerboard (and a photograph, when its path is the second
+// argument) on irregular points, by every filter, from far away to very near. With a folder as first argument
+// ("": none), the first setting only, and its pictures.
 #include "quality/acquire_scene.h"
 
 #include <stdio.h>
@@ -85,17 +86,17 @@ int main(int argument_count, char **arguments) {
     printf("| picture | radius / spacing | pixel sigma | filter | minified | magnified | extreme | "
            "iterations |\n"
            "|---|---|---|---|---|---|---|---|\n");
-    for (size_t i = 0; i < sizeof settings / sizeof settings[0]; i++) {
+    for (size_t i = 0; i < (folder ? 1 : sizeof settings / sizeof settings[0]); i++) {
         acquire_scene scene = {.context = context,
                                .radius_scale = settings[i].radius_scale,
                                .jitter = settings[i].jitter,
                                .pixel_sigma_px = settings[i].pixel_sigma_px};
         check(acquire_checker(context, 1024, 8, &scene.texture), "checker");
-        measure(&scene, "checker", i == 0 ? folder : NULL);
+        measure(&scene, "checker", folder);
         ewa_image_free(&scene.texture);
         if (argument_count < 3) continue;
         check(ewa_image_load(context, arguments[2], &scene.texture), arguments[2]);
-        measure(&scene, "photo", i == 0 ? folder : NULL);
+        measure(&scene, "photo", folder);
         ewa_image_free(&scene.texture);
     }
     ewa_context_destroy(&context);
