@@ -95,7 +95,7 @@ static size_t find_object(const char *word) {
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const generate_arguments *arguments = data;
-    const char *word = arguments->textured.output.common.operands[0];
+    const char *word = arguments->textured.procedure.output.common.operands[0];
     if (find_object(word) == OBJECT_COUNT) {
         const char *nearest = options_nearest(word, OBJECT_COUNT, objects);
         snprintf(message, OPTION_ERROR_BYTES,
@@ -103,7 +103,12 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
                  nearest ? "; did you mean " : "", nearest ? nearest : "");
         return false;
     }
-    return cloud_output_check(&arguments->textured.output, message);
+    const procedure_arguments *procedure = &arguments->textured.procedure;
+    if (arguments->positions_only && procedure->procedure && procedure->prefilter > 0) {
+        snprintf(message, OPTION_ERROR_BYTES, "--procedure with --positions-only needs --prefilter-scale 0");
+        return false;
+    }
+    return textured_check(&arguments->textured, message);
 }
 
 /// Puts the picture onto a new object. It goes on where the object closes upon itself.
@@ -122,11 +127,14 @@ static ewa_status add_picture(const textured_arguments *textured, ewa_object obj
     return status;
 }
 
+/// What the radii of generated objects are meant for, as everywhere by default.
+static const double GENERATED_CUTOFF = 3;
+
 static ewa_cloud *make(cli_session *session, const void *data) {
     const generate_arguments *arguments = data;
     ewa_generate_options options;
     ewa_generate_options_init(&options, sizeof options);
-    options.object = (ewa_object)find_object(arguments->textured.output.common.operands[0]);
+    options.object = (ewa_object)find_object(arguments->textured.procedure.output.common.operands[0]);
     options.point_count = (uint64_t)arguments->point_count;
     options.seed = (uint64_t)arguments->seed;
     options.size_world = arguments->size_world;
@@ -138,16 +146,16 @@ static ewa_cloud *make(cli_session *session, const void *data) {
     ewa_image picture;
     if (!textured_load(session, &arguments->textured, &picture)) return NULL;
     options.texcoords = picture.pixels != NULL;
-    session->subject = arguments->textured.output.path;
+    session->subject = arguments->textured.procedure.output.path;
     ewa_cloud *cloud = NULL;
     ewa_status status = ewa_cloud_generate(session->context, &options, &cloud);
     if (status == EWA_OK && picture.pixels)
         status = add_picture(&arguments->textured, options.object, &picture, cloud);
     ewa_image_free(&picture);
-    if (status != EWA_OK) {
-        session_failed(session, status);
+    if (status != EWA_OK) session_failed(session, status);
+    if (status != EWA_OK ||
+        !procedure_apply(session, &arguments->textured.procedure, GENERATED_CUTOFF, cloud))
         ewa_cloud_destroy(&cloud);
-    }
     return cloud;
 }
 
@@ -155,7 +163,8 @@ static int run(const void *data) { return cloud_output_run(data, make); }
 
 static const option_group object_options = {"Object", object_table,
                                             sizeof object_table / sizeof object_table[0]};
-static const option_group *const groups[] = {&cloud_output_options, &object_options, &textured_options};
+static const option_group *const groups[] = {&cloud_output_options, &object_options, &procedure_options,
+                                             &textured_options};
 
 const cli_command generate_command = {
     .name = "generate",

@@ -84,7 +84,7 @@ static void set_defaults(void *data) {
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const sample_arguments *arguments = data;
-    return cloud_output_check(&arguments->textured.output, message);
+    return textured_check(&arguments->textured, message);
 }
 
 static bool has_picture(const ewa_mesh *mesh) {
@@ -95,7 +95,7 @@ static bool has_picture(const ewa_mesh *mesh) {
 
 static ewa_cloud *make(cli_session *session, const void *data) {
     const sample_arguments *arguments = data;
-    const char *path = arguments->textured.output.common.operands[0];
+    const char *path = arguments->textured.procedure.output.common.operands[0];
     ewa_mesh_sample_options options;
     ewa_mesh_sample_options_init(&options, sizeof options);
     options.point_count = (uint64_t)arguments->point_count;
@@ -129,6 +129,8 @@ static ewa_cloud *make(cli_session *session, const void *data) {
     }
     ewa_mesh_free(&mesh);
     ewa_image_free(&picture);
+    if (cloud && !procedure_apply(session, &arguments->textured.procedure, arguments->cutoff, cloud))
+        ewa_cloud_destroy(&cloud);
     return cloud;
 }
 
@@ -136,7 +138,8 @@ static int run(const void *data) { return cloud_output_run(data, make); }
 
 static const option_group sample_options = {"Sampling", sample_table,
                                             sizeof sample_table / sizeof sample_table[0]};
-static const option_group *const groups[] = {&cloud_output_options, &sample_options, &textured_options};
+static const option_group *const groups[] = {&cloud_output_options, &sample_options, &procedure_options,
+                                             &textured_options};
 
 const cli_command sample_command = {
     .name = "sample",

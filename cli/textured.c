@@ -4,6 +4,8 @@
 // Options for pictures on points.
 #include "textured.h"
 
+#include <stdio.h>
+
 #define AT(member) offsetof(textured_arguments, member)
 
 static const cli_option table[] = {
@@ -30,10 +32,19 @@ static const cli_option table[] = {
 const option_group textured_options = {"Texture", table, sizeof table / sizeof table[0]};
 
 void textured_set_defaults(textured_arguments *arguments) {
+    procedure_set_defaults(&arguments->procedure);
     ewa_acquire_options options;
     ewa_acquire_options_init(&options, sizeof options);
     arguments->filter = (int)options.filter;
     arguments->pixel_sigma_px = options.pixel_sigma_px;
+}
+
+bool textured_check(const textured_arguments *arguments, char message[OPTION_ERROR_BYTES]) {
+    if (arguments->picture && arguments->procedure.procedure) {
+        snprintf(message, OPTION_ERROR_BYTES, "--texture and --procedure exclude each other");
+        return false;
+    }
+    return procedure_check(&arguments->procedure, message);
 }
 
 bool textured_load(cli_session *session, const textured_arguments *arguments, ewa_image *picture) {

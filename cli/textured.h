@@ -5,20 +5,23 @@
 #ifndef EWA_CLI_TEXTURED_H
 #define EWA_CLI_TEXTURED_H
 
-#include "cloud_output.h"
+#include "procedure.h"
 
 /// What the arguments of such a command begin with.
 typedef struct textured_arguments {
-    output_arguments output; // first
-    const char *picture;     ///< NULL: none
-    int filter;              ///< ewa_texture_filter
+    procedure_arguments procedure; // first
+    const char *picture;           ///< NULL: none
+    int filter;                    ///< ewa_texture_filter
     double pixel_sigma_px;
 } textured_arguments;
 
-/// The options of textured_arguments but for the output's.
+/// The options of textured_arguments but for those of procedure_arguments.
 extern const option_group textured_options;
 
 void textured_set_defaults(textured_arguments *arguments);
+
+/// Says in `message` what is wrong with the options together, also those of procedure_arguments.
+bool textured_check(const textured_arguments *arguments, char message[OPTION_ERROR_BYTES]);
 
 /// Reads the picture that was asked for. Returns false after reporting; the caller frees `*picture`, which is
 /// zeroed when there is none.

@@ -166,7 +166,7 @@ static ewa_status solve(optimal_job *job, const ewa_acquire_options *options, ew
     ewa_context *context = job->set->context;
     const uint32_t count = job->set->count, channels = job->channel_count;
     const ewa_sparse matrix = {count, job->row_starts, job->columns, job->values};
-    const ewa_sparse_options how = {.tolerance = SOLUTION_TOLERANCE};
+    ewa_sparse_options how = {.tolerance = SOLUTION_TOLERANCE, .unsolved_severity = EWA_SEVERITY_INFO};
     const double scale = job->fit == EWA_FIT_SUM ? mean_sum(job) : 1;
     ewa_sparse_report solved = {0};
     ewa_status status = EWA_ERROR_NUMERIC;
@@ -176,6 +176,7 @@ static ewa_status solve(optimal_job *job, const ewa_acquire_options *options, ew
         if (try) ewa_report(context, EWA_SEVERITY_INFO, "texture: not definite, the ridge becomes %g", next);
         add_ridge(job, next - ridge, try ? 0 : 1);
         ridge = next;
+        if (try == RIDGE_TRIES - 1) how.unsolved_severity = EWA_SEVERITY_ERROR;
         status = ewa_sparse_solve(context, &matrix, channels, job->sides, job->solution, &how, &solved);
     }
     if (status != EWA_OK) return status;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 //
 // The sparse solver's front: checks, choice of the method, residuals.
-#include "base/base.h"
 #include "prepare/sparse_parts.h"
 
 #include <math.h>
@@ -54,7 +53,7 @@ static void check_block(void *data, uint32_t block, uint32_t worker) {
     job->bad[block] = (uint8_t)worst;
 }
 
-static ewa_status check(ewa_context *context, const check_job *job) {
+static ewa_status check(ewa_context *context, ewa_severity severity, const check_job *job) {
     const uint32_t blocks = sparse_block_count(job->matrix);
     ewa_parallel(context, check_block, (void *)job, blocks);
     for (uint32_t block = 0; block < blocks; block++) {
@@ -67,9 +66,10 @@ static ewa_status check(ewa_context *context, const check_job *job) {
                             "solve: the columns of row %u are not ascending and below %u", row,
                             job->matrix->size);
         if (what == BAD_NUMBER)
-            return ewa_fail(context, EWA_ERROR_NUMERIC, "solve: row %u has a number that is not finite", row);
-        return ewa_fail(context, EWA_ERROR_NUMERIC,
-                        "solve: the matrix is not positive definite: row %u has no positive diagonal", row);
+            return ewa_sparse_refuse(context, severity, "solve: row %u has a number that is not finite", row);
+        return ewa_sparse_refuse(
+            context, severity, "solve: the matrix is not positive definite: row %u has no positive diagonal",
+            row);
     }
     return EWA_OK;
 }
@@ -169,7 +169,7 @@ static ewa_status make_factor(solve_job *job) {
                         (unsigned long long)bytes, (unsigned long long)job->options.max_factor_bytes);
     }
     job->report.factor_bytes = bytes;
-    return ewa_sparse_factor_make(job->factor);
+    return ewa_sparse_factor_make(job->factor, job->options.unsolved_severity);
 }
 
 /// Solves for what is in job->sides by the factor, else by gradients; where those take long, AUTO makes a
@@ -182,7 +182,8 @@ static ewa_status find_solution(solve_job *job, uint32_t count, uint32_t *iterat
                                 .residual = job->residual,
                                 .partial = job->partial,
                                 .tolerance = job->options.tolerance,
-                                .max_iterations = job->options.max_iterations};
+                                .max_iterations = job->options.max_iterations,
+                                .unsolved_severity = job->options.unsolved_severity};
     if (job->factor) {
         *iterations = 1;
         return apply_factor(job, count);
@@ -208,11 +209,12 @@ static ewa_status solve_group(solve_job *job, uint32_t count) {
     const double residual = largest_residual(residual2, side2, count);
     // What a recurrence calls converged may, recomputed, be a little off.
     if (!(residual <= 2 * job->options.tolerance))
-        return ewa_fail(job->context, EWA_ERROR_NUMERIC,
-                        "solve: the residual of %u rows is %.3g after %u %s, must be %.3g; the matrix is "
-                        "singular or nearly so",
-                        job->matrix->size, residual, iterations, job->factor ? "refinement" : "iterations",
-                        job->options.tolerance);
+        return ewa_sparse_refuse(
+            job->context, job->options.unsolved_severity,
+            "solve: the residual of %u rows is %.3g after %u %s, must be %.3g; the matrix is "
+            "singular or nearly so",
+            job->matrix->size, residual, iterations, job->factor ? "refinement" : "iterations",
+            job->options.tolerance);
     job->report.residual = fmax(job->report.residual, residual);
     if (iterations > job->report.iterations) job->report.iterations = iterations;
     return EWA_OK;
@@ -254,7 +256,7 @@ ewa_status ewa_sparse_solve(ewa_context *context, const ewa_sparse *matrix, uint
     job.partial = ewa_allocate(context, (size_t)blocks * 2 * SPARSE_SIDES, sizeof(double));
     ewa_status status = EWA_ERROR_MEMORY;
     if (bad && job.sides && job.solution && job.residual && job.partial)
-        status = check(context, &(check_job){matrix, sides, side_count, bad});
+        status = check(context, job.options.unsolved_severity, &(check_job){matrix, sides, side_count, bad});
     if (status == EWA_OK) status = ewa_progress(context, "solve", 0);
     const ewa_sparse_method method = job.options.method;
     if (status == EWA_OK &&

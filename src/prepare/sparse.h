@@ -24,9 +24,10 @@ typedef enum ewa_sparse_method {
 
 typedef struct ewa_sparse_options {
     ewa_sparse_method method;
-    double tolerance;          ///< largest |b - A x| / |b| that is a solution; 0: 1e-10
-    uint32_t max_iterations;   ///< of the gradient; 0: 5000
-    uint64_t max_factor_bytes; ///< of the factor's numbers and indices; 0: 1 GiB
+    double tolerance;               ///< largest |b - A x| / |b| that is a solution; 0: 1e-10
+    uint32_t max_iterations;        ///< of the gradient; 0: 5000
+    uint64_t max_factor_bytes;      ///< of the factor's numbers and indices; 0: 1 GiB
+    ewa_severity unsolved_severity; ///< of the message with EWA_ERROR_NUMERIC; 0: an error
 } ewa_sparse_options;
 
 /// What was done.

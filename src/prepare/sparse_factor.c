@@ -6,7 +6,6 @@
 //
 // CHOLMOD's memory comes from malloc(): its allocator is one set of function pointers for the whole process
 // (SuiteSparse_config), which a library must not change under others' feet, and they carry no user pointer.
-#include "base/base.h"
 #include "prepare/sparse_parts.h"
 
 #include <cholmod.h>
@@ -84,7 +83,7 @@ ewa_status ewa_sparse_factor_analyse(ewa_context *context, const ewa_sparse *mat
     return EWA_OK;
 }
 
-ewa_status ewa_sparse_factor_make(sparse_factor *self) {
+ewa_status ewa_sparse_factor_make(sparse_factor *self, ewa_severity unsolved_severity) {
     const size_t size = self->matrix.nrow;
     // The lower half in the factor's order, transposed: the upper one, by columns, as cholmod_rowfac takes
     // it.
@@ -98,10 +97,11 @@ ewa_status ewa_sparse_factor_make(sparse_factor *self) {
         if (first == end) continue;
         cholmod_rowfac(ordered, NULL, shift, first, end, self->factor, &self->common);
         if (self->common.status == CHOLMOD_NOT_POSDEF || self->factor->minor < size)
-            status = ewa_fail(self->context, EWA_ERROR_NUMERIC,
-                              "solve: the matrix of %zu rows is not positive definite: the pivot of row %d "
-                              "is not positive",
-                              size, ((const int *)self->factor->Perm)[self->factor->minor]);
+            status = ewa_sparse_refuse(
+                self->context, unsolved_severity,
+                "solve: the matrix of %zu rows is not positive definite: the pivot of row %d "
+                "is not positive",
+                size, ((const int *)self->factor->Perm)[self->factor->minor]);
         else if (self->common.status != CHOLMOD_OK)
             status = fail(self, "factor");
         else

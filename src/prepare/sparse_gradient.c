@@ -7,7 +7,6 @@
 // Based on Y. Saad, "Iterative methods for sparse linear systems", 2003, algorithm 9.1, with the symmetric
 // Gauss-Seidel preconditioner (section 10.2) inside of blocks of rows that do not see each other, so that
 // blocks are independent tasks and their sums have a fixed order.
-#include "base/base.h"
 #include "prepare/sparse_parts.h"
 
 #include <math.h>
@@ -154,9 +153,10 @@ static ewa_status iterate(ewa_context *context, gradient_state *state, uint32_t 
             ewa_sparse_sum(job->partial, blocks, pair[0]);
             for (uint32_t s = 0; s < count; s++) {
                 if (old[s] > 0 && !(pair[0][s] > 0))
-                    return ewa_fail(context, EWA_ERROR_NUMERIC,
-                                    "solve: the matrix of %u rows is not positive definite (step %u)",
-                                    job->matrix->size, *iterations);
+                    return ewa_sparse_refuse(
+                        context, job->unsolved_severity,
+                        "solve: the matrix of %u rows is not positive definite (step %u)", job->matrix->size,
+                        *iterations);
                 state->alpha[s] = old[s] > 0 ? old[s] / pair[0][s] : 0;
             }
         }

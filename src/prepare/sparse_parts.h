@@ -5,6 +5,7 @@
 #ifndef EWA_SRC_PREPARE_SPARSE_PARTS_H
 #define EWA_SRC_PREPARE_SPARSE_PARTS_H
 
+#include "base/base.h"
 #include "prepare/sparse.h"
 
 enum {
@@ -20,6 +21,10 @@ static inline uint32_t sparse_block_end(const ewa_sparse *matrix, uint32_t block
     const uint64_t end = ((uint64_t)block + 1) * SPARSE_BLOCK_ROWS;
     return end < matrix->size ? (uint32_t)end : matrix->size;
 }
+
+/// Reports why there is no solution and returns EWA_ERROR_NUMERIC.
+#define ewa_sparse_refuse(context, severity, ...)                                                            \
+    (ewa_report(context, severity, __VA_ARGS__), EWA_ERROR_NUMERIC)
 
 /// Adds up [block_count][SPARSE_SIDES] in order.
 void ewa_sparse_sum(const double *partial, uint32_t block_count, double sum[SPARSE_SIDES]);
@@ -39,7 +44,7 @@ ewa_status ewa_sparse_factor_analyse(ewa_context *context, const ewa_sparse *mat
                                      uint64_t *factor_bytes);
 
 /// Computes the numbers; tells progress.
-ewa_status ewa_sparse_factor_make(sparse_factor *factor);
+ewa_status ewa_sparse_factor_make(sparse_factor *factor, ewa_severity unsolved_severity);
 
 /// Writes A^-1 b for `count` tightly interleaved sides.
 ewa_status ewa_sparse_factor_apply(sparse_factor *factor, uint32_t count, const double *sides,
@@ -56,6 +61,7 @@ typedef struct sparse_gradient {
     double *solution, *residual, *partial;
     double tolerance;
     uint32_t max_iterations;
+    ewa_severity unsolved_severity;
 } sparse_gradient;
 ewa_status ewa_sparse_gradient_run(ewa_context *context, const sparse_gradient *job, uint32_t *iterations);
 

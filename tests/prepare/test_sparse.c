@@ -2,77 +2,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Sparse positive definite systems: known answers, both methods, what is not solvable, threads, memory.
-#include "check.h"
+#include "check_prepare.h"
+#include "gram.h"
 #include "io/scratch.h"
-#include "prepare/sparse.h"
-
-#include <math.h>
-#include <string.h>
-
-/// A matrix with memory of its own.
-typedef struct owned {
-    ewa_sparse view;
-    uint64_t *row_starts;
-    uint32_t *columns;
-    double *values;
-} owned;
-
-static void owned_free(owned *matrix) {
-    free(matrix->row_starts);
-    free(matrix->columns);
-    free(matrix->values);
-}
-
-/// The inner products of Gaussians of deviation `sigma` at the jittered points of a side x side grid.
-static owned make_gram(uint32_t side, double sigma) {
-    const uint32_t size = side * side;
-    const int reach = 1 + (int)ceil(6 * sigma);
-    check_random random = {7};
-    double *at = malloc(2 * (size_t)size * sizeof *at);
-    const size_t most = (size_t)size * (size_t)((2 * reach + 1) * (2 * reach + 1));
-    owned made = {.row_starts = malloc((size + 1) * sizeof(uint64_t)),
-                  .columns = malloc(most * sizeof(uint32_t)),
-                  .values = malloc(most * sizeof(double))};
-    assert_true(at && made.row_starts && made.columns && made.values);
-    for (uint32_t i = 0; i < size; i++) {
-        at[2 * i] = i % side + check_uniform(&random, -0.3, 0.3);
-        at[2 * i + 1] = i / side + check_uniform(&random, -0.3, 0.3);
-    }
-    uint64_t entries = 0;
-    for (uint32_t i = 0; i < size; i++) {
-        made.row_starts[i] = entries;
-        for (int dy = -reach; dy <= reach; dy++)
-            for (int dx = -reach; dx <= reach; dx++) {
-                const int x = (int)(i % side) + dx, y = (int)(i / side) + dy;
-                if (x < 0 || y < 0 || x >= (int)side || y >= (int)side) continue;
-                const uint32_t j = (uint32_t)y * side + (uint32_t)x;
-                const double d2 = pow(at[2 * i] - at[2 * j], 2) + pow(at[2 * i + 1] - at[2 * j + 1], 2);
-                if (d2 > 36 * sigma * sigma) continue;
-                made.columns[entries] = j;
-                made.values[entries++] = exp(-d2 / (4 * sigma * sigma));
-            }
-    }
-    made.row_starts[size] = entries;
-    made.view = (ewa_sparse){size, made.row_starts, made.columns, made.values};
-    free(at);
-    return made;
-}
-
-/// Right sides whose solution is known, by a product.
-static double *make_sides(const ewa_sparse *matrix, uint32_t side_count, double **truth) {
-    check_random random = {11};
-    const size_t count = (size_t)matrix->size * side_count;
-    *truth = malloc(count * sizeof(double));
-    double *sides = calloc(count, sizeof(double));
-    assert_true(*truth && sides);
-    for (size_t i = 0; i < count; i++) (*truth)[i] = check_uniform(&random, -1, 1);
-    for (uint32_t row = 0; row < matrix->size; row++)
-        for (uint64_t k = matrix->row_starts[row]; k < matrix->row_starts[row + 1]; k++)
-            for (uint32_t s = 0; s < side_count; s++)
-                sides[(size_t)row * side_count + s] +=
-                    matrix->values[k] * (*truth)[(size_t)matrix->columns[k] * side_count + s];
-    return sides;
-}
 
 /// Both methods find the known solution, for one to seven right sides, in the same bytes for any number of
 /// threads.
@@ -248,19 +180,6 @@ static ewa_status solve_system(ewa_context *context, void *user) {
     return ewa_sparse_solve(context, system->matrix, 2, system->sides, system->solution, &options, NULL);
 }
 
-typedef struct stop_after {
-    int calls_left;
-    double last;
-} stop_after;
-
-static bool stop(void *user, const char *stage, double fraction) {
-    stop_after *after = user;
-    assert_string_equal(stage, "solve");
-    assert_true(fraction >= after->last && fraction <= 1);
-    after->last = fraction;
-    return after->calls_left-- > 0;
-}
-
 /// Progress grows to 1; it may cancel at any call; each allocation may fail; nothing leaks.
 static void test_cancel_and_memory(void **state) {
     (void)state;
@@ -271,22 +190,7 @@ static void test_cancel_and_memory(void **state) {
     for (int method = EWA_SPARSE_FACTOR; method <= EWA_SPARSE_GRADIENT; method++) {
         system_of_equations system = {&matrix.view, sides, solution, (ewa_sparse_method)method};
         scratch_fail_each(solve_system, &system);
-        for (int calls = 0;; calls++) {
-            stop_after after = {.calls_left = calls};
-            ewa_context_options options;
-            ewa_context_options_init(&options, sizeof options);
-            options.progress = stop;
-            options.progress_user = &after;
-            ewa_context *context = NULL;
-            assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
-            const ewa_status status = solve_system(context, &system);
-            ewa_context_destroy(&context);
-            if (status == EWA_OK) {
-                assert_true(after.last == 1 && calls > 3);
-                break;
-            }
-            assert_int_equal(status, EWA_CANCELLED);
-        }
+        assert_true(check_cancel_each("solve", solve_system, &system) > 3);
     }
     free(solution);
     free(sides);
