@@ -11,18 +11,18 @@
 
 #include <string.h>
 
-enum { TASK_POINTS = 1 << 10, STRETCH_POINTS = 1 << 17, BLOCK = 64 };
+enum { STRETCH_POINTS = 1 << 16 };
 
 /// What is darker than this share of opaque has no colour of its own to divide out.
 #define LEAST_ALPHA (1.0 / 512)
 
 typedef struct acquire_job {
+    ewa_acquire_stretch stretch; // first
     ewa_acquire_set set;
     const ewa_acquire_options *options;
     const ewa_image *images;
     const ewa_attribute *position, *normal, *radius, *tangent[2], *clip[2], *clip_mode;
     const ewa_attribute *texcoord, *gradient[2], *texture, *part, *color;
-    uint32_t first_point, end_point; ///< of the present stretch
     double (*colors)[4];
     uint32_t channel_count;
     float *output;
@@ -215,9 +215,8 @@ static void read_chart(const acquire_job *job, uint64_t index, ewa_acquire_point
 static void read_points(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const acquire_job *job = data;
-    const uint32_t first = job->first_point + part * TASK_POINTS;
-    const uint32_t end = job->end_point - first < TASK_POINTS ? job->end_point : first + TASK_POINTS;
-    for (uint32_t i = first; i < end; i++) {
+    const ewa_acquire_stretch range = ewa_acquire_range(&job->stretch, part);
+    for (uint32_t i = range.first; i < range.end; i++) {
         ewa_acquire_point *point = &job->set.points[i];
         const uint64_t index = job->set.order[i];
         *point = (ewa_acquire_point){0};
@@ -237,9 +236,8 @@ static void filter_points(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const acquire_job *job = data;
     const ewa_acquire_set *set = &job->set;
-    const uint32_t first = job->first_point + part * TASK_POINTS;
-    const uint32_t end = job->end_point - first < TASK_POINTS ? job->end_point : first + TASK_POINTS;
-    for (uint32_t i = first; i < end; i++) {
+    const ewa_acquire_stretch range = ewa_acquire_range(&job->stretch, part);
+    for (uint32_t i = range.first; i < range.end; i++) {
         const ewa_acquire_point *point = &set->points[i];
         double *color = job->colors[i];
         if (job->options->filter != EWA_TEXTURE_NEAREST && is_surfel(point)) {
@@ -259,9 +257,8 @@ static void filter_points(void *data, uint32_t part, uint32_t worker) {
 static void write_points(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const acquire_job *job = data;
-    const uint32_t first = job->first_point + part * TASK_POINTS;
-    const uint32_t end = job->end_point - first < TASK_POINTS ? job->end_point : first + TASK_POINTS;
-    for (uint32_t i = first; i < end; i++) {
+    const ewa_acquire_stretch range = ewa_acquire_range(&job->stretch, part);
+    for (uint32_t i = range.first; i < range.end; i++) {
         float *to = job->output + (size_t)job->set.order[i] * job->channel_count;
         const double *color = job->colors[i];
         const bool divides = job->channel_count == 4 && color[3] > LEAST_ALPHA;
@@ -270,16 +267,16 @@ static void write_points(void *data, uint32_t part, uint32_t worker) {
     }
 }
 
-static ewa_status run_over(acquire_job *job, ewa_task *task, double begin, double end) {
-    const uint32_t count = job->set.count;
-    for (job->first_point = 0; job->first_point < count; job->first_point = job->end_point) {
-        const double share = (double)job->first_point / count;
-        const ewa_status status = ewa_progress(job->set.context, "texture", begin + share * (end - begin));
+ewa_status ewa_acquire_run(const ewa_acquire_set *set, ewa_task *task, ewa_acquire_stretch *stretch,
+                           double begin, double end) {
+    for (stretch->first = 0; stretch->first < set->count; stretch->first = stretch->end) {
+        const double share = (double)stretch->first / set->count;
+        const ewa_status status = ewa_progress(set->context, "texture", begin + share * (end - begin));
         if (status != EWA_OK) return status;
-        job->end_point =
-            count - job->first_point < STRETCH_POINTS ? count : job->first_point + STRETCH_POINTS;
-        ewa_parallel(job->set.context, task, job,
-                     (job->end_point - job->first_point + TASK_POINTS - 1) / TASK_POINTS);
+        const uint32_t left = set->count - stretch->first;
+        stretch->end = left < STRETCH_POINTS ? set->count : stretch->first + STRETCH_POINTS;
+        ewa_parallel(set->context, task, stretch,
+                     (stretch->end - stretch->first + EWA_ACQUIRE_TASK_POINTS - 1) / EWA_ACQUIRE_TASK_POINTS);
     }
     return EWA_OK;
 }
@@ -346,6 +343,7 @@ static void survey(acquire_job *job, ewa_acquire_report *report) {
 static ewa_status run(ewa_cloud *cloud, acquire_job *job, ewa_acquire_report *report) {
     ewa_acquire_set *set = &job->set;
     ewa_context *context = set->context;
+    const bool is_optimal = job->options->filter == EWA_TEXTURE_OPTIMAL;
     ewa_status status = find_streams(cloud, job);
     if (status == EWA_OK) status = make_textures(job);
     if (status != EWA_OK) return status;
@@ -354,20 +352,20 @@ static ewa_status run(ewa_cloud *cloud, acquire_job *job, ewa_acquire_report *re
     job->colors = ewa_allocate(context, set->count, sizeof *job->colors);
     if (!set->order || !set->points || !job->colors) return EWA_ERROR_MEMORY;
     status = ewa_morton_order(context, job->position, set->count, set->order, NULL, NULL);
-    if (status == EWA_OK) status = run_over(job, read_points, 0, 0.1);
+    if (status == EWA_OK) status = ewa_acquire_run(set, read_points, &job->stretch, 0, 0.1);
     if (status != EWA_OK) return status;
     survey(job, report);
-    status = run_over(job, filter_points, 0.1, job->options->filter == EWA_TEXTURE_OPTIMAL ? 0.2 : 1);
-    if (status == EWA_OK && job->options->filter == EWA_TEXTURE_OPTIMAL)
+    status = ewa_acquire_run(set, filter_points, &job->stretch, 0.1, is_optimal ? 0.2 : 1);
+    if (status == EWA_OK && is_optimal)
         status = ewa_acquire_optimize(set, job->options, job->channel_count, job->colors, report);
     void *output = NULL;
     if (status == EWA_OK) status = ewa_progress(context, "texture", 1);
     if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_COLOR, EWA_F32, job->channel_count, &output);
     job->output = output;
-    for (uint32_t i = 0; i < set->count && status == EWA_OK; i = job->end_point) {
-        job->first_point = i;
-        job->end_point = set->count - i < STRETCH_POINTS ? set->count : i + STRETCH_POINTS;
-        ewa_parallel(context, write_points, job, (job->end_point - i + TASK_POINTS - 1) / TASK_POINTS);
+    if (status == EWA_OK) {
+        job->stretch = (ewa_acquire_stretch){0, set->count};
+        ewa_parallel(context, write_points, &job->stretch,
+                     (set->count + EWA_ACQUIRE_TASK_POINTS - 1) / EWA_ACQUIRE_TASK_POINTS);
     }
     return status;
 }

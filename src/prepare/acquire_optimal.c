@@ -18,7 +18,7 @@
 
 #include <string.h>
 
-enum { TASK_POINTS = 256, STRETCH_POINTS = 1 << 16, RIDGE_TRIES = 4 };
+enum { RIDGE_TRIES = 4 };
 
 /// The texture under a product that is smaller than a kernel's square by more than exp(-this) may as well be
 /// that under the kernel.
@@ -32,11 +32,12 @@ enum { TASK_POINTS = 256, STRETCH_POINTS = 1 << 16, RIDGE_TRIES = 4 };
 #define SOLUTION_TOLERANCE 1e-6
 
 typedef struct optimal_job {
+    ewa_acquire_stretch stretch; // first
     const ewa_acquire_set *set;
     ewa_acquire_grid grid;
     ewa_texture_fit fit;
-    uint32_t channel_count, first_point, end_point; ///< points of the present stretch
-    double scale;                                   ///< that makes a usual integral one
+    uint32_t channel_count;
+    double scale; ///< that makes a usual integral one
     double (*colors)[4];
     uint64_t *row_starts;
     uint32_t *columns;
@@ -45,29 +46,10 @@ typedef struct optimal_job {
     uint64_t *crowded;              ///< by worker: 1 + a point with too many partners
 } optimal_job;
 
-/// Calls a task for all points, with progress from `begin` to `end`.
-static ewa_status run_over(optimal_job *job, ewa_task *task, double begin, double end) {
-    const uint32_t count = job->set->count;
-    for (job->first_point = 0; job->first_point < count; job->first_point = job->end_point) {
-        const double share = (double)job->first_point / count;
-        const ewa_status status = ewa_progress(job->set->context, "texture", begin + share * (end - begin));
-        if (status != EWA_OK) return status;
-        job->end_point =
-            count - job->first_point < STRETCH_POINTS ? count : job->first_point + STRETCH_POINTS;
-        ewa_parallel(job->set->context, task, job,
-                     (job->end_point - job->first_point + TASK_POINTS - 1) / TASK_POINTS);
-    }
-    return EWA_OK;
-}
-
-static uint32_t task_end(const optimal_job *job, uint32_t first) {
-    return job->end_point - first < TASK_POINTS ? job->end_point : first + TASK_POINTS;
-}
-
 static void count_rows(void *data, uint32_t part, uint32_t worker) {
     const optimal_job *job = data;
-    const uint32_t first = job->first_point + part * TASK_POINTS, end = task_end(job, first);
-    for (uint32_t i = first; i < end; i++) {
+    const ewa_acquire_stretch range = ewa_acquire_range(&job->stretch, part);
+    for (uint32_t i = range.first; i < range.end; i++) {
         const uint32_t count = ewa_acquire_find(&job->grid, i, NULL);
         if (count > EWA_ACQUIRE_MAX_PAIRS) job->crowded[worker] = 1 + (uint64_t)job->set->order[i];
         job->row_starts[i + 1] = count;
@@ -118,9 +100,9 @@ static void fill_alone(const optimal_job *job, uint32_t row) {
 static void fill_rows(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const optimal_job *job = data;
-    const uint32_t first = job->first_point + part * TASK_POINTS, end = task_end(job, first);
+    const ewa_acquire_stretch range = ewa_acquire_range(&job->stretch, part);
     uint32_t others[EWA_ACQUIRE_MAX_PAIRS];
-    for (uint32_t i = first; i < end; i++) {
+    for (uint32_t i = range.first; i < range.end; i++) {
         const float *axis = job->set->points[i].axis[0];
         ewa_acquire_find(&job->grid, i, others);
         if (axis[0] != 0 || axis[1] != 0 || axis[2] != 0)
@@ -135,7 +117,7 @@ static ewa_status count_pairs(optimal_job *job) {
     const uint32_t workers = ewa_context_worker_count(context), count = job->set->count;
     job->crowded = ewa_allocate_zeroed(context, workers, sizeof *job->crowded);
     if (!job->crowded) return EWA_ERROR_MEMORY;
-    ewa_status status = run_over(job, count_rows, 0.2, 0.3);
+    ewa_status status = ewa_acquire_run(job->set, count_rows, &job->stretch, 0.2, 0.3);
     uint64_t crowded = 0;
     for (uint32_t w = 0; w < workers; w++) crowded = crowded > job->crowded[w] ? crowded : job->crowded[w];
     ewa_release(context, job->crowded, workers, sizeof *job->crowded);
@@ -163,8 +145,8 @@ static void add_ridge(const optimal_job *job, double more, double held) {
 static void subtract_filtered(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const optimal_job *job = data;
-    const uint32_t first = job->first_point + part * TASK_POINTS, end = task_end(job, first);
-    for (uint32_t row = first; row < end; row++) {
+    const ewa_acquire_stretch range = ewa_acquire_range(&job->stretch, part);
+    for (uint32_t row = range.first; row < range.end; row++) {
         double *side = job->sides + (size_t)row * job->channel_count;
         for (uint64_t k = job->row_starts[row]; k < job->row_starts[row + 1]; k++)
             for (uint32_t c = 0; c < job->channel_count; c++)
@@ -232,8 +214,8 @@ ewa_status ewa_acquire_optimize(const ewa_acquire_set *set, const ewa_acquire_op
         job.values = ewa_allocate(context, pairs, sizeof *job.values);
         if (!job.columns || !job.values) status = EWA_ERROR_MEMORY;
     }
-    if (status == EWA_OK) status = run_over(&job, fill_rows, 0.3, 0.95);
-    if (status == EWA_OK) status = run_over(&job, subtract_filtered, 0.95, 1);
+    if (status == EWA_OK) status = ewa_acquire_run(set, fill_rows, &job.stretch, 0.3, 0.95);
+    if (status == EWA_OK) status = ewa_acquire_run(set, subtract_filtered, &job.stretch, 0.95, 1);
     ewa_acquire_grid_free(&job.grid);
     if (status == EWA_OK) status = solve(&job, options, report);
     ewa_release(context, job.row_starts, count + 1, sizeof *job.row_starts);

@@ -27,7 +27,6 @@ ewa_status acquire_checker(ewa_context *context, uint32_t size_px, uint32_t chec
 
 /// Weight of a texture pixel at `distance` pixels of the texture.
 static double kernel(const acquire_scene *scene, double distance) {
-    if (scene->pixel_sigma_px <= 0) return fmax(0, 1 - fabs(distance));
     const double u = distance / scene->pixel_sigma_px;
     return fabs(u) < 5 ? exp(-0.5 * u * u) : 0;
 }
@@ -37,7 +36,7 @@ static double *make_shares(const acquire_scene *scene, uint32_t size_px) {
     double *shares = calloc((size_t)ACQUIRE_SIDE * size_px, sizeof *shares);
     double *one = calloc(size_px, sizeof *one);
     const double px_per_view = size_px / (ACQUIRE_ROW * scene->view_px_per_cell);
-    const double reach = scene->pixel_sigma_px > 0 ? 5 * scene->pixel_sigma_px + 1 : 2;
+    const double reach = 5 * scene->pixel_sigma_px + 1;
     for (int v = 0; shares && one && v < ACQUIRE_SIDE; v++) {
         double *row = shares + (size_t)v * size_px, total = 0;
         for (int i = 0; i < SAMPLES; i++) {

@@ -10,13 +10,13 @@
 
 enum { ACQUIRE_ROW = 512, ACQUIRE_SIDE = 256 };
 
-/// A plane of ACQUIRE_ROW^2 surfels, one anywhere in each cell of a grid. The unit of length is a cell.
+/// A plane of ACQUIRE_ROW^2 surfels, one in each cell of a grid. The unit of length is a cell.
 typedef struct acquire_scene {
     ewa_context *context;
     ewa_image texture;
     double radius_scale, jitter;
     double view_px_per_cell;
-    double pixel_sigma_px; ///< of the texture's pixels, in acquisition and truth; 0: truth is bilinear
+    double pixel_sigma_px; ///< of the texture's pixels, in acquisition and truth
 } acquire_scene;
 
 /// Makes a checkerboard of `size_px` pixels in squares of `check_px`.

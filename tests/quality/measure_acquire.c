@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Prints the tables of docs/acquisition.md, and writes their pictures when a folder is given: a checkerboard
-// (and a photograph, when its path follows) on irregular points, by every filter, from far away to very near.
+// Prints a table of docs/acquisition.md: a checkerboard (and a photograph, when its path is the second
+// argument) on irregular points, by every filter, from far away to very near. With a folder as first argument
+// ("": none), the first setting only, and its pictures.
 #include "quality/acquire_scene.h"
 
 #include <stdio.h>
@@ -50,8 +51,7 @@ static void measure(acquire_scene *scene, const char *name, const char *folder) 
         options.filter = ways[w].filter;
         options.fit = ways[w].fit;
         options.wrap_s = options.wrap_t = EWA_TEXTURE_CLAMP;
-        if (scene->pixel_sigma_px > 0) options.pixel_sigma_px = scene->pixel_sigma_px;
-        if (getenv("RIDGE")) options.ridge = atof(getenv("RIDGE"));
+        options.pixel_sigma_px = scene->pixel_sigma_px;
         ewa_cloud *cloud = NULL;
         check(acquire_points(scene, &cloud), "points");
         check(ewa_cloud_acquire(cloud, &scene->texture, 1, &options, &reports[w]), ways[w].name);
@@ -72,7 +72,7 @@ static void measure(acquire_scene *scene, const char *name, const char *folder) 
         printf("| %s | %.3g | %g | %s |", name, scene->radius_scale, scene->pixel_sigma_px, ways[w].name);
         for (int v = 0; v < VIEWS; v++)
             printf(" %.2f (%+.0f %%) |", 100 * rms[w][v], 100 * (rms[w][v] / rms[1][v] - 1));
-        printf(" %.2g | %u |\n", reports[w].gradient, reports[w].iterations);
+        printf(" %u |\n", reports[w].iterations);
     }
 }
 
@@ -80,28 +80,24 @@ int main(int argument_count, char **arguments) {
     const char *folder = argument_count > 1 && *arguments[1] ? arguments[1] : NULL;
     ewa_context *context = NULL;
     check(ewa_context_create(NULL, &context), "context");
-    static const double radii[] = {1.14, 1.44, 1.6};
-    static const double sigmas[] = {1, 0.5, 0};
-    printf("| picture | radius / spacing | pixel sigma | filter | minified | magnified | extreme | gradient "
-           "| iterations |\n"
-           "|---|---|---|---|---|---|---|---|---|\n");
-    for (int r = 0; r < 3; r++) {
-        if (getenv("ONLY") && r != atoi(getenv("ONLY"))) continue;
-        for (int s = 0; s < 3; s++) {
-            if (getenv("SIG") && s != atoi(getenv("SIG"))) continue;
-            acquire_scene scene = {.context = context,
-                                   .radius_scale = radii[r],
-                                   .jitter = radii[r] < 1.2 ? 0.5 : 1,
-                                   .pixel_sigma_px = sigmas[s]};
-            check(acquire_checker(context, 1024, 8, &scene.texture), "checker");
-            measure(&scene, "checker", r == 1 && s == 0 ? folder : NULL);
-            ewa_image_free(&scene.texture);
-            if (argument_count > 2) {
-                check(ewa_image_load(context, arguments[2], &scene.texture), arguments[2]);
-                measure(&scene, "photo", r == 1 && s == 0 ? folder : NULL);
-                ewa_image_free(&scene.texture);
-            }
-        }
+    static const struct {
+        double radius_scale, jitter, pixel_sigma_px;
+    } settings[] = {{1.44, 1, 1}, {1.44, 1, 0.5}, {1.14, 0.5, 1}, {1.14, 0.5, 0.5}};
+    printf("| picture | radius / spacing | pixel sigma | filter | minified | magnified | extreme | "
+           "iterations |\n"
+           "|---|---|---|---|---|---|---|---|\n");
+    for (size_t i = 0; i < (folder ? 1 : sizeof settings / sizeof settings[0]); i++) {
+        acquire_scene scene = {.context = context,
+                               .radius_scale = settings[i].radius_scale,
+                               .jitter = settings[i].jitter,
+                               .pixel_sigma_px = settings[i].pixel_sigma_px};
+        check(acquire_checker(context, 1024, 8, &scene.texture), "checker");
+        measure(&scene, "checker", folder);
+        ewa_image_free(&scene.texture);
+        if (argument_count < 3) continue;
+        check(ewa_image_load(context, arguments[2], &scene.texture), arguments[2]);
+        measure(&scene, "photo", folder);
+        ewa_image_free(&scene.texture);
     }
     ewa_context_destroy(&context);
     return 0;
