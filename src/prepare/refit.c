@@ -152,7 +152,7 @@ static double rms(const refit_job *job, const double sum[2 * CHANNELS]) {
 }
 
 static ewa_status solve(refit_job *job, ewa_refit_report *report) {
-    double sum[2 * CHANNELS], old[CHANNELS] = {0}, goal[CHANNELS] = {0}, most_start = 1;
+    double sum[2 * CHANNELS], old[CHANNELS] = {0}, goal[CHANNELS] = {0}, most_start = 1, share = 0;
     run_blocks(job, start_block, sum);
     report->before_rms = report->after_rms = rms(job, sum);
     for (uint32_t step = 0;; step++) {
@@ -168,7 +168,8 @@ static ewa_status solve(refit_job *job, ewa_refit_report *report) {
         if (step == 0) most_start = most;
         report->iteration_count = step;
         if (most == 0 || step == MOST_STEPS) return ewa_progress(job->context, "refit", 1);
-        const double share = most < most_start ? log(most_start / most) / log(most_start) : 0;
+        // The gradient does not shrink in every step.
+        if (most < most_start) share = fmax(share, log(most_start / most) / log(most_start));
         const ewa_status status = ewa_progress(job->context, "refit", 0.3 + 0.7 * share);
         if (status != EWA_OK) return status;
         ewa_parallel(job->context, turn_block, job, job->block_count);

@@ -141,7 +141,8 @@ static ewa_status iterate(ewa_context *context, gradient_state *state, uint32_t 
     const sparse_gradient *job = state->job;
     const uint32_t count = job->count, blocks = sparse_block_count(job->matrix);
     const size_t bytes = (size_t)job->matrix->size * count * sizeof(double);
-    double old[SPARSE_SIDES] = {0}, goal[SPARSE_SIDES] = {0}, pair[2][SPARSE_SIDES], most_start = 0;
+    double old[SPARSE_SIDES] = {0}, goal[SPARSE_SIDES] = {0}, pair[2][SPARSE_SIDES], most_start = 0,
+           share = 0;
     memset(job->solution, 0, bytes);
     memset(state->direction, 0, bytes);
     memset(state->product, 0, bytes);
@@ -177,7 +178,8 @@ static ewa_status iterate(ewa_context *context, gradient_state *state, uint32_t 
         if (*iterations == 0) most_start = most;
         if (most == 0 || *iterations == job->max_iterations) return EWA_OK;
         ewa_parallel(context, turn_block, state, blocks);
-        const double share = most < most_start ? log(most_start / most) / log(most_start) : 0;
+        // Residuals do not shrink in every step.
+        if (most < most_start) share = fmax(share, log(most_start / most) / log(most_start));
         const ewa_status status = ewa_progress(context, "solve", 0.99 * share);
         if (status != EWA_OK) return status;
     }
