@@ -16,7 +16,9 @@ extern "C" {
 /// Streams that say where points are on a picture: "texcoord" F32 2 (s, t), (0, 0) bottom left and (1, 1) top
 /// right of the picture; "texcoord_s" and "texcoord_t" F32 3, what s and t gain along the surface, per world
 /// unit (gradients within the surface); "texture" 1 (an integer type), which picture it is, the first without
-/// this stream. Points whose coordinates are not finite, or of a picture that there is not, have no texture.
+/// this stream; "texture_part" 1 (an integer type), which part of the surface between sharp edges: kernels of
+/// different parts have nothing to do with each other; without it clip lines tell that. Points whose
+/// coordinates are not finite, or of a picture that there is not, have no texture.
 #define EWA_TEXCOORD     "texcoord"
 #define EWA_TEXCOORD_S   "texcoord_s"
 #define EWA_TEXCOORD_T   "texcoord_t"
