@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "inputs.h"
 #include "json.h"
+#include "procedure.h"
 
 #include <float.h>
 #include <math.h>
@@ -14,12 +15,17 @@
 #include <string.h>
 
 typedef struct convert_arguments {
-    output_arguments output; // first
+    procedure_arguments procedure; // first
     option_vector crop, transform, scale, translate;
     double subsample; ///< 0: all points; under 1: a share; else a count
+    int refit;        ///< REFIT_*
+    double cutoff;
 } convert_arguments;
 
 #define AT(member) offsetof(convert_arguments, member)
+
+/// In the order of the words of --refit-colors.
+enum { REFIT_OFF, REFIT_INTERPOLATE, REFIT_FIT };
 
 static const cli_option change_table[] = {
     {.key = "crop",
@@ -59,11 +65,31 @@ static const cli_option change_table[] = {
      .low = 3,
      .high = 3,
      .help = "add to coordinates"},
+    {.key = "refit-colors",
+     .kind = OPTION_CHOICE,
+     .offset = AT(refit),
+     .range = "off|interpolate|fit",
+     .help = "turn colours into coefficients, so that pictures of the surfels are sharper: they show each "
+             "point's colour at the point, or nearly (fit: for noisy or aliased colours)"},
+    {.key = "cutoff",
+     .kind = OPTION_NUMBER,
+     .offset = AT(cutoff),
+     .value = "F",
+     .range = "(0, 4]",
+     .help = "standard deviations at which kernels end, as for ewa render, where colours are made"},
 };
+
+static void set_defaults(void *data) {
+    convert_arguments *arguments = data;
+    procedure_set_defaults(&arguments->procedure);
+    ewa_refit_options refit;
+    ewa_refit_options_init(&refit, sizeof refit);
+    arguments->cutoff = refit.cutoff;
+}
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const convert_arguments *arguments = data;
-    if (!cloud_output_check(&arguments->output, message)) return false;
+    if (!procedure_check(&arguments->procedure, message)) return false;
     const char *problem = NULL;
     if (arguments->scale.count == 2)
         problem = "--scale: two numbers are neither s nor x,y,z";
@@ -167,13 +193,49 @@ static bool move(cli_session *session, ewa_cloud *cloud, const convert_arguments
     return status == EWA_OK;
 }
 
+/// Estimates normals and radii that the cloud lacks for new colours; returns false after reporting.
+static bool complete(cli_session *session, ewa_cloud **cloud, const convert_arguments *arguments) {
+    const bool wanted = arguments->refit != REFIT_OFF ||
+                        (arguments->procedure.procedure && arguments->procedure.prefilter > 0);
+    if (!wanted || cloud_is_drawable(*cloud)) return true;
+    ewa_estimate_options options;
+    ewa_estimate_options_init(&options, sizeof options);
+    options.cutoff = arguments->cutoff;
+    const ewa_status status = ewa_cloud_estimate(cloud, &options);
+    if (status != EWA_OK) session_failed(session, status);
+    return status == EWA_OK;
+}
+
+/// Turns colours into coefficients.
+static bool refit(cli_session *session, ewa_cloud *cloud, const convert_arguments *arguments) {
+    const double started_s = clock_now_s();
+    ewa_refit_options options;
+    ewa_refit_options_init(&options, sizeof options);
+    options.goal = arguments->refit == REFIT_FIT ? EWA_REFIT_FIT : EWA_REFIT_INTERPOLATE;
+    options.cutoff = arguments->cutoff;
+    ewa_refit_report report;
+    const ewa_status status = ewa_cloud_refit_colors(cloud, &options, &report);
+    if (status != EWA_OK)
+        session_failed(session, status);
+    else
+        session_say(
+            session,
+            "colours refitted in %.3f s, %u steps: error at the points %.4f -> %.4f, coefficients %.3g "
+            "to %.3g",
+            clock_now_s() - started_s, report.iteration_count, report.before_rms, report.after_rms,
+            (double)report.low, (double)report.high);
+    return status == EWA_OK;
+}
+
 static ewa_cloud *make(cli_session *session, const void *data) {
     const convert_arguments *arguments = data;
-    ewa_cloud *cloud = inputs_merge(session, &arguments->output.common);
-    if (arguments->output.common.operand_count > 1) session->subject = NULL;
+    ewa_cloud *cloud = inputs_merge(session, &arguments->procedure.output.common);
+    if (arguments->procedure.output.common.operand_count > 1) session->subject = NULL;
     const bool done = cloud && (!arguments->crop.count || crop(session, &cloud, arguments->crop.values)) &&
                       (arguments->subsample == 0 || subsample(session, &cloud, arguments->subsample)) &&
-                      move(session, cloud, arguments);
+                      move(session, cloud, arguments) && complete(session, &cloud, arguments) &&
+                      procedure_apply(session, &arguments->procedure, arguments->cutoff, cloud) &&
+                      (arguments->refit == REFIT_OFF || refit(session, cloud, arguments));
     if (!done) ewa_cloud_destroy(&cloud);
     return cloud;
 }
@@ -182,7 +244,7 @@ static int run(const void *data) { return cloud_output_run(data, make); }
 
 static const option_group change_options = {"Changes, in this order", change_table,
                                             sizeof change_table / sizeof change_table[0]};
-static const option_group *const groups[] = {&cloud_output_options, &change_options};
+static const option_group *const groups[] = {&cloud_output_options, &change_options, &procedure_options};
 
 const cli_command convert_command = {
     .name = "convert",
@@ -195,12 +257,14 @@ const cli_command convert_command = {
         "written with double coordinates.",
     .examples = "ewa convert scan.ply -o scan_text.ply --ascii\n"
                 "ewa convert a.ply b.ply -o both.ply --subsample 1000000\n"
+                "ewa convert scan.ply -o sharp.ply --refit-colors fit\n"
                 "ewa convert mm.ply -o m.ply --scale 0.001 --crop -1,-1,0,1,1,2\n",
     .low_operands = 1,
     .high_operands = 4096,
     .groups = groups,
     .group_count = sizeof groups / sizeof groups[0],
     .arguments_bytes = sizeof(convert_arguments),
+    .set_defaults = set_defaults,
     .check = check,
     .run = run,
 };

@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: MIT
 //
 // ewa generate: test objects.
-#include "cloud_output.h"
 #include "commands.h"
 #include "json.h"
+#include "textured.h"
 
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
 typedef struct generate_arguments {
-    output_arguments output; // first
+    textured_arguments textured; // first
     bool positions_only, sharp;
     int64_t point_count, seed;
     double size_world, jitter, checks, radius_scale;
@@ -96,6 +96,7 @@ static void set_defaults(void *data) {
     arguments->checks = options.checks;
     arguments->radius_scale = options.radius_scale;
     arguments->positions_only = options.positions_only;
+    textured_set_defaults(&arguments->textured);
 }
 
 enum {
@@ -117,14 +118,15 @@ static bool has_suffix(const char *path, const char *suffix) {
 
 /// What is wrong with the options for a volume; NULL: nothing.
 static const char *check_volume(const generate_arguments *arguments) {
+    const output_arguments *output = &arguments->textured.procedure.output;
     generate_arguments defaults = {.seed = 0};
     set_defaults(&defaults);
-    if (arguments->output.path && strcmp(arguments->output.path, "-") != 0 &&
-        !has_suffix(arguments->output.path, ".nrrd"))
+    if (output->path && strcmp(output->path, "-") != 0 && !has_suffix(output->path, ".nrrd"))
         return "generate: this is a volume, which goes to a .nrrd file";
-    if (arguments->output.ascii || arguments->output.big_endian || arguments->positions_only ||
-        arguments->sharp || arguments->point_count != defaults.point_count ||
-        arguments->jitter != defaults.jitter || arguments->radius_scale != defaults.radius_scale)
+    if (output->ascii || output->big_endian || arguments->positions_only || arguments->sharp ||
+        arguments->textured.picture || arguments->textured.procedure.procedure ||
+        arguments->point_count != defaults.point_count || arguments->jitter != defaults.jitter ||
+        arguments->radius_scale != defaults.radius_scale)
         return "generate: of a volume are --dims, --extent, --checks and --seed only";
     for (uint32_t k = 0; k < arguments->dims.count; k++) {
         const double side = arguments->dims.values[k];
@@ -136,7 +138,7 @@ static const char *check_volume(const generate_arguments *arguments) {
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const generate_arguments *arguments = data;
-    const char *word = arguments->output.common.operands[0];
+    const char *word = arguments->textured.procedure.output.common.operands[0];
     const bool volume = find_word(word, VOLUME_COUNT, volumes) < VOLUME_COUNT;
     if (!volume && find_word(word, OBJECT_COUNT, objects) == OBJECT_COUNT) {
         const char *nearest = options_nearest(word, OBJECT_COUNT, objects);
@@ -155,14 +157,39 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
         return false;
     }
-    return cloud_output_check(&arguments->output, message);
+    const procedure_arguments *procedure = &arguments->textured.procedure;
+    if (arguments->positions_only && procedure->procedure && procedure->prefilter > 0) {
+        snprintf(message, OPTION_ERROR_BYTES, "--procedure with --positions-only needs --prefilter-scale 0");
+        return false;
+    }
+    return textured_check(&arguments->textured, message);
 }
+
+/// Puts the picture onto a new object. It goes on where the object closes upon itself.
+static ewa_status add_picture(const textured_arguments *textured, ewa_object object, const ewa_image *picture,
+                              ewa_cloud *cloud) {
+    ewa_acquire_options options;
+    ewa_acquire_options_init(&options, sizeof options);
+    options.filter = (ewa_texture_filter)textured->filter;
+    options.pixel_sigma_px = textured->pixel_sigma_px;
+    if (object != EWA_OBJECT_SPHERE && object != EWA_OBJECT_TORUS) options.wrap_s = EWA_TEXTURE_CLAMP;
+    if (object != EWA_OBJECT_TORUS) options.wrap_t = EWA_TEXTURE_CLAMP;
+    const ewa_status status = ewa_cloud_acquire(cloud, picture, 1, &options, NULL);
+    ewa_cloud_remove(cloud, EWA_TEXCOORD);
+    ewa_cloud_remove(cloud, EWA_TEXCOORD_S);
+    ewa_cloud_remove(cloud, EWA_TEXCOORD_T);
+    return status;
+}
+
+/// What the radii of generated objects are meant for, as everywhere by default.
+static const double GENERATED_CUTOFF = 3;
 
 static ewa_cloud *make(cli_session *session, const void *data) {
     const generate_arguments *arguments = data;
     ewa_generate_options options;
     ewa_generate_options_init(&options, sizeof options);
-    options.object = (ewa_object)find_word(arguments->output.common.operands[0], OBJECT_COUNT, objects);
+    options.object =
+        (ewa_object)find_word(arguments->textured.procedure.output.common.operands[0], OBJECT_COUNT, objects);
     options.point_count = (uint64_t)arguments->point_count;
     options.seed = (uint64_t)arguments->seed;
     options.size_world = arguments->size_world;
@@ -171,17 +198,27 @@ static ewa_cloud *make(cli_session *session, const void *data) {
     options.radius_scale = arguments->radius_scale;
     options.positions_only = arguments->positions_only;
     options.sharp = arguments->sharp;
-    session->subject = arguments->output.path;
+    ewa_image picture;
+    if (!textured_load(session, &arguments->textured, &picture)) return NULL;
+    options.texcoords = picture.pixels != NULL;
+    session->subject = arguments->textured.procedure.output.path;
     ewa_cloud *cloud = NULL;
-    const ewa_status status = ewa_cloud_generate(session->context, &options, &cloud);
+    ewa_status status = ewa_cloud_generate(session->context, &options, &cloud);
+    if (status == EWA_OK && picture.pixels)
+        status = add_picture(&arguments->textured, options.object, &picture, cloud);
+    ewa_image_free(&picture);
     if (status != EWA_OK) session_failed(session, status);
+    if (status != EWA_OK ||
+        !procedure_apply(session, &arguments->textured.procedure, GENERATED_CUTOFF, cloud))
+        ewa_cloud_destroy(&cloud);
     return cloud;
 }
 
 /// Makes volume `object` and writes it; the exit status.
 static int run_volume(const generate_arguments *arguments, ewa_volume_object object) {
+    const output_arguments *output = &arguments->textured.procedure.output;
     cli_session session;
-    if (!session_start(&session, &arguments->output.common)) return session_end(&session, EXIT_FAILED);
+    if (!session_start(&session, &output->common)) return session_end(&session, EXIT_FAILED);
     ewa_volume_generate_options options;
     ewa_volume_generate_options_init(&options, sizeof options);
     options.object = object;
@@ -191,15 +228,15 @@ static int run_volume(const generate_arguments *arguments, ewa_volume_object obj
     const option_vector *dims = &arguments->dims;
     for (uint32_t k = 0; dims->count && k < 3; k++)
         options.dims[k] = (uint32_t)dims->values[dims->count == 1 ? 0 : k];
-    session.subject = arguments->output.path;
+    session.subject = output->path;
     ewa_volume volume = {.context = NULL};
-    bool done = output_check(&session, arguments->output.path);
+    bool done = output_check(&session, output->path);
     ewa_status status = done ? ewa_volume_generate(session.context, &options, &volume) : EWA_OK;
-    if (done && status == EWA_OK) status = ewa_volume_save(&volume, arguments->output.path, NULL);
+    if (done && status == EWA_OK) status = ewa_volume_save(&volume, output->path, NULL);
     if (status != EWA_OK) session_failed(&session, status);
     done = done && status == EWA_OK;
     if (done)
-        session_say(&session, "%s: %u x %u x %u voxels written", arguments->output.path, options.dims[0],
+        session_say(&session, "%s: %u x %u x %u voxels written", output->path, options.dims[0],
                     options.dims[1], options.dims[2]);
     ewa_volume_free(&volume);
     return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
@@ -207,14 +244,16 @@ static int run_volume(const generate_arguments *arguments, ewa_volume_object obj
 
 static int run(const void *data) {
     const generate_arguments *arguments = data;
-    const size_t volume = find_word(arguments->output.common.operands[0], VOLUME_COUNT, volumes);
+    const size_t volume =
+        find_word(arguments->textured.procedure.output.common.operands[0], VOLUME_COUNT, volumes);
     return volume < VOLUME_COUNT ? run_volume(arguments, (ewa_volume_object)volume)
                                  : cloud_output_run(data, make);
 }
 
 static const option_group object_options = {"Object", object_table,
                                             sizeof object_table / sizeof object_table[0]};
-static const option_group *const groups[] = {&cloud_output_options, &object_options};
+static const option_group *const groups[] = {&cloud_output_options, &object_options, &procedure_options,
+                                             &textured_options};
 
 const cli_command generate_command = {
     .name = "generate",
@@ -223,12 +262,15 @@ const cli_command generate_command = {
     .details =
         "The object is centred at the origin. Plane, checker and terrain lie in x-y with z up; the "
         "axis of the "
-        "torus is z. csg is a block with a slot, a notch and two round holes.\n"
+        "torus is z. csg is a block with a slot, a notch and two round holes. --texture lays a picture upon "
+        "plane, checker and terrain, onto every face of the cube and of csg, by longitude and latitude "
+        "around the sphere, and around ring and tube of the torus.\n"
         "\n"
         "Volumes go to .nrrd files: checkerbox, solid cubes of two values; blob, a Gaussian; ball, a ball "
         "with a soft edge; vessels, a tree of thin tubes.",
     .examples = "ewa generate torus -o torus.ply --points 200000\n"
                 "ewa generate terrain -o terrain.ply -n 4000000 --seed 7\n"
+                "ewa generate sphere --texture earth.png -n 1000000 -o earth.ply\n"
                 "ewa generate csg --sharp -n 7000 -o part.ply\n"
                 "ewa generate checker -o - --jitter 0 | ewa render - -o checker.png --shading none\n"
                 "ewa generate vessels -o vessels.nrrd --dims 256\n",

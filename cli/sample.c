@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: MIT
 //
 // ewa sample: surfels from a triangle mesh.
-#include "cloud_output.h"
 #include "commands.h"
 #include "json.h"
 #include "session.h"
+#include "textured.h"
 
 #include <stdio.h>
 
 typedef struct sample_arguments {
-    output_arguments output; // first
+    textured_arguments textured; // first
     bool clip_lines, smooth_normals;
     int64_t point_count, seed;
     double spacing_world, crease_degrees, radius_scale, cutoff;
@@ -79,16 +79,23 @@ static void set_defaults(void *data) {
     arguments->smooth_normals = options.smooth_normals;
     arguments->radius_scale = options.radius_scale;
     arguments->cutoff = options.cutoff;
+    textured_set_defaults(&arguments->textured);
 }
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const sample_arguments *arguments = data;
-    return cloud_output_check(&arguments->output, message);
+    return textured_check(&arguments->textured, message);
+}
+
+static bool has_picture(const ewa_mesh *mesh) {
+    bool found = false;
+    for (uint32_t m = 0; m < mesh->material_count; m++) found = found || mesh->materials[m].texture.pixels;
+    return found;
 }
 
 static ewa_cloud *make(cli_session *session, const void *data) {
     const sample_arguments *arguments = data;
-    const char *path = arguments->output.common.operands[0];
+    const char *path = arguments->textured.procedure.output.common.operands[0];
     ewa_mesh_sample_options options;
     ewa_mesh_sample_options_init(&options, sizeof options);
     options.point_count = (uint64_t)arguments->point_count;
@@ -99,10 +106,17 @@ static ewa_cloud *make(cli_session *session, const void *data) {
     options.smooth_normals = arguments->smooth_normals;
     options.radius_scale = arguments->radius_scale;
     options.cutoff = arguments->cutoff;
+    options.texture_filter = (ewa_texture_filter)arguments->textured.filter;
+    options.pixel_sigma_px = arguments->textured.pixel_sigma_px;
+    ewa_image picture;
+    if (!textured_load(session, &arguments->textured, &picture)) return NULL;
     session->subject = path;
     ewa_mesh mesh = {0};
     ewa_cloud *cloud = NULL;
     ewa_status status = ewa_mesh_load(session->context, path, &mesh);
+    if (status == EWA_OK && picture.pixels) status = ewa_mesh_set_picture(&mesh, &picture);
+    if (status == EWA_OK && mesh.texcoords && !has_picture(&mesh))
+        session_note(session, "%s: has texture coordinates, but names no picture; say --texture IMAGE", path);
     const double loaded_s = clock_now_s();
     if (status == EWA_OK) status = ewa_mesh_sample(&mesh, &options, &cloud);
     if (status == EWA_OK) {
@@ -114,6 +128,9 @@ static ewa_cloud *make(cli_session *session, const void *data) {
         session_failed(session, status);
     }
     ewa_mesh_free(&mesh);
+    ewa_image_free(&picture);
+    if (cloud && !procedure_apply(session, &arguments->textured.procedure, arguments->cutoff, cloud))
+        ewa_cloud_destroy(&cloud);
     return cloud;
 }
 
@@ -121,7 +138,8 @@ static int run(const void *data) { return cloud_output_run(data, make); }
 
 static const option_group sample_options = {"Sampling", sample_table,
                                             sizeof sample_table / sizeof sample_table[0]};
-static const option_group *const groups[] = {&cloud_output_options, &sample_options};
+static const option_group *const groups[] = {&cloud_output_options, &sample_options, &procedure_options,
+                                             &textured_options};
 
 const cli_command sample_command = {
     .name = "sample",
@@ -133,6 +151,7 @@ const cli_command sample_command = {
         "lines.",
     .examples = "ewa sample part.stl -o part.ply --points 200000\n"
                 "ewa sample scan.obj -o scan.ply --spacing 0.5 --crease 60\n"
+                "ewa sample cow.obj --texture cow.png -o cow.ply\n"
                 "ewa sample model.glb -o - | ewa render - -o model.png\n",
     .low_operands = 1,
     .high_operands = 1,

@@ -29,8 +29,10 @@ awk -v have_data="${EWA_DATA:+1}" -v have_ffmpeg="$have_ffmpeg" '
 ewa() { "$program" "$@"; }
 frustum() { "$(dirname "$program")/../examples/frustum" "$@"; }
 make_environment() { python3 "$tools/make_environment.py" "$@"; }
+measure_acquire() { "$(dirname "$program")/../tests/quality/measure_acquire" "$@"; }
 measure_layers() { "$(dirname "$program")/../tests/quality/measure_layers" "$@"; }
 measure_warp() { "$(dirname "$program")/../tests/quality/measure_warp" "$@"; }
+measure_textured() { "$(dirname "$program")/../tests/quality/measure_textured" "$@"; }
 cd "$work"
 set -x
 . ./commands

@@ -5,6 +5,7 @@
 #ifndef EWA_EWA_H
 #define EWA_EWA_H
 
+#include "ewa/acquire.h"
 #include "ewa/base.h"
 #include "ewa/camera.h"
 #include "ewa/cloud.h"
@@ -13,6 +14,7 @@
 #include "ewa/math.h"
 #include "ewa/mesh.h"
 #include "ewa/prepare.h"
+#include "ewa/procedure.h"
 #include "ewa/render.h"
 #include "ewa/shade.h"
 #include "ewa/volume.h"

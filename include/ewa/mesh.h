@@ -5,6 +5,7 @@
 #ifndef EWA_MESH_H
 #define EWA_MESH_H
 
+#include "ewa/acquire.h"
 #include "ewa/base.h"
 #include "ewa/cloud.h"
 #include "ewa/image.h"
@@ -59,6 +60,11 @@ EWA_API void ewa_mesh_free(ewa_mesh *mesh);
 /// EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_mesh_load(ewa_context *context, const char *path, ewa_mesh *mesh);
 
+/// Gives all triangles one white material with this picture, in place of their materials and vertex colours.
+/// The mesh, which has texture coordinates, takes the pixels, and `*picture` is zeroed; both belong to one
+/// context. Errors (nothing has changed): EWA_ERROR_ARGUMENT, EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_mesh_set_picture(ewa_mesh *mesh, ewa_image *picture);
+
 /// How a mesh becomes surfels. Fill with ewa_mesh_sample_options_init().
 typedef struct ewa_mesh_sample_options {
     size_t struct_size;
@@ -70,6 +76,10 @@ typedef struct ewa_mesh_sample_options {
     double cutoff;         ///< F: tangent axes are radius / F long; [0.001, 10]; default 3
     bool clip_lines;       ///< sharp edges and borders become clip lines; default true
     bool smooth_normals;   ///< interpolate normals between triangles that meet in no sharp edge; default true
+    ewa_texture_filter texture_filter; ///< how pictures come onto the points; default EWA_TEXTURE_OPTIMAL
+    double pixel_sigma_px;             ///< see ewa_acquire_options; default 0.5
+    bool texcoords; ///< keep "texcoord", "texcoord_s", "texcoord_t", "texture_part" and with materials
+                    ///< "texture" (their number), for ewa_cloud_acquire(); default false
 } ewa_mesh_sample_options;
 
 EWA_API void ewa_mesh_sample_options_init(ewa_mesh_sample_options *options, size_t struct_size);
@@ -78,8 +88,9 @@ EWA_API void ewa_mesh_sample_options_init(ewa_mesh_sample_options *options, size
 /// a smooth part are nearer than 0.77 of the spacing; along sharp edges are rows of points on each side, at
 /// least 0.62 of the spacing from any other, and a point in each corner, at least 0.4.
 ///
-/// - "position" F32, "normal" F32 (unit), and with vertex colours, materials or textures "color" U8 (sRGB; 4
-///   components where something is not opaque). Textures are read at the level of detail of the spacing.
+/// - "position" F32, "normal" F32 (unit), and with vertex colours or materials "color" U8 (sRGB; 4 components
+///   where something is not opaque). With pictures "color" is F32, linear, made by ewa_cloud_acquire(), times
+///   vertex and base colours; pictures repeat.
 /// - With sharp edges or borders: "tangent_u", "tangent_v", "clip0", "clip1", "clip_mode". A disc that
 ///   reaches over an edge of its smooth part gets the line of that edge, at a corner the lines of both; where
 ///   more edges are in reach (walls thinner than a disc) the nearest two. Otherwise: "radius".
@@ -90,11 +101,11 @@ EWA_API void ewa_mesh_sample_options_init(ewa_mesh_sample_options *options, size
 ///   left out. Where a mesh intersects itself, both surfaces stay as they are.
 ///
 /// `options` may be NULL; the caller owns `*cloud`, which is NULL after a failure. The result does not
-/// depend on the number of threads. Progress stage: "sample". Needs about 200 bytes per point meanwhile.
-/// Errors: EWA_ERROR_ARGUMENT (message names the member; a triangle with a vertex beyond the last),
-/// EWA_ERROR_LIMIT, EWA_ERROR_NUMERIC (no triangle has an area), EWA_ERROR_MEMORY, EWA_CANCELLED. Based on
-/// L.-Y. Wei, "Parallel Poisson disk sampling", 2008, section 3 (phase groups), and M. Zwicker et al.,
-/// "Perspective accurate splatting", 2004, section 4 (clip lines).
+/// depend on the number of threads. Progress stages: "sample", and those of ewa_cloud_acquire(). Needs about
+/// 200 bytes per point meanwhile. Errors: EWA_ERROR_ARGUMENT (message names the member; a triangle with a
+/// vertex beyond the last), EWA_ERROR_LIMIT, EWA_ERROR_NUMERIC (no triangle has an area), EWA_ERROR_MEMORY,
+/// EWA_CANCELLED. Based on L.-Y. Wei, "Parallel Poisson disk sampling", 2008, section 3 (phase groups), and
+/// M. Zwicker et al., "Perspective accurate splatting", 2004, section 4 (clip lines).
 EWA_API ewa_status ewa_mesh_sample(const ewa_mesh *mesh, const ewa_mesh_sample_options *options,
                                    ewa_cloud **cloud);
 

@@ -173,6 +173,46 @@ typedef struct ewa_feature_counts {
 EWA_API ewa_status ewa_cloud_detect_features(ewa_cloud *cloud, const ewa_feature_options *options,
                                              ewa_feature_counts *counts);
 
+/// What refitted colours should do.
+typedef enum ewa_refit {
+    EWA_REFIT_INTERPOLATE = 0, ///< the picture has each point's colour at the point
+    EWA_REFIT_FIT = 1, ///< the same by least squares, damped: noise and aliases of the colours grow less
+} ewa_refit;
+
+/// How colours are refitted. Fill with ewa_refit_options_init().
+typedef struct ewa_refit_options {
+    size_t struct_size;
+    ewa_refit goal; ///< default EWA_REFIT_INTERPOLATE
+    double cutoff;  ///< F with which the cloud will be drawn; (0, 4]; default 3
+} ewa_refit_options;
+
+EWA_API void ewa_refit_options_init(ewa_refit_options *options, size_t struct_size);
+
+/// What refitting did; colours are linear.
+typedef struct ewa_refit_report {
+    uint64_t surfel_count;   ///< that got coefficients
+    uint64_t left_out_count; ///< of them: whose colour was no equation (centre cut away by clip lines of its
+                             ///< own, or over 256 kernels there)
+    double before_rms, after_rms; ///< of reconstruction - colour at the points
+    float low, high;              ///< smallest and largest coefficient
+    uint32_t iteration_count;
+} ewa_refit_report;
+
+/// Replaces "color" by coefficients for sharper pictures of the same surfels: EWA blends kernels and divides
+/// by their sum, so that with plain colours a point shows a mean of what is around it. Afterwards the
+/// reconstruction sum(w r) / sum(r) is at the points what the colours were (interpolate), or nearly (fit).
+///
+/// "color" becomes F32, linear, beyond [0, 1] where the surface has contrast; alpha stays. Kernels take part
+/// as the renderer blends them from near: inside of cutoff and clip lines, normals within 60 degrees. The
+/// cloud needs "position" with "normal" and "radius", or with tangent axes, and "color". Points that are no
+/// surfels keep their colour. `options` and `report` may be NULL. After a failure the cloud is unchanged. The
+/// result does not depend on the number of threads. Progress stage: "refit". Needs about 450 bytes per point
+/// meanwhile. Errors: EWA_ERROR_ARGUMENT (what is missing, named), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY,
+/// EWA_CANCELLED. The idea of optimal coefficients is that of M. Zwicker et al., "Surface splatting", 2001,
+/// section 5; docs/colors.md has figures.
+EWA_API ewa_status ewa_cloud_refit_colors(ewa_cloud *cloud, const ewa_refit_options *options,
+                                          ewa_refit_report *report);
+
 /// Test objects, centred at the origin. Plane, checker and terrain lie in x-y, z up.
 typedef enum ewa_object {
     EWA_OBJECT_PLANE = 0,   ///< light grey square
@@ -201,6 +241,7 @@ typedef struct ewa_generate_options {
     bool positions_only; ///< leave out normals and radii; default false
     bool sharp; ///< cube and part: rows of points on every edge, and axes and clip lines in place of radii;
                 ///< default false
+    bool texcoords; ///< add "texcoord", "texcoord_s", "texcoord_t" (ewa/acquire.h); default false
 } ewa_generate_options;
 
 EWA_API void ewa_generate_options_init(ewa_generate_options *options, size_t struct_size);
@@ -215,6 +256,10 @@ EWA_API void ewa_generate_options_init(ewa_generate_options *options, size_t str
 /// "clip1", "clip_mode" take the place of "radius": every kernel that reaches an edge is cut there; beside
 /// round holes centres lie up to 3/8 of a cell beyond the edge. The rows are regular: seed and jitter change
 /// nothing.
+///
+/// Texture coordinates: plane, checker and terrain lie upon the picture, cube and part have it on every face
+/// (by the largest component of the normal), the sphere has longitude and latitude, the torus the turns
+/// around the ring and around the tube.
 ///
 /// `options` may be NULL for the defaults; the caller owns `*cloud`, which is NULL after a
 /// failure. Every number depends on the options alone, not on the machine or the number of threads. Progress

@@ -47,16 +47,45 @@ ewa_status ewa_mesh_create(ewa_context *context, uint32_t vertex_count, uint32_t
     return EWA_ERROR_MEMORY;
 }
 
-void ewa_mesh_free(ewa_mesh *mesh) {
-    if (!mesh || !mesh->context) return;
+/// Frees what says how triangles look, vertex colours included.
+static void free_look(ewa_mesh *mesh) {
     ewa_context *context = mesh->context;
     for (uint32_t i = 0; mesh->materials && i < mesh->material_count; i++)
         ewa_image_free(&mesh->materials[i].texture);
-    free_stream(context, mesh->positions, mesh->vertex_count, 3 * sizeof(float));
     free_stream(context, mesh->colors, mesh->vertex_count, 4 * sizeof(float));
-    free_stream(context, mesh->texcoords, mesh->vertex_count, 2 * sizeof(float));
-    free_stream(context, mesh->triangles, mesh->triangle_count, 3 * sizeof(uint32_t));
     free_stream(context, mesh->triangle_materials, mesh->triangle_count, sizeof(uint32_t));
     free_stream(context, mesh->materials, mesh->material_count, sizeof(ewa_mesh_material));
+}
+
+ewa_status ewa_mesh_set_picture(ewa_mesh *mesh, ewa_image *picture) {
+    if (!mesh || !mesh->context || !picture || !picture->pixels) return EWA_ERROR_ARGUMENT;
+    ewa_context *context = mesh->context;
+    if (!mesh->texcoords)
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "mesh: no texture coordinates to put a picture on");
+    uint32_t *triangle_materials = ewa_allocate_zeroed(context, mesh->triangle_count, sizeof(uint32_t));
+    ewa_mesh_material *material = ewa_allocate_zeroed(context, 1, sizeof *material);
+    if (!triangle_materials || !material) {
+        free_stream(context, triangle_materials, mesh->triangle_count, sizeof(uint32_t));
+        free_stream(context, material, 1, sizeof *material);
+        return EWA_ERROR_MEMORY;
+    }
+    free_look(mesh);
+    for (int c = 0; c < 4; c++) material->base_color[c] = 1;
+    material->texture = *picture;
+    *picture = (ewa_image){0};
+    mesh->colors = NULL;
+    mesh->triangle_materials = triangle_materials;
+    mesh->materials = material;
+    mesh->material_count = 1;
+    return EWA_OK;
+}
+
+void ewa_mesh_free(ewa_mesh *mesh) {
+    if (!mesh || !mesh->context) return;
+    ewa_context *context = mesh->context;
+    free_look(mesh);
+    free_stream(context, mesh->positions, mesh->vertex_count, 3 * sizeof(float));
+    free_stream(context, mesh->texcoords, mesh->vertex_count, 2 * sizeof(float));
+    free_stream(context, mesh->triangles, mesh->triangle_count, 3 * sizeof(uint32_t));
     *mesh = (ewa_mesh){0};
 }

@@ -134,7 +134,4 @@
 /// Surfaces that a merged layer stands for at most.
 #define EWA_MERGED_SURFACES 64
 
-/// Linear colour of surfels that have none.
-#define EWA_DEFAULT_GREY 0.6
-
 #endif

@@ -77,6 +77,8 @@ static ewa_status check_options(ewa_context *context, const ewa_generate_options
         return ewa_fail(context, EWA_ERROR_ARGUMENT,
                         "generate: sharp goes with the cube and the part only, object is %d",
                         (int)options->object);
+    if (options->texcoords && options->positions_only)
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "generate: texcoords need the normals");
     ewa_status status = check_range(context, "size_world", options->size_world, MIN_SIZE, MAX_SIZE);
     if (status == EWA_OK) status = check_range(context, "jitter", options->jitter, 0, 1);
     if (status == EWA_OK)
@@ -261,6 +263,7 @@ ewa_status ewa_cloud_generate(ewa_context *context, const ewa_generate_options *
     ewa_cloud *made = NULL;
     if (options->sharp || options->object == EWA_OBJECT_CSG) {
         status = ewa_generate_solid(context, options, &made);
+        if (status == EWA_OK && options->texcoords) status = ewa_generate_charts(options, made);
         if (status != EWA_OK) ewa_cloud_destroy(&made);
         *cloud = made;
         return status;
@@ -278,6 +281,7 @@ ewa_status ewa_cloud_generate(ewa_context *context, const ewa_generate_options *
 
     status = add_attributes(made, &job);
     if (status == EWA_OK && options->point_count) status = run(context, &job);
+    if (status == EWA_OK && options->texcoords) status = ewa_generate_charts(options, made);
     if (status != EWA_OK) ewa_cloud_destroy(&made);
     *cloud = made;
     return status;

@@ -65,6 +65,9 @@ void ewa_generate_sphere(ewa_generate_block *block);
 void ewa_generate_torus(ewa_generate_block *block);
 void ewa_generate_terrain(const ewa_terrain *terrain, ewa_generate_block *block);
 
+/// Adds "texcoord", "texcoord_s" and "texcoord_t" to a finished object that has normals.
+ewa_status ewa_generate_charts(const ewa_generate_options *options, ewa_cloud *cloud);
+
 /// 64 random bits from a counter (finaliser of SplitMix64: Steele, Lea, Flood, "Fast Splittable Pseudorandom
 /// Number Generators", 2014, figure 16).
 static inline uint64_t ewa_generate_random(uint64_t key, uint64_t counter) {

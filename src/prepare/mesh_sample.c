@@ -3,6 +3,7 @@
 //
 // From a mesh to surfels: options, and what every point gets once the places are chosen.
 #include "base/base.h"
+#include "ewa/acquire.h"
 #include "math/vec.h"
 #include "prepare/mesh_clip.h"
 #include "prepare/mesh_color.h"
@@ -22,6 +23,8 @@ typedef struct sample_job {
     mesh_colors colors;
     float *position, *normal, *radius, *tangent_u, *tangent_v, *clip[2];
     uint8_t *color, *clip_mode;
+    float *tint, *texcoord, *gradient[2]; // of meshes with pictures, the tint in place of the color
+    uint32_t *texture, *part;
 } sample_job;
 
 void ewa_mesh_sample_options_init(ewa_mesh_sample_options *options, size_t struct_size) {
@@ -35,6 +38,10 @@ void ewa_mesh_sample_options_init(ewa_mesh_sample_options *options, size_t struc
     options->cutoff = 3;
     options->clip_lines = true;
     options->smooth_normals = true;
+    ewa_acquire_options acquire;
+    ewa_acquire_options_init(&acquire, sizeof acquire);
+    options->texture_filter = acquire.filter;
+    options->pixel_sigma_px = acquire.pixel_sigma_px;
 }
 
 static ewa_status check_range(ewa_context *context, const char *member, double value, double low,
@@ -63,7 +70,7 @@ static ewa_status check_options(ewa_context *context, const ewa_mesh_sample_opti
 }
 
 /// Weights of the three vertices of a triangle at a place on it.
-static double weights_at(const mesh_surface *surface, const mesh_dart *dart, double weight[3]) {
+static void weights_at(const mesh_surface *surface, const mesh_dart *dart, double weight[3]) {
     const uint32_t *vertex = surface->mesh->triangles + 3 * (size_t)surface->source[dart->triangle];
     const float *facing = surface->normal[dart->triangle];
     const ewa_vec3 n = vec3_make((double)facing[0], (double)facing[1], (double)facing[2]);
@@ -79,7 +86,6 @@ static double weights_at(const mesh_surface *surface, const mesh_dart *dart, dou
         sum += weight[c];
     }
     for (int c = 0; c < 3; c++) weight[c] = sum > 0 ? weight[c] / sum : 1.0 / 3;
-    return 0.5 * sum;
 }
 
 static ewa_vec3 normal_at(const mesh_surface *surface, uint32_t triangle, const double weight[3]) {
@@ -122,6 +128,18 @@ static void finish_clip(const sample_job *job, uint64_t i, ewa_vec3 normal) {
     job->clip_mode[i] = disc.either;
 }
 
+static void finish_color(const sample_job *job, uint64_t i, const double weight[3]) {
+    const uint32_t components = job->colors.component_count,
+                   triangle = job->surface->source[job->darts[i].triangle];
+    float color[4];
+    ewa_mesh_color_at(&job->colors, triangle, weight, color);
+    if (job->color)
+        ewa_mesh_color_encode(&job->colors, color, job->color + components * i);
+    else
+        memcpy(job->tint + components * i, color, components * sizeof *color);
+    if (job->texture) job->texture[i] = job->surface->mesh->triangle_materials[triangle];
+}
+
 static void finish_points(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const sample_job *job = data;
@@ -130,13 +148,15 @@ static void finish_points(void *data, uint32_t part, uint32_t worker) {
     for (uint64_t i = first; i < end; i++) {
         const mesh_dart *dart = &job->darts[i];
         double weight[3];
-        const double area = weights_at(job->surface, dart, weight);
+        weights_at(job->surface, dart, weight);
         const ewa_vec3 normal = normal_at(job->surface, dart->triangle, weight);
         memcpy(job->position + 3 * i, dart->position_world, sizeof dart->position_world);
         store(job->normal + 3 * i, normal, 1);
-        if (job->color)
-            ewa_mesh_color_at(&job->colors, job->surface->source[dart->triangle], weight, area, job->spacing,
-                              job->color + job->colors.component_count * i);
+        if (job->colors.component_count) finish_color(job, i, weight);
+        if (job->part) job->part[i] = job->surface->part[dart->triangle];
+        if (job->texcoord)
+            ewa_mesh_chart_at(job->surface->mesh, job->surface->source[dart->triangle], weight,
+                              job->texcoord + 2 * i, job->gradient[0] + 3 * i, job->gradient[1] + 3 * i);
         if (job->radius)
             job->radius[i] = (float)(job->options->radius_scale * job->spacing);
         else
@@ -145,7 +165,8 @@ static void finish_points(void *data, uint32_t part, uint32_t worker) {
 }
 
 static ewa_status add_attributes(sample_job *job, ewa_cloud *cloud) {
-    const bool sharp = job->surface->edge_count > 0;
+    const bool sharp = job->surface->edge_count > 0, colored = job->colors.component_count > 0,
+               pictures = job->colors.has_pictures, charts = pictures || job->options->texcoords;
     const struct {
         const char *name;
         ewa_type type;
@@ -155,7 +176,13 @@ static ewa_status add_attributes(sample_job *job, ewa_cloud *cloud) {
     } rows[] = {
         {EWA_POSITION, EWA_F32, 3, true, &job->position},
         {EWA_NORMAL, EWA_F32, 3, true, &job->normal},
-        {EWA_COLOR, EWA_U8, job->colors.component_count, job->colors.component_count > 0, &job->color},
+        {EWA_COLOR, EWA_U8, job->colors.component_count, colored && !pictures, &job->color},
+        {EWA_COLOR, EWA_F32, job->colors.component_count, pictures, &job->tint},
+        {EWA_TEXCOORD, EWA_F32, 2, charts, &job->texcoord},
+        {EWA_TEXCOORD_S, EWA_F32, 3, charts, &job->gradient[0]},
+        {EWA_TEXCOORD_T, EWA_F32, 3, charts, &job->gradient[1]},
+        {EWA_TEXTURE_PART, EWA_U32, 1, charts, &job->part},
+        {EWA_TEXTURE, EWA_U32, 1, charts && job->surface->mesh->material_count > 0, &job->texture},
         {EWA_RADIUS, EWA_F32, 1, !sharp, &job->radius},
         {EWA_TANGENT_U, EWA_F32, 3, sharp, &job->tangent_u},
         {EWA_TANGENT_V, EWA_F32, 3, sharp, &job->tangent_v},
@@ -178,6 +205,29 @@ static double choose_spacing(const mesh_surface *surface, const ewa_mesh_sample_
     return (rows + sqrt(rows * rows + 4 * area * count)) / (2 * count);
 }
 
+/// Puts the mesh's pictures onto the finished points, and takes away what was needed for that only.
+static ewa_status add_pictures(const sample_job *job, ewa_cloud *cloud) {
+    const ewa_mesh *mesh = job->surface->mesh;
+    ewa_acquire_options options;
+    ewa_acquire_options_init(&options, sizeof options);
+    options.filter = job->options->texture_filter;
+    options.pixel_sigma_px = job->options->pixel_sigma_px;
+    options.cutoff = job->options->cutoff;
+    options.modulate = true;
+    ewa_image *images = ewa_allocate(mesh->context, mesh->material_count, sizeof *images);
+    if (!images) return EWA_ERROR_MEMORY;
+    for (uint32_t m = 0; m < mesh->material_count; m++) images[m] = mesh->materials[m].texture;
+    const ewa_status status = ewa_cloud_acquire(cloud, images, mesh->material_count, &options, NULL);
+    ewa_release(mesh->context, images, mesh->material_count, sizeof *images);
+    if (job->options->texcoords) return status;
+    ewa_cloud_remove(cloud, EWA_TEXCOORD);
+    ewa_cloud_remove(cloud, EWA_TEXCOORD_S);
+    ewa_cloud_remove(cloud, EWA_TEXCOORD_T);
+    ewa_cloud_remove(cloud, EWA_TEXTURE);
+    ewa_cloud_remove(cloud, EWA_TEXTURE_PART);
+    return status;
+}
+
 static ewa_status sample(ewa_context *context, sample_job *job, ewa_cloud **cloud) {
     mesh_dart *darts = NULL;
     uint64_t capacity = 0;
@@ -198,19 +248,21 @@ static ewa_status sample(ewa_context *context, sample_job *job, ewa_cloud **clou
                    job->spacing, job->surface->triangle_count, job->surface->edge_count);
         status = ewa_progress(context, "sample", 1);
     }
+    if (status == EWA_OK && job->colors.has_pictures) status = add_pictures(job, made);
     if (status != EWA_OK) ewa_cloud_destroy(&made);
     *cloud = made;
-    ewa_mesh_colors_free(&job->colors);
     ewa_mesh_edge_grid_free(&job->grid);
     ewa_release(context, darts, capacity, sizeof *darts);
     return status;
 }
 
-static ewa_status check_mesh(const ewa_mesh *mesh) {
+static ewa_status check_mesh(const ewa_mesh *mesh, const ewa_mesh_sample_options *options) {
     const bool complete = (mesh->positions || !mesh->vertex_count) &&
                           (mesh->triangles || !mesh->triangle_count) &&
                           (!mesh->material_count || (mesh->materials && mesh->triangle_materials));
     if (!complete) return ewa_fail(mesh->context, EWA_ERROR_ARGUMENT, "sample: the mesh lacks a stream");
+    if (options->texcoords && !mesh->texcoords)
+        return ewa_fail(mesh->context, EWA_ERROR_ARGUMENT, "sample: the mesh has no texture coordinates");
     // Half edges are numbered by 32 bits.
     if (mesh->triangle_count > UINT32_MAX / 4)
         return ewa_fail(mesh->context, EWA_ERROR_LIMIT, "sample: %u triangles, %u can be",
@@ -225,7 +277,7 @@ ewa_status ewa_mesh_sample(const ewa_mesh *mesh, const ewa_mesh_sample_options *
     ewa_mesh_sample_options_init(&defaults, sizeof defaults);
     if (!options) options = &defaults;
     ewa_status status = check_options(mesh->context, options);
-    if (status == EWA_OK) status = check_mesh(mesh);
+    if (status == EWA_OK) status = check_mesh(mesh, options);
     mesh_surface surface;
     if (status == EWA_OK) status = ewa_mesh_surface_make(mesh, options, &surface);
     if (status != EWA_OK) return status;

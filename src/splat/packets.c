@@ -368,7 +368,7 @@ static void set_color_codes(build *b) {
     const double grey[3] = {EWA_DEFAULT_GREY, EWA_DEFAULT_GREY, EWA_DEFAULT_GREY};
     ewa_packets_encode_color(b->surfels, grey, b->grey_codes);
     for (int value = 0; value < 256; value++) {
-        const double linear = b->reader.linear_from_u8[value], color[3] = {linear, linear, linear};
+        const double linear = b->reader.colors.linear_from_u8[value], color[3] = {linear, linear, linear};
         uint16_t codes[3];
         ewa_packets_encode_color(b->surfels, color, codes);
         for (int k = 0; k < 3; k++) b->color_codes[k][value] = codes[k];

@@ -7,46 +7,18 @@
 // Basis, Revisited", 2017.
 #include "splat/surfel.h"
 #include "base/base.h"
-#include "image/srgb.h"
 #include "kernels/semantics.h"
 #include "math/vec.h"
+#include "prepare/color.h"
 
 #include <string.h>
 
 enum { BLOCK = 64 };
 
-/// Full scale of each ewa_type, 0 for floats.
-static const double FULL_SCALE[] = {0, 0, 127, 255, 32767, 65535, 2147483647.0, 4294967295.0};
-
-static double clamp01(double value) { return value < 0 ? 0 : value > 1 ? 1 : value; }
-
 static bool all_finite(const double *value, uint32_t count) {
     bool finite = true;
     for (uint32_t c = 0; c < count; c++) finite = finite && isfinite(value[c]);
     return finite;
-}
-
-static double alpha_of(const ewa_attribute *color, const double *value) {
-    const double scale = FULL_SCALE[color->type];
-    if (color->component_count < 4 || !all_finite(value, color->component_count)) return 1;
-    return clamp01(scale > 0 ? value[3] / scale : value[3]);
-}
-
-static void read_color(const ewa_surfel_reader *reader, const double *value, ewa_surfel *surfel) {
-    const ewa_attribute *color = reader->color;
-    const double scale = FULL_SCALE[color->type];
-    const bool finite = all_finite(value, color->component_count);
-    for (int c = 0; c < 3; c++) {
-        if (!finite)
-            surfel->color_linear[c] = EWA_DEFAULT_GREY;
-        else if (color->type == EWA_U8)
-            surfel->color_linear[c] = reader->linear_from_u8[(int)value[c]];
-        else if (scale > 0)
-            surfel->color_linear[c] = ewa_srgb_decode(clamp01(value[c] / scale));
-        else
-            surfel->color_linear[c] = fmin(fmax(value[c], 0), EWA_SURFEL_LIMIT);
-    }
-    surfel->alpha = alpha_of(color, value);
 }
 
 /// False for NaN too.
@@ -174,7 +146,7 @@ ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_opti
         if (status == EWA_OK) status = check_components(cloud, reader->radius, 1, 1);
     }
     ewa_cloud_origin(cloud, reader->origin_world);
-    for (int i = 0; i < 256; i++) reader->linear_from_u8[i] = ewa_srgb_decode(i / 255.0);
+    ewa_color_table_make(&reader->colors);
     return status;
 }
 
@@ -211,10 +183,13 @@ static uint64_t read_block(const ewa_surfel_reader *reader, uint64_t first, uint
         surfel->clip_either = mode[i] == 1;
         surfel->alpha = 1;
         surfel->material = ewa_surfel_material(reader, first + i);
-        if (reader->color)
-            read_color(reader, &color[reader->color->component_count * i], surfel);
-        else
+        if (reader->color) {
+            const double *value = &color[reader->color->component_count * i];
+            ewa_color_decode(&reader->colors, reader->color, value, surfel->color_linear);
+            surfel->alpha = ewa_color_alpha(reader->color, value);
+        } else {
             surfel->color_linear[0] = surfel->color_linear[1] = surfel->color_linear[2] = EWA_DEFAULT_GREY;
+        }
     }
     return kept;
 }
@@ -233,7 +208,7 @@ double ewa_surfel_alpha(const ewa_surfel_reader *reader, uint64_t point) {
     double color[4] = {0};
     if (!reader->color || reader->color->component_count != 4) return 1;
     ewa_attribute_read_f64(reader->color, point, 1, color);
-    return alpha_of(reader->color, color);
+    return ewa_color_alpha(reader->color, color);
 }
 
 bool ewa_surfel_is_clipped(const ewa_surfel_reader *reader, uint64_t point) {

@@ -6,6 +6,7 @@
 #define EWA_SRC_SPLAT_SURFEL_H
 
 #include "ewa/render.h"
+#include "prepare/color.h"
 
 /// One surfel in world space. Its covariance is axis_u' axis_u + axis_v' axis_v (math.md section 2).
 typedef struct ewa_surfel {
@@ -13,7 +14,7 @@ typedef struct ewa_surfel {
     double axis_u_world[3],
         axis_v_world[3];    ///< orthogonal, length = sigma, |u| >= |v|, radius_scale included
     double normal_world[3]; ///< unit; +-(u x v), on the side of the cloud's normal if it has one
-    double color_linear[3]; ///< [0, 1]
+    double color_linear[3]; ///< of any sign: coefficients whose mean is a colour
     double alpha;           ///< [0, 1]
     double material;        ///< whole, [0, 255]
     /// Clip lines: keep a u + b v + c >= 0 at center + u axis_u + v axis_v; a = b = 0: no line.
@@ -35,7 +36,7 @@ typedef struct ewa_surfel_reader {
     double origin_world[3];
     double sigma_per_radius; ///< radius_scale / F
     double axis_scale;       ///< radius_scale
-    double linear_from_u8[256];
+    ewa_color_table colors;
 } ewa_surfel_reader;
 
 /// Finds the streams: "position" with "tangent_u" and "tangent_v" (the axes win), or with "normal" and
@@ -45,7 +46,7 @@ typedef struct ewa_surfel_reader {
 /// whose a and b are 0, or with a number that is not finite, is none.
 ///
 /// A "color" of 3 or 4 components is used when there is one: unsigned integers are sRGB over their whole
-/// range, signed ones over their non-negative half (alpha is linear), floats are linear and negative ones 0;
+/// range, signed ones over their non-negative half (alpha is linear), floats are linear, of any sign;
 /// alpha is clamped to [0, 1]. A component that is not finite makes the colour an opaque EWA_DEFAULT_GREY, as
 /// no colour does. A "material" that is no whole number in [0, 255] is 0. `options` are checked ones. Errors:
 /// EWA_ERROR_ARGUMENT with a message that names the missing or misshapen attribute.

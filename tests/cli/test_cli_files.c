@@ -158,6 +158,44 @@ static void test_surfels(void **state) {
     run_done("ewa surfels a.ply -o d.ply --viewpoint 0,0,10 --outliers 3");
 }
 
+/// Refitted colours are floats beyond [0, 1]; what they need and a file lacks is estimated.
+static void test_refit(void **state) {
+    (void)state;
+    run_done("ewa generate checker -n 4000 --radius-scale 1.6 -o a.ply && "
+             "ewa convert a.ply -o b.ply --refit-colors interpolate && ewa info --json b.ply");
+    const char *color = strstr(last_run.out, "\"color\"");
+    assert_non_null(color);
+    assert_int_equal(strncmp(strstr(color, "\"type\": ") + 8, "\"float\"", 7), 0);
+    assert_true(strtod(strstr(color, "\"low\": [") + 8, NULL) < 0);
+    run_done("ewa generate checker -n 4000 --positions-only -o a.ply && "
+             "ewa convert a.ply -o b.ply --refit-colors fit && ewa info b.ply");
+    assert_non_null(strstr(last_run.out, "radius"));
+    scratch_text("bare.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                             "property float z\nend_header\n0 0 0\n");
+    run_fails(1, "no 'color'", "ewa convert bare.ply -o b.ply --refit-colors fit");
+    run_fails(2, "interpolate", "ewa convert a.ply -o b.ply --refit-colors sharp");
+}
+
+/// Solid textures on all that makes clouds, the same for any number of threads.
+static void test_procedure(void **state) {
+    (void)state;
+    run_done("ewa generate torus -n 3000 --procedure marble -o a.ply && "
+             "ewa generate torus -n 3000 --procedure marble -o b.ply --threads 3 && "
+             "ewa generate torus -n 3000 --procedure marble --procedure-seed 2 -o c.ply && "
+             "ewa generate torus -n 3000 -o d.ply");
+    run_done("cmp a.ply b.ply && ! cmp -s a.ply c.ply && ! cmp -s a.ply d.ply");
+    run_done("ewa convert d.ply --procedure marble -o e.ply && cmp a.ply e.ply");
+    run_done(
+        "ewa generate plane -n 100 --procedure checker --frequency 1e6 --first-color 1,1,1 --second-color "
+        "0,0,0 -o a.ply && ewa convert a.ply -o - --ascii");
+    assert_non_null(strstr(last_run.out, " 188 188 188 "));
+    run_done("ewa generate plane -n 100 --positions-only --procedure noise --prefilter-scale 0 -o a.ply");
+    run_fails(2, "--prefilter-scale 0", "ewa generate plane --positions-only --procedure noise -o a.ply");
+    run_fails(2, "--frequency needs --procedure", "ewa generate plane --frequency 2 -o a.ply");
+    run_fails(2, "must be in [0, 1]", "ewa generate plane --procedure wood --first-color 1,2,1 -o a.ply");
+    run_fails(2, "exclude", "ewa generate plane --procedure wood --texture a.png -o a.ply");
+}
+
 static void test_failures_leave_nothing(void **state) {
     (void)state;
     assert_int_equal(scratch_enter("cli_files_none"), 0);
@@ -188,6 +226,8 @@ int main(void) {
         cmocka_unit_test(test_move),
         cmocka_unit_test(test_merge),
         cmocka_unit_test(test_surfels),
+        cmocka_unit_test(test_refit),
+        cmocka_unit_test(test_procedure),
         cmocka_unit_test(test_failures_leave_nothing),
     };
     return cmocka_run_group_tests(tests, enter, NULL);

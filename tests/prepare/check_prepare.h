@@ -44,4 +44,41 @@ static inline void check_direction(check_random *random, double d[3]) {
     for (int c = 0; c < 3; c++) d[c] /= sqrt(length2);
 }
 
+/// Says how far a call got and stops it after some reports.
+typedef struct check_progress {
+    const char *stage;
+    int calls_left;
+    double last;
+} check_progress;
+
+static inline bool check_progress_take(void *user, const char *stage, double fraction) {
+    check_progress *progress = user;
+    assert_string_equal(stage, progress->stage);
+    assert_true(fraction >= progress->last && fraction <= 1);
+    progress->last = fraction;
+    return progress->calls_left-- > 0;
+}
+
+/// Runs `work` with its first, second, ... report of progress cancelling it, until it succeeds: reports are
+/// of `stage`, never go back and end with 1. Returns how many there are.
+static inline int check_cancel_each(const char *stage, ewa_status (*work)(ewa_context *context, void *user),
+                                    void *user) {
+    for (int calls = 0;; calls++) {
+        check_progress progress = {.stage = stage, .calls_left = calls};
+        ewa_context_options options;
+        ewa_context_options_init(&options, sizeof options);
+        options.progress = check_progress_take;
+        options.progress_user = &progress;
+        ewa_context *context = NULL;
+        assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+        const ewa_status status = work(context, user);
+        ewa_context_destroy(&context);
+        if (status == EWA_OK) {
+            assert_true(progress.last == 1);
+            return calls;
+        }
+        assert_int_equal(status, EWA_CANCELLED);
+    }
+}
+
 #endif

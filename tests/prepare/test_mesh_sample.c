@@ -219,27 +219,73 @@ static void test_colors(void **state) {
     float *pixels = mesh.materials[0].texture.pixels;
     for (int i = 0; i < 64 * 64; i++)
         for (int c = 0; c < 3; c++) pixels[3 * i + c] = i % 64 >= 32 && (c == 0 || i / 64 >= 32) ? 1 : 0;
-    const ewa_mesh_sample_options options = options_of(400);
+    ewa_mesh_sample_options options = options_of(400);
+    options.texture_filter = EWA_TEXTURE_EWA;
     ewa_cloud *cloud = shape_sample(&mesh, &options);
+    assert_null(ewa_cloud_find(cloud, EWA_TEXCOORD));
     const ewa_attribute *color = ewa_cloud_find(cloud, EWA_COLOR);
     assert_int_equal(color->component_count, 3);
     const float *p = stream(cloud, EWA_POSITION);
     for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
-        const uint8_t *rgb = (const uint8_t *)color->data + 3 * i;
+        const float *rgb = (const float *)color->data + 3 * i;
         const float x = p[3 * i], y = p[3 * i + 1];
         if (fabsf(x - 0.5f) < 0.1f || fabsf(y - 0.5f) < 0.1f || x < 0.1f || x > 0.9f || y < 0.1f || y > 0.9f)
             continue;
-        assert_int_equal(rgb[0], x > 0.5f ? 255 : 0);
-        assert_int_equal(rgb[1], x > 0.5f && y < 0.5f ? 188 : 0); // 0.5 of linear light
-        assert_int_equal(rgb[2], x > 0.5f && y < 0.5f ? 255 : 0);
+        assert_float_equal(rgb[0], x > 0.5f ? 1 : 0, 1e-5);
+        assert_float_equal(rgb[1], x > 0.5f && y < 0.5f ? 0.5 : 0, 1e-5); // linear light
+        assert_float_equal(rgb[2], x > 0.5f && y < 0.5f ? 1 : 0, 1e-5);
     }
     ewa_cloud_destroy(&cloud);
     mesh.materials[0].base_color[3] = 0.5f;
     cloud = shape_sample(&mesh, &options);
     color = ewa_cloud_find(cloud, EWA_COLOR);
     assert_int_equal(color->component_count, 4);
-    assert_int_equal(((const uint8_t *)color->data)[3], 128);
+    assert_float_equal(((const float *)color->data)[3], 0.5, 1e-6);
     ewa_cloud_destroy(&cloud);
+    ewa_mesh_free(&mesh);
+    ewa_context_destroy(&context);
+}
+
+/// A picture in place of materials and vertex colours; its coordinates stay when asked for.
+static void test_picture(void **state) {
+    (void)state;
+    static const float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, texcoords[6] = {0, 0, 1, 0, 0, 1};
+    ewa_context *context = check_context(0, NULL);
+    ewa_mesh mesh;
+    ewa_image picture;
+    assert_int_equal(ewa_mesh_create(context, 3, 1, 2, EWA_MESH_COLORS | EWA_MESH_TEXCOORDS, &mesh), EWA_OK);
+    memcpy(mesh.positions, positions, sizeof positions);
+    memcpy(mesh.texcoords, texcoords, sizeof texcoords);
+    for (uint32_t i = 0; i < 3; i++) mesh.triangles[i] = i;
+    assert_int_equal(ewa_image_create(context, 4, 4, 3, &picture), EWA_OK);
+    for (int i = 0; i < 48; i++) picture.pixels[i] = 0.25f;
+    assert_int_equal(ewa_mesh_set_picture(&mesh, &picture), EWA_OK);
+    assert_null(picture.pixels);
+    assert_null(mesh.colors);
+    ewa_mesh_sample_options options = options_of(400);
+    options.texcoords = true;
+    ewa_cloud *cloud = shape_sample(&mesh, &options);
+    const ewa_attribute *color = ewa_cloud_find(cloud, EWA_COLOR);
+    assert_int_equal(color->component_count, 3);
+    assert_non_null(ewa_cloud_find(cloud, EWA_TEXTURE));
+    const float *at = stream(cloud, EWA_TEXCOORD), *by_s = stream(cloud, EWA_TEXCOORD_S),
+                *p = stream(cloud, EWA_POSITION);
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
+        assert_float_equal(((const float *)color->data)[3 * i], 0.25, 1e-5);
+        assert_float_equal(at[2 * i], p[3 * i], 1e-6);
+        assert_float_equal(at[2 * i + 1], p[3 * i + 1], 1e-6);
+        assert_float_equal(by_s[3 * i], 1, 1e-6);
+        assert_float_equal(by_s[3 * i + 1], 0, 1e-6);
+    }
+    ewa_cloud_destroy(&cloud);
+    ewa_mesh_free(&mesh);
+
+    shape_cube(context, &mesh); // no coordinates to put one on
+    assert_int_equal(ewa_image_create(context, 4, 4, 3, &picture), EWA_OK);
+    assert_int_equal(ewa_mesh_set_picture(&mesh, &picture), EWA_ERROR_ARGUMENT);
+    assert_non_null(picture.pixels);
+    assert_int_equal(ewa_mesh_sample(&mesh, &options, &cloud), EWA_ERROR_ARGUMENT);
+    ewa_image_free(&picture);
     ewa_mesh_free(&mesh);
     ewa_context_destroy(&context);
 }
@@ -323,8 +369,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_cube_points), cmocka_unit_test(test_cube_lines),
         cmocka_unit_test(test_angle_lines), cmocka_unit_test(test_sphere),
-        cmocka_unit_test(test_colors),      cmocka_unit_test(test_bad_meshes),
-        cmocka_unit_test(test_soup),
+        cmocka_unit_test(test_colors),      cmocka_unit_test(test_picture),
+        cmocka_unit_test(test_bad_meshes),  cmocka_unit_test(test_soup),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

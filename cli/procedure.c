@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Solid textures onto clouds.
+#include "procedure.h"
+
+#include <stdio.h>
+
+#define AT(member) offsetof(procedure_arguments, member)
+
+static const cli_option procedure_table[] = {
+    {.key = "procedure",
+     .kind = OPTION_CHOICE,
+     .offset = AT(procedure),
+     .range = "off|checker|marble|wood|noise",
+     .help = "colour the points by a solid texture, filtered by each surfel's own kernel"},
+    {.key = "frequency",
+     .kind = OPTION_NUMBER,
+     .offset = AT(frequency),
+     .value = "F",
+     .range = "(0, 1e9]",
+     .absent = "8 over the longest side",
+     .help = "features per world unit: cubes, veins, rings, waves"},
+    {.key = "prefilter-scale",
+     .kind = OPTION_NUMBER,
+     .offset = AT(prefilter),
+     .value = "S",
+     .range = "[0, 10]",
+     .help = "width of the filter in units of the surfel's kernel; 0: none, which aliases"},
+    {.key = "procedure-seed",
+     .kind = OPTION_INTEGER,
+     .offset = AT(seed),
+     .value = "N",
+     .range = "[0, inf)",
+     .help = "same seed, same noise"},
+    {.key = "first-color",
+     .kind = OPTION_VECTOR,
+     .offset = AT(colors[0]),
+     .value = "r,g,b",
+     .low = 3,
+     .high = 3,
+     .absent = "by --procedure",
+     .help = "linear colour in [0, 1] of one kind of cubes, the stone, early wood, the low"},
+    {.key = "second-color",
+     .kind = OPTION_VECTOR,
+     .offset = AT(colors[1]),
+     .value = "r,g,b",
+     .low = 3,
+     .high = 3,
+     .absent = "by --procedure",
+     .help = "linear colour in [0, 1] of the other cubes, the veins, late wood, the high"},
+};
+
+const option_group procedure_options = {"Solid texture", procedure_table,
+                                        sizeof procedure_table / sizeof procedure_table[0]};
+
+void procedure_set_defaults(procedure_arguments *arguments) {
+    ewa_procedure_options options;
+    ewa_procedure_options_init(&options, EWA_PROCEDURE_CHECKER, sizeof options);
+    arguments->prefilter = options.prefilter;
+    arguments->seed = (int64_t)options.seed;
+}
+
+bool procedure_check(const procedure_arguments *arguments, char message[OPTION_ERROR_BYTES]) {
+    const char *problem = NULL;
+    if (!arguments->procedure && arguments->frequency > 0) problem = "--frequency needs --procedure";
+    for (int i = 0; i < 2; i++) {
+        const option_vector *color = &arguments->colors[i];
+        if (color->count && !arguments->procedure)
+            problem = i ? "--second-color needs --procedure" : "--first-color needs --procedure";
+        for (uint32_t c = 0; c < color->count; c++)
+            if (color->values[c] < 0 || color->values[c] > 1)
+                problem = i ? "--second-color: numbers must be in [0, 1]"
+                            : "--first-color: numbers must be in [0, 1]";
+    }
+    if (problem) snprintf(message, OPTION_ERROR_BYTES, "%s", problem);
+    return !problem && cloud_output_check(&arguments->output, message);
+}
+
+/// Eight features along the longest side of the cloud's box.
+static double fitting_frequency(const ewa_cloud *cloud) {
+    ewa_bounds bounds;
+    double longest = 0;
+    if (ewa_cloud_measure(cloud, &bounds) == EWA_OK && bounds.finite_count)
+        for (int c = 0; c < 3; c++)
+            if (bounds.high_world[c] - bounds.low_world[c] > longest)
+                longest = bounds.high_world[c] - bounds.low_world[c];
+    const double frequency = longest > 0 ? 8 / longest : 8;
+    return frequency < 1e9 ? frequency : 1e9;
+}
+
+bool procedure_apply(cli_session *session, const procedure_arguments *arguments, double cutoff,
+                     ewa_cloud *cloud) {
+    if (!arguments->procedure) return true;
+    ewa_procedure_options options;
+    ewa_procedure_options_init(&options, (ewa_procedure)(arguments->procedure - 1), sizeof options);
+    options.frequency = arguments->frequency > 0 ? arguments->frequency : fitting_frequency(cloud);
+    options.prefilter = arguments->prefilter;
+    options.cutoff = cutoff;
+    options.seed = (uint64_t)arguments->seed;
+    for (int i = 0; i < 2; i++)
+        for (uint32_t c = 0; c < arguments->colors[i].count; c++)
+            options.colors[i][c] = (float)arguments->colors[i].values[c];
+    const ewa_status status = ewa_cloud_color_by_procedure(cloud, &options);
+    if (status != EWA_OK) session_failed(session, status);
+    return status == EWA_OK;
+}

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What commands that put pictures onto points have in common.
+#ifndef EWA_CLI_TEXTURED_H
+#define EWA_CLI_TEXTURED_H
+
+#include "procedure.h"
+
+/// What the arguments of such a command begin with.
+typedef struct textured_arguments {
+    procedure_arguments procedure; // first
+    const char *picture;           ///< NULL: none
+    int filter;                    ///< ewa_texture_filter
+    double pixel_sigma_px;
+} textured_arguments;
+
+/// The options of textured_arguments but for those of procedure_arguments.
+extern const option_group textured_options;
+
+void textured_set_defaults(textured_arguments *arguments);
+
+/// Says in `message` what is wrong with the options together, also those of procedure_arguments.
+bool textured_check(const textured_arguments *arguments, char message[OPTION_ERROR_BYTES]);
+
+/// Reads the picture that was asked for. Returns false after reporting; the caller frees `*picture`, which is
+/// zeroed when there is none.
+bool textured_load(cli_session *session, const textured_arguments *arguments, ewa_image *picture);
+
+#endif

@@ -1,0 +1,629 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Textures on surfels: closed forms against quadrature, what the filters keep, that optimal is optimal, and
+// that failures leave nothing behind.
+#include "check_prepare.h"
+#include "math/gaussian.h"
+#include "prepare/acquire.h"
+
+#include <math.h>
+#include <string.h>
+
+static ewa_vec3 load(const float v[3]) { return vec3_make((double)v[0], (double)v[1], (double)v[2]); }
+
+static void set_vector(float to[3], double x, double y, double z) {
+    to[0] = (float)x, to[1] = (float)y, to[2] = (float)z;
+}
+
+/// A kernel of the plane z = 0 by the elements of its axes.
+static ewa_acquire_point flat_point(double x, double y, double ux, double uy, double vx, double vy) {
+    ewa_acquire_point point = {.place = {x, y, 0}, .tint = {1, 1, 1, 1}};
+    set_vector(point.normal, 0, 0, 1);
+    set_vector(point.axis[0], ux, uy, 0);
+    set_vector(point.axis[1], vx, vy, 0);
+    return point;
+}
+
+/// The kernel at a place of the plane, 0 where it is cut.
+static double kernel_at(const ewa_acquire_point *point, double x, double y) {
+    const ewa_vec3 u = load(point->axis[0]), v = load(point->axis[1]);
+    const double dx = x - point->place[0], dy = y - point->place[1], det = u.x * v.y - u.y * v.x;
+    const double a = (dx * v.y - dy * v.x) / det, b = (u.x * dy - u.y * dx) / det;
+    for (uint32_t i = 0; i < point->side_count; i++)
+        if ((double)point->side[i][0] * dx + (double)point->side[i][1] * dy + (double)point->side[i][3] < 0)
+            return 0;
+    return exp(-0.5 * (a * a + b * b));
+}
+
+/// Moments of a product by the midpoint rule: integral, mean (from the first centre), covariance.
+static void integrate(const ewa_acquire_point *a, const ewa_acquire_point *b, double moments[6]) {
+    enum { STEPS = 1200 };
+    const double reach = 6;
+    memset(moments, 0, 6 * sizeof *moments);
+    for (int j = 0; j < STEPS; j++)
+        for (int i = 0; i < STEPS; i++) {
+            const double x = reach * (2 * (i + 0.5) / STEPS - 1), y = reach * (2 * (j + 0.5) / STEPS - 1);
+            const double product =
+                kernel_at(a, x, y) * kernel_at(b, x, y) * 4 * reach * reach / STEPS / STEPS;
+            const double dx = x - a->place[0], dy = y - a->place[1];
+            const double terms[6] = {1, dx, dy, dx * dx, dx * dy, dy * dy};
+            for (int k = 0; k < 6; k++) moments[k] += terms[k] * product;
+        }
+    for (int k = 1; k < 6; k++) moments[k] /= moments[0];
+    moments[3] -= moments[1] * moments[1];
+    moments[4] -= moments[1] * moments[2];
+    moments[5] -= moments[2] * moments[2];
+}
+
+/// Turns a pair's numbers into x and y.
+static void unframe(const ewa_acquire_pair *pair, double moments[6]) {
+    const double c[2][2] = {{pair->axis[0].x, pair->axis[0].y}, {pair->axis[1].x, pair->axis[1].y}};
+    moments[0] = pair->integral;
+    for (int k = 0; k < 2; k++) moments[1 + k] = pair->mean[0] * c[0][k] + pair->mean[1] * c[1][k];
+    for (int k = 0, n = 3; k < 2; k++)
+        for (int l = k; l < 2; l++, n++)
+            moments[n] = pair->xx * c[0][k] * c[0][l] + pair->yy * c[1][k] * c[1][l] +
+                         pair->xy * (c[0][k] * c[1][l] + c[1][k] * c[0][l]);
+}
+
+static void hold_moments(const double got[6], const double expected[6], double tolerance) {
+    for (int k = 0; k < 6; k++)
+        if (fabs(got[k] - expected[k]) > tolerance * (k ? 1 : expected[0]))
+            fail_msg("moment %d is %.9g instead of %.9g", k, got[k], expected[k]);
+}
+
+static void test_products_are_those_of_quadrature(void **state) {
+    (void)state;
+    const ewa_acquire_set set = {.usual_sigma_world = 0.4};
+    const ewa_acquire_point a = flat_point(0.1, -0.2, 0.6, 0.1, -0.2, 0.5),
+                            b = flat_point(0.5, 0.3, 0.4, 0.3, 0, 0.7),
+                            other = flat_point(-0.4, 0, 0.5, 0, 0, 0.5);
+    const ewa_acquire_point *pairs[3][2] = {{&a, &b}, {&a, &a}, {&b, &other}};
+    for (int i = 0; i < 3; i++) {
+        ewa_acquire_pair pair, back;
+        double expected[6], got[6];
+        ewa_acquire_multiply(&set, pairs[i][0], pairs[i][1], &pair);
+        ewa_acquire_multiply(&set, pairs[i][1], pairs[i][0], &back);
+        integrate(pairs[i][0], pairs[i][1], expected);
+        unframe(&pair, got);
+        hold_moments(got, expected, 1e-7);
+        assert_float_equal(pair.integral, back.integral, 1e-14);
+    }
+}
+
+/// Both cut by one line, as beside a sharp edge; one alone.
+static void test_cut_products_are_those_of_quadrature(void **state) {
+    (void)state;
+    const ewa_acquire_set set = {.usual_sigma_world = 0.4};
+    ewa_acquire_point a = flat_point(0.1, -0.2, 0.6, 0.1, -0.2, 0.5),
+                      b = flat_point(0.5, 0.3, 0.4, 0.3, 0, 0.7);
+    const double line[3] = {0.6, -0.8, -0.03}; // passes near both
+    for (int k = 0; k < 2; k++) {
+        ewa_acquire_point *point = k ? &b : &a;
+        set_vector(point->side[0], line[0], line[1], 0);
+        point->side[0][3] = (float)(line[0] * point->place[0] + line[1] * point->place[1] + line[2]);
+        point->side_count = 1;
+    }
+    ewa_acquire_pair pair;
+    double expected[6], got[6];
+    ewa_acquire_multiply(&set, &a, &b, &pair);
+    integrate(&a, &b, expected);
+    unframe(&pair, got);
+    got[0] = expected[0];              // the integral is that of the whole kernels
+    hold_moments(got, expected, 2e-3); // the quadrature's cells on the line
+    ewa_acquire_point flat = flat_point(0, 0, 1000, 0, 0, 1000);
+    ewa_acquire_single(&a, &pair);
+    integrate(&a, &flat, expected);
+    unframe(&pair, got);
+    got[0] = expected[0];
+    hold_moments(got, expected, 2e-3);
+}
+
+static void test_normal_distribution(void **state) {
+    (void)state;
+    for (double z = -7; z <= 7; z += 0.01) {
+        assert_true(fabs(ewa_normal_below(z) - 0.5 * erfc(-z / sqrt(2))) < 2e-9);
+        assert_true(fabs(ewa_exp(z * 20) / exp(z * 20) - 1) < 1e-14);
+    }
+}
+
+/// A picture of smooth noise.
+static void make_picture(ewa_context *context, uint32_t width, uint32_t height, uint64_t seed,
+                         ewa_image *image) {
+    check_random random = {seed};
+    double wave[6][3];
+    for (int k = 0; k < 6; k++)
+        for (int c = 0; c < 3; c++) wave[k][c] = check_uniform(&random, -9, 9);
+    assert_int_equal(ewa_image_create(context, width, height, 3, image), EWA_OK);
+    for (uint32_t i = 0; i < width * height; i++)
+        for (uint32_t c = 0; c < 3; c++) {
+            double sum = 0.5;
+            for (int k = 0; k < 6; k++)
+                sum += 0.08 * sin(wave[k][0] * (i % width) / width + wave[k][1] * (i / width) / height +
+                                  wave[k][2] * (c + 1));
+            image->pixels[3 * i + c] = (float)sum;
+        }
+}
+
+/// The mean on a small copy of a picture is near that on the picture itself.
+static void test_means_of_levels_agree(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    ewa_image image;
+    ewa_texture texture;
+    make_picture(context, 203, 91, 3, &image);
+    assert_int_equal(ewa_texture_make(&image, EWA_TEXTURE_CLAMP, EWA_TEXTURE_REPEAT, &texture), EWA_OK);
+    check_random random = {9};
+    uint32_t deepest = 0;
+    for (int i = 0; i < 200; i++) {
+        const double size = check_uniform(&random, 0.5, 40), skew = check_uniform(&random, -0.8, 0.8);
+        ewa_texture_gauss gauss = {check_uniform(&random, 0, 203), check_uniform(&random, -91, 200), size,
+                                   skew * size, 1.5 * size};
+        const uint32_t level = ewa_texture_level_of(&texture, &gauss);
+        double fine[4], coarse[4];
+        ewa_texture_mean(&texture, 0, &gauss, fine);
+        ewa_texture_mean(&texture, level, &gauss, coarse);
+        for (int c = 0; c < 3; c++) assert_float_equal(fine[c], coarse[c], 0.012);
+        deepest = level > deepest ? level : deepest;
+    }
+    assert_true(deepest >= 1);
+    ewa_texture_gauss needle = {10, 10, 1e9, 0, 1e-3}, point = {1e300, NAN, 1, 0, 1};
+    double color[4];
+    ewa_texture_round(&needle);
+    ewa_texture_mean(&texture, ewa_texture_level_of(&texture, &needle), &needle, color);
+    assert_true(color[0] > 0 && color[0] < 1);
+    ewa_texture_mean(&texture, 0, &point, color);
+    ewa_texture_free(&texture);
+    ewa_image_free(&image);
+    ewa_context_destroy(&context);
+}
+
+static ewa_cloud *make_object(ewa_context *context, ewa_object object, uint64_t count, double radius_scale) {
+    ewa_generate_options options;
+    ewa_generate_options_init(&options, sizeof options);
+    options.object = object;
+    options.point_count = count;
+    options.jitter = 1;
+    options.radius_scale = radius_scale;
+    options.texcoords = true;
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_OK);
+    return cloud;
+}
+
+static ewa_acquire_options options_of(ewa_texture_filter filter) {
+    ewa_acquire_options options;
+    ewa_acquire_options_init(&options, sizeof options);
+    options.filter = filter;
+    options.wrap_s = options.wrap_t = EWA_TEXTURE_CLAMP;
+    return options;
+}
+
+static void fill(const ewa_image *image, float r, float g, float b) {
+    for (size_t i = 0; i < (size_t)image->width_px * image->height_px; i++)
+        image->pixels[3 * i] = r, image->pixels[3 * i + 1] = g, image->pixels[3 * i + 2] = b;
+}
+
+static void test_a_constant_stays(void **state) {
+    (void)state;
+    static const ewa_object objects[] = {EWA_OBJECT_PLANE, EWA_OBJECT_SPHERE, EWA_OBJECT_TORUS,
+                                         EWA_OBJECT_CUBE, EWA_OBJECT_TERRAIN};
+    ewa_context *context = check_context(0, NULL);
+    ewa_image image;
+    assert_int_equal(ewa_image_create(context, 50, 30, 3, &image), EWA_OK);
+    fill(&image, 0.7f, 3, 0);
+    for (size_t k = 0; k < sizeof objects / sizeof objects[0]; k++)
+        for (int filter = 0; filter <= EWA_TEXTURE_OPTIMAL; filter++) {
+            ewa_cloud *cloud = make_object(context, objects[k], 3000, 1.5);
+            const ewa_acquire_options options = options_of((ewa_texture_filter)filter);
+            ewa_acquire_report report;
+            assert_int_equal(ewa_cloud_acquire(cloud, &image, 1, &options, &report), EWA_OK);
+            assert_int_equal(report.textured_count, 3000);
+            const float *color = check_stream(cloud, EWA_COLOR);
+            for (int i = 0; i < 3000; i++) {
+                assert_float_equal(color[3 * i], 0.7, 1e-5);
+                assert_float_equal(color[3 * i + 1], 3, 5e-5);
+                assert_float_equal(color[3 * i + 2], 0, 1e-5);
+            }
+            ewa_cloud_destroy(&cloud);
+        }
+    ewa_image_free(&image);
+    ewa_context_destroy(&context);
+}
+
+/// The drawn colour at a place of the plane z = 0: kernels of one sigma, normalised.
+static void reconstruct(const ewa_cloud *cloud, double x, double y, double color[3]) {
+    const float *p = check_stream(cloud, EWA_POSITION), *radius = check_stream(cloud, EWA_RADIUS),
+                *c = check_stream(cloud, EWA_COLOR);
+    double sum = 0;
+    color[0] = color[1] = color[2] = 0;
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
+        const double dx = ((double)p[3 * i] - x) * 3 / (double)radius[i],
+                     dy = ((double)p[3 * i + 1] - y) * 3 / (double)radius[i], d2 = dx * dx + dy * dy;
+        if (d2 > 9) continue;
+        const double weight = exp(-0.5 * d2);
+        for (int k = 0; k < 3; k++) color[k] += weight * (double)c[3 * i + (uint64_t)k];
+        sum += weight;
+    }
+    for (int k = 0; k < 3; k++) color[k] /= sum;
+}
+
+/// RMS of the drawn first channel against the picture's continuous function, over the middle of the plane.
+static double error_of(const ewa_cloud *cloud, const ewa_image *image, const ewa_acquire_options *options) {
+    ewa_texture texture;
+    assert_int_equal(ewa_texture_make(image, options->wrap_s, options->wrap_t, &texture), EWA_OK);
+    check_random random = {77};
+    const double variance = options->pixel_sigma_px * options->pixel_sigma_px;
+    double sum = 0;
+    enum { PLACES = 3000 };
+    for (int i = 0; i < PLACES; i++) {
+        const double x = check_uniform(&random, -0.7, 0.7), y = check_uniform(&random, -0.7, 0.7);
+        const ewa_texture_gauss gauss = {(x + 1) / 2 * image->width_px, (1 - y) / 2 * image->height_px,
+                                         variance, 0, variance};
+        double truth[4], drawn[3];
+        ewa_texture_mean(&texture, 0, &gauss, truth);
+        reconstruct(cloud, x, y, drawn);
+        sum += (drawn[0] - truth[0]) * (drawn[0] - truth[0]);
+    }
+    ewa_texture_free(&texture);
+    return sqrt(sum / PLACES);
+}
+
+static double measure(ewa_context *context, const ewa_image *image, ewa_texture_filter filter,
+                      ewa_texture_fit fit) {
+    ewa_cloud *cloud = make_object(context, EWA_OBJECT_PLANE, 2500, 1.44);
+    ewa_acquire_options options = options_of(filter);
+    options.fit = fit;
+    options.pixel_sigma_px = 1;
+    ewa_acquire_report report;
+    assert_int_equal(ewa_cloud_acquire(cloud, image, 1, &options, &report), EWA_OK);
+    if (filter == EWA_TEXTURE_OPTIMAL) assert_true(report.gradient <= 1e-6 && report.ridge == options.ridge);
+    const double error = error_of(cloud, image, &options);
+    ewa_cloud_destroy(&cloud);
+    return error;
+}
+
+/// A ramp of 1 over the plane, 50 points wide: within an eighth of the step from point to point.
+static void test_a_ramp_is_kept(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    ewa_image image;
+    assert_int_equal(ewa_image_create(context, 200, 200, 3, &image), EWA_OK);
+    for (uint32_t i = 0; i < 200 * 200; i++)
+        for (uint32_t c = 0; c < 3; c++) image.pixels[3 * i + c] = (float)(i % 200) / 200;
+    ewa_cloud *cloud = make_object(context, EWA_OBJECT_PLANE, 2500, 1.44);
+    const ewa_acquire_options options = options_of(EWA_TEXTURE_EWA);
+    assert_int_equal(ewa_cloud_acquire(cloud, &image, 1, &options, NULL), EWA_OK);
+    const float *p = check_stream(cloud, EWA_POSITION), *color = check_stream(cloud, EWA_COLOR);
+    for (uint64_t i = 0; i < 2500; i++)
+        if (fabsf(p[3 * i]) < 0.9f)
+            assert_float_equal(color[3 * i], ((double)p[3 * i] + 1) / 2 - 0.0025, 2e-4);
+    ewa_cloud_destroy(&cloud);
+    const double ewa = measure(context, &image, EWA_TEXTURE_EWA, EWA_FIT_NORMALIZED),
+                 optimal = measure(context, &image, EWA_TEXTURE_OPTIMAL, EWA_FIT_NORMALIZED);
+    print_message("ramp: EWA %.2g, optimal %.2g of its height\n", ewa, optimal);
+    assert_true(optimal < 0.0025 && optimal < 0.7 * ewa);
+    ewa_image_free(&image);
+    ewa_context_destroy(&context);
+}
+
+static void test_optimal_is_better(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    ewa_image image;
+    assert_int_equal(ewa_image_create(context, 100, 100, 3, &image), EWA_OK);
+    for (uint32_t i = 0; i < 100 * 100; i++)
+        for (uint32_t c = 0; c < 3; c++) image.pixels[3 * i + c] = (i % 100 / 8 + i / 100 / 8) % 2 ? 0 : 1;
+    const double nearest = measure(context, &image, EWA_TEXTURE_NEAREST, EWA_FIT_NORMALIZED),
+                 ewa = measure(context, &image, EWA_TEXTURE_EWA, EWA_FIT_NORMALIZED),
+                 optimal = measure(context, &image, EWA_TEXTURE_OPTIMAL, EWA_FIT_NORMALIZED),
+                 sum = measure(context, &image, EWA_TEXTURE_OPTIMAL, EWA_FIT_SUM);
+    print_message("checker: nearest %.3f, EWA %.3f, optimal %.3f, by the sum %.3f\n", nearest, ewa, optimal,
+                  sum);
+    assert_true(optimal < 0.7 * ewa && optimal < 0.7 * nearest && optimal < 0.7 * sum);
+    ewa_image_free(&image);
+    ewa_context_destroy(&context);
+}
+
+/// The gradient of what is minimised, by quadrature: nearly nothing at the optimal colours, much elsewhere.
+static void test_the_gradient_vanishes(void **state) {
+    (void)state;
+    enum { POINTS = 100, STEPS = 700 };
+    ewa_context *context = check_context(0, NULL);
+    ewa_image image;
+    ewa_texture texture;
+    make_picture(context, 40, 40, 5, &image);
+    assert_int_equal(ewa_texture_make(&image, EWA_TEXTURE_CLAMP, EWA_TEXTURE_CLAMP, &texture), EWA_OK);
+    ewa_acquire_options options = options_of(EWA_TEXTURE_EWA);
+    options.pixel_sigma_px = 1;
+    options.ridge = 1e-6;
+    ewa_cloud *cloud = make_object(context, EWA_OBJECT_PLANE, POINTS, 1.5);
+    assert_int_equal(ewa_cloud_acquire(cloud, &image, 1, &options, NULL), EWA_OK);
+    float filtered[POINTS], optimal[POINTS];
+    for (int i = 0; i < POINTS; i++) filtered[i] = check_stream(cloud, EWA_COLOR)[3 * i];
+    options.filter = EWA_TEXTURE_OPTIMAL;
+    assert_int_equal(ewa_cloud_acquire(cloud, &image, 1, &options, NULL), EWA_OK);
+    for (int i = 0; i < POINTS; i++) optimal[i] = check_stream(cloud, EWA_COLOR)[3 * i];
+    const float *p = check_stream(cloud, EWA_POSITION), *radius = check_stream(cloud, EWA_RADIUS);
+    double by_filtered[POINTS] = {0}, by_optimal[POINTS] = {0};
+    for (int n = 0; n < STEPS * STEPS; n++) {
+        const double x = 4 * (n % STEPS + 0.5) / STEPS - 2, y = 4 * (n / STEPS + 0.5) / STEPS - 2;
+        const ewa_texture_gauss gauss = {(x + 1) * 20, (1 - y) * 20, 1, 0, 1};
+        double r[POINTS], sum = 0, of_filtered = 0, of_optimal = 0, truth[4];
+        for (int i = 0; i < POINTS; i++) {
+            const double sigma = (double)radius[i] / 3, dx = x - (double)p[3 * i],
+                         dy = y - (double)p[3 * i + 1];
+            r[i] = exp(-0.5 * (dx * dx + dy * dy) / (sigma * sigma));
+            sum += r[i];
+            of_filtered += r[i] * (double)filtered[i];
+            of_optimal += r[i] * (double)optimal[i];
+        }
+        ewa_texture_mean(&texture, 0, &gauss, truth);
+        for (int i = 0; i < POINTS; i++) {
+            by_filtered[i] += r[i] * (sum * truth[0] - of_filtered);
+            by_optimal[i] += r[i] * (sum * truth[0] - of_optimal);
+        }
+    }
+    double filtered2 = 0, optimal2 = 0;
+    for (int i = 0; i < POINTS; i++) {
+        filtered2 += by_filtered[i] * by_filtered[i];
+        optimal2 += by_optimal[i] * by_optimal[i];
+    }
+    print_message("gradient: %.2g of that at the filtered colours\n", sqrt(optimal2 / filtered2));
+    assert_true(optimal2 < 1e-3 * filtered2);
+    ewa_cloud_destroy(&cloud);
+    ewa_texture_free(&texture);
+    ewa_image_free(&image);
+    ewa_context_destroy(&context);
+}
+
+static void test_threads_change_nothing(void **state) {
+    (void)state;
+    static const uint32_t threads[] = {1, 2, 7};
+    float *first = NULL;
+    for (int k = 0; k < 3; k++) {
+        ewa_context *context = check_context(threads[k], NULL);
+        ewa_image image;
+        make_picture(context, 64, 48, 11, &image);
+        ewa_cloud *cloud = make_object(context, EWA_OBJECT_TORUS, 5000, 1.5);
+        assert_int_equal(ewa_cloud_acquire(cloud, &image, 1, NULL, NULL), EWA_OK);
+        const float *color = check_stream(cloud, EWA_COLOR);
+        if (k == 0) {
+            first = malloc(5000 * 3 * sizeof *first);
+            assert_non_null(first);
+            memcpy(first, color, 5000 * 3 * sizeof *first);
+        }
+        assert_memory_equal(first, color, 5000 * 3 * sizeof *first);
+        ewa_cloud_destroy(&cloud);
+        ewa_image_free(&image);
+        ewa_context_destroy(&context);
+    }
+    free(first);
+}
+
+/// Straight alpha comes back; colours are multiplied; what has no coordinates or no picture is white.
+static void test_alpha_tint_and_gaps(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    ewa_image image[2] = {{0}};
+    assert_int_equal(ewa_image_create(context, 8, 8, 4, &image[0]), EWA_OK);
+    for (int i = 0; i < 64; i++)
+        for (int c = 0; c < 4; c++) image[0].pixels[4 * i + c] = c == 0 ? 0.1f : 0.5f; // premultiplied
+    for (int filter = 0; filter <= EWA_TEXTURE_OPTIMAL; filter++) {
+        ewa_cloud *cloud = make_object(context, EWA_OBJECT_PLANE, 400, 1.5);
+        void *data = NULL;
+        float *texcoord = (float *)ewa_cloud_find(cloud, EWA_TEXCOORD)->data;
+        texcoord[0] = NAN;
+        assert_int_equal(ewa_cloud_add(cloud, EWA_TEXTURE, EWA_U8, 1, &data), EWA_OK);
+        for (int i = 0; i < 400; i++) ((uint8_t *)data)[i] = i == 1 ? 1 : i == 2 ? 9 : 0;
+        uint8_t *color8 = (uint8_t *)ewa_cloud_find(cloud, EWA_COLOR)->data;
+        for (int i = 0; i < 1200; i++) color8[i] = i % 3 == 1 ? 188 : 255;
+        ewa_acquire_options options = options_of((ewa_texture_filter)filter);
+        options.modulate = true;
+        ewa_acquire_report report;
+        assert_int_equal(ewa_cloud_acquire(cloud, image, 2, &options, &report), EWA_OK);
+        assert_int_equal(report.textured_count, 397);
+        assert_int_equal(ewa_cloud_find(cloud, EWA_COLOR)->component_count, 4);
+        const float *color = check_stream(cloud, EWA_COLOR);
+        assert_float_equal(color[4 * 390], 0.2, 1e-3);
+        assert_float_equal(color[4 * 390 + 1], 0.503, 1e-3);
+        assert_float_equal(color[4 * 390 + 2], 1, 1e-3);
+        assert_float_equal(color[4 * 390 + 3], 0.5, 1e-3);
+        if (filter != EWA_TEXTURE_OPTIMAL)
+            for (int i = 0; i < 3; i++) {
+                assert_float_equal(color[4 * i], 1, 1e-6);
+                assert_float_equal(color[4 * i + 3], 1, 1e-6);
+            }
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_image_free(&image[0]);
+    ewa_context_destroy(&context);
+}
+
+/// Points that are no surfels, at one place, or without area on the picture: finite colours.
+static void test_odd_points(void **state) {
+    (void)state;
+    ewa_context *context = check_context(2, NULL);
+    ewa_image image;
+    make_picture(context, 32, 32, 2, &image);
+    ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 2000, 1.5);
+    float *p = (float *)ewa_cloud_find(cloud, EWA_POSITION)->data,
+          *n = (float *)ewa_cloud_find(cloud, EWA_NORMAL)->data,
+          *radius = (float *)ewa_cloud_find(cloud, EWA_RADIUS)->data,
+          *s = (float *)ewa_cloud_find(cloud, EWA_TEXCOORD_S)->data;
+    p[3] = NAN, n[6] = n[7] = n[8] = 0, radius[3] = 0, radius[4] = 1e30f;
+    for (int i = 300; i < 330; i++)
+        memcpy(p + 3 * i, p + 900, 3 * sizeof *p), memcpy(n + 3 * i, n + 900, 3 * sizeof *n);
+    for (int i = 0; i < 3; i++) s[3 * 500 + i] = 0, s[3 * 501 + i] = 1e20f;
+    assert_int_equal(ewa_cloud_acquire(cloud, &image, 1, NULL, NULL), EWA_OK);
+    const float *color = check_stream(cloud, EWA_COLOR);
+    for (int i = 0; i < 6000; i++) assert_true(isfinite(color[i]) && fabsf(color[i]) < 10);
+    ewa_cloud_destroy(&cloud);
+    cloud = make_object(context, EWA_OBJECT_PLANE, 0, 1.5);
+    assert_int_equal(ewa_cloud_acquire(cloud, &image, 1, NULL, NULL), EWA_OK);
+    ewa_cloud_destroy(&cloud);
+    cloud = make_object(context, EWA_OBJECT_PLANE, 1, 1.5);
+    assert_int_equal(ewa_cloud_acquire(cloud, &image, 1, NULL, NULL), EWA_OK);
+    ewa_cloud_destroy(&cloud);
+    ewa_image_free(&image);
+    ewa_context_destroy(&context);
+}
+
+static void test_wrong_use_is_named(void **state) {
+    (void)state;
+    check_log log = {0};
+    ewa_context *context = check_context(1, &log);
+    ewa_image image;
+    make_picture(context, 8, 8, 2, &image);
+    ewa_cloud *cloud = make_object(context, EWA_OBJECT_PLANE, 100, 1.5);
+    static const struct {
+        size_t offset;
+        double value;
+        const char *name;
+    } wrong[] = {{offsetof(ewa_acquire_options, pixel_sigma_px), 0.1, "pixel_sigma_px"},
+                 {offsetof(ewa_acquire_options, pixel_sigma_px), NAN, "pixel_sigma_px"},
+                 {offsetof(ewa_acquire_options, cutoff), 0, "cutoff"},
+                 {offsetof(ewa_acquire_options, ridge), 2, "ridge"}};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        ewa_acquire_options options = options_of(EWA_TEXTURE_EWA);
+        memcpy((char *)&options + wrong[i].offset, &wrong[i].value, sizeof wrong[i].value);
+        assert_int_equal(ewa_cloud_acquire(cloud, &image, 1, &options, NULL), EWA_ERROR_ARGUMENT);
+        assert_non_null(strstr(log.text, wrong[i].name));
+    }
+    ewa_acquire_options options = options_of((ewa_texture_filter)3);
+    assert_int_equal(ewa_cloud_acquire(cloud, &image, 1, &options, NULL), EWA_ERROR_ARGUMENT);
+    image.channel_count = 2;
+    assert_int_equal(ewa_cloud_acquire(cloud, &image, 1, NULL, NULL), EWA_ERROR_ARGUMENT);
+    image.channel_count = 3;
+    // Far more overlap than anything is drawn with.
+    ewa_cloud *crowd = make_object(context, EWA_OBJECT_PLANE, 6000, 300);
+    assert_int_equal(ewa_cloud_acquire(crowd, &image, 1, NULL, NULL), EWA_ERROR_LIMIT);
+    ewa_cloud_destroy(&crowd);
+    static const char *const needed[] = {EWA_RADIUS, EWA_TEXCOORD_T, EWA_TEXCOORD_S, EWA_TEXCOORD,
+                                         EWA_POSITION};
+    for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++) {
+        ewa_cloud_remove(cloud, needed[i]);
+        assert_int_equal(ewa_cloud_acquire(cloud, &image, 1, NULL, NULL), EWA_ERROR_ARGUMENT);
+        assert_non_null(strstr(log.text, needed[i]));
+    }
+    ewa_cloud_destroy(&cloud);
+    ewa_image_free(&image);
+    ewa_context_destroy(&context);
+}
+
+static void test_every_failing_allocation_is_clean(void **state) {
+    (void)state;
+    bool done = false;
+    for (long n = 0; !done; n++) {
+        check_memory memory = {.calls_left = -1};
+        ewa_context_options options;
+        ewa_context_options_init(&options, sizeof options);
+        options.allocator = check_allocator(&memory);
+        options.thread_count = 2;
+        ewa_context *context = NULL;
+        assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+        ewa_image image;
+        make_picture(context, 8, 8, 2, &image);
+        ewa_cloud *cloud = make_object(context, EWA_OBJECT_PLANE, 500, 1.5);
+        memory.calls_left = n;
+        const ewa_status status = ewa_cloud_acquire(cloud, &image, 1, NULL, NULL);
+        memory.calls_left = -1;
+        done = status == EWA_OK;
+        if (!done) assert_int_equal(status, EWA_ERROR_MEMORY);
+        assert_int_equal(ewa_cloud_find(cloud, EWA_COLOR)->type, done ? EWA_F32 : EWA_U8);
+        ewa_cloud_destroy(&cloud);
+        ewa_image_free(&image);
+        ewa_context_destroy(&context);
+        assert_int_equal(memory.held_bytes, 0);
+        assert_true(n < 1000);
+    }
+}
+
+static bool stop_at(void *user, const char *stage, double fraction) {
+    (void)stage;
+    (void)fraction;
+    return (*(int *)user)-- > 0;
+}
+
+static void test_every_cancel_is_clean(void **state) {
+    (void)state;
+    bool done = false;
+    for (int n = 0; !done; n += 1 + n / 8) {
+        int left = 1000;
+        check_memory memory = {.calls_left = -1};
+        ewa_context_options options;
+        ewa_context_options_init(&options, sizeof options);
+        options.allocator = check_allocator(&memory);
+        options.progress = stop_at;
+        options.progress_user = &left;
+        ewa_context *context = NULL;
+        assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+        ewa_image image;
+        make_picture(context, 8, 8, 2, &image);
+        ewa_cloud *cloud = make_object(context, EWA_OBJECT_PLANE, 500, 1.5);
+        left = n;
+        const ewa_status status = ewa_cloud_acquire(cloud, &image, 1, NULL, NULL);
+        done = status == EWA_OK;
+        if (!done) assert_int_equal(status, EWA_CANCELLED);
+        ewa_cloud_destroy(&cloud);
+        ewa_image_free(&image);
+        ewa_context_destroy(&context);
+        assert_int_equal(memory.held_bytes, 0);
+        assert_true(n < 100000);
+    }
+}
+
+/// Gradients say where points a little further on the surface are on the picture.
+static void test_charts_of_objects(void **state) {
+    (void)state;
+    static const ewa_object objects[] = {EWA_OBJECT_PLANE, EWA_OBJECT_CUBE, EWA_OBJECT_SPHERE,
+                                         EWA_OBJECT_TORUS, EWA_OBJECT_TERRAIN};
+    ewa_context *context = check_context(0, NULL);
+    for (size_t k = 0; k < sizeof objects / sizeof objects[0]; k++) {
+        enum { COUNT = 40000 };
+        ewa_cloud *cloud = make_object(context, objects[k], COUNT, 1.5);
+        const float *p = check_stream(cloud, EWA_POSITION), *at = check_stream(cloud, EWA_TEXCOORD),
+                    *n = check_stream(cloud, EWA_NORMAL);
+        const float *gradient[2] = {check_stream(cloud, EWA_TEXCOORD_S), check_stream(cloud, EWA_TEXCOORD_T)};
+        uint64_t compared = 0;
+        for (uint64_t i = 0; i + 1 < COUNT; i++) {
+            const ewa_vec3 d = vec3_sub(load(p + 3 * i + 3), load(p + 3 * i));
+            assert_true(at[2 * i] >= 0 && at[2 * i] <= 1 && at[2 * i + 1] >= 0 && at[2 * i + 1] <= 1);
+            if (objects[k] == EWA_OBJECT_SPHERE && hypotf(p[3 * i], p[3 * i + 1]) < 0.2f) continue;
+            if (vec3_length(d) > 0.05 || vec3_dot(load(n + 3 * i), load(n + 3 * i + 3)) < 0.99) continue;
+            for (uint64_t c = 0; c < 2; c++) {
+                const ewa_vec3 g =
+                    vec3_scale(vec3_add(load(gradient[c] + 3 * i), load(gradient[c] + 3 * i + 3)), 0.5);
+                const double step = (double)at[2 * i + 2 + c] - (double)at[2 * i + c];
+                if (fabs(step) > 0.5 || vec3_length(g) > 0.6) continue; // seams and poles
+                assert_float_equal(vec3_dot(g, d), step, 2e-3);
+                compared++;
+            }
+        }
+        assert_true(compared > COUNT / 10);
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_normal_distribution),
+        cmocka_unit_test(test_products_are_those_of_quadrature),
+        cmocka_unit_test(test_cut_products_are_those_of_quadrature),
+        cmocka_unit_test(test_means_of_levels_agree),
+        cmocka_unit_test(test_a_constant_stays),
+        cmocka_unit_test(test_a_ramp_is_kept),
+        cmocka_unit_test(test_optimal_is_better),
+        cmocka_unit_test(test_the_gradient_vanishes),
+        cmocka_unit_test(test_threads_change_nothing),
+        cmocka_unit_test(test_alpha_tint_and_gaps),
+        cmocka_unit_test(test_odd_points),
+        cmocka_unit_test(test_wrong_use_is_named),
+        cmocka_unit_test(test_every_failing_allocation_is_clean),
+        cmocka_unit_test(test_every_cancel_is_clean),
+        cmocka_unit_test(test_charts_of_objects),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
