@@ -18,5 +18,6 @@
 #include "ewa/render.h"
 #include "ewa/shade.h"
 #include "ewa/volume.h"
+#include "ewa/volume_render.h"
 
 #endif
