@@ -67,7 +67,7 @@ static void frame_mesh(const ewa_mesh *mesh, double azimuth_deg, ewa_camera *cam
                            target[2] + 2 * size * cos(angle)};
     ewa_camera_init(camera, sizeof *camera);
     camera->width_px = camera->height_px = SIDE_PX;
-    ewa_camera_set_fov(camera, 34);
+    ewa_camera_set_fov(camera, 40);
     ewa_camera_look_at(camera, eye, target, up);
 }
 
