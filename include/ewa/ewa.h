@@ -14,6 +14,7 @@
 #include "ewa/mesh.h"
 #include "ewa/prepare.h"
 #include "ewa/render.h"
+#include "ewa/resample.h"
 #include "ewa/shade.h"
 #include "ewa/volume.h"
 

@@ -204,6 +204,39 @@ static inline void w_store4(float *out, wf a, wf b, wf c, wf d) {
     store4_half(out + 32, a.h, b.h, c.h, d.h);
 }
 
+/// p[0..3] over and over.
+static inline wf wf_repeat4(const float *p) {
+    const __m256 a = _mm256_broadcast_ps((const __m128 *)(const void *)p);
+    return PAIR(wf, a, a);
+}
+
+/// p[0] four times, p[1] four times, p[2], p[3].
+static inline wf wf_spread4(const float *p) {
+    const __m256 a = _mm256_broadcast_ps((const __m128 *)(const void *)p);
+    return PAIR(wf, _mm256_permutevar8x32_ps(a, _mm256_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1)),
+                _mm256_permutevar8x32_ps(a, _mm256_setr_epi32(2, 2, 2, 2, 3, 3, 3, 3)));
+}
+
+/// The pixels of two rows of four, by channel.
+static inline void load4_half(const float *p, const float *q, __m256 out[4]) {
+    __m256 at[4];
+    for (int i = 0; i < 4; i++) at[i] = _mm256_set_m128(_mm_loadu_ps(q + 4 * i), _mm_loadu_ps(p + 4 * i));
+    const __m256 ab_l = _mm256_unpacklo_ps(at[0], at[1]), ab_h = _mm256_unpackhi_ps(at[0], at[1]);
+    const __m256 cd_l = _mm256_unpacklo_ps(at[2], at[3]), cd_h = _mm256_unpackhi_ps(at[2], at[3]);
+    out[0] = _mm256_shuffle_ps(ab_l, cd_l, 0x44);
+    out[1] = _mm256_shuffle_ps(ab_l, cd_l, 0xee);
+    out[2] = _mm256_shuffle_ps(ab_h, cd_h, 0x44);
+    out[3] = _mm256_shuffle_ps(ab_h, cd_h, 0xee);
+}
+
+/// What w_store4() wrote, from four rows of 16 numbers: lane 4 i + j of out[c] = p[i stride + 4 j + c].
+static inline void w_load4(const float *p, size_t stride, wf out[4]) {
+    __m256 l[4], h[4];
+    load4_half(p, p + stride, l);
+    load4_half(p + 2 * stride, p + 3 * stride, h);
+    for (int c = 0; c < 4; c++) out[c] = PAIR(wf, l[c], h[c]);
+}
+
 #undef PAIR
 #undef UNARY
 #undef BINARY

@@ -136,3 +136,26 @@ static inline void w_store4(float *out, wf a, wf b, wf c, wf d) {
     _mm512_storeu_ps(out + 32, _mm512_shuffle_f32x4(s0, s2, 0xdd));
     _mm512_storeu_ps(out + 48, _mm512_shuffle_f32x4(s1, s3, 0xdd));
 }
+
+/// p[0..3] over and over.
+static inline wf wf_repeat4(const float *p) { return _mm512_broadcast_f32x4(_mm_loadu_ps(p)); }
+
+/// p[0] four times, p[1] four times, p[2], p[3].
+static inline wf wf_spread4(const float *p) {
+    return _mm512_permutexvar_ps(_mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3),
+                                 wf_repeat4(p));
+}
+
+/// What w_store4() wrote, from four rows of 16 numbers: lane 4 i + j of out[c] = p[i stride + 4 j + c].
+static inline void w_load4(const float *p, size_t stride, wf out[4]) {
+    const __m512i low = _mm512_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28, 1, 5, 9, 13, 17, 21, 25, 29);
+    const __m512i high = _mm512_setr_epi32(2, 6, 10, 14, 18, 22, 26, 30, 3, 7, 11, 15, 19, 23, 27, 31);
+    const wf a = _mm512_loadu_ps(p), b = _mm512_loadu_ps(p + stride);
+    const wf c = _mm512_loadu_ps(p + 2 * stride), d = _mm512_loadu_ps(p + 3 * stride);
+    const wf ab_l = _mm512_permutex2var_ps(a, low, b), ab_h = _mm512_permutex2var_ps(a, high, b);
+    const wf cd_l = _mm512_permutex2var_ps(c, low, d), cd_h = _mm512_permutex2var_ps(c, high, d);
+    out[0] = _mm512_shuffle_f32x4(ab_l, cd_l, 0x44);
+    out[1] = _mm512_shuffle_f32x4(ab_l, cd_l, 0xee);
+    out[2] = _mm512_shuffle_f32x4(ab_h, cd_h, 0x44);
+    out[3] = _mm512_shuffle_f32x4(ab_h, cd_h, 0xee);
+}

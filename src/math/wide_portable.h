@@ -133,5 +133,17 @@ FUSED void w_store4(float *out, wf a, wf b, wf c, wf d) {
     }
 }
 
+/// p[0..3] over and over.
+FUSED wf wf_repeat4(const float *p) { EACH(wf, p[i & 3]); }
+
+/// p[0] four times, p[1] four times, p[2], p[3].
+FUSED wf wf_spread4(const float *p) { EACH(wf, p[i >> 2]); }
+
+/// What w_store4() wrote, from four rows of 16 numbers: lane 4 i + j of out[c] = p[i stride + 4 j + c].
+FUSED void w_load4(const float *p, size_t stride, wf out[4]) {
+    for (size_t c = 0; c < 4; c++)
+        for (size_t i = 0; i < 16; i++) out[c][i] = p[(i >> 2) * stride + 4 * (i & 3) + c];
+}
+
 #undef EACH
 #undef FUSED

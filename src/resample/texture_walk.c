@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Which texels reach a tile, and as what they are drawn: a walk down a tree of blocks of texels, from coarse
+// levels to fine ones, in a fixed order.
+//
+// All bounds are linear in texture coordinates before the division by w, so that nothing is cut at the
+// horizon: an edge of the tile, pulled back, is a line of the texture, w is linear, and in the tile, w >= 1 /
+// max(1 / w).
+#include "resample/texture.h"
+
+#include <math.h>
+
+/// A tile, and what bounds the texels that reach it.
+typedef struct tile_bounds {
+    const ewa_texture_plan *plan;
+    ewa_texture_brush *brush;
+    double map[3][3];          ///< to pixels of the tile
+    ewa_texture_line sides[6]; ///< of texture coordinates: a texel that reaches the tile is >= 0 on all
+    uint32_t side_count;
+    double spacing[2]; ///< times w: most pixels from texel to texel along u and v, anywhere in the tile
+    double low_w;      ///< least w of a texel whose centre is in the tile
+} tile_bounds;
+
+/// A block of texels of a level; (u, v) is its first.
+typedef struct node {
+    uint32_t level_u, level_v;
+    int64_t u, v;
+} node;
+
+static double largest_value(const ewa_texture_line *line, double u0, double u1, double v0, double v1) {
+    return line->a * (line->a > 0 ? u1 : u0) + line->b * (line->b > 0 ? v1 : v0) + line->c;
+}
+
+static void make_bounds(const ewa_texture_plan *plan, ewa_texture_brush *brush, uint32_t x, uint32_t y,
+                        tile_bounds *tile) {
+    *tile = (tile_bounds){.plan = plan, .brush = brush};
+    for (int i = 0; i < 3; i++) {
+        tile->map[i][0] = plan->map[i][0] - x * plan->map[i][2];
+        tile->map[i][1] = plan->map[i][1] - y * plan->map[i][2];
+        tile->map[i][2] = plan->map[i][2];
+    }
+    // A splat reaches no farther than its disc in the texture and the filter in the picture together.
+    const ewa_texture_options *options = &plan->options;
+    const double filter_px = options->cutoff * options->prefilter_px;
+    const double disc = options->method == EWA_TEXTURE_POINT ? 0 : options->cutoff * options->sigma_texels;
+    const double low = -filter_px, high = EWA_TEXTURE_TILE + filter_px;
+    const double(*m)[3] = (const double(*)[3])tile->map;
+    ewa_texture_line *side = tile->sides;
+    for (int c = 0; c < 2; c++) {
+        *side++ =
+            (ewa_texture_line){m[0][c] - low * m[0][2], m[1][c] - low * m[1][2], m[2][c] - low * m[2][2]};
+        *side++ =
+            (ewa_texture_line){high * m[0][2] - m[0][c], high * m[1][2] - m[1][c], high * m[2][2] - m[2][c]};
+    }
+    *side++ = (ewa_texture_line){m[0][2], m[1][2], m[2][2]};
+    for (ewa_texture_line *s = tile->sides; s < side; s++) s->c += disc * (fabs(s->a) + fabs(s->b));
+    if (isfinite(plan->far_w)) *side++ = (ewa_texture_line){-m[0][2], -m[1][2], plan->far_w - m[2][2]};
+    tile->side_count = (uint32_t)(side - tile->sides);
+    double inverse_w = 0;
+    for (int corner = 0; corner < 4; corner++) {
+        const double px = corner & 1 ? high : low, py = corner & 2 ? high : low;
+        for (int i = 0; i < 2; i++)
+            tile->spacing[i] = fmax(tile->spacing[i], hypot(m[i][0] - px * m[i][2], m[i][1] - py * m[i][2]));
+        inverse_w = fmax(inverse_w, (x + px) * plan->inverse[0][2] + (y + py) * plan->inverse[1][2] +
+                                        plan->inverse[2][2]);
+    }
+    tile->low_w = inverse_w > 0 ? 1 / inverse_w : INFINITY;
+}
+
+/// Adds the texels of a block one after another: where the eye plane is so near that projected ellipses fail.
+static void draw_near(const tile_bounds *tile, const ewa_texture_block *block, const node *at, uint32_t x,
+                      uint32_t y) {
+    const ewa_texture_plan *plan = tile->plan;
+    const ewa_texture_sums *sums = &tile->brush->sums;
+    for (uint32_t j = 0; j < block->height; j++) {
+        for (uint32_t i = 0; i < block->width; i++) {
+            ewa_texel_kernel kernel;
+            if (!ewa_texel_place(plan, (double)at->u + i + 0.5, (double)at->v + j + 0.5, false, &kernel))
+                continue;
+            int first[2], last[2];
+            for (int c = 0; c < 2; c++) {
+                const double center = kernel.center_px[c] - (c ? y : x);
+                first[c] = (int)fmin(fmax(ceil(center - kernel.half_px[c] - 0.5), 0), EWA_TEXTURE_TILE);
+                last[c] = (int)fmax(fmin(floor(center + kernel.half_px[c] - 0.5), EWA_TEXTURE_TILE - 1), -1);
+            }
+            for (int row = first[1]; row <= last[1]; row++) {
+                for (int column = first[0]; column <= last[0]; column++) {
+                    const float weight = (float)ewa_texel_weight(plan, &kernel, (double)x + column + 0.5,
+                                                                 (double)y + row + 0.5);
+                    const size_t place = (size_t)(row + 1) * EWA_TEXTURE_PITCH + (size_t)column + 1;
+                    for (int c = 0; c < 4; c++) sums->color[4 * place + c] += weight * block->colors[j][i][c];
+                    if (plan->with_alpha) sums->weight[place] += weight;
+                }
+            }
+            tile->brush->counts.splat_count++;
+        }
+    }
+}
+
+/// Draws the texels of a node, less those beyond the texture's end.
+static void draw_node(const tile_bounds *tile, const node *at, bool as_points, bool near, uint32_t x,
+                      uint32_t y) {
+    const ewa_texture_plan *plan = tile->plan;
+    ewa_texture_brush *brush = tile->brush;
+    const ewa_texture_axis *axes = plan->axes;
+    const uint32_t level_u = at->level_u < axes[0].stored_count ? at->level_u : axes[0].stored_count - 1;
+    const uint32_t level_v = at->level_v < axes[1].stored_count ? at->level_v : axes[1].stored_count - 1;
+    if (brush->wanted) {
+        brush->wanted[level_u * EWA_TEXTURE_MAX_LEVELS + level_v] = 1;
+        return;
+    }
+    ewa_texture_block *block = brush->block;
+    const int64_t left_u = axes[0].count[at->level_u] - at->u, left_v = axes[1].count[at->level_v] - at->v;
+    const bool whole = plan->options.repeat;
+    block->width = !whole && left_u < EWA_TEXTURE_NODE_U ? (uint32_t)left_u : EWA_TEXTURE_NODE_U;
+    block->height = !whole && left_v < EWA_TEXTURE_NODE_V ? (uint32_t)left_v : EWA_TEXTURE_NODE_V;
+    const double size_u = axes[0].size[at->level_u], size_v = axes[1].size[at->level_v];
+    ewa_texture_levels_read(plan, level_u, level_v, at->u, at->v, block);
+    if (near) {
+        draw_near(tile, block, at, x, y);
+        return;
+    }
+    for (int c = 0; c < 3; c++) {
+        const double step_u = size_u * tile->map[0][c], step_v = size_v * tile->map[1][c];
+        block->step_u[c] = (float)step_u;
+        block->step_v[c] = (float)step_v;
+        const double first =
+            ((double)at->u + 0.5) * step_u + ((double)at->v + 0.5) * step_v + tile->map[2][c];
+        for (uint32_t j = 0; j < block->height; j++) block->row_start[j][c] = (float)(first + j * step_v);
+    }
+    block->point_scale =
+        (float)((double)brush->filter.determinant / (double)brush->filter.prefilter2 * size_u * size_v);
+    const uint32_t drawn = (as_points ? brush->points : brush->splats)(&brush->filter, block, &brush->sums);
+    *(as_points ? &brush->counts.point_count : &brush->counts.splat_count) += drawn;
+    brush->counts.texel_count += (uint64_t)(drawn * size_u * size_v);
+}
+
+static void visit(const tile_bounds *tile, const node *at, uint32_t x, uint32_t y) {
+    const ewa_texture_plan *plan = tile->plan;
+    const ewa_texture_options *options = &plan->options;
+    const ewa_texture_axis *axis_u = &plan->axes[0], *axis_v = &plan->axes[1];
+    const double size[2] = {axis_u->size[at->level_u], axis_v->size[at->level_v]};
+    const double u0 = (double)at->u * size[0], v0 = (double)at->v * size[1];
+    double u1 = u0 + EWA_TEXTURE_NODE_U * size[0], v1 = v0 + EWA_TEXTURE_NODE_V * size[1];
+    bool beyond_u = false, beyond_v = false; // part of the node is no whole texel of its level
+    if (!options->repeat) {
+        if (u0 >= plan->source.width_px || v0 >= plan->source.height_px) return;
+        beyond_u = at->level_u > 0 && at->u + EWA_TEXTURE_NODE_U > axis_u->count[at->level_u];
+        beyond_v = at->level_v > 0 && at->v + EWA_TEXTURE_NODE_V > axis_v->count[at->level_v];
+        u1 = fmin(u1, plan->source.width_px);
+        v1 = fmin(v1, plan->source.height_px);
+    }
+    for (uint32_t i = 0; i < tile->side_count; i++)
+        if (largest_value(&tile->sides[i], u0, u1, v0, v1) < 0) return;
+    const ewa_texture_line minus_w = {-tile->map[0][2], -tile->map[1][2], -tile->map[2][2]};
+    const double least_w = -largest_value(&minus_w, u0, u1, v0, v1);
+    const double limit = options->point_spacing_px * fmax(least_w, tile->low_w);
+    const double spacing_u = size[0] * tile->spacing[0], spacing_v = size[1] * tile->spacing[1];
+    const bool last = at->level_u == 0 && at->level_v == 0;
+    const bool fine = options->method != EWA_TEXTURE_SPLAT && spacing_u <= limit && spacing_v <= limit;
+    if (last || (fine && !beyond_u && !beyond_v)) {
+        const bool as_points = options->method == EWA_TEXTURE_POINT || fine;
+        const bool near = !as_points && !(least_w > EWA_TEXTURE_NEAR * options->cutoff * plan->tangent_w);
+        draw_node(tile, at, as_points, near, x, y);
+        return;
+    }
+    const bool split_u =
+        at->level_u > 0 && (at->level_v == 0 || (beyond_u != beyond_v ? beyond_u : spacing_u >= spacing_v));
+    const uint32_t children = split_u ? axis_u->factor[at->level_u] : axis_v->factor[at->level_v];
+    for (uint32_t i = 0; i < children; i++) {
+        const node child =
+            split_u ? (node){at->level_u - 1, at->level_v, at->u * children + i * EWA_TEXTURE_NODE_U, at->v}
+                    : (node){at->level_u, at->level_v - 1, at->u, at->v * children + i * EWA_TEXTURE_NODE_V};
+        visit(tile, &child, x, y);
+    }
+}
+
+void ewa_texture_walk(const ewa_texture_plan *plan, ewa_texture_brush *brush, uint32_t x, uint32_t y) {
+    tile_bounds tile;
+    make_bounds(plan, brush, x, y, &tile);
+    const uint32_t level_u = plan->axes[0].level_count - 1, level_v = plan->axes[1].level_count - 1;
+    if (!plan->options.repeat) {
+        visit(&tile, &(node){level_u, level_v, 0, 0}, x, y);
+        return;
+    }
+    for (int i = 0; i < 4; i++)
+        visit(&tile,
+              &(node){level_u, level_v, i & 1 ? 0 : -EWA_TEXTURE_NODE_U, i & 2 ? 0 : -EWA_TEXTURE_NODE_V}, x,
+              y);
+}
