@@ -55,8 +55,8 @@ typedef enum ewa_texture_method {
 typedef struct ewa_texture_options {
     size_t struct_size;
     ewa_texture_method method; ///< default EWA_TEXTURE_HYBRID
-    double prefilter_px;       ///< h, standard deviation of the pixel filter; [0.1, 4]; default 0.4
-    double cutoff;             ///< F, standard deviations at which kernels end; [1, 4]; default 2.5
+    double prefilter_px;       ///< h, standard deviation of the pixel filter; [0.1, 4]; default 0.3
+    double cutoff;             ///< F, standard deviations at which kernels end; [1, 4]; default 3.3
     double sigma_texels;       ///< standard deviation of a texel's disc; [0.3, 2]; default 0.4
     double
         point_spacing_px; ///< hybrid: texels not farther apart than this are points; [0.05, 1]; default 0.5

@@ -18,6 +18,7 @@ enum {
 typedef struct workspace {
     float color[4 * SUM_PIXELS];
     float weight[SUM_PIXELS];
+    float coverage[EWA_TEXTURE_TILE * EWA_TEXTURE_TILE];
     ewa_texture_block block;
     uint8_t wanted[LEVEL_PAIRS];
     ewa_texture_brush brush;
@@ -33,14 +34,17 @@ static void choose_brush(const ewa_texture_plan *plan, ewa_texture_brush *brush)
     const double h = plan->options.prefilter_px, f = plan->options.cutoff, sigma = plan->options.sigma_texels;
     brush->points = ewa_texture_draw_points_portable;
     brush->splats = ewa_texture_draw_splats_portable;
+    brush->resolve = ewa_texture_resolve_portable;
 #if defined(__x86_64__)
     const uint32_t features = ewa_context_cpu_features(plan->context);
     if (features & EWA_CPU_AVX512) {
         brush->points = ewa_texture_draw_points_avx512;
         brush->splats = ewa_texture_draw_splats_avx512;
+        brush->resolve = ewa_texture_resolve_avx512;
     } else if (features & EWA_CPU_AVX2) {
         brush->points = ewa_texture_draw_points_avx2;
         brush->splats = ewa_texture_draw_splats_avx2;
+        brush->resolve = ewa_texture_resolve_avx2;
     }
 #endif
     brush->filter = (ewa_texture_filter){.cutoff2 = (float)(f * f),
@@ -66,22 +70,26 @@ static void survey_tile(void *data, uint32_t index, uint32_t worker) {
     space->brush.wanted = NULL;
 }
 
-static void write_tile(const ewa_texture_plan *plan, const workspace *space, uint32_t x, uint32_t y,
-                       uint32_t width, uint32_t height) {
-    const bool inside = ewa_texture_covers(plan, x, y, width, height);
-    for (uint32_t row = 0; row < height; row++) {
-        for (uint32_t column = 0; column < width; column++) {
+static void interpolate_tile(const ewa_texture_plan *plan, workspace *space,
+                             const ewa_texture_rectangle *tile) {
+    for (uint32_t row = 0; row < tile->height; row++) {
+        for (uint32_t column = 0; column < tile->width; column++) {
             const size_t at = (size_t)(row + 1) * EWA_TEXTURE_PITCH + column + 1;
-            const float *sum = space->color + 4 * at;
-            const float weight = plan->with_alpha ? space->weight[at] : sum[3];
-            const float inverse = weight > 0 ? 1 / weight : 0;
-            const float color[4] = {sum[0] * inverse, sum[1] * inverse, sum[2] * inverse,
-                                    plan->with_alpha ? sum[3] * inverse : 1};
-            float coverage = weight > 0 ? 1 : 0;
-            if (!inside && weight > 0) coverage = (float)ewa_texture_coverage(plan, x + column, y + row);
-            ewa_texture_put(plan, x + column, y + row, color, coverage);
+            if (!ewa_texture_interpolate(plan, tile->x + column, tile->y + row, space->color + 4 * at))
+                continue;
+            if (plan->with_alpha) space->weight[at] = 1;
         }
     }
+}
+
+static void write_tile(const ewa_texture_plan *plan, workspace *space, const ewa_texture_rectangle *tile) {
+    const bool inside = ewa_texture_covers(plan, tile->x, tile->y, tile->width, tile->height);
+    for (uint32_t row = 0; !inside && row < tile->height; row++)
+        for (uint32_t column = 0; column < tile->width; column++)
+            space->coverage[row * EWA_TEXTURE_TILE + column] =
+                (float)ewa_texture_coverage(plan, tile->x + column, tile->y + row);
+    space->brush.resolve(&plan->target, plan->options.background, tile, &space->brush.sums,
+                         inside ? NULL : space->coverage);
 }
 
 static void draw_tile(void *data, uint32_t index, uint32_t worker) {
@@ -90,17 +98,16 @@ static void draw_tile(void *data, uint32_t index, uint32_t worker) {
     uint32_t x, y;
     tile_place(job, index, &x, &y);
     const uint32_t left = plan->target.width_px - x, below = plan->target.height_px - y;
-    const uint32_t width = left < EWA_TEXTURE_TILE ? left : EWA_TEXTURE_TILE;
-    const uint32_t height = below < EWA_TEXTURE_TILE ? below : EWA_TEXTURE_TILE;
-    if (plan->options.method == EWA_TEXTURE_BILINEAR) {
-        ewa_texture_bilinear(plan, x, y, width, height);
-        return;
-    }
+    const ewa_texture_rectangle tile = {x, y, left < EWA_TEXTURE_TILE ? left : EWA_TEXTURE_TILE,
+                                        below < EWA_TEXTURE_TILE ? below : EWA_TEXTURE_TILE};
     workspace *space = &job->workspaces[worker];
     memset(space->color, 0, sizeof space->color);
     if (plan->with_alpha) memset(space->weight, 0, sizeof space->weight);
-    ewa_texture_walk(plan, &space->brush, x, y);
-    write_tile(plan, space, x, y, width, height);
+    if (plan->options.method == EWA_TEXTURE_BILINEAR)
+        interpolate_tile(plan, space, &tile);
+    else
+        ewa_texture_walk(plan, &space->brush, x, y);
+    write_tile(plan, space, &tile);
 }
 
 /// Surveys, makes the levels, draws.
@@ -144,6 +151,7 @@ ewa_status ewa_texture_map(ewa_context *context, const ewa_texture_source *sourc
         workspace *space = &workspaces[k];
         memset(space->wanted, 0, sizeof space->wanted);
         memset(&space->block, 0, sizeof space->block);
+        memset(space->coverage, 0, sizeof space->coverage);
         memset(&space->brush, 0, sizeof space->brush);
         choose_brush(&plan, &space->brush);
         space->brush.sums = (ewa_texture_sums){space->color, plan.with_alpha ? space->weight : NULL};

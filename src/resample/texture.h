@@ -63,7 +63,7 @@ typedef struct ewa_texture_block {
     float row_start[EWA_TEXTURE_NODE_V][3]; ///< homogeneous, tile coordinates: centre of a row's first texel
     float step_u[3], step_v[3];             ///< from texel to texel
     float colors[EWA_TEXTURE_NODE_V][EWA_TEXTURE_NODE_U][4]; ///< linear, premultiplied; opaque ones end in 1
-    float point_scale; ///< point: weight = point_scale / w^3 times the filter
+    float area_scale; ///< sigma^2 |det map| of the level: the area of a kernel is this over w^3
 } ewa_texture_block;
 
 /// Numbers that the kernels need beside a block.
@@ -72,7 +72,7 @@ typedef struct ewa_texture_filter {
     float prefilter2;  ///< h^2
     float reach_px;    ///< F h
     float sigma;       ///< of a texel
-    float determinant; ///< sigma^2 |det map|
+    float determinant; ///< sigma^2 |det map| of the texture itself
 } ewa_texture_filter;
 
 /// Adds a block to the sums of a tile; every version does the same operations in the same order. Splats have
@@ -83,6 +83,21 @@ ewa_texture_draw ewa_texture_draw_points_portable, ewa_texture_draw_splats_porta
 #if defined(__x86_64__)
 ewa_texture_draw ewa_texture_draw_points_avx2, ewa_texture_draw_splats_avx2;
 ewa_texture_draw ewa_texture_draw_points_avx512, ewa_texture_draw_splats_avx512;
+#endif
+
+/// A part of a picture, at most a tile.
+typedef struct ewa_texture_rectangle {
+    uint32_t x, y, width, height;
+} ewa_texture_rectangle;
+
+/// Writes the pixels of a tile from its sums. `coverage`, EWA_TEXTURE_TILE numbers per row, may be NULL:
+/// all 1.
+typedef void ewa_texture_resolve(const ewa_texture_target *target, const float background[4],
+                                 const ewa_texture_rectangle *tile, const ewa_texture_sums *sums,
+                                 const float *coverage);
+ewa_texture_resolve ewa_texture_resolve_portable;
+#if defined(__x86_64__)
+ewa_texture_resolve ewa_texture_resolve_avx2, ewa_texture_resolve_avx512;
 #endif
 
 /// Distance to the eye plane, in supports of a texel, below which the projected kernel is evaluated along
@@ -154,6 +169,7 @@ typedef struct ewa_texture_counts {
 /// What a worker draws with.
 typedef struct ewa_texture_brush {
     ewa_texture_draw *points, *splats;
+    ewa_texture_resolve *resolve;
     ewa_texture_filter filter;
     ewa_texture_sums sums;
     ewa_texture_block *block;
@@ -164,8 +180,7 @@ typedef struct ewa_texture_brush {
 /// Draws, in a fixed order, every texel that reaches the tile whose first pixel is (x, y).
 void ewa_texture_walk(const ewa_texture_plan *plan, ewa_texture_brush *brush, uint32_t x, uint32_t y);
 
-/// Writes the pixels of a tile by bilinear interpolation.
-void ewa_texture_bilinear(const ewa_texture_plan *plan, uint32_t x, uint32_t y, uint32_t width,
-                          uint32_t height);
+/// Interpolates between the four texels around a pixel's centre; false where that is not in front.
+bool ewa_texture_interpolate(const ewa_texture_plan *plan, uint32_t x, uint32_t y, float color[4]);
 
 #endif

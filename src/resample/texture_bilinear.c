@@ -34,22 +34,11 @@ static void interpolate(const ewa_texture_plan *plan, double u, double v, float 
     }
 }
 
-void ewa_texture_bilinear(const ewa_texture_plan *plan, uint32_t x, uint32_t y, uint32_t width,
-                          uint32_t height) {
+bool ewa_texture_interpolate(const ewa_texture_plan *plan, uint32_t x, uint32_t y, float color[4]) {
     const double(*inverse)[3] = (const double(*)[3])plan->inverse;
-    const bool inside = ewa_texture_covers(plan, x, y, width, height);
-    for (uint32_t row = y; row < y + height; row++) {
-        for (uint32_t column = x; column < x + width; column++) {
-            double p[3];
-            for (int c = 0; c < 3; c++)
-                p[c] = (column + 0.5) * inverse[0][c] + (row + 0.5) * inverse[1][c] + inverse[2][c];
-            float color[4] = {0};
-            double coverage = inside ? 1 : ewa_texture_coverage(plan, column, row);
-            if (coverage > 0 && p[2] > 0)
-                interpolate(plan, p[0] / p[2], p[1] / p[2], color);
-            else
-                coverage = 0;
-            ewa_texture_put(plan, column, row, color, (float)coverage);
-        }
-    }
+    double p[3];
+    for (int c = 0; c < 3; c++) p[c] = (x + 0.5) * inverse[0][c] + (y + 0.5) * inverse[1][c] + inverse[2][c];
+    if (!(p[2] > 0)) return false;
+    interpolate(plan, p[0] / p[2], p[1] / p[2], color);
+    return true;
 }

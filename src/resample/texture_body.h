@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: MIT
 //
 // Body of the kernels that add texels to the sums of a tile, for the instruction set that the including file
-// chose (math/wide.h); POINTS and SPLATS are their names. Sixteen texels are projected at once, and added one
-// by one.
+// chose (math/wide.h); POINTS, SPLATS and RESOLVE are their names. Sixteen texels are projected at once, and
+// added one by one.
 //
 // Based on: Yuan et al., "Hybrid Forward Resampling and Volume Rendering", 2003, section 3; Zwicker et al.,
 // "Perspective Accurate Splatting", 2004, section 4 (math.md sections 3, 4, 11).
 #include "math/wide_functions.h"
 #include "resample/texture.h"
+#include "resample/texture_resolve.h"
 
 #include <string.h>
 
@@ -172,8 +173,8 @@ uint32_t POINTS(const ewa_texture_filter *filter, const ewa_texture_block *block
         for (uint32_t first = 0; first < block->width; first += 16) {
             float(*colors)[4] = (float(*)[4])(uintptr_t)&block->colors[row][first];
             const texels t = project(block, row, first);
-            const wf amplitude =
-                wf_mul(wf_set(block->point_scale), wf_mul(wf_mul(t.inverse_w, t.inverse_w), t.inverse_w));
+            const wf amplitude = wf_mul(wf_set(block->area_scale / filter->prefilter2),
+                                        wf_mul(wf_mul(t.inverse_w, t.inverse_w), t.inverse_w));
             uint32_t hits;
             if (small) {
                 hits = add_small_points(filter, &t, amplitude, colors, sums);
@@ -226,7 +227,7 @@ static ALWAYS_INLINE uint32_t splat_ellipses(const ewa_texture_filter *filter, c
     wf_store(e->xx, wf_mul(scale, yy));
     wf_store(e->xy, wf_mul(wf_mul(scale, wf_set(-2)), xy));
     wf_store(e->yy, wf_mul(scale, xx));
-    wf_store(e->amplitude, wf_mul(wf_mul(wf_set(filter->determinant), k), wf_sqrt(wf_mul(k, inverse))));
+    wf_store(e->amplitude, wf_mul(wf_mul(wf_set(block->area_scale), k), wf_sqrt(wf_mul(k, inverse))));
     const wf cutoff = wf_sqrt(cutoff2);
     return place(e, sound, wf_add(t->x, shift_x), wf_add(t->y, shift_y), wf_mul(cutoff, wf_sqrt(xx)),
                  wf_mul(cutoff, wf_sqrt(yy)));

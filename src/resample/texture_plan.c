@@ -18,8 +18,8 @@ void ewa_texture_options_init(ewa_texture_options *options, size_t struct_size) 
     memset(options, 0, struct_size);
     options->struct_size = struct_size;
     options->method = EWA_TEXTURE_HYBRID;
-    options->prefilter_px = 0.4;
-    options->cutoff = 2.5;
+    options->prefilter_px = 0.3;
+    options->cutoff = 3.3;
     options->sigma_texels = 0.4;
     options->point_spacing_px = 0.5;
 }

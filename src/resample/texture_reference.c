@@ -53,6 +53,16 @@ static void resolve(const ewa_texture_plan *plan, const double *sums) {
     }
 }
 
+static void interpolate(const ewa_texture_plan *plan) {
+    for (uint32_t y = 0; y < plan->target.height_px; y++) {
+        for (uint32_t x = 0; x < plan->target.width_px; x++) {
+            float color[4] = {0};
+            const bool covered = ewa_texture_interpolate(plan, x, y, color);
+            ewa_texture_put(plan, x, y, color, covered ? (float)ewa_texture_coverage(plan, x, y) : 0);
+        }
+    }
+}
+
 ewa_status ewa_texture_map_reference(ewa_context *context, const ewa_texture_source *source,
                                      const ewa_mat3 *map, const ewa_texture_options *options,
                                      const ewa_texture_target *target) {
@@ -62,7 +72,7 @@ ewa_status ewa_texture_map_reference(ewa_context *context, const ewa_texture_sou
     if (plan.options.repeat)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "texture: the reference does not repeat textures");
     if (plan.options.method == EWA_TEXTURE_BILINEAR) {
-        ewa_texture_bilinear(&plan, 0, 0, target->width_px, target->height_px);
+        interpolate(&plan);
         return EWA_OK;
     }
     const size_t pixel_count = (size_t)target->width_px * target->height_px;

@@ -127,12 +127,17 @@ void ewa_texel_read_row(const ewa_texture_source *source, uint32_t column, uint3
         return;
     }
     const uint8_t *from = (const uint8_t *)line + (size_t)column * channels;
+    if (channels == 1) {
+        for (uint32_t i = 0; i < count; i++, from++) {
+            for (int c = 0; c < 3; c++) colors[i][c] = ewa_srgb_decoded[from[0]];
+            colors[i][3] = 1;
+        }
+        return;
+    }
     for (uint32_t i = 0; i < count; i++, from += channels) {
-        colors[i][0] = ewa_srgb_decoded[from[0]];
-        colors[i][1] = ewa_srgb_decoded[from[channels > 1 ? 1 : 0]];
-        colors[i][2] = ewa_srgb_decoded[from[channels > 1 ? 2 : 0]];
+        for (int c = 0; c < 3; c++) colors[i][c] = ewa_srgb_decoded[from[c]];
         colors[i][3] = 1;
-        if (channels < 4) continue;
+        if (channels == 3 || from[3] == 255) continue;
         colors[i][3] = (float)from[3] / 255;
         for (int c = 0; c < 3; c++) colors[i][c] *= colors[i][3];
     }

@@ -18,8 +18,11 @@ typedef struct tile_bounds {
     double map[3][3];          ///< to pixels of the tile
     ewa_texture_line sides[6]; ///< of texture coordinates: a texel that reaches the tile is >= 0 on all
     uint32_t side_count;
+    double disc;       ///< reach of a splat, in texels of its level
     double spacing[2]; ///< times w: most pixels from texel to texel along u and v, anywhere in the tile
     double low_w;      ///< least w of a texel whose centre is in the tile
+    /// Distance from texel to texel along u and v, in pixels, times w^2: linear in v and u, respectively.
+    double step_start[2][2], step_slope[2][2];
 } tile_bounds;
 
 /// A block of texels of a level; (u, v) is its first.
@@ -30,6 +33,20 @@ typedef struct node {
 
 static double largest_value(const ewa_texture_line *line, double u0, double u1, double v0, double v1) {
     return line->a * (line->a > 0 ? u1 : u0) + line->b * (line->b > 0 ? v1 : v0) + line->c;
+}
+
+static double length(double x, double y) { return sqrt(x * x + y * y); }
+
+/// Most pixels from texel to texel along axis i, over texels with w >= `low_w` that are in the tile and
+/// between `first` and `last` along the other axis.
+static double spacing_bound(const tile_bounds *tile, int i, double first, double last, double low_w) {
+    double most = 0;
+    for (int end = 0; end < 2; end++) {
+        const double at = end ? last : first;
+        most = fmax(most, length(tile->step_start[i][0] + at * tile->step_slope[i][0],
+                                 tile->step_start[i][1] + at * tile->step_slope[i][1]));
+    }
+    return fmin(tile->spacing[i], most / low_w) / low_w;
 }
 
 static void make_bounds(const ewa_texture_plan *plan, ewa_texture_brush *brush, uint32_t x, uint32_t y,
@@ -43,7 +60,7 @@ static void make_bounds(const ewa_texture_plan *plan, ewa_texture_brush *brush, 
     // A splat reaches no farther than its disc in the texture and the filter in the picture together.
     const ewa_texture_options *options = &plan->options;
     const double filter_px = options->cutoff * options->prefilter_px;
-    const double disc = options->method == EWA_TEXTURE_POINT ? 0 : options->cutoff * options->sigma_texels;
+    tile->disc = options->method == EWA_TEXTURE_POINT ? 0 : options->cutoff * options->sigma_texels;
     const double low = -filter_px, high = EWA_TEXTURE_TILE + filter_px;
     const double(*m)[3] = (const double(*)[3])tile->map;
     ewa_texture_line *side = tile->sides;
@@ -54,14 +71,20 @@ static void make_bounds(const ewa_texture_plan *plan, ewa_texture_brush *brush, 
             (ewa_texture_line){high * m[0][2] - m[0][c], high * m[1][2] - m[1][c], high * m[2][2] - m[2][c]};
     }
     *side++ = (ewa_texture_line){m[0][2], m[1][2], m[2][2]};
-    for (ewa_texture_line *s = tile->sides; s < side; s++) s->c += disc * (fabs(s->a) + fabs(s->b));
     if (isfinite(plan->far_w)) *side++ = (ewa_texture_line){-m[0][2], -m[1][2], plan->far_w - m[2][2]};
     tile->side_count = (uint32_t)(side - tile->sides);
+    // (u m0 + v m1 + m2) / w, derived by u: what depends on u cancels in the numerator.
+    for (int c = 0; c < 2; c++) {
+        for (int i = 0; i < 2; i++) {
+            tile->step_start[i][c] = m[i][c] * m[2][2] - m[2][c] * m[i][2];
+            tile->step_slope[i][c] = m[i][c] * m[1 - i][2] - m[1 - i][c] * m[i][2];
+        }
+    }
     double inverse_w = 0;
     for (int corner = 0; corner < 4; corner++) {
         const double px = corner & 1 ? high : low, py = corner & 2 ? high : low;
         for (int i = 0; i < 2; i++)
-            tile->spacing[i] = fmax(tile->spacing[i], hypot(m[i][0] - px * m[i][2], m[i][1] - py * m[i][2]));
+            tile->spacing[i] = fmax(tile->spacing[i], length(m[i][0] - px * m[i][2], m[i][1] - py * m[i][2]));
         inverse_w = fmax(inverse_w, (x + px) * plan->inverse[0][2] + (y + py) * plan->inverse[1][2] +
                                         plan->inverse[2][2]);
     }
@@ -129,8 +152,7 @@ static void draw_node(const tile_bounds *tile, const node *at, bool as_points, b
             ((double)at->u + 0.5) * step_u + ((double)at->v + 0.5) * step_v + tile->map[2][c];
         for (uint32_t j = 0; j < block->height; j++) block->row_start[j][c] = (float)(first + j * step_v);
     }
-    block->point_scale =
-        (float)((double)brush->filter.determinant / (double)brush->filter.prefilter2 * size_u * size_v);
+    block->area_scale = (float)((double)brush->filter.determinant * size_u * size_v);
     const uint32_t drawn = (as_points ? brush->points : brush->splats)(&brush->filter, block, &brush->sums);
     *(as_points ? &brush->counts.point_count : &brush->counts.splat_count) += drawn;
     brush->counts.texel_count += (uint64_t)(drawn * size_u * size_v);
@@ -151,22 +173,30 @@ static void visit(const tile_bounds *tile, const node *at, uint32_t x, uint32_t 
         u1 = fmin(u1, plan->source.width_px);
         v1 = fmin(v1, plan->source.height_px);
     }
-    for (uint32_t i = 0; i < tile->side_count; i++)
-        if (largest_value(&tile->sides[i], u0, u1, v0, v1) < 0) return;
+    for (uint32_t i = 0; i < tile->side_count; i++) {
+        const ewa_texture_line *side = &tile->sides[i];
+        const double reach = tile->disc * (fabs(side->a) * size[0] + fabs(side->b) * size[1]);
+        if (largest_value(side, u0, u1, v0, v1) + reach < 0) return;
+    }
     const ewa_texture_line minus_w = {-tile->map[0][2], -tile->map[1][2], -tile->map[2][2]};
     const double least_w = -largest_value(&minus_w, u0, u1, v0, v1);
-    const double limit = options->point_spacing_px * fmax(least_w, tile->low_w);
-    const double spacing_u = size[0] * tile->spacing[0], spacing_v = size[1] * tile->spacing[1];
-    const bool last = at->level_u == 0 && at->level_v == 0;
-    const bool fine = options->method != EWA_TEXTURE_SPLAT && spacing_u <= limit && spacing_v <= limit;
-    if (last || (fine && !beyond_u && !beyond_v)) {
-        const bool as_points = options->method == EWA_TEXTURE_POINT || fine;
-        const bool near = !as_points && !(least_w > EWA_TEXTURE_NEAR * options->cutoff * plan->tangent_w);
-        draw_node(tile, at, as_points, near, x, y);
+    const double low_w = fmax(least_w, tile->low_w);
+    const double spacing_u = size[0] * spacing_bound(tile, 0, v0, v1, low_w);
+    const double spacing_v = size[1] * spacing_bound(tile, 1, u0, u1, low_w);
+    // Along each axis, a level is fine enough when its texels are minified, or when there is none below.
+    const bool minified_u = !beyond_u && spacing_u <= options->point_spacing_px;
+    const bool minified_v = !beyond_v && spacing_v <= options->point_spacing_px;
+    const bool as_points = options->method == EWA_TEXTURE_POINT || (minified_u && minified_v);
+    const double support_w = EWA_TEXTURE_NEAR * options->cutoff * plan->tangent_w * fmax(size[0], size[1]);
+    const bool near = !as_points && !(least_w > support_w), first = at->level_u == 0 && at->level_v == 0;
+    const bool fine = (minified_u || at->level_u == 0) && (minified_v || at->level_v == 0);
+    if (first || (fine && !near && options->method != EWA_TEXTURE_SPLAT)) {
+        draw_node(tile, at, as_points && options->method != EWA_TEXTURE_SPLAT, near, x, y);
         return;
     }
     const bool split_u =
-        at->level_u > 0 && (at->level_v == 0 || (beyond_u != beyond_v ? beyond_u : spacing_u >= spacing_v));
+        at->level_u > 0 &&
+        (at->level_v == 0 || (minified_u != minified_v ? minified_v : spacing_u >= spacing_v));
     const uint32_t children = split_u ? axis_u->factor[at->level_u] : axis_v->factor[at->level_v];
     for (uint32_t i = 0; i < children; i++) {
         const node child =
