@@ -42,7 +42,15 @@ bool ewa_texture_covers(const ewa_texture_plan *plan, uint32_t x, uint32_t y, ui
 }
 
 double ewa_texture_coverage(const ewa_texture_plan *plan, uint32_t x, uint32_t y) {
-    if (ewa_texture_covers(plan, x, y, 1, 1)) return 1;
+    bool whole = true;
+    for (uint32_t i = 0; i < plan->edge_count; i++) {
+        const ewa_texture_line *edge = &plan->edges[i];
+        const double middle = line_value(edge, x + 0.5, y + 0.5),
+                     reach = 0.5 * (fabs(edge->a) + fabs(edge->b));
+        if (middle < -reach) return 0;
+        whole = whole && middle >= reach;
+    }
+    if (whole) return 1;
     // Relative to the pixel, so that areas keep their digits.
     double polygons[2][8][2] = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
     uint32_t count = 4;

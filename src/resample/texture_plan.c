@@ -93,13 +93,21 @@ static ewa_status check_rasters(ewa_context *context, const ewa_texture_source *
 static bool has_holes(const ewa_texture_source *source) {
     for (uint32_t y = 0; y < source->height_px; y++) {
         const char *row = (const char *)source->pixels + (size_t)y * source->stride_bytes;
-        const uint8_t *codes = (const uint8_t *)row;
-        const float *numbers = (const float *)(const void *)row;
         bool opaque = true;
-        if (source->format == EWA_PIXEL_SRGB8)
-            for (uint32_t x = 0; x < source->width_px; x++) opaque &= codes[4 * (size_t)x + 3] == 255;
-        else
+        if (source->format == EWA_PIXEL_SRGB8) {
+            uint32_t all = UINT32_MAX;
+            for (uint32_t x = 0; x < source->width_px; x++) {
+                uint32_t pixel;
+                memcpy(&pixel, row + 4 * (size_t)x, sizeof pixel);
+                all &= pixel;
+            }
+            uint8_t channels[4];
+            memcpy(channels, &all, sizeof channels);
+            opaque = channels[3] == 255;
+        } else {
+            const float *numbers = (const float *)(const void *)row;
             for (uint32_t x = 0; x < source->width_px; x++) opaque &= numbers[4 * (size_t)x + 3] == 1;
+        }
         if (!opaque) return true;
     }
     return false;
