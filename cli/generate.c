@@ -59,6 +59,7 @@ static const cli_option object_table[] = {
      .offset = AT(radius_scale),
      .value = "S",
      .range = "(0, inf)",
+     .absent = "closed for the jitter",
      .help = "support radius in units of the spacing"},
     {.key = "positions-only",
      .kind = OPTION_FLAG,

@@ -151,6 +151,7 @@ static ewa_status make_object(ewa_context *context, ewa_object object, uint64_t 
     ewa_generate_options_init(&options, sizeof options);
     options.object = object;
     options.point_count = count;
+    options.radius_scale = EWA_DEFAULT_RADIUS_SCALE;
     if (object == EWA_OBJECT_CUBE) options.checks = 4;
     ewa_status status = ewa_cloud_generate(context, &options, &made->cloud);
     static const double up[3] = {0, 0, 1};

@@ -13,6 +13,7 @@
 #include <cmocka.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "ewa/ewa.h"
 
@@ -41,6 +42,32 @@ static inline ewa_context *check_context(uint32_t threads, check_log *log) {
     ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
     return context;
+}
+
+/// Memory of which one allocation fails, and what of it is not given back.
+typedef struct check_memory {
+    long calls_left; ///< allocations before the one that fails; negative: none fails
+    int64_t held_bytes;
+} check_memory;
+
+static inline void *check_allocate(void *user, size_t size_bytes) {
+    check_memory *memory = user;
+    if (memory->calls_left-- == 0) return NULL;
+    void *block = aligned_alloc(64, (size_bytes + 63) / 64 * 64);
+    // So that a sanitizer sees what is read before it is written.
+    if (block) memset(block, 0xa5, size_bytes);
+    if (block) memory->held_bytes += (int64_t)size_bytes;
+    return block;
+}
+
+static inline void check_release(void *user, void *block, size_t size_bytes) {
+    ((check_memory *)user)->held_bytes -= (int64_t)size_bytes;
+    free(block);
+}
+
+/// The allocator of ewa_context_options that takes from `memory`.
+static inline ewa_allocator check_allocator(check_memory *memory) {
+    return (ewa_allocator){memory, check_allocate, check_release};
 }
 
 /// Path of a file of the shared test data, or NULL (after saying so) when it is not there.

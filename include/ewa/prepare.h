@@ -194,8 +194,9 @@ typedef struct ewa_generate_options {
     double jitter; ///< 0: points in the middle of their cells, 1: anywhere in them; [0, 1]; default 0.5
     double checks; ///< squares along one edge of the checker plane and of the cube's faces; [1e-6, 1e6];
                    ///< default 16
-    double radius_scale; ///< support radius in units of the local spacing; [1e-6, 1e6]; default 1.14.
-                         ///< Discs leave no hole where it is at least 0.72 (1 + jitter)
+    double radius_scale; ///< support radius in units of the local spacing; [1e-6, 1e6], or 0 (default): so
+                         ///< that pixels inside are opaque: 1.14 (1 + 0.8 jitter), for rows 1.14. Discs
+                         ///< touch everywhere from 0.72 (1 + jitter) on
     bool positions_only; ///< leave out normals and radii; default false
     bool sharp; ///< cube and part: rows of points on every edge, and axes and clip lines in place of radii;
                 ///< default false

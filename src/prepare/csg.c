@@ -11,6 +11,7 @@
 // and 5: classification, resampling near the intersection), with the clip lines of M. Zwicker et al.,
 // "Perspective Accurate Splatting", 2004, section 5, in place of its many small surfels.
 #include "base/base.h"
+#include "prepare/csg_lines.h"
 #include "prepare/solid.h"
 
 #include <math.h>
@@ -21,9 +22,6 @@ enum { TASK_SURFELS = 512, SPLIT_LEVELS = 4, PIECES = 4 };
 /// A piece's axes, and how far it is from the middle of its parent along each axis, in units of the parent's.
 #define PIECE_SIZE  0.55
 #define PIECE_SHIFT 0.66
-
-/// Pieces whose centre is farther than this beyond a line, in standard deviations, add next to nothing.
-#define BEYOND 1.8
 
 /// Surfaces are the same where the sine of their angle and the distance in units of the reach are below.
 #define SAME_SINE     0.1
@@ -53,122 +51,12 @@ typedef struct csg_job {
     struct csg_piece *pieces;
 } csg_job;
 
-/// Up to two lines, which have to hold both, or either.
-typedef struct line_set {
-    ewa_vec3 line[2];
-    uint32_t count;
-    bool either;
-} line_set;
-
 /// What is left of a surfel that the other surface cuts.
 typedef struct csg_piece {
     ewa_vec3 center, axis[2];
     uint32_t surfel;
-    line_set lines;
+    ewa_line_set lines;
 } csg_piece;
-
-/// What may be left of a disc after lines.
-typedef enum disc_share { DISC_NONE, DISC_PART, DISC_ALL } disc_share;
-
-static disc_share share_of(ewa_vec3 line, double cutoff) {
-    const double reach = cutoff * sqrt(line.x * line.x + line.y * line.y);
-    return line.z >= reach ? DISC_ALL : line.z <= -reach ? DISC_NONE : DISC_PART;
-}
-
-/// Removes the lines that decide nothing within the disc; says what is left of it.
-static disc_share prune(line_set *lines, double cutoff) {
-    line_set kept = {.either = lines->either};
-    const disc_share decides = lines->either ? DISC_ALL : DISC_NONE;
-    for (uint32_t k = 0; k < lines->count; k++) {
-        const disc_share share = share_of(lines->line[k], cutoff);
-        if (share == decides) return decides;
-        if (share == DISC_PART) kept.line[kept.count++] = lines->line[k];
-    }
-    const disc_share rest = lines->either && lines->count ? DISC_NONE : DISC_ALL;
-    kept.either = kept.either && kept.count == 2;
-    *lines = kept;
-    return kept.count ? DISC_PART : rest;
-}
-
-/// Distance of the centre from a line, in standard deviations, positive on the side that is kept.
-static double depth_of(ewa_vec3 line) { return line.z / sqrt(line.x * line.x + line.y * line.y); }
-
-/// Whether the centre is so far beyond the lines that little of the kernel is left.
-static bool is_beyond(const line_set *lines) {
-    uint32_t beyond = 0;
-    for (uint32_t k = 0; k < lines->count; k++) beyond += depth_of(lines->line[k]) < -BEYOND;
-    return beyond > 0 && (!lines->either || beyond == lines->count);
-}
-
-/// Largest depth that a place of the disc has in both of two half-planes: at the far end of either's normal,
-/// or where both are as deep and the disc ends.
-static double common_depth(ewa_vec3 a, ewa_vec3 b, double cutoff) {
-    const double slope_a = sqrt(a.x * a.x + a.y * a.y), slope_b = sqrt(b.x * b.x + b.y * b.y);
-    const double n[2][3] = {{a.x / slope_a, a.y / slope_a, a.z / slope_a},
-                            {b.x / slope_b, b.y / slope_b, b.z / slope_b}};
-    double best = -INFINITY;
-    for (int k = 0; k < 2; k++) {
-        const double own = cutoff + n[k][2];
-        const double other = cutoff * (n[0][0] * n[1][0] + n[0][1] * n[1][1]) + n[1 - k][2];
-        best = fmax(best, fmin(own, other));
-    }
-    const double du = n[0][0] - n[1][0], dv = n[0][1] - n[1][1], d2 = du * du + dv * dv;
-    const double share = d2 > 0 ? (n[1][2] - n[0][2]) / d2 : INFINITY;
-    const double rest = cutoff * cutoff - share * share * d2;
-    if (!(rest > 0)) return best;
-    const double along = fabs(n[0][1] * du - n[0][0] * dv) * sqrt(rest / d2);
-    return fmax(best, share * (n[0][0] * du + n[0][1] * dv) + along + n[0][2]);
-}
-
-/// Whether no place of the disc is in both sets: each alternative of the one has a line that parts it from
-/// each of the other.
-static bool exclude(const line_set *a, const line_set *b, double cutoff) {
-    if (a->count == 0 || b->count == 0) return false;
-    const double nothing = 0.02; // standard deviations
-    bool apart[2][2];
-    for (uint32_t i = 0; i < a->count; i++)
-        for (uint32_t k = 0; k < b->count; k++)
-            apart[i][k] = common_depth(a->line[i], b->line[k], cutoff) < nothing;
-    for (uint32_t i = 0; i < (a->either ? a->count : 1); i++)
-        for (uint32_t k = 0; k < (b->either ? b->count : 1); k++) {
-            bool parted = false;
-            for (uint32_t m = a->either ? i : 0; m < (a->either ? i + 1 : a->count); m++)
-                for (uint32_t n = b->either ? k : 0; n < (b->either ? k + 1 : b->count); n++)
-                    parted |= apart[m][n];
-            if (!parted) return false;
-        }
-    return true;
-}
-
-/// Joins two sets that both have to hold; false when they are more than two lines, of which the two that cut
-/// the most remain, an either-pair standing for the one that cuts less.
-static bool join(const line_set *a, const line_set *b, line_set *joined) {
-    if (a->count == 0 || b->count == 0) {
-        *joined = a->count ? *a : *b;
-        return true;
-    }
-    const line_set *sets[2] = {a, b};
-    ewa_vec3 all[4];
-    uint32_t count = 0;
-    for (int s = 0; s < 2; s++) {
-        const line_set *set = sets[s];
-        const uint32_t less = set->either && depth_of(set->line[1]) > depth_of(set->line[0]);
-        if (set->either)
-            all[count++] = set->line[less];
-        else
-            for (uint32_t k = 0; k < set->count; k++) all[count++] = set->line[k];
-    }
-    const bool complete = a->count + b->count == 2;
-    for (uint32_t i = 0; i < 2; i++)
-        for (uint32_t k = i + 1; k < count; k++)
-            if (depth_of(all[k]) < depth_of(all[i])) {
-                const ewa_vec3 swapped = all[i];
-                all[i] = all[k];
-                all[k] = swapped;
-            }
-    *joined = (line_set){.line = {all[0], all[1]}, .count = 2};
-    return complete;
-}
 
 /// The line in which a plane of the other surface, seen from `at` = (u, v) of the disc, meets the disc's
 /// plane.
@@ -186,11 +74,12 @@ static ewa_vec3 meet(const csg_job *job, const csg_piece *piece, ewa_vec3 own_no
 
 /// The lines that the other surface asks for, after `looks` looks: the second is at the place where the first
 /// saw it meet the disc, and so on.
-static line_set lines_of(const csg_job *job, const csg_piece *piece, int looks, ewa_local_surface *surface) {
+static ewa_line_set lines_of(const csg_job *job, const csg_piece *piece, int looks,
+                             ewa_local_surface *surface) {
     const ewa_vec3 own_normal = job->solid->surfels[piece->surfel].normal;
     const double reach = job->cutoff * fmax(vec3_length(piece->axis[0]), vec3_length(piece->axis[1]));
     double at[2] = {0, 0};
-    line_set lines = {.count = 0};
+    ewa_line_set lines = {.count = 0};
     for (int look = 0; look < looks; look++) {
         const ewa_vec3 place = vec3_add(
             piece->center, vec3_add(vec3_scale(piece->axis[0], at[0]), vec3_scale(piece->axis[1], at[1])));
@@ -200,7 +89,7 @@ static line_set lines_of(const csg_job *job, const csg_piece *piece, int looks, 
         if (look == 0 && seen.nearest > reach + seen.reach) {
             // No surface here: planes that go on beyond their ends say nothing.
             const bool keeps = (seen.mean_distance > 0) == (job->rule.side > 0);
-            return (line_set){.line = {vec3_make(0, 0, keeps ? 1 : -1)}, .count = 1};
+            return (ewa_line_set){.line = {vec3_make(0, 0, keeps ? 1 : -1)}, .count = 1};
         }
         lines.count = seen.plane_count;
         for (uint32_t k = 0; k < seen.plane_count; k++)
@@ -208,8 +97,9 @@ static line_set lines_of(const csg_job *job, const csg_piece *piece, int looks, 
         // Outside of a convex edge is in front of either plane; inside is behind both.
         lines.either = seen.plane_count == 2 && seen.convex == (job->rule.side > 0);
         uint32_t nearest = 0;
-        if (lines.count == 2 && fabs(depth_of(lines.line[1])) < fabs(depth_of(lines.line[0]))) nearest = 1;
-        if (share_of(lines.line[nearest], job->cutoff) != DISC_PART) break;
+        if (lines.count == 2 && fabs(ewa_line_depth(lines.line[1])) < fabs(ewa_line_depth(lines.line[0])))
+            nearest = 1;
+        if (ewa_line_share(lines.line[nearest], job->cutoff) != EWA_DISC_PART) break;
         const ewa_vec3 l = lines.line[nearest];
         const double scale = -l.z / (l.x * l.x + l.y * l.y);
         at[0] = scale * l.x;
@@ -235,16 +125,16 @@ static csg_piece quarter(const csg_piece *piece, double su, double sv) {
 /// Cuts a piece by the other surface; writes what is left at `out` unless that is NULL, returns its count.
 static uint32_t cut(const csg_job *job, const csg_piece *piece, uint32_t level, csg_piece *out) {
     csg_piece left = *piece;
-    if (prune(&left.lines, job->cutoff) == DISC_NONE) return 0;
+    if (ewa_lines_prune(&left.lines, job->cutoff) == EWA_DISC_NONE) return 0;
     ewa_local_surface surface;
     // What is going to be split is looked at again in parts.
-    line_set asked = lines_of(job, piece, level == 0 ? 1 : 2, &surface);
-    const disc_share share = prune(&asked, job->cutoff);
-    if (share == DISC_NONE) return 0;
-    if (share == DISC_PART) {
-        const line_set own = left.lines;
-        if (exclude(&own, &asked, job->cutoff)) return 0;
-        const bool complete = join(&own, &asked, &left.lines);
+    ewa_line_set asked = lines_of(job, piece, level == 0 ? 1 : 2, &surface);
+    const ewa_disc_share share = ewa_lines_prune(&asked, job->cutoff);
+    if (share == EWA_DISC_NONE) return 0;
+    if (share == EWA_DISC_PART) {
+        const ewa_line_set own = left.lines;
+        if (ewa_lines_exclude(&own, &asked, job->cutoff)) return 0;
+        const bool complete = ewa_lines_join(&own, &asked, &left.lines);
         const double reach = job->cutoff * fmax(vec3_length(piece->axis[0]), vec3_length(piece->axis[1]));
         const bool coarse = level == 0 || reach > 1.2 * surface.reach;
         if (level < SPLIT_LEVELS && (coarse || !complete)) {
@@ -255,7 +145,7 @@ static uint32_t cut(const csg_job *job, const csg_piece *piece, uint32_t level, 
             }
             return count;
         }
-        if (is_beyond(&asked)) return 0;
+        if (ewa_lines_beyond(&asked)) return 0;
     }
     if (out) *out = left;
     return 1;

@@ -24,6 +24,10 @@ enum { STRETCH_POINTS = 1 << 22, TASK_POINTS = 1 << 14 };
 #define MAX_RADIUS_SCALE 1e6
 #define MAX_CHECKS       1e6
 
+/// Jittered points need wider discs, so that the sum of their kernels nowhere falls under what edge
+/// antialiasing takes for an edge: 1.6 spacings for jitter 0.5, 2.1 for 1 (docs/quality.md).
+static const double JITTER_SPREAD = 0.8;
+
 typedef struct generate_job {
     const ewa_generate_options *options;
     uint32_t patch_count, row_count; // row_count: of each patch
@@ -46,7 +50,13 @@ void ewa_generate_options_init(ewa_generate_options *options, size_t struct_size
     options->size_world = 2;
     options->jitter = 0.5;
     options->checks = 16;
-    options->radius_scale = EWA_DEFAULT_RADIUS_SCALE;
+}
+
+/// Support radius in units of the spacing.
+static double choose_radius_scale(const ewa_generate_options *options) {
+    if (options->radius_scale > 0) return options->radius_scale;
+    const bool in_rows = options->sharp || options->object == EWA_OBJECT_CSG;
+    return EWA_DEFAULT_RADIUS_SCALE * (in_rows ? 1 : 1 + JITTER_SPREAD * options->jitter);
 }
 
 static ewa_status check_range(ewa_context *context, const char *member, double value, double low,
@@ -71,7 +81,7 @@ static ewa_status check_options(ewa_context *context, const ewa_generate_options
     if (status == EWA_OK) status = check_range(context, "jitter", options->jitter, 0, 1);
     if (status == EWA_OK)
         status = check_range(context, "checks", options->checks, 1 / MAX_CHECKS, MAX_CHECKS);
-    if (status == EWA_OK)
+    if (status == EWA_OK && options->radius_scale != 0)
         status = check_range(context, "radius_scale", options->radius_scale, 1 / MAX_RADIUS_SCALE,
                              MAX_RADIUS_SCALE);
     return status;
@@ -245,6 +255,9 @@ ewa_status ewa_cloud_generate(ewa_context *context, const ewa_generate_options *
     if (!options) options = &defaults;
     ewa_status status = check_options(context, options);
     if (status != EWA_OK) return status;
+    ewa_generate_options chosen = *options;
+    chosen.radius_scale = choose_radius_scale(options);
+    options = &chosen;
     ewa_cloud *made = NULL;
     if (options->sharp || options->object == EWA_OBJECT_CSG) {
         status = ewa_generate_solid(context, options, &made);

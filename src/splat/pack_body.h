@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The packing kernels over the wide type: a stub defines which one that is and PACK_KERNELS, the name of the
-// table.
+// The packing kernels over the wide type: the file that includes it defines which one that is, and
+// PACK_KERNELS, the name of the table.
 //
 // Octahedral normals: Meyer et al., "On Floating-Point Normal Vectors", 2010.
 #include "math/wide.h"

@@ -267,6 +267,40 @@ static void test_several_inputs(void **state) {
     assert_false(scratch_same("a.png", "c.png"));
 }
 
+/// A mesh is sampled; other commands say how to.
+static void test_mesh(void **state) {
+    (void)state;
+    scratch_text("square.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
+    run_done("ewa render square.obj -o a.png --size 100x100 --view top --background transparent "
+             "--shading none");
+    ewa_image image = load("a.png");
+    const float *middle = image.pixels + (50 * 100 + 50) * 4;
+    assert_true(image.channel_count == 4 && middle[3] == 1 && share_over(&image, 3, 0.99f) > 0.3);
+    // Borders are cut by clip lines: nearly every pixel is opaque or empty.
+    assert_true(share_over(&image, 3, 0.01f) - share_over(&image, 3, 0.99f) < 0.04);
+    ewa_image_free(&image);
+    run_fails(1, "square.obj: a mesh|ewa sample", "ewa convert square.obj -o a.ply");
+}
+
+/// Files with clip lines keep them beside files without.
+static void test_clip_lines_of_one_file(void **state) {
+    (void)state;
+    run_done("ewa generate cube --sharp -n 600 -o cube.ply");
+    // Few points, so that the median coverage stays the cube's.
+    run_done("ewa generate sphere -n 100 -o few.ply");
+    run_done("ewa convert few.ply --translate 40,0,0 -o far.ply");
+    static const char *const view =
+        "--eye 3,2,2.5 --target 0,0,0 --fov 50 --size 150x150 --cull back --background transparent";
+    run_done("ewa render cube.ply -o alone.png %s", view);
+    run_done("ewa render cube.ply far.ply -o both.png %s", view);
+    ewa_image alone = load("alone.png"), both = load("both.png");
+    ewa_difference difference;
+    assert_int_equal(ewa_image_compare(&alone, &both, 1, 0.02, &difference, NULL), EWA_OK);
+    assert_int_equal(difference.over_threshold_count, 0);
+    ewa_image_free(&alone);
+    ewa_image_free(&both);
+}
+
 static void test_streams(void **state) {
     (void)state;
     run_done("ewa render torus.ply -o a.png --size 96x64 && cat torus.ply | ewa render - -o - --size 96x64 "
@@ -298,6 +332,8 @@ int main(void) {
         cmocka_unit_test(test_looks_differ),
         cmocka_unit_test(test_colors),
         cmocka_unit_test(test_several_inputs),
+        cmocka_unit_test(test_mesh),
+        cmocka_unit_test(test_clip_lines_of_one_file),
         cmocka_unit_test(test_streams),
     };
     return cmocka_run_group_tests(tests, enter, leave);

@@ -65,28 +65,32 @@ static inline int scratch_each(const char *relative, void (*visit)(void *user, c
     return count;
 }
 
-/// Counts allocations and bytes in use; fails the `fail_at`-th allocation (0: none).
-typedef struct scratch_memory {
-    long count, fail_at, in_use_bytes;
-} scratch_memory;
+/// Broken pictures: each loads or is refused with a message that begins with its path.
+typedef struct scratch_pictures {
+    ewa_context *context;
+    check_log log; ///< of `context`
+    int refused;
+} scratch_pictures;
 
-static inline void *scratch_allocate(void *user, size_t size_bytes) {
-    scratch_memory *memory = user;
-    if (++memory->count == memory->fail_at) return NULL;
-    memory->in_use_bytes += (long)size_bytes;
-    return aligned_alloc(64, (size_bytes + 63) / 64 * 64);
-}
-
-static inline void scratch_release(void *user, void *block, size_t size_bytes) {
-    ((scratch_memory *)user)->in_use_bytes -= (long)size_bytes;
-    free(block);
+static inline void scratch_load_picture(void *user, const char *path) {
+    scratch_pictures *pictures = user;
+    pictures->log = (check_log){0};
+    ewa_image image;
+    const ewa_status status = ewa_image_load(pictures->context, path, &image);
+    if (status == EWA_OK) {
+        ewa_image_free(&image);
+        return;
+    }
+    assert_null(image.pixels);
+    assert_true(pictures->log.count > 0 && strncmp(pictures->log.text, path, strlen(path)) == 0);
+    pictures->refused++;
 }
 
 /// A context of one worker on `memory`.
-static inline ewa_context *scratch_context(scratch_memory *memory, check_log *log) {
+static inline ewa_context *scratch_context(check_memory *memory, check_log *log) {
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
-    options.allocator = (ewa_allocator){memory, scratch_allocate, scratch_release};
+    options.allocator = check_allocator(memory);
     options.thread_count = 1;
     options.message = check_log_keep;
     options.message_user = log;
@@ -98,19 +102,19 @@ static inline ewa_context *scratch_context(scratch_memory *memory, check_log *lo
 /// Runs `work` with its first, second, ... allocation failing, until it succeeds: each failure must be
 /// EWA_ERROR_MEMORY with a message and leave nothing allocated.
 static inline void scratch_fail_each(ewa_status (*work)(ewa_context *context, void *user), void *user) {
-    for (long nth = 1;; nth++) {
-        scratch_memory memory = {0};
+    for (long nth = 0;; nth++) {
+        check_memory memory = {.calls_left = -1};
         check_log log = {0};
         ewa_context *context = scratch_context(&memory, &log);
-        const long before = memory.in_use_bytes;
-        memory.fail_at = memory.count + nth;
+        const int64_t before = memory.held_bytes;
+        memory.calls_left = nth;
         const ewa_status status = work(context, user);
-        const bool reached = memory.count >= memory.fail_at;
-        assert_int_equal(memory.in_use_bytes, before);
+        const bool reached = memory.calls_left < 0;
+        assert_int_equal(memory.held_bytes, before);
         ewa_context_destroy(&context);
         if (!reached) {
             assert_int_equal(status, EWA_OK);
-            assert_true(nth > 1);
+            assert_true(nth > 0);
             return;
         }
         assert_int_equal(status, EWA_ERROR_MEMORY);

@@ -189,31 +189,11 @@ static void test_real_files(void **state) {
     ewa_context_destroy(&context);
 }
 
-typedef struct tally {
-    ewa_context *context;
-    check_log log;
-    int refused;
-} tally;
-
-static void load_broken(void *user, const char *path) {
-    tally *t = user;
-    t->log = (check_log){0};
-    ewa_image image;
-    const ewa_status status = ewa_image_load(t->context, path, &image);
-    if (status == EWA_OK) {
-        ewa_image_free(&image);
-        return;
-    }
-    assert_null(image.pixels);
-    assert_true(t->log.count > 0 && strncmp(t->log.text, path, strlen(path)) == 0);
-    t->refused++;
-}
-
 static void test_hostile(void **state) {
     (void)state;
-    tally t = {0};
+    scratch_pictures t = {0};
     t.context = check_context(1, &t.log);
-    const int count = scratch_each("hostile/exr", load_broken, &t);
+    const int count = scratch_each("hostile/exr", scratch_load_picture, &t);
     print_message("%d of %d broken files refused\n", t.refused, count);
     assert_true(2 * t.refused >= count);
     ewa_context_destroy(&t.context);

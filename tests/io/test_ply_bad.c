@@ -298,30 +298,12 @@ static void test_changed_bytes_do_no_harm(void **state) {
         }
 }
 
-/// An allocator that fails once, at the n-th call, and keeps count of what is held.
-typedef struct failing_memory {
-    int calls_left;
-    int64_t held_bytes;
-} failing_memory;
-
-static void *failing_allocate(void *user, size_t size_bytes) {
-    failing_memory *memory = user;
-    if (memory->calls_left-- == 0) return NULL;
-    memory->held_bytes += (int64_t)size_bytes;
-    return aligned_alloc(64, (size_bytes + 63) & ~(size_t)63);
-}
-
-static void failing_release(void *user, void *pointer, size_t size_bytes) {
-    ((failing_memory *)user)->held_bytes -= (int64_t)size_bytes;
-    free(pointer);
-}
-
 static void test_failing_allocations(void **state) {
     (void)state;
-    failing_memory memory = {.calls_left = -1};
+    check_memory memory = {.calls_left = -1};
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
-    options.allocator = (ewa_allocator){&memory, failing_allocate, failing_release};
+    options.allocator = check_allocator(&memory);
     options.thread_count = 2;
     options.message = check_log_keep;
     options.message_user = &messages;

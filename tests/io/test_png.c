@@ -181,34 +181,14 @@ static void test_pngsuite(void **state) {
     ewa_context_destroy(&context);
 }
 
-typedef struct tally {
-    ewa_context *context;
-    check_log log;
-    int refused;
-} tally;
-
-static void load_broken(void *user, const char *path) {
-    tally *t = user;
-    t->log = (check_log){0};
-    ewa_image image;
-    const ewa_status status = ewa_image_load(t->context, path, &image);
-    if (status == EWA_OK) {
-        ewa_image_free(&image);
-        return;
-    }
-    assert_null(image.pixels);
-    assert_true(t->log.count > 0 && strncmp(t->log.text, path, strlen(path)) == 0);
-    t->refused++;
-}
-
 static void test_hostile(void **state) {
     (void)state;
-    tally t = {0};
+    scratch_pictures t = {0};
     t.context = check_context(1, &t.log);
-    if (scratch_each("hostile/png", load_broken, &t) > 0) assert_true(t.refused >= 7);
+    if (scratch_each("hostile/png", scratch_load_picture, &t) > 0) assert_true(t.refused >= 7);
     char path[512];
     if (check_data("hostile/png/badcrc.png", path, sizeof path)) {
-        load_broken(&t, path);
+        scratch_load_picture(&t, path);
         print_message("%s\n", t.log.text);
     }
     ewa_context_destroy(&t.context);

@@ -18,6 +18,7 @@ static ewa_cloud *make(ewa_context *context, ewa_object object, uint64_t points,
     options.object = object;
     options.point_count = points;
     options.size_world = size_world;
+    options.radius_scale = EWA_DEFAULT_RADIUS_SCALE;
     options.sharp = object == EWA_OBJECT_CUBE;
     ewa_cloud *cloud = NULL;
     assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_OK);

@@ -430,26 +430,6 @@ static void test_order_of_points(void **state) {
     free(xyz);
 }
 
-/// An allocator that fails at one call and counts what is not given back.
-typedef struct failing_allocator {
-    int calls_left;
-    long held_bytes;
-} failing_allocator;
-
-static void *allocate_or_fail(void *user, size_t size_bytes) {
-    failing_allocator *a = user;
-    if (a->calls_left-- == 0) return NULL;
-    void *memory = aligned_alloc(64, (size_bytes + 63) / 64 * 64);
-    if (memory) a->held_bytes += (long)size_bytes;
-    return memory;
-}
-
-static void release_counted(void *user, void *memory, size_t size_bytes) {
-    failing_allocator *a = user;
-    a->held_bytes -= (long)size_bytes;
-    free(memory);
-}
-
 static void test_out_of_memory(void **state) {
     (void)state;
     enum { COUNT = 2000 };
@@ -459,10 +439,10 @@ static void test_out_of_memory(void **state) {
         ewa_status status = EWA_ERROR_MEMORY;
         int calls = 0;
         for (; status == EWA_ERROR_MEMORY && calls < 500; calls++) {
-            failing_allocator allocator = {INT32_MAX, 0};
+            check_memory memory = {.calls_left = -1};
             ewa_context_options context_options;
             ewa_context_options_init(&context_options, sizeof context_options);
-            context_options.allocator = (ewa_allocator){&allocator, allocate_or_fail, release_counted};
+            context_options.allocator = check_allocator(&memory);
             context_options.thread_count = 2;
             ewa_context *context = NULL;
             assert_int_equal(ewa_context_create(&context_options, &context), EWA_OK);
@@ -472,10 +452,10 @@ static void test_out_of_memory(void **state) {
             ewa_estimate_options options = check_estimate_options();
             options.shape = (ewa_surfel_shape)shape;
             options.outlier_factor = 3;
-            allocator.calls_left = calls;
+            memory.calls_left = calls;
             status = ewa_cloud_estimate(&cloud, &options);
             if (status == EWA_OK) {
-                allocator.calls_left = INT32_MAX;
+                memory.calls_left = -1;
             } else {
                 assert_int_equal(status, EWA_ERROR_MEMORY);
                 assert_null(ewa_cloud_find(cloud, EWA_NORMAL));
@@ -484,7 +464,7 @@ static void test_out_of_memory(void **state) {
             }
             ewa_cloud_destroy(&cloud);
             ewa_context_destroy(&context);
-            assert_int_equal(allocator.held_bytes, 0);
+            assert_int_equal(memory.held_bytes, 0);
         }
         assert_int_equal(status, EWA_OK);
         assert_true(calls > 20);

@@ -130,8 +130,57 @@ static void test_affine_has_holes(void **state) {
     assert_true(counts.holes > 0);
 }
 
+/// Objects with the radii that ewa_cloud_generate() chooses are opaque up to a few pixels from the outline.
+static void test_generated_discs_close(void **state) {
+    (void)state;
+    enum { VIEW_PX = 400, RIM_PX = 8 };
+    static float rgba[VIEW_PX * VIEW_PX * 4];
+    static const double jitters[] = {0, 0.25, 0.5, 1};
+    ewa_context *context = check_context(0, NULL);
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    for (size_t i = 0; i < sizeof jitters / sizeof jitters[0]; i++) {
+        ewa_generate_options ball;
+        ewa_generate_options_init(&ball, sizeof ball);
+        ball.object = EWA_OBJECT_SPHERE;
+        ball.point_count = 20000;
+        ball.jitter = jitters[i];
+        ewa_cloud *cloud = NULL;
+        ewa_surfels *surfels = NULL;
+        assert_int_equal(ewa_cloud_generate(context, &ball, &cloud), EWA_OK);
+        assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+        ewa_camera camera;
+        ewa_camera_init(&camera, sizeof camera);
+        camera.width_px = camera.height_px = VIEW_PX;
+        assert_int_equal(ewa_camera_set_fov(&camera, 40), EWA_OK);
+        static const double eye[3] = {2, 1.5, 2.2}, target[3] = {0, 0, 0}, up[3] = {0, 0, 1};
+        assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
+        ewa_render_options options;
+        ewa_render_options_init(&options, sizeof options);
+        options.cull = EWA_CULL_BACK;
+        const ewa_frame frame = {.rgba = rgba};
+        assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &frame, NULL), EWA_OK);
+        const double distance = sqrt(eye[0] * eye[0] + eye[1] * eye[1] + eye[2] * eye[2]);
+        const double radius_px = camera.fx_px / sqrt(distance * distance - 1) - RIM_PX;
+        int translucent = 0;
+        for (int y = 0; y < VIEW_PX; y++)
+            for (int x = 0; x < VIEW_PX; x++) {
+                const double dx = x + 0.5 - 0.5 * VIEW_PX, dy = y + 0.5 - 0.5 * VIEW_PX;
+                const bool inside = dx * dx + dy * dy < radius_px * radius_px;
+                translucent += inside && rgba[4 * (y * VIEW_PX + x) + 3] < 0.999f;
+            }
+        print_message("sphere, jitter %g: %d translucent pixels\n", jitters[i], translucent);
+        assert_int_equal(translucent, 0);
+        ewa_surfels_destroy(&surfels);
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_renderer_destroy(&renderer);
+    ewa_context_destroy(&context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_generated_discs_close),
         cmocka_unit_test(test_perspective_has_no_holes),
         cmocka_unit_test(test_affine_has_holes),
     };

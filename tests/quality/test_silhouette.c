@@ -71,6 +71,7 @@ static void copy_part(ewa_context *context, ewa_object object, double size, doub
     ewa_generate_options_init(&options, sizeof options);
     options.object = object;
     options.size_world = size;
+    options.radius_scale = EWA_DEFAULT_RADIUS_SCALE;
     options.point_count = PART_POINTS;
     ewa_cloud *part = NULL;
     assert_int_equal(ewa_cloud_generate(context, &options, &part), EWA_OK);

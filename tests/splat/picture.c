@@ -209,3 +209,27 @@ picture picture_draw(ewa_context *context, const ewa_cloud *cloud, const ewa_cam
     ewa_surfels_destroy(&surfels);
     return made;
 }
+
+scene picture_small_scene(ewa_context *context, scene_kind kind) {
+    scene made;
+    const uint64_t count = kind == SCENE_ELLIPSES || kind == SCENE_NEAR ? 500 : 3000;
+    assert_int_equal(scene_make(context, kind, count, PICTURE_SMALL_PX, PICTURE_SMALL_PX, &made), EWA_OK);
+    return made;
+}
+
+void picture_hold(scene *of, const ewa_render_options *options, bool orthographic, const char *what) {
+    if (orthographic) {
+        ewa_bounds bounds;
+        const double direction[3] = {0.3, 0.8, -0.5}, up[3] = {0, 0, 1};
+        assert_int_equal(ewa_cloud_measure(of->cloud, &bounds), EWA_OK);
+        assert_int_equal(ewa_camera_set_ortho(&of->camera, 1), EWA_OK);
+        assert_int_equal(ewa_camera_frame(&of->camera, &bounds, direction, up, 0.05), EWA_OK);
+    }
+    picture reference = picture_of_scene(of, NULL, options);
+    picture fast = picture_draw(ewa_cloud_context(of->cloud), of->cloud, &of->camera, NULL, options);
+    const picture_report report = picture_compare(&reference, &fast, 2e-3, NULL);
+    picture_print(what, &report);
+    assert_true(report.over_count * 200 < report.pixel_count);
+    picture_free(&reference);
+    picture_free(&fast);
+}

@@ -374,32 +374,14 @@ static void test_one_pass_shows_one_surfel(void **state) {
     ewa_context_destroy(&context);
 }
 
-/// An allocator whose n-th call fails.
-typedef struct failing {
-    long left, live;
-} failing;
-
-static void *failing_allocate(void *user, size_t size_bytes) {
-    failing *f = user;
-    if (f->left-- == 0) return NULL;
-    f->live++;
-    return aligned_alloc(64, (size_bytes + 63) & ~(size_t)63);
-}
-
-static void failing_release(void *user, void *memory, size_t size_bytes) {
-    (void)size_bytes;
-    ((failing *)user)->live--;
-    free(memory);
-}
-
 static void test_every_failing_allocation_is_clean(void **state) {
     (void)state;
     bool done = false;
     for (long n = 0; !done; n++) {
-        failing f = {.left = n};
+        check_memory memory = {.calls_left = n};
         ewa_context_options options;
         ewa_context_options_init(&options, sizeof options);
-        options.allocator = (ewa_allocator){&f, failing_allocate, failing_release};
+        options.allocator = check_allocator(&memory);
         options.thread_count = 2;
         ewa_context *context = NULL;
         scene of = {0};
@@ -419,7 +401,7 @@ static void test_every_failing_allocation_is_clean(void **state) {
         scene_free(&of);
         ewa_context_destroy(&context);
         free(rgba8);
-        assert_int_equal(f.live, 0);
+        assert_int_equal(memory.held_bytes, 0);
         assert_true(n < 1000);
     }
 }
@@ -427,10 +409,10 @@ static void test_every_failing_allocation_is_clean(void **state) {
 /// A warm renderer allocates nothing.
 static void test_warm_frames_allocate_nothing(void **state) {
     (void)state;
-    failing f = {.left = -1};
+    check_memory memory = {.calls_left = -1};
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
-    options.allocator = (ewa_allocator){&f, failing_allocate, failing_release};
+    options.allocator = check_allocator(&memory);
     ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
     scene of;
@@ -441,9 +423,9 @@ static void test_warm_frames_allocate_nothing(void **state) {
     assert_int_equal(ewa_surfels_create(of.cloud, NULL, &surfels), EWA_OK);
     assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
     assert_int_equal(ewa_render(renderer, surfels, &of.camera, NULL, &made.frame, NULL), EWA_OK);
-    const long calls = f.left;
+    const long calls = memory.calls_left;
     assert_int_equal(ewa_render(renderer, surfels, &of.camera, NULL, &made.frame, NULL), EWA_OK);
-    assert_int_equal(f.left, calls);
+    assert_int_equal(memory.calls_left, calls);
     picture_free(&made);
     ewa_renderer_destroy(&renderer);
     ewa_surfels_destroy(&surfels);

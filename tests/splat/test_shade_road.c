@@ -340,24 +340,6 @@ static void test_wrong_options_are_refused(void **state) {
     ewa_context_destroy(&context);
 }
 
-/// An allocator whose n-th call fails.
-typedef struct failing {
-    long left, live;
-} failing;
-
-static void *failing_allocate(void *user, size_t size_bytes) {
-    failing *f = user;
-    if (f->left-- == 0) return NULL;
-    f->live++;
-    return aligned_alloc(64, (size_bytes + 63) & ~(size_t)63);
-}
-
-static void failing_release(void *user, void *memory, size_t size_bytes) {
-    (void)size_bytes;
-    ((failing *)user)->live--;
-    free(memory);
-}
-
 static void test_every_failing_allocation_is_clean(void **state) {
     (void)state;
     float pixels[8 * 4 * 3] = {1};
@@ -365,10 +347,10 @@ static void test_every_failing_allocation_is_clean(void **state) {
     for (int i = 0; i < 300; i++) material[i] = (uint8_t)(i % MATERIALS);
     bool done = false;
     for (long n = 0; !done; n++) {
-        failing f = {.left = n};
+        check_memory memory = {.calls_left = n};
         ewa_context_options context_options;
         ewa_context_options_init(&context_options, sizeof context_options);
-        context_options.allocator = (ewa_allocator){&f, failing_allocate, failing_release};
+        context_options.allocator = check_allocator(&memory);
         context_options.thread_count = 2;
         ewa_context *context = NULL;
         scene of = {0};
@@ -389,11 +371,11 @@ static void test_every_failing_allocation_is_clean(void **state) {
         ewa_render_options options = all_options(environment);
         options.eye_dome = 1;
         if (status == EWA_OK) status = ewa_render(renderer, surfels, &of.camera, &options, &frame, NULL);
-        const long calls = f.left;
+        const long calls = memory.calls_left;
         done = status == EWA_OK;
         if (done) { // a warm renderer allocates nothing
             assert_int_equal(ewa_render(renderer, surfels, &of.camera, &options, &frame, NULL), EWA_OK);
-            assert_int_equal(f.left, calls);
+            assert_int_equal(memory.calls_left, calls);
         } else {
             assert_int_equal(status, EWA_ERROR_MEMORY);
         }
@@ -402,7 +384,7 @@ static void test_every_failing_allocation_is_clean(void **state) {
         ewa_environment_destroy(&environment);
         scene_free(&of);
         ewa_context_destroy(&context);
-        assert_int_equal(f.live, 0);
+        assert_int_equal(memory.held_bytes, 0);
         assert_true(n < 1000);
     }
 }
