@@ -85,8 +85,8 @@ void ewa_texture_put(const ewa_texture_plan *plan, uint32_t x, uint32_t y, const
     uint8_t *pixel = (uint8_t *)row + (size_t)x * target->channel_count;
     if (target->channel_count == 4) {
         const float straight = out[3] > 0 && out[3] < 1 ? 1 / out[3] : 1;
-        for (int c = 0; c < 3; c++) pixel[c] = ewa_srgb8_from_linear(out[c] * straight);
         pixel[3] = (uint8_t)(255 * fminf(fmaxf(out[3], 0), 1) + 0.5f);
+        for (int c = 0; c < 3; c++) pixel[c] = pixel[3] ? ewa_srgb8_from_linear(out[c] * straight) : 0;
     } else {
         for (uint32_t c = 0; c < target->channel_count; c++) pixel[c] = ewa_srgb8_from_linear(out[c]);
     }

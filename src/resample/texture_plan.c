@@ -113,6 +113,23 @@ static bool has_holes(const ewa_texture_source *source) {
     return false;
 }
 
+/// Gives the adjugate and returns the determinant; `magnitude` is the sum of the magnitudes of its products.
+static double invert(double m[3][3], double adjugate[3][3], double *magnitude) {
+    double determinant = 0;
+    *magnitude = 0;
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            const int a = (j + 1) % 3, b = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
+            const double plus = m[a][c] * m[b][d], minus = m[a][d] * m[b][c];
+            adjugate[i][j] = plus - minus;
+            if (j > 0) continue;
+            determinant += m[0][i] * adjugate[i][0];
+            *magnitude += fabs(m[0][i]) * (fabs(plus) + fabs(minus));
+        }
+    }
+    return determinant;
+}
+
 /// Sets the map, scaled to |w| <= 1 over the texture, and its inverse.
 static ewa_status set_map(ewa_texture_plan *plan, const ewa_mat3 *map) {
     ewa_context *context = plan->context;
@@ -132,27 +149,22 @@ static ewa_status set_map(ewa_texture_plan *plan, const ewa_mat3 *map) {
     }
     if (!(w > 0) || !(largest < 1e100))
         return ewa_fail(context, EWA_ERROR_NUMERIC, "texture: the map is singular: it sends all to infinity");
-    // The adjugate; row sums of magnitudes tell what rounding leaves of the determinant.
-    double adjugate[3][3], determinant = 0, magnitude = 0;
-    for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 3; j++) {
-            const int a = (j + 1) % 3, b = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
-            adjugate[i][j] = unit[a][c] * unit[b][d] - unit[a][d] * unit[b][c];
-            if (j == 0) {
-                determinant += unit[0][i] * adjugate[i][0];
-                magnitude +=
-                    fabs(unit[0][i]) * (fabs(unit[a][c] * unit[b][d]) + fabs(unit[a][d] * unit[b][c]));
-            }
-        }
-    }
-    if (!(fabs(determinant) > SINGULAR * magnitude))
+    // Of unit squares, so that sizes do not count; the magnitude tells what rounding leaves of the
+    // determinant.
+    double magnitude, adjugate[3][3];
+    const double of_units = invert(unit, adjugate, &magnitude);
+    if (!(fabs(of_units) > SINGULAR * magnitude))
         return ewa_fail(context, EWA_ERROR_NUMERIC,
                         "texture: the map is singular: it sends all to a line or a point");
+    const double determinant = invert(plan->map, plan->inverse, &magnitude);
+    plan->determinant = fabs(determinant);
+    bool finite = plan->determinant > 0;
     for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            plan->inverse[i][j] = adjugate[i][j] / determinant / picture[i] * texture[j];
-    plan->determinant = fabs(determinant) / (texture[0] * texture[1]) * picture[0] * picture[1];
-    if (!isfinite(plan->determinant) || !(plan->determinant > 0))
+        for (int j = 0; j < 3; j++) {
+            plan->inverse[i][j] /= determinant;
+            finite = finite && isfinite(plan->inverse[i][j]);
+        }
+    if (!finite)
         return ewa_fail(context, EWA_ERROR_NUMERIC, "texture: the map is singular: areas vanish or overflow");
     return EWA_OK;
 }

@@ -20,8 +20,9 @@ static ALWAYS_INLINE void resolve_pixels(const ewa_texture_sums *sums, size_t at
     const wf weight = sums->weight ? wf_load(sums->weight + at) : out[3];
     const wm reached = wf_lt(wf_set(0), weight);
     const wf inverse = wf_keep(reached, wf_div(one, wf_select(reached, weight, one)));
-    const wf share = coverage ? wf_mul(inverse, wf_load(coverage)) : inverse;
+    const wf covered = coverage ? wf_load(coverage) : one, share = wf_mul(inverse, covered);
     for (int c = 0; c < 4; c++) out[c] = wf_mul(out[c], share);
+    if (!sums->weight) out[3] = wf_keep(reached, covered); // exactly
     const wf behind = wf_mul(wf_sub(one, out[3]), wf_set(background[3]));
     for (int c = 0; c < 3; c++) out[c] = wf_fma(behind, wf_set(background[c]), out[c]);
     out[3] = wf_add(out[3], behind);
@@ -32,13 +33,16 @@ static ALWAYS_INLINE wi encode_pixels(const wf color[4], bool with_alpha) {
     const wf one = wf_set(1);
     wi codes = wi_set(0);
     wf straight = one;
+    wm shown = wf_le(one, one);
     if (with_alpha) {
         const wm translucent = wm_and(wf_lt(wf_set(0), color[3]), wf_lt(color[3], one));
         straight = wf_div(one, wf_select(translucent, color[3], one));
-        codes = wi_shl(wi_from_f(wf_fma(clamp01(color[3]), wf_set(255), wf_set(0.5f))), 24);
+        const wf alpha = wf_fma(clamp01(color[3]), wf_set(255), wf_set(0.5f));
+        shown = wf_le(one, alpha);
+        codes = wi_shl(wi_from_f(alpha), 24);
     }
     for (int c = 0; c < 3; c++)
-        codes = wi_or(codes, wi_shl(srgb_codes(clamp01(wf_mul(color[c], straight))), 8 * c));
+        codes = wi_or(codes, wi_shl(srgb_codes(wf_keep(shown, clamp01(wf_mul(color[c], straight)))), 8 * c));
     return codes;
 }
 

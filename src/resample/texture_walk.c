@@ -11,6 +11,13 @@
 
 #include <math.h>
 
+/// Area of a texel of a repeated texture, in square pixels, that is small enough whatever its shape.
+static const double CROWDED_PX2 = 1.0 / 256;
+
+/// Nodes that a tile of a repeated texture may visit before the rest is drawn from the levels where it is:
+/// only maps that squeeze a plane into a line get there.
+enum { MOST_VISITS = 1 << 16, MOST_NEAR = 1 << 8, SPLAT_VISITS = 15 };
+
 /// A tile, and what bounds the texels that reach it.
 typedef struct tile_bounds {
     const ewa_texture_plan *plan;
@@ -18,6 +25,7 @@ typedef struct tile_bounds {
     double map[3][3];          ///< to pixels of the tile
     ewa_texture_line sides[6]; ///< of texture coordinates: a texel that reaches the tile is >= 0 on all
     uint32_t side_count;
+    uint32_t visit_count, near_count;
     double disc;       ///< reach of a splat, in texels of its level
     double spacing[2]; ///< times w: most pixels from texel to texel along u and v, anywhere in the tile
     double low_w;      ///< least w of a texel whose centre is in the tile
@@ -91,34 +99,75 @@ static void make_bounds(const ewa_texture_plan *plan, ewa_texture_brush *brush, 
     tile->low_w = inverse_w > 0 ? 1 / inverse_w : INFINITY;
 }
 
-/// Adds the texels of a block one after another: where the eye plane is so near that projected ellipses fail.
+static void add_weight(const tile_bounds *tile, int column, int row, double weight, const float color[4]) {
+    const ewa_texture_sums *sums = &tile->brush->sums;
+    const size_t place = (size_t)(row + 1) * EWA_TEXTURE_PITCH + (size_t)column + 1;
+    for (int c = 0; c < 4; c++) sums->color[4 * place + c] += (float)weight * color[c];
+    if (tile->plan->with_alpha) sums->weight[place] += (float)weight;
+}
+
+/// First and last of `count` cells whose middles are within `reach` of `center`.
+static void cell_range(double center, double reach, int count, int range[2]) {
+    range[0] = (int)fmin(fmax(ceil(center - reach - 0.5), 0), count);
+    range[1] = (int)fmax(fmin(floor(center + reach - 0.5), count - 1), -1);
+}
+
+/// Adds the texels of a block whose discs are seen along rays: from each pixel back to the discs that it
+/// sees.
+static void draw_along_rays(const tile_bounds *tile, const ewa_texture_block *block, const node *at,
+                            uint32_t x, uint32_t y) {
+    const ewa_texture_plan *plan = tile->plan;
+    const double reach = plan->options.cutoff * plan->options.sigma_texels;
+    for (int row = 0; row < EWA_TEXTURE_TILE; row++) {
+        for (int column = 0; column < EWA_TEXTURE_TILE; column++) {
+            const double px = (double)x + column + 0.5, py = (double)y + row + 0.5;
+            double p[3];
+            for (int c = 0; c < 3; c++)
+                p[c] = px * plan->inverse[0][c] + py * plan->inverse[1][c] + plan->inverse[2][c];
+            if (!(p[2] > 0)) continue;
+            int us[2], vs[2];
+            cell_range(p[0] / p[2] - (double)at->u, reach, (int)block->width, us);
+            cell_range(p[1] / p[2] - (double)at->v, reach, (int)block->height, vs);
+            for (int v = vs[0]; v <= vs[1]; v++) {
+                for (int u = us[0]; u <= us[1]; u++) {
+                    ewa_texel_kernel kernel;
+                    if (ewa_texel_place(plan, (double)at->u + u + 0.5, (double)at->v + v + 0.5, false,
+                                        &kernel) &&
+                        kernel.along_rays)
+                        add_weight(tile, column, row, ewa_texel_weight(plan, &kernel, px, py),
+                                   block->colors[v][u]);
+                }
+            }
+        }
+    }
+}
+
+/// Adds the texels of a block one after another: where the eye plane is so near that some are seen along
+/// rays.
 static void draw_near(const tile_bounds *tile, const ewa_texture_block *block, const node *at, uint32_t x,
                       uint32_t y) {
     const ewa_texture_plan *plan = tile->plan;
-    const ewa_texture_sums *sums = &tile->brush->sums;
+    bool along_rays = false;
     for (uint32_t j = 0; j < block->height; j++) {
         for (uint32_t i = 0; i < block->width; i++) {
             ewa_texel_kernel kernel;
             if (!ewa_texel_place(plan, (double)at->u + i + 0.5, (double)at->v + j + 0.5, false, &kernel))
                 continue;
-            int first[2], last[2];
-            for (int c = 0; c < 2; c++) {
-                const double center = kernel.center_px[c] - (c ? y : x);
-                first[c] = (int)fmin(fmax(ceil(center - kernel.half_px[c] - 0.5), 0), EWA_TEXTURE_TILE);
-                last[c] = (int)fmax(fmin(floor(center + kernel.half_px[c] - 0.5), EWA_TEXTURE_TILE - 1), -1);
-            }
-            for (int row = first[1]; row <= last[1]; row++) {
-                for (int column = first[0]; column <= last[0]; column++) {
-                    const float weight = (float)ewa_texel_weight(plan, &kernel, (double)x + column + 0.5,
-                                                                 (double)y + row + 0.5);
-                    const size_t place = (size_t)(row + 1) * EWA_TEXTURE_PITCH + (size_t)column + 1;
-                    for (int c = 0; c < 4; c++) sums->color[4 * place + c] += weight * block->colors[j][i][c];
-                    if (plan->with_alpha) sums->weight[place] += weight;
-                }
-            }
             tile->brush->counts.splat_count++;
+            along_rays = along_rays || kernel.along_rays;
+            if (kernel.along_rays) continue;
+            int columns[2], rows[2];
+            cell_range(kernel.center_px[0] - x, kernel.half_px[0], EWA_TEXTURE_TILE, columns);
+            cell_range(kernel.center_px[1] - y, kernel.half_px[1], EWA_TEXTURE_TILE, rows);
+            for (int row = rows[0]; row <= rows[1]; row++)
+                for (int column = columns[0]; column <= columns[1]; column++)
+                    add_weight(
+                        tile, column, row,
+                        ewa_texel_weight(plan, &kernel, (double)x + column + 0.5, (double)y + row + 0.5),
+                        block->colors[j][i]);
         }
     }
+    if (along_rays) draw_along_rays(tile, block, at, x, y);
 }
 
 /// Draws the texels of a node, less those beyond the texture's end.
@@ -158,7 +207,7 @@ static void draw_node(const tile_bounds *tile, const node *at, bool as_points, b
     brush->counts.texel_count += (uint64_t)(drawn * size_u * size_v);
 }
 
-static void visit(const tile_bounds *tile, const node *at, uint32_t x, uint32_t y) {
+static void visit(tile_bounds *tile, const node *at, uint32_t x, uint32_t y) {
     const ewa_texture_plan *plan = tile->plan;
     const ewa_texture_options *options = &plan->options;
     const ewa_texture_axis *axis_u = &plan->axes[0], *axis_v = &plan->axes[1];
@@ -181,16 +230,22 @@ static void visit(const tile_bounds *tile, const node *at, uint32_t x, uint32_t 
     const ewa_texture_line minus_w = {-tile->map[0][2], -tile->map[1][2], -tile->map[2][2]};
     const double least_w = -largest_value(&minus_w, u0, u1, v0, v1);
     const double low_w = fmax(least_w, tile->low_w);
+    tile->visit_count++;
     const double spacing_u = size[0] * spacing_bound(tile, 0, v0, v1, low_w);
     const double spacing_v = size[1] * spacing_bound(tile, 1, u0, u1, low_w);
+    // Where a repeated texture is sheared so much that both axes stay long, coarse levels bound the work.
+    const double area = plan->determinant * size[0] * size[1] / (low_w * low_w * low_w);
+    const bool crowded = options->repeat && (area <= CROWDED_PX2 || tile->visit_count > MOST_VISITS);
     // Along each axis, a level is fine enough when its texels are minified, or when there is none below.
     const bool minified_u = !beyond_u && spacing_u <= options->point_spacing_px;
     const bool minified_v = !beyond_v && spacing_v <= options->point_spacing_px;
     const bool as_points = options->method == EWA_TEXTURE_POINT || (minified_u && minified_v);
     const double support_w = EWA_TEXTURE_NEAR * options->cutoff * plan->tangent_w * fmax(size[0], size[1]);
     const bool near = !as_points && !(least_w > support_w), first = at->level_u == 0 && at->level_v == 0;
-    const bool fine = (minified_u || at->level_u == 0) && (minified_v || at->level_v == 0);
+    const bool fine = crowded || ((minified_u || at->level_u == 0) && (minified_v || at->level_v == 0));
     if (first || (fine && !near && options->method != EWA_TEXTURE_SPLAT)) {
+        if (near && tile->near_count++ >= MOST_NEAR && options->repeat) return;
+        if (!as_points) tile->visit_count += SPLAT_VISITS;
         draw_node(tile, at, as_points && options->method != EWA_TEXTURE_SPLAT, near, x, y);
         return;
     }
