@@ -69,10 +69,11 @@ EWA_API void ewa_texture_options_init(ewa_texture_options *options, size_t struc
 /// What a mapping took.
 typedef struct ewa_texture_stats {
     uint64_t splat_count, point_count; ///< drawn, over all tiles: a texel in two tiles counts twice
-    uint64_t texel_count; ///< texels that these stand for: a point of a pre-summed level for several
-    uint64_t level_bytes; ///< of pre-summed levels
-    double levels_s;      ///< to make those, wall clock
-    double total_s;       ///< wall clock of the call
+    uint64_t texel_count;       ///< texels that these stand for: a point of a pre-summed level for several
+    uint64_t point_texel_count; ///< of these, those that points stand for
+    uint64_t level_bytes;       ///< of pre-summed levels
+    double levels_s;            ///< to make those, wall clock
+    double total_s;             ///< wall clock of the call
 } ewa_texture_stats;
 
 /// Draws a texture through a map. Colours are averaged in linear light, weighted by the kernels; alpha is the

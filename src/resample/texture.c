@@ -14,6 +14,9 @@ enum {
     LEVEL_PAIRS = EWA_TEXTURE_MAX_LEVELS * EWA_TEXTURE_MAX_LEVELS,
 };
 
+/// Share of the texture that levels have to spare to be worth making.
+static const double LEVELS_PAY = 0.5;
+
 /// One worker's memory.
 typedef struct workspace {
     float color[4 * SUM_PIXELS];
@@ -120,9 +123,15 @@ static ewa_status draw_all(ewa_texture_plan *plan, texture_job *job, uint32_t ti
         const double started_s = ewa_now_s();
         ewa_parallel(plan->context, survey_tile, job, tile_count);
         uint8_t *wanted = job->workspaces[0].wanted;
-        for (uint32_t k = 1; k < worker_count; k++)
+        double spared = 0;
+        for (uint32_t k = 0; k < worker_count; k++) {
+            spared += job->workspaces[k].brush.spared_texels;
             for (uint32_t i = 0; i < LEVEL_PAIRS; i++) wanted[i] |= job->workspaces[k].wanted[i];
-        status = ewa_texture_levels_make(plan, wanted, stats);
+        }
+        // To make levels is to read the texture about once.
+        const double texel_count = (double)plan->source.width_px * plan->source.height_px;
+        plan->flat = !plan->options.repeat && spared < LEVELS_PAY * texel_count;
+        if (!plan->flat) status = ewa_texture_levels_make(plan, wanted, stats);
         stats->levels_s = ewa_now_s() - started_s;
     }
     if (status == EWA_OK) status = ewa_progress(plan->context, "texture", 0.3);
@@ -133,6 +142,7 @@ static ewa_status draw_all(ewa_texture_plan *plan, texture_job *job, uint32_t ti
         stats->splat_count += counts->splat_count;
         stats->point_count += counts->point_count;
         stats->texel_count += counts->texel_count;
+        stats->point_texel_count += counts->point_texel_count;
     }
     return ewa_progress(plan->context, "texture", 1);
 }
@@ -144,6 +154,7 @@ ewa_status ewa_texture_map(ewa_context *context, const ewa_texture_source *sourc
     ewa_texture_plan plan;
     ewa_status status = ewa_texture_plan_make(context, source, map, options, target, &plan);
     if (status != EWA_OK) return status;
+    plan.flat = plan.options.method == EWA_TEXTURE_SPLAT;
     const uint32_t worker_count = ewa_context_worker_count(context);
     workspace *workspaces = ewa_allocate(context, worker_count, sizeof *workspaces);
     if (!workspaces) return EWA_ERROR_MEMORY;

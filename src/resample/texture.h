@@ -44,6 +44,7 @@ typedef struct ewa_texture_plan {
     double far_w;              ///< repeated textures are drawn up to here
     ewa_texture_line edges[4]; ///< of picture coordinates: all >= 0 where the texture is
     uint32_t edge_count;
+    bool flat;       ///< levels would cost more than they spare: all is drawn from the texture itself
     bool with_alpha; ///< the texels have an alpha: sums of weights are kept apart
     ewa_texture_axis axes[2];
     float *levels[EWA_TEXTURE_MAX_LEVELS]
@@ -163,7 +164,7 @@ void ewa_texture_levels_read(const ewa_texture_plan *plan, uint32_t level_u, uin
 
 /// What drawing a tile counts.
 typedef struct ewa_texture_counts {
-    uint64_t splat_count, point_count, texel_count;
+    uint64_t splat_count, point_count, texel_count, point_texel_count;
 } ewa_texture_counts;
 
 /// What a worker draws with.
@@ -174,7 +175,8 @@ typedef struct ewa_texture_brush {
     ewa_texture_sums sums;
     ewa_texture_block *block;
     ewa_texture_counts counts;
-    uint8_t *wanted; ///< when not NULL, nothing is drawn: levels that would be are marked, [u][v]
+    double spared_texels; ///< in a survey: texels that levels draw less
+    uint8_t *wanted;      ///< when not NULL, nothing is drawn: levels that would be are marked, [u][v]
 } ewa_texture_brush;
 
 /// Draws, in a fixed order, every texel that reaches the tile whose first pixel is (x, y).

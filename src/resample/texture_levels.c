@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { TASK_ROWS = 16 };
+enum { TASK_ROWS = 16, CHUNK_TEXELS = 64 };
 
 static uint32_t smallest_factor(uint32_t n) {
     for (uint32_t p = 2; p <= n / p; p++)
@@ -68,16 +68,21 @@ static void average_rows(void *data, uint32_t index, uint32_t worker) {
         float(*out)[4] = level + (size_t)y * width;
         memset(out, 0, width * sizeof *out);
         for (uint32_t j = 0; j < factor_v; j++) {
-            const uint32_t from_y = y * factor_v + j;
-            for (uint32_t x = 0; x < width; x++) {
-                for (uint32_t i = 0; i < factor_u; i++) {
-                    float texel[4];
-                    if (task->finer)
-                        memcpy(texel, task->finer + 4 * ((size_t)from_y * finer_width + x * factor_u + i),
-                               sizeof texel);
-                    else
-                        ewa_texel_read(&plan->source, x * factor_u + i, from_y, texel);
-                    for (int c = 0; c < 4; c++) out[x][c] += texel[c] * share;
+            const uint32_t row = y * factor_v + j, end = width * factor_u;
+            uint32_t x = 0, left = factor_u;
+            for (uint32_t first = 0; first < end; first += CHUNK_TEXELS) {
+                const uint32_t count = end - first < CHUNK_TEXELS ? end - first : CHUNK_TEXELS;
+                float decoded[CHUNK_TEXELS][4];
+                const float(*texels)[4] = (const float(*)[4])decoded;
+                if (task->finer)
+                    texels = (const float(*)[4])task->finer + (size_t)row * finer_width + first;
+                else
+                    ewa_texel_read_row(&plan->source, first, row, count, decoded);
+                for (uint32_t i = 0; i < count; i++) {
+                    for (int c = 0; c < 4; c++) out[x][c] += texels[i][c] * share;
+                    if (--left) continue;
+                    x++;
+                    left = factor_u;
                 }
             }
         }
@@ -91,7 +96,7 @@ static size_t level_texels(const ewa_texture_plan *plan, uint32_t u, uint32_t v)
 /// Makes a level and, before it, those that it is made from.
 static ewa_status make_level(ewa_texture_plan *plan, uint32_t u, uint32_t v, ewa_texture_stats *stats) {
     if ((u == 0 && v == 0) || plan->levels[u][v]) return EWA_OK;
-    const bool along_v = v > 0 && v >= u;
+    const bool along_v = v > 0 && (u == 0 || plan->levels[u][v - 1] || (!plan->levels[u - 1][v] && v >= u));
     level_task task = {plan, u, v, {along_v ? u : u - 1, along_v ? v - 1 : v}, NULL};
     const ewa_status status = make_level(plan, task.from[0], task.from[1], stats);
     if (status != EWA_OK) return status;

@@ -154,6 +154,7 @@ static void draw_near(const tile_bounds *tile, const ewa_texture_block *block, c
             if (!ewa_texel_place(plan, (double)at->u + i + 0.5, (double)at->v + j + 0.5, false, &kernel))
                 continue;
             tile->brush->counts.splat_count++;
+            tile->brush->counts.texel_count++;
             along_rays = along_rays || kernel.along_rays;
             if (kernel.along_rays) continue;
             int columns[2], rows[2];
@@ -180,6 +181,8 @@ static void draw_node(const tile_bounds *tile, const node *at, bool as_points, b
     const uint32_t level_v = at->level_v < axes[1].stored_count ? at->level_v : axes[1].stored_count - 1;
     if (brush->wanted) {
         brush->wanted[level_u * EWA_TEXTURE_MAX_LEVELS + level_v] = 1;
+        brush->spared_texels += EWA_TEXTURE_NODE_U * EWA_TEXTURE_NODE_V *
+                                (axes[0].size[at->level_u] * axes[1].size[at->level_v] - 1);
         return;
     }
     ewa_texture_block *block = brush->block;
@@ -203,8 +206,10 @@ static void draw_node(const tile_bounds *tile, const node *at, bool as_points, b
     }
     block->area_scale = (float)((double)brush->filter.determinant * size_u * size_v);
     const uint32_t drawn = (as_points ? brush->points : brush->splats)(&brush->filter, block, &brush->sums);
+    const uint64_t texels = (uint64_t)(drawn * size_u * size_v);
     *(as_points ? &brush->counts.point_count : &brush->counts.splat_count) += drawn;
-    brush->counts.texel_count += (uint64_t)(drawn * size_u * size_v);
+    brush->counts.texel_count += texels;
+    if (as_points) brush->counts.point_texel_count += texels;
 }
 
 static void visit(tile_bounds *tile, const node *at, uint32_t x, uint32_t y) {
@@ -239,14 +244,15 @@ static void visit(tile_bounds *tile, const node *at, uint32_t x, uint32_t y) {
     // Along each axis, a level is fine enough when its texels are minified, or when there is none below.
     const bool minified_u = !beyond_u && spacing_u <= options->point_spacing_px;
     const bool minified_v = !beyond_v && spacing_v <= options->point_spacing_px;
-    const bool as_points = options->method == EWA_TEXTURE_POINT || (minified_u && minified_v);
+    const bool as_points = options->method == EWA_TEXTURE_POINT ||
+                           (options->method == EWA_TEXTURE_HYBRID && minified_u && minified_v);
     const double support_w = EWA_TEXTURE_NEAR * options->cutoff * plan->tangent_w * fmax(size[0], size[1]);
     const bool near = !as_points && !(least_w > support_w), first = at->level_u == 0 && at->level_v == 0;
     const bool fine = crowded || ((minified_u || at->level_u == 0) && (minified_v || at->level_v == 0));
-    if (first || (fine && !near && options->method != EWA_TEXTURE_SPLAT)) {
+    if (first || (fine && !near && !plan->flat)) {
         if (near && tile->near_count++ >= MOST_NEAR && options->repeat) return;
         if (!as_points) tile->visit_count += SPLAT_VISITS;
-        draw_node(tile, at, as_points && options->method != EWA_TEXTURE_SPLAT, near, x, y);
+        draw_node(tile, at, as_points, near, x, y);
         return;
     }
     const bool split_u =

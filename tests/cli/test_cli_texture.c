@@ -113,7 +113,7 @@ static void test_usage(void **state) {
     run_fails(1, "corners", "ewa texture rgb.png -o n.png --corners 0,0,5,5,5,0,0,5");
     run_fails(1, "plane", "ewa texture rgb.png -o n.png --plane 0,0,0,1,0,0,2,0,0 --eye 0,0,3");
     run_fails(1, "none.png", "ewa texture none.png -o n.png");
-    run("head -c 300 rgb.png >short.png && echo no >text.png");
+    run("head -c 100 rgb.png >short.png && echo no >text.png");
     run_fails(1, "short.png", "ewa texture short.png -o n.png");
     run_fails(1, "text.png", "ewa texture text.png -o n.png");
     run_fails(1, "nowhere", "ewa texture rgb.png -o nowhere/n.png");

@@ -210,9 +210,9 @@ static void measure_ratio(ewa_context *context, const char *path) {
             count++;
         }
         const double texels = (double)best[0].texel_count;
-        fprintf(file, "%.4g,%.4f,%.3f,%.3f,%.3f,%.2f\n", scale,
-                (texels - (double)best[0].splat_count) / texels, 1e3 * best[0].total_s, 1e3 * best[1].total_s,
-                best[0].total_s / best[1].total_s, -10 * log10(squares / count));
+        fprintf(file, "%.4g,%.4f,%.3f,%.3f,%.3f,%.2f\n", scale, (double)best[0].point_texel_count / texels,
+                1e3 * best[0].total_s, 1e3 * best[1].total_s, best[0].total_s / best[1].total_s,
+                -10 * log10(squares / count));
         for (int i = 0; i < 2; i++) ewa_image_free(&pictures[i]);
     }
     texture_scene_free(&scene);
