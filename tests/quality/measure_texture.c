@@ -239,6 +239,15 @@ static void write_files(ewa_context *context, const char *folder, const char *im
     texture_scene_free(&scene);
 }
 
+/// Nine numbers for ewa texture --homography.
+static void print_homography(ewa_context *context, const char *image) {
+    texture_scene scene;
+    check(texture_scene_make(context, image, &scene), "the scene");
+    for (int i = 0; i < 9; i++) printf("%s%.17g", i ? "," : "", scene.map.m[i % 3][i / 3]);
+    printf("\n");
+    texture_scene_free(&scene);
+}
+
 static void print_file_error(ewa_context *context, const char *name, const char *image) {
     texture_scene scene;
     check(texture_scene_make(context, image, &scene), "the scene");
@@ -271,10 +280,12 @@ int main(int count, char **words) {
         measure_ratio(context, words[2]);
     } else if (strcmp(what, "files") == 0 && count >= 3) {
         write_files(context, words[2], count > 3 ? words[3] : NULL);
+    } else if (strcmp(what, "homography") == 0 && count >= 3) {
+        print_homography(context, count > 3 ? words[3] : NULL);
     } else if (strcmp(what, "error") == 0 && count >= 3) {
         print_file_error(context, words[2], count > 3 ? words[3] : NULL);
     } else {
-        fprintf(stderr, "measure_texture quality|tune|speed|ratio|files|error\n");
+        fprintf(stderr, "measure_texture quality|tune|speed|ratio|files|homography|error\n");
         return 2;
     }
     ewa_context_destroy(&context);
