@@ -109,7 +109,8 @@ static ALWAYS_INLINE void add_ellipses(const ewa_texture_filter *filter, const e
                 const size_t at = (size_t)(y + 1) * EWA_TEXTURE_PITCH + (size_t)x + 1;
                 float weights[16];
                 wf_store(weights, weight);
-                for (int r = 0; r < 4; r++) {
+                const int rows = e->y_high[i] - y < 3 ? e->y_high[i] - y + 1 : 4;
+                for (int r = 0; r < rows; r++) {
                     float *to = sums->color + 4 * (at + (size_t)r * EWA_TEXTURE_PITCH);
                     wf_store(to, wf_fma(wf_spread4(weights + 4 * r), color, wf_load(to)));
                 }
