@@ -191,3 +191,13 @@ void frames_free(frame_cameras *frames) {
     free(frames->cameras);
     *frames = (frame_cameras){.count = 0};
 }
+
+bool frames_save(cli_session *session, const char *path, const frame_cameras *frames, bool many) {
+    session->subject = path;
+    const ewa_status status =
+        many ? ewa_camera_save_list(session->context, frames->cameras, frames->count, path)
+             : ewa_camera_save(session->context, frames->cameras, path);
+    if (status != EWA_OK) session_failed(session, status);
+    session->subject = NULL;
+    return status == EWA_OK;
+}

@@ -42,4 +42,7 @@ bool frames_make(cli_session *session, const frames_arguments *arguments, const 
                  double radius_scale, frame_cameras *frames);
 void frames_free(frame_cameras *frames);
 
+/// Writes the cameras to a file: one, or a list when `many`. Returns false after reporting.
+bool frames_save(cli_session *session, const char *path, const frame_cameras *frames, bool many);
+
 #endif

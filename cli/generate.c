@@ -8,18 +8,23 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 typedef struct generate_arguments {
     output_arguments output; // first
     bool positions_only, sharp;
     int64_t point_count, seed;
     double size_world, jitter, checks, radius_scale;
+    option_vector dims;
 } generate_arguments;
 
 #define AT(member) offsetof(generate_arguments, member)
 
 /// In the order of ewa_object.
 static const char *const objects[] = {"plane", "checker", "cube", "sphere", "torus", "terrain", "csg"};
+
+/// In the order of ewa_volume_object.
+static const char *const volumes[] = {"checkerbox", "blob", "ball", "vessels"};
 
 static const cli_option object_table[] = {
     {.key = "points",
@@ -40,8 +45,9 @@ static const cli_option object_table[] = {
      .offset = AT(size_world),
      .value = "SIZE",
      .range = "(0, inf)",
-     .help = "edge of plane, cube and terrain, outer diameter of sphere and torus, length of csg, in world "
-             "units"},
+     .help =
+         "edge of plane, cube and terrain, outer diameter of sphere and torus, length of csg, longest edge "
+         "of a volume, in world units"},
     {.key = "jitter",
      .kind = OPTION_NUMBER,
      .offset = AT(jitter),
@@ -53,7 +59,7 @@ static const cli_option object_table[] = {
      .offset = AT(checks),
      .value = "N",
      .range = "(0, inf)",
-     .help = "squares along an edge of the checkerboard and of the cube's faces"},
+     .help = "squares along an edge of the checkerboard and of the cube's faces, cubes of checkerbox"},
     {.key = "radius-scale",
      .kind = OPTION_NUMBER,
      .offset = AT(radius_scale),
@@ -69,6 +75,14 @@ static const cli_option object_table[] = {
      .kind = OPTION_FLAG,
      .offset = AT(sharp),
      .help = "cube and csg: clip lines on every edge, and points on the edges"},
+    {.key = "dims",
+     .kind = OPTION_VECTOR,
+     .offset = AT(dims),
+     .value = "x,y,z",
+     .low = 1,
+     .high = 3,
+     .absent = "128,128,128",
+     .help = "volumes: voxels along each axis; one number: along all"},
 };
 
 static void set_defaults(void *data) {
@@ -84,22 +98,61 @@ static void set_defaults(void *data) {
     arguments->positions_only = options.positions_only;
 }
 
-enum { OBJECT_COUNT = sizeof objects / sizeof objects[0] };
+enum {
+    OBJECT_COUNT = sizeof objects / sizeof objects[0],
+    VOLUME_COUNT = sizeof volumes / sizeof volumes[0],
+};
 
-static size_t find_object(const char *word) {
+/// Index of a word in a list; `count` when it is not there.
+static size_t find_word(const char *word, size_t count, const char *const *words) {
     size_t index = 0;
-    while (index < OBJECT_COUNT && strcmp(objects[index], word) != 0) index++;
+    while (index < count && strcmp(words[index], word) != 0) index++;
     return index;
+}
+
+static bool has_suffix(const char *path, const char *suffix) {
+    const size_t length = strlen(path), suffix_length = strlen(suffix);
+    return length > suffix_length && strcasecmp(path + length - suffix_length, suffix) == 0;
+}
+
+/// What is wrong with the options for a volume; NULL: nothing.
+static const char *check_volume(const generate_arguments *arguments) {
+    generate_arguments defaults = {.seed = 0};
+    set_defaults(&defaults);
+    if (arguments->output.path && strcmp(arguments->output.path, "-") != 0 &&
+        !has_suffix(arguments->output.path, ".nrrd"))
+        return "generate: this is a volume, which goes to a .nrrd file";
+    if (arguments->output.ascii || arguments->output.big_endian || arguments->positions_only ||
+        arguments->sharp || arguments->point_count != defaults.point_count ||
+        arguments->jitter != defaults.jitter || arguments->radius_scale != defaults.radius_scale)
+        return "generate: of a volume are --dims, --extent, --checks and --seed only";
+    for (uint32_t k = 0; k < arguments->dims.count; k++) {
+        const double side = arguments->dims.values[k];
+        if (!(side >= 2 && side <= 65536) || side != (double)(uint32_t)side)
+            return "--dims: whole numbers in [2, 65536]";
+    }
+    return arguments->dims.count == 2 ? "--dims: one number or three" : NULL;
 }
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const generate_arguments *arguments = data;
     const char *word = arguments->output.common.operands[0];
-    if (find_object(word) == OBJECT_COUNT) {
+    const bool volume = find_word(word, VOLUME_COUNT, volumes) < VOLUME_COUNT;
+    if (!volume && find_word(word, OBJECT_COUNT, objects) == OBJECT_COUNT) {
         const char *nearest = options_nearest(word, OBJECT_COUNT, objects);
-        snprintf(message, OPTION_ERROR_BYTES,
-                 "generate: '%.80s' is none of plane, checker, cube, sphere, torus, terrain, csg%s%s", word,
-                 nearest ? "; did you mean " : "", nearest ? nearest : "");
+        if (!nearest) nearest = options_nearest(word, VOLUME_COUNT, volumes);
+        snprintf(
+            message, OPTION_ERROR_BYTES,
+            "generate: '%.80s' is none of plane, checker, cube, sphere, torus, terrain, csg, checkerbox, "
+            "blob, ball, vessels%s%s",
+            word, nearest ? "; did you mean " : "", nearest ? nearest : "");
+        return false;
+    }
+    const char *wrong = volume                  ? check_volume(arguments)
+                        : arguments->dims.count ? "generate: --dims is of volumes"
+                                                : NULL;
+    if (wrong) {
+        snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
         return false;
     }
     return cloud_output_check(&arguments->output, message);
@@ -109,7 +162,7 @@ static ewa_cloud *make(cli_session *session, const void *data) {
     const generate_arguments *arguments = data;
     ewa_generate_options options;
     ewa_generate_options_init(&options, sizeof options);
-    options.object = (ewa_object)find_object(arguments->output.common.operands[0]);
+    options.object = (ewa_object)find_word(arguments->output.common.operands[0], OBJECT_COUNT, objects);
     options.point_count = (uint64_t)arguments->point_count;
     options.seed = (uint64_t)arguments->seed;
     options.size_world = arguments->size_world;
@@ -125,7 +178,39 @@ static ewa_cloud *make(cli_session *session, const void *data) {
     return cloud;
 }
 
-static int run(const void *data) { return cloud_output_run(data, make); }
+/// Makes volume `object` and writes it; the exit status.
+static int run_volume(const generate_arguments *arguments, ewa_volume_object object) {
+    cli_session session;
+    if (!session_start(&session, &arguments->output.common)) return session_end(&session, EXIT_FAILED);
+    ewa_volume_generate_options options;
+    ewa_volume_generate_options_init(&options, sizeof options);
+    options.object = object;
+    options.size_world = arguments->size_world;
+    options.checks = arguments->checks;
+    options.seed = (uint64_t)arguments->seed;
+    const option_vector *dims = &arguments->dims;
+    for (uint32_t k = 0; dims->count && k < 3; k++)
+        options.dims[k] = (uint32_t)dims->values[dims->count == 1 ? 0 : k];
+    session.subject = arguments->output.path;
+    ewa_volume volume = {.context = NULL};
+    bool done = output_check(&session, arguments->output.path);
+    ewa_status status = done ? ewa_volume_generate(session.context, &options, &volume) : EWA_OK;
+    if (done && status == EWA_OK) status = ewa_volume_save(&volume, arguments->output.path, NULL);
+    if (status != EWA_OK) session_failed(&session, status);
+    done = done && status == EWA_OK;
+    if (done)
+        session_say(&session, "%s: %u x %u x %u voxels written", arguments->output.path, options.dims[0],
+                    options.dims[1], options.dims[2]);
+    ewa_volume_free(&volume);
+    return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
+}
+
+static int run(const void *data) {
+    const generate_arguments *arguments = data;
+    const size_t volume = find_word(arguments->output.common.operands[0], VOLUME_COUNT, volumes);
+    return volume < VOLUME_COUNT ? run_volume(arguments, (ewa_volume_object)volume)
+                                 : cloud_output_run(data, make);
+}
 
 static const option_group object_options = {"Object", object_table,
                                             sizeof object_table / sizeof object_table[0]};
@@ -134,14 +219,19 @@ static const option_group *const groups[] = {&cloud_output_options, &object_opti
 const cli_command generate_command = {
     .name = "generate",
     .operands = "KIND -o OUT",
-    .summary = "make test objects: plane, checker, cube, sphere, torus, terrain, csg",
-    .details = "The object is centred at the origin. Plane, checker and terrain lie in x-y with z up; the "
-               "axis of the "
-               "torus is z. csg is a block with a slot, a notch and two round holes.",
+    .summary = "make test objects: plane, checker, cube, sphere, torus, terrain, csg; and volumes",
+    .details =
+        "The object is centred at the origin. Plane, checker and terrain lie in x-y with z up; the "
+        "axis of the "
+        "torus is z. csg is a block with a slot, a notch and two round holes.\n"
+        "\n"
+        "Volumes go to .nrrd files: checkerbox, solid cubes of two values; blob, a Gaussian; ball, a ball "
+        "with a soft edge; vessels, a tree of thin tubes.",
     .examples = "ewa generate torus -o torus.ply --points 200000\n"
                 "ewa generate terrain -o terrain.ply -n 4000000 --seed 7\n"
                 "ewa generate csg --sharp -n 7000 -o part.ply\n"
-                "ewa generate checker -o - --jitter 0 | ewa render - -o checker.png --shading none\n",
+                "ewa generate checker -o - --jitter 0 | ewa render - -o checker.png --shading none\n"
+                "ewa generate vessels -o vessels.nrrd --dims 256\n",
     .low_operands = 1,
     .high_operands = 1,
     .groups = groups,

@@ -3,6 +3,7 @@
 //
 // ewa info: what a file holds and what is wrong with it.
 #include "commands.h"
+#include "info_volume.h"
 #include "inputs.h"
 #include "json.h"
 
@@ -16,6 +17,7 @@
 typedef struct info_arguments {
     common_arguments common; // first
     bool json;
+    volume_input_arguments volume;
 } info_arguments;
 
 enum { SPACING_SAMPLES = 1000000, BLOCK_POINTS = 256 };
@@ -23,6 +25,8 @@ enum { SPACING_SAMPLES = 1000000, BLOCK_POINTS = 256 };
 /// Extent in a direction, relative to the largest, under which points count as lying in a plane or on a line.
 /// Floats that are turned in space keep about seven digits.
 static const double FLAT_RATIO = 1e-6;
+
+static const cli_option volume_table[] = {VOLUME_INPUT_OPTIONS(offsetof(info_arguments, volume))};
 
 static const cli_option table[] = {
     {.key = "json", .kind = OPTION_FLAG, .offset = offsetof(info_arguments, json), .help = "print JSON"},
@@ -329,6 +333,11 @@ static int run(const void *data) {
     for (size_t i = 0; i < arguments->common.operand_count; i++) {
         const char *path = arguments->common.operands[i];
         session.reported = false;
+        if (arguments->volume.dims.count || volume_input_is_named(path)) {
+            if (!info_volume(&session, &arguments->volume, path, arguments->json ? &json : NULL))
+                exit_status = EXIT_FAILED;
+            continue;
+        }
         ewa_cloud *cloud = input_load(&session, path);
         cloud_facts facts;
         if (cloud && gather(&session, cloud, &facts)) {
@@ -349,19 +358,32 @@ static int run(const void *data) {
 }
 
 static const option_group info_options = {"Output", table, sizeof table / sizeof table[0]};
-static const option_group *const groups[] = {&info_options};
+static const option_group volume_options = {"Raw volumes", volume_table,
+                                            sizeof volume_table / sizeof volume_table[0]};
+static const option_group *const groups[] = {&info_options, &volume_options};
+
+static void set_defaults(void *data) { volume_input_set_defaults(&((info_arguments *)data)->volume); }
+
+static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
+    return volume_input_check(&((const info_arguments *)data)->volume, message);
+}
 
 const cli_command info_command = {
     .name = "info",
     .operands = "IN...",
     .summary = "say what files hold: counts, bounds, attributes with their ranges, spacing, problems",
-    .details = "Problems are counted, not judged: the exit status is 0 when the files could be read.",
+    .details = "Problems are counted, not judged: the exit status is 0 when the files could be read. Volumes "
+               "are told by their suffix (.nrrd, .nhdr, .nii, .mha, .mhd, .vti, .vtk, .raw, and .gz of "
+               "these) or by --dims.",
     .examples = "ewa info scan.ply\n"
-                "ewa info --json *.ply > scans.json\n",
+                "ewa info --json *.ply > scans.json\n"
+                "ewa info scan.nii.gz\n",
     .low_operands = 1,
     .high_operands = 4096,
     .groups = groups,
     .group_count = sizeof groups / sizeof groups[0],
     .arguments_bytes = sizeof(info_arguments),
+    .set_defaults = set_defaults,
+    .check = check,
     .run = run,
 };

@@ -3,6 +3,7 @@
 //
 // Clouds from the files of the command line: loading, what is missing, merging.
 #include "inputs.h"
+#include "volume_input.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -69,6 +70,10 @@ ewa_cloud *input_load(cli_session *session, const char *path) {
     session->subject = path;
     if (is_mesh(path)) {
         session_fail(session, "%s: a mesh; `ewa sample %s -o FILE.ply` makes points of it", path, path);
+        return NULL;
+    }
+    if (volume_input_is_named(path)) {
+        session_fail(session, "%s: a volume; `ewa volume %s -o FILE.png` draws it", path, path);
         return NULL;
     }
     const double started_s = clock_now_s();

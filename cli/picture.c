@@ -10,7 +10,7 @@
 #include <string.h>
 #include <strings.h>
 
-enum { EXR_CHANNELS = 9 };
+enum { EXR_CHANNELS = 9, NORMAL_CHANNELS = 3 };
 
 static bool has_suffix(const char *path, const char *suffix) {
     const size_t path_length = strlen(path), length = strlen(suffix);
@@ -80,7 +80,7 @@ bool picture_make(cli_session *session, const picture_paths *paths, const ewa_ca
     }
     if (status == EWA_OK && (exr || paths->depth[0]))
         status = ewa_image_create(context, width, height, 1, &picture->depth);
-    if (status == EWA_OK && (exr || paths->normal[0]))
+    if (status == EWA_OK && ((exr && !paths->no_normals) || paths->normal[0]))
         status = ewa_image_create(context, width, height, 3, &picture->normal);
     if (status == EWA_OK && (exr || paths->coverage[0]))
         status = ewa_image_create(context, width, height, 1, &picture->coverage);
@@ -116,18 +116,19 @@ static void put_channels(const float *from, uint32_t from_count, uint32_t count,
 /// Writes the colour as the channels that .exr or .pfm hold.
 static ewa_status save_linear(const picture_paths *paths, const ewa_image_save_options *options,
                               const cli_picture *picture) {
-    const bool exr = has_suffix(paths->color, ".exr");
+    const bool exr = has_suffix(paths->color, ".exr"), normals = picture->normal.pixels != NULL;
+    const uint32_t exr_channels = normals ? EXR_CHANNELS : EXR_CHANNELS - NORMAL_CHANNELS;
     ewa_image all;
     ewa_status status = ewa_image_create(picture->color.context, picture->color.width_px,
-                                         picture->color.height_px, exr ? EXR_CHANNELS : 3, &all);
+                                         picture->color.height_px, exr ? exr_channels : 3, &all);
     if (status != EWA_OK) return status;
     put_channels(picture->color.pixels, 4, exr ? 4 : 3, 0, &all);
     ewa_image_save_options chosen = *options;
     if (exr) {
         put_channels(picture->depth.pixels, 1, 1, 4, &all);
-        put_channels(picture->normal.pixels, 3, 3, 5, &all);
-        put_channels(picture->coverage.pixels, 1, 1, 8, &all);
-        chosen.channel_names = "R,G,B,A,Z,N.X,N.Y,N.Z,coverage";
+        if (normals) put_channels(picture->normal.pixels, 3, NORMAL_CHANNELS, 5, &all);
+        put_channels(picture->coverage.pixels, 1, 1, exr_channels - 1, &all);
+        chosen.channel_names = normals ? "R,G,B,A,Z,N.X,N.Y,N.Z,coverage" : "R,G,B,A,Z,coverage";
     }
     status = ewa_image_save(&all, paths->color, &chosen);
     ewa_image_free(&all);

@@ -354,14 +354,17 @@ static bool make_scene(cli_session *session, const render_arguments *arguments, 
     return true;
 }
 
-static bool save_cameras(cli_session *session, const char *path, const frame_cameras *frames, bool many) {
-    session->subject = path;
-    const ewa_status status =
-        many ? ewa_camera_save_list(session->context, frames->cameras, frames->count, path)
-             : ewa_camera_save(session->context, frames->cameras, path);
-    if (status != EWA_OK) session_failed(session, status);
-    session->subject = NULL;
-    return status == EWA_OK;
+/// What paint() works with.
+typedef struct surfel_painter {
+    ewa_renderer *renderer;
+    const ewa_surfels *surfels;
+    const ewa_render_options *options;
+} surfel_painter;
+
+static ewa_status paint(void *user, const ewa_camera *camera, const ewa_frame *frame,
+                        ewa_render_stats *stats) {
+    const surfel_painter *painter = user;
+    return ewa_render(painter->renderer, painter->surfels, camera, painter->options, frame, stats);
 }
 
 /// Draws and writes everything. False after reporting.
@@ -378,8 +381,15 @@ static bool draw(cli_session *session, const render_arguments *arguments, const 
         .quality = arguments->frames.quality >= 0 ? (int)arguments->frames.quality : 75,
         .opaque = arguments->background.rgba[3] == 1,
     };
-    return sequence_draw(session, &output, frames, surfels, &options, report) &&
-           (!arguments->save_camera_path || save_cameras(session, arguments->save_camera_path, frames, many));
+    surfel_painter painting = {.surfels = surfels, .options = &options};
+    const ewa_status status = ewa_renderer_create(session->context, &painting.renderer);
+    if (status != EWA_OK) session_failed(session, status);
+    const bool done =
+        status == EWA_OK &&
+        sequence_draw(session, &output, frames, &(frame_painter){paint, &painting}, report) &&
+        (!arguments->save_camera_path || frames_save(session, arguments->save_camera_path, frames, many));
+    ewa_renderer_destroy(&painting.renderer);
+    return done;
 }
 
 /// Whether all files can be written, before the work; false after reporting.

@@ -89,9 +89,7 @@ typedef struct sequence {
     cli_session *session;
     const sequence_output *output;
     const frame_cameras *frames;
-    const ewa_surfels *surfels;
-    const ewa_render_options *options;
-    ewa_renderer *renderer;
+    const frame_painter *painter;
     cli_video video;
     frame_slot slots[MAX_SLOTS];
     size_t slot_count;
@@ -143,7 +141,7 @@ static bool draw_frame(sequence *all, size_t index) {
     all->session->subject = NULL;
     const double started_s = clock_now_s();
     const ewa_status status =
-        ewa_render(all->renderer, all->surfels, camera, all->options, &slot->picture.frame, &slot->stats);
+        all->painter->paint(all->painter->user, camera, &slot->picture.frame, &slot->stats);
     slot->render_s = clock_now_s() - started_s;
     if (status != EWA_OK) {
         session_failed(all->session, status);
@@ -197,21 +195,15 @@ static bool draw_all(sequence *all) {
 }
 
 bool sequence_draw(cli_session *session, const sequence_output *output, const frame_cameras *frames,
-                   const ewa_surfels *surfels, const ewa_render_options *options, render_report *report) {
+                   const frame_painter *painter, render_report *report) {
     const video_settings settings = {.width_px = frames->cameras->width_px,
                                      .height_px = frames->cameras->height_px,
                                      .frames_per_s = output->frames_per_s,
                                      .quality = output->quality,
                                      .opaque = output->opaque};
-    sequence all = {.session = session,
-                    .output = output,
-                    .frames = frames,
-                    .surfels = surfels,
-                    .options = options,
-                    .report = report};
-    const ewa_status status = ewa_renderer_create(session->context, &all.renderer);
-    if (status != EWA_OK) session_failed(session, status);
-    bool done = status == EWA_OK && make_slots(&all) &&
+    sequence all = {
+        .session = session, .output = output, .frames = frames, .painter = painter, .report = report};
+    bool done = make_slots(&all) &&
                 (!output->film || (check_sizes(session, output->film, frames) &&
                                    video_start(session, output->film, &settings, &all.video))) &&
                 draw_all(&all);
@@ -222,6 +214,5 @@ bool sequence_draw(cli_session *session, const sequence_output *output, const fr
     }
     video_drop(&all.video);
     free_slots(&all);
-    ewa_renderer_destroy(&all.renderer);
     return done;
 }

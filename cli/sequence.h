@@ -24,9 +24,16 @@ bool sequence_check_paths(const picture_paths *paths, char message[OPTION_ERROR_
 /// Whether the first frame's files can be created; false after reporting.
 bool sequence_check(cli_session *session, const picture_paths *paths);
 
+/// What draws a frame: fills the planes and the statistics; the status of the library.
+typedef struct frame_painter {
+    ewa_status (*paint)(void *user, const ewa_camera *camera, const ewa_frame *frame,
+                        ewa_render_stats *stats);
+    void *user;
+} frame_painter;
+
 /// Draws a frame for each camera and writes it. Returns false after reporting; whole files stay, a film is
 /// removed then.
 bool sequence_draw(cli_session *session, const sequence_output *output, const frame_cameras *frames,
-                   const ewa_surfels *surfels, const ewa_render_options *options, render_report *report);
+                   const frame_painter *painter, render_report *report);
 
 #endif

@@ -189,7 +189,7 @@ static void turn_direction(const view_arguments *arguments, const double axis_wo
 static void choose_direction(const view_arguments *arguments, const cloud_framing *framing,
                              double direction[3], double up_world[3], double axis_world[3]) {
     const ewa_bounds *box = &framing->box;
-    int up_axis = guess_up_axis(framing);
+    int up_axis = arguments->up_axis ? arguments->up_axis : guess_up_axis(framing);
     if (arguments->up.count) {
         memcpy(up_world, arguments->up.values, 3 * sizeof *up_world);
         up_axis = fabs(up_world[2]) > fabs(up_world[1]) ? 2 : 1;

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 #
 # What Debian's packages give us: spng (PNG in), libdeflate (PNG out), OpenEXRCore (EXR), cJSON (camera
-# files), libjpeg (JPEG in), Assimp (meshes in), CHOLMOD of SuiteSparse (sparse factors), Teem's nrrd and niftiio
-# (volumes in), zlib, pthreads.
+# files), libjpeg (JPEG in), Assimp (meshes in), CHOLMOD of SuiteSparse (sparse factors), zlib and
+# libbz2 (volumes in), pthreads.
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(SPNG REQUIRED IMPORTED_TARGET spng)
@@ -14,7 +14,7 @@ pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp>=5.0)
 pkg_check_modules(ZLIB REQUIRED IMPORTED_TARGET zlib)
 find_package(OpenEXR CONFIG REQUIRED)
 
-# These three come without a pkg-config file.
+# These two come without a pkg-config file.
 function(ewa_find_library target header library)
   find_path(${target}_INCLUDE ${header} PATH_SUFFIXES ${ARGN} REQUIRED)
   find_library(${target}_LIBRARY ${library} REQUIRED)
@@ -23,9 +23,8 @@ function(ewa_find_library target header library)
   target_link_libraries(${target} INTERFACE ${${target}_LIBRARY})
 endfunction()
 ewa_find_library(ewa_cholmod cholmod.h cholmod suitesparse)
-ewa_find_library(ewa_teem teem/nrrd.h teem)
-ewa_find_library(ewa_nifti nifti1_io.h niftiio nifti)
+ewa_find_library(ewa_bzip2 bzlib.h bz2)
 
 add_library(ewa_dependencies INTERFACE)
 target_link_libraries(ewa_dependencies INTERFACE PkgConfig::SPNG PkgConfig::DEFLATE PkgConfig::CJSON
-  PkgConfig::JPEG PkgConfig::ASSIMP PkgConfig::ZLIB ewa_cholmod ewa_teem ewa_nifti OpenEXR::OpenEXRCore Threads::Threads m)
+  PkgConfig::JPEG PkgConfig::ASSIMP PkgConfig::ZLIB ewa_cholmod ewa_bzip2 OpenEXR::OpenEXRCore Threads::Threads m)

@@ -17,5 +17,6 @@
 #include "ewa/resample.h"
 #include "ewa/shade.h"
 #include "ewa/volume.h"
+#include "ewa/volume_render.h"
 
 #endif

@@ -12,6 +12,7 @@
 #include "ewa/cloud.h"
 #include "ewa/image.h"
 #include "ewa/shade.h"
+#include "ewa/volume.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -121,6 +122,64 @@ EWA_API ewa_status ewa_image_load_memory(ewa_context *context, const void *bytes
 /// EWA_ERROR_FORMAT, EWA_ERROR_LIMIT (more than EWA_MAX_MATERIALS), EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_materials_load(ewa_context *context, const char *path,
                                       ewa_material materials[EWA_MAX_MATERIALS], uint32_t *count);
+
+/// What a volume file does not say itself. Fill with ewa_volume_load_options_init().
+typedef struct ewa_volume_load_options {
+    size_t struct_size;
+    uint32_t dims[3];        ///< given: the file is raw numbers, x fastest; default zeros: as the file says
+    int type;                ///< ewa_type of raw numbers; default -1: from the file's name, or EWA_U8
+    bool big_endian;         ///< of raw numbers; default false
+    uint64_t header_bytes;   ///< in front of raw numbers; default 0
+    double spacing_world[3]; ///< distances of voxels, of every format; default zeros: as the file says, or 1
+} ewa_volume_load_options;
+
+EWA_API void ewa_volume_load_options_init(ewa_volume_load_options *options, size_t struct_size);
+
+/// Reads a volume, the format by content; "-" reads standard input:
+/// - NRRD, attached and detached (.nhdr): encodings raw, gzip, bzip2, ascii, hex; lists and patterns of
+/// files;
+/// - NIfTI-1 and -2 and Analyze: .nii, .nii.gz, pairs .hdr and .img; sform before qform; slope and intercept;
+/// - MetaImage: .mha, .mhd; zlib; lists and patterns of files;
+/// - VTK: legacy structured points, and .vti with appended raw data, plain or zlib;
+/// - raw numbers, also in gzip, by `options` or by a name such as aneurism_256x256x256_uint8.raw.gz.
+///
+/// World axes are the patient's left, posterior, superior where the file says so (DICOM, ITK): files in
+/// right-anterior-superior are turned. A file that says no place has the volume's middle at the origin.
+/// Numbers of 32 and 64 bits become floats; so do colours, as their luminance. Of several volumes the first
+/// is read, with a warning. What is infinite becomes NaN. The caller frees the volume; `options` may be NULL.
+/// Errors (volume zeroed): EWA_ERROR_IO, EWA_ERROR_FORMAT (also bytes that contradict the dims, spacings of
+/// zero, axes in one plane), EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_ERROR_ARGUMENT.
+EWA_API ewa_status ewa_volume_load(ewa_context *context, const char *path,
+                                   const ewa_volume_load_options *options, ewa_volume *volume);
+
+/// The same from `size_bytes` bytes in memory; `name` stands for the file in messages. Voxels in other files
+/// are EWA_ERROR_UNSUPPORTED.
+EWA_API ewa_status ewa_volume_load_memory(ewa_context *context, const void *bytes, size_t size_bytes,
+                                          const char *name, const ewa_volume_load_options *options,
+                                          ewa_volume *volume);
+
+typedef struct ewa_volume_save_options {
+    size_t struct_size;
+    bool plain; ///< not compressed; default false: gzip
+} ewa_volume_save_options;
+
+EWA_API void ewa_volume_save_options_init(ewa_volume_save_options *options, size_t struct_size);
+
+/// Writes a volume as NRRD (.nrrd) with its place in left-posterior-superior; "-" is standard output. The
+/// same voxels give the same file on every machine. `options` may be NULL. Errors: EWA_ERROR_ARGUMENT,
+/// EWA_ERROR_UNSUPPORTED (suffix), EWA_ERROR_IO, EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_volume_save(const ewa_volume *volume, const char *path,
+                                   const ewa_volume_save_options *options);
+
+/// Reads a transfer function from JSON (docs/volume_files.md): {"points": [{"value", "color": [r, g, b],
+/// "opacity" or "extinction"}, ...], "unit_length", "color_space": "srgb" or "linear", "gradient": [low,
+/// high]}. "-" reads standard input. Errors, with the member: EWA_ERROR_IO, EWA_ERROR_FORMAT,
+/// EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_transfer_load(ewa_context *context, const char *path, ewa_transfer *transfer);
+
+/// Writes a transfer function so that ewa_transfer_load() gives the same numbers. Errors: EWA_ERROR_ARGUMENT
+/// (as ewa_transfer_check()), EWA_ERROR_IO, EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_transfer_save(ewa_context *context, const ewa_transfer *transfer, const char *path);
 
 /// Counts the cameras of a file, to go through them with ewa_camera_load(). Errors as there.
 EWA_API ewa_status ewa_camera_file_count(ewa_context *context, const char *path, uint32_t *count);

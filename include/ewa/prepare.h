@@ -7,6 +7,7 @@
 
 #include "ewa/base.h"
 #include "ewa/cloud.h"
+#include "ewa/volume.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -222,6 +223,46 @@ EWA_API void ewa_generate_options_init(ewa_generate_options *options, size_t str
 /// EWA_ERROR_MEMORY, EWA_CANCELLED.
 EWA_API ewa_status ewa_cloud_generate(ewa_context *context, const ewa_generate_options *options,
                                       ewa_cloud **cloud);
+
+/// Volumes whose line integrals are known; s is size_world, r the distance from the middle.
+typedef enum ewa_volume_object {
+    /// U8: a box of 3/4 s of solid cubes, 96 and 255 in turns, empty around; `checks` along its edge
+    EWA_VOLUME_CHECKERBOX = 0,
+    /// F32: exp(-r^2 / (2 q^2)), q = s / 10. A line at distance d from the middle: q sqrt(2 pi) exp(-d^2 / (2
+    /// q^2))
+    EWA_VOLUME_BLOB = 1,
+    /// F32: (1 - r^2 / R^2)^2 within R = 0.4 s. A line at distance d < R: 16/15 (R^2 - d^2)^(5/2) / R^4
+    EWA_VOLUME_BALL = 2,
+    /// U8: a tree of thin tubes of radii from s / 40 down to s / 250, 255 in their middles; those thinner than
+    /// 0.9 voxels are that wide and as much fainter
+    EWA_VOLUME_VESSELS = 3,
+} ewa_volume_object;
+
+/// What volume is made. Fill with ewa_volume_generate_options_init().
+typedef struct ewa_volume_generate_options {
+    size_t struct_size;
+    ewa_volume_object object;
+    uint32_t dims[3];  ///< default 128, 128, 128; each >= 2
+    double size_world; ///< distance of the outermost voxels along the longest axis; cubes; > 0; default 1
+    double checks;     ///< of EWA_VOLUME_CHECKERBOX; > 0; default 8
+    uint64_t seed;     ///< of EWA_VOLUME_VESSELS; default 0
+} ewa_volume_generate_options;
+
+EWA_API void ewa_volume_generate_options_init(ewa_volume_generate_options *options, size_t struct_size);
+
+/// Makes a test volume with its middle at the origin, the same bytes on every machine; s is along the longest
+/// axis, shorter ones cut. The caller frees it. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT,
+/// EWA_ERROR_MEMORY, EWA_CANCELLED.
+EWA_API ewa_status ewa_volume_generate(ewa_context *context, const ewa_volume_generate_options *options,
+                                       ewa_volume *volume);
+
+/// Makes a cloud of the outermost places of a volume that a transfer function lets see, two for each row of
+/// voxels that has any: what a camera has to have in its picture. Veils count as much as what is dense;
+/// `left_out_share` ([0, 0.4]) of all that can be seen may lie beyond each side of the box that is looked
+/// into, since volumes have noise everywhere. The caller owns `*cloud`, which has positions only (F64) and no
+/// point when nothing can be seen. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_volume_outline(const ewa_volume *volume, const ewa_transfer *transfer,
+                                      double left_out_share, ewa_cloud **cloud);
 
 #ifdef __cplusplus
 }

@@ -32,6 +32,18 @@ EWA_API ewa_status ewa_volume_create(ewa_context *context, const uint32_t dims[3
 /// Frees the voxels and zeroes the struct; accepts NULL and a zeroed struct.
 EWA_API void ewa_volume_free(ewa_volume *volume);
 
+/// What the voxels hold.
+typedef struct ewa_volume_facts {
+    uint64_t voxel_count, finite_count; ///< a NaN and an infinity are no numbers
+    double low, high, mean;             ///< of the finite numbers; zeros when there are none
+    uint64_t histogram[256];            ///< counts of finite numbers in equal steps from low to high
+    double spacing_world[3];            ///< distance of the voxels along each axis
+    double low_world[3], high_world[3]; ///< box around the voxels' centres
+} ewa_volume_facts;
+
+/// Measures a volume; two passes over the voxels. Errors: EWA_ERROR_ARGUMENT.
+EWA_API ewa_status ewa_volume_measure(const ewa_volume *volume, ewa_volume_facts *facts);
+
 /// What matter of one value looks like; between points everything is linear in the value.
 typedef struct ewa_transfer_point {
     double value;
@@ -52,6 +64,26 @@ typedef struct ewa_transfer {
     /// gradient_low, 1 from gradient_high on; both 0: not asked.
     double gradient_low, gradient_high;
 } ewa_transfer;
+
+/// Fills a transfer function from the volume's histogram: the largest peak near the low end counts as empty,
+/// what lies between it and the sparse high end is a veil that becomes denser, the high end is solid. The
+/// unit of length goes with the volume's size, so that it looks the same at every resolution. Errors:
+/// EWA_ERROR_ARGUMENT, EWA_ERROR_NUMERIC (no finite voxel, or all are equal).
+EWA_API ewa_status ewa_transfer_automatic(const ewa_volume *volume, const ewa_volume_facts *facts,
+                                          ewa_transfer *transfer);
+
+/// Returns the name of preset `index`, counted from 0, and in `*what` (may be NULL) a few words; NULL beyond
+/// the last. Any thread.
+EWA_API const char *ewa_transfer_preset_name(uint32_t index, const char **what);
+
+/// Fills a transfer function from a preset. Those for CT have their values in Hounsfield units where the
+/// volume's range is that of CT (about -1000 for air), and in shares of its range otherwise. Errors:
+/// EWA_ERROR_ARGUMENT (no such name), EWA_ERROR_NUMERIC (no finite voxel, or all are equal).
+EWA_API ewa_status ewa_transfer_preset(const ewa_volume *volume, const ewa_volume_facts *facts,
+                                       const char *name, ewa_transfer *transfer);
+
+/// Checks what ewa_transfer says of its members; `name` is for the message. Errors: EWA_ERROR_ARGUMENT.
+EWA_API ewa_status ewa_transfer_check(ewa_context *context, const char *name, const ewa_transfer *transfer);
 
 #ifdef __cplusplus
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The sRGB curve over the wide type.
+// Part of road_body.h and of the kernels of volumes: the sRGB curve over the wide type.
 #ifndef EWA_SRC_KERNELS_SRGB_CODES_H
 #define EWA_SRC_KERNELS_SRGB_CODES_H
 

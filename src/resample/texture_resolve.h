@@ -10,8 +10,6 @@
 
 #include <string.h>
 
-static ALWAYS_INLINE wf clamp01(wf a) { return wf_min(wf_max(a, wf_set(0)), wf_set(1)); }
-
 /// Colours of sixteen pixels over the background, premultiplied.
 static ALWAYS_INLINE void resolve_pixels(const ewa_texture_sums *sums, size_t at, const float *coverage,
                                          const float background[4], wf out[4]) {
@@ -37,12 +35,12 @@ static ALWAYS_INLINE wi encode_pixels(const wf color[4], bool with_alpha) {
     if (with_alpha) {
         const wm translucent = wm_and(wf_lt(wf_set(0), color[3]), wf_lt(color[3], one));
         straight = wf_div(one, wf_select(translucent, color[3], one));
-        const wf alpha = wf_fma(clamp01(color[3]), wf_set(255), wf_set(0.5f));
+        const wf alpha = wf_fma(wf_clamp01(color[3]), wf_set(255), wf_set(0.5f));
         shown = wf_le(one, alpha);
         codes = wi_shl(wi_from_f(alpha), 24);
     }
     for (int c = 0; c < 3; c++)
-        codes = wi_or(codes, wi_shl(srgb_codes(wf_keep(shown, clamp01(wf_mul(color[c], straight)))), 8 * c));
+        codes = wi_or(codes, wi_shl(srgb_codes(wf_keep(shown, wf_clamp01(wf_mul(color[c], straight)))), 8 * c));
     return codes;
 }
 

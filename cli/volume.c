@@ -1,0 +1,491 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// ewa volume: volumes to a picture.
+#include "commands.h"
+#include "json.h"
+#include "light.h"
+#include "sequence.h"
+#include "video.h"
+#include "volume_scene.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct volume_arguments {
+    frames_arguments frames; // first: it begins with the common arguments
+    light_arguments light;   // second
+    volume_input_arguments input;
+    volume_scene_arguments scene;
+    const char *output, *aov, *save_camera_path, *stats_path;
+    int method, index;
+    double sigma, cutoff, prefilter_px, density_scale;
+    bool progressive;
+    option_color background;
+} volume_arguments;
+
+#define AT(member)   offsetof(volume_arguments, member)
+#define COUNT(table) (sizeof(table) / sizeof(table)[0])
+
+_Static_assert(offsetof(volume_arguments, light) == LIGHT_OFFSET, "light_check() and light_apply() say so");
+
+/// Share of what is behind that must come through the volume to be told apart from rounding.
+static const float LEAST_THROUGH = 1e-3f;
+
+static const cli_option output_table[] = {
+    {.key = "output",
+     .letter = 'o',
+     .kind = OPTION_TEXT,
+     .offset = AT(output),
+     .value = "FILE",
+     .help = "the picture: .png (8-bit sRGB), .exr (linear floats, premultiplied: R G B A Z coverage), .pfm "
+             "(linear RGB); -: PNG to standard output. Frames: NAME_%04d.png and such, or a film: .mp4, .mkv "
+             "(H.264), .webm (VP9), .gif, by the program ffmpeg"},
+    {.key = "aov",
+     .kind = OPTION_TEXT,
+     .offset = AT(aov),
+     .value = "NAME=FILE,...",
+     .help = "further planes, .pfm or .exr: depth (camera z where half of the light is gone, infinite where "
+             "that never is), coverage (alpha of the volume)"},
+    {.key = "save-camera",
+     .kind = OPTION_TEXT,
+     .offset = AT(save_camera_path),
+     .value = "FILE",
+     .help = "write the camera that was used, for --camera; of frames all cameras, for --path"},
+    {.key = "stats",
+     .kind = OPTION_TEXT,
+     .offset = AT(stats_path),
+     .value = "FILE",
+     .help = "write times per stage, counts and peak memory as JSON"},
+    {.key = "progressive",
+     .kind = OPTION_FLAG,
+     .offset = AT(progressive),
+     .help = "write a first picture of every second voxel along each axis, then the whole in its place"},
+};
+
+static const cli_option input_table[] = {VOLUME_INPUT_OPTIONS(AT(input))};
+
+static const cli_option voxel_table[] = {
+    {.key = "transfer",
+     .kind = OPTION_TEXT,
+     .offset = AT(scene) + offsetof(volume_scene_arguments, transfer),
+     .value = "FILE|PRESET",
+     .absent = "auto: from the histogram",
+     .help =
+         "what values look like: a JSON file, or bone, soft, skin, vessels (CT, in Hounsfield units where "
+         "the volume has them), mri, gray, fog, auto"},
+    {.key = "save-transfer",
+     .kind = OPTION_TEXT,
+     .offset = AT(scene) + offsetof(volume_scene_arguments, save_transfer_path),
+     .value = "FILE",
+     .help = "write the transfer function that was used, to change it and come back with --transfer"},
+    {.key = "range",
+     .kind = OPTION_BOUNDS,
+     .offset = AT(scene) + offsetof(volume_scene_arguments, range),
+     .value = "a,b",
+     .absent = "as the transfer function says",
+     .help = "values to which its first and its last point go; with a percent sign, percentiles: 50%,99%"},
+    {.key = "gradient",
+     .kind = OPTION_VECTOR,
+     .offset = AT(scene) + offsetof(volume_scene_arguments, gradient),
+     .value = "low,high",
+     .low = 2,
+     .high = 2,
+     .absent = "as the transfer function says",
+     .help = "show boundaries: voxels whose value changes by less than low per world unit are empty, by high "
+             "or more as they are, a ramp between"},
+    {.key = "opacity-scale",
+     .kind = OPTION_NUMBER,
+     .offset = AT(density_scale),
+     .value = "S",
+     .range = "[0, 1e15]",
+     .help = "multiplies every extinction: 2 is twice as dense"},
+    {.key = "method",
+     .kind = OPTION_CHOICE,
+     .offset = AT(method),
+     .range = "hybrid|splats|points",
+     .help = "voxels as splats where they are magnified and as points where they are minified, or all as one "
+             "of these"},
+    {.key = "footprint",
+     .kind = OPTION_CHOICE,
+     .offset = AT(index),
+     .range = "exact|table",
+     .help = "how a pixel finds its place in a splat: how far its ray passes the voxel's centre, or the "
+             "paper's table"},
+    {.key = "sigma",
+     .kind = OPTION_NUMBER,
+     .offset = AT(sigma),
+     .value = "S",
+     .range = "[0.3, 2]",
+     .help = "standard deviation of the kernel around each voxel, in voxels"},
+    {.key = "cutoff",
+     .kind = OPTION_NUMBER,
+     .offset = AT(cutoff),
+     .value = "F",
+     .range = "[1, 4]",
+     .help = "standard deviations at which a kernel ends"},
+    {.key = "prefilter",
+     .kind = OPTION_NUMBER,
+     .offset = AT(prefilter_px),
+     .value = "H",
+     .range = "[0, 4]",
+     .help = "standard deviation of the pixel filter in pixels; 0: none"},
+    {.key = "surfels",
+     .kind = OPTION_TEXT,
+     .offset = AT(scene) + offsetof(volume_scene_arguments, surfels_path),
+     .value = "FILE",
+     .help = "a point cloud or mesh that stands in the volume, opaque, in the same world"},
+};
+
+static const cli_option look_table[] = {
+    {.key = "shading",
+     .kind = OPTION_CHOICE,
+     .offset = LIGHT_OFFSET + offsetof(light_arguments, shading),
+     .range = "none|lambert|phong",
+     .absent = "phong; none with the presets gray and fog",
+     .help = "light, by the gradient: none gives the bare colours, lambert matt matter, phong highlights"},
+    {.key = "light",
+     .kind = OPTION_VECTORS,
+     .offset = LIGHT_OFFSET + offsetof(light_arguments, lights),
+     .value = "x,y,z[,r,g,b]",
+     .low = 3,
+     .high = 6,
+     .absent = "headlight",
+     .help = "direction towards a light, and its linear colour (default 1,1,1); may be given up to 8 times"},
+    {.key = "background",
+     .aliases = "background-color",
+     .kind = OPTION_COLOR,
+     .offset = AT(background),
+     .value = "r,g,b[,a]",
+     .help = "sRGB numbers in [0, 1], or transparent"},
+};
+
+static void set_defaults(void *data) {
+    volume_arguments *arguments = data;
+    frames_set_defaults(&arguments->frames);
+    light_set_defaults(&arguments->light);
+    volume_input_set_defaults(&arguments->input);
+    ewa_volume_options options;
+    ewa_volume_options_init(&options, sizeof options);
+    arguments->method = (int)options.method;
+    arguments->index = (int)options.index;
+    arguments->sigma = options.sigma;
+    arguments->cutoff = options.cutoff;
+    arguments->prefilter_px = options.prefilter_px;
+    arguments->density_scale = options.density_scale;
+    arguments->background = (option_color){{0, 0, 0, 1}};
+}
+
+static bool parse_paths(const volume_arguments *arguments, picture_paths *paths,
+                        char message[OPTION_ERROR_BYTES]) {
+    const char *color = video_find_format(arguments->output) ? NULL : arguments->output;
+    if (!picture_parse_paths(color, arguments->aov, paths, message)) return false;
+    paths->no_normals = true;
+    if (paths->normal[0]) {
+        snprintf(message, OPTION_ERROR_BYTES, "--aov: a volume has no normals; depth and coverage it has");
+        return false;
+    }
+    return !frames_many(&arguments->frames) || sequence_check_paths(paths, message);
+}
+
+static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
+    const volume_arguments *arguments = data;
+    const option_vector *gradient = &arguments->scene.gradient;
+    const char *wrong = NULL;
+    picture_paths paths;
+    if (!arguments->output)
+        wrong = "volume: no output; say -o FILE";
+    else if (arguments->progressive && frames_many(&arguments->frames))
+        wrong = "--progressive is for one picture";
+    else if (gradient->count && !(gradient->values[0] >= 0 && gradient->values[1] >= gradient->values[0]))
+        wrong = "--gradient: two numbers >= 0, the second not below the first";
+    if (wrong) {
+        snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
+        return false;
+    }
+    return volume_input_check(&arguments->input, message) && light_check(&arguments->light, message) &&
+           frames_check(&arguments->frames, arguments->output, arguments->background.rgba[3] == 1, message) &&
+           parse_paths(arguments, &paths, message);
+}
+
+/// What paint() works with.
+typedef struct volume_painter {
+    cli_session *session;
+    const volume_scene *scene;
+    ewa_volume_renderer *renderer;
+    ewa_volume_options options;
+    ewa_volume_stats stats; // counts and times summed over all frames
+    ewa_renderer *surface_renderer;
+    ewa_render_options surface_options;
+    /// Of the size of the last frame: the surfaces, all of the volume, what of it is before the surfaces,
+    /// zeros.
+    ewa_image surface, surface_depth, past, front, nothing;
+} volume_painter;
+
+/// Puts what is seen past the surfaces' antialiased edges behind them, or the background where no surface is.
+/// A picture of the volume alone is past = front + (1 - alpha of front) * behind, of which front is what lies
+/// before the surface.
+static void fill_edges(volume_painter *painter) {
+    const size_t pixel_count = (size_t)painter->surface.width_px * painter->surface.height_px;
+    const float *background = painter->options.background;
+    for (size_t i = 0; i < pixel_count; i++) {
+        float *surface = painter->surface.pixels + 4 * i;
+        const float *past = painter->past.pixels + 4 * i, *front = painter->front.pixels + 4 * i;
+        const float left = 1 - surface[3], through = 1 - front[3];
+        const bool nothing = surface[3] == 0;
+        for (int c = 0; c < 4 && left > 0; c++) {
+            const float plain = c < 3 ? background[c] * background[3] : background[3];
+            const float behind = through > LEAST_THROUGH ? (past[c] - front[c]) / through : 0;
+            surface[c] += left * (nothing ? plain : behind > 0 ? behind : 0);
+        }
+    }
+}
+
+static void free_planes(volume_painter *painter) {
+    ewa_image *const planes[] = {&painter->surface, &painter->surface_depth, &painter->past, &painter->front,
+                                 &painter->nothing};
+    for (size_t i = 0; i < COUNT(planes); i++) ewa_image_free(planes[i]);
+}
+
+/// Makes the planes of the surfaces in the size of the camera's picture.
+static ewa_status make_planes(volume_painter *painter, const ewa_camera *camera) {
+    const uint32_t width = camera->width_px, height = camera->height_px;
+    if (painter->surface.width_px == width && painter->surface.height_px == height) return EWA_OK;
+    ewa_context *context = painter->session->context;
+    free_planes(painter);
+    ewa_status status = ewa_image_create(context, width, height, 1, &painter->surface_depth);
+    if (status == EWA_OK) status = ewa_image_create(context, width, height, 4, &painter->past);
+    if (status == EWA_OK) status = ewa_image_create(context, width, height, 4, &painter->front);
+    if (status == EWA_OK) status = ewa_image_create(context, width, height, 4, &painter->nothing);
+    if (status == EWA_OK) status = ewa_image_create(context, width, height, 4, &painter->surface);
+    return status;
+}
+
+/// Draws the surfaces within the volume to planes of their own.
+static ewa_status paint_surface(volume_painter *painter, const ewa_camera *camera) {
+    painter->options.surface_rgba = painter->options.surface_depth = NULL;
+    ewa_status status = make_planes(painter, camera);
+    const ewa_frame frame = {.rgba = painter->surface.pixels, .depth = painter->surface_depth.pixels};
+    const ewa_frame past = {.rgba = painter->past.pixels}, front = {.rgba = painter->front.pixels};
+    if (status == EWA_OK)
+        status = ewa_render(painter->surface_renderer, painter->scene->surfels, camera,
+                            &painter->surface_options, &frame, NULL);
+    if (status == EWA_OK)
+        status = ewa_volume_render(painter->renderer, painter->scene->voxels, camera, &painter->options,
+                                   &past, NULL);
+    if (status != EWA_OK) return status;
+    painter->options.surface_rgba = painter->nothing.pixels;
+    painter->options.surface_depth = painter->surface_depth.pixels;
+    status =
+        ewa_volume_render(painter->renderer, painter->scene->voxels, camera, &painter->options, &front, NULL);
+    fill_edges(painter);
+    painter->options.surface_rgba = painter->surface.pixels;
+    return status;
+}
+
+static ewa_status paint(void *user, const ewa_camera *camera, const ewa_frame *frame,
+                        ewa_render_stats *stats) {
+    volume_painter *painter = user;
+    ewa_volume_stats drawn = {.voxel_count = 0};
+    ewa_status status = painter->scene->surfels ? paint_surface(painter, camera) : EWA_OK;
+    if (status == EWA_OK)
+        status = ewa_volume_render(painter->renderer, painter->scene->voxels, camera, &painter->options,
+                                   frame, &drawn);
+    *stats = (ewa_render_stats){.splat_count = drawn.voxel_count,
+                                .culled_count = drawn.culled_count,
+                                .drawn_count = drawn.splat_count + drawn.point_count,
+                                .total_s = drawn.total_s};
+    ewa_volume_stats *sum = &painter->stats;
+    sum->voxel_count = drawn.voxel_count;
+    sum->culled_count += drawn.culled_count;
+    sum->hidden_count += drawn.hidden_count;
+    sum->splat_count += drawn.splat_count;
+    sum->point_count += drawn.point_count;
+    sum->bin_s += drawn.bin_s;
+    sum->setup_s += drawn.setup_s;
+    sum->points_s += drawn.points_s;
+    sum->splats_s += drawn.splats_s;
+    sum->resolve_s += drawn.resolve_s;
+    return status;
+}
+
+/// Sets up what the frames are drawn with. Returns false after reporting.
+static bool prepare_painter(const volume_arguments *arguments, volume_painter *painter) {
+    const light_objects nothing = {.material_count = 0};
+    ewa_render_options *surface = &painter->surface_options;
+    ewa_volume_options *options = &painter->options;
+    ewa_render_options_init(surface, sizeof *surface);
+    ewa_volume_options_init(options, sizeof *options);
+    light_apply(&arguments->light, &nothing, surface);
+    for (int c = 0; c < 4; c++) surface->background[c] = 0;
+    for (int c = 0; c < 3; c++)
+        options->background[c] = ewa_linear_from_srgb((float)arguments->background.rgba[c]);
+    options->background[3] = (float)arguments->background.rgba[3];
+    options->method = (ewa_volume_method)arguments->method;
+    options->index = (ewa_volume_index)arguments->index;
+    options->sigma = arguments->sigma;
+    options->cutoff = arguments->cutoff;
+    options->prefilter_px = arguments->prefilter_px;
+    options->density_scale = arguments->density_scale;
+    options->shading = arguments->light.shading >= 0 ? (ewa_shading)arguments->light.shading
+                       : painter->scene->flat        ? EWA_SHADING_NONE
+                                                     : EWA_SHADING_PHONG;
+    options->light_count = surface->light_count;
+    memcpy(options->lights, surface->lights, sizeof options->lights);
+    ewa_status status = ewa_volume_renderer_create(painter->session->context, &painter->renderer);
+    if (status == EWA_OK && painter->scene->surfels)
+        status = ewa_renderer_create(painter->session->context, &painter->surface_renderer);
+    if (status != EWA_OK) session_failed(painter->session, status);
+    return status == EWA_OK;
+}
+
+static void free_painter(volume_painter *painter) {
+    ewa_volume_renderer_destroy(&painter->renderer);
+    ewa_renderer_destroy(&painter->surface_renderer);
+    free_planes(painter);
+}
+
+/// Draws and writes everything, coarse first when asked for. False after reporting.
+static bool draw(const volume_arguments *arguments, const picture_paths *paths, const frame_cameras *frames,
+                 volume_painter *painter, render_report *report) {
+    const sequence_output output = {
+        .paths = paths,
+        .numbered = frames_many(&arguments->frames),
+        .film = video_find_format(arguments->output) ? arguments->output : NULL,
+        .frames_per_s = arguments->frames.frames_per_s > 0 ? arguments->frames.frames_per_s : 30,
+        .quality = arguments->frames.quality >= 0 ? (int)arguments->frames.quality : 75,
+        .opaque = arguments->background.rgba[3] == 1,
+    };
+    const frame_painter paints = {paint, painter};
+    cli_session *session = painter->session;
+    if (arguments->progressive && painter->scene->info.level_count > 1) {
+        painter->options.level = painter->scene->info.level_count - 1;
+        if (!sequence_draw(session, &output, frames, &paints, report)) return false;
+        session_say(session, "%s: a first picture after %.3f s", arguments->output,
+                    clock_now_s() - session->started_s);
+        painter->options.level = 0;
+        painter->stats = (ewa_volume_stats){.voxel_count = 0};
+    }
+    return sequence_draw(session, &output, frames, &paints, report) &&
+           (!arguments->save_camera_path ||
+            frames_save(session, arguments->save_camera_path, frames, output.numbered));
+}
+
+/// Whether all files can be written, before the work; false after reporting.
+static bool check_outputs(cli_session *session, const volume_arguments *arguments,
+                          const picture_paths *paths) {
+    const char *others[] = {arguments->save_camera_path, arguments->stats_path,
+                            arguments->scene.save_transfer_path};
+    bool done = frames_many(&arguments->frames) ? sequence_check(session, paths)
+                                                : picture_check_paths(session, paths);
+    done = done && (!video_find_format(arguments->output) || video_check(session, arguments->output));
+    for (size_t i = 0; i < COUNT(others); i++)
+        done = done && (!others[i] || output_check(session, others[i]));
+    return done;
+}
+
+/// Writes --stats; false after reporting.
+static bool write_stats(cli_session *session, const volume_arguments *arguments, const frame_cameras *frames,
+                        const volume_painter *painter, const render_report *report) {
+    text_file text;
+    if (!text_file_open(session, &text, arguments->stats_path)) return false;
+    const ewa_voxels_info *info = &painter->scene->info;
+    const ewa_volume_stats *stats = &painter->stats;
+    const uint64_t drawn = stats->splat_count + stats->point_count;
+    json_writer json;
+    json_start(&json, text.file);
+    json_text(&json, "version", ewa_version());
+    json_text(&json, "input", arguments->frames.view.common.operands[0]);
+    json_count(&json, "width", frames->cameras->width_px);
+    json_count(&json, "height", frames->cameras->height_px);
+    json_count(&json, "frame_count", frames->count);
+    json_count(&json, "threads", ewa_context_worker_count(session->context));
+    json_count(&json, "voxels", info->voxel_count);
+    json_count(&json, "voxels_occupied", info->occupied_count);
+    json_count(&json, "blocks", info->block_count);
+    json_count(&json, "blocks_skipped", info->skipped_count);
+    json_count(&json, "resident_bytes", info->resident_bytes);
+    json_count(&json, "voxels_culled", stats->culled_count);
+    json_count(&json, "voxels_hidden", stats->hidden_count);
+    json_count(&json, "splats_drawn", stats->splat_count);
+    json_count(&json, "points_drawn", stats->point_count);
+    json_number(&json, "point_share", drawn ? (double)stats->point_count / (double)drawn : 0);
+    json_object(&json, "wall_s");
+    json_number(&json, "load", painter->scene->load_s);
+    json_number(&json, "classify", painter->scene->classify_s);
+    json_number(&json, "render", report->render_s);
+    json_number(&json, "write", report->write_s);
+    json_number(&json, "total", clock_now_s() - session->started_s);
+    json_close(&json, '}');
+    json_object(&json, "thread_s");
+    json_number(&json, "bin", stats->bin_s);
+    json_number(&json, "setup", stats->setup_s);
+    json_number(&json, "points", stats->points_s);
+    json_number(&json, "splats", stats->splats_s);
+    json_number(&json, "resolve", stats->resolve_s);
+    json_close(&json, '}');
+    json_count(&json, "peak_memory_bytes", memory_peak_bytes());
+    json_end(&json);
+    return text_file_close(session, &text);
+}
+
+static int run(const void *data) {
+    const volume_arguments *arguments = data;
+    const common_arguments *common = &arguments->frames.view.common;
+    cli_session session;
+    if (!session_start(&session, common)) return session_end(&session, EXIT_FAILED);
+    char message[OPTION_ERROR_BYTES];
+    picture_paths paths;
+    volume_scene scene = {.voxels = NULL};
+    frame_cameras frames = {.count = 0};
+    volume_painter painter = {.session = &session, .scene = &scene};
+    render_report report = {.load_s = 0};
+    const bool done =
+        parse_paths(arguments, &paths, message) && check_outputs(&session, arguments, &paths) &&
+        volume_scene_load(&session, &arguments->input, &arguments->scene, common->operands[0],
+                          arguments->progressive ? 2 : 1, &scene) &&
+        volume_scene_frame(&session, &arguments->frames, &scene, &frames) &&
+        prepare_painter(arguments, &painter) && draw(arguments, &paths, &frames, &painter, &report) &&
+        (!arguments->stats_path || write_stats(&session, arguments, &frames, &painter, &report));
+    if (done)
+        session_say(&session, "%s: %llu of %llu voxels, drawn in %.1f ms, %.3f s in all", arguments->output,
+                    (unsigned long long)scene.info.occupied_count, (unsigned long long)scene.info.voxel_count,
+                    1e3 * report.render_s / (double)frames.count, clock_now_s() - session.started_s);
+    free_painter(&painter);
+    render_report_free(&report);
+    frames_free(&frames);
+    volume_scene_free(&scene);
+    return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
+}
+
+static const option_group output_options = {"Output", output_table, COUNT(output_table)};
+static const option_group input_options = {"Raw volumes", input_table, COUNT(input_table)};
+static const option_group voxel_options = {"Voxels", voxel_table, COUNT(voxel_table)};
+static const option_group look_options = {"Look", look_table, COUNT(look_table)};
+static const option_group *const groups[] = {&output_options, &input_options, &view_options,
+                                             &frames_options, &voxel_options, &look_options};
+
+const cli_command volume_command = {
+    .name = "volume",
+    .operands = "VOL -o OUT",
+    .summary = "draw a volume: NRRD, NIfTI, MetaImage, VTK or raw numbers",
+    .details = "Without --transfer, the largest peak of the histogram counts as empty, what lies above as a "
+               "veil that becomes denser with the value.\n"
+               "\n"
+               "The volume is framed whole. Without --view and --up, z is up and it is seen from the front, "
+               "from -y: a patient's face, when the file says where that is. Raw numbers need --dims, or a "
+               "name such as head_256x256x128_uint8.raw.gz.",
+    .examples = "ewa volume head.nrrd -o head.png\n"
+                "ewa volume ct.nii.gz -o bone.png --transfer bone --view left\n"
+                "ewa volume engine.raw -o engine.png --dims 256,256,128 --azimuth 30 --elevation 20\n"
+                "ewa volume head.mhd -o turn.mp4 --turntable 120 --transfer soft --size 800x800\n"
+                "ewa volume fog.nrrd -o foggy.png --transfer fog --surfels bunny.ply\n",
+    .low_operands = 1,
+    .high_operands = 1,
+    .groups = groups,
+    .group_count = COUNT(groups),
+    .arguments_bytes = sizeof(volume_arguments),
+    .set_defaults = set_defaults,
+    .check = check,
+    .run = run,
+};

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Volumes from the files of the command line.
+#ifndef EWA_CLI_VOLUME_INPUT_H
+#define EWA_CLI_VOLUME_INPUT_H
+
+#include "session.h"
+
+/// Options of what a volume file does not say.
+typedef struct volume_input_arguments {
+    option_vector dims, spacing;
+    int type; ///< index of the word of --type; -1: not given
+    bool big_endian;
+    int64_t header_bytes;
+} volume_input_arguments;
+
+/// Rows of an option table; `at` is the offset of the volume_input_arguments in the command's arguments.
+#define VOLUME_INPUT_OPTIONS(at)                                                                             \
+    {.key = "dims",                                                                                          \
+     .kind = OPTION_VECTOR,                                                                                  \
+     .offset = (at) + offsetof(volume_input_arguments, dims),                                                \
+     .value = "x,y,z",                                                                                       \
+     .low = 3,                                                                                               \
+     .high = 3,                                                                                              \
+     .absent = "as the file or its name says",                                                               \
+     .help = "the file is raw numbers, also in gzip, x fastest: how many along each axis"},                  \
+        {.key = "type",                                                                                      \
+         .kind = OPTION_CHOICE,                                                                              \
+         .offset = (at) + offsetof(volume_input_arguments, type),                                            \
+         .range = "float|double|char|uchar|short|ushort|int|uint",                                           \
+         .absent = "as the file's name says, else uchar",                                                    \
+         .help = "type of raw numbers"},                                                                     \
+        {.key = "big-endian",                                                                                \
+         .kind = OPTION_FLAG,                                                                                \
+         .offset = (at) + offsetof(volume_input_arguments, big_endian),                                      \
+         .help = "raw numbers have their highest byte first"},                                               \
+        {.key = "header-bytes",                                                                              \
+         .kind = OPTION_INTEGER,                                                                             \
+         .offset = (at) + offsetof(volume_input_arguments, header_bytes),                                    \
+         .value = "N",                                                                                       \
+         .range = "[0, inf)",                                                                                \
+         .help = "bytes in front of raw numbers"},                                                           \
+    {                                                                                                        \
+        .key = "spacing", .kind = OPTION_VECTOR, .offset = (at) + offsetof(volume_input_arguments, spacing), \
+        .value = "x,y,z", .low = 3, .high = 3, .absent = "as the file says, else 1,1,1",                     \
+        .help = "distances of the voxels along each axis, in world units"                                    \
+    }
+
+void volume_input_set_defaults(volume_input_arguments *arguments);
+
+/// What is wrong with the options together; see command.check.
+bool volume_input_check(const volume_input_arguments *arguments, char message[OPTION_ERROR_BYTES]);
+
+/// Whether a name has a suffix of volumes.
+bool volume_input_is_named(const char *path);
+
+/// Loads a volume. Returns false after reporting; free with ewa_volume_free() in any case.
+bool volume_input_load(cli_session *session, const volume_input_arguments *arguments, const char *path,
+                       ewa_volume *volume);
+
+#endif

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What the voxels of a volume hold.
+#include "base/base.h"
+#include "ewa/volume.h"
+#include "image/volume.h"
+
+#include <math.h>
+
+enum { BINS = 256, ROW = 1024 };
+
+void ewa_volume_read(const ewa_volume *volume, uint64_t first, size_t count, float *numbers) {
+    switch (volume->type) {
+    case EWA_U8: {
+        const uint8_t *from = (const uint8_t *)volume->voxels + first;
+        for (size_t i = 0; i < count; i++) numbers[i] = from[i];
+        break;
+    }
+    case EWA_I8: {
+        const int8_t *from = (const int8_t *)volume->voxels + first;
+        for (size_t i = 0; i < count; i++) numbers[i] = from[i];
+        break;
+    }
+    case EWA_U16: {
+        const uint16_t *from = (const uint16_t *)volume->voxels + first;
+        for (size_t i = 0; i < count; i++) numbers[i] = from[i];
+        break;
+    }
+    case EWA_I16: {
+        const int16_t *from = (const int16_t *)volume->voxels + first;
+        for (size_t i = 0; i < count; i++) numbers[i] = from[i];
+        break;
+    }
+    default: {
+        const float *from = (const float *)volume->voxels + first;
+        for (size_t i = 0; i < count; i++) numbers[i] = from[i];
+    }
+    }
+}
+
+static uint64_t count_voxels(const ewa_volume *volume) {
+    return (uint64_t)volume->dims[0] * volume->dims[1] * volume->dims[2];
+}
+
+static void measure_range(const ewa_volume *volume, ewa_volume_facts *facts) {
+    float numbers[ROW];
+    double low = INFINITY, high = -INFINITY, sum = 0;
+    for (uint64_t first = 0; first < facts->voxel_count; first += ROW) {
+        const uint64_t left = facts->voxel_count - first;
+        const size_t count = left < ROW ? (size_t)left : ROW;
+        double row = 0;
+        ewa_volume_read(volume, first, count, numbers);
+        for (size_t i = 0; i < count; i++) {
+            const double number = numbers[i];
+            if (!isfinite(number)) continue;
+            facts->finite_count++;
+            low = number < low ? number : low;
+            high = number > high ? number : high;
+            row += number;
+        }
+        sum += row;
+    }
+    if (!facts->finite_count) return;
+    facts->low = low;
+    facts->high = high;
+    facts->mean = sum / (double)facts->finite_count;
+}
+
+static void measure_histogram(const ewa_volume *volume, ewa_volume_facts *facts) {
+    float numbers[ROW];
+    const double scale = facts->high > facts->low ? (BINS - 1) / (facts->high - facts->low) : 0;
+    for (uint64_t first = 0; first < facts->voxel_count; first += ROW) {
+        const uint64_t left = facts->voxel_count - first;
+        const size_t count = left < ROW ? (size_t)left : ROW;
+        ewa_volume_read(volume, first, count, numbers);
+        for (size_t i = 0; i < count; i++)
+            if (isfinite(numbers[i])) facts->histogram[(int)((numbers[i] - facts->low) * scale + 0.5)]++;
+    }
+}
+
+static void measure_place(const ewa_volume *volume, ewa_volume_facts *facts) {
+    for (int k = 0; k < 3; k++) {
+        const double *row = volume->index_to_world + 4 * k;
+        facts->low_world[k] = facts->high_world[k] = row[3];
+        for (int axis = 0; axis < 3; axis++) {
+            const double reach = row[axis] * (volume->dims[axis] - 1.0);
+            *(reach < 0 ? &facts->low_world[k] : &facts->high_world[k]) += reach;
+            facts->spacing_world[axis] += row[axis] * row[axis];
+        }
+    }
+    for (int axis = 0; axis < 3; axis++) facts->spacing_world[axis] = sqrt(facts->spacing_world[axis]);
+}
+
+ewa_status ewa_volume_measure(const ewa_volume *volume, ewa_volume_facts *facts) {
+    if (!volume || !volume->voxels || !facts) return EWA_ERROR_ARGUMENT;
+    *facts = (ewa_volume_facts){.voxel_count = count_voxels(volume)};
+    measure_range(volume, facts);
+    if (facts->finite_count) measure_histogram(volume, facts);
+    measure_place(volume, facts);
+    return EWA_OK;
+}

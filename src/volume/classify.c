@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What a volume's voxels look like under a transfer function: colour, extinction, normal.
+//
+// Based on: M. Levoy, "Display of Surfaces from Volume Data", 1988 (classification by value and gradient,
+// shading by the gradient's central differences).
+#include "volume/classify.h"
+#include "base/base.h"
+
+#include <math.h>
+
+static ewa_status check_volume(ewa_context *context, const ewa_volume *volume) {
+    enum { MOST = 1 << 21 };
+    if (!volume->voxels) return ewa_fail(context, EWA_ERROR_ARGUMENT, "volume: no voxels");
+    for (int a = 0; a < 3; a++)
+        if (volume->dims[a] == 0 || volume->dims[a] > MOST)
+            return ewa_fail(context, volume->dims[a] ? EWA_ERROR_LIMIT : EWA_ERROR_ARGUMENT,
+                            "volume: %u x %u x %u voxels, allowed are 1 to %d along each axis",
+                            volume->dims[0], volume->dims[1], volume->dims[2], MOST);
+    for (int i = 0; i < 12; i++)
+        if (!isfinite(volume->index_to_world[i]))
+            return ewa_fail(context, EWA_ERROR_ARGUMENT, "volume: index_to_world[%d] is %g", i,
+                            volume->index_to_world[i]);
+    switch (volume->type) {
+    case EWA_U8:
+    case EWA_I8:
+    case EWA_U16:
+    case EWA_I16:
+    case EWA_F32:
+        return EWA_OK;
+    default:
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "volume: voxels of type %d", (int)volume->type);
+    }
+}
+
+ewa_status ewa_classifier_make(ewa_context *context, const ewa_volume *volume, const ewa_transfer *transfer,
+                               ewa_classifier *classifier) {
+    ewa_status status = check_volume(context, volume);
+    if (status == EWA_OK) status = ewa_transfer_check(context, "transfer function", transfer);
+    if (status != EWA_OK) return status;
+    const double *m = volume->index_to_world;
+    ewa_classifier c = {.volume = volume, .transfer = transfer, .spacing_world = INFINITY};
+    double longest = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        const ewa_vec3 step = vec3_make(m[axis], m[4 + axis], m[8 + axis]);
+        vec3_store(step, c.axes_world.m[axis]);
+        c.spacing_world = fmin(c.spacing_world, vec3_length(step));
+        longest = fmax(longest, vec3_length(step));
+    }
+    const double determinant = mat3_determinant(&c.axes_world);
+    c.cell_world3 = fabs(determinant);
+    // Axes that are all but in one plane, whatever their unit.
+    if (!(c.cell_world3 > 1e-9 * longest * longest * longest * (c.spacing_world / longest)) ||
+        !isfinite(1 / c.cell_world3))
+        return ewa_fail(context, EWA_ERROR_ARGUMENT,
+                        "volume: index_to_world is not invertible, its axes span %g", determinant);
+    const ewa_mat3 adjugate = mat3_adjugate(&c.axes_world);
+    c.world_to_index = mat3_scale(&adjugate, 1 / determinant);
+    c.unit_length_world = transfer->unit_length_world > 0 ? transfer->unit_length_world : c.spacing_world;
+    c.with_ramp = transfer->gradient_low != 0 || transfer->gradient_high != 0;
+    *classifier = c;
+    return EWA_OK;
+}
+
+double ewa_volume_value(const ewa_volume *volume, uint32_t i, uint32_t j, uint32_t k) {
+    const size_t at = ((size_t)k * volume->dims[1] + j) * volume->dims[0] + i;
+    switch (volume->type) {
+    case EWA_U8:
+        return ((const uint8_t *)volume->voxels)[at];
+    case EWA_I8:
+        return ((const int8_t *)volume->voxels)[at];
+    case EWA_U16:
+        return ((const uint16_t *)volume->voxels)[at];
+    case EWA_I16:
+        return ((const int16_t *)volume->voxels)[at];
+    default:
+        return (double)((const float *)volume->voxels)[at];
+    }
+}
+
+/// The last point whose value is not above `value`; false outside of the points.
+static bool find_point(const ewa_transfer *transfer, double value, uint32_t *point) {
+    uint32_t low = 0, high = transfer->point_count; // points[low].value <= value < points[high].value
+    if (!(value >= transfer->points[0].value) || value > transfer->points[high - 1].value) return false;
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (transfer->points[middle].value <= value)
+            low = middle;
+        else
+            high = middle;
+    }
+    *point = low;
+    return true;
+}
+
+/// Colour and extinction (per unit length of the transfer function) of a value.
+static double look_up(const ewa_transfer *transfer, double value, double color[3]) {
+    uint32_t i;
+    if (!find_point(transfer, value, &i)) return 0;
+    const ewa_transfer_point *a = &transfer->points[i], *b = a + (i + 1 < transfer->point_count);
+    const double t = a == b ? 0 : (value - a->value) / (b->value - a->value);
+    for (int c = 0; c < 3; c++)
+        color[c] = (double)a->color[c] + t * ((double)b->color[c] - (double)a->color[c]);
+    return (double)a->extinction + t * ((double)b->extinction - (double)a->extinction);
+}
+
+/// Whether a value can be seen where the gradient does not take it away.
+static bool sees(const ewa_classifier *classifier, double value) {
+    double color[3];
+    return look_up(classifier->transfer, value, color) > 0;
+}
+
+bool ewa_classifier_reaches(const ewa_classifier *classifier, double low, double high) {
+    if (sees(classifier, low) || sees(classifier, high)) return true;
+    const ewa_transfer *transfer = classifier->transfer;
+    for (uint32_t i = 0; i < transfer->point_count; i++) {
+        const ewa_transfer_point *p = &transfer->points[i];
+        if (p->value >= low && p->value <= high && p->extinction > 0) return true;
+    }
+    return false;
+}
+
+/// The gradient by central differences, one-sided at the border; a NaN beside counts as no change.
+static ewa_vec3 gradient_world(const ewa_classifier *classifier, uint32_t i, uint32_t j, uint32_t k,
+                               double value) {
+    const ewa_volume *volume = classifier->volume;
+    const uint32_t at[3] = {i, j, k};
+    double slope[3];
+    for (int axis = 0; axis < 3; axis++) {
+        uint32_t low[3] = {i, j, k}, high[3] = {i, j, k};
+        low[axis] -= at[axis] > 0;
+        high[axis] += at[axis] + 1 < volume->dims[axis];
+        double below = ewa_volume_value(volume, low[0], low[1], low[2]);
+        double above = ewa_volume_value(volume, high[0], high[1], high[2]);
+        if (!isfinite(below)) below = value, low[axis] = at[axis];
+        if (!isfinite(above)) above = value, high[axis] = at[axis];
+        const uint32_t steps = high[axis] - low[axis];
+        slope[axis] = steps ? (above - below) / steps : 0;
+    }
+    // The value's differential is a row of the index, which world_to_index takes there from the world.
+    return mat3_mul_vec3(&classifier->world_to_index, vec3_load(slope));
+}
+
+bool ewa_classify(const ewa_classifier *classifier, uint32_t i, uint32_t j, uint32_t k, bool with_normal,
+                  ewa_voxel *voxel) {
+    const ewa_transfer *transfer = classifier->transfer;
+    const double value = ewa_volume_value(classifier->volume, i, j, k);
+    const double extinction = look_up(transfer, value, voxel->color);
+    if (!(extinction > 0)) return false;
+    voxel->extinction = extinction / classifier->unit_length_world;
+    voxel->normal_world = vec3_make(0, 0, 0);
+    if (!with_normal && !classifier->with_ramp) return voxel->extinction > 0;
+    const ewa_vec3 gradient = gradient_world(classifier, i, j, k, value);
+    if (classifier->with_ramp) {
+        const double low = transfer->gradient_low, high = transfer->gradient_high;
+        const double length = vec3_length(gradient);
+        voxel->extinction *= length >= high ? 1 : length <= low ? 0 : (length - low) / (high - low);
+    }
+    voxel->normal_world = vec3_scale(gradient, -1);
+    if (!vec3_normalize(&voxel->normal_world)) voxel->normal_world = vec3_make(0, 0, 0);
+    return voxel->extinction > 0;
+}

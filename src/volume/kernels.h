@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The hot loops of volumes: what goes in and out of them. One body (kernels_body.h), one stub per instruction
+// set, the same bytes from each.
+//
+// Front to back, one tile at a time: `append` projects and shades the voxels of a block into buckets, one for
+// each depth unit. A bucket of points is summed with the circular filter (`sum_points`), then composited once
+// (`composite`); a bucket of splats is sorted, then composited one by one (`draw_splats`).
+#ifndef EWA_SRC_VOLUME_KERNELS_H
+#define EWA_SRC_VOLUME_KERNELS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "ewa/shade.h"
+#include "volume/footprint.h"
+
+enum {
+    EWA_VOLUME_TILE_PX = 64,
+    EWA_VOLUME_ROW_BLOCKS = EWA_VOLUME_TILE_PX / 4, ///< blocks of 4x4 pixels
+    EWA_VOLUME_TILE_BLOCKS = EWA_VOLUME_ROW_BLOCKS * EWA_VOLUME_ROW_BLOCKS,
+    EWA_SUMS_MARGIN_PX = 4, ///< around a tile's sums
+    EWA_SUMS_SIDE_PX = EWA_VOLUME_TILE_PX + 2 * EWA_SUMS_MARGIN_PX,
+    EWA_SUMS_STRIDE = 4 * EWA_SUMS_SIDE_PX, ///< floats
+    EWA_SUMS_ROW_BLOCKS = EWA_SUMS_SIDE_PX / 4,
+    EWA_FILTER_PHASES = 32,
+    EWA_FILTER_COUNT = 256,
+    EWA_PAGE_RECORDS = 64,
+    EWA_NO_PAGE = UINT32_MAX,
+    EWA_VOLUME_CHANNELS = 5, ///< of a block's pixels: premultiplied r, g, b, transmittance, depth
+};
+
+/// The widest filter of points, px: what four taps hold.
+#define EWA_FILTER_MOST_PX 0.9f
+
+/// The circular filter along one axis: taps of the four pixels from floor(x - 1/2) - 1 on, which add up to 1.
+typedef float ewa_point_filter[EWA_FILTER_PHASES][4];
+
+/// A voxel on its way. Points: r, g, b, 1, all times the mass; where the window begins in the sums; phases
+/// and blocks touched (point_info); depth. Splats: r, g, b; extinction; x, y in the tile; depth; distance.
+typedef struct ewa_volume_record {
+    float color[4];
+    union {
+        struct {
+            int32_t offset, info;
+        } point;
+        float place_px[2];
+    };
+    float z, distance;
+} ewa_volume_record;
+
+typedef struct ewa_volume_page {
+    ewa_volume_record records[EWA_PAGE_RECORDS];
+} ewa_volume_page;
+
+/// The voxels of one depth unit: pages, in the order in which they came.
+typedef struct ewa_volume_bucket {
+    uint32_t count, first_page, last_page;
+} ewa_volume_bucket;
+
+/// Pages and what follows each; `free_count` of `free` are to be had.
+typedef struct ewa_volume_pages {
+    ewa_volume_page *pages;
+    uint32_t *next, *free;
+    uint32_t free_count;
+} ewa_volume_pages;
+
+/// A light in world space.
+typedef struct ewa_volume_light {
+    bool headlight;
+    float toward[3], color[3];
+} ewa_volume_light;
+
+/// Camera, grid and options of a frame in single precision.
+typedef struct ewa_volume_view {
+    bool orthographic, exact, lit, highlights, with_depth, with_surface;
+    float fx_px, fy_px, cx_px, cy_px;
+    float axes[3][3];         ///< steps along i, j, k in camera space
+    float near, near_inverse; ///< voxels fade in between near and twice that; 0 for orthographic cameras
+    float unit_inverse, unit_offset; ///< slice = floor(z unit_inverse + unit_offset)
+    int32_t point_slice;             ///< slices from there on are of points
+    float color_scale;               ///< of 16-bit colours
+    float point_mass, splat_peak, density;
+    float covariance[6], inverse[6]; ///< xx xy xz yy yz zz
+    float cutoff, cutoff2, prefilter2_px2, reach;
+    float least_transmittance;
+    float surface_reach;    ///< half of the depth over which a voxel passes a surface
+    float to_world[9];      ///< world from camera, a rotation
+    float toward_viewer[3]; ///< orthographic, world space
+    float ambient, diffuse, specular, shininess;
+    uint32_t light_count;
+    ewa_volume_light lights[EWA_MAX_LIGHTS];
+    const ewa_footprint_table *table;
+} ewa_volume_view;
+
+/// The voxels of a block, and how it lies.
+typedef struct ewa_volume_source {
+    const uint16_t *places, *colors[3];
+    const float *extinctions;
+    const int32_t *normals;
+    uint32_t count;
+    float origin[3];                 ///< its first place in camera space
+    int32_t slice_first, slice_last; ///< where its voxels may be
+} ewa_volume_source;
+
+/// A tile of the picture while it is drawn.
+typedef struct ewa_volume_tile {
+    int32_t x_px, y_px, width_px, height_px;
+    float *sums;    ///< [EWA_SUMS_SIDE_PX][EWA_SUMS_SIDE_PX][4] of a slice: r, g, b, optical depth
+    float *pixels;  ///< [block][EWA_VOLUME_CHANNELS][16]
+    float *surface; ///< [block][16] depths of opaque surfaces
+    uint32_t touched[EWA_SUMS_ROW_BLOCKS];     ///< bits: blocks of the sums with something in them
+    uint32_t saturated[EWA_VOLUME_ROW_BLOCKS]; ///< bits: blocks where nothing more would show
+    ewa_volume_bucket *ring;                   ///< [slice & ring_mask]
+    uint32_t ring_mask;
+    ewa_volume_pages pages;
+} ewa_volume_tile;
+
+/// Where pixels go.
+typedef struct ewa_volume_target {
+    uint32_t width_px, height_px;
+    float background[4]; ///< premultiplied
+    const float *surface_rgba;
+    uint8_t *rgba8;
+    float *rgba, *depth, *coverage;
+} ewa_volume_target;
+
+typedef struct ewa_volume_kernels {
+    const char *name;
+
+    /// Projects and shades the voxels of a block and adds those that touch the tile to its buckets; returns
+    /// how many.
+    uint32_t (*append)(const ewa_volume_view *view, const ewa_volume_source *source, ewa_volume_tile *tile);
+
+    /// Adds the points of a bucket to the tile's sums.
+    void (*sum_points)(ewa_volume_tile *tile, const ewa_volume_bucket *bucket,
+                       const ewa_point_filter *filter);
+
+    /// Composites the touched sums behind what is there, and clears them. `z`: of the slice's middle.
+    void (*composite)(const ewa_volume_view *view, ewa_volume_tile *tile, float z);
+
+    /// Composites splats in the order given; `order` are records' numbers, 64 to a page.
+    void (*draw_splats)(const ewa_volume_view *view, ewa_volume_tile *tile, const uint32_t *order,
+                        uint32_t count);
+
+    /// Empties the pixels.
+    void (*clear)(ewa_volume_tile *tile);
+
+    /// Writes the pixels over the background or the surfaces.
+    void (*resolve)(const ewa_volume_tile *tile, const ewa_volume_target *to);
+} ewa_volume_kernels;
+
+/// The best version that the features (EWA_CPU_*) allow.
+const ewa_volume_kernels *ewa_volume_kernels_choose(uint32_t cpu_features);
+
+extern const ewa_volume_kernels ewa_volume_kernels_portable;
+#if defined(__x86_64__)
+extern const ewa_volume_kernels ewa_volume_kernels_avx2;
+extern const ewa_volume_kernels ewa_volume_kernels_avx512;
+#endif
+
+#endif

@@ -1,0 +1,229 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Part of kernels_body.h: from the voxels of a block to records in the buckets of a tile.
+//
+// Based on: J. Blinn, "Models of Light Reflection for Computer Synthesized Pictures", 1977 (shading).
+#ifndef EWA_SRC_VOLUME_KERNELS_APPEND_H
+#define EWA_SRC_VOLUME_KERNELS_APPEND_H
+
+#include "math/wide_functions.h"
+#include "volume/kernels.h"
+
+#include <string.h>
+
+/// What is less than this is nothing.
+#define TINY 0x1p-90f
+
+/// Sixteen voxels in camera space.
+typedef struct voxel_lanes {
+    wf x, y, z; ///< perspective: x and y are slopes
+    wf length;  ///< perspective: of (x, y, 1)
+    wf inverse; ///< 1 / z
+} voxel_lanes;
+
+static ALWAYS_INLINE wf row_dot(const float *m, int stride, wf x, wf y, wf z) {
+    return wf_fma(wf_set(m[0]), x, wf_fma(wf_set(m[stride]), y, wf_mul(wf_set(m[2 * stride]), z)));
+}
+
+static ALWAYS_INLINE wf dot(const wf a[3], const wf b[3]) {
+    return wf_fma(a[0], b[0], wf_fma(a[1], b[1], wf_mul(a[2], b[2])));
+}
+
+static ALWAYS_INLINE voxel_lanes place_voxels(const ewa_volume_view *view, const ewa_volume_source *source,
+                                              uint32_t first) {
+    const wi place = wi_load_u16(source->places + first);
+    const wf i = wf_from_i(wi_and(place, wi_set(7)));
+    const wf j = wf_from_i(wi_and(wi_sar(place, 3), wi_set(7))), k = wf_from_i(wi_sar(place, 6));
+    wf p[3];
+    for (int c = 0; c < 3; c++)
+        p[c] = wf_fma(i, wf_set(view->axes[0][c]),
+                      wf_fma(j, wf_set(view->axes[1][c]),
+                             wf_fma(k, wf_set(view->axes[2][c]), wf_set(source->origin[c]))));
+    voxel_lanes v = {.x = p[0], .y = p[1], .z = p[2], .length = wf_set(1), .inverse = wf_set(1)};
+    if (!view->orthographic) {
+        v.inverse = wf_div(wf_set(1), p[2]);
+        v.x = wf_mul(p[0], v.inverse);
+        v.y = wf_mul(p[1], v.inverse);
+        v.length = wf_sqrt(wf_fma(v.x, v.x, wf_fma(v.y, v.y, wf_set(1))));
+    }
+    return v;
+}
+
+/// Adds one light's answer: diffuse and specular factors.
+static ALWAYS_INLINE void add_light(const ewa_volume_view *view, const ewa_volume_light *light,
+                                    const wf normal[3], const wf toward[3], wf facing_viewer, wf diffuse[3],
+                                    wf specular[3]) {
+    const wf zero = wf_set(0);
+    wf facing = facing_viewer, half = facing_viewer;
+    if (!light->headlight) {
+        const wf l[3] = {wf_set(light->toward[0]), wf_set(light->toward[1]), wf_set(light->toward[2])};
+        facing = wf_max(dot(normal, l), zero);
+        wf between[3];
+        for (int c = 0; c < 3; c++) between[c] = wf_add(l[c], toward[c]);
+        const wf length2 = dot(between, between);
+        half = wf_keep(wf_lt(wf_set(1e-12f), length2),
+                       wf_mul(dot(normal, between), wf_inverse_root(wf_max(length2, wf_set(1e-12f)))));
+    }
+    wf highlight = zero;
+    if (view->highlights) {
+        const wf power = wf_power(half, wf_set(view->shininess));
+        // Nothing rather than less than any normal number, which would take a hundred times as long.
+        const wm shines = wm_and(wf_lt(zero, facing), wf_lt(wf_set(TINY), power));
+        highlight = wf_mul(wf_set(view->specular), wf_keep(shines, power));
+    }
+    for (int c = 0; c < 3; c++) {
+        const wf color = wf_set(light->color[c]);
+        diffuse[c] = wf_fma(wf_mul(color, wf_set(view->diffuse)), facing, diffuse[c]);
+        specular[c] = wf_fma(color, highlight, specular[c]);
+    }
+}
+
+/// Shades colours by the gradients, which are seen from both sides.
+static ALWAYS_INLINE void shade_voxels(const ewa_volume_view *view, const ewa_volume_source *source,
+                                       uint32_t first, const voxel_lanes *v, wf color[3]) {
+    const wi packed = wi_load(source->normals + first);
+    const wf scale = wf_set(1.0f / 511), zero = wf_set(0);
+    wf normal[3], toward[3], diffuse[3], specular[3];
+    for (int c = 0; c < 3; c++) normal[c] = wf_mul(wf_from_i(wi_sar(wi_shl(packed, 22 - 10 * c), 22)), scale);
+    if (view->orthographic) {
+        for (int c = 0; c < 3; c++) toward[c] = wf_set(view->toward_viewer[c]);
+    } else {
+        const wf shrink = wf_div(wf_set(-1), v->length);
+        for (int c = 0; c < 3; c++)
+            toward[c] = wf_mul(shrink, row_dot(view->to_world + 3 * c, 1, v->x, v->y, wf_set(1)));
+    }
+    const wf side = dot(normal, toward);
+    const wm behind = wf_lt(side, zero);
+    for (int c = 0; c < 3; c++) {
+        normal[c] = wf_select(behind, wf_sub(zero, normal[c]), normal[c]);
+        diffuse[c] = wf_set(view->ambient);
+        specular[c] = zero;
+    }
+    for (uint32_t i = 0; i < view->light_count; i++)
+        add_light(view, &view->lights[i], normal, toward, wf_abs(side), diffuse, specular);
+    // Where nothing changes there is no surface: ambient and diffuse light from everywhere.
+    const wm flat = wf_le(dot(normal, normal), wf_set(0.25f));
+    for (int c = 0; c < 3; c++) {
+        const wf lit = wf_fma(color[c], diffuse[c], specular[c]);
+        color[c] = wf_select(flat, wf_mul(color[c], wf_set(view->ambient + view->diffuse)), lit);
+    }
+}
+
+/// How far from its centre the ellipse of a splat may reach, px: a cone around the largest axis' sphere.
+static ALWAYS_INLINE wf splat_reach(const ewa_volume_view *view, const voxel_lanes *v) {
+    const float focal_px = view->fx_px > view->fy_px ? view->fx_px : view->fy_px;
+    const wf margin = wf_set(view->cutoff * __builtin_sqrtf(view->prefilter2_px2) + 1), one = wf_set(1);
+    if (view->orthographic) return wf_add(wf_set(focal_px * view->reach), margin);
+    const wf length2 = wf_mul(v->length, v->length);
+    const wf sine = wf_div(wf_mul(wf_set(view->reach), v->inverse), v->length);
+    const wf cosine = wf_sqrt(wf_max(wf_fnma(sine, sine, one), wf_set(0)));
+    const wf slope = wf_sqrt(wf_max(wf_sub(length2, one), wf_set(0)));
+    const wf room = wf_fnma(slope, sine, cosine);
+    const wf reach = wf_div(wf_mul(sine, length2), wf_max(room, wf_set(1e-6f)));
+    return wf_fma(wf_min(reach, wf_set(1e6f)), wf_set(focal_px), margin);
+}
+
+/// What the records of points are made of but for colour and depth.
+static ALWAYS_INLINE void point_places(const ewa_volume_tile *tile, wf x, wf y, wi *offset, wi *info,
+                                       wm *touches) {
+    const wf half = wf_set(0.5f), limit = wf_set(1e6f);
+    const wf u = wf_max(wf_min(wf_sub(x, half), limit), wf_set(-1e6f));
+    const wf v = wf_max(wf_min(wf_sub(y, half), limit), wf_set(-1e6f));
+    const wf whole_u = wf_floor(u), whole_v = wf_floor(v), phases = wf_set(EWA_FILTER_PHASES);
+    const wi phase_u = wi_from_f(wf_mul(wf_sub(u, whole_u), phases));
+    const wi phase_v = wi_from_f(wf_mul(wf_sub(v, whole_v), phases));
+    // The window begins one pixel before; the margin is four wide.
+    const wf left = wf_sub(whole_u, wf_set(1)), top = wf_sub(whole_v, wf_set(1));
+    *touches = wm_and(wm_and(wf_le(wf_set(-3), left), wf_lt(left, wf_set((float)tile->width_px))),
+                      wm_and(wf_le(wf_set(-3), top), wf_lt(top, wf_set((float)tile->height_px))));
+    const wi column = wi_add(wi_from_f(left), wi_set(EWA_SUMS_MARGIN_PX));
+    const wi row = wi_add(wi_from_f(top), wi_set(EWA_SUMS_MARGIN_PX));
+    // row * EWA_SUMS_STRIDE = row * (256 + 32), column * 4
+    *offset = wi_add(wi_add(wi_shl(row, 8), wi_shl(row, 5)), wi_shl(column, 2));
+    const wi three = wi_set(3);
+    *info = wi_or(wi_or(phase_u, wi_shl(phase_v, 5)),
+                  wi_or(wi_or(wi_shl(wi_sar(column, 2), 10), wi_shl(wi_sar(wi_add(column, three), 2), 15)),
+                        wi_or(wi_shl(wi_sar(row, 2), 20), wi_shl(wi_sar(wi_add(row, three), 2), 25))));
+}
+
+/// Makes a record the last of a bucket.
+static ALWAYS_INLINE ewa_volume_record *next_record(ewa_volume_pages *pages, ewa_volume_bucket *bucket) {
+    const uint32_t slot = bucket->count++ % EWA_PAGE_RECORDS;
+    if (slot == 0) {
+        const uint32_t page = pages->free[--pages->free_count];
+        if (bucket->count == 1)
+            bucket->first_page = page;
+        else
+            pages->next[bucket->last_page] = page;
+        bucket->last_page = page;
+    }
+    return &pages->pages[bucket->last_page].records[slot];
+}
+
+static uint32_t append(const ewa_volume_view *frame_view, const ewa_volume_source *block,
+                       ewa_volume_tile *tile) {
+    // Records that are written cannot change these.
+    const ewa_volume_view view_here = *frame_view, *view = &view_here;
+    const ewa_volume_source source_here = *block, *source = &source_here;
+    const wf tile_x = wf_set(view->cx_px - (float)tile->x_px),
+             tile_y = wf_set(view->cy_px - (float)tile->y_px);
+    const wf width = wf_set((float)tile->width_px), height = wf_set((float)tile->height_px), zero = wf_set(0);
+    const bool has_splats = source->slice_first < view->point_slice;
+    const wf color_scale = wf_set(view->color_scale);
+    uint32_t added = 0;
+    for (uint32_t first = 0; first < source->count; first += 16) {
+        const uint32_t left = source->count - first;
+        const voxel_lanes v = place_voxels(view, source, first);
+        const wf x = wf_fma(v.x, wf_set(view->fx_px), tile_x), y = wf_fma(v.y, wf_set(view->fy_px), tile_y);
+        const wf unit = wf_floor(wf_fma(v.z, wf_set(view->unit_inverse), wf_set(view->unit_offset)));
+        const wi slice = wi_max(
+            wi_min(wi_from_f(wf_max(wf_min(unit, wf_set(1e9f)), wf_set(-1e9f))), wi_set(source->slice_last)),
+            wi_set(source->slice_first));
+        wi offset, info;
+        wm touches;
+        point_places(tile, x, y, &offset, &info, &touches);
+        wf place_x = wf_of_bits(offset), place_y = wf_of_bits(info);
+        wf density = wf_mul(wf_load(source->extinctions + first), wf_set(view->density));
+        if (!view->orthographic)
+            density = wf_mul(density, wf_min(wf_fma(v.z, wf_set(view->near_inverse), wf_set(-1)), wf_set(1)));
+        // Mass on the screen: Jacobian of the projection, |p| / z^3.
+        wf mass = wf_mul(density, wf_set(view->point_mass));
+        if (!view->orthographic) mass = wf_mul(mass, wf_mul(v.length, wf_mul(v.inverse, v.inverse)));
+        mass = wf_min(mass, wf_set(1e12f));
+        wf factor = mass, last = mass;
+        if (has_splats) {
+            const wm points = wf_le(wf_set((float)view->point_slice), wf_from_i(slice));
+            const wf reach = splat_reach(view, &v);
+            const wm near_x = wm_and(wf_lt(wf_sub(zero, reach), x), wf_lt(wf_sub(x, reach), width));
+            const wm near_y = wm_and(wf_lt(wf_sub(zero, reach), y), wf_lt(wf_sub(y, reach), height));
+            touches = wm_or(wm_and(points, touches), wm_and(wm_not(points), wm_and(near_x, near_y)));
+            place_x = wf_select(points, place_x, x), place_y = wf_select(points, place_y, y);
+            factor = wf_select(points, mass, wf_set(1));
+            last = wf_select(points, mass, wf_min(density, wf_set(1e18f)));
+        }
+        touches = wm_and(touches, wm_and(wf_lt(wf_set(view->near), v.z), wf_lt(zero, last)));
+        uint32_t bits = wm_bits(touches) & (left < 16 ? (1u << left) - 1 : 0xffff);
+        if (!bits) continue;
+        wf color[3];
+        for (int c = 0; c < 3; c++)
+            color[c] = wf_mul(wf_from_i(wi_load_u16(source->colors[c] + first)), color_scale);
+        if (view->lit) shade_voxels(view, source, first, &v, color);
+        float colors[64], places[64];
+        int32_t slices[16];
+        w_store4(colors, wf_mul(color[0], factor), wf_mul(color[1], factor), wf_mul(color[2], factor), last);
+        w_store4(places, place_x, place_y, v.z, wf_mul(v.z, v.length));
+        wi_store(slices, slice);
+        added += (uint32_t)__builtin_popcount(bits);
+        for (; bits; bits &= bits - 1) {
+            const int lane = __builtin_ctz(bits);
+            ewa_volume_record *record =
+                next_record(&tile->pages, &tile->ring[(uint32_t)slices[lane] & tile->ring_mask]);
+            memcpy(record, &colors[4 * lane], 16);
+            memcpy((char *)record + 16, &places[4 * lane], 16);
+        }
+    }
+    return added;
+}
+
+#endif

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The kernels of volumes over the wide type. The including file defines WIDE_AVX512, WIDE_AVX2 or
+// WIDE_PORTABLE, VOLUME_NAME and VOLUME_KERNELS; this file undefines them. Reference: src/volume/reference.c;
+// equality class of the versions among themselves: the same bytes.
+#include "volume/kernels_append.h"
+#include "volume/kernels_points.h"
+#include "volume/kernels_resolve.h"
+#include "volume/kernels_splats.h"
+
+const ewa_volume_kernels VOLUME_KERNELS = {
+    .name = VOLUME_NAME,
+    .append = append,
+    .sum_points = sum_points,
+    .composite = composite,
+    .draw_splats = draw_splats,
+    .clear = clear,
+    .resolve = resolve,
+};
+
+#undef VOLUME_NAME
+#undef VOLUME_KERNELS

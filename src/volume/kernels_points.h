@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Part of kernels_body.h: points, summed over a depth unit, then composited.
+//
+// Based on: X. Yuan, M. Nguyen, N. Zhang, B. Chen, "Hybrid Forward Resampling and Volume Rendering", 2003,
+// section 4.1.
+#ifndef EWA_SRC_VOLUME_KERNELS_POINTS_H
+#define EWA_SRC_VOLUME_KERNELS_POINTS_H
+
+#include "volume/kernels_append.h"
+
+/// 1 - exp(-t) for t >= 0, also where t is small.
+static ALWAYS_INLINE wf absorbed(wf t) {
+    const wf small = wf_mul(t, wf_fma(t, wf_fma(t, wf_set(1.0f / 6), wf_set(-0.5f)), wf_set(1)));
+    const wf large = wf_sub(wf_set(1), wf_exp2(wf_mul(t, wf_set(-1.44269504f))));
+    return wf_select(wf_lt(t, wf_set(1.0f / 64)), small, large);
+}
+
+/// The share of a voxel of depth z that lies in front of a block's opaque surfaces: nearly the Gaussian's.
+static ALWAYS_INLINE wf share_in_front(const ewa_volume_view *view, const float *surface, wf z) {
+    const wf reach = wf_set(2 * view->surface_reach), one = wf_set(1);
+    const wf u = wf_fma(wf_sub(wf_load(surface), z), wf_div(one, reach), wf_set(0.5f));
+    const wf t = wf_min(wf_max(u, wf_set(0)), one);
+    return wf_mul(wf_mul(t, t), wf_fma(wf_set(-2), t, wf_set(3)));
+}
+
+/// Composites optical depth `t` of a colour (`factor` times the light that is absorbed) behind a block's
+/// pixels.
+static ALWAYS_INLINE void absorb(const ewa_volume_view *view, float *pixels, wf weight, const wf color[3],
+                                 wf z) {
+    const wf through = wf_load(pixels + 48);
+    for (int c = 0; c < 3; c++) wf_store(pixels + 16 * c, wf_fma(weight, color[c], wf_load(pixels + 16 * c)));
+    wf rest = wf_sub(through, weight);
+    rest = wf_keep(wf_lt(wf_set(TINY), rest), rest);
+    wf_store(pixels + 48, rest);
+    if (view->with_depth) {
+        const wf half = wf_set(0.5f);
+        const wm passes = wm_and(wf_lt(half, through), wf_le(rest, half));
+        wf_store(pixels + 64, wf_select(passes, z, wf_load(pixels + 64)));
+    }
+}
+
+/// Marks a block in which nothing more would show.
+static ALWAYS_INLINE void mark_saturated(const ewa_volume_view *view, ewa_volume_tile *tile, uint32_t row,
+                                         uint32_t column, const float *pixels) {
+    if (!wm_bits(wf_lt(wf_set(view->least_transmittance), wf_load(pixels + 48))))
+        tile->saturated[row] |= 1u << column;
+}
+
+static void sum_points(ewa_volume_tile *tile, const ewa_volume_bucket *bucket,
+                       const ewa_point_filter *filter) {
+    const float(*phases)[4] = *filter;
+    float *sums = tile->sums;
+    uint32_t touched[32] = {0};
+    uint32_t page = bucket->first_page;
+    for (uint32_t left = bucket->count; left;) {
+        const ewa_volume_record *record = tile->pages.pages[page].records;
+        const uint32_t here = left < EWA_PAGE_RECORDS ? left : EWA_PAGE_RECORDS;
+        for (const ewa_volume_record *end = record + here; record < end; record++) {
+            const uint32_t info = (uint32_t)record->point.info;
+            const float *down = phases[info >> 5 & 31];
+            const wf across = wf_mul(wf_repeat4(record->color), wf_spread4(phases[info & 31]));
+            float *to = sums + record->point.offset;
+            for (int row = 0; row < 4; row++, to += EWA_SUMS_STRIDE)
+                wf_store(to, wf_fma(across, wf_set(down[row]), wf_load(to)));
+            const uint32_t columns = 1u << (info >> 10 & 31) | 1u << (info >> 15 & 31);
+            touched[info >> 20 & 31] |= columns;
+            touched[info >> 25] |= columns;
+        }
+        left -= here;
+        page = tile->pages.next[page];
+    }
+    for (uint32_t row = 0; row < EWA_SUMS_ROW_BLOCKS; row++) tile->touched[row] |= touched[row];
+}
+
+static void composite(const ewa_volume_view *view, ewa_volume_tile *tile, float z) {
+    const wf depth = wf_set(z), zero = wf_set(0);
+    for (uint32_t row = 0; row < EWA_SUMS_ROW_BLOCKS; row++) {
+        uint32_t bits = tile->touched[row];
+        tile->touched[row] = 0;
+        for (; bits; bits &= bits - 1) {
+            const uint32_t column = (uint32_t)__builtin_ctz(bits);
+            float *sums = tile->sums + (size_t)row * 4 * EWA_SUMS_STRIDE + column * 16;
+            const uint32_t block_row = row - 1, block_column = column - 1; // the margin is one block
+            if (block_row < EWA_VOLUME_ROW_BLOCKS && block_column < EWA_VOLUME_ROW_BLOCKS &&
+                !(tile->saturated[block_row] >> block_column & 1)) {
+                const size_t block = block_row * EWA_VOLUME_ROW_BLOCKS + block_column;
+                float *pixels = tile->pixels + block * EWA_VOLUME_CHANNELS * 16;
+                wf sum[4];
+                w_load4(sums, EWA_SUMS_STRIDE, sum);
+                wf t = sum[3];
+                if (view->with_surface)
+                    t = wf_mul(t, share_in_front(view, tile->surface + 16 * block, depth));
+                const wf weight = wf_mul(wf_load(pixels + 48), absorbed(t));
+                const wm some = wf_lt(wf_set(1e-30f), sum[3]);
+                // The weight goes to the mean colour of what was summed.
+                const wf mean = wf_keep(some, wf_div(wf_set(1), wf_select(some, sum[3], wf_set(1))));
+                for (int c = 0; c < 3; c++) sum[c] = wf_mul(sum[c], mean);
+                absorb(view, pixels, weight, sum, depth);
+                mark_saturated(view, tile, block_row, block_column, pixels);
+            }
+            for (int i = 0; i < 4; i++) wf_store(sums + i * EWA_SUMS_STRIDE, zero);
+        }
+    }
+}
+
+#endif

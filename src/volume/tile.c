@@ -1,0 +1,286 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// One tile of a picture of voxels: blocks in, buckets by depth, pixels out.
+//
+// Based on: X. Yuan, M. Nguyen, N. Zhang, B. Chen, "Hybrid Forward Resampling and Volume Rendering", 2003,
+// section 4.1 (splats composited one by one, points summed first) and section 6 (occlusion culling).
+#include "volume/tile.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { RADIX_BITS = 11, RADIX = 1 << RADIX_BITS, FEW_SPLATS = 24 };
+
+static uint32_t ring_size(const ewa_volume_bins *bins) {
+    uint32_t size = 2;
+    while (size <= bins->longest_span) size *= 2;
+    return size;
+}
+
+static size_t page_count(const ewa_volume_bins *bins) {
+    return bins->most_in_flight / EWA_PAGE_RECORDS + ring_size(bins) + 1;
+}
+
+ewa_status ewa_volume_scratch_reserve(ewa_context *context, ewa_volume_scratch *scratch,
+                                      const ewa_volume_job *job) {
+    const size_t pages = page_count(job->bins), block_floats = EWA_VOLUME_TILE_BLOCKS * (size_t)16;
+    const bool has_splats = job->slices->point_slice > 0;
+    // Two lists of numbers and keys each, which sorting goes to and fro between.
+    const size_t sorted = has_splats ? 2 * pages * EWA_PAGE_RECORDS : 0;
+    const struct {
+        ewa_buffer *buffer;
+        size_t count, size_bytes;
+    } wanted[] = {
+        {&scratch->sums, (size_t)EWA_SUMS_SIDE_PX * EWA_SUMS_STRIDE, sizeof(float)},
+        {&scratch->pixels, block_floats * EWA_VOLUME_CHANNELS, sizeof(float)},
+        {&scratch->surface, job->surface_depth ? block_floats : 0, sizeof(float)},
+        {&scratch->ring, ring_size(job->bins), sizeof(ewa_volume_bucket)},
+        {&scratch->pages, pages, sizeof(ewa_volume_page)},
+        {&scratch->next, pages, sizeof(uint32_t)},
+        {&scratch->free, pages, sizeof(uint32_t)},
+        {&scratch->order, sorted, sizeof(uint32_t)},
+        {&scratch->keys, sorted, sizeof(uint32_t)},
+    };
+    if (pages >= EWA_NO_PAGE / EWA_PAGE_RECORDS)
+        return ewa_fail(context, EWA_ERROR_MEMORY, "volume: %llu voxels in one tile at a time",
+                        (unsigned long long)job->bins->most_in_flight);
+    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
+        const ewa_status status =
+            ewa_buffer_reserve(context, wanted[i].buffer, wanted[i].count, wanted[i].size_bytes);
+        if (status != EWA_OK) return status;
+    }
+    scratch->hidden_count = scratch->splat_count = scratch->point_count = 0;
+    scratch->setup_s = scratch->points_s = scratch->splats_s = scratch->resolve_s = 0;
+    return EWA_OK;
+}
+
+void ewa_volume_scratch_free(ewa_context *context, ewa_volume_scratch *scratch) {
+    ewa_buffer *const buffers[] = {&scratch->sums, &scratch->pixels, &scratch->surface,
+                                   &scratch->ring, &scratch->pages,  &scratch->next,
+                                   &scratch->free, &scratch->order,  &scratch->keys};
+    for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++) ewa_buffer_free(context, buffers[i]);
+}
+
+/// A tile's own copy of the surfaces' depths; +infinity outside of the picture.
+static void copy_surface(const ewa_volume_job *job, ewa_volume_tile *tile) {
+    for (uint32_t row = 0; row < EWA_VOLUME_TILE_PX; row++)
+        for (uint32_t column = 0; column < EWA_VOLUME_TILE_PX; column++) {
+            const size_t block = (size_t)(row / 4) * EWA_VOLUME_ROW_BLOCKS + column / 4;
+            const uint32_t x = (uint32_t)tile->x_px + column, y = (uint32_t)tile->y_px + row;
+            const bool inside = x < job->target.width_px && y < job->target.height_px;
+            const float z = inside ? job->surface_depth[(size_t)y * job->target.width_px + x] : INFINITY;
+            tile->surface[16 * block + 4 * (row % 4) + column % 4] = z;
+        }
+}
+
+static void start_tile(const ewa_volume_job *job, ewa_volume_scratch *scratch, uint32_t index,
+                       ewa_volume_tile *tile) {
+    const uint32_t x = index % job->bins->tiles_x * EWA_VOLUME_TILE_PX;
+    const uint32_t y = index / job->bins->tiles_x * EWA_VOLUME_TILE_PX;
+    const uint32_t right = job->target.width_px - x, below = job->target.height_px - y;
+    *tile = (ewa_volume_tile){
+        .x_px = (int32_t)x,
+        .y_px = (int32_t)y,
+        .width_px = (int32_t)(right < EWA_VOLUME_TILE_PX ? right : EWA_VOLUME_TILE_PX),
+        .height_px = (int32_t)(below < EWA_VOLUME_TILE_PX ? below : EWA_VOLUME_TILE_PX),
+        .sums = scratch->sums.data,
+        .pixels = scratch->pixels.data,
+        .surface = scratch->surface.data,
+        .ring = scratch->ring.data,
+        .ring_mask = ring_size(job->bins) - 1,
+        .pages = {.pages = scratch->pages.data, .next = scratch->next.data, .free = scratch->free.data},
+    };
+    memset(tile->sums, 0, (size_t)EWA_SUMS_SIDE_PX * EWA_SUMS_STRIDE * sizeof(float));
+    memset(tile->ring, 0, ring_size(job->bins) * sizeof *tile->ring);
+    tile->pages.free_count = (uint32_t)page_count(job->bins);
+    for (uint32_t i = 0; i < tile->pages.free_count; i++)
+        tile->pages.free[i] = tile->pages.free_count - 1 - i; // the first ones first: they stay in the cache
+    job->kernels->clear(tile);
+    if (job->surface_depth) copy_surface(job, tile);
+    // What lies outside of the picture needs nothing more.
+    for (int32_t row = 0; row < EWA_VOLUME_ROW_BLOCKS; row++)
+        for (int32_t column = 0; column < EWA_VOLUME_ROW_BLOCKS; column++)
+            if (4 * row >= tile->height_px || 4 * column >= tile->width_px)
+                tile->saturated[row] |= 1u << column;
+}
+
+/// Whether nothing more would show in any of the blocks that a box in the picture touches.
+static bool is_hidden(const ewa_volume_tile *tile, const ewa_block_view *view) {
+    enum { LAST = EWA_VOLUME_TILE_PX - 1 };
+    const int32_t left = view->left - tile->x_px, top = view->top - tile->y_px;
+    const int32_t right = view->right - 1 - tile->x_px, bottom = view->bottom - 1 - tile->y_px;
+    const uint32_t first = (uint32_t)(left < 0 ? 0 : left) / 4,
+                   last = (uint32_t)(right > LAST ? LAST : right) / 4;
+    const uint32_t columns = ((2u << last) - 1) & ~((1u << first) - 1);
+    const int32_t last_row = (bottom > LAST ? LAST : bottom) / 4;
+    for (int32_t row = (top < 0 ? 0 : top) / 4; row <= last_row; row++)
+        if (columns & ~tile->saturated[row]) return false;
+    return true;
+}
+
+static bool all_hidden(const ewa_volume_tile *tile) {
+    for (int row = 0; row < EWA_VOLUME_ROW_BLOCKS; row++)
+        if (tile->saturated[row] != (1u << EWA_VOLUME_ROW_BLOCKS) - 1) return false;
+    return true;
+}
+
+/// Marks blocks whose surfaces lie wholly in front of a depth.
+static void hide_behind_surface(const ewa_volume_job *job, ewa_volume_tile *tile, float z) {
+    const float passed = z - job->view.surface_reach;
+    for (uint32_t block = 0; block < EWA_VOLUME_TILE_BLOCKS; block++) {
+        bool hidden = true;
+        for (int i = 0; i < 16; i++) hidden &= tile->surface[16 * block + i] < passed;
+        if (hidden) tile->saturated[block / EWA_VOLUME_ROW_BLOCKS] |= 1u << block % EWA_VOLUME_ROW_BLOCKS;
+    }
+}
+
+/// Projects a block's voxels into the tile's buckets.
+static void add_block(const ewa_volume_job *job, ewa_volume_tile *tile, const ewa_block_view *view) {
+    const ewa_voxel_level *level = job->level;
+    const ewa_voxel_block *block = &level->blocks[view->block];
+    const double side = EWA_BLOCK_SIDE;
+    const ewa_vec3 origin =
+        ewa_grid_place(job->grid, side * block->place[0], side * block->place[1], side * block->place[2]);
+    const ewa_volume_source source = {
+        .places = level->places + block->first,
+        .colors = {level->colors[0] + block->first, level->colors[1] + block->first,
+                   level->colors[2] + block->first},
+        .extinctions = level->extinctions + block->first,
+        .normals = level->normals + block->first,
+        .count = block->count,
+        .origin = {(float)origin.x, (float)origin.y, (float)origin.z},
+        .slice_first = view->slice_first,
+        .slice_last = view->slice_last,
+    };
+    job->kernels->append(&job->view, &source, tile);
+}
+
+static uint32_t bits_of(float distance) {
+    uint32_t bits;
+    memcpy(&bits, &distance, sizeof bits);
+    return bits; // distances are positive: they sort as their bits do
+}
+
+/// Sorts `count` numbers by keys, ties as they come; returns the list in which they end up. Both lists are
+/// followed by as much room.
+static uint32_t *sort_by_keys(uint32_t *numbers, uint32_t *keys, uint32_t count, size_t room) {
+    if (count <= FEW_SPLATS) {
+        for (uint32_t i = 1; i < count; i++) {
+            const uint32_t key = keys[i], number = numbers[i];
+            uint32_t to = i;
+            for (; to > 0 && keys[to - 1] > key; to--) keys[to] = keys[to - 1], numbers[to] = numbers[to - 1];
+            keys[to] = key, numbers[to] = number;
+        }
+        return numbers;
+    }
+    uint32_t low = UINT32_MAX, high = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        low = keys[i] < low ? keys[i] : low;
+        high = keys[i] > high ? keys[i] : high;
+    }
+    uint32_t *other_numbers = numbers + room, *other_keys = keys + room;
+    for (uint32_t shift = 0; shift < 32 && (high - low) >> shift; shift += RADIX_BITS) {
+        uint32_t starts[RADIX + 1] = {0};
+        for (uint32_t i = 0; i < count; i++) starts[((keys[i] - low) >> shift & (RADIX - 1)) + 1]++;
+        for (uint32_t i = 0; i < RADIX; i++) starts[i + 1] += starts[i];
+        for (uint32_t i = 0; i < count; i++) {
+            const uint32_t to = starts[(keys[i] - low) >> shift & (RADIX - 1)]++;
+            other_keys[to] = keys[i];
+            other_numbers[to] = numbers[i];
+        }
+        uint32_t *swap = numbers;
+        numbers = other_numbers, other_numbers = swap;
+        swap = keys;
+        keys = other_keys, other_keys = swap;
+    }
+    return numbers;
+}
+
+/// Within a depth unit splats go by their distances from the eye. By depth alone, whole layers of voxels that
+/// overlap would change places at once whenever a diagonal of the grid turns through the picture's plane; so
+/// they do it one after another, each when its own ray is there.
+static void draw_splats(const ewa_volume_job *job, ewa_volume_scratch *scratch, ewa_volume_tile *tile,
+                        const ewa_volume_bucket *bucket) {
+    uint32_t *numbers = scratch->order.data, *keys = scratch->keys.data, count = 0;
+    uint32_t page = bucket->first_page;
+    while (count < bucket->count) {
+        for (uint32_t slot = 0; slot < EWA_PAGE_RECORDS && count < bucket->count; slot++, count++) {
+            numbers[count] = page * EWA_PAGE_RECORDS + slot;
+            keys[count] = bits_of(tile->pages.pages[page].records[slot].distance);
+        }
+        page = tile->pages.next[page];
+    }
+    const uint32_t *order = sort_by_keys(numbers, keys, count, page_count(job->bins) * EWA_PAGE_RECORDS);
+    job->kernels->draw_splats(&job->view, tile, order, count);
+    scratch->splat_count += count;
+}
+
+static void draw_points(const ewa_volume_job *job, ewa_volume_scratch *scratch, ewa_volume_tile *tile,
+                        const ewa_volume_bucket *bucket, double z) {
+    const uint32_t filter = ewa_point_filter_choose(job->grid, z);
+    job->kernels->sum_points(tile, bucket, &job->filters[filter]);
+    job->kernels->composite(&job->view, tile, (float)z);
+    scratch->point_count += bucket->count;
+}
+
+static void empty_bucket(ewa_volume_tile *tile, ewa_volume_bucket *bucket) {
+    uint32_t page = bucket->first_page;
+    for (uint32_t left = (bucket->count + EWA_PAGE_RECORDS - 1) / EWA_PAGE_RECORDS; left; left--) {
+        tile->pages.free[tile->pages.free_count++] = page;
+        page = tile->pages.next[page];
+    }
+    bucket->count = 0;
+}
+
+/// Adds to a stage's time what went by since `*last_s`.
+static void take_time(const ewa_volume_job *job, double *last_s, double *stage_s) {
+    if (!job->with_times) return;
+    const double now_s = ewa_now_s();
+    *stage_s += now_s - *last_s;
+    *last_s = now_s;
+}
+
+void ewa_volume_tile_draw(void *data, uint32_t index, uint32_t worker) {
+    const ewa_volume_job *job = data;
+    const ewa_volume_bins *bins = job->bins;
+    ewa_volume_scratch *scratch = job->scratch[worker];
+    ewa_volume_tile tile;
+    double last_s = job->with_times ? ewa_now_s() : 0;
+    start_tile(job, scratch, index, &tile);
+    uint64_t next = bins->tile_first[index];
+    const uint64_t end = bins->tile_first[index + 1];
+    int32_t last_slice = -1;
+    for (int32_t slice = 0; slice < (int32_t)job->slices->count; slice++) {
+        if (slice > last_slice) { // nothing in flight
+            if (next == end) break;
+            slice = bins->views[bins->list[next]].slice_first;
+        }
+        for (; next < end && bins->views[bins->list[next]].slice_first <= slice; next++) {
+            const ewa_block_view *view = &bins->views[bins->list[next]];
+            if (view->slice_last > last_slice) last_slice = view->slice_last;
+            if (is_hidden(&tile, view))
+                scratch->hidden_count += job->level->blocks[view->block].count;
+            else
+                add_block(job, &tile, view);
+        }
+        take_time(job, &last_s, &scratch->setup_s);
+        ewa_volume_bucket *bucket = &tile.ring[(uint32_t)slice & tile.ring_mask];
+        if (bucket->count == 0) continue;
+        const double z = ewa_slice_middle(job->slices, (uint32_t)slice);
+        if (job->surface_depth) hide_behind_surface(job, &tile, (float)(z - job->slices->unit));
+        if (slice < job->view.point_slice) {
+            draw_splats(job, scratch, &tile, bucket);
+            take_time(job, &last_s, &scratch->splats_s);
+        } else {
+            draw_points(job, scratch, &tile, bucket, z);
+            take_time(job, &last_s, &scratch->points_s);
+        }
+        empty_bucket(&tile, bucket);
+        if (all_hidden(&tile)) break;
+    }
+    for (; next < end; next++)
+        scratch->hidden_count += job->level->blocks[bins->views[bins->list[next]].block].count;
+    job->kernels->resolve(&tile, &job->target);
+    take_time(job, &last_s, &scratch->resolve_s);
+}

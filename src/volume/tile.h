@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// One tile of a picture of voxels: blocks in, buckets by depth, pixels out.
+#ifndef EWA_SRC_VOLUME_TILE_H
+#define EWA_SRC_VOLUME_TILE_H
+
+#include "volume/bin.h"
+
+/// What a worker needs; survives from frame to frame. Zero-initialise.
+typedef struct ewa_volume_scratch {
+    ewa_buffer sums, pixels, surface, ring, pages, next, free, order, keys;
+    uint64_t hidden_count, splat_count, point_count;
+    double setup_s, points_s, splats_s, resolve_s;
+} ewa_volume_scratch;
+
+/// A frame; nothing of it changes while its tiles are drawn, but the workers' scratches.
+typedef struct ewa_volume_job {
+    const ewa_volume_kernels *kernels;
+    const ewa_voxel_level *level;
+    const ewa_volume_bins *bins;
+    const ewa_grid_view *grid;
+    const ewa_volume_slices *slices;
+    const ewa_point_filter *filters;
+    const float *surface_depth;
+    ewa_volume_view view;
+    ewa_volume_target target;
+    bool with_times;
+    ewa_volume_scratch **scratch; ///< [worker]
+} ewa_volume_job;
+
+/// Makes room for any tile of a frame and forgets the counts. Errors: EWA_ERROR_MEMORY.
+ewa_status ewa_volume_scratch_reserve(ewa_context *context, ewa_volume_scratch *scratch,
+                                      const ewa_volume_job *job);
+
+void ewa_volume_scratch_free(ewa_context *context, ewa_volume_scratch *scratch);
+
+/// Draws tile `index` of an ewa_volume_job (an ewa_task).
+void ewa_volume_tile_draw(void *job, uint32_t index, uint32_t worker);
+
+#endif

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Fuzz target: any bytes as a transfer function. What is read can be drawn with.
+#include "ewa/volume.h"
+#include "fuzz.h"
+#include "io/transfer.h"
+
+#include <stdlib.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.thread_count = 1;
+    ewa_context *context = NULL;
+    if (ewa_context_create(&options, &context) != EWA_OK) return 0;
+    ewa_transfer transfer;
+    const ewa_status status = ewa_transfer_read(context, "fuzz", bytes, size_bytes, &transfer);
+    if ((status == EWA_OK) != (transfer.point_count > 0)) abort();
+    if (status == EWA_OK && ewa_transfer_check(context, "fuzz", &transfer) != EWA_OK) abort();
+    ewa_context_destroy(&context);
+    return 0;
+}

@@ -1,0 +1,276 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Tests of transfer functions: the JSON files, opacity, presets, what is made from a histogram.
+#include "image/transfer.h"
+#include "io/transfer.h"
+#include "scratch.h"
+
+#include <math.h>
+
+static ewa_status read_text(ewa_context *context, const char *text, ewa_transfer *transfer) {
+    const size_t size_bytes = strlen(text);
+    uint8_t *copy = malloc(size_bytes ? size_bytes : 1);
+    memcpy(copy, text, size_bytes);
+    const ewa_status status = ewa_transfer_read(context, "look.json", copy, size_bytes, transfer);
+    free(copy);
+    return status;
+}
+
+static void test_opacity(void **state) {
+    (void)state;
+    // Against the library's own logarithm.
+    for (int i = 0; i < 100000; i++) {
+        const double opacity = i / 100000.0, wanted = -log1p(-opacity);
+        assert_true(fabs(ewa_extinction_of_opacity(opacity) - wanted) <= 4e-16 * fmax(wanted, 1));
+    }
+    assert_true(ewa_extinction_of_opacity(0) == 0);
+    assert_true(fabs(ewa_extinction_of_opacity(1) - 20 * log(2)) < 1e-12);
+}
+
+static const char WHOLE[] =
+    "{\"name\": \"x\", \"unit_length\": 2.5, \"color_space\": \"srgb\", \"gradient\": [1, 4],\n"
+    " \"points\": [{\"value\": -5, \"color\": [0, 0.5, 1], \"opacity\": 0},\n"
+    "  {\"value\": 10, \"color\": [1, 1, 1], \"opacity\": 0.5},\n"
+    "  {\"value\": 10, \"color\": [1, 0, 0], \"extinction\": 3}]}\n";
+
+static void test_known_file(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    ewa_transfer transfer;
+    assert_int_equal(read_text(context, WHOLE, &transfer), EWA_OK);
+    assert_int_equal(transfer.point_count, 3);
+    assert_true(transfer.unit_length_world == 2.5);
+    assert_true(transfer.gradient_low == 1 && transfer.gradient_high == 4);
+    const ewa_transfer_point *p = transfer.points;
+    assert_true(p[0].value == -5 && p[0].extinction == 0 && p[0].color[0] == 0 && p[0].color[2] == 1);
+    assert_true(p[0].color[1] == ewa_linear_from_srgb(0.5f));
+    assert_true(fabsf(p[1].extinction - (float)log(2)) < 1e-7f && p[2].extinction == 3);
+    // The same numbers come back from a file of ours.
+    char path[512];
+    ewa_transfer again;
+    assert_int_equal(ewa_transfer_save(context, &transfer, scratch_path("look.json", path)), EWA_OK);
+    assert_int_equal(ewa_transfer_load(context, path, &again), EWA_OK);
+    assert_memory_equal(&again, &transfer, sizeof transfer);
+    // Linear colours are taken as they are.
+    assert_int_equal(read_text(context,
+                               "{\"points\": [{\"value\": 0, \"color\": [0.25, 7, 0], \"opacity\": 1}, "
+                               "{\"value\": 1, \"color\": [0, 0, 0], \"opacity\": 1}], "
+                               "\"color_space\": \"linear\"}",
+                               &transfer),
+                     EWA_OK);
+    assert_true(transfer.points[0].color[0] == 0.25f && transfer.points[0].color[1] == 7);
+    assert_true(transfer.unit_length_world == 0 && transfer.gradient_high == 0);
+    ewa_context_destroy(&context);
+}
+
+#define POINT(value)    "{\"value\": " value ", \"color\": [0, 0, 0], \"opacity\": 0.5}"
+#define FILE_OF(points) "{\"points\": [" points "]}"
+
+static void test_broken_files(void **state) {
+    (void)state;
+    static const struct {
+        const char *text, *said;
+    } files[] = {
+        {"", ""},
+        {"[]", "points"},
+        {"{}", "points"},
+        {"{\"points\": 3}", "points"},
+        {FILE_OF(""), "0 points"},
+        {FILE_OF(POINT("1")), "1 points"},
+        {FILE_OF(POINT("2") "," POINT("1")), "below"},
+        {FILE_OF(POINT("1") "," POINT("\"x\"")), "value"},
+        {FILE_OF(POINT("1") "," POINT("1e999")), ""},
+        {FILE_OF(POINT("1") ", 7"), "not an object"},
+        {FILE_OF(POINT("1") ", {\"value\": 2, \"color\": [0, 0, 0]}"), "'opacity' is missing"},
+        {FILE_OF(POINT("1") ", {\"value\": 2, \"opacity\": 0}"), "'color' is missing"},
+        {FILE_OF(POINT("1") ", {\"color\": [0, 0, 0], \"opacity\": 0}"), "'value' is missing"},
+        {FILE_OF(POINT("1") ", {\"value\": 2, \"color\": [0, 0], \"opacity\": 0}"), "three numbers"},
+        {FILE_OF(POINT("1") ", {\"value\": 2, \"color\": [0, 0, 1.5], \"opacity\": 0}"), "[0, 1]"},
+        {FILE_OF(POINT("1") ", {\"value\": 2, \"color\": [0, 0, 0], \"opacity\": 1.5}"), "[0, 1]"},
+        {FILE_OF(POINT("1") ", {\"value\": 2, \"color\": [0, 0, 0], \"extinction\": -1}"), ">= 0"},
+        {FILE_OF(POINT("1") ", {\"value\": 2, \"color\": [0, 0, 0], \"opacity\": 0, \"extinction\": 1}"),
+         "other"},
+        {FILE_OF(POINT("1") ", {\"value\": 2, \"colour\": [0, 0, 0], \"opacity\": 0}"), "colour"},
+        {"{\"unit_length\": 0, \"points\": [" POINT("1") "," POINT("2") "]}", "unit_length"},
+        {"{\"gradient\": [2, 1], \"points\": [" POINT("1") "," POINT("2") "]}", "gradient"},
+        {"{\"gradient\": [-1, 1], \"points\": [" POINT("1") "," POINT("2") "]}", "gradient"},
+        {"{\"gradient\": 3, \"points\": [" POINT("1") "," POINT("2") "]}", "gradient"},
+        {"{\"color_space\": \"lab\", \"points\": [" POINT("1") "," POINT("2") "]}", "color_space"},
+        {"{\"other\": 1, \"points\": [" POINT("1") "," POINT("2") "]}", "other"},
+    };
+    check_log log = {0};
+    ewa_context *context = check_context(1, &log);
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+        ewa_transfer transfer;
+        log.count = 0;
+        const ewa_status status = read_text(context, files[i].text, &transfer);
+        if (status != EWA_ERROR_FORMAT || !log.count || !strstr(log.text, files[i].said) ||
+            strncmp(log.text, "look.json:", 10) != 0)
+            fail_msg("case %zu: status %d, '%s'", i, status, log.text);
+        assert_int_equal(transfer.point_count, 0);
+    }
+    ewa_context_destroy(&context);
+}
+
+static void test_every_truncation_fails(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    for (size_t size = 0; size < sizeof WHOLE - 2; size++) {
+        char text[sizeof WHOLE];
+        ewa_transfer transfer;
+        memcpy(text, WHOLE, size);
+        text[size] = 0;
+        assert_int_equal(read_text(context, text, &transfer), EWA_ERROR_FORMAT);
+    }
+    ewa_context_destroy(&context);
+}
+
+static void test_too_many_points(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    char *text = malloc(EWA_MAX_TRANSFER_POINTS * 64 + 256);
+    for (int more = 0; more < 2; more++) {
+        char *at = text + sprintf(text, "{\"points\": [" POINT("0"));
+        for (int i = 1; i < EWA_MAX_TRANSFER_POINTS + more; i++) at += sprintf(at, "," POINT("1"));
+        sprintf(at, "]}");
+        ewa_transfer transfer;
+        assert_int_equal(read_text(context, text, &transfer), more ? EWA_ERROR_LIMIT : EWA_OK);
+    }
+    free(text);
+    ewa_context_destroy(&context);
+}
+
+/// 4,096 shorts from `low` on, most of them near it, some in a peak at 40 %, few at the top.
+static void make_volume(ewa_context *context, int low, int width, ewa_volume *volume) {
+    assert_int_equal(ewa_volume_create(context, (const uint32_t[3]){16, 16, 16}, EWA_I16, volume), EWA_OK);
+    int16_t *voxels = volume->voxels;
+    check_random random = {7};
+    for (int i = 0; i < 4096; i++) {
+        const double share = i < 2600   ? check_uniform(&random, 0, 0.03)
+                             : i < 3800 ? check_uniform(&random, 0.37, 0.43)
+                                        : check_uniform(&random, 0.5, 1);
+        voxels[i] = (int16_t)(low + width * share);
+    }
+    voxels[0] = (int16_t)low;
+    voxels[1] = (int16_t)(low + width);
+}
+
+/// The extinction at a value.
+static double extinction_at(const ewa_transfer *transfer, double value) {
+    for (uint32_t i = 0; i + 1 < transfer->point_count; i++) {
+        const ewa_transfer_point *a = &transfer->points[i], *b = a + 1;
+        if (value < a->value || value > b->value || a->value == b->value) continue;
+        const double t = (value - a->value) / (b->value - a->value);
+        return (1 - t) * (double)a->extinction + t * (double)b->extinction;
+    }
+    return 0;
+}
+
+static void test_automatic(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    ewa_volume volume;
+    ewa_volume_facts facts;
+    ewa_transfer transfer;
+    make_volume(context, 100, 10000, &volume);
+    assert_int_equal(ewa_volume_measure(&volume, &facts), EWA_OK);
+    assert_true(facts.low == 100 && facts.high == 10100 && facts.finite_count == 4096);
+    assert_int_equal(ewa_transfer_automatic(&volume, &facts, &transfer), EWA_OK);
+    assert_int_equal(ewa_transfer_check(context, "auto", &transfer), EWA_OK);
+    // Empty where most voxels are, something at the peak, denser and denser up to the top.
+    assert_true(extinction_at(&transfer, 150) == 0 && extinction_at(&transfer, 350) == 0);
+    double last = 0;
+    for (int i = 1; i <= 100; i++) {
+        const double now = extinction_at(&transfer, 100 + 100 * i);
+        if (now < last - 1e-12) fail_msg("at %d: %g after %g", 100 + 100 * i, now, last);
+        last = now;
+    }
+    assert_true(extinction_at(&transfer, 4100) > 0.001);
+    assert_true(extinction_at(&transfer, 10100) > 0.5);
+    // 15 spacings across: the unit of length goes with the size.
+    assert_true(fabs(transfer.unit_length_world - 15.0 / 128) < 1e-12);
+    // The same picture at another scale of the values.
+    ewa_volume other;
+    ewa_transfer shifted;
+    make_volume(context, -5000, 10000, &other);
+    assert_int_equal(ewa_volume_measure(&other, &facts), EWA_OK);
+    assert_int_equal(ewa_transfer_automatic(&other, &facts, &shifted), EWA_OK);
+    assert_int_equal(shifted.point_count, transfer.point_count);
+    for (uint32_t i = 0; i < shifted.point_count; i++) {
+        assert_true(fabs(shifted.points[i].value + 5100 - transfer.points[i].value) < 1e-6);
+        assert_true(shifted.points[i].extinction == transfer.points[i].extinction);
+    }
+    ewa_volume_free(&other);
+    ewa_volume_free(&volume);
+    ewa_context_destroy(&context);
+}
+
+static void test_presets(void **state) {
+    (void)state;
+    check_log log = {0};
+    ewa_context *context = check_context(1, &log);
+    ewa_volume volume;
+    ewa_volume_facts facts;
+    ewa_transfer transfer;
+    const char *name, *what;
+    // Hounsfield units, and those of nobody.
+    for (int kind = 0; kind < 2; kind++) {
+        make_volume(context, kind ? 0 : -1000, 3000, &volume);
+        assert_int_equal(ewa_volume_measure(&volume, &facts), EWA_OK);
+        for (uint32_t i = 0; (name = ewa_transfer_preset_name(i, &what)); i++) {
+            assert_non_null(what);
+            assert_int_equal(ewa_transfer_preset(&volume, &facts, name, &transfer), EWA_OK);
+            assert_int_equal(ewa_transfer_check(context, name, &transfer), EWA_OK);
+            assert_true(transfer.points[0].extinction == 0);
+            assert_true(transfer.points[transfer.point_count - 1].value >= facts.high);
+        }
+        assert_int_equal(ewa_transfer_preset(&volume, &facts, "bone", &transfer), EWA_OK);
+        assert_true(kind ? transfer.points[0].value > 900 : transfer.points[0].value == 150);
+        assert_int_equal(ewa_transfer_preset(&volume, &facts, "blood", &transfer), EWA_ERROR_ARGUMENT);
+        ewa_volume_free(&volume);
+    }
+    // Volumes of one value have nothing to tell apart.
+    assert_int_equal(ewa_volume_create(context, (const uint32_t[3]){2, 2, 2}, EWA_F32, &volume), EWA_OK);
+    assert_int_equal(ewa_volume_measure(&volume, &facts), EWA_OK);
+    assert_int_equal(ewa_transfer_preset(&volume, &facts, "gray", &transfer), EWA_ERROR_NUMERIC);
+    assert_int_equal(ewa_transfer_automatic(&volume, &facts, &transfer), EWA_ERROR_NUMERIC);
+    for (int i = 0; i < 8; i++) ((float *)volume.voxels)[i] = NAN;
+    assert_int_equal(ewa_volume_measure(&volume, &facts), EWA_OK);
+    assert_int_equal(ewa_transfer_automatic(&volume, &facts, &transfer), EWA_ERROR_NUMERIC);
+    ewa_volume_free(&volume);
+    ewa_context_destroy(&context);
+}
+
+static ewa_status save_and_load(ewa_context *context, void *user) {
+    ewa_transfer transfer;
+    ewa_status status = read_text(context, WHOLE, &transfer);
+    if (status == EWA_OK) status = ewa_transfer_save(context, &transfer, user);
+    if (status == EWA_OK) status = ewa_transfer_load(context, user, &transfer);
+    return status;
+}
+
+static void test_failing_allocations(void **state) {
+    (void)state;
+    char path[512];
+    scratch_fail_each(save_and_load, (void *)(uintptr_t)scratch_path("failing.json", path));
+    ewa_context *context = check_context(1, NULL);
+    ewa_transfer transfer;
+    assert_int_equal(ewa_transfer_load(context, "/no/such/file", &transfer), EWA_ERROR_IO);
+    assert_int_equal(read_text(context, WHOLE, &transfer), EWA_OK);
+    assert_int_equal(ewa_transfer_save(context, &transfer, "/no/such/folder/file"), EWA_ERROR_IO);
+    transfer.points[0].value = NAN;
+    assert_int_equal(ewa_transfer_save(context, &transfer, path), EWA_ERROR_ARGUMENT);
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_opacity),         cmocka_unit_test(test_known_file),
+        cmocka_unit_test(test_broken_files),    cmocka_unit_test(test_every_truncation_fails),
+        cmocka_unit_test(test_too_many_points), cmocka_unit_test(test_automatic),
+
+        cmocka_unit_test(test_presets),         cmocka_unit_test(test_failing_allocations),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

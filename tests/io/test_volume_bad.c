@@ -1,0 +1,246 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Tests of volume files that are cut short, broken, or claim more than they hold.
+#include "volume_sample.h"
+
+static void test_every_truncation_fails(void **state) {
+    (void)state;
+    check_log log = {0};
+    ewa_context *context = check_context(1, &log);
+    sample_file file;
+    const char *name;
+    for (int which = 0; (name = sample_make(which, &file)); which++) {
+        // The line feed behind the last number of a text is no loss.
+        const size_t whole = which == 2 ? file.size_bytes - 1 : file.size_bytes;
+        for (size_t size_bytes = 0; size_bytes < whole; size_bytes++) {
+            ewa_volume volume;
+            log.count = 0;
+            // A number that lost its last digit is still one.
+            const ewa_status status = sample_load(context, &file, size_bytes, name, NULL, &volume);
+            if (which == 2 && size_bytes + 1 == whole && status == EWA_OK) {
+                ewa_volume_free(&volume);
+                continue;
+            }
+            // Half a word of a head may name something else that is not read.
+            if ((status != EWA_ERROR_FORMAT && status != EWA_ERROR_UNSUPPORTED) || !log.count)
+                fail_msg("%s cut to %zu bytes: status %d, %s", name, size_bytes, status, log.text);
+            assert_non_null(strstr(log.text, name));
+            assert_null(volume.voxels);
+        }
+    }
+    ewa_context_destroy(&context);
+}
+
+/// Every byte of every file is changed in a few ways: whatever comes back, nothing breaks.
+static void test_every_changed_byte(void **state) {
+    (void)state;
+    static const uint8_t others[] = {0x00, 0x20, 0x2d, 0x39, 0x7f, 0x80, 0xff};
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.thread_count = 1;
+    options.limits.max_memory_bytes = 1 << 24;
+    ewa_context *context = NULL;
+    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+    sample_file file;
+    const char *name;
+    for (int which = 0; (name = sample_make(which, &file)); which++)
+        for (size_t at = 0; at < file.size_bytes; at++)
+            for (size_t k = 0; k < sizeof others; k++) {
+                const uint8_t kept = file.bytes[at];
+                file.bytes[at] = others[k];
+                ewa_volume volume;
+                const ewa_status status = sample_load(context, &file, file.size_bytes, name, NULL, &volume);
+                assert_int_equal(status == EWA_OK, volume.voxels != NULL);
+                ewa_volume_free(&volume);
+                file.bytes[at] = kept;
+            }
+    ewa_context_destroy(&context);
+}
+
+#define NRRD  "NRRD0004\n"
+#define UCHAR "type: uchar\n"
+#define CUBE  "dimension: 3\nsizes: 1 1 1\n"
+#define RAW   "encoding: raw\n"
+#define META  "NDims = 3\nDimSize = 1 1 1\nElementType = MET_UCHAR\n"
+#define VTK   "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\n"
+
+static void test_broken_files(void **state) {
+    (void)state;
+    static const struct {
+        const char *text, *said;
+        ewa_status status;
+    } files[] = {
+        {"", "no volume", EWA_ERROR_FORMAT},
+        {"hello", "no volume", EWA_ERROR_FORMAT},
+        {NRRD UCHAR CUBE RAW "\n", "bytes", EWA_ERROR_FORMAT},
+        {NRRD UCHAR CUBE "\nx", "encoding", EWA_ERROR_FORMAT},
+        {NRRD UCHAR RAW "\nx", "dimension", EWA_ERROR_FORMAT},
+        {NRRD UCHAR RAW "dimension: 3\n\nx", "sizes", EWA_ERROR_FORMAT},
+        {NRRD CUBE RAW "\nx", "type", EWA_ERROR_FORMAT},
+        {NRRD "type: block\n" CUBE RAW "\nx", "block", EWA_ERROR_UNSUPPORTED},
+        {NRRD "type: short\n" CUBE RAW "\nxy", "endian", EWA_ERROR_FORMAT},
+        {NRRD "type: short\nendian: middle\n" CUBE RAW "\nxy", "middle", EWA_ERROR_FORMAT},
+        {NRRD UCHAR CUBE "encoding: zip\n\nx", "zip", EWA_ERROR_UNSUPPORTED},
+        {NRRD UCHAR "dimension: 0\nsizes: \n" RAW "\nx", "dimension", EWA_ERROR_FORMAT},
+        {NRRD UCHAR "dimension: 17\n" RAW "\nx", "dimension", EWA_ERROR_FORMAT},
+        {NRRD UCHAR "sizes: 1 1 1\ndimension: 3\n" RAW "\nx", "before dimension", EWA_ERROR_FORMAT},
+        {NRRD UCHAR "dimension: 3\nsizes: 1 1\n" RAW "\nx", "sizes", EWA_ERROR_FORMAT},
+        {NRRD UCHAR "dimension: 3\nsizes: 1 -1 1\n" RAW "\nx", "sizes", EWA_ERROR_FORMAT},
+        {NRRD UCHAR "dimension: 3\nsizes: 99999999999999999999 1 1\n" RAW "\nx", "sizes", EWA_ERROR_FORMAT},
+        {NRRD UCHAR "dimension: 3\nsizes: 4294967296 1 1\n" RAW "\nx", "limit", EWA_ERROR_LIMIT},
+        {NRRD UCHAR "dimension: 3\nsizes: 2000000 2000000 2000000\n" RAW "\nx", "limit", EWA_ERROR_LIMIT},
+        {NRRD UCHAR "dimension: 3\nsizes: 4294967295 4294967295 4294967295\nencoding: bzip2\n\nx", "limit",
+         EWA_ERROR_LIMIT},
+        {NRRD UCHAR "dimension: 3\nsizes: 1000 1000 1000\nencoding: gzip\n\nx", "at most", EWA_ERROR_FORMAT},
+        {NRRD UCHAR CUBE RAW "spacings: 0 1 1\n\nx", "zero", EWA_ERROR_FORMAT},
+        {NRRD UCHAR CUBE RAW "spacings: 1 inf 1\n\nx", "finite", EWA_ERROR_FORMAT},
+        {NRRD UCHAR CUBE RAW "spacings: 1 1\n\nx", "spacings", EWA_ERROR_FORMAT},
+        {NRRD UCHAR CUBE RAW "space: LPS\nspace directions: (1,0,0) (2,0,0) (0,0,1)\n\nx", "plane",
+         EWA_ERROR_FORMAT},
+        {NRRD UCHAR CUBE RAW "space: LPS\nspace directions: (1,0,0) (0,1,0) (1,1,1e-9)\n\nx", "plane",
+         EWA_ERROR_FORMAT},
+        {NRRD UCHAR CUBE RAW "space: LPS\nspace directions: (nan,0,0) (0,1,0) (0,0,1)\n\nx", "finite",
+         EWA_ERROR_FORMAT},
+        {NRRD UCHAR CUBE RAW "space: LPS\nspace directions: (1,0) (0,1,0) (0,0,1)\n\nx", "directions",
+         EWA_ERROR_FORMAT},
+        {NRRD UCHAR CUBE RAW "space: LPS\nspace origin: (1,nan,0)\n\nx", "finite", EWA_ERROR_FORMAT},
+        {NRRD UCHAR CUBE RAW "space: moon\n\nx", "moon", EWA_ERROR_UNSUPPORTED},
+        {NRRD UCHAR CUBE RAW "space dimension: 7\n\nx", "7", EWA_ERROR_UNSUPPORTED},
+        {NRRD UCHAR CUBE RAW "line skip: 5\n\nx", "lines", EWA_ERROR_FORMAT},
+        {NRRD UCHAR CUBE RAW "byte skip: 5\n\nx", "bytes", EWA_ERROR_FORMAT},
+        {NRRD UCHAR CUBE RAW "byte skip: 18446744073709551615\n\nx", "skip", EWA_ERROR_FORMAT},
+        {NRRD UCHAR CUBE RAW "nonsense\n\nx", "nonsense", EWA_ERROR_FORMAT},
+        {NRRD UCHAR CUBE RAW "data file: other.raw\n\n", "another file", EWA_ERROR_UNSUPPORTED},
+        {NRRD UCHAR CUBE "encoding: hex\n\nzz", "hexadecimal", EWA_ERROR_FORMAT},
+        {NRRD UCHAR CUBE "encoding: ascii\n\nx", "no number", EWA_ERROR_FORMAT},
+        {NRRD UCHAR CUBE "encoding: gzip\n\nxxxxxxxxxxxxxxxxxxx", "broken", EWA_ERROR_FORMAT},
+        {NRRD UCHAR CUBE "encoding: bzip2\n\nBZh9xxxxxxxxxxxxxxxxxxx", "broken", EWA_ERROR_FORMAT},
+        {META "ElementDataFile = LOCAL\n", "bytes", EWA_ERROR_FORMAT},
+        {META, "ElementDataFile", EWA_ERROR_FORMAT},
+        {META "ElementDataFile = x.raw\n", "another file", EWA_ERROR_UNSUPPORTED},
+        {META "ElementSpacing = 1 0 1\nElementDataFile = LOCAL\nx", "zero", EWA_ERROR_FORMAT},
+        {META "TransformMatrix = 1 0 0 0 1 0 1 1 0\nElementDataFile = LOCAL\nx", "plane", EWA_ERROR_FORMAT},
+        {META "ElementType = MET_OTHER\nElementDataFile = LOCAL\nx", "MET_OTHER", EWA_ERROR_UNSUPPORTED},
+        {META "ElementNumberOfChannels = 7\nElementDataFile = LOCAL\nx", "7", EWA_ERROR_UNSUPPORTED},
+        {"NDims = 11\n", "NDims", EWA_ERROR_FORMAT},
+        {"NDims = 3\nElementType = MET_UCHAR\nElementDataFile = LOCAL\nx", "DimSize", EWA_ERROR_FORMAT},
+        {VTK "DIMENSIONS 1 1 1\nSCALARS s float\nLOOKUP_TABLE default\nx", "no number", EWA_ERROR_FORMAT},
+        {VTK "DIMENSIONS 1 1\nSCALARS s float\nLOOKUP_TABLE default\n1", "DIMENSIONS", EWA_ERROR_FORMAT},
+        {VTK "SPACING 0 1 1\n", "zero", EWA_ERROR_FORMAT},
+        {VTK "SCALARS s bit\n", "bit", EWA_ERROR_UNSUPPORTED},
+        {VTK "CELL_DATA 5\n", "CELL_DATA", EWA_ERROR_UNSUPPORTED},
+        {"# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n", "POLYDATA", EWA_ERROR_UNSUPPORTED},
+        {"# vtk DataFile Version 3.0\nt\nMAYBE\n", "MAYBE", EWA_ERROR_FORMAT},
+        {"<VTKFile type=\"PolyData\"></VTKFile>", "ImageData", EWA_ERROR_UNSUPPORTED},
+    };
+    check_log log = {0};
+    ewa_context *context = check_context(1, &log);
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+        sample_file file = {.size_bytes = 0};
+        ewa_volume volume;
+        sample_text(&file, files[i].text);
+        log.count = 0;
+        const ewa_status status = sample_load(context, &file, file.size_bytes, "bad", NULL, &volume);
+        if (status != files[i].status || !log.count || !strstr(log.text, files[i].said) ||
+            strncmp(log.text, "bad: ", 5) != 0)
+            fail_msg("case %zu (%s): status %d, said '%s'", i, files[i].text, status, log.text);
+        assert_null(volume.voxels);
+    }
+    ewa_context_destroy(&context);
+}
+
+static void test_broken_nifti(void **state) {
+    (void)state;
+    static const struct {
+        size_t at, size;
+        uint64_t bits;
+        ewa_status status;
+    } changes[] = {
+        {40, 2, 8, EWA_ERROR_FORMAT},           // axes
+        {42, 2, 0, EWA_ERROR_FORMAT},           // an axis of none
+        {42, 2, 0x8000, EWA_ERROR_FORMAT},      // of fewer than none
+        {42, 2, 0x7fff, EWA_ERROR_FORMAT},      // of more than there are
+        {70, 2, 1792, EWA_ERROR_UNSUPPORTED},   // complex doubles
+        {80, 4, 0, EWA_ERROR_FORMAT},           // a step of zero
+        {80, 4, 0x7fc00000, EWA_ERROR_FORMAT},  // that is no number
+        {108, 4, 0xbf800000, EWA_ERROR_FORMAT}, // voxels at byte -1
+        {108, 4, 0x7f800000, EWA_ERROR_FORMAT}, // at infinity
+        {108, 4, 0x4e800000, EWA_ERROR_FORMAT}, // beyond the end
+        {254, 2, 1, EWA_ERROR_FORMAT},          // an sform of zeros
+    };
+    check_log log = {0};
+    ewa_context *context = check_context(1, &log);
+    for (size_t i = 0; i < sizeof changes / sizeof changes[0]; i++) {
+        sample_file file;
+        ewa_volume volume;
+        sample_make(4, &file);
+        sample_store(file.bytes + changes[i].at, false, changes[i].size, changes[i].bits);
+        log.count = 0;
+        const ewa_status status = sample_load(context, &file, file.size_bytes, "bad.nii", NULL, &volume);
+        if (status != changes[i].status || !log.count) fail_msg("case %zu: %d, %s", i, status, log.text);
+    }
+    ewa_context_destroy(&context);
+}
+
+static void test_limit(void **state) {
+    (void)state;
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.limits.max_memory_bytes = 1000;
+    ewa_context *context = NULL;
+    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+    sample_file file = {.size_bytes = 0};
+    // 1,001 voxels that the file does hold.
+    sample_text(&file, "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 7 11 13\nencoding: raw\n\n");
+    memset(file.bytes + file.size_bytes, 1, 1001);
+    file.size_bytes += 1001;
+    ewa_volume volume;
+    assert_int_equal(sample_load(context, &file, file.size_bytes, "big", NULL, &volume), EWA_ERROR_LIMIT);
+    ewa_context_destroy(&context);
+}
+
+static ewa_status load_one(ewa_context *context, void *user) {
+    sample_file file;
+    const char *name = sample_make(*(int *)user, &file);
+    ewa_volume volume;
+    const ewa_status status = sample_load(context, &file, file.size_bytes, name, NULL, &volume);
+    ewa_volume_free(&volume);
+    return status;
+}
+
+static void test_failing_allocations(void **state) {
+    (void)state;
+    sample_file file;
+    for (int which = 0; sample_make(which, &file); which++) scratch_fail_each(load_one, &which);
+}
+
+static ewa_status save_one(ewa_context *context, void *user) {
+    ewa_volume volume;
+    ewa_status status = ewa_volume_create(context, (const uint32_t[3]){4, 4, 4}, EWA_U8, &volume);
+    if (status == EWA_OK) status = ewa_volume_save(&volume, user, NULL);
+    ewa_volume_free(&volume);
+    return status;
+}
+
+static void test_failing_save(void **state) {
+    (void)state;
+    char path[512];
+    scratch_fail_each(save_one, (void *)(uintptr_t)scratch_path("failing.nrrd", path));
+    ewa_context *context = check_context(1, NULL);
+    assert_int_equal(save_one(context, "/no/such/folder/a.nrrd"), EWA_ERROR_IO);
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_every_truncation_fails),
+        cmocka_unit_test(test_every_changed_byte),
+        cmocka_unit_test(test_broken_files),
+        cmocka_unit_test(test_broken_nifti),
+        cmocka_unit_test(test_limit),
+        cmocka_unit_test(test_failing_allocations),
+        cmocka_unit_test(test_failing_save),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,270 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The renderer of volumes against its reference, closed forms, and itself.
+#include "check.h"
+#include "volume/scene.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double UNIT[3] = {1, 1, 1};
+
+static ewa_volume_options defaults(void) {
+    ewa_volume_options options;
+    ewa_volume_options_init(&options, sizeof options);
+    return options;
+}
+
+static double largest_difference(const ewa_image *a, const ewa_image *b) {
+    ewa_difference difference;
+    assert_int_equal(ewa_image_compare(a, b, 1, 0, &difference, NULL), EWA_OK);
+    return difference.maximum;
+}
+
+static double psnr_db(const ewa_image *a, const ewa_image *b) {
+    ewa_difference difference;
+    assert_int_equal(ewa_image_compare(a, b, 1, 0, &difference, NULL), EWA_OK);
+    return difference.psnr_db;
+}
+
+/// A picture of everything, near enough for splats, held to the reference.
+static double error_of(const double spacing[3], double distance, ewa_volume_options options, bool ortho) {
+    static const uint32_t dims[3] = {23, 18, 21};
+    static const double direction[3] = {0.7, 0.4, -1};
+    const double half = 8;
+    ewa_context *context = check_context(2, NULL);
+    ewa_volume volume = scene_volume(context, dims, spacing, scene_vessels, &half);
+    const ewa_transfer transfer = scene_linear(0.9f, 0.5f, 0.2f, 0.7f);
+    ewa_camera camera = scene_camera(93, 71, direction, distance);
+    if (ortho) assert_int_equal(ewa_camera_set_ortho(&camera, distance * 0.7), EWA_OK);
+    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    options.least_transmittance = 0;
+    ewa_image fast = scene_draw(context, voxels, &camera, &options);
+    ewa_image slow = scene_draw_reference(&volume, &transfer, &camera, &options);
+    const double error = largest_difference(&fast, &slow);
+    double sum = 0;
+    for (int i = 3; i < 4 * 93 * 71; i += 4) sum += (double)slow.pixels[i];
+    assert_true(sum > 100); // there is something to compare
+    ewa_image_free(&fast);
+    ewa_image_free(&slow);
+    ewa_voxels_destroy(&voxels);
+    ewa_volume_free(&volume);
+    ewa_context_destroy(&context);
+    return error;
+}
+
+static void test_splats_equal_reference(void **state) {
+    (void)state;
+    static const double oblong[3] = {0.8, 1.3, 1};
+    ewa_volume_options options = defaults();
+    options.method = EWA_VOLUME_SPLATS;
+    assert_true(error_of(UNIT, 40, options, false) < 1e-4);
+    assert_true(error_of(UNIT, 25, options, false) < 1e-4);
+    assert_true(error_of(UNIT, 40, options, true) < 1e-4);
+    // The reference takes the length of oblong voxels along each pixel's ray, not the middle's.
+    assert_true(error_of(oblong, 40, options, false) < 3e-3);
+    options.index = EWA_INDEX_TABLE;
+    assert_true(error_of(UNIT, 40, options, false) < 1e-3);
+    options.shading = EWA_SHADING_PHONG;
+    options.index = EWA_INDEX_EXACT;
+    assert_true(error_of(UNIT, 40, options, false) < 2e-2); // gradients are resident in 30 bits
+}
+
+static void test_points_are_near_reference(void **state) {
+    (void)state;
+    ewa_volume_options options = defaults();
+    // 71 px for 40 degrees: voxels of 1 px at a distance of 97.
+    assert_true(error_of(UNIT, 120, options, false) < 0.05);
+    assert_true(error_of(UNIT, 120, options, true) < 0.05);
+}
+
+/// Through a slab of thickness t gets exp(-kappa t), from any direction in which it is thick enough.
+static void test_slab(void **state) {
+    (void)state;
+    static const uint32_t dims[3] = {64, 64, 12};
+    static const double direction[3] = {0, 0, -1};
+    const double kappa = 0.11, truth = 1 - exp(-kappa * 12);
+    ewa_context *context = check_context(2, NULL);
+    ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
+    const ewa_transfer transfer = scene_linear(1, 1, 1, (float)kappa);
+    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    for (int method = EWA_VOLUME_HYBRID; method <= EWA_VOLUME_POINTS; method++)
+        for (int sight = 0; sight < 3; sight++) {
+            const double distance = sight == 0 ? 40 : sight == 1 ? 90 : 150; // 2.5, 1, 0.6 px
+            if (method == EWA_VOLUME_POINTS && sight == 0) continue;         // holes
+            ewa_camera camera = scene_camera(64, 64, direction, distance);
+            ewa_volume_options options = defaults();
+            options.method = (ewa_volume_method)method;
+            ewa_image image = scene_draw(context, voxels, &camera, &options);
+            for (int y = 28; y < 36; y++)
+                for (int x = 28; x < 36; x++) {
+                    const double alpha = (double)image.pixels[4 * (64 * y + x) + 3];
+                    // Rays are slightly slanted, kernels have a ripple of 0.2 %.
+                    if (fabs(alpha - truth) > 0.006)
+                        print_message("%d %d: %g, not %g\n", method, sight, alpha, truth);
+                    assert_true(fabs(alpha - truth) < 0.006);
+                }
+            ewa_image_free(&image);
+        }
+    ewa_voxels_destroy(&voxels);
+    ewa_volume_free(&volume);
+    ewa_context_destroy(&context);
+}
+
+/// The same bytes from any number of threads and any instruction set.
+static void test_same_bytes(void **state) {
+    (void)state;
+    static const uint32_t dims[3] = {60, 60, 60};
+    static const double direction[3] = {0.7, 0.4, -1};
+    const double half = 28;
+    uint8_t *first = NULL;
+    const size_t bytes = 4 * 201 * 150 * sizeof(float);
+    for (int variant = 0; variant < 4; variant++) {
+        ewa_context_options context_options;
+        ewa_context_options_init(&context_options, sizeof context_options);
+        context_options.thread_count = variant == 1 ? 3 : 1;
+        context_options.cpu_mask = variant == 2 ? EWA_CPU_AVX2 : variant == 3 ? 0 : EWA_CPU_ALL;
+        ewa_context *context;
+        assert_int_equal(ewa_context_create(&context_options, &context), EWA_OK);
+        ewa_volume volume = scene_volume(context, dims, UNIT, scene_vessels, &half);
+        const ewa_transfer transfer = scene_linear(0.9f, 0.5f, 0.2f, 0.9f);
+        ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+        uint8_t *all = malloc(4 * bytes);
+        assert_non_null(all);
+        for (int sight = 0; sight < 4; sight++) {
+            ewa_camera camera = scene_camera(201, 150, direction, sight < 2 ? 80 : 200);
+            ewa_volume_options options = defaults();
+            options.index = sight == 1 ? EWA_INDEX_TABLE : EWA_INDEX_EXACT;
+            options.shading = sight & 1 ? EWA_SHADING_PHONG : EWA_SHADING_NONE;
+            ewa_image image = scene_draw(context, voxels, &camera, &options);
+            memcpy(all + (size_t)sight * bytes, image.pixels, bytes);
+            ewa_image_free(&image);
+        }
+        if (first)
+            assert_memory_equal(first, all, 4 * bytes);
+        else
+            first = all;
+        if (first != all) free(all);
+        ewa_voxels_destroy(&voxels);
+        ewa_volume_free(&volume);
+        ewa_context_destroy(&context);
+    }
+    free(first);
+}
+
+/// What is culled because it is hidden does not show.
+static void test_culling_changes_nothing(void **state) {
+    (void)state;
+    static const uint32_t dims[3] = {48, 48, 48};
+    static const double direction[3] = {0.3, 0.2, -1};
+    const double radius = 20;
+    ewa_context *context = check_context(2, NULL);
+    ewa_volume volume = scene_volume(context, dims, UNIT, scene_ball, &radius);
+    const ewa_transfer transfer = scene_linear(0.2f, 0.5f, 0.9f, 3);
+    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    ewa_volume_renderer *renderer;
+    assert_int_equal(ewa_volume_renderer_create(context, &renderer), EWA_OK);
+    for (int sight = 0; sight < 2; sight++) {
+        const ewa_camera camera = scene_camera(150, 150, direction, sight ? 60 : 260);
+        float *pixels[2];
+        uint64_t hidden[2];
+        for (int culled = 0; culled < 2; culled++) {
+            ewa_volume_options options = defaults();
+            if (!culled) options.least_transmittance = 0;
+            pixels[culled] = malloc(4 * 150 * 150 * sizeof(float));
+            const ewa_frame frame = {.rgba = pixels[culled]};
+            ewa_volume_stats stats;
+            assert_int_equal(ewa_volume_render(renderer, voxels, &camera, &options, &frame, &stats), EWA_OK);
+            hidden[culled] = stats.hidden_count;
+            assert_true(sight ? stats.point_count == 0 : stats.splat_count == 0);
+        }
+        assert_true(hidden[1] > hidden[0] + 1000);
+        for (int i = 0; i < 4 * 150 * 150; i++) assert_true(fabsf(pixels[0][i] - pixels[1][i]) <= 1.0f / 511);
+        free(pixels[0]);
+        free(pixels[1]);
+    }
+    ewa_volume_renderer_destroy(&renderer);
+    ewa_voxels_destroy(&voxels);
+    ewa_volume_free(&volume);
+    ewa_context_destroy(&context);
+}
+
+/// A plane in homogeneous fog: exp(-kappa d) of it is seen through d of fog.
+static void test_surface_in_fog(void **state) {
+    (void)state;
+    static const uint32_t dims[3] = {64, 64, 40};
+    static const double direction[3] = {0, 0, -1};
+    enum { SIDE = 64 };
+    const double kappa = 0.07;
+    ewa_context *context = check_context(2, NULL);
+    ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
+    const ewa_transfer transfer = scene_linear(1, 1, 1, (float)kappa);
+    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    float depth[SIDE * SIDE], rgba[4 * SIDE * SIDE];
+    for (int method = EWA_VOLUME_HYBRID; method <= EWA_VOLUME_POINTS; method++)
+        for (double d = 3.5; d < 40; d += 7.3) {
+            const double distance = method == EWA_VOLUME_POINTS ? 140 : 60;
+            const ewa_camera camera = scene_camera(SIDE, SIDE, direction, distance);
+            for (int i = 0; i < SIDE * SIDE; i++) {
+                depth[i] = (float)(distance - 20 + d);
+                rgba[4 * i] = 0, rgba[4 * i + 1] = 1, rgba[4 * i + 2] = 0, rgba[4 * i + 3] = 1;
+            }
+            ewa_volume_options options = defaults();
+            options.method = (ewa_volume_method)method;
+            options.surface_depth = depth, options.surface_rgba = rgba;
+            ewa_image image = scene_draw(context, voxels, &camera, &options);
+            const float *middle = image.pixels + 4 * (SIDE / 2 * SIDE + SIDE / 2);
+            const double through = 1 - (double)middle[0], truth = exp(-kappa * d);
+            if (fabs(through - truth) > 0.01)
+                print_message("%d, %g: %g, not %g\n", method, d, through, truth);
+            assert_true(fabs(through - truth) < 0.01);
+            assert_true(fabsf(middle[1] - 1) < 1e-5f && fabsf(middle[3] - 1) < 1e-5f);
+            ewa_image_free(&image);
+        }
+    ewa_voxels_destroy(&voxels);
+    ewa_volume_free(&volume);
+    ewa_context_destroy(&context);
+}
+
+/// Coarser levels are the same fog in fewer voxels.
+static void test_levels(void **state) {
+    (void)state;
+    static const uint32_t dims[3] = {50, 50, 50};
+    static const double direction[3] = {0.3, 0.2, -1};
+    const double sigma = 9;
+    ewa_context *context = check_context(2, NULL);
+    ewa_volume volume = scene_volume(context, dims, UNIT, scene_blob, &sigma);
+    const ewa_transfer transfer = scene_linear(0.2f, 0.5f, 0.9f, 0.1f);
+    ewa_voxels_options voxels_options;
+    ewa_voxels_options_init(&voxels_options, sizeof voxels_options);
+    voxels_options.level_count = 3;
+    ewa_voxels *voxels;
+    assert_int_equal(ewa_voxels_create(&volume, &transfer, &voxels_options, &voxels), EWA_OK);
+    const ewa_camera camera = scene_camera(100, 100, direction, 150);
+    ewa_volume_options options = defaults();
+    ewa_image images[3];
+    for (uint32_t level = 0; level < 3; level++) {
+        options.level = level;
+        images[level] = scene_draw(context, voxels, &camera, &options);
+    }
+    assert_true(psnr_db(&images[0], &images[1]) > 40);
+    assert_true(psnr_db(&images[0], &images[2]) > 30);
+    for (int i = 0; i < 3; i++) ewa_image_free(&images[i]);
+    ewa_voxels_destroy(&voxels);
+    ewa_volume_free(&volume);
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_splats_equal_reference),
+        cmocka_unit_test(test_points_are_near_reference),
+        cmocka_unit_test(test_slab),
+        cmocka_unit_test(test_same_bytes),
+        cmocka_unit_test(test_culling_changes_nothing),
+        cmocka_unit_test(test_surface_in_fog),
+        cmocka_unit_test(test_levels),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

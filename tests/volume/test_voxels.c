@@ -1,0 +1,296 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The resident form of volumes, and what both it and the renderer refuse or survive.
+#include "check.h"
+#include "volume/scene.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double UNIT[3] = {1, 1, 1}, DIRECTION[3] = {0.7, 0.4, -1};
+
+static void test_counts_and_bytes(void **state) {
+    (void)state;
+    static const uint32_t dims[3] = {61, 70, 83};
+    const double radius = 22;
+    ewa_context *context = check_context(2, NULL);
+    ewa_volume volume = scene_volume(context, dims, UNIT, scene_ball, &radius);
+    const ewa_transfer transfer = scene_linear(1, 1, 1, 1);
+    uint64_t occupied = 0;
+    for (size_t i = 0; i < (size_t)61 * 70 * 83; i++) occupied += ((float *)volume.voxels)[i] > 0;
+    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    ewa_voxels_info info;
+    ewa_voxels_describe(voxels, &info);
+    assert_int_equal(info.occupied_count, occupied);
+    assert_int_equal(info.voxel_count, 61 * 70 * 83);
+    assert_int_equal(info.block_count, 8 * 9 * 11);
+    assert_true(info.skipped_count > 300);
+    assert_true(info.resident_bytes < 32 * occupied);
+    for (int axis = 0; axis < 3; axis++) {
+        assert_true(fabs(info.bounds.low_world[axis] + radius) < 1);
+        assert_true(fabs(info.bounds.high_world[axis] - radius) < 1);
+    }
+    ewa_voxels_destroy(&voxels);
+    assert_null(voxels);
+    ewa_volume_free(&volume);
+    ewa_context_destroy(&context);
+}
+
+/// Where a volume is does not matter, nor in which type its numbers are, nor what is NaN or out of range.
+static void test_types_and_holes(void **state) {
+    (void)state;
+    static const uint32_t dims[3] = {20, 20, 20};
+    enum { COUNT = 8000 };
+    ewa_context *context = check_context(2, NULL);
+    ewa_transfer transfer = {.point_count = 2, .unit_length_world = 1};
+    transfer.points[0] = (ewa_transfer_point){10, {1, 1, 1}, 0.5f};
+    transfer.points[1] = (ewa_transfer_point){100, {1, 0, 0}, 1};
+    static const ewa_type types[] = {EWA_U8, EWA_I8, EWA_U16, EWA_I16, EWA_F32};
+    const ewa_camera camera = scene_camera(60, 60, DIRECTION, 60);
+    ewa_volume_options options;
+    ewa_volume_options_init(&options, sizeof options);
+    ewa_image first = {0};
+    for (int t = 0; t < 5; t++) {
+        ewa_volume volume;
+        assert_int_equal(ewa_volume_create(context, dims, types[t], &volume), EWA_OK);
+        for (int i = 0; i < COUNT; i++) {
+            const int value = i % 125;
+            switch (types[t]) {
+            case EWA_U8:
+                ((uint8_t *)volume.voxels)[i] = (uint8_t)value;
+                break;
+            case EWA_I8:
+                ((int8_t *)volume.voxels)[i] = (int8_t)value;
+                break;
+            case EWA_U16:
+                ((uint16_t *)volume.voxels)[i] = (uint16_t)value;
+                break;
+            case EWA_I16:
+                ((int16_t *)volume.voxels)[i] = (int16_t)value;
+                break;
+            default:
+                ((float *)volume.voxels)[i] = value > 100 ? NAN : (float)value;
+            }
+        }
+        ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+        ewa_image image = scene_draw(context, voxels, &camera, &options);
+        for (int i = 0; i < 4 * 60 * 60; i++) assert_true(isfinite(image.pixels[i]));
+        if (t) {
+            assert_memory_equal(image.pixels, first.pixels, 4 * 60 * 60 * sizeof(float));
+            ewa_image_free(&image);
+        } else {
+            first = image;
+        }
+        ewa_voxels_destroy(&voxels);
+        ewa_volume_free(&volume);
+    }
+    ewa_image_free(&first);
+    ewa_context_destroy(&context);
+}
+
+static void refuse(ewa_context *context, const ewa_volume *volume, const ewa_transfer *transfer,
+                   check_log *log, const char *part) {
+    (void)context;
+    ewa_voxels *voxels = (ewa_voxels *)(uintptr_t)64;
+    assert_int_equal(ewa_voxels_create(volume, transfer, NULL, &voxels), EWA_ERROR_ARGUMENT);
+    assert_null(voxels);
+    if (!strstr(log->text, part)) print_message("%s\n", log->text);
+    assert_non_null(strstr(log->text, part));
+}
+
+static void test_bad_input(void **state) {
+    (void)state;
+    static const uint32_t dims[3] = {4, 4, 4};
+    check_log log = {0};
+    ewa_context *context = check_context(1, &log);
+    ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
+    ewa_transfer transfer = scene_linear(1, 1, 1, 1);
+    ewa_volume wrong = volume;
+    wrong.index_to_world[5] = 0;
+    refuse(context, &wrong, &transfer, &log, "not invertible");
+    wrong.index_to_world[5] = NAN;
+    refuse(context, &wrong, &transfer, &log, "index_to_world[5]");
+    wrong = volume;
+    wrong.dims[1] = 0;
+    refuse(context, &wrong, &transfer, &log, "4 x 0 x 4");
+    wrong = volume;
+    wrong.type = EWA_F64;
+    refuse(context, &wrong, &transfer, &log, "type");
+    wrong = volume;
+    wrong.voxels = NULL;
+    refuse(context, &wrong, &transfer, &log, "no voxels");
+    transfer.points[1].value = -1;
+    refuse(context, &volume, &transfer, &log, "point 1");
+    transfer.point_count = 1;
+    refuse(context, &volume, &transfer, &log, "1 points");
+    ewa_volume_free(&volume);
+    ewa_context_destroy(&context);
+}
+
+static void test_bad_options(void **state) {
+    (void)state;
+    static const uint32_t dims[3] = {4, 4, 4};
+    check_log log = {0};
+    ewa_context *context = check_context(1, &log);
+    ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
+    const ewa_transfer transfer = scene_linear(1, 1, 1, 1);
+    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    ewa_volume_renderer *renderer;
+    assert_int_equal(ewa_volume_renderer_create(context, &renderer), EWA_OK);
+    const ewa_camera camera = scene_camera(8, 8, DIRECTION, 20);
+    float pixels[4 * 8 * 8];
+    ewa_frame frame = {.rgba = pixels};
+    ewa_volume_options good;
+    ewa_volume_options_init(&good, sizeof good);
+    for (int i = 0; i < 12; i++) {
+        ewa_volume_options bad = good;
+        switch (i) {
+        case 0:
+            bad.struct_size = 1;
+            break;
+        case 1:
+            bad.sigma = NAN;
+            break;
+        case 2:
+            bad.cutoff = 0;
+            break;
+        case 3:
+            bad.method = (ewa_volume_method)7;
+            break;
+        case 4:
+            bad.index = (ewa_volume_index)7;
+            break;
+        case 5:
+            bad.level = 2;
+            break;
+        case 6:
+            bad.least_transmittance = 1;
+            break;
+        case 7:
+            bad.surface_depth = pixels;
+            break;
+        case 8:
+            bad.material.shininess = 0;
+            break;
+        case 9:
+            bad.background[3] = 2;
+            break;
+        case 10:
+            bad.light_count = 9;
+            break;
+        default:
+            bad.depth_unit = 0;
+        }
+        log.text[0] = 0;
+        assert_int_equal(ewa_volume_render(renderer, voxels, &camera, &bad, &frame, NULL),
+                         EWA_ERROR_ARGUMENT);
+        assert_true(log.text[0] != 0);
+        if (i == 5 || i == 6) continue; // not looked at
+        assert_int_equal(ewa_volume_render_reference(&volume, &transfer, &camera, &bad, &frame),
+                         EWA_ERROR_ARGUMENT);
+    }
+    frame.normal = pixels;
+    assert_int_equal(ewa_volume_render(renderer, voxels, &camera, &good, &frame, NULL), EWA_ERROR_ARGUMENT);
+    ewa_volume_renderer_destroy(&renderer);
+    ewa_voxels_destroy(&voxels);
+    ewa_volume_free(&volume);
+    ewa_context_destroy(&context);
+}
+
+/// Everything from volume to picture; the status of what fails first.
+static ewa_status draw_all(ewa_context *context, uint32_t frames, const check_memory *memory, long *calls) {
+    static const uint32_t dims[3] = {20, 20, 20};
+    ewa_volume volume;
+    ewa_status status = ewa_volume_create(context, dims, EWA_U8, &volume);
+    if (status != EWA_OK) return status;
+    for (int i = 0; i < 8000; i++) ((uint8_t *)volume.voxels)[i] = (uint8_t)(i % 3);
+    const ewa_transfer transfer = scene_linear(1, 1, 1, 1);
+    ewa_voxels *voxels = NULL;
+    ewa_volume_renderer *renderer = NULL;
+    float pixels[4 * 70 * 70];
+    const ewa_frame frame = {.rgba = pixels};
+    const ewa_camera camera = scene_camera(70, 70, DIRECTION, 50);
+    status = ewa_voxels_create(&volume, &transfer, NULL, &voxels);
+    if (status == EWA_OK) status = ewa_volume_renderer_create(context, &renderer);
+    for (uint32_t i = 0; i < frames && status == EWA_OK; i++) {
+        status = ewa_volume_render(renderer, voxels, &camera, NULL, &frame, NULL);
+        if (calls) calls[i] = memory->calls_left;
+    }
+    if (status == EWA_OK) status = ewa_volume_render_reference(&volume, &transfer, &camera, NULL, &frame);
+    ewa_volume_renderer_destroy(&renderer);
+    ewa_voxels_destroy(&voxels);
+    ewa_volume_free(&volume);
+    return status;
+}
+
+static void test_failing_memory(void **state) {
+    (void)state;
+    check_memory memory = {.calls_left = -1};
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.allocator = check_allocator(&memory);
+    options.thread_count = 2;
+    ewa_context *context;
+    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+    const int64_t held_bytes = memory.held_bytes;
+    long failed = 0;
+    for (;; failed++) {
+        memory.calls_left = failed;
+        const ewa_status status = draw_all(context, 1, &memory, NULL);
+        assert_int_equal(memory.held_bytes, held_bytes);
+        if (status == EWA_OK) break;
+        assert_int_equal(status, EWA_ERROR_MEMORY);
+    }
+    assert_true(failed > 30);
+    // A warm frame allocates nothing.
+    long calls[3];
+    memory.calls_left = 1000;
+    assert_int_equal(draw_all(context, 3, &memory, calls), EWA_OK);
+    assert_int_equal(calls[1], calls[0]);
+    assert_int_equal(calls[2], calls[0]);
+    ewa_context_destroy(&context);
+    assert_int_equal(memory.held_bytes, 0);
+}
+
+/// From within, from behind, from far away, of nothing: finite pictures.
+static void test_odd_views(void **state) {
+    (void)state;
+    static const uint32_t dims[3] = {30, 30, 30};
+    ewa_context *context = check_context(2, NULL);
+    ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
+    const ewa_transfer transfers[2] = {scene_linear(1, 1, 1, 0.2f), scene_linear(1, 1, 1, 0)};
+    for (int empty = 0; empty < 2; empty++) {
+        ewa_voxels *voxels = scene_voxels(&volume, &transfers[empty]);
+        static const double distances[] = {0.1, 3, 15, 17, 1e4, 1e9};
+        for (int view = 0; view < 12; view++) {
+            ewa_camera camera = scene_camera(70, 50, DIRECTION, distances[view % 6]);
+            if (view >= 6) assert_int_equal(ewa_camera_set_ortho(&camera, distances[view % 6]), EWA_OK);
+            ewa_volume_options options;
+            ewa_volume_options_init(&options, sizeof options);
+            options.shading = EWA_SHADING_PHONG;
+            options.method = (ewa_volume_method)(view % 3);
+            ewa_image image = scene_draw(context, voxels, &camera, &options);
+            double sum = 0;
+            for (int i = 0; i < 4 * 70 * 50; i++) {
+                assert_true(image.pixels[i] >= 0 && image.pixels[i] < 1.5f);
+                sum += (double)image.pixels[i];
+            }
+            if (empty) assert_true(sum == 0);
+            if (!empty && view < 2) assert_true(sum > 0); // the fog around the eye
+            ewa_image_free(&image);
+        }
+        ewa_voxels_destroy(&voxels);
+    }
+    ewa_volume_free(&volume);
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_counts_and_bytes), cmocka_unit_test(test_types_and_holes),
+        cmocka_unit_test(test_bad_input),        cmocka_unit_test(test_bad_options),
+        cmocka_unit_test(test_failing_memory),   cmocka_unit_test(test_odd_views),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
