@@ -305,8 +305,8 @@ const cli_command texture_command = {
                "neither, a camera sees the image in the world: without --eye and such, the whole of it, from "
                "the front.",
     .examples = "ewa texture photo.jpg -o tilted.png --corners 80,40,600,10,630,470,20,400\n"
-                "ewa texture check.png -o floor.png --repeat on --plane -1,1,0,2,0,0,0,-2,0 --eye 0,-2,0.4 --up 0,0,1 "
-                "--target 0,1,0.2\n"
+                "ewa texture check.png -o floor.png --repeat on --plane -1,1,0,2,0,0,0,-2,0 --eye 0,-2,0.4 "
+                "--up 0,0,1 --target 0,1,0.2\n"
                 "ewa texture photo.png -o shifted.exr --homography 1,0,8,0,1,3,0,0,1 --method splat\n",
     .low_operands = 1,
     .high_operands = 1,

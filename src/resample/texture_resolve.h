@@ -39,8 +39,10 @@ static ALWAYS_INLINE wi encode_pixels(const wf color[4], bool with_alpha) {
         shown = wf_le(one, alpha);
         codes = wi_shl(wi_from_f(alpha), 24);
     }
-    for (int c = 0; c < 3; c++)
-        codes = wi_or(codes, wi_shl(srgb_codes(wf_keep(shown, wf_clamp01(wf_mul(color[c], straight)))), 8 * c));
+    for (int c = 0; c < 3; c++) {
+        const wf linear = wf_keep(shown, wf_clamp01(wf_mul(color[c], straight)));
+        codes = wi_or(codes, wi_shl(srgb_codes(linear), 8 * c));
+    }
     return codes;
 }
 
