@@ -16,6 +16,7 @@
 #include "ewa/prepare.h"
 #include "ewa/procedure.h"
 #include "ewa/render.h"
+#include "ewa/resample.h"
 #include "ewa/shade.h"
 #include "ewa/volume.h"
 #include "ewa/volume_render.h"

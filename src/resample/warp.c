@@ -9,6 +9,7 @@
 #include "resample/warp.h"
 #include "image/srgb.h"
 #include "kernels/semantics.h"
+#include "prepare/color.h"
 #include "resample/warp_options.h"
 #include "splat/options.h"
 

@@ -1,74 +1,130 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Pictures onto points, from the command line.
+// texture: maps, formats, usage, broken input.
 #include "run_ewa.h"
 
+#include <math.h>
 #include <string.h>
+
+static ewa_context *context;
+
+static void save(const char *name, uint32_t channels) {
+    ewa_image image;
+    assert_int_equal(ewa_image_create(context, 60, 40, channels, &image), EWA_OK);
+    for (uint32_t i = 0; i < 60 * 40; i++)
+        for (uint32_t c = 0; c < channels; c++)
+            image.pixels[channels * i + c] = c == 3 ? 1.0f : (float)(i % 60 / 10 + i / 600 + c) / 12;
+    assert_int_equal(ewa_image_save(&image, scratch_path(name), NULL), EWA_OK);
+    ewa_image_free(&image);
+}
 
 static int enter(void **state) {
     (void)state;
-    return scratch_enter("cli_texture");
+    context = check_context(0, NULL);
+    if (scratch_enter("cli_texture") != 0) return -1;
+    save("grey.exr", 1);
+    save("rgb.png", 3);
+    save("rgb.pfm", 3);
+    return 0;
 }
 
-/// A quad with texture coordinates, but without a picture.
-static const char quad[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
-                           "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+static int leave(void **state) {
+    (void)state;
+    ewa_context_destroy(&context);
+    return 0;
+}
 
-static void make_picture(void) {
-    run_done("ewa generate checker -n 10000 --checks 4 -o board.ply");
+static ewa_image load(const char *name) {
+    ewa_image image = {0};
+    assert_int_equal(ewa_image_load(context, scratch_path(name), &image), EWA_OK);
+    return image;
+}
+
+/// The same map said in four ways gives the same picture.
+static void test_maps(void **state) {
+    (void)state;
+    run_done("ewa texture rgb.pfm -o a.exr --homography 2,0,10,0,2,5,0,0,1 --size 140x90");
+    run_done("ewa texture rgb.pfm -o b.exr --homography -2,0,-10,0,-2,-5,0,0,-1 --size 140x90");
+    run_done("ewa texture rgb.pfm -o c.exr --corners 10,5,130,5,130,85,10,85 --size 140x90");
     run_done(
-        "ewa render board.ply -o board.png --size 64x64 --view top --ortho 2 --shading none --edge-aa off");
-}
-
-static void test_mesh(void **state) {
-    (void)state;
-    make_picture();
-    scratch_text("quad.obj", quad);
-    assert_int_equal(run("ewa sample quad.obj -o grey.ply -n 500"), 0);
-    assert_non_null(strstr(last_run.err, "--texture"));
-    static const char *const filters[] = {"nearest", "ewa", "optimal"};
-    for (int i = 0; i < 3; i++) {
-        run_done("ewa sample quad.obj --texture board.png --texture-filter %s -o %s.ply -n 500", filters[i],
-                 filters[i]);
-        assert_int_equal(run("ewa info %s.ply --json", filters[i]), 0);
-        assert_non_null(strstr(last_run.out, "color"));
-        assert_null(strstr(last_run.out, "texcoord"));
+        "ewa texture rgb.pfm -o d.exr --ortho 90 --eye 0,0,9 --target 0,0,0 --plane -60,40,0,120,0,0,0,-80,0 "
+        "--size 140x90");
+    ewa_image a = load("a.exr");
+    assert_int_equal(a.channel_count, 4);
+    assert_true(a.pixels[3] == 0 && fabsf(a.pixels[4 * (45 * 140 + 70) + 3] - 1) < 1e-6f);
+    for (const char *name = "bcd"; *name; name++) {
+        const char file[] = {*name, '.', 'e', 'x', 'r', 0};
+        ewa_image other = load(file);
+        ewa_difference difference;
+        assert_int_equal(ewa_image_compare(&a, &other, 1, 0, &difference, NULL), EWA_OK);
+        assert_true(difference.maximum < 1e-4);
+        ewa_image_free(&other);
     }
-    assert_false(scratch_same("ewa.ply", "optimal.ply"));
-    run_done("ewa sample quad.obj --texture board.png -o again.ply -n 500 --threads 3");
-    assert_true(scratch_same("again.ply", "optimal.ply"));
+    ewa_image_free(&a);
 }
 
-static void test_objects(void **state) {
+/// All formats in and out, all methods; without a camera's options the whole image is seen.
+static void test_files(void **state) {
     (void)state;
-    make_picture();
-    static const char *const objects[] = {"plane", "cube", "sphere", "torus", "terrain", "csg"};
-    for (size_t i = 0; i < sizeof objects / sizeof objects[0]; i++) {
-        run_done("ewa generate %s --texture board.png -n 9000 -o %s.ply", objects[i], objects[i]);
-        run_done("ewa render %s.ply -o %s.png --size 64x64", objects[i], objects[i]);
+    static const char *const inputs[] = {"grey.exr", "rgb.png", "rgb.pfm"}, *const outputs[] = {
+                                                                                "o.png", "o.exr", "o.pfm"};
+    static const char *const methods[] = {"hybrid", "splat", "point", "bilinear"};
+    for (int k = 0; k < 12; k++) {
+        run_done("ewa texture %s -o %s --method %s --size 90x70", inputs[k % 3], outputs[k / 4],
+                 methods[k % 4]);
+        ewa_image image = load(outputs[k / 4]);
+        assert_int_equal(image.width_px, 90);
+        assert_true(image.pixels[0] == 0);
+        ewa_image_free(&image);
     }
-    run_done("ewa generate cube --sharp --texture board.png --pixel-sigma 1 -n 9000 -o sharp.ply");
+    run_done("ewa texture rgb.png -o - --corners 0,0,60,0,60,40,0,40 >p.png && ewa texture rgb.png -o q.png "
+             "--corners "
+             "0,0,60,0,60,40,0,40");
+    assert_true(scratch_same("p.png", "q.png"));
+    ewa_image image = load("q.png");
+    assert_int_equal(image.width_px, 60);
+    assert_int_equal(image.channel_count, 3); // wholly covered
+    ewa_image_free(&image);
+    run_done("ewa texture rgb.png -o floor.png --repeat on --eye 0,-3,0.5 --target 0,1,0 --size 80x60 "
+             "--background 0,0,1");
+    run_done("ewa texture rgb.png -o one.png --threads 1 --size 80x60 && ewa texture rgb.png -o two.png "
+             "--threads 2 --size 80x60");
+    assert_true(scratch_same("one.png", "two.png"));
 }
 
-static void test_what_fails(void **state) {
+static void test_usage(void **state) {
     (void)state;
-    make_picture();
-    scratch_text("bare.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
-    run_fails(1, "texture coordinates", "ewa sample bare.obj --texture board.png -o x.ply");
-    run_fails(1, "missing.png", "ewa generate plane --texture missing.png -o x.ply");
-    run_fails(1, "board.ply", "ewa generate plane --texture board.ply -o x.ply");
-    run_fails(1, "normals", "ewa generate plane --positions-only --texture board.png -o x.ply");
-    run_fails(2, "optimal", "ewa generate plane --texture board.png --texture-filter sharp -o x.ply");
-    run_fails(2, "pixel-sigma", "ewa generate plane --texture board.png --pixel-sigma 0 -o x.ply");
-    assert_int_equal(scratch_size("x.ply"), -1);
+    run_fails(2, "texture: no output", "ewa texture rgb.png");
+    run_fails(2, "an input is missing", "ewa texture -o n.png");
+    run_fails(2, "one operand too many", "ewa texture rgb.png rgb.pfm -o n.png");
+    run_fails(2, "exclude each other",
+              "ewa texture rgb.png -o n.png --corners 0,0,1,0,1,1,0,1 --homography 1,0,0,0,1,0,0,0,1");
+    run_fails(2, "exclude the options of the camera",
+              "ewa texture rgb.png -o n.png --corners 0,0,1,0,1,1,0,1 --eye 1,2,3");
+    run_fails(2, "--homography", "ewa texture rgb.png -o n.png --homography 1,2,3");
+    run_fails(2, "--corners", "ewa texture rgb.png -o n.png --corners 0,0,nan,0,1,1,0,1");
+    run_fails(2, "--repeat", "ewa texture rgb.png -o n.png --repeat on --method splat");
+    run_fails(2, "--method", "ewa texture rgb.png -o n.png --method cubic");
+    run_fails(2, "--prefilter", "ewa texture rgb.png -o n.png --prefilter 0");
+    run_fails(2, "--output", "ewa texture rgb.png -o n.jpg");
+    run_fails(1, "singular", "ewa texture rgb.png -o n.png --homography 1,2,3,2,4,6,0,0,1");
+    run_fails(1, "singular", "ewa texture rgb.png -o n.png --homography 0,0,0,0,0,0,0,0,0");
+    run_fails(1, "corners", "ewa texture rgb.png -o n.png --corners 0,0,5,5,5,0,0,5");
+    run_fails(1, "plane", "ewa texture rgb.png -o n.png --plane 0,0,0,1,0,0,2,0,0 --eye 0,0,3");
+    run_fails(1, "none.png", "ewa texture none.png -o n.png");
+    run("head -c 100 rgb.png >short.png && echo no >text.png");
+    run_fails(1, "short.png", "ewa texture short.png -o n.png");
+    run_fails(1, "text.png", "ewa texture text.png -o n.png");
+    run_fails(1, "nowhere", "ewa texture rgb.png -o nowhere/n.png");
+    assert_int_equal(scratch_size("n.png"), -1);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(test_mesh, enter),
-        cmocka_unit_test_setup(test_objects, enter),
-        cmocka_unit_test_setup(test_what_fails, enter),
+        cmocka_unit_test(test_maps),
+        cmocka_unit_test(test_files),
+        cmocka_unit_test(test_usage),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, enter, leave);
 }

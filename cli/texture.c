@@ -1,0 +1,319 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// ewa texture: a flat image, seen through a homography or by a camera.
+#include "commands.h"
+#include "json.h"
+#include "picture.h"
+#include "view.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct texture_arguments {
+    view_arguments view; // first: it begins with the common arguments
+    const char *output;
+    option_vector homography, corners, plane;
+    int method;
+    double prefilter_px, cutoff, sigma_texels, point_spacing_px;
+    bool repeat;
+    option_color background;
+} texture_arguments;
+
+#define AT(member) offsetof(texture_arguments, member)
+
+static const cli_option output_table[] = {
+    {.key = "output",
+     .letter = 'o',
+     .kind = OPTION_TEXT,
+     .offset = AT(output),
+     .value = "FILE",
+     .help = "the picture: .png (8-bit sRGB, straight alpha), .exr (linear floats, premultiplied), .pfm "
+             "(linear RGB); "
+             "-: PNG to standard output"},
+    {.key = "background",
+     .aliases = "background-color",
+     .kind = OPTION_COLOR,
+     .offset = AT(background),
+     .value = "r,g,b[,a]",
+     .absent = "transparent",
+     .help = "sRGB numbers in [0, 1], or transparent"},
+};
+
+static const cli_option map_table[] = {
+    {.key = "homography",
+     .kind = OPTION_VECTOR,
+     .offset = AT(homography),
+     .value = "9 numbers",
+     .low = 9,
+     .high = 9,
+     .help = "matrix H, row by row, from pixels of the image to pixels of the picture, columns on its right: "
+             "(x w, y w, w) = H (u, v, 1), as OpenCV writes it, but with pixel centres at half integers; the "
+             "side of "
+             "the horizon on which the middle of the image lies is seen"},
+    {.key = "corners",
+     .kind = OPTION_VECTOR,
+     .offset = AT(corners),
+     .value = "x1,y1,..,x4,y4",
+     .low = 8,
+     .high = 8,
+     .help = "where the upper left, upper right, lower right and lower left corners of the image go, in "
+             "pixels of the "
+             "picture"},
+    {.key = "plane",
+     .kind = OPTION_VECTOR,
+     .offset = AT(plane),
+     .value = "o,a,d",
+     .low = 9,
+     .high = 9,
+     .absent = "1 high, upright in the x-y plane, its middle at the origin",
+     .help = "for a camera: where the image is in the world, three times x,y,z: its upper left corner, the "
+             "way along "
+             "its upper edge, the way down its left edge"},
+    {.key = "repeat",
+     .kind = OPTION_ON_OFF,
+     .offset = AT(repeat),
+     .help = "fill the whole plane with copies of the image, up to the horizon"},
+};
+
+static const cli_option filter_table[] = {
+    {.key = "method",
+     .kind = OPTION_CHOICE,
+     .offset = AT(method),
+     .range = "hybrid|splat|point|bilinear",
+     .help = "hybrid: texels are points where they are minified along both axes, and splats elsewhere; all "
+             "splats; all "
+             "points, with holes where magnified; backward, by bilinear interpolation, which aliases"},
+    {.key = "prefilter",
+     .kind = OPTION_NUMBER,
+     .offset = AT(prefilter_px),
+     .value = "H",
+     .range = "[0.1, 4]",
+     .help = "standard deviation of the pixel filter in pixels"},
+    {.key = "cutoff",
+     .kind = OPTION_NUMBER,
+     .offset = AT(cutoff),
+     .value = "F",
+     .range = "[1, 4]",
+     .help = "standard deviations at which kernels end"},
+    {.key = "sigma",
+     .kind = OPTION_NUMBER,
+     .offset = AT(sigma_texels),
+     .value = "S",
+     .range = "[0.3, 2]",
+     .help = "standard deviation of a texel's disc, in texels: larger is softer where magnified"},
+    {.key = "point-spacing",
+     .kind = OPTION_NUMBER,
+     .offset = AT(point_spacing_px),
+     .value = "D",
+     .range = "[0.05, 1]",
+     .help = "hybrid: texels that are not farther apart than this, in pixels, are points"},
+};
+
+static void set_defaults(void *data) {
+    texture_arguments *arguments = data;
+    ewa_texture_options options;
+    ewa_texture_options_init(&options, sizeof options);
+    view_set_defaults(&arguments->view);
+    arguments->method = (int)options.method;
+    arguments->prefilter_px = options.prefilter_px;
+    arguments->cutoff = options.cutoff;
+    arguments->sigma_texels = options.sigma_texels;
+    arguments->point_spacing_px = options.point_spacing_px;
+    arguments->repeat = options.repeat;
+}
+
+static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
+    const texture_arguments *arguments = data;
+    const bool flat = arguments->homography.count || arguments->corners.count;
+    picture_paths paths;
+    const char *wrong = NULL;
+    if (!arguments->output)
+        wrong = "texture: no output; say -o FILE";
+    else if (arguments->homography.count && arguments->corners.count)
+        wrong = "--homography and --corners exclude each other";
+    else if (flat && (view_is_placed(&arguments->view) || arguments->plane.count))
+        wrong = "--homography and --corners exclude the options of the camera and --plane";
+    else if (arguments->repeat && arguments->method == EWA_TEXTURE_SPLAT)
+        wrong = "--repeat on needs another --method than splat, which would never end";
+    if (wrong) {
+        snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
+        return false;
+    }
+    const char *file = strcmp(arguments->output, "-") == 0 ? NULL : arguments->output;
+    return view_check(&arguments->view, message) && picture_parse_paths(file, NULL, &paths, message);
+}
+
+/// Where the image is in the world: its corner, and its edges from there.
+static void place_plane(const texture_arguments *arguments, const ewa_image *image, double plane[3][3]) {
+    const double width = (double)image->width_px / image->height_px;
+    const double upright[3][3] = {{-0.5 * width, 0.5, 0}, {width, 0, 0}, {0, -1, 0}};
+    memcpy(plane, arguments->plane.count ? arguments->plane.values : &upright[0][0], 9 * sizeof(double));
+}
+
+/// Makes the camera: where none is placed, it sees the whole image upright. False after reporting.
+static bool make_camera(cli_session *session, const texture_arguments *arguments, double plane[3][3],
+                        ewa_camera *camera) {
+    double corners[4][3];
+    for (int i = 0; i < 4; i++)
+        for (int c = 0; c < 3; c++)
+            corners[i][c] = plane[0][c] + (i & 1 ? plane[1][c] : 0) + (i & 2 ? plane[2][c] : 0);
+    view_arguments view = arguments->view;
+    if (!view.camera_path && !view.up.count && view.view < 0) {
+        // Up is up in the image.
+        view.up = (option_vector){{-plane[2][0], -plane[2][1], -plane[2][2]}, 3};
+        if (!view_is_placed(&arguments->view) && !arguments->plane.count) view.view = 0; // front
+    }
+    ewa_cloud *cloud = NULL;
+    ewa_status status = ewa_cloud_create(session->context, 4, &cloud);
+    if (status == EWA_OK)
+        status = ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F64, 3, corners, sizeof corners[0]);
+    bool done = status == EWA_OK;
+    if (!done) session_failed(session, status);
+    done = done && view_make(session, &view, cloud, 1, camera, NULL);
+    ewa_cloud_destroy(&cloud);
+    return done;
+}
+
+/// Makes the map that the options ask for, and the size of the picture in `camera`. False after reporting.
+static bool make_map(cli_session *session, const texture_arguments *arguments, const ewa_image *image,
+                     ewa_mat3 *map, ewa_camera *camera) {
+    const bool flat = arguments->homography.count || arguments->corners.count;
+    ewa_status status = EWA_OK;
+    ewa_camera_init(camera, sizeof *camera);
+    if (flat) {
+        const option_size *size = &arguments->view.size;
+        camera->width_px = size->given ? size->width_px : image->width_px;
+        camera->height_px = size->given ? size->height_px : image->height_px;
+    }
+    if (arguments->homography.count) {
+        const double *h = arguments->homography.values;
+        const double w = h[6] * 0.5 * image->width_px + h[7] * 0.5 * image->height_px + h[8];
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++) map->m[i][j] = w < 0 ? -h[3 * j + i] : h[3 * j + i];
+    } else if (arguments->corners.count) {
+        double corners[4][2];
+        memcpy(corners, arguments->corners.values, sizeof corners);
+        status = ewa_texture_map_from_corners(session->context, image->width_px, image->height_px,
+                                              (const double(*)[2])corners, map);
+    } else {
+        double plane[3][3];
+        place_plane(arguments, image, plane);
+        if (!make_camera(session, arguments, plane, camera)) return false;
+        session->subject = NULL;
+        status = ewa_texture_map_from_camera(session->context, image->width_px, image->height_px, camera,
+                                             plane[0], plane[1], plane[2], map);
+    }
+    if (status != EWA_OK) session_failed(session, status);
+    return status == EWA_OK;
+}
+
+static ewa_texture_options texture_options(const texture_arguments *arguments) {
+    ewa_texture_options options;
+    ewa_texture_options_init(&options, sizeof options);
+    options.method = (ewa_texture_method)arguments->method;
+    options.prefilter_px = arguments->prefilter_px;
+    options.cutoff = arguments->cutoff;
+    options.sigma_texels = arguments->sigma_texels;
+    options.point_spacing_px = arguments->point_spacing_px;
+    options.repeat = arguments->repeat;
+    for (int c = 0; c < 3; c++)
+        options.background[c] = ewa_linear_from_srgb((float)arguments->background.rgba[c]);
+    options.background[3] = (float)arguments->background.rgba[3];
+    return options;
+}
+
+/// Draws into a new picture, which the caller frees in any case. False after reporting.
+static bool draw(cli_session *session, const texture_arguments *arguments, const ewa_image *image,
+                 const ewa_mat3 *map, const ewa_camera *camera, ewa_image *picture) {
+    ewa_status status = ewa_image_create(session->context, camera->width_px, camera->height_px, 4, picture);
+    const size_t pixel_bytes = image->channel_count * sizeof(float);
+    const ewa_texture_source source = {image->pixels,   EWA_PIXEL_LINEAR, image->channel_count,
+                                       image->width_px, image->height_px, image->width_px * pixel_bytes};
+    const ewa_texture_target target = {
+        picture->pixels,   EWA_PIXEL_LINEAR,   4,
+        picture->width_px, picture->height_px, picture->width_px * 4 * sizeof(float)};
+    const ewa_texture_options options = texture_options(arguments);
+    ewa_texture_stats stats;
+    if (status == EWA_OK) status = ewa_texture_map(session->context, &source, map, &options, &target, &stats);
+    if (status != EWA_OK) {
+        session_failed(session, status);
+        return false;
+    }
+    session_say(session,
+                "%llu splats, %llu points for %llu texels in %.1f ms, %.3g million pixels per second",
+                (unsigned long long)stats.splat_count, (unsigned long long)stats.point_count,
+                (unsigned long long)stats.texel_count, 1e3 * stats.total_s,
+                1e-6 * picture->width_px * picture->height_px / stats.total_s);
+    return true;
+}
+
+static int run(const void *data) {
+    const texture_arguments *arguments = data;
+    cli_session session;
+    const common_arguments *common = &arguments->view.common;
+    if (!session_start(&session, common)) return session_end(&session, EXIT_FAILED);
+    ewa_image image = {.pixels = NULL}, picture = {.pixels = NULL};
+    ewa_mat3 map;
+    ewa_camera camera;
+    session.subject = common->operands[0];
+    bool done = output_check(&session, arguments->output);
+    ewa_status status = done ? ewa_image_load(session.context, common->operands[0], &image) : EWA_OK;
+    if (status != EWA_OK) session_failed(&session, status);
+    done = done && status == EWA_OK;
+    if (done && image.channel_count != 1 && image.channel_count != 3 && image.channel_count != 4) {
+        session_fail(&session, "%u channels are no picture; grey, RGB and RGBA are", image.channel_count);
+        done = false;
+    }
+    done = done && make_map(&session, arguments, &image, &map, &camera) &&
+           draw(&session, arguments, &image, &map, &camera, &picture);
+    if (done) {
+        ewa_image_save_options save;
+        ewa_image_save_options_init(&save, sizeof save);
+        if (!arguments->homography.count && !arguments->corners.count)
+            save.world_to_camera = camera.world_to_camera;
+        session.subject = arguments->output;
+        status = ewa_image_save(&picture, arguments->output, &save);
+        if (status != EWA_OK) session_failed(&session, status);
+        done = status == EWA_OK;
+    }
+    ewa_image_free(&picture);
+    ewa_image_free(&image);
+    return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
+}
+
+static const option_group output_options = {"Output", output_table,
+                                            sizeof output_table / sizeof output_table[0]};
+static const option_group map_options = {"Map", map_table, sizeof map_table / sizeof map_table[0]};
+static const option_group filter_options = {"Filter", filter_table,
+                                            sizeof filter_table / sizeof filter_table[0]};
+static const option_group *const groups[] = {&output_options, &map_options, &view_options, &filter_options};
+
+const cli_command texture_command = {
+    .name = "texture",
+    .operands = "IMAGE -o OUT",
+    .summary = "map a flat image by a homography, by its corners or by a camera, antialiased forward",
+    .details = "Every pixel of the image (PNG, JPEG, EXR, PFM, HDR) is sent to the picture: as a point under "
+               "a circular "
+               "filter where it gets small, as the exact ellipse of its disc where it does not. Colours are "
+               "averaged in linear "
+               "light, alpha premultiplied; at its edges the image covers pixels by the exact share of their "
+               "area.\n\n"
+               "With --homography or --corners the picture has the size of the image, unless --size says "
+               "otherwise. With "
+               "neither, a camera sees the image in the world: without --eye and such, the whole of it, from "
+               "the front.",
+    .examples = "ewa texture photo.jpg -o tilted.png --corners 80,40,600,10,630,470,20,400\n"
+                "ewa texture check.png -o floor.png --repeat on --plane -1,1,0,2,0,0,0,-2,0 --eye 0,-2,0.4 "
+                "--up 0,0,1 --target 0,1,0.2\n"
+                "ewa texture photo.png -o shifted.exr --homography 1,0,8,0,1,3,0,0,1 --method splat\n",
+    .low_operands = 1,
+    .high_operands = 1,
+    .groups = groups,
+    .group_count = sizeof groups / sizeof groups[0],
+    .arguments_bytes = sizeof(texture_arguments),
+    .set_defaults = set_defaults,
+    .check = check,
+    .run = run,
+};

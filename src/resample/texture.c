@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Forward texture mapping, tile by tile: levels, walk, sums, pixels.
+//
+// Based on: Yuan et al., "Hybrid Forward Resampling and Volume Rendering", 2003, section 3 (math.md section
+// 11).
+#include "resample/texture.h"
+
+#include <string.h>
+
+enum {
+    SUM_PIXELS = EWA_TEXTURE_PITCH * EWA_TEXTURE_PITCH,
+    LEVEL_PAIRS = EWA_TEXTURE_MAX_LEVELS * EWA_TEXTURE_MAX_LEVELS,
+};
+
+/// Share of the texture that levels have to spare to be worth making.
+static const double LEVELS_PAY = 0.5;
+
+/// One worker's memory.
+typedef struct workspace {
+    float color[4 * SUM_PIXELS];
+    float weight[SUM_PIXELS];
+    float coverage[EWA_TEXTURE_TILE * EWA_TEXTURE_TILE];
+    ewa_texture_block block;
+    uint8_t wanted[LEVEL_PAIRS];
+    ewa_texture_brush brush;
+} workspace;
+
+typedef struct texture_job {
+    const ewa_texture_plan *plan;
+    workspace *workspaces; ///< one per worker
+    uint32_t tiles_across;
+} texture_job;
+
+static void choose_brush(const ewa_texture_plan *plan, ewa_texture_brush *brush) {
+    const double h = plan->options.prefilter_px, f = plan->options.cutoff, sigma = plan->options.sigma_texels;
+    brush->points = ewa_texture_draw_points_portable;
+    brush->splats = ewa_texture_draw_splats_portable;
+    brush->resolve = ewa_texture_resolve_portable;
+#if defined(__x86_64__)
+    const uint32_t features = ewa_context_cpu_features(plan->context);
+    if (features & EWA_CPU_AVX512) {
+        brush->points = ewa_texture_draw_points_avx512;
+        brush->splats = ewa_texture_draw_splats_avx512;
+        brush->resolve = ewa_texture_resolve_avx512;
+    } else if (features & EWA_CPU_AVX2) {
+        brush->points = ewa_texture_draw_points_avx2;
+        brush->splats = ewa_texture_draw_splats_avx2;
+        brush->resolve = ewa_texture_resolve_avx2;
+    }
+#endif
+    brush->filter = (ewa_texture_filter){.cutoff2 = (float)(f * f),
+                                         .prefilter2 = (float)(h * h),
+                                         .reach_px = (float)(f * h),
+                                         .sigma = (float)sigma,
+                                         .determinant = (float)(sigma * sigma * plan->determinant)};
+}
+
+static void tile_place(const texture_job *job, uint32_t index, uint32_t *x, uint32_t *y) {
+    *x = index % job->tiles_across * EWA_TEXTURE_TILE;
+    *y = index / job->tiles_across * EWA_TEXTURE_TILE;
+}
+
+/// Finds the levels that a tile needs.
+static void survey_tile(void *data, uint32_t index, uint32_t worker) {
+    const texture_job *job = data;
+    workspace *space = &job->workspaces[worker];
+    uint32_t x, y;
+    tile_place(job, index, &x, &y);
+    space->brush.wanted = space->wanted;
+    ewa_texture_walk(job->plan, &space->brush, x, y);
+    space->brush.wanted = NULL;
+}
+
+static void interpolate_tile(const ewa_texture_plan *plan, workspace *space,
+                             const ewa_texture_rectangle *tile) {
+    for (uint32_t row = 0; row < tile->height; row++) {
+        for (uint32_t column = 0; column < tile->width; column++) {
+            const size_t at = (size_t)(row + 1) * EWA_TEXTURE_PITCH + column + 1;
+            if (!ewa_texture_interpolate(plan, tile->x + column, tile->y + row, space->color + 4 * at))
+                continue;
+            if (plan->with_alpha) space->weight[at] = 1;
+        }
+    }
+}
+
+static void write_tile(const ewa_texture_plan *plan, workspace *space, const ewa_texture_rectangle *tile) {
+    const bool inside = ewa_texture_covers(plan, tile->x, tile->y, tile->width, tile->height);
+    for (uint32_t row = 0; !inside && row < tile->height; row++)
+        for (uint32_t column = 0; column < tile->width; column++)
+            space->coverage[row * EWA_TEXTURE_TILE + column] =
+                (float)ewa_texture_coverage(plan, tile->x + column, tile->y + row);
+    space->brush.resolve(&plan->target, plan->options.background, tile, &space->brush.sums,
+                         inside ? NULL : space->coverage);
+}
+
+static void draw_tile(void *data, uint32_t index, uint32_t worker) {
+    const texture_job *job = data;
+    const ewa_texture_plan *plan = job->plan;
+    uint32_t x, y;
+    tile_place(job, index, &x, &y);
+    const uint32_t left = plan->target.width_px - x, below = plan->target.height_px - y;
+    const ewa_texture_rectangle tile = {x, y, left < EWA_TEXTURE_TILE ? left : EWA_TEXTURE_TILE,
+                                        below < EWA_TEXTURE_TILE ? below : EWA_TEXTURE_TILE};
+    workspace *space = &job->workspaces[worker];
+    memset(space->color, 0, sizeof space->color);
+    if (plan->with_alpha) memset(space->weight, 0, sizeof space->weight);
+    if (plan->options.method == EWA_TEXTURE_BILINEAR)
+        interpolate_tile(plan, space, &tile);
+    else
+        ewa_texture_walk(plan, &space->brush, x, y);
+    write_tile(plan, space, &tile);
+}
+
+/// Surveys, makes the levels, draws.
+static ewa_status draw_all(ewa_texture_plan *plan, texture_job *job, uint32_t tile_count,
+                           ewa_texture_stats *stats) {
+    const uint32_t worker_count = ewa_context_worker_count(plan->context);
+    const ewa_texture_method method = plan->options.method;
+    ewa_status status = ewa_progress(plan->context, "texture", 0);
+    if (status == EWA_OK && (method == EWA_TEXTURE_HYBRID || method == EWA_TEXTURE_POINT)) {
+        const double started_s = ewa_now_s();
+        ewa_parallel(plan->context, survey_tile, job, tile_count);
+        uint8_t *wanted = job->workspaces[0].wanted;
+        double spared = 0;
+        for (uint32_t k = 0; k < worker_count; k++) {
+            spared += job->workspaces[k].brush.spared_texels;
+            for (uint32_t i = 0; i < LEVEL_PAIRS; i++) wanted[i] |= job->workspaces[k].wanted[i];
+        }
+        // To make levels is to read the texture about once.
+        const double texel_count = (double)plan->source.width_px * plan->source.height_px;
+        plan->flat = !plan->options.repeat && spared < LEVELS_PAY * texel_count;
+        if (!plan->flat) status = ewa_texture_levels_make(plan, wanted, stats);
+        stats->levels_s = ewa_now_s() - started_s;
+    }
+    if (status == EWA_OK) status = ewa_progress(plan->context, "texture", 0.3);
+    if (status != EWA_OK) return status;
+    ewa_parallel(plan->context, draw_tile, job, tile_count);
+    for (uint32_t k = 0; k < worker_count; k++) {
+        const ewa_texture_counts *counts = &job->workspaces[k].brush.counts;
+        stats->splat_count += counts->splat_count;
+        stats->point_count += counts->point_count;
+        stats->texel_count += counts->texel_count;
+        stats->point_texel_count += counts->point_texel_count;
+    }
+    return ewa_progress(plan->context, "texture", 1);
+}
+
+ewa_status ewa_texture_map(ewa_context *context, const ewa_texture_source *source, const ewa_mat3 *map,
+                           const ewa_texture_options *options, const ewa_texture_target *target,
+                           ewa_texture_stats *stats) {
+    const double started_s = ewa_now_s();
+    ewa_texture_plan plan;
+    ewa_status status = ewa_texture_plan_make(context, source, map, options, target, &plan);
+    if (status != EWA_OK) return status;
+    plan.flat = plan.options.method == EWA_TEXTURE_SPLAT;
+    const uint32_t worker_count = ewa_context_worker_count(context);
+    workspace *workspaces = ewa_allocate(context, worker_count, sizeof *workspaces);
+    if (!workspaces) return EWA_ERROR_MEMORY;
+    for (uint32_t k = 0; k < worker_count; k++) {
+        workspace *space = &workspaces[k];
+        memset(space->wanted, 0, sizeof space->wanted);
+        memset(&space->block, 0, sizeof space->block);
+        memset(space->coverage, 0, sizeof space->coverage);
+        memset(&space->brush, 0, sizeof space->brush);
+        choose_brush(&plan, &space->brush);
+        space->brush.sums = (ewa_texture_sums){space->color, plan.with_alpha ? space->weight : NULL};
+        space->brush.block = &space->block;
+    }
+    const uint32_t tiles_across = (target->width_px + EWA_TEXTURE_TILE - 1) / EWA_TEXTURE_TILE;
+    const uint32_t tiles_down = (target->height_px + EWA_TEXTURE_TILE - 1) / EWA_TEXTURE_TILE;
+    texture_job job = {&plan, workspaces, tiles_across};
+    ewa_texture_stats counted = {0};
+    status = draw_all(&plan, &job, tiles_across * tiles_down, &counted);
+    ewa_texture_levels_free(&plan);
+    ewa_release(context, workspaces, worker_count, sizeof *workspaces);
+    counted.total_s = ewa_now_s() - started_s;
+    if (stats) *stats = counted;
+    return status;
+}
