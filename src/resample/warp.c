@@ -8,7 +8,6 @@
 // that paper are what the road makes of surfels much smaller than its filter (math.md section 4).
 #include "resample/warp.h"
 #include "image/srgb.h"
-#include "kernels/semantics.h"
 #include "prepare/color.h"
 #include "resample/warp_options.h"
 #include "splat/options.h"
