@@ -3,7 +3,7 @@
 //
 // Where in a voxel's footprint a pixel of its ellipse is (math.md section 12).
 //
-// Based on: X. Yuan, M. Nguyen, N. Zhang, B. Chen, "Hybrid Forward Resampling and Volume Rendering", 2003,
+// Based on: X. Yuan, M. Nguyen, H. Xu, B. Chen, "Hybrid Forward Resampling and Volume Rendering", 2003,
 // section 4.2, with the sine of the half angle where the paper prints its tangent.
 #ifndef EWA_SRC_VOLUME_FOOTPRINT_H
 #define EWA_SRC_VOLUME_FOOTPRINT_H

@@ -3,7 +3,7 @@
 //
 // Part of kernels_body.h: points, summed over a depth unit, then composited.
 //
-// Based on: X. Yuan, M. Nguyen, N. Zhang, B. Chen, "Hybrid Forward Resampling and Volume Rendering", 2003,
+// Based on: X. Yuan, M. Nguyen, H. Xu, B. Chen, "Hybrid Forward Resampling and Volume Rendering", 2003,
 // section 4.1.
 #ifndef EWA_SRC_VOLUME_KERNELS_POINTS_H
 #define EWA_SRC_VOLUME_KERNELS_POINTS_H

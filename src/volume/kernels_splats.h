@@ -4,7 +4,7 @@
 // Part of kernels_body.h: splats with the exact perspective ellipse, composited one by one (math.md sections
 // 3 and 12).
 //
-// Based on: X. Yuan, M. Nguyen, N. Zhang, B. Chen, "Hybrid Forward Resampling and Volume Rendering", 2003,
+// Based on: X. Yuan, M. Nguyen, H. Xu, B. Chen, "Hybrid Forward Resampling and Volume Rendering", 2003,
 // section 4.2 and appendix A.
 //
 // The footprint's index. Over the offset from the ellipse's centre, both F^2 - m^2 (m: the ray's Mahalanobis

@@ -4,7 +4,7 @@
 // The reference renderer of volumes: every voxel a splat in double precision, composited front to back pixel
 // by pixel. It is the definition of what ewa_volume_render() draws; math.md section 12 is its specification.
 //
-// Based on: X. Yuan, M. Nguyen, N. Zhang, B. Chen, "Hybrid Forward Resampling and Volume Rendering", 2003,
+// Based on: X. Yuan, M. Nguyen, H. Xu, B. Chen, "Hybrid Forward Resampling and Volume Rendering", 2003,
 // section 4; L. Westover, "Footprint Evaluation for Volume Rendering", 1990 (splats composited one by one).
 #include "base/base.h"
 #include "image/srgb.h"

@@ -3,7 +3,7 @@
 //
 // One tile of a picture of voxels: blocks in, buckets by depth, pixels out.
 //
-// Based on: X. Yuan, M. Nguyen, N. Zhang, B. Chen, "Hybrid Forward Resampling and Volume Rendering", 2003,
+// Based on: X. Yuan, M. Nguyen, H. Xu, B. Chen, "Hybrid Forward Resampling and Volume Rendering", 2003,
 // section 4.1 (splats composited one by one, points summed first) and section 6 (occlusion culling).
 #include "volume/tile.h"
 
