@@ -278,7 +278,8 @@ typedef enum ewa_volume_object {
     EWA_VOLUME_BLOB = 1,
     /// F32: (1 - r^2 / R^2)^2 within R = 0.4 s. A line at distance d < R: 16/15 (R^2 - d^2)^(5/2) / R^4
     EWA_VOLUME_BALL = 2,
-    /// U8: a tree of thin tubes of radii from s / 40 down to s / 250, 255 in their middles; those thinner than
+    /// U8: a tree of thin tubes of radii from s / 40 down to s / 250, 255 in their middles; those thinner
+    /// than
     /// 0.9 voxels are that wide and as much fainter
     EWA_VOLUME_VESSELS = 3,
 } ewa_volume_object;

@@ -174,9 +174,9 @@ static ewa_status find_streams(const ewa_cloud *cloud, const char *name, read_jo
     }
     if (!job->tangent[1]) job->tangent[0] = NULL;
     if (!job->position || (!job->tangent[0] && !(job->normal && job->radius)))
-        return ewa_fail(ewa_cloud_context(cloud), EWA_ERROR_ARGUMENT,
-                        "%s: 'position' is needed with 'normal' and 'radius', or with 'tangent_u' and 'tangent_v'",
-                        name);
+        return ewa_fail(
+            ewa_cloud_context(cloud), EWA_ERROR_ARGUMENT,
+            "%s: 'position' is needed with 'normal' and 'radius', or with 'tangent_u' and 'tangent_v'", name);
     return EWA_OK;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Fuzz target: any bytes as a volume file, the format by their content; those of no format as raw numbers of a
-// size that the first byte says. What is read can be measured, and a look be made for it.
+// Fuzz target: any bytes as a volume file, the format by their content; those of no format as raw numbers of
+// a size that the first byte says. What is read can be measured, and a look be made for it.
 #include "ewa/io.h"
 #include "fuzz.h"
 
