@@ -58,6 +58,7 @@ static ewa_cloud *load_mesh(cli_session *session, const char *path, double cutof
         options.cutoff = fmax(cutoff, MESH_CUTOFF);
         options.point_count = MESH_POINTS_PER_TRIANGLE * mesh.triangle_count;
         if (options.point_count < MESH_POINTS) options.point_count = MESH_POINTS;
+        options.texture_filter = EWA_TEXTURE_EWA; // least squares would take most of the time
         status = ewa_mesh_sample(&mesh, &options, &cloud);
     }
     if (status != EWA_OK)
