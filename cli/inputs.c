@@ -23,10 +23,6 @@ static const double MESH_CUTOFF = 1e-3;
 /// 0.6.
 static const uint8_t GREY_SRGB = 203;
 
-/// Discs over both so many deviations above the mean radius and so many times the mean radius belong to
-/// points far from all others; they would hide what is behind them.
-static const double ISOLATED_DEVIATIONS = 10, ISOLATED_RATIO = 8;
-
 static bool has_axes(const ewa_cloud *cloud) {
     return ewa_cloud_find(cloud, EWA_TANGENT_U) && ewa_cloud_find(cloud, EWA_TANGENT_V);
 }
@@ -284,67 +280,16 @@ ewa_cloud *inputs_merge(cli_session *session, const common_arguments *common) {
     return merge_owned(session, clouds, common->operand_count);
 }
 
-/// Radius over which an estimated disc stands for a point that is no part of a surface.
-static double isolated_radius(const ewa_attribute *radius, uint64_t count) {
-    double sum = 0, squares = 0, r;
-    for (uint64_t i = 0; i < count; i++) {
-        ewa_attribute_read_f64(radius, i, 1, &r);
-        sum += r;
-        squares += r * r;
-    }
-    const double mean = sum / (double)count, variance = squares / (double)count - mean * mean;
-    return fmax(mean + ISOLATED_DEVIATIONS * sqrt(fmax(variance, 0)), ISOLATED_RATIO * mean);
-}
-
-/// Removes points that lie far from all others, judged by their estimated radii, and says so. False after
-/// reporting.
-static bool drop_isolated(cli_session *session, const char *path, ewa_cloud **cloud) {
-    const ewa_attribute *radius = ewa_cloud_find(*cloud, EWA_RADIUS);
-    const uint64_t count = ewa_cloud_point_count(*cloud);
-    if (!radius) return true;
-    const double limit = isolated_radius(radius, count);
-    uint64_t kept_count = 0;
-    double r;
-    for (uint64_t i = 0; i < count; i++) {
-        ewa_attribute_read_f64(radius, i, 1, &r);
-        kept_count += r <= limit;
-    }
-    if (kept_count == count || kept_count == 0) return true;
-    uint64_t *kept = malloc(kept_count * sizeof *kept);
-    ewa_cloud *rest = NULL;
-    if (!kept) {
-        session_fail(session, "out of memory: %llu indices", (unsigned long long)kept_count);
-        return false;
-    }
-    uint64_t next = 0;
-    for (uint64_t i = 0; i < count; i++) {
-        ewa_attribute_read_f64(radius, i, 1, &r);
-        if (r <= limit) kept[next++] = i;
-    }
-    const ewa_status status = ewa_cloud_select(*cloud, kept, kept_count, &rest);
-    free(kept);
-    if (status != EWA_OK) {
-        session_failed(session, status);
-        return false;
-    }
-    ewa_cloud_destroy(cloud);
-    *cloud = rest;
-    session_note(session, "%s: %llu of %llu points lie far from all others and are left out", path,
-                 (unsigned long long)(count - kept_count), (unsigned long long)count);
-    return true;
-}
-
 ewa_cloud *input_as_surfels(cli_session *session, const char *path, double cutoff, double *estimate_s) {
     ewa_cloud *cloud = is_mesh(path) ? load_mesh(session, path, cutoff) : input_load(session, path);
     if (!cloud || cloud_is_drawable(cloud)) return cloud;
     const bool has_normals = ewa_cloud_find(cloud, EWA_NORMAL) != NULL;
-    const bool has_radii = ewa_cloud_find(cloud, EWA_RADIUS) != NULL;
     ewa_estimate_options options;
     ewa_estimate_options_init(&options, sizeof options);
     const double started_s = clock_now_s();
     const ewa_status status = ewa_cloud_estimate(&cloud, &options);
-    if (status != EWA_OK) session_failed(session, status);
-    if (status != EWA_OK || (!has_radii && !drop_isolated(session, path, &cloud))) {
+    if (status != EWA_OK) {
+        session_failed(session, status);
         ewa_cloud_destroy(&cloud);
         return NULL;
     }

@@ -16,6 +16,9 @@ extern "C" {
 /// Default support radius of a surfel in units of the local spacing.
 #define EWA_DEFAULT_RADIUS_SCALE 1.14
 
+/// Default largest support radius of an estimated surfel in units of the median spacing around it.
+#define EWA_DEFAULT_RADIUS_LIMIT 2.75
+
 typedef enum ewa_orientation {
     EWA_ORIENT_PROPAGATE = 0, ///< consistent along the neighbour graph, outward for closed surfaces
     EWA_ORIENT_VIEWPOINT = 1, ///< towards viewpoint_world
@@ -35,9 +38,12 @@ typedef struct ewa_estimate_options {
     double viewpoint_world[3]; ///< for EWA_ORIENT_VIEWPOINT
     ewa_surfel_shape shape;
     double radius_scale; ///< support radius in units of the local spacing 1/sqrt(density); > 0; default 1.14
-    double cutoff;       ///< F: tangent axes are radius / F long; default 3
-    bool keep_normals;   ///< keep "normal" when the cloud has it; default true
-    bool keep_radii;     ///< keep "radius" or tangent axes when the cloud has them; default true
+    /// Radii that close gaps are at most this many times the median spacing of the places around, a third
+    /// more where samples are on lines; gaps that need more stay open; >= 1; default 2.75
+    double radius_limit;
+    double cutoff;         ///< F: tangent axes are radius / F long; default 3
+    bool keep_normals;     ///< keep "normal" when the cloud has it; default true
+    bool keep_radii;       ///< keep "radius" or tangent axes when the cloud has them; default true
     double outlier_factor; ///< remove points whose mean neighbour distance exceeds mean + factor * deviation;
                            ///< 0: keep all
 } ewa_estimate_options;

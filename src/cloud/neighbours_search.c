@@ -21,6 +21,7 @@ enum {
     STACK_NODES = TREE_MAX_LEVELS * TREE_ARITY,
     MAX_UNIT_EXPONENT = 126, // of single precision
     LISTED_GROUPS = 8,       // of leaves near a group
+    LISTED_PLACES = 4,       // of a leaf, more than which are searched by that list
 };
 
 // The guess for a leaf over what its predecessor needed: larger means fewer second tries but more candidates.
@@ -304,7 +305,9 @@ static outcome search(const search_job *job, const attempt *a, scratch *s, doubl
     ewa_block *block = &s->block;
     tree_query query;
     block->unit_world = set_query(tree, a, &query);
-    const bool all = gather_near(job, &query, find_list(job, a, &s->list), block);
+    // A list serves many searches around whole leaves.
+    const near_list *list = a->count > LISTED_PLACES ? find_list(job, a, &s->list) : NULL;
+    const bool all = gather_near(job, &query, list, block);
     if (!all && a->count > 1) return TOO_MANY;
     set_lanes(tree, a, &query, block);
     const double limit = a->radius * (double)query.per_unit;
@@ -349,18 +352,48 @@ static double first_guess(const search_job *job, const attempt *a) {
     return nearest_distance(job, p) * FIRST_GUESS_MARGIN;
 }
 
+static bool is_chosen(const search_job *job, uint32_t place) {
+    const uint8_t bits = job->choice->chosen_bits ? job->choice->chosen_bits : UINT8_MAX;
+    return job->choice->chosen[place] & bits;
+}
+
+/// Makes an attempt at those places of a leaf that are chosen and those between them; false when none is.
+static bool set_attempt(const search_job *job, uint32_t leaf, attempt *a) {
+    const ewa_neighbours *tree = job->tree;
+    if (leaf % job->choice->sample_step != 0) return false;
+    uint32_t first = tree->leaf_first[leaf], end = tree->leaf_first[leaf + 1];
+    const tree_group *group = &tree->groups[leaf / TREE_ARITY];
+    for (int c = 0; c < 3; c++) {
+        a->low[c] = group->low[c][leaf % TREE_ARITY];
+        a->high[c] = group->high[c][leaf % TREE_ARITY];
+    }
+    if (job->choice->chosen) {
+        const uint32_t all = end - first;
+        while (first < end && !is_chosen(job, first)) first++;
+        while (first < end && !is_chosen(job, end - 1)) end--;
+        if (first == end) return false;
+        for (uint32_t place = first; end - first < all && place < end; place++) {
+            double p[3];
+            place_position(tree, leaf, place, p);
+            for (int c = 0; c < 3; c++) {
+                a->low[c] = place == first || p[c] < a->low[c] ? p[c] : a->low[c];
+                a->high[c] = place == first || p[c] > a->high[c] ? p[c] : a->high[c];
+            }
+        }
+    }
+    a->leaf = leaf;
+    a->first = first;
+    a->count = end - first;
+    return true;
+}
+
 /// Searches a leaf; `*guess` is the radius to begin with, negative when unknown, and becomes that for the
 /// next leaf.
 static void search_leaf(const search_job *job, uint32_t leaf, double *guess, uint32_t worker) {
-    const ewa_neighbours *tree = job->tree;
-    const tree_group *group = &tree->groups[leaf / TREE_ARITY];
-    attempt a = {.leaf = leaf, .first = tree->leaf_first[leaf]};
-    a.count = tree->leaf_first[leaf + 1] - a.first;
-    for (int c = 0; c < 3; c++) {
-        a.low[c] = group->low[c][leaf % TREE_ARITY];
-        a.high[c] = group->high[c][leaf % TREE_ARITY];
-    }
-    a.radius = *guess < 0 ? DIAGONAL_SHARE * diagonal(&a) : *guess;
+    attempt a;
+    if (!set_attempt(job, leaf, &a)) return;
+    // A part of a leaf says nothing about the density.
+    a.radius = *guess >= 0 ? *guess : job->choice->chosen ? 0 : DIAGONAL_SHARE * diagonal(&a);
     bool guessed_here = !(a.radius > 0);
     if (guessed_here) a.radius = first_guess(job, &a);
     for (int tries = 0; tries < MAX_TRIES; tries++) {
@@ -383,22 +416,13 @@ static void search_leaf(const search_job *job, uint32_t leaf, double *guess, uin
     *guess = -1;
 }
 
-static bool is_chosen(const search_job *job, uint32_t leaf) {
-    if (leaf % job->choice->sample_step != 0) return false;
-    if (!job->choice->chosen) return true;
-    for (uint32_t place = job->tree->leaf_first[leaf]; place < job->tree->leaf_first[leaf + 1]; place++)
-        if (job->choice->chosen[place]) return true;
-    return false;
-}
-
 static void search_task(void *data, uint32_t index, uint32_t worker) {
     const search_job *job = data;
     const uint32_t leaf_count = job->tree->leaf_count, begin = (job->first_task + index) * TASK_LEAVES;
     const uint32_t end = leaf_count - begin < TASK_LEAVES ? leaf_count : begin + TASK_LEAVES;
     double guess = -1;
     job->scratch[worker].list.group = UINT32_MAX;
-    for (uint32_t leaf = begin; leaf < end; leaf++)
-        if (is_chosen(job, leaf)) search_leaf(job, leaf, &guess, worker);
+    for (uint32_t leaf = begin; leaf < end; leaf++) search_leaf(job, leaf, &guess, worker);
 }
 
 ewa_status ewa_neighbours_visit(const ewa_neighbours *neighbours, const ewa_visit_choice *choice,

@@ -7,7 +7,9 @@
 #include "prepare/local.h"
 #include "prepare/orient.h"
 #include "prepare/outliers.h"
+#include "prepare/radii.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -16,6 +18,11 @@ enum {
     TASK_PLACES = 1 << 14,
     COUNTER_STRIDE = 64, // bytes between the counters of workers
 };
+
+// Share of the limit of radii that the first visit gives, which knows the spacing around less well.
+static const double FIRST_LIMIT = 0.9;
+// Over the limit of radii: how far apart lines of samples may be, between which there is surface.
+static const double LINE_LIMIT = 4.0 / 3;
 
 /// What one worker has seen.
 typedef struct counter {
@@ -29,11 +36,12 @@ typedef struct estimate_job {
     ewa_neighbours *neighbours;
     uint32_t place_count;
     uint32_t wanted; // LOCAL_*
+    local_sizing sizing;
     // by place; NULL when not wanted
     float *normals;
     float *spacing;
     uint32_t (*links)[LOCAL_GRAPH_DEGREE];
-    uint8_t *thin; // to be measured again with more neighbours
+    uint8_t *notes; // RADIUS_*
     // by point; NULL when not wanted
     float *radius_out, *tangent_u_out, *tangent_v_out, *normal_out;
     ewa_attribute position;
@@ -49,21 +57,9 @@ static void set_points(const estimate_job *job, uint32_t place, float *out, cons
         for (uint32_t c = 0; c < components; c++) out[(size_t)components * points[i] + c] = values[c];
 }
 
-/// The larger one, without a call.
-static double larger(double a, double b) { return b > a ? b : a; }
-
-/// The support radius with which a kernel still has weight where its cell ends: beyond two standard
-/// deviations it has next to none, and the surface would look like a hole there.
-static double cover_radius(const estimate_job *job, double reach) {
-    const double solid_sigmas = 2;
-    return reach * larger(1, job->options->cutoff / solid_sigmas);
-}
-
 static void set_axes(const estimate_job *job, uint32_t place, const local_surface *s, uint32_t lane,
-                     double unit) {
-    const double scaled = job->options->radius_scale * (double)s->spacing[lane];
-    const double radius = larger(scaled, cover_radius(job, (double)s->ellipse_reach[lane]));
-    const double sigma = radius * unit / job->options->cutoff, stretch = sqrt((double)s->aspect[lane]);
+                     double radius_world) {
+    const double sigma = radius_world / job->options->cutoff, stretch = sqrt((double)s->aspect[lane]);
     float u[3], v[3];
     for (int c = 0; c < 3; c++) {
         // v = n x u
@@ -77,32 +73,39 @@ static void set_axes(const estimate_job *job, uint32_t place, const local_surfac
     set_points(job, place, job->tangent_v_out, v, 3);
 }
 
-/// A disc is at least radius_scale spacings large, and covers the place's own cell: then irregular sampling
-/// leaves no hole.
-static void set_radius(const estimate_job *job, uint32_t place, const local_surface *s, uint32_t lane,
-                       double unit) {
-    const double scaled = job->options->radius_scale * (double)s->spacing[lane];
-    const float radius = (float)(larger(scaled, cover_radius(job, (double)s->reach[lane])) * unit);
-    set_points(job, place, job->radius_out, &radius, 1);
+/// A length in single precision; none where that overflows.
+static float length_or_none(double length) { return length <= (double)FLT_MAX ? (float)length : 0; }
+
+static void set_size(const estimate_job *job, uint32_t place, const local_surface *s, uint32_t lane,
+                     double radius_world) {
+    const float radius = length_or_none(radius_world);
+    if (job->radius_out) set_points(job, place, job->radius_out, &radius, 1);
+    if (job->tangent_u_out) set_axes(job, place, s, lane, (double)radius);
 }
 
 /// Gives a place that is so far off that single precision overflows around it no plane and no size.
-static void drop_overflow(local_surface *s, uint32_t lane) {
+static void drop_overflow(uint32_t wanted, local_surface *s, uint32_t lane) {
     float sum = s->spacing[lane];
     for (int c = 0; c < 3; c++) sum += s->normal[c][lane];
+    for (int c = 0; c < 3 && wanted & LOCAL_SHAPE; c++) sum += s->major[c][lane];
     if (isfinite(sum)) return;
     for (int c = 0; c < 3; c++) s->normal[c][lane] = c == 2, s->major[c][lane] = c == 0;
-    s->spacing[lane] = s->reach[lane] = s->ellipse_reach[lane] = 0;
+    s->spacing[lane] = s->reach[lane] = s->ellipse_reach[lane] = s->variation[lane] = 0;
     s->aspect[lane] = 1;
 }
 
-static void set_lane(const estimate_job *job, uint32_t place, local_surface *s, uint32_t lane, double unit) {
-    drop_overflow(s, lane);
-    if (job->spacing) job->spacing[place] = (float)((double)s->spacing[lane] * unit);
+static void set_lane(const estimate_job *job, uint32_t wanted, uint32_t place, local_surface *s,
+                     uint32_t lane, double unit) {
+    drop_overflow(wanted, s, lane);
+    if (job->spacing) job->spacing[place] = length_or_none((double)s->spacing[lane] * unit);
     if (job->normals)
         for (int c = 0; c < 3; c++) job->normals[3 * (size_t)place + (size_t)c] = s->normal[c][lane];
-    if (job->radius_out) set_radius(job, place, s, lane, unit);
-    if (job->tangent_u_out) set_axes(job, place, s, lane, unit);
+}
+
+/// What is noted about a lane whose neighbours do not tell its size.
+static uint8_t note_again(const local_surface *s, uint32_t lane, uint32_t why) {
+    const double scatter = ewa_radius_scatter((double)s->variation[lane]);
+    return (uint8_t)(why | (uint32_t)(scatter * RADIUS_NOTE_MOST) << RADIUS_NOTE_SHIFT);
 }
 
 static void visit(void *user, const ewa_block *block, uint32_t worker) {
@@ -110,11 +113,21 @@ static void visit(void *user, const ewa_block *block, uint32_t worker) {
     local_surface s;
     job->kernels->measure(block, job->wanted, &s);
     if (job->links) job->kernels->link(block, &job->links[block->first_place]);
+    for (uint32_t lane = 0; lane < block->lane_count; lane++)
+        set_lane(job, job->wanted, block->first_place + lane, &s, lane, block->unit_world);
+    if (job->wanted) job->kernels->size(job->wanted, &job->sizing, &s);
     for (uint32_t lane = 0; lane < block->lane_count; lane++) {
         const uint32_t place = block->first_place + lane;
-        set_lane(job, place, &s, lane, block->unit_world);
-        job->thin[place] = s.thin >> lane & 1;
-        job->counters[worker].thin += job->thin[place];
+        const bool thin = s.thin >> lane & 1, doubtful = s.doubtful >> lane & 1;
+        job->counters[worker].thin += thin;
+        if (thin || doubtful) {
+            job->notes[place] = note_again(&s, lane, thin ? RADIUS_THIN : RADIUS_DOUBTFUL);
+        } else if (job->wanted) {
+            job->notes[place] = (uint8_t)(s.ratio[lane] << RADIUS_NOTE_SHIFT);
+            set_size(job, place, &s, lane, (double)s.radius[lane] * block->unit_world);
+        } else {
+            job->notes[place] = 0;
+        }
     }
 }
 
@@ -136,13 +149,53 @@ static void link_evenly(const ewa_block *block, uint32_t lane, uint32_t links[LO
 static void visit_thin(void *user, const ewa_block *block, uint32_t worker) {
     const estimate_job *job = user;
     local_surface s;
-    job->kernels->measure(block, job->wanted | LOCAL_LINES, &s);
+    job->kernels->measure(block, 0, &s);
     for (uint32_t lane = 0; lane < block->lane_count; lane++) {
         const uint32_t place = block->first_place + lane;
-        if (!job->thin[place]) continue;
+        if (!(job->notes[place] & RADIUS_THIN)) continue;
         if (job->links) link_evenly(block, lane, job->links[place]);
-        set_lane(job, place, &s, lane, block->unit_world);
+        // Still on a line: a curve in space.
+        const bool curve = s.thin >> lane & 1;
+        if (curve) s.spacing[lane] = s.line_spacing[lane];
+        set_lane(job, 0, place, &s, lane, block->unit_world);
+        job->notes[place] = note_again(&s, lane, curve ? RADIUS_DOUBTFUL : RADIUS_THIN);
         job->counters[worker].degenerate += s.degenerate >> lane & 1;
+    }
+}
+
+/// The third visit: to places whose cells are open, as at borders and beside holes, that are on lines or on
+/// no surface, or sparser than others nearby. All spacings are known then.
+static void visit_again(void *user, const ewa_block *block, uint32_t worker) {
+    (void)worker;
+    const estimate_job *job = user;
+    local_surface s;
+    float around[EWA_BLOCK_LANES], limit[EWA_BLOCK_LANES], normal[3][EWA_BLOCK_LANES];
+    job->kernels->median(block, job->spacing, around);
+    for (uint32_t lane = 0; lane < EWA_BLOCK_LANES; lane++) {
+        const uint32_t place = block->first_place + (lane < block->lane_count ? lane : 0);
+        for (int c = 0; c < 3 && job->normals; c++)
+            normal[c][lane] = job->normals[3 * (size_t)place + (size_t)c];
+        around[lane] = (float)((double)around[lane] / block->unit_world);
+        limit[lane] = (float)(job->options->radius_limit *
+                              (job->notes[place] & RADIUS_THIN ? LINE_LIMIT : 1) * (double)around[lane]);
+    }
+    job->kernels->enclose(block, job->wanted, job->normals ? (const float(*)[EWA_BLOCK_LANES])normal : NULL,
+                          limit, &s);
+    for (uint32_t lane = 0; lane < block->lane_count; lane++) {
+        const uint32_t place = block->first_place + lane, note = job->notes[place];
+        if (!(note & RADIUS_AGAIN)) continue;
+        drop_overflow(job->wanted, &s, lane);
+        const double spacing = (double)job->spacing[place] / block->unit_world, median = (double)around[lane];
+        const double few = (double)(note >> RADIUS_NOTE_SHIFT) / RADIUS_NOTE_MOST;
+        const double many = ewa_radius_scatter((double)s.variation[lane]);
+        const double scatter = few < many ? few : many, lone = ewa_radius_lone(spacing, median);
+        const radius_place at = {.spacing = spacing < median ? spacing : median,
+                                 .reach =
+                                     (double)(job->tangent_u_out ? s.ellipse_reach[lane] : s.reach[lane]),
+                                 .limit = (double)limit[lane],
+                                 .scatter = scatter > lone ? scatter : lone};
+        const double radius = ewa_radius(&at, job->options->radius_scale, job->options->cutoff);
+        set_size(job, place, &s, lane, radius * block->unit_world);
     }
 }
 
@@ -191,14 +244,18 @@ static ewa_status add_output(ewa_cloud *cloud, const char *name, uint32_t compon
 
 /// Measures all places.
 static ewa_status measure(ewa_context *context, estimate_job *job) {
-    ewa_visit_choice choice = {job->options->neighbour_count, 1, NULL, "estimate"};
-    const ewa_status status = ewa_neighbours_visit(job->neighbours, &choice, visit, job);
+    ewa_visit_choice choice = {job->options->neighbour_count, 1, NULL, "estimate", 0};
+    ewa_status status = ewa_neighbours_visit(job->neighbours, &choice, visit, job);
     uint64_t thin = 0;
     for (uint32_t w = 0; w < ewa_context_worker_count(context); w++) thin += job->counters[w].thin;
-    if (status != EWA_OK || thin == 0) return status;
     choice.neighbour_count = EWA_NEIGHBOURS_MAX;
-    choice.chosen = job->thin;
-    return ewa_neighbours_visit(job->neighbours, &choice, visit_thin, job);
+    choice.chosen = job->notes;
+    choice.chosen_bits = RADIUS_THIN;
+    if (status == EWA_OK && thin) status = ewa_neighbours_visit(job->neighbours, &choice, visit_thin, job);
+    if (status != EWA_OK || !job->wanted) return status;
+    ewa_radius_doubt_sparse(context, job->spacing, job->place_count, job->options->radius_limit, job->notes);
+    choice.chosen_bits = RADIUS_AGAIN;
+    return ewa_neighbours_visit(job->neighbours, &choice, visit_again, job);
 }
 
 static void report_degenerate(ewa_context *context, const estimate_job *job) {
@@ -235,6 +292,8 @@ static ewa_status estimate_with(ewa_cloud *cloud, estimate_job *job, bool normal
     const bool ellipse = job->options->shape == EWA_SHAPE_ELLIPSE;
     const size_t places = job->place_count, workers = ewa_context_worker_count(context);
     job->wanted = !sizes ? 0 : ellipse ? LOCAL_SHAPE : LOCAL_REACH;
+    job->sizing = ewa_radius_sizing(FIRST_LIMIT * job->options->radius_limit, job->options->radius_scale,
+                                    job->options->cutoff);
     ewa_status status = EWA_OK;
     if (sizes && !ellipse) status = add_output(cloud, EWA_RADIUS, 1, has_gaps, &job->radius_out);
     if (sizes && ellipse) status = add_output(cloud, EWA_TANGENT_U, 3, has_gaps, &job->tangent_u_out);
@@ -242,14 +301,14 @@ static ewa_status estimate_with(ewa_cloud *cloud, estimate_job *job, bool normal
         status = add_output(cloud, EWA_TANGENT_V, 3, has_gaps, &job->tangent_v_out);
     if (status == EWA_OK) {
         job->counters = ewa_allocate_zeroed(context, workers, sizeof *job->counters);
-        job->thin = ewa_allocate(context, places, sizeof *job->thin);
-        bool complete = job->counters && job->thin;
+        job->notes = ewa_allocate(context, places, sizeof *job->notes);
+        bool complete = job->counters && job->notes;
         if (normals)
             complete = (job->normals = ewa_allocate(context, places, 3 * sizeof *job->normals)) && complete;
-        if (propagate) {
+        if (propagate)
             complete = (job->links = ewa_allocate(context, places, sizeof *job->links)) && complete;
+        if (propagate || sizes)
             complete = (job->spacing = ewa_allocate(context, places, sizeof *job->spacing)) && complete;
-        }
         status = complete ? measure(context, job) : EWA_ERROR_MEMORY;
     }
     if (status == EWA_OK) {
@@ -259,7 +318,7 @@ static ewa_status estimate_with(ewa_cloud *cloud, estimate_job *job, bool normal
     ewa_release(context, job->spacing, places, sizeof *job->spacing);
     ewa_release(context, job->links, places, sizeof *job->links);
     ewa_release(context, job->normals, places, 3 * sizeof *job->normals);
-    ewa_release(context, job->thin, places, sizeof *job->thin);
+    ewa_release(context, job->notes, places, sizeof *job->notes);
     ewa_release(context, job->counters, workers, sizeof *job->counters);
     return status;
 }
@@ -323,6 +382,9 @@ static ewa_status check_options(ewa_context *context, const ewa_estimate_options
         return ewa_fail(context, EWA_ERROR_ARGUMENT,
                         "estimate: radius_scale %g and cutoff %g have to be positive", options->radius_scale,
                         options->cutoff);
+    if (!(options->radius_limit >= 1) || !isfinite(options->radius_limit))
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "estimate: radius_limit %g is below 1 or not finite",
+                        options->radius_limit);
     if (!(options->outlier_factor >= 0) || !isfinite(options->outlier_factor))
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "estimate: outlier_factor %g is negative or not finite",
                         options->outlier_factor);
@@ -350,6 +412,7 @@ void ewa_estimate_options_init(ewa_estimate_options *options, size_t struct_size
     options->struct_size = struct_size;
     options->neighbour_count = 16;
     options->radius_scale = EWA_DEFAULT_RADIUS_SCALE;
+    options->radius_limit = EWA_DEFAULT_RADIUS_LIMIT;
     options->cutoff = 3;
     options->keep_normals = true;
     options->keep_radii = true;

@@ -31,9 +31,9 @@ static const float HALF_PLANE_OFFSET =
     0.36f;                                // |mean|^2 / mean(d^2) at a straight border: (4 / 3 pi)^2 / (1 / 2)
 static const float OFFSET_NOISE = 2.0f;   // times 1 / n: offsets up to that occur in the middle of a surface
 static const float LINE_VARIANCE = 1e-3f; // second over first variance below which a neighbourhood is a line
-static const float THIN_VARIANCE = 0.02f; // the same below which more neighbours should be asked
-static const float MAX_LINE_REACH = 6.0f; // spacings; lines 1 : 100 apart
-static const float MAX_REACH = 2.0f;     // spacings; cells that reach further are open: at a border or a hole
+static const float THIN_VARIANCE = 0.05f; // the same below which more neighbours should be asked
+static const float MAX_REACH = 2.0f; // spacings; cells that reach further are open: at a border or a hole
+static const float ENCLOSED_COSINE = 0.866025404f; // of the angle up to which a neighbour bounds a direction
 static const float REACH_MARGIN = 1.08f; // a corner of the cell between two directions reaches further
 
 // cos and sin of i * 22.5 degrees
@@ -205,6 +205,15 @@ static frame find_frame(const moments *m) {
     return f;
 }
 
+/// Of neighbours on a line: their number per length from the variance of even ones, L^2 / 12. The place
+/// itself does not count.
+static wf find_line_spacing(const moments *m) {
+    const wf one = wf_set(1), count = wf_max(wf_sub(m->count, one), one);
+    const wf all = wf_add(wf_add(m->second.xx, m->second.yy), m->second.zz);
+    const wf spread = wf_max(wf_sub(all, wf_div(v_dot(m->first, m->first), count)), wf_set(0));
+    return wf_sqrt(wf_div(wf_mul(wf_set(12), spread), wf_mul(count, wf_mul(count, count))));
+}
+
 static wf find_spacing(const moments *m, const frame *f) {
     const vec n = f->normal;
     const wf one = wf_set(1), zero = wf_set(0);
@@ -294,7 +303,8 @@ static void align_frame(const ewa_block *block, frame *f) {
 /// How far the cell of a place extends in 16 directions of the tangent frame: i, and i + DIRECTIONS opposite.
 typedef struct cell {
     wf extent[2 * DIRECTIONS];
-    wm open[2 * DIRECTIONS]; // no neighbour bounds it there
+    wm open[2 * DIRECTIONS]; // it reaches over the limit there
+    wm shut[2 * DIRECTIONS]; // it does not, and neighbours stand there
 } cell;
 
 /// along[i] = u DIRECTION_X[i] + v DIRECTION_Y[i], each product once.
@@ -312,27 +322,66 @@ static inline void project(wf u, wf v, wf along[DIRECTIONS]) {
     along[7] = wf_sub(vs, uc);
 }
 
+/// The largest and the least of (u, v) along each direction so far.
+typedef struct range {
+    wf high[DIRECTIONS], low[DIRECTIONS];
+} range;
+
+static inline void widen(range *r, wf u, wf v) {
+    wf along[DIRECTIONS];
+    project(u, v, along);
+    for (int i = 0; i < DIRECTIONS; i++) {
+        r->high[i] = wf_max(r->high[i], along[i]);
+        r->low[i] = wf_min(r->low[i], along[i]);
+    }
+}
+
+static range empty_range(void) {
+    range r;
+    for (int i = 0; i < DIRECTIONS; i++) r.high[i] = r.low[i] = wf_set(0);
+    return r;
+}
+
+static inline void set_extents(cell *made, const range *inverted, wf limit) {
+    const wf half = wf_set(0.5f), tiny = wf_set(1e-30f), zero = wf_set(0);
+    for (int i = 0; i < DIRECTIONS; i++) {
+        made->extent[i] = wf_mul(half, reciprocal(wf_max(inverted->high[i], tiny)));
+        made->extent[i + DIRECTIONS] = wf_mul(half, reciprocal(wf_max(wf_sub(zero, inverted->low[i]), tiny)));
+    }
+    for (int i = 0; i < 2 * DIRECTIONS; i++) made->open[i] = wf_lt(limit, made->extent[i]);
+}
+
 static void find_cell(const ewa_block *block, const frame *f, wf limit, cell *made) {
     const vec at = lanes_of(block);
-    const wf zero = wf_set(0);
-    wf high[DIRECTIONS], low[DIRECTIONS];
-    for (int i = 0; i < DIRECTIONS; i++) high[i] = low[i] = zero;
+    range inverted = empty_range();
     for (uint32_t c = 0; c < block->candidate_count; c++) {
         wf u, v;
         invert(block, c, f, at, &u, &v);
-        wf along[DIRECTIONS];
-        project(u, v, along);
-        for (int i = 0; i < DIRECTIONS; i++) {
-            high[i] = wf_max(high[i], along[i]);
-            low[i] = wf_min(low[i], along[i]);
-        }
+        widen(&inverted, u, v);
     }
-    const wf half = wf_set(0.5f), tiny = wf_set(1e-30f);
+    set_extents(made, &inverted, limit);
+    for (int i = 0; i < 2 * DIRECTIONS; i++) made->shut[i] = wm_not(made->open[i]);
+}
+
+/// The same with the cell open, too, where no neighbour stands: beyond the border.
+static void find_enclosed_cell(const ewa_block *block, const frame *f, wf limit, cell *made) {
+    const vec at = lanes_of(block);
+    const wf zero = wf_set(0), least = wf_set(ENCLOSED_COSINE);
+    range inverted = empty_range(), cosines = empty_range();
+    for (uint32_t c = 0; c < block->candidate_count; c++) {
+        wf u, v;
+        invert(block, c, f, at, &u, &v);
+        widen(&inverted, u, v);
+        const wf distance = wf_sqrt(wf_load(block->distance2[c]));
+        widen(&cosines, wf_mul(u, distance), wf_mul(v, distance));
+    }
+    set_extents(made, &inverted, limit);
     for (int i = 0; i < DIRECTIONS; i++) {
-        made->extent[i] = wf_mul(half, reciprocal(wf_max(high[i], tiny)));
-        made->extent[i + DIRECTIONS] = wf_mul(half, reciprocal(wf_max(wf_sub(zero, low[i]), tiny)));
+        const int opposite = i + DIRECTIONS;
+        made->shut[i] = wm_and(wm_not(made->open[i]), wf_le(least, cosines.high[i]));
+        made->shut[opposite] =
+            wm_and(wm_not(made->open[opposite]), wf_le(least, wf_sub(zero, cosines.low[i])));
     }
-    for (int i = 0; i < 2 * DIRECTIONS; i++) made->open[i] = wf_lt(limit, made->extent[i]);
 }
 
 /// The extent of the cell in a direction; zero where it is open there or next to it, so that borders do not
@@ -340,7 +389,7 @@ static void find_cell(const ewa_block *block, const frame *f, wf limit, cell *ma
 static wf closed_extent(const cell *c, int i) {
     enum { ALL = 2 * DIRECTIONS };
     const wm beside = wm_or(c->open[(i + 1) % ALL], c->open[(i + ALL - 1) % ALL]);
-    return wf_keep(wm_not(wm_or(c->open[i], beside)), c->extent[i]);
+    return wf_keep(wm_and(c->shut[i], wm_not(beside)), c->extent[i]);
 }
 
 static wf find_reach(const cell *c) {
@@ -358,8 +407,8 @@ static void find_shape(const cell *c, const frame *f, wf spacing, local_surface 
     for (int i = 0; i < 2 * DIRECTIONS; i++) {
         // Where the cell is open its other side stands in, so that borders grow no fringe.
         const int opposite = (i + DIRECTIONS) % (2 * DIRECTIONS);
-        const wf mirrored = wf_select(c->open[opposite], spacing, c->extent[opposite]);
-        const wf t = wf_mul(wf_select(c->open[i], mirrored, c->extent[i]), per_spacing), t2 = wf_mul(t, t);
+        const wf mirrored = wf_select(c->shut[opposite], c->extent[opposite], spacing);
+        const wf t = wf_mul(wf_select(c->shut[i], c->extent[i], mirrored), per_spacing), t2 = wf_mul(t, t);
         const wf weight = wf_mul(t2, t2);
         const float x = DIRECTION_X[i % DIRECTIONS], y = DIRECTION_Y[i % DIRECTIONS];
         xx = wf_add(xx, wf_mul(weight, wf_set(x * x)));
@@ -386,22 +435,117 @@ static void find_shape(const cell *c, const frame *f, wf spacing, local_surface 
     wf_store(surface->ellipse_reach, wf_mul(wf_sqrt(reach2), wf_set(REACH_MARGIN)));
 }
 
+static wm any_open(const cell *c) {
+    wm any = c->open[0];
+    for (int i = 1; i < 2 * DIRECTIONS; i++) any = wm_or(any, c->open[i]);
+    return any;
+}
+
+/// The lower median of the first lanes: the least value that half of the others are not above.
+static float find_median(const float *values, uint32_t count) {
+    const wf all = wf_load(values), one = wf_set(1);
+    wf not_above = wf_set(0);
+    for (uint32_t i = 0; i < count; i++)
+        not_above = wf_add(not_above, wf_keep(wf_le(wf_set(values[i]), all), one));
+    float least[EWA_BLOCK_LANES];
+    wf_store(least, wf_select(wf_le(wf_set(0.5f * (float)count), not_above), all, wf_set(3e38f)));
+    float median = least[0];
+    for (uint32_t i = 1; i < count; i++) median = least[i] < median ? least[i] : median;
+    return median;
+}
+
+static void measure_cell(uint32_t wanted, const cell *c, const frame *f, wf spacing, local_surface *surface) {
+    if (wanted & LOCAL_REACH) wf_store(surface->reach, find_reach(c));
+    if (wanted & LOCAL_SHAPE) find_shape(c, f, spacing, surface);
+}
+
+/// What needs no cell.
+static wf measure_plane(const moments *m, const frame *f, local_surface *surface) {
+    const wf spacing = find_spacing(m, f);
+    v_store(surface->normal, f->normal);
+    wf_store(surface->spacing, spacing);
+    wf_store(surface->variation, f->variation);
+    surface->thin = wm_bits(f->thin);
+    if (surface->thin) wf_store(surface->line_spacing, find_line_spacing(m));
+    surface->degenerate = wm_bits(f->degenerate);
+    surface->doubtful = 0;
+    return spacing;
+}
+
 static void measure(const ewa_block *block, uint32_t wanted, local_surface *surface) {
     const moments m = sum_moments(block);
     frame f = find_frame(&m);
-    const wf spacing = find_spacing(&m, &f);
-    v_store(surface->normal, f.normal);
-    wf_store(surface->spacing, spacing);
-    wf_store(surface->variation, f.variation);
-    surface->thin = wm_bits(f.thin);
-    surface->degenerate = wm_bits(f.degenerate);
+    const wf spacing = measure_plane(&m, &f, surface);
     if (!wanted) return;
-    if (wanted & (LOCAL_SHAPE | LOCAL_LINES)) align_frame(block, &f);
-    const wf limit = wf_set(wanted & LOCAL_LINES ? MAX_LINE_REACH : MAX_REACH);
+    if (wanted & LOCAL_SHAPE) align_frame(block, &f);
     cell c;
-    find_cell(block, &f, wf_mul(spacing, limit), &c);
-    if (wanted & LOCAL_REACH) wf_store(surface->reach, find_reach(&c));
-    if (wanted & LOCAL_SHAPE) find_shape(&c, &f, spacing, surface);
+    find_cell(block, &f, wf_mul(spacing, wf_set(MAX_REACH)), &c);
+    measure_cell(wanted, &c, &f, spacing, surface);
+    surface->median_spacing = find_median(surface->spacing, block->lane_count);
+    const wm scattered = wf_lt(wf_set((float)LOCAL_SURFACE_VARIATION), f.variation);
+    surface->doubtful = wm_bits(wm_or(any_open(&c), scattered));
+}
+
+static void size(uint32_t wanted, const local_sizing *sizing, local_surface *surface) {
+    const wf spacing = wf_load(surface->spacing), zero = wf_set(0);
+    const wf reach = wf_load(wanted & LOCAL_SHAPE ? surface->ellipse_reach : surface->reach);
+    const wf wide = wf_add(reach, wf_max(wf_sub(reach, spacing), zero));
+    const wf allowed = wf_mul(wf_min(spacing, wf_set(surface->median_spacing)), wf_set(sizing->limit));
+    const wf closed = wf_min(wf_mul(wide, wf_set(sizing->cover)), allowed);
+    const wf radius = wf_max(wf_mul(spacing, wf_set(sizing->scale)), closed);
+    wf_store(surface->radius, radius);
+    const wf steps = wf_mul(wf_div(radius, wf_max(spacing, wf_set(1e-30f))), wf_set(sizing->ratio_steps));
+    wi_store_u8(surface->ratio, wi_from_f(wf_min(wf_set(sizing->most_steps), wf_add(steps, wf_set(1)))));
+}
+
+/// By bisection in the logarithm: steps of 1 / 4096 of the range of all.
+static void find_around(const ewa_block *block, const float *values, float around[EWA_BLOCK_LANES]) {
+    enum { STEPS = 12 };
+    float value[EWA_BLOCK_CANDIDATES], least = 3e38f, most = 0;
+    const uint32_t n = block->candidate_count;
+    for (uint32_t i = 0; i < n; i++) {
+        value[i] = values[block->place[i]];
+        least = value[i] < least ? value[i] : least;
+        most = value[i] > most ? value[i] : most;
+    }
+    const wf radius2 = wf_load(block->radius2), one = wf_set(1), half = wf_set(0.5f);
+    wf inside = wf_set(0), low = wf_set(least < 1e-30f ? 1e-30f : least), high = wf_max(low, wf_set(most));
+    for (uint32_t i = 0; i < n; i++)
+        inside = wf_add(inside, wf_keep(wf_le(wf_load(block->distance2[i]), radius2), one));
+    const wf wanted = wf_mul(inside, half);
+    for (int step = 0; step < STEPS; step++) {
+        const wf middle = wf_mul(wf_sqrt(low), wf_sqrt(high));
+        wf below = wf_set(0);
+        for (uint32_t i = 0; i < n; i++) {
+            const wm counts =
+                wm_and(wf_le(wf_load(block->distance2[i]), radius2), wf_le(wf_set(value[i]), middle));
+            below = wf_add(below, wf_keep(counts, one));
+        }
+        const wm enough = wf_le(wanted, below);
+        high = wf_select(enough, middle, high);
+        low = wf_select(enough, low, middle);
+    }
+    wf_store(around, high);
+}
+
+/// Turns a frame so that it has this normal.
+static void turn_frame(frame *f, const float normal[3][EWA_BLOCK_LANES]) {
+    f->normal = (vec){wf_load(normal[0]), wf_load(normal[1]), wf_load(normal[2])};
+    const wm upright = wf_lt(wf_set(0.9f), wf_abs(f->normal.z));
+    f->v = v_unit(v_cross(f->normal, v_select(upright, v_set(1, 0, 0), v_set(0, 0, 1))));
+    f->u = v_cross(f->v, f->normal);
+}
+
+static void enclose(const ewa_block *block, uint32_t wanted, const float normal[3][EWA_BLOCK_LANES],
+                    const float limit[EWA_BLOCK_LANES], local_surface *surface) {
+    const moments m = sum_moments(block);
+    frame f = find_frame(&m);
+    if (normal) turn_frame(&f, normal);
+    const wf spacing = measure_plane(&m, &f, surface);
+    if (wanted & LOCAL_SHAPE) align_frame(block, &f);
+    cell c;
+    find_enclosed_cell(block, &f, wf_load(limit), &c);
+    measure_cell(wanted, &c, &f, spacing, surface);
 }
 
 static void measure_distance(const ewa_block *block, local_surface *surface) {
@@ -451,4 +595,4 @@ static void link_nearest(const ewa_block *block, local_graph graph) {
         for (uint32_t i = count[lane]; i < LOCAL_GRAPH_DEGREE; i++) graph[lane][i] = UINT32_MAX;
 }
 
-const local_kernels KERNELS = {measure, measure_distance, link_nearest};
+const local_kernels KERNELS = {measure, size, find_around, enclose, measure_distance, link_nearest};

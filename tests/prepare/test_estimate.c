@@ -67,7 +67,7 @@ static void test_spacing(void **state) {
 
         ewa_estimate_options options = check_estimate_options();
         options.cutoff = 2; // larger cutoffs need larger supports to cover irregular cells
-        options.radius_scale = 1.2;
+        options.radius_scale = 1.5;
         assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
         const float *radius = check_stream(cloud, EWA_RADIUS), *normal = check_stream(cloud, EWA_NORMAL);
         double inner = 0, border = 0, inner_count = 0, border_count = 0;
