@@ -22,7 +22,7 @@ typedef struct render_arguments {
     light_arguments light;   // second
     const char *output, *aov, *save_camera_path, *stats_path;
     int kernel, passes, cull, colormap;
-    double cutoff, prefilter_px, radius_scale, tolerance, edge_threshold;
+    double cutoff, prefilter_px, radius_scale, point_size_px, tolerance, edge_threshold;
     bool edge_antialiasing, close_gaps;
     int64_t edge_layers;
     const char *layers;
@@ -97,6 +97,14 @@ static const cli_option splat_table[] = {
      .value = "S",
      .range = "(0, inf)",
      .help = "multiplies every radius and axis"},
+    {.key = "point-size",
+     .kind = OPTION_NUMBER,
+     .offset = AT(point_size_px),
+     .value = "PX",
+     .range = "[0, 256]",
+     .help = "draws every point as a disc of that diameter in pixels, at least 1, that faces the viewer: for "
+             "points "
+             "that are no surface; 0: surfels as they are"},
     {.key = "close-gaps",
      .kind = OPTION_ON_OFF,
      .offset = AT(close_gaps),
@@ -235,6 +243,8 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         missing = "--layers needs --passes 3";
     else if (arguments->opacity < 1 && arguments->passes == ONE_PASS)
         missing = "--opacity below 1 needs --passes 3";
+    else if (arguments->point_size_px > 0 && arguments->point_size_px < 1)
+        missing = "--point-size: neither 0 nor in [1, 256]";
     else if (!arguments->color_by && arguments->range.given)
         missing = "--range needs --color-by";
     else if (!arguments->color_by && arguments->colormap >= 0)
@@ -253,6 +263,7 @@ static ewa_render_options render_options(const render_arguments *arguments, cons
     ewa_render_options_init(&options, sizeof options);
     options.kernel = (ewa_kernel)arguments->kernel;
     options.prefilter_px = arguments->prefilter_px;
+    options.point_size_px = arguments->point_size_px;
     options.tolerance = arguments->tolerance;
     options.passes = arguments->passes == ONE_PASS ? 1 : 3;
     options.edge_antialiasing = arguments->edge_antialiasing;
@@ -339,7 +350,7 @@ static bool make_scene(cli_session *session, const render_arguments *arguments, 
                 frames_make(session, &arguments->frames, cloud, arguments->radius_scale, frames);
     session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
     done = done && make_surfels(session, arguments, cloud, surfels, report) &&
-           close_gaps(session, arguments, &cloud, surfels, report);
+           (arguments->point_size_px > 0 || close_gaps(session, arguments, &cloud, surfels, report));
     ewa_cloud_destroy(&cloud);
     if (!done) {
         ewa_surfels_destroy(surfels);
@@ -457,20 +468,21 @@ const cli_command render_command = {
     .name = "render",
     .operands = "IN... -o OUT",
     .summary = "draw point clouds as a continuous, antialiased surface",
-    .details = "Several inputs are drawn together. Normals and radii that a file lacks are estimated from "
-               "the neighbours "
-               "of each point, and points far from all others are left out then, which a message says; "
-               "'ewa surfels' does the same with options and keeps the result.\n"
-               "\n"
-               "Without --camera and --eye the cloud is framed whole; when less than one point in a hundred "
-               "lies so far off "
-               "that the rest would be tiny, those are left outside, which a message says. Without --view "
-               "and --up: z is up "
-               "when the bounding box is flat in z (ground), much taller in z than wide, or far from the "
-               "origin in x or y "
-               "(map coordinates), else y is up. What is flat is seen from above at an angle (iso), all else "
-               "from the front: "
-               "from +z with y up, from -y with z up.",
+    .details =
+        "Several inputs are drawn together. Normals and radii that a file lacks are estimated from "
+        "the neighbours "
+        "of each point; 'ewa surfels' does the same with options and keeps the result. Clouds that are "
+        "no surface, such as the points of a curve, look best with --point-size.\n"
+        "\n"
+        "Without --camera and --eye the cloud is framed whole; when less than one point in a hundred "
+        "lies so far off "
+        "that the rest would be tiny, those are left outside, which a message says. Without --view "
+        "and --up: z is up "
+        "when the bounding box is flat in z (ground), much taller in z than wide, or far from the "
+        "origin in x or y "
+        "(map coordinates), else y is up. What is flat is seen from above at an angle (iso), all else "
+        "from the front: "
+        "from +z with y up, from -y with z up.",
     .examples =
         "ewa render scan.ply -o scan.png\n"
         "ewa render scan.ply -o side.png --view right --size 1920x1080 --background transparent\n"

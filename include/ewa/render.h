@@ -80,6 +80,12 @@ typedef struct ewa_render_options {
     size_t struct_size;
     ewa_kernel kernel;
     double prefilter_px; ///< h, standard deviation of the pixel filter; [0, 4]; 0: none; default 0.35
+    /// 0 (default): surfels as they are. Else in [1, 256]: each point is a disc of that diameter in pixels,
+    /// wherever it lies, parallel to the picture; radii, axes, normals and clip lines do not count, nor do
+    /// `kernel`, `prefilter_px`, `cull` and the surfels' cutoff. The disc's alpha falls from 1 to 0 across
+    /// its rim, over about a pixel (over a sixteenth of larger diameters), and adds up to its area; without
+    /// edge antialiasing, and with one pass, it ends at the rim. For clouds that are no surface.
+    double point_size_px;
     double
         tolerance; ///< kappa of math.md section 6: depth tolerance in units of the support radius; default 1
     uint32_t

@@ -53,7 +53,8 @@ typedef struct ewa_view {
     float fx_px, fy_px, cx_px, cy_px;
     float cutoff, cutoff2;
     float prefilter2_px2; ///< h^2
-    float reach_px;       ///< F h
+    float reach_px;       ///< F h; points: F point_sigma_px
+    float point_sigma_px; ///< of points (semantics.h); 0: surfels as they are
     float tolerance;      ///< kappa F
     float grazing; ///< 1, or 0 with one pass: whether the tolerance grows where surfels are seen edge-on
     float color_scale[3], color_offset[3];
@@ -66,8 +67,8 @@ typedef struct ewa_view {
     bool affine;                    ///< V is that of the affine map: all kernels but perspective
     bool source, circular, raycast; ///< what becomes of V; neither: affine
     const float (*materials)[EWA_MATERIAL_CHANNELS]; ///< [code]; NULL: surfels have no codes
-    float side_planes[4][3]; ///< inward unit normals of the frustum's sides through the eye, widened by F h
-                             ///< and a pixel
+    float side_planes[4][3]; ///< inward unit normals of the frustum's sides through the eye, widened by
+                             ///< reach_px and a pixel
 } ewa_view;
 
 /// Rectangle of tiles that a packet may touch: [x0, x1) x [y0, y1); empty when culled.

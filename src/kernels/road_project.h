@@ -77,6 +77,25 @@ typedef struct stage {
     wf key_x, key_y;
 } stage;
 
+/// Makes a point of a surfel: what stage_place() gives a disc parallel to the picture, of the same size on
+/// the screen wherever it lies.
+static ALWAYS_INLINE void place_point(const ewa_view *view, stage *t) {
+    const wf zero = wf_set(0), depth = view->orthographic ? wf_set(1) : t->p[2];
+    const wf x = wf_mul(depth, wf_set(view->point_sigma_px / view->fx_px));
+    const wf y = wf_mul(depth, wf_set(view->point_sigma_px / view->fy_px));
+    t->sigma = wf_max(x, y), t->minor = wf_min(x, y);
+    t->s11 = wf_mul(x, x), t->s22 = wf_mul(y, y);
+    t->s12 = t->s13 = t->s23 = zero;
+    t->n[0] = t->n[1] = zero, t->n[2] = wf_set(-1);
+    t->facing = wf_set(-1);
+    t->range = zero;
+    t->alive = wm_and(t->alive, wf_lt(zero, t->p[2]));
+    t->inverse_z = wf_div(wf_set(1), depth);
+    t->x0 = view->orthographic ? zero : wf_mul(t->p[0], t->inverse_z);
+    t->y0 = view->orthographic ? zero : wf_mul(t->p[1], t->inverse_z);
+    t->root_k = view->orthographic ? wf_set(1) : t->inverse_z;
+}
+
 /// First step: into camera space, near surfels aside, covariance.
 static ALWAYS_INLINE void stage_place(const ewa_view *view, const ewa_packet *packet, uint32_t id,
                                       bool ellipses, stage *t, ewa_run *run) {
@@ -84,6 +103,11 @@ static ALWAYS_INLINE void stage_place(const ewa_view *view, const ewa_packet *pa
     wf n_world[3], axis[3] = {zero, zero, zero};
     to_camera(view, wf_load(packet->x), wf_load(packet->y), wf_load(packet->z), t->p);
     t->sigma = wf_mul(wf_load(packet->sigma), wf_set(view->scale));
+    t->alive = wf_lt(zero, t->sigma);
+    if (view->point_sigma_px > 0) {
+        place_point(view, t);
+        return;
+    }
     decode_normals(packet, n_world);
     rotate(view->rotation, n_world[0], n_world[1], n_world[2], t->n);
     const wf *n = t->n, *p = t->p;
@@ -104,7 +128,6 @@ static ALWAYS_INLINE void stage_place(const ewa_view *view, const ewa_packet *pa
     if (ellipses) sigma33 = wf_fma(extra, wf_mul(axis[2], axis[2]), sigma33);
     const wf range2 = wf_mul(wf_set(view->cutoff2), sigma33);
     t->range = wf_sqrt(range2);
-    t->alive = wf_lt(zero, t->sigma);
     if (view->orthographic) {
         t->alive = wm_and(t->alive, wf_lt(zero, p[2]));
         t->inverse_z = one, t->x0 = zero, t->y0 = zero, t->facing = n[2];

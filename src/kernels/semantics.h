@@ -50,6 +50,13 @@
 // cheaper, where it is seen from the front: a splat with m >= F h g is nowhere clamped. Others are steep.
 // Near surfels have m = 0.
 //
+// Points (point_size_px > 0): a surfel is replaced by a disc around its centre, parallel to the picture, with
+// the axes (s pz / fx, 0, 0) and (0, s pz / fy, 0) (orthographic: without pz), n = (0, 0, -1), no clip lines,
+// dropped where pz <= 0. R = point_size_px / 2, s^2 = max(min(R / 2, R^2 / 2), R^2 / 16), h = 0; with edge
+// antialiasing and three passes F^2 = R^2 / s^2 - 2 + 2 ln 1024, else F = R / s; tau q0 = exp(1 - R^2 / (2
+// s^2)) / (2 pi). Then alpha of one disc is min(1, exp((R^2 - 2 s^2 - r^2) / (2 s^2))), which adds up to pi
+// R^2.
+//
 // Three passes: B(x) = min (z + eps) over the surfels that count at x, then those with z <= B(x) are summed.
 // One pass: the surfel of smallest z wins, with weight 1 and full coverage.
 // Resolve: q = sum of weights; nothing where q = 0. Colour, depth: weighted means. Normal: weighted sum,

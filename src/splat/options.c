@@ -103,6 +103,8 @@ static ewa_status check_render(ewa_context *context, const ewa_render_options *o
         status = ewa_option_check_choice(context, "cull", (int)options->cull, EWA_CULL_BACK);
     if (status == EWA_OK)
         status = ewa_option_check_range(context, "prefilter_px", options->prefilter_px, 0, false, 4);
+    if (status == EWA_OK && options->point_size_px != 0)
+        status = ewa_option_check_range(context, "point_size_px", options->point_size_px, 1, false, 256);
     if (status == EWA_OK)
         status = ewa_option_check_range(context, "tolerance", options->tolerance, 0, false, HUGE_OPTION);
     if (status == EWA_OK)
@@ -136,6 +138,12 @@ ewa_status ewa_render_options_choose(ewa_context *context, const ewa_render_opti
         ewa_option_check_size(context, "ewa_render_options", given->struct_size, sizeof *chosen);
     if (status == EWA_OK) status = check_render(context, given);
     if (status == EWA_OK) *chosen = *given;
+    if (chosen->point_size_px > 0) {
+        // The disc's own rim is the filter.
+        chosen->prefilter_px = 0;
+        chosen->kernel = EWA_KERNEL_PERSPECTIVE;
+        chosen->cull = EWA_CULL_NONE;
+    }
     return status;
 }
 

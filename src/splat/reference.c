@@ -9,6 +9,7 @@
 #include "image/srgb.h"
 #include "kernels/semantics.h"
 #include "splat/options.h"
+#include "splat/points.h"
 #include "splat/reference_shade.h"
 #include "splat/reference_splat.h"
 
@@ -377,6 +378,8 @@ ewa_status ewa_render_reference(const ewa_cloud *cloud, const ewa_surfels_option
     if (status == EWA_OK) status = ewa_surfel_reader_open(cloud, &chosen, &work.reader);
     if (status != EWA_OK) return status;
     set_layers(&work);
+    if (work.options.point_size_px > 0)
+        work.unit_coverage = ewa_point_profile_make(&work.options).unit_coverage;
     ewa_reference_view_make(camera, chosen.cutoff, &work.options, &work.view);
     ewa_shading_setup_make(&work.options, &work.shading);
     const uint64_t bands = (uint64_t)ewa_context_worker_count(context) * BANDS_PER_WORKER;

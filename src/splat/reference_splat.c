@@ -7,6 +7,7 @@
 // Gross, "Surface Splatting", 2001, sections 3 and 4 (affine kernel, visibility).
 #include "splat/reference_splat.h"
 #include "kernels/semantics.h"
+#include "splat/points.h"
 
 static const double TWO_PI = 6.283185307179586;
 
@@ -31,6 +32,11 @@ void ewa_reference_view_make(const ewa_camera *camera, double cutoff, const ewa_
         .prefilter_px = options->prefilter_px,
         .tolerance = options->tolerance,
     };
+    if (options->point_size_px > 0) {
+        const ewa_point_profile profile = ewa_point_profile_make(options);
+        view->cutoff = profile.cutoff;
+        view->point_sigma_px = profile.sigma_px;
+    }
     for (int row = 0; row < 3; row++) {
         view->rows[row] = vec3_load(&camera->world_to_camera[4 * row]);
         view->translation[row] = camera->world_to_camera[4 * row + 3];
@@ -238,9 +244,10 @@ static void make_depth(const ewa_reference_view *view, double half_range, ewa_re
 /// tv, p, with the sign that makes (x, y, 1).l' positive inside for z > 0. Orthographic: (x, y) - p is the
 /// picture of u tu + v tv, so (u, v) is its product with the inverse of the axes' first two components.
 static void make_clip(const ewa_reference_view *view, const ewa_surfel *surfel, ewa_reference_splat *splat) {
+    splat->clipped = false;
+    if (view->point_sigma_px > 0) return;
     const ewa_vec3 u = splat->axis_u, v = splat->axis_v, p = splat->center;
     splat->clip_either = surfel->clip_either == 1;
-    splat->clipped = false;
     for (int k = 0; k < 2; k++) {
         const double *l = surfel->clip[k];
         double *line = splat->clip[k];
@@ -286,14 +293,22 @@ void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *sur
     const double *t = view->translation;
     const ewa_vec3 p =
         vec3_add(to_camera(view, vec3_load(surfel->center_world)), vec3_make(t[0], t[1], t[2]));
-    const ewa_vec3 u = to_camera(view, vec3_load(surfel->axis_u_world));
-    const ewa_vec3 v = to_camera(view, vec3_load(surfel->axis_v_world));
-    ewa_vec3 n = to_camera(view, vec3_load(surfel->normal_world));
+    ewa_vec3 u = to_camera(view, vec3_load(surfel->axis_u_world));
+    ewa_vec3 v = to_camera(view, vec3_load(surfel->axis_v_world));
+    ewa_vec3 normal_world = vec3_load(surfel->normal_world);
+    const bool is_point = view->point_sigma_px > 0;
+    if (is_point) {
+        const double size = view->point_sigma_px * (view->orthographic ? 1 : p.z);
+        u = vec3_make(size / view->fx_px, 0, 0);
+        v = vec3_make(0, size / view->fy_px, 0);
+        normal_world = vec3_scale(view->rows[2], -1 / vec3_length(view->rows[2]));
+    }
+    ewa_vec3 n = to_camera(view, normal_world);
     n = vec3_scale(n, 1 / vec3_length(n));
     // R = F sqrt(Sigma33), the depth half range of the disc
     const double half_range = view->cutoff * sqrt(u.z * u.z + v.z * v.z);
     const double facing = view->orthographic ? n.z : vec3_dot(n, p);
-    if (view->orthographic ? p.z <= 0 : p.z + half_range <= 0) return;
+    if (view->orthographic || is_point ? p.z <= 0 : p.z + half_range <= 0) return;
     if (view->cull == EWA_CULL_BACK && facing >= 0) return;
     const bool by_rays = !view->orthographic && p.z <= EWA_NEAR_RATIO * half_range;
     if (by_rays && fabs(facing) < EWA_EDGE_ON * vec3_length(p)) return;
@@ -302,7 +317,7 @@ void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *sur
     splat->axis_u = u;
     splat->axis_v = v;
     splat->normal = vec3_scale(n, sign);
-    splat->normal_world = vec3_scale(vec3_load(surfel->normal_world), sign);
+    splat->normal_world = vec3_scale(normal_world, sign);
     splat->color = vec3_load(surfel->color_linear);
     splat->opacity = surfel->alpha;
     splat->by_rays = by_rays;

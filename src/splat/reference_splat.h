@@ -18,9 +18,10 @@ typedef struct ewa_reference_view {
     double farthest_slope; ///< length of the longest ray (x, y, 1) to the picture
     ewa_kernel kernel;
     ewa_cull cull;
-    double cutoff;       ///< F
-    double prefilter_px; ///< h
-    double tolerance;    ///< kappa
+    double cutoff;         ///< F
+    double prefilter_px;   ///< h
+    double tolerance;      ///< kappa
+    double point_sigma_px; ///< of points (semantics.h); 0: surfels as they are
 } ewa_reference_view;
 
 /// A surfel in camera space and its picture.
@@ -56,7 +57,7 @@ typedef struct ewa_reference_sample {
     double z;         ///< clamped
 } ewa_reference_sample;
 
-/// Both structs must have been checked.
+/// Both structs must have been checked; `cutoff` is the surfels', which points do not use.
 void ewa_reference_view_make(const ewa_camera *camera, double cutoff, const ewa_render_options *options,
                              ewa_reference_view *view);
 

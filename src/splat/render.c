@@ -130,7 +130,8 @@ ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const 
 
     ewa_tile_job job = {.kernels = renderer->kernels,
                         .surfels = surfels,
-                        .source = {.packets = surfels->packets, .clip_masks = surfels->clip_masks},
+                        .source = {.packets = surfels->packets,
+                                   .clip_masks = chosen.point_size_px > 0 ? NULL : surfels->clip_masks},
                         .bins = &renderer->bins,
                         .with_normals = shading.lit || drawn.normal,
                         .with_depth = drawn.depth != NULL,

@@ -5,6 +5,7 @@
 #include "splat/view.h"
 #include "base/base.h"
 #include "kernels/semantics.h"
+#include "splat/points.h"
 
 #include <math.h>
 #include <string.h>
@@ -56,10 +57,16 @@ ewa_status ewa_view_set(ewa_view *view, const ewa_surfels *surfels, const ewa_ca
     }
     view->fx_px = (float)camera->fx_px, view->fy_px = (float)camera->fy_px;
     view->cx_px = (float)camera->cx_px, view->cy_px = (float)camera->cy_px;
-    const double cutoff = surfels->cutoff, prefilter = options->prefilter_px;
+    double cutoff = surfels->cutoff, reach_px = cutoff * options->prefilter_px;
+    if (options->point_size_px > 0) {
+        const ewa_point_profile profile = ewa_point_profile_make(options);
+        cutoff = profile.cutoff;
+        reach_px = cutoff * profile.sigma_px;
+        view->point_sigma_px = (float)profile.sigma_px;
+    }
     view->cutoff = (float)cutoff, view->cutoff2 = (float)(cutoff * cutoff);
-    view->prefilter2_px2 = (float)(prefilter * prefilter);
-    view->reach_px = (float)(cutoff * prefilter);
+    view->prefilter2_px2 = (float)(options->prefilter_px * options->prefilter_px);
+    view->reach_px = (float)reach_px;
     // With one pass the nearest splat wins: no tolerance.
     view->tolerance = options->passes == 1 ? 0 : (float)(options->tolerance * cutoff);
     view->grazing = options->passes == 1 ? 0 : 1;
@@ -79,8 +86,8 @@ ewa_status ewa_view_set(ewa_view *view, const ewa_surfels *surfels, const ewa_ca
     view->circular = options->kernel == EWA_KERNEL_CIRCULAR;
     view->raycast = options->kernel == EWA_KERNEL_RAYCAST && !view->orthographic;
     view->cull_back = options->cull == EWA_CULL_BACK;
-    view->ellipses = surfels->ellipses;
-    return view->orthographic ? EWA_OK : set_sides(surfels->context, view, camera, cutoff * prefilter + 1);
+    view->ellipses = surfels->ellipses && options->point_size_px == 0;
+    return view->orthographic ? EWA_OK : set_sides(surfels->context, view, camera, reach_px + 1);
 }
 
 void ewa_material_numbers(const ewa_material *material, float numbers[EWA_MATERIAL_CHANNELS]) {
@@ -129,8 +136,10 @@ void ewa_resolve_set(ewa_resolve *resolve, const ewa_surfels *surfels, const ewa
     ewa_mat3 rotation;
     memset(resolve, 0, sizeof *resolve);
     split_scale(camera, &rotation);
-    resolve->unit_coverage_inverse = (float)(1 / surfels->unit_coverage);
-    resolve->alpha_scale = (float)(1 / (options->edge_threshold * surfels->unit_coverage));
+    const double unit_coverage =
+        options->point_size_px > 0 ? ewa_point_profile_make(options).unit_coverage : surfels->unit_coverage;
+    resolve->unit_coverage_inverse = (float)(1 / unit_coverage);
+    resolve->alpha_scale = (float)(1 / (options->edge_threshold * unit_coverage));
     resolve->opacity = (float)options->opacity;
     resolve->one_pass = options->passes == 1;
     resolve->edge_antialiasing = options->edge_antialiasing && !resolve->one_pass;
