@@ -56,11 +56,11 @@ EWA_API void ewa_estimate_options_init(ewa_estimate_options *options, size_t str
 /// k-th.
 ///   Where they lie almost on a line (a scanner's lines far apart) 64 are asked instead.
 /// - Normals are the direction of least variance, turned as `orientation` says; (0, 0, 1) for a lone point.
-/// - Radii are radius_scale times the spacing, and never so small that irregular sampling leaves a hole. Axes
-/// have
-///   the same area and the proportions of the point's cell among its neighbours, at most 4 : 1, with u x v
-///   along the normal. What the old sizes meant goes: "radius" beside new axes, axes and clip lines beside
-///   new radii.
+/// - Radii are radius_scale times the spacing, and never so small that irregular sampling leaves a hole, but
+///   for `radius_limit`. Points that are no part of what is around them get no more than radius_scale times
+///   the spacing there. Axes have the same area and the proportions of the point's cell among its neighbours,
+///   at most 4 : 1, with u x v along the normal. What the old sizes meant goes: "radius" beside new axes, axes
+///   and clip lines beside new radii.
 /// - Points with coordinates that are not finite get zeros. Coplanar, collinear and identical points get
 /// finite
 ///   results; an info message says how many have no plane.

@@ -24,6 +24,8 @@ enum {
     LISTED_PLACES = 4,       // of a leaf, more than which are searched by that list
 };
 
+// A disc of so many spacings times the root of k holds k places and half as many more.
+static const double SPACING_SHARE = 0.7;
 // The guess for a leaf over what its predecessor needed: larger means fewer second tries but more candidates.
 static const double GUESS_MARGIN = 1.05;
 // The same over what one of its places needs.
@@ -392,8 +394,12 @@ static bool set_attempt(const search_job *job, uint32_t leaf, attempt *a) {
 static void search_leaf(const search_job *job, uint32_t leaf, double *guess, uint32_t worker) {
     attempt a;
     if (!set_attempt(job, leaf, &a)) return;
-    // A part of a leaf says nothing about the density.
-    a.radius = *guess >= 0 ? *guess : job->choice->chosen ? 0 : DIAGONAL_SHARE * diagonal(&a);
+    if (*guess >= 0)
+        a.radius = *guess;
+    else if (job->choice->spacing)
+        a.radius = (double)job->choice->spacing[a.first] * sqrt(job->rank) * SPACING_SHARE;
+    else // a part of a leaf says nothing about the density
+        a.radius = job->choice->chosen ? 0 : DIAGONAL_SHARE * diagonal(&a);
     bool guessed_here = !(a.radius > 0);
     if (guessed_here) a.radius = first_guess(job, &a);
     for (int tries = 0; tries < MAX_TRIES; tries++) {

@@ -19,8 +19,6 @@ enum {
     COUNTER_STRIDE = 64, // bytes between the counters of workers
 };
 
-// Share of the limit of radii that the first visit gives, which knows the spacing around less well.
-static const double FIRST_LIMIT = 0.9;
 // Over the limit of radii: how far apart lines of samples may be, between which there is surface.
 static const double LINE_LIMIT = 4.0 / 3;
 
@@ -244,7 +242,7 @@ static ewa_status add_output(ewa_cloud *cloud, const char *name, uint32_t compon
 
 /// Measures all places.
 static ewa_status measure(ewa_context *context, estimate_job *job) {
-    ewa_visit_choice choice = {job->options->neighbour_count, 1, NULL, "estimate", 0};
+    ewa_visit_choice choice = {job->options->neighbour_count, 1, NULL, "estimate", 0, NULL};
     ewa_status status = ewa_neighbours_visit(job->neighbours, &choice, visit, job);
     uint64_t thin = 0;
     for (uint32_t w = 0; w < ewa_context_worker_count(context); w++) thin += job->counters[w].thin;
@@ -255,6 +253,7 @@ static ewa_status measure(ewa_context *context, estimate_job *job) {
     if (status != EWA_OK || !job->wanted) return status;
     ewa_radius_doubt_sparse(context, job->spacing, job->place_count, job->options->radius_limit, job->notes);
     choice.chosen_bits = RADIUS_AGAIN;
+    choice.spacing = job->spacing;
     return ewa_neighbours_visit(job->neighbours, &choice, visit_again, job);
 }
 
@@ -292,8 +291,8 @@ static ewa_status estimate_with(ewa_cloud *cloud, estimate_job *job, bool normal
     const bool ellipse = job->options->shape == EWA_SHAPE_ELLIPSE;
     const size_t places = job->place_count, workers = ewa_context_worker_count(context);
     job->wanted = !sizes ? 0 : ellipse ? LOCAL_SHAPE : LOCAL_REACH;
-    job->sizing = ewa_radius_sizing(FIRST_LIMIT * job->options->radius_limit, job->options->radius_scale,
-                                    job->options->cutoff);
+    job->sizing =
+        ewa_radius_sizing(job->options->radius_limit, job->options->radius_scale, job->options->cutoff);
     ewa_status status = EWA_OK;
     if (sizes && !ellipse) status = add_output(cloud, EWA_RADIUS, 1, has_gaps, &job->radius_out);
     if (sizes && ellipse) status = add_output(cloud, EWA_TANGENT_U, 3, has_gaps, &job->tangent_u_out);

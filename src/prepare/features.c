@@ -252,7 +252,7 @@ static int compare_floats(const void *a, const void *b) {
 static ewa_status measure_noise(feature_job *job) {
     for (uint32_t place = 0; place < job->place_count; place++) job->noise_of[place] = -1;
     const uint32_t step = job->place_count / (EWA_BLOCK_LANES * NOISE_BLOCKS);
-    const ewa_visit_choice choice = {NOISE_NEIGHBOURS, step ? step : 1, NULL, "noise", 0};
+    const ewa_visit_choice choice = {NOISE_NEIGHBOURS, step ? step : 1, NULL, "noise", 0, NULL};
     const ewa_status status = ewa_neighbours_visit(job->neighbours, &choice, visit_noise, job);
     if (status != EWA_OK) return status;
     uint32_t count = 0;
@@ -288,7 +288,7 @@ static ewa_status detect(feature_job *job, const ewa_feature_options *options) {
     // noise adds varies by sqrt(2 / k) of itself.
     const double k = job->neighbour_count, from_noise = 2 * EWA_PI * job->noise * job->noise / k;
     job->least_variation = from_noise * (1 + 2 * sqrt(2 / k)) + FOLD_VARIATION * half2;
-    ewa_visit_choice choice = {job->neighbour_count, 1, NULL, "choose", 0};
+    ewa_visit_choice choice = {job->neighbour_count, 1, NULL, "choose", 0, NULL};
     if (status == EWA_OK) status = ewa_neighbours_visit(job->neighbours, &choice, visit_choose, job);
     if (status == EWA_OK) status = number_models(job);
     choice.chosen = job->chosen;

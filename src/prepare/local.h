@@ -57,9 +57,10 @@ typedef uint32_t local_graph[EWA_BLOCK_LANES][LOCAL_GRAPH_DEGREE];
 typedef struct local_kernels {
     /// All but mean_distance; `reach` up to 2 spacings.
     void (*measure)(const ewa_block *block, uint32_t wanted, local_surface *surface);
-    /// Radii after measure() with the same `wanted`.
+    /// Radii after measure() with the same `wanted`; what is at the limit is not doubtful any more if it is a
+    /// surface.
     void (*size)(uint32_t wanted, const local_sizing *sizing, local_surface *surface);
-    /// The median of values (by place) over each lane's neighbourhood, its own place included, to 1 / 4096 of
+    /// The median of values (by place) over each lane's neighbourhood, its own place included, to 1 / 256 of
     /// the ratio of the largest to the least in the block, in logarithms.
     void (*median)(const ewa_block *block, const float *values, float around[EWA_BLOCK_LANES]);
     /// What measure() tells, by many neighbours: cells are closed up to `limit` (in the block's units) where

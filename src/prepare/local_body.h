@@ -496,11 +496,14 @@ static void size(uint32_t wanted, const local_sizing *sizing, local_surface *sur
     wf_store(surface->radius, radius);
     const wf steps = wf_mul(wf_div(radius, wf_max(spacing, wf_set(1e-30f))), wf_set(sizing->ratio_steps));
     wi_store_u8(surface->ratio, wi_from_f(wf_min(wf_set(sizing->most_steps), wf_add(steps, wf_set(1)))));
+    // What an open cell may hide adds nothing to a radius at the limit.
+    const wm scattered = wf_lt(wf_set((float)LOCAL_SURFACE_VARIATION), wf_load(surface->variation));
+    surface->doubtful &= wm_bits(wm_or(scattered, wf_lt(closed, allowed)));
 }
 
-/// By bisection in the logarithm: steps of 1 / 4096 of the range of all.
+/// By bisection in the logarithm: steps of 1 / 256 of the range of all.
 static void find_around(const ewa_block *block, const float *values, float around[EWA_BLOCK_LANES]) {
-    enum { STEPS = 12 };
+    enum { STEPS = 8 };
     float value[EWA_BLOCK_CANDIDATES], least = 3e38f, most = 0;
     const uint32_t n = block->candidate_count;
     for (uint32_t i = 0; i < n; i++) {

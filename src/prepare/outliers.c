@@ -75,7 +75,7 @@ ewa_status ewa_remove_outliers(ewa_cloud **cloud, uint32_t neighbour_count, doub
     uint8_t *keep = ewa_allocate_zeroed(context, point_count, sizeof *keep);
     status = EWA_ERROR_MEMORY;
     if (job.mean_distance && keep) {
-        const ewa_visit_choice choice = {neighbour_count, 1, NULL, "outliers", 0};
+        const ewa_visit_choice choice = {neighbour_count, 1, NULL, "outliers", 0, NULL};
         status = ewa_neighbours_visit(neighbours, &choice, visit, &job);
         const uint64_t kept =
             status == EWA_OK ? mark(neighbours, job.mean_distance, factor, keep) : point_count;

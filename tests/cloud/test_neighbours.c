@@ -95,7 +95,7 @@ static found *find_all(uint32_t threads, uint32_t cpu_mask, const ewa_attribute 
     assert_int_equal(ewa_neighbours_create(*context, position, count, tree), EWA_OK);
     found *all = calloc((size_t)ewa_neighbours_place_count(*tree) + 1, sizeof *all);
     assert_non_null(all);
-    const ewa_visit_choice choice = {k, 1, NULL, "test", 0};
+    const ewa_visit_choice choice = {k, 1, NULL, "test", 0, NULL};
     assert_int_equal(ewa_neighbours_visit(*tree, &choice, keep_block, all), EWA_OK);
     return all;
 }
@@ -300,7 +300,7 @@ static void test_clumps(void **state) {
     ewa_neighbours *tree = NULL;
     assert_int_equal(ewa_neighbours_create(context, &position, COUNT, &tree), EWA_OK);
     uint32_t lanes[32] = {0};
-    ewa_visit_choice choice = {16, 1, NULL, "test", 0};
+    ewa_visit_choice choice = {16, 1, NULL, "test", 0, NULL};
     assert_int_equal(ewa_neighbours_visit(tree, &choice, count_lanes, lanes), EWA_OK);
     assert_int_equal(lanes[0] + lanes[16], COUNT / 2 + 1);
     memset(lanes, 0, sizeof lanes);
@@ -309,7 +309,7 @@ static void test_clumps(void **state) {
     assert_in_range(lanes[0] + lanes[16], COUNT / 2 / 12, COUNT / 2 / 8);
     uint8_t *chosen = calloc(COUNT, 1);
     chosen[COUNT / 4] = 1;
-    choice = (ewa_visit_choice){16, 1, chosen, "test", 0};
+    choice = (ewa_visit_choice){16, 1, chosen, "test", 0, NULL};
     memset(lanes, 0, sizeof lanes);
     assert_int_equal(ewa_neighbours_visit(tree, &choice, count_lanes, lanes), EWA_OK);
     assert_in_range(lanes[0] + lanes[16], 1, EWA_BLOCK_LANES);
@@ -343,7 +343,7 @@ static void test_overflow(void **state) {
         assert_int_equal(ewa_neighbours_create(context, &position, COUNT, &tree), EWA_OK);
         uint32_t places = ewa_neighbours_place_count(tree);
         assert_int_equal(places, COUNT);
-        const ewa_visit_choice choice = {16, 1, NULL, "test", 0};
+        const ewa_visit_choice choice = {16, 1, NULL, "test", 0, NULL};
         assert_int_equal(ewa_neighbours_visit(tree, &choice, check_places, &places), EWA_OK);
         ewa_neighbours_destroy(&tree);
     }

@@ -81,7 +81,8 @@ static void test_spacing(void **state) {
         inner /= inner_count;
         border /= border_count;
         assert_true(fabs(inner / options.radius_scale - 1) < 0.045);
-        assert_true(border < 1.2 * inner && border > 0.9 * inner);
+        // What a cell reaches beyond a spacing counts twice, which long cells at the border do on one side.
+        assert_true(border < (kind == STRETCHED ? 1.25 : 1.2) * inner && border > 0.9 * inner);
         ewa_cloud_destroy(&cloud);
     }
     ewa_context_destroy(&context);

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Tests of estimated radii as they show: no pinholes where a surface is sampled, no discs over what is not.
+// measure_radii prints the same figures for more samplings and for files.
+#include "quality/radii_scene.h"
+
+#include <math.h>
+
+static ewa_cloud *make_scene(ewa_context *context, radii_kind kind, double detail, uint32_t count) {
+    ewa_cloud *cloud = NULL;
+    float *xyz = NULL;
+    assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&xyz), EWA_OK);
+    radii_scene_fill(kind, detail, count, xyz);
+    ewa_estimate_options options;
+    ewa_estimate_options_init(&options, sizeof options);
+    assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+    return cloud;
+}
+
+/// Gaps that larger discs would close are none, and pixels inside are opaque.
+static void test_closed(void **state) {
+    (void)state;
+    static const struct {
+        const char *name;
+        radii_kind kind;
+        double detail;
+        uint32_t count;
+        double translucent, thin; ///< largest shares of the pixels inside
+    } scenes[] = {{"plane", RADII_PLANE, 0, 20000, 3e-5, 4e-3},
+                  {"sphere", RADII_SPHERE, 0, 100000, 1e-5, 3e-3},
+                  {"terrain", RADII_TERRAIN, 0, 60000, 3e-5, 4e-3},
+                  {"lines 5 : 1", RADII_LINES, 5, 20000, 0, 1e-3},
+                  {"lines 20 : 1", RADII_LINES, 20, 20000, 1e-5, 4e-3},
+                  {"noise of 1/4", RADII_NOISY, 0.25, 20000, 4e-4, 2e-2}};
+    ewa_context *context = check_context(0, NULL);
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        ewa_cloud *cloud = make_scene(context, scenes[i].kind, scenes[i].detail, scenes[i].count);
+        radii_holes holes;
+        radii_measure_holes(context, cloud, RADII_WHOLE | RADII_NEAR, 3, &holes);
+        const double inside = (double)holes.inside, translucent = (double)holes.translucent / inside,
+                     thin = (double)holes.thin / inside;
+        print_message("%s: of %.0f pixels inside %.0f are empty, %.2g translucent, %.2g not opaque\n",
+                      scenes[i].name, inside, (double)holes.empty, translucent, thin);
+        assert_true(inside > 200000);
+        assert_int_equal(holes.empty, 0);
+        assert_true(translucent <= scenes[i].translucent);
+        assert_true(thin <= scenes[i].thin);
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
+/// No disc is much larger than the spacing around it.
+static void test_limited(void **state) {
+    (void)state;
+    static const struct {
+        const char *name;
+        radii_kind kind;
+        double detail;
+        uint32_t count;
+        double largest; ///< in median spacings
+    } scenes[] = {{"plane", RADII_PLANE, 0, 20000, 3.2},
+                  {"lone points", RADII_LONE, 0, 20000, 3.2},
+                  {"fog", RADII_FOG, 0, 20000, 3.8},
+                  {"lines 20 : 1", RADII_LINES, 20, 20000, 4}};
+    ewa_context *context = check_context(0, NULL);
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        ewa_cloud *cloud = make_scene(context, scenes[i].kind, scenes[i].detail, scenes[i].count);
+        radii_sizes sizes;
+        radii_measure_sizes(cloud, 300, &sizes);
+        print_message("%s: radii of %.2f spacings, the largest %.2f\n", scenes[i].name, sizes.median,
+                      sizes.largest);
+        assert_true(sizes.largest <= scenes[i].largest);
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
+/// Single points above a plane get the plain radius of what is nearest, those of the plane stay as they were.
+static void test_lone_points(void **state) {
+    (void)state;
+    enum { COUNT = 20000 };
+    ewa_context *context = check_context(0, NULL);
+    ewa_cloud *cloud = make_scene(context, RADII_LONE, 0, COUNT);
+    const float *xyz = ewa_cloud_find(cloud, EWA_POSITION)->data,
+                *radius = ewa_cloud_find(cloud, EWA_RADIUS)->data;
+    const double spacing = 2 / sqrt((double)COUNT);
+    int lone = 0;
+    for (int i = 0; i < COUNT; i++) {
+        if (!(xyz[3 * i + 2] > 0)) continue;
+        lone++;
+        assert_true((double)radius[i] > 0.5 * spacing && (double)radius[i] < 1.5 * spacing);
+    }
+    assert_int_equal(lone, COUNT / 5000);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
+/// A sparse reconstruction of a garden, where points far from all others once became balls.
+static void test_garden(void **state) {
+    (void)state;
+    char path[1024];
+    const char *file = check_data("gaussians/garden_sfm_points.ply", path, sizeof path);
+    if (!file) skip();
+    ewa_context *context = check_context(0, NULL);
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_cloud_load(context, file, &cloud), EWA_OK);
+    ewa_estimate_options options;
+    ewa_estimate_options_init(&options, sizeof options);
+    assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+    radii_sizes sizes;
+    radii_measure_sizes(cloud, 300, &sizes);
+    print_message("garden: the largest radius is %.2f spacings, %.3f of the diagonal\n", sizes.largest,
+                  sizes.of_diagonal);
+    assert_true(sizes.largest < 3.4 && sizes.of_diagonal < 0.03);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_closed),
+        cmocka_unit_test(test_limited),
+        cmocka_unit_test(test_lone_points),
+        cmocka_unit_test(test_garden),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
