@@ -3,13 +3,15 @@
 //
 // What a picture of a volume shows: the voxels under a transfer function, and surfaces within.
 #include "volume_scene.h"
+#include "faults.h"
 #include "inputs.h"
+#include "upright.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { BINS = 256, CORNERS = 8, VIEW_FRONT = 0 };
+enum { BINS = 256, CORNERS = 8 };
 
 /// Share of what can be seen that may be outside of the picture on each side: noise.
 static const double NOISE_SHARE = 0.0005;
@@ -103,9 +105,17 @@ static bool load_surfels(cli_session *session, const char *path, volume_scene *s
     if (!cloud) return false;
     ewa_status status = ewa_cloud_measure(cloud, &scene->surfels_bounds);
     if (status == EWA_OK) status = ewa_surfels_create(cloud, &options, &scene->surfels);
-    if (status != EWA_OK) session_failed(session, status);
+    bool done = status == EWA_OK;
+    if (done) {
+        ewa_surfels_info info;
+        ewa_surfels_describe(scene->surfels, &info);
+        session->subject = path;
+        done = faults_report(session, cloud, &info);
+    } else {
+        session_failed(session, status);
+    }
     ewa_cloud_destroy(&cloud);
-    return status == EWA_OK;
+    return done;
 }
 
 static bool classify(cli_session *session, const ewa_volume *volume, const ewa_transfer *transfer,
