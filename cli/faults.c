@@ -11,43 +11,55 @@
 
 enum { BLOCK_POINTS = 256, MAX_COMPONENTS = 4 };
 
-/// Counts the points that have a component which is not finite or, where zero is a fault, no length.
-static uint64_t count_bad(const ewa_attribute *attribute, uint64_t point_count, bool zero_is_bad) {
+/// Marks the points of a block that have a component which is not finite or, where zero is a fault, no
+/// length. Returns how many were not marked before.
+static uint64_t mark_bad(const ewa_attribute *attribute, uint64_t first, uint64_t count, bool zero_is_bad,
+                         bool marked[BLOCK_POINTS]) {
     const uint32_t components = attribute->component_count;
     double block[MAX_COMPONENTS * BLOCK_POINTS];
     uint64_t bad_count = 0;
-    for (uint64_t first = 0; first < point_count && components <= MAX_COMPONENTS; first += BLOCK_POINTS) {
-        const uint64_t count = point_count - first < BLOCK_POINTS ? point_count - first : BLOCK_POINTS;
-        ewa_attribute_read_f64(attribute, first, count, block);
-        for (uint64_t i = 0; i < count; i++) {
-            bool finite = true, positive = false;
-            for (uint32_t c = 0; c < components; c++) {
-                const double number = block[i * components + c];
-                finite = finite && isfinite(number);
-                positive = positive || (components == 1 ? number > 0 : number != 0);
-            }
-            bad_count += !finite || (zero_is_bad && !positive);
+    if (components > MAX_COMPONENTS) return 0;
+    ewa_attribute_read_f64(attribute, first, count, block);
+    for (uint64_t i = 0; i < count; i++) {
+        bool finite = true, positive = false;
+        for (uint32_t c = 0; c < components; c++) {
+            const double number = block[i * components + c];
+            finite = finite && isfinite(number);
+            positive = positive || (components == 1 ? number > 0 : number != 0);
         }
+        const bool bad = !finite || (zero_is_bad && !positive);
+        bad_count += bad && !marked[i];
+        marked[i] = marked[i] || bad;
     }
     return bad_count;
 }
 
 void faults_count(const ewa_cloud *cloud, cloud_faults *faults) {
-    const uint64_t count = ewa_cloud_point_count(cloud);
-    const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION),
-                        *normal = ewa_cloud_find(cloud, EWA_NORMAL),
-                        *radius = ewa_cloud_find(cloud, EWA_RADIUS),
-                        *color = ewa_cloud_find(cloud, EWA_COLOR), *u = ewa_cloud_find(cloud, EWA_TANGENT_U),
-                        *v = ewa_cloud_find(cloud, EWA_TANGENT_V);
-    *faults = (cloud_faults){.position_count = position ? count_bad(position, count, false) : 0};
-    if (normal && normal->component_count == 3) faults->normal_count = count_bad(normal, count, true);
-    if (radius && radius->component_count == 1) faults->radius_count = count_bad(radius, count, true);
-    if (u && v) {
-        const uint64_t u_count = count_bad(u, count, true), v_count = count_bad(v, count, true);
-        faults->axis_count = u_count > v_count ? u_count : v_count;
+    *faults = (cloud_faults){.position_count = 0};
+    // In this order: a point counts under the first head only.
+    const struct {
+        const char *name;
+        uint32_t component_count;
+        bool zero_is_bad;
+        uint64_t *count;
+    } heads[] = {{EWA_POSITION, 3, false, &faults->position_count},
+                 {EWA_NORMAL, 3, true, &faults->normal_count},
+                 {EWA_RADIUS, 1, true, &faults->radius_count},
+                 {EWA_TANGENT_U, 3, true, &faults->axis_count},
+                 {EWA_TANGENT_V, 3, true, &faults->axis_count}};
+    const uint64_t point_count = ewa_cloud_point_count(cloud);
+    const ewa_attribute *color = ewa_cloud_find(cloud, EWA_COLOR);
+    const bool color_is_float = color && (color->type == EWA_F32 || color->type == EWA_F64);
+    for (uint64_t first = 0; first < point_count; first += BLOCK_POINTS) {
+        const uint64_t count = point_count - first < BLOCK_POINTS ? point_count - first : BLOCK_POINTS;
+        bool marked[BLOCK_POINTS] = {false}, colorless[BLOCK_POINTS] = {false};
+        for (size_t h = 0; h < sizeof heads / sizeof heads[0]; h++) {
+            const ewa_attribute *attribute = ewa_cloud_find(cloud, heads[h].name);
+            if (attribute && attribute->component_count == heads[h].component_count)
+                *heads[h].count += mark_bad(attribute, first, count, heads[h].zero_is_bad, marked);
+        }
+        if (color_is_float) faults->color_count += mark_bad(color, first, count, false, colorless);
     }
-    if (color && (color->type == EWA_F32 || color->type == EWA_F64))
-        faults->color_count = count_bad(color, count, false);
 }
 
 /// Writes why points cannot be drawn: "3 with coordinates that are not finite, ...".
@@ -84,11 +96,11 @@ bool faults_report(cli_session *session, const ewa_cloud *cloud, const ewa_surfe
     explain(&faults, sizeof why, why);
     double place_world[3];
     if (surfels->point_count == 0 && at_one_place(cloud, place_world)) {
-        session_fail(session,
-                     "%s at %g,%g,%g, and without neighbours elsewhere and without a property radius nothing "
-                     "says how large it is",
-                     all == 1 ? "there is one point only," : "all points lie at one place,", place_world[0],
-                     place_world[1], place_world[2]);
+        session_fail(
+            session,
+            "%s %g,%g,%g: without neighbours elsewhere or a property radius nothing says how large %s",
+            all == 1 ? "there is one point only, at" : "all points lie at one place,", place_world[0],
+            place_world[1], place_world[2], all == 1 ? "it is" : "they are");
         return false;
     }
     if (surfels->point_count == 0) {

@@ -7,7 +7,7 @@
 
 #include "session.h"
 
-/// Points of a cloud by what is wrong with them; one may be counted under several heads.
+/// Points of a cloud by what is wrong with them, each under the first that applies; colours apart.
 typedef struct cloud_faults {
     uint64_t position_count; ///< coordinates not finite
     uint64_t normal_count;   ///< normal zero or not finite

@@ -52,7 +52,8 @@ void screening_drop_zero_normals(cli_session *session, const char *path, ewa_clo
     if (!ewa_cloud_find(cloud, EWA_NORMAL)) return;
     cloud_faults faults;
     faults_count(cloud, &faults);
-    if (faults.normal_count < ewa_cloud_point_count(cloud)) return;
+    if (!faults.normal_count || faults.position_count + faults.normal_count < ewa_cloud_point_count(cloud))
+        return;
     ewa_cloud_remove(cloud, EWA_NORMAL);
     session->subject = path;
     session_note(session, "all normals are zero or not finite, and count as missing");
@@ -81,7 +82,7 @@ void screening_check_steps(cli_session *session, const char *path, const ewa_clo
     session->subject = path;
     session_warn(
         session,
-        "coordinates up to %.7g are floats with steps of %.2g there, but the points are about %.2g apart: "
+        "coordinates up to %.10g are floats with steps of %.2g there, but the points are about %.2g apart: "
         "shapes are lost; doubles, or points moved to the origin before they become floats, keep them",
         largest, step, spacing);
 }
