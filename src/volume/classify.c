@@ -43,21 +43,24 @@ ewa_status ewa_classifier_make(ewa_context *context, const ewa_volume *volume, c
     const double *m = volume->index_to_world;
     ewa_classifier c = {.volume = volume, .transfer = transfer, .spacing_world = INFINITY};
     double longest = 0;
+    ewa_mat3 axes;
     for (int axis = 0; axis < 3; axis++) {
-        const ewa_vec3 step = vec3_make(m[axis], m[4 + axis], m[8 + axis]);
-        vec3_store(step, c.axes_world.m[axis]);
-        c.spacing_world = fmin(c.spacing_world, vec3_length(step));
-        longest = fmax(longest, vec3_length(step));
+        const double length = hypot(hypot(m[axis], m[4 + axis]), m[8 + axis]);
+        c.spacing_world = fmin(c.spacing_world, length);
+        longest = fmax(longest, length);
     }
-    const double determinant = mat3_determinant(&c.axes_world);
-    c.cell_world3 = fabs(determinant);
-    // Axes that are all but in one plane, whatever their unit.
-    if (!(c.cell_world3 > 1e-9 * longest * longest * longest * (c.spacing_world / longest)) ||
-        !isfinite(1 / c.cell_world3))
-        return ewa_fail(context, EWA_ERROR_ARGUMENT,
-                        "volume: index_to_world is not invertible, its axes span %g", determinant);
-    const ewa_mat3 adjugate = mat3_adjugate(&c.axes_world);
-    c.world_to_index = mat3_scale(&adjugate, 1 / determinant);
+    // In units of the shortest step, so that the world's scale does not matter.
+    for (int axis = 0; axis < 3; axis++)
+        for (int k = 0; k < 3; k++) axes.m[axis][k] = m[4 * k + axis] / c.spacing_world;
+    const double determinant = mat3_determinant(&axes), ratio = longest / c.spacing_world;
+    // Axes that are all but in one plane.
+    if (!(fabs(determinant) > 1e-9 * ratio * ratio) || !isfinite(determinant))
+        return ewa_fail(
+            context, EWA_ERROR_ARGUMENT,
+            "volume: index_to_world is not invertible: its axes span %g of the shortest one cubed",
+            determinant);
+    const ewa_mat3 adjugate = mat3_adjugate(&axes);
+    c.units_to_index = mat3_scale(&adjugate, 1 / determinant);
     c.unit_length_world = transfer->unit_length_world > 0 ? transfer->unit_length_world : c.spacing_world;
     c.with_ramp = transfer->gradient_low != 0 || transfer->gradient_high != 0;
     *classifier = c;
@@ -213,7 +216,8 @@ static void find_slopes_inside(surroundings v, double slopes[3]) {
     slopes[0] = x / 32, slopes[1] = y / 32, slopes[2] = z / 32;
 }
 
-static ewa_vec3 gradient_world(const ewa_classifier *classifier, uint32_t i, uint32_t j, uint32_t k) {
+/// Value per unit.
+static ewa_vec3 gradient(const ewa_classifier *classifier, uint32_t i, uint32_t j, uint32_t k) {
     const ewa_volume *volume = classifier->volume;
     const uint32_t *dims = volume->dims, at[3] = {i, j, k};
     surroundings around;
@@ -226,8 +230,8 @@ static ewa_vec3 gradient_world(const ewa_classifier *classifier, uint32_t i, uin
         read_at_border(volume, at, around);
         find_slopes(around, slopes);
     }
-    // The value's differential is a row of the index, which world_to_index takes there from the world.
-    return mat3_mul_vec3(&classifier->world_to_index, vec3_load(slopes));
+    // The value's differential is a row of the index, which units_to_index takes there from the world.
+    return mat3_mul_vec3(&classifier->units_to_index, vec3_load(slopes));
 }
 
 bool ewa_classify(const ewa_classifier *classifier, uint32_t i, uint32_t j, uint32_t k, bool with_normal,
@@ -236,16 +240,16 @@ bool ewa_classify(const ewa_classifier *classifier, uint32_t i, uint32_t j, uint
     const double value = ewa_volume_value(classifier->volume, i, j, k);
     const double extinction = look_up(transfer, value, voxel->color);
     if (!(extinction > 0)) return false;
-    voxel->extinction = extinction / classifier->unit_length_world;
+    voxel->extinction = extinction * (classifier->spacing_world / classifier->unit_length_world);
     voxel->normal_world = vec3_make(0, 0, 0);
     if (!with_normal && !classifier->with_ramp) return voxel->extinction > 0;
-    const ewa_vec3 gradient = gradient_world(classifier, i, j, k);
+    const ewa_vec3 slope = gradient(classifier, i, j, k);
     if (classifier->with_ramp) {
         const double low = transfer->gradient_low, high = transfer->gradient_high;
-        const double length = vec3_length(gradient);
+        const double length = vec3_length(slope) / classifier->spacing_world;
         voxel->extinction *= length >= high ? 1 : length <= low ? 0 : (length - low) / (high - low);
     }
-    voxel->normal_world = vec3_scale(gradient, -1);
+    voxel->normal_world = vec3_scale(slope, -1);
     if (!vec3_normalize(&voxel->normal_world)) voxel->normal_world = vec3_make(0, 0, 0);
     return voxel->extinction > 0;
 }
