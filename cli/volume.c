@@ -19,7 +19,7 @@ typedef struct volume_arguments {
     volume_scene_arguments scene;
     const char *output, *aov, *save_camera_path, *stats_path;
     int method, index;
-    double sigma, cutoff, prefilter_px, density_scale;
+    double prefilter_px, density_scale;
     bool progressive;
     option_color background;
 } volume_arguments;
@@ -114,13 +114,13 @@ static const cli_option voxel_table[] = {
              "paper's table"},
     {.key = "sigma",
      .kind = OPTION_NUMBER,
-     .offset = AT(sigma),
+     .offset = AT(scene) + offsetof(volume_scene_arguments, sigma),
      .value = "S",
      .range = "[0.3, 2]",
      .help = "standard deviation of the kernel around each voxel, in voxels"},
     {.key = "cutoff",
      .kind = OPTION_NUMBER,
-     .offset = AT(cutoff),
+     .offset = AT(scene) + offsetof(volume_scene_arguments, cutoff),
      .value = "F",
      .range = "[1, 4]",
      .help = "standard deviations at which a kernel ends"},
@@ -169,8 +169,8 @@ static void set_defaults(void *data) {
     ewa_volume_options_init(&options, sizeof options);
     arguments->method = (int)options.method;
     arguments->index = (int)options.index;
-    arguments->sigma = options.sigma;
-    arguments->cutoff = options.cutoff;
+    arguments->scene.sigma = options.sigma;
+    arguments->scene.cutoff = options.cutoff;
     arguments->prefilter_px = options.prefilter_px;
     arguments->density_scale = options.density_scale;
     arguments->background = (option_color){{0, 0, 0, 1}};
@@ -323,8 +323,8 @@ static bool prepare_painter(const volume_arguments *arguments, volume_painter *p
     options->background[3] = (float)arguments->background.rgba[3];
     options->method = (ewa_volume_method)arguments->method;
     options->index = (ewa_volume_index)arguments->index;
-    options->sigma = arguments->sigma;
-    options->cutoff = arguments->cutoff;
+    options->sigma = arguments->scene.sigma;
+    options->cutoff = arguments->scene.cutoff;
     options->prefilter_px = arguments->prefilter_px;
     options->density_scale = arguments->density_scale;
     options->shading = arguments->light.shading >= 0 ? (ewa_shading)arguments->light.shading
@@ -469,12 +469,14 @@ const cli_command volume_command = {
     .name = "volume",
     .operands = "VOL -o OUT",
     .summary = "draw a volume: NRRD, NIfTI, MetaImage, VTK or raw numbers",
-    .details = "Without --transfer, the largest peak of the histogram counts as empty, what lies above as a "
-               "veil that becomes denser with the value.\n"
-               "\n"
-               "The volume is framed whole. Without --view and --up, z is up and it is seen from the front, "
-               "from -y: a patient's face, when the file says where that is. Raw numbers need --dims, or a "
-               "name such as head_256x256x128_uint8.raw.gz.",
+    .details =
+        "Without --transfer, the largest peak of the histogram counts as empty, what lies above as a "
+        "veil that becomes denser with the value.\n"
+        "\n"
+        "The volume is framed whole, with z up. Where the file says how a patient lies it is seen from "
+        "the front, from -y: into the face. A slice or a picture is seen upright, anything else from a "
+        "corner. --azimuth, --elevation and --up start from the front. Raw numbers need --dims, or a "
+        "name such as head_256x256x128_uint8.raw.gz.",
     .examples = "ewa volume head.nrrd -o head.png\n"
                 "ewa volume ct.nii.gz -o bone.png --transfer bone --view left\n"
                 "ewa volume engine.raw -o engine.png --dims 256,256,128 --azimuth 30 --elevation 20\n"

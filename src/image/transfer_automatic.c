@@ -114,9 +114,10 @@ static void find_peaks(material_map *map) {
     }
 }
 
+/// How fast the area falls, as a share of itself per bin.
 static double fall_at(const material_map *map, int t) {
-    const double least = 1e-9 * map->surfaces.count;
-    return 0.5 * log((map->area[t - 1] + least) / (map->area[t + 1] + least));
+    const double before = map->area[t - 1], after = map->area[t + 1];
+    return before + after > 0 ? (before - after) / (before + after) : 0;
 }
 
 /// Where the area stops falling after a peak, before threshold `end`; at = 0: nowhere.
@@ -287,7 +288,7 @@ static double lowest_extinction(const material_map *map, const ewa_volume_facts 
     // for.
     const double chord_voxels = 6 * volume / fmax(map->area[list->edges[0].at], 1);
     const double *step = facts->spacing_world;
-    const double chord_world = chord_voxels * cbrt(step[0] * step[1] * step[2]);
+    const double chord_world = chord_voxels * 3 / (1 / step[0] + 1 / step[1] + 1 / step[2]);
     const double open = 1 - list->hidden, depth = OPEN_DEPTH * open * open + VEIL_DEPTH * list->hidden;
     return chord_world > 0 ? fmin(fmax(depth * ewa_transfer_unit(facts) / chord_world, LEAST), SOLID) : SOLID;
 }
@@ -315,7 +316,11 @@ static void add_points(const material_map *map, const ewa_volume_facts *facts, c
             repeat_point(transfer, from);
         else
             ewa_transfer_add(transfer, from, BODY_COLOR, sqrt(lowest * SOLID));
-        ewa_transfer_add(transfer, ewa_surfaces_value(&map->surfaces, full), color, extinction);
+        // A class of very many values keeps its differences.
+        const bool wide = list->natural && i + 1 == count && map->last - full > BINS / 2;
+        ewa_transfer_add(transfer, ewa_surfaces_value(&map->surfaces, full), wide ? BODY_COLOR : color,
+                         extinction);
+        if (wide) ewa_transfer_add(transfer, map->surfaces.high, color, extinction);
     }
     // What is above the last point looks like it.
     repeat_point(transfer, facts->high);

@@ -43,6 +43,7 @@ typedef struct ewa_volume_header {
     uint32_t axis_count;     ///< those that the file has; the steps of the others are to choose
     double first_world[3];   ///< the first voxel's centre
     bool placed;             ///< first_world is said; else the middle goes to the origin
+    bool anatomical;         ///< of ewa_volume
     ewa_volume_pieces pieces;
 } ewa_volume_header;
 

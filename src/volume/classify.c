@@ -45,7 +45,7 @@ ewa_status ewa_classifier_make(ewa_context *context, const ewa_volume *volume, c
     double longest = 0;
     ewa_mat3 axes;
     for (int axis = 0; axis < 3; axis++) {
-        const double length = hypot(hypot(m[axis], m[4 + axis]), m[8 + axis]);
+        const double length = vec3_length_scaled(vec3_make(m[axis], m[4 + axis], m[8 + axis]));
         c.spacing_world = fmin(c.spacing_world, length);
         longest = fmax(longest, length);
     }
