@@ -70,7 +70,7 @@ static const cli_option voxel_table[] = {
      .kind = OPTION_TEXT,
      .offset = AT(scene) + offsetof(volume_scene_arguments, transfer),
      .value = "FILE|PRESET",
-     .absent = "auto: from the histogram",
+     .absent = "auto: by the surfaces between its materials",
      .help =
          "what values look like: a JSON file, or bone, soft, skin, vessels (CT, in Hounsfield units where "
          "the volume has them), mri, gray, fog, auto"},
@@ -470,8 +470,9 @@ const cli_command volume_command = {
     .operands = "VOL -o OUT",
     .summary = "draw a volume: NRRD, NIfTI, MetaImage, VTK or raw numbers",
     .details =
-        "Without --transfer, the largest peak of the histogram counts as empty, what lies above as a "
-        "veil that becomes denser with the value.\n"
+        "Without --transfer, what surrounds is left out, and so is a container that stands around all that "
+        "is denser; a material that hides others is a veil, the densest is solid. --verbose and info say "
+        "which values these are.\n"
         "\n"
         "The volume is framed whole, with z up. Where the file says how a patient lies it is seen from "
         "the front, from -y: into the face. A slice or a picture is seen upright, anything else from a "

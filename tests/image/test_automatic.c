@@ -110,11 +110,114 @@ static void test_heads(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// The same look of the same matter: turned, mirrored, in other numbers, with a few that are far off or none.
+static void test_same_look(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    standin scene = standin_make(12);
+    standin_add_bonsai(&scene, 60, 80, 100, 140);
+    const standin_scan scan = {12, 5, true};
+    ewa_volume volume = standin_scan_it(context, &scene, &scan);
+    const uint8_t *voxels = volume.voxels;
+    const ewa_transfer first = look_of(&volume);
+    ewa_volume other;
+    assert_int_equal(ewa_volume_create(context, volume.dims, EWA_F32, &other), EWA_OK);
+    float *numbers = other.voxels;
+    for (int n = 0; n < 6; n++) {
+        const double scale = n == 3 ? 1e-6 : n == 4 ? 1e6 : 1, shift = n == 3 ? -7e-5 : 0;
+        for (int i = 0; i < STANDIN_VOXELS; i++) {
+            const int x = i % STANDIN_SIDE, y = i / STANDIN_SIDE % STANDIN_SIDE,
+                      z = i / STANDIN_SIDE / STANDIN_SIDE;
+            const int from[3] = {n == 1 ? z : x,
+                                 n == 1   ? x
+                                 : n == 2 ? STANDIN_SIDE - 1 - y
+                                          : y,
+                                 n == 1 ? y : z};
+            numbers[i] =
+                (float)(voxels[(from[2] * STANDIN_SIDE + from[1]) * STANDIN_SIDE + from[0]] * scale + shift);
+        }
+        if (n == 5) { // noise of the file: values far beyond, and none
+            for (int i = 0; i < 40; i++) numbers[7919 * (i + 1)] = i % 2 ? 1e30f : -1e30f;
+            numbers[4] = NAN, numbers[77777] = INFINITY;
+        }
+        const ewa_transfer transfer = look_of(&other);
+        // A point more goes to what is far off.
+        assert_true(transfer.point_count == first.point_count);
+        for (uint32_t i = 0; i + 1 < first.point_count; i++) {
+            const double value = (transfer.points[i].value - shift) / scale;
+            // Steps of the histogram are another where values are cut off.
+            const double wanted = first.points[i].value;
+            if (fabs(value - wanted) > (n == 5 ? 3 : n == 3 ? 0.01 : 1e-6))
+                fail_msg("%d, point %u: %g, not %g", n, i, value, wanted);
+            const double extinction = (double)first.points[i].extinction;
+            assert_true(fabs((double)transfer.points[i].extinction - extinction) < 0.1 * extinction + 1e-9);
+        }
+    }
+    ewa_volume_free(&other);
+    ewa_volume_free(&volume);
+    standin_free(&scene);
+    ewa_context_destroy(&context);
+}
+
+/// Whatever comes, there is a look, and it shows something where there is something.
+static void test_odd_volumes(void **state) {
+    (void)state;
+    static const uint32_t sizes[][3] = {{1, 1, 2},   {2, 1, 1}, {27, 1, 1},   {1, 9, 3},
+                                        {64, 64, 1}, {5, 5, 5}, {40, 3, 2000}};
+    ewa_context *context = check_context(1, NULL);
+    for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++)
+        for (int kind = 0; kind < 6; kind++) {
+            ewa_volume volume;
+            assert_int_equal(ewa_volume_create(context, sizes[s], EWA_F32, &volume), EWA_OK);
+            const size_t count = (size_t)sizes[s][0] * sizes[s][1] * sizes[s][2];
+            float *numbers = volume.voxels, largest = -INFINITY;
+            check_random random = {5};
+            for (size_t i = 0; i < count; i++) {
+                const double uniform = check_uniform(&random, 0, 1);
+                numbers[i] = kind == 0   ? (float)i
+                             : kind == 1 ? (float)(i == count / 2)
+                             : kind == 2 ? (float)uniform
+                             : kind == 3 ? (float)(i % 2)
+                             : kind == 4 ? (float)(uniform < 0.5 ? -1e38 : 1e38)
+                                         : (i % 3 ? NAN : (float)i);
+                if (numbers[i] > largest) largest = numbers[i];
+            }
+            ewa_volume_facts facts;
+            assert_int_equal(ewa_volume_measure(&volume, &facts), EWA_OK);
+            if (facts.low < facts.high) {
+                const ewa_transfer transfer = look_of(&volume);
+                const ewa_transfer_point *last = &transfer.points[transfer.point_count - 1];
+                assert_true(last->value >= (double)largest && last->extinction > 0);
+                assert_true(transfer.points[0].extinction == 0);
+            }
+            ewa_volume_free(&volume);
+        }
+    ewa_context_destroy(&context);
+}
+
+/// Volumes that are filled to their faces show their denser half.
+static void test_full_volume(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    standin scene = standin_make(40);
+    for (int i = 0; i < STANDIN_VOXELS; i++)
+        if (i / STANDIN_SIDE % STANDIN_SIDE > 40) scene.values[i] = 160, scene.material[i] = STANDIN_SOFT;
+    const standin_scan scan = {40, 3, false};
+    ewa_volume volume = standin_scan_it(context, &scene, &scan);
+    const ewa_transfer transfer = look_of(&volume);
+    const standin_seen dense = standin_look(&scene, &volume, &transfer, 1 << STANDIN_SOFT);
+    expect("dense half", dense.object, 0.85, 1);
+    expect("other half", dense.elsewhere, 0, 0.05);
+    ewa_volume_free(&volume);
+    standin_free(&scene);
+    ewa_context_destroy(&context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bonsai),
-        cmocka_unit_test(test_walnut),
-        cmocka_unit_test(test_heads),
+        cmocka_unit_test(test_bonsai),      cmocka_unit_test(test_walnut),
+        cmocka_unit_test(test_heads),       cmocka_unit_test(test_same_look),
+        cmocka_unit_test(test_odd_volumes), cmocka_unit_test(test_full_volume),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -141,16 +141,16 @@ static void test_too_many_points(void **state) {
     ewa_context_destroy(&context);
 }
 
-/// 4,096 shorts from `low` on, most of them near it, some in a peak at 40 %, few at the top.
+/// 16 x 16 x 16 shorts from `low` on: noise, in it a ball at 40 %, in that one at 90 %.
 static void make_volume(ewa_context *context, int low, int width, ewa_volume *volume) {
     assert_int_equal(ewa_volume_create(context, (const uint32_t[3]){16, 16, 16}, EWA_I16, volume), EWA_OK);
     int16_t *voxels = volume->voxels;
     check_random random = {7};
     for (int i = 0; i < 4096; i++) {
-        const double share = i < 2600   ? check_uniform(&random, 0, 0.03)
-                             : i < 3800 ? check_uniform(&random, 0.37, 0.43)
-                                        : check_uniform(&random, 0.5, 1);
-        voxels[i] = (int16_t)(low + width * share);
+        const double x = i % 16 - 7.5, y = i / 16 % 16 - 7.5, z = i / 256 - 7.5,
+                     r = sqrt(x * x + y * y + z * z);
+        const double middle = r < 3 ? 0.9 : r < 6.5 ? 0.4 : 0.05;
+        voxels[i] = (int16_t)floor(low + width * (middle + check_uniform(&random, -0.03, 0.03)));
     }
     voxels[0] = (int16_t)low;
     voxels[1] = (int16_t)(low + width);
@@ -178,8 +178,8 @@ static void test_automatic(void **state) {
     assert_true(facts.low == 100 && facts.high == 10100 && facts.finite_count == 4096);
     assert_int_equal(ewa_transfer_automatic(&volume, &facts, &transfer), EWA_OK);
     assert_int_equal(ewa_transfer_check(context, "auto", &transfer), EWA_OK);
-    // Empty where most voxels are, something at the peak, denser and denser up to the top.
-    assert_true(extinction_at(&transfer, 150) == 0 && extinction_at(&transfer, 350) == 0);
+    // Empty where the noise is, something at the outer ball, denser and denser up to the top.
+    assert_true(extinction_at(&transfer, 150) == 0 && extinction_at(&transfer, 850) == 0);
     double last = 0;
     for (int i = 1; i <= 100; i++) {
         const double now = extinction_at(&transfer, 100 + 100 * i);
