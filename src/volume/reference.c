@@ -193,7 +193,7 @@ static double optical_depth(const reference *work, const splat *at, double x_px,
         by.length = vec3_length(at->place) / sqrt(c);
         by.distance2 = grid->cutoff2 * ewa_footprint_index2(i2, grid->cutoff2 / c);
     }
-    // All of the kernel is ahead, but for less than 1e-4 of the voxel.
+    // All of the kernel is ahead, but for next to nothing.
     return at->extinction * grid->splat_peak * by.length * at->attenuation * exp(-by.distance2 / 2);
 }
 

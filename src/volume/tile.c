@@ -57,9 +57,9 @@ ewa_status ewa_volume_scratch_reserve(ewa_context *context, ewa_volume_scratch *
 }
 
 void ewa_volume_scratch_free(ewa_context *context, ewa_volume_scratch *scratch) {
-    ewa_buffer *const buffers[] = {&scratch->sums, &scratch->pixels, &scratch->surface,
-                                   &scratch->ring, &scratch->pages,  &scratch->next,
-                                   &scratch->free, &scratch->order,  &scratch->keys};
+    ewa_buffer *const buffers[] = {&scratch->sums,  &scratch->pixels, &scratch->surface, &scratch->ring,
+                                   &scratch->pages, &scratch->next,   &scratch->free,    &scratch->order,
+                                   &scratch->keys,  &scratch->near};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++) ewa_buffer_free(context, buffers[i]);
 }
 

@@ -10,9 +10,10 @@
 /// Standard deviation up to which points are as good as splats: 60 dB.
 static const double WIDEST_POINT_PX = 0.8;
 
-/// Depth, in reaches of a voxel's kernel, from which on voxels are ellipses: what of the kernel is behind the
-/// eye there is less than 1e-4 of the voxel.
-static const double NEAR_REACHES = 1.3;
+/// Standard deviations by which at least rays that meet a kernel's rim are ahead of the eye, where voxels are
+/// drawn as ellipses: 0.14 % of what is at the rim is behind it then, at three standard deviations 1.5e-5 of
+/// the voxel.
+static const double AHEAD_DEVIATIONS = 3;
 
 static double focal_px(const ewa_grid_view *grid) { return fmax(grid->fx_px, grid->fy_px); }
 
@@ -35,7 +36,9 @@ double ewa_volume_depth_unit(const ewa_grid_view *grid, const ewa_volume_options
 }
 
 double ewa_volume_first_far_unit(const ewa_grid_view *grid, double unit) {
-    return grid->orthographic ? -INFINITY : ewa_volume_unit_of(grid, unit, NEAR_REACHES * grid->near) + 1;
+    if (grid->orthographic) return -INFINITY;
+    const double end = grid->depth_sigma * sqrt(grid->cutoff2 + AHEAD_DEVIATIONS * AHEAD_DEVIATIONS);
+    return ewa_volume_unit_of(grid, unit, end) + 1;
 }
 
 void ewa_volume_slices_make(ewa_volume_slices *slices, const ewa_voxel_level *level,
