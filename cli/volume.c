@@ -299,6 +299,7 @@ static ewa_status paint(void *user, const ewa_camera *camera, const ewa_frame *f
     sum->voxel_count = drawn.voxel_count;
     sum->culled_count += drawn.culled_count;
     sum->hidden_count += drawn.hidden_count;
+    sum->near_count += drawn.near_count;
     sum->splat_count += drawn.splat_count;
     sum->point_count += drawn.point_count;
     sum->bin_s += drawn.bin_s;
@@ -407,6 +408,7 @@ static bool write_stats(cli_session *session, const volume_arguments *arguments,
     json_count(&json, "resident_bytes", info->resident_bytes);
     json_count(&json, "voxels_culled", stats->culled_count);
     json_count(&json, "voxels_hidden", stats->hidden_count);
+    json_count(&json, "voxels_near", stats->near_count);
     json_count(&json, "splats_drawn", stats->splat_count);
     json_count(&json, "points_drawn", stats->point_count);
     json_number(&json, "point_share", drawn ? (double)stats->point_count / (double)drawn : 0);

@@ -133,10 +133,12 @@ static bool classify(cli_session *session, const ewa_volume *volume, const ewa_t
 /// nothing is known of from a corner, which shows most of any shape.
 static int choose_view(const ewa_volume *volume) {
     double thickness = INFINITY, width = INFINITY;
-    int thin = 0;
+    int thin = 0, single_count = 0;
     for (int axis = 0; axis < 3; axis++) {
         const double *m = volume->index_to_world + axis;
-        const double extent = volume->dims[axis] * hypot(hypot(m[0], m[4]), m[8]);
+        const bool single = volume->dims[axis] == 1;
+        const double extent = single ? 0 : volume->dims[axis] * hypot(hypot(m[0], m[4]), m[8]);
+        single_count += single;
         if (extent < thickness) {
             width = thickness;
             thickness = extent;
@@ -147,7 +149,7 @@ static int choose_view(const ewa_volume *volume) {
     }
     const double *m = volume->index_to_world + thin;
     const double x = fabs(m[0]), y = fabs(m[4]), z = fabs(m[8]);
-    if (width > SLICE_RATIO * thickness)
+    if (single_count < 2 && width > SLICE_RATIO * thickness)
         return z >= x && z >= y ? VIEW_BOTTOM : x > y ? VIEW_LEFT : VIEW_FRONT;
     return volume->anatomical ? VIEW_FRONT : VIEW_ISO;
 }

@@ -305,10 +305,9 @@ EWA_API ewa_status ewa_volume_generate(ewa_context *context, const ewa_volume_ge
 /// Makes a cloud of what a camera has to have in its picture of a volume: the corners of at most 4096 boxes
 /// around the voxels that a transfer function lets see, `reach_steps` ([0, 1000]) steps of the grid wider on
 /// all sides; a voxel's kernel reaches sigma times cutoff of ewa_volume_options. Voxels count as seen when a
-/// line of sight through all of the volume would show them if it were of nothing else; those that have fewer
-/// than two such around them are noise and do not count, unless there are no others. The caller owns
-/// `*cloud`, which has positions only (F64) and no point when nothing can be seen. Errors:
-/// EWA_ERROR_ARGUMENT, EWA_ERROR_MEMORY.
+/// line of sight through all of the volume would show them if it were of nothing else; single ones and pairs
+/// are noise and do not count, unless there are no others. The caller owns `*cloud`, which has positions only
+/// (F64) and no point when nothing can be seen. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_volume_outline(const ewa_volume *volume, const ewa_transfer *transfer,
                                       double reach_steps, ewa_cloud **cloud);
 

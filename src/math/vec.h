@@ -25,7 +25,6 @@ static inline double vec3_length_scaled(ewa_vec3 a) {
     return largest * vec3_length(vec3_make(a.x / largest, a.y / largest, a.z / largest));
 }
 
-
 static inline ewa_vec3 vec3_cross(ewa_vec3 a, ewa_vec3 b) {
     return vec3_make(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }

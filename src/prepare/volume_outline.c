@@ -8,7 +8,7 @@
 #include "math/vec.h"
 #include <string.h>
 
-enum { STEPS = 1024, ROW = 1024, GROUPS = 64, CORNERS = 8, SLICES = 3, FEW = 3 };
+enum { STEPS = 1024, ROW = 1024, GROUPS = 64, CORNERS = 8, SLICES = 5, FEW = 3 };
 
 /// Opacity that nobody sees: half a step of 8 bits.
 static const double UNSEEN = 0.5 / 255;
@@ -84,21 +84,35 @@ static void mask_slice(outline *o, uint32_t k) {
     }
 }
 
-/// Whether a voxel and at least two around it can be seen: noise is alone.
+/// Counts what can be seen of a voxel and those around it, up to FEW; `beside` becomes one of these.
+static int count_around(const outline *o, const uint32_t at[3], uint32_t beside[3]) {
+    const uint32_t *dims = o->volume->dims;
+    uint32_t low[3], high[3];
+    for (int axis = 0; axis < 3; axis++) {
+        low[axis] = at[axis] ? at[axis] - 1 : 0;
+        high[axis] = at[axis] + 1 < dims[axis] ? at[axis] + 1 : at[axis];
+    }
+    int found = 0;
+    for (uint32_t k = low[2]; k <= high[2]; k++)
+        for (uint32_t j = low[1]; j <= high[1]; j++) {
+            const uint8_t *row = mask_row(o, j, k);
+            for (uint32_t i = low[0]; i <= high[0]; i++) {
+                if (!row[i]) continue;
+                if (++found == FEW) return found;
+                if (i != at[0] || j != at[1] || k != at[2]) beside[0] = i, beside[1] = j, beside[2] = k;
+            }
+        }
+    return found;
+}
+
+/// Whether three voxels that touch can be seen, this one among them: noise is alone or in pairs.
 static bool is_matter(const outline *o, uint32_t i, uint32_t j, uint32_t k) {
     if (o->with_specks) return true;
-    const uint32_t *dims = o->volume->dims;
-    const uint32_t low_i = i ? i - 1 : 0, high_i = i + 1 < dims[0] ? i + 1 : i;
-    const uint32_t low_j = j ? j - 1 : 0, high_j = j + 1 < dims[1] ? j + 1 : j;
-    const uint32_t low_k = k ? k - 1 : 0, high_k = k + 1 < dims[2] ? k + 1 : k;
-    int found = 0;
-    for (uint32_t c = low_k; c <= high_k; c++)
-        for (uint32_t b = low_j; b <= high_j; b++) {
-            const uint8_t *row = mask_row(o, b, c);
-            for (uint32_t a = low_i; a <= high_i; a++)
-                if ((found += row[a]) >= FEW) return true;
-        }
-    return false;
+    const uint32_t at[3] = {i, j, k};
+    uint32_t beside[3] = {i, j, k}, other[3];
+    const int found = count_around(o, at, beside);
+    // The end of a thin thing has one neighbour, which has another.
+    return found == FEW || (found == FEW - 1 && count_around(o, beside, other) == FEW);
 }
 
 static void widen(row_group *group, const uint32_t at[3]) {
@@ -109,7 +123,7 @@ static void widen(row_group *group, const uint32_t at[3]) {
     group->any = true;
 }
 
-/// Adds the ends of the rows of a slice, whose neighbours are masked, to their groups.
+/// Adds the ends of the rows of a slice, of which two slices to either side are masked, to their groups.
 static void add_slice(outline *o, uint32_t k) {
     const uint32_t *dims = o->volume->dims;
     for (uint32_t j = 0; j < dims[1]; j++) {
@@ -130,9 +144,9 @@ static void find_groups(outline *o) {
     o->group_count = 0;
     for (uint32_t k = 0; k < slices; k++) {
         mask_slice(o, k);
-        if (k > 0) add_slice(o, k - 1);
+        if (k >= 2) add_slice(o, k - 2);
     }
-    add_slice(o, slices - 1);
+    for (uint32_t k = slices > 2 ? slices - 2 : 0; k < slices; k++) add_slice(o, k);
     for (int n = 0; n < GROUPS * GROUPS; n++) o->group_count += o->groups[n / GROUPS][n % GROUPS].any;
 }
 
