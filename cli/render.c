@@ -368,7 +368,8 @@ static bool draw(cli_session *session, const render_arguments *arguments, const 
         .paths = paths,
         .numbered = many,
         .film = video_find_format(arguments->output) ? arguments->output : NULL,
-        .source = arguments->frames.path_file,
+        .source =
+            arguments->frames.path_file ? arguments->frames.path_file : arguments->frames.view.camera_path,
         .frames_per_s = arguments->frames.frames_per_s > 0 ? arguments->frames.frames_per_s : 30,
         .quality = arguments->frames.quality >= 0 ? (int)arguments->frames.quality : 75,
         .opaque = arguments->background.rgba[3] == 1,

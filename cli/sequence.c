@@ -135,7 +135,9 @@ static bool draw_frame(sequence *all, size_t index) {
     const char *source = all->output->source;
     snprintf(all->subject, sizeof all->subject, "%s%sframe %zu", source ? source : "", source ? ": " : "",
              index);
-    all->session->subject = all->frames->count > 1 ? all->subject : all->output->paths->color;
+    all->session->subject = all->frames->count > 1 ? all->subject
+                            : source               ? source
+                                                   : all->output->paths->color;
     slot->session->subject = all->session->subject;
     if (!last || camera->width_px != last->width_px || camera->height_px != last->height_px) {
         picture_free(&slot->picture);

@@ -208,6 +208,21 @@ static void test_nothing_seen(void **state) {
          "ewa render ball.ply -o a.png --size 32x32 && ewa texture a.png -o b.png --camera away.json");
 }
 
+/// A path that fails midway: which file, which of its frames, and which pictures are there.
+static void test_path_fails(void **state) {
+    (void)state;
+    scratch_text(
+        "beside.json",
+        "[" CAMERA("3") ", " CAMERA(
+            "4") ", {\"width\": 64, \"height\": 48, \"fx\": 60, \"fy\": 60, "
+                 "\"cx\": 1e300, \"cy\": 24, \"world_to_camera\": [1,0,0,0,0,1,0,0,0,0,1,3,0,0,0,1]}]");
+    run_fails(1, "beside.json: frame 2: |no view volume|of 3 frames, 2 are written and stay: 0 to 1",
+              "ewa render ball.ply -o frame_%%d.png --path beside.json");
+    run_done("test -f frame_0.png -a -f frame_1.png -a ! -e frame_2.png");
+    run_fails(1, "beside.json: render: the camera has no view volume",
+              "ewa render ball.ply -o a.png --camera beside.json --camera-index 2");
+}
+
 /// Poses with a lens from --fov, from numbers or from a file are cameras like others.
 static void test_poses(void **state) {
     (void)state;
@@ -251,11 +266,11 @@ static void test_poses(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_one_place), cmocka_unit_test(test_faults),
-        cmocka_unit_test(test_colors),    cmocka_unit_test(test_csg_names_files),
-        cmocka_unit_test(test_gaussians), cmocka_unit_test(test_zero_normals),
-        cmocka_unit_test(test_steps),     cmocka_unit_test(test_nothing_seen),
-        cmocka_unit_test(test_poses),
+        cmocka_unit_test(test_one_place),  cmocka_unit_test(test_faults),
+        cmocka_unit_test(test_colors),     cmocka_unit_test(test_csg_names_files),
+        cmocka_unit_test(test_gaussians),  cmocka_unit_test(test_zero_normals),
+        cmocka_unit_test(test_steps),      cmocka_unit_test(test_nothing_seen),
+        cmocka_unit_test(test_path_fails), cmocka_unit_test(test_poses),
     };
     return cmocka_run_group_tests(tests, enter, NULL);
 }
