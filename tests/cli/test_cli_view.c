@@ -237,6 +237,9 @@ static void test_what_lies(void **state) {
     shape to = {.random = {8}};
     add_egg(&to, (double[3]){0.5, 2.2, 0.4}, -9, false, 20000);
     expect_shape("fish.ply", to, "z", "iso");
+    to = (shape){.random = {8}}; // so round that nothing of it is a base
+    add_egg(&to, (double[3]){0.5, 2.2, 0.9}, -9, false, 20000);
+    expect_shape("shuttle.ply", to, "z", "iso");
     to = (shape){.random = {8}};
     add_box(&to, (double[3]){0, 0, 0}, (double[3]){3, 2, 0.3}, 3000);
     expect_shape("plate.ply", to, "z", "iso");
