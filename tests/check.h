@@ -70,6 +70,13 @@ static inline ewa_allocator check_allocator(check_memory *memory) {
     return (ewa_allocator){memory, check_allocate, check_release};
 }
 
+/// Says that a file of the shared test data is not there; a failure where the folder is said to have all of
+/// them.
+static inline void check_data_missing(const char *relative) {
+    if (getenv("EWA_DATA_IS_WHOLE")) fail_msg("no stand-in for %s: tests/data makes them", relative);
+    print_message("skipped: no test data %s\n", relative);
+}
+
 /// Path of a file of the shared test data, or NULL (after saying so) when it is not there.
 static inline const char *check_data(const char *relative, char *path, size_t path_bytes) {
     const char *folder = getenv("EWA_DATA");
@@ -81,7 +88,7 @@ static inline const char *check_data(const char *relative, char *path, size_t pa
             return path;
         }
     }
-    print_message("skipped: no test data %s\n", relative);
+    check_data_missing(relative);
     return NULL;
 }
 
