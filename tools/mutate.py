@@ -8,7 +8,7 @@
   tools/mutate.py check                         names entries whose line the sources no longer have
   tools/mutate.py run [--jobs N] [--only TEXT] [--again]
                                                 breaks and tests; results in build/mutate/results.txt, which a
-                                                further run goes on from
+                                                further run goes on from; of what is committed
   tools/mutate.py report                        the score, by room, and what survived
 
 A mutant is relevant when the probe (tests/probe) differs by more than 1/255 in a pixel or 1e-3 relative in a number.
@@ -30,6 +30,7 @@ ROOT = Path(__file__).resolve().parent.parent
 LIST = ROOT / "tests" / "mutations.txt"
 WORK = ROOT / "build" / "mutate"
 RESULTS = WORK / "results.txt"
+SNAPSHOT = WORK / "snapshot"
 SEEDED = "# seeded"
 GOAL = 0.95
 
@@ -231,13 +232,22 @@ def stale_entries(entries):
     return [e for e in entries if not (ROOT / e.path).exists() or e.apply((ROOT / e.path).read_text()) is None]
 
 
+def take_snapshot():
+    """What is committed, so that who goes on working beside this does not change what is broken."""
+    shutil.rmtree(SNAPSHOT, ignore_errors=True)
+    SNAPSHOT.mkdir(parents=True)
+    archive = subprocess.Popen(["git", "archive", "HEAD"], cwd=ROOT, stdout=subprocess.PIPE)
+    if subprocess.call(["tar", "-x", "-C", str(SNAPSHOT)], stdin=archive.stdout) or archive.wait():
+        sys.exit("mutate: git archive failed")
+
+
 class Tree:
     """A copy of the sources with a build of its own, in which one mutant after another is built."""
 
     def __init__(self, number):
         self.root, self.build = WORK / ("tree%d" % number), WORK / ("build%d" % number)
         self.scratch = WORK / ("scratch%d" % number)
-        self.log, self.texts = WORK / ("log%d.txt" % number), {}
+        self.log = WORK / ("log%d.txt" % number)
         self.environment = dict(os.environ, EWA_DATA=os.environ.get("EWA_DATA", str(ROOT.parent / "shared" / "data")))
 
     def call(self, command, timeout=None):
@@ -248,33 +258,24 @@ class Tree:
                 return 124
 
     def text_of(self, path):
-        """Sources without the files of one instruction set: what is there once more only takes time to compile. They are
-        read once, so that who goes on working beside this does not change what is broken."""
-        if path not in self.texts:
-            self.texts[path] = self.read(path)
-        return self.texts[path]
-
-    @staticmethod
-    def read(path):
-        text = (ROOT / path).read_text()
+        """Sources without the files of one instruction set: what is there once more only takes time to compile."""
+        text = (SNAPSHOT / path).read_text()
         if path.startswith("src/") and path.endswith((".c", ".h")):
             return text.replace("defined(__x86_64__)", "0")
         return text.replace("x86_64|AMD64", "none") if path.endswith("CMakeLists.txt") else text
 
     def prepare(self):
-        files = subprocess.check_output(["git", "ls-files", "--cached", "--others", "--exclude-standard"], cwd=ROOT,
-                                        text=True).split("\n")
-        for path in filter(None, files):
+        for path in (str(file.relative_to(SNAPSHOT)) for file in SNAPSHOT.rglob("*") if file.is_file()):
             target = self.root / path
             target.parent.mkdir(parents=True, exist_ok=True)
             try:
                 text = self.text_of(path)
             except UnicodeDecodeError:
-                shutil.copyfile(ROOT / path, target)
+                shutil.copyfile(SNAPSHOT / path, target)
                 continue
             if not target.exists() or target.read_bytes() != text.encode():
                 target.write_text(text)
-            if os.access(ROOT / path, os.X_OK):
+            if os.access(SNAPSHOT / path, os.X_OK):
                 target.chmod(0o755)
         self.scratch.mkdir(parents=True, exist_ok=True)
         launcher = ["-DCMAKE_C_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
@@ -361,6 +362,7 @@ def run(jobs, only, again):
     wanted = [e for e in entries if only in e.path and e.key() not in results]
     if not wanted:
         return report()
+    take_snapshot()
     trees = [Tree(i).prepare() for i in range(jobs)]
     for tree in trees:
         for section in sorted({s for e in wanted for s in SECTIONS[e.room()]}):
