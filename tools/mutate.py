@@ -260,7 +260,7 @@ class Tree:
     def text_of(self, path):
         """Sources without the files of one instruction set: what is there once more only takes time to compile."""
         text = (SNAPSHOT / path).read_text()
-        if path.startswith("src/") and path.endswith((".c", ".h")):
+        if path.endswith((".c", ".h")):
             return text.replace("defined(__x86_64__)", "0")
         return text.replace("x86_64|AMD64", "none") if path.endswith("CMakeLists.txt") else text
 
@@ -278,6 +278,7 @@ class Tree:
             if os.access(SNAPSHOT / path, os.X_OK):
                 target.chmod(0o755)
         self.scratch.mkdir(parents=True, exist_ok=True)
+        self.log.write_text("")
         launcher = ["-DCMAKE_C_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
         configured = self.call(["cmake", "-G", "Ninja", "-S", str(self.root), "-B", str(self.build),
                                 "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_C_FLAGS_RELEASE=-O2 -march=native -w",
