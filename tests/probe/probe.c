@@ -162,13 +162,13 @@ static double tolerance(const record *list, double a, double b) {
     return 1e-3 * fmax(fmax(fabs(a), fabs(b)), 1e-3 * largest);
 }
 
-static bool same(double a, double b, const record *list) {
+static bool same(double a, double b, const record *list, bool exactly) {
     if (a == b || (isnan(a) && isnan(b))) return true;
-    if (!isfinite(a) || !isfinite(b)) return false;
+    if (exactly || !isfinite(a) || !isfinite(b)) return false;
     return fabs(a - b) <= tolerance(list, a, b);
 }
 
-static int compare(const char *left, const char *right) {
+static int compare(const char *left, const char *right, bool exactly) {
     FILE *files[2] = {fopen(left, "rb"), fopen(right, "rb")};
     int differing = 0;
     record read[2];
@@ -178,7 +178,7 @@ static int compare(const char *left, const char *right) {
         if (!more[0] || !more[1]) break;
         bool equal = !strcmp(read[0].name, read[1].name) && read[0].count == read[1].count;
         for (uint64_t i = 0; equal && i < read[0].count; i++)
-            equal = same(read[0].values[i], read[1].values[i], &read[0]);
+            equal = same(read[0].values[i], read[1].values[i], &read[0], exactly);
         if (!equal && differing++ < 5) printf("differs: %s\n", read[0].name);
         for (int i = 0; i < 2; i++) free(read[i].values);
     }
@@ -204,34 +204,76 @@ static bool wanted(const char *name, int count, char **names) {
     return found;
 }
 
-static bool run_sections(probe *to, uint32_t mask, const char *isa, int count, char **names) {
+/// How often and by what the calls are run.
+typedef struct way {
+    const char *name;
+    uint32_t mask, threads;
+} way;
+
+/// False where there is no context. What the processor does not have is left out.
+static bool run_sections(probe *to, const way *by, int count, char **names) {
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
-    options.cpu_mask = mask;
-    options.thread_count = 1;
+    options.cpu_mask = by->mask;
+    options.thread_count = by->threads;
     if (ewa_context_create(&options, &to->context) != EWA_OK) return false;
-    // What the CPU does not have would be drawn twice.
-    const bool has = ewa_context_cpu_features(to->context) == mask || mask == EWA_CPU_ALL;
+    const bool whole = by->mask == EWA_CPU_ALL,
+               has = whole || ewa_context_cpu_features(to->context) == by->mask;
     for (size_t i = 0; has && i < sizeof sections / sizeof *sections; i++) {
-        if (!wanted(sections[i].name, count, names) || (mask != EWA_CPU_ALL && !sections[i].vectors))
-            continue;
-        snprintf(to->prefix, sizeof to->prefix, "%s %s: ", isa, sections[i].name);
+        if (!wanted(sections[i].name, count, names) || (!whole && !sections[i].vectors)) continue;
+        snprintf(to->prefix, sizeof to->prefix, "%s%s: ", by->name, sections[i].name);
         sections[i].run(to);
     }
     ewa_context_destroy(&to->context);
     return true;
 }
 
-int main(int argc, char **argv) {
-    if (argc == 4 && !strcmp(argv[1], "compare")) return compare(argv[2], argv[3]);
-    if (argc < 5 || strcmp(argv[1], "write")) {
-        fprintf(stderr, "probe write FILE SOURCE_DIR SCRATCH [SECTION...] | probe compare FILE FILE\n");
-        return 2;
+static int write_all(const char *path, const char *source_dir, const char *scratch, int count, char **names) {
+    static const way ways[] = {{"best ", EWA_CPU_ALL, 1}, {"avx2 ", EWA_CPU_AVX2, 1}, {"plain ", 0, 1}};
+    probe to = {.file = fopen(path, "wb"), .source_dir = source_dir, .scratch = scratch};
+    bool whole = to.file;
+    for (int i = 0; whole && i < 3; i++) {
+        to.brief = i > 0;
+        whole = run_sections(&to, &ways[i], count, names);
     }
-    probe to = {.file = fopen(argv[2], "wb"), .source_dir = argv[3], .scratch = argv[4]};
-    if (!to.file) return 2;
-    const bool whole = run_sections(&to, EWA_CPU_ALL, "best", argc - 5, argv + 5) &&
-                       run_sections(&to, EWA_CPU_AVX2, "avx2", argc - 5, argv + 5) &&
-                       run_sections(&to, 0, "plain", argc - 5, argv + 5);
-    return fclose(to.file) || !whole ? 2 : 0;
+    return (to.file && fclose(to.file)) || !whole ? 2 : 0;
+}
+
+/// One section at a time, so that the lists stay short: one thread with everything is what the others are
+/// held to.
+static int hold_same(const char *source_dir, const char *scratch, int count, char **names) {
+    static const way ways[] = {{"", EWA_CPU_ALL, 1}, {"", EWA_CPU_ALL, 3}, {"", EWA_CPU_AVX2, 2}, {"", 0, 3}};
+    char paths[2][1024];
+    int differing = 0;
+    for (size_t s = 0; s < sizeof sections / sizeof *sections; s++)
+        for (int i = 0; wanted(sections[s].name, count, names) && i < 4; i++) {
+            char *one[1] = {(char *)(uintptr_t)sections[s].name};
+            if (i >= 2 && !sections[s].vectors) continue;
+            snprintf(paths[i > 0], sizeof paths[0], "%s/same-%s-%d", scratch, sections[s].name, i > 0);
+            probe to = {.file = fopen(paths[i > 0], "wb"),
+                        .source_dir = source_dir,
+                        .scratch = scratch,
+                        .brief = true};
+            if (!to.file || !run_sections(&to, &ways[i], 1, one)) return 2;
+            const long size = ftell(to.file);
+            if (fclose(to.file)) return 2;
+            if (i == 0 || size == 0) continue;
+            if (compare(paths[0], paths[1], true)) {
+                printf("%s: not the same for %u threads and instructions %#x\n", sections[s].name,
+                       ways[i].threads, ways[i].mask);
+                differing++;
+            }
+        }
+    return differing > 0;
+}
+
+int main(int argc, char **argv) {
+    if (argc == 4 && !strcmp(argv[1], "compare")) return compare(argv[2], argv[3], false);
+    if (argc >= 4 && !strcmp(argv[1], "same")) return hold_same(argv[2], argv[3], argc - 4, argv + 4);
+    if (argc >= 5 && !strcmp(argv[1], "write"))
+        return write_all(argv[2], argv[3], argv[4], argc - 5, argv + 5);
+    fprintf(stderr,
+            "probe write FILE SOURCE_DIR SCRATCH [SECTION...] | compare FILE FILE | same SOURCE_DIR SCRATCH "
+            "[SECTION...]\n");
+    return 2;
 }

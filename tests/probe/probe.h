@@ -24,6 +24,7 @@ typedef struct probe {
     const char *source_dir; ///< of the tests
     const char *scratch;    ///< a folder for files
     char prefix[64];        ///< of all names
+    bool brief;             ///< leave out the references, and cases of which there are others
 } probe;
 
 void probe_doubles(probe *to, const char *name, probe_kind kind, const double *values, size_t count);

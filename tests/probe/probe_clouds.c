@@ -107,7 +107,7 @@ static void put_solids(probe *to) {
                                               {EWA_OBJECT_CUBE, EWA_OBJECT_CUBE},
                                               {EWA_OBJECT_TORUS, EWA_OBJECT_SPHERE},
                                               {EWA_OBJECT_CSG, EWA_OBJECT_TORUS}};
-    for (int k = 0; k < 12; k++) {
+    for (int k = 0; k < (to->brief ? 4 : 12); k++) {
         ewa_cloud *a = generate(to, operands[k % 4][0], 1500, k % 2, false),
                   *b = generate(to, operands[k % 4][1], 1200, k % 4 == 1, false), *result = NULL;
         // Along an axis, where faces of two cubes lie in one plane, or turned.

@@ -90,7 +90,7 @@ static void put_pictures(probe *to, const ewa_volume *volume, const ewa_transfer
         }
         probe_status(to, "volume", ewa_volume_render(renderer, voxels, &camera, &options, &frame, NULL));
         probe_frame_put(to, "volume", &camera, &frame);
-        if (!strncmp(to->prefix, "best", 4) && (k + view) % 3 == 0) {
+        if (!to->brief && (k + view) % 3 == 0) {
             probe_status(to, "reference",
                          ewa_volume_render_reference(volume, transfer, &camera, &options, &frame));
             probe_frame_put(to, "volume by the reference", &camera, &frame);
