@@ -16,6 +16,7 @@ Of these, so many must fail a test: see docs/testing.md. Entries are file, occur
 and what stands there instead, parted by tabs; those before the line "# seeded" are chosen by hand and kept.
 """
 import argparse
+import fcntl
 import os
 import random
 import re
@@ -359,6 +360,11 @@ def time_tests(tree, entries):
 def run(jobs, only, again):
     entries, _ = read_list()
     WORK.mkdir(parents=True, exist_ok=True)
+    lock_file = open(WORK / "lock", "w")
+    try:
+        fcntl.flock(lock_file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        sys.exit("mutate: another run is at work in %s" % WORK)
     results = {} if again else read_results()
     wanted = [e for e in entries if only in e.path and e.key() not in results]
     if not wanted:
