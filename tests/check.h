@@ -109,4 +109,10 @@ static inline double check_uniform(check_random *random, double low, double high
     return low + (high - low) * (double)(check_random_u64(random) >> 11) * 0x1p-53;
 }
 
+/// Draws three numbers, the last one first. Two draws among the arguments of one call would come in the order
+/// that the compiler likes.
+static inline void check_uniform3(check_random *random, double low, double high, double numbers[3]) {
+    for (int i = 3; i-- > 0;) numbers[i] = check_uniform(random, low, high);
+}
+
 #endif

@@ -138,8 +138,10 @@ static double pixel_at(const maker *m, double z) {
 
 static void somewhere(maker *m, double z, double p[3]) {
     const ewa_camera *camera = &m->made->scene.camera;
-    unproject(m, between(&m->numbers, -0.1, 1.1) * camera->width_px,
-              between(&m->numbers, -0.1, 1.1) * camera->height_px, z, p);
+    // One after the other: arguments of one call come in any order.
+    const double y = between(&m->numbers, -0.1, 1.1) * camera->height_px;
+    const double x = between(&m->numbers, -0.1, 1.1) * camera->width_px;
+    unproject(m, x, y, z, p);
 }
 
 static void choose_colors(maker *m) {
