@@ -241,12 +241,12 @@ static int write_all(const char *path, const char *source_dir, const char *scrat
 
 /// One section at a time, so that the lists stay short: one thread with everything is what the others are
 /// held to.
-static int hold_same(const char *source_dir, const char *scratch, int count, char **names) {
+static int hold_same(int way_count, const char *source_dir, const char *scratch, int count, char **names) {
     static const way ways[] = {{"", EWA_CPU_ALL, 1}, {"", EWA_CPU_ALL, 3}, {"", EWA_CPU_AVX2, 2}, {"", 0, 3}};
     char paths[2][1024];
     int differing = 0;
     for (size_t s = 0; s < sizeof sections / sizeof *sections; s++)
-        for (int i = 0; wanted(sections[s].name, count, names) && i < 4; i++) {
+        for (int i = 0; wanted(sections[s].name, count, names) && i < way_count; i++) {
             char *one[1] = {(char *)(uintptr_t)sections[s].name};
             if (i >= 2 && !sections[s].vectors) continue;
             snprintf(paths[i > 0], sizeof paths[0], "%s/same-%s-%d", scratch, sections[s].name, i > 0);
@@ -269,11 +269,12 @@ static int hold_same(const char *source_dir, const char *scratch, int count, cha
 
 int main(int argc, char **argv) {
     if (argc == 4 && !strcmp(argv[1], "compare")) return compare(argv[2], argv[3], false);
-    if (argc >= 4 && !strcmp(argv[1], "same")) return hold_same(argv[2], argv[3], argc - 4, argv + 4);
+    if (argc >= 4 && !strcmp(argv[1], "same")) return hold_same(4, argv[2], argv[3], argc - 4, argv + 4);
+    if (argc >= 4 && !strcmp(argv[1], "threads")) return hold_same(2, argv[2], argv[3], argc - 4, argv + 4);
     if (argc >= 5 && !strcmp(argv[1], "write"))
         return write_all(argv[2], argv[3], argv[4], argc - 5, argv + 5);
-    fprintf(stderr,
-            "probe write FILE SOURCE_DIR SCRATCH [SECTION...] | compare FILE FILE | same SOURCE_DIR SCRATCH "
-            "[SECTION...]\n");
+    fprintf(stderr, "probe write FILE SOURCE_DIR SCRATCH [SECTION...] | compare FILE FILE | same|threads "
+                    "SOURCE_DIR SCRATCH "
+                    "[SECTION...]\n");
     return 2;
 }
