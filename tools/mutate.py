@@ -88,12 +88,31 @@ NEAR = [
     ("src/kernels", PICTURES), ("src/splat", PICTURES),
 ]
 
-# Sections of the probe that a room may change.
-SECTIONS = {"math": ["math", "files", "clouds", "pictures", "splats", "resample", "volumes"],
-            "image": ["files", "pictures", "splats", "clouds", "resample", "volumes"],
-            "cloud": ["clouds", "files", "splats", "resample"], "io": ["files"], "prepare": ["clouds", "files", "volumes"],
-            "kernels": ["pictures", "splats", "resample"], "splat": ["pictures", "splats", "resample"],
-            "resample": ["resample"], "volume": ["volumes", "files"]}
+# Sections of the probe that a path's code may change, cheapest first.
+CLOUDS = ["generated", "edited", "estimates", "sampled", "textured", "features", "solids"]
+SECTIONS = [
+    ("src/math/camera", ["math"]), ("src/math/clip", ["math"]), ("src/math/conic", ["math"]),
+    ("src/math/geometry", ["math"]), ("src/math/hyperbolic", ["math"]), ("src/math/map", ["math", "resample"]),
+    ("src/math/perspective", ["math"]),
+    ("src/math", ["math", "pictures", "resample", "volumes", "generated", "textured", "sampled", "splats"]),
+    ("src/image/environment", ["pictures"]), ("src/image/volume", ["files", "volumes"]),
+    ("src/image/transfer", ["files", "volumes"]), ("src/image/texture", ["textured", "sampled"]),
+    ("src/image", ["pictures", "files", "resample", "textured"]),
+    ("src/cloud", CLOUDS + ["files", "splats"]), ("src/io", ["files"]),
+    ("src/prepare/acquire", ["textured", "sampled"]), ("src/prepare/csg", ["solids"]),
+    ("src/prepare/solid", ["solids", "generated"]), ("src/prepare/feature", ["features"]),
+    ("src/prepare/generate_volume", ["files", "volumes"]), ("src/prepare/generate", ["generated", "textured"]),
+    ("src/prepare/mesh", ["sampled", "files"]), ("src/prepare/pattern", ["textured"]),
+    ("src/prepare/procedure", ["textured"]), ("src/prepare/refit", ["textured"]),
+    ("src/prepare/sparse", ["textured", "sampled"]), ("src/prepare/volume_outline", ["volumes"]),
+    ("src/prepare", ["estimates", "sampled", "textured", "features"]),
+    ("src/resample", ["resample"]), ("src/volume", ["volumes", "files"]),
+    ("src/kernels", ["pictures", "splats", "resample"]), ("src/splat", ["pictures", "splats", "resample"]),
+]
+
+
+def sections_of(path):
+    return next(sections for start, sections in SECTIONS if path.startswith(start))
 
 SWAPS = {"fmin": "fmax", "fmax": "fmin", "vec3_add": "vec3_sub", "vec3_sub": "vec3_add", "wf_add": "wf_sub",
          "wf_sub": "wf_add", "wf_min": "wf_max", "wf_max": "wf_min", "wf_fma": "wf_fnma", "wf_fnma": "wf_fma",
@@ -323,7 +342,7 @@ class Tree:
         target = ["ewa_objects"] + (["ewa"] if any(t.startswith("cli_") for t in self.near_tests(entry.path)) else [])
         if self.call(["cmake", "--build", str(self.build), "--target"] + target):
             return "uncompilable", ""
-        if not self.differs(SECTIONS[entry.room()]):
+        if not self.differs(sections_of(entry.path)):
             return "irrelevant", ""
         for name in self.near_tests(entry.path):
             if self.test(name, timeouts[name]):
@@ -372,7 +391,7 @@ def run(jobs, only, again):
     take_snapshot()
     trees = [Tree(i).prepare() for i in range(jobs)]
     for tree in trees:
-        for section in sorted({s for e in wanted for s in SECTIONS[e.room()]}):
+        for section in sorted({s for e in wanted for s in sections_of(e.path)}):
             if not tree.probe([section], "unbroken-" + section):
                 sys.exit("mutate: the probe fails: see %s" % tree.log)
     timeouts = time_tests(trees[0], wanted)

@@ -8,8 +8,9 @@
 // the reference make together shows against it. It reads the public structs of camera and options, and
 // surfels as plain numbers.
 //
-// independent_splat.c: what one surfel is on the screen. independent_light.c: shading. independent_picture.c:
-// which surfels a pixel shows, and what it becomes.
+// independent_splat.c: what one surfel is on the screen. independent_light.c: shading.
+// independent_environment.c: what mirrors show. independent_picture.c: which surfels a pixel shows, and what
+// it becomes.
 #ifndef EWA_TESTS_INDEPENDENT_H
 #define EWA_TESTS_INDEPENDENT_H
 
@@ -29,6 +30,21 @@ typedef struct independent_surfel {
     bool clip_either;
 } independent_surfel;
 
+/// A picture of all directions, and its smaller copies.
+typedef struct independent_level {
+    uint32_t width, height;
+    double *texels; ///< r, g, b
+} independent_level;
+
+typedef struct independent_environment {
+    uint32_t count;
+    independent_level levels[33];
+} independent_environment;
+
+/// Ends the program when there is no memory.
+void independent_environment_make(const ewa_image *sky, independent_environment *made);
+void independent_environment_free(independent_environment *made);
+
 typedef struct independent_scene {
     const independent_surfel *surfels;
     uint64_t surfel_count;
@@ -36,6 +52,7 @@ typedef struct independent_scene {
     double unit_coverage; ///< q0
     ewa_camera camera;
     ewa_render_options options;
+    const independent_environment *sky; ///< of what options.environment was made of; NULL: none
 } independent_scene;
 
 /// Planes of the camera's size, as ewa_frame's but in doubles.
@@ -121,8 +138,13 @@ typedef struct independent_surface {
 } independent_surface;
 
 /// `beside` and `below`: of the neighbours within the aligned 2x2 pixels.
-real3 independent_shade(const ewa_render_options *options, const independent_surface *at,
+real3 independent_shade(const independent_scene *scene, const independent_surface *at,
                         const independent_surface *beside, const independent_surface *below);
+
+/// The environment's light that a surface mirrors.
+real3 independent_reflection(const independent_environment *sky, const ewa_render_options *options,
+                             const independent_surface *at, const independent_surface *beside,
+                             const independent_surface *below);
 
 /// The share of the light that eye-dome lighting leaves of a pixel.
 real independent_dome(const independent_scene *scene, const double *depth, int64_t x, int64_t y);

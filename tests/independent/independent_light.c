@@ -10,9 +10,9 @@ static const real DOME_GAIN = 300;
 
 static real positive(real value) { return value > 0 ? value : 0; }
 
-real3 independent_shade(const ewa_render_options *options, const independent_surface *at,
+real3 independent_shade(const independent_scene *scene, const independent_surface *at,
                         const independent_surface *beside, const independent_surface *below) {
-    (void)beside, (void)below;
+    const ewa_render_options *options = &scene->options;
     if (options->shading == EWA_SHADING_NONE) return at->color;
     const real ambient = at->material[0], diffuse = at->material[1], specular = at->material[2];
     real3 diffuse_light = {ambient, ambient, ambient}, highlight = {0, 0, 0};
@@ -33,6 +33,10 @@ real3 independent_shade(const ewa_render_options *options, const independent_sur
         if (options->shading == EWA_SHADING_PHONG && shine > 0)
             highlight = real3_add(highlight, real3_times(color, specular * powl(shine, at->material[3])));
     }
+    if (options->shading == EWA_SHADING_PHONG && scene->sky)
+        highlight =
+            real3_add(highlight, real3_times(independent_reflection(scene->sky, options, at, beside, below),
+                                             at->material[4]));
     return (real3){at->color.x * diffuse_light.x + highlight.x, at->color.y * diffuse_light.y + highlight.y,
                    at->color.z * diffuse_light.z + highlight.z};
 }

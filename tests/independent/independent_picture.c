@@ -187,7 +187,7 @@ static void compose(const drawing *d, uint32_t layer, int64_t x, int64_t y) {
         return;
     }
     const independent_surface beside = surface_at(d, x ^ 1, y), below = surface_at(d, x, y ^ 1);
-    const real3 color = independent_shade(options, &at->surface, &beside, &below);
+    const real3 color = independent_shade(d->scene, &at->surface, &beside, &below);
     const real coverage = at->weight / (real)d->scene->unit_coverage;
     real alpha = 1;
     if (!d->one_pass && options->edge_antialiasing) alpha = coverage / (real)options->edge_threshold;

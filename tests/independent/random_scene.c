@@ -349,7 +349,27 @@ static void make_lights(maker *m) {
     }
 }
 
-static void make_options(maker *m) {
+/// A sky of a few lights and a ground.
+static void make_sky(ewa_context *context, maker *m) {
+    stream *numbers = &m->numbers;
+    random_scene *made = m->made;
+    ewa_image sky;
+    const uint32_t width = 1 + below(numbers, 40), height = 1 + below(numbers, 20);
+    if (ewa_image_create(context, width, height, chance(numbers, 0.2) ? 1 : 3, &sky) != EWA_OK) abort();
+    for (uint32_t i = 0; i < width * height * sky.channel_count; i++)
+        sky.pixels[i] = (float)(chance(numbers, 0.05) ? between(numbers, 0, 3) : between(numbers, 0, 0.5));
+    made->sky = calloc(1, sizeof *made->sky);
+    if (!made->sky || ewa_environment_create(&sky, &made->environment) != EWA_OK) abort();
+    independent_environment_make(&sky, made->sky);
+    ewa_image_free(&sky);
+    made->scene.sky = made->sky, made->scene.options.environment = made->environment;
+    if (chance(numbers, 0.8)) direction(numbers, made->scene.options.environment_up);
+    for (int i = 0; i < RANDOM_SCENE_MATERIALS; i++)
+        made->materials[i].reflection = (float)between(numbers, 0, 1);
+    say(m, " sky");
+}
+
+static void make_options(ewa_context *context, maker *m) {
     static const char *const kernels[] = {"perspective", "affine", "source", "circular", "raycast"};
     static const char *const shadings[] = {"plain", "lambert", "phong"};
     stream *numbers = &m->numbers;
@@ -376,6 +396,7 @@ static void make_options(maker *m) {
     if (chance(numbers, 0.15)) options->eye_dome = scaled(numbers, 0.01, 3);
     if (chance(numbers, 0.6))
         for (int c = 0; c < 4; c++) options->background[c] = (float)between(numbers, 0, 1);
+    if (options->shading == EWA_SHADING_PHONG && chance(numbers, 0.5)) make_sky(context, m);
     made->scene.cutoff = made->surfels_options.cutoff;
     made->scene.radius_scale = made->surfels_options.radius_scale;
     say(m, " %s %s F %.2f h %.2f kappa %.2f passes %u%s layers %u/%u opacity %.2f%s%s%s",
@@ -472,7 +493,7 @@ void random_scene_make(ewa_context *context, uint64_t seed, random_scene *made) 
     for (int i = 0; i < 8; i++) next(&m.numbers);
     double origin[3];
     make_camera(&m);
-    make_options(&m);
+    make_options(context, &m);
     m.discs = chance(&m.numbers, 0.5);
     // With one pass the nearest surfel wins: in a plane that is all of them, and rounding would decide.
     m.roughness = made->scene.options.passes == 1 ? 0.05 : 0;

@@ -14,6 +14,8 @@ typedef struct random_scene {
     independent_scene scene; ///< its unit_coverage is not set
     independent_surfel *surfels;
     ewa_material materials[RANDOM_SCENE_MATERIALS];
+    ewa_environment *environment; ///< may be NULL, and so the next
+    independent_environment *sky;
     ewa_cloud *cloud;
     ewa_surfels_options surfels_options;
     char words[RANDOM_SCENE_WORDS]; ///< what is special about it

@@ -108,6 +108,9 @@ void scene_cloud_make(ewa_context *context, random_scene *made, const double ori
 
 void random_scene_free(random_scene *made) {
     ewa_cloud_destroy(&made->cloud);
+    ewa_environment_destroy(&made->environment);
+    if (made->sky) independent_environment_free(made->sky);
+    free(made->sky);
     free(made->surfels);
     *made = (random_scene){.surfels = NULL};
 }

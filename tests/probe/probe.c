@@ -193,8 +193,18 @@ static const struct {
     void (*run)(probe *to);
     bool vectors; ///< has loops per instruction set
 } sections[] = {
-    {"math", probe_math, true},         {"files", probe_files, false},  {"clouds", probe_clouds, true},
-    {"pictures", probe_pictures, true}, {"splats", probe_splats, true}, {"resample", probe_resample, true},
+    {"math", probe_math, true},
+    {"files", probe_files, false},
+    {"generated", probe_generated, false},
+    {"estimates", probe_estimates, true},
+    {"edited", probe_edited, false},
+    {"solids", probe_solids, true},
+    {"features", probe_features, true},
+    {"textured", probe_textured, true},
+    {"sampled", probe_sampled, true},
+    {"pictures", probe_pictures, true},
+    {"splats", probe_splats, true},
+    {"resample", probe_resample, true},
     {"volumes", probe_volumes, true},
 };
 

@@ -51,7 +51,13 @@ double probe_random(uint64_t *state);
 
 void probe_math(probe *to);
 void probe_files(probe *to);
-void probe_clouds(probe *to);
+void probe_generated(probe *to);
+void probe_estimates(probe *to);
+void probe_edited(probe *to);
+void probe_solids(probe *to);
+void probe_features(probe *to);
+void probe_textured(probe *to);
+void probe_sampled(probe *to);
 void probe_pictures(probe *to);
 void probe_splats(probe *to);
 void probe_resample(probe *to);

@@ -18,7 +18,7 @@ static ewa_cloud *generate(probe *to, ewa_object object, uint64_t count, bool sh
     return cloud;
 }
 
-static void put_generated(probe *to) {
+void probe_generated(probe *to) {
     for (int object = 0; object <= EWA_OBJECT_CSG; object++)
         for (int sharp = 0; sharp < 2; sharp++) {
             ewa_cloud *cloud =
@@ -53,7 +53,7 @@ static ewa_cloud *scan_lines(probe *to) {
     return cloud;
 }
 
-static void put_estimates(probe *to) {
+void probe_estimates(probe *to) {
     for (int k = 0; k < 9; k++) {
         ewa_cloud *cloud = k == 6   ? scan_lines(to)
                            : k == 7 ? noisy(to, EWA_OBJECT_CUBE, 900, 0)
@@ -77,7 +77,7 @@ static void put_estimates(probe *to) {
     }
 }
 
-static void put_edited(probe *to) {
+void probe_edited(probe *to) {
     ewa_cloud *cloud = generate(to, EWA_OBJECT_CUBE, 300, true, false), *selected = NULL, *merged = NULL;
     static const uint64_t indices[5] = {3, 1, 4, 1, 250};
     const double origin[3] = {10, -20, 30},
@@ -102,7 +102,7 @@ static void put_edited(probe *to) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void put_solids(probe *to) {
+void probe_solids(probe *to) {
     static const ewa_object operands[4][2] = {{EWA_OBJECT_SPHERE, EWA_OBJECT_CUBE},
                                               {EWA_OBJECT_CUBE, EWA_OBJECT_CUBE},
                                               {EWA_OBJECT_TORUS, EWA_OBJECT_SPHERE},
@@ -123,7 +123,7 @@ static void put_solids(probe *to) {
     }
 }
 
-static void put_features(probe *to) {
+void probe_features(probe *to) {
     for (int k = 0; k < 5; k++) {
         ewa_cloud *cloud = noisy(to, k % 2 ? EWA_OBJECT_CSG : EWA_OBJECT_CUBE, 2500, k >= 3 ? 0.03 : 0);
         ewa_feature_options options;
@@ -157,7 +157,7 @@ static ewa_image picture(probe *to, uint32_t side, uint32_t channels) {
     return image;
 }
 
-static void put_textured(probe *to) {
+void probe_textured(probe *to) {
     for (int k = 0; k < 8; k++) {
         ewa_cloud *cloud = generate(to, k % 2 ? EWA_OBJECT_SPHERE : EWA_OBJECT_CUBE, 700, false, true);
         ewa_image image = picture(to, k < 4 ? 32 : 90, k == 3 ? 4 : k == 5 ? 1 : 3);
@@ -193,7 +193,7 @@ static void put_textured(probe *to) {
 }
 
 /// A box with a step, whose faces have texture coordinates and two materials, and a fold that is not sharp.
-static void put_sampled(probe *to) {
+void probe_sampled(probe *to) {
     static const float positions[][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0},    {0, 1, 0},    {0, 0, 1},
                                          {1, 0, 1}, {1, 1, 1}, {0, 1, 1.3f}, {2, 0, 0.2f}, {2, 1, 0.4f}};
     static const uint32_t triangles[][3] = {{0, 2, 1}, {0, 3, 2}, {0, 1, 5}, {0, 5, 4}, {1, 2, 6},
@@ -231,14 +231,4 @@ static void put_sampled(probe *to) {
         ewa_cloud_destroy(&cloud);
         ewa_mesh_free(&mesh);
     }
-}
-
-void probe_clouds(probe *to) {
-    put_generated(to);
-    put_estimates(to);
-    put_edited(to);
-    put_solids(to);
-    put_features(to);
-    put_textured(to);
-    put_sampled(to);
 }
