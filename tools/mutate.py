@@ -362,18 +362,31 @@ def read_results():
     return results
 
 
-def time_tests(tree, entries):
+def time_tests(trees, entries):
     """How long each near test may take: several times what the unbroken library needs. Ends where one fails."""
-    timeouts = {}
-    for entry in entries:
-        for name in tree.near_tests(entry.path):
-            if name in timeouts:
-                continue
+    pending = sorted({name for entry in entries for name in trees[0].near_tests(entry.path)})
+    timeouts, failed = {}, []
+
+    def work(tree):
+        while pending and not failed:
+            name = pending.pop()
             begin = time.time()
             if tree.test(name, 900):
-                sys.exit("mutate: test %s fails without any change: see %s" % (name, tree.log))
+                failed.append("mutate: test %s fails without any change: see %s" % (name, tree.log))
             timeouts[name] = 20 + 6 * (time.time() - begin)
+
+    on_each(trees, work)
+    if failed:
+        sys.exit(failed[0])
     return timeouts
+
+
+def on_each(trees, work):
+    threads = [threading.Thread(target=work, args=(tree,)) for tree in trees]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
 
 
 def run(jobs, only, again):
@@ -394,7 +407,7 @@ def run(jobs, only, again):
         for section in sorted({s for e in wanted for s in sections_of(e.path)}):
             if not tree.probe([section], "unbroken-" + section):
                 sys.exit("mutate: the probe fails: see %s" % tree.log)
-    timeouts = time_tests(trees[0], wanted)
+    timeouts = time_tests(trees, wanted)
     queues = {}
     for entry in wanted:  # one file after another, so that little is built again
         queues.setdefault(entry.path, []).append(entry)
@@ -416,11 +429,7 @@ def run(jobs, only, again):
                                                                   entry.old, entry.new), flush=True)
             tree.restore(path)
 
-    threads = [threading.Thread(target=work, args=(tree,)) for tree in trees]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
+    on_each(trees, work)
     return report()
 
 
