@@ -162,6 +162,58 @@ static void test_viewpoint_and_none(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// The limit by its definition: over the mean of all mean distances to 16 neighbours plus so many of their
+/// deviations.
+static void test_outlier_limit(void **state) {
+    (void)state;
+    enum { OUTLIER_POINTS = 1200, K = 16 };
+    static const double factors[] = {0.3, 1, 2.5};
+    static double distance[OUTLIER_POINTS];
+    ewa_context *context = check_context(2, NULL);
+    for (size_t f = 0; f < sizeof factors / sizeof *factors; f++) {
+        float *xyz = NULL;
+        ewa_cloud *cloud = check_cloud(context, OUTLIER_POINTS, &xyz);
+        check_random random = {31 + f};
+        for (uint32_t i = 0; i < 3 * OUTLIER_POINTS; i++) {
+            const double u = check_uniform(&random, -1, 1);
+            xyz[i] = (float)(i % 3 == 2 ? 0.1 * u : u * u * u);
+        }
+        double mean = 0, variance = 0;
+        for (uint32_t i = 0; i < OUTLIER_POINTS; i++) {
+            double nearest[K + 1], sum = 0;
+            uint32_t held = 0;
+            for (uint32_t j = 0; j < OUTLIER_POINTS; j++) {
+                double d2 = 0;
+                for (uint32_t c = 0; c < 3; c++)
+                    d2 += pow((double)xyz[3 * i + c] - (double)xyz[3 * j + c], 2);
+                if (held == K + 1 && d2 >= nearest[K]) continue;
+                uint32_t to = held < K + 1 ? held++ : K;
+                for (; to > 0 && nearest[to - 1] > d2; to--) nearest[to] = nearest[to - 1];
+                nearest[to] = d2;
+            }
+            for (uint32_t k = 1; k <= K; k++) sum += sqrt(nearest[k]);
+            distance[i] = sum / K;
+            mean += distance[i] / OUTLIER_POINTS;
+        }
+        for (uint32_t i = 0; i < OUTLIER_POINTS; i++) variance += pow(distance[i] - mean, 2) / OUTLIER_POINTS;
+        const double limit = mean + factors[f] * sqrt(variance);
+        float kept[3 * OUTLIER_POINTS];
+        uint32_t kept_count = 0;
+        for (uint32_t i = 0; i < OUTLIER_POINTS; i++) {
+            assert_true(fabs(distance[i] - limit) > 1e-6 * limit);
+            if (distance[i] <= limit) memcpy(&kept[3 * kept_count++], &xyz[3 * i], 3 * sizeof *kept);
+        }
+        assert_in_range(kept_count, OUTLIER_POINTS / 2, OUTLIER_POINTS - 10);
+        ewa_estimate_options options = check_estimate_options();
+        options.outlier_factor = factors[f];
+        assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+        assert_int_equal(ewa_cloud_point_count(cloud), kept_count);
+        assert_memory_equal(check_stream(cloud, EWA_POSITION), kept, 3 * kept_count * sizeof *kept);
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
 static void test_outliers(void **state) {
     (void)state;
     ewa_context *context = check_context(2, NULL);
@@ -222,6 +274,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_propagation),
         cmocka_unit_test(test_viewpoint_and_none),
+        cmocka_unit_test(test_outlier_limit),
         cmocka_unit_test(test_outliers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
