@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
+//
+// Radii from what a place and its surroundings say; places that are far sparser than what is near.
 #include "prepare/radii.h"
 #include "base/base.h"
 

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
+//
+// Samplings, a plain tree of neighbours, and what pictures and radii say of a cloud.
 #include "quality/radii_scene.h"
 
 #include <math.h>
