@@ -280,7 +280,9 @@ const cli_command convert_command = {
     .details =
         "All attributes are kept with their types. Of several inputs, the attributes that all have are kept; "
         "a "
-        "warning names the others. Normals, radii and axes follow --scale and --transform. Moved clouds are "
+        "warning names the others. Of one mesh the faces are kept, of PLY all else too; they are "
+        "dropped, which a message says, when some of their vertices are left out. Normals, radii and axes "
+        "follow --scale and --transform. Moved clouds are "
         "written with double coordinates.",
     .examples = "ewa convert scan.ply -o scan_text.ply --ascii\n"
                 "ewa convert a.ply b.ply -o both.ply --subsample 1000000\n"

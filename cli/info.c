@@ -392,9 +392,11 @@ const cli_command info_command = {
     .name = "info",
     .operands = "IN...",
     .summary = "say what files hold: counts, bounds, attributes with their ranges, spacing, problems",
-    .details = "Problems are counted, not judged: the exit status is 0 when the files could be read. Volumes "
-               "are told by their suffix (.nrrd, .nhdr, .nii, .mha, .mhd, .vti, .vtk, .raw, and .gz of "
-               "these) or by --dims.",
+    .details =
+        "A file that has faces is a mesh: faces, area, whether it is closed, materials; then its vertices. "
+        "Problems are counted, not judged: the exit status is 0 when the files could be read. Volumes "
+        "are told by their suffix (.nrrd, .nhdr, .nii, .mha, .mhd, .vti, .vtk, .raw, and .gz of "
+        "these) or by --dims.",
     .examples = "ewa info scan.ply\n"
                 "ewa info --json *.ply > scans.json\n"
                 "ewa info scan.nii.gz\n",

@@ -52,7 +52,6 @@ ewa_cloud *input_load_elements(cli_session *session, const char *path, ewa_eleme
     ewa_cloud *cloud = NULL;
     *elements = NULL;
     if (model_input_load(session, path, EWA_MODEL_POINTS | EWA_MODEL_ELEMENTS, &model)) {
-        if (model.face_count && !model.elements) note_faces(session, path, model.face_count);
         cloud = model.points;
         *elements = model.elements;
         model.points = NULL;

@@ -456,21 +456,24 @@ static const option_group *const groups[] = {&output_options, &view_options,  &f
 const cli_command render_command = {
     .name = "render",
     .operands = "IN... -o OUT",
-    .summary = "draw point clouds as a continuous, antialiased surface",
-    .details = "Several inputs are drawn together. Normals and radii that a file lacks are estimated from "
-               "the neighbours "
-               "of each point, and points far from all others are left out then, which a message says; "
-               "'ewa surfels' does the same with options and keeps the result.\n"
-               "\n"
-               "Without --camera and --eye the cloud is framed whole; when less than one point in a hundred "
-               "lies so far off "
-               "that the rest would be tiny, those are left outside, which a message says. Without --view "
-               "and --up: z is up "
-               "when the bounding box is flat in z (ground), much taller in z than wide, or far from the "
-               "origin in x or y "
-               "(map coordinates), else y is up. What is flat is seen from above at an angle (iso), all else "
-               "from the front: "
-               "from +z with y up, from -y with z up.",
+    .summary = "draw point clouds and meshes as continuous, antialiased surfaces",
+    .details =
+        "Several inputs are drawn together. Normals and radii that a file lacks are estimated from "
+        "the neighbours "
+        "of each point, and points far from all others are left out then, which a message says; "
+        "'ewa surfels' does the same with options and keeps the result. A file that has faces (PLY, OBJ, "
+        "STL, OFF, glTF), whatever its name, is a mesh: points are put onto its faces, 'ewa sample' does it "
+        "with options.\n"
+        "\n"
+        "Without --camera and --eye the cloud is framed whole; when less than one point in a hundred "
+        "lies so far off "
+        "that the rest would be tiny, those are left outside, which a message says. Without --view "
+        "and --up: z is up "
+        "when the bounding box is flat in z (ground), much taller in z than wide, or far from the "
+        "origin in x or y "
+        "(map coordinates), else y is up. What is flat is seen from above at an angle (iso), all else "
+        "from the front: "
+        "from +z with y up, from -y with z up.",
     .examples =
         "ewa render scan.ply -o scan.png\n"
         "ewa render scan.ply -o side.png --view right --size 1920x1080 --background transparent\n"

@@ -156,11 +156,11 @@ static const option_group *const groups[] = {&cloud_output_options, &sample_opti
 const cli_command sample_command = {
     .name = "sample",
     .operands = "MESH -o OUT",
-    .summary = "make surfels from a mesh (OBJ, PLY, STL, glTF), sharp edges as clip lines",
+    .summary = "make surfels from a mesh (PLY, OBJ, STL, OFF, glTF), sharp edges as clip lines",
     .details =
         "Points keep their distance (Poisson-disc) and are even in area; vertex colours and textures go "
         "onto them. Radii close the surface. Where edges are sharp, the file gets tangent axes and clip "
-        "lines.",
+        "lines. FBX, Collada, 3DS and others are read where the helper ewa-import is installed.",
     .examples = "ewa sample part.stl -o part.ply --points 200000\n"
                 "ewa sample scan.obj -o scan.ply --spacing 0.5 --crease 60\n"
                 "ewa sample cow.obj --texture cow.png -o cow.ply\n"

@@ -30,7 +30,7 @@ EWA_API const char *ewa_model_format_name(ewa_model_format format);
 enum {
     EWA_MODEL_MESH = 1u << 0,     ///< the triangles, if there are faces
     EWA_MODEL_POINTS = 1u << 1,   ///< the points also where there are faces, whose vertices they are
-    EWA_MODEL_ELEMENTS = 1u << 2, ///< of PLY: everything but the vertices, to be written again
+    EWA_MODEL_ELEMENTS = 1u << 2, ///< the faces, of PLY all else that is no vertex, to be written as PLY
 };
 
 /// What a file holds. Zero-initialise; free with ewa_model_free().

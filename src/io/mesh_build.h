@@ -7,6 +7,7 @@
 #ifndef EWA_SRC_MESH_BUILD_H
 #define EWA_SRC_MESH_BUILD_H
 
+#include "ewa/io.h"
 #include "ewa/mesh.h"
 #include "io/text.h"
 
@@ -43,6 +44,7 @@ typedef struct ewa_mesh_look {
 typedef struct ewa_mesh_picture {
     char *key;
     size_t key_bytes;
+    size_t name_bytes; ///< of the key, the name of its file; 0: it is in the mesh's
     ewa_image image;
 } ewa_mesh_picture;
 
@@ -111,6 +113,9 @@ static inline ewa_mesh_look *ewa_mesh_look_at(ewa_mesh_build *build, uint32_t lo
     return (ewa_mesh_look *)build->looks.items + look;
 }
 
+/// Maps texture coordinates as a look says.
+void ewa_mesh_map_texcoord(const ewa_mesh_look *look, float uv[2]);
+
 /// Adds a polygon with the look and the colour of the build, cut into triangles. Polygons of fewer than three
 /// corners, and with a corner that is not there, are counted and left out; texture coordinates and normals
 /// that are not there become none.
@@ -151,6 +156,10 @@ void ewa_mesh_miss_picture(ewa_mesh_build *build, ewa_text name, const char *rea
 /// Makes the mesh, and says what was left out. Errors: EWA_ERROR_FORMAT (no triangle is left),
 /// EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
 ewa_status ewa_mesh_build_mesh(ewa_mesh_build *build, ewa_mesh *mesh);
+
+/// Makes the faces, as triangles, elements of PLY for a cloud of all places. Colours of vertices are not
+/// among them; those of faces and materials are, in 8 bits. Errors: EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+ewa_status ewa_mesh_build_elements(ewa_mesh_build *build, ewa_elements **elements);
 
 /// Makes a cloud of all places: "position" F64 (F32 when they come from floats), "color" F32 if there are
 /// some. Errors: EWA_ERROR_FORMAT (no places), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.

@@ -96,6 +96,12 @@ static void unify(finish_job *job) {
     }
 }
 
+void ewa_mesh_map_texcoord(const ewa_mesh_look *look, float uv[2]) {
+    const double u = (double)uv[0], v = (double)uv[1];
+    for (int c = 0; c < 2 && look->mapped; c++)
+        uv[c] = (float)(look->map[c][0] * u + look->map[c][1] * v + look->map[c][2]);
+}
+
 static void fill_vertex(const ewa_mesh_build *build, const vertex_key *key, uint32_t vertex, ewa_mesh *mesh) {
     static const float white[4] = {1, 1, 1, 1};
     memcpy(mesh->positions + 3 * (size_t)vertex,
@@ -114,10 +120,8 @@ static void fill_vertex(const ewa_mesh_build *build, const vertex_key *key, uint
     const float *uv = (const float *)build->texcoords.items + 2 * (size_t)key->texcoord;
     float *to = mesh->texcoords + 2 * (size_t)vertex;
     memcpy(to, uv, 2 * sizeof *uv);
-    if (key->look == EWA_MESH_NONE) return;
-    const ewa_mesh_look *look = (const ewa_mesh_look *)build->looks.items + key->look;
-    for (int c = 0; c < 2; c++)
-        to[c] = (float)(look->map[c][0] * (double)uv[0] + look->map[c][1] * (double)uv[1] + look->map[c][2]);
+    if (key->look != EWA_MESH_NONE)
+        ewa_mesh_map_texcoord((const ewa_mesh_look *)build->looks.items + key->look, to);
 }
 
 static bool is_plain(const ewa_mesh_look *look) {

@@ -137,6 +137,7 @@ ewa_status ewa_mesh_find_picture(ewa_mesh_build *build, ewa_text name, ewa_mesh_
         status = decode(build, name, file.bytes, file.size_bytes, alpha, limit, entry);
         ewa_file_unmap(build->context, &file);
     }
+    if (status == EWA_OK && entry->image.pixels) entry->name_bytes = name.length;
     if (status == EWA_OK && entry->image.pixels) *picture = (uint32_t)(build->pictures.count - 1);
     return status;
 }

@@ -15,6 +15,8 @@ static ewa_status take_build(ewa_mesh_build *build, uint32_t wanted, ewa_model *
     const bool faces = build->face_count > 0;
     model->face_count = build->face_count;
     if (!faces || wanted & EWA_MODEL_POINTS) status = ewa_mesh_build_points(build, &model->points);
+    if (status == EWA_OK && faces && wanted & EWA_MODEL_ELEMENTS)
+        status = ewa_mesh_build_elements(build, &model->elements);
     if (status == EWA_OK && faces && wanted & EWA_MODEL_MESH)
         status = ewa_mesh_build_mesh(build, &model->mesh);
     return status;

@@ -149,6 +149,10 @@ static void test_convert(void **state) {
     assert_true(scratch_same("same.ply", "back.ply"));
     run_done("ewa render cube.ply -o a.png --size 80x60 && ewa render again.ply -o b.png --size 80x60");
     assert_true(scratch_same("a.png", "b.png"));
+    // From other formats.
+    run_done("ewa convert cube.obj -o from_obj.ply && ewa render from_obj.ply -o c.png --size 80x60 && "
+             "ewa convert cube.off -o from_off.ply --ascii && ewa render from_off.ply -o d.png --size 80x60");
+    assert_true(scratch_same("a.png", "c.png") && scratch_same("a.png", "d.png"));
     // Moved: the vertices are, and the faces go along.
     run_done("ewa convert cube.ply -o moved.ply --scale 3 --translate 500000,0,0");
     run_done("ewa info moved.ply");

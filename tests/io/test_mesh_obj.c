@@ -243,6 +243,51 @@ static void test_materials(void **state) {
     ewa_mesh_free(&mesh);
 }
 
+/// What is written as PLY is the same mesh when it is read again: places, pictures, their coordinates,
+/// colours.
+static void test_written_as_ply(void **state) {
+    (void)state;
+    static const char *const library =
+        "newmtl a\nmap_Kd -s 2 1 one picture.png\nnewmtl b\nKd 0.2 0.4 0.6\nd 0.4\nnewmtl c\n"
+        "map_Kd written.png\n";
+    char path[512];
+    ewa_mesh from, to;
+    mesh_picture(context, "one picture.png", 255, 0, 0);
+    mesh_picture(context, "written.png", 0, 0, 255);
+    load_with(library,
+              TEXTURED("mtl.mtl") "v 1 1 4200000.125\nusemtl b\nf 1 2 3\nusemtl c\nf 1/1 2/2 3/3\nusemtl a\n"
+                                  "f 2/1 4/3 3/2\n",
+              &from);
+    ewa_model model;
+    assert_int_equal(
+        ewa_model_load(context, scratch_path("mtl.obj", path), EWA_MODEL_POINTS | EWA_MODEL_ELEMENTS, &model),
+        EWA_OK);
+    ewa_cloud_save_options options;
+    ewa_cloud_save_options_init(&options, sizeof options);
+    for (int encoding = 0; encoding < 3; encoding++) {
+        options.ply_encoding = (ewa_ply_encoding)encoding;
+        options.elements = model.elements;
+        assert_int_equal(ewa_cloud_save(model.points, scratch_path("written.ply", path), &options), EWA_OK);
+        assert_int_equal(ewa_mesh_load(context, path, &to), EWA_OK);
+        assert_int_equal(to.triangle_count, 3);
+        for (uint32_t i = 0; i < 9; i++) {
+            const uint32_t a = from.triangles[i], b = to.triangles[i];
+            assert_memory_equal(from.positions + 3 * a, to.positions + 3 * b, 3 * sizeof(double));
+            if (i >= 3) assert_memory_equal(from.texcoords + 2 * a, to.texcoords + 2 * b, 2 * sizeof(float));
+            for (int c = 0; c < 4 && i < 3; c++)
+                assert_float_equal(to.colors[4 * b + (uint32_t)c], mesh_material(&from, 0)->base_color[c],
+                                   0.005);
+            for (int c = 0; c < 4 && i >= 3; c++) assert_float_equal(to.colors[4 * b + (uint32_t)c], 1, 0);
+        }
+        assert_true(mesh_texture(&to, 1)->pixels[2] == 1 && mesh_texture(&to, 2)->pixels[0] == 1 &&
+                    !mesh_texture(&to, 0));
+        ewa_mesh_free(&to);
+    }
+    assert_string_equal(messages.text, "");
+    ewa_model_free(&model);
+    ewa_mesh_free(&from);
+}
+
 /// One picture that many materials name is there once.
 static void test_shared_picture(void **state) {
     (void)state;
@@ -412,7 +457,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         CASE(test_spellings),     CASE(test_utf16),          CASE(test_texcoords_and_normals),
         CASE(test_vertex_colors), CASE(test_bad_statements), CASE(test_points),
-        CASE(test_materials),     CASE(test_shared_picture), CASE(test_libraries),
-        CASE(test_hostile_names), CASE(test_many_missing),   CASE(test_real_files)};
+        CASE(test_materials),     CASE(test_shared_picture), CASE(test_written_as_ply),
+        CASE(test_libraries),     CASE(test_hostile_names),  CASE(test_many_missing),
+        CASE(test_real_files)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
