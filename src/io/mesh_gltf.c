@@ -145,6 +145,9 @@ static ewa_status add_positions(gltf *g, primitive *p, const placement *at) {
     ewa_status status = read_attribute(g, p, "POSITION", 3, 3, &array);
     p->count = array.count;
     p->position = (uint32_t)g->build->positions.count;
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 4; c++)
+            if (at->m[r][c] != (r == c)) g->build->float_positions = false;
     for (uint64_t i = 0; i < array.count && status == EWA_OK; i++) {
         const double *from = array.numbers + 3 * i;
         double to[3];
@@ -438,7 +441,7 @@ ewa_status ewa_mesh_read_gltf(ewa_mesh_build *build) {
     const ewa_mesh_source *source = build->source;
     gltf g = {.build = build};
     g.items_left = FREE_ITEMS + (uint64_t)ITEMS_PER_BYTE * source->size_bytes;
-    build->float_positions = false; // doubles once they are put into place
+    build->float_positions = true; // unless a node moves them
     const uint8_t *json = source->bytes;
     size_t json_bytes = source->size_bytes;
     ewa_status status = EWA_OK;

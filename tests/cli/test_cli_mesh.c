@@ -57,12 +57,12 @@ static void test_formats(void **state) {
     run_done("ewa render cube.ply -o ply.png --size 120x90");
     run_done("ewa render cube.off -o off.png --size 120x90");
     assert_true(scratch_same("obj.png", "ply.png") && scratch_same("obj.png", "off.png"));
-    run_done(
-        "cp cube.ply cube.xyz && cp cube.obj cube_obj && ewa render cube.xyz -o a.png --size 120x90 && "
-        "ewa render cube_obj -o b.png --size 120x90 && cat cube.obj | ewa render - -o c.png --size 120x90 && "
-        "cat cube.ply | ewa render - -o d.png --size 120x90");
-    static const char *const names[] = {"a.png", "b.png", "c.png", "d.png"};
-    for (int i = 0; i < 4; i++) assert_true(scratch_same("obj.png", names[i]));
+    // Under other names, and through a pipe.
+    run_done("ewa sample cube.ply -n 500 -o points.ply && cp cube.ply cube.xyz && cp cube.obj cube_obj && "
+             "ewa sample cube.xyz -n 500 -o a.ply && ewa sample cube_obj -n 500 -o b.ply && "
+             "cat cube.obj | ewa sample - -n 500 -o c.ply && cat cube.ply | ewa sample - -n 500 -o d.ply");
+    static const char *const names[] = {"a.ply", "b.ply", "c.ply", "d.ply"};
+    for (int i = 0; i < 4; i++) assert_true(scratch_same("points.ply", names[i]));
     // Its corners alone are no cube.
     run_done("ewa surfels cube.ply -o corners.ply -q && ewa render corners.ply -o corners.png --size 120x90");
     assert_false(scratch_same("obj.png", "corners.png"));

@@ -256,6 +256,26 @@ static void test_nodes(void **state) {
     }
 }
 
+/// Floats that are too coarse are said, unless a node puts them where they are.
+static void test_coarse_floats(void **state) {
+    (void)state;
+    static const float far[12] = {500000, 4200000, 0, 500001, 4200000, 0,
+                                  500001, 4200001, 0, 500000, 4200001, 0};
+    for (int moved = 0; moved < 2; moved++) {
+        glb g = {.size = 0};
+        put_floats(&g, 12, far);
+        snprintf(g.json, sizeof g.json,
+                 "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0,\"translation\":[%d,0,0]}],"
+                 "\"meshes\":[{\"primitives\":"
+                 "[{\"attributes\":{\"POSITION\":0},\"mode\":6}]}],\"accessors\":[" POSITIONS "]," VIEW4,
+                 moved);
+        ewa_mesh mesh;
+        load(&g, true, &mesh);
+        assert_int_equal(strstr(messages.text, "are floats, in steps of 0.5") != NULL, !moved);
+        ewa_mesh_free(&mesh);
+    }
+}
+
 /// Normals go by the inverse transpose; a mirrored one still points out.
 static void test_normals_and_colors(void **state) {
     (void)state;
@@ -622,6 +642,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {CASE(test_primitives),
                                        CASE(test_accessors),
                                        CASE(test_nodes),
+                                       CASE(test_coarse_floats),
                                        CASE(test_normals_and_colors),
                                        CASE(test_buffers),
                                        CASE(test_materials),
