@@ -158,7 +158,8 @@ void ewa_mesh_miss_picture(ewa_mesh_build *build, ewa_text name, const char *rea
 ewa_status ewa_mesh_build_mesh(ewa_mesh_build *build, ewa_mesh *mesh);
 
 /// Makes the faces, as triangles, elements of PLY for a cloud of all places. Colours of vertices are not
-/// among them; those of faces and materials are, in 8 bits. Errors: EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+/// among them; those of faces and materials are, in 8 bits. NULL when no face can be used. Errors:
+/// EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
 ewa_status ewa_mesh_build_elements(ewa_mesh_build *build, ewa_elements **elements);
 
 /// Makes a cloud of all places: "position" F64 (F32 when they come from floats), "color" F32 if there are

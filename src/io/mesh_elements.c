@@ -163,6 +163,7 @@ static void fill_table(const face_writer *w) {
 ewa_status ewa_mesh_build_elements(ewa_mesh_build *build, ewa_elements **elements) {
     ewa_context *context = build->context;
     *elements = NULL;
+    if (!build->corners.count) return EWA_OK; // none of the faces can be used, which the points say
     const uint64_t bytes = build->corners.count * (11 * sizeof(uint32_t) + 2 * sizeof(uint64_t));
     const uint64_t limit = ewa_context_limits(context)->max_memory_bytes;
     if (build->positions.count > INT32_MAX || bytes > limit)

@@ -78,6 +78,12 @@ static inline int fuzz_mesh(const uint8_t *bytes, size_t size_bytes, const char 
         status = ewa_mesh_build_points(&build, &points);
         fuzz_require((status == EWA_OK) == (points != NULL), "points on success only");
         errors = 0;
+        ewa_elements *elements = NULL;
+        status = ewa_mesh_build_elements(&build, &elements);
+        fuzz_require((status == EWA_OK) == (errors == 0), "a message on failure only");
+        fuzz_require(status == EWA_OK || !elements, "elements on success only");
+        ewa_elements_free(&elements);
+        errors = 0;
         status = ewa_mesh_build_mesh(&build, &mesh);
         fuzz_require((status == EWA_OK) == (mesh.positions != NULL), "a mesh on success only");
         fuzz_require((status == EWA_OK) == (errors == 0), "a message on failure only");
