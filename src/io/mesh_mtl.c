@@ -10,6 +10,7 @@
 #include "io/beside.h"
 #include "io/mesh_formats.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -36,6 +37,7 @@ struct ewa_mtl {
     ewa_mesh_list libraries, materials;
     uint32_t *table; ///< hash table of materials by name
     size_t slots;
+    char own_name[NAME_MAX + 1]; ///< of the library that is called like the mesh
 };
 
 static size_t slot_of(const ewa_mtl *mtl, ewa_text name) {
@@ -144,18 +146,23 @@ static ewa_status read_library(ewa_mesh_build *build, ewa_mtl *mtl, ewa_cursor c
     return status;
 }
 
+static bool is_known(const ewa_mtl *mtl, ewa_text name) {
+    const mtl_library *known = mtl->libraries.items;
+    for (uint64_t i = 0; i < mtl->libraries.count; i++)
+        if (known[i].name.length == name.length && memcmp(known[i].name.chars, name.chars, name.length) == 0)
+            return true;
+    return false;
+}
+
 /// Reads a library, unless that has been tried; `*found` is false, and nothing is reported, when there is no
 /// such file.
 static ewa_status open_library(ewa_mesh_build *build, ewa_mtl *mtl, ewa_text name, bool *found,
                                char reason[EWA_REASON_BYTES]) {
     ewa_status status = EWA_OK;
-    const mtl_library *known = mtl->libraries.items;
-    for (uint64_t i = 0; i < mtl->libraries.count; i++)
-        if (known[i].name.length == name.length &&
-            memcmp(known[i].name.chars, name.chars, name.length) == 0) {
-            *found = true; // or said
-            return EWA_OK;
-        }
+    if (is_known(mtl, name)) {
+        *found = true; // or said
+        return EWA_OK;
+    }
     if (mtl->libraries.count == MAX_LIBRARIES)
         return ewa_fail(build->context, EWA_ERROR_LIMIT, "%s: more than %d material libraries",
                         build->source->name, MAX_LIBRARIES);
@@ -182,26 +189,44 @@ static ewa_status make_mtl(ewa_mesh_build *build, ewa_mtl **materials) {
     return grow_table(build, *materials);
 }
 
+/// Opens the library that is called like the mesh, for meshes that were renamed together with theirs.
+static ewa_status open_own(ewa_mesh_build *build, ewa_mtl *mtl, bool *found) {
+    const char *path = build->source->path, *slash = path ? strrchr(path, '/') : NULL;
+    const char *file = slash ? slash + 1 : path, *dot = file ? strrchr(file, '.') : NULL;
+    char reason[EWA_REASON_BYTES];
+    *found = false;
+    if (!dot || dot == file) return EWA_OK;
+    const int length = snprintf(mtl->own_name, sizeof mtl->own_name, "%.*s.mtl", (int)(dot - file), file);
+    if (length < 0 || (size_t)length >= sizeof mtl->own_name) return EWA_OK;
+    const ewa_text name = {mtl->own_name, (size_t)length};
+    return is_known(mtl, name) ? EWA_OK : open_library(build, mtl, name, found, reason);
+}
+
 ewa_status ewa_mtl_read(ewa_mesh_build *build, ewa_text names, ewa_mtl **materials) {
     if (!names.length) return EWA_OK;
     ewa_status status = make_mtl(build, materials);
     if (status != EWA_OK) return status;
     char reason[EWA_REASON_BYTES] = "", quote[EWA_QUOTE_BYTES];
-    bool found;
+    bool found, missing = false, own = false;
     // One name with blanks, or several names.
     status = open_library(build, *materials, names, &found, reason);
     if (status != EWA_OK || found) return status;
     ewa_cursor cursor = {names.chars, names.chars + names.length, 1};
     ewa_text name = ewa_cursor_word(&cursor);
-    bool missing = name.length == names.length;
-    for (; !missing && name.length && status == EWA_OK; name = ewa_cursor_word(&cursor)) {
+    const bool single = name.length == names.length;
+    for (; !single && name.length && status == EWA_OK; name = ewa_cursor_word(&cursor)) {
         status = open_library(build, *materials, name, &found, reason);
-        missing = !found;
+        missing = missing || !found;
     }
-    if (status == EWA_OK && missing)
-        ewa_report(build->context, EWA_SEVERITY_WARNING, "%s: the material library %s is left out: %s",
-                   build->source->name, ewa_quote(names, quote), reason);
-    return status;
+    if (status != EWA_OK || !(single || missing)) return status;
+    status = open_own(build, *materials, &own);
+    if (status != EWA_OK) return status;
+    const ewa_text own_name = {(*materials)->own_name, strlen((*materials)->own_name)};
+    char own_quote[EWA_QUOTE_BYTES];
+    ewa_report(build->context, EWA_SEVERITY_WARNING, "%s: the material library %s is left out: %s%s%s",
+               build->source->name, ewa_quote(names, quote), reason, own ? "; instead of it: " : "",
+               own ? ewa_quote(own_name, own_quote) : "");
+    return EWA_OK;
 }
 
 /// Makes a material's look. The picture stands for the colour, as programs write grey beside it.

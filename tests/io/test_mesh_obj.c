@@ -286,6 +286,14 @@ static void test_written_as_ply(void **state) {
     assert_string_equal(messages.text, "");
     ewa_model_free(&model);
     ewa_mesh_free(&from);
+    // Places whose faces cannot be used are points.
+    static const char *const useless = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\nf 1 2 9\n";
+    assert_int_equal(ewa_model_load_memory(context, useless, strlen(useless), "a.obj", NULL,
+                                           EWA_MODEL_POINTS | EWA_MODEL_ELEMENTS, &model),
+                     EWA_OK);
+    assert_true(ewa_cloud_point_count(model.points) == 3 && !model.elements);
+    mesh_says(&messages, "left out of 2 faces");
+    ewa_model_free(&model);
 }
 
 /// One picture that many materials name is there once.
@@ -322,8 +330,9 @@ static void test_libraries(void **state) {
         {"mtllib ./mtl.mtl\nmtllib .\\second.mtl\n", true, true, ""},
         {"mtllib C:\\models\\second.mtl\n", false, true, "uses of materials"},
         {"mtllib /nowhere/second.mtl\n", false, true, "uses of materials"},
-        {"mtllib none.mtl\n", false, false, "the material library 'none.mtl' is left out: it is not there"},
-        {"mtllib none.mtl second.mtl\n", false, false,
+        {"mtllib none.mtl\n", true, false,
+         "'none.mtl' is left out: it is not there; instead of it: 'mtl.mtl'"},
+        {"mtllib none.mtl second.mtl\n", true, true,
          "the material library 'none.mtl second.mtl' is left out"},
         {"mtllib\n", false, false, ""},
         {"", false, false, ""},
@@ -345,6 +354,38 @@ static void test_libraries(void **state) {
         }
         ewa_mesh_free(&mesh);
     }
+}
+
+/// A mesh that was renamed together with its library.
+static void test_renamed(void **state) {
+    (void)state;
+    char path[512];
+    ewa_mesh mesh;
+    static const char *const library = "newmtl m\nKd 0 1 0\n", *const text =
+                                                                   "mtllib old.mtl\nmtllib older.mtl\n" SQUARE
+                                                                   "usemtl m\nf 1 2 3 4\n";
+    for (int there = 0; there < 2; there++) {
+        unlink(scratch_path("renamed.mtl", path));
+        if (there) scratch_write(path, library, strlen(library));
+        scratch_write(scratch_path("renamed.obj", path), text, strlen(text));
+        messages = (mesh_messages){.errors = 0};
+        assert_int_equal(ewa_mesh_load(context, path, &mesh), EWA_OK);
+        assert_int_equal(mesh.material_count, there);
+        mesh_says(&messages, "'older.mtl' is left out: it is not there");
+        const char *instead = strstr(messages.text, "'old.mtl' is left out: it is not there; instead of it: "
+                                                    "'renamed.mtl'");
+        assert_int_equal(instead != NULL, there);
+        assert_int_equal(strstr(messages.text, "instead") != NULL, there);
+        ewa_mesh_free(&mesh);
+    }
+    // It is not had twice, and not in place of itself.
+    static const char *const itself = "mtllib itself.mtl\n" SQUARE "f 1 2 3 4\n";
+    scratch_write(scratch_path("itself.obj", path), itself, strlen(itself));
+    messages = (mesh_messages){.errors = 0};
+    assert_int_equal(ewa_mesh_load(context, path, &mesh), EWA_OK);
+    mesh_says(&messages, "'itself.mtl' is left out: it is not there");
+    assert_null(strstr(messages.text, "instead"));
+    ewa_mesh_free(&mesh);
 }
 
 /// A library that is a folder, a pipe, a device or elsewhere is not opened.
@@ -458,7 +499,7 @@ int main(void) {
         CASE(test_spellings),     CASE(test_utf16),          CASE(test_texcoords_and_normals),
         CASE(test_vertex_colors), CASE(test_bad_statements), CASE(test_points),
         CASE(test_materials),     CASE(test_shared_picture), CASE(test_written_as_ply),
-        CASE(test_libraries),     CASE(test_hostile_names),  CASE(test_many_missing),
-        CASE(test_real_files)};
+        CASE(test_libraries),     CASE(test_renamed),        CASE(test_hostile_names),
+        CASE(test_many_missing),  CASE(test_real_files)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
