@@ -19,7 +19,7 @@ typedef struct volume_arguments {
     volume_scene_arguments scene;
     const char *output, *aov, *save_camera_path, *stats_path;
     int method, index;
-    double sigma, cutoff, prefilter_px, density_scale;
+    double prefilter_px, density_scale;
     bool progressive;
     option_color background;
 } volume_arguments;
@@ -70,7 +70,7 @@ static const cli_option voxel_table[] = {
      .kind = OPTION_TEXT,
      .offset = AT(scene) + offsetof(volume_scene_arguments, transfer),
      .value = "FILE|PRESET",
-     .absent = "auto: from the histogram",
+     .absent = "auto: by the surfaces between its materials",
      .help =
          "what values look like: a JSON file, or bone, soft, skin, vessels (CT, in Hounsfield units where "
          "the volume has them), mri, gray, fog, auto"},
@@ -114,13 +114,13 @@ static const cli_option voxel_table[] = {
              "paper's table"},
     {.key = "sigma",
      .kind = OPTION_NUMBER,
-     .offset = AT(sigma),
+     .offset = AT(scene) + offsetof(volume_scene_arguments, sigma),
      .value = "S",
      .range = "[0.3, 2]",
      .help = "standard deviation of the kernel around each voxel, in voxels"},
     {.key = "cutoff",
      .kind = OPTION_NUMBER,
-     .offset = AT(cutoff),
+     .offset = AT(scene) + offsetof(volume_scene_arguments, cutoff),
      .value = "F",
      .range = "[1, 4]",
      .help = "standard deviations at which a kernel ends"},
@@ -169,8 +169,8 @@ static void set_defaults(void *data) {
     ewa_volume_options_init(&options, sizeof options);
     arguments->method = (int)options.method;
     arguments->index = (int)options.index;
-    arguments->sigma = options.sigma;
-    arguments->cutoff = options.cutoff;
+    arguments->scene.sigma = options.sigma;
+    arguments->scene.cutoff = options.cutoff;
     arguments->prefilter_px = options.prefilter_px;
     arguments->density_scale = options.density_scale;
     arguments->background = (option_color){{0, 0, 0, 1}};
@@ -299,6 +299,7 @@ static ewa_status paint(void *user, const ewa_camera *camera, const ewa_frame *f
     sum->voxel_count = drawn.voxel_count;
     sum->culled_count += drawn.culled_count;
     sum->hidden_count += drawn.hidden_count;
+    sum->near_count += drawn.near_count;
     sum->splat_count += drawn.splat_count;
     sum->point_count += drawn.point_count;
     sum->bin_s += drawn.bin_s;
@@ -323,8 +324,8 @@ static bool prepare_painter(const volume_arguments *arguments, volume_painter *p
     options->background[3] = (float)arguments->background.rgba[3];
     options->method = (ewa_volume_method)arguments->method;
     options->index = (ewa_volume_index)arguments->index;
-    options->sigma = arguments->sigma;
-    options->cutoff = arguments->cutoff;
+    options->sigma = arguments->scene.sigma;
+    options->cutoff = arguments->scene.cutoff;
     options->prefilter_px = arguments->prefilter_px;
     options->density_scale = arguments->density_scale;
     options->shading = arguments->light.shading >= 0 ? (ewa_shading)arguments->light.shading
@@ -407,6 +408,7 @@ static bool write_stats(cli_session *session, const volume_arguments *arguments,
     json_count(&json, "resident_bytes", info->resident_bytes);
     json_count(&json, "voxels_culled", stats->culled_count);
     json_count(&json, "voxels_hidden", stats->hidden_count);
+    json_count(&json, "voxels_near", stats->near_count);
     json_count(&json, "splats_drawn", stats->splat_count);
     json_count(&json, "points_drawn", stats->point_count);
     json_number(&json, "point_share", drawn ? (double)stats->point_count / (double)drawn : 0);
@@ -469,12 +471,15 @@ const cli_command volume_command = {
     .name = "volume",
     .operands = "VOL -o OUT",
     .summary = "draw a volume: NRRD, NIfTI, MetaImage, VTK or raw numbers",
-    .details = "Without --transfer, the largest peak of the histogram counts as empty, what lies above as a "
-               "veil that becomes denser with the value.\n"
-               "\n"
-               "The volume is framed whole. Without --view and --up, z is up and it is seen from the front, "
-               "from -y: a patient's face, when the file says where that is. Raw numbers need --dims, or a "
-               "name such as head_256x256x128_uint8.raw.gz.",
+    .details =
+        "Without --transfer, what surrounds is left out, and so is a container that stands around all that "
+        "is denser; a material that hides others is a veil, the densest is solid. --verbose and info say "
+        "which values these are.\n"
+        "\n"
+        "The volume is framed whole, with z up. Where the file says how a patient lies it is seen from "
+        "the front, from -y: into the face. A slice or a picture is seen upright, anything else from a "
+        "corner. --azimuth, --elevation and --up start from the front. Raw numbers need --dims, or a "
+        "name such as head_256x256x128_uint8.raw.gz.",
     .examples = "ewa volume head.nrrd -o head.png\n"
                 "ewa volume ct.nii.gz -o bone.png --transfer bone --view left\n"
                 "ewa volume engine.raw -o engine.png --dims 256,256,128 --azimuth 30 --elevation 20\n"

@@ -1,39 +1,42 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Bytes as letters: four letters of six bits are three bytes.
+// Base64 (RFC 4648).
 #include "io/base64.h"
 
-static int value_of(char c) {
+/// The six bits of a digit, or -1.
+static int bits_of(char c) {
     if (c >= 'A' && c <= 'Z') return c - 'A';
     if (c >= 'a' && c <= 'z') return c - 'a' + 26;
     if (c >= '0' && c <= '9') return c - '0' + 52;
     return c == '+' ? 62 : c == '/' ? 63 : -1;
 }
 
-static bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
-
-bool ewa_base64_decode(const char *letters, size_t length, uint8_t *bytes, size_t *size_bytes) {
-    uint32_t bits = 0, count = 0;
-    size_t made = 0, at = 0;
-    for (; at < length && letters[at] != '='; at++) {
-        if (is_space(letters[at])) continue;
-        const int value = value_of(letters[at]);
-        if (value < 0) return false;
-        bits = bits << 6 | (uint32_t)value;
-        if (++count % 4) continue;
-        bytes[made++] = (uint8_t)(bits >> 16);
-        bytes[made++] = (uint8_t)(bits >> 8);
-        bytes[made++] = (uint8_t)bits;
+size_t ewa_base64_read(const char *text, size_t text_bytes, size_t skipped_bytes, uint8_t *to, size_t room,
+                       size_t *used_bytes) {
+    size_t done = 0, i = 0;
+    uint32_t held = 0;
+    int held_bits = 0;
+    for (; i < text_bytes && done < room; i++) {
+        const char c = text[i];
+        if (c == ' ' || (c >= '\t' && c <= '\r')) continue;
+        if (c == '=' && held_bits < 6) { // what is left is filling
+            held_bits = 0;
+            continue;
+        }
+        const int bits = bits_of(c);
+        if (bits < 0) break;
+        held = held << 6 | (uint32_t)bits;
+        held_bits += 6;
+        if (held_bits < 8) continue;
+        held_bits -= 8;
+        const uint8_t byte = (uint8_t)(held >> held_bits);
+        if (skipped_bytes)
+            skipped_bytes--;
+        else
+            to[done++] = byte;
     }
-    for (; at < length; at++)
-        if (letters[at] != '=' && !is_space(letters[at])) return false;
-    if (count % 4 == 1) return false;
-    if (count % 4 == 2) bytes[made++] = (uint8_t)(bits >> 4);
-    if (count % 4 == 3) {
-        bytes[made++] = (uint8_t)(bits >> 10);
-        bytes[made++] = (uint8_t)(bits >> 2);
-    }
-    *size_bytes = made;
-    return true;
+    // A digit alone is no byte.
+    if (used_bytes) *used_bytes = i == text_bytes && held_bits == 6 ? i - 1 : i;
+    return done;
 }

@@ -1,20 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Bytes as letters.
+// Base64 (RFC 4648): bytes in texts.
 #ifndef EWA_SRC_BASE64_H
 #define EWA_SRC_BASE64_H
 
-#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
 /// Most bytes that so many letters stand for.
-static inline size_t ewa_base64_room(size_t length) { return length / 4 * 3 + 3; }
+static inline size_t ewa_base64_room(size_t text_bytes) { return text_bytes / 4 * 3 + 3; }
 
-/// Decodes letters of base64, blanks and line ends between them, '=' or nothing at the end, into `bytes`,
-/// which has ewa_base64_room(length) bytes; `*size_bytes` gets how many there are. False when something else
-/// is there. Based on: S. Josefsson, RFC 4648, 2006, section 4.
-bool ewa_base64_decode(const char *letters, size_t length, uint8_t *bytes, size_t *size_bytes);
+/// Decodes a text, without its first `skipped_bytes` bytes, into at most `room` bytes; returns how many.
+/// Blanks count for nothing, padding ends one text and begins another behind it, anything else ends all, a
+/// lone digit too. `*used_bytes` (may be NULL) gets how much of the text was read: all of it when all is
+/// well.
+size_t ewa_base64_read(const char *text, size_t text_bytes, size_t skipped_bytes, uint8_t *to, size_t room,
+                       size_t *used_bytes);
 
 #endif

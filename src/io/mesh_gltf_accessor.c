@@ -46,7 +46,9 @@ ewa_status ewa_gltf_decode_uri(const gltf *g, const char *array, uint64_t index,
     *room = ewa_base64_room(length);
     *decoded = ewa_allocate(g->build->context, *room, 1);
     if (!*decoded) return EWA_ERROR_MEMORY;
-    if (ewa_base64_decode(comma + 1, length, *decoded, size_bytes)) return EWA_OK;
+    size_t used;
+    *size_bytes = ewa_base64_read(comma + 1, length, 0, *decoded, *room, &used);
+    if (used == length) return EWA_OK;
     ewa_release(g->build->context, *decoded, *room, 1);
     *decoded = NULL;
     return ewa_gltf_fail(g, array, index, "a data URI with letters that base64 has not");
