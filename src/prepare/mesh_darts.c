@@ -507,11 +507,15 @@ static ewa_status run(dart_job *job) {
     return status;
 }
 
-double ewa_mesh_dart_estimate(const mesh_surface *surface, double spacing_world) {
+double ewa_mesh_dart_rows(const mesh_surface *surface) {
     double length = 0;
     for (uint32_t e = 0; e < surface->edge_count; e++) length += edge_length(&surface->edges[e]);
+    return ROW_POINTS * length;
+}
+
+double ewa_mesh_dart_estimate(const mesh_surface *surface, double spacing_world) {
     return surface->area_below[surface->triangle_count] / (spacing_world * spacing_world) +
-           ROW_POINTS * length / spacing_world;
+           ewa_mesh_dart_rows(surface) / spacing_world;
 }
 
 ewa_status ewa_mesh_throw_darts(const mesh_surface *surface, double spacing_world, uint64_t seed,

@@ -27,6 +27,9 @@ static inline double ewa_mesh_dart_unit(const mesh_surface *surface) {
 /// How far rows are from their edge, in spacings.
 #define MESH_ROW_INSET 0.2
 
+/// Estimated points of the rows along all edges, times the spacing.
+double ewa_mesh_dart_rows(const mesh_surface *surface);
+
 /// Estimated points of a sampling: its inside and its rows.
 double ewa_mesh_dart_estimate(const mesh_surface *surface, double spacing_world);
 

@@ -247,7 +247,7 @@ static ewa_status add_attributes(sample_job *job, ewa_cloud *cloud) {
 static double choose_spacing(const mesh_surface *surface, const ewa_mesh_sample_options *options) {
     if (options->spacing_world > 0) return options->spacing_world;
     const double count = (double)options->point_count, area = surface->area_below[surface->triangle_count];
-    const double rows = ewa_mesh_dart_estimate(surface, 1) - area;
+    const double rows = ewa_mesh_dart_rows(surface);
     return (rows + sqrt(rows * rows + 4 * area * count)) / (2 * count);
 }
 

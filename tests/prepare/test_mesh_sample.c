@@ -561,21 +561,33 @@ static void test_failing_allocations(void **state) {
     scratch_fail_each(sample_all, NULL);
 }
 
+/// A needle of 1e20 by 1e32: its rows, not its area, say how far points are from each other.
+static void test_needle(void **state) {
+    (void)state;
+    ewa_context *context = NULL;
+    assert_int_equal(ewa_context_create(NULL, &context), EWA_OK);
+    static const double places[9] = {0, 0, 0, 1e20, 0, 0, 0, 1e32, 0};
+    ewa_mesh mesh;
+    shape_fill(context, 3, places, 1, (const uint32_t[]){0, 1, 2}, &mesh);
+    ewa_mesh_sample_options options;
+    ewa_mesh_sample_options_init(&options, sizeof options);
+    options.point_count = 32;
+    ewa_cloud *cloud = shape_sample(&mesh, &options);
+    assert_in_range(ewa_cloud_point_count(cloud), 8, 128);
+    ewa_cloud_destroy(&cloud);
+    ewa_mesh_free(&mesh);
+    ewa_context_destroy(&context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cube_points),
-        cmocka_unit_test(test_cube_lines),
-        cmocka_unit_test(test_angle_lines),
-        cmocka_unit_test(test_sphere),
-        cmocka_unit_test(test_colors),
-        cmocka_unit_test(test_picture),
-        cmocka_unit_test(test_bad_meshes),
-        cmocka_unit_test(test_soup),
-        cmocka_unit_test(test_map_coordinates),
-        cmocka_unit_test(test_far_parts),
-        cmocka_unit_test(test_copies),
-        cmocka_unit_test(test_given_normals),
-        cmocka_unit_test(test_failing_allocations),
+        cmocka_unit_test(test_needle),        cmocka_unit_test(test_cube_points),
+        cmocka_unit_test(test_cube_lines),    cmocka_unit_test(test_angle_lines),
+        cmocka_unit_test(test_sphere),        cmocka_unit_test(test_colors),
+        cmocka_unit_test(test_picture),       cmocka_unit_test(test_bad_meshes),
+        cmocka_unit_test(test_soup),          cmocka_unit_test(test_map_coordinates),
+        cmocka_unit_test(test_far_parts),     cmocka_unit_test(test_copies),
+        cmocka_unit_test(test_given_normals), cmocka_unit_test(test_failing_allocations),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
