@@ -129,8 +129,8 @@ bool text_file_open(cli_session *session, text_file *text, const char *path) {
 bool text_file_close(cli_session *session, text_file *text) {
     if (text->file == stdout) return output_flush(session, EXIT_DONE) == EXIT_DONE;
     errno = 0;
-    const bool written = !ferror(text->file) & (fclose(text->file) == 0);
-    if (written && rename(text->aside, text->path) == 0) return true;
+    const bool failed = ferror(text->file), closed = fclose(text->file) == 0;
+    if (!failed && closed && rename(text->aside, text->path) == 0) return true;
     session_fail(session, "%s: cannot write: %s", text->path, errno ? strerror(errno) : "a write failed");
     remove(text->aside);
     return false;

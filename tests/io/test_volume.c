@@ -3,6 +3,7 @@
 //
 // Tests of the volume files: known voxels and places in every format, files of several parts, saving.
 #include "volume_sample.h"
+#include "tests/data/facts.h"
 
 #include <math.h>
 
@@ -477,38 +478,16 @@ static bool load_data(ewa_context *context, const char *name, ewa_volume *volume
 
 static void test_real_files(void **state) {
     (void)state;
-    static const struct {
-        const char *name;
-        uint32_t dims[3];
-        ewa_type type;
-        double low, high;
-    } files[] = {
-        {"aneurism.vti", {256, 256, 256}, EWA_U8, 0, 255},
-        {"engine_256x256x128_uint8.raw.gz", {256, 256, 128}, EWA_U8, 0, 255},
-        {"tooth.nrrd", {103, 94, 161}, EWA_U8, 0, 255},
-        {"mri_head_128.nrrd", {128, 128, 128}, EWA_U8, 0, 240},
-        {"stent.nrrd", {128, 128, 256}, EWA_F32, 0, 1},
-        {"neghip.mha", {70, 70, 70}, EWA_U8, 0, 255},
-        {"HeadMRVolume.mhd", {48, 62, 42}, EWA_U8, 0, 255},
-        {"headsq_64x64x93_uint16le.raw.gz", {64, 64, 93}, EWA_U16, 0, 3926},
-        {"ironProt.vtk", {68, 68, 68}, EWA_U8, 0, 255},
-        {"teem_fmob-c4h.nrrd", {32, 40, 16}, EWA_F32, 0.013749523860323675, 1.049265265249152},
-        {"avg152T1_RL_nifti.nii.gz", {91, 109, 91}, EWA_U8, 0, 255},
-        {"chris_MRA.nii.gz", {200, 256, 120}, EWA_U8, 0, 254},
-        {"anatomical.nii", {33, 41, 25}, EWA_I16, -610, 30393},
-        {"nrrd_variants/BallBinary30x30x30_bz2.nrrd", {30, 30, 30}, EWA_I16, 0, 257},
-        {"nrrd_variants/test2d_ascii.nrrd", {3, 9, 1}, EWA_U16, 1, 27},
-    };
     ewa_context *context = check_context(0, NULL);
-    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+    for (size_t i = 0; i < sizeof volume_facts / sizeof volume_facts[0]; i++) {
         ewa_volume volume;
         ewa_volume_facts facts;
-        if (!load_data(context, files[i].name, &volume)) continue;
-        assert_memory_equal(volume.dims, files[i].dims, sizeof volume.dims);
-        assert_int_equal(volume.type, files[i].type);
+        if (!load_data(context, volume_facts[i].name, &volume)) continue;
+        assert_memory_equal(volume.dims, volume_facts[i].dims, sizeof volume.dims);
+        assert_int_equal(volume.type, volume_facts[i].type);
         assert_int_equal(ewa_volume_measure(&volume, &facts), EWA_OK);
-        if (fabs(facts.low - files[i].low) > 1e-8 || fabs(facts.high - files[i].high) > 1e-7)
-            fail_msg("%s: %.9g .. %.9g", files[i].name, facts.low, facts.high);
+        if (fabs(facts.low - volume_facts[i].low) > 1e-8 || fabs(facts.high - volume_facts[i].high) > 1e-7)
+            fail_msg("%s: %.9g .. %.9g", volume_facts[i].name, facts.low, facts.high);
         ewa_volume_free(&volume);
     }
     ewa_context_destroy(&context);
