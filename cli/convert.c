@@ -5,7 +5,6 @@
 #include "cloud_output.h"
 #include "commands.h"
 #include "inputs.h"
-#include "json.h"
 #include "procedure.h"
 
 #include <float.h>
@@ -262,7 +261,7 @@ static int run(const void *data) {
     cli_session session;
     if (!session_start(&session, &output->common)) return session_end(&session, EXIT_FAILED);
     ewa_elements *elements = NULL;
-    ewa_cloud *cloud = output_check(&session, output->path) ? make(&session, arguments, &elements) : NULL;
+    ewa_cloud *cloud = make(&session, arguments, &elements);
     const bool done = cloud && cloud_output_save(&session, output, cloud, elements);
     ewa_elements_free(&elements);
     ewa_cloud_destroy(&cloud);

@@ -4,6 +4,7 @@
 // Clouds from the files of the command line: loading, what is missing, merging.
 #include "inputs.h"
 #include "model_input.h"
+#include "screening.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -312,6 +313,11 @@ static bool drop_isolated(cli_session *session, const char *path, ewa_cloud **cl
 ewa_cloud *input_as_surfels(cli_session *session, const char *path, double cutoff, double *estimate_s) {
     ewa_cloud *cloud = load_or_sample(session, path, cutoff);
     if (!cloud || cloud_is_drawable(cloud)) return cloud;
+    if (!screening_admit(session, path, cloud)) {
+        ewa_cloud_destroy(&cloud);
+        return NULL;
+    }
+    screening_drop_zero_normals(session, path, cloud);
     const bool has_normals = ewa_cloud_find(cloud, EWA_NORMAL) != NULL;
     const bool has_radii = ewa_cloud_find(cloud, EWA_RADIUS) != NULL;
     ewa_estimate_options options;

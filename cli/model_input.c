@@ -4,6 +4,7 @@
 // Files of points or triangles: the one place where the program decides which of them a file holds.
 #include "model_input.h"
 #include "import.h"
+#include "screening.h"
 #include "volume_input.h"
 
 #include <math.h>
@@ -42,6 +43,8 @@ bool model_input_load(cli_session *session, const char *path, uint32_t wanted, e
     else
         session_say(session, "%s: %llu points read in %.3f s", path,
                     (unsigned long long)ewa_cloud_point_count(model->points), took_s);
+    // The readers of meshes say so themselves.
+    if (model->points && !model->face_count) screening_check_steps(session, path, model->points);
     return true;
 }
 

@@ -35,32 +35,33 @@ static const float LEAST_THROUGH = 1e-3f;
 static const cli_option output_table[] = {
     {.key = "output",
      .letter = 'o',
-     .kind = OPTION_TEXT,
+     .kind = OPTION_OUTPUT,
      .offset = AT(output),
      .value = "FILE",
      .help = "the picture: .png (8-bit sRGB), .exr (linear floats, premultiplied: R G B A Z coverage), .pfm "
              "(linear RGB); -: PNG to standard output. Frames: NAME_%04d.png and such, or a film: .mp4, .mkv "
              "(H.264), .webm (VP9), .gif, by the program ffmpeg"},
     {.key = "aov",
-     .kind = OPTION_TEXT,
+     .kind = OPTION_OUTPUTS,
      .offset = AT(aov),
      .value = "NAME=FILE,...",
      .help = "further planes, .pfm or .exr: depth (camera z where half of the light is gone, infinite where "
              "that never is), coverage (alpha of the volume)"},
     {.key = "save-camera",
-     .kind = OPTION_TEXT,
+     .kind = OPTION_OUTPUT,
      .offset = AT(save_camera_path),
      .value = "FILE",
      .help = "write the camera that was used, for --camera; of frames all cameras, for --path"},
     {.key = "stats",
-     .kind = OPTION_TEXT,
+     .kind = OPTION_OUTPUT,
      .offset = AT(stats_path),
      .value = "FILE",
      .help = "write times per stage, counts and peak memory as JSON"},
     {.key = "progressive",
      .kind = OPTION_FLAG,
      .offset = AT(progressive),
-     .help = "write a first picture of every second voxel along each axis, then the whole in its place"},
+     .help = "write a first picture of every second voxel along each axis, then the whole in its place",
+     .excludes = "turntable path"},
 };
 
 static const cli_option input_table[] = {VOLUME_INPUT_OPTIONS(AT(input))};
@@ -75,7 +76,7 @@ static const cli_option voxel_table[] = {
          "what values look like: a JSON file, or bone, soft, skin, vessels (CT, in Hounsfield units where "
          "the volume has them), mri, gray, fog, auto"},
     {.key = "save-transfer",
-     .kind = OPTION_TEXT,
+     .kind = OPTION_OUTPUT,
      .offset = AT(scene) + offsetof(volume_scene_arguments, save_transfer_path),
      .value = "FILE",
      .help = "write the transfer function that was used, to change it and come back with --transfer"},
@@ -195,8 +196,6 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     picture_paths paths;
     if (!arguments->output)
         wrong = "volume: no output; say -o FILE";
-    else if (arguments->progressive && frames_many(&arguments->frames))
-        wrong = "--progressive is for one picture";
     else if (gradient->count && !(gradient->values[0] >= 0 && gradient->values[1] >= gradient->values[0]))
         wrong = "--gradient: two numbers >= 0, the second not below the first";
     if (wrong) {
@@ -262,14 +261,14 @@ static ewa_status make_planes(volume_painter *painter, const ewa_camera *camera)
 }
 
 /// Draws the surfaces within the volume to planes of their own.
-static ewa_status paint_surface(volume_painter *painter, const ewa_camera *camera) {
+static ewa_status paint_surface(volume_painter *painter, const ewa_camera *camera, ewa_render_stats *stats) {
     painter->options.surface_rgba = painter->options.surface_depth = NULL;
     ewa_status status = make_planes(painter, camera);
     const ewa_frame frame = {.rgba = painter->surface.pixels, .depth = painter->surface_depth.pixels};
     const ewa_frame past = {.rgba = painter->past.pixels}, front = {.rgba = painter->front.pixels};
     if (status == EWA_OK)
         status = ewa_render(painter->surface_renderer, painter->scene->surfels, camera,
-                            &painter->surface_options, &frame, NULL);
+                            &painter->surface_options, &frame, stats);
     if (status == EWA_OK)
         status = ewa_volume_render(painter->renderer, painter->scene->voxels, camera, &painter->options,
                                    &past, NULL);
@@ -287,13 +286,14 @@ static ewa_status paint(void *user, const ewa_camera *camera, const ewa_frame *f
                         ewa_render_stats *stats) {
     volume_painter *painter = user;
     ewa_volume_stats drawn = {.voxel_count = 0};
-    ewa_status status = painter->scene->surfels ? paint_surface(painter, camera) : EWA_OK;
+    ewa_render_stats surface = {.splat_count = 0};
+    ewa_status status = painter->scene->surfels ? paint_surface(painter, camera, &surface) : EWA_OK;
     if (status == EWA_OK)
         status = ewa_volume_render(painter->renderer, painter->scene->voxels, camera, &painter->options,
                                    frame, &drawn);
-    *stats = (ewa_render_stats){.splat_count = drawn.voxel_count,
-                                .culled_count = drawn.culled_count,
-                                .drawn_count = drawn.splat_count + drawn.point_count,
+    *stats = (ewa_render_stats){.splat_count = drawn.voxel_count + surface.splat_count,
+                                .culled_count = drawn.culled_count + surface.culled_count,
+                                .drawn_count = drawn.splat_count + drawn.point_count + surface.drawn_count,
                                 .total_s = drawn.total_s};
     ewa_volume_stats *sum = &painter->stats;
     sum->voxel_count = drawn.voxel_count;
@@ -353,6 +353,8 @@ static bool draw(const volume_arguments *arguments, const picture_paths *paths, 
         .paths = paths,
         .numbered = frames_many(&arguments->frames),
         .film = video_find_format(arguments->output) ? arguments->output : NULL,
+        .source =
+            arguments->frames.path_file ? arguments->frames.path_file : arguments->frames.view.camera_path,
         .frames_per_s = arguments->frames.frames_per_s > 0 ? arguments->frames.frames_per_s : 30,
         .quality = arguments->frames.quality >= 0 ? (int)arguments->frames.quality : 75,
         .opaque = arguments->background.rgba[3] == 1,
@@ -370,19 +372,6 @@ static bool draw(const volume_arguments *arguments, const picture_paths *paths, 
     return sequence_draw(session, &output, frames, &paints, report) &&
            (!arguments->save_camera_path ||
             frames_save(session, arguments->save_camera_path, frames, output.numbered));
-}
-
-/// Whether all files can be written, before the work; false after reporting.
-static bool check_outputs(cli_session *session, const volume_arguments *arguments,
-                          const picture_paths *paths) {
-    const char *others[] = {arguments->save_camera_path, arguments->stats_path,
-                            arguments->scene.save_transfer_path};
-    bool done = frames_many(&arguments->frames) ? sequence_check(session, paths)
-                                                : picture_check_paths(session, paths);
-    done = done && (!video_find_format(arguments->output) || video_check(session, arguments->output));
-    for (size_t i = 0; i < COUNT(others); i++)
-        done = done && (!others[i] || output_check(session, others[i]));
-    return done;
 }
 
 /// Writes --stats; false after reporting.
@@ -443,7 +432,7 @@ static int run(const void *data) {
     volume_painter painter = {.session = &session, .scene = &scene};
     render_report report = {.load_s = 0};
     const bool done =
-        parse_paths(arguments, &paths, message) && check_outputs(&session, arguments, &paths) &&
+        parse_paths(arguments, &paths, message) &&
         volume_scene_load(&session, &arguments->input, &arguments->scene, common->operands[0],
                           arguments->progressive ? 2 : 1, &scene) &&
         volume_scene_frame(&session, &arguments->frames, &scene, &frames) &&

@@ -3,16 +3,15 @@
 //
 // What a picture of a volume shows: the voxels under a transfer function, and surfaces within.
 #include "volume_scene.h"
+#include "faults.h"
 #include "inputs.h"
+#include "upright.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 enum { BINS = 256, CORNERS = 8 };
-
-/// Words of --view.
-enum { VIEW_FRONT = 0, VIEW_LEFT = 2, VIEW_BOTTOM = 5, VIEW_ISO = 6 };
 
 /// How many times as wide as thick a volume is when it is a slice or a picture.
 static const double SLICE_RATIO = 8;
@@ -106,9 +105,17 @@ static bool load_surfels(cli_session *session, const char *path, volume_scene *s
     if (!cloud) return false;
     ewa_status status = ewa_cloud_measure(cloud, &scene->surfels_bounds);
     if (status == EWA_OK) status = ewa_surfels_create(cloud, &options, &scene->surfels);
-    if (status != EWA_OK) session_failed(session, status);
+    bool done = status == EWA_OK;
+    if (done) {
+        ewa_surfels_info info;
+        ewa_surfels_describe(scene->surfels, &info);
+        session->subject = path;
+        done = faults_report(session, cloud, &info);
+    } else {
+        session_failed(session, status);
+    }
     ewa_cloud_destroy(&cloud);
-    return status == EWA_OK;
+    return done;
 }
 
 static bool classify(cli_session *session, const ewa_volume *volume, const ewa_transfer *transfer,

@@ -93,6 +93,8 @@ typedef struct ewa_csg_options {
     size_t struct_size;
     ewa_csg_operation operation; ///< default EWA_CSG_UNION
     double cutoff; ///< F: standard deviations in a "radius" and in the support of a kernel; (0, 4]; default 3
+    const char *names[2]; ///< what messages call A and B, such as their files; default NULL: "csg: operand
+                          ///< A", "... B"
 } ewa_csg_options;
 
 EWA_API void ewa_csg_options_init(ewa_csg_options *options, size_t struct_size);

@@ -105,8 +105,10 @@ static void test_map_coordinates(void **state) {
         snprintf(name, sizeof name, "cut%d", i);
         write_cube(name, corners[i], 2);
         run_done("ewa csg at%d.obj %s.ply --op difference -o rest%d.ply", i, name, i);
-        run_done("ewa render rest%d.ply -o rest%d.png --size 160x120 --view iso --up 0,0,1 --cull back", i,
-                 i);
+        const double *at = corners[i];
+        run_done("ewa render rest%d.ply -o rest%d.png --size 160x120 --eye %.17g,%.17g,%.17g "
+                 "--target %.17g,%.17g,%.17g --up 0,0,1 --cull back",
+                 i, i, at[0] + 4, at[1] - 4, at[2] + 3.5, at[0], at[1], at[2]);
     }
     assert_true(scratch_same("rest0.png", "rest1.png"));
     // Floats cannot say where it is.

@@ -454,45 +454,6 @@ static void test_many_missing(void **state) {
     ewa_mesh_free(&mesh);
 }
 
-static void test_real_files(void **state) {
-    (void)state;
-    static const struct {
-        const char *path;
-        uint32_t triangles;
-        double area; ///< 0: not known
-        const char *said;
-    } files[] = {{"models/variants/assimp_box_UTF16BE.obj", 12, 6, ""},
-                 {"models/variants/assimp_box_without_lineending.obj", 12, 6, ""},
-                 {"models/variants/assimp_concave_polygon.obj", 64, 0, "concave_polygon.mtl' is left out"},
-                 {"models/variants/assimp_cube_with_vertexcolors.obj", 12, 6, ""},
-                 {"models/variants/assimp_only_a_part_of_vertexcolors.obj", 3, 0, ""},
-                 {"models/variants/assimp_number_formats.obj", 1, 0, "line 11: not a number; 6 in the file"},
-                 {"models/variants/assimp_testmixed.obj", 12, 6, "6 lines, 6 points"},
-                 {"models/variants/draco_cube_quads.obj", 12, 6, ""},
-                 {"models/variants/draco_octagon.obj", 6, 0, ""},
-                 {"models/variants/draco_eof_test.obj", 1, 0, ""},
-                 {"models/fuze/fuze.obj", 0, 0, ""},
-                 {"models/meshlab_textured/bunny10k_textured.obj", 0, 0, ""},
-                 {"models/head_lps/LeePerrySmith.obj", 17684, 0, "Infinite-Level_02.mtl' is left out"},
-                 {"models/armadillo_86k_tri.obj", 86482, 0, ""}};
-    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
-        char path[512];
-        ewa_mesh mesh;
-        if (!check_data(files[i].path, path, sizeof path)) skip();
-        messages = (mesh_messages){.errors = 0};
-        assert_int_equal(ewa_mesh_load(context, path, &mesh), EWA_OK);
-        if (files[i].said[0])
-            mesh_says(&messages, files[i].said);
-        else
-            assert_string_equal(messages.text, "");
-        if (files[i].triangles && mesh.triangle_count != files[i].triangles)
-            fail_msg("%s: %u", path, mesh.triangle_count);
-        if (files[i].area > 0) assert_float_equal(mesh_area(&mesh, NULL), files[i].area, 1e-4);
-        if (strstr(path, "fuze") || strstr(path, "bunny10k")) assert_non_null(mesh_texture(&mesh, 0));
-        ewa_mesh_free(&mesh);
-    }
-}
-
 int main(void) {
 #define CASE(f) cmocka_unit_test_setup_teardown(f, begin, end)
     const struct CMUnitTest tests[] = {
@@ -500,6 +461,6 @@ int main(void) {
         CASE(test_vertex_colors), CASE(test_bad_statements), CASE(test_points),
         CASE(test_materials),     CASE(test_shared_picture), CASE(test_written_as_ply),
         CASE(test_libraries),     CASE(test_renamed),        CASE(test_hostile_names),
-        CASE(test_many_missing),  CASE(test_real_files)};
+        CASE(test_many_missing)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

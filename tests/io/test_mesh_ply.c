@@ -386,43 +386,6 @@ static void test_elements_round_trip(void **state) {
     assert_string_equal(messages.text, "");
 }
 
-static void test_real_files(void **state) {
-    (void)state;
-    static const struct {
-        const char *path;
-        uint32_t triangles;
-        double area; ///< 0: not known
-        bool closed;
-    } files[] = {{"models/variants/assimp_cube_binary.ply", 12, 6, true},
-                 {"models/variants/assimp_cube_binary_header_with_RN_newline.ply", 12, 6, true},
-                 {"models/variants/assimp_cube_binary_starts_with_nl.ply", 12, 6, true},
-                 {"models/variants/assimp_cube_uv.ply", 12, 24, true},
-                 {"models/variants/draco_cube_att.ply", 12, 6, true},
-                 {"models/variants/draco_cube_quads.ply", 12, 6, true},
-                 {"models/variants/draco_delim_test.ply", 12, 0, false}, // two faces are turned
-                 {"models/variants/dolphins.ply", 1689, 0, false},
-                 {"models/variants/dolphins_be.ply", 1689, 0, false},
-                 {"models/variants/dolphins_le.ply", 1689, 0, false},
-                 {"models/igea_tristrips.ply", 268686, 0, true},
-                 {"models/lucy_100k_tri.ply", 99970, 0, true},
-                 {"models/rangemap_lato000.ply", 86766, 0, false},
-                 {"models/pepper_artec_multitexture.ply", 29956, 0, true}};
-    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
-        char path[512];
-        ewa_mesh mesh;
-        bool closed;
-        if (!check_data(files[i].path, path, sizeof path)) skip();
-        assert_int_equal(ewa_mesh_load(context, path, &mesh), EWA_OK);
-        if (mesh.triangle_count != files[i].triangles)
-            fail_msg("%s: %u triangles", path, mesh.triangle_count);
-        if (files[i].area > 0) assert_float_equal(mesh_area(&mesh, NULL), files[i].area, 1e-3);
-        assert_int_equal(ewa_mesh_is_closed(&mesh, &closed), EWA_OK);
-        if (closed != files[i].closed) fail_msg("%s: closed %d", path, closed);
-        ewa_mesh_free(&mesh);
-    }
-    assert_string_equal(messages.text, "");
-}
-
 int main(void) {
 #define CASE(f) cmocka_unit_test_setup_teardown(f, begin, end)
     const struct CMUnitTest tests[] = {CASE(test_polygons),
@@ -436,7 +399,6 @@ int main(void) {
                                        CASE(test_bad_faces),
                                        CASE(test_what_is_a_mesh),
                                        CASE(test_digits),
-                                       CASE(test_elements_round_trip),
-                                       CASE(test_real_files)};
+                                       CASE(test_elements_round_trip)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

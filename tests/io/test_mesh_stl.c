@@ -193,35 +193,9 @@ static void test_off(void **state) {
                     broken[i].said);
 }
 
-static void test_real_files(void **state) {
-    (void)state;
-    static const struct {
-        const char *path;
-        uint32_t triangles;
-    } files[] = {{"models/variants/assimp_triangle.stl", 1},
-                 {"models/variants/assimp_triangle_with_empty_solid.stl", 1},
-                 {"models/variants/assimp_triangle_with_two_solids.stl", 2},
-                 {"models/variants/colored.stl", 2156},
-                 {"models/variants/draco_test_sphere.stl", 224},
-                 {"models/variants/draco_test_sphere_ascii.stl", 224}};
-    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
-        char path[512];
-        ewa_mesh mesh;
-        if (!check_data(files[i].path, path, sizeof path)) skip();
-        assert_int_equal(ewa_mesh_load(context, path, &mesh), EWA_OK);
-        assert_int_equal(mesh.triangle_count, files[i].triangles);
-        assert_true((mesh.colors != NULL) == (i == 3));
-        bool closed;
-        assert_int_equal(ewa_mesh_is_closed(&mesh, &closed), EWA_OK);
-        assert_int_equal(closed, i >= 3);
-        ewa_mesh_free(&mesh);
-    }
-    assert_string_equal(messages.text, "");
-}
-
 int main(void) {
 #define CASE(f) cmocka_unit_test_setup_teardown(f, begin, end)
     const struct CMUnitTest tests[] = {CASE(test_ascii_stl), CASE(test_binary_stl), CASE(test_colors_of_stl),
-                                       CASE(test_off), CASE(test_real_files)};
+                                       CASE(test_off)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
