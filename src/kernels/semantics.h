@@ -131,6 +131,14 @@
 #define EWA_DOME_PAIRS 12
 #define EWA_DOME_GAIN  300.0
 
+/// Share of q0 that splats facing the viewer need so that nothing of those turned away is seen.
+#define EWA_FRONT 0.05
+
+/// Length of the mean of the directions in which clip lines cut a pixel, from which on they are taken for one
+/// edge, and below which for edges of several surfaces that meet.
+#define EWA_EDGES_AGREE  0.9
+#define EWA_EDGES_OPPOSE 0.7
+
 /// Surfaces that a merged layer stands for at most.
 #define EWA_MERGED_SURFACES 64
 

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// From splats to a pixel's surface in double precision: sums apart by facing and of what clip lines cut.
+#include "splat/reference_sums.h"
+#include "kernels/semantics.h"
+
+static void add_scaled(ewa_reference_sums *to, const ewa_reference_sums *from, double scale) {
+    to->weight += scale * from->weight;
+    to->color = vec3_add(to->color, vec3_scale(from->color, scale));
+    to->normal_world = vec3_add(to->normal_world, vec3_scale(from->normal_world, scale));
+    to->z += scale * from->z;
+    to->opacity += scale * from->opacity;
+    for (int i = 0; i < 5; i++) to->material[i] += scale * from->material[i];
+}
+
+void ewa_reference_gather(ewa_reference_gathered *to, const ewa_reference_splat *splat,
+                          const ewa_reference_sample *sample, double weight, double opacity,
+                          const float material[5]) {
+    ewa_reference_sums one = {.weight = 1,
+                              .color = vec3_scale(splat->color, opacity),
+                              .normal_world = splat->normal_world,
+                              .z = sample->z,
+                              .opacity = opacity};
+    for (int i = 0; i < 5; i++) one.material[i] = (double)material[i];
+    add_scaled(splat->turned ? &to->turned : &to->facing, &one, weight);
+    if (!(sample->share < 1)) return;
+    const double whole = weight / sample->share;
+    to->cut.kept += weight;
+    to->cut.whole += whole;
+    for (int c = 0; c < 2; c++) to->cut.inward[c] += whole * sample->inward[c];
+}
+
+ewa_reference_sums ewa_reference_settle(const ewa_reference_gathered *surface, double unit_coverage,
+                                        bool merged) {
+    const double front = surface->facing.weight, back = surface->turned.weight;
+    const double shown = merged ? 1 : fmax(0, 1 - front / (EWA_FRONT * unit_coverage));
+    ewa_reference_sums sums = {.weight = 0};
+    const double mixed = front + shown * back, scale = mixed > 0 ? (front + back) / mixed : 0;
+    add_scaled(&sums, &surface->facing, scale);
+    add_scaled(&sums, &surface->turned, scale * shown);
+    return sums;
+}
+
+double ewa_reference_cover(const ewa_reference_gathered *surface, double unit_coverage, double threshold,
+                           bool merged) {
+    const double q = surface->facing.weight + surface->turned.weight, least = threshold * unit_coverage;
+    const ewa_reference_cut *cut = &surface->cut;
+    if (merged || !(cut->whole > 0)) return fmin(1, q / least);
+    const double uncut = fmax(0, q - cut->kept);
+    const double along = hypot(cut->inward[0], cut->inward[1]) / cut->whole;
+    const double alone = fmin(fmax((along - EWA_EDGES_OPPOSE) / (EWA_EDGES_AGREE - EWA_EDGES_OPPOSE), 0), 1);
+    return fmin(1, fmax(uncut / least, q / fmax(least, uncut + alone * cut->whole)));
+}
