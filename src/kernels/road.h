@@ -180,8 +180,8 @@ typedef struct ewa_sorted_run {
 /// What is gathered beside a surface's sums, in the blocks that have some: of a block that is not marked,
 /// nothing is set. With unclipped splats only `cut` and `cut_rows` may be NULL.
 typedef struct ewa_apart {
-    float *turned;         ///< as ewa_tile.sums: of the splats that face away
-    float *cut;            ///< [block][EWA_CUT_CHANNELS][16]; when settled, first of all the covered share
+    float *turned; ///< as ewa_tile.sums: of the splats that face away
+    float *cut;    ///< [block][EWA_CUT_CHANNELS][16]; settled: covered share, nothing, mean direction inward
     uint32_t *turned_rows; ///< [block row]: bit per block column
     uint32_t *cut_rows;
 } ewa_apart;

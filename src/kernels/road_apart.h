@@ -39,7 +39,8 @@ static ALWAYS_INLINE void add_plane(float *sums, int channel, wf value) {
 static ALWAYS_INLINE void add_cut(const ewa_tile *tile, uint32_t row, uint32_t column, const ewa_clip *clip,
                                   const clip_sample *left, wf whole) {
     const wf zero = wf_set(0), one = wf_set(1);
-    const wf cut = wf_keep(wf_lt(left->share, one), whole);
+    const wf off = wf_mul(wf_sub(one, left->share), wf_set((float)(1 / EWA_CUT)));
+    const wf cut = wf_mul(wf_min(off, one), whole);
     if (!wm_bits(wf_lt(zero, cut))) return;
     float *sums = marked_block(tile->apart.cut, tile->apart.cut_rows, tile, row, column, EWA_CUT_CHANNELS);
     wf decides[2];
@@ -76,7 +77,8 @@ static ALWAYS_INLINE void join_turned(const ewa_tile *tile, const ewa_resolve *t
     }
 }
 
-/// Replaces what is noted of a block's clip lines by the share of each pixel that the surface covers.
+/// Replaces what is noted of a block's clip lines by the share of each pixel that the surface covers, and the
+/// mean direction of all its splats.
 static ALWAYS_INLINE void cover_cut(const ewa_resolve *to, const float *sums, float *cut) {
     enum { LANES = EWA_BLOCK_LANES };
     const wf zero = wf_set(0), one = wf_set(1), q = wf_load(sums), least = wf_set(to->covering);
@@ -90,6 +92,9 @@ static ALWAYS_INLINE void cover_cut(const ewa_resolve *to, const float *sums, fl
     const wf expected = wf_max(wf_fma(alone, whole, uncut), least);
     const wf covered = wf_max(wf_mul(uncut, wf_set(to->alpha_scale)), wf_div(q, expected));
     wf_store(cut, wf_min(covered, one));
+    const wf per = wf_keep(some, wf_div(one, wf_add(uncut, wf_select(some, whole, one))));
+    wf_store(cut + CUT_X * LANES, wf_mul(x, per));
+    wf_store(cut + CUT_Y * LANES, wf_mul(y, per));
 }
 
 /// A block of a surface, when all of it is gathered.
@@ -112,7 +117,7 @@ static void settle(const ewa_tile *tile, const ewa_resolve *to) {
     }
 }
 
-/// The covered shares of a block's pixels where clip lines have a say, else NULL.
+/// The settled planes of a block where clip lines have a say, else NULL: first of all the covered shares.
 static ALWAYS_INLINE const float *cut_cover(const ewa_tile *tile, uint32_t row, uint32_t column) {
     const ewa_apart *apart = &tile->apart;
     if (!apart->cut_rows || !(apart->cut_rows[row] >> column & 1)) return NULL;

@@ -448,6 +448,19 @@ static ALWAYS_INLINE wf merged_alpha(wf alpha, wf coverage) {
     return wf_sub(one, through);
 }
 
+/// What a surface behind a first one of alpha `first` covers of the part that this leaves open, if both are
+/// cut by clip lines (planes of cut_cover()): semantics.h, layers. `whole`: what it would cover without them.
+static wf cover_behind_cut(wf first, const float *first_cut, wf whole, const float *cut) {
+    enum { LANES = EWA_BLOCK_LANES };
+    const wf zero = wf_set(0), one = wf_set(1), open = wf_sub(one, first), over = wf_load(cut);
+    const wf x = wf_mul(wf_load(first_cut + CUT_X * LANES), wf_load(cut + CUT_X * LANES));
+    const wf along = wf_fma(wf_load(first_cut + CUT_Y * LANES), wf_load(cut + CUT_Y * LANES), x);
+    const wf beside = wf_max(wf_sub(over, first), zero);
+    const wf behind = wf_div(beside, wf_select(wf_lt(zero, open), open, one));
+    const wf related = wf_min(wf_mul(wf_abs(along), wf_set(2)), one);
+    return wf_fma(related, wf_sub(wf_select(wf_lt(zero, along), behind, whole), over), over);
+}
+
 /// Composites one block's gathered surface under what is in front of it; returns the pixels that stay open.
 static wm compose_block(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges *edges, bool merged,
                         uint32_t row, uint32_t column) {
@@ -459,8 +472,14 @@ static wm compose_block(const ewa_tile *tile, const ewa_resolve *to, const ewa_e
     float shade[EWA_SHADE_FLOATS];
     shade_block(tile, to, sums, (uint32_t)tile->x_px + column * EWA_BLOCK_PX,
                 (uint32_t)tile->y_px + row * EWA_BLOCK_PX, shade);
-    surface found =
-        gathered_surface(tile, to, sums, shade, merged ? NULL : cut_cover(&gathered, row, column));
+    const float *cut = merged ? NULL : cut_cover(&gathered, row, column);
+    const float *first_cut = cut_cover(tile, row, column);
+    surface found = gathered_surface(tile, to, sums, shade, cut);
+    if (cut && first_cut && !to->transparent) {
+        const wf first = surface_alpha(tile, to, tile->sums + block * tile->channel_count * LANES, first_cut);
+        const wf whole = surface_alpha(&gathered, to, sums, NULL);
+        found.alpha = cover_behind_cut(first, first_cut, whole, cut);
+    }
     if (merged)
         found.alpha = merged_alpha(found.alpha, wf_mul(wf_load(sums), wf_set(to->unit_coverage_inverse)));
     float *behind = edges->behind + block * 4 * LANES;

@@ -27,12 +27,13 @@ typedef struct pixel {
     double bound;     ///< three passes: B(x) = min(z + eps); one pass: z of the nearest splat
     uint64_t nearest; ///< one pass: the splat that wins
     ewa_reference_gathered gathered;
-    ewa_reference_sums sums; ///< what that comes to
-    ewa_vec3 shaded;         ///< straight colour
-    double depth;            ///< of the first surface; +infinity: nothing
-    double passed;           ///< B(x) of the surface before: splats up to there are done
-    ewa_vec3 in_front;       ///< premultiplied colour of the surfaces before
-    double through;          ///< the share of the pixel that they leave open
+    ewa_reference_sums sums;         ///< what that comes to
+    ewa_vec3 shaded;                 ///< straight colour
+    double depth;                    ///< of the first surface; +infinity: nothing
+    ewa_reference_cover first_cover; ///< of the first surface
+    double passed;                   ///< B(x) of the surface before: splats up to there are done
+    ewa_vec3 in_front;               ///< premultiplied colour of the surfaces before
+    double through;                  ///< the share of the pixel that they leave open
 } pixel;
 
 typedef struct reference {
@@ -202,9 +203,13 @@ static bool resolve_surface(const reference *work, uint32_t layer, int32_t x, in
         depth = sums->z / q;
         coverage = work->options.passes == 3 ? q / work->unit_coverage : 1;
         alpha = 1;
-        if (work->options.edge_antialiasing && work->options.passes == 3)
-            alpha = ewa_reference_cover(&at->gathered, work->unit_coverage, work->options.edge_threshold,
-                                        is_merged(work, layer));
+        if (work->options.edge_antialiasing && work->options.passes == 3) {
+            const ewa_reference_cover cover = ewa_reference_cover_of(
+                &at->gathered, work->unit_coverage, work->options.edge_threshold, is_merged(work, layer));
+            alpha = layer == 0 || work->transparent ? cover.share
+                                                    : ewa_reference_cover_behind(&at->first_cover, &cover);
+            if (layer == 0) at->first_cover = cover;
+        }
         if (work->transparent) alpha *= work->options.opacity * sums->opacity / q;
         if (is_merged(work, layer)) alpha = merged_alpha(alpha, coverage);
         at->in_front = vec3_add(at->in_front, vec3_scale(at->shaded, alpha * at->through));
@@ -219,6 +224,7 @@ static bool resolve_surface(const reference *work, uint32_t layer, int32_t x, in
                   .nearest = NOBODY,
                   .passed = open ? at->bound : INFINITY,
                   .depth = at->depth,
+                  .first_cover = at->first_cover,
                   .in_front = at->in_front,
                   .through = at->through};
     return open;

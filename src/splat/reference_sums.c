@@ -24,9 +24,8 @@ void ewa_reference_gather(ewa_reference_gathered *to, const ewa_reference_splat 
                               .opacity = opacity};
     for (int i = 0; i < 5; i++) one.material[i] = (double)material[i];
     add_scaled(splat->turned ? &to->turned : &to->facing, &one, weight);
-    if (!(sample->share < 1)) return;
-    const double whole = weight / sample->share;
-    to->cut.kept += weight;
+    const double cut = fmin(1, (1 - sample->share) / EWA_CUT), whole = cut * weight / sample->share;
+    to->cut.kept += cut * weight;
     to->cut.whole += whole;
     for (int c = 0; c < 2; c++) to->cut.inward[c] += whole * sample->inward[c];
 }
@@ -42,13 +41,24 @@ ewa_reference_sums ewa_reference_settle(const ewa_reference_gathered *surface, d
     return sums;
 }
 
-double ewa_reference_cover(const ewa_reference_gathered *surface, double unit_coverage, double threshold,
-                           bool merged) {
+ewa_reference_cover ewa_reference_cover_of(const ewa_reference_gathered *surface, double unit_coverage,
+                                           double threshold, bool merged) {
     const double q = surface->facing.weight + surface->turned.weight, least = threshold * unit_coverage;
     const ewa_reference_cut *cut = &surface->cut;
-    if (merged || !(cut->whole > 0)) return fmin(1, q / least);
+    ewa_reference_cover cover = {.share = fmin(1, q / least), .whole = fmin(1, q / least)};
+    if (merged || !(cut->whole > 0)) return cover;
     const double uncut = fmax(0, q - cut->kept);
     const double along = hypot(cut->inward[0], cut->inward[1]) / cut->whole;
     const double alone = fmin(fmax((along - EWA_EDGES_OPPOSE) / (EWA_EDGES_AGREE - EWA_EDGES_OPPOSE), 0), 1);
-    return fmin(1, fmax(uncut / least, q / fmax(least, uncut + alone * cut->whole)));
+    cover.share = fmin(1, fmax(uncut / least, q / fmax(least, uncut + alone * cut->whole)));
+    for (int c = 0; c < 2; c++) cover.inward[c] = cut->inward[c] / (uncut + cut->whole);
+    return cover;
+}
+
+double ewa_reference_cover_behind(const ewa_reference_cover *first, const ewa_reference_cover *behind) {
+    const double along = first->inward[0] * behind->inward[0] + first->inward[1] * behind->inward[1];
+    const double open = 1 - first->share, over = behind->share;
+    if (!(open > 0)) return over;
+    const double related = along > 0 ? fmax(0, over - first->share) / open : behind->whole;
+    return over + fmin(1, 2 * fabs(along)) * (related - over);
 }

@@ -17,7 +17,7 @@ typedef struct ewa_reference_sums {
     double material[5]; ///< ambient, diffuse, specular, shininess, reflection
 } ewa_reference_sums;
 
-/// Sums over the splats that a clip line cuts at the pixel: share < 1.
+/// Sums over the splats that a clip line cuts at the pixel, as far as it does.
 typedef struct ewa_reference_cut {
     double kept;      ///< of weights
     double whole;     ///< of weights over shares
@@ -39,8 +39,18 @@ void ewa_reference_gather(ewa_reference_gathered *to, const ewa_reference_splat 
 ewa_reference_sums ewa_reference_settle(const ewa_reference_gathered *surface, double unit_coverage,
                                         bool merged);
 
-/// Returns the share of the pixel that the surface covers, [0, 1]; `threshold` is tau.
-double ewa_reference_cover(const ewa_reference_gathered *surface, double unit_coverage, double threshold,
-                           bool merged);
+/// What a surface covers of a pixel.
+typedef struct ewa_reference_cover {
+    double share;     ///< [0, 1]
+    double whole;     ///< what it would be without clip lines
+    double inward[2]; ///< mean direction in which clip lines keep its splats; 0 without lines
+} ewa_reference_cover;
+
+/// `threshold` is tau.
+ewa_reference_cover ewa_reference_cover_of(const ewa_reference_gathered *surface, double unit_coverage,
+                                           double threshold, bool merged);
+
+/// Returns what a surface covers of the part of the pixel that the first one leaves open.
+double ewa_reference_cover_behind(const ewa_reference_cover *first, const ewa_reference_cover *behind);
 
 #endif
