@@ -361,7 +361,6 @@ static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_
                                                   (what & ADD_MATERIAL ? EWA_MATERIAL_CHANNELS + 0u : 0) +
                                                   (what & ADD_OPACITY ? 1u : 0);
     const uint32_t doublings = what & LONG ? view->doublings : 2;
-    const bool turned = box_turned(r->box);
     column_terms c[EWA_COLUMN_CLASSES];
     UNROLL_COLUMNS
     for (uint32_t i = 0; i < columns; i++)
@@ -382,16 +381,12 @@ static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_
             wf key = wf_fma(wf_set(r->key_y), dy, c[i].key);
             if (test != PLAIN) key = clamped_key(r, key);
             wm counts = wm_and(wf_lt(s, end), wf_le(wf_load(nearest + (size_t)i * EWA_BLOCK_LANES), key));
-            if (what & BEYOND)
+            if (what & BEYOND) {
                 counts = wm_and(counts, wf_lt(key, wf_load(passed + (size_t)i * EWA_BLOCK_LANES)));
-            // Most splats are of other surfaces, and most of those that face away are hidden.
-            if ((what & BEYOND || turned) && !wm_bits(counts)) continue;
+                if (!wm_bits(counts)) continue; // most splats are of other surfaces
+            }
             const wf weight = wf_keep(counts, exponential(s, doublings));
-            float *block = sums + (size_t)i * channels * EWA_BLOCK_LANES;
-            if (turned)
-                block = marked_block(tile->apart.turned, tile->apart.turned_rows, tile, box_row(r->box) + row,
-                                     box_column(r->box) + first_column + i, channels);
-            add_channels(block, channels, weight, &add, key, what);
+            add_channels(sums + (size_t)i * channels * EWA_BLOCK_LANES, channels, weight, &add, key, what);
         }
         nearest += row_blocks * EWA_BLOCK_LANES;
         if (what & BEYOND) passed += row_blocks * EWA_BLOCK_LANES;
@@ -400,15 +395,52 @@ static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_
     }
 }
 
-/// The accumulation for one set of channels.
+/// accumulate_rows() for a splat that faces away, with the same numbers: most of them are hidden.
+static ALWAYS_INLINE void accumulate_turned(const pass *p, uint32_t splat, uint32_t first_column,
+                                            uint32_t columns, uint32_t rows, depth_test test, int what) {
+    const ewa_tile *tile = p->tile;
+    const ewa_record *r = &p->run->records[splat];
+    const payload add =
+        payload_load(p->view, r, &p->run->loads[splat], p->run->opacities, p->run->materials, splat, what);
+    const wf end = wf_set(p->view->exponent_end);
+    for (uint32_t i = first_column; i < first_column + columns; i++) {
+        const column_terms c = column_start(r, r->key, r->key_x, (float)(EWA_BLOCK_PX * i));
+        wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
+        for (uint32_t k = 0; k < rows; k++, dy = wf_add(dy, wf_set(EWA_BLOCK_PX))) {
+            const uint32_t row = box_row(r->box) + k, column = box_column(r->box) + i;
+            const size_t at = ((size_t)row * tile->blocks_per_row + column) * EWA_BLOCK_LANES;
+            const wf s = block_exponent(r, &c, dy);
+            wf key = wf_fma(wf_set(r->key_y), dy, c.key);
+            if (test != PLAIN) key = clamped_key(r, key);
+            wm counts = wm_and(wf_lt(s, end), wf_le(wf_load(tile->nearest + at), key));
+            if (what & BEYOND) counts = wm_and(counts, wf_lt(key, wf_load(tile->passed + at)));
+            if (!wm_bits(counts)) continue;
+            add_channels(block_sums(tile, true, row, column), tile->channel_count,
+                         wf_keep(counts, exponential(s, p->view->doublings)), &add, key, what);
+        }
+    }
+}
+
+/// The accumulation for one set of channels. Splats that face away are not worth a body for each class.
 #define ACCUMULATE(name, what)                                                                               \
+    static                                                                                                   \
+        __attribute__((noinline)) void name##_turned(const pass *p, uint32_t splat, uint32_t first_column,   \
+                                                     uint32_t columns, uint32_t rows, depth_test test) {     \
+        accumulate_turned(p, splat, first_column, columns, rows, test, what);                                \
+    }                                                                                                        \
     static ALWAYS_INLINE void name##_rows(const pass *p, uint32_t splat, uint32_t first_column,              \
                                           uint32_t columns, uint32_t rows, depth_test test) {                \
-        accumulate_rows(p, splat, first_column, columns, rows, test, what);                                  \
+        if (box_turned(p->run->records[splat].box))                                                          \
+            name##_turned(p, splat, first_column, columns, rows, test);                                      \
+        else                                                                                                 \
+            accumulate_rows(p, splat, first_column, columns, rows, test, what);                              \
     }                                                                                                        \
     static ALWAYS_INLINE void name##_long_rows(const pass *p, uint32_t splat, uint32_t first_column,         \
                                                uint32_t columns, uint32_t rows, depth_test test) {           \
-        accumulate_rows(p, splat, first_column, columns, rows, test, (what) | LONG);                         \
+        if (box_turned(p->run->records[splat].box))                                                          \
+            name##_turned(p, splat, first_column, columns, rows, test);                                      \
+        else                                                                                                 \
+            accumulate_rows(p, splat, first_column, columns, rows, test, (what) | LONG);                     \
     }                                                                                                        \
     static void name(const pass *p) {                                                                        \
         if (p->view->doublings == 2)                                                                         \
