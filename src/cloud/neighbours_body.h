@@ -9,7 +9,10 @@
 
 #include <math.h>
 
-enum { ROWS = 4 }; // distances of so many candidates at a time keep the adders busy
+enum {
+    ROWS = 4, // distances of so many candidates at a time keep the adders busy
+    TOP = 4,  // distances that are told apart one by one
+};
 
 static wi wi_of_lanes(void) {
     static const uint16_t lanes[EWA_BLOCK_LANES] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
@@ -123,24 +126,45 @@ static void narrow(const ewa_block *block, bracket *b, wf rank, wm open, wf limi
     b->low_count = wf_select(few, count, b->low_count);
 }
 
+/// The rank-th smallest is among the largest few up to high, of which at most TOP are above it; ties count as
+/// often as they are there.
+static wf select_top(const ewa_block *block, const bracket *b, wf rank) {
+    wf top[TOP];
+    for (int t = 0; t < TOP; t++) top[t] = wf_set(-1);
+    for (uint32_t i = 0; i < block->candidate_count; i++) {
+        const wf distance2 = wf_load(block->distance2[i]);
+        wf next = wf_select(wf_le(distance2, b->high), distance2, wf_set(-1));
+        for (int t = 0; t < TOP; t++) {
+            const wf larger = wf_max(top[t], next);
+            next = wf_min(top[t], next);
+            top[t] = larger;
+        }
+    }
+    const wf above = wf_sub(b->high_count, rank);
+    wf found = top[0];
+    for (int t = 1; t < TOP; t++) found = wf_select(wf_le(wf_set((float)t), above), top[t], found);
+    return found;
+}
+
 /// On a surface the number of neighbours grows linearly with the squared distance, so interpolation finds a
-/// limit with `rank` candidates below it in a few steps. Ties and the last few go by bisection between
-/// distances that occur.
+/// limit with `rank` candidates below it, or a few more, in a few steps. Where it does not, bisection between
+/// distances that occur does.
 static void select_rank(ewa_block *block, float limit2, const float within[EWA_BLOCK_LANES], int32_t wanted) {
     enum { INTERPOLATIONS = 6 };
     const wf rank = wf_set((float)wanted), zero = wf_set(0), half = wf_set(0.5f);
+    const wf few_more = wf_set((float)(wanted + TOP - 1)), aim = wf_set((float)wanted + 0.5f * TOP);
     bracket b = {wf_set(-1), wf_set(limit2), zero, wf_load(within)};
     for (int step = 0; step < INTERPOLATIONS; step++) {
-        const wm open = wf_lt(rank, b.high_count);
+        const wm open = wf_lt(few_more, b.high_count);
         if (!wm_bits(open)) break;
         const wf base = wf_max(b.low, zero);
-        const wf above = wf_sub(wf_add(rank, half), b.low_count);
+        const wf above = wf_sub(aim, b.low_count);
         const wf between = wf_add(wf_sub(b.high_count, b.low_count), wf_set(1));
         // Keeping away from the ends makes sure of progress where the density is far from even.
         const wf share = wf_min(wf_max(wf_div(above, between), wf_set(0.0625f)), wf_set(0.9375f));
         narrow(block, &b, rank, open, wf_add(base, wf_mul(wf_sub(b.high, base), share)));
     }
-    for (;;) {
+    while (wm_bits(wf_lt(few_more, b.high_count))) {
         // The largest distance up to high and the smallest beyond low: equal when only ties are left.
         wf largest[2] = {wf_set(0), wf_set(0)}, smallest[2] = {b.high, b.high};
         for (uint32_t i = 0; i < block->candidate_count; i += ROWS) {
@@ -153,13 +177,14 @@ static void select_rank(ewa_block *block, float limit2, const float within[EWA_B
         }
         const wf last = wf_max(largest[0], largest[1]), next = wf_min(smallest[0], smallest[1]);
         b.high = last;
-        const wm open = wm_and(wf_lt(rank, b.high_count), wf_lt(next, last));
+        const wm open = wm_and(wf_lt(few_more, b.high_count), wf_lt(next, last));
         if (!wm_bits(open)) break;
         const wf middle = wf_add(next, wf_mul(wf_sub(last, next), half));
         narrow(block, &b, rank, open, wf_select(wf_lt(middle, last), middle, next));
     }
-    wf_store(block->radius2, b.high);
-    drop_others(block, b.high);
+    const wf radius2 = select_top(block, &b, rank);
+    wf_store(block->radius2, radius2);
+    drop_others(block, radius2);
 }
 
 const search_kernels KERNELS = {overlap, gather, measure, select_rank};
