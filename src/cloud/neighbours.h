@@ -63,8 +63,8 @@ typedef struct ewa_visit_choice {
     uint32_t neighbour_count; ///< k, the place itself not counted; 1 to EWA_NEIGHBOURS_MAX; less when places
                               ///< are few
     uint32_t sample_step;  ///< 1 for all places; n visits about every n-th block only, the same for every run
-    const uint8_t *chosen; ///< NULL for all; else by place: of each block the places from the first to the
-                           ///< last whose entries are set
+    const uint8_t *chosen; ///< NULL for all; else by place: of each block at least the places whose entries
+                           ///< are set, and maybe others between them
     const char *stage;     ///< for the progress callback
     uint8_t chosen_bits;   ///< of an entry of `chosen` that count; 0: all
     const float *spacing;  ///< NULL; else by place: of the sampling, which tells how far to look; changes no result

@@ -252,6 +252,7 @@ typedef struct attempt {
     uint32_t leaf, first, count;
     double low[3], high[3]; // their box
     double radius;          // up to which candidates are gathered
+    bool exact;             // not a guess: of too many candidates the first ones serve
 } attempt;
 
 typedef enum outcome { FOUND, TOO_FEW, TOO_MANY } outcome;
@@ -310,7 +311,7 @@ static outcome search(const search_job *job, const attempt *a, scratch *s, doubl
     // A list serves many searches around whole leaves.
     const near_list *list = a->count > LISTED_PLACES ? find_list(job, a, &s->list) : NULL;
     const bool all = gather_near(job, &query, list, block);
-    if (!all && a->count > 1) return TOO_MANY;
+    if (!all && !a->exact) return TOO_MANY;
     set_lanes(tree, a, &query, block);
     const double limit = a->radius * (double)query.per_unit;
     const float limit2 = (float)(limit * limit);
@@ -331,15 +332,40 @@ static outcome search(const search_job *job, const attempt *a, scratch *s, doubl
     return FOUND;
 }
 
+static bool is_chosen(const search_job *job, uint32_t place) {
+    if (!job->choice->chosen) return true;
+    const uint8_t bits = job->choice->chosen_bits ? job->choice->chosen_bits : UINT8_MAX;
+    return job->choice->chosen[place] & bits;
+}
+
+static double guess_by_spacing(const search_job *job, uint32_t place) {
+    return (double)job->choice->spacing[place] * sqrt(job->rank) * SPACING_SHARE;
+}
+
+/// Searches with the attempt's radius and larger ones, as long as they have too few candidates.
+static outcome search_wider(const search_job *job, attempt *a, scratch *s, double *needed) {
+    for (int tries = 0; tries < MAX_TRIES; tries++) {
+        const outcome result = search(job, a, s, needed);
+        if (result != TOO_FEW) return result;
+        a->radius = fmax(*needed, a->radius * FIRST_GUESS_MARGIN);
+    }
+    return TOO_FEW;
+}
+
 /// The place's own search always ends: with too many at the same distance it takes the first ones in order.
 static void search_alone(const search_job *job, const attempt *whole, uint32_t place, uint32_t worker) {
     attempt a = {.leaf = whole->leaf, .first = place, .count = 1};
     place_position(job->tree, a.leaf, place, a.low);
     for (int c = 0; c < 3; c++) a.high[c] = a.low[c];
-    a.radius = nearest_distance(job, a.low) * (1 + ROUNDING_MARGIN);
+    scratch *s = &job->scratch[worker];
     double needed;
-    search(job, &a, &job->scratch[worker], &needed);
-    job->visit(job->user, &job->scratch[worker].block, worker);
+    a.radius = job->choice->spacing ? guess_by_spacing(job, place) : 0;
+    if (!(a.radius > 0) || search_wider(job, &a, s, &needed) != FOUND) {
+        a.radius = nearest_distance(job, a.low) * (1 + ROUNDING_MARGIN);
+        a.exact = true;
+        search(job, &a, s, &needed);
+    }
+    job->visit(job->user, &s->block, worker);
 }
 
 static double diagonal(const attempt *a) {
@@ -348,15 +374,13 @@ static double diagonal(const attempt *a) {
     return sqrt(sum);
 }
 
+/// A guess that holds for the attempt whatever the leaf before it needed.
 static double first_guess(const search_job *job, const attempt *a) {
+    const double by_spacing = job->choice->spacing ? guess_by_spacing(job, a->first) : 0;
+    if (by_spacing > 0) return by_spacing;
     double p[3];
     place_position(job->tree, a->leaf, a->first, p);
     return nearest_distance(job, p) * FIRST_GUESS_MARGIN;
-}
-
-static bool is_chosen(const search_job *job, uint32_t place) {
-    const uint8_t bits = job->choice->chosen_bits ? job->choice->chosen_bits : UINT8_MAX;
-    return job->choice->chosen[place] & bits;
 }
 
 /// Makes an attempt at those places of a leaf that are chosen and those between them; false when none is.
@@ -386,6 +410,7 @@ static bool set_attempt(const search_job *job, uint32_t leaf, attempt *a) {
     a->leaf = leaf;
     a->first = first;
     a->count = end - first;
+    a->exact = false;
     return true;
 }
 
@@ -394,12 +419,8 @@ static bool set_attempt(const search_job *job, uint32_t leaf, attempt *a) {
 static void search_leaf(const search_job *job, uint32_t leaf, double *guess, uint32_t worker) {
     attempt a;
     if (!set_attempt(job, leaf, &a)) return;
-    if (*guess >= 0)
-        a.radius = *guess;
-    else if (job->choice->spacing)
-        a.radius = (double)job->choice->spacing[a.first] * sqrt(job->rank) * SPACING_SHARE;
-    else // a part of a leaf says nothing about the density
-        a.radius = job->choice->chosen ? 0 : DIAGONAL_SHARE * diagonal(&a);
+    // A part of a leaf says nothing about the density.
+    a.radius = *guess >= 0 ? *guess : job->choice->chosen ? 0 : DIAGONAL_SHARE * diagonal(&a);
     bool guessed_here = !(a.radius > 0);
     if (guessed_here) a.radius = first_guess(job, &a);
     for (int tries = 0; tries < MAX_TRIES; tries++) {
@@ -418,7 +439,8 @@ static void search_leaf(const search_job *job, uint32_t leaf, double *guess, uin
             guessed_here = true;
         }
     }
-    for (uint32_t i = 0; i < a.count; i++) search_alone(job, &a, a.first + i, worker);
+    for (uint32_t place = a.first; place < a.first + a.count; place++)
+        if (is_chosen(job, place)) search_alone(job, &a, place, worker);
     *guess = -1;
 }
 

@@ -363,17 +363,24 @@ static void find_cell(const ewa_block *block, const frame *f, wf limit, cell *ma
     for (int i = 0; i < 2 * DIRECTIONS; i++) made->shut[i] = wm_not(made->open[i]);
 }
 
-/// The same with the cell open, too, where no neighbour stands: beyond the border.
+/// The same with the cell open, too, where no neighbour stands: beyond the border. Both ranges at once would
+/// be more than there are registers, so a few candidates at a time go into one and then into the other.
 static void find_enclosed_cell(const ewa_block *block, const frame *f, wf limit, cell *made) {
+    enum { FEW = 32 };
     const vec at = lanes_of(block);
     const wf zero = wf_set(0), least = wf_set(ENCLOSED_COSINE);
     range inverted = empty_range(), cosines = empty_range();
-    for (uint32_t c = 0; c < block->candidate_count; c++) {
-        wf u, v;
-        invert(block, c, f, at, &u, &v);
-        widen(&inverted, u, v);
-        const wf distance = wf_sqrt(wf_load(block->distance2[c]));
-        widen(&cosines, wf_mul(u, distance), wf_mul(v, distance));
+    for (uint32_t begin = 0; begin < block->candidate_count; begin += FEW) {
+        const uint32_t left = block->candidate_count - begin, count = left < FEW ? left : FEW;
+        wf u[FEW], v[FEW];
+        for (uint32_t c = 0; c < count; c++) {
+            invert(block, begin + c, f, at, &u[c], &v[c]);
+            widen(&inverted, u[c], v[c]);
+        }
+        for (uint32_t c = 0; c < count; c++) {
+            const wf distance = wf_sqrt(wf_load(block->distance2[begin + c]));
+            widen(&cosines, wf_mul(u[c], distance), wf_mul(v[c], distance));
+        }
     }
     set_extents(made, &inverted, limit);
     for (int i = 0; i < DIRECTIONS; i++) {
@@ -511,19 +518,20 @@ static void find_around(const ewa_block *block, const float *values, float aroun
         least = value[i] < least ? value[i] : least;
         most = value[i] > most ? value[i] : most;
     }
+    uint16_t inside[EWA_BLOCK_CANDIDATES]; // bits of lanes
     const wf radius2 = wf_load(block->radius2), one = wf_set(1), half = wf_set(0.5f);
-    wf inside = wf_set(0), low = wf_set(least < 1e-30f ? 1e-30f : least), high = wf_max(low, wf_set(most));
-    for (uint32_t i = 0; i < n; i++)
-        inside = wf_add(inside, wf_keep(wf_le(wf_load(block->distance2[i]), radius2), one));
-    const wf wanted = wf_mul(inside, half);
+    wf count = wf_set(0), low = wf_set(least < 1e-30f ? 1e-30f : least), high = wf_max(low, wf_set(most));
+    for (uint32_t i = 0; i < n; i++) {
+        const wm in = wf_le(wf_load(block->distance2[i]), radius2);
+        inside[i] = (uint16_t)wm_bits(in);
+        count = wf_add(count, wf_keep(in, one));
+    }
+    const wf wanted = wf_mul(count, half);
     for (int step = 0; step < STEPS; step++) {
         const wf middle = wf_mul(wf_sqrt(low), wf_sqrt(high));
         wf below = wf_set(0);
-        for (uint32_t i = 0; i < n; i++) {
-            const wm counts =
-                wm_and(wf_le(wf_load(block->distance2[i]), radius2), wf_le(wf_set(value[i]), middle));
-            below = wf_add(below, wf_keep(counts, one));
-        }
+        for (uint32_t i = 0; i < n; i++)
+            below = wf_add(below, wf_keep(wm_and(wm_of_bits(inside[i]), wf_le(wf_set(value[i]), middle)), one));
         const wm enough = wf_le(wanted, below);
         high = wf_select(enough, middle, high);
         low = wf_select(enough, low, middle);
