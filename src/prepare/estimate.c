@@ -45,6 +45,7 @@ typedef struct estimate_job {
     ewa_attribute position;
     double viewpoint[3]; // relative to the cloud's origin
     counter *counters;   // per worker
+    local_crowd *crowds; // per worker: places that wait to be settled together
 } estimate_job;
 
 static void set_points(const estimate_job *job, uint32_t place, float *out, const float *values,
@@ -161,40 +162,69 @@ static void visit_thin(void *user, const ewa_block *block, uint32_t worker) {
     }
 }
 
-/// The third visit: to places whose cells are open, as at borders and beside holes, that are on lines or on
-/// no surface, or sparser than others nearby. All spacings are known then.
-static void visit_again(void *user, const ewa_block *block, uint32_t worker) {
-    (void)worker;
-    const estimate_job *job = user;
+/// Gives a place its size by many neighbours.
+static void settle_lane(const estimate_job *job, const local_crowd *crowd, uint32_t lane, double around,
+                        double limit, local_surface *s) {
+    const uint32_t place = crowd->place[lane];
+    drop_overflow(job->wanted, s, lane);
+    const double spacing = (double)job->spacing[place] / crowd->unit_world[lane];
+    const double few = (double)(job->notes[place] >> RADIUS_NOTE_SHIFT) / RADIUS_NOTE_MOST;
+    const double many = ewa_radius_scatter((double)s->variation[lane]);
+    const double scatter = few < many ? few : many, lone = ewa_radius_lone(spacing, around);
+    const radius_place at = {.spacing = spacing < around ? spacing : around,
+                             .reach = (double)(job->tangent_u_out ? s->ellipse_reach[lane] : s->reach[lane]),
+                             .limit = limit,
+                             .scatter = scatter > lone ? scatter : lone};
+    const double radius = ewa_radius(&at, job->options->radius_scale, job->options->cutoff);
+    set_size(job, place, s, lane, radius * crowd->unit_world[lane]);
+}
+
+/// Settles the places that wait, and empties their list.
+static void settle(const estimate_job *job, local_crowd *crowd) {
+    const uint32_t count = crowd->lane_count;
     local_surface s;
     float around[EWA_BLOCK_LANES], limit[EWA_BLOCK_LANES], normal[3][EWA_BLOCK_LANES];
-    job->kernels->median(block, job->spacing, around);
+    job->kernels->median(crowd, around);
     for (uint32_t lane = 0; lane < EWA_BLOCK_LANES; lane++) {
-        const uint32_t place = block->first_place + (lane < block->lane_count ? lane : 0);
+        const uint32_t from = lane < count ? lane : 0, place = crowd->place[from];
         for (int c = 0; c < 3 && job->normals; c++)
             normal[c][lane] = job->normals[3 * (size_t)place + (size_t)c];
-        around[lane] = (float)((double)around[lane] / block->unit_world);
+        around[lane] = (float)((double)around[from] / crowd->unit_world[from]);
         limit[lane] = (float)(job->options->radius_limit *
                               (job->notes[place] & RADIUS_THIN ? LINE_LIMIT : 1) * (double)around[lane]);
     }
-    job->kernels->enclose(block, job->wanted, job->normals ? (const float(*)[EWA_BLOCK_LANES])normal : NULL,
+    job->kernels->enclose(crowd, job->wanted, job->normals ? (const float(*)[EWA_BLOCK_LANES])normal : NULL,
                           limit, &s);
-    for (uint32_t lane = 0; lane < block->lane_count; lane++) {
-        const uint32_t place = block->first_place + lane, note = job->notes[place];
-        if (!(note & RADIUS_AGAIN)) continue;
-        drop_overflow(job->wanted, &s, lane);
-        const double spacing = (double)job->spacing[place] / block->unit_world, median = (double)around[lane];
-        const double few = (double)(note >> RADIUS_NOTE_SHIFT) / RADIUS_NOTE_MOST;
-        const double many = ewa_radius_scatter((double)s.variation[lane]);
-        const double scatter = few < many ? few : many, lone = ewa_radius_lone(spacing, median);
-        const radius_place at = {.spacing = spacing < median ? spacing : median,
-                                 .reach =
-                                     (double)(job->tangent_u_out ? s.ellipse_reach[lane] : s.reach[lane]),
-                                 .limit = (double)limit[lane],
-                                 .scatter = scatter > lone ? scatter : lone};
-        const double radius = ewa_radius(&at, job->options->radius_scale, job->options->cutoff);
-        set_size(job, place, &s, lane, radius * block->unit_world);
+    for (uint32_t lane = 0; lane < count; lane++)
+        settle_lane(job, crowd, lane, (double)around[lane], (double)limit[lane], &s);
+    crowd->lane_count = 0;
+}
+
+/// The third visit: to places whose cells are open, as at borders and beside holes, that are on lines or on
+/// no surface, or sparser than others nearby. All spacings are known then.
+static void visit_again(void *user, const ewa_block *block, uint32_t worker) {
+    const estimate_job *job = user;
+    local_crowd *crowd = &job->crowds[worker];
+    uint32_t lanes = 0;
+    for (uint32_t lane = 0; lane < block->lane_count; lane++)
+        if (job->notes[block->first_place + lane] & RADIUS_AGAIN) lanes |= 1u << lane;
+    while (lanes) {
+        lanes = job->kernels->collect(block, lanes, job->spacing, crowd);
+        if (crowd->lane_count == EWA_BLOCK_LANES) settle(job, crowd);
     }
+}
+
+/// Measures again what is noted so.
+static ewa_status measure_again(ewa_context *context, estimate_job *job, const ewa_visit_choice *choice) {
+    const uint32_t workers = ewa_context_worker_count(context);
+    job->crowds = ewa_allocate(context, workers, sizeof *job->crowds);
+    if (!job->crowds) return EWA_ERROR_MEMORY;
+    for (uint32_t w = 0; w < workers; w++) job->crowds[w].lane_count = 0;
+    const ewa_status status = ewa_neighbours_visit(job->neighbours, choice, visit_again, job);
+    for (uint32_t w = 0; w < workers && status == EWA_OK; w++)
+        if (job->crowds[w].lane_count) settle(job, &job->crowds[w]);
+    ewa_release(context, job->crowds, workers, sizeof *job->crowds);
+    return status;
 }
 
 /// Turns v so that u x v is along the normal.
@@ -254,7 +284,7 @@ static ewa_status measure(ewa_context *context, estimate_job *job) {
     ewa_radius_doubt_sparse(context, job->spacing, job->place_count, job->options->radius_limit, job->notes);
     choice.chosen_bits = RADIUS_AGAIN;
     choice.spacing = job->spacing;
-    return ewa_neighbours_visit(job->neighbours, &choice, visit_again, job);
+    return measure_again(context, job, &choice);
 }
 
 static void report_degenerate(ewa_context *context, const estimate_job *job) {

@@ -53,6 +53,22 @@ typedef struct local_sizing {
 /// UINT32_MAX.
 typedef uint32_t local_graph[EWA_BLOCK_LANES][LOCAL_GRAPH_DEGREE];
 
+/// One neighbour of each lane, from its place.
+typedef struct local_row {
+    _Alignas(64) float x[EWA_BLOCK_LANES];
+    float y[EWA_BLOCK_LANES], z[EWA_BLOCK_LANES], distance2[EWA_BLOCK_LANES], value[EWA_BLOCK_LANES];
+} local_row;
+
+/// Places from any blocks, one per lane, each with its own neighbours, itself included, in units of its
+/// block. What a lane gives does not depend on the others.
+typedef struct local_crowd {
+    local_row row[EWA_BLOCK_CANDIDATES];
+    double unit_world[EWA_BLOCK_LANES];
+    uint32_t place[EWA_BLOCK_LANES];
+    uint32_t count[EWA_BLOCK_LANES]; ///< of rows
+    uint32_t lane_count;
+} local_crowd;
+
 /// The hot loops, compiled once per instruction set, all with the same results.
 typedef struct local_kernels {
     /// All but mean_distance; `reach` up to 2 spacings.
@@ -60,13 +76,16 @@ typedef struct local_kernels {
     /// Radii after measure() with the same `wanted`; what is at the limit is not doubtful any more if it is a
     /// surface.
     void (*size)(uint32_t wanted, const local_sizing *sizing, local_surface *surface);
-    /// The median of values (by place) over each lane's neighbourhood, its own place included, to 1 / 256 of
-    /// the ratio of the largest to the least in the block, in logarithms.
-    void (*median)(const ewa_block *block, const float *values, float around[EWA_BLOCK_LANES]);
-    /// What measure() tells, by many neighbours: cells are closed up to `limit` (in the block's units) where
+    /// Adds lanes of a block (bits) with all their neighbours and the values of these (by place) to a crowd,
+    /// as many as it has room for; returns those that are left.
+    uint32_t (*collect)(const ewa_block *block, uint32_t lanes, const float *values, local_crowd *crowd);
+    /// The median of the values of each lane's neighbours and its own, to 1 / 256 of the ratio of the largest
+    /// to the least, in logarithms.
+    void (*median)(local_crowd *crowd, float around[EWA_BLOCK_LANES]);
+    /// What measure() tells, by many neighbours: cells are closed up to `limit` (in the lane's units) where
     /// neighbours stand around them, in planes of these normals (NULL: of their own). No median_spacing,
     /// nothing doubtful.
-    void (*enclose)(const ewa_block *block, uint32_t wanted, const float normal[3][EWA_BLOCK_LANES],
+    void (*enclose)(local_crowd *crowd, uint32_t wanted, const float normal[3][EWA_BLOCK_LANES],
                     const float limit[EWA_BLOCK_LANES], local_surface *surface);
     void (*measure_distance)(const ewa_block *block, local_surface *surface); ///< mean_distance only
     void (*link)(const ewa_block *block, local_graph graph);

@@ -89,22 +89,31 @@ static inline vec lanes_of(const ewa_block *block) {
     return (vec){wf_load(block->lane_x), wf_load(block->lane_y), wf_load(block->lane_z)};
 }
 
+static moments no_moments(void) {
+    const wf zero = wf_set(0);
+    return (moments){zero, {zero, zero, zero}, {zero, zero, zero, zero, zero, zero}};
+}
+
+static inline void add_offset(moments *m, vec d) {
+    m->first = v_add(m->first, d);
+    m->second.xx = wf_add(m->second.xx, wf_mul(d.x, d.x));
+    m->second.xy = wf_add(m->second.xy, wf_mul(d.x, d.y));
+    m->second.xz = wf_add(m->second.xz, wf_mul(d.x, d.z));
+    m->second.yy = wf_add(m->second.yy, wf_mul(d.y, d.y));
+    m->second.yz = wf_add(m->second.yz, wf_mul(d.y, d.z));
+    m->second.zz = wf_add(m->second.zz, wf_mul(d.z, d.z));
+}
+
 static moments sum_moments(const ewa_block *block) {
     const vec at = lanes_of(block);
-    const wf radius2 = wf_load(block->radius2), zero = wf_set(0), one = wf_set(1);
-    moments m = {zero, {zero, zero, zero}, {zero, zero, zero, zero, zero, zero}};
+    const wf radius2 = wf_load(block->radius2), one = wf_set(1);
+    moments m = no_moments();
     for (uint32_t i = 0; i < block->candidate_count; i++) {
         const wm inside = wf_le(wf_load(block->distance2[i]), radius2);
         vec d = offset_of(block, i, at);
         d = (vec){wf_keep(inside, d.x), wf_keep(inside, d.y), wf_keep(inside, d.z)};
         m.count = wf_add(m.count, wf_keep(inside, one));
-        m.first = v_add(m.first, d);
-        m.second.xx = wf_add(m.second.xx, wf_mul(d.x, d.x));
-        m.second.xy = wf_add(m.second.xy, wf_mul(d.x, d.y));
-        m.second.xz = wf_add(m.second.xz, wf_mul(d.x, d.z));
-        m.second.yy = wf_add(m.second.yy, wf_mul(d.y, d.y));
-        m.second.yz = wf_add(m.second.yz, wf_mul(d.y, d.z));
-        m.second.zz = wf_add(m.second.zz, wf_mul(d.z, d.z));
+        add_offset(&m, d);
     }
     return m;
 }
@@ -250,15 +259,17 @@ static inline wf reciprocal(wf a) {
     return wf_mul(r, wf_sub(wf_set(2), wf_mul(a, r)));
 }
 
-/// The neighbours in the tangent plane, inverted at the unit circle: p / |p|^2, zero for candidates that are
-/// none.
-static inline void invert(const ewa_block *block, uint32_t i, const frame *f, vec at, wf *u, wf *v) {
-    const wf distance2 = wf_load(block->distance2[i]), radius2 = wf_load(block->radius2);
-    const wm other = wm_and(wf_le(distance2, radius2), wf_lt(wf_set(0), distance2));
-    const vec d = offset_of(block, i, at);
+/// A neighbour in the tangent plane, inverted at the unit circle: p / |p|^2, zero for what is none.
+static inline void invert_offset(vec d, wf distance2, wm other, const frame *f, wf *u, wf *v) {
     const wf inverse = wf_keep(other, reciprocal(wf_max(distance2, wf_set(1e-30f))));
     *u = wf_mul(v_dot(d, f->u), inverse);
     *v = wf_mul(v_dot(d, f->v), inverse);
+}
+
+static inline void invert(const ewa_block *block, uint32_t i, const frame *f, vec at, wf *u, wf *v) {
+    const wf distance2 = wf_load(block->distance2[i]), radius2 = wf_load(block->radius2);
+    const wm other = wm_and(wf_le(distance2, radius2), wf_lt(wf_set(0), distance2));
+    invert_offset(offset_of(block, i, at), distance2, other, f, u, v);
 }
 
 /// Writes the unit eigenvector of the larger eigenvalue of (xx xy; xy yy), (1, 0) when they are equal;
@@ -279,18 +290,9 @@ static void major_axis(wf xx, wf xy, wf yy, wf *u, wf *v, wf values[2]) {
     *u = wf_select(round, one, wf_mul(x, inverse));
     *v = wf_select(round, wf_set(0), wf_mul(y, inverse));
 }
-
 /// Turns u to where the nearest neighbours are: a long cell is then seen along its axes.
-static void align_frame(const ewa_block *block, frame *f) {
-    const vec at = lanes_of(block);
-    wf uu = wf_set(0), uv = uu, vv = uu, values[2], turn_u, turn_v;
-    for (uint32_t i = 0; i < block->candidate_count; i++) {
-        wf u, v;
-        invert(block, i, f, at, &u, &v);
-        uu = wf_add(uu, wf_mul(u, u));
-        uv = wf_add(uv, wf_mul(u, v));
-        vv = wf_add(vv, wf_mul(v, v));
-    }
+static void turn_to(frame *f, wf uu, wf uv, wf vv) {
+    wf values[2], turn_u, turn_v;
     // Near neighbours weigh as the inverse square of their distance, which single precision cannot always
     // square.
     const wf scale = wf_div(wf_set(1), wf_max(wf_add(uu, vv), wf_set(1e-30f)));
@@ -298,6 +300,19 @@ static void align_frame(const ewa_block *block, frame *f) {
     const vec old = f->u;
     f->u = v_add(v_scale(old, turn_u), v_scale(f->v, turn_v));
     f->v = v_sub(v_scale(f->v, turn_u), v_scale(old, turn_v));
+}
+
+static void align_frame(const ewa_block *block, frame *f) {
+    const vec at = lanes_of(block);
+    wf uu = wf_set(0), uv = uu, vv = uu;
+    for (uint32_t i = 0; i < block->candidate_count; i++) {
+        wf u, v;
+        invert(block, i, f, at, &u, &v);
+        uu = wf_add(uu, wf_mul(u, u));
+        uv = wf_add(uv, wf_mul(u, v));
+        vv = wf_add(vv, wf_mul(v, v));
+    }
+    turn_to(f, uu, uv, vv);
 }
 
 /// How far the cell of a place extends in 16 directions of the tangent frame: i, and i + DIRECTIONS opposite.
@@ -361,34 +376,6 @@ static void find_cell(const ewa_block *block, const frame *f, wf limit, cell *ma
     }
     set_extents(made, &inverted, limit);
     for (int i = 0; i < 2 * DIRECTIONS; i++) made->shut[i] = wm_not(made->open[i]);
-}
-
-/// The same with the cell open, too, where no neighbour stands: beyond the border. Both ranges at once would
-/// be more than there are registers, so a few candidates at a time go into one and then into the other.
-static void find_enclosed_cell(const ewa_block *block, const frame *f, wf limit, cell *made) {
-    enum { FEW = 32 };
-    const vec at = lanes_of(block);
-    const wf zero = wf_set(0), least = wf_set(ENCLOSED_COSINE);
-    range inverted = empty_range(), cosines = empty_range();
-    for (uint32_t begin = 0; begin < block->candidate_count; begin += FEW) {
-        const uint32_t left = block->candidate_count - begin, count = left < FEW ? left : FEW;
-        wf u[FEW], v[FEW];
-        for (uint32_t c = 0; c < count; c++) {
-            invert(block, begin + c, f, at, &u[c], &v[c]);
-            widen(&inverted, u[c], v[c]);
-        }
-        for (uint32_t c = 0; c < count; c++) {
-            const wf distance = wf_sqrt(wf_load(block->distance2[begin + c]));
-            widen(&cosines, wf_mul(u[c], distance), wf_mul(v[c], distance));
-        }
-    }
-    set_extents(made, &inverted, limit);
-    for (int i = 0; i < DIRECTIONS; i++) {
-        const int opposite = i + DIRECTIONS;
-        made->shut[i] = wm_and(wm_not(made->open[i]), wf_le(least, cosines.high[i]));
-        made->shut[opposite] =
-            wm_and(wm_not(made->open[opposite]), wf_le(least, wf_sub(zero, cosines.low[i])));
-    }
 }
 
 /// The extent of the cell in a direction; zero where it is open there or next to it, so that borders do not
@@ -508,57 +495,6 @@ static void size(uint32_t wanted, const local_sizing *sizing, local_surface *sur
     surface->doubtful &= wm_bits(wm_or(scattered, wf_lt(closed, allowed)));
 }
 
-/// By bisection in the logarithm: steps of 1 / 256 of the range of all.
-static void find_around(const ewa_block *block, const float *values, float around[EWA_BLOCK_LANES]) {
-    enum { STEPS = 8 };
-    float value[EWA_BLOCK_CANDIDATES], least = 3e38f, most = 0;
-    const uint32_t n = block->candidate_count;
-    for (uint32_t i = 0; i < n; i++) {
-        value[i] = values[block->place[i]];
-        least = value[i] < least ? value[i] : least;
-        most = value[i] > most ? value[i] : most;
-    }
-    uint16_t inside[EWA_BLOCK_CANDIDATES]; // bits of lanes
-    const wf radius2 = wf_load(block->radius2), one = wf_set(1), half = wf_set(0.5f);
-    wf count = wf_set(0), low = wf_set(least < 1e-30f ? 1e-30f : least), high = wf_max(low, wf_set(most));
-    for (uint32_t i = 0; i < n; i++) {
-        const wm in = wf_le(wf_load(block->distance2[i]), radius2);
-        inside[i] = (uint16_t)wm_bits(in);
-        count = wf_add(count, wf_keep(in, one));
-    }
-    const wf wanted = wf_mul(count, half);
-    for (int step = 0; step < STEPS; step++) {
-        const wf middle = wf_mul(wf_sqrt(low), wf_sqrt(high));
-        wf below = wf_set(0);
-        for (uint32_t i = 0; i < n; i++)
-            below = wf_add(below, wf_keep(wm_and(wm_of_bits(inside[i]), wf_le(wf_set(value[i]), middle)), one));
-        const wm enough = wf_le(wanted, below);
-        high = wf_select(enough, middle, high);
-        low = wf_select(enough, low, middle);
-    }
-    wf_store(around, high);
-}
-
-/// Turns a frame so that it has this normal.
-static void turn_frame(frame *f, const float normal[3][EWA_BLOCK_LANES]) {
-    f->normal = (vec){wf_load(normal[0]), wf_load(normal[1]), wf_load(normal[2])};
-    const wm upright = wf_lt(wf_set(0.9f), wf_abs(f->normal.z));
-    f->v = v_unit(v_cross(f->normal, v_select(upright, v_set(1, 0, 0), v_set(0, 0, 1))));
-    f->u = v_cross(f->v, f->normal);
-}
-
-static void enclose(const ewa_block *block, uint32_t wanted, const float normal[3][EWA_BLOCK_LANES],
-                    const float limit[EWA_BLOCK_LANES], local_surface *surface) {
-    const moments m = sum_moments(block);
-    frame f = find_frame(&m);
-    if (normal) turn_frame(&f, normal);
-    const wf spacing = measure_plane(&m, &f, surface);
-    if (wanted & LOCAL_SHAPE) align_frame(block, &f);
-    cell c;
-    find_enclosed_cell(block, &f, wf_load(limit), &c);
-    measure_cell(wanted, &c, &f, spacing, surface);
-}
-
 static void measure_distance(const ewa_block *block, local_surface *surface) {
     const wf radius2 = wf_load(block->radius2), zero = wf_set(0), one = wf_set(1);
     wf sum = zero, count = wf_set(-1);
@@ -606,4 +542,6 @@ static void link_nearest(const ewa_block *block, local_graph graph) {
         for (uint32_t i = count[lane]; i < LOCAL_GRAPH_DEGREE; i++) graph[lane][i] = UINT32_MAX;
 }
 
-const local_kernels KERNELS = {measure, size, find_around, enclose, measure_distance, link_nearest};
+#include "prepare/local_crowd_body.h"
+
+const local_kernels KERNELS = {measure, size, collect, find_around, enclose, measure_distance, link_nearest};

@@ -299,6 +299,39 @@ static void hold_measure(const local_kernels *kernels, const ewa_block *block, t
     assert_true((double)round.median_spacing == spacings[(block->lane_count - 1) / 2]);
 }
 
+/// The block's places in a crowd, the last one first.
+static local_crowd *collect(const local_kernels *kernels, const ewa_block *block, const float *values) {
+    static local_crowd crowd;
+    memset(&crowd, 0x7f, sizeof crowd);
+    crowd.lane_count = 0;
+    for (uint32_t lane = block->lane_count; lane-- > 0;) {
+        assert_int_equal(kernels->collect(block, 1u << lane, values, &crowd), 0);
+        assert_int_equal(crowd.place[crowd.lane_count - 1], lane);
+    }
+    assert_int_equal(crowd.lane_count, block->lane_count);
+    return &crowd;
+}
+
+/// A crowd takes what it has room for.
+static void hold_crowd(const local_kernels *kernels, const ewa_block *block, const float *values) {
+    static local_crowd crowd;
+    crowd.lane_count = 6;
+    assert_int_equal(kernels->collect(block, 0x7ff, values, &crowd), 0x400);
+    assert_int_equal(crowd.lane_count, EWA_BLOCK_LANES);
+    for (uint32_t lane = 6; lane < EWA_BLOCK_LANES; lane++) {
+        uint32_t count = 0;
+        for (uint32_t i = 0; i < PLACES; i++) {
+            if (!is_inside(block, i, lane - 6)) continue;
+            const local_row *row = &crowd.row[count++];
+            assert_true(row->value[lane] == values[i] &&
+                        row->distance2[lane] == block->distance2[i][lane - 6] &&
+                        row->x[lane] == block->x[i] - block->lane_x[lane - 6]);
+        }
+        assert_int_equal(crowd.count[lane], count);
+        assert_int_equal(crowd.place[lane], lane - 6);
+    }
+}
+
 static void hold_enclose(const local_kernels *kernels, const ewa_block *block, tally *t) {
     float normal[3][EWA_BLOCK_LANES], limit[EWA_BLOCK_LANES];
     double given[EWA_BLOCK_LANES][3];
@@ -312,16 +345,18 @@ static void hold_enclose(const local_kernels *kernels, const ewa_block *block, t
         limit[lane] = 0.05f + 0.03f * (float)lane;
     }
     local_surface got, oval;
-    kernels->enclose(block, LOCAL_REACH, (const float(*)[EWA_BLOCK_LANES])normal, limit, &got);
-    kernels->enclose(block, LOCAL_SHAPE, (const float(*)[EWA_BLOCK_LANES])normal, limit, &oval);
+    local_crowd *crowd = collect(kernels, block, (const float[PLACES]){0});
+    kernels->enclose(crowd, LOCAL_REACH, (const float(*)[EWA_BLOCK_LANES])normal, limit, &got);
+    kernels->enclose(crowd, LOCAL_SHAPE, (const float(*)[EWA_BLOCK_LANES])normal, limit, &oval);
     for (uint32_t lane = 0; lane < block->lane_count; lane++) {
+        const uint32_t from = block->lane_count - 1 - lane;
         double frame[2][3];
         plain s = {.count = 0};
-        measure_plane(block, lane, given[lane], &s, frame);
+        measure_plane(block, from, given[lane], &s, frame);
         assert_close((double)got.spacing[lane], s.spacing, 1e-3);
         plain ellipse = s;
-        measure_cell(block, lane, frame, (double)limit[lane], true, false, &s);
-        measure_cell(block, lane, frame, (double)limit[lane], true, true, &ellipse);
+        measure_cell(block, from, frame, (double)limit[lane], true, false, &s);
+        measure_cell(block, from, frame, (double)limit[lane], true, true, &ellipse);
         if (!s.close_call) assert_close((double)got.reach[lane], s.reach, 3e-3), t->enclosed += s.reach > 0;
         if (!ellipse.close_call) hold_shape(&oval, &ellipse, lane);
     }
@@ -357,12 +392,13 @@ static void hold_size(const local_kernels *kernels, check_random *random) {
 static void hold_median(const local_kernels *kernels, const ewa_block *block, check_random *random) {
     float values[PLACES], around[EWA_BLOCK_LANES];
     for (int i = 0; i < PLACES; i++) values[i] = (float)exp(check_uniform(random, -3, 3));
-    kernels->median(block, values, around);
+    hold_crowd(kernels, block, values);
+    kernels->median(collect(kernels, block, values), around);
     for (uint32_t lane = 0; lane < block->lane_count; lane++) {
         float sorted[PLACES];
         uint32_t count = 0;
         for (uint32_t i = 0; i < PLACES; i++) {
-            if (!is_inside(block, i, lane)) continue;
+            if (!is_inside(block, i, block->lane_count - 1 - lane)) continue;
             uint32_t to = count++;
             for (; to > 0 && sorted[to - 1] > values[i]; to--) sorted[to] = sorted[to - 1];
             sorted[to] = values[i];
