@@ -27,7 +27,7 @@ enum {
 // A disc of so many spacings times the root of k holds k places and half as many more.
 static const double SPACING_SHARE = 0.7;
 // The guess for a leaf over what its predecessor needed: larger means fewer second tries but more candidates.
-static const double GUESS_MARGIN = 1.05;
+static const double GUESS_MARGIN = 1.1;
 // The same over what one of its places needs.
 static const double FIRST_GUESS_MARGIN = 1.2;
 // The reach of a group's list over what the leaf needs for which it is made.
