@@ -319,6 +319,54 @@ static void test_clumps(void **state) {
     free(xyz);
 }
 
+static void keep_radii(void *user, const ewa_block *block, uint32_t worker) {
+    (void)worker;
+    double *radius2 = user; // by place, world units
+    for (uint32_t lane = 0; lane < block->lane_count; lane++)
+        radius2[block->first_place + lane] =
+            (double)block->radius2[lane] * block->unit_world * block->unit_world;
+}
+
+/// Places that are searched alone find what they find among others, whatever the search begins with: the
+/// radius of a sparse leaf before a dense one, or a spacing that is wrong by any factor.
+static void test_chosen(void **state) {
+    (void)state;
+    enum { SPARSE = 200, COUNT = 4000 };
+    static float xyz[3 * COUNT], spacing[COUNT];
+    static double all[COUNT], some[COUNT];
+    static uint8_t chosen[COUNT];
+    check_random random = {8};
+    for (uint32_t i = 0; i < COUNT; i++)
+        for (int c = 0; c < 3; c++)
+            xyz[3 * i + (uint32_t)c] =
+                (float)(i < SPARSE ? check_uniform(&random, 0, 8) : 10 + check_uniform(&random, 0, 0.25));
+    const ewa_attribute position = positions_of(xyz);
+    ewa_context *context = check_context(1, NULL);
+    ewa_neighbours *tree = NULL;
+    assert_int_equal(ewa_neighbours_create(context, &position, COUNT, &tree), EWA_OK);
+    const uint32_t places = ewa_neighbours_place_count(tree);
+    ewa_visit_choice choice = {64, 1, NULL, "test", 0, NULL};
+    assert_int_equal(ewa_neighbours_visit(tree, &choice, keep_radii, all), EWA_OK);
+    choice.chosen = chosen;
+    choice.chosen_bits = 2;
+    for (uint32_t step = 7; step < 30; step += 20) {
+        for (int factor = -1; factor < 4; factor++) {
+            static const float factors[] = {0, 1e-6f, 1, 1e6f};
+            for (uint32_t i = 0; i < places; i++) {
+                chosen[i] = i % step == 0 ? 2 : 1;
+                some[i] = -1;
+                spacing[i] = factor < 0 ? 0 : (float)sqrt(all[i]) * factors[factor];
+            }
+            choice.spacing = factor < 0 ? NULL : spacing;
+            assert_int_equal(ewa_neighbours_visit(tree, &choice, keep_radii, some), EWA_OK);
+            for (uint32_t i = 0; i < places; i++)
+                if (chosen[i] == 2 || some[i] >= 0) assert_true(some[i] == all[i]);
+        }
+    }
+    ewa_neighbours_destroy(&tree);
+    ewa_context_destroy(&context);
+}
+
 static void check_places(void *user, const ewa_block *block, uint32_t worker) {
     (void)worker;
     const uint32_t places = *(const uint32_t *)user;
@@ -359,6 +407,7 @@ int main(void) {
         cmocka_unit_test(test_double),
         cmocka_unit_test(test_positions),
         cmocka_unit_test(test_clumps),
+        cmocka_unit_test(test_chosen),
         cmocka_unit_test(test_overflow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
