@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of road_body.h: surfels that touch the eye plane, by pixel rays (semantics.h, near surfels).
+// Part of road_body.h: surfels that touch the eye plane, and broad ones, by pixel rays (semantics.h, near
+// surfels).
 #ifndef EWA_SRC_KERNELS_ROAD_NEAR_H
 #define EWA_SRC_KERNELS_ROAD_NEAR_H
 
@@ -23,7 +24,7 @@ static ALWAYS_INLINE near_sample near_evaluate(const ewa_view *view, const ewa_n
     const wf one = wf_set(1), h2 = wf_set(view->prefilter2_px2);
     const wf inverse = wf_div(one, linear(r->w, x, y));
     const wf u = wf_mul(linear(r->u, x, y), inverse), v = wf_mul(linear(r->v, x, y), inverse);
-    const wf z = wf_mul(wf_set(r->plane), inverse);
+    const wf z = wf_mul(linear(r->z, x, y), inverse);
     const wf ux = wf_mul(wf_fnma(u, wf_set(r->w[1]), wf_set(r->u[1])), inverse);
     const wf uy = wf_mul(wf_fnma(u, wf_set(r->w[2]), wf_set(r->u[2])), inverse);
     const wf vx = wf_mul(wf_fnma(v, wf_set(r->w[1]), wf_set(r->v[1])), inverse);
@@ -42,7 +43,7 @@ static ALWAYS_INLINE near_sample near_evaluate(const ewa_view *view, const ewa_n
     sample.weight = wf_div(wf_set((float)EWA_INVERSE_TWO_PI), wf_sqrt(det));
     const wm inside = wm_and(wf_lt(sample.exponent, wf_set(view->exponent_end)),
                              wf_lt(wf_add(u2, v2), wf_set(4 * view->cutoff2)));
-    sample.counts = wm_and(inside, wf_lt(wf_set(0), z));
+    sample.counts = view->orthographic ? inside : wm_and(inside, wf_lt(wf_set(0), z));
     sample.z = wf_min(wf_max(z, wf_set(r->depth_low)), wf_set(r->depth_high));
     if (r->clipped) {
         const wf share = clip_share(&r->clip, x, y);
@@ -52,10 +53,14 @@ static ALWAYS_INLINE near_sample near_evaluate(const ewa_view *view, const ewa_n
     return sample;
 }
 
-static ALWAYS_INLINE void near_raise(const ewa_near_record *r, const near_sample *sample, wm counts,
-                                     float *nearest) {
+static ALWAYS_INLINE wf key_of_depth(const ewa_view *view, wf z) {
+    return view->orthographic ? wf_negate(z) : wf_div(wf_set(1), z);
+}
+
+static ALWAYS_INLINE void near_raise(const ewa_view *view, const ewa_near_record *r,
+                                     const near_sample *sample, wm counts, float *nearest) {
     const wf old = wf_load(nearest);
-    const wf key = wf_div(wf_set(1), wf_add(sample->z, wf_set(r->tolerance)));
+    const wf key = key_of_depth(view, wf_add(sample->z, wf_set(r->tolerance)));
     wf_store(nearest, wf_select(counts, wf_max(key, old), old));
 }
 
@@ -75,7 +80,7 @@ static ALWAYS_INLINE void near_add(const ewa_view *view, const ewa_tile *tile, c
         add.material[k] = wf_mul(add.peak, wf_set(r->material[k]));
     const wf e = exponential(wf_keep(counts, sample->exponent), view->doublings);
     add_channels(sums, tile->channel_count, wf_keep(counts, e), &add, wf_select(counts, key, wf_set(1)),
-                 channels_of(tile) | (with_depth ? ADD_DEPTH : 0));
+                 channels_of(tile) | (with_depth ? ADD_DEPTH : 0) | (view->orthographic ? ORTHOGRAPHIC : 0));
 }
 
 static ALWAYS_INLINE near_sample near_block(const ewa_view *view, const ewa_near_record *r, uint32_t row,
@@ -91,7 +96,7 @@ static void near_visibility(const ewa_view *view, const ewa_tile *tile, const ew
         for (uint32_t row = 0; row < tile->block_rows; row++) {
             for (uint32_t column = 0; column < tile->blocks_per_row; column++, nearest += EWA_BLOCK_LANES) {
                 const near_sample sample = near_block(view, &records[i], row, column);
-                near_raise(&records[i], &sample, sample.counts, nearest);
+                near_raise(view, &records[i], &sample, sample.counts, nearest);
             }
         }
     }
@@ -105,7 +110,7 @@ static void near_accumulate(const ewa_view *view, const ewa_tile *tile, const ew
         for (uint32_t row = 0; row < tile->block_rows; row++) {
             for (uint32_t column = 0; column < tile->blocks_per_row; column++, nearest += EWA_BLOCK_LANES) {
                 const near_sample sample = near_block(view, &records[i], row, column);
-                const wf key = wf_div(wf_set(1), sample.z);
+                const wf key = key_of_depth(view, sample.z);
                 const wm counts = wm_and(sample.counts, wf_le(wf_load(nearest), key));
                 near_add(view, tile, &records[i], &sample, counts, key, sums, tile->with_depth);
                 sums += tile->channel_count * EWA_BLOCK_LANES;
