@@ -5,9 +5,11 @@
 #
 #   make demo [FILE=scan.ply]   installs what is missing, builds, renders, says where the picture is
 #   make check                  the same set-up, then every test, also under the address and undefined behaviour
-#                               sanitizers; the last line counts them
+#                               sanitizers, the quick ones as clang builds them, those of threads under the thread
+#                               sanitizer; the last line counts them
 #   make                        builds everything into build/release
-#   make asan tsan fuzz         other builds and their tests
+#   make asan tsan clang fuzz   other builds and their tests
+#   make mutate                 breaks the library on purpose and says what the tests notice (hours)
 #   make bench sweep            figures of docs/performance.md: build/bench.json and tables; docs/sweep.png and slopes;
 #                               BENCH_PREFIX="chrt -f 50" keeps other work out of them
 #   make gallery docs           pictures and pages that the program makes
@@ -24,7 +26,7 @@ EWA = build/release/cli/ewa
 # $(call quietly,COMMAND): prints what a command said only when it fails.
 quietly = @mkdir -p build && { $(1) >build/log-$@.txt 2>&1 || { cat build/log-$@.txt; exit 1; }; }
 
-.PHONY: build program setup demo check asan asan-build tsan fuzz bench sweep gallery docs format install clean
+.PHONY: build program setup demo check asan asan-build tsan tsan-build clang clang-build mutate fuzz bench sweep gallery docs format install clean
 
 build: setup
 	@echo "Building build/release"
@@ -42,8 +44,8 @@ setup:
 demo: program
 	@sh tools/demo.sh $(EWA) "$(OUT)" "$(FILE)"
 
-check: build asan-build
-	@sh tools/check.sh build/release build/asan
+check: build asan-build clang-build tsan-build
+	@sh tools/check.sh build/release build/asan build/clang:quick build/tsan:parallel
 
 # Optimised, so that the tests take minutes and not an hour.
 asan-build: setup
@@ -54,11 +56,30 @@ asan-build: setup
 asan: asan-build
 	@sh tools/check.sh build/asan
 
+# What runs in threads; `make tsan` runs everything.
+tsan-build: setup
+	@echo "Building build/tsan"
+	$(call quietly,cmake --preset tsan -DCMAKE_BUILD_TYPE=RelWithDebInfo)
+	$(call quietly,cmake --build build/tsan -j $(JOBS) --target parallel_tests)
+
 tsan: setup
 	@echo "Building build/tsan"
 	$(call quietly,cmake --preset tsan -DCMAKE_BUILD_TYPE=RelWithDebInfo)
 	$(call quietly,cmake --build build/tsan -j $(JOBS))
 	@sh tools/check.sh build/tsan
+
+clang-build:
+	@sh tools/setup.sh clang
+	@echo "Building build/clang"
+	$(call quietly,cmake --preset clang)
+	$(call quietly,cmake --build build/clang -j $(JOBS))
+
+clang: clang-build
+	@sh tools/check.sh build/clang
+
+mutate:
+	@sh tools/setup.sh python3
+	python3 tools/mutate.py run --jobs $(JOBS)
 
 fuzz:
 	@sh tools/setup.sh clang

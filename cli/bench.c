@@ -107,7 +107,7 @@ static const cli_option measure_table[] = {
      .range = "all|avx2|plain",
      .help = "instruction sets to compare, as far as the processor has them"},
     {.key = "json",
-     .kind = OPTION_TEXT,
+     .kind = OPTION_OUTPUT,
      .offset = AT(json_path),
      .value = "FILE",
      .help = "also write all figures as JSON; -: only that, to standard output"},
@@ -243,8 +243,7 @@ static int run(const void *data) {
     text_file text = {.file = NULL};
     json_writer json;
     const char *json_path = arguments->json_path;
-    bool done = !json_path ||
-                (output_check(&bench.session, json_path) && text_file_open(&bench.session, &text, json_path));
+    bool done = !json_path || text_file_open(&bench.session, &text, json_path);
     if (done && json_path) {
         if (text.file == stdout) bench.sink.text = stderr;
         bench.sink.json = &json;

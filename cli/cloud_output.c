@@ -3,21 +3,22 @@
 //
 // Where clouds go.
 #include "cloud_output.h"
-#include "json.h"
+#include "outputs.h"
 
 #define AT(member) offsetof(output_arguments, member)
 
 static const cli_option output_table[] = {
     {.key = "output",
      .letter = 'o',
-     .kind = OPTION_TEXT,
+     .kind = OPTION_OUTPUT,
      .offset = AT(path),
      .value = "FILE",
      .help = "file to write (.ply); -: PLY to standard output"},
     {.key = "ascii",
      .kind = OPTION_FLAG,
      .offset = AT(ascii),
-     .help = "write text instead of little-endian binary"},
+     .help = "write text instead of little-endian binary",
+     .excludes = "big-endian"},
     {.key = "big-endian", .kind = OPTION_FLAG, .offset = AT(big_endian), .help = "write big-endian binary"},
 };
 
@@ -25,13 +26,9 @@ const option_group cloud_output_options = {"Output", output_table,
                                            sizeof output_table / sizeof output_table[0]};
 
 bool cloud_output_check(const output_arguments *output, char message[OPTION_ERROR_BYTES]) {
-    const char *problem = NULL;
-    if (!output->path)
-        problem = "no output; say -o FILE";
-    else if (output->ascii && output->big_endian)
-        problem = "--ascii and --big-endian exclude each other";
-    if (problem) snprintf(message, OPTION_ERROR_BYTES, "%s", problem);
-    return !problem;
+    if (output->path) return output_check_suffix("output", output->path, ".ply|-", message);
+    snprintf(message, OPTION_ERROR_BYTES, "no output; say -o FILE");
+    return false;
 }
 
 /// Writes a cloud; returns false after reporting.
@@ -55,7 +52,7 @@ int cloud_output_run(const void *arguments, ewa_cloud *(*make)(cli_session *sess
     const output_arguments *output = arguments;
     cli_session session;
     if (!session_start(&session, &output->common)) return session_end(&session, EXIT_FAILED);
-    ewa_cloud *cloud = output_check(&session, output->path) ? make(&session, arguments) : NULL;
+    ewa_cloud *cloud = make(&session, arguments);
     const bool done = cloud && save(&session, output, cloud);
     ewa_cloud_destroy(&cloud);
     return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);

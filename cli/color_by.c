@@ -113,17 +113,23 @@ bool color_by(cli_session *session, ewa_cloud *cloud, const char *word, ewa_colo
     // Under a name of its own first: the colours themselves may be what is read.
     static const char made[] = "ewa_color_by";
     ewa_status status = ewa_cloud_add(cloud, made, EWA_U8, 3, (void **)&colors);
+    uint64_t grey_count = 0;
     for (uint64_t i = 0; status == EWA_OK && i < count; i++) {
         const double number = read_scalar(&from, i);
         if (isfinite(number))
             ewa_colormap_color(colormap, extent != 0 ? (number - ends[0]) / extent : 0.5, colors[i]);
         else
             memset(colors[i], GREY_SRGB, 3);
+        grey_count += !isfinite(number);
     }
     void *data = NULL;
     if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, &data);
     if (status == EWA_OK) memcpy(data, colors, 3 * count);
     ewa_cloud_remove(cloud, made);
     if (status != EWA_OK) session_failed(session, status);
+    if (status == EWA_OK && grey_count)
+        session_warn(session,
+                     "--color-by: %llu of %llu numbers of %s are not finite; these points are drawn in grey",
+                     (unsigned long long)grey_count, (unsigned long long)count, word);
     return status == EWA_OK;
 }

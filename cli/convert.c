@@ -5,7 +5,6 @@
 #include "cloud_output.h"
 #include "commands.h"
 #include "inputs.h"
-#include "json.h"
 #include "procedure.h"
 
 #include <float.h>

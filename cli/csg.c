@@ -5,7 +5,6 @@
 #include "cloud_output.h"
 #include "commands.h"
 #include "inputs.h"
-#include "json.h"
 
 #include <stdio.h>
 
@@ -38,8 +37,8 @@ static ewa_cloud *make(cli_session *session, const void *data) {
     ewa_cloud *operands[2] = {NULL, NULL}, *result = NULL;
     double estimate_s = 0;
     for (int k = 0; k < 2; k++) {
-        operands[k] =
-            input_as_surfels(session, arguments->output.common.operands[k], options.cutoff, &estimate_s);
+        options.names[k] = arguments->output.common.operands[k];
+        operands[k] = input_as_surfels(session, options.names[k], options.cutoff, &estimate_s);
         if (!operands[k]) break;
     }
     if (operands[0] && operands[1]) {

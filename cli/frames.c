@@ -3,6 +3,7 @@
 //
 // Many pictures of one cloud: turntables and camera paths, numbered files and films.
 #include "frames.h"
+#include "camera_input.h"
 #include "pattern.h"
 #include "video.h"
 
@@ -19,23 +20,27 @@ static const cli_option frames_table[] = {
      .absent = "one picture",
      .help =
          "N frames of one turn about the up axis through --target, starting at the view that the options "
-         "of the camera give. Without --eye and --camera, the distance is such that all is in every frame"},
+         "of the camera give. Without --eye and --camera, the distance is such that all is in every frame",
+     .excludes = "path"},
     {.key = "path",
      .kind = OPTION_TEXT,
      .offset = offsetof(frames_arguments, path_file),
      .value = "FILE",
-     .help = "one frame for each camera of a file, in its order; formats as --camera"},
+     .help = "one frame for each camera of a file, in its order; formats as --camera",
+     .excludes = "camera camera-index eye target up ortho view azimuth elevation"},
     {.key = "frames",
      .kind = OPTION_INTEGER,
      .offset = offsetof(frames_arguments, path_frames),
      .value = "N",
      .range = "[1, 1000000]",
      .absent = "the cameras as they are",
-     .help = "N frames on a smooth way through the cameras of --path, which are evenly spaced in time"},
+     .help = "N frames on a smooth way through the cameras of --path, which are evenly spaced in time",
+     .needs = "path"},
     {.key = "loop",
      .kind = OPTION_FLAG,
      .offset = offsetof(frames_arguments, loop),
-     .help = "with --frames: the way goes on from the last camera to the first"},
+     .help = "with --frames: the way goes on from the last camera to the first",
+     .needs = "frames"},
     {.key = "fps",
      .kind = OPTION_NUMBER,
      .offset = offsetof(frames_arguments, frames_per_s),
@@ -79,20 +84,12 @@ static const char *check_output(const frames_arguments *arguments, const char *o
 
 bool frames_check(const frames_arguments *arguments, const char *output, bool opaque,
                   char message[OPTION_ERROR_BYTES]) {
-    const view_arguments *view = &arguments->view;
-    const char *wrong = NULL;
-    if (arguments->turntable && arguments->path_file)
-        wrong = "--turntable and --path exclude each other";
-    else if (arguments->path_frames && !arguments->path_file)
-        wrong = "--frames needs --path";
-    else if (arguments->loop && !arguments->path_frames)
-        wrong = "--loop needs --frames";
-    else if (arguments->path_file && view_is_placed(view))
-        wrong = "--path excludes every other option of the camera but --size";
-    else
-        wrong = check_output(arguments, output, opaque);
+    const bool poses = arguments->path_file && camera_input_is_poses(arguments->path_file);
+    const char *wrong = check_output(arguments, output, opaque);
+    if (!wrong && arguments->path_file && !poses && arguments->view.fov_deg > 0)
+        wrong = "--path and --fov exclude each other, but for poses (.txt, .log, .tum): the file has lenses";
     if (wrong) snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
-    return !wrong && view_check(view, message);
+    return !wrong && view_check(&arguments->view, poses, message);
 }
 
 /// Makes room for cameras; false after reporting.
@@ -157,25 +154,38 @@ static ewa_status interpolate(cli_session *session, const frames_arguments *argu
     return status;
 }
 
+/// Loads the cameras of --path, scaled to --size. Returns false after reporting.
+static bool load_keys(cli_session *session, const frames_arguments *arguments, camera_keys *keys) {
+    const char *path = arguments->path_file;
+    ewa_camera lens;
+    if (!view_load_lens(session, &arguments->view, path, &lens) ||
+        !camera_input_load_each(session, path, &lens, take_key, keys))
+        return false;
+    if (keys->full) session_fail(session, "%s: out of memory for the cameras", path);
+    session->subject = path;
+    ewa_status status = keys->full ? EWA_ERROR_MEMORY : EWA_OK;
+    for (size_t i = 0; i < keys->count && status == EWA_OK; i++) {
+        view_resize(&keys->cameras[i], &arguments->view.size);
+        status = ewa_camera_check(session->context, &keys->cameras[i]);
+    }
+    if (status != EWA_OK) session_failed(session, status);
+    return status == EWA_OK;
+}
+
 static bool make_path(cli_session *session, const frames_arguments *arguments, frame_cameras *frames) {
     camera_keys keys = {.count = 0};
-    session->subject = arguments->path_file;
-    ewa_status status = ewa_camera_load_each(session->context, arguments->path_file, take_key, &keys);
-    if (keys.full) status = EWA_ERROR_MEMORY;
-    for (size_t i = 0; i < keys.count && status == EWA_OK; i++) {
-        view_resize(&keys.cameras[i], &arguments->view.size);
-        status = ewa_camera_check(session->context, &keys.cameras[i]);
-    }
-    if (status == EWA_OK && arguments->path_frames) {
-        status = allocate(session, (size_t)arguments->path_frames, frames) ? EWA_OK : EWA_ERROR_MEMORY;
-        if (status == EWA_OK) status = interpolate(session, arguments, &keys, frames);
+    bool done = load_keys(session, arguments, &keys);
+    if (done && arguments->path_frames) {
+        done = allocate(session, (size_t)arguments->path_frames, frames);
+        const ewa_status status = done ? interpolate(session, arguments, &keys, frames) : EWA_OK;
+        if (status != EWA_OK) session_failed(session, status);
+        done = done && status == EWA_OK;
         free(keys.cameras);
     } else {
         *frames = (frame_cameras){keys.cameras, keys.count};
     }
-    if (status != EWA_OK) session_failed(session, status);
     session->subject = NULL;
-    return status == EWA_OK;
+    return done;
 }
 
 bool frames_make(cli_session *session, const frames_arguments *arguments, const ewa_cloud *cloud,

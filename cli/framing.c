@@ -4,6 +4,7 @@
 // Getting the whole of a cloud into a picture, as large as it goes.
 #include "framing.h"
 #include "rank.h"
+#include "sampling.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -18,9 +19,6 @@ static const double FAR_SHARE = 0.005, FAR_RATIO = 3;
 /// Room around the object, as a share of the picture. It also holds the outermost points that the sample
 /// misses.
 static const double MARGIN = 0.04;
-
-/// Cosine of 10 degrees.
-static const double FACING_COSINE = 0.9848;
 
 static double diagonal(const ewa_bounds *box) {
     double squared = 0;
@@ -47,84 +45,41 @@ static void trim_box(double (*points)[3], size_t count, double *numbers, ewa_bou
     }
 }
 
-/// Measures which way the surface faces, from normals weighted by the area of their discs; zeros without
-/// normals.
-static void measure_facing(const ewa_cloud *cloud, size_t samples, double median_radius,
-                           cloud_framing *framing) {
-    const ewa_attribute *normal = ewa_cloud_find(cloud, EWA_NORMAL),
-                        *radius = ewa_cloud_find(cloud, EWA_RADIUS);
-    if (!normal || normal->component_count != 3) return;
-    const uint64_t point_count = ewa_cloud_point_count(cloud);
-    double total = 0, mean[3] = {0};
-    for (size_t i = 0; i < samples; i++) {
-        double n[3], r = 1;
-        ewa_attribute_read_f64(normal, i * point_count / samples, 1, n);
-        if (radius) ewa_attribute_read_f64(radius, i * point_count / samples, 1, &r);
-        const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-        // Discs of isolated points are huge; none counts for more than a few usual ones.
-        const double area = radius ? fmin(r * r, 9 * median_radius * median_radius) : 1;
-        if (!(length > 0) || !isfinite(length) || !(area > 0)) continue;
-        total += area;
-        for (int c = 0; c < 3; c++) {
-            mean[c] += area * n[c] / length;
-            if (fabs(n[c]) > FACING_COSINE * length) framing->facing[c] += area;
-        }
-    }
-    for (int c = 0; c < 3 && total > 0; c++) framing->facing[c] /= total;
-    if (total > 0)
-        framing->one_sided = sqrt(mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]) / total;
-}
-
 /// Median support radius of the sampled points, as drawn; 0 when the cloud has none.
-static double median_radius(const ewa_cloud *cloud, size_t samples, double *numbers) {
+static double median_radius(const ewa_cloud *cloud, const point_sample *sample, double *numbers) {
     const ewa_attribute *radius = ewa_cloud_find(cloud, EWA_RADIUS),
                         *u = ewa_cloud_find(cloud, EWA_TANGENT_U);
     const ewa_attribute *source = u ? u : radius;
     if (!source || source->component_count != (u ? 3u : 1u)) return 0;
     ewa_surfels_options surfels;
     ewa_surfels_options_init(&surfels, sizeof surfels);
-    const uint64_t point_count = ewa_cloud_point_count(cloud);
     size_t count = 0;
-    for (size_t i = 0; i < samples; i++) {
+    for (size_t i = 0; i < sample->count; i++) {
         double r[3];
-        ewa_attribute_read_f64(source, i * point_count / samples, 1, r);
+        ewa_attribute_read_f64(source, sample->indices[i], 1, r);
         const double reach = u ? surfels.cutoff * sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]) : r[0];
         if (reach > 0 && isfinite(reach)) numbers[count++] = reach;
     }
     return count ? rank_select(numbers, count, count / 2) : 0;
 }
 
-bool framing_make(cli_session *session, const ewa_cloud *cloud, double radius_scale, cloud_framing *framing) {
-    *framing = (cloud_framing){.count = 0};
-    const ewa_status status = ewa_cloud_measure(cloud, &framing->box);
-    if (status != EWA_OK) {
-        session_failed(session, status);
-        return false;
-    }
-    if (framing->box.finite_count == 0) {
-        session_fail(session, "no point has finite coordinates");
-        return false;
-    }
-    const uint64_t point_count = ewa_cloud_point_count(cloud);
-    const size_t samples = point_count < SAMPLES ? (size_t)point_count : SAMPLES;
-    framing->offsets = malloc(samples * sizeof *framing->offsets);
-    double *numbers = malloc(samples * sizeof *numbers);
-    if (!framing->offsets || !numbers) {
-        free(numbers);
-        session_fail(session, "out of memory");
-        return false;
-    }
+/// Reads the sampled points, in the world.
+static void read_points(const ewa_cloud *cloud, const point_sample *sample, double (*points)[3]) {
     const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
     double origin_world[3];
     ewa_cloud_origin(cloud, origin_world);
-    double(*points)[3] = framing->offsets;
-    size_t count = 0;
-    for (size_t i = 0; i < samples; i++) {
-        double *p = points[count];
-        ewa_attribute_read_f64(position, i * point_count / samples, 1, p);
-        for (int c = 0; c < 3; c++) p[c] += origin_world[c];
-        count += isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
+    for (size_t i = 0; i < sample->count; i++) {
+        ewa_attribute_read_f64(position, sample->indices[i], 1, points[i]);
+        for (int c = 0; c < 3; c++) points[i][c] += origin_world[c];
     }
+}
+
+/// Fills a framing from a sample; `numbers` has room for as many.
+static void frame_sample(const ewa_cloud *cloud, const point_sample *sample, double radius_scale,
+                         double *numbers, cloud_framing *framing) {
+    double(*points)[3] = framing->offsets;
+    const size_t count = sample->count;
+    read_points(cloud, sample, points);
     ewa_bounds inner;
     if (count) trim_box(points, count, numbers, &inner);
     if (count && diagonal(&inner) > 0 && diagonal(&framing->box) > FAR_RATIO * diagonal(&inner)) {
@@ -142,11 +97,35 @@ bool framing_make(cli_session *session, const ewa_cloud *cloud, double radius_sc
         for (int c = 0; c < 3; c++) points[framing->count][c] = points[i][c] - framing->middle_world[c];
         framing->count += inside;
     }
-    const double radius_world = median_radius(cloud, samples, numbers);
-    framing->rim_world = radius_scale * radius_world;
-    measure_facing(cloud, samples, radius_world, framing);
+    framing->rim_world = radius_scale * median_radius(cloud, sample, numbers);
+}
+
+bool framing_make(cli_session *session, const ewa_cloud *cloud, double radius_scale, cloud_framing *framing) {
+    *framing = (cloud_framing){.count = 0};
+    const ewa_status status = ewa_cloud_measure(cloud, &framing->box);
+    if (status != EWA_OK) {
+        session_failed(session, status);
+        return false;
+    }
+    if (framing->box.finite_count == 0) {
+        session_fail(session, "no point has finite coordinates");
+        return false;
+    }
+    point_sample sample;
+    double *numbers = NULL;
+    bool done = sampling_choose(cloud, SAMPLES, &sample);
+    if (done) {
+        framing->offsets = malloc((sample.count + 1) * sizeof *framing->offsets);
+        numbers = malloc((sample.count + 1) * sizeof *numbers);
+        done = framing->offsets && numbers;
+    }
+    if (done)
+        frame_sample(cloud, &sample, radius_scale, numbers, framing);
+    else
+        session_fail(session, "out of memory");
     free(numbers);
-    return true;
+    free(sample.indices);
+    return done;
 }
 
 void framing_free(cloud_framing *framing) {
@@ -191,6 +170,43 @@ ewa_status framing_fit(const cloud_framing *framing, const double direction_worl
     for (int r = 0; r < 3; r++)
         m[4 * r + 3] =
             -place[r] - (m[4 * r] * middle[0] + m[4 * r + 1] * middle[1] + m[4 * r + 2] * middle[2]);
+    return EWA_OK;
+}
+
+ewa_status framing_zoom(const cloud_framing *framing, const double eye_world[3], const double up_world[3],
+                        ewa_camera *camera) {
+    // Where the points are seen from the eye: their picture's middle becomes the direction of the view.
+    double target_world[3], low[2], high[2];
+    memcpy(target_world, framing->middle_world, sizeof target_world);
+    ewa_status status = ewa_camera_look_at(camera, eye_world, target_world, up_world);
+    for (int round = 0; status == EWA_OK && round < 2; round++) {
+        low[0] = low[1] = INFINITY;
+        high[0] = high[1] = -INFINITY;
+        const double *m = camera->world_to_camera;
+        for (size_t i = 0; i < framing->count; i++) {
+            double p[3];
+            for (int r = 0; r < 3; r++) {
+                p[r] = m[4 * r + 3];
+                for (int c = 0; c < 3; c++)
+                    p[r] += m[4 * r + c] * (framing->offsets[i][c] + framing->middle_world[c]);
+            }
+            const double rim = framing->rim_world / p[2];
+            for (int c = 0; c < 2 && p[2] > 0; c++) {
+                low[c] = fmin(low[c], p[c] / p[2] - rim);
+                high[c] = fmax(high[c], p[c] / p[2] + rim);
+            }
+        }
+        if (round == 1) break;
+        for (int c = 0; c < 3; c++)
+            target_world[c] = eye_world[c] + m[8 + c] + 0.5 * (low[0] + high[0]) * m[c] +
+                              0.5 * (low[1] + high[1]) * m[4 + c];
+        status = ewa_camera_look_at(camera, eye_world, target_world, up_world);
+    }
+    if (status != EWA_OK) return status;
+    const double inside = 1 - 2 * MARGIN, across = fmax(-low[0], high[0]), down = fmax(-low[1], high[1]);
+    const double focal_px = 0.5 * inside * fmin(camera->width_px / across, camera->height_px / down);
+    if (!(focal_px > 0) || !isfinite(focal_px)) return EWA_ERROR_NUMERIC;
+    camera->fx_px = camera->fy_px = focal_px;
     return EWA_OK;
 }
 

@@ -7,15 +7,13 @@
 
 #include "session.h"
 
-/// Where a cloud is, from a sample of its points.
+/// Where a cloud is, from a sample of its points that does not depend on their order.
 typedef struct cloud_framing {
     ewa_bounds box; ///< of the points to show
     double middle_world[3];
     double (*offsets)[3]; ///< of sampled points inside the box, from its middle
     size_t count;
     double rim_world; ///< how far a disc usually reaches beyond its point
-    double facing[3]; ///< share of the surface that faces along each axis of the world, to within 10 degrees
-    double one_sided; ///< length of the mean normal: 1 for a plane, 0 for a closed surface
     bool trimmed;     ///< a few far points are outside the box
 } cloud_framing;
 
@@ -27,6 +25,11 @@ void framing_free(cloud_framing *framing);
 /// sampled points just fit. Returns the status of the library.
 ewa_status framing_fit(const cloud_framing *framing, const double direction_world[3],
                        const double up_world[3], ewa_camera *camera);
+
+/// Sets the lens of a camera at `eye_world`, which is outside of the cloud and turned towards it, so that the
+/// sampled points just fit. Returns the status of the library.
+ewa_status framing_zoom(const cloud_framing *framing, const double eye_world[3], const double up_world[3],
+                        ewa_camera *camera);
 
 /// Makes the framing of all that a cloud covers while it turns about an axis through `pivot_world`;
 /// `direction` is that of the camera. Returns false after reporting; free in any case.

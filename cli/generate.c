@@ -3,12 +3,11 @@
 //
 // ewa generate: test objects.
 #include "commands.h"
-#include "json.h"
+#include "pattern.h"
 #include "textured.h"
 
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 typedef struct generate_arguments {
     textured_arguments textured; // first
@@ -111,17 +110,13 @@ static size_t find_word(const char *word, size_t count, const char *const *words
     return index;
 }
 
-static bool has_suffix(const char *path, const char *suffix) {
-    const size_t length = strlen(path), suffix_length = strlen(suffix);
-    return length > suffix_length && strcasecmp(path + length - suffix_length, suffix) == 0;
-}
-
 /// What is wrong with the options for a volume; NULL: nothing.
 static const char *check_volume(const generate_arguments *arguments) {
     const output_arguments *output = &arguments->textured.procedure.output;
     generate_arguments defaults = {.seed = 0};
     set_defaults(&defaults);
-    if (output->path && strcmp(output->path, "-") != 0 && !has_suffix(output->path, ".nrrd"))
+    if (!output->path) return "no output; say -o FILE";
+    if (!path_has_suffix(output->path, ".nrrd|-"))
         return "generate: this is a volume, which goes to a .nrrd file";
     if (output->ascii || output->big_endian || arguments->positions_only || arguments->sharp ||
         arguments->textured.picture || arguments->textured.procedure.procedure ||
@@ -157,12 +152,13 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
         return false;
     }
+    if (volume) return true;
     const procedure_arguments *procedure = &arguments->textured.procedure;
     if (arguments->positions_only && procedure->procedure && procedure->prefilter > 0) {
         snprintf(message, OPTION_ERROR_BYTES, "--procedure with --positions-only needs --prefilter-scale 0");
         return false;
     }
-    return textured_check(&arguments->textured, message);
+    return procedure_check(&arguments->textured.procedure, message);
 }
 
 /// Puts the picture onto a new object. It goes on where the object closes upon itself.
@@ -230,12 +226,12 @@ static int run_volume(const generate_arguments *arguments, ewa_volume_object obj
         options.dims[k] = (uint32_t)dims->values[dims->count == 1 ? 0 : k];
     session.subject = output->path;
     ewa_volume volume = {.context = NULL};
-    bool done = output_check(&session, output->path);
-    ewa_status status = done ? ewa_volume_generate(session.context, &options, &volume) : EWA_OK;
-    if (done && status == EWA_OK) status = ewa_volume_save(&volume, output->path, NULL);
-    if (status != EWA_OK) session_failed(&session, status);
-    done = done && status == EWA_OK;
-    if (done)
+    ewa_status status = ewa_volume_generate(session.context, &options, &volume);
+    if (status == EWA_OK) status = ewa_volume_save(&volume, output->path, NULL);
+    const bool done = status == EWA_OK;
+    if (!done)
+        session_failed(&session, status);
+    else
         session_say(&session, "%s: %u x %u x %u voxels written", output->path, options.dims[0],
                     options.dims[1], options.dims[2]);
     ewa_volume_free(&volume);

@@ -74,6 +74,8 @@ static void format_default(const cli_option *option, const void *defaults, char 
             snprintf(text + used, TEXT_BYTES - used, "%s%.64s", used ? "," : "", word);
         }
         break;
+    case OPTION_OUTPUT:
+    case OPTION_OUTPUTS:
     case OPTION_TEXT: {
         const char *word = *(const char *const *)member;
         if (word) snprintf(text, TEXT_BYTES, "%s", word);
@@ -118,23 +120,29 @@ static void format_names(const cli_option *option, char text[TEXT_BYTES]) {
     if (option->kind == OPTION_TOGGLE) strncat(text, option->key, TEXT_BYTES - strlen(text) - 1);
 }
 
-/// Writes what an option means with its range, default and other names.
+/// Appends the keys of a list in the table, with commas.
+static void append_keys(const char *lead, const char *keys, char text[2 * TEXT_BYTES]) {
+    for (const char *key = keys; key && *key;) {
+        const size_t length = strcspn(key, " "), used = strlen(text);
+        snprintf(text + used, 2 * TEXT_BYTES - used, "%s--%.*s", key == keys ? lead : ", ", (int)length, key);
+        key += length;
+        key += strspn(key, " ");
+    }
+}
+
+/// Writes what an option means with what it needs and excludes, its range, default and other names.
 static void format_meaning(const cli_option *option, const void *defaults, char text[2 * TEXT_BYTES]) {
     char initial[TEXT_BYTES];
     format_default(option, defaults, initial);
     const bool ranged = option->range && option->kind != OPTION_CHOICE;
-    snprintf(text, 2 * TEXT_BYTES, "%s%s%s%s%s%s%s", option->help,
+    snprintf(text, 2 * TEXT_BYTES, "%s%s%s%s%s%s", option->help,
              !ranged                      ? ""
              : option->kind == OPTION_SET ? "; of "
                                           : "; in ",
-             ranged ? option->range : "", initial[0] ? " (default: " : "", initial, initial[0] ? ")" : "",
-             option->aliases ? "; also" : "");
-    for (const char *alias = option->aliases; alias && *alias;) {
-        const size_t length = strcspn(alias, " "), used = strlen(text);
-        snprintf(text + used, 2 * TEXT_BYTES - used, " --%.*s", (int)length, alias);
-        alias += length;
-        alias += strspn(alias, " ");
-    }
+             ranged ? option->range : "", initial[0] ? " (default: " : "", initial, initial[0] ? ")" : "");
+    append_keys("; needs ", option->needs, text);
+    append_keys("; not with ", option->excludes, text);
+    append_keys("; also ", option->aliases, text);
 }
 
 static void print_group(FILE *file, const option_group *group, const void *defaults) {

@@ -3,9 +3,12 @@
 //
 // ewa info: what a file holds and what is wrong with it.
 #include "commands.h"
+#include "faults.h"
 #include "info_volume.h"
 #include "inputs.h"
 #include "json.h"
+#include "screening.h"
+#include "view.h"
 
 #include <float.h>
 #include <inttypes.h>
@@ -48,7 +51,8 @@ typedef struct cloud_facts {
     ewa_bounds bounds;
     ewa_spacing spacing;
     point_shape shape;
-    uint64_t zero_normal_count, bad_radius_count;
+    cloud_faults faults;
+    upright view; ///< by default; for a cloud with a finite point
 } cloud_facts;
 
 static void measure_component(const ewa_attribute *attribute, uint64_t count, uint32_t component,
@@ -130,31 +134,8 @@ static point_shape measure_shape(const ewa_cloud *cloud, const ewa_bounds *bound
     return values[1] <= least ? SHAPE_LINE : values[0] <= least ? SHAPE_PLANE : SHAPE_SPACE;
 }
 
-static uint64_t count_zero_normals(const ewa_cloud *cloud) {
-    const ewa_attribute *normal = ewa_cloud_find(cloud, EWA_NORMAL);
-    uint64_t bad_count = 0;
-    for (uint64_t i = 0; normal && normal->component_count == 3 && i < ewa_cloud_point_count(cloud); i++) {
-        double n[3];
-        ewa_attribute_read_f64(normal, i, 1, n);
-        const double squared = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
-        bad_count += !(squared > 0) || !isfinite(squared);
-    }
-    return bad_count;
-}
-
-static uint64_t count_bad_radii(const ewa_cloud *cloud) {
-    const ewa_attribute *radius = ewa_cloud_find(cloud, EWA_RADIUS);
-    uint64_t bad_count = 0;
-    for (uint64_t i = 0; radius && radius->component_count == 1 && i < ewa_cloud_point_count(cloud); i++) {
-        double r;
-        ewa_attribute_read_f64(radius, i, 1, &r);
-        bad_count += !(r > 0) || !isfinite(r);
-    }
-    return bad_count;
-}
-
 /// Measures everything; false after reporting.
-static bool gather(cli_session *session, const ewa_cloud *cloud, cloud_facts *facts) {
+static bool gather(cli_session *session, const char *path, const ewa_cloud *cloud, cloud_facts *facts) {
     *facts = (cloud_facts){.point_count = ewa_cloud_point_count(cloud)};
     ewa_status status = ewa_cloud_measure(cloud, &facts->bounds);
     facts->sampled_count = facts->point_count < SPACING_SAMPLES ? facts->point_count : SPACING_SAMPLES;
@@ -165,8 +146,8 @@ static bool gather(cli_session *session, const ewa_cloud *cloud, cloud_facts *fa
         return false;
     }
     facts->shape = measure_shape(cloud, &facts->bounds);
-    facts->zero_normal_count = count_zero_normals(cloud);
-    facts->bad_radius_count = count_bad_radii(cloud);
+    faults_count(cloud, &facts->faults);
+    if (facts->bounds.finite_count && !view_default(session, path, cloud, &facts->view)) return false;
     return true;
 }
 
@@ -181,15 +162,21 @@ static size_t list_problems(const ewa_cloud *cloud, const cloud_facts *facts,
     if (not_finite)
         snprintf(problems[count++], PROBLEM_BYTES, "%" PRIu64 " points have coordinates that are not finite",
                  not_finite);
-    if (facts->zero_normal_count)
+    if (facts->faults.normal_count)
         snprintf(problems[count++], PROBLEM_BYTES, "%" PRIu64 " normals are zero or not finite",
-                 facts->zero_normal_count);
+                 facts->faults.normal_count);
     if (normal && normal->component_count != 3)
         snprintf(problems[count++], PROBLEM_BYTES, "normals have %u components, not 3",
                  normal->component_count);
-    if (facts->bad_radius_count)
+    if (facts->faults.radius_count)
         snprintf(problems[count++], PROBLEM_BYTES, "%" PRIu64 " radii are zero, negative or not finite",
-                 facts->bad_radius_count);
+                 facts->faults.radius_count);
+    if (facts->faults.axis_count)
+        snprintf(problems[count++], PROBLEM_BYTES,
+                 "%" PRIu64 " points have an axis that is zero or not finite", facts->faults.axis_count);
+    if (facts->faults.color_count)
+        snprintf(problems[count++], PROBLEM_BYTES, "%" PRIu64 " colours are not finite",
+                 facts->faults.color_count);
     if (facts->spacing.duplicate_count)
         snprintf(problems[count++], PROBLEM_BYTES,
                  "%" PRIu64 " of %" PRIu64 " points share their place with another",
@@ -238,6 +225,17 @@ static void print_text(cli_session *session, const char *path, const ewa_cloud *
     if (facts->spacing.median_world > 0)
         printf("  spacing     %.4g (5 %%: %.4g, 95 %%: %.4g)\n", facts->spacing.median_world,
                facts->spacing.low_world, facts->spacing.high_world);
+    if (facts->bounds.finite_count) {
+        char text[160];
+        upright_describe(&facts->view, sizeof text, text);
+        printf("  up          %s\n", text);
+    }
+    const gaussian_facts gaussians = screening_find_gaussians(cloud);
+    if (gaussians.dimensions) {
+        char text[128];
+        screening_describe_gaussians(&gaussians, sizeof text, text);
+        printf("  holds       %s\n", text);
+    }
     printf("  attributes\n");
     const ewa_attribute *attribute;
     for (uint32_t k = 0; (attribute = ewa_cloud_attribute_at(cloud, k)); k++) {
@@ -280,6 +278,21 @@ static void print_json(cli_session *session, json_writer *json, const char *path
     }
     json_vector(json, "origin", 3, origin_world);
     json_text(json, "fills", shape_names[facts->shape]);
+    if (facts->bounds.finite_count) {
+        double up_world[3] = {0};
+        up_world[facts->view.axis] = facts->view.reversed ? -1 : 1;
+        json_vector(json, "up", 3, up_world);
+        json_text(json, "up_because", facts->view.why);
+        json_text(json, "view", upright_place(&facts->view));
+    }
+    const gaussian_facts gaussians = screening_find_gaussians(cloud);
+    if (gaussians.dimensions) {
+        json_object(json, "gaussians");
+        json_count(json, "dimensions", gaussians.dimensions);
+        json_count(json, "sh_degree", gaussians.sh_degree);
+        json_flag(json, "filtered", gaussians.filtered);
+        json_close(json, '}');
+    }
     json_object(json, "spacing");
     json_number(json, "median", facts->spacing.median_world);
     json_number(json, "mean", facts->spacing.mean_world);
@@ -310,8 +323,10 @@ static void print_json(cli_session *session, json_writer *json, const char *path
         json_close(json, '}');
     }
     json_close(json, ']');
-    json_count(json, "zero_normals", facts->zero_normal_count);
-    json_count(json, "bad_radii", facts->bad_radius_count);
+    json_count(json, "zero_normals", facts->faults.normal_count);
+    json_count(json, "bad_radii", facts->faults.radius_count);
+    json_count(json, "bad_axes", facts->faults.axis_count);
+    json_count(json, "bad_colors", facts->faults.color_count);
     char problems[MAX_PROBLEMS][PROBLEM_BYTES];
     const size_t count = list_problems(cloud, facts, problems);
     json_array(json, "problems");
@@ -340,7 +355,7 @@ static int run(const void *data) {
         }
         ewa_cloud *cloud = input_load(&session, path);
         cloud_facts facts;
-        if (cloud && gather(&session, cloud, &facts)) {
+        if (cloud && gather(&session, path, cloud, &facts)) {
             if (arguments->json)
                 print_json(&session, &json, path, cloud, &facts);
             else

@@ -34,7 +34,16 @@ static void make_bars(const ewa_volume_facts *facts, uint64_t bars[BARS]) {
     for (int i = 0; i < BINS; i++) bars[i * BARS / BINS] += facts->histogram[i];
 }
 
-static void print_text(const char *path, const ewa_volume *volume, const ewa_volume_facts *facts) {
+/// What ewa volume shows of it unless told otherwise; without points when there is nothing to tell apart.
+static ewa_status choose_transfer(const ewa_volume *volume, const ewa_volume_facts *facts,
+                                  ewa_transfer *transfer) {
+    transfer->point_count = 0;
+    return facts->finite_count && facts->low < facts->high ? ewa_transfer_automatic(volume, facts, transfer)
+                                                           : EWA_OK;
+}
+
+static void print_text(const char *path, const ewa_volume *volume, const ewa_volume_facts *facts,
+                       const ewa_transfer *transfer) {
     const double *low = facts->low_world, *high = facts->high_world, *s = facts->spacing_world;
     printf("%s\n", path);
     printf("  volume      %u x %u x %u voxels of %s\n", volume->dims[0], volume->dims[1], volume->dims[2],
@@ -64,10 +73,36 @@ static void print_text(const char *path, const ewa_volume *volume, const ewa_vol
     printf("\n  histogram  ");
     for (int i = 0; i < BARS; i++) printf(" %.3g", 100 * (double)bars[i] / (double)facts->finite_count);
     printf(" %%\n");
+    if (!transfer->point_count) return;
+    printf("  transfer   ");
+    for (uint32_t i = 0; i < transfer->point_count; i++)
+        printf("%s %.5g: %.2g", i ? "," : "", transfer->points[i].value,
+               1 - exp(-(double)transfer->points[i].extinction));
+    printf(" (value: opacity of %.4g units; ewa volume --save-transfer FILE writes it)\n",
+           transfer->unit_length_world);
+}
+
+/// As in files of --transfer.
+static void print_transfer(json_writer *json, const ewa_transfer *transfer) {
+    json_object(json, "transfer");
+    json_text(json, "color_space", "linear");
+    json_number(json, "unit_length", transfer->unit_length_world);
+    json_array(json, "points");
+    for (uint32_t i = 0; i < transfer->point_count; i++) {
+        const ewa_transfer_point *point = &transfer->points[i];
+        const double color[3] = {(double)point->color[0], (double)point->color[1], (double)point->color[2]};
+        json_object(json, NULL);
+        json_number(json, "value", point->value);
+        json_vector(json, "color", 3, color);
+        json_number(json, "extinction", (double)point->extinction);
+        json_close(json, '}');
+    }
+    json_close(json, ']');
+    json_close(json, '}');
 }
 
 static void print_json(json_writer *json, const char *path, const ewa_volume *volume,
-                       const ewa_volume_facts *facts) {
+                       const ewa_volume_facts *facts, const ewa_transfer *transfer) {
     const double dims[3] = {volume->dims[0], volume->dims[1], volume->dims[2]};
     json_object(json, NULL);
     json_text(json, "file", path);
@@ -92,6 +127,7 @@ static void print_json(json_writer *json, const char *path, const ewa_volume *vo
     json_array(json, "histogram");
     for (int i = 0; i < BINS; i++) json_count(json, NULL, facts->histogram[i]);
     json_close(json, ']');
+    if (transfer->point_count) print_transfer(json, transfer);
     json_close(json, '}');
 }
 
@@ -99,14 +135,16 @@ bool info_volume(cli_session *session, const volume_input_arguments *arguments, 
                  json_writer *json) {
     ewa_volume volume = {.context = NULL};
     ewa_volume_facts facts;
+    ewa_transfer transfer;
     if (!volume_input_load(session, arguments, path, &volume)) return false;
-    const ewa_status status = ewa_volume_measure(&volume, &facts);
+    ewa_status status = ewa_volume_measure(&volume, &facts);
+    if (status == EWA_OK) status = choose_transfer(&volume, &facts, &transfer);
     if (status != EWA_OK)
         session_failed(session, status);
     else if (json)
-        print_json(json, path, &volume, &facts);
+        print_json(json, path, &volume, &facts, &transfer);
     else
-        print_text(path, &volume, &facts);
+        print_text(path, &volume, &facts, &transfer);
     ewa_volume_free(&volume);
     return status == EWA_OK;
 }

@@ -3,6 +3,7 @@
 //
 // Clouds from the files of the command line: loading, what is missing, merging.
 #include "inputs.h"
+#include "screening.h"
 #include "volume_input.h"
 
 #include <math.h>
@@ -96,6 +97,7 @@ ewa_cloud *input_load(cli_session *session, const char *path) {
     }
     session_say(session, "%s: %llu points read in %.3f s", path, (unsigned long long)count,
                 clock_now_s() - started_s);
+    screening_check_steps(session, path, cloud);
     return cloud;
 }
 
@@ -337,6 +339,11 @@ static bool drop_isolated(cli_session *session, const char *path, ewa_cloud **cl
 ewa_cloud *input_as_surfels(cli_session *session, const char *path, double cutoff, double *estimate_s) {
     ewa_cloud *cloud = is_mesh(path) ? load_mesh(session, path, cutoff) : input_load(session, path);
     if (!cloud || cloud_is_drawable(cloud)) return cloud;
+    if (!screening_admit(session, path, cloud)) {
+        ewa_cloud_destroy(&cloud);
+        return NULL;
+    }
+    screening_drop_zero_normals(session, path, cloud);
     const bool has_normals = ewa_cloud_find(cloud, EWA_NORMAL) != NULL;
     const bool has_radii = ewa_cloud_find(cloud, EWA_RADIUS) != NULL;
     ewa_estimate_options options;

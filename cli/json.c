@@ -9,7 +9,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 static void print_quoted(FILE *file, const char *text) {
@@ -129,8 +128,8 @@ bool text_file_open(cli_session *session, text_file *text, const char *path) {
 bool text_file_close(cli_session *session, text_file *text) {
     if (text->file == stdout) return output_flush(session, EXIT_DONE) == EXIT_DONE;
     errno = 0;
-    const bool written = !ferror(text->file) & (fclose(text->file) == 0);
-    if (written && rename(text->aside, text->path) == 0) return true;
+    const bool failed = ferror(text->file), closed = fclose(text->file) == 0;
+    if (!failed && closed && rename(text->aside, text->path) == 0) return true;
     session_fail(session, "%s: cannot write: %s", text->path, errno ? strerror(errno) : "a write failed");
     remove(text->aside);
     return false;
@@ -140,29 +139,6 @@ void text_file_drop(text_file *text) {
     if (text->file == stdout) return;
     fclose(text->file);
     remove(text->aside);
-}
-
-bool output_check(cli_session *session, const char *path) {
-    if (strcmp(path, "-") == 0) return true;
-    struct stat found;
-    if (stat(path, &found) == 0 && S_ISDIR(found.st_mode)) {
-        session_fail(session, "%s: is a folder", path);
-        return false;
-    }
-    char folder[4096] = ".";
-    const char *slash = strrchr(path, '/');
-    if (slash) {
-        const size_t length = slash == path ? 1 : (size_t)(slash - path);
-        if (length >= sizeof folder) {
-            session_fail(session, "%s: the path is too long", path);
-            return false;
-        }
-        memcpy(folder, path, length);
-        folder[length] = 0;
-    }
-    if (access(folder, W_OK | X_OK) == 0) return true;
-    session_fail(session, "%s: cannot create: folder %s: %s", path, folder, strerror(errno));
-    return false;
 }
 
 int output_flush(cli_session *session, int exit_status) {

@@ -46,10 +46,6 @@ bool text_file_close(cli_session *session, text_file *text);
 /// Ends an unfinished file and leaves nothing behind.
 void text_file_drop(text_file *text);
 
-/// Checks before the work that a file can be created at `path`: the folder exists and may be written, and no
-/// folder is in the way. Returns false after reporting.
-bool output_check(cli_session *session, const char *path);
-
 /// Flushes standard output; returns `exit_status`, EXIT_FAILED after reporting when it could not be written.
 int output_flush(cli_session *session, int exit_status);
 

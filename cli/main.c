@@ -4,6 +4,7 @@
 // The program: finds the command, parses its options, runs it.
 #include "commands.h"
 #include "json.h"
+#include "outputs.h"
 
 #include <signal.h>
 #include <stdio.h>
@@ -43,6 +44,8 @@ static int run_command(const cli_command *command, size_t count, const char *con
         } else if (((const common_arguments *)arguments)->help) {
             help_print_command(stdout, command);
             exit_status = EXIT_DONE;
+        } else if (!outputs_check(command, arguments, message)) {
+            fprintf(stderr, "ewa: %s\n", message);
         } else {
             exit_status = command->run(arguments);
         }

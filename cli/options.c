@@ -31,7 +31,8 @@ static const cli_option common_table[] = {
      .letter = 'q',
      .kind = OPTION_FLAG,
      .offset = offsetof(common_arguments, quiet),
-     .help = "print errors only"},
+     .help = "print errors only",
+     .excludes = "verbose"},
     {.key = "verbose",
      .letter = 'v',
      .kind = OPTION_FLAG,
@@ -242,6 +243,8 @@ static bool parse_value(const cli_option *option, const char *text, void *member
         *(bool *)member = choice == 1;
         return true;
     case OPTION_TEXT:
+    case OPTION_OUTPUT:
+    case OPTION_OUTPUTS:
         if (!*text) return wrong(message, "--%s: the value is empty", option->key);
         *(const char **)member = text;
         return true;
@@ -262,37 +265,35 @@ static bool name_is(const char *names, const char *word, size_t length) {
     return false;
 }
 
-/// Group `index` of a command: its own, then the common one, then NULL.
-static const option_group *group_at(const cli_command *command, size_t index) {
-    return index < command->group_count    ? command->groups[index]
-           : index == command->group_count ? &common_options
-                                           : NULL;
-}
-
-/// Finds a long name of `length` bytes; `*negated` is set for the --no- form of a toggle.
-static const cli_option *find_long(const cli_command *command, const char *name, size_t length,
-                                   bool *negated) {
-    const option_group *group;
-    for (size_t i = 0; (group = group_at(command, i)); i++) {
-        for (size_t j = 0; j < group->count; j++) {
-            const cli_option *option = &group->options[j];
-            *negated = false;
-            if (name_is(option->key, name, length) || name_is(option->aliases, name, length)) return option;
-            *negated = true;
-            if (option->kind == OPTION_TOGGLE && length > 3 && memcmp(name, "no-", 3) == 0 &&
-                name_is(option->key, name + 3, length - 3))
-                return option;
-        }
+const cli_option *options_at(const cli_command *command, size_t index) {
+    for (size_t i = 0; i <= command->group_count; i++) {
+        const option_group *group = i < command->group_count ? command->groups[i] : &common_options;
+        if (index < group->count) return &group->options[index];
+        index -= group->count;
     }
     return NULL;
 }
 
-static const cli_option *find_letter(const cli_command *command, char letter) {
-    const option_group *group;
-    for (size_t i = 0; (group = group_at(command, i)); i++)
-        for (size_t j = 0; j < group->count; j++)
-            if (group->options[j].letter == letter) return &group->options[j];
-    return NULL;
+/// Index of the option whose long name has `length` bytes; `*negated` is set for the --no- form of a toggle.
+/// OPTION_COUNT_MAX: none.
+static size_t find_long(const cli_command *command, const char *name, size_t length, bool *negated) {
+    const cli_option *option;
+    for (size_t i = 0; (option = options_at(command, i)); i++) {
+        *negated = false;
+        if (name_is(option->key, name, length) || name_is(option->aliases, name, length)) return i;
+        *negated = true;
+        if (option->kind == OPTION_TOGGLE && length > 3 && memcmp(name, "no-", 3) == 0 &&
+            name_is(option->key, name + 3, length - 3))
+            return i;
+    }
+    return OPTION_COUNT_MAX;
+}
+
+static size_t find_letter(const cli_command *command, char letter) {
+    const cli_option *option;
+    for (size_t i = 0; (option = options_at(command, i)); i++)
+        if (option->letter == letter) return i;
+    return OPTION_COUNT_MAX;
 }
 
 /// Edits between two words: insertions, deletions, exchanges, swaps of neighbours, each 1 (Damerau 1964, by
@@ -334,34 +335,37 @@ static bool unknown_option(const cli_command *command, const char *name, size_t 
                            char message[OPTION_ERROR_BYTES]) {
     char word[MAX_WORD + 1];
     snprintf(word, sizeof word, "%.*s", (int)(length < MAX_WORD ? length : MAX_WORD), name);
-    const char *keys[128];
+    const char *keys[OPTION_COUNT_MAX];
     size_t key_count = 0;
-    const option_group *group;
-    for (size_t i = 0; (group = group_at(command, i)); i++)
-        for (size_t j = 0; j < group->count && key_count < sizeof keys / sizeof keys[0]; j++)
-            keys[key_count++] = group->options[j].key;
+    const cli_option *option;
+    while (key_count < OPTION_COUNT_MAX && (option = options_at(command, key_count)))
+        keys[key_count++] = option->key;
     const char *nearest = options_nearest(word, key_count, keys);
     if (nearest) return wrong(message, "--%s: no such option; did you mean --%s?", word, nearest);
     return wrong(message, "--%s: no such option; see 'ewa %s --help'", word, command->name);
 }
 
-/// Takes one option at `words[*index]`; moves the index over a value that is a word of its own.
+/// Takes one option at `words[*index]`, which is noted in `given`; moves the index over a value that is a
+/// word of its own.
 static bool take_option(const cli_command *command, size_t count, const char *const *words, size_t *index,
-                        char *arguments, char message[OPTION_ERROR_BYTES]) {
+                        char *arguments, bool given[OPTION_COUNT_MAX], char message[OPTION_ERROR_BYTES]) {
     const char *word = words[*index], *value = NULL;
-    const cli_option *option;
+    size_t found;
     bool negated = false;
     if (word[1] == '-') {
         const char *equals = strchr(word, '=');
         const size_t length = equals ? (size_t)(equals - word) - 2 : strlen(word + 2);
-        option = find_long(command, word + 2, length, &negated);
-        if (!option) return unknown_option(command, word + 2, length, message);
+        found = find_long(command, word + 2, length, &negated);
+        if (found == OPTION_COUNT_MAX) return unknown_option(command, word + 2, length, message);
         if (equals) value = equals + 1;
     } else {
-        option = find_letter(command, word[1]);
-        if (!option) return wrong(message, "%.80s: no such option; see 'ewa %s --help'", word, command->name);
+        found = find_letter(command, word[1]);
+        if (found == OPTION_COUNT_MAX)
+            return wrong(message, "%.80s: no such option; see 'ewa %s --help'", word, command->name);
         if (word[2]) value = word + 2;
     }
+    given[found] = true;
+    const cli_option *option = options_at(command, found);
     void *member = arguments + option->offset;
     if (option->kind == OPTION_FLAG || option->kind == OPTION_TOGGLE) {
         if (value) return wrong(message, "--%s: takes no value", option->key);
@@ -380,6 +384,45 @@ static bool take_option(const cli_command *command, size_t count, const char *co
     return parse_value(option, value, member, message);
 }
 
+/// Writes the next of the keys in `*keys` and moves on; false at their end.
+static bool next_key(const char **keys, char key[MAX_WORD + 1]) {
+    if (!*keys || !**keys) return false;
+    const size_t length = strcspn(*keys, " ");
+    snprintf(key, MAX_WORD + 1, "%.*s", (int)length, *keys);
+    *keys += length;
+    *keys += strspn(*keys, " ");
+    return true;
+}
+
+/// Whether the option of a key was given; one that the command does not have was not.
+static bool key_given(const cli_command *command, const bool given[OPTION_COUNT_MAX], const char *key) {
+    const cli_option *option;
+    for (size_t i = 0; (option = options_at(command, i)); i++)
+        if (given[i] && strcmp(option->key, key) == 0) return true;
+    return false;
+}
+
+/// Checks what the tables say of options beside each other.
+static bool check_together(const cli_command *command, const bool given[OPTION_COUNT_MAX],
+                           char message[OPTION_ERROR_BYTES]) {
+    const cli_option *option;
+    for (size_t i = 0; (option = options_at(command, i)); i++) {
+        if (!given[i]) continue;
+        char key[MAX_WORD + 1], all[OPTION_ERROR_BYTES / 2] = "";
+        for (const char *keys = option->excludes; next_key(&keys, key);)
+            if (key_given(command, given, key))
+                return wrong(message, "--%s and --%s exclude each other", option->key, key);
+        bool met = !option->needs;
+        for (const char *keys = option->needs; next_key(&keys, key);) {
+            met = met || key_given(command, given, key);
+            const size_t used = strlen(all);
+            snprintf(all + used, sizeof all - used, "%s--%s", used ? " or " : "", key);
+        }
+        if (!met) return wrong(message, "--%s needs %s", option->key, all);
+    }
+    return true;
+}
+
 void options_default(const cli_command *command, void *arguments) {
     memset(arguments, 0, command->arguments_bytes);
     ((common_arguments *)arguments)->progress = -1;
@@ -390,14 +433,14 @@ bool options_parse(const cli_command *command, size_t count, const char *const *
                    void *arguments, char message[OPTION_ERROR_BYTES]) {
     common_arguments *common = arguments;
     common->operands = operands;
-    bool only_operands = false;
+    bool only_operands = false, given[OPTION_COUNT_MAX] = {false};
     for (size_t i = 0; i < count; i++) {
         const char *word = words[i];
         if (only_operands || word[0] != '-' || !word[1]) {
             operands[common->operand_count++] = word;
         } else if (strcmp(word, "--") == 0) {
             only_operands = true;
-        } else if (!take_option(command, count, words, &i, arguments, message)) {
+        } else if (!take_option(command, count, words, &i, arguments, given, message)) {
             return false;
         }
         if (common->help) return true;
@@ -410,6 +453,5 @@ bool options_parse(const cli_command *command, size_t count, const char *const *
     if (common->operand_count > command->high_operands)
         return wrong(message, "%s: '%.80s' is one operand too many; usage: ewa %s %s", command->name,
                      operands[command->high_operands], command->name, command->operands);
-    if (common->quiet && common->verbose) return wrong(message, "--quiet and --verbose exclude each other");
-    return !command->check || command->check(arguments, message);
+    return check_together(command, given, message) && (!command->check || command->check(arguments, message));
 }

@@ -18,6 +18,8 @@ typedef enum option_kind {
     OPTION_NUMBER,  ///< double, finite
     OPTION_INTEGER, ///< int64_t
     OPTION_TEXT,    ///< const char *, not empty
+    OPTION_OUTPUT,  ///< const char *: a file that the command writes, or - for standard output
+    OPTION_OUTPUTS, ///< const char *: several as NAME=FILE,...
     OPTION_CHOICE,  ///< int: index of the word in `range`
     OPTION_VECTOR,  ///< option_vector: finite numbers separated by commas
     OPTION_VECTORS, ///< option_vectors: the same, several times
@@ -27,7 +29,7 @@ typedef enum option_kind {
     OPTION_SET,     ///< uint32_t: bits of words in `range`, separated by commas
 } option_kind;
 
-enum { OPTION_VECTOR_MAX = 16, OPTION_VECTORS_MAX = 8 };
+enum { OPTION_VECTOR_MAX = 16, OPTION_VECTORS_MAX = 8, OPTION_COUNT_MAX = 128 };
 
 /// Numbers of a vector; count 0: not given.
 typedef struct option_vector {
@@ -70,6 +72,8 @@ typedef struct cli_option {
     uint32_t low, high; ///< vectors: fewest and most numbers
     const char *absent; ///< help's words for a default that is worked out; else the member's value is shown
     const char *help;
+    const char *excludes; ///< keys, separated by blanks, of options that may not be given beside this one
+    const char *needs;    ///< keys, separated by blanks: one of these options has to be given too
 } cli_option;
 
 /// Options under one heading.
@@ -121,6 +125,9 @@ void options_default(const cli_command *command, void *arguments);
 /// anywhere stops the parsing and succeeds.
 bool options_parse(const cli_command *command, size_t count, const char *const *words, const char **operands,
                    void *arguments, char message[OPTION_ERROR_BYTES]);
+
+/// Option `index` of a command, counted through its groups and the common one; NULL after the last.
+const cli_option *options_at(const cli_command *command, size_t index);
 
 /// Returns the name nearest to `word` among `count` names, NULL when none is near.
 const char *options_nearest(const char *word, size_t count, const char *const *names);

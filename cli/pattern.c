@@ -1,12 +1,28 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Names of numbered files. The pattern is the user's and never reaches printf.
+// Names of files: suffixes, and the place of a number. The pattern is the user's and never reaches printf.
 #include "pattern.h"
 
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
+
+bool path_has_suffix(const char *path, const char *suffixes) {
+    const size_t length = strlen(path);
+    for (const char *suffix = suffixes; *suffix;) {
+        const size_t suffix_length = strcspn(suffix, "|");
+        const bool stream = suffix_length == 1 && suffix[0] == '-';
+        if (stream ? strcmp(path, "-") == 0
+                   : length > suffix_length &&
+                         strncasecmp(path + length - suffix_length, suffix, suffix_length) == 0)
+            return true;
+        suffix += suffix_length;
+        suffix += *suffix == '|';
+    }
+    return false;
+}
 
 /// What follows a percent sign.
 typedef struct conversion {

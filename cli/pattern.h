@@ -1,13 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Names of numbered files, such as name_%04d.png.
+// Names of files: suffixes, and the place of a number, such as name_%04d.png.
 #ifndef EWA_CLI_PATTERN_H
 #define EWA_CLI_PATTERN_H
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+
+/// Whether a name ends in one of the suffixes, which are separated by '|'; - does for standard input or
+/// output.
+bool path_has_suffix(const char *path, const char *suffixes);
 
 /// Whether a path holds exactly one number: %d, %4d or %04d with a width of 1 to 9; %% stands for a percent
 /// sign, nothing else may follow one.

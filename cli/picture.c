@@ -3,23 +3,16 @@
 //
 // The planes of a frame and the files they go to.
 #include "picture.h"
-#include "json.h"
+#include "outputs.h"
+#include "pattern.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 enum { EXR_CHANNELS = 9, NORMAL_CHANNELS = 3 };
 
-static bool has_suffix(const char *path, const char *suffix) {
-    const size_t path_length = strlen(path), length = strlen(suffix);
-    return path_length > length && strcasecmp(path + path_length - length, suffix) == 0;
-}
-
-static bool is_png(const char *path) { return strcmp(path, "-") == 0 || has_suffix(path, ".png"); }
-
-static bool is_exr(const char *path) { return path && has_suffix(path, ".exr"); }
+static bool is_exr(const char *path) { return path && path_has_suffix(path, ".exr"); }
 
 /// Takes one "name=FILE" of --aov.
 static bool take_aov(const char *word, size_t length, picture_paths *paths,
@@ -33,9 +26,7 @@ static bool take_aov(const char *word, size_t length, picture_paths *paths,
         if (path_length == 0 || path_length >= sizeof paths->depth) break;
         memcpy(targets[i], equals + 1, path_length);
         targets[i][path_length] = 0;
-        if (has_suffix(targets[i], ".exr") || has_suffix(targets[i], ".pfm")) return true;
-        snprintf(message, OPTION_ERROR_BYTES, "--aov: '%.200s' is no .exr or .pfm file", targets[i]);
-        return false;
+        return output_check_suffix("aov", targets[i], ".exr|.pfm", message);
     }
     snprintf(message, OPTION_ERROR_BYTES, "--aov: '%.*s' is not depth=FILE, normal=FILE or coverage=FILE",
              (int)(length < 80 ? length : 80), word);
@@ -45,31 +36,13 @@ static bool take_aov(const char *word, size_t length, picture_paths *paths,
 bool picture_parse_paths(const char *color, const char *aov, picture_paths *paths,
                          char message[OPTION_ERROR_BYTES]) {
     *paths = (picture_paths){.color = color};
-    if (color && !is_png(color) && !has_suffix(color, ".exr") && !has_suffix(color, ".pfm")) {
-        snprintf(message, OPTION_ERROR_BYTES, "--output: '%.200s' is no .png, .exr or .pfm file", color);
-        return false;
-    }
+    if (color && !output_check_suffix("output", color, ".png|.exr|.pfm|-", message)) return false;
     while (aov) {
         const size_t length = strcspn(aov, ",");
         if (!take_aov(aov, length, paths, message)) return false;
         aov = aov[length] ? aov + length + 1 : NULL;
     }
-    const char *const all[] = {color ? color : "", paths->depth, paths->normal, paths->coverage};
-    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
-        for (size_t k = 0; k < i; k++) {
-            if (!all[i][0] || strcmp(all[i], all[k]) != 0) continue;
-            snprintf(message, OPTION_ERROR_BYTES, "--aov: '%.200s' would be written twice", all[i]);
-            return false;
-        }
-    }
     return true;
-}
-
-bool picture_check_paths(cli_session *session, const picture_paths *paths) {
-    return (!paths->color || output_check(session, paths->color)) &&
-           (!paths->depth[0] || output_check(session, paths->depth)) &&
-           (!paths->normal[0] || output_check(session, paths->normal)) &&
-           (!paths->coverage[0] || output_check(session, paths->coverage));
 }
 
 bool picture_make(cli_session *session, const picture_paths *paths, const ewa_camera *camera,
@@ -77,8 +50,7 @@ bool picture_make(cli_session *session, const picture_paths *paths, const ewa_ca
     *picture = (cli_picture){.rgba8 = NULL};
     ewa_context *context = session->context;
     const uint32_t width = camera->width_px, height = camera->height_px;
-    const bool exr = is_exr(paths->color), png = !paths->color || is_png(paths->color);
-    session->subject = paths->color;
+    const bool exr = is_exr(paths->color), png = !paths->color || path_has_suffix(paths->color, ".png|-");
     ewa_status status = EWA_OK;
     if (png) {
         picture->rgba8 = malloc((size_t)width * height * 4);
@@ -124,7 +96,7 @@ static void put_channels(const float *from, uint32_t from_count, uint32_t count,
 /// Writes the colour as the channels that .exr or .pfm hold.
 static ewa_status save_linear(const picture_paths *paths, const ewa_image_save_options *options,
                               const cli_picture *picture) {
-    const bool exr = has_suffix(paths->color, ".exr"), normals = picture->normal.pixels != NULL;
+    const bool exr = path_has_suffix(paths->color, ".exr"), normals = picture->normal.pixels != NULL;
     const uint32_t exr_channels = normals ? EXR_CHANNELS : EXR_CHANNELS - NORMAL_CHANNELS;
     ewa_image all;
     ewa_status status = ewa_image_create(picture->color.context, picture->color.width_px,

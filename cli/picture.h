@@ -7,7 +7,7 @@
 
 #include "session.h"
 
-/// Paths of what is written of a frame; NULL: not asked for. All paths were checked by picture_check_paths().
+/// Paths of what is written of a frame; NULL: not asked for.
 typedef struct picture_paths {
     /// .png, .exr or .pfm; "-": PNG to standard output; NULL: the 8-bit picture is made, but not written here
     const char *color;
@@ -18,9 +18,6 @@ typedef struct picture_paths {
 /// Fills the paths from -o, or NULL, and --aov; says in `message` what is wrong with them. `aov` may be NULL.
 bool picture_parse_paths(const char *color, const char *aov, picture_paths *paths,
                          char message[OPTION_ERROR_BYTES]);
-
-/// Whether all files can be created; false after reporting.
-bool picture_check_paths(cli_session *session, const picture_paths *paths);
 
 /// Memory of a frame: the planes that the paths need.
 typedef struct cli_picture {

@@ -20,19 +20,22 @@ static const cli_option procedure_table[] = {
      .value = "F",
      .range = "(0, 1e9]",
      .absent = "8 over the longest side",
-     .help = "features per world unit: cubes, veins, rings, waves"},
+     .help = "features per world unit: cubes, veins, rings, waves",
+     .needs = "procedure"},
     {.key = "prefilter-scale",
      .kind = OPTION_NUMBER,
      .offset = AT(prefilter),
      .value = "S",
      .range = "[0, 10]",
-     .help = "width of the filter in units of the surfel's kernel; 0: none, which aliases"},
+     .help = "width of the filter in units of the surfel's kernel; 0: none, which aliases",
+     .needs = "procedure"},
     {.key = "procedure-seed",
      .kind = OPTION_INTEGER,
      .offset = AT(seed),
      .value = "N",
      .range = "[0, inf)",
-     .help = "same seed, same noise"},
+     .help = "same seed, same noise",
+     .needs = "procedure"},
     {.key = "first-color",
      .kind = OPTION_VECTOR,
      .offset = AT(colors[0]),
@@ -40,7 +43,8 @@ static const cli_option procedure_table[] = {
      .low = 3,
      .high = 3,
      .absent = "by --procedure",
-     .help = "linear colour in [0, 1] of one kind of cubes, the stone, early wood, the low"},
+     .help = "linear colour in [0, 1] of one kind of cubes, the stone, early wood, the low",
+     .needs = "procedure"},
     {.key = "second-color",
      .kind = OPTION_VECTOR,
      .offset = AT(colors[1]),
@@ -48,7 +52,8 @@ static const cli_option procedure_table[] = {
      .low = 3,
      .high = 3,
      .absent = "by --procedure",
-     .help = "linear colour in [0, 1] of the other cubes, the veins, late wood, the high"},
+     .help = "linear colour in [0, 1] of the other cubes, the veins, late wood, the high",
+     .needs = "procedure"},
 };
 
 const option_group procedure_options = {"Solid texture", procedure_table,
@@ -63,11 +68,8 @@ void procedure_set_defaults(procedure_arguments *arguments) {
 
 bool procedure_check(const procedure_arguments *arguments, char message[OPTION_ERROR_BYTES]) {
     const char *problem = NULL;
-    if (!arguments->procedure && arguments->frequency > 0) problem = "--frequency needs --procedure";
     for (int i = 0; i < 2; i++) {
         const option_vector *color = &arguments->colors[i];
-        if (color->count && !arguments->procedure)
-            problem = i ? "--second-color needs --procedure" : "--first-color needs --procedure";
         for (uint32_t c = 0; c < color->count; c++)
             if (color->values[c] < 0 || color->values[c] > 1)
                 problem = i ? "--second-color: numbers must be in [0, 1]"

@@ -4,6 +4,7 @@
 // ewa render: clouds to a picture.
 #include "color_by.h"
 #include "commands.h"
+#include "faults.h"
 #include "frames.h"
 #include "inputs.h"
 #include "json.h"
@@ -45,7 +46,7 @@ _Static_assert(EWA_MAX_EDGE_LAYERS == 8, "the range of --edge-layers says so");
 static const cli_option output_table[] = {
     {.key = "output",
      .letter = 'o',
-     .kind = OPTION_TEXT,
+     .kind = OPTION_OUTPUT,
      .offset = AT(output),
      .value = "FILE",
      .help = "the picture: .png (8-bit sRGB), .exr (linear floats, premultiplied: R G B A Z N.X N.Y N.Z "
@@ -53,19 +54,19 @@ static const cli_option output_table[] = {
              ".pfm (linear RGB); -: PNG to standard output. Frames: NAME_%04d.png and such, or a film: .mp4, "
              ".mkv (H.264), .webm (VP9), .gif, by the program ffmpeg"},
     {.key = "aov",
-     .kind = OPTION_TEXT,
+     .kind = OPTION_OUTPUTS,
      .offset = AT(aov),
      .value = "NAME=FILE,...",
      .help = "further planes, .pfm or .exr: depth (camera z, infinite where nothing is), normal (world, "
              "towards the "
              "viewer), coverage (1: covered)"},
     {.key = "save-camera",
-     .kind = OPTION_TEXT,
+     .kind = OPTION_OUTPUT,
      .offset = AT(save_camera_path),
      .value = "FILE",
      .help = "write the camera that was used, for --camera; of frames all cameras, for --path"},
     {.key = "stats",
-     .kind = OPTION_TEXT,
+     .kind = OPTION_OUTPUT,
      .offset = AT(stats_path),
      .value = "FILE",
      .help = "write times per stage, counts and peak memory as JSON"},
@@ -169,14 +170,16 @@ static const cli_option look_table[] = {
      .offset = AT(colormap),
      .range = "viridis|turbo|gray|plasma|inferno|magma|cividis|coolwarm",
      .absent = "viridis",
-     .help = "colours for --color-by"},
+     .help = "colours for --color-by",
+     .needs = "color-by"},
     {.key = "range",
      .aliases = "coloring-range",
      .kind = OPTION_BOUNDS,
      .offset = AT(range),
      .value = "a,b",
      .absent = "least to greatest",
-     .help = "numbers that get the first and the last colour; with a percent sign, percentiles: 2%,98%"},
+     .help = "numbers that get the first and the last colour; with a percent sign, percentiles: 2%,98%",
+     .needs = "color-by"},
 };
 
 static void set_defaults(void *data) {
@@ -235,10 +238,6 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         missing = "--layers needs --passes 3";
     else if (arguments->opacity < 1 && arguments->passes == ONE_PASS)
         missing = "--opacity below 1 needs --passes 3";
-    else if (!arguments->color_by && arguments->range.given)
-        missing = "--range needs --color-by";
-    else if (!arguments->color_by && arguments->colormap >= 0)
-        missing = "--colormap needs --color-by";
     if (missing) {
         snprintf(message, OPTION_ERROR_BYTES, "%s", missing);
         return false;
@@ -339,28 +338,11 @@ static bool make_scene(cli_session *session, const render_arguments *arguments, 
                 frames_make(session, &arguments->frames, cloud, arguments->radius_scale, frames);
     session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
     done = done && make_surfels(session, arguments, cloud, surfels, report) &&
-           close_gaps(session, arguments, &cloud, surfels, report);
+           close_gaps(session, arguments, &cloud, surfels, report) &&
+           faults_report(session, cloud, &report->surfels);
     ewa_cloud_destroy(&cloud);
-    if (!done) {
-        ewa_surfels_destroy(surfels);
-        return false;
-    }
-    const unsigned long long left_out = report->surfels.left_out_count, all = report->point_count;
-    if (report->surfels.point_count == 0) {
-        session_fail(
-            session,
-            "none of the %llu points can be drawn: coordinates are not finite, or normals or radii "
-            "are zero ('ewa info' counts them, 'ewa surfels --keep-normals off --keep-radii off' makes "
-            "new ones)",
-            all);
-        ewa_surfels_destroy(surfels);
-        return false;
-    }
-    if (left_out)
-        session_warn(session,
-                     "%llu of %llu points are left out: coordinates not finite, or normal or radius zero",
-                     left_out, all);
-    return true;
+    if (!done) ewa_surfels_destroy(surfels);
+    return done;
 }
 
 /// What paint() works with.
@@ -386,6 +368,8 @@ static bool draw(cli_session *session, const render_arguments *arguments, const 
         .paths = paths,
         .numbered = many,
         .film = video_find_format(arguments->output) ? arguments->output : NULL,
+        .source =
+            arguments->frames.path_file ? arguments->frames.path_file : arguments->frames.view.camera_path,
         .frames_per_s = arguments->frames.frames_per_s > 0 ? arguments->frames.frames_per_s : 30,
         .quality = arguments->frames.quality >= 0 ? (int)arguments->frames.quality : 75,
         .opaque = arguments->background.rgba[3] == 1,
@@ -401,16 +385,6 @@ static bool draw(cli_session *session, const render_arguments *arguments, const 
     return done;
 }
 
-/// Whether all files can be written, before the work; false after reporting.
-static bool check_outputs(cli_session *session, const render_arguments *arguments,
-                          const picture_paths *paths) {
-    return (frames_many(&arguments->frames) ? sequence_check(session, paths)
-                                            : picture_check_paths(session, paths)) &&
-           (!video_find_format(arguments->output) || video_check(session, arguments->output)) &&
-           (!arguments->save_camera_path || output_check(session, arguments->save_camera_path)) &&
-           (!arguments->stats_path || output_check(session, arguments->stats_path));
-}
-
 static int run(const void *data) {
     const render_arguments *arguments = data;
     const common_arguments *common = &arguments->frames.view.common;
@@ -423,8 +397,7 @@ static int run(const void *data) {
     light_objects lit_by = {.material_count = 0};
     render_report report = {.load_s = 0};
     bool done =
-        parse_paths(arguments, &paths, message) && check_outputs(&session, arguments, &paths) &&
-        light_load(&session, &arguments->light, &lit_by) &&
+        parse_paths(arguments, &paths, message) && light_load(&session, &arguments->light, &lit_by) &&
         make_scene(&session, arguments, &frames, &surfels, &report) &&
         draw(&session, arguments, &paths, &frames, &lit_by, surfels, &report) &&
         (!arguments->stats_path || render_report_write(&session, common, frames_many(&arguments->frames),
@@ -457,20 +430,20 @@ const cli_command render_command = {
     .name = "render",
     .operands = "IN... -o OUT",
     .summary = "draw point clouds as a continuous, antialiased surface",
-    .details = "Several inputs are drawn together. Normals and radii that a file lacks are estimated from "
-               "the neighbours "
-               "of each point, and points far from all others are left out then, which a message says; "
-               "'ewa surfels' does the same with options and keeps the result.\n"
-               "\n"
-               "Without --camera and --eye the cloud is framed whole; when less than one point in a hundred "
-               "lies so far off "
-               "that the rest would be tiny, those are left outside, which a message says. Without --view "
-               "and --up: z is up "
-               "when the bounding box is flat in z (ground), much taller in z than wide, or far from the "
-               "origin in x or y "
-               "(map coordinates), else y is up. What is flat is seen from above at an angle (iso), all else "
-               "from the front: "
-               "from +z with y up, from -y with z up.",
+    .details =
+        "Several inputs are drawn together. Normals and radii that a file lacks are estimated from "
+        "the neighbours "
+        "of each point, and points far from all others are left out then, which a message says; "
+        "'ewa surfels' does the same with options and keeps the result.\n"
+        "\n"
+        "Without --camera and --eye the cloud is framed whole; when less than one point in a hundred "
+        "lies so far off "
+        "that the rest would be tiny, those are left outside, which a message says. Without --up, the "
+        "axis that points up is y or z by what the points show: what they stand on, ground, map "
+        "coordinates (z), what a camera at the origin saw; else y, for STL z. Without --view, all is "
+        "seen from the front (from +z with y up, from -y with z up), but ground and what is long from "
+        "above at an angle (iso), drawings face on, and pictures of a camera at the origin from there. "
+        "--verbose says what was chosen and why.",
     .examples =
         "ewa render scan.ply -o scan.png\n"
         "ewa render scan.ply -o side.png --view right --size 1920x1080 --background transparent\n"

@@ -3,7 +3,6 @@
 //
 // ewa sample: surfels from a triangle mesh.
 #include "commands.h"
-#include "json.h"
 #include "session.h"
 #include "textured.h"
 
@@ -25,7 +24,8 @@ static const cli_option sample_table[] = {
      .offset = AT(point_count),
      .value = "N",
      .range = "[1, 4294967279]",
-     .help = "about how many points, within a few percent; not with --spacing"},
+     .help = "about how many points, within a few percent",
+     .excludes = "spacing"},
     {.key = "spacing",
      .kind = OPTION_NUMBER,
      .offset = AT(spacing_world),
@@ -84,7 +84,7 @@ static void set_defaults(void *data) {
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const sample_arguments *arguments = data;
-    return textured_check(&arguments->textured, message);
+    return procedure_check(&arguments->textured.procedure, message);
 }
 
 static bool has_picture(const ewa_mesh *mesh) {

@@ -8,6 +8,7 @@
 
 #include <pthread.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 /// Frames that are written at the same time, at most: each holds its planes.
 enum { MAX_SLOTS = 8 };
@@ -49,11 +50,6 @@ static bool number_files(cli_session *session, const picture_paths *paths, size_
 _Static_assert(sizeof((frame_files){0}.color) == sizeof((frame_files){0}.paths.depth),
                "number_files() takes all for one size");
 
-bool sequence_check(cli_session *session, const picture_paths *paths) {
-    frame_files files;
-    return number_files(session, paths, 0, &files) && picture_check_paths(session, &files.paths);
-}
-
 /// Whether all frames have one size, which a film needs; false after reporting.
 static bool check_sizes(cli_session *session, const char *film, const frame_cameras *frames) {
     const ewa_camera *first = frames->cameras;
@@ -94,6 +90,9 @@ typedef struct sequence {
     frame_slot slots[MAX_SLOTS];
     size_t slot_count;
     render_report *report;
+    bool *written;                   ///< of each frame: its files are there
+    size_t empty_count, first_empty; ///< frames that show nothing
+    char subject[1024];              ///< names the frame that is drawn
 } sequence;
 
 /// The thread of a slot.
@@ -110,6 +109,9 @@ static bool collect_slot(sequence *all, frame_slot *slot) {
     if (!slot->busy) return true;
     if (slot->threaded) pthread_join(slot->thread, NULL);
     slot->busy = false;
+    all->written[slot->index] = slot->saved;
+    if (slot->saved && slot->stats.splat_count > 0 && slot->stats.drawn_count == 0 && all->empty_count++ == 0)
+        all->first_empty = slot->index;
     return slot->saved &&
            render_report_add(all->session, all->report, slot->index, all->frames->count, &slot->stats,
                              slot->render_s, slot->write_s) &&
@@ -130,6 +132,13 @@ static bool draw_frame(sequence *all, size_t index) {
     const ewa_camera *camera = &all->frames->cameras[index], *last = slot->camera;
     if (!collect_slot(all, slot)) return false;
     slot->camera = camera;
+    const char *source = all->output->source;
+    snprintf(all->subject, sizeof all->subject, "%s%sframe %zu", source ? source : "", source ? ": " : "",
+             index);
+    all->session->subject = all->frames->count > 1 ? all->subject
+                            : source               ? source
+                                                   : all->output->paths->color;
+    slot->session->subject = all->session->subject;
     if (!last || camera->width_px != last->width_px || camera->height_px != last->height_px) {
         picture_free(&slot->picture);
         if (!picture_make(slot->session, all->output->paths, camera, &slot->picture)) return false;
@@ -138,7 +147,6 @@ static bool draw_frame(sequence *all, size_t index) {
     slot->files.paths = *all->output->paths;
     if (all->output->numbered && !number_files(all->session, all->output->paths, index, &slot->files))
         return false;
-    all->session->subject = NULL;
     const double started_s = clock_now_s();
     const ewa_status status =
         all->painter->paint(all->painter->user, camera, &slot->picture.frame, &slot->stats);
@@ -147,6 +155,7 @@ static bool draw_frame(sequence *all, size_t index) {
         session_failed(all->session, status);
         return false;
     }
+    all->session->subject = slot->session->subject = NULL;
     const bool put = !all->output->film || video_put(all->session, &all->video, slot->picture.rgba8);
     slot->write_s = clock_now_s() - started_s - slot->render_s;
     if (put) start_saving(all, slot);
@@ -194,6 +203,41 @@ static bool draw_all(sequence *all) {
     return done;
 }
 
+/// Says which frames of an unfinished sequence are there: whoever goes on need not draw them again.
+static void report_written(const sequence *all) {
+    char ranges[256] = "";
+    size_t count = 0, used = 0;
+    for (size_t i = 0; i < all->frames->count; i++) {
+        count += all->written[i];
+        if (!all->written[i] || (i > 0 && all->written[i - 1])) continue;
+        size_t last = i;
+        while (last + 1 < all->frames->count && all->written[last + 1]) last++;
+        if (used < sizeof ranges)
+            used += (size_t)snprintf(ranges + used, sizeof ranges - used, last > i ? "%s%zu to %zu" : "%s%zu",
+                                     used ? ", " : "", i, last);
+    }
+    all->session->subject = NULL;
+    if (count)
+        session_note(all->session, "of %zu frames, %zu are written and stay: %s", all->frames->count, count,
+                     ranges);
+    else
+        session_note(all->session, "none of %zu frames is written", all->frames->count);
+}
+
+/// Warns of pictures that show nothing of what there is.
+static void report_empty(const sequence *all) {
+    const unsigned long long splat_count = all->report->stats.splat_count;
+    all->session->subject = NULL;
+    if (all->empty_count && all->frames->count > 1)
+        session_warn(
+            all->session,
+            "%zu of %zu frames, the first is %zu, show nothing: their cameras see none of the %llu splats",
+            all->empty_count, all->frames->count, all->first_empty, splat_count);
+    else if (all->empty_count)
+        session_warn(all->session, "the picture shows nothing: the camera sees none of the %llu splats",
+                     splat_count);
+}
+
 bool sequence_draw(cli_session *session, const sequence_output *output, const frame_cameras *frames,
                    const frame_painter *painter, render_report *report) {
     const video_settings settings = {.width_px = frames->cameras->width_px,
@@ -203,7 +247,9 @@ bool sequence_draw(cli_session *session, const sequence_output *output, const fr
                                      .opaque = output->opaque};
     sequence all = {
         .session = session, .output = output, .frames = frames, .painter = painter, .report = report};
-    bool done = make_slots(&all) &&
+    all.written = calloc(frames->count, sizeof *all.written);
+    if (!all.written) session_fail(session, "out of memory for %zu frames", frames->count);
+    bool done = all.written && make_slots(&all) &&
                 (!output->film || (check_sizes(session, output->film, frames) &&
                                    video_start(session, output->film, &settings, &all.video))) &&
                 draw_all(&all);
@@ -214,5 +260,8 @@ bool sequence_draw(cli_session *session, const sequence_output *output, const fr
     }
     video_drop(&all.video);
     free_slots(&all);
+    if (all.written && !done && output->numbered && !output->film) report_written(&all);
+    if (done) report_empty(&all);
+    free(all.written);
     return done;
 }

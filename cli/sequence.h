@@ -12,7 +12,8 @@
 typedef struct sequence_output {
     const picture_paths *paths; ///< numbered ones have the place of their number
     bool numbered;
-    const char *film; ///< NULL: none
+    const char *film;   ///< NULL: none
+    const char *source; ///< what messages call the place that the frames' cameras come from; NULL: not said
     double frames_per_s;
     int quality; ///< of the film, 0 to 100
     bool opaque; ///< alpha says nothing
@@ -21,9 +22,6 @@ typedef struct sequence_output {
 /// Says in `message` which of the paths has no place for a number; returns false then.
 bool sequence_check_paths(const picture_paths *paths, char message[OPTION_ERROR_BYTES]);
 
-/// Whether the first frame's files can be created; false after reporting.
-bool sequence_check(cli_session *session, const picture_paths *paths);
-
 /// What draws a frame: fills the planes and the statistics; the status of the library.
 typedef struct frame_painter {
     ewa_status (*paint)(void *user, const ewa_camera *camera, const ewa_frame *frame,
@@ -31,8 +29,8 @@ typedef struct frame_painter {
     void *user;
 } frame_painter;
 
-/// Draws a frame for each camera and writes it. Returns false after reporting; whole files stay, a film is
-/// removed then.
+/// Draws a frame for each camera and writes it; warns of frames that show nothing. Returns false after
+/// reporting; whole files stay, which a message counts, a film is removed then.
 bool sequence_draw(cli_session *session, const sequence_output *output, const frame_cameras *frames,
                    const frame_painter *painter, render_report *report);
 

@@ -5,7 +5,7 @@
 #include "cloud_output.h"
 #include "commands.h"
 #include "inputs.h"
-#include "json.h"
+#include "screening.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -111,6 +111,7 @@ static ewa_cloud *make(cli_session *session, const void *data) {
     const char *path = arguments->output.common.operands[0];
     ewa_cloud *cloud = input_load(session, path);
     if (!cloud) return NULL;
+    if (arguments->keep_normals) screening_drop_zero_normals(session, path, cloud);
     ewa_estimate_options options;
     ewa_estimate_options_init(&options, sizeof options);
     options.neighbour_count = (uint32_t)arguments->neighbours;

@@ -3,7 +3,6 @@
 //
 // ewa texture: a flat image, seen through a homography or by a camera.
 #include "commands.h"
-#include "json.h"
 #include "picture.h"
 #include "view.h"
 
@@ -26,7 +25,7 @@ typedef struct texture_arguments {
 static const cli_option output_table[] = {
     {.key = "output",
      .letter = 'o',
-     .kind = OPTION_TEXT,
+     .kind = OPTION_OUTPUT,
      .offset = AT(output),
      .value = "FILE",
      .help = "the picture: .png (8-bit sRGB, straight alpha), .exr (linear floats, premultiplied), .pfm "
@@ -51,7 +50,8 @@ static const cli_option map_table[] = {
      .help = "matrix H, row by row, from pixels of the image to pixels of the picture, columns on its right: "
              "(x w, y w, w) = H (u, v, 1), as OpenCV writes it, but with pixel centres at half integers; the "
              "side of "
-             "the horizon on which the middle of the image lies is seen"},
+             "the horizon on which the middle of the image lies is seen",
+     .excludes = "corners plane " VIEW_PLACING_KEYS},
     {.key = "corners",
      .kind = OPTION_VECTOR,
      .offset = AT(corners),
@@ -60,7 +60,8 @@ static const cli_option map_table[] = {
      .high = 8,
      .help = "where the upper left, upper right, lower right and lower left corners of the image go, in "
              "pixels of the "
-             "picture"},
+             "picture",
+     .excludes = "plane " VIEW_PLACING_KEYS},
     {.key = "plane",
      .kind = OPTION_VECTOR,
      .offset = AT(plane),
@@ -126,15 +127,10 @@ static void set_defaults(void *data) {
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const texture_arguments *arguments = data;
-    const bool flat = arguments->homography.count || arguments->corners.count;
     picture_paths paths;
     const char *wrong = NULL;
     if (!arguments->output)
         wrong = "texture: no output; say -o FILE";
-    else if (arguments->homography.count && arguments->corners.count)
-        wrong = "--homography and --corners exclude each other";
-    else if (flat && (view_is_placed(&arguments->view) || arguments->plane.count))
-        wrong = "--homography and --corners exclude the options of the camera and --plane";
     else if (arguments->repeat && arguments->method == EWA_TEXTURE_SPLAT)
         wrong = "--repeat on needs another --method than splat, which would never end";
     if (wrong) {
@@ -142,14 +138,14 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         return false;
     }
     const char *file = strcmp(arguments->output, "-") == 0 ? NULL : arguments->output;
-    return view_check(&arguments->view, message) && picture_parse_paths(file, NULL, &paths, message);
+    return view_check(&arguments->view, false, message) && picture_parse_paths(file, NULL, &paths, message);
 }
 
 /// Where the image is in the world: its corner, and its edges from there.
 static void place_plane(const texture_arguments *arguments, const ewa_image *image, double plane[3][3]) {
     const double width = (double)image->width_px / image->height_px;
-    const double upright[3][3] = {{-0.5 * width, 0.5, 0}, {width, 0, 0}, {0, -1, 0}};
-    memcpy(plane, arguments->plane.count ? arguments->plane.values : &upright[0][0], 9 * sizeof(double));
+    const double standing[3][3] = {{-0.5 * width, 0.5, 0}, {width, 0, 0}, {0, -1, 0}};
+    memcpy(plane, arguments->plane.count ? arguments->plane.values : &standing[0][0], 9 * sizeof(double));
 }
 
 /// Makes the camera: where none is placed, it sees the whole image upright. False after reporting.
@@ -241,6 +237,8 @@ static bool draw(cli_session *session, const texture_arguments *arguments, const
         session_failed(session, status);
         return false;
     }
+    if (arguments->method != EWA_TEXTURE_BILINEAR && stats.splat_count + stats.point_count == 0)
+        session_warn(session, "nothing of the image is in the picture");
     session_say(session,
                 "%llu splats, %llu points for %llu texels in %.1f ms, %.3g million pixels per second",
                 (unsigned long long)stats.splat_count, (unsigned long long)stats.point_count,
@@ -258,10 +256,9 @@ static int run(const void *data) {
     ewa_mat3 map;
     ewa_camera camera;
     session.subject = common->operands[0];
-    bool done = output_check(&session, arguments->output);
-    ewa_status status = done ? ewa_image_load(session.context, common->operands[0], &image) : EWA_OK;
+    ewa_status status = ewa_image_load(session.context, common->operands[0], &image);
     if (status != EWA_OK) session_failed(&session, status);
-    done = done && status == EWA_OK;
+    bool done = status == EWA_OK;
     if (done && image.channel_count != 1 && image.channel_count != 3 && image.channel_count != 4) {
         session_fail(&session, "%u channels are no picture; grey, RGB and RGBA are", image.channel_count);
         done = false;

@@ -4,8 +4,6 @@
 // Options for pictures on points.
 #include "textured.h"
 
-#include <stdio.h>
-
 #define AT(member) offsetof(textured_arguments, member)
 
 static const cli_option table[] = {
@@ -14,7 +12,8 @@ static const cli_option table[] = {
      .offset = AT(picture),
      .value = "IMAGE",
      .absent = "the object's own colours",
-     .help = "picture to put onto the points (PNG, JPEG, OpenEXR, PFM, HDR)"},
+     .help = "picture to put onto the points (PNG, JPEG, OpenEXR, PFM, HDR)",
+     .excludes = "procedure"},
     {.key = "texture-filter",
      .kind = OPTION_CHOICE,
      .offset = AT(filter),
@@ -37,14 +36,6 @@ void textured_set_defaults(textured_arguments *arguments) {
     ewa_acquire_options_init(&options, sizeof options);
     arguments->filter = (int)options.filter;
     arguments->pixel_sigma_px = options.pixel_sigma_px;
-}
-
-bool textured_check(const textured_arguments *arguments, char message[OPTION_ERROR_BYTES]) {
-    if (arguments->picture && arguments->procedure.procedure) {
-        snprintf(message, OPTION_ERROR_BYTES, "--texture and --procedure exclude each other");
-        return false;
-    }
-    return procedure_check(&arguments->procedure, message);
 }
 
 bool textured_load(cli_session *session, const textured_arguments *arguments, ewa_image *picture) {

@@ -20,9 +20,6 @@ extern const option_group textured_options;
 
 void textured_set_defaults(textured_arguments *arguments);
 
-/// Says in `message` what is wrong with the options together, also those of procedure_arguments.
-bool textured_check(const textured_arguments *arguments, char message[OPTION_ERROR_BYTES]);
-
 /// Reads the picture that was asked for. Returns false after reporting; the caller frees `*picture`, which is
 /// zeroed when there is none.
 bool textured_load(cli_session *session, const textured_arguments *arguments, ewa_image *picture);

@@ -4,7 +4,6 @@
 // Films through the program ffmpeg: raw frames go to its standard input, no shell in between.
 #define _POSIX_C_SOURCE 200809L
 #include "video.h"
-#include "json.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -84,18 +83,9 @@ static bool find_program(char program[PATH_BYTES]) {
     return false;
 }
 
-static bool need_program(cli_session *session, const char *path, char program[PATH_BYTES]) {
-    if (find_program(program)) return true;
-    session_fail(session,
-                 "%s: films are written by the program ffmpeg, which is not in PATH (Debian: apt install "
-                 "ffmpeg); -o NAME_%%04d.png writes pictures without it",
-                 path);
-    return false;
-}
-
-bool video_check(cli_session *session, const char *path) {
+bool video_is_possible(void) {
     char program[PATH_BYTES];
-    return need_program(session, path, program) && output_check(session, path);
+    return find_program(program);
 }
 
 /// Texts of the words that are made up, and the words of ffmpeg's command line.
@@ -168,7 +158,10 @@ static int spawn(const char *program, command_line *line, int input, int complai
 bool video_start(cli_session *session, const char *path, const video_settings *settings, cli_video *video) {
     *video = (cli_video){.path = path, .descriptor = -1};
     char program[PATH_BYTES];
-    if (!need_program(session, path, program)) return false;
+    if (!find_program(program)) {
+        session_fail(session, "%s: ffmpeg is gone", path);
+        return false;
+    }
     const int length = snprintf(video->aside, sizeof video->aside, "%s.%ld.part", path, (long)getpid());
     if (length < 0 || (size_t)length >= sizeof video->aside) {
         session_fail(session, "%s: the path is too long", path);

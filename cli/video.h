@@ -18,8 +18,8 @@ const video_format *video_find_format(const char *path);
 bool video_has_alpha(const video_format *format);
 bool video_has_quality(const video_format *format);
 
-/// Finds ffmpeg and checks that the file can be created; false after reporting.
-bool video_check(cli_session *session, const char *path);
+/// Whether ffmpeg is there.
+bool video_is_possible(void);
 
 /// A film that is being written: aside first, renamed at the end.
 typedef struct cli_video {

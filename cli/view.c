@@ -3,7 +3,9 @@
 //
 // Where the camera stands: options, default views, framing.
 #include "view.h"
+#include "camera_input.h"
 #include "framing.h"
+#include "upright.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,15 +16,27 @@ static const cli_option view_table[] = {
      .kind = OPTION_TEXT,
      .offset = offsetof(view_arguments, camera_path),
      .value = "FILE",
-     .help = "camera file: ours, Open3D, nerfstudio, INRIA (JSON), or the folder of a COLMAP model; with "
-             "--size, its "
-             "picture is scaled to that size"},
+     .help =
+         "camera file: ours, Open3D, nerfstudio, INRIA (JSON), or the folder of a COLMAP model, whose "
+         "picture --size scales; or poses as text (.txt, .log, .tum: 4 x 4 matrices or TUM's lines, camera "
+         "to world), which get their lens from --intrinsics or --fov",
+     .excludes = "eye target up ortho view azimuth elevation"},
     {.key = "camera-index",
      .kind = OPTION_INTEGER,
      .offset = offsetof(view_arguments, camera_index),
      .value = "N",
      .range = "[0, 4294967295]",
-     .help = "which camera of the file, counted from 0"},
+     .help = "which camera of the file, counted from 0",
+     .needs = "camera"},
+    {.key = "intrinsics",
+     .kind = OPTION_TEXT,
+     .offset = offsetof(view_arguments, intrinsics),
+     .value = "fx,fy,cx,cy|FILE",
+     .absent = "from --fov",
+     .help =
+         "lens of poses: focal lengths and principal point in pixels of a picture of --size, pixel centres "
+         "at halves; or a file with a lens, such as Open3D's",
+     .excludes = "fov"},
     {.key = "eye",
      .aliases = "camera-position",
      .kind = OPTION_VECTOR,
@@ -31,7 +45,8 @@ static const cli_option view_table[] = {
      .low = 3,
      .high = 3,
      .absent = "so that all is in the picture",
-     .help = "position of the camera in the world"},
+     .help = "position of the camera in the world",
+     .excludes = "view azimuth elevation"},
     {.key = "target",
      .aliases = "camera-focal-point",
      .kind = OPTION_VECTOR,
@@ -57,7 +72,8 @@ static const cli_option view_table[] = {
      .value = "DEG",
      .range = "(0, 180)",
      .absent = "30",
-     .help = "vertical field of view in degrees"},
+     .help = "vertical field of view in degrees",
+     .excludes = "ortho"},
     {.key = "ortho",
      .kind = OPTION_NUMBER,
      .offset = offsetof(view_arguments, ortho_height),
@@ -96,82 +112,46 @@ static const cli_option view_table[] = {
 
 const option_group view_options = {"Camera", view_table, sizeof view_table / sizeof view_table[0]};
 
-/// Height over width under which a cloud is ground, over which it stands upright; distance from the origin
-/// over size from which coordinates are those of a map.
-static const double FLAT_RATIO = 0.4, TALL_RATIO = 1.3, MAP_RATIO = 100;
-
-/// Share of the surface that floors take up at least, and mean normal from which a scan is one-sided. Of
-/// twelve scans, upright statues with y up have shares of 0.00 to 0.07 along z, one on a pedestal with z up
-/// has 0.17.
-static const double FLOOR_SHARE = 0.12, ONE_SIDED = 0.6;
-
 /// Where neither --fov nor --ortho says.
 static const double DEFAULT_FOV_DEG = 30;
-
-enum { VIEW_FRONT, VIEW_BACK, VIEW_LEFT, VIEW_RIGHT, VIEW_TOP, VIEW_BOTTOM, VIEW_ISO };
 
 void view_set_defaults(view_arguments *arguments) {
     arguments->view = -1;
     arguments->size = (option_size){1280, 720, false};
 }
 
-bool view_check(const view_arguments *arguments, char message[OPTION_ERROR_BYTES]) {
-    const bool placed = arguments->eye.count || arguments->target.count || arguments->up.count;
-    const bool turned = arguments->azimuth_deg != 0 || arguments->elevation_deg != 0;
+bool view_check(const view_arguments *arguments, bool poses, char message[OPTION_ERROR_BYTES]) {
+    const option_vector *up = &arguments->up;
+    poses = poses || (arguments->camera_path && camera_input_is_poses(arguments->camera_path));
     const char *clash = NULL;
-    if (arguments->camera_path &&
-        (placed || arguments->fov_deg > 0 || arguments->ortho_height > 0 || arguments->view >= 0))
-        clash = "--camera excludes --eye, --target, --up, --fov, --ortho and --view";
-    else if (arguments->fov_deg > 0 && arguments->ortho_height > 0)
-        clash = "--fov and --ortho exclude each other";
-    else if (!arguments->camera_path && arguments->camera_index > 0)
-        clash = "--camera-index needs --camera";
-    else if (arguments->eye.count && arguments->view >= 0)
-        clash = "--eye and --view exclude each other";
-    else if (turned && (arguments->eye.count || arguments->camera_path))
-        clash = "--azimuth and --elevation exclude --eye and --camera";
-    else if (arguments->up.count && !arguments->up.values[0] && !arguments->up.values[1] &&
-             !arguments->up.values[2])
+    if (arguments->camera_path && !poses && arguments->fov_deg > 0)
+        clash =
+            "--camera and --fov exclude each other, but for poses (.txt, .log, .tum): the file has a lens";
+    else if (arguments->intrinsics && !poses)
+        clash = "--intrinsics is the lens of poses (.txt, .log, .tum)";
+    else if (up->count && !up->values[0] && !up->values[1] && !up->values[2])
         clash = "--up: 0,0,0 has no direction";
     if (clash) snprintf(message, OPTION_ERROR_BYTES, "%s", clash);
-    return !clash;
+    return !clash && camera_input_check_lens(arguments->intrinsics, message);
 }
 
 bool view_is_placed(const view_arguments *arguments) {
-    return arguments->camera_path || arguments->camera_index > 0 || arguments->eye.count ||
-           arguments->target.count || arguments->up.count || arguments->fov_deg > 0 ||
-           arguments->ortho_height > 0 || arguments->view >= 0 || arguments->azimuth_deg != 0 ||
-           arguments->elevation_deg != 0;
+    return arguments->camera_path || arguments->eye.count || arguments->target.count || arguments->up.count ||
+           arguments->fov_deg > 0 || arguments->ortho_height > 0 || arguments->view >= 0 ||
+           arguments->azimuth_deg != 0 || arguments->elevation_deg != 0;
 }
 
-/// Which axis of the world is up; see the help of render.
-static int guess_up_axis(const cloud_framing *framing) {
-    const ewa_bounds *box = &framing->box;
-    double extent[3], middle[3];
-    for (int c = 0; c < 3; c++) {
-        extent[c] = box->high_world[c] - box->low_world[c];
-        middle[c] = 0.5 * (box->high_world[c] + box->low_world[c]);
-    }
-    const double narrow = fmin(extent[0], extent[1]), wide = fmax(extent[0], extent[1]);
-    const bool flat = extent[2]<FLAT_RATIO * narrow, tall = extent[2]> TALL_RATIO * wide;
-    const double away = fmax(fabs(middle[0]), fabs(middle[1]));
-    const bool map = away > MAP_RATIO * fmax(wide, extent[2]);
-    // Floors: much of the surface is level. A scan from one side is level towards its scanner instead.
-    const double *facing = framing->facing;
-    const bool floors = facing[2] > FLOOR_SHARE && facing[2] > 1.5 * facing[0] && facing[2] > 2 * facing[1] &&
-                        framing->one_sided < ONE_SIDED;
-    return wide > 0 && (flat || tall || map || floors) ? 2 : 1;
-}
-
-/// Direction from the eye to the middle for a named view with y (1) or z (2) up.
-static void view_direction(int view, int up_axis, double direction[3]) {
-    // Written for z up, from the front at -y; y up is the same turned about x.
-    static const double directions[][3] = {{0, 1, 0},  {0, -1, 0}, {1, 0, 0},          {-1, 0, 0},
-                                           {0, 0, -1}, {0, 0, 1},  {-0.55, 0.7, -0.45}};
+/// Direction from the eye to the middle for a named view with y (1) or z (2) up; `reversed`: with that axis
+/// down, turned about x.
+static void view_direction(int view, int up_axis, bool reversed, double direction[3]) {
+    // Written for z up, from the front at -y; y up is the same turned about x. The last is isometric.
+    static const double directions[][3] = {{0, 1, 0},  {0, -1, 0}, {1, 0, 0},  {-1, 0, 0},
+                                           {0, 0, -1}, {0, 0, 1},  {-1, 1, -1}};
     const double *d = directions[view];
     direction[0] = d[0];
     direction[1] = up_axis == 2 ? d[1] : d[2];
     direction[2] = up_axis == 2 ? d[2] : -d[1];
+    for (int c = 1; c < 3 && reversed; c++) direction[c] = -direction[c];
 }
 
 /// Carries a direction, seen as that of a camera that looks at the origin, by --azimuth and --elevation. Its
@@ -191,35 +171,61 @@ static void turn_direction(const view_arguments *arguments, const double axis_wo
     }
 }
 
+/// What is up and how it is looked at, as far as the options do not say.
+static upright choose_upright(const view_arguments *arguments, const cloud_framing *framing) {
+    const common_arguments *common = &arguments->common;
+    const option_vector *up = &arguments->up;
+    if (!up->count && !arguments->up_axis)
+        return upright_choose(framing->count, (const double(*)[3])framing->offsets, framing->middle_world,
+                              upright_convention(common->operand_count, common->operands));
+    const double *low = framing->box.low_world, *high = framing->box.high_world;
+    const double extent[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
+    const int axis = !up->count ? arguments->up_axis : fabs(up->values[2]) > fabs(up->values[1]) ? 2 : 1;
+    return (upright){.axis = axis, .view = upright_view(extent, axis), .why = "as it was asked for"};
+}
+
+/// What the directions of a view come from.
+typedef struct view_frame {
+    double direction[3];  ///< in which the camera looks
+    double up_world[3];   ///< of the picture
+    double axis_world[3]; ///< of a turntable
+    bool from_origin;     ///< the eye belongs at the origin
+} view_frame;
+
 /// The up vector of the picture, the axis of a turntable and, for a camera without --eye, the direction in
 /// which it looks.
-static void choose_direction(const view_arguments *arguments, const cloud_framing *framing,
-                             double direction[3], double up_world[3], double axis_world[3]) {
-    const ewa_bounds *box = &framing->box;
-    int up_axis = arguments->up_axis ? arguments->up_axis : guess_up_axis(framing);
-    if (arguments->up.count) {
-        memcpy(up_world, arguments->up.values, 3 * sizeof *up_world);
-        up_axis = fabs(up_world[2]) > fabs(up_world[1]) ? 2 : 1;
-    } else {
-        for (int c = 0; c < 3; c++) up_world[c] = c == up_axis;
+static void choose_direction(cli_session *session, const view_arguments *arguments,
+                             const cloud_framing *framing, view_frame *frame) {
+    const upright chosen = choose_upright(arguments, framing);
+    const int view = arguments->view >= 0 ? arguments->view : (int)chosen.view;
+    for (int c = 0; c < 3; c++) {
+        const double sign = chosen.reversed ? -1 : 1;
+        frame->up_world[c] = arguments->up.count ? arguments->up.values[c] : c == chosen.axis ? sign : 0;
     }
-    memcpy(axis_world, up_world, 3 * sizeof *axis_world);
-    const double height = box->high_world[up_axis] - box->low_world[up_axis];
-    const int side = up_axis == 2 ? 1 : 2;
-    const double across =
-        fmin(box->high_world[0] - box->low_world[0], box->high_world[side] - box->low_world[side]);
-    const bool ground = height < FLAT_RATIO * across;
-    const int view = arguments->view >= 0 ? arguments->view : ground ? VIEW_ISO : VIEW_FRONT;
-    view_direction(view, up_axis, direction);
-    const bool along_up = view == VIEW_TOP || view == VIEW_BOTTOM;
-    if (along_up && !arguments->up.count) {
+    memcpy(frame->axis_world, frame->up_world, sizeof frame->axis_world);
+    const bool turned = arguments->azimuth_deg != 0 || arguments->elevation_deg != 0;
+    frame->from_origin = chosen.from_origin && arguments->view < 0 && !turned;
+    upright told = chosen;
+    told.view = (named_view)view;
+    told.from_origin = frame->from_origin;
+    char text[160];
+    upright_describe(&told, sizeof text, text);
+    if (!arguments->camera_path) session_say(session, "up: %s", text);
+    view_direction(view, chosen.axis, chosen.reversed, frame->direction);
+    if ((view == VIEW_TOP || view == VIEW_BOTTOM) && !arguments->up.count)
         // Seen from above, the back is up in the picture; from below, the front.
-        double ahead[3];
-        view_direction(view == VIEW_TOP ? VIEW_FRONT : VIEW_BACK, up_axis, ahead);
-        memcpy(up_world, ahead, sizeof ahead);
-    }
-    if (arguments->azimuth_deg != 0 || arguments->elevation_deg != 0)
-        turn_direction(arguments, axis_world, direction, up_world);
+        view_direction(view == VIEW_TOP ? VIEW_FRONT : VIEW_BACK, chosen.axis, chosen.reversed,
+                       frame->up_world);
+    if (turned) turn_direction(arguments, frame->axis_world, frame->direction, frame->up_world);
+}
+
+bool view_default(cli_session *session, const char *path, const ewa_cloud *cloud, upright *chosen) {
+    cloud_framing framing;
+    const view_arguments arguments = {.common = {.operands = &path, .operand_count = 1}, .view = -1};
+    const bool done = framing_make(session, cloud, 1, &framing);
+    if (done) *chosen = choose_upright(&arguments, &framing);
+    framing_free(&framing);
+    return done;
 }
 
 void view_resize(ewa_camera *camera, const option_size *size) {
@@ -234,12 +240,43 @@ void view_resize(ewa_camera *camera, const option_size *size) {
     camera->height_px = size->height_px;
 }
 
+/// Sets the picture's size and the projection that the options ask for.
+static ewa_status set_lens(const view_arguments *arguments, ewa_camera *camera) {
+    camera->width_px = arguments->size.width_px;
+    camera->height_px = arguments->size.height_px;
+    return arguments->ortho_height > 0
+               ? ewa_camera_set_ortho(camera, arguments->ortho_height)
+               : ewa_camera_set_fov(camera, arguments->fov_deg > 0 ? arguments->fov_deg : DEFAULT_FOV_DEG);
+}
+
+bool view_load_lens(cli_session *session, const view_arguments *arguments, const char *path,
+                    ewa_camera *lens) {
+    session->subject = NULL;
+    ewa_camera_init(lens, sizeof *lens);
+    const ewa_status status = set_lens(arguments, lens);
+    if (status != EWA_OK) session_failed(session, status);
+    if (status != EWA_OK || !camera_input_is_poses(path)) return status == EWA_OK;
+    if (arguments->intrinsics) {
+        if (!camera_input_load_lens(session, arguments->intrinsics, lens)) return false;
+        view_resize(lens, &arguments->size);
+    } else if (!(arguments->fov_deg > 0)) {
+        session_note(session,
+                     "%s: poses have no lens: drawn with --fov %g; that or --intrinsics fx,fy,cx,cy says "
+                     "otherwise",
+                     path, DEFAULT_FOV_DEG);
+    }
+    return true;
+}
+
 static bool load_camera(cli_session *session, const view_arguments *arguments, ewa_camera *camera) {
-    session->subject = arguments->camera_path;
-    ewa_status status =
-        ewa_camera_load(session->context, arguments->camera_path, (uint32_t)arguments->camera_index, camera);
-    if (status == EWA_OK) view_resize(camera, &arguments->size);
-    if (status == EWA_OK) status = ewa_camera_check(session->context, camera);
+    const char *path = arguments->camera_path;
+    ewa_camera lens;
+    if (!view_load_lens(session, arguments, path, &lens) ||
+        !camera_input_load(session, path, (uint32_t)arguments->camera_index, &lens, camera))
+        return false;
+    session->subject = path;
+    view_resize(camera, &arguments->size);
+    const ewa_status status = ewa_camera_check(session->context, camera);
     if (status != EWA_OK) session_failed(session, status);
     return status == EWA_OK;
 }
@@ -261,9 +298,10 @@ static ewa_status aim_at(ewa_camera *camera, const double direction[3], const do
 /// in all its turns.
 static ewa_status place_camera(cli_session *session, const view_arguments *arguments,
                                const cloud_framing *framing, ewa_camera *camera, view_turn *turn) {
-    double direction[3], up_world[3], axis_world[3];
-    choose_direction(arguments, framing, direction, up_world, axis_world);
-    if (turn) memcpy(turn->axis_world, axis_world, sizeof axis_world);
+    view_frame frame;
+    choose_direction(session, arguments, framing, &frame);
+    const double *direction = frame.direction, *up_world = frame.up_world;
+    if (turn) memcpy(turn->axis_world, frame.axis_world, sizeof turn->axis_world);
     const option_vector *eye = &arguments->eye, *target = &arguments->target;
     if (eye->count) {
         const double *target_world = target->count ? target->values : framing->middle_world;
@@ -279,10 +317,14 @@ static ewa_status place_camera(cli_session *session, const view_arguments *argum
     ewa_status status;
     if (turn) {
         cloud_framing solid;
-        if (!framing_revolve(session, framing, turn->pivot_world, axis_world, direction, &solid))
+        if (!framing_revolve(session, framing, turn->pivot_world, frame.axis_world, direction, &solid))
             return EWA_ERROR_MEMORY;
         status = framing_fit(&solid, direction, up_world, camera);
         framing_free(&solid);
+    } else if (frame.from_origin && !target->count && !(arguments->fov_deg > 0) &&
+               !(arguments->ortho_height > 0)) {
+        static const double origin[3] = {0, 0, 0};
+        return framing_zoom(framing, origin, up_world, camera);
     } else {
         status = framing_fit(framing, direction, up_world, camera);
         if (status == EWA_OK && target->count)
@@ -304,15 +346,11 @@ bool view_make(cli_session *session, const view_arguments *arguments, const ewa_
         memcpy(turn->pivot_world, arguments->target.count ? arguments->target.values : framing.middle_world,
                sizeof turn->pivot_world);
     if (done && arguments->camera_path) {
-        double direction[3], up_world[3];
-        choose_direction(arguments, &framing, direction, up_world, turn->axis_world);
+        view_frame frame;
+        choose_direction(session, arguments, &framing, &frame);
+        memcpy(turn->axis_world, frame.axis_world, sizeof turn->axis_world);
     } else if (done) {
-        camera->width_px = arguments->size.width_px;
-        camera->height_px = arguments->size.height_px;
-        ewa_status status =
-            arguments->ortho_height > 0
-                ? ewa_camera_set_ortho(camera, arguments->ortho_height)
-                : ewa_camera_set_fov(camera, arguments->fov_deg > 0 ? arguments->fov_deg : DEFAULT_FOV_DEG);
+        ewa_status status = set_lens(arguments, camera);
         if (status == EWA_OK) status = place_camera(session, arguments, &framing, camera, turn);
         done = status == EWA_OK;
         if (status == EWA_ERROR_NUMERIC && !session->reported)

@@ -6,11 +6,12 @@
 #define EWA_CLI_VIEW_H
 
 #include "session.h"
+#include "upright.h"
 
 /// Options of the camera, first in the arguments of a command.
 typedef struct view_arguments {
     common_arguments common;
-    const char *camera_path;
+    const char *camera_path, *intrinsics;
     int64_t camera_index;
     option_vector eye, target, up;
     double fov_deg;      ///< 0: not given
@@ -23,13 +24,21 @@ typedef struct view_arguments {
 
 extern const option_group view_options;
 
+/// Keys of the options that say where the camera is, where it looks and through which lens.
+#define VIEW_PLACING_KEYS "camera camera-index intrinsics eye target up fov ortho view azimuth elevation"
+
 void view_set_defaults(view_arguments *arguments);
 
-/// What is wrong with the options of the camera together; see command.check.
-bool view_check(const view_arguments *arguments, char message[OPTION_ERROR_BYTES]);
+/// What is wrong with the options of the camera together; see command.check. `poses`: a lens is wanted, for
+/// the poses of another option than --camera.
+bool view_check(const view_arguments *arguments, bool poses, char message[OPTION_ERROR_BYTES]);
 
 /// Whether an option says where the camera is or where it looks.
 bool view_is_placed(const view_arguments *arguments);
+
+/// Chooses how a cloud of a file, which has a finite point, is looked at without any option. Returns false
+/// after reporting.
+bool view_default(cli_session *session, const char *path, const ewa_cloud *cloud, upright *chosen);
 
 /// What a turntable turns about.
 typedef struct view_turn {
@@ -41,6 +50,11 @@ typedef struct view_turn {
 /// picture whichever way it is turned. Returns false after reporting.
 bool view_make(cli_session *session, const view_arguments *arguments, const ewa_cloud *cloud,
                double radius_scale, ewa_camera *camera, view_turn *turn);
+
+/// Makes the lens that the cameras of a file get if they are poses: a camera at the origin. Says so when the
+/// options have none. Returns false after reporting.
+bool view_load_lens(cli_session *session, const view_arguments *arguments, const char *path,
+                    ewa_camera *lens);
 
 /// Scales a camera's picture to another size, if one is given.
 void view_resize(ewa_camera *camera, const option_size *size);

@@ -19,7 +19,7 @@ typedef struct volume_arguments {
     volume_scene_arguments scene;
     const char *output, *aov, *save_camera_path, *stats_path;
     int method, index;
-    double sigma, cutoff, prefilter_px, density_scale;
+    double prefilter_px, density_scale;
     bool progressive;
     option_color background;
 } volume_arguments;
@@ -35,32 +35,33 @@ static const float LEAST_THROUGH = 1e-3f;
 static const cli_option output_table[] = {
     {.key = "output",
      .letter = 'o',
-     .kind = OPTION_TEXT,
+     .kind = OPTION_OUTPUT,
      .offset = AT(output),
      .value = "FILE",
      .help = "the picture: .png (8-bit sRGB), .exr (linear floats, premultiplied: R G B A Z coverage), .pfm "
              "(linear RGB); -: PNG to standard output. Frames: NAME_%04d.png and such, or a film: .mp4, .mkv "
              "(H.264), .webm (VP9), .gif, by the program ffmpeg"},
     {.key = "aov",
-     .kind = OPTION_TEXT,
+     .kind = OPTION_OUTPUTS,
      .offset = AT(aov),
      .value = "NAME=FILE,...",
      .help = "further planes, .pfm or .exr: depth (camera z where half of the light is gone, infinite where "
              "that never is), coverage (alpha of the volume)"},
     {.key = "save-camera",
-     .kind = OPTION_TEXT,
+     .kind = OPTION_OUTPUT,
      .offset = AT(save_camera_path),
      .value = "FILE",
      .help = "write the camera that was used, for --camera; of frames all cameras, for --path"},
     {.key = "stats",
-     .kind = OPTION_TEXT,
+     .kind = OPTION_OUTPUT,
      .offset = AT(stats_path),
      .value = "FILE",
      .help = "write times per stage, counts and peak memory as JSON"},
     {.key = "progressive",
      .kind = OPTION_FLAG,
      .offset = AT(progressive),
-     .help = "write a first picture of every second voxel along each axis, then the whole in its place"},
+     .help = "write a first picture of every second voxel along each axis, then the whole in its place",
+     .excludes = "turntable path"},
 };
 
 static const cli_option input_table[] = {VOLUME_INPUT_OPTIONS(AT(input))};
@@ -70,12 +71,12 @@ static const cli_option voxel_table[] = {
      .kind = OPTION_TEXT,
      .offset = AT(scene) + offsetof(volume_scene_arguments, transfer),
      .value = "FILE|PRESET",
-     .absent = "auto: from the histogram",
+     .absent = "auto: by the surfaces between its materials",
      .help =
          "what values look like: a JSON file, or bone, soft, skin, vessels (CT, in Hounsfield units where "
          "the volume has them), mri, gray, fog, auto"},
     {.key = "save-transfer",
-     .kind = OPTION_TEXT,
+     .kind = OPTION_OUTPUT,
      .offset = AT(scene) + offsetof(volume_scene_arguments, save_transfer_path),
      .value = "FILE",
      .help = "write the transfer function that was used, to change it and come back with --transfer"},
@@ -114,13 +115,13 @@ static const cli_option voxel_table[] = {
              "paper's table"},
     {.key = "sigma",
      .kind = OPTION_NUMBER,
-     .offset = AT(sigma),
+     .offset = AT(scene) + offsetof(volume_scene_arguments, sigma),
      .value = "S",
      .range = "[0.3, 2]",
      .help = "standard deviation of the kernel around each voxel, in voxels"},
     {.key = "cutoff",
      .kind = OPTION_NUMBER,
-     .offset = AT(cutoff),
+     .offset = AT(scene) + offsetof(volume_scene_arguments, cutoff),
      .value = "F",
      .range = "[1, 4]",
      .help = "standard deviations at which a kernel ends"},
@@ -169,8 +170,8 @@ static void set_defaults(void *data) {
     ewa_volume_options_init(&options, sizeof options);
     arguments->method = (int)options.method;
     arguments->index = (int)options.index;
-    arguments->sigma = options.sigma;
-    arguments->cutoff = options.cutoff;
+    arguments->scene.sigma = options.sigma;
+    arguments->scene.cutoff = options.cutoff;
     arguments->prefilter_px = options.prefilter_px;
     arguments->density_scale = options.density_scale;
     arguments->background = (option_color){{0, 0, 0, 1}};
@@ -195,8 +196,6 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     picture_paths paths;
     if (!arguments->output)
         wrong = "volume: no output; say -o FILE";
-    else if (arguments->progressive && frames_many(&arguments->frames))
-        wrong = "--progressive is for one picture";
     else if (gradient->count && !(gradient->values[0] >= 0 && gradient->values[1] >= gradient->values[0]))
         wrong = "--gradient: two numbers >= 0, the second not below the first";
     if (wrong) {
@@ -262,14 +261,14 @@ static ewa_status make_planes(volume_painter *painter, const ewa_camera *camera)
 }
 
 /// Draws the surfaces within the volume to planes of their own.
-static ewa_status paint_surface(volume_painter *painter, const ewa_camera *camera) {
+static ewa_status paint_surface(volume_painter *painter, const ewa_camera *camera, ewa_render_stats *stats) {
     painter->options.surface_rgba = painter->options.surface_depth = NULL;
     ewa_status status = make_planes(painter, camera);
     const ewa_frame frame = {.rgba = painter->surface.pixels, .depth = painter->surface_depth.pixels};
     const ewa_frame past = {.rgba = painter->past.pixels}, front = {.rgba = painter->front.pixels};
     if (status == EWA_OK)
         status = ewa_render(painter->surface_renderer, painter->scene->surfels, camera,
-                            &painter->surface_options, &frame, NULL);
+                            &painter->surface_options, &frame, stats);
     if (status == EWA_OK)
         status = ewa_volume_render(painter->renderer, painter->scene->voxels, camera, &painter->options,
                                    &past, NULL);
@@ -287,18 +286,20 @@ static ewa_status paint(void *user, const ewa_camera *camera, const ewa_frame *f
                         ewa_render_stats *stats) {
     volume_painter *painter = user;
     ewa_volume_stats drawn = {.voxel_count = 0};
-    ewa_status status = painter->scene->surfels ? paint_surface(painter, camera) : EWA_OK;
+    ewa_render_stats surface = {.splat_count = 0};
+    ewa_status status = painter->scene->surfels ? paint_surface(painter, camera, &surface) : EWA_OK;
     if (status == EWA_OK)
         status = ewa_volume_render(painter->renderer, painter->scene->voxels, camera, &painter->options,
                                    frame, &drawn);
-    *stats = (ewa_render_stats){.splat_count = drawn.voxel_count,
-                                .culled_count = drawn.culled_count,
-                                .drawn_count = drawn.splat_count + drawn.point_count,
+    *stats = (ewa_render_stats){.splat_count = drawn.voxel_count + surface.splat_count,
+                                .culled_count = drawn.culled_count + surface.culled_count,
+                                .drawn_count = drawn.splat_count + drawn.point_count + surface.drawn_count,
                                 .total_s = drawn.total_s};
     ewa_volume_stats *sum = &painter->stats;
     sum->voxel_count = drawn.voxel_count;
     sum->culled_count += drawn.culled_count;
     sum->hidden_count += drawn.hidden_count;
+    sum->near_count += drawn.near_count;
     sum->splat_count += drawn.splat_count;
     sum->point_count += drawn.point_count;
     sum->bin_s += drawn.bin_s;
@@ -323,8 +324,8 @@ static bool prepare_painter(const volume_arguments *arguments, volume_painter *p
     options->background[3] = (float)arguments->background.rgba[3];
     options->method = (ewa_volume_method)arguments->method;
     options->index = (ewa_volume_index)arguments->index;
-    options->sigma = arguments->sigma;
-    options->cutoff = arguments->cutoff;
+    options->sigma = arguments->scene.sigma;
+    options->cutoff = arguments->scene.cutoff;
     options->prefilter_px = arguments->prefilter_px;
     options->density_scale = arguments->density_scale;
     options->shading = arguments->light.shading >= 0 ? (ewa_shading)arguments->light.shading
@@ -352,6 +353,8 @@ static bool draw(const volume_arguments *arguments, const picture_paths *paths, 
         .paths = paths,
         .numbered = frames_many(&arguments->frames),
         .film = video_find_format(arguments->output) ? arguments->output : NULL,
+        .source =
+            arguments->frames.path_file ? arguments->frames.path_file : arguments->frames.view.camera_path,
         .frames_per_s = arguments->frames.frames_per_s > 0 ? arguments->frames.frames_per_s : 30,
         .quality = arguments->frames.quality >= 0 ? (int)arguments->frames.quality : 75,
         .opaque = arguments->background.rgba[3] == 1,
@@ -369,19 +372,6 @@ static bool draw(const volume_arguments *arguments, const picture_paths *paths, 
     return sequence_draw(session, &output, frames, &paints, report) &&
            (!arguments->save_camera_path ||
             frames_save(session, arguments->save_camera_path, frames, output.numbered));
-}
-
-/// Whether all files can be written, before the work; false after reporting.
-static bool check_outputs(cli_session *session, const volume_arguments *arguments,
-                          const picture_paths *paths) {
-    const char *others[] = {arguments->save_camera_path, arguments->stats_path,
-                            arguments->scene.save_transfer_path};
-    bool done = frames_many(&arguments->frames) ? sequence_check(session, paths)
-                                                : picture_check_paths(session, paths);
-    done = done && (!video_find_format(arguments->output) || video_check(session, arguments->output));
-    for (size_t i = 0; i < COUNT(others); i++)
-        done = done && (!others[i] || output_check(session, others[i]));
-    return done;
 }
 
 /// Writes --stats; false after reporting.
@@ -407,6 +397,7 @@ static bool write_stats(cli_session *session, const volume_arguments *arguments,
     json_count(&json, "resident_bytes", info->resident_bytes);
     json_count(&json, "voxels_culled", stats->culled_count);
     json_count(&json, "voxels_hidden", stats->hidden_count);
+    json_count(&json, "voxels_near", stats->near_count);
     json_count(&json, "splats_drawn", stats->splat_count);
     json_count(&json, "points_drawn", stats->point_count);
     json_number(&json, "point_share", drawn ? (double)stats->point_count / (double)drawn : 0);
@@ -441,7 +432,7 @@ static int run(const void *data) {
     volume_painter painter = {.session = &session, .scene = &scene};
     render_report report = {.load_s = 0};
     const bool done =
-        parse_paths(arguments, &paths, message) && check_outputs(&session, arguments, &paths) &&
+        parse_paths(arguments, &paths, message) &&
         volume_scene_load(&session, &arguments->input, &arguments->scene, common->operands[0],
                           arguments->progressive ? 2 : 1, &scene) &&
         volume_scene_frame(&session, &arguments->frames, &scene, &frames) &&
@@ -469,12 +460,15 @@ const cli_command volume_command = {
     .name = "volume",
     .operands = "VOL -o OUT",
     .summary = "draw a volume: NRRD, NIfTI, MetaImage, VTK or raw numbers",
-    .details = "Without --transfer, the largest peak of the histogram counts as empty, what lies above as a "
-               "veil that becomes denser with the value.\n"
-               "\n"
-               "The volume is framed whole. Without --view and --up, z is up and it is seen from the front, "
-               "from -y: a patient's face, when the file says where that is. Raw numbers need --dims, or a "
-               "name such as head_256x256x128_uint8.raw.gz.",
+    .details =
+        "Without --transfer, what surrounds is left out, and so is a container that stands around all that "
+        "is denser; a material that hides others is a veil, the densest is solid. --verbose and info say "
+        "which values these are.\n"
+        "\n"
+        "The volume is framed whole, with z up. Where the file says how a patient lies it is seen from "
+        "the front, from -y: into the face. A slice or a picture is seen upright, anything else from a "
+        "corner. --azimuth, --elevation and --up start from the front. Raw numbers need --dims, or a "
+        "name such as head_256x256x128_uint8.raw.gz.",
     .examples = "ewa volume head.nrrd -o head.png\n"
                 "ewa volume ct.nii.gz -o bone.png --transfer bone --view left\n"
                 "ewa volume engine.raw -o engine.png --dims 256,256,128 --azimuth 30 --elevation 20\n"

@@ -19,8 +19,6 @@ bool volume_input_check(const volume_input_arguments *arguments, char message[OP
     }
     for (uint32_t k = 0; k < arguments->spacing.count; k++)
         if (!(arguments->spacing.values[k] > 0)) wrong = "--spacing: three numbers > 0";
-    if (!arguments->dims.count && (arguments->type >= 0 || arguments->big_endian || arguments->header_bytes))
-        wrong = "--type, --big-endian and --header-bytes are of raw numbers: they need --dims";
     if (wrong) snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
     return !wrong;
 }

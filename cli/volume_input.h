@@ -30,17 +30,20 @@ typedef struct volume_input_arguments {
          .offset = (at) + offsetof(volume_input_arguments, type),                                            \
          .range = "float|double|char|uchar|short|ushort|int|uint",                                           \
          .absent = "as the file's name says, else uchar",                                                    \
-         .help = "type of raw numbers"},                                                                     \
+         .help = "type of raw numbers",                                                                      \
+         .needs = "dims"},                                                                                   \
         {.key = "big-endian",                                                                                \
          .kind = OPTION_FLAG,                                                                                \
          .offset = (at) + offsetof(volume_input_arguments, big_endian),                                      \
-         .help = "raw numbers have their highest byte first"},                                               \
+         .help = "raw numbers have their highest byte first",                                                \
+         .needs = "dims"},                                                                                   \
         {.key = "header-bytes",                                                                              \
          .kind = OPTION_INTEGER,                                                                             \
          .offset = (at) + offsetof(volume_input_arguments, header_bytes),                                    \
          .value = "N",                                                                                       \
          .range = "[0, inf)",                                                                                \
-         .help = "bytes in front of raw numbers"},                                                           \
+         .help = "bytes in front of raw numbers",                                                            \
+         .needs = "dims"},                                                                                   \
     {                                                                                                        \
         .key = "spacing", .kind = OPTION_VECTOR, .offset = (at) + offsetof(volume_input_arguments, spacing), \
         .value = "x,y,z", .low = 3, .high = 3, .absent = "as the file says, else 1,1,1",                     \

@@ -3,16 +3,18 @@
 //
 // What a picture of a volume shows: the voxels under a transfer function, and surfaces within.
 #include "volume_scene.h"
+#include "faults.h"
 #include "inputs.h"
+#include "upright.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { BINS = 256, CORNERS = 8, VIEW_FRONT = 0 };
+enum { BINS = 256, CORNERS = 8 };
 
-/// Share of what can be seen that may be outside of the picture on each side: noise.
-static const double NOISE_SHARE = 0.0005;
+/// How many times as wide as thick a volume is when it is a slice or a picture.
+static const double SLICE_RATIO = 8;
 
 bool volume_scene_is_preset(const char *word) {
     const char *name;
@@ -103,20 +105,28 @@ static bool load_surfels(cli_session *session, const char *path, volume_scene *s
     if (!cloud) return false;
     ewa_status status = ewa_cloud_measure(cloud, &scene->surfels_bounds);
     if (status == EWA_OK) status = ewa_surfels_create(cloud, &options, &scene->surfels);
-    if (status != EWA_OK) session_failed(session, status);
+    bool done = status == EWA_OK;
+    if (done) {
+        ewa_surfels_info info;
+        ewa_surfels_describe(scene->surfels, &info);
+        session->subject = path;
+        done = faults_report(session, cloud, &info);
+    } else {
+        session_failed(session, status);
+    }
     ewa_cloud_destroy(&cloud);
-    return status == EWA_OK;
+    return done;
 }
 
 static bool classify(cli_session *session, const ewa_volume *volume, const ewa_transfer *transfer,
-                     uint32_t level_count, volume_scene *scene) {
+                     double reach_steps, uint32_t level_count, volume_scene *scene) {
     ewa_voxels_options options;
     ewa_voxels_options_init(&options, sizeof options);
     options.level_count = level_count;
     const double started_s = clock_now_s();
     ewa_status status = ewa_voxels_create(volume, transfer, &options, &scene->voxels);
     scene->classify_s = clock_now_s() - started_s;
-    if (status == EWA_OK) status = ewa_volume_outline(volume, transfer, NOISE_SHARE, &scene->outline);
+    if (status == EWA_OK) status = ewa_volume_outline(volume, transfer, reach_steps, &scene->outline);
     if (status != EWA_OK) {
         session_failed(session, status);
         return false;
@@ -124,6 +134,31 @@ static bool classify(cli_session *session, const ewa_volume *volume, const ewa_t
     ewa_voxels_describe(scene->voxels, &scene->info);
     if (!scene->info.occupied_count) session_warn(session, "the transfer function leaves all voxels empty");
     return true;
+}
+
+/// A patient is seen from the front, a slice from where it is not a line (a picture upright), and what
+/// nothing is known of from a corner, which shows most of any shape.
+static int choose_view(const ewa_volume *volume) {
+    double thickness = INFINITY, width = INFINITY;
+    int thin = 0, single_count = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        const double *m = volume->index_to_world + axis;
+        const bool single = volume->dims[axis] == 1;
+        const double extent = single ? 0 : volume->dims[axis] * hypot(hypot(m[0], m[4]), m[8]);
+        single_count += single;
+        if (extent < thickness) {
+            width = thickness;
+            thickness = extent;
+            thin = axis;
+        } else if (extent < width) {
+            width = extent;
+        }
+    }
+    const double *m = volume->index_to_world + thin;
+    const double x = fabs(m[0]), y = fabs(m[4]), z = fabs(m[8]);
+    if (single_count < 2 && width > SLICE_RATIO * thickness)
+        return z >= x && z >= y ? VIEW_BOTTOM : x > y ? VIEW_LEFT : VIEW_FRONT;
+    return volume->anatomical ? VIEW_FRONT : VIEW_ISO;
 }
 
 bool volume_scene_load(cli_session *session, const volume_input_arguments *input,
@@ -138,7 +173,8 @@ bool volume_scene_load(cli_session *session, const volume_input_arguments *input
     bool done = volume_input_load(session, input, path, &volume);
     scene->load_s = clock_now_s() - started_s;
     done = done && choose_transfer(session, arguments, &volume, &transfer) &&
-           classify(session, &volume, &transfer, level_count, scene);
+           classify(session, &volume, &transfer, arguments->sigma * arguments->cutoff, level_count, scene);
+    if (done) scene->view = choose_view(&volume);
     ewa_volume_free(&volume);
     if (done && arguments->surfels_path) done = load_surfels(session, arguments->surfels_path, scene);
     session->subject = path;
@@ -185,8 +221,10 @@ bool volume_scene_frame(cli_session *session, const frames_arguments *arguments,
     if (!cloud) return false;
     // Scanners' volumes stand on z, whatever their proportions.
     frames_arguments chosen = *arguments;
-    chosen.view.up_axis = 2;
-    if (chosen.view.view < 0) chosen.view.view = VIEW_FRONT;
+    view_arguments *view = &chosen.view;
+    view->up_axis = 2;
+    const bool turned = view->azimuth_deg != 0 || view->elevation_deg != 0 || view->up.count;
+    if (view->view < 0) view->view = turned ? VIEW_FRONT : scene->view;
     const bool done = frames_make(session, &chosen, cloud, 1, frames);
     ewa_cloud_destroy(&cloud);
     return done;

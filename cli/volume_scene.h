@@ -13,6 +13,7 @@ typedef struct volume_scene_arguments {
     const char *transfer, *save_transfer_path, *surfels_path;
     option_bounds range;
     option_vector gradient;
+    double sigma, cutoff; ///< of the voxels' kernels
 } volume_scene_arguments;
 
 typedef struct volume_scene {
@@ -21,6 +22,7 @@ typedef struct volume_scene {
     ewa_cloud *outline;   ///< of what can be seen of it
     ewa_surfels *surfels; ///< NULL: none
     ewa_bounds surfels_bounds;
+    int view;  ///< index of the named view that suits it
     bool flat; ///< the transfer function is one of those that look best without light
     double load_s, classify_s;
 } volume_scene;

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 //
 // ewa warp: pictures with depths to a new camera.
+#include "camera_input.h"
 #include "commands.h"
-#include "json.h"
+#include "outputs.h"
 #include "picture.h"
 #include "view.h"
 #include "warp_sources.h"
@@ -30,24 +31,24 @@ typedef struct warp_arguments {
 static const cli_option output_table[] = {
     {.key = "output",
      .letter = 'o',
-     .kind = OPTION_TEXT,
+     .kind = OPTION_OUTPUT,
      .offset = AT(output),
      .value = "FILE",
      .help = "the picture: .png (8-bit sRGB), .exr (linear floats, premultiplied: R G B A Z N.X N.Y N.Z "
              "coverage), .pfm (linear RGB); -: PNG to standard output"},
     {.key = "aov",
-     .kind = OPTION_TEXT,
+     .kind = OPTION_OUTPUTS,
      .offset = AT(aov),
      .value = "NAME=FILE,...",
      .help = "further planes, .pfm or .exr: depth (camera z, infinite where nothing is), normal (world, "
              "towards the viewer), coverage (1: covered)"},
     {.key = "hole-mask",
-     .kind = OPTION_TEXT,
+     .kind = OPTION_OUTPUT,
      .offset = AT(hole_path),
      .value = "FILE",
      .help = "a grey .png: white where less than half of a pixel is covered"},
     {.key = "save-camera",
-     .kind = OPTION_TEXT,
+     .kind = OPTION_OUTPUT,
      .offset = AT(save_camera_path),
      .value = "FILE",
      .help = "write the camera that was used"},
@@ -65,7 +66,8 @@ static const cli_option target_table[] = {
      .offset = AT(camera_index),
      .value = "N",
      .range = "[0, 4294967295]",
-     .help = "which camera of the file, counted from 0"},
+     .help = "which camera of the file, counted from 0",
+     .needs = "camera"},
     {.key = "shift",
      .kind = OPTION_VECTOR,
      .offset = AT(shift),
@@ -199,20 +201,20 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         wrong = "warp: no output; say -o FILE";
     else if (!arguments->camera_path && !arguments->shift.count)
         wrong = "warp: no new camera; say --camera FILE or --shift x,y,z";
-    else if (!arguments->camera_path && arguments->camera_index > 0)
-        wrong = "--camera-index needs --camera";
     else if (arguments->nearest_world >= arguments->farthest_world)
         wrong = "--near has to be less than --far";
     if (wrong) snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
     return !wrong && sources_check(&arguments->sources, message) &&
+           (!arguments->hole_path ||
+            output_check_suffix("hole-mask", arguments->hole_path, ".png|-", message)) &&
            picture_parse_paths(arguments->output, arguments->aov, &paths, message);
 }
 
 static bool make_target(cli_session *session, const warp_arguments *arguments, const ewa_camera *first,
                         ewa_camera *target) {
     *target = *first;
-    if (arguments->camera_path && !sources_load_camera(session, arguments->camera_path,
-                                                       (uint32_t)arguments->camera_index, first, target))
+    if (arguments->camera_path &&
+        !camera_input_load(session, arguments->camera_path, (uint32_t)arguments->camera_index, first, target))
         return false;
     double scale2 = 0; // camera space may be a scaled world
     for (int i = 0; i < 3; i++) scale2 += target->world_to_camera[i] * target->world_to_camera[i];
@@ -328,9 +330,6 @@ static int run(const void *data) {
     ewa_camera target;
     ewa_warp *warp = NULL;
     bool done = picture_parse_paths(arguments->output, arguments->aov, &paths, message) &&
-                picture_check_paths(&session, &paths) &&
-                (!arguments->hole_path || output_check(&session, arguments->hole_path)) &&
-                (!arguments->save_camera_path || output_check(&session, arguments->save_camera_path)) &&
                 sources_load(&session, &arguments->sources, &sources) &&
                 make_target(&session, arguments, &sources.images[0].camera, &target);
     const ewa_status status = done ? ewa_warp_create(session.context, &warp) : EWA_OK;

@@ -3,10 +3,11 @@
 //
 // Pairs of pictures and depths with their cameras.
 #include "warp_sources.h"
+#include "camera_input.h"
+#include "pattern.h"
 
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 enum { MAX_PATH = 1024 };
 
@@ -33,16 +34,16 @@ static const cli_option source_table[] = {
      .low = 1,
      .high = OPTION_VECTOR_MAX,
      .absent = "0,1,2,... of one file, 0 of each of several",
-     .help = "which camera of its file each pair has, counted from 0"},
+     .help = "which camera of its file each pair has, counted from 0",
+     .needs = "source-camera"},
     {.key = "intrinsics",
-     .kind = OPTION_VECTOR,
+     .kind = OPTION_TEXT,
      .offset = AT(intrinsics),
-     .value = "fx,fy,cx,cy",
-     .low = 4,
-     .high = 4,
+     .value = "fx,fy,cx,cy|FILE",
      .absent = "those of --source-camera",
-     .help = "focal lengths and principal point in pixels, for poses; where pixel centres count as whole "
-             "numbers, as in OpenCV, add 0.5 to cx and cy"},
+     .help = "focal lengths and principal point in pixels, for poses, pixel centres at halves: where they "
+             "count as whole numbers, as in OpenCV and TUM's files, add 0.5 to cx and cy; or a file with a "
+             "lens, such as Open3D's"},
     {.key = "depth-is",
      .kind = OPTION_CHOICE,
      .offset = AT(depth_kind),
@@ -74,15 +75,6 @@ const option_group source_options = {"Sources", source_table, sizeof source_tabl
 
 void sources_set_defaults(source_arguments *arguments) { arguments->depth_kind = EWA_DEPTH_Z; }
 
-static bool has_suffix(const char *path, const char *suffix) {
-    const size_t path_length = strlen(path), length = strlen(suffix);
-    return path_length > length && strcasecmp(path + path_length - length, suffix) == 0;
-}
-
-static bool holds_poses(const char *path) {
-    return has_suffix(path, ".txt") || has_suffix(path, ".log") || has_suffix(path, ".tum");
-}
-
 /// Copies path `index` of a list with commas; false when there is none or it is too long.
 static bool path_at(const char *list, size_t index, char path[MAX_PATH]) {
     for (; index > 0; index--) {
@@ -109,7 +101,7 @@ static bool needs_lens(const char *camera_paths, const char **wrong) {
     char path[MAX_PATH];
     for (size_t i = 0; camera_paths && i < path_count(camera_paths); i++) {
         if (path_at(camera_paths, i, path))
-            poses |= holds_poses(path);
+            poses |= camera_input_is_poses(path);
         else
             *wrong = "--source-camera: an empty or overlong name";
     }
@@ -120,20 +112,16 @@ static bool needs_lens(const char *camera_paths, const char **wrong) {
 static const char *check_cameras(const source_arguments *arguments) {
     const size_t pairs = arguments->common.operand_count / 2;
     const size_t files = arguments->camera_paths ? path_count(arguments->camera_paths) : 0;
-    const option_vector *intrinsics = &arguments->intrinsics;
     const char *wrong = NULL;
     const bool no_lens = needs_lens(arguments->camera_paths, &wrong);
     if (wrong) return wrong;
     if (files > 1 && files != pairs) return "--source-camera: neither one file nor one for each pair";
     if (!files && pairs > 1) return "--source-camera: several pairs need cameras";
-    if (arguments->camera_indices.count && (!files || arguments->camera_indices.count != pairs))
-        return "--source-index: one number for each pair, with --source-camera";
-    if (no_lens && !intrinsics->count)
+    if (arguments->camera_indices.count && arguments->camera_indices.count != pairs)
+        return "--source-index: one number for each pair";
+    if (no_lens && !arguments->intrinsics)
         return "--intrinsics fx,fy,cx,cy: needed without a camera file, and with poses";
-    if (!no_lens && intrinsics->count) return "--intrinsics: the camera file has them";
-    if (intrinsics->count && !(intrinsics->values[0] > 0 && intrinsics->values[1] > 0))
-        return "--intrinsics: the focal lengths have to be positive";
-    return NULL;
+    return !no_lens && arguments->intrinsics ? "--intrinsics: the camera file has them" : NULL;
 }
 
 bool sources_check(const source_arguments *arguments, char message[OPTION_ERROR_BYTES]) {
@@ -148,63 +136,39 @@ bool sources_check(const source_arguments *arguments, char message[OPTION_ERROR_
     else
         wrong = check_cameras(arguments);
     if (wrong) snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
-    return !wrong;
+    return !wrong && camera_input_check_lens(arguments->intrinsics, message);
 }
 
-/// The pose that is looked for among those of a file.
-typedef struct wanted_pose {
-    uint32_t index, count;
-    ewa_camera *camera;
-} wanted_pose;
-
-static void take_pose(void *user, uint32_t index, const ewa_camera *camera) {
-    wanted_pose *wanted = user;
-    if (index == wanted->index) *wanted->camera = *camera;
-    wanted->count = index + 1;
-}
-
-bool sources_load_camera(cli_session *session, const char *path, uint32_t index, const ewa_camera *lens,
-                         ewa_camera *camera) {
-    session->subject = path;
-    ewa_status status;
-    if (holds_poses(path) && lens) {
-        wanted_pose wanted = {.index = index, .camera = camera};
-        status = ewa_camera_load_poses(session->context, path, lens, take_pose, &wanted);
-        if (status == EWA_OK && index >= wanted.count) {
-            session_fail(session, "%s: pose %u wanted, %u there (counted from 0)", path, index, wanted.count);
-            return false;
-        }
-    } else {
-        ewa_camera_init(camera, sizeof *camera);
-        status = ewa_camera_load(session->context, path, index, camera);
-    }
-    if (status != EWA_OK) session_failed(session, status);
-    session->subject = NULL;
-    return status == EWA_OK;
-}
-
+/// Makes the camera of a pair. Returns false after reporting.
 static bool load_camera(cli_session *session, const source_arguments *arguments, uint32_t pair,
-                        const ewa_image *depth, ewa_camera *camera) {
-    ewa_camera_init(camera, sizeof *camera);
-    camera->width_px = depth->width_px;
-    camera->height_px = depth->height_px;
-    const double *numbers = arguments->intrinsics.values;
-    if (arguments->intrinsics.count) {
-        camera->fx_px = numbers[0], camera->fy_px = numbers[1];
-        camera->cx_px = numbers[2], camera->cy_px = numbers[3];
-    }
+                        const ewa_camera *lens, ewa_camera *camera) {
+    *camera = *lens;
     if (!arguments->camera_paths) return true;
     char path[MAX_PATH];
     const bool one_file = path_count(arguments->camera_paths) == 1;
     path_at(arguments->camera_paths, one_file ? 0 : pair, path);
     uint32_t index = one_file ? pair : 0;
     if (arguments->camera_indices.count) index = (uint32_t)arguments->camera_indices.values[pair];
-    const ewa_camera lens = *camera;
-    if (!sources_load_camera(session, path, index, &lens, camera)) return false;
-    if (camera->width_px == depth->width_px && camera->height_px == depth->height_px) return true;
+    if (!camera_input_load(session, path, index, lens, camera)) return false;
+    if (camera->width_px == lens->width_px && camera->height_px == lens->height_px) return true;
     session_fail(session, "%s: camera %u is for pictures of %u x %u pixels, %s has %u x %u", path, index,
                  camera->width_px, camera->height_px, arguments->common.operands[2 * pair + 1],
-                 depth->width_px, depth->height_px);
+                 lens->width_px, lens->height_px);
+    return false;
+}
+
+/// Sets a camera of the size of a depth image, with the lens of --intrinsics. Returns false after reporting.
+static bool load_lens(cli_session *session, const source_arguments *arguments, const char *depth_path,
+                      const ewa_image *depth, ewa_camera *lens) {
+    ewa_camera_init(lens, sizeof *lens);
+    lens->width_px = depth->width_px;
+    lens->height_px = depth->height_px;
+    if (!arguments->intrinsics) return true;
+    if (!camera_input_load_lens(session, arguments->intrinsics, lens)) return false;
+    if (lens->width_px == depth->width_px && lens->height_px == depth->height_px) return true;
+    session_fail(session, "%s: the lens is for pictures of %u x %u pixels, %s has %u x %u",
+                 arguments->intrinsics, lens->width_px, lens->height_px, depth_path, depth->width_px,
+                 depth->height_px);
     return false;
 }
 
@@ -233,7 +197,7 @@ static bool load_pair(cli_session *session, const source_arguments *arguments, u
                      color->channel_count);
         return false;
     }
-    const bool png = has_suffix(depth_path, ".png");
+    const bool png = path_has_suffix(depth_path, ".png");
     const double standard = png && arguments->depth_kind != EWA_DEPTH_DISPARITY ? PNG_DEPTH_SCALE : 1;
     if (standard != 1 && arguments->depth_scale == 0 && pair == 0)
         session_note(session, "%s: depths are taken as 1/%g units; --depth-scale says otherwise", depth_path,
@@ -249,7 +213,9 @@ static bool load_pair(cli_session *session, const source_arguments *arguments, u
     image->color = color->pixels;
     image->color_type = EWA_F32;
     image->color_channel_count = color->channel_count;
-    return load_camera(session, arguments, pair, depth, &image->camera);
+    ewa_camera lens;
+    return load_lens(session, arguments, depth_path, depth, &lens) &&
+           load_camera(session, arguments, pair, &lens, &image->camera);
 }
 
 bool sources_load(cli_session *session, const source_arguments *arguments, warp_sources *sources) {

@@ -13,7 +13,8 @@ enum { WARP_MAX_SOURCES = 16 };
 typedef struct source_arguments {
     common_arguments common;  // first
     const char *camera_paths; ///< separated by commas
-    option_vector camera_indices, intrinsics;
+    const char *intrinsics;   ///< fx,fy,cx,cy or a file
+    option_vector camera_indices;
     int depth_kind;
     double depth_scale; ///< 0: by the kind of file
     double baseline_world, disparity_offset_px;
@@ -36,10 +37,5 @@ typedef struct warp_sources {
 /// Loads the pairs of the operands. Returns false after reporting; free in any case.
 bool sources_load(cli_session *session, const source_arguments *arguments, warp_sources *sources);
 void sources_free(warp_sources *sources);
-
-/// Loads camera `index` of a file, of poses for the lens `lens` (NULL: there is none). Returns false after
-/// reporting.
-bool sources_load_camera(cli_session *session, const char *path, uint32_t index, const ewa_camera *lens,
-                         ewa_camera *camera);
 
 #endif

@@ -70,6 +70,13 @@ static inline ewa_allocator check_allocator(check_memory *memory) {
     return (ewa_allocator){memory, check_allocate, check_release};
 }
 
+/// Says that a file of the shared test data is not there; a failure where the folder is said to have all of
+/// them.
+static inline void check_data_missing(const char *relative) {
+    if (getenv("EWA_DATA_IS_WHOLE")) fail_msg("no stand-in for %s: tests/data makes them", relative);
+    print_message("skipped: no test data %s\n", relative);
+}
+
 /// Path of a file of the shared test data, or NULL (after saying so) when it is not there.
 static inline const char *check_data(const char *relative, char *path, size_t path_bytes) {
     const char *folder = getenv("EWA_DATA");
@@ -81,7 +88,7 @@ static inline const char *check_data(const char *relative, char *path, size_t pa
             return path;
         }
     }
-    print_message("skipped: no test data %s\n", relative);
+    check_data_missing(relative);
     return NULL;
 }
 
@@ -100,6 +107,12 @@ static inline uint64_t check_random_u64(check_random *random) {
 /// Uniform in [low, high).
 static inline double check_uniform(check_random *random, double low, double high) {
     return low + (high - low) * (double)(check_random_u64(random) >> 11) * 0x1p-53;
+}
+
+/// Draws three numbers, the last one first. Two draws among the arguments of one call would come in the order
+/// that the compiler likes.
+static inline void check_uniform3(check_random *random, double low, double high, double numbers[3]) {
+    for (int i = 3; i-- > 0;) numbers[i] = check_uniform(random, low, high);
 }
 
 #endif

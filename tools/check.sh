@@ -2,16 +2,20 @@
 # SPDX-FileCopyrightText: 2026 The ewa authors
 # SPDX-License-Identifier: MIT
 #
-# Runs every test of one or more build folders and ends with one line that counts test cases: "N passed, 0 failed,
-# K skipped". A cmocka program counts as the cases it reports, any other test as one.
+# Runs every test of one or more build folders, or those with a label (FOLDER:LABEL), and ends with one line that counts
+# test cases: "N passed, 0 failed, K skipped". A cmocka program counts as the cases it reports, any other test as one.
 set -u
 
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 failed=0
-for folder in "$@"; do
-    echo "== $folder"
-    ctest --test-dir "$folder" --output-on-failure -j "$(nproc)" --timeout 900 || failed=1
+for tests in "$@"; do
+    folder=${tests%:*}
+    label=""
+    [ "$folder" = "$tests" ] || label="-L ${tests##*:}"
+    echo "== $tests"
+    # shellcheck disable=SC2086
+    ctest --test-dir "$folder" --output-on-failure -j "$(nproc)" --timeout 900 $label || failed=1
     cat "$folder/Testing/Temporary/LastTest.log" >>"$log"
 done
 

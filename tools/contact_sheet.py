@@ -18,7 +18,7 @@ import tempfile
 import textwrap
 import time
 
-VOLUMES = (".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd", ".vtk", ".vti")
+VOLUMES = (".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd", ".vtk", ".vti", ".raw.gz")
 SURFACES = (".ply", ".obj", ".stl", ".off", ".gltf", ".glb")
 
 

@@ -205,12 +205,17 @@ EWA_API ewa_status ewa_camera_file_count(ewa_context *context, const char *path,
 /// - cameras.json of INRIA's Gaussian splatting;
 /// - stacks of matrices: {"width", "height", "viewmats" or "viewmats_world_to_camera", "Ks"};
 /// - a folder with a COLMAP model: cameras and images, .bin or else .txt.
-/// Principal points are taken as they are, lens distortion is left out with a warning. "-" reads standard
-/// input. Errors (camera unchanged), with the member that is missing or wrong: EWA_ERROR_IO,
-/// EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED (fisheye), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_ERROR_ARGUMENT
-/// (index).
+/// Principal points are those of pixel centres at halves; Open3D's, which has them at whole numbers, move by
+/// half a pixel. Lens distortion is left out with a warning. "-" reads standard input. Errors (camera
+/// unchanged), with the member that is missing or wrong: EWA_ERROR_IO, EWA_ERROR_FORMAT,
+/// EWA_ERROR_UNSUPPORTED (fisheye), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_ERROR_ARGUMENT (index).
 EWA_API ewa_status ewa_camera_load(ewa_context *context, const char *path, uint32_t index,
                                    ewa_camera *camera);
+
+/// Reads size, projection and intrinsics of the first camera of a file; `*lens` is at the origin then.
+/// Formats as ewa_camera_load(), and Open3D's PinholeCameraIntrinsic, which has no pose. Errors (lens
+/// unchanged) as there.
+EWA_API ewa_status ewa_camera_load_lens(ewa_context *context, const char *path, ewa_camera *lens);
 
 /// Receives camera `index`, counted from 0, of a file; `*camera` is valid during the call.
 typedef void ewa_camera_callback(void *user, uint32_t index, const ewa_camera *camera);

@@ -93,6 +93,8 @@ typedef struct ewa_csg_options {
     size_t struct_size;
     ewa_csg_operation operation; ///< default EWA_CSG_UNION
     double cutoff; ///< F: standard deviations in a "radius" and in the support of a kernel; (0, 4]; default 3
+    const char *names[2]; ///< what messages call A and B, such as their files; default NULL: "csg: operand
+                          ///< A", "... B"
 } ewa_csg_options;
 
 EWA_API void ewa_csg_options_init(ewa_csg_options *options, size_t struct_size);
@@ -302,13 +304,14 @@ EWA_API void ewa_volume_generate_options_init(ewa_volume_generate_options *optio
 EWA_API ewa_status ewa_volume_generate(ewa_context *context, const ewa_volume_generate_options *options,
                                        ewa_volume *volume);
 
-/// Makes a cloud of the outermost places of a volume that a transfer function lets see, two for each row of
-/// voxels that has any: what a camera has to have in its picture. Veils count as much as what is dense;
-/// `left_out_share` ([0, 0.4]) of all that can be seen may lie beyond each side of the box that is looked
-/// into, since volumes have noise everywhere. The caller owns `*cloud`, which has positions only (F64) and no
-/// point when nothing can be seen. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+/// Makes a cloud of what a camera has to have in its picture of a volume: the corners of at most 4096 boxes
+/// around the voxels that a transfer function lets see, `reach_steps` ([0, 1000]) steps of the grid wider on
+/// all sides; a voxel's kernel reaches sigma times cutoff of ewa_volume_options. Voxels count as seen when a
+/// line of sight through all of the volume would show them if it were of nothing else; single ones and pairs
+/// are noise and do not count, unless there are no others. The caller owns `*cloud`, which has positions only
+/// (F64) and no point when nothing can be seen. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_volume_outline(const ewa_volume *volume, const ewa_transfer *transfer,
-                                      double left_out_share, ewa_cloud **cloud);
+                                      double reach_steps, ewa_cloud **cloud);
 
 #ifdef __cplusplus
 }

@@ -21,6 +21,7 @@ typedef struct ewa_volume {
     void *voxels;              ///< dims[2] * dims[1] * dims[0] numbers, x fastest; a NaN is no matter at all
     double index_to_world[12]; ///< row-major 3x4 that acts on columns [i j k 1]: whole i, j, k are the
                                ///< voxels' centres; world units, right-handed or not, invertible
+    bool anatomical;           ///< the world's axes are a patient's: to the left, backwards, up
 } ewa_volume;
 
 /// Makes a volume of zeros with one world unit between voxels and its middle at the origin; the caller frees

@@ -10,4 +10,8 @@
 /// Converts `count` voxels in memory order from `first` on to floats.
 void ewa_volume_read(const ewa_volume *volume, uint64_t first, size_t count, float *numbers);
 
+/// The same for every `stride`-th voxel.
+void ewa_volume_read_column(const ewa_volume *volume, uint64_t first, size_t stride, size_t count,
+                            float *numbers);
+
 #endif

@@ -10,33 +10,37 @@
 
 enum { BINS = 256, ROW = 1024 };
 
-void ewa_volume_read(const ewa_volume *volume, uint64_t first, size_t count, float *numbers) {
+#define READ_EACH(type)                                                                                      \
+    {                                                                                                        \
+        const type *from = (const type *)volume->voxels + first;                                             \
+        for (size_t i = 0; i < count; i++) numbers[i] = (float)from[i * stride];                             \
+        break;                                                                                               \
+    }
+
+/// Inlined twice, so that the compiler knows the stride of rows.
+static inline __attribute__((always_inline)) void read_each(const ewa_volume *volume, uint64_t first,
+                                                            size_t stride, size_t count, float *numbers) {
     switch (volume->type) {
-    case EWA_U8: {
-        const uint8_t *from = (const uint8_t *)volume->voxels + first;
-        for (size_t i = 0; i < count; i++) numbers[i] = from[i];
-        break;
+    case EWA_U8:
+        READ_EACH(uint8_t)
+    case EWA_I8:
+        READ_EACH(int8_t)
+    case EWA_U16:
+        READ_EACH(uint16_t)
+    case EWA_I16:
+        READ_EACH(int16_t)
+    default:
+        READ_EACH(float)
     }
-    case EWA_I8: {
-        const int8_t *from = (const int8_t *)volume->voxels + first;
-        for (size_t i = 0; i < count; i++) numbers[i] = from[i];
-        break;
-    }
-    case EWA_U16: {
-        const uint16_t *from = (const uint16_t *)volume->voxels + first;
-        for (size_t i = 0; i < count; i++) numbers[i] = from[i];
-        break;
-    }
-    case EWA_I16: {
-        const int16_t *from = (const int16_t *)volume->voxels + first;
-        for (size_t i = 0; i < count; i++) numbers[i] = from[i];
-        break;
-    }
-    default: {
-        const float *from = (const float *)volume->voxels + first;
-        for (size_t i = 0; i < count; i++) numbers[i] = from[i];
-    }
-    }
+}
+
+void ewa_volume_read(const ewa_volume *volume, uint64_t first, size_t count, float *numbers) {
+    read_each(volume, first, 1, count, numbers);
+}
+
+void ewa_volume_read_column(const ewa_volume *volume, uint64_t first, size_t stride, size_t count,
+                            float *numbers) {
+    read_each(volume, first, stride, count, numbers);
 }
 
 static uint64_t count_voxels(const ewa_volume *volume) {

@@ -84,6 +84,24 @@ ewa_status ewa_camera_load(ewa_context *context, const char *path, uint32_t inde
     return status;
 }
 
+ewa_status ewa_camera_load_lens(ewa_context *context, const char *path, ewa_camera *lens) {
+    if (!context || !path || !lens || lens->struct_size != sizeof *lens) return EWA_ERROR_ARGUMENT;
+    ewa_camera_list list = {.context = context, .name = path, .lens_suffices = true};
+    const ewa_status status = read_list(&list, path);
+    if (status == EWA_OK) {
+        ewa_camera_init(lens, sizeof *lens);
+        lens->projection = list.cameras->projection;
+        lens->width_px = list.cameras->width_px;
+        lens->height_px = list.cameras->height_px;
+        lens->fx_px = list.cameras->fx_px;
+        lens->fy_px = list.cameras->fy_px;
+        lens->cx_px = list.cameras->cx_px;
+        lens->cy_px = list.cameras->cy_px;
+    }
+    ewa_camera_list_free(&list);
+    return status;
+}
+
 ewa_status ewa_camera_load_each(ewa_context *context, const char *path, ewa_camera_callback *receive,
                                 void *user) {
     if (!context || !path || !receive) return EWA_ERROR_ARGUMENT;

@@ -13,6 +13,7 @@ typedef struct ewa_camera_list {
     const char *name; ///< of the file, for messages
     ewa_camera *cameras;
     size_t count, capacity;
+    bool lens_suffices; ///< a file that holds a lens and no pose is a camera at the origin
 } ewa_camera_list;
 
 /// Appends a camera after checking it; `where`, such as "frames[3]", names its place in the file.

@@ -127,27 +127,49 @@ static ewa_status read_inria(const source *in, const cJSON *object) {
     return ewa_camera_list_add(in->list, in->where, &camera);
 }
 
-/// Open3D: both matrices are column-major. Its two renderers differ by half a pixel in what the principal
-/// point means; the numbers are taken as they are.
+/// Where Open3D has pixel centres at whole numbers, ours are at halves: the middle of 640 pixels is its
+/// 319.5.
+static const double OPEN3D_SHIFT_PX = 0.5;
+
+/// Open3D's PinholeCameraIntrinsic; the matrix is column-major.
+static ewa_status read_open3d_lens(const source *in, const cJSON *intrinsic, ewa_camera *camera) {
+    double k[9];
+    ewa_status status = read_size(in, intrinsic, camera);
+    if (status == EWA_OK)
+        status = read_array(in, find(intrinsic, "intrinsic_matrix"), "intrinsic_matrix", 9, k);
+    if (status != EWA_OK) return status;
+    if (k[3] != 0) return fail_member(in, "intrinsic_matrix", "is skewed");
+    camera->fx_px = k[0];
+    camera->fy_px = k[4];
+    camera->cx_px = k[6] + OPEN3D_SHIFT_PX;
+    camera->cy_px = k[7] + OPEN3D_SHIFT_PX;
+    return EWA_OK;
+}
+
+/// Open3D's PinholeCameraParameters; the extrinsic matrix is column-major too.
 static ewa_status read_open3d(const source *in, const cJSON *object) {
     ewa_camera camera;
     ewa_camera_init(&camera, sizeof camera);
     const cJSON *intrinsic = find(object, "intrinsic");
     if (!intrinsic) return fail_member(in, "intrinsic", "is missing");
-    double k[9], extrinsic[16];
-    ewa_status status = read_size(in, intrinsic, &camera);
-    if (status == EWA_OK)
-        status = read_array(in, find(intrinsic, "intrinsic_matrix"), "intrinsic_matrix", 9, k);
+    double extrinsic[16];
+    ewa_status status = read_open3d_lens(in, intrinsic, &camera);
     if (status == EWA_OK) status = read_array(in, find(object, "extrinsic"), "extrinsic", 16, extrinsic);
     if (status != EWA_OK) return status;
-    if (k[3] != 0) return fail_member(in, "intrinsic_matrix", "is skewed");
-    camera.fx_px = k[0];
-    camera.fy_px = k[4];
-    camera.cx_px = k[6];
-    camera.cy_px = k[7];
     for (int r = 0; r < 4; r++)
         for (int c = 0; c < 4; c++) camera.world_to_camera[4 * r + c] = extrinsic[4 * c + r];
     return ewa_camera_list_add(in->list, in->where, &camera);
+}
+
+/// A lens alone: a camera at the origin where that will do.
+static ewa_status read_lens_alone(const source *in, const cJSON *intrinsic) {
+    if (!in->list->lens_suffices)
+        return ewa_fail(in->list->context, EWA_ERROR_FORMAT,
+                        "%s: holds an intrinsic matrix only: member 'extrinsic' is missing", in->list->name);
+    ewa_camera camera;
+    ewa_camera_init(&camera, sizeof camera);
+    const ewa_status status = read_open3d_lens(in, intrinsic, &camera);
+    return status != EWA_OK ? status : ewa_camera_list_add(in->list, in->where, &camera);
 }
 
 /// Calls `read` for each object of an array.
@@ -326,9 +348,7 @@ static ewa_status read_root(source *in, const cJSON *root) {
     if ((item = find(root, "frames"))) return read_transforms(in, root, item);
     if ((item = find(root, "parameters"))) return read_each(in, item, "parameters", read_open3d);
     if (find(root, "extrinsic") || find(root, "intrinsic")) return read_open3d(in, root);
-    if (find(root, "intrinsic_matrix"))
-        return ewa_fail(in->list->context, EWA_ERROR_FORMAT,
-                        "%s: holds an intrinsic matrix only: member 'extrinsic' is missing", in->list->name);
+    if (find(root, "intrinsic_matrix")) return read_lens_alone(in, root);
     for (int i = 0; i < 2; i++) {
         item = find(root, i ? "viewmats" : "viewmats_world_to_camera");
         if (cJSON_IsArray(item)) return read_stacks(in, root, item);

@@ -152,6 +152,12 @@ ewa_status ewa_ply_columns_map(const ewa_ply_source *source, const ewa_ply_heade
     uint32_t count = 0;
     for (uint32_t g = 0; g < GROUP_COUNT; g++) count += match(header, element, &groups[g], &columns[count]);
     if (count == 0 || strcmp(columns[0].attribute, EWA_POSITION) != 0) {
+        if (find_scalar(header, element, "packed_position") &&
+            find_scalar(header, element, "packed_rotation"))
+            return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED,
+                            "%s: holds 3D Gaussians in PlayCanvas's compressed form (packed_position), which "
+                            "is not read",
+                            source->name);
         const char *missing = "x";
         for (uint32_t c = 3; c-- > 0;)
             if (!find_scalar(header, element, groups[0].spellings[0][c])) missing = groups[0].spellings[0][c];

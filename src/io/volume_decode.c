@@ -389,6 +389,7 @@ ewa_status ewa_volume_decode(const ewa_volume_input *in, const ewa_volume_header
     status = ewa_volume_create(in->context, dims, kept ? (ewa_type)header->number : EWA_F32, volume);
     if (status != EWA_OK) return status;
     memcpy(volume->index_to_world, index_to_world, sizeof index_to_world);
+    volume->anatomical = header->anatomical;
     status = read_voxels(&job, voxel_count);
     if (status != EWA_OK) {
         ewa_volume_free(volume);

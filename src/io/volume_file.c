@@ -53,6 +53,15 @@ ewa_status ewa_volume_add_bytes(const ewa_volume_input *in, const uint8_t *bytes
     return add_piece(in, &(ewa_file){.bytes = bytes, .size_bytes = size_bytes}, pieces);
 }
 
+ewa_status ewa_volume_add_memory(const ewa_volume_input *in, uint8_t *bytes, size_t size_bytes,
+                                 ewa_volume_pieces *pieces) {
+    ewa_file file = {.bytes = bytes, .size_bytes = size_bytes, .capacity_bytes = size_bytes};
+    pieces->detached = true;
+    const ewa_status status = add_piece(in, &file, pieces);
+    if (status != EWA_OK) ewa_file_unmap(in->context, &file);
+    return status;
+}
+
 /// Puts a name beside the input's file; false when that makes no usable path.
 static bool make_path(const ewa_volume_input *in, const char *file_name, char path[PATH_MAX]) {
     const char *slash = file_name[0] == '/' ? NULL : strrchr(in->path, '/');

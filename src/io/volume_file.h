@@ -43,6 +43,7 @@ typedef struct ewa_volume_header {
     uint32_t axis_count;     ///< those that the file has; the steps of the others are to choose
     double first_world[3];   ///< the first voxel's centre
     bool placed;             ///< first_world is said; else the middle goes to the origin
+    bool anatomical;         ///< of ewa_volume
     ewa_volume_pieces pieces;
 } ewa_volume_header;
 
@@ -65,6 +66,9 @@ void ewa_volume_header_init(ewa_volume_header *header);
 /// Adds bytes of the input's own memory.
 ewa_status ewa_volume_add_bytes(const ewa_volume_input *in, const uint8_t *bytes, size_t size_bytes,
                                 ewa_volume_pieces *pieces);
+/// Adds memory of the context's allocator, which becomes the pieces'; it is freed when that fails.
+ewa_status ewa_volume_add_memory(const ewa_volume_input *in, uint8_t *bytes, size_t size_bytes,
+                                 ewa_volume_pieces *pieces);
 /// Adds a file that is named relative to the input's folder; it must be a regular file.
 ewa_status ewa_volume_add_file(const ewa_volume_input *in, const char *file_name, ewa_volume_pieces *pieces);
 /// Whether there is a file of that name.

@@ -84,6 +84,8 @@ static ewa_status take_tag(meta *file, const char *key, const char *value) {
         memcpy(file->offset, numbers, n * sizeof *numbers);
     } else if (is_one_of(key, matrices)) {
         return take_numbers(file, key, value, n * n, file->matrix, &file->has_matrix);
+    } else if (strcmp(key, "AnatomicalOrientation") == 0) {
+        header->anatomical = strchr(value, '?') == NULL;
     } else if (is_one_of(key, orders)) {
         header->big_endian = is_true(value);
     } else if (strcmp(key, "BinaryData") == 0) {

@@ -200,6 +200,7 @@ static void take_place(const nifti *file, ewa_volume_header *header) {
     }
     header->axis_count = file->dims[0] < 3 ? (uint32_t)file->dims[0] : 3;
     header->placed = file->sform_code > 0 || file->qform_code > 0;
+    header->anatomical = header->placed;
     for (int k = 0; k < 3; k++) {
         // Without a place nothing says that the axes are a patient's: they stay as they are.
         const double mirror = header->placed && k < 2 ? -1 : 1;

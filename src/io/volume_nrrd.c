@@ -107,6 +107,7 @@ static ewa_status take_space(nrrd *file, const char *value) {
         if (strcasecmp(value, spaces[i].name) != 0 && strcasecmp(value, spaces[i].letters) != 0) continue;
         file->space_count = spaces[i].axis_count;
         memcpy(file->mirror, spaces[i].mirror, sizeof file->mirror);
+        file->header->anatomical = spaces[i].letters[0] != 0;
         return EWA_OK;
     }
     return ewa_volume_fail(file->in, EWA_ERROR_UNSUPPORTED, "NRRD: space '%.80s'", value);
@@ -271,10 +272,24 @@ static void place_axis(const nrrd *file, uint32_t axis, uint32_t to) {
     }
 }
 
+/// Pictures of early writers do not say that three bytes side by side are a colour.
+static void guess_colors(nrrd *file) {
+    const ewa_volume_header *header = file->header;
+    if (file->has_kinds || file->has_directions || file->has_spacings || file->axis_count != 3 ||
+        file->sizes[0] != 3 || file->sizes[1] <= 3 || file->sizes[2] <= 3 || header->number != EWA_U8)
+        return;
+    file->has_kinds = true;
+    file->kinds[0] = AXIS_COLOR3;
+    file->kinds[1] = file->kinds[2] = AXIS_SPACE;
+    ewa_report(file->in->context, EWA_SEVERITY_INFO, "%s: three bytes for each place: taken for colours",
+               file->in->name);
+}
+
 /// Sorts the file's axes into components, space and the rest, of which the first entry is taken.
 static ewa_status sort_axes(nrrd *file) {
     ewa_volume_header *header = file->header;
     uint32_t placed = 0;
+    guess_colors(file);
     for (uint32_t axis = 0; axis < file->axis_count; axis++) {
         const uint64_t size = file->sizes[axis];
         const axis_kind kind = file->kinds[axis];

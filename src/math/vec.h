@@ -18,6 +18,13 @@ static inline ewa_vec3 vec3_scale(ewa_vec3 a, double s) { return vec3_make(a.x *
 static inline double vec3_dot(ewa_vec3 a, ewa_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 static inline double vec3_length(ewa_vec3 a) { return sqrt(vec3_dot(a, a)); }
 
+/// The same where squares might leave the range of doubles.
+static inline double vec3_length_scaled(ewa_vec3 a) {
+    const double largest = fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
+    if (!(largest > 0) || isinf(largest)) return largest;
+    return largest * vec3_length(vec3_make(a.x / largest, a.y / largest, a.z / largest));
+}
+
 static inline ewa_vec3 vec3_cross(ewa_vec3 a, ewa_vec3 b) {
     return vec3_make(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }

@@ -414,14 +414,19 @@ static ewa_status assemble(const ewa_cloud *const operands[2], const csg_job job
     return EWA_OK;
 }
 
-static ewa_status check_closed(const ewa_solid *solid, char which) {
+/// What messages call operand `k`.
+static const char *operand_name(const ewa_csg_options *options, int k) {
+    return options->names[k] ? options->names[k] : k ? "csg: operand B" : "csg: operand A";
+}
+
+static ewa_status check_closed(const ewa_solid *solid, const char *name) {
     const double openness = ewa_solid_openness(solid);
     if (openness <= MAX_OPENNESS) return EWA_OK;
     return ewa_fail(
         solid->context, EWA_ERROR_ARGUMENT,
-        "csg: operand %c is not closed: its normals, weighted by area, sum up to %.0f %% of the area "
-        "(closed: 0); are normals turned outward and no side missing?",
-        which, 100 * openness);
+        "%s is not closed: its normals, weighted by area, sum up to %.0f %% of the area (closed: 0); are "
+        "normals turned outward and no side missing?",
+        name, 100 * openness);
 }
 
 static ewa_status combine(const ewa_cloud *const operands[2], const ewa_solid solids[2],
@@ -445,9 +450,9 @@ static ewa_status combine(const ewa_cloud *const operands[2], const ewa_solid so
         if (status == EWA_OK && doubts)
             status =
                 ewa_fail(context, EWA_ERROR_ARGUMENT,
-                         "csg: operand %c is not closed: at %u places, what is inside and what is outside "
-                         "of it meet with none of its surfels between",
-                         k ? 'A' : 'B', doubts);
+                         "%s is not closed: at %u places, what is inside and what is outside of it meet with "
+                         "none of its surfels between",
+                         operand_name(options, 1 - k), doubts);
         if (status == EWA_OK) status = ewa_progress(context, "csg", 0.4 * (k + 1));
     }
     if (status == EWA_OK) status = assemble(operands, jobs, result);
@@ -482,9 +487,9 @@ ewa_status ewa_cloud_csg(const ewa_cloud *a, const ewa_cloud *b, const ewa_csg_o
     ewa_solid solids[2] = {{.context = context}, {.context = context}};
     ewa_status status = ewa_progress(context, "csg", 0);
     for (int k = 0; k < 2 && status == EWA_OK; k++) {
-        status = ewa_solid_open(operands[k], k ? "csg: operand B" : "csg: operand A", origin_world,
-                                options->cutoff, &solids[k]);
-        if (status == EWA_OK) status = check_closed(&solids[k], k ? 'B' : 'A');
+        status =
+            ewa_solid_open(operands[k], operand_name(options, k), origin_world, options->cutoff, &solids[k]);
+        if (status == EWA_OK) status = check_closed(&solids[k], operand_name(options, k));
     }
     ewa_cloud *made = NULL;
     if (status == EWA_OK) status = combine(operands, solids, options, &made);

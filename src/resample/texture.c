@@ -50,7 +50,7 @@ static void choose_brush(const ewa_texture_plan *plan, ewa_texture_brush *brush)
         brush->resolve = ewa_texture_resolve_avx2;
     }
 #endif
-    brush->filter = (ewa_texture_filter){.cutoff2 = (float)(f * f),
+    brush->filter = (ewa_texel_filter){.cutoff2 = (float)(f * f),
                                          .prefilter2 = (float)(h * h),
                                          .reach_px = (float)(f * h),
                                          .sigma = (float)sigma,

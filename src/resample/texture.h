@@ -68,17 +68,17 @@ typedef struct ewa_texture_block {
 } ewa_texture_block;
 
 /// Numbers that the kernels need beside a block.
-typedef struct ewa_texture_filter {
+typedef struct ewa_texel_filter {
     float cutoff2;     ///< F^2
     float prefilter2;  ///< h^2
     float reach_px;    ///< F h
     float sigma;       ///< of a texel
     float determinant; ///< sigma^2 |det map| of the texture itself
-} ewa_texture_filter;
+} ewa_texel_filter;
 
 /// Adds a block to the sums of a tile; every version does the same operations in the same order. Splats have
 /// w > plan.tangent_w * EWA_TEXTURE_NEAR all over the block. Returns how many texels touch the tile.
-typedef uint32_t ewa_texture_draw(const ewa_texture_filter *filter, const ewa_texture_block *block,
+typedef uint32_t ewa_texture_draw(const ewa_texel_filter *filter, const ewa_texture_block *block,
                                   const ewa_texture_sums *sums);
 ewa_texture_draw ewa_texture_draw_points_portable, ewa_texture_draw_splats_portable;
 #if defined(__x86_64__)
@@ -171,7 +171,7 @@ typedef struct ewa_texture_counts {
 typedef struct ewa_texture_brush {
     ewa_texture_draw *points, *splats;
     ewa_texture_resolve *resolve;
-    ewa_texture_filter filter;
+    ewa_texel_filter filter;
     ewa_texture_sums sums;
     ewa_texture_block *block;
     ewa_texture_counts counts;

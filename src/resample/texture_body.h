@@ -85,7 +85,7 @@ static ALWAYS_INLINE uint32_t place(ellipses *e, wm seen, wf x, wf y, wf half_x,
 }
 
 /// Adds the texels of `hits`, in blocks of 4 x 4 pixels.
-static ALWAYS_INLINE void add_ellipses(const ewa_texture_filter *filter, const ellipses *e, uint32_t hits,
+static ALWAYS_INLINE void add_ellipses(const ewa_texel_filter *filter, const ellipses *e, uint32_t hits,
                                        float (*colors)[4], const ewa_texture_sums *sums) {
     static const float column[16] = {0.5f, 1.5f, 2.5f, 3.5f, 0.5f, 1.5f, 2.5f, 3.5f,
                                      0.5f, 1.5f, 2.5f, 3.5f, 0.5f, 1.5f, 2.5f, 3.5f};
@@ -125,7 +125,7 @@ static ALWAYS_INLINE void add_ellipses(const ewa_texture_filter *filter, const e
 }
 
 /// Points whose filter reaches one pixel at most: two by two pixels.
-static ALWAYS_INLINE uint32_t add_small_points(const ewa_texture_filter *filter, const texels *t,
+static ALWAYS_INLINE uint32_t add_small_points(const ewa_texel_filter *filter, const texels *t,
                                                wf amplitude, float (*colors)[4],
                                                const ewa_texture_sums *sums) {
     const wf half = wf_set(0.5f), one = wf_set(1), low = wf_set(-1), end = wf_set(EWA_TEXTURE_TILE);
@@ -165,7 +165,7 @@ static ALWAYS_INLINE uint32_t add_small_points(const ewa_texture_filter *filter,
     return hits;
 }
 
-uint32_t POINTS(const ewa_texture_filter *filter, const ewa_texture_block *block,
+uint32_t POINTS(const ewa_texel_filter *filter, const ewa_texture_block *block,
                 const ewa_texture_sums *sums) {
     const bool small = filter->reach_px <= 1;
     const float conic = -HALF_LOG2_E / filter->prefilter2;
@@ -196,7 +196,7 @@ uint32_t POINTS(const ewa_texture_filter *filter, const ewa_texture_block *block
 }
 
 /// The ellipses of sixteen texels: ewa_texel_place() in single precision.
-static ALWAYS_INLINE uint32_t splat_ellipses(const ewa_texture_filter *filter, const ewa_texture_block *block,
+static ALWAYS_INLINE uint32_t splat_ellipses(const ewa_texel_filter *filter, const ewa_texture_block *block,
                                              const texels *t, ellipses *e) {
     const wf sigma = wf_set(filter->sigma), cutoff2 = wf_set(filter->cutoff2),
              h2 = wf_set(filter->prefilter2);
@@ -234,7 +234,7 @@ static ALWAYS_INLINE uint32_t splat_ellipses(const ewa_texture_filter *filter, c
                  wf_mul(cutoff, wf_sqrt(yy)));
 }
 
-uint32_t SPLATS(const ewa_texture_filter *filter, const ewa_texture_block *block,
+uint32_t SPLATS(const ewa_texel_filter *filter, const ewa_texture_block *block,
                 const ewa_texture_sums *sums) {
     uint32_t drawn = 0;
     for (uint32_t row = 0; row < block->height; row++) {

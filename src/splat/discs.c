@@ -67,8 +67,8 @@ static inline void survey_lanes(const ewa_discs *discs, uint64_t first, uint64_t
     for (int c = 0; c < 3; c++)
         for (int i = 0; i < LANES; i++) {
             const double value = center[c][i], least = low[c][i], most = high[c][i];
-            low[c][i] = drawable[i] & (value < least) ? value : least;
-            high[c][i] = drawable[i] & (value > most) ? value : most;
+            low[c][i] = (drawable[i] & (value < least)) ? value : least;
+            high[c][i] = (drawable[i] & (value > most)) ? value : most;
         }
 }
 

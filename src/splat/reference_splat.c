@@ -336,11 +336,12 @@ static void sample_plane(const ewa_reference_view *view, const double at[2], con
                          const double by_y[2], ewa_reference_sample *sample) {
     const double u = at[0], v = at[1], h2 = view->prefilter_px * view->prefilter_px;
     const double w11 = 1 + h2 * (by_x[0] * by_x[0] + by_y[0] * by_y[0]);
-    const double w12 = h2 * (by_x[0] * by_x[1] + by_y[0] * by_y[1]);
     const double w22 = 1 + h2 * (by_x[1] * by_x[1] + by_y[1] * by_y[1]);
     const double cross = by_x[0] * by_y[1] - by_x[1] * by_y[0];
     const double determinant = w11 + w22 - 1 + h2 * h2 * cross * cross; // |W|, without cancellation
-    sample->distance2 = (u * u * w22 - 2 * u * v * w12 + v * v * w11) / determinant;
+    // u adj(W) u', a sum of squares: where the surfel is seen from its edge its terms are huge.
+    const double across_x = u * by_x[1] - v * by_x[0], across_y = u * by_y[1] - v * by_y[0];
+    sample->distance2 = (u * u + v * v + h2 * (across_x * across_x + across_y * across_y)) / determinant;
     sample->weight = exp(-0.5 * sample->distance2) / sqrt(determinant) / TWO_PI;
 }
 

@@ -9,6 +9,9 @@
 
 enum { TASK_BLOCKS = 1024 };
 
+/// How far from the first slice single precision may put a voxel.
+static const double EDGE_UNITS = 0.01;
+
 typedef struct bin_job {
     ewa_volume_bins *bins;
     const ewa_voxel_level *level;
@@ -24,7 +27,7 @@ static int32_t clamp_px(double px, uint32_t side_px) {
     return !(px > 0) ? 0 : px >= side_px ? (int32_t)side_px : (int32_t)px;
 }
 
-/// The slices of a block's voxels; false where they are all behind the eye.
+/// The slices of a block's voxels; false where none is to be seen in these.
 static bool find_slices(const bin_job *job, const ewa_voxel_block *block, ewa_block_view *view) {
     double low = INFINITY, high = -INFINITY;
     for (int corner = 0; corner < 8; corner++) {
@@ -40,7 +43,10 @@ static bool find_slices(const bin_job *job, const ewa_voxel_block *block, ewa_bl
     const double last_slice = floor((high - job->slices->start) / job->slices->unit);
     view->slice_first = (int32_t)fmin(fmax(first_slice, 0), last);
     view->slice_last = (int32_t)fmin(fmax(last_slice, 0), last);
-    return high > job->grid->near;
+    // The kernels place voxels in single precision: those at the edge are looked at by both.
+    const double edge = job->slices->start + (job->slices->has_near ? EDGE_UNITS * job->slices->unit : 0);
+    view->near = job->slices->has_near && low < edge && high > -job->grid->near;
+    return low < EWA_FARTHEST && (job->grid->orthographic || high >= 2 * job->slices->start - edge);
 }
 
 /// Widens a box by the projections of a block's corners, all `steps` outside of its voxels' centres; false
@@ -217,6 +223,7 @@ ewa_status ewa_volume_bins_fill(ewa_context *context, ewa_volume_bins *bins, con
             ewa_buffer_reserve(context, &bins->slice_counts, slices->count + (size_t)1, sizeof(uint64_t));
     if (status != EWA_OK) return status;
     job.found = bins->found.data;
+    bins->all = job.found;
     ewa_parallel(context, find_blocks, &job,
                  (uint32_t)((level->block_count + TASK_BLOCKS - 1) / TASK_BLOCKS));
     sort_blocks(&job, bins->sorted.data, bins->slice_counts.data);

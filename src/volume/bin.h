@@ -13,6 +13,7 @@ typedef struct ewa_block_view {
     uint32_t block;
     int32_t slice_first, slice_last;
     int32_t left, top, right, bottom; ///< pixels that it may touch, within the picture; right, bottom: beyond
+    bool near;                        ///< some of its voxels may lie at the eye, in front of slice 0
 } ewa_block_view;
 
 /// The blocks of every tile, by their first slices, ties by their numbers.
@@ -22,6 +23,7 @@ typedef struct ewa_volume_bins {
     uint32_t longest_span;       ///< slices of a block, at most
     uint64_t most_in_flight;     ///< voxels that a tile holds at a time, at most
     const ewa_block_view *views; ///< [visible_count] front to back
+    const ewa_block_view *all;   ///< [block]
     const uint64_t *tile_first;  ///< [tile] of `list`, and one more
     const uint32_t *list;        ///< of `views`
     ewa_buffer found, sorted, slice_counts, tiles, lists, expiries;

@@ -11,7 +11,7 @@
 /// A voxel that can be seen.
 typedef struct ewa_voxel {
     double color[3];       ///< linear, straight
-    double extinction;     ///< optical depth per world unit
+    double extinction;     ///< optical depth per shortest spacing of the volume
     ewa_vec3 normal_world; ///< unit, towards lower values; zero where there is no gradient
 } ewa_voxel;
 
@@ -21,10 +21,8 @@ typedef struct ewa_classifier {
     const ewa_transfer *transfer;
     double unit_length_world; ///< of the transfer function's extinctions
     bool with_ramp;           ///< the gradient counts
-    ewa_mat3 axes_world;      ///< rows: the steps between neighbours along i, j, k
-    ewa_mat3 world_to_index;  ///< of row vectors
+    ewa_mat3 units_to_index;  ///< of row vectors, world over the shortest step
     double spacing_world;     ///< the shortest step
-    double cell_world3;       ///< what one voxel takes up
 } ewa_classifier;
 
 /// Errors: EWA_ERROR_ARGUMENT (index_to_world, dims, type, transfer function), EWA_ERROR_LIMIT (dims).

@@ -8,21 +8,28 @@
 #include "ewa/volume_render.h"
 #include "math/vec.h"
 
-/// Camera-space form of a grid. Camera units are world units times `scale`.
+/// Beyond so many units a voxel is not drawn: it is far below any pixel, and squares stay within floats.
+#define EWA_FARTHEST 1e17
+
+/// Camera-space form of a grid, in units of its own: the shortest spacing of the volume, so that neither the
+/// world's scale nor the camera's matters to any number that is squared.
 typedef struct ewa_grid_view {
     bool orthographic;
-    double fx_px, fy_px, cx_px, cy_px;
-    double scale;        ///< camera units per world unit
-    ewa_mat3 axes;       ///< rows: steps along i, j, k in camera space
-    ewa_vec3 origin;     ///< voxel 0, 0, 0 in camera space
-    ewa_mat3 covariance; ///< Sigma of every voxel
-    ewa_mat3 inverse;    ///< Sigma^-1
-    double kernel_steps; ///< standard deviation of a voxel in steps of the grid
+    double fx_px, fy_px, cx_px, cy_px; ///< orthographic: pixels per unit
+    double unit_camera;                ///< a unit in camera space, as depth planes have it
+    double scale;                      ///< camera space over world: the length of world_to_camera's rows
+    ewa_mat3 axes;                     ///< rows: steps along i, j, k in camera space
+    ewa_vec3 origin;                   ///< voxel 0, 0, 0 in camera space
+    ewa_mat3 covariance;               ///< Sigma of every voxel
+    ewa_mat3 inverse;                  ///< Sigma^-1
+    ewa_mat3 to_steps;                 ///< row vectors of camera space to steps along i, j, k
+    ewa_vec3 eye_steps;                ///< perspective: the index at which the eye is
+    double kernel_steps;               ///< standard deviation of a voxel in steps of the grid
     double bend; ///< orthographic: how fast the order within a depth unit falls off the axis, 1 / length
-    double depth_sigma;     ///< sqrt(Sigma33)
-    double mean_variance;   ///< a third of Sigma's trace
-    double longest_step;    ///< in camera units
-    double near;            ///< perspective: voxels up to there are not drawn
+    double depth_sigma;   ///< sqrt(Sigma33)
+    double mean_variance; ///< a third of Sigma's trace
+    double longest_step;
+    double near;            ///< perspective: how far a voxel's kernel reaches along the axis; 0: orthographic
     double cutoff, cutoff2; ///< F, F^2
     double prefilter2_px2;  ///< h^2
     double whole;           ///< 1 / (1 - exp(-F^2 / 2)): makes up for what the cutoff leaves out
@@ -32,9 +39,9 @@ typedef struct ewa_grid_view {
                             ///< sqrt(p Sigma^-1 p) / |p| (orthographic: p = 0 0 1)
 } ewa_grid_view;
 
-/// `index_to_world` of the grid is invertible, camera and options are checked.
-void ewa_grid_view_make(ewa_grid_view *view, const double index_to_world[12], const ewa_camera *camera,
-                        const ewa_volume_options *options);
+/// `index_to_world` of the grid is invertible, camera and options are checked; `spacing_world` is the unit.
+void ewa_grid_view_make(ewa_grid_view *view, const double index_to_world[12], double spacing_world,
+                        const ewa_camera *camera, const ewa_volume_options *options);
 
 /// What splats of one depth unit are sorted by: the distance from the eye. By depth alone, whole layers of
 /// voxels that overlap would change places at once whenever a diagonal of the grid turns through the

@@ -4,8 +4,10 @@
 // The hot loops of volumes: what goes in and out of them. One body (kernels_body.h), one stub per instruction
 // set, the same bytes from each.
 //
-// Front to back, one tile at a time: `append` projects and shades the voxels of a block into buckets, one for
-// each depth unit. A bucket of points is summed with the circular filter (`sum_points`), then composited once
+// Voxels at the eye, which have no ellipse on the screen, come first: `append_near` lists them for all tiles,
+// `draw_near` draws them ray by ray. Then, front to back, one tile at a time: `append` projects and shades
+// the voxels of a block into buckets, one for each depth unit. A bucket of points is summed with the circular
+// filter (`sum_points`), then composited once
 // (`composite`); a bucket of splats is sorted, then composited one by one (`draw_splats`).
 #ifndef EWA_SRC_VOLUME_KERNELS_H
 #define EWA_SRC_VOLUME_KERNELS_H
@@ -60,6 +62,15 @@ typedef struct ewa_volume_bucket {
     uint32_t count, first_page, last_page;
 } ewa_volume_bucket;
 
+/// A voxel at the eye.
+typedef struct ewa_near_voxel {
+    float offset[3]; ///< from the eye, in standard deviations of the kernel along i, j, k
+    float square;    ///< of its length
+    float color[3], extinction;
+    float z, distance;
+    int32_t slice; ///< < 0
+} ewa_near_voxel;
+
 /// Pages and what follows each; `free_count` of `free` are to be had.
 typedef struct ewa_volume_pages {
     ewa_volume_page *pages;
@@ -75,10 +86,13 @@ typedef struct ewa_volume_light {
 
 /// Camera, grid and options of a frame in single precision.
 typedef struct ewa_volume_view {
-    bool orthographic, exact, lit, highlights, with_depth, with_surface;
+    bool orthographic, exact, lit, highlights, with_depth, with_surface, has_near;
     float fx_px, fy_px, cx_px, cy_px;
-    float axes[3][3];         ///< steps along i, j, k in camera space
-    float near, near_inverse; ///< voxels fade in between near and twice that; 0 for orthographic cameras
+    float axes[3][3];          ///< steps along i, j, k in camera space
+    float to_deviations[3][3]; ///< row vectors of camera space to standard deviations along i, j, k
+    float deviations_per_step;
+    float near;                      ///< perspective: voxels deeper than that behind the eye are not seen
+    double unit_camera;              ///< of a depth of ours in the planes of the frame
     float unit_inverse, unit_offset; ///< slice = floor(z unit_inverse + unit_offset)
     int32_t point_slice;             ///< slices from there on are of points
     float color_scale;               ///< of 16-bit colours
@@ -103,6 +117,7 @@ typedef struct ewa_volume_source {
     const int32_t *normals;
     uint32_t count;
     float origin[3];                 ///< its first place in camera space
+    float from_eye[3];               ///< the same from the eye in steps along i, j, k; for `append_near`
     int32_t slice_first, slice_last; ///< where its voxels may be
 } ewa_volume_source;
 
@@ -135,6 +150,14 @@ typedef struct ewa_volume_kernels {
     /// how many.
     uint32_t (*append)(const ewa_volume_view *view, const ewa_volume_source *source, ewa_volume_tile *tile);
 
+    /// Lists the voxels of a block that lie at the eye, in front of slice 0; returns how many, at most all.
+    uint32_t (*append_near)(const ewa_volume_view *view, const ewa_volume_source *source,
+                            ewa_near_voxel *voxels);
+
+    /// Composites such voxels in the order given.
+    void (*draw_near)(const ewa_volume_view *view, ewa_volume_tile *tile, const ewa_near_voxel *voxels,
+                      uint32_t count);
+
     /// Adds the points of a bucket to the tile's sums.
     void (*sum_points)(ewa_volume_tile *tile, const ewa_volume_bucket *bucket,
                        const ewa_point_filter *filter);
@@ -150,7 +173,7 @@ typedef struct ewa_volume_kernels {
     void (*clear)(ewa_volume_tile *tile);
 
     /// Writes the pixels over the background or the surfaces.
-    void (*resolve)(const ewa_volume_tile *tile, const ewa_volume_target *to);
+    void (*resolve)(const ewa_volume_view *view, const ewa_volume_tile *tile, const ewa_volume_target *to);
 } ewa_volume_kernels;
 
 /// The best version that the features (EWA_CPU_*) allow.

@@ -17,9 +17,13 @@
 
 /// Sixteen voxels in camera space.
 typedef struct voxel_lanes {
+    wf steps[3]; ///< along i, j, k within the block
+    wf place[3];
     wf x, y, z; ///< perspective: x and y are slopes
-    wf length;  ///< perspective: of (x, y, 1)
+    wf ahead;   ///< the third number that goes with these slopes: 1
+    wf length;  ///< perspective: of (x, y, ahead)
     wf inverse; ///< 1 / z
+    wf unit;    ///< depth unit, whole: the slice, before it is clamped
 } voxel_lanes;
 
 static ALWAYS_INLINE wf row_dot(const float *m, int stride, wf x, wf y, wf z) {
@@ -40,7 +44,9 @@ static ALWAYS_INLINE voxel_lanes place_voxels(const ewa_volume_view *view, const
         p[c] = wf_fma(i, wf_set(view->axes[0][c]),
                       wf_fma(j, wf_set(view->axes[1][c]),
                              wf_fma(k, wf_set(view->axes[2][c]), wf_set(source->origin[c]))));
-    voxel_lanes v = {.x = p[0], .y = p[1], .z = p[2], .length = wf_set(1), .inverse = wf_set(1)};
+    const wf one = wf_set(1);
+    voxel_lanes v = {{i, j, k}, {p[0], p[1], p[2]}, p[0], p[1], p[2], one, one, one, one};
+    v.unit = wf_floor(wf_fma(v.z, wf_set(view->unit_inverse), wf_set(view->unit_offset)));
     if (!view->orthographic) {
         v.inverse = wf_div(wf_set(1), p[2]);
         v.x = wf_mul(p[0], v.inverse);
@@ -91,7 +97,7 @@ static ALWAYS_INLINE void shade_voxels(const ewa_volume_view *view, const ewa_vo
     } else {
         const wf shrink = wf_div(wf_set(-1), v->length);
         for (int c = 0; c < 3; c++)
-            toward[c] = wf_mul(shrink, row_dot(view->to_world + 3 * c, 1, v->x, v->y, wf_set(1)));
+            toward[c] = wf_mul(shrink, row_dot(view->to_world + 3 * c, 1, v->x, v->y, v->ahead));
     }
     const wf side = dot(normal, toward);
     const wm behind = wf_lt(side, zero);
@@ -108,6 +114,13 @@ static ALWAYS_INLINE void shade_voxels(const ewa_volume_view *view, const ewa_vo
         const wf lit = wf_fma(color[c], diffuse[c], specular[c]);
         color[c] = wf_select(flat, wf_mul(color[c], wf_set(view->ambient + view->diffuse)), lit);
     }
+}
+
+static ALWAYS_INLINE void color_voxels(const ewa_volume_view *view, const ewa_volume_source *source,
+                                       uint32_t first, const voxel_lanes *v, wf color[3]) {
+    for (int c = 0; c < 3; c++)
+        color[c] = wf_mul(wf_from_i(wi_load_u16(source->colors[c] + first)), wf_set(view->color_scale));
+    if (view->lit) shade_voxels(view, source, first, v, color);
 }
 
 /// How far from its centre the ellipse of a splat may reach, px: a cone around the largest axis' sphere.
@@ -170,23 +183,19 @@ static uint32_t append(const ewa_volume_view *frame_view, const ewa_volume_sourc
              tile_y = wf_set(view->cy_px - (float)tile->y_px);
     const wf width = wf_set((float)tile->width_px), height = wf_set((float)tile->height_px), zero = wf_set(0);
     const bool has_splats = source->slice_first < view->point_slice;
-    const wf color_scale = wf_set(view->color_scale);
     uint32_t added = 0;
     for (uint32_t first = 0; first < source->count; first += 16) {
         const uint32_t left = source->count - first;
         const voxel_lanes v = place_voxels(view, source, first);
         const wf x = wf_fma(v.x, wf_set(view->fx_px), tile_x), y = wf_fma(v.y, wf_set(view->fy_px), tile_y);
-        const wf unit = wf_floor(wf_fma(v.z, wf_set(view->unit_inverse), wf_set(view->unit_offset)));
-        const wi slice = wi_max(
-            wi_min(wi_from_f(wf_max(wf_min(unit, wf_set(1e9f)), wf_set(-1e9f))), wi_set(source->slice_last)),
-            wi_set(source->slice_first));
+        const wi slice = wi_max(wi_min(wi_from_f(wf_max(wf_min(v.unit, wf_set(1e9f)), wf_set(-1e9f))),
+                                       wi_set(source->slice_last)),
+                                wi_set(source->slice_first));
         wi offset, info;
         wm touches;
         point_places(tile, x, y, &offset, &info, &touches);
         wf place_x = wf_of_bits(offset), place_y = wf_of_bits(info);
-        wf density = wf_mul(wf_load(source->extinctions + first), wf_set(view->density));
-        if (!view->orthographic)
-            density = wf_mul(density, wf_min(wf_fma(v.z, wf_set(view->near_inverse), wf_set(-1)), wf_set(1)));
+        const wf density = wf_mul(wf_load(source->extinctions + first), wf_set(view->density));
         // Mass on the screen: Jacobian of the projection, |p| / z^3.
         wf mass = wf_mul(density, wf_set(view->point_mass));
         if (!view->orthographic) mass = wf_mul(mass, wf_mul(v.length, wf_mul(v.inverse, v.inverse)));
@@ -202,13 +211,12 @@ static uint32_t append(const ewa_volume_view *frame_view, const ewa_volume_sourc
             factor = wf_select(points, mass, wf_set(1));
             last = wf_select(points, mass, wf_min(density, wf_set(1e18f)));
         }
-        touches = wm_and(touches, wm_and(wf_lt(wf_set(view->near), v.z), wf_lt(zero, last)));
+        touches = wm_and(touches, wf_lt(zero, last));
+        if (view->has_near) touches = wm_and(touches, wf_le(zero, v.unit));
         uint32_t bits = wm_bits(touches) & (left < 16 ? (1u << left) - 1 : 0xffff);
         if (!bits) continue;
         wf color[3];
-        for (int c = 0; c < 3; c++)
-            color[c] = wf_mul(wf_from_i(wi_load_u16(source->colors[c] + first)), color_scale);
-        if (view->lit) shade_voxels(view, source, first, &v, color);
+        color_voxels(view, source, first, &v, color);
         float colors[64], places[64];
         int32_t slices[16];
         w_store4(colors, wf_mul(color[0], factor), wf_mul(color[1], factor), wf_mul(color[2], factor), last);

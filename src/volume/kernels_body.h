@@ -5,6 +5,7 @@
 // WIDE_PORTABLE, VOLUME_NAME and VOLUME_KERNELS; this file undefines them. Reference: src/volume/reference.c;
 // equality class of the versions among themselves: the same bytes.
 #include "volume/kernels_append.h"
+#include "volume/kernels_near.h"
 #include "volume/kernels_points.h"
 #include "volume/kernels_resolve.h"
 #include "volume/kernels_splats.h"
@@ -12,6 +13,8 @@
 const ewa_volume_kernels VOLUME_KERNELS = {
     .name = VOLUME_NAME,
     .append = append,
+    .append_near = append_near,
+    .draw_near = draw_near,
     .sum_points = sum_points,
     .composite = composite,
     .draw_splats = draw_splats,

@@ -37,14 +37,18 @@ typedef struct place {
     uint32_t width, height;
 } place;
 
-static void store_plane(float *plane, uint32_t width_px, const place *at, wf values) {
+/// `unit` multiplies the numbers in double precision: theirs may be any.
+static void store_plane(float *plane, uint32_t width_px, const place *at, wf values, double unit) {
     float lanes[16];
     wf_store(lanes, values);
+    for (int i = 0; i < 16 && unit != 1; i++)
+        if (lanes[i] < __builtin_inff()) lanes[i] = (float)((double)lanes[i] * unit);
     for (uint32_t row = 0; row < at->height; row++)
         memcpy(plane + at->first + (size_t)row * width_px, lanes + 4 * row, at->width * sizeof(float));
 }
 
-static void resolve_block(const ewa_volume_target *to, const float *pixels, const place *at) {
+static void resolve_block(const ewa_volume_target *to, const float *pixels, const place *at,
+                          double unit_camera) {
     const wf through = wf_load(pixels + 48), opacity = wf_sub(wf_set(1), through);
     wf behind[4];
     for (int c = 0; c < 4; c++) behind[c] = wf_set(to->background[c]);
@@ -71,11 +75,11 @@ static void resolve_block(const ewa_volume_target *to, const float *pixels, cons
             memcpy(to->rgba + 4 * (at->first + (size_t)row * to->width_px), lanes + 16 * row,
                    at->width * 4 * sizeof(float));
     }
-    if (to->coverage) store_plane(to->coverage, to->width_px, at, opacity);
-    if (to->depth) store_plane(to->depth, to->width_px, at, wf_load(pixels + 64));
+    if (to->coverage) store_plane(to->coverage, to->width_px, at, opacity, 1);
+    if (to->depth) store_plane(to->depth, to->width_px, at, wf_load(pixels + 64), unit_camera);
 }
 
-static void resolve(const ewa_volume_tile *tile, const ewa_volume_target *to) {
+static void resolve(const ewa_volume_view *view, const ewa_volume_tile *tile, const ewa_volume_target *to) {
     for (int32_t y = 0; y < tile->height_px; y += 4)
         for (int32_t x = 0; x < tile->width_px; x += 4) {
             const size_t block = (size_t)(y / 4 * EWA_VOLUME_ROW_BLOCKS + x / 4);
@@ -84,7 +88,7 @@ static void resolve(const ewa_volume_tile *tile, const ewa_volume_target *to) {
                 .width = tile->width_px - x < 4 ? (uint32_t)(tile->width_px - x) : 4,
                 .height = tile->height_px - y < 4 ? (uint32_t)(tile->height_px - y) : 4,
             };
-            resolve_block(to, tile->pixels + block * EWA_VOLUME_CHANNELS * 16, &at);
+            resolve_block(to, tile->pixels + block * EWA_VOLUME_CHANNELS * 16, &at, view->unit_camera);
         }
 }
 

@@ -25,6 +25,7 @@ typedef struct splat {
     uint64_t number; ///< of the voxel: decides between equal depths
     ewa_vec3 place;  ///< camera space
     double unit;     ///< number of its depth unit
+    bool near;       ///< at the eye: its kernel may reach behind it, where it is no ellipse on the screen
     double distance; ///< of ewa_grid_distance()
     ewa_vec3 color;  ///< shaded
     double extinction;
@@ -45,7 +46,7 @@ typedef struct reference {
     ewa_grid_view grid;
     ewa_classifier classifier;
     ewa_shading_setup shading;
-    double depth_unit;
+    double depth_unit, first_far_unit;
     splat *splats;
     uint64_t splat_count;
     pixel *pixels;
@@ -108,7 +109,19 @@ static void cholesky(const double v[3], double l[3]) {
 
 static bool make_splat(const reference *work, const ewa_voxel *voxel, ewa_vec3 place, splat *made) {
     const ewa_grid_view *grid = &work->grid;
-    if (!(place.z > grid->near)) return false;
+    // Perspective: nothing of the kernel is ahead of the eye.
+    if ((!grid->orthographic && !(place.z > -grid->near)) || !(place.z < EWA_FARTHEST)) return false;
+    made->place = place;
+    made->unit = ewa_volume_unit_of(grid, work->depth_unit, place.z);
+    made->near = made->unit < work->first_far_unit;
+    made->distance = ewa_grid_distance(grid, place);
+    made->color = shade(work, voxel, place);
+    made->extinction = voxel->extinction * work->options.density_scale;
+    if (made->near) {
+        made->center_px[0] = made->center_px[1] = 0;
+        made->reach_px[0] = made->reach_px[1] = INFINITY;
+        return true;
+    }
     double v[3], l[3], filtered[3], m[3];
     project(grid, place, v, made->center_px);
     memcpy(filtered, v, sizeof filtered);
@@ -125,18 +138,18 @@ static bool make_splat(const reference *work, const ewa_voxel *voxel, ewa_vec3 p
     cholesky(filtered, m);
     made->unfilter[0][0] = l[0] / m[0], made->unfilter[0][1] = 0;
     made->unfilter[1][0] = (l[1] - l[2] * m[1] / m[2]) / m[0], made->unfilter[1][1] = l[2] / m[2];
-    made->place = place;
-    made->unit = ewa_volume_unit_of(grid, work->depth_unit, place.z);
-    made->distance = ewa_grid_distance(grid, place);
-    made->color = shade(work, voxel, place);
-    made->extinction = voxel->extinction * work->options.density_scale;
-    if (!grid->orthographic) made->extinction *= fmin(1, (place.z - grid->near) / grid->near);
     return true;
 }
 
-/// The voxel's Mahalanobis distance squared from the ray through a place on the screen, and the length of a
-/// standard deviation along that ray.
-static double ray_distance2(const ewa_grid_view *grid, ewa_vec3 p, double x_px, double y_px, double *length) {
+/// How a ray passes a voxel.
+typedef struct passage {
+    double distance2; ///< Mahalanobis distance squared
+    double length;    ///< of a standard deviation along the ray
+    double ahead;     ///< perspective: where it is nearest, in standard deviations from the eye
+} passage;
+
+/// The ray through a place on the screen.
+static passage pass(const ewa_grid_view *grid, ewa_vec3 p, double x_px, double y_px) {
     ewa_vec3 ray = vec3_make(0, 0, 1), from;
     if (grid->orthographic) {
         from =
@@ -148,36 +161,46 @@ static double ray_distance2(const ewa_grid_view *grid, ewa_vec3 p, double x_px, 
     const double a = vec3_dot(ray, mat3_mul_vec3(&grid->inverse, ray));
     const double b = vec3_dot(ray, mat3_mul_vec3(&grid->inverse, from));
     const double c = vec3_dot(from, mat3_mul_vec3(&grid->inverse, from));
-    *length = vec3_length(ray) / sqrt(a);
-    return c - b * b / a;
+    const double ahead = vec3_dot(ray, mat3_mul_vec3(&grid->inverse, p)) / sqrt(a);
+    return (passage){c - b * b / a, vec3_length(ray) / sqrt(a), grid->orthographic ? INFINITY : ahead};
+}
+
+/// Phi, the share of a normal distribution below t.
+static double share_below(double t) { return 0.5 * erfc(-t / sqrt(2)); }
+
+/// The optical depth of a voxel at the eye: what of its kernel lies ahead.
+static double optical_depth_near(const reference *work, const splat *at, double x_px, double y_px) {
+    const ewa_grid_view *grid = &work->grid;
+    const passage by = pass(grid, at->place, x_px, y_px);
+    if (by.distance2 >= grid->cutoff2 || by.ahead <= -grid->cutoff) return 0;
+    return at->extinction * grid->splat_peak * by.length * exp(-by.distance2 / 2) * share_below(by.ahead);
 }
 
 /// The optical depth of a voxel at a pixel's centre; 0 outside of its ellipse.
 static double optical_depth(const reference *work, const splat *at, double x_px, double y_px) {
     const ewa_grid_view *grid = &work->grid;
+    if (at->near) return optical_depth_near(work, at, x_px, y_px);
     const double dx = x_px - at->center_px[0], dy = y_px - at->center_px[1];
     const double i2 = at->conic[0] * dx * dx + 2 * at->conic[1] * dx * dy + at->conic[2] * dy * dy;
     if (i2 >= 1) return 0;
     const double true_x = at->center_px[0] + at->unfilter[0][0] * dx + at->unfilter[0][1] * dy;
     const double true_y = at->center_px[1] + at->unfilter[1][0] * dx + at->unfilter[1][1] * dy;
-    double length, distance2;
-    if (work->options.index == EWA_INDEX_EXACT) {
-        distance2 = ray_distance2(grid, at->place, true_x, true_y, &length);
-    } else if (grid->orthographic) {
-        ray_distance2(grid, at->place, true_x, true_y, &length);
-        distance2 = grid->cutoff2 * i2;
-    } else {
+    passage by = pass(grid, at->place, true_x, true_y);
+    if (work->options.index == EWA_INDEX_TABLE && grid->orthographic) {
+        by.distance2 = grid->cutoff2 * i2;
+    } else if (work->options.index == EWA_INDEX_TABLE) {
         const double c = vec3_dot(at->place, mat3_mul_vec3(&grid->inverse, at->place));
-        length = vec3_length(at->place) / sqrt(c);
-        distance2 = grid->cutoff2 * ewa_footprint_index2(i2, grid->cutoff2 / c);
+        by.length = vec3_length(at->place) / sqrt(c);
+        by.distance2 = grid->cutoff2 * ewa_footprint_index2(i2, grid->cutoff2 / c);
     }
-    return at->extinction * grid->splat_peak * length * at->attenuation * exp(-distance2 / 2);
+    // All of the kernel is ahead, but for next to nothing.
+    return at->extinction * grid->splat_peak * by.length * at->attenuation * exp(-by.distance2 / 2);
 }
 
 /// The share of a voxel that lies in front of the surface.
 static double share_in_front(const reference *work, size_t index, double z) {
     if (!work->options.surface_depth) return 1;
-    const double behind = (double)work->options.surface_depth[index] - z;
+    const double behind = (double)work->options.surface_depth[index] / work->grid.unit_camera - z;
     return 0.5 * erfc(-behind / (work->grid.depth_sigma * sqrt(2)));
 }
 
@@ -198,7 +221,7 @@ static void composite(const reference *work, const splat *at, uint32_t y_begin, 
             to->color[0] += weight * at->color.x;
             to->color[1] += weight * at->color.y;
             to->color[2] += weight * at->color.z;
-            if (to->through > 0.5 && through <= 0.5) to->depth = at->place.z;
+            if (to->through > 0.5 && through <= 0.5) to->depth = fmax(at->place.z, 0);
             to->through = through;
         }
 }
@@ -214,7 +237,8 @@ static void write_pixel(const reference *work, size_t index) {
                                       : (double)background[3];
         out[c] = (c < 3 ? at->color[c] : 1 - at->through) + at->through * behind;
     }
-    if (frame->depth) frame->depth[index] = (float)at->depth;
+    if (frame->depth)
+        frame->depth[index] = isinf(at->depth) ? INFINITY : (float)(at->depth * work->grid.unit_camera);
     if (frame->coverage) frame->coverage[index] = (float)(1 - at->through);
     for (size_t c = 0; c < 4 && frame->rgba; c++) frame->rgba[4 * index + c] = (float)out[c];
     for (size_t c = 0; c < 3 && frame->rgba8; c++)
@@ -299,8 +323,10 @@ ewa_status ewa_volume_render_reference(const ewa_volume *volume, const ewa_trans
     if (status == EWA_OK) status = ewa_volume_frame_check(context, frame);
     if (status == EWA_OK) status = ewa_classifier_make(context, volume, transfer, &work.classifier);
     if (status != EWA_OK) return status;
-    ewa_grid_view_make(&work.grid, volume->index_to_world, camera, &work.options);
+    ewa_grid_view_make(&work.grid, volume->index_to_world, work.classifier.spacing_world, camera,
+                       &work.options);
     ewa_volume_shading_make(&work.options, &work.shading);
     work.depth_unit = ewa_volume_depth_unit(&work.grid, &work.options);
+    work.first_far_unit = ewa_volume_first_far_unit(&work.grid, work.depth_unit);
     return render(context, &work);
 }

@@ -11,6 +11,7 @@ struct ewa_volume_renderer {
     ewa_context *context;
     const ewa_volume_kernels *kernels;
     ewa_volume_bins bins;
+    ewa_near_list near;
     uint32_t worker_count;
     ewa_point_filter filters[EWA_FILTER_COUNT];
     ewa_footprint_table table;
@@ -52,6 +53,7 @@ void ewa_volume_renderer_destroy(ewa_volume_renderer **renderer) {
         ewa_release(context, old->scratch[i], 1, sizeof *old->scratch[i]);
     }
     ewa_volume_bins_free(context, &old->bins);
+    ewa_near_list_free(context, &old->near);
     ewa_release(context, old, 1, renderer_bytes(old->worker_count));
     *renderer = NULL;
 }
@@ -60,6 +62,7 @@ static void gather_stats(const ewa_volume_renderer *renderer, const ewa_voxel_le
                          double binned_s, ewa_volume_stats *stats) {
     *stats = (ewa_volume_stats){.voxel_count = level->voxel_count,
                                 .culled_count = renderer->bins.culled_voxel_count,
+                                .near_count = renderer->near.count,
                                 .bin_s = (binned_s - start_s) * renderer->worker_count};
     for (uint32_t i = 0; i < renderer->worker_count; i++) {
         const ewa_volume_scratch *s = renderer->scratch[i];
@@ -96,12 +99,13 @@ ewa_status ewa_volume_render(ewa_volume_renderer *renderer, const ewa_voxels *vo
     ewa_grid_view grid;
     ewa_volume_slices slices;
     ewa_shading_setup shading;
-    ewa_grid_view_make(&grid, level->index_to_world, camera, &chosen);
+    ewa_grid_view_make(&grid, level->index_to_world, voxels->info.spacing_world, camera, &chosen);
     ewa_volume_slices_make(&slices, level, &grid, &chosen);
     ewa_volume_shading_make(&chosen, &shading);
     ewa_volume_job job = {.kernels = renderer->kernels,
                           .level = level,
                           .bins = &renderer->bins,
+                          .near = &renderer->near,
                           .grid = &grid,
                           .slices = &slices,
                           .filters = (const ewa_point_filter *)renderer->filters,
@@ -112,6 +116,9 @@ ewa_status ewa_volume_render(ewa_volume_renderer *renderer, const ewa_voxels *vo
     job.view.with_depth = frame->depth != NULL;
     ewa_volume_target_set(&job.target, camera, &chosen, frame);
     status = ewa_volume_bins_fill(context, &renderer->bins, level, &grid, &slices, camera);
+    if (status == EWA_OK)
+        status = ewa_near_list_fill(context, &renderer->near, renderer->kernels, &job.view, level, &grid,
+                                    &renderer->bins, camera);
     const double binned_s = ewa_now_s();
     for (uint32_t i = 0; i < renderer->worker_count && status == EWA_OK; i++)
         status = ewa_volume_scratch_reserve(context, renderer->scratch[i], &job);

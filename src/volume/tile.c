@@ -6,11 +6,11 @@
 // Based on: X. Yuan, M. Nguyen, H. Xu, B. Chen, "Hybrid Forward Resampling and Volume Rendering", 2003,
 // section 4.1 (splats composited one by one, points summed first) and section 6 (occlusion culling).
 #include "volume/tile.h"
+#include "volume/near.h"
+#include "volume/sort.h"
 
 #include <math.h>
 #include <string.h>
-
-enum { RADIX_BITS = 11, RADIX = 1 << RADIX_BITS, FEW_SPLATS = 24 };
 
 static uint32_t ring_size(const ewa_volume_bins *bins) {
     uint32_t size = 2;
@@ -41,6 +41,7 @@ ewa_status ewa_volume_scratch_reserve(ewa_context *context, ewa_volume_scratch *
         {&scratch->free, pages, sizeof(uint32_t)},
         {&scratch->order, sorted, sizeof(uint32_t)},
         {&scratch->keys, sorted, sizeof(uint32_t)},
+        {&scratch->near, job->near->count, sizeof(ewa_near_voxel)},
     };
     if (pages >= EWA_NO_PAGE / EWA_PAGE_RECORDS)
         return ewa_fail(context, EWA_ERROR_MEMORY, "volume: %llu voxels in one tile at a time",
@@ -56,9 +57,9 @@ ewa_status ewa_volume_scratch_reserve(ewa_context *context, ewa_volume_scratch *
 }
 
 void ewa_volume_scratch_free(ewa_context *context, ewa_volume_scratch *scratch) {
-    ewa_buffer *const buffers[] = {&scratch->sums, &scratch->pixels, &scratch->surface,
-                                   &scratch->ring, &scratch->pages,  &scratch->next,
-                                   &scratch->free, &scratch->order,  &scratch->keys};
+    ewa_buffer *const buffers[] = {&scratch->sums,  &scratch->pixels, &scratch->surface, &scratch->ring,
+                                   &scratch->pages, &scratch->next,   &scratch->free,    &scratch->order,
+                                   &scratch->keys,  &scratch->near};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++) ewa_buffer_free(context, buffers[i]);
 }
 
@@ -70,7 +71,8 @@ static void copy_surface(const ewa_volume_job *job, ewa_volume_tile *tile) {
             const uint32_t x = (uint32_t)tile->x_px + column, y = (uint32_t)tile->y_px + row;
             const bool inside = x < job->target.width_px && y < job->target.height_px;
             const float z = inside ? job->surface_depth[(size_t)y * job->target.width_px + x] : INFINITY;
-            tile->surface[16 * block + 4 * (row % 4) + column % 4] = z;
+            tile->surface[16 * block + 4 * (row % 4) + column % 4] =
+                (float)((double)z / job->grid->unit_camera);
         }
 }
 
@@ -137,64 +139,8 @@ static void hide_behind_surface(const ewa_volume_job *job, ewa_volume_tile *tile
 
 /// Projects a block's voxels into the tile's buckets.
 static void add_block(const ewa_volume_job *job, ewa_volume_tile *tile, const ewa_block_view *view) {
-    const ewa_voxel_level *level = job->level;
-    const ewa_voxel_block *block = &level->blocks[view->block];
-    const double side = EWA_BLOCK_SIDE;
-    const ewa_vec3 origin =
-        ewa_grid_place(job->grid, side * block->place[0], side * block->place[1], side * block->place[2]);
-    const ewa_volume_source source = {
-        .places = level->places + block->first,
-        .colors = {level->colors[0] + block->first, level->colors[1] + block->first,
-                   level->colors[2] + block->first},
-        .extinctions = level->extinctions + block->first,
-        .normals = level->normals + block->first,
-        .count = block->count,
-        .origin = {(float)origin.x, (float)origin.y, (float)origin.z},
-        .slice_first = view->slice_first,
-        .slice_last = view->slice_last,
-    };
+    const ewa_volume_source source = ewa_block_source(job->level, job->grid, view);
     job->kernels->append(&job->view, &source, tile);
-}
-
-static uint32_t bits_of(float distance) {
-    uint32_t bits;
-    memcpy(&bits, &distance, sizeof bits);
-    return bits; // distances are positive: they sort as their bits do
-}
-
-/// Sorts `count` numbers by keys, ties as they come; returns the list in which they end up. Both lists are
-/// followed by as much room.
-static uint32_t *sort_by_keys(uint32_t *numbers, uint32_t *keys, uint32_t count, size_t room) {
-    if (count <= FEW_SPLATS) {
-        for (uint32_t i = 1; i < count; i++) {
-            const uint32_t key = keys[i], number = numbers[i];
-            uint32_t to = i;
-            for (; to > 0 && keys[to - 1] > key; to--) keys[to] = keys[to - 1], numbers[to] = numbers[to - 1];
-            keys[to] = key, numbers[to] = number;
-        }
-        return numbers;
-    }
-    uint32_t low = UINT32_MAX, high = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        low = keys[i] < low ? keys[i] : low;
-        high = keys[i] > high ? keys[i] : high;
-    }
-    uint32_t *other_numbers = numbers + room, *other_keys = keys + room;
-    for (uint32_t shift = 0; shift < 32 && (high - low) >> shift; shift += RADIX_BITS) {
-        uint32_t starts[RADIX + 1] = {0};
-        for (uint32_t i = 0; i < count; i++) starts[((keys[i] - low) >> shift & (RADIX - 1)) + 1]++;
-        for (uint32_t i = 0; i < RADIX; i++) starts[i + 1] += starts[i];
-        for (uint32_t i = 0; i < count; i++) {
-            const uint32_t to = starts[(keys[i] - low) >> shift & (RADIX - 1)]++;
-            other_keys[to] = keys[i];
-            other_numbers[to] = numbers[i];
-        }
-        uint32_t *swap = numbers;
-        numbers = other_numbers, other_numbers = swap;
-        swap = keys;
-        keys = other_keys, other_keys = swap;
-    }
-    return numbers;
 }
 
 /// Splats of one depth unit, by their distances (ewa_grid_distance()).
@@ -205,11 +151,11 @@ static void draw_splats(const ewa_volume_job *job, ewa_volume_scratch *scratch, 
     while (count < bucket->count) {
         for (uint32_t slot = 0; slot < EWA_PAGE_RECORDS && count < bucket->count; slot++, count++) {
             numbers[count] = page * EWA_PAGE_RECORDS + slot;
-            keys[count] = bits_of(tile->pages.pages[page].records[slot].distance);
+            keys[count] = ewa_sort_key(tile->pages.pages[page].records[slot].distance);
         }
         page = tile->pages.next[page];
     }
-    const uint32_t *order = sort_by_keys(numbers, keys, count, page_count(job->bins) * EWA_PAGE_RECORDS);
+    const uint32_t *order = ewa_sort_by_keys(numbers, keys, count, page_count(job->bins) * EWA_PAGE_RECORDS);
     job->kernels->draw_splats(&job->view, tile, order, count);
     scratch->splat_count += count;
 }
@@ -220,6 +166,21 @@ static void draw_points(const ewa_volume_job *job, ewa_volume_scratch *scratch, 
     job->kernels->sum_points(tile, bucket, &job->filters[filter]);
     job->kernels->composite(&job->view, tile, (float)z);
     scratch->point_count += bucket->count;
+}
+
+/// The voxels at the eye that rays of the tile meet.
+static void draw_near(const ewa_volume_job *job, ewa_volume_scratch *scratch, ewa_volume_tile *tile) {
+    ewa_near_voxel *met = scratch->near.data;
+    uint32_t count = 0;
+    ewa_ray_cone cone;
+    ewa_ray_cone_make(&cone, job->grid, tile->x_px, tile->y_px, tile->x_px + tile->width_px,
+                      tile->y_px + tile->height_px);
+    for (const ewa_near_voxel *at = job->near->voxels; at < job->near->voxels + job->near->count; at++) {
+        const double offset[3] = {(double)at->offset[0], (double)at->offset[1], (double)at->offset[2]};
+        if (ewa_ray_cone_meets(&cone, offset, job->grid->cutoff)) met[count++] = *at;
+    }
+    job->kernels->draw_near(&job->view, tile, met, count);
+    scratch->splat_count += count;
 }
 
 static void empty_bucket(ewa_volume_tile *tile, ewa_volume_bucket *bucket) {
@@ -249,6 +210,11 @@ void ewa_volume_tile_draw(void *data, uint32_t index, uint32_t worker) {
     uint64_t next = bins->tile_first[index];
     const uint64_t end = bins->tile_first[index + 1];
     int32_t last_slice = -1;
+    if (job->near->count) {
+        take_time(job, &last_s, &scratch->setup_s);
+        draw_near(job, scratch, &tile);
+        take_time(job, &last_s, &scratch->splats_s);
+    }
     for (int32_t slice = 0; slice < (int32_t)job->slices->count; slice++) {
         if (slice > last_slice) { // nothing in flight
             if (next == end) break;
@@ -279,6 +245,6 @@ void ewa_volume_tile_draw(void *data, uint32_t index, uint32_t worker) {
     }
     for (; next < end; next++)
         scratch->hidden_count += job->level->blocks[bins->views[bins->list[next]].block].count;
-    job->kernels->resolve(&tile, &job->target);
+    job->kernels->resolve(&job->view, &tile, &job->target);
     take_time(job, &last_s, &scratch->resolve_s);
 }

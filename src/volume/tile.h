@@ -5,11 +5,11 @@
 #ifndef EWA_SRC_VOLUME_TILE_H
 #define EWA_SRC_VOLUME_TILE_H
 
-#include "volume/bin.h"
+#include "volume/near.h"
 
 /// What a worker needs; survives from frame to frame. Zero-initialise.
 typedef struct ewa_volume_scratch {
-    ewa_buffer sums, pixels, surface, ring, pages, next, free, order, keys;
+    ewa_buffer sums, pixels, surface, ring, pages, next, free, order, keys, near;
     uint64_t hidden_count, splat_count, point_count;
     double setup_s, points_s, splats_s, resolve_s;
 } ewa_volume_scratch;
@@ -19,6 +19,7 @@ typedef struct ewa_volume_job {
     const ewa_volume_kernels *kernels;
     const ewa_voxel_level *level;
     const ewa_volume_bins *bins;
+    const ewa_near_list *near;
     const ewa_grid_view *grid;
     const ewa_volume_slices *slices;
     const ewa_point_filter *filters;

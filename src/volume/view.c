@@ -10,9 +10,14 @@
 /// Standard deviation up to which points are as good as splats: 60 dB.
 static const double WIDEST_POINT_PX = 0.8;
 
+/// Standard deviations by which at least rays that meet a kernel's rim are ahead of the eye, where voxels are
+/// drawn as ellipses: 0.14 % of what is at the rim is behind it then, at three standard deviations 1.5e-5 of
+/// the voxel.
+static const double AHEAD_DEVIATIONS = 3;
+
 static double focal_px(const ewa_grid_view *grid) { return fmax(grid->fx_px, grid->fy_px); }
 
-/// Depths of the grid's corners in front of the eye.
+/// Depths of the grid's corners.
 static void depth_range(const ewa_voxel_level *level, const ewa_grid_view *grid, double *low, double *high) {
     *low = INFINITY, *high = -INFINITY;
     for (int corner = 0; corner < 8; corner++) {
@@ -22,14 +27,18 @@ static void depth_range(const ewa_voxel_level *level, const ewa_grid_view *grid,
                 .z;
         *low = fmin(*low, z), *high = fmax(*high, z);
     }
-    *low = fmax(*low, grid->near);
-    *high = fmax(*low, *high);
 }
 
 double ewa_volume_depth_unit(const ewa_grid_view *grid, const ewa_volume_options *options) {
     double shortest = INFINITY;
     for (int axis = 0; axis < 3; axis++) shortest = fmin(shortest, vec3_length(mat3_row(&grid->axes, axis)));
     return shortest * options->depth_unit;
+}
+
+double ewa_volume_first_far_unit(const ewa_grid_view *grid, double unit) {
+    if (grid->orthographic) return -INFINITY;
+    const double end = grid->depth_sigma * sqrt(grid->cutoff2 + AHEAD_DEVIATIONS * AHEAD_DEVIATIONS);
+    return ewa_volume_unit_of(grid, unit, end) + 1;
 }
 
 void ewa_volume_slices_make(ewa_volume_slices *slices, const ewa_voxel_level *level,
@@ -41,9 +50,11 @@ void ewa_volume_slices_make(ewa_volume_slices *slices, const ewa_voxel_level *le
     double unit = shortest * options->depth_unit;
     // Slabs of flat voxels would be cut into more slices than there is anything in.
     while ((high - low) / unit > MOST_SLICES) unit *= 2;
-    const double first_unit = ewa_volume_unit_of(grid, unit, low);
+    const double lowest = ewa_volume_unit_of(grid, unit, low), highest = ewa_volume_unit_of(grid, unit, high);
+    const double far = ewa_volume_first_far_unit(grid, unit), first_unit = fmax(lowest, far);
     *slices = (ewa_volume_slices){.unit = unit, .start = grid->origin.z + (first_unit - 0.5) * unit};
-    slices->count = (uint32_t)(ewa_volume_unit_of(grid, unit, high) - first_unit) + 1;
+    slices->count = (uint32_t)fmax(highest - first_unit, 0) + 1;
+    slices->has_near = lowest < far && high > -grid->near;
     const int32_t all = 0, none = (int32_t)slices->count;
     // From this depth on (orthographic: at 1) voxels are as small as asked for, and their filter as narrow as
     // four taps hold well.
@@ -105,7 +116,12 @@ void ewa_volume_view_set(ewa_volume_view *view, const ewa_grid_view *grid, const
     view->cx_px = (float)grid->cx_px, view->cy_px = (float)grid->cy_px;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) view->axes[i][j] = (float)grid->axes.m[i][j];
-    view->near = (float)grid->near, view->near_inverse = grid->orthographic ? 0 : (float)(1 / grid->near);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            view->to_deviations[i][j] = (float)(grid->to_steps.m[i][j] / grid->kernel_steps);
+    view->deviations_per_step = (float)(1 / grid->kernel_steps);
+    view->near = (float)grid->near, view->has_near = slices->has_near;
+    view->unit_camera = grid->unit_camera;
     view->unit_inverse = (float)(1 / slices->unit),
     view->unit_offset = (float)(-slices->start / slices->unit);
     view->point_slice = slices->point_slice;

@@ -15,19 +15,24 @@
 /// Depth units of a frame. Unit 0 has the depth of voxel 0, 0, 0 in its middle, so that layers of voxels that
 /// are parallel to the picture are in the middles of units, and not torn apart by rounding.
 typedef struct ewa_volume_slices {
-    double unit;  ///< camera units
+    double unit;  ///< units of the grid
     double start; ///< depth at which slice 0 begins
     uint32_t count;
+    bool has_near;       ///< voxels in front of slice 0 are drawn ray by ray
     int32_t point_slice; ///< slices from there on are of points
 } ewa_volume_slices;
 
-/// The depth unit of a grid, camera units.
+/// The depth unit of a grid, in its units.
 double ewa_volume_depth_unit(const ewa_grid_view *grid, const ewa_volume_options *options);
 
 /// The number of the unit that holds a depth.
 static inline double ewa_volume_unit_of(const ewa_grid_view *grid, double unit, double z) {
     return floor((z - grid->origin.z) / unit + 0.5);
 }
+
+/// The first depth unit of which all voxels are far enough from the eye to be ellipses on the screen; those
+/// of units before it are drawn ray by ray. -infinity for orthographic cameras.
+double ewa_volume_first_far_unit(const ewa_grid_view *grid, double unit);
 
 /// All arguments are checked ones.
 void ewa_volume_slices_make(ewa_volume_slices *slices, const ewa_voxel_level *level,

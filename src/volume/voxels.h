@@ -30,7 +30,7 @@ typedef struct ewa_voxel_level {
     uint64_t block_count, voxel_count;
     uint16_t *places;    ///< [voxel] within the block: i | j << 3 | k << 6
     uint16_t *colors[3]; ///< [voxel] linear; 65535 is ewa_voxels.color_scale
-    float *extinctions;  ///< [voxel] per world unit
+    float *extinctions;  ///< [voxel] per shortest spacing of level 0
     int32_t *normals;    ///< [voxel] x | y << 10 | z << 20, 10 bits each, 511 is 1; 0: none
 } ewa_voxel_level;
 

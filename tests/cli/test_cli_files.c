@@ -200,12 +200,12 @@ static void test_failures_leave_nothing(void **state) {
     (void)state;
     assert_int_equal(scratch_enter("cli_files_none"), 0);
     run_fails(1, "none.ply: |No such file", "ewa convert none.ply -o a.ply");
-    run_fails(1, "missing/a.ply|No such file", "ewa generate sphere -o missing/a.ply");
-    run_fails(1, "a.xyz", "ewa generate sphere -n 10 -o a.xyz");
+    run_fails(2, "missing/a.ply|No such file", "ewa generate sphere -o missing/a.ply");
+    run_fails(2, "a.xyz", "ewa generate sphere -n 10 -o a.xyz");
     assert_int_equal(scratch_count(), 0);
-    run_done("mkdir sub");
-    run_fails(1, "sub: is a folder", "ewa generate sphere -o sub");
-    run_fails(1, "sub", "ewa info sub");
+    run_done("mkdir sub.ply");
+    run_fails(2, "sub.ply: is a folder", "ewa generate sphere -o sub.ply");
+    run_fails(1, "sub.ply", "ewa info sub.ply");
     assert_int_equal(scratch_count(), 1);
     if (access("/dev/full", W_OK) == 0) {
         run_fails(1, "No space left", "ewa generate sphere -o - >/dev/full");

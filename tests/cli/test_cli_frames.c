@@ -133,7 +133,7 @@ static void test_usage(void **state) {
         {"-o a_%d.png --turntable 4 --path c.json", "exclude"},
         {"-o a_%d.png --frames 4", "--frames needs --path"},
         {"-o a_%d.png --path c.json --loop", "--loop needs --frames"},
-        {"-o a_%d.png --path c.json --view top", "--path excludes"},
+        {"-o a_%d.png --path c.json --view top", "--path and --view exclude"},
         {"-o a_%d.png --turntable 4 --fps 20", "--fps"},
         {"-o a.gif --turntable 4 --quality 20", "--quality"},
         {"-o a.mp4", "--turntable or --path"},
@@ -172,24 +172,36 @@ static void test_film_fails(void **state) {
     (void)state;
     run_done("rm -rf films && mkdir films");
     // Under PATH=/nonexistent the shell finds its own commands only.
-    run_fails(1, "a.mp4|ffmpeg|not in PATH",
+    run_fails(2, "a.mp4|ffmpeg|not in PATH",
               "PATH=/nonexistent; ewa render torus.ply -o films/a.mp4 --turntable 5");
     run_fails(1, "a.mp4|status 3|Unknown encoder",
               "PATH=$PWD/broken:$PATH && ewa render torus.ply -o films/a.mp4 --turntable 40 --size 320x240");
     run_fails(1, "a.mp4|signal 9",
               "PATH=$PWD/dying:$PATH && ewa render torus.ply -o films/a.mp4 --turntable 40 --size 320x240");
-    run_fails(1, "nowhere", "PATH=$PWD/fake:$PATH && ewa render torus.ply -o nowhere/a.mp4 --turntable 4");
+    run_fails(2, "nowhere", "PATH=$PWD/fake:$PATH && ewa render torus.ply -o nowhere/a.mp4 --turntable 4");
     // One frame among those that are written at the same time cannot be: said once.
     run("mkdir blocked_3.png");
     run_fails(1, "blocked_3.png", "ewa render torus.ply -o blocked_%%d.png --turntable 9 --size 64x48");
-    assert_ptr_equal(strchr(last_run.err, '\n'), last_run.err + strlen(last_run.err) - 1);
+    // The others stay, whole, and a second line says which.
+    assert_non_null(strstr(last_run.err, "blocked_3.png"));
+    assert_null(strstr(strstr(last_run.err, "blocked_3.png") + 1, "blocked_3.png"));
+    assert_non_null(strstr(last_run.err, "of 9 frames, "));
+    const char *stay = strstr(last_run.err, "are written and stay: 0 to 2");
+    assert_non_null(stay);
+    for (int i = 0; i < 9; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "blocked_%d.png", i);
+        const bool listed = i < 3 || (i > 3 && strstr(stay, "4") && i <= atoi(strrchr(stay, ' ') + 1));
+        assert_int_equal(run("test -f %s", name) == 0, listed);
+    }
     // Frames of two sizes.
     run_done("ewa render torus.ply -o x_%%d.png --turntable 2 --size 64x48 --save-camera k.json && "
              "sed '0,/\"width\": 64/s//\"width\": 60/' k.json >sizes.json && "
              "ewa render torus.ply -o y_%%d.png --path sizes.json");
     run_fails(1, "one size|60 x 48|--size",
               "PATH=$PWD/fake:$PATH && ewa render torus.ply -o films/a.mp4 --path sizes.json");
-    run_fails(1, "camera path|key 1", "ewa render torus.ply -o y_%%d.png --path sizes.json --frames 4");
+    run_fails(1, "sizes.json: |camera path|key 1",
+              "ewa render torus.ply -o y_%%d.png --path sizes.json --frames 4");
     assert_int_equal(run("test $(ls -A films | wc -l) = 0"), 0);
 }
 

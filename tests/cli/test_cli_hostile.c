@@ -124,13 +124,15 @@ static void test_outputs(void **state) {
     (void)state;
     run_done("ewa generate sphere -n 500 -o ball.ply && mkdir -p taken.png");
     const int before = scratch_count();
-    run_fails(1, "taken.png: is a folder", "ewa render ball.ply -o taken.png");
-    run_fails(1, "nowhere/a.png: cannot create: folder nowhere: No such file",
+    run_fails(2, "--output: taken.png: is a folder", "ewa render ball.ply -o taken.png");
+    run_fails(2, "--output: nowhere/a.png: cannot create: folder nowhere: No such file",
               "ewa render ball.ply -o nowhere/a.png");
-    run_fails(1, "nowhere/d.pfm: cannot create", "ewa render ball.ply -o a.png --aov depth=nowhere/d.pfm");
-    run_fails(1, "nowhere/c.json: cannot create",
+    run_fails(2, "--aov: nowhere/d.pfm: cannot create",
+              "ewa render ball.ply -o a.png --aov depth=nowhere/d.pfm");
+    run_fails(2, "--save-camera: nowhere/c.json: cannot create",
               "ewa render ball.ply -o a.png --save-camera nowhere/c.json");
-    run_fails(1, "nowhere/s.json: cannot create", "ewa render ball.ply -o a.png --stats nowhere/s.json");
+    run_fails(2, "--stats: nowhere/s.json: cannot create",
+              "ewa render ball.ply -o a.png --stats nowhere/s.json");
     run_fails(1, "c.json: ", "ewa render ball.ply -o a.png --camera c.json");
     scratch_text("c.json", "{\"width\": 10");
     run_fails(1, "c.json:", "ewa render ball.ply -o a.png --camera c.json");

@@ -87,9 +87,21 @@ static void test_wrong_usage(void **state) {
               "ewa render a.ply -o a.png $(for i in 1 2 3 4 5 6 7 8 9; do echo --light 1,2,$i; done)");
     run_fails(2, "--materials and --env need", "ewa render a.ply -o a.png --shading lambert --env e.exr");
     run_fails(2, "--env-up: 0,0,0", "ewa render a.ply -o a.png --env-up 0,0,0");
-    run_fails(2, "--camera excludes", "ewa render a.ply -o a.png --camera c.json --view top");
-    run_fails(2, "--camera excludes", "ewa render a.ply -o a.png --camera c.json --fov 60");
-    run_fails(2, "--path excludes", "ewa render a.ply -o a_%%d.png --path c.json --fov 60");
+    run_fails(2, "--camera and --view exclude", "ewa render a.ply -o a.png --camera c.json --view top");
+    run_fails(2, "--camera and --fov exclude|poses", "ewa render a.ply -o a.png --camera c.json --fov 60");
+    run_fails(2, "--path and --fov exclude|poses", "ewa render a.ply -o a_%%d.png --path c.json --fov 60");
+    run_fails(2, "--intrinsics is the lens of poses",
+              "ewa render a.ply -o a.png --camera c.json --intrinsics 1,1,1,1");
+    run_fails(2, "--intrinsics is the lens of poses", "ewa render a.ply -o a.png --intrinsics 1,1,1,1");
+    run_fails(2, "--intrinsics: neither", "ewa render a.ply -o a.png --camera c.log --intrinsics 1,1,1");
+    run_fails(2, "--intrinsics: the focal lengths",
+              "ewa render a.ply -o a.png --camera c.log --intrinsics 0,1,1,1");
+    run_fails(2, "--intrinsics and --fov exclude",
+              "ewa render a.ply -o a.png --camera c.log --intrinsics 1,1,1,1 --fov 30");
+    run_fails(2, "--points and --spacing exclude", "ewa sample a.obj -o b.ply --points 10 --spacing 0.1");
+    run_fails(2, "--output: 'b.las' is no .ply file", "ewa convert a.ply -o b.las");
+    run_fails(2, "--hole-mask: 'h.jpg' is no .png file",
+              "ewa warp a.png b.png --intrinsics 1,1,1,1 --shift 1,0,0 -o o.png --hole-mask h.jpg");
     run_fails(2, "--fov and --ortho exclude", "ewa render a.ply -o a.png --ortho 2 --fov 60");
     run_fails(2, "--eye and --view", "ewa render a.ply -o a.png --eye 1,2,3 --view top");
     run_fails(2, "--ascii and --big-endian", "ewa convert a.ply -o b.ply --ascii --big-endian");

@@ -57,6 +57,15 @@ static void test_info(void **state) {
     assert_int_equal(run("ewa info ball.nrrd"), 0);
     assert_non_null(strstr(last_run.out, "32 x 24 x 28 voxels of float"));
     assert_non_null(strstr(last_run.out, "values      0 .. 0.99"));
+    // What would be seen, and the same in the words of a file of --transfer.
+    assert_non_null(strstr(last_run.out, "  transfer    "));
+    assert_int_equal(run("ewa info --json ball.nrrd box.nrrd"), 0);
+    assert_non_null(strstr(last_run.out, "\"transfer\""));
+    assert_non_null(strstr(last_run.out, "\"extinction\""));
+    run_done("ewa info --json ball.nrrd | sed -n '/\"transfer\"/,/^      }/p' | sed '1s/.*/{/' > t.json");
+    run_done("ewa volume ball.nrrd -o a.png --size 32x32 --transfer t.json && ewa volume ball.nrrd -o b.png "
+             "--size 32x32");
+    assert_true(scratch_same("a.png", "b.png"));
     assert_int_equal(run("ewa info --json ball.nrrd box.nrrd"), 0);
     assert_non_null(strstr(last_run.out, "\"dims\": [32, 24, 28]"));
     assert_non_null(strstr(last_run.out, "\"type\": \"uchar\""));
@@ -112,6 +121,92 @@ static void test_pictures(void **state) {
     assert_non_null(strstr(last_run.out, "PNG"));
 }
 
+/// The largest alpha at the rim of a picture, and how much of its width or height is covered.
+static double at_rim(const char *name, double *extent) {
+    ewa_image image = load(name);
+    const uint32_t width = image.width_px, height = image.height_px;
+    uint32_t low[2] = {width, height}, high[2] = {0, 0};
+    double most = 0;
+    for (uint32_t y = 0; y < height; y++)
+        for (uint32_t x = 0; x < width; x++) {
+            const double alpha = (double)image.pixels[4 * ((size_t)y * width + x) + 3];
+            if (x == 0 || y == 0 || x + 1 == width || y + 1 == height) most = fmax(most, alpha);
+            if (alpha < 2.0 / 255) continue;
+            low[0] = x < low[0] ? x : low[0], high[0] = x > high[0] ? x : high[0];
+            low[1] = y < low[1] ? y : low[1], high[1] = y > high[1] ? y : high[1];
+        }
+    *extent = fmax((high[0] - low[0] + 1.0) / width, (high[1] - low[1] + 1.0) / height);
+    ewa_image_free(&image);
+    return most;
+}
+
+/// Nothing of what can be seen touches the frame, however faint it is and however few voxels there are.
+static void test_framed_whole(void **state) {
+    (void)state;
+    scratch_text("few.nrrd", "NRRD0004\ntype: float\ndimension: 3\nsizes: 3 9 1\nspacings: 1 2 1\nencoding: "
+                             "txt\n\n1 2 3 4 5 6 7 8 "
+                             "9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27");
+    scratch_text("row.nrrd",
+                 "NRRD0004\ntype: float\ndimension: 1\nsizes: 9\nencoding: txt\n\n1 2 3 4 5 6 7 8 9");
+    static const char *const volumes[] = {"ball.nrrd", "blob.nrrd", "vessels.nrrd", "few.nrrd", "row.nrrd"};
+    static const char *const looks[] = {"fog", "gray", "auto", "mri", "skin"};
+    for (size_t v = 0; v < sizeof volumes / sizeof volumes[0]; v++)
+        for (size_t n = 0; n < 2 * sizeof looks / sizeof looks[0]; n++) {
+            double extent;
+            run_done("ewa volume %s -o f.exr --size 72x60 --background transparent --transfer %s %s",
+                     volumes[v], looks[n / 2], n % 2 ? "--view iso" : "");
+            const double rim = at_rim("f.exr", &extent);
+            if (rim > 2.0 / 255 || extent < 0.3)
+                fail_msg("%s, %s: %g at the rim, %g of the picture", volumes[v], looks[n / 2], rim, extent);
+        }
+}
+
+/// A patient is seen from the front, a slice upright, what is unknown from a corner; options of the view
+/// start from the front.
+static void test_views(void **state) {
+    (void)state;
+    run_done("ewa volume ball.nrrd -o a.png --size 40x40 && ewa volume ball.nrrd -o b.png --size 40x40 "
+             "--view front");
+    assert_true(scratch_same("a.png", "b.png"));
+    run_done("head -c 18432 /dev/zero > z.raw && head -c 2048 /dev/urandom | od -An -v -tu1 | head -c 4000 "
+             ">> z.raw; "
+             "head -c 22432 z.raw > q_28x28x28_uint8.raw; head -c 21952 z.raw > q_28x28x28_uint8.raw");
+    run_done("ewa volume q_28x28x28_uint8.raw -o a.png --size 40x40 && "
+             "ewa volume q_28x28x28_uint8.raw -o b.png --size 40x40 --view iso");
+    assert_true(scratch_same("a.png", "b.png"));
+    run_done("ewa volume q_28x28x28_uint8.raw -o a.png --size 40x40 --azimuth 20 && "
+             "ewa volume q_28x28x28_uint8.raw -o b.png --size 40x40 --azimuth 20 --view front");
+    assert_true(scratch_same("a.png", "b.png"));
+    // A picture: the first row is at the top, and bright where its numbers are large.
+    scratch_text("slice.nrrd",
+                 "NRRD0004\ntype: float\ndimension: 2\nsizes: 4 3\nencoding: txt\n\n9 9 9 9 9 1 1 1 9 1 1 1");
+    run_done("ewa volume slice.nrrd -o slice.exr --size 80x60 --transfer gray --background transparent");
+    ewa_image image = load("slice.exr");
+    double corners[4]; // the picture is three voxels high, and framed with some room
+    for (int n = 0; n < 4; n++) {
+        const size_t x = n % 2 ? 53 : 26, y = n / 2 ? 41 : 18;
+        corners[n] = (double)image.pixels[4 * (y * 80 + x)];
+    }
+    for (int n = 0; n < 3; n++) assert_true(corners[n] > 0.1);
+    assert_true(corners[3] < 0.02);
+    ewa_image_free(&image);
+}
+
+/// From within, voxels at the eye are there: fog is as dense as without.
+static void test_from_within(void **state) {
+    (void)state;
+    run_done("ewa generate checkerbox -o solid.nrrd --dims 24 --checks 1");
+    run_done("ewa volume solid.nrrd -o in.exr --size 48x48 --transfer fog --eye 0,0,0 --target 0,1,0 "
+             "--background transparent "
+             "--stats in.json");
+    ewa_image image = load("in.exr");
+    for (int i = 3; i < 4 * 48 * 48; i += 4) assert_true(image.pixels[i] > 0.5f);
+    ewa_image_free(&image);
+    assert_int_equal(run("cat in.json"), 0);
+    assert_null(strstr(last_run.out, "\"voxels_near\": 0"));
+    assert_non_null(strstr(last_run.out, "\"voxels_near\""));
+}
+
 /// What is saved gives the same picture again; so do other thread counts and a coarse picture before.
 static void test_same_again(void **state) {
     (void)state;
@@ -132,7 +227,7 @@ static void test_looks(void **state) {
         "--transfer bone",       "--transfer soft",   "--transfer skin", "--transfer vessels",
         "--transfer mri",        "--transfer gray",   "--transfer fog",  "--transfer auto",
         "--method points",       "--footprint table", "--shading none",  "--shading lambert",
-        "--light 1,1,1,1,0.5,0", "--gradient 0.5,1",  "--range 0.5,0.9", "--range 50%%,99%%",
+        "--light 1,1,1,1,0.5,0", "--gradient 2,6",    "--range 0.5,0.9", "--range 50%%,99%%",
         "--sigma 0.9",           "--cutoff 2",        "--prefilter 1",   "--background 1,1,1",
     };
     run_done("ewa volume blob.nrrd -o plain.png --size 48x48");
@@ -250,11 +345,19 @@ static void test_nothing_to_draw(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_info),           cmocka_unit_test(test_generate),
-        cmocka_unit_test(test_pictures),       cmocka_unit_test(test_same_again),
-        cmocka_unit_test(test_looks),          cmocka_unit_test(test_frames),
-        cmocka_unit_test(test_surfels_within), cmocka_unit_test(test_wrong_usage),
-        cmocka_unit_test(test_bad_input),      cmocka_unit_test(test_nothing_to_draw),
+        cmocka_unit_test(test_info),
+        cmocka_unit_test(test_generate),
+        cmocka_unit_test(test_framed_whole),
+        cmocka_unit_test(test_views),
+        cmocka_unit_test(test_from_within),
+        cmocka_unit_test(test_pictures),
+        cmocka_unit_test(test_same_again),
+        cmocka_unit_test(test_looks),
+        cmocka_unit_test(test_frames),
+        cmocka_unit_test(test_surfels_within),
+        cmocka_unit_test(test_wrong_usage),
+        cmocka_unit_test(test_bad_input),
+        cmocka_unit_test(test_nothing_to_draw),
     };
     return cmocka_run_group_tests(tests, enter, leave);
 }

@@ -94,8 +94,6 @@ static void test_failures(void **state) {
         {"color.png depth.pfm --intrinsics 9,9,9,9 --camera cam.txt", "cam.txt: |No such file"},
         {"color.png depth.pfm --source-camera cam.json --shift 0,0,0 --near 1000 --far 2000",
          "no pixel has a depth"},
-        {"color.png depth.pfm --source-camera cam.json --shift 0,0,0 --hole-mask no/where.png",
-         "no/where.png"},
     };
     scratch_text("flat.json",
                  "{\"projection\": \"orthographic\", \"width\": 96, \"height\": 64, \"fx\": 9, \"fy\": 9, "

@@ -5,6 +5,7 @@
 #include "check.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cli/commands.h"
@@ -206,16 +207,6 @@ static void test_refusals(void **state) {
     }
 }
 
-/// Options of a command, one after another; NULL beyond the last.
-static const cli_option *option_at(const cli_command *command, size_t index) {
-    for (size_t g = 0; g <= command->group_count; g++) {
-        const option_group *group = g < command->group_count ? command->groups[g] : &common_options;
-        if (index < group->count) return &group->options[index];
-        index -= group->count;
-    }
-    return NULL;
-}
-
 static void test_tables(void **state) {
     (void)state;
     for (size_t c = 0; c < all_commands_count; c++) {
@@ -224,14 +215,14 @@ static void test_tables(void **state) {
         assert_non_null(strstr(command->examples, command->name));
         assert_int_equal(command->examples[strlen(command->examples) - 1], '\n');
         const cli_option *option;
-        for (size_t i = 0; (option = option_at(command, i)); i++) {
+        for (size_t i = 0; (option = options_at(command, i)); i++) {
             assert_true(option->offset < command->arguments_bytes);
             assert_non_null(option->help);
             assert_int_not_equal(option->help[strlen(option->help) - 1], '.');
             const bool bare = option->kind == OPTION_FLAG || option->kind == OPTION_TOGGLE;
             assert_true(bare || option->kind == OPTION_ON_OFF || option->value || option->range);
             const cli_option *other;
-            for (size_t k = 0; k < i && (other = option_at(command, k)); k++) {
+            for (size_t k = 0; k < i && (other = options_at(command, k)); k++) {
                 assert_string_not_equal(option->key, other->key);
                 assert_true(!option->letter || option->letter != other->letter);
                 assert_int_not_equal(option->offset, other->offset);
@@ -248,7 +239,7 @@ static void test_defaults_in_range(void **state) {
         char *defaults = calloc(1, command->arguments_bytes), *again = calloc(1, command->arguments_bytes);
         options_default(command, defaults);
         const cli_option *option;
-        for (size_t i = 0; (option = option_at(command, i)); i++) {
+        for (size_t i = 0; (option = options_at(command, i)); i++) {
             if (option->absent || (option->kind != OPTION_NUMBER && option->kind != OPTION_INTEGER)) continue;
             char words[2][64];
             snprintf(words[0], sizeof words[0], "--%s", option->key);
@@ -268,6 +259,125 @@ static void test_defaults_in_range(void **state) {
     }
 }
 
+/// Appends an option with a value that its table allows to the words; `text` keeps the value.
+static size_t add_option(const cli_option *option, const char **words, size_t count, char text[2][128]) {
+    snprintf(text[0], sizeof text[0], "--%s", option->key);
+    words[count++] = text[0];
+    const char *range = option->range;
+    char number[32] = "1";
+    if (range && (range[0] == '[' || range[0] == '(')) {
+        char *middle;
+        const double low = strtod(range + 1, &middle), high = strtod(middle + 1, NULL);
+        snprintf(number, sizeof number, "%g",
+                 isinf(high)      ? low + 1
+                 : high - low > 2 ? low + 1
+                                  : 0.5 * low + 0.5 * high);
+    }
+    switch (option->kind) {
+    case OPTION_FLAG:
+    case OPTION_TOGGLE:
+        return count;
+    case OPTION_ON_OFF:
+        snprintf(text[1], sizeof text[1], "on");
+        break;
+    case OPTION_CHOICE:
+    case OPTION_SET:
+        snprintf(text[1], sizeof text[1], "%.*s", (int)strcspn(range, "|"), range);
+        break;
+    case OPTION_VECTOR:
+    case OPTION_VECTORS:
+        text[1][0] = 0;
+        for (uint32_t i = 0; i < option->low; i++)
+            snprintf(text[1] + strlen(text[1]), sizeof text[1] - strlen(text[1]), "%s%s", i ? "," : "",
+                     number);
+        break;
+    case OPTION_BOUNDS:
+        snprintf(text[1], sizeof text[1], "0,1");
+        break;
+    case OPTION_COLOR:
+        snprintf(text[1], sizeof text[1], "0,0,0");
+        break;
+    case OPTION_SIZE:
+        snprintf(text[1], sizeof text[1], "8x8");
+        break;
+    case OPTION_NUMBER:
+    case OPTION_INTEGER:
+        snprintf(text[1], sizeof text[1], "%s", number);
+        break;
+    case OPTION_TEXT:
+    case OPTION_OUTPUT:
+    case OPTION_OUTPUTS:
+        snprintf(text[1], sizeof text[1], "depth=x.pfm");
+        break;
+    }
+    words[count++] = text[1];
+    return count;
+}
+
+/// Parses a command line with so many operands as the command wants, and these options.
+static bool parse_options(const cli_command *command, size_t count, const cli_option *const *options) {
+    const char *words[16];
+    char texts[2][2][128];
+    size_t word_count = 0;
+    for (; word_count < command->low_operands; word_count++) words[word_count] = "sphere";
+    for (size_t i = 0; i < count; i++) word_count = add_option(options[i], words, word_count, texts[i]);
+    char *all = calloc(1, command->arguments_bytes);
+    options_default(command, all);
+    message[0] = 0;
+    const bool accepted = options_parse(command, word_count, words, operands, all, message);
+    free(all);
+    return accepted;
+}
+
+static const cli_option *find_key(const cli_command *command, const char *key, size_t length) {
+    const cli_option *option;
+    for (size_t i = 0; (option = options_at(command, i)); i++)
+        if (strlen(option->key) == length && memcmp(option->key, key, length) == 0) return option;
+    return NULL;
+}
+
+/// What the tables say of options beside each other holds in every command, in either order.
+static void test_together(void **state) {
+    (void)state;
+    size_t pairs = 0, needs = 0;
+    for (size_t c = 0; c < all_commands_count; c++) {
+        const cli_command *command = all_commands[c];
+        const cli_option *option;
+        size_t count = 0;
+        for (; (option = options_at(command, count)); count++) {
+            for (const char *key = option->excludes; key && *key; key += strspn(key, " ")) {
+                const size_t length = strcspn(key, " ");
+                const cli_option *other = find_key(command, key, length);
+                assert_non_null(other); // a table that is shared names no option that a command lacks
+                assert_ptr_not_equal(other, option);
+                char wanted[160];
+                snprintf(wanted, sizeof wanted, "--%s and --%s exclude each other", option->key, other->key);
+                for (int turned = 0; turned < 2; turned++) {
+                    assert_false(parse_options(
+                        command, 2,
+                        (const cli_option *[]){turned ? other : option, turned ? option : other}));
+                    if (!strstr(message, wanted) && !strstr(message, "needs"))
+                        fail_msg("%s: '%s' wanted, said: %s", command->name, wanted, message);
+                }
+                pairs++;
+                key += length;
+            }
+            if (!option->needs) continue;
+            for (const char *key = option->needs; *key; key += strspn(key, " ")) {
+                assert_non_null(find_key(command, key, strcspn(key, " ")));
+                key += strcspn(key, " ");
+            }
+            char wanted[160];
+            snprintf(wanted, sizeof wanted, "--%s needs --", option->key);
+            assert_false(parse_options(command, 1, &option));
+            assert_non_null(strstr(message, wanted));
+            needs++;
+        }
+        assert_true(count < OPTION_COUNT_MAX);
+    }
+    assert_true(pairs > 40 && needs > 20);
+}
+
 static void test_nearest(void **state) {
     (void)state;
     static const char *const names[] = {"render", "info", "convert"};
@@ -280,7 +390,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_values),  cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_tables),  cmocka_unit_test(test_defaults_in_range),
-        cmocka_unit_test(test_nearest),
+        cmocka_unit_test(test_nearest), cmocka_unit_test(test_together),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,7 +12,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
     options.thread_count = 1;
     ewa_context *context = NULL;
     if (ewa_context_create(&options, &context) != EWA_OK) return 0;
-    ewa_camera_list list = {.context = context, .name = "fuzz"};
+    ewa_camera_list list = {.context = context, .name = "fuzz", .lens_suffices = true};
     if (size_bytes >= 2 && (bytes[0] == 't' || bytes[0] == 'b')) {
         const size_t first = bytes[1] < size_bytes - 2 ? bytes[1] : size_bytes - 2;
         ewa_camera_list_read_colmap_memory(&list, bytes[0] == 't', bytes + 2, first, bytes + 2 + first,

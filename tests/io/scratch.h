@@ -51,7 +51,7 @@ static inline int scratch_each(const char *relative, void (*visit)(void *user, c
     snprintf(folder, sizeof folder, "%s/%s", data ? data : ".", relative);
     DIR *listing = opendir(folder);
     if (!listing) {
-        print_message("skipped: no test data %s\n", relative);
+        check_data_missing(relative);
         return 0;
     }
     int count = 0;

@@ -24,7 +24,7 @@ static const char NATIVE[] = "{\"width\":640,\"height\":480,\"fx\":500,\"fy\":51
 static const char OPEN3D[] =
     "{\"class_name\":\"PinholeCameraParameters\",\"version_major\":1,\"version_minor\":0,"
     "\"extrinsic\":[0,0,-1,0, 1,0,0,0, 0,-1,0,0, 0,2,10,1],"
-    "\"intrinsic\":{\"width\":640,\"height\":480,\"intrinsic_matrix\":[500,0,0, 0,510,0, 320.125,-7.5,1]}}";
+    "\"intrinsic\":{\"width\":640,\"height\":480,\"intrinsic_matrix\":[500,0,0, 0,510,0, 319.625,-8,1]}}";
 static const char TRANSFORMS[] =
     "{\"w\":640,\"h\":480,\"fl_x\":500,\"fl_y\":510,\"cx\":320.125,\"cy\":-7.5,\"k1\":0,\"camera_model\":"
     "\"OPENCV\","
@@ -54,6 +54,59 @@ static void test_every_format_gives_the_same_camera(void **state) {
     }
     assert_int_equal(load_text(context, INRIA, 0, &camera), EWA_OK); // knows no principal point
     assert_expected(&camera, 320, 240);
+    ewa_context_destroy(&context);
+}
+
+/// Open3D has pixel centres at whole numbers: what it calls the middle of its pictures is the middle of ours.
+static void test_open3d_middle(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    ewa_camera camera;
+    char text[600];
+    snprintf(text, sizeof text,
+             "{\"extrinsic\":[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1],\"intrinsic\":{\"width\":%d,\"height\":%d,"
+             "\"intrinsic_matrix\":[525,0,0, 0,525,0, %g,%g,1]}}",
+             641, 480, 641 / 2.0 - 0.5, 480 / 2.0 - 0.5);
+    assert_int_equal(load_text(context, text, 0, &camera), EWA_OK);
+    assert_true(camera.cx_px == 320.5 && camera.cy_px == 240);
+    ewa_context_destroy(&context);
+}
+
+/// A lens comes from every format, without the pose, and from Open3D's file of a lens alone.
+static void test_lens(void **state) {
+    (void)state;
+    check_log log = {0};
+    ewa_context *context = check_context(1, &log);
+    static const char alone[] =
+        "{\"width\":640,\"height\":480,\"intrinsic_matrix\":[500,0,0, 0,510,0, 319.625,-8,1]}";
+    const char *const texts[] = {NATIVE, OPEN3D, TRANSFORMS, STACKS, alone};
+    char path[512];
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        ewa_camera lens, at_origin;
+        ewa_camera_init(&lens, sizeof lens);
+        ewa_camera_init(&at_origin, sizeof at_origin);
+        scratch_write(scratch_path("lens.json", path), texts[i], strlen(texts[i]));
+        assert_int_equal(ewa_camera_load_lens(context, path, &lens), EWA_OK);
+        assert_true(lens.width_px == 640 && lens.height_px == 480 && lens.fx_px == 500 && lens.fy_px == 510);
+        assert_true(lens.cx_px == 320.125 && lens.cy_px == -7.5);
+        assert_memory_equal(lens.world_to_camera, at_origin.world_to_camera, sizeof lens.world_to_camera);
+    }
+    assert_int_equal(log.count, 0);
+    // What cannot be read leaves the lens as it is, with a message.
+    static const char *const broken[] = {
+        "{\"width\":640,\"intrinsic_matrix\":[1,0,0,0,1,0,0,0,1]}",
+        "{\"width\":6,\"height\":4,\"intrinsic_matrix\":[1,0,0,0,1,0,0,0]}",
+        "{\"width\":6,\"height\":4,\"intrinsic_matrix\":[0,0,0,0,1,0,0,0,1]}",
+        "{\"width\":6,\"height\":4,\"intrinsic_matrix\":[1,0,0,9,1,0,0,0,1]}"};
+    for (size_t i = 0; i < sizeof broken / sizeof broken[0]; i++) {
+        ewa_camera lens, before;
+        ewa_camera_init(&lens, sizeof lens);
+        ewa_camera_init(&before, sizeof before);
+        scratch_write(scratch_path("lens.json", path), broken[i], strlen(broken[i]));
+        assert_int_equal(ewa_camera_load_lens(context, path, &lens), EWA_ERROR_FORMAT);
+        assert_int_equal(log.count, i + 1);
+        assert_memory_equal(&lens, &before, sizeof lens);
+    }
     ewa_context_destroy(&context);
 }
 
@@ -517,6 +570,8 @@ static void test_failing_allocations(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_every_format_gives_the_same_camera),
+        cmocka_unit_test(test_open3d_middle),
+        cmocka_unit_test(test_lens),
         cmocka_unit_test(test_many_cameras),
         cmocka_unit_test(test_round_trip_is_exact),
         cmocka_unit_test(test_transforms_lens),

@@ -3,6 +3,7 @@
 //
 // Tests of the PLY reader on files that are right: types, orders, names, elements, layouts, real models.
 #include "io/ply_sample.h"
+#include "tests/data/facts.h"
 
 #include <math.h>
 
@@ -467,90 +468,21 @@ static void test_empty_cloud(void **state) {
 }
 
 /// What the models' README says of the files that hold vertices.
-static const struct {
-    const char *path;
-    uint64_t points;
-    double low[3], high[3];
-} models[] = {
-    {"models/bunny_zipper_ascii.ply",
-     35947,
-     {-0.0946899, 0.0329874, -0.0618736},
-     {0.0610091, 0.187321, 0.0587997}},
-    {"models/lucy_100k_tri.ply", 49987, {225.906, -388.421, -605.89}, {1156.03, 145.348, 991.332}},
-    {"models/dragon_100k_tri_normals.ply",
-     50002,
-     {-98.6693, -41.3035, -57.2507},
-     {103.146, 49.2598, 76.8579}},
-    {"models/igea_tristrips.ply", 134345, {-0.034556, -0.049669, -0.049538}, {0.034556, 0.049669, 0.049538}},
-    {"models/laurana50k_colour.ply", 27861, {-256.461, -400.909, -1764.56}, {211.248, 101.182, -1472.79}},
-    {"models/rangemap_lato000.ply", 44461, {-41.5001, -73.1827, -800.04}, {56.6248, 35.2212, -724.794}},
-    {"models/pepper_artec_multitexture.ply",
-     14980,
-     {-31.0585, -61.6852, -2.36095},
-     {29.3337, 74.251, 48.8348}},
-    {"models/head_lps/head_vertexcolour.ply",
-     9279,
-     {-4.27632, -3.97255, -2.59038},
-     {4.27632, 3.97255, 2.59036}},
-    {"models/head_lps/head_surfels_100k.ply",
-     100000,
-     {-4.2744, -3.97182, -2.58985},
-     {4.2758, 3.97204, 2.58349}},
-    {"models/meshlab_textured/TextureDouble.ply", 8, {0, 0, 0}, {3, 1, 0}},
-    {"models/variants/draco_cube_att.ply", 24, {0, 0, 0}, {1, 1, 1}},
-    {"models/variants/draco_int_point_cloud.ply", 16, {-797, 249, 1}, {-409, 517, 8}},
-    {"models/variants/draco_float_two_att_point_cloud.ply", 3, {4.1, 2.6, 1.4}, {4.9, 2.9, 7.7}},
-    {"models/variants/draco_float_inf_point_cloud.ply", 16, {-797, 276, 1}, {-479, 517, 8}},
-    {"models/variants/draco_point_cloud_test_pos_norm.ply",
-     4,
-     {37.9345, 8.42107, 1.34474},
-     {44.0828, 19.2937, 3.51623}},
-    {"models/variants/draco_test_extra_whitespace.ply", 3, {0.25, 0.1, 0}, {0.75, 0.9, 0}},
-    {"models/variants/draco_test_more_datatypes.ply", 3, {0.25, 0.1, 0}, {0.75, 0.9, 0}},
-    {"models/variants/draco_test_pos_color.ply", 114, {-1, -1, -1}, {1, 1, 1}},
-    {"models/variants/draco_test_pos_color_ascii.ply", 114, {-1, -1, -1}, {1, 1, 1}},
-    {"models/variants/draco_cube_quads.ply", 8, {0, 0, 0}, {1, 1, 1}},
-    {"models/variants/draco_delim_test.ply", 24, {-0.0759899, 0.22797, -12.621}, {12.6143, 12.2344, 0}},
-    {"models/variants/dolphins.ply", 855, {-477.202, -86.61, -180.377}, {349.473, 86.61, 566.654}},
-    {"models/variants/dolphins_colored.ply", 855, {-477.202, -86.61, -180.377}, {349.473, 86.61, 566.654}},
-    {"models/variants/dolphins_be.ply", 855, {-477.202, -86.61, -180.377}, {349.473, 86.61, 566.654}},
-    {"models/variants/dolphins_le.ply", 855, {-477.202, -86.61, -180.377}, {349.473, 86.61, 566.654}},
-    {"models/variants/assimp_cube_binary.ply", 8, {0, 0, 0}, {1, 1, 1}},
-    {"models/variants/assimp_cube_binary_header_with_RN_newline.ply", 8, {0, 0, 0}, {1, 1, 1}},
-    {"models/variants/assimp_cube_binary_starts_with_nl.ply", 8, {5.96753, 0, 0}, {6.96753, 1, 1}},
-    {"models/variants/assimp_cube_uv.ply", 24, {-1, -1, -1}, {1, 1, 1}},
-    {"models/variants/assimp_float-color.ply", 3, {0, 0, 0}, {200, 200, 0}},
-    {"models/variants/assimp_points.ply", 4, {0, 0, 0}, {0, 1, 1}},
-    {"clouds/ply/lion_takanawa_normals_colour.ply",
-     341989,
-     {-4.985, 1.039, -3.445},
-     {-0.789, 6.7235, 1.1235}},
-    {"clouds/ply/pond_normals_colour_psz.ply",
-     70051,
-     {-1.50206, 0.571367, -2.63168},
-     {1.97647, 1.09156, 0.509945}},
-    {"clouds/ply/Guanyin_colour.ply",
-     238154,
-     {-0.510808, 0.002058, -0.370374},
-     {0.474869, 1.29293, 0.453506}},
-    {"gaussians/pc_short_100_sh3.ply", 100, {-0.932074, -0.472956, 0.332892}, {0.0834385, 0.478113, 1.56834}},
-    {"hostile/mesh/pdal_issue_2421.ply", 1, {1.23457, 12345.7, 1234567890}, {1.23457, 12345.7, 1234567890}},
-};
 
 static void test_real_models(void **state) {
     (void)state;
-    for (size_t i = 0; i < sizeof models / sizeof models[0]; i++) {
+    for (size_t i = 0; i < sizeof model_facts / sizeof model_facts[0]; i++) {
         char path[512];
-        if (!check_data(models[i].path, path, sizeof path)) skip();
+        if (!check_data(model_facts[i].path, path, sizeof path)) skip();
         ewa_cloud *cloud;
         assert_int_equal(ewa_cloud_load(context, path, &cloud), EWA_OK);
         ewa_bounds bounds;
         assert_int_equal(ewa_cloud_measure(cloud, &bounds), EWA_OK);
-        assert_true(ewa_cloud_point_count(cloud) == models[i].points);
+        assert_true(ewa_cloud_point_count(cloud) == model_facts[i].points);
         for (int c = 0; c < 3; c++)
-            if (fabs(bounds.low_world[c] - models[i].low[c]) > 1e-5 * fabs(models[i].low[c]) ||
-                fabs(bounds.high_world[c] - models[i].high[c]) > 1e-5 * fabs(models[i].high[c]))
-                fail_msg("%s: %g to %g on axis %d", models[i].path, bounds.low_world[c], bounds.high_world[c],
+            if (fabs(bounds.low_world[c] - model_facts[i].low[c]) > 1e-5 * fabs(model_facts[i].low[c]) ||
+                fabs(bounds.high_world[c] - model_facts[i].high[c]) > 1e-5 * fabs(model_facts[i].high[c]))
+                fail_msg("%s: %g to %g on axis %d", model_facts[i].path, bounds.low_world[c], bounds.high_world[c],
                          c);
         ewa_cloud_destroy(&cloud);
     }

@@ -141,16 +141,16 @@ static void test_too_many_points(void **state) {
     ewa_context_destroy(&context);
 }
 
-/// 4,096 shorts from `low` on, most of them near it, some in a peak at 40 %, few at the top.
+/// 16 x 16 x 16 shorts from `low` on: noise, in it a ball at 40 %, in that one at 90 %.
 static void make_volume(ewa_context *context, int low, int width, ewa_volume *volume) {
     assert_int_equal(ewa_volume_create(context, (const uint32_t[3]){16, 16, 16}, EWA_I16, volume), EWA_OK);
     int16_t *voxels = volume->voxels;
     check_random random = {7};
     for (int i = 0; i < 4096; i++) {
-        const double share = i < 2600   ? check_uniform(&random, 0, 0.03)
-                             : i < 3800 ? check_uniform(&random, 0.37, 0.43)
-                                        : check_uniform(&random, 0.5, 1);
-        voxels[i] = (int16_t)(low + width * share);
+        const double x = i % 16 - 7.5, y = i / 16 % 16 - 7.5, z = i / 256 - 7.5,
+                     r = sqrt(x * x + y * y + z * z);
+        const double middle = r < 3 ? 0.9 : r < 6.5 ? 0.4 : 0.05;
+        voxels[i] = (int16_t)floor(low + width * (middle + check_uniform(&random, -0.03, 0.03)));
     }
     voxels[0] = (int16_t)low;
     voxels[1] = (int16_t)(low + width);
@@ -178,8 +178,8 @@ static void test_automatic(void **state) {
     assert_true(facts.low == 100 && facts.high == 10100 && facts.finite_count == 4096);
     assert_int_equal(ewa_transfer_automatic(&volume, &facts, &transfer), EWA_OK);
     assert_int_equal(ewa_transfer_check(context, "auto", &transfer), EWA_OK);
-    // Empty where most voxels are, something at the peak, denser and denser up to the top.
-    assert_true(extinction_at(&transfer, 150) == 0 && extinction_at(&transfer, 350) == 0);
+    // Empty where the noise is, something at the outer ball, denser and denser up to the top.
+    assert_true(extinction_at(&transfer, 150) == 0 && extinction_at(&transfer, 850) == 0);
     double last = 0;
     for (int i = 1; i <= 100; i++) {
         const double now = extinction_at(&transfer, 100 + 100 * i);
@@ -203,6 +203,135 @@ static void test_automatic(void **state) {
     }
     ewa_volume_free(&other);
     ewa_volume_free(&volume);
+    ewa_context_destroy(&context);
+}
+
+/// What a volume holds, against sums of our own: every type, numbers that are none, a slanted grid.
+static void test_measure(void **state) {
+    (void)state;
+    static const ewa_type types[] = {EWA_U8, EWA_I8, EWA_U16, EWA_I16, EWA_F32};
+    enum { X = 13, Y = 7, Z = 29, COUNT = X * Y * Z };
+    ewa_context *context = check_context(1, NULL);
+    for (int t = 0; t < 5; t++) {
+        ewa_volume volume;
+        assert_int_equal(ewa_volume_create(context, (const uint32_t[3]){X, Y, Z}, types[t], &volume), EWA_OK);
+        static const double place[12] = {1, 0.5, 0, 10, -2, 0.25, 0, 20, 0, 0, -3, 30};
+        memcpy(volume.index_to_world, place, sizeof place);
+        double *numbers = malloc(COUNT * sizeof *numbers), low = INFINITY, high = -INFINITY, sum = 0;
+        check_random random = {(uint64_t)t};
+        uint64_t finite = 0, counts[256] = {0};
+        for (int i = 0; i < COUNT; i++) {
+            const double u = check_uniform(&random, 0, 1), share = u * u;
+            switch (types[t]) {
+            case EWA_U8:
+                numbers[i] = ((uint8_t *)volume.voxels)[i] = (uint8_t)(share * 256);
+                break;
+            case EWA_I8:
+                numbers[i] = ((int8_t *)volume.voxels)[i] = (int8_t)(share * 200 - 100);
+                break;
+            case EWA_U16:
+                numbers[i] = ((uint16_t *)volume.voxels)[i] = (uint16_t)(share * 60000);
+                break;
+            case EWA_I16:
+                numbers[i] = ((int16_t *)volume.voxels)[i] = (int16_t)(share * 5000 - 1000);
+                break;
+            default:
+                ((float *)volume.voxels)[i] = i % 50 == 3   ? NAN
+                                              : i % 77 == 5 ? -INFINITY
+                                                            : (float)(share * 1e-3);
+                numbers[i] = (double)((float *)volume.voxels)[i];
+            }
+            if (!isfinite(numbers[i])) continue;
+            finite++;
+            low = fmin(low, numbers[i]), high = fmax(high, numbers[i]), sum += numbers[i];
+        }
+        // The middle of bin b is b 255ths of the way.
+        for (int i = 0; i < COUNT; i++) {
+            int nearest = 0;
+            for (int b = 1; b < 256 && isfinite(numbers[i]); b++)
+                if (fabs(low + (high - low) * b / 255 - numbers[i]) <=
+                    fabs(low + (high - low) * nearest / 255 - numbers[i]))
+                    nearest = b;
+            counts[nearest] += isfinite(numbers[i]);
+        }
+        ewa_volume_facts facts;
+        assert_int_equal(ewa_volume_measure(&volume, &facts), EWA_OK);
+        assert_true(facts.voxel_count == COUNT && facts.finite_count == finite);
+        assert_true(facts.low == low && facts.high == high);
+        assert_true(fabs(facts.mean - sum / (double)finite) <= 1e-9 * (high - low));
+        uint64_t moved = 0; // where a number is half-way between two bins
+        for (int b = 0; b < 256; b++)
+            moved += facts.histogram[b] > counts[b] ? facts.histogram[b] - counts[b]
+                                                    : counts[b] - facts.histogram[b];
+        assert_true(moved <= 6);
+        static const double lengths[3] = {2.23606797749979, 0.5590169943749475, 3};
+        static const double corner_low[3] = {10, -4, -54}, corner_high[3] = {25, 21.5, 30};
+        for (int axis = 0; axis < 3; axis++) {
+            assert_true(fabs(facts.spacing_world[axis] - lengths[axis]) < 1e-12);
+            assert_true(facts.low_world[axis] == corner_low[axis] &&
+                        facts.high_world[axis] == corner_high[axis]);
+        }
+        free(numbers);
+        ewa_volume_free(&volume);
+    }
+    ewa_context_destroy(&context);
+}
+
+/// Every preset's points, where values are Hounsfield units and where they are shares of the range.
+static void test_preset_points(void **state) {
+    (void)state;
+    static const struct {
+        const char *name, *points;
+    } presets[] = {
+        {"bone", "150 0.36 8a3a22 0; 230 0.42 c08a5c 0.05; 400 0.5 e8d2a8 0.35; 1000 0.75 fff6e4 0.7; 3000 1 "
+                 "ffffff 0.8; "},
+        {"soft", "-350 0.12 b87a5c 0; -120 0.19 d69a78 0.014; 20 0.25 c86a50 0.008; 90 0.3 b04a38 0.012; 250 "
+                 "0.44 e4cca4 "
+                 "0.3; 1000 0.75 fff6e4 0.7; 3000 1 ffffff 0.8; "},
+        {"skin", "-450 0.1 d8a080 0; -200 0.17 e0ac8c 0.45; 100 0.3 e4b494 0.7; 3000 1 f4e4d4 0.8; "},
+        {"vessels", "100 0.22 7a1410 0; 180 0.34 b42018 0.12; 350 0.55 d8402c 0.5; 700 0.8 f4c49c 0.7; 3000 "
+                    "1 fff6e4 0.8; "},
+        {"mri", "0.1 0.1 5a4a44 0; 0.22 0.22 96786a 0.015; 0.45 0.45 c4a48e 0.05; 0.7 0.7 e8d8c4 0.15; 1 1 "
+                "ffffff 0.4; "},
+        {"gray", "0 0 000000 0; 1 1 ffffff 0.25; "},
+        {"fog", "0 0 ffffff 0; 1 1 ffffff 0.03; "},
+    };
+    ewa_context *context = check_context(1, NULL);
+    ewa_volume volumes[2];
+    ewa_volume_facts facts[2];
+    for (int kind = 0; kind < 2; kind++) {
+        make_volume(context, kind ? 0 : -1000, kind ? 1000 : 4000, &volumes[kind]);
+        assert_int_equal(ewa_volume_measure(&volumes[kind], &facts[kind]), EWA_OK);
+        assert_true(fabs(ewa_transfer_unit(&facts[kind]) - 15.0 / 128) < 1e-12);
+    }
+    for (size_t n = 0; n < sizeof presets / sizeof presets[0]; n++) {
+        ewa_transfer transfers[2];
+        char points[1024] = "";
+        for (int kind = 0; kind < 2; kind++)
+            assert_int_equal(
+                ewa_transfer_preset(&volumes[kind], &facts[kind], presets[n].name, &transfers[kind]), EWA_OK);
+        const bool hounsfield = n < 4;
+        // What is above the last stop looks like it; the stops' shares are of all but 0.05 % of the voxels.
+        uint32_t stops = transfers[1].point_count;
+        const ewa_transfer_point *end = &transfers[1].points[stops - 1];
+        if (end->extinction == end[-1].extinction && end->color[2] == end[-1].color[2]) stops--;
+        const double range = transfers[1].points[stops - 1].value;
+        assert_true(range > 900 && range < 950); // there is one voxel beyond
+        for (uint32_t i = 0; i < stops; i++) {
+            const ewa_transfer_point *p = &transfers[1].points[i];
+            const double share = p->value / range;
+            const double first = hounsfield ? transfers[0].points[i].value : share;
+            unsigned code = 0;
+            for (int c = 0; c < 3; c++)
+                code = code << 8 | (unsigned)lrint(255 * (double)ewa_srgb_from_linear(p->color[c]));
+            char text[64];
+            snprintf(text, sizeof text, hounsfield ? "%.6g %.2g %06x %.3g; " : "%.2g %.2g %06x %.3g; ", first,
+                     share, code, 1 - exp(-(double)p->extinction));
+            strncat(points, text, sizeof points - strlen(points) - 1);
+        }
+        if (strcmp(points, presets[n].points) != 0) fail_msg("%s: %s", presets[n].name, points);
+    }
+    for (int kind = 0; kind < 2; kind++) ewa_volume_free(&volumes[kind]);
     ewa_context_destroy(&context);
 }
 
@@ -270,6 +399,7 @@ int main(void) {
         cmocka_unit_test(test_broken_files),    cmocka_unit_test(test_every_truncation_fails),
         cmocka_unit_test(test_too_many_points), cmocka_unit_test(test_automatic),
 
+        cmocka_unit_test(test_measure),         cmocka_unit_test(test_preset_points),
         cmocka_unit_test(test_presets),         cmocka_unit_test(test_failing_allocations),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,6 +3,7 @@
 //
 // Tests of the volume files: known voxels and places in every format, files of several parts, saving.
 #include "volume_sample.h"
+#include "tests/data/facts.h"
 
 #include <math.h>
 
@@ -231,6 +232,95 @@ static void test_meta_places(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Cells, axes that are turned, places of extents that do not begin at zero.
+static void test_vti_places(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    static const struct {
+        const char *image, *section;
+        double place[12];
+    } cases[] = {
+        {"WholeExtent=\"2 3 0 2 -1 2\" Origin=\"10 20 30\" Spacing=\"2 3 4\"",
+         "PointData",
+         {2, 0, 0, 14, 0, 3, 0, 20, 0, 0, 4, 26}},
+        {"WholeExtent=\"0 2 0 3 0 4\" Origin=\"10 20 30\" Spacing=\"2 3 4\"",
+         "CellData",
+         {2, 0, 0, 11, 0, 3, 0, 21.5, 0, 0, 4, 32}},
+        {"WholeExtent=\"1 2 0 2 0 3\" Origin=\"10 20 30\" Spacing=\"2 3 4\" Direction=\"0 1 0 1 0 0 0 0 -1\"",
+         "PointData",
+         {0, 3, 0, 10, 2, 0, 0, 22, 0, 0, -4, 30}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        sample_file file = {.size_bytes = 0};
+        sample_text(&file, "<VTKFile type=\"ImageData\"><ImageData ");
+        sample_text(&file, cases[i].image);
+        sample_text(&file, "><Piece><");
+        sample_text(&file, cases[i].section);
+        sample_text(&file, "><DataArray type=\"UInt8\" format=\"ascii\">");
+        for (int n = 0; n < SAMPLE_VOXELS; n++) {
+            char word[16];
+            snprintf(word, sizeof word, "%d ", n);
+            sample_text(&file, word);
+        }
+        sample_text(&file, "</DataArray></");
+        sample_text(&file, cases[i].section);
+        sample_text(&file, "></Piece></ImageData></VTKFile>");
+        check_place(context, &file, "p.vti", cases[i].place);
+    }
+    ewa_context_destroy(&context);
+}
+
+/// Three bytes for each place: colours, by the kinds, by what early writers did, and in XML images.
+static void test_colors(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    sample_file files[2] = {{.size_bytes = 0}, {.size_bytes = 0}};
+    sample_text(&files[0], "NRRD0001\ntype: unsigned char\ndimension: 3\nsizes: 3 4 5\nencoding: raw\n\n");
+    uint8_t colors[60];
+    for (int i = 0; i < 60; i++) colors[i] = (uint8_t)(4 * i);
+    sample_put(&files[0], colors, 60);
+    sample_text(&files[1],
+                "<VTKFile><ImageData WholeExtent=\"0 3 0 4 0 0\"><Piece><PointData><DataArray type=\"UInt8\" "
+                "NumberOfComponents=\"3\" format=\"ascii\">");
+    for (int i = 0; i < 60; i++) {
+        char word[16];
+        snprintf(word, sizeof word, "%d ", 4 * i);
+        sample_text(&files[1], word);
+    }
+    sample_text(&files[1], "</DataArray></PointData></Piece></ImageData></VTKFile>");
+    for (int f = 0; f < 2; f++) {
+        ewa_volume volume;
+        assert_int_equal(sample_load(context, &files[f], files[f].size_bytes, "c", NULL, &volume), EWA_OK);
+        assert_true(volume.dims[0] == 4 && volume.dims[1] == 5 && volume.dims[2] == 1);
+        for (int i = 0; i < 20; i++) {
+            const double luminance = 0.2126 * 12 * i + 0.7152 * (12 * i + 4) + 0.0722 * (12 * i + 8);
+            assert_true(fabs((double)((const float *)volume.voxels)[i] - luminance) < 1e-4);
+        }
+        ewa_volume_free(&volume);
+    }
+    ewa_context_destroy(&context);
+}
+
+/// Which files say how a patient lies.
+static void test_anatomical(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    static const char *const fields[] = {"", "space: RAS\n", "space: left-posterior-superior\n",
+                                         "space: 3D-right-handed\n"};
+    for (int i = 0; i < 4; i++) {
+        sample_file file;
+        char text[128];
+        snprintf(text, sizeof text, "encoding: raw\n%s", fields[i]);
+        sample_nrrd(text, &file);
+        sample_put_numbers(&file, EWA_U8, false);
+        ewa_volume volume;
+        assert_int_equal(sample_load(context, &file, file.size_bytes, "x", NULL, &volume), EWA_OK);
+        assert_true(volume.anatomical == (i == 1 || i == 2));
+        ewa_volume_free(&volume);
+    }
+    ewa_context_destroy(&context);
+}
+
 static void test_raw_numbers(void **state) {
     (void)state;
     ewa_context *context = check_context(1, NULL);
@@ -388,38 +478,16 @@ static bool load_data(ewa_context *context, const char *name, ewa_volume *volume
 
 static void test_real_files(void **state) {
     (void)state;
-    static const struct {
-        const char *name;
-        uint32_t dims[3];
-        ewa_type type;
-        double low, high;
-    } files[] = {
-        {"aneurism.vti", {256, 256, 256}, EWA_U8, 0, 255},
-        {"engine_256x256x128_uint8.raw.gz", {256, 256, 128}, EWA_U8, 0, 255},
-        {"tooth.nrrd", {103, 94, 161}, EWA_U8, 0, 255},
-        {"mri_head_128.nrrd", {128, 128, 128}, EWA_U8, 0, 240},
-        {"stent.nrrd", {128, 128, 256}, EWA_F32, 0, 1},
-        {"neghip.mha", {70, 70, 70}, EWA_U8, 0, 255},
-        {"HeadMRVolume.mhd", {48, 62, 42}, EWA_U8, 0, 255},
-        {"headsq_64x64x93_uint16le.raw.gz", {64, 64, 93}, EWA_U16, 0, 3926},
-        {"ironProt.vtk", {68, 68, 68}, EWA_U8, 0, 255},
-        {"teem_fmob-c4h.nrrd", {32, 40, 16}, EWA_F32, 0.013749523860323675, 1.049265265249152},
-        {"avg152T1_RL_nifti.nii.gz", {91, 109, 91}, EWA_U8, 0, 255},
-        {"chris_MRA.nii.gz", {200, 256, 120}, EWA_U8, 0, 254},
-        {"anatomical.nii", {33, 41, 25}, EWA_I16, -610, 30393},
-        {"nrrd_variants/BallBinary30x30x30_bz2.nrrd", {30, 30, 30}, EWA_I16, 0, 257},
-        {"nrrd_variants/test2d_ascii.nrrd", {3, 9, 1}, EWA_U16, 1, 27},
-    };
     ewa_context *context = check_context(0, NULL);
-    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+    for (size_t i = 0; i < sizeof volume_facts / sizeof volume_facts[0]; i++) {
         ewa_volume volume;
         ewa_volume_facts facts;
-        if (!load_data(context, files[i].name, &volume)) continue;
-        assert_memory_equal(volume.dims, files[i].dims, sizeof volume.dims);
-        assert_int_equal(volume.type, files[i].type);
+        if (!load_data(context, volume_facts[i].name, &volume)) continue;
+        assert_memory_equal(volume.dims, volume_facts[i].dims, sizeof volume.dims);
+        assert_int_equal(volume.type, volume_facts[i].type);
         assert_int_equal(ewa_volume_measure(&volume, &facts), EWA_OK);
-        if (fabs(facts.low - files[i].low) > 1e-8 || fabs(facts.high - files[i].high) > 1e-7)
-            fail_msg("%s: %.9g .. %.9g", files[i].name, facts.low, facts.high);
+        if (fabs(facts.low - volume_facts[i].low) > 1e-8 || fabs(facts.high - volume_facts[i].high) > 1e-7)
+            fail_msg("%s: %.9g .. %.9g", volume_facts[i].name, facts.low, facts.high);
         ewa_volume_free(&volume);
     }
     ewa_context_destroy(&context);
@@ -453,12 +521,21 @@ static void test_real_twins(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_format), cmocka_unit_test(test_every_type),
-        cmocka_unit_test(test_nrrd_places),  cmocka_unit_test(test_nrrd_axes),
-        cmocka_unit_test(test_nifti_places), cmocka_unit_test(test_nifti_packed_and_pairs),
-        cmocka_unit_test(test_meta_places),  cmocka_unit_test(test_raw_numbers),
-        cmocka_unit_test(test_parts),        cmocka_unit_test(test_numbers_that_are_none),
-        cmocka_unit_test(test_saving),       cmocka_unit_test(test_real_files),
+        cmocka_unit_test(test_every_format),
+        cmocka_unit_test(test_every_type),
+        cmocka_unit_test(test_nrrd_places),
+        cmocka_unit_test(test_nrrd_axes),
+        cmocka_unit_test(test_nifti_places),
+        cmocka_unit_test(test_nifti_packed_and_pairs),
+        cmocka_unit_test(test_meta_places),
+        cmocka_unit_test(test_vti_places),
+        cmocka_unit_test(test_colors),
+        cmocka_unit_test(test_anatomical),
+        cmocka_unit_test(test_raw_numbers),
+        cmocka_unit_test(test_parts),
+        cmocka_unit_test(test_numbers_that_are_none),
+        cmocka_unit_test(test_saving),
+        cmocka_unit_test(test_real_files),
         cmocka_unit_test(test_real_twins),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -65,6 +65,12 @@ static void test_every_changed_byte(void **state) {
 #define META  "NDims = 3\nDimSize = 1 1 1\nElementType = MET_UCHAR\n"
 #define VTK   "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\n"
 
+/// An XML image of 2 x 2 x 2 points up to the attributes of its array.
+#define VTI(root, type)                                                                                      \
+    "<VTKFile " root "><ImageData WholeExtent=\"0 1 0 1 0 1\"><Piece><PointData><DataArray type=\"" type "\" "
+#define VTI_END "</PointData></Piece></ImageData></VTKFile>"
+#define ZLIB    "compressor=\"vtkZLibDataCompressor\""
+
 static void test_broken_files(void **state) {
     (void)state;
     static const struct {
@@ -133,6 +139,44 @@ static void test_broken_files(void **state) {
         {"# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n", "POLYDATA", EWA_ERROR_UNSUPPORTED},
         {"# vtk DataFile Version 3.0\nt\nMAYBE\n", "MAYBE", EWA_ERROR_FORMAT},
         {"<VTKFile type=\"PolyData\"></VTKFile>", "ImageData", EWA_ERROR_UNSUPPORTED},
+        {VTI("", "UInt8") "format=\"ascii\">1 2</DataArray>" VTI_END, "8 numbers", EWA_ERROR_FORMAT},
+        {VTI("", "UInt8") "format=\"ascii\">1 2 3 4 5 6 7 x</DataArray>" VTI_END, "no number",
+         EWA_ERROR_FORMAT},
+        {VTI("", "UInt8") "format=\"ascii\">1 2 3 4 5 6 7 8</DataArray>", "ends early", EWA_ERROR_FORMAT},
+        {VTI("", "Bit") "format=\"ascii\">1</DataArray>" VTI_END, "Bit", EWA_ERROR_UNSUPPORTED},
+        {VTI("", "UInt8") "format=\"morse\">1</DataArray>" VTI_END, "morse", EWA_ERROR_FORMAT},
+        {VTI("", "Float32") "NumberOfComponents=\"3\">1</DataArray>" VTI_END, "3", EWA_ERROR_UNSUPPORTED},
+        {VTI("", "UInt8") "format=\"binary\"></DataArray>" VTI_END, "end early", EWA_ERROR_FORMAT},
+        {VTI("", "UInt8") "format=\"binary\"/>" VTI_END, "end early", EWA_ERROR_FORMAT},
+        // A size of 2^32 - 1 or 2^64 - 1, 2^32 - 1 blocks, no block, a block of 2^32 - 1 bytes.
+        {VTI("", "UInt8") "format=\"binary\">/////wECAwQFBgcI</DataArray>" VTI_END, "end early",
+         EWA_ERROR_FORMAT},
+        {VTI("header_type=\"UInt64\"",
+             "UInt8") "format=\"binary\">//////////8BAgMEBQYHCA==</DataArray>" VTI_END,
+         "end early", EWA_ERROR_FORMAT},
+        {VTI(ZLIB, "UInt8") "format=\"binary\">/////wAAAAAAAAAAAAAAAA==</DataArray>" VTI_END, "end early",
+         EWA_ERROR_FORMAT},
+        {VTI(ZLIB, "UInt8") "format=\"binary\">AAAAAAAAAAAAAAAAAAAAAA==</DataArray>" VTI_END, "end early",
+         EWA_ERROR_FORMAT},
+        {VTI(ZLIB, "UInt8") "format=\"binary\">AQAAAAgAAAAAAAAA/////w==AAAA</DataArray>" VTI_END, "end early",
+         EWA_ERROR_FORMAT},
+        {VTI("compressor=\"vtkLZ4DataCompressor\"", "UInt8") "format=\"binary\">AAAA</DataArray>" VTI_END,
+         "LZ4", EWA_ERROR_UNSUPPORTED},
+        {VTI("", "UInt8") "format=\"appended\" offset=\"0\"/>" VTI_END, "end early", EWA_ERROR_FORMAT},
+        {VTI("", "UInt8") "format=\"appended\" offset=\"-1\"/>" VTI_END, "offset", EWA_ERROR_FORMAT},
+        {VTI("", "UInt8") "format=\"ascii\">1</DataArray></PointData></Piece><Piece>" VTI_END, "2 pieces",
+         EWA_ERROR_UNSUPPORTED},
+        {"<VTKFile><ImageData WholeExtent=\"0 1 0 1\"><PointData><DataArray>" VTI_END, "extent",
+         EWA_ERROR_FORMAT},
+        {"<VTKFile><ImageData WholeExtent=\"0 -1 0 1 0 1\"><PointData><DataArray>" VTI_END, "extent",
+         EWA_ERROR_FORMAT},
+        {"<VTKFile><ImageData WholeExtent=\"0 1 0 1 0 1\" Spacing=\"1 0 1\"><PointData><DataArray>" VTI_END,
+         "zero", EWA_ERROR_FORMAT},
+        {"<VTKFile><ImageData WholeExtent=\"0 1 0 1 0 1\" Direction=\"1 0 0 0 1 0 0 "
+         "0\"><PointData><DataArray>" VTI_END,
+         "Direction", EWA_ERROR_FORMAT},
+        {"<VTKFile type=\"ImageData\"><!-- <ImageData>", "ImageData", EWA_ERROR_UNSUPPORTED},
+        {"<VTKFile a='<ImageData>' b=\"", "ImageData", EWA_ERROR_UNSUPPORTED},
     };
     check_log log = {0};
     ewa_context *context = check_context(1, &log);

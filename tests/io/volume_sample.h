@@ -102,6 +102,91 @@ static inline void sample_nifti_head(bool second, bool big_endian, const char *m
         sample_store_real(h + 108, big_endian, false, 352);
 }
 
+/// Appends bytes as base64, padded.
+static inline void sample_put_base64(sample_file *file, const uint8_t *bytes, size_t size_bytes) {
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (size_t i = 0; i < size_bytes; i += 3) {
+        uint32_t bits = 0;
+        for (size_t k = 0; k < 3; k++) bits = bits << 8 | (i + k < size_bytes ? bytes[i + k] : 0);
+        char four[4];
+        for (size_t k = 0; k < 4; k++) four[k] = i + k > size_bytes ? '=' : digits[bits >> (18 - 6 * k) & 63];
+        sample_put(file, four, 4);
+    }
+}
+
+/// How the numbers of an XML image are stored.
+typedef struct sample_vti_form {
+    const char *root;    ///< attributes of VTKFile
+    const char *array;   ///< of DataArray
+    bool base64, packed; ///< in two blocks of 24 and 24 bytes
+    bool wide, big_endian, appended;
+    bool apart; ///< uncompressed: the size and the numbers are base64 texts of their own
+} sample_vti_form;
+
+/// Appends the sizes and the voxels, as shorts.
+static inline void sample_put_array(sample_file *file, const sample_vti_form *form) {
+    uint8_t numbers[8 * SAMPLE_VOXELS], head[64];
+    const size_t bytes = sample_numbers(EWA_I16, form->big_endian, numbers), word = form->wide ? 8 : 4;
+    sample_file data = {.size_bytes = 0};
+    size_t head_bytes = word;
+    if (form->packed) {
+        uint64_t sizes[5] = {2, bytes / 2, 0};
+        for (size_t half = 0; half < 2; half++) {
+            const size_t before = data.size_bytes;
+            sample_put_packed(&data, false, numbers + half * bytes / 2, bytes / 2);
+            sizes[3 + half] = data.size_bytes - before;
+        }
+        head_bytes = 5 * word;
+        for (size_t i = 0; i < 5; i++) sample_store(head + i * word, form->big_endian, word, sizes[i]);
+    } else {
+        sample_store(head, form->big_endian, word, bytes);
+        sample_put(&data, numbers, bytes);
+    }
+    if (!form->base64) {
+        sample_put(file, head, head_bytes);
+        sample_put(file, data.bytes, data.size_bytes);
+    } else if (form->packed || form->apart) {
+        sample_put_base64(file, head, head_bytes);
+        sample_put_base64(file, data.bytes, data.size_bytes);
+    } else {
+        sample_file both = {.size_bytes = 0};
+        sample_put(&both, head, head_bytes);
+        sample_put(&both, data.bytes, data.size_bytes);
+        sample_put_base64(file, both.bytes, both.size_bytes);
+    }
+}
+
+/// An XML image whose array is preceded by one that is not the active one.
+static inline void sample_vti(const sample_vti_form *form, sample_file *file) {
+    file->size_bytes = 0;
+    sample_text(file, "<?xml version=\"1.0\"?>\n<!-- <VTKFile> -->\n<VTKFile type=\"ImageData\" ");
+    sample_text(file, form->root);
+    sample_text(file, ">\n <ImageData WholeExtent = '0 1 0 2 0 3' Origin=\"0 0 0\" Spacing=\"1 1 1\">\n"
+                      "<FieldData><DataArray type=\"String\" format=\"ascii\">1</DataArray></FieldData>"
+                      "<Piece Extent=\"0 1 0 2 0 3\"><PointData Scalars=\"the one\">"
+                      "<DataArray type=\"Int8\" Name=\"other\" format=\"ascii\">5</DataArray>"
+                      "<DataArray Name=\"the one\" ");
+    sample_text(file, form->array);
+    if (form->appended) {
+        sample_text(file, "/></PointData></Piece></ImageData><AppendedData encoding=\"base64\">\n_");
+        sample_put_array(file, form);
+        sample_text(file, "</AppendedData>");
+    } else {
+        sample_text(file, ">\n");
+        if (form->base64)
+            sample_put_array(file, form);
+        else
+            for (int i = 0; i < SAMPLE_VOXELS; i++) {
+                char word[16];
+                snprintf(word, sizeof word, "%d\n", i);
+                sample_text(file, word);
+            }
+        sample_text(file, "\n<InformationKey name=\"x\"><Value index=\"0\">7</Value></InformationKey>"
+                          "</DataArray></PointData></Piece></ImageData>");
+    }
+    sample_text(file, "</VTKFile>");
+}
+
 /// One whole file of each format; returns its name, NULL beyond the last.
 static inline const char *sample_make(int which, sample_file *file) {
     uint8_t numbers[8 * SAMPLE_VOXELS];
@@ -167,6 +252,32 @@ static inline const char *sample_make(int which, sample_file *file) {
     case 9:
         sample_put_packed(file, true, numbers, bytes);
         return "j_2x3x4_uint8.raw.gz";
+    case 10:
+        sample_vti(&(sample_vti_form){"byte_order=\"LittleEndian\"", "type=\"Int16\" format=\"binary\"",
+                                      .base64 = true},
+                   file);
+        return "k.vti";
+    case 11:
+        sample_vti(&(sample_vti_form){"byte_order='BigEndian' header_type=\"UInt64\" "
+                                      "compressor=\"vtkZLibDataCompressor\"",
+                                      "type=\"Int16\" format=\"binary\"", .base64 = true, .packed = true,
+                                      .wide = true, .big_endian = true},
+                   file);
+        return "l.vti";
+    case 12:
+        sample_vti(&(sample_vti_form){"header_type=\"UInt32\" compressor=\"vtkZLibDataCompressor\"",
+                                      "type=\"Int16\" format=\"appended\" offset=\"0\"", .base64 = true,
+                                      .packed = true, .appended = true},
+                   file);
+        return "m.vti";
+    case 13:
+        sample_vti(&(sample_vti_form){"", "type=\"Float32\" format=\"ascii\"", .base64 = false}, file);
+        return "n.vti";
+    case 14:
+        sample_vti(&(sample_vti_form){"header_type=\"UInt64\"", "type=\"Int16\" format=\"binary\"",
+                                      .base64 = true, .wide = true, .apart = true},
+                   file);
+        return "o.vti";
     default:
         return NULL;
     }

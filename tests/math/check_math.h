@@ -57,8 +57,9 @@ static inline void check_vec4(ewa_vec4 a, double x, double y, double z, double w
     } while (0)
 
 static inline ewa_vec3 check_random_vec3(check_random *random) {
-    return vec3_make(check_uniform(random, -1, 1), check_uniform(random, -1, 1),
-                     check_uniform(random, -1, 1));
+    double v[3];
+    check_uniform3(random, -1, 1, v);
+    return vec3_load(v);
 }
 
 static inline ewa_vec4 check_random_vec4(check_random *random) {

@@ -79,8 +79,9 @@ static void test_keys(void **state) {
     ewa_camera keys[7];
     check_random random = {5};
     for (int i = 0; i < 7; i++) {
-        keys[i] = look(check_uniform(&random, -9, 9) + 5e6, check_uniform(&random, -9, 9),
-                       check_uniform(&random, -9, 9), 5e6, 0, 0.1);
+        double eye[3];
+        check_uniform3(&random, -9, 9, eye);
+        keys[i] = look(eye[0] + 5e6, eye[1], eye[2], 5e6, 0, 0.1);
         keys[i].fx_px += 10 * i;
         for (int k = 0; k < 12; k++) keys[i].world_to_camera[k] *= 1 + 0.1 * i;
     }
@@ -147,10 +148,12 @@ static void test_smooth(void **state) {
     enum { KEYS = 6 };
     ewa_camera keys[KEYS], frames[5];
     check_random random = {11};
-    for (int i = 0; i < KEYS; i++)
-        keys[i] =
-            look(check_uniform(&random, -9, 9), check_uniform(&random, -9, 9), check_uniform(&random, -9, 9),
-                 check_uniform(&random, -1, 1), check_uniform(&random, -1, 1), 0);
+    for (int i = 0; i < KEYS; i++) {
+        const double y = check_uniform(&random, -1, 1), x = check_uniform(&random, -1, 1);
+        double eye[3];
+        check_uniform3(&random, -9, 9, eye);
+        keys[i] = look(eye[0], eye[1], eye[2], x, y, 0);
+    }
     for (int closed = 0; closed < 2; closed++) {
         ewa_camera_path *path = make(keys, KEYS, closed);
         for (int i = 1; i < KEYS - 1 + closed; i++) {

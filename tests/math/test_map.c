@@ -308,8 +308,9 @@ static void test_camera_and_planes(void **state) {
         double far_z = i % 4 == 2 ? INFINITY : 40;
         assert_int_equal(ewa_camera_clip_map(&camera, 0.5, far_z, &map), EWA_OK);
         assert_int_equal(ewa_frustum_planes(&map, planes), EWA_OK);
-        ewa_vec4 world = vec4_make(check_uniform(&random, -20, 20), check_uniform(&random, -20, 20),
-                                   check_uniform(&random, -20, 20), 1);
+        double place[3];
+        check_uniform3(&random, -20, 20, place);
+        ewa_vec4 world = vec4_make(place[0], place[1], place[2], 1);
         const double *m = camera.world_to_camera;
         double camera_space[3], xyz[3], smallest = INFINITY;
         for (int r = 0; r < 3; r++)

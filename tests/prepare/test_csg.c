@@ -3,7 +3,7 @@
 //
 // Tests of ewa_cloud_csg(): results against closed forms from both sides, coinciding faces, clip lines of the
 // operands, operands that are not closed, the same bytes for every thread count, refused arguments.
-#include "check.h"
+#include "io/scratch.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -454,6 +454,38 @@ static void test_refused(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Two operands of their own and what is left of them.
+static ewa_status combine_work(ewa_context *context, void *user) {
+    const ewa_csg_operation operation = *(const ewa_csg_operation *)user;
+    ewa_cloud *operands[2] = {NULL, NULL}, *result = NULL;
+    ewa_generate_options options;
+    ewa_generate_options_init(&options, sizeof options);
+    options.point_count = 700;
+    ewa_status status = EWA_OK;
+    for (int k = 0; k < 2 && status == EWA_OK; k++) {
+        static const double aside[16] = {1, 0, 0, 0.6, 0, 1, 0, 0.4, 0, 0, 1, 0.3, 0, 0, 0, 1};
+        options.object = k ? EWA_OBJECT_SPHERE : EWA_OBJECT_CUBE;
+        options.sharp = k == 0;
+        status = ewa_cloud_generate(context, &options, &operands[k]);
+        if (k && status == EWA_OK) status = ewa_cloud_transform(operands[k], aside);
+    }
+    ewa_csg_options csg;
+    ewa_csg_options_init(&csg, sizeof csg);
+    csg.operation = operation;
+    if (status == EWA_OK) status = ewa_cloud_csg(operands[0], operands[1], &csg, &result);
+    if (status != EWA_OK) assert_null(result);
+    ewa_cloud_destroy(&operands[0]);
+    ewa_cloud_destroy(&operands[1]);
+    ewa_cloud_destroy(&result);
+    return status;
+}
+
+static void test_failing_allocations(void **state) {
+    (void)state;
+    for (ewa_csg_operation operation = EWA_CSG_UNION; operation <= EWA_CSG_DIFFERENCE; operation++)
+        scratch_fail_each(combine_work, &operation);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_against_closed_form),
@@ -463,6 +495,7 @@ int main(void) {
         cmocka_unit_test(test_same_bytes),
         cmocka_unit_test(test_refused),
         cmocka_unit_test(test_overflow),
+        cmocka_unit_test(test_failing_allocations),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
 //
 // Tests of src/prepare/feature*.c: creases and corners whose lines are known, smooth surfaces that have none,
 // what stays as it was, odd input.
+#include "io/scratch.h"
 #include "prepare/check_prepare.h"
 
 enum { SIDE = 40, MOST = 5 * SIDE * SIDE };
@@ -352,11 +353,50 @@ static void test_refusals(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// A valley of its own, whose edge is found.
+static ewa_status detect_work(ewa_context *context, void *user) {
+    enum { COUNT = 700 };
+    ewa_cloud *cloud = NULL;
+    float *positions = NULL, *normals = NULL, *radii = NULL;
+    ewa_status status = ewa_cloud_create(context, COUNT, &cloud);
+    if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&positions);
+    if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, (void **)&normals);
+    if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, (void **)&radii);
+    check_random random = {3};
+    for (uint32_t i = 0; i < COUNT && status == EWA_OK; i++) {
+        const double x = check_uniform(&random, -12, 12), y = check_uniform(&random, -12, 12);
+        const float place[3] = {(float)x, (float)y, (float)fabs(x)};
+        const float normal[3] = {x < 0 ? 0.7071f : -0.7071f, 0, 0.7071f};
+        memcpy(positions + 3 * i, place, sizeof place);
+        memcpy(normals + 3 * i, normal, sizeof normal);
+        radii[i] = 1.2f;
+    }
+    ewa_feature_counts counts = {0};
+    const ewa_feature_options options = default_options();
+    if (status == EWA_OK) status = ewa_cloud_detect_features(cloud, &options, &counts);
+    if (status == EWA_OK) *(uint64_t *)user = counts.edge_count;
+    ewa_cloud_destroy(&cloud);
+    return status;
+}
+
+static void test_failing_allocations(void **state) {
+    (void)state;
+    uint64_t edges = 0;
+    scratch_fail_each(detect_work, &edges);
+    assert_true(edges > 20);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_creases), cmocka_unit_test(test_threshold), cmocka_unit_test(test_corners),
-        cmocka_unit_test(test_smooth),  cmocka_unit_test(test_threads),   cmocka_unit_test(test_odd_clouds),
-        cmocka_unit_test(test_streams), cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_creases),
+        cmocka_unit_test(test_threshold),
+        cmocka_unit_test(test_corners),
+        cmocka_unit_test(test_smooth),
+        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_odd_clouds),
+        cmocka_unit_test(test_streams),
+        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_failing_allocations),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

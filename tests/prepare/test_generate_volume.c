@@ -125,10 +125,10 @@ static void test_vessels(void **state) {
 }
 
 /// The box of an outline.
-static ewa_bounds outline_box(const ewa_volume *volume, const ewa_transfer *transfer, double share) {
+static ewa_bounds outline_box(const ewa_volume *volume, const ewa_transfer *transfer, double reach_steps) {
     ewa_cloud *cloud = NULL;
     ewa_bounds bounds;
-    assert_int_equal(ewa_volume_outline(volume, transfer, share, &cloud), EWA_OK);
+    assert_int_equal(ewa_volume_outline(volume, transfer, reach_steps, &cloud), EWA_OK);
     assert_int_equal(ewa_cloud_measure(cloud, &bounds), EWA_OK);
     ewa_cloud_destroy(&cloud);
     return bounds;
@@ -145,24 +145,34 @@ static void test_outline(void **state) {
     for (int k = 5; k < 9; k++)
         for (int j = 2; j < 4; j++)
             for (int i = 7; i < 17; i++) voxels[400 * k + 20 * j + i] = 200;
-    voxels[399] = 200; // one that strays
+    voxels[399] = voxels[398] = 200; // two that stray
     ewa_transfer transfer = {.point_count = 2};
     transfer.points[0] = (ewa_transfer_point){100, {1, 1, 1}, 0};
     transfer.points[1] = (ewa_transfer_point){255, {1, 1, 1}, 1};
-    ewa_bounds bounds = outline_box(&volume, &transfer, 0.02);
-    assert_int_equal(bounds.finite_count, 2 * 8); // two for each of 4 x 2 rows
-    // x is -2 j + 10, y is i + 20, z is 3 k + 30, each half a voxel wider.
-    assert_true(bounds.low_world[0] == 10 - 2 * 3.5 && bounds.high_world[0] == 10 - 2 * 1.5);
-    assert_true(bounds.low_world[1] == 20 + 6.5 && bounds.high_world[1] == 20 + 16.5);
-    assert_true(bounds.low_world[2] == 30 + 3 * 4.5 && bounds.high_world[2] == 30 + 3 * 8.5);
+    ewa_bounds bounds = outline_box(&volume, &transfer, 1.5);
+    assert_int_equal(bounds.finite_count, 8 * 8); // eight corners for each of 4 x 2 rows
+    // x is -2 j + 10, y is i + 20, z is 3 k + 30, each one and a half voxels wider.
+    assert_true(bounds.low_world[0] == 10 - 2 * 4.5 && bounds.high_world[0] == 10 - 2 * 0.5);
+    assert_true(bounds.low_world[1] == 20 + 5.5 && bounds.high_world[1] == 20 + 17.5);
+    assert_true(bounds.low_world[2] == 30 + 3 * 3.5 && bounds.high_world[2] == 30 + 3 * 9.5);
+    // Three together are no noise, however they are together.
+    voxels[400 + 399 - 21] = 200;
     bounds = outline_box(&volume, &transfer, 0);
-    assert_int_equal(bounds.finite_count, 2 * 9);
-    assert_true(bounds.low_world[2] == 30 - 3 * 0.5);
-    // Faint matter counts when there is no other.
+    assert_true(bounds.low_world[2] == 30 && bounds.finite_count == 8 * 10);
+    // Faint matter counts when a line of sight would show it, here through 20 + 40 + 60 units of 1.
+    transfer.points[1].extinction = 0.003f;
     for (int i = 0; i < 8000; i++) voxels[i] = voxels[i] ? 101 : 0;
-    assert_int_equal(outline_box(&volume, &transfer, 0).finite_count, 2 * 9);
+    assert_int_equal(outline_box(&volume, &transfer, 0).finite_count, 8 * 10);
+    transfer.points[1].extinction = 0.002f;
+    assert_int_equal(outline_box(&volume, &transfer, 0).finite_count, 0);
+    // Where there is nothing but single voxels they count.
+    transfer.points[1].extinction = 1;
     memset(voxels, 0, 8000);
     assert_int_equal(outline_box(&volume, &transfer, 0).finite_count, 0);
+    voxels[4321] = 200;
+    assert_int_equal(outline_box(&volume, &transfer, 0).finite_count, 8);
+    ewa_cloud *cloud;
+    assert_int_equal(ewa_volume_outline(&volume, &transfer, -1, &cloud), EWA_ERROR_ARGUMENT);
     ewa_volume_free(&volume);
     ewa_context_destroy(&context);
 }
@@ -203,7 +213,7 @@ static ewa_status generate_and_outline(ewa_context *context, void *user) {
     ewa_status status = ewa_volume_generate(context, &options, &volume);
     if (status == EWA_OK) status = ewa_volume_measure(&volume, &facts);
     if (status == EWA_OK) status = ewa_transfer_automatic(&volume, &facts, &transfer);
-    if (status == EWA_OK) status = ewa_volume_outline(&volume, &transfer, 0, &cloud);
+    if (status == EWA_OK) status = ewa_volume_outline(&volume, &transfer, 1.8, &cloud);
     assert_true((status == EWA_OK) == (cloud != NULL));
     ewa_cloud_destroy(&cloud);
     ewa_volume_free(&volume);

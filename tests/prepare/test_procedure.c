@@ -20,9 +20,9 @@ static pattern_footprint random_footprint(check_random *random, double narrow, d
     ewa_vec3 u = vec3_cross(vec3_load(d), vec3_load(e)), v = vec3_cross(vec3_load(d), u);
     vec3_normalize(&u);
     vec3_normalize(&v);
-    return (pattern_footprint){
-        vec3_make(check_uniform(random, -9, 9), check_uniform(random, -9, 9), check_uniform(random, -9, 9)),
-        vec3_scale(u, narrow), vec3_scale(v, wide)};
+    double center[3];
+    check_uniform3(random, -9, 9, center);
+    return (pattern_footprint){vec3_load(center), vec3_scale(u, narrow), vec3_scale(v, wide)};
 }
 
 /// The mean of a function under a footprint by a fine grid.

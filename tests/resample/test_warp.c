@@ -3,6 +3,7 @@
 //
 // Depth images to surfels: which pixels count, kinds of depth, memory layouts, options, failures.
 #include "io/scratch.h"
+#include "prepare/color.h"
 #include "resample/warp.h"
 #include "warp_planes.h"
 
@@ -59,7 +60,8 @@ static void test_sixteen_bits(void **state) {
     plane_take(warp, &plane, NULL);
     plane_draw(warp, &target, EWA_WARP_HYBRID, &drawn);
     for (int i = 0; i < PLANE_PIXELS; i++)
-        if (isfinite(drawn.depth[i])) assert_true(fabsf(drawn.depth[i] - other.depth[i]) < 1e-5f);
+        assert_true(isinf(drawn.depth[i]) ? isinf(other.depth[i])
+                                          : fabsf(drawn.depth[i] - other.depth[i]) < 1e-5f);
     numbers[5] = 0, numbers[300] = 65535;
     ewa_warp_facts facts;
     plane_take(warp, &plane, &facts);
@@ -190,7 +192,17 @@ static void test_layouts(void **state) {
     // No colour: grey.
     plane.image.color = NULL;
     plane_take(warp, &plane, NULL);
-    plane_draw(warp, &target, EWA_WARP_MCMILLAN, &other);
+    for (int method = 0; method < 2; method++) {
+        plane_draw(warp, &target, (ewa_warp_method)method, &other);
+        int grey = 0;
+        for (int i = 0; i < PLANE_PIXELS; i++) {
+            if (other.holes[i] || other.rgba[4 * i + 3] < 1) continue;
+            grey++;
+            for (int c = 0; c < 3; c++)
+                assert_true(fabs((double)other.rgba[4 * i + c] - EWA_DEFAULT_GREY) < 1e-4);
+        }
+        assert_true(grey > PLANE_PIXELS / 2);
+    }
     ewa_warp_destroy(&warp);
     ewa_context_destroy(&context);
 }

@@ -36,8 +36,9 @@ static inline ewa_reference_view make_view(const ewa_camera *camera, double cuto
 
 static inline ewa_vec3 random_direction(check_random *random) {
     for (;;) {
-        const ewa_vec3 v = vec3_make(check_uniform(random, -1, 1), check_uniform(random, -1, 1),
-                                     check_uniform(random, -1, 1));
+        double numbers[3];
+        check_uniform3(random, -1, 1, numbers);
+        const ewa_vec3 v = vec3_load(numbers);
         const double length = vec3_length(v);
         if (length > 0.1 && length < 1) return vec3_scale(v, 1 / length);
     }
@@ -63,9 +64,10 @@ static inline ewa_surfel make_surfel(ewa_vec3 center, ewa_vec3 u, ewa_vec3 v) {
 /// to 20.
 static inline ewa_surfel random_surfel(check_random *random, const ewa_camera *camera, double sigma) {
     const double z = check_uniform(random, 2, 20);
+    const double y_px = check_uniform(random, 0, camera->height_px),
+                 x_px = check_uniform(random, 0, camera->width_px);
     const ewa_vec3 center =
-        vec3_make((check_uniform(random, 0, camera->width_px) - camera->cx_px) / camera->fx_px * z,
-                  (check_uniform(random, 0, camera->height_px) - camera->cy_px) / camera->fy_px * z, z);
+        vec3_make((x_px - camera->cx_px) / camera->fx_px * z, (y_px - camera->cy_px) / camera->fy_px * z, z);
     const ewa_vec3 n = random_direction(random);
     ewa_vec3 u = vec3_cross(n, random_direction(random));
     u = vec3_scale(u, sigma / vec3_length(u));

@@ -200,11 +200,38 @@ static void test_frontal(void **state) {
     }
 }
 
+/// Discs that orthographic cameras see from their edge, but for rounding: weights stay what weights may be.
+static void test_edges_seen_by_source(void **state) {
+    (void)state;
+    ewa_camera camera = odd_camera();
+    camera.projection = EWA_ORTHOGRAPHIC;
+    check_random random = {14};
+    const ewa_reference_view view = make_view(&camera, 3, 1, EWA_KERNEL_SOURCE);
+    int drawn = 0;
+    for (int i = 0; i < 4000; i++) {
+        const double lean = pow(10, check_uniform(&random, -17, -13)),
+                     turn = pow(10, check_uniform(&random, -17, -14));
+        const ewa_surfel surfel = make_surfel(vec3_make(0, 0, 2), vec3_make(0.05, 0.05 * turn, 0),
+                                              vec3_make(0.05 * turn, 0.05 * lean, 0.05));
+        ewa_reference_splat splat;
+        ewa_reference_project(&view, &surfel, &splat);
+        if (!splat.drawn) continue;
+        drawn++;
+        double x[2];
+        random_pixel(&random, splat.center_px, 3, x);
+        ewa_reference_sample sample;
+        if (!ewa_reference_sample_at(&view, &splat, x[0], x[1], &sample)) continue;
+        assert_true(sample.distance2 >= 0 && sample.weight >= 0 && sample.weight <= 1 / (2 * PI));
+    }
+    assert_true(drawn > 1000);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_source_equals_affine),  cmocka_unit_test(test_source_maps_backward),
         cmocka_unit_test(test_circle_around_ellipse), cmocka_unit_test(test_raycast_is_exact),
         cmocka_unit_test(test_raycast_limit),         cmocka_unit_test(test_frontal),
+        cmocka_unit_test(test_edges_seen_by_source),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -297,7 +297,7 @@ static void test_arguments(void **state) {
     check_log log = {0};
     ewa_context *context = check_context(0, &log);
     scene made = picture_small_scene(context, SCENE_SPHERE);
-    const ewa_frame nothing = {NULL};
+    const ewa_frame nothing = {.rgba = NULL};
     assert_int_equal(ewa_render_reference(NULL, NULL, 1, &made.camera, NULL, &nothing), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_render_reference(made.cloud, NULL, 1, NULL, NULL, &nothing), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_render_reference(made.cloud, NULL, 1, &made.camera, NULL, NULL), EWA_ERROR_ARGUMENT);

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What is measured of some points to tell how they stand: sheets, range images, bases.
+#ifndef EWA_CLI_UPRIGHT_MEASURE_H
+#define EWA_CLI_UPRIGHT_MEASURE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/// Points as offsets from the middle of their box, and the box that they fill.
+typedef struct point_cloud_sample {
+    size_t count;
+    const double (*offsets)[3];
+    const double *middle_world;
+    double low[3], high[3], extent[3]; ///< of the offsets
+} point_cloud_sample;
+
+/// Sets low, high and extent.
+void measure_extent(point_cloud_sample *points);
+
+/// Share of the places across an axis where one point lies well behind another; 0 for a sheet.
+double measure_layers(const point_cloud_sample *points, int axis);
+
+/// The lowest points along an axis.
+typedef struct base_facts {
+    double share; ///< of the footprint's convex hull that is theirs
+    bool stable;  ///< the middle of all that is seen is above them, and not at their rim
+} base_facts;
+
+void measure_base(const point_cloud_sample *points, int axis, base_facts *facts);
+
+/// Points as an eye at the origin sees them that looks along +z or -z.
+typedef struct range_facts {
+    double layered_share;           ///< of the directions, where one point lies well behind another
+    size_t column_count, row_count; ///< different x/z and y/z
+    double narrowness;              ///< the picture's shorter side over its longer one
+} range_facts;
+
+/// Measures along z (`sign` 1) or -z (-1). Returns false when not all points lie before the eye within a
+/// slope of the axis, or are too few to tell.
+bool measure_range(const point_cloud_sample *points, double sign, double most_slope, range_facts *facts);
+
+#endif

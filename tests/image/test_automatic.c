@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Transfer functions from volumes alone: what of scans is seen.
+#include "check.h"
+#include "image/standins.h"
+
+#include <math.h>
+
+enum { ALL_TREE = 1 << STANDIN_LEAVES | 1 << STANDIN_WOOD | 1 << STANDIN_POT };
+
+static ewa_transfer look_of(const ewa_volume *volume) {
+    ewa_volume_facts facts;
+    ewa_transfer transfer;
+    assert_int_equal(ewa_volume_measure(volume, &facts), EWA_OK);
+    assert_int_equal(ewa_transfer_automatic(volume, &facts, &transfer), EWA_OK);
+    assert_int_equal(ewa_transfer_check(volume->context, "automatic", &transfer), EWA_OK);
+    return transfer;
+}
+
+static void expect(const char *what, double value, double low, double high) {
+    if (!(value >= low && value <= high)) fail_msg("%s: %g, wanted %g to %g", what, value, low, high);
+}
+
+/// A tree in noisy air, whatever the noise, with and without zeros around it.
+static void test_bonsai(void **state) {
+    (void)state;
+    static const standin_scan scans[] = {
+        {12, 5, true}, {12, 5, false}, {14, 7, true}, {2, 1, false}, {30, 5, true}};
+    ewa_context *context = check_context(1, NULL);
+    for (size_t n = 0; n < sizeof scans / sizeof scans[0]; n++) {
+        standin scene = standin_make(scans[n].air);
+        standin_add_bonsai(&scene, 50 + scans[n].air, 70 + scans[n].air, 90 + scans[n].air,
+                           130 + scans[n].air);
+        ewa_volume volume = standin_scan_it(context, &scene, &scans[n]);
+        const ewa_transfer transfer = look_of(&volume);
+        const standin_seen tree = standin_look(&scene, &volume, &transfer, ALL_TREE);
+        const standin_seen leaves = standin_look(&scene, &volume, &transfer, 1 << STANDIN_LEAVES);
+        print_message("scan %zu: tree %.2f, elsewhere %.3f; leaves %.2f\n", n, tree.object, tree.elsewhere,
+                      leaves.object);
+        expect("tree", tree.object, 0.7, 1);
+        expect("air", tree.elsewhere, 0, 0.04); // borders are blurred
+        expect("leaves", leaves.object, 0.35, 1);
+        ewa_volume_free(&volume);
+        standin_free(&scene);
+    }
+    ewa_context_destroy(&context);
+}
+
+/// A nut in a cup: the cup is left out.
+static void test_walnut(void **state) {
+    (void)state;
+    static const struct {
+        standin_scan scan;
+        double cup, thick, shell, kernel;
+        bool lid;
+    } cases[] = {{{10, 6, false}, 60, 3, 150, 110, false}, {{10, 6, true}, 60, 3, 150, 110, true},
+                 {{10, 6, false}, 80, 8, 150, 110, true},  {{10, 9, false}, 100, 4, 180, 150, true},
+                 {{10, 1, false}, 60, 2, 150, 110, true},  {{0, 0, false}, 60, 4, 150, 150, true}};
+    ewa_context *context = check_context(1, NULL);
+    for (size_t n = 0; n < sizeof cases / sizeof cases[0]; n++) {
+        standin scene = standin_make(cases[n].scan.air);
+        standin_add_walnut(&scene, cases[n].cup, cases[n].thick, cases[n].lid, cases[n].shell,
+                           cases[n].kernel);
+        ewa_volume volume = standin_scan_it(context, &scene, &cases[n].scan);
+        const ewa_transfer transfer = look_of(&volume);
+        const standin_seen nut = standin_look(&scene, &volume, &transfer, 1 << STANDIN_NUT);
+        print_message("case %zu: nut %.2f, elsewhere %.3f\n", n, nut.object, nut.elsewhere);
+        expect("nut", nut.object, 0.8, 1);
+        expect("cup", nut.elsewhere, 0, 0.05);
+        ewa_volume_free(&volume);
+        standin_free(&scene);
+    }
+    ewa_context_destroy(&context);
+}
+
+/// A head in computed tomography: skin and bone, the one through the other. In magnetic resonance, where bone
+/// is dark, the skin is solid.
+static void test_heads(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    standin scene = standin_make(4);
+    standin_add_head(&scene, 70, 72, 170);
+    const standin_scan tomograph = {4, 2, false};
+    ewa_volume volume = standin_scan_it(context, &scene, &tomograph);
+    ewa_transfer transfer = look_of(&volume);
+    const standin_seen bone = standin_look(&scene, &volume, &transfer, 1 << STANDIN_BONE);
+    const standin_seen soft = standin_look(&scene, &volume, &transfer, 1 << STANDIN_SOFT);
+    print_message("CT: bone %.2f, soft %.2f, elsewhere %.3f\n", bone.object, soft.object, soft.elsewhere);
+    expect("bone", bone.object, 0.4, 0.95);
+    expect("soft matter", soft.object, 0.08, 0.6);
+    expect("air", soft.elsewhere, 0, 0.02);
+    ewa_volume_free(&volume);
+    standin_free(&scene);
+
+    scene = standin_make(0);
+    standin_add_head(&scene, 150, 110, 30);
+    const standin_scan magnet = {0, 8, false};
+    volume = standin_scan_it(context, &scene, &magnet);
+    // Masked, as it often comes.
+    for (int i = 0; i < STANDIN_VOXELS; i++)
+        if (scene.material[i] == STANDIN_AIR) ((uint8_t *)volume.voxels)[i] = 0;
+    transfer = look_of(&volume);
+    const standin_seen head = standin_look(&scene, &volume, &transfer, 1 << STANDIN_SOFT | 1 << STANDIN_BONE);
+    print_message("MR: head %.2f, elsewhere %.3f\n", head.opacity, head.elsewhere);
+    expect("head", head.opacity, 0.85, 1);
+    expect("outside", head.elsewhere, 0, 0.02);
+    ewa_volume_free(&volume);
+    standin_free(&scene);
+    ewa_context_destroy(&context);
+}
+
+/// The same look of the same matter: turned, mirrored, in other numbers, with a few that are far off or none.
+static void test_same_look(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    standin scene = standin_make(12);
+    standin_add_bonsai(&scene, 60, 80, 100, 140);
+    const standin_scan scan = {12, 5, true};
+    ewa_volume volume = standin_scan_it(context, &scene, &scan);
+    const uint8_t *voxels = volume.voxels;
+    const ewa_transfer first = look_of(&volume);
+    ewa_volume other;
+    assert_int_equal(ewa_volume_create(context, volume.dims, EWA_F32, &other), EWA_OK);
+    float *numbers = other.voxels;
+    for (int n = 0; n < 6; n++) {
+        const double scale = n == 3 ? 1e-6 : n == 4 ? 1e6 : 1, shift = n == 3 ? -7e-5 : 0;
+        for (int i = 0; i < STANDIN_VOXELS; i++) {
+            const int x = i % STANDIN_SIDE, y = i / STANDIN_SIDE % STANDIN_SIDE,
+                      z = i / STANDIN_SIDE / STANDIN_SIDE;
+            const int from[3] = {n == 1 ? z : x,
+                                 n == 1   ? x
+                                 : n == 2 ? STANDIN_SIDE - 1 - y
+                                          : y,
+                                 n == 1 ? y : z};
+            numbers[i] =
+                (float)(voxels[(from[2] * STANDIN_SIDE + from[1]) * STANDIN_SIDE + from[0]] * scale + shift);
+        }
+        if (n == 5) { // noise of the file: values far beyond, and none
+            for (int i = 0; i < 40; i++) numbers[7919 * (i + 1)] = i % 2 ? 1e30f : -1e30f;
+            numbers[4] = NAN, numbers[77777] = INFINITY;
+        }
+        const ewa_transfer transfer = look_of(&other);
+        // A point more goes to what is far off.
+        assert_true(transfer.point_count == first.point_count);
+        for (uint32_t i = 0; i + 1 < first.point_count; i++) {
+            const double value = (transfer.points[i].value - shift) / scale;
+            // Steps of the histogram are another where values are cut off.
+            const double wanted = first.points[i].value;
+            if (fabs(value - wanted) > (n == 5 ? 3 : n == 3 ? 0.01 : 1e-6))
+                fail_msg("%d, point %u: %g, not %g", n, i, value, wanted);
+            const double extinction = (double)first.points[i].extinction;
+            assert_true(fabs((double)transfer.points[i].extinction - extinction) < 0.1 * extinction + 1e-9);
+        }
+    }
+    ewa_volume_free(&other);
+    ewa_volume_free(&volume);
+    standin_free(&scene);
+    ewa_context_destroy(&context);
+}
+
+/// Whatever comes, there is a look, and it shows something where there is something.
+static void test_odd_volumes(void **state) {
+    (void)state;
+    static const uint32_t sizes[][3] = {{1, 1, 2},   {2, 1, 1}, {27, 1, 1},   {1, 9, 3},
+                                        {64, 64, 1}, {5, 5, 5}, {40, 3, 2000}};
+    ewa_context *context = check_context(1, NULL);
+    for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++)
+        for (int kind = 0; kind < 6; kind++) {
+            ewa_volume volume;
+            assert_int_equal(ewa_volume_create(context, sizes[s], EWA_F32, &volume), EWA_OK);
+            const size_t count = (size_t)sizes[s][0] * sizes[s][1] * sizes[s][2];
+            float *numbers = volume.voxels, largest = -INFINITY;
+            check_random random = {5};
+            for (size_t i = 0; i < count; i++) {
+                const double uniform = check_uniform(&random, 0, 1);
+                numbers[i] = kind == 0   ? (float)i
+                             : kind == 1 ? (float)(i == count / 2)
+                             : kind == 2 ? (float)uniform
+                             : kind == 3 ? (float)(i % 2)
+                             : kind == 4 ? (float)(uniform < 0.5 ? -1e38 : 1e38)
+                                         : (i % 3 ? NAN : (float)i);
+                if (numbers[i] > largest) largest = numbers[i];
+            }
+            ewa_volume_facts facts;
+            assert_int_equal(ewa_volume_measure(&volume, &facts), EWA_OK);
+            if (facts.low < facts.high) {
+                const ewa_transfer transfer = look_of(&volume);
+                const ewa_transfer_point *last = &transfer.points[transfer.point_count - 1];
+                assert_true(last->value >= (double)largest && last->extinction > 0);
+                assert_true(transfer.points[0].extinction == 0);
+            }
+            ewa_volume_free(&volume);
+        }
+    ewa_context_destroy(&context);
+}
+
+/// Volumes that are filled to their faces show their denser half.
+static void test_full_volume(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    standin scene = standin_make(40);
+    for (int i = 0; i < STANDIN_VOXELS; i++)
+        if (i / STANDIN_SIDE % STANDIN_SIDE > 40) scene.values[i] = 160, scene.material[i] = STANDIN_SOFT;
+    const standin_scan scan = {40, 3, false};
+    ewa_volume volume = standin_scan_it(context, &scene, &scan);
+    const ewa_transfer transfer = look_of(&volume);
+    const standin_seen dense = standin_look(&scene, &volume, &transfer, 1 << STANDIN_SOFT);
+    expect("dense half", dense.object, 0.85, 1);
+    expect("other half", dense.elsewhere, 0, 0.05);
+    ewa_volume_free(&volume);
+    standin_free(&scene);
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_bonsai),      cmocka_unit_test(test_walnut),
+        cmocka_unit_test(test_heads),       cmocka_unit_test(test_same_look),
+        cmocka_unit_test(test_odd_volumes), cmocka_unit_test(test_full_volume),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,481 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The ewa authors
+# SPDX-License-Identifier: MIT
+#
+"""Breaks the library on purpose, one number, sign or comparison at a time, and counts what the tests notice.
+
+  tools/mutate.py list [--count N] [--seed S]   writes tests/mutations.txt: what is broken, and how
+  tools/mutate.py check                         names entries whose line the sources no longer have
+  tools/mutate.py run [--jobs N] [--only TEXT] [--again]
+                                                breaks and tests; results in build/mutate/results.txt, which a
+                                                further run goes on from; of what is committed
+  tools/mutate.py report                        the score, by room, and what survived
+
+A mutant is relevant when the probe (tests/probe) differs by more than 1/255 in a pixel or 1e-3 relative in a number.
+Of these, so many must fail a test: see docs/testing.md. Entries are file, occurrence of the line in the file, the line,
+and what stands there instead, parted by tabs; those before the line "# seeded" are chosen by hand and kept.
+"""
+import argparse
+import fcntl
+import os
+import random
+import re
+import shutil
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+LIST = ROOT / "tests" / "mutations.txt"
+WORK = ROOT / "build" / "mutate"
+RESULTS = WORK / "results.txt"
+SNAPSHOT = WORK / "snapshot"
+SEEDED = "# seeded"
+GOAL = 0.95
+
+# Tables, files of one instruction set, and what only reports or allocates say nothing about the pictures.
+LEFT_OUT = re.compile(
+    r"_table\.c$|srgb_codes|colormap\.h|_presets\.c$|_avx2\.|_avx512\.|wide_portable\.h$|base/|_dispatch\.c$|_variants\.h$|options\.[ch]$")
+QUIET_LINES = re.compile(
+    r"ewa_fail|ewa_report|ewa_volume_fail|fail_|broken\(|ewa_progress|ewa_allocate|ewa_release|sizeof|snprintf|printf|"
+    r"struct_size|static_assert|capacity|reserve|prefetch|stats|_s [+-]?=|^\s*#\s*(if|else|end|include)|"
+    r"^\s*(typedef|enum|struct)\b|EWA_OK|EWA_ERROR|!context|extern|^[a-z].*[;,{]$|^\s+(const )?\w+ \*?\w+\[\d+\][,)]")
+ARRAY_LENGTH = re.compile(r"^\s*(static |const |extern )*(unsigned |struct )?\w+ \**\w+[\w\s,*\[\]]*\[$")
+
+# Near tests by the beginning of a path, cheapest first; the first that fails kills the mutant.
+PICTURES = ["surfel", "packets", "reference_splat", "clip_lines_road", "kernel_tables", "resolve", "kernels", "abuffer",
+            "reference", "reference_invariance", "shade", "random_scenes", "silhouette", "holes", "layers", "shade_road",
+            "clip_lines", "environment", "kernel_pictures"]
+NEAR = [
+    ("src/math/camera_path", ["camera_path"]),
+    ("src/math/camera", ["camera", "camera_path", "geometry", "paper", "cli_render"]),
+    ("src/math/clip", ["clip", "clip_batch", "paper", "geometry", "map"]),
+    ("src/math/wave", ["procedure", "wide_functions"]),
+    ("src/math/noise", ["procedure", "generate"]),
+    ("src/math/gaussian", ["acquire", "refit", "procedure", "texture"]),
+    ("src/math/wide", ["wide_functions", "resolve", "packets", "kernel_tables", "random_scenes"]),
+    ("src/math", ["geometry", "map", "paper", "clip", "camera", "wide_functions", "reference_splat", "random_scenes"]),
+    ("src/image/environment", ["environment", "shade", "shade_road"]),
+    ("src/image/volume", ["volume_file", "voxels", "transfer", "generate_volume"]),
+    ("src/image/transfer", ["transfer", "volume_file", "cli_volume"]),
+    ("src/image/texture", ["acquire", "cli_acquire"]),
+    ("src/image", ["image", "srgb", "colormap", "environment", "resolve", "png", "transfer"]),
+    ("src/cloud/mesh", ["mesh_file", "mesh_sample"]),
+    ("src/cloud", ["cloud", "edit", "morton", "neighbours", "estimate", "packets"]),
+    ("src/io/ply", ["ply", "ply_bad", "ply_write", "number", "file"]),
+    ("src/io/camera", ["camera_file", "camera_poses", "number"]),
+    ("src/io/volume", ["volume_file", "volume_bad"]),
+    ("src/io/mesh", ["mesh_file"]),
+    ("src/io/png", ["png"]), ("src/io/exr", ["exr"]), ("src/io/pfm", ["pfm"]), ("src/io/hdr", ["hdr"]),
+    ("src/io/jpeg", ["jpeg"]), ("src/io/transfer", ["transfer"]), ("src/io/materials", ["materials"]),
+    ("src/io", ["number", "file", "ply", "png", "exr", "pfm", "hdr", "jpeg", "mesh_file", "camera_file", "materials",
+                "transfer", "volume_file", "volume_bad", "ply_bad", "ply_write", "camera_poses"]),
+    ("src/prepare/acquire", ["acquire", "acquire_quality", "cli_acquire"]),
+    ("src/prepare/csg", ["csg", "sharp"]), ("src/prepare/solid", ["csg", "sharp"]),
+    ("src/prepare/feature", ["features", "feature_quality"]),
+    ("src/prepare/generate_volume", ["generate_volume", "volume_integrals"]),
+    ("src/prepare/generate", ["generate", "sharp", "acquire", "csg"]),
+    ("src/prepare/mesh", ["mesh_sample", "mesh_edges", "mesh_file"]),
+    ("src/prepare/pattern", ["procedure", "acquire"]), ("src/prepare/procedure", ["procedure"]),
+    ("src/prepare/refit", ["refit", "sparse"]), ("src/prepare/sparse", ["sparse", "acquire", "refit"]),
+    ("src/prepare/volume_outline", ["generate_volume", "cli_volume"]),
+    ("src/prepare", ["estimate", "orient", "features", "feature_quality", "holes"]),
+    ("src/resample/texture", ["texture", "texture_maps", "cli_texture"]),
+    ("src/resample/warp", ["warp", "warp_nearest", "warp_pictures", "cli_warp"]),
+    ("src/volume", ["voxels", "volume_kernels", "volume_integrals", "volume_render", "cli_volume"]),
+    ("src/kernels", PICTURES), ("src/splat", PICTURES),
+]
+
+# Sections of the probe that a path's code may change, cheapest first.
+CLOUDS = ["generated", "edited", "estimates", "sampled", "textured", "features", "solids"]
+SECTIONS = [
+    ("src/math/camera", ["math"]), ("src/math/clip", ["math"]), ("src/math/conic", ["math"]),
+    ("src/math/geometry", ["math"]), ("src/math/hyperbolic", ["math"]), ("src/math/map", ["math", "resample"]),
+    ("src/math/perspective", ["math"]),
+    ("src/math", ["math", "pictures", "resample", "volumes", "generated", "textured", "sampled", "splats"]),
+    ("src/image/environment", ["pictures"]), ("src/image/volume", ["files", "volumes"]),
+    ("src/image/transfer", ["files", "volumes"]), ("src/image/texture", ["textured", "sampled"]),
+    ("src/image", ["pictures", "files", "resample", "textured"]),
+    ("src/cloud", CLOUDS + ["files", "splats"]), ("src/io", ["files"]),
+    ("src/prepare/acquire", ["textured", "sampled"]), ("src/prepare/csg", ["solids"]),
+    ("src/prepare/solid", ["solids", "generated"]), ("src/prepare/feature", ["features"]),
+    ("src/prepare/generate_volume", ["files", "volumes"]), ("src/prepare/generate", ["generated", "textured"]),
+    ("src/prepare/mesh", ["sampled", "files"]), ("src/prepare/pattern", ["textured"]),
+    ("src/prepare/procedure", ["textured"]), ("src/prepare/refit", ["textured"]),
+    ("src/prepare/sparse", ["textured", "sampled"]), ("src/prepare/volume_outline", ["volumes"]),
+    ("src/prepare", ["estimates", "sampled", "textured", "features"]),
+    ("src/resample", ["resample"]), ("src/volume", ["volumes", "files"]),
+    ("src/kernels", ["pictures", "splats", "resample"]), ("src/splat", ["pictures", "splats", "resample"]),
+]
+
+
+def sections_of(path):
+    return next(sections for start, sections in SECTIONS if path.startswith(start))
+
+SWAPS = {"fmin": "fmax", "fmax": "fmin", "vec3_add": "vec3_sub", "vec3_sub": "vec3_add", "wf_add": "wf_sub",
+         "wf_sub": "wf_add", "wf_min": "wf_max", "wf_max": "wf_min", "wf_fma": "wf_fnma", "wf_fnma": "wf_fma",
+         "wm_and": "wm_or", "wm_or": "wm_and", "floor": "ceil", "ceil": "floor", "sin": "cos", "cos": "sin",
+         "wf_mul": "wf_div", "wf_lt": "wf_le", "sqrt": "fabs", "exp": "expm1"}
+TOKEN = re.compile(
+    r"(?P<number>(?<![\w.])(?:\d+\.\d*(?:e[+-]?\d+)?|\d+e[+-]?\d+|\d+)(?=[fuU;,)\s*/+\-\]}:<>=&|]|$))"
+    r"|(?P<compare><=|>=|==|!=|(?<=[\s])<(?=\s)|(?<=\s)>(?=\s))"
+    r"|(?P<logic>&&|\|\|)"
+    r"|(?P<binary>(?<=[\w)\]]\s)[-+*/](?=\s[\w(-]))"
+    r"|(?P<unary>(?<=[(,=]\s)-(?=[\w(])|(?<=\()-(?=[\w(])|(?<=return\s)-(?=[\w(]))"
+    r"|(?P<name>\b(?:%s)\b(?=\())"
+    r"|(?P<axis>(?<=\w)\.[xyz]\b)" % "|".join(SWAPS))
+
+
+def blank_comments(text):
+    """The text with comments and strings as spaces, so that columns stay."""
+    spaces = lambda match: re.sub(r"[^\n]", " ", match.group(0))
+    return re.sub(r"/\*.*?\*/|//[^\n]*|\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])*'", spaces, text, flags=re.S)
+
+
+def other_number(token, chance):
+    if re.fullmatch(r"\d+", token):
+        return {"0": "1", "1": chance.choice(["2", "0"])}.get(token, str(int(token) + chance.choice([-1, 1])))
+    value = float(token)
+    changed = value * chance.choice([0.8, 1.25]) if value else 0.1
+    return repr(changed)
+
+
+def replacement(match, chance):
+    token, kind = match.group(0), match.lastgroup
+    if kind == "number":
+        return other_number(token, chance)
+    if kind == "compare":
+        return {"<": chance.choice([">", ">", "<="]), ">": chance.choice(["<", "<", ">="]), "<=": "<", ">=": ">", "==": "!=",
+                "!=": "=="}[token]
+    if kind == "logic":
+        return {"&&": "||", "||": "&&"}[token]
+    if kind == "binary":
+        return {"+": "-", "-": "+", "*": "/", "/": "*"}[token]
+    if kind == "unary":
+        return ""
+    if kind == "axis":
+        return {".x": ".y", ".y": ".z", ".z": ".x"}[token]
+    return SWAPS[token]
+
+
+def candidates(path, chance):
+    """(old line, new line, occurrence) of every place that can be broken, one way each."""
+    text = path.read_text()
+    seen, found = {}, []
+    for line, bare in zip(text.split("\n"), blank_comments(text).split("\n")):
+        seen[line.strip()] = seen.get(line.strip(), 0) + 1
+        if QUIET_LINES.search(bare) or not bare.strip():
+            continue
+        define = re.match(r"\s*#\s*define\s+\w+\s", bare)
+        if bare.lstrip().startswith("#") and not define:
+            continue
+        for match in TOKEN.finditer(bare, define.end() if define else 0):
+            if match.lastgroup == "binary" and match.group(0) == "*" and re.search(r"\b(const|float|double|void|char|"
+                                                                                r"uint\w+|int\w+|ewa_\w+)\s$",
+                                                                                bare[: match.start()]):
+                continue
+            if match.lastgroup == "number" and ARRAY_LENGTH.match(bare[: match.start()]):
+                continue
+            new = line[: match.start()] + replacement(match, chance) + line[match.end():]
+            if new != line and not re.match(r"\s*for \(", line):
+                found.append((line, new, seen[line.strip()]))
+    return found
+
+
+class Entry:
+    def __init__(self, path, occurrence, old, new):
+        self.path, self.occurrence, self.old, self.new = path, int(occurrence), old, new
+
+    def key(self):
+        return "\t".join([self.path, str(self.occurrence), self.old, self.new])
+
+    def room(self):
+        return self.path.split("/")[1]
+
+    def apply(self, text):
+        """The text with the line replaced, or None where it is not found."""
+        lines, left = text.split("\n"), self.occurrence
+        for i, line in enumerate(lines):
+            if line.strip() == self.old:
+                left -= 1
+                if left == 0:
+                    indent = line[: len(line) - len(line.lstrip())]
+                    return "\n".join(lines[:i] + [indent + self.new] + lines[i + 1:])
+        return None
+
+
+def read_list():
+    """Entries, and how many of them are chosen by hand."""
+    entries, by_hand = [], None
+    for line in LIST.read_text().split("\n") if LIST.exists() else []:
+        if line == SEEDED:
+            by_hand = len(entries)
+        elif line and not line.startswith("#"):
+            entries.append(Entry(*line.split("\t")))
+    return entries, len(entries) if by_hand is None else by_hand
+
+
+def sources():
+    files = subprocess.check_output(["git", "ls-files", "src"], cwd=ROOT, text=True).split()
+    return [f for f in files if f.endswith((".c", ".h")) and not LEFT_OUT.search(f)]
+
+
+def write_list(count, seed):
+    entries, by_hand = read_list()
+    kept = entries[:by_hand]
+    chance = random.Random(seed)
+    # Every file has its share, by the root of its size, so that small files are asked too.
+    found = {path: candidates(ROOT / path, chance) for path in sources()}
+    found = {path: places for path, places in found.items() if places}
+    weight = {path: len(places) ** 0.5 * (0.5 if "/io/" in path else 1) for path, places in found.items()}
+    total, made, taken = sum(weight.values()), [], {entry.key() for entry in kept}
+    share = {path: weight[path] * count / total for path in found}
+    owed = 0.0
+    for path in sorted(found):
+        owed += share[path]
+        take = min(int(owed), len(found[path]))
+        owed -= take
+        for line, new, occurrence in chance.sample(found[path], take):
+            entry = Entry(path, occurrence, line.strip(), new.strip())
+            if entry.key() not in taken:
+                made.append(entry)
+                taken.add(entry.key())
+    head = ["# What tools/mutate.py breaks: file, occurrence of the line, the line, what stands there instead."]
+    lines = head + [e.key() for e in kept] + [SEEDED] + [e.key() for e in made]
+    LIST.write_text("\n".join(lines) + "\n")
+    print("%d by hand, %d seeded, in %d files" % (len(kept), len(made), len({e.path for e in made})))
+
+
+def stale_entries(entries):
+    return [e for e in entries if not (ROOT / e.path).exists() or e.apply((ROOT / e.path).read_text()) is None]
+
+
+def take_snapshot():
+    """What is committed, so that who goes on working beside this does not change what is broken."""
+    shutil.rmtree(SNAPSHOT, ignore_errors=True)
+    SNAPSHOT.mkdir(parents=True)
+    archive = subprocess.Popen(["git", "archive", "HEAD"], cwd=ROOT, stdout=subprocess.PIPE)
+    if subprocess.call(["tar", "-x", "-C", str(SNAPSHOT)], stdin=archive.stdout) or archive.wait():
+        sys.exit("mutate: git archive failed")
+
+
+class Tree:
+    """A copy of the sources with a build of its own, in which one mutant after another is built."""
+
+    def __init__(self, number):
+        self.root, self.build = WORK / ("tree%d" % number), WORK / ("build%d" % number)
+        self.scratch = WORK / ("scratch%d" % number)
+        self.log = WORK / ("log%d.txt" % number)
+        self.environment = dict(os.environ, EWA_DATA=os.environ.get("EWA_DATA", str(ROOT.parent / "shared" / "data")))
+
+    def call(self, command, timeout=None):
+        with open(self.log, "a") as log:
+            try:
+                return subprocess.run(command, stdout=log, stderr=log, timeout=timeout, env=self.environment).returncode
+            except subprocess.TimeoutExpired:
+                return 124
+
+    def text_of(self, path):
+        """Sources without the files of one instruction set: what is there once more only takes time to compile."""
+        text = (SNAPSHOT / path).read_text()
+        if path.endswith((".c", ".h")):
+            return text.replace("defined(__x86_64__)", "0")
+        return text.replace("x86_64|AMD64", "none") if path.endswith("CMakeLists.txt") else text
+
+    def prepare(self):
+        for path in (str(file.relative_to(SNAPSHOT)) for file in SNAPSHOT.rglob("*") if file.is_file()):
+            target = self.root / path
+            target.parent.mkdir(parents=True, exist_ok=True)
+            try:
+                text = self.text_of(path)
+            except UnicodeDecodeError:
+                shutil.copyfile(SNAPSHOT / path, target)
+                continue
+            if not target.exists() or target.read_bytes() != text.encode():
+                target.write_text(text)
+            if os.access(SNAPSHOT / path, os.X_OK):
+                target.chmod(0o755)
+        self.scratch.mkdir(parents=True, exist_ok=True)
+        self.log.write_text("")
+        launcher = ["-DCMAKE_C_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
+        configured = self.call(["cmake", "-G", "Ninja", "-S", str(self.root), "-B", str(self.build),
+                                "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_C_FLAGS_RELEASE=-O2 -march=native -w",
+                                "-DEWA_INNER_LIBRARY=ON", "-DEWA_DATA=" + self.environment["EWA_DATA"]] + launcher)
+        if configured or self.call(["cmake", "--build", str(self.build), "-j", "2"]):
+            sys.exit("mutate: the unbroken tree does not build: see %s" % self.log)
+        names = subprocess.check_output(["ctest", "--test-dir", str(self.build), "-N"], text=True)
+        self.tests = set(re.findall(r"Test\s+#\d+: (\S+)", names))
+        return self
+
+    def probe(self, sections, name):
+        """Runs the probe; False where it ends badly."""
+        program = str(self.build / "tests" / "probe" / "probe")
+        return self.call(["timeout", "120", program, "write", str(self.scratch / name), str(self.root),
+                          str(self.scratch)] + sections) == 0
+
+    def test(self, name, timeout):
+        return self.call(["ctest", "--test-dir", str(self.build), "-R", "^%s$" % name, "--timeout", str(timeout)])
+
+    def near_tests(self, path):
+        names = next(tests for start, tests in NEAR if path.startswith(start))
+        return [name for name in names if name in self.tests]
+
+    def differs(self, sections):
+        """Whether the library does anything else than the unbroken one."""
+        program = str(self.build / "tests" / "probe" / "probe")
+        for section in sections:
+            unbroken = "unbroken-" + section
+            if not self.probe([section], "broken"):
+                return True
+            if self.call([program, "compare", str(self.scratch / unbroken), str(self.scratch / "broken")]):
+                return True
+        return False
+
+    def judge(self, entry, timeouts):
+        """(verdict, test): one of stale, uncompilable, irrelevant, killed, survived."""
+        text = entry.apply(self.text_of(entry.path))
+        if text is None:
+            return "stale", ""
+        (self.root / entry.path).write_text(text)
+        target = ["ewa_objects"] + (["ewa"] if any(t.startswith("cli_") for t in self.near_tests(entry.path)) else [])
+        if self.call(["cmake", "--build", str(self.build), "--target"] + target):
+            return "uncompilable", ""
+        if not self.differs(sections_of(entry.path)):
+            return "irrelevant", ""
+        for name in self.near_tests(entry.path):
+            if self.test(name, timeouts[name]):
+                return "killed", name
+        return "survived", ""
+
+    def restore(self, path):
+        (self.root / path).write_text(self.text_of(path))
+
+
+def read_results():
+    results = {}
+    for line in RESULTS.read_text().split("\n") if RESULTS.exists() else []:
+        if line:
+            verdict, test, key = line.split("\t", 2)
+            results[key] = (verdict, test)
+    return results
+
+
+def time_tests(trees, entries):
+    """How long each near test may take: several times what the unbroken library needs. Ends where one fails."""
+    pending = sorted({name for entry in entries for name in trees[0].near_tests(entry.path)})
+    timeouts, failed = {}, []
+
+    def work(tree):
+        while pending and not failed:
+            name = pending.pop()
+            begin = time.time()
+            if tree.test(name, 900):
+                failed.append("mutate: test %s fails without any change: see %s" % (name, tree.log))
+            timeouts[name] = 20 + 6 * (time.time() - begin)
+
+    on_each(trees, work)
+    if failed:
+        sys.exit(failed[0])
+    return timeouts
+
+
+def on_each(trees, work):
+    threads = [threading.Thread(target=work, args=(tree,)) for tree in trees]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+
+
+def run(jobs, only, again):
+    entries, _ = read_list()
+    WORK.mkdir(parents=True, exist_ok=True)
+    lock_file = open(WORK / "lock", "w")
+    try:
+        fcntl.flock(lock_file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        sys.exit("mutate: another run is at work in %s" % WORK)
+    results = {} if again else read_results()
+    wanted = [e for e in entries if only in e.path and e.key() not in results]
+    if not wanted:
+        return report()
+    take_snapshot()
+    trees = [Tree(i).prepare() for i in range(jobs)]
+    for tree in trees:
+        for section in sorted({s for e in wanted for s in sections_of(e.path)}):
+            if not tree.probe([section], "unbroken-" + section):
+                sys.exit("mutate: the probe fails: see %s" % tree.log)
+    timeouts = time_tests(trees, wanted)
+    queues = {}
+    for entry in wanted:  # one file after another, so that little is built again
+        queues.setdefault(entry.path, []).append(entry)
+    pending, lock = sorted(queues, key=lambda path: -len(queues[path])), threading.Lock()
+
+    def work(tree):
+        while True:
+            with lock:
+                if not pending:
+                    return
+                path = pending.pop(0)
+            for entry in queues[path]:
+                begin = time.time()
+                verdict, test = tree.judge(entry, timeouts)
+                with lock:
+                    results[entry.key()] = (verdict, test)
+                    RESULTS.write_text("".join("%s\t%s\t%s\n" % (v, t, k) for k, (v, t) in results.items()))
+                    print("%-12s %-20s %5.1f s  %s: %s  ->  %s" % (verdict, test, time.time() - begin, entry.path,
+                                                                  entry.old, entry.new), flush=True)
+            tree.restore(path)
+
+    on_each(trees, work)
+    return report()
+
+
+def report():
+    entries, by_hand = read_list()
+    results, rooms = read_results(), {}
+    for entry in entries:
+        verdict = results.get(entry.key(), ("untried", ""))[0]
+        for room in (entry.room(), "all"):
+            counts = rooms.setdefault(room, {})
+            counts[verdict] = counts.get(verdict, 0) + 1
+    columns = ["killed", "survived", "irrelevant", "uncompilable", "stale", "untried"]
+    print("%-10s" % "room" + "".join("%13s" % c for c in columns) + "        score")
+    for room in sorted(rooms, key=lambda r: (r == "all", r)):
+        counts = rooms[room]
+        relevant = counts.get("killed", 0) + counts.get("survived", 0)
+        score = "%.1f %%" % (100 * counts.get("killed", 0) / relevant) if relevant else "-"
+        print("%-10s" % room + "".join("%13d" % counts.get(c, 0) for c in columns) + "%13s" % score)
+    for entry in entries:
+        if results.get(entry.key(), ("",))[0] in ("survived", "stale"):
+            print("%s: %s: %s  ->  %s" % (results[entry.key()][0], entry.path, entry.old, entry.new))
+    print("%d by hand, %d seeded" % (by_hand, len(entries) - by_hand))
+    counts = rooms["all"]
+    relevant = counts.get("killed", 0) + counts.get("survived", 0)
+    return 0 if relevant and counts.get("killed", 0) >= GOAL * relevant else 1
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("what", choices=["list", "check", "run", "report"])
+    parser.add_argument("--count", type=int, default=330)
+    parser.add_argument("--seed", type=int, default=14)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--only", default="")
+    parser.add_argument("--again", action="store_true")
+    options = parser.parse_args()
+    if options.what == "list":
+        write_list(options.count, options.seed)
+        return 0
+    if options.what == "check":
+        stale = stale_entries(read_list()[0])
+        for entry in stale:
+            print("stale: %s: %s" % (entry.path, entry.old))
+        return 1 if stale else 0
+    return run(options.jobs, options.only, options.again) if options.what == "run" else report()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
