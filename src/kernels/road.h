@@ -28,12 +28,14 @@ enum {
     EWA_WIDE_CLASS = 2 * EWA_STEEP_CLASS,                   ///< wider boxes, parts of large splats
     EWA_CLIP_CLASS = EWA_WIDE_CLASS + 1,                    ///< splats with clip lines
     EWA_CLASS_COUNT = EWA_CLIP_CLASS + 1,
+    EWA_TURNED_BIT = 1 << 6,   ///< in ewa_record.box: faces away from the viewer
     EWA_STEEP_BIT = 1 << 7,    ///< in ewa_record.box: steep or wide
     EWA_CLIP_BIT = 1 << 15,    ///< in ewa_record.box: clipped
     EWA_MATERIAL_CHANNELS = 5, ///< ambient, diffuse, specular, shininess, reflection
     EWA_MAX_CHANNELS = 9 + EWA_MATERIAL_CHANNELS,
-    EWA_CELL_BLOCKS = 4, ///< along a side of a cell, for which one depth decides whether packets are hidden
-    EWA_TILE_CELLS = 8,  ///< cells along a side of the largest tile
+    EWA_CUT_CHANNELS = 4, ///< of splats that clip lines cut: kept weight, whole weight, direction
+    EWA_CELL_BLOCKS = 4,  ///< along a side of a cell, for which one depth decides whether packets are hidden
+    EWA_TILE_CELLS = 8,   ///< cells along a side of the largest tile
     EWA_GROUP_RECORDS = 64,
     EWA_BOX_LEVELS = 3,       ///< of ewa_edge_boxes
     EWA_BOX_GUARD = 0x8080,   ///< a bit above each number, so that they can be compared by one subtraction
@@ -110,14 +112,22 @@ typedef struct ewa_record {
     };
     float key_low;          ///< the key is nowhere below, plain or not
     float red, green, blue; ///< times the resampling kernel's peak and the surfel's opacity
-    uint32_t box; ///< first column | EWA_STEEP_BIT | first row << 8 | EWA_CLIP_BIT | columns << 16 | rows <<
-                  ///< 24, in blocks
+    uint32_t box; ///< first column | EWA_TURNED_BIT | EWA_STEEP_BIT | first row << 8 | EWA_CLIP_BIT | columns
+                  ///< << 16 | rows << 24, in blocks
 } ewa_record;
 
-/// Clip lines on the screen: of the pixel whose centre is x, y in the tile, line[0] x + line[1] y + line[2]
-/// pixels from the line is how far inside. A line that is not there is 0, 0, 1.
+/// A clip line on the screen: the pixel whose centre is x, y in the tile is x_inward x + y_inward y + offset
+/// pixels inside. A line that is not there keeps everything: 0, 0, 1, and 0.
+typedef struct ewa_clip_line {
+    float x_inward, y_inward, offset;
+    float reach;                  ///< |x_inward| / 2 + |y_inward| / 2: the square ends so far from its centre
+    float narrow;                 ///< the smaller of |x_inward|, |y_inward|
+    float per_narrow, per_widths; ///< 1 / narrow (0 for 0), 1 / twice the larger
+} ewa_clip_line;
+
+/// The clip lines of a splat.
 typedef struct ewa_clip {
-    float line[2][3];
+    ewa_clip_line line[2];
     bool either; ///< what one line keeps is kept, else what both keep
 } ewa_clip;
 
@@ -136,7 +146,7 @@ typedef struct ewa_near_record {
     float color[3], normal[3]; ///< colour times opacity
     float opacity;
     float material[EWA_MATERIAL_CHANNELS];
-    bool clipped;
+    bool turned, clipped;
     ewa_clip clip;
 } ewa_near_record;
 
@@ -181,6 +191,15 @@ typedef struct ewa_sorted_run {
     uint16_t class_first[EWA_CLASS_COUNT + 1];
 } ewa_sorted_run;
 
+/// What is gathered beside a surface's sums, in the blocks that have some: of a block that is not marked,
+/// nothing is set. With unclipped splats only `cut` and `cut_rows` may be NULL.
+typedef struct ewa_apart {
+    float *turned; ///< as ewa_tile.sums: of the splats that face away
+    float *cut;    ///< [block][EWA_CUT_CHANNELS][16]; settled: covered share, nothing, mean direction inward
+    uint32_t *turned_rows; ///< [block row]: bit per block column
+    uint32_t *cut_rows;
+} ewa_apart;
+
 /// A tile and its pixels, block by block (row-major), 16 lanes per block (4 rows of 4 pixels).
 typedef struct ewa_tile {
     int32_t x_px, y_px;          ///< origin in the picture
@@ -188,6 +207,7 @@ typedef struct ewa_tile {
     uint32_t blocks_per_row, block_rows;
     float *nearest; ///< [block][16]: the smallest key that counts, the largest key of z + eps
     float *sums; ///< [block][channel][16]: weight, r, g, b [, normal x, y, z] [, z] [, material] [, opacity]
+    ewa_apart apart;
     uint32_t channel_count;
     bool with_normals, with_depth;
     bool with_opacity;   ///< with_normals then too
@@ -203,7 +223,8 @@ typedef struct ewa_edges {
                   ///< blocks that are not marked
     float *nearest; ///< [block][16]: the smallest key of the surface that is being gathered
     float *sums;    ///< as ewa_tile's
-    float *behind;  ///< [block][4][16]: premultiplied r, g, b and alpha of all surfaces but the first
+    ewa_apart apart;
+    float *behind; ///< [block][4][16]: premultiplied r, g, b and alpha of all surfaces but the first
 } ewa_edges;
 
 /// Boxes of a tile's records, or of groups of EWA_GROUP_RECORDS of them, or of EWA_BLOCK_LANES groups: first
@@ -246,6 +267,8 @@ typedef enum ewa_road_shading {
 typedef struct ewa_resolve {
     float unit_coverage_inverse; ///< 1 / q0
     float alpha_scale;           ///< 1 / (tau q0)
+    float covering;              ///< tau q0
+    float front_scale;           ///< 1 / (EWA_FRONT q0)
     float opacity;               ///< of all surfaces, beside the surfels' own
     bool edge_antialiasing, transparent, one_pass, orthographic;
     ewa_road_shading shading;
@@ -311,13 +334,16 @@ typedef struct ewa_road_kernels {
     void (*near_visibility)(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *records,
                             uint32_t count);
 
-    /// Sets nearest to -infinity and the sums to zero.
+    /// Sets nearest to -infinity and the sums to zero; nothing is apart.
     void (*clear)(const ewa_tile *tile);
 
     /// Adds a run's splats to tile->sums where their key reaches tile->nearest.
     void (*accumulate)(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run);
     void (*near_accumulate)(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *records,
                             uint32_t count);
+
+    /// Makes of what a surface has gathered what it shows (semantics.h: facing, clip lines).
+    void (*settle)(const ewa_tile *tile, const ewa_resolve *resolve);
 
     /// Marks in edges->rows the blocks with a partly covered pixel and starts their planes; returns how many.
     uint32_t (*find_edges)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges);

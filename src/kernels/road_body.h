@@ -21,6 +21,7 @@ const ewa_road_kernels ROAD_KERNELS = {
     .clear = clear,
     .accumulate = accumulate,
     .near_accumulate = near_accumulate,
+    .settle = settle,
     .find_edges = find_edges,
     .edge_boxes = edge_boxes,
     .edge_list = edge_list,

@@ -25,6 +25,19 @@ static inline float largest_lane(wf v) {
     return largest;
 }
 
+/// Where a block's pixel centres are in it.
+static ALWAYS_INLINE wf lanes_x(void) {
+    static const float x[16] = {0.5f, 1.5f, 2.5f, 3.5f, 0.5f, 1.5f, 2.5f, 3.5f,
+                                0.5f, 1.5f, 2.5f, 3.5f, 0.5f, 1.5f, 2.5f, 3.5f};
+    return wf_load(x);
+}
+
+static ALWAYS_INLINE wf lanes_y(void) {
+    static const float y[16] = {0.5f, 0.5f, 0.5f, 0.5f, 1.5f, 1.5f, 1.5f, 1.5f,
+                                2.5f, 2.5f, 2.5f, 2.5f, 3.5f, 3.5f, 3.5f, 3.5f};
+    return wf_load(y);
+}
+
 /// Rows of a rotation times a vector.
 static inline void rotate(const float m[9], wf x, wf y, wf z, wf out[3]) {
     for (int i = 0; i < 3; i++)

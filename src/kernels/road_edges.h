@@ -14,13 +14,25 @@ static size_t block_at(const ewa_tile *tile, uint32_t row, uint32_t column) {
 }
 
 /// Starts a surface in a block: where `open`, splats beyond the key `done` are wanted, elsewhere none.
-static void start_surface(const ewa_tile *tile, const ewa_edges *edges, size_t block, wm open, wf done) {
+static void start_surface(const ewa_tile *tile, const ewa_edges *edges, uint32_t row, uint32_t column,
+                          wm open, wf done) {
+    const size_t block = block_at(tile, row, column);
     const wf never = wf_set(-__builtin_inff()), passed = wf_select(open, done, never);
     wf_store(edges->passed + block * EWA_BLOCK_LANES, passed);
     edges->reach[block] = largest_lane(passed);
     wf_store(edges->nearest + block * EWA_BLOCK_LANES, never);
     float *sums = edges->sums + block * tile->channel_count * EWA_BLOCK_LANES;
     for (uint32_t c = 0; c < tile->channel_count; c++) wf_store(sums + c * EWA_BLOCK_LANES, wf_set(0));
+    const uint32_t others = ~(1u << column);
+    edges->apart.turned_rows[row] &= others;
+    if (edges->apart.cut_rows) edges->apart.cut_rows[row] &= others;
+}
+
+/// The tile as the surface that is being gathered behind its edges sees it.
+static ewa_tile tile_behind(const ewa_tile *tile, const ewa_edges *edges) {
+    ewa_tile behind = *tile;
+    behind.nearest = edges->nearest, behind.sums = edges->sums, behind.apart = edges->apart;
+    return behind;
 }
 
 static uint32_t find_edges(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges *edges) {
@@ -32,12 +44,13 @@ static uint32_t find_edges(const ewa_tile *tile, const ewa_resolve *to, const ew
         for (uint32_t column = 0; column < tile->blocks_per_row; column++) {
             const size_t block = block_at(tile, row, column);
             const float *sums = tile->sums + block * tile->channel_count * LANES;
-            const wm open = wm_and(wf_lt(zero, wf_load(sums)), wf_lt(surface_alpha(tile, to, sums), one));
+            const wf alpha = surface_alpha(tile, to, sums, cut_cover(tile, row, column));
+            const wm open = wm_and(wf_lt(zero, wf_load(sums)), wf_lt(alpha, one));
             edges->reach[block] = -__builtin_inff();
             if (!wm_bits(open)) continue;
             edges->rows[row] |= 1u << column;
             count++;
-            start_surface(tile, edges, block, open, wf_load(tile->nearest + block * LANES));
+            start_surface(tile, edges, row, column, open, wf_load(tile->nearest + block * LANES));
             for (int c = 0; c < 4; c++) wf_store(edges->behind + (block * 4 + (size_t)c) * LANES, zero);
         }
     }
@@ -61,7 +74,7 @@ static ALWAYS_INLINE void set_boxes(const ewa_record *records, uint32_t at, uint
     const wi some = wi_set((int32_t)records[at].box);
     const wi box = wi_of_bits(
         wf_select(there, wf_load_column((const float *)(const void *)&records[at].box), wf_of_bits(some)));
-    const wi first = wi_and(box, wi_set(0xffff & ~(EWA_STEEP_BIT | EWA_CLIP_BIT)));
+    const wi first = wi_and(box, wi_set(0xffff & ~(EWA_TURNED_BIT | EWA_STEEP_BIT | EWA_CLIP_BIT)));
     wi_store(boxes->first + at, first);
     wi_store(boxes->last + at, wi_add(wi_add(first, wi_sar(box, 16)), wi_set(EWA_BOX_GUARD - 0x0101)));
     wf_store(boxes->key_low + at,
@@ -164,31 +177,38 @@ typedef struct splat_lanes {
     wf dy[EWA_BLOCK_PX];       ///< by row
     wf yy, key_y, bound_y;
     wm steep, clipped;
-    wf line[2][3], either;                           ///< of clipped ones
+    wide_line line[2];
+    wf either;                                       ///< of clipped ones
     wf key_low, key_high, bound_scale, bound_offset; ///< of steep ones
 } splat_lanes;
 
 /// The clip lines of the lanes in `clipped_bits`; lines that keep everything for the others.
 static void load_lines(const ewa_clip *clips, const uint32_t *indices, uint32_t count, uint32_t clipped_bits,
                        splat_lanes *s) {
-    float numbers[7][EWA_BLOCK_LANES];
+    enum { NUMBERS = sizeof(ewa_clip_line) / sizeof(float) };
+    static const ewa_clip_line keep_all = {.offset = 1};
+    float numbers[2][NUMBERS][EWA_BLOCK_LANES], either[EWA_BLOCK_LANES];
     for (uint32_t i = 0; i < EWA_BLOCK_LANES; i++) {
         const bool clipped = clipped_bits >> i & 1;
         const ewa_clip *clip = clipped ? &clips[indices[i < count ? i : count - 1]] : NULL;
-        for (int k = 0; k < 6; k++) numbers[k][i] = clip ? clip->line[k / 3][k % 3] : k % 3 == 2;
-        numbers[6][i] = clip && clip->either;
+        for (int k = 0; k < 2; k++) {
+            float line[NUMBERS];
+            memcpy(line, clip ? &clip->line[k] : &keep_all, sizeof line);
+            for (int c = 0; c < NUMBERS; c++) numbers[k][c][i] = line[c];
+        }
+        either[i] = clip && clip->either;
     }
-    for (int k = 0; k < 6; k++) s->line[k / 3][k % 3] = wf_load(numbers[k]);
-    s->either = wf_load(numbers[6]);
+    for (int k = 0; k < 2; k++)
+        s->line[k] = (wide_line){wf_load(numbers[k][0]), wf_load(numbers[k][1]), wf_load(numbers[k][2]),
+                                 wf_load(numbers[k][3]), wf_load(numbers[k][4]), wf_load(numbers[k][5]),
+                                 wf_load(numbers[k][6])};
+    s->either = wf_load(either);
 }
 
-/// clip_share() of sixteen splats at one pixel.
+/// The shares of sixteen splats at one pixel.
 static ALWAYS_INLINE wf lane_shares(const splat_lanes *s, float x, float y) {
     wf share[2];
-    for (int i = 0; i < 2; i++) {
-        const wf offset = wf_add(s->line[i][2], wf_set(0.5f));
-        share[i] = wf_clamp(wf_fma(s->line[i][0], wf_set(x), wf_fma(s->line[i][1], wf_set(y), offset)), 0, 1);
-    }
+    for (int i = 0; i < 2; i++) share[i] = half_plane_share(&s->line[i], wf_set(x), wf_set(y));
     return wf_select(wf_lt(wf_set(0), s->either), wf_max(share[0], share[1]), wf_min(share[0], share[1]));
 }
 
@@ -205,7 +225,7 @@ static ALWAYS_INLINE splat_lanes load_splats(const ewa_record *records, const ew
     s.steep = wf_lt(wf_set(0), wf_from_i(wi_and(box, wi_set(EWA_STEEP_BIT))));
     s.clipped = wf_lt(wf_set(0), wf_from_i(wi_and(box, wi_set(EWA_CLIP_BIT))));
     if (wm_bits(s.clipped)) load_lines(clips, indices, count, wm_bits(s.clipped), &s);
-    const wi columns = wi_sub(wi_set((int32_t)column), wi_and(box, wi_set(0x7f)));
+    const wi columns = wi_sub(wi_set((int32_t)column), wi_and(box, wi_set(0x3f)));
     const wf rows = wf_from_i(wi_sub(wi_set((int32_t)row), wi_and(wi_sar(box, 8), wi_set(0x7f))));
     const wf side = wf_set(EWA_BLOCK_PX), first_px = wf_add(f[0], wf_mul(side, wf_from_i(columns)));
     for (int i = 0; i < EWA_BLOCK_PX; i++) {
@@ -290,7 +310,7 @@ static ALWAYS_INLINE void edge_sum(const ewa_view *view, const ewa_tile *tile, c
     // Splats that are nowhere as near as what counts.
     const float least_key =
         -largest_lane(wf_sub(wf_set(0), wf_select(wf_lt(never, nearest), nearest, behind_all)));
-    float *sums = edges->sums + at * tile->channel_count;
+    const ewa_tile behind = tile_behind(tile, edges);
     for (uint32_t first = 0; first < splats->count; first += EWA_BLOCK_LANES) {
         const uint32_t left = splats->count - first;
         uint32_t near_enough = wm_bits(wf_le(wf_set(least_key), wf_load(splats->largest_keys + first)));
@@ -301,16 +321,17 @@ static ALWAYS_INLINE void edge_sum(const ewa_view *view, const ewa_tile *tile, c
             const block_sample sample = sample_block(r, row, column);
             const wm beyond = wm_and(wf_lt(sample.exponent, end), wf_lt(sample.key, passed));
             wm counts = wm_and(beyond, wf_le(nearest, sample.key));
-            wf share = wf_set(1);
+            const ewa_clip *clip = clip_of(splats->clips, index);
+            clip_sample kept;
             if (box_clipped(r->box)) {
-                share = clip_share_block(&splats->clips[index], row, column);
-                counts = wm_and(counts, wf_lt(wf_set(0), share));
+                kept = clip_block(clip, row, column);
+                counts = wm_and(counts, wf_lt(wf_set(0), kept.share));
             }
             if (!wm_bits(counts)) continue;
             const payload add = payload_load(view, r, &splats->loads[index], splats->opacities,
                                              splats->materials, index, what);
-            const wf weight = wf_keep(counts, wf_mul(share, exponential(sample.exponent, view->doublings)));
-            add_channels(sums, tile->channel_count, weight, &add, sample.key, what);
+            add_splat(&behind, r, clip, &kept, row, column,
+                      wf_keep(counts, exponential(sample.exponent, view->doublings)), &add, sample.key, what);
         }
     }
 }
@@ -326,7 +347,8 @@ static void ray_edge_raise(const ewa_view *view, const ewa_tile *tile, const ewa
         const uint32_t index = splats->indices[i];
         const ewa_record *r = &splats->records[index];
         const ray_splat ray = ray_start(view, r, splats->loads[index].peak);
-        const ray_sample sample = ray_block(view, r, &ray, clip_of(splats->clips, index), row, column);
+        clip_sample left;
+        const ray_sample sample = ray_block(view, r, &ray, clip_of(splats->clips, index), row, column, &left);
         const wm beyond = wm_and(wf_lt(sample.exponent, end), wf_lt(sample.key, passed));
         if (!wm_bits(beyond)) continue;
         ray_raise(r, &sample, beyond, edges->nearest + at);
@@ -341,19 +363,22 @@ static void ray_edge_sum(const ewa_view *view, const ewa_tile *tile, const ewa_e
     const size_t block = block_at(tile, row, column), at = block * EWA_BLOCK_LANES;
     const wf passed = wf_load(edges->passed + at), nearest = wf_load(edges->nearest + at);
     const int what = channels_of(tile);
+    const ewa_tile behind = tile_behind(tile, edges);
     for (uint32_t i = 0; i < splats->count; i++) {
         const uint32_t index = splats->indices[i];
         const ewa_record *r = &splats->records[index];
         const ewa_load *load = &splats->loads[index];
         const ray_splat ray = ray_start(view, r, load->peak);
-        const ray_sample sample = ray_block(view, r, &ray, clip_of(splats->clips, index), row, column);
+        const ewa_clip *clip = clip_of(splats->clips, index);
+        clip_sample left;
+        const ray_sample sample = ray_block(view, r, &ray, clip, row, column, &left);
         const wm counts = wm_and(wf_lt(sample.exponent, wf_set(view->exponent_end)),
                                  wm_and(wf_lt(sample.key, passed), wf_le(nearest, sample.key)));
         if (!wm_bits(counts)) continue;
         const payload add = payload_load(view, r, load, splats->opacities, splats->materials, index, what);
         const wf bell = exponential(wf_keep(counts, sample.exponent), view->doublings);
-        add_channels(edges->sums + at * tile->channel_count, tile->channel_count,
-                     wf_keep(counts, wf_mul(bell, sample.gain)), &add, sample.key, what);
+        add_splat(&behind, r, clip, &left, row, column, wf_keep(counts, wf_mul(bell, sample.gain)), &add,
+                  sample.key, what);
     }
 }
 
@@ -379,6 +404,7 @@ static void edge_pass(const ewa_view *view, const ewa_tile *tile, const ewa_edge
 
 static void edge_near_pass(const ewa_view *view, const ewa_tile *tile, const ewa_edges *edges,
                            const ewa_near_record *records, uint32_t count, bool second_pass) {
+    const ewa_tile behind = tile_behind(tile, edges);
     for (uint32_t i = 0; i < count; i++) {
         for (uint32_t row = 0; row < tile->block_rows; row++) {
             for (uint32_t marked = edges->rows[row]; marked; marked &= marked - 1) {
@@ -394,8 +420,7 @@ static void edge_near_pass(const ewa_view *view, const ewa_tile *tile, const ewa
                     continue;
                 }
                 counts = wm_and(counts, wf_le(wf_load(nearest), key));
-                near_add(view, tile, &records[i], &sample, counts, key,
-                         edges->sums + block * tile->channel_count * EWA_BLOCK_LANES, false);
+                near_add(view, &behind, &records[i], &sample, counts, key, row, column, false);
             }
         }
     }
@@ -423,16 +448,38 @@ static ALWAYS_INLINE wf merged_alpha(wf alpha, wf coverage) {
     return wf_sub(one, through);
 }
 
+/// What a surface behind a first one of alpha `first` covers of the part that this leaves open, if both are
+/// cut by clip lines (planes of cut_cover()): semantics.h, layers. `whole`: what it would cover without them.
+static wf cover_behind_cut(wf first, const float *first_cut, wf whole, const float *cut) {
+    enum { LANES = EWA_BLOCK_LANES };
+    const wf zero = wf_set(0), one = wf_set(1), open = wf_sub(one, first), over = wf_load(cut);
+    const wf x = wf_mul(wf_load(first_cut + CUT_X * LANES), wf_load(cut + CUT_X * LANES));
+    const wf along = wf_fma(wf_load(first_cut + CUT_Y * LANES), wf_load(cut + CUT_Y * LANES), x);
+    const wf beside = wf_max(wf_sub(over, first), zero);
+    const wf behind = wf_div(beside, wf_select(wf_lt(zero, open), open, one));
+    const wf related = wf_min(wf_mul(wf_abs(along), wf_set(2)), one);
+    return wf_fma(related, wf_sub(wf_select(wf_lt(zero, along), behind, whole), over), over);
+}
+
 /// Composites one block's gathered surface under what is in front of it; returns the pixels that stay open.
 static wm compose_block(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges *edges, bool merged,
                         uint32_t row, uint32_t column) {
     enum { LANES = EWA_BLOCK_LANES };
     const size_t block = block_at(tile, row, column);
     const float *sums = edges->sums + block * tile->channel_count * LANES;
+    const ewa_tile gathered = tile_behind(tile, edges);
+    settle_block(&gathered, to, row, column, merged);
     float shade[EWA_SHADE_FLOATS];
     shade_block(tile, to, sums, (uint32_t)tile->x_px + column * EWA_BLOCK_PX,
                 (uint32_t)tile->y_px + row * EWA_BLOCK_PX, shade);
-    surface found = gathered_surface(tile, to, sums, shade);
+    const float *cut = merged ? NULL : cut_cover(&gathered, row, column);
+    const float *first_cut = cut_cover(tile, row, column);
+    surface found = gathered_surface(tile, to, sums, shade, cut);
+    if (cut && first_cut && !to->transparent) {
+        const wf first = surface_alpha(tile, to, tile->sums + block * tile->channel_count * LANES, first_cut);
+        const wf whole = surface_alpha(&gathered, to, sums, NULL);
+        found.alpha = cover_behind_cut(first, first_cut, whole, cut);
+    }
     if (merged)
         found.alpha = merged_alpha(found.alpha, wf_mul(wf_load(sums), wf_set(to->unit_coverage_inverse)));
     float *behind = edges->behind + block * 4 * LANES;
@@ -454,7 +501,8 @@ static uint32_t edge_compose(const ewa_tile *tile, const ewa_resolve *to, const 
             const size_t block = block_at(tile, row, column);
             const wm open = compose_block(tile, to, edges, merged, row, column);
             if (wm_bits(open)) {
-                start_surface(tile, edges, block, open, wf_load(edges->nearest + block * EWA_BLOCK_LANES));
+                start_surface(tile, edges, row, column, open,
+                              wf_load(edges->nearest + block * EWA_BLOCK_LANES));
                 count++;
             } else {
                 edges->rows[row] &= ~(1u << column);

@@ -14,6 +14,7 @@ typedef struct near_sample {
     wf weight;   ///< 1 / (2 pi sqrt|W|)
     wf z;
     wm counts;
+    clip_sample left; ///< of one that has clip lines
 } near_sample;
 
 static ALWAYS_INLINE wf linear(const float terms[3], wf x, wf y) {
@@ -46,9 +47,8 @@ static ALWAYS_INLINE near_sample near_evaluate(const ewa_view *view, const ewa_n
     sample.counts = view->orthographic ? inside : wm_and(inside, wf_lt(wf_set(0), z));
     sample.z = wf_min(wf_max(z, wf_set(r->depth_low)), wf_set(r->depth_high));
     if (r->clipped) {
-        const wf share = clip_share(&r->clip, x, y);
-        sample.weight = wf_mul(sample.weight, share);
-        sample.counts = wm_and(sample.counts, wf_lt(wf_set(0), share));
+        sample.left = clip_at(&r->clip, x, y);
+        sample.counts = wm_and(sample.counts, wf_lt(wf_set(0), sample.left.share));
     }
     return sample;
 }
@@ -64,10 +64,10 @@ static ALWAYS_INLINE void near_raise(const ewa_view *view, const ewa_near_record
     wf_store(nearest, wf_select(counts, wf_max(key, old), old));
 }
 
-/// Adds a near surfel to the channels of a tile; its depth only with `with_depth`.
+/// Adds a near surfel to what a block has gathered; its depth only with `with_depth`.
 static ALWAYS_INLINE void near_add(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *r,
-                                   const near_sample *sample, wm counts, wf key, float *sums,
-                                   bool with_depth) {
+                                   const near_sample *sample, wm counts, wf key, uint32_t row,
+                                   uint32_t column, bool with_depth) {
     if (!wm_bits(counts)) return;
     // Lanes that do not count may hold anything.
     payload add = {.peak = wf_keep(counts, sample->weight)};
@@ -78,8 +78,13 @@ static ALWAYS_INLINE void near_add(const ewa_view *view, const ewa_tile *tile, c
     add.opacity = wf_mul(add.peak, wf_set(r->opacity));
     for (int k = 0; k < EWA_MATERIAL_CHANNELS; k++)
         add.material[k] = wf_mul(add.peak, wf_set(r->material[k]));
-    const wf e = exponential(wf_keep(counts, sample->exponent), view->doublings);
-    add_channels(sums, tile->channel_count, wf_keep(counts, e), &add, wf_select(counts, key, wf_set(1)),
+    wf weight = wf_keep(counts, exponential(wf_keep(counts, sample->exponent), view->doublings));
+    if (r->clipped) {
+        add_cut(tile, row, column, &r->clip, &sample->left, wf_mul(weight, add.peak));
+        weight = wf_mul(weight, wf_keep(counts, sample->left.share));
+    }
+    add_channels(block_sums(tile, r->turned, row, column), tile->channel_count, weight, &add,
+                 wf_select(counts, key, wf_set(1)),
                  channels_of(tile) | (with_depth ? ADD_DEPTH : 0) | (view->orthographic ? ORTHOGRAPHIC : 0));
 }
 
@@ -106,14 +111,12 @@ static void near_accumulate(const ewa_view *view, const ewa_tile *tile, const ew
                             uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
         const float *nearest = tile->nearest;
-        float *sums = tile->sums;
         for (uint32_t row = 0; row < tile->block_rows; row++) {
             for (uint32_t column = 0; column < tile->blocks_per_row; column++, nearest += EWA_BLOCK_LANES) {
                 const near_sample sample = near_block(view, &records[i], row, column);
                 const wf key = key_of_depth(view, sample.z);
                 const wm counts = wm_and(sample.counts, wf_le(wf_load(nearest), key));
-                near_add(view, tile, &records[i], &sample, counts, key, sums, tile->with_depth);
-                sums += tile->channel_count * EWA_BLOCK_LANES;
+                near_add(view, tile, &records[i], &sample, counts, key, row, column, tile->with_depth);
             }
         }
     }

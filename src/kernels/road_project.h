@@ -343,6 +343,10 @@ static void list_clipped(ewa_run *run, uint32_t clipped_bits, uint32_t alive_bit
     }
 }
 
+/// A tangent replaces the key of z + eps where the key changes by less than this part of it: it is then too
+/// near by at most eps / TANGENT_PARTS^2.
+enum { TANGENT_PARTS = 16 };
+
 /// Third step: tolerance, box in the tile, and the records of the lanes that are in it.
 static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_source *source, uint32_t id,
                                      const ewa_tile *tile, stage *t, ewa_run *run, wf *least) {
@@ -400,7 +404,15 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_sour
     const wf half_end_px = wf_set(EWA_COLUMN_CLASSES * EWA_BLOCK_PX / 2);
     wm wide = wm_or(wf_lt(half_end_px, wf_max(t->half_x, t->half_y)),
                     wf_lt(wf_set(EWA_COLUMN_CLASSES), wf_from_i(columns)));
-    // The key of circular ones goes too far for a tangent.
+    // The key of z + eps has a tangent that serves where the key hardly changes.
+    const wf least_key = wf_fnma(wf_abs(t->key_x), t->half_x, wf_fnma(wf_abs(t->key_y), t->half_y, key));
+    wf lowest = wf_sub(key_low, margin);
+    if (view->circular && !view->orthographic)
+        lowest = wf_max(lowest, wf_mul(wf_set((float)EWA_LEAST_KEY), t->inverse_z));
+    if (!view->orthographic) {
+        const wf tangent_key = wf_mul(wf_set(1 - 1 / (float)TANGENT_PARTS), key);
+        wide = wm_or(wide, wf_lt(wf_max(least_key, lowest), tangent_key));
+    }
     if (view->circular) wide = wm_of_bits(0xffff);
     // Affine ellipses reach beyond what discs cover, so that their planes may end anywhere.
     const wm steep = wm_or(wide, view->affine ? wm_of_bits(0xffff) : wf_lt(margin, reach));
@@ -415,16 +427,12 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_sour
         bound_scale = wf_select(wide, zero, share2);
         bound_offset = wf_select(wide, tolerance, wf_mul(wf_sub(share, share2), t->inverse_z));
     }
-    const wf least_key = wf_fnma(wf_abs(t->key_x), t->half_x, wf_fnma(wf_abs(t->key_y), t->half_y, key));
-
-    wf lowest = wf_sub(key_low, margin);
-    if (view->circular && !view->orthographic)
-        lowest = wf_max(lowest, wf_mul(wf_set((float)EWA_LEAST_KEY), t->inverse_z));
     const wf low = wf_select(steep, lowest, least_key);
     *least = wf_min(wf_select(alive, low, wf_set(__builtin_inff())), *least);
 
     const color_form form = read_color_form(source->colors[id]);
-    wf opacity = t->peak; // times the peak
+    const wm turned = wf_lt(zero, t->facing); // normals are turned towards the viewer
+    wf opacity = t->peak;                     // times the peak
     if (opacities_u16)
         opacity = wf_mul(t->peak, wf_mul(wf_from_i(wi_load_u16(opacities_u16)), wf_set(1.0f / 65535.0f)));
     wf lanes[16] = {
@@ -443,11 +451,11 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_sour
         wf_mul(opacity, decode_color(&form, packet->red)),
         wf_mul(opacity, decode_color(&form, packet->green)),
         wf_mul(opacity, decode_color(&form, packet->blue)),
-        wf_of_bits(wi_or(box, select_int(clipped, EWA_CLIP_BIT, wi_set(0)))),
+        wf_of_bits(wi_or(box, wi_or(select_int(clipped, EWA_CLIP_BIT, wi_set(0)),
+                                    select_int(turned, EWA_TURNED_BIT, wi_set(0))))),
     };
     w_transpose(lanes);
-    // Normals face the viewer.
-    const wf facing_peak = wf_select(wf_lt(zero, t->facing), wf_negate(t->peak), t->peak);
+    const wf facing_peak = wf_select(turned, wf_negate(t->peak), t->peak);
     float loads[64];
     w_store4(loads, wf_mul(facing_peak, t->n[0]), wf_mul(facing_peak, t->n[1]), wf_mul(facing_peak, t->n[2]),
              t->peak);

@@ -5,6 +5,7 @@
 #ifndef EWA_SRC_KERNELS_ROAD_RASTER_H
 #define EWA_SRC_KERNELS_ROAD_RASTER_H
 
+#include "kernels/road_apart.h"
 #include "kernels/road_raycast.h"
 
 /// exp(-s) for s in [0, EWA_EXPONENT_END] within 3.0e-05 relative, squared `doublings` >= 2 times.
@@ -19,19 +20,8 @@ static ALWAYS_INLINE wf exponential(wf s, uint32_t doublings) {
     return e;
 }
 
-static ALWAYS_INLINE wf lanes_x(void) {
-    static const float x[16] = {0.5f, 1.5f, 2.5f, 3.5f, 0.5f, 1.5f, 2.5f, 3.5f,
-                                0.5f, 1.5f, 2.5f, 3.5f, 0.5f, 1.5f, 2.5f, 3.5f};
-    return wf_load(x);
-}
-
-static ALWAYS_INLINE wf lanes_y(void) {
-    static const float y[16] = {0.5f, 0.5f, 0.5f, 0.5f, 1.5f, 1.5f, 1.5f, 1.5f,
-                                2.5f, 2.5f, 2.5f, 2.5f, 3.5f, 3.5f, 3.5f, 3.5f};
-    return wf_load(y);
-}
-
-static ALWAYS_INLINE uint32_t box_column(uint32_t box) { return box & 0x7f; }
+static ALWAYS_INLINE uint32_t box_column(uint32_t box) { return box & 0x3f; }
+static ALWAYS_INLINE bool box_turned(uint32_t box) { return box & EWA_TURNED_BIT; }
 static ALWAYS_INLINE bool box_steep(uint32_t box) { return box & EWA_STEEP_BIT; }
 static ALWAYS_INLINE uint32_t box_row(uint32_t box) { return box >> 8 & 0x7f; }
 static ALWAYS_INLINE bool box_clipped(uint32_t box) { return box & EWA_CLIP_BIT; }
@@ -68,22 +58,6 @@ static ALWAYS_INLINE wf bound_key(const ewa_record *r, wf key, bool exact) {
     const wf offset = wf_set(r->bound_offset);
     if (exact) return wf_mul(key, wf_reciprocal(wf_fma(offset, key, wf_set(1))));
     return wf_fma(wf_set(r->bound_scale), key, offset);
-}
-
-/// The share of each pixel that clip lines leave: all of it half a pixel inside, nothing half a pixel
-/// outside. x, y: pixel centres in the tile.
-static ALWAYS_INLINE wf clip_share(const ewa_clip *clip, wf x, wf y) {
-    wf share[2];
-    for (int i = 0; i < 2; i++) {
-        const float *l = clip->line[i];
-        share[i] = wf_clamp(wf_fma(wf_set(l[0]), x, wf_fma(wf_set(l[1]), y, wf_set(l[2] + 0.5f))), 0, 1);
-    }
-    return clip->either ? wf_max(share[0], share[1]) : wf_min(share[0], share[1]);
-}
-
-static ALWAYS_INLINE wf clip_share_block(const ewa_clip *clip, uint32_t row, uint32_t column) {
-    return clip_share(clip, wf_add(lanes_x(), wf_set((float)(EWA_BLOCK_PX * column))),
-                      wf_add(lanes_y(), wf_set((float)(EWA_BLOCK_PX * row))));
 }
 
 /// s and key of a splat in one block of its box.
@@ -190,17 +164,18 @@ static ALWAYS_INLINE const ewa_clip *clip_of(const ewa_clip *clips, uint32_t rec
     return clips ? &clips[record] : NULL;
 }
 
-/// A raycast splat at a block of its box.
+/// A raycast splat at a block of its box; `at_lines` is set for one that has clip lines.
 static ALWAYS_INLINE ray_sample ray_block(const ewa_view *view, const ewa_record *r, const ray_splat *ray,
-                                          const ewa_clip *clip, uint32_t row, uint32_t column) {
+                                          const ewa_clip *clip, uint32_t row, uint32_t column,
+                                          clip_sample *at_lines) {
     const float x_px = (float)EWA_BLOCK_PX * ((float)column - (float)box_column(r->box)) + r->offset_x;
     const float y_px = (float)EWA_BLOCK_PX * ((float)row - (float)box_row(r->box)) + r->offset_y;
     ray_sample sample =
         ray_evaluate(view, r, ray, wf_add(lanes_x(), wf_set(x_px)), wf_add(lanes_y(), wf_set(y_px)));
     if (box_clipped(r->box)) {
-        const wf share = clip_share_block(clip, row, column);
-        sample.gain = wf_mul(sample.gain, share);
-        sample.exponent = wf_select(wf_lt(wf_set(0), share), sample.exponent, wf_set(__builtin_inff()));
+        *at_lines = clip_block(clip, row, column);
+        sample.exponent =
+            wf_select(wf_lt(wf_set(0), at_lines->share), sample.exponent, wf_set(__builtin_inff()));
     }
     return sample;
 }
@@ -228,8 +203,9 @@ static void ray_visibility(const pass *p) {
             const size_t first = (size_t)row * p->tile->blocks_per_row;
             for (uint32_t k = 0; k < box_columns(r->box); k++) {
                 const uint32_t column = box_column(r->box) + k;
+                clip_sample left;
                 const ray_sample sample =
-                    ray_block(p->view, r, &ray, clip_of(p->run->clips, p->run->order[i]), row, column);
+                    ray_block(p->view, r, &ray, clip_of(p->run->clips, p->run->order[i]), row, column, &left);
                 const wm counts = ray_counts(p, &sample, (first + column) * EWA_BLOCK_LANES);
                 ray_raise(r, &sample, counts, p->tile->nearest + (first + column) * EWA_BLOCK_LANES);
             }
@@ -270,7 +246,7 @@ static void clipped_raise(const pass *p, uint32_t splat, uint32_t row, uint32_t 
     const ewa_record *r = &p->run->records[splat];
     const size_t at = ((size_t)row * p->tile->blocks_per_row + column) * EWA_BLOCK_LANES;
     const block_sample sample = sample_block(r, row, column);
-    const wf share = clip_share_block(&p->run->clips[splat], row, column);
+    const wf share = clip_block(&p->run->clips[splat], row, column).share;
     const wf old = wf_load(p->tile->nearest + at), bound = block_bound(p->view, r, &sample, column);
     wf_store(p->tile->nearest + at,
              wf_select(clipped_counts(p, &sample, share, at), wf_max(bound, old), old));
@@ -290,6 +266,9 @@ static void visibility(const ewa_view *view, const ewa_tile *tile, const ewa_sor
 static void clear(const ewa_tile *tile) {
     const size_t blocks = (size_t)tile->blocks_per_row * tile->block_rows;
     const wf far = wf_set(-__builtin_inff()), zero = wf_set(0);
+    memset(tile->apart.turned_rows, 0, tile->block_rows * sizeof *tile->apart.turned_rows);
+    if (tile->apart.cut_rows)
+        memset(tile->apart.cut_rows, 0, tile->block_rows * sizeof *tile->apart.cut_rows);
     for (size_t i = 0; i < blocks * EWA_BLOCK_LANES; i += EWA_BLOCK_LANES) wf_store(tile->nearest + i, far);
     const size_t floats = blocks * tile->channel_count * EWA_BLOCK_LANES;
     for (size_t i = 0; i < floats; i += EWA_BLOCK_LANES) wf_store(tile->sums + i, zero);
@@ -359,6 +338,19 @@ static ALWAYS_INLINE void add_channels(float *sums, uint32_t channels, wf weight
     }
 }
 
+/// Adds a splat to what a block has gathered: `weight` is relative to the kernel's peak, without the clip
+/// lines; `left` is looked at when it has some.
+static ALWAYS_INLINE void add_splat(const ewa_tile *tile, const ewa_record *r, const ewa_clip *clip,
+                                    const clip_sample *left, uint32_t row, uint32_t column, wf weight,
+                                    const payload *p, wf key, int what) {
+    if (box_clipped(r->box)) {
+        add_cut(tile, row, column, clip, left, wf_mul(weight, p->peak));
+        weight = wf_mul(weight, left->share);
+    }
+    add_channels(block_sums(tile, box_turned(r->box), row, column), tile->channel_count, weight, p, key,
+                 what);
+}
+
 static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_t first_column,
                                           uint32_t columns, uint32_t rows, depth_test test, int what) {
     const ewa_view *view = p->view;
@@ -403,15 +395,52 @@ static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_
     }
 }
 
-/// The accumulation for one set of channels.
+/// accumulate_rows() for a splat that faces away, with the same numbers: most of them are hidden.
+static ALWAYS_INLINE void accumulate_turned(const pass *p, uint32_t splat, uint32_t first_column,
+                                            uint32_t columns, uint32_t rows, depth_test test, int what) {
+    const ewa_tile *tile = p->tile;
+    const ewa_record *r = &p->run->records[splat];
+    const payload add =
+        payload_load(p->view, r, &p->run->loads[splat], p->run->opacities, p->run->materials, splat, what);
+    const wf end = wf_set(p->view->exponent_end);
+    for (uint32_t i = first_column; i < first_column + columns; i++) {
+        const column_terms c = column_start(r, r->key, r->key_x, (float)(EWA_BLOCK_PX * i));
+        wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
+        for (uint32_t k = 0; k < rows; k++, dy = wf_add(dy, wf_set(EWA_BLOCK_PX))) {
+            const uint32_t row = box_row(r->box) + k, column = box_column(r->box) + i;
+            const size_t at = ((size_t)row * tile->blocks_per_row + column) * EWA_BLOCK_LANES;
+            const wf s = block_exponent(r, &c, dy);
+            wf key = wf_fma(wf_set(r->key_y), dy, c.key);
+            if (test != PLAIN) key = clamped_key(r, key);
+            wm counts = wm_and(wf_lt(s, end), wf_le(wf_load(tile->nearest + at), key));
+            if (what & BEYOND) counts = wm_and(counts, wf_lt(key, wf_load(tile->passed + at)));
+            if (!wm_bits(counts)) continue;
+            add_channels(block_sums(tile, true, row, column), tile->channel_count,
+                         wf_keep(counts, exponential(s, p->view->doublings)), &add, key, what);
+        }
+    }
+}
+
+/// The accumulation for one set of channels. Splats that face away are not worth a body for each class.
 #define ACCUMULATE(name, what)                                                                               \
+    static                                                                                                   \
+        __attribute__((noinline)) void name##_turned(const pass *p, uint32_t splat, uint32_t first_column,   \
+                                                     uint32_t columns, uint32_t rows, depth_test test) {     \
+        accumulate_turned(p, splat, first_column, columns, rows, test, what);                                \
+    }                                                                                                        \
     static ALWAYS_INLINE void name##_rows(const pass *p, uint32_t splat, uint32_t first_column,              \
                                           uint32_t columns, uint32_t rows, depth_test test) {                \
-        accumulate_rows(p, splat, first_column, columns, rows, test, what);                                  \
+        if (box_turned(p->run->records[splat].box))                                                          \
+            name##_turned(p, splat, first_column, columns, rows, test);                                      \
+        else                                                                                                 \
+            accumulate_rows(p, splat, first_column, columns, rows, test, what);                              \
     }                                                                                                        \
     static ALWAYS_INLINE void name##_long_rows(const pass *p, uint32_t splat, uint32_t first_column,         \
                                                uint32_t columns, uint32_t rows, depth_test test) {           \
-        accumulate_rows(p, splat, first_column, columns, rows, test, (what) | LONG);                         \
+        if (box_turned(p->run->records[splat].box))                                                          \
+            name##_turned(p, splat, first_column, columns, rows, test);                                      \
+        else                                                                                                 \
+            accumulate_rows(p, splat, first_column, columns, rows, test, (what) | LONG);                     \
     }                                                                                                        \
     static void name(const pass *p) {                                                                        \
         if (p->view->doublings == 2)                                                                         \
@@ -453,14 +482,15 @@ static void ray_accumulate(const pass *p) {
             for (uint32_t k = 0; k < box_columns(r->box); k++) {
                 const uint32_t column = box_column(r->box) + k;
                 const size_t block = (size_t)row * tile->blocks_per_row + column;
-                const ray_sample sample =
-                    ray_block(view, r, &ray, clip_of(p->run->clips, p->run->order[i]), row, column);
+                const ewa_clip *clip = clip_of(p->run->clips, p->run->order[i]);
+                clip_sample left;
+                const ray_sample sample = ray_block(view, r, &ray, clip, row, column, &left);
                 const wm counts = wm_and(ray_counts(p, &sample, block * EWA_BLOCK_LANES),
                                          wf_le(wf_load(tile->nearest + block * EWA_BLOCK_LANES), sample.key));
                 if (!wm_bits(counts)) continue;
                 const wf bell = exponential(wf_keep(counts, sample.exponent), view->doublings);
-                add_channels(tile->sums + block * tile->channel_count * EWA_BLOCK_LANES, tile->channel_count,
-                             wf_keep(counts, wf_mul(bell, sample.gain)), &add, sample.key, what);
+                add_splat(tile, r, clip, &left, row, column, wf_keep(counts, wf_mul(bell, sample.gain)), &add,
+                          sample.key, what);
             }
         }
     }
@@ -471,14 +501,15 @@ static void clipped_add(const pass *p, uint32_t splat, uint32_t row, uint32_t co
     const ewa_record *r = &p->run->records[splat];
     const size_t block = (size_t)row * tile->blocks_per_row + column, at = block * EWA_BLOCK_LANES;
     const block_sample sample = sample_block(r, row, column);
-    const wf share = clip_share_block(&p->run->clips[splat], row, column);
+    const ewa_clip *clip = &p->run->clips[splat];
+    const clip_sample left = clip_block(clip, row, column);
     const wm counts =
-        wm_and(clipped_counts(p, &sample, share, at), wf_le(wf_load(tile->nearest + at), sample.key));
+        wm_and(clipped_counts(p, &sample, left.share, at), wf_le(wf_load(tile->nearest + at), sample.key));
     if (!wm_bits(counts)) return;
     const payload add =
         payload_load(p->view, r, &p->run->loads[splat], p->run->opacities, p->run->materials, splat, what);
-    const wf weight = wf_keep(counts, wf_mul(share, exponential(sample.exponent, p->view->doublings)));
-    add_channels(tile->sums + at * tile->channel_count, tile->channel_count, weight, &add, sample.key, what);
+    add_splat(tile, r, clip, &left, row, column,
+              wf_keep(counts, exponential(sample.exponent, p->view->doublings)), &add, sample.key, what);
 }
 
 static void accumulate(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run) {

@@ -36,11 +36,13 @@ typedef struct surface {
     wf alpha, color[3];
 } surface;
 
-/// Coverage times opacity.
-static ALWAYS_INLINE wf surface_alpha(const ewa_tile *tile, const ewa_resolve *to, const float *sums) {
+/// Covered share times opacity; `cover`: of cut_cover().
+static ALWAYS_INLINE wf surface_alpha(const ewa_tile *tile, const ewa_resolve *to, const float *sums,
+                                      const float *cover) {
     const wf weight = wf_load(sums), one = wf_set(1);
-    const wf coverage = to->edge_antialiasing ? wf_min(one, wf_mul(weight, wf_set(to->alpha_scale)))
-                                              : wf_keep(wf_lt(wf_set(0), weight), one);
+    wf coverage = wf_keep(wf_lt(wf_set(0), weight), one);
+    if (to->edge_antialiasing)
+        coverage = cover ? wf_load(cover) : wf_min(one, wf_mul(weight, wf_set(to->alpha_scale)));
     if (!to->transparent) return coverage;
     wf opacity = wf_set(to->opacity);
     if (tile->with_opacity)
@@ -49,10 +51,10 @@ static ALWAYS_INLINE wf surface_alpha(const ewa_tile *tile, const ewa_resolve *t
     return wf_mul(coverage, opacity);
 }
 
-/// `shade` is that of shade_block().
+/// `shade` is that of shade_block(), `cover` that of cut_cover().
 static ALWAYS_INLINE surface gathered_surface(const ewa_tile *tile, const ewa_resolve *to, const float *sums,
-                                              const float *shade) {
-    surface s = {.alpha = surface_alpha(tile, to, sums)};
+                                              const float *shade, const float *cover) {
+    surface s = {.alpha = surface_alpha(tile, to, sums, cover)};
     if (shades_by_factor(to)) {
         const wf factor = wf_load(shade);
         for (int i = 0; i < 3; i++) s.color[i] = wf_mul(wf_load(sums + (1 + i) * EWA_BLOCK_LANES), factor);
@@ -183,7 +185,8 @@ static uint32_t resolve(const ewa_tile *tile, const ewa_resolve *to, const ewa_e
                 store_codes(&at_hand, &at, empty_codes);
             } else {
                 const surface s =
-                    gathered_surface(&in_tile, &at_hand, sums, shades + (size_t)column * EWA_SHADE_FLOATS);
+                    gathered_surface(&in_tile, &at_hand, sums, shades + (size_t)column * EWA_SHADE_FLOATS,
+                                     cut_cover(&in_tile, row, column));
                 wf color[4];
                 composite(&at_hand, &s, marked >> column & 1 ? behind : NULL, color);
                 broken_count += count_broken(&at, color);

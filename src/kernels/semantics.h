@@ -9,7 +9,7 @@
 //
 // Dropped before anything else: perspective, pz + R <= 0 (wholly behind the eye plane); orthographic, pz <=
 // 0; with EWA_CULL_BACK, n.p >= 0 (orthographic: nz >= 0). Without culling, n is turned towards the viewer
-// per surfel: where n.p > 0 (orthographic nz > 0) it is negated.
+// per surfel: where n.p > 0 (orthographic nz > 0) it is negated; the splat is then called turned.
 //
 // Near surfels (perspective, pz <= EWA_NEAR_RATIO * R) touch or nearly touch the eye plane: their conic is no
 // safe ellipse. Of broad ones (sigma max(fx, fy) >= EWA_BROAD_PX pz; orthographic: sigma max(fx, fy) >
@@ -54,10 +54,22 @@
 // Near surfels have m = 0.
 //
 // Three passes: B(x) = min (z + eps) over the surfels that count at x, then those with z <= B(x) are summed.
+// The minimum is that of z + eps as it is at x, not of a plane through its value at the centre: where z
+// changes much within a splat, as in a disc near the eye, a tangent of the key is too near, and hides what
+// lies within the tolerance.
 // One pass: the surfel of smallest z wins, with weight 1 and full coverage.
+//
+// Facing: turned splats hide others and cover the pixel as all do, but are seen only where nothing faces the
+// viewer. With S_f the sums of weight, colour, normal, depth, material and opacity over the splats that are
+// not turned, S_b those over the turned ones, q_f and q_b their weights, the surface's sums are
+//   S = (S_f + (1 - s) S_b) (q_f + q_b) / (q_f + (1 - s) q_b),    s = min(1, q_f / (EWA_FRONT q0)),
+// of weight q = q_f + q_b. At sharp edges the far side's discs reach past the near side's and lie in front of
+// them there; without this they draw a rim in the far side's colour, with its normals turned over. Alpha,
+// coverage and visibility do not depend on which way normals point.
+//
 // Resolve: q = sum of weights; nothing where q = 0. Colour, depth: weighted means. Normal: weighted sum,
-// normalised. Coverage AOV: q / q0. alpha = min(1, q / (tau q0)) with edge antialiasing, else 1. Then
-// shading, surface by surface.
+// normalised. Coverage AOV: q / q0. alpha = min(1, q / (tau q0)) with edge antialiasing (but see clip lines),
+// else 1. Then shading, surface by surface.
 // Over the background (straight alpha bg): rgb = colour alpha + bg_rgb bg_a (1 - alpha), a = alpha + bg_a (1
 // - alpha). rgba8: divided by its alpha (black when 0), sRGB curve, rounded to nearest.
 //
@@ -78,13 +90,23 @@
 // 2 and 4 pixels. Orthographic: divided by the height of the view in world units instead. Keys being linear
 // on planes, planes stay as they are.
 //
-// Clip lines (math.md section 5): each pixel keeps the share clamp(1/2 + d, 0, 1) of a splat's weight, d how
-// far inside the line on the screen its centre is, in pixels; of two lines the smaller share (clip_mode 1:
-// the larger). A share of 0 does not count. math.md keeps where d >= 0; a share that falls over one pixel
-// antialiases the edge, and the shares of two surfaces that are clipped by one line add up to 1.
+// Clip lines (math.md section 5): a splat's weight is rho times the share of the pixel's square that lies on
+// the inner side of the line on the screen, its area; of two lines the smaller share (clip_mode 1: the
+// larger). A share of 0 does not count. math.md keeps where the pixel's centre is inside; areas antialias the
+// edge, and those of two surfaces that are clipped by one line add up to 1.
+//
+// What a line leaves is not for the threshold tau to judge: an edge alone in front of something else covers
+// its share of the pixel. A splat is cut there by c = min(1, (1 - share) / EWA_CUT). With w = sum of c rho
+// over a surface's splats, k = sum of c rho share, u = q - k the rest, and D = sum of c rho m, m the
+// direction on the screen in which the line keeps (unit; of two lines their mean weighted by what each cuts
+// off, clip_mode 1: by what each keeps), where w > 0:
+//   alpha = min(1, max(u / (tau q0), q / max(tau q0, u + a w))),
+//   a = clamp((|D| / w - EWA_EDGES_OPPOSE) / (EWA_EDGES_AGREE - EWA_EDGES_OPPOSE), 0, 1).
+// Lines that agree (a = 1) are one edge: alpha is the mean share as long as the whole weights reach tau q0.
+// Where faces meet, what one line cuts off another keeps, and their directions cancel: the ordinary rule.
 //
 // Opacity: a surface whose weights are q has the opacity A = (sum of weight opacity) / q times the options',
-// and alpha min(1, q / (tau q0)) A; its colour is the mean by weight opacity. Opaque surfaces have A = 1.
+// and alpha times A; its colour is the mean by weight opacity. Opaque surfaces have A = 1.
 //
 // Layers: where alpha < 1 and there is something, the splats with z > B(x) make the next surface by the same
 // rules, and so on, composited front to back before the background; depth, normal and coverage are the first
@@ -94,6 +116,13 @@
 // How many those are is what their coverage k = q / q0 says: alpha becomes 1 - (1 - alpha) prod (1 - alpha
 // share_i), share_i = clamp(4 (k - i) - 2, 0, 1), i = 1, 2, ... below EWA_MERGED_SURFACES. A surface more
 // counts from half of one on, not earlier, so that the ripple of a single surface's coverage does not show.
+// Such a layer is many surfaces: its sums are not parted by facing, and alpha is min(1, q / (tau q0)).
+//
+// An opaque surface behind the first, both cut by clip lines, is often the other side of its edge. With
+// alpha, u, w and D of the first, alpha', q', u', w' and D' of the one behind, d = D / (u + w) and d' = D' /
+// (u' + w'), it covers of what the first leaves open
+//   alpha' + min(1, 2 |d.d'|) (r - alpha'),  r = max(0, alpha' - alpha) / (1 - alpha) where d.d' > 0,
+// for there it keeps what the first keeps, else r = min(1, q' / (tau q0)), for it goes on where that ends.
 #ifndef EWA_SRC_KERNELS_SEMANTICS_H
 #define EWA_SRC_KERNELS_SEMANTICS_H
 
@@ -139,6 +168,17 @@
 /// 1 % of the depth behind a straight edge takes about half of the light.
 #define EWA_DOME_PAIRS 12
 #define EWA_DOME_GAIN  300.0
+
+/// Share of q0 that splats facing the viewer need so that nothing of those turned away is seen.
+#define EWA_FRONT 0.05
+
+/// Share of a pixel's square that a clip line has to cut off from a splat until that counts as cut there.
+#define EWA_CUT 0.05
+
+/// Length of the mean of the directions in which clip lines cut a pixel, from which on they are taken for one
+/// edge, and below which for edges of several surfaces that meet.
+#define EWA_EDGES_AGREE  0.95
+#define EWA_EDGES_OPPOSE 0.8
 
 /// Surfaces that a merged layer stands for at most.
 #define EWA_MERGED_SURFACES 64

@@ -64,6 +64,7 @@ static void draw_runs(const ewa_tile_job *job, const ewa_tile *tile, const ewa_t
                       ewa_tile_pass what) {
     ewa_tile behind = *tile;
     behind.nearest = s->edges.nearest, behind.sums = s->edges.sums, behind.passed = s->edges.passed;
+    behind.apart = s->edges.apart;
     for (uint32_t i = 0; i < s->kept_count; i++) {
         if (what == EWA_PASS_EDGE_VISIBILITY)
             job->kernels->visibility(&job->view, &behind, &s->kept[i].sorted);

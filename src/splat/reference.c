@@ -11,7 +11,7 @@
 #include "kernels/semantics.h"
 #include "splat/options.h"
 #include "splat/reference_shade.h"
-#include "splat/reference_splat.h"
+#include "splat/reference_sums.h"
 
 #include <string.h>
 
@@ -27,16 +27,14 @@ static const uint64_t NOBODY = UINT64_MAX;
 typedef struct pixel {
     double bound;     ///< three passes: B(x) = min(z + eps); one pass: z of the nearest splat
     uint64_t nearest; ///< one pass: the splat that wins
-    double weight;    ///< q, the sum of weights
-    ewa_vec3 color;   ///< weighted by opacity too
-    ewa_vec3 normal_world;
-    double z, opacity;
-    double material[5]; ///< ambient, diffuse, specular, shininess, reflection; all weighted
-    ewa_vec3 shaded;    ///< straight colour
-    double depth;       ///< of the first surface; +infinity: nothing
-    double passed;      ///< B(x) of the surface before: splats up to there are done
-    ewa_vec3 in_front;  ///< premultiplied colour of the surfaces before
-    double through;     ///< the share of the pixel that they leave open
+    ewa_reference_gathered gathered;
+    ewa_reference_sums sums;         ///< what that comes to
+    ewa_vec3 shaded;                 ///< straight colour
+    double depth;                    ///< of the first surface; +infinity: nothing
+    ewa_reference_cover first_cover; ///< of the first surface
+    double passed;                   ///< B(x) of the surface before: splats up to there are done
+    ewa_vec3 in_front;               ///< premultiplied colour of the surfaces before
+    double through;                  ///< the share of the pixel that they leave open
 } pixel;
 
 typedef struct reference {
@@ -105,16 +103,10 @@ static void accumulate(const reference *work, pixel *at, uint64_t index, const e
     const ewa_reference_splat *splat = &work->splats[index];
     if (sample->z <= at->passed) return;
     if (work->options.passes == 3 ? sample->z > at->bound : index != at->nearest) return;
-    const double weight = work->options.passes == 3 ? sample->weight : 1;
-    at->weight += weight;
-    const double opacity = work->transparent ? splat->opacity : 1;
-    at->color = vec3_add(at->color, vec3_scale(splat->color, weight * opacity));
-    at->opacity += weight * opacity;
-    at->normal_world = vec3_add(at->normal_world, vec3_scale(splat->normal_world, weight));
-    at->z += weight * sample->z;
     const ewa_material *m = &work->shading.materials[work->shading.has_table ? work->materials[index] : 0];
     const float numbers[5] = {m->ambient, m->diffuse, m->specular, m->shininess, m->reflection};
-    for (int i = 0; i < 5; i++) at->material[i] += weight * (double)numbers[i];
+    ewa_reference_gather(&at->gathered, splat, sample, work->options.passes == 3 ? sample->weight : 1,
+                         work->transparent ? splat->opacity : 1, numbers);
 }
 
 typedef void splat_pass(const reference *work, pixel *at, uint64_t index, const ewa_reference_sample *sample);
@@ -142,7 +134,7 @@ static void walk(const reference *work, int32_t y_begin, int32_t y_end, splat_pa
 /// The surface that has gathered at a pixel.
 static ewa_reference_surface surface_at(const reference *work, int32_t x, int32_t y) {
     if (x >= work->view.width_px || y >= work->view.height_px) return (ewa_reference_surface){.there = false};
-    const pixel *at = &work->pixels[(size_t)y * (size_t)work->view.width_px + (size_t)x];
+    const ewa_reference_sums *at = &work->pixels[(size_t)y * (size_t)work->view.width_px + (size_t)x].sums;
     if (!(at->weight > 0)) return (ewa_reference_surface){.there = false};
     const double inverse = 1 / at->weight;
     const double length = fmax(vec3_length(at->normal_world), EWA_SHADED_NORMAL * at->weight);
@@ -182,7 +174,7 @@ static void write_surface(const ewa_frame *frame, size_t index, double depth, ew
     if (frame->coverage) frame->coverage[index] = (float)coverage;
 }
 
-/// Alpha of a layer that is all that is left (semantics.h, layers).
+/// Alpha of a merged layer (semantics.h, layers).
 static double merged_alpha(double alpha, double coverage) {
     double through = 1 - alpha;
     for (int i = 1; i < EWA_MERGED_SURFACES; i++)
@@ -190,23 +182,35 @@ static double merged_alpha(double alpha, double coverage) {
     return 1 - through;
 }
 
+/// Whether a layer is all that is left (semantics.h, layers).
+static bool is_merged(const reference *work, uint32_t layer) {
+    return work->merge_last && layer + 1 == work->layers;
+}
+
 /// Third pass (SS 7): divide by the weights, shade, cover; then make the pixel ready for the surface behind.
 /// Returns whether one could show.
 static bool resolve_surface(const reference *work, uint32_t layer, int32_t x, int32_t y) {
     const size_t index = (size_t)y * (size_t)work->view.width_px + (size_t)x;
     pixel *at = &work->pixels[index];
-    const double q = at->weight;
+    const ewa_reference_sums *sums = &at->sums;
+    const double q = sums->weight;
     double alpha = 0, coverage = 0, depth = INFINITY;
     ewa_vec3 normal = {0, 0, 0};
     if (q > 0) {
-        const double length = vec3_length(at->normal_world);
-        if (length > 0) normal = vec3_scale(at->normal_world, 1 / length);
-        depth = at->z / q;
+        const double length = vec3_length(sums->normal_world);
+        if (length > 0) normal = vec3_scale(sums->normal_world, 1 / length);
+        depth = sums->z / q;
         coverage = work->options.passes == 3 ? q / work->unit_coverage : 1;
-        alpha = work->options.edge_antialiasing ? fmin(1, coverage / work->options.edge_threshold) : 1;
-        if (work->options.passes == 1) alpha = 1;
-        if (work->transparent) alpha *= work->options.opacity * at->opacity / q;
-        if (work->merge_last && layer + 1 == work->layers) alpha = merged_alpha(alpha, coverage);
+        alpha = 1;
+        if (work->options.edge_antialiasing && work->options.passes == 3) {
+            const ewa_reference_cover cover = ewa_reference_cover_of(
+                &at->gathered, work->unit_coverage, work->options.edge_threshold, is_merged(work, layer));
+            alpha = layer == 0 || work->transparent ? cover.share
+                                                    : ewa_reference_cover_behind(&at->first_cover, &cover);
+            if (layer == 0) at->first_cover = cover;
+        }
+        if (work->transparent) alpha *= work->options.opacity * sums->opacity / q;
+        if (is_merged(work, layer)) alpha = merged_alpha(alpha, coverage);
         at->in_front = vec3_add(at->in_front, vec3_scale(at->shaded, alpha * at->through));
         at->through *= 1 - alpha;
     }
@@ -219,6 +223,7 @@ static bool resolve_surface(const reference *work, uint32_t layer, int32_t x, in
                   .nearest = NOBODY,
                   .passed = open ? at->bound : INFINITY,
                   .depth = at->depth,
+                  .first_cover = at->first_cover,
                   .in_front = at->in_front,
                   .through = at->through};
     return open;
@@ -282,8 +287,12 @@ static void render_band(void *data, uint32_t index, uint32_t worker) {
     bool open = true;
     for (uint32_t layer = 0; layer < work->layers && open; layer++) {
         // The last of so many layers is all that is left: there is no bound then.
-        if (!work->merge_last || layer + 1 < work->layers) walk(work, begin, end, lower_bound);
+        const bool merged = is_merged(work, layer);
+        if (!merged) walk(work, begin, end, lower_bound);
         walk(work, begin, end, accumulate);
+        for (size_t i = first_pixel; i < end_pixel; i++)
+            work->pixels[i].sums =
+                ewa_reference_settle(&work->pixels[i].gathered, work->unit_coverage, merged);
         open = false;
         for (int32_t y = begin; y < end; y++)
             for (int32_t x = 0; x < work->view.width_px; x++) shade(work, x, y);

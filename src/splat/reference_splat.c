@@ -285,14 +285,32 @@ static void make_clip(const ewa_reference_view *view, const ewa_surfel *surfel, 
     }
 }
 
-/// The share of a pixel that clip lines leave: all of it half a pixel inside, nothing half a pixel outside.
-static double clip_share(const ewa_reference_splat *splat, double x_px, double y_px) {
-    double share[2];
+/// The area of a pixel's square on the inner side of a line, of which its centre is `inside` pixels inside.
+/// Away from the middle the line meets two sides of the square that touch, then it cuts off a triangle.
+static double half_plane_share(const double line[3], double inside) {
+    const double wide = fmax(fabs(line[0]), fabs(line[1])), narrow = fmin(fabs(line[0]), fabs(line[1]));
+    if (wide == 0) return inside > 0 ? 1 : 0;
+    const double left = (wide + narrow) / 2 - fabs(inside); // from the line to the square's farthest corner
+    const double corner = fmin(fmax(left, 0), narrow);
+    const double triangle = narrow > 0 ? corner * corner / narrow : 0;
+    const double smaller = (triangle + 2 * fmax(left - narrow, 0)) / (2 * wide);
+    return inside > 0 ? 1 - smaller : smaller;
+}
+
+/// Sets the share of a pixel that clip lines leave, and where it lies.
+static void clip_sample(const ewa_reference_splat *splat, double x_px, double y_px,
+                        ewa_reference_sample *sample) {
+    double share[2], decides[2];
     for (int k = 0; k < 2; k++) {
         const double *line = splat->clip[k];
-        share[k] = fmin(fmax(line[0] * x_px + line[1] * y_px + line[2] + 0.5, 0), 1);
+        share[k] = half_plane_share(line, line[0] * x_px + line[1] * y_px + line[2]);
+        decides[k] = splat->clip_either ? share[k] : 1 - share[k];
     }
-    return splat->clip_either ? fmax(share[0], share[1]) : fmin(share[0], share[1]);
+    sample->share = splat->clip_either ? fmax(share[0], share[1]) : fmin(share[0], share[1]);
+    const double sum = decides[0] + decides[1];
+    for (int c = 0; c < 2; c++)
+        sample->inward[c] =
+            sum > 0 ? (decides[0] * splat->clip[0][c] + decides[1] * splat->clip[1][c]) / sum : 0;
 }
 
 void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *surfel,
@@ -311,7 +329,8 @@ void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *sur
     const double broad = fmax(vec3_length(u), vec3_length(v)) * fmax(view->fx_px, view->fy_px) / EWA_BROAD_PX;
     const bool by_rays = view->orthographic ? broad > 1 : p.z <= fmax(EWA_NEAR_RATIO * half_range, broad);
     if (by_rays && fabs(facing) < EWA_EDGE_ON * (view->orthographic ? 1 : vec3_length(p))) return;
-    const double sign = facing > 0 ? -1 : 1;
+    splat->turned = facing > 0;
+    const double sign = splat->turned ? -1 : 1;
     splat->center = p;
     splat->axis_u = u;
     splat->axis_v = v;
@@ -416,8 +435,9 @@ static bool sample_unclipped(const ewa_reference_view *view, const ewa_reference
 
 bool ewa_reference_sample_at(const ewa_reference_view *view, const ewa_reference_splat *splat, double x_px,
                              double y_px, ewa_reference_sample *sample) {
-    const double share = splat->clipped ? clip_share(splat, x_px, y_px) : 1;
-    if (!(share > 0) || !sample_unclipped(view, splat, x_px, y_px, sample)) return false;
-    sample->weight *= share;
+    sample->share = 1;
+    if (splat->clipped) clip_sample(splat, x_px, y_px, sample);
+    if (!(sample->share > 0) || !sample_unclipped(view, splat, x_px, y_px, sample)) return false;
+    sample->weight *= sample->share;
     return true;
 }

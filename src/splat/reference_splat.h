@@ -40,6 +40,7 @@ typedef struct ewa_reference_splat {
     double half_range;        ///< R of semantics.h
     double key_low, key_high; ///< range of 1/z (orthographic: -z)
     double epsilon;           ///< tolerance of the visibility test
+    bool turned;              ///< the surfel faces away: its normal is turned towards the viewer
     ewa_vec3 center, axis_u, axis_v, normal; ///< camera space, normal unit, towards the viewer
     ewa_vec3 normal_world;
     ewa_vec3 color;
@@ -53,8 +54,10 @@ typedef struct ewa_reference_splat {
 typedef struct ewa_reference_sample {
     double distance2; ///< r^2, squared Mahalanobis distance under the filtered kernel; the splat counts below
                       ///< F^2
-    double weight;    ///< rho
+    double weight;    ///< rho, times the share
     double z;         ///< clamped
+    double share;     ///< of the pixel's square that clip lines leave, (0, 1]
+    double inward[2]; ///< share < 1: on the screen, from what is cut off to what is kept; at most of length 1
 } ewa_reference_sample;
 
 /// Both structs must have been checked. Surfels are in the world as they are, camera space is the camera's.

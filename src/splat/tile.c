@@ -18,11 +18,12 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     uint64_t records = largest_bin * EWA_PACKET_LANES;
     if (records > EWA_KEPT_RECORDS) records = EWA_KEPT_RECORDS;
     if (records < EWA_RUN_RECORDS) records = EWA_RUN_RECORDS;
-    // Per pixel: nearest and sums twice, the edges' `passed`, and four channels of what lies behind; per
-    // block `reach`.
+    // Per pixel: nearest and sums twice, the edges' `passed`, and four channels of what lies behind; sums of
+    // turned splats, and twice what is noted of clip lines; per block `reach`.
     const size_t tile_floats = (size_t)job->view.tile_px * job->view.tile_px;
-    const size_t pixel_floats =
-        tile_floats * (2 * (1 + EWA_MAX_CHANNELS) + 1 + 4) + tile_floats / EWA_BLOCK_LANES;
+    const size_t cut_floats = job->source.clip_masks ? tile_floats * EWA_CUT_CHANNELS : 0;
+    const size_t pixel_floats = tile_floats * (2 * (1 + EWA_MAX_CHANNELS) + 1 + 4 + EWA_MAX_CHANNELS) +
+                                2 * cut_floats + tile_floats / EWA_BLOCK_LANES;
     const uint64_t packet_count = largest_bin + EWA_PACKET_LANES;
     const size_t box_counts[EWA_BOX_LEVELS] = {
         records + EWA_BLOCK_LANES, records / EWA_GROUP_RECORDS + EWA_BLOCK_LANES,
@@ -75,6 +76,13 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     s->edges.passed = s->edges.sums + tile_floats * EWA_MAX_CHANNELS;
     s->edges.behind = s->edges.passed + tile_floats;
     s->edges.reach = s->edges.behind + 4 * tile_floats;
+    s->apart.turned = s->edges.reach + tile_floats / EWA_BLOCK_LANES;
+    s->edges.apart = s->apart;
+    s->apart.cut = s->apart.turned + tile_floats * EWA_MAX_CHANNELS;
+    s->edges.apart.cut = s->apart.cut + cut_floats;
+    s->apart.turned_rows = s->turned_rows[0], s->edges.apart.turned_rows = s->turned_rows[1];
+    s->apart.cut_rows = cut_floats ? s->cut_rows[0] : NULL;
+    s->edges.apart.cut_rows = cut_floats ? s->cut_rows[1] : NULL;
     s->record_capacity = records;
     s->kept_capacity = records / EWA_RUN_RECORDS + 2;
     s->shown = s->packet_buffer.data;
@@ -324,6 +332,7 @@ void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
                      .y_px = (int32_t)(index / job->bins->tiles_x * view->tile_px),
                      .nearest = s->nearest,
                      .sums = s->sums,
+                     .apart = s->apart,
                      .channel_count = job->channel_count,
                      .with_normals = job->with_normals,
                      .with_depth = job->with_depth,
@@ -347,6 +356,7 @@ void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
         walk_kept(job, &tile, s);
     else
         walk_again(job, &tile, s, &shown, 0, ewa_run_count(&shown), EWA_PASS_ACCUMULATE);
+    job->kernels->settle(&tile, &job->resolve);
     const double accumulated = ewa_now_s();
     if (kept) s->accumulate_s += accumulated - accumulating;
     const bool edges = ewa_tile_draw_edges(job, &tile, s, kept);

@@ -61,6 +61,8 @@ typedef struct ewa_tile_scratch {
     ewa_buffer record_buffer, load_buffer, order_buffer, list_buffer, box_buffer, near_buffer, opacity_buffer,
         material_buffer, clip_buffer, kept_buffer, pixel_buffer, packet_buffer;
     uint32_t edge_rows[EWA_MAX_TILE_BLOCKS], edge_rows_left[EWA_MAX_TILE_BLOCKS];
+    ewa_apart apart; ///< of the first surface; its planes for turned splats serve those behind it, too
+    uint32_t turned_rows[2][EWA_MAX_TILE_BLOCKS], cut_rows[2][EWA_MAX_TILE_BLOCKS];
     uint64_t drawn_count, fragment_count, hidden_splat_count, broken_pixel_count;
     double setup_s, visibility_s, accumulate_s, edge_s, resolve_s;
 } ewa_tile_scratch;

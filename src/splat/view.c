@@ -145,6 +145,8 @@ void ewa_resolve_set(ewa_resolve *resolve, const ewa_surfels *surfels, const ewa
     split_scale(camera, &rotation);
     resolve->unit_coverage_inverse = (float)(1 / surfels->unit_coverage);
     resolve->alpha_scale = (float)(1 / (options->edge_threshold * surfels->unit_coverage));
+    resolve->covering = (float)(options->edge_threshold * surfels->unit_coverage);
+    resolve->front_scale = (float)(1 / (EWA_FRONT * surfels->unit_coverage));
     resolve->opacity = (float)options->opacity;
     resolve->one_pass = options->passes == 1;
     resolve->edge_antialiasing = options->edge_antialiasing && !resolve->one_pass;
@@ -194,25 +196,33 @@ static const ewa_surfel_clip *find_clip(const ewa_surfels *surfels, uint32_t sur
 /// A line of the surfel's plane, keep g.(q - p) + d >= 0, on the screen. With q = z x on the ray x and z =
 /// n.p / n.x this is, divided by z > 0, x.(g - (g.p - d) / n.p n): math.md section 5, M^-1 l without the
 /// frame. Orthographic: z = pz - ((x - px) nx + (y - py) ny) / nz is linear itself.
-static void set_clip_line(float line[3], ewa_vec3 g, double d, ewa_vec3 n, ewa_vec3 p, const ewa_view *view,
-                          const ewa_tile *tile) {
+static void set_clip_line(ewa_clip_line *line, ewa_vec3 g, double d, ewa_vec3 n, ewa_vec3 p,
+                          const ewa_view *view, const ewa_tile *tile) {
+    float terms[3];
     if (view->orthographic) {
         const double nz = copysign(fmax(fabs(n.z), EWA_EDGE_ON), n.z);
         const double a = g.x - g.z * n.x / nz, b = g.y - g.z * n.y / nz;
-        set_linear(line, vec3_make(a, b, d - a * p.x - b * p.y), view, tile);
+        set_linear(terms, vec3_make(a, b, d - a * p.x - b * p.y), view, tile);
     } else {
         const double np = vec3_dot(n, p), least = EWA_EDGE_ON * vec3_length(p);
         const double share = (vec3_dot(g, p) - d) / copysign(fmax(fabs(np), least), np);
-        set_linear(line, vec3_sub(g, vec3_scale(n, share)), view, tile);
+        set_linear(terms, vec3_sub(g, vec3_scale(n, share)), view, tile);
     }
     // In pixels from the line; a line at infinity has only sides.
-    const float length = sqrtf(line[1] * line[1] + line[2] * line[2]), c = line[0];
-    line[0] = line[1], line[1] = line[2], line[2] = c;
-    if (length > 0 && isfinite(1 / length)) {
-        for (int i = 0; i < 3; i++) line[i] /= length;
-    } else {
-        line[0] = line[1] = 0, line[2] = c < 0 ? -1 : 1;
+    const float length = sqrtf(terms[1] * terms[1] + terms[2] * terms[2]);
+    if (!(length > 0 && isfinite(1 / length))) {
+        *line = (ewa_clip_line){.offset = terms[0] < 0 ? -1 : 1};
+        return;
     }
+    const float x = terms[1] / length, y = terms[2] / length;
+    const float wide = fmaxf(fabsf(x), fabsf(y)), narrow = fminf(fabsf(x), fabsf(y));
+    *line = (ewa_clip_line){.x_inward = x,
+                            .y_inward = y,
+                            .offset = terms[0] / length,
+                            .reach = (wide + narrow) / 2,
+                            .narrow = narrow,
+                            .per_narrow = narrow > 0 ? 1 / narrow : 0,
+                            .per_widths = 1 / (2 * wide)};
 }
 
 /// A surfel in camera space.
@@ -244,11 +254,11 @@ void ewa_clip_set(ewa_clip *clip, const ewa_surfels *surfels, uint32_t surfel, c
     for (int k = 0; k < 2; k++) {
         const float *g = from->toward[k];
         if (g[0] == 0 && g[1] == 0 && g[2] == 0) {
-            clip->line[k][0] = clip->line[k][1] = 0, clip->line[k][2] = 1;
+            clip->line[k] = (ewa_clip_line){.offset = 1};
             continue;
         }
         const ewa_vec3 toward = vec3_make((double)g[0], (double)g[1], (double)g[2]);
-        set_clip_line(clip->line[k], turn(view, toward, 1), (double)view->scale * (double)from->offset[k],
+        set_clip_line(&clip->line[k], turn(view, toward, 1), (double)view->scale * (double)from->offset[k],
                       placed.n, placed.p, view, tile);
     }
 }
@@ -307,6 +317,7 @@ bool ewa_near_record_set(ewa_near_record *record, const ewa_surfels *surfels, ui
         record->normal[i] = (float)normal[i];
     }
     record->opacity = (float)opacity;
+    record->turned = facing > 0;
     if (tile->with_materials)
         memcpy(record->material, view->materials[surfels->materials[surfel]], sizeof record->material);
     else

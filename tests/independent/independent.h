@@ -101,6 +101,7 @@ typedef struct independent_splat {
     real fx, fy, cx, cy;
     real3 p, u, v, n; ///< camera space; n unit, towards the viewer
     real3 normal_world;
+    bool turned;                   ///< it shows its back: n is turned over
     real center[2];                ///< of the ellipse, pixels
     real variance[3], determinant; ///< V and |V|
     real jacobian[2][2];
@@ -119,6 +120,8 @@ typedef struct independent_fragment {
     bool counts;
     bool doubtful; ///< whether it counts is within rounding
     real z, epsilon, weight;
+    real share;     ///< of the pixel's square, that clip lines keep; the weight has it
+    real inward[2]; ///< mean direction in which they keep
     real depth_band;
     uint32_t splat;
 } independent_fragment;

@@ -11,6 +11,7 @@
 
 // The numbers of semantics.h, written down again.
 static const real SHADED_NORMAL = 0.5L;
+static const real FRONT = 0.05L, CUT = 0.05L, EDGES_AGREE = 0.95L, EDGES_OPPOSE = 0.8L;
 enum { MERGED_SURFACES = 64 };
 
 static void *memory(size_t count, size_t bytes) {
@@ -22,15 +23,29 @@ static void *memory(size_t count, size_t bytes) {
     return made;
 }
 
+/// Weighted sums over the splats of a surface.
+typedef struct sums {
+    real weight, opacity, z;
+    real3 color, normal;
+    real material[5];
+} sums;
+
+/// What clip lines have cut off from a surface, and what that makes of it.
+typedef struct cut {
+    real kept, whole, toward[2]; ///< k, w and D of semantics.h
+    real alpha, plain;           ///< share of the pixel that the surface covers; the same without lines
+    real mean[2];                ///< d of semantics.h
+} cut;
+
 /// The fragments of a pixel and what the surfaces that were taken off have become.
 typedef struct pixel {
     independent_fragment *fragments;
     uint32_t count;
     bool open, doubtful;
-    real passed; ///< B of the surface before
-    real weight, opacity, z;
-    real3 color, normal;
-    real material[5];
+    real passed;   ///< B of the surface before
+    sums sides[2]; ///< of the splats that face the viewer, of those that do not
+    sums sum;      ///< what they come to
+    cut cut, first_cut;
     real3 front;
     real through;
     independent_surface surface;
@@ -84,22 +99,68 @@ static void add(const drawing *d, pixel *at, const independent_fragment *fragmen
     const independent_surfel *surfel = &d->scene->surfels[fragment->splat];
     const ewa_render_options *options = &d->scene->options;
     const real w = d->one_pass ? 1 : fragment->weight, o = d->transparent ? (real)surfel->alpha : 1;
-    at->weight += w, at->opacity += w * o, at->z += w * fragment->z;
-    at->color = real3_add(at->color, real3_times(real3_of(surfel->color), w * o));
-    at->normal = real3_add(at->normal, real3_times(d->splats[fragment->splat].normal_world, w));
+    sums *to = &at->sides[d->splats[fragment->splat].turned];
+    to->weight += w, to->opacity += w * o, to->z += w * fragment->z;
+    to->color = real3_add(to->color, real3_times(real3_of(surfel->color), w * o));
+    to->normal = real3_add(to->normal, real3_times(d->splats[fragment->splat].normal_world, w));
     ewa_material material = {(float)options->ambient, 1 - (float)options->ambient, 0.3f, 32, 0.25f};
     if (options->shading == EWA_SHADING_PHONG && options->materials)
         material = options->materials[surfel->material];
     const real numbers[5] = {(real)material.ambient, (real)material.diffuse, (real)material.specular,
                              (real)material.shininess, (real)material.reflection};
-    for (int i = 0; i < 5; i++) at->material[i] += w * numbers[i];
+    for (int i = 0; i < 5; i++) to->material[i] += w * numbers[i];
+    const real off = (1 - fragment->share) / CUT, c = off > 1 ? 1 : off, rho = w / fragment->share;
+    at->cut.kept += c * w, at->cut.whole += c * rho;
+    for (int i = 0; i < 2; i++) at->cut.toward[i] += c * rho * fragment->inward[i];
+}
+
+/// Adds `share` of one to another.
+static void mix(sums *to, const sums *from, real share) {
+    to->weight += share * from->weight, to->opacity += share * from->opacity, to->z += share * from->z;
+    to->color = real3_add(to->color, real3_times(from->color, share));
+    to->normal = real3_add(to->normal, real3_times(from->normal, share));
+    for (int i = 0; i < 5; i++) to->material[i] += share * from->material[i];
+}
+
+static real within(real value, real low, real high) {
+    return value < low ? low : value > high ? high : value;
+}
+
+/// What of a surface is seen, and how much of the pixel it covers; `all` stands for several.
+static void settle(const drawing *d, pixel *at, bool all) {
+    const sums *faces = &at->sides[0], *backs = &at->sides[1];
+    const real q0 = (real)d->scene->unit_coverage, least = (real)d->scene->options.edge_threshold * q0;
+    const real hidden = all ? 0 : within(faces->weight / (FRONT * q0), 0, 1);
+    const real q = faces->weight + backs->weight, seen = faces->weight + (1 - hidden) * backs->weight;
+    at->sum = (sums){0};
+    if (!(q > 0)) return;
+    mix(&at->sum, faces, q / seen);
+    mix(&at->sum, backs, (1 - hidden) * q / seen);
+    cut *c = &at->cut;
+    c->alpha = c->plain = within(q / least, 0, 1);
+    c->mean[0] = c->mean[1] = 0;
+    if (all || !(c->whole > 0)) return;
+    const real rest = q - c->kept > 0 ? q - c->kept : 0;
+    const real along = hypotl(c->toward[0], c->toward[1]) / c->whole;
+    const real alone = within((along - EDGES_OPPOSE) / (EDGES_AGREE - EDGES_OPPOSE), 0, 1);
+    const real most = rest + alone * c->whole > least ? rest + alone * c->whole : least;
+    c->alpha = within(rest / least > q / most ? rest / least : q / most, 0, 1);
+    for (int i = 0; i < 2; i++) c->mean[i] = c->toward[i] / (rest + c->whole);
+}
+
+/// Share of what the first surface leaves open that a surface behind it covers.
+static real cover_behind(const cut *first, const cut *behind) {
+    const real along = first->mean[0] * behind->mean[0] + first->mean[1] * behind->mean[1];
+    if (!(first->alpha < 1)) return behind->alpha;
+    const real past = within((behind->alpha - first->alpha) / (1 - first->alpha), 0, 1);
+    return behind->alpha +
+           within(2 * fabsl(along), 0, 1) * ((along > 0 ? past : behind->plain) - behind->alpha);
 }
 
 /// Gathers the nearest surface beyond at->passed; with `all`, everything that is left.
 static void gather(const drawing *d, pixel *at, bool all) {
-    at->weight = at->opacity = at->z = 0;
-    at->color = at->normal = (real3){0, 0, 0};
-    for (int i = 0; i < 5; i++) at->material[i] = 0;
+    at->sides[0] = at->sides[1] = (sums){0};
+    at->cut = (cut){0};
     real bound = INFINITY, band = 0;
     const independent_fragment *nearest = NULL;
     for (uint32_t i = 0; i < at->count; i++) {
@@ -125,12 +186,13 @@ static void gather(const drawing *d, pixel *at, bool all) {
         if (!d->one_pass && fragment->z <= bound) add(d, at, fragment);
     }
     at->passed = bound;
+    settle(d, at, all);
 }
 
 /// What the sums make of a surface.
 static void make_surface(const drawing *d, pixel *at, int64_t x, int64_t y) {
     const ewa_camera *camera = &d->scene->camera;
-    at->surface = (independent_surface){.there = at->open && at->weight > 0};
+    at->surface = (independent_surface){.there = at->open && at->sum.weight > 0};
     if (!at->surface.there) return;
     real3 ray = {0, 0, 1};
     if (camera->projection == EWA_PERSPECTIVE) {
@@ -144,10 +206,10 @@ static void make_surface(const drawing *d, pixel *at, int64_t x, int64_t y) {
                               {(real)m[2], (real)m[6], (real)m[10]}};
     const real3 away = {real3_dot(columns[0], ray), real3_dot(columns[1], ray), real3_dot(columns[2], ray)};
     at->surface.eye = real3_times(real3_unit(away), -1);
-    if (at->opacity > 0) at->surface.color = real3_times(at->color, 1 / at->opacity);
-    const real length = real3_length(at->normal), least = SHADED_NORMAL * at->weight;
-    at->surface.normal = real3_times(at->normal, 1 / (length > least ? length : least));
-    for (int i = 0; i < 5; i++) at->surface.material[i] = at->material[i] / at->weight;
+    if (at->sum.opacity > 0) at->surface.color = real3_times(at->sum.color, 1 / at->sum.opacity);
+    const real length = real3_length(at->sum.normal), least = SHADED_NORMAL * at->sum.weight;
+    at->surface.normal = real3_times(at->sum.normal, 1 / (length > least ? length : least));
+    for (int i = 0; i < 5; i++) at->surface.material[i] = at->sum.material[i] / at->sum.weight;
 }
 
 /// alpha of a layer that stands for all that is left.
@@ -166,15 +228,15 @@ static independent_surface surface_at(const drawing *d, int64_t x, int64_t y) {
 
 static void write_first(const drawing *d, const independent_picture *picture, size_t i) {
     const pixel *at = &d->pixels[i];
-    const bool there = at->weight > 0;
-    const real3 normal = real3_unit(at->normal);
-    picture->depth[i] = there ? (double)(at->z / at->weight) : (double)INFINITY;
+    const bool there = at->sum.weight > 0;
+    const real3 normal = real3_unit(at->sum.normal);
+    picture->depth[i] = there ? (double)(at->sum.z / at->sum.weight) : (double)INFINITY;
     picture->normal[3 * i] = (double)normal.x;
     picture->normal[3 * i + 1] = (double)normal.y;
     picture->normal[3 * i + 2] = (double)normal.z;
     picture->coverage[i] = !there        ? 0
                            : d->one_pass ? 1
-                                         : (double)(at->weight / (real)d->scene->unit_coverage);
+                                         : (double)(at->sum.weight / (real)d->scene->unit_coverage);
 }
 
 /// Shades the surface, puts it behind those before, and closes the pixel where nothing more can show.
@@ -188,11 +250,14 @@ static void compose(const drawing *d, uint32_t layer, int64_t x, int64_t y) {
     }
     const independent_surface beside = surface_at(d, x ^ 1, y), below = surface_at(d, x, y ^ 1);
     const real3 color = independent_shade(d->scene, &at->surface, &beside, &below);
-    const real coverage = at->weight / (real)d->scene->unit_coverage;
+    const real coverage = at->sum.weight / (real)d->scene->unit_coverage;
     real alpha = 1;
-    if (!d->one_pass && options->edge_antialiasing) alpha = coverage / (real)options->edge_threshold;
-    if (alpha > 1) alpha = 1;
-    if (d->transparent) alpha *= (real)options->opacity * at->opacity / at->weight;
+    if (!d->one_pass && options->edge_antialiasing) {
+        const bool related = layer > 0 && !d->transparent;
+        alpha = related ? cover_behind(&at->first_cut, &at->cut) : at->cut.alpha;
+        if (layer == 0) at->first_cut = at->cut;
+    }
+    if (d->transparent) alpha *= (real)options->opacity * at->sum.opacity / at->sum.weight;
     if (d->merge_last && layer + 1 == d->surfaces) alpha = merged(alpha, coverage);
     at->front = real3_add(at->front, real3_times(color, alpha * at->through));
     at->through *= 1 - alpha;

@@ -191,12 +191,40 @@ static void make_clip(independent_splat *s, const double line[3], real scale, re
     out[2] = length > 0 ? rest / length : rest < 0 ? -1 : 1;
 }
 
-static real clip_share(const independent_splat *s, real x, real y) {
-    real share[2] = {1, 1};
-    for (uint32_t k = 0; k < s->clip_count; k++)
-        share[k] = clamped(s->clip[k][0] * x + s->clip[k][1] * y + s->clip[k][2] + 0.5L, 0, 1);
-    if (s->clip_count < 2) return share[0];
-    return s->clip_either ? larger(share[0], share[1]) : smaller(share[0], share[1]);
+/// The area of the pixel's square around (x, y) where a line's distance is not negative: the square is cut to
+/// a polygon, side by side.
+static real area_inside(const real line[3], real x, real y) {
+    static const real corners[4][2] = {{-0.5L, -0.5L}, {0.5L, -0.5L}, {0.5L, 0.5L}, {-0.5L, 0.5L}};
+    real kept[8][2], area = 0;
+    int count = 0;
+    for (int i = 0; i < 4; i++) {
+        const real *a = corners[i], *b = corners[(i + 1) % 4];
+        const real at_a = line[0] * (x + a[0]) + line[1] * (y + a[1]) + line[2];
+        const real at_b = line[0] * (x + b[0]) + line[1] * (y + b[1]) + line[2];
+        if (at_a >= 0) kept[count][0] = a[0], kept[count++][1] = a[1];
+        if ((at_a < 0) == (at_b < 0)) continue;
+        const real t = at_a / (at_a - at_b);
+        kept[count][0] = a[0] + t * (b[0] - a[0]), kept[count++][1] = a[1] + t * (b[1] - a[1]);
+    }
+    for (int i = 0; i < count; i++) {
+        const real *a = kept[i], *b = kept[(i + 1) % count];
+        area += (a[0] * b[1] - a[1] * b[0]) / 2;
+    }
+    return area;
+}
+
+/// What clip lines keep of the pixel's square, and where.
+static void clip_square(const independent_splat *s, real x, real y, independent_fragment *out) {
+    real share[2] = {1, 1}, sum = 0;
+    for (uint32_t k = 0; k < s->clip_count; k++) share[k] = area_inside(s->clip[k], x, y);
+    const bool either = s->clip_either && s->clip_count == 2;
+    out->share = either ? larger(share[0], share[1]) : smaller(share[0], share[1]);
+    for (uint32_t k = 0; k < s->clip_count; k++) {
+        const real decides = either ? share[k] : 1 - share[k];
+        sum += decides;
+        for (int c = 0; c < 2; c++) out->inward[c] += decides * s->clip[k][c];
+    }
+    for (int c = 0; c < 2 && sum > 0; c++) out->inward[c] /= sum;
 }
 
 // ---- A surfel
@@ -242,7 +270,8 @@ void independent_project(const independent_scene *scene, const independent_surfe
                                                                  SIZE_ERROR * s->half_range);
     s->cutoff_band = SIZE_ERROR + 2 * ANGLE_ERROR / sine + 2 * AXIS_ERROR * aspect_of(s->u, s->v);
     s->depth_band = DEPTH_ERROR * fabsl(s->p.z) + ANGLE_ERROR / sine * s->cutoff * longest;
-    if (facing > 0) s->n = real3_times(s->n, -1), s->normal_world = real3_times(n, -1);
+    s->turned = facing > 0;
+    if (s->turned) s->n = real3_times(s->n, -1), s->normal_world = real3_times(n, -1);
     s->near = !s->orthographic && s->p.z <= NEAR_RATIO * s->half_range;
     if (s->near && fabsl(facing) < EDGE_ON * real3_length(s->p)) return;
     s->clip_count = surfel->clip_count, s->clip_either = surfel->clip_either;
@@ -315,9 +344,9 @@ static void evaluate_source(const independent_splat *s, real dx, real dy, real *
 }
 
 void independent_evaluate(const independent_splat *s, real x, real y, independent_fragment *out) {
-    *out = (independent_fragment){.counts = false};
-    const real share = s->clip_count ? clip_share(s, x, y) : 1;
-    if (!(share > 0)) return;
+    *out = (independent_fragment){.counts = false, .share = 1};
+    if (s->clip_count) clip_square(s, x, y, out);
+    if (!(out->share > 0)) return;
     const real F2 = s->cutoff * s->cutoff;
     const bool raycast = s->kernel == EWA_KERNEL_RAYCAST && !s->orthographic;
     real r2;
@@ -340,7 +369,7 @@ void independent_evaluate(const independent_splat *s, real x, real y, independen
         const real key = clamped(plane, s->key_low, s->key_high);
         out->z = s->orthographic ? -key : 1 / key;
     }
-    out->weight *= share;
+    out->weight *= out->share;
     out->epsilon = s->epsilon;
     out->counts = r2 < F2;
     out->depth_band = s->depth_band;
