@@ -31,12 +31,13 @@ bool cloud_output_check(const output_arguments *output, char message[OPTION_ERRO
     return false;
 }
 
-/// Writes a cloud; returns false after reporting.
-static bool save(cli_session *session, const output_arguments *output, const ewa_cloud *cloud) {
+bool cloud_output_save(cli_session *session, const output_arguments *output, const ewa_cloud *cloud,
+                       const ewa_elements *elements) {
     ewa_cloud_save_options options;
     ewa_cloud_save_options_init(&options, sizeof options);
     if (output->ascii) options.ply_encoding = EWA_PLY_ASCII;
     if (output->big_endian) options.ply_encoding = EWA_PLY_BINARY_BIG_ENDIAN;
+    options.elements = elements;
     session->subject = output->path;
     const ewa_status status = ewa_cloud_save(cloud, output->path, &options);
     if (status != EWA_OK) {
@@ -53,7 +54,7 @@ int cloud_output_run(const void *arguments, ewa_cloud *(*make)(cli_session *sess
     cli_session session;
     if (!session_start(&session, &output->common)) return session_end(&session, EXIT_FAILED);
     ewa_cloud *cloud = make(&session, arguments);
-    const bool done = cloud && save(&session, output, cloud);
+    const bool done = cloud && cloud_output_save(&session, output, cloud, NULL);
     ewa_cloud_destroy(&cloud);
     return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
 }

@@ -20,6 +20,10 @@ extern const option_group cloud_output_options;
 /// Says in `message` what is wrong with the output options together; returns false then.
 bool cloud_output_check(const output_arguments *output, char message[OPTION_ERROR_BYTES]);
 
+/// Writes a cloud, and elements with it (may be NULL); returns false after reporting.
+bool cloud_output_save(cli_session *session, const output_arguments *output, const ewa_cloud *cloud,
+                       const ewa_elements *elements);
+
 /// Runs such a command: `make` gets its arguments and returns a new cloud, which is written, or NULL after
 /// reporting. Returns the exit status.
 int cloud_output_run(const void *arguments, ewa_cloud *(*make)(cli_session *session, const void *arguments));

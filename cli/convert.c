@@ -226,9 +226,23 @@ static bool refit(cli_session *session, ewa_cloud *cloud, const convert_argument
     return status == EWA_OK;
 }
 
-static ewa_cloud *make(cli_session *session, const void *data) {
-    const convert_arguments *arguments = data;
-    ewa_cloud *cloud = inputs_merge(session, &arguments->procedure.output.common);
+/// Frees elements that the result cannot have, and says what is lost.
+static void drop_elements(cli_session *session, ewa_elements **elements, const char *why) {
+    const uint64_t count = ewa_elements_face_count(*elements);
+    if (count) session_note(session, "%llu faces are dropped: %s", (unsigned long long)count, why);
+    ewa_elements_free(elements);
+}
+
+/// Loads the operands; one alone keeps its faces. NULL after reporting.
+static ewa_cloud *load(cli_session *session, const common_arguments *common, ewa_elements **elements) {
+    *elements = NULL;
+    return common->operand_count == 1 ? input_load_elements(session, common->operands[0], elements)
+                                      : inputs_merge(session, common);
+}
+
+static ewa_cloud *make(cli_session *session, const convert_arguments *arguments, ewa_elements **elements) {
+    ewa_cloud *cloud = load(session, &arguments->procedure.output.common, elements);
+    const uint64_t loaded_count = cloud ? ewa_cloud_point_count(cloud) : 0;
     if (arguments->procedure.output.common.operand_count > 1) session->subject = NULL;
     const bool done = cloud && (!arguments->crop.count || crop(session, &cloud, arguments->crop.values)) &&
                       (arguments->subsample == 0 || subsample(session, &cloud, arguments->subsample)) &&
@@ -236,10 +250,23 @@ static ewa_cloud *make(cli_session *session, const void *data) {
                       procedure_apply(session, &arguments->procedure, arguments->cutoff, cloud) &&
                       (arguments->refit == REFIT_OFF || refit(session, cloud, arguments));
     if (!done) ewa_cloud_destroy(&cloud);
+    if (cloud && ewa_cloud_point_count(cloud) != loaded_count)
+        drop_elements(session, elements, "some of their vertices are left out");
     return cloud;
 }
 
-static int run(const void *data) { return cloud_output_run(data, make); }
+static int run(const void *data) {
+    const convert_arguments *arguments = data;
+    const output_arguments *output = &arguments->procedure.output;
+    cli_session session;
+    if (!session_start(&session, &output->common)) return session_end(&session, EXIT_FAILED);
+    ewa_elements *elements = NULL;
+    ewa_cloud *cloud = make(&session, arguments, &elements);
+    const bool done = cloud && cloud_output_save(&session, output, cloud, elements);
+    ewa_elements_free(&elements);
+    ewa_cloud_destroy(&cloud);
+    return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
+}
 
 static const option_group change_options = {"Changes, in this order", change_table,
                                             sizeof change_table / sizeof change_table[0]};
@@ -252,7 +279,9 @@ const cli_command convert_command = {
     .details =
         "All attributes are kept with their types. Of several inputs, the attributes that all have are kept; "
         "a "
-        "warning names the others. Normals, radii and axes follow --scale and --transform. Moved clouds are "
+        "warning names the others. Of one mesh the faces are kept, of PLY all else too; they are "
+        "dropped, which a message says, when some of their vertices are left out. Normals, radii and axes "
+        "follow --scale and --transform. Moved clouds are "
         "written with double coordinates.",
     .examples = "ewa convert scan.ply -o scan_text.ply --ascii\n"
                 "ewa convert a.ply b.ply -o both.ply --subsample 1000000\n"

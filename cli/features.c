@@ -162,6 +162,8 @@ const cli_command features_command = {
     .name = "features",
     .operands = "IN -o OUT",
     .summary = "detect sharp edges and corners, cut surfels there by clip lines",
+    .details =
+        "Of a mesh the vertices are taken, which a message says; 'ewa sample' finds the edges of its faces.",
     .examples = "ewa features scan.ply -o sharp.ply\n"
                 "ewa features scan.ply -o sharp.ply --angle 45 --neighbours 48\n",
     .low_operands = 1,

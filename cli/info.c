@@ -4,9 +4,11 @@
 // ewa info: what a file holds and what is wrong with it.
 #include "commands.h"
 #include "faults.h"
+#include "import.h"
+#include "info_mesh.h"
 #include "info_volume.h"
-#include "inputs.h"
 #include "json.h"
+#include "model_input.h"
 #include "screening.h"
 #include "view.h"
 
@@ -53,6 +55,9 @@ typedef struct cloud_facts {
     point_shape shape;
     cloud_faults faults;
     upright view; ///< by default; for a cloud with a finite point
+    ewa_model_format format;
+    bool is_mesh; ///< the points are vertices of:
+    mesh_facts mesh;
 } cloud_facts;
 
 static void measure_component(const ewa_attribute *attribute, uint64_t count, uint32_t component,
@@ -135,8 +140,12 @@ static point_shape measure_shape(const ewa_cloud *cloud, const ewa_bounds *bound
 }
 
 /// Measures everything; false after reporting.
-static bool gather(cli_session *session, const char *path, const ewa_cloud *cloud, cloud_facts *facts) {
-    *facts = (cloud_facts){.point_count = ewa_cloud_point_count(cloud)};
+static bool gather(cli_session *session, const char *path, const ewa_model *model, cloud_facts *facts) {
+    const ewa_cloud *cloud = model->points;
+    *facts = (cloud_facts){.point_count = ewa_cloud_point_count(cloud),
+                           .format = model->format,
+                           .is_mesh = model->mesh.triangle_count > 0};
+    if (facts->is_mesh && !info_mesh_gather(session, model, &facts->mesh)) return false;
     ewa_status status = ewa_cloud_measure(cloud, &facts->bounds);
     facts->sampled_count = facts->point_count < SPACING_SAMPLES ? facts->point_count : SPACING_SAMPLES;
     if (status == EWA_OK && facts->bounds.finite_count > 1)
@@ -177,7 +186,7 @@ static size_t list_problems(const ewa_cloud *cloud, const cloud_facts *facts,
     if (facts->faults.color_count)
         snprintf(problems[count++], PROBLEM_BYTES, "%" PRIu64 " colours are not finite",
                  facts->faults.color_count);
-    if (facts->spacing.duplicate_count)
+    if (facts->spacing.duplicate_count && !facts->is_mesh)
         snprintf(problems[count++], PROBLEM_BYTES,
                  "%" PRIu64 " of %" PRIu64 " points share their place with another",
                  facts->spacing.duplicate_count, facts->sampled_count);
@@ -185,6 +194,7 @@ static size_t list_problems(const ewa_cloud *cloud, const cloud_facts *facts,
         snprintf(problems[count++], PROBLEM_BYTES, "%s",
                  facts->bounds.finite_count == 1 ? "there is one point only"
                                                  : "all points are at the same place");
+    if (facts->is_mesh) return count;
     if (facts->shape == SHAPE_LINE) snprintf(problems[count++], PROBLEM_BYTES, "all points lie on one line");
     if (facts->shape == SHAPE_PLANE)
         snprintf(problems[count++], PROBLEM_BYTES, "all points lie in one plane");
@@ -203,15 +213,22 @@ static void print_header_line(void *user, const char *line) {
     if (strncmp(line, "property", 8) != 0) printf("    %s\n", line);
 }
 
+/// Whether there is a PLY header to show, which is read once more.
+static bool has_header(const char *path, const cloud_facts *facts) {
+    return facts->format == EWA_MODEL_PLY && strcmp(path, "-") != 0 && !import_is_named(path);
+}
+
 static void print_text(cli_session *session, const char *path, const ewa_cloud *cloud,
                        const cloud_facts *facts) {
     const double *low = facts->bounds.low_world, *high = facts->bounds.high_world;
     printf("%s\n", path);
-    if (strcmp(path, "-") != 0) {
+    printf("  format      %s\n", import_is_named(path) ? "imported" : ewa_model_format_name(facts->format));
+    if (facts->is_mesh) info_mesh_print(&facts->mesh);
+    if (has_header(path, facts)) {
         printf("  header\n");
         ewa_ply_describe(session->context, path, print_header_line, NULL);
     }
-    printf("  points      %" PRIu64 "\n", facts->point_count);
+    printf("  %-11s %" PRIu64 "\n", facts->is_mesh ? "vertices" : "points", facts->point_count);
     if (facts->bounds.finite_count) {
         const int digits = ewa_cloud_find(cloud, EWA_POSITION)->type == EWA_F64 ? 12 : 8;
         printf("  low         %.*g %.*g %.*g\n", digits, low[0], digits, low[1], digits, low[2]);
@@ -268,8 +285,10 @@ static void print_json(cli_session *session, json_writer *json, const char *path
     json_object(json, NULL);
     json_text(json, "file", path);
     json_array(json, "header");
-    if (strcmp(path, "-") != 0) ewa_ply_describe(session->context, path, add_header_line, json);
+    if (has_header(path, facts)) ewa_ply_describe(session->context, path, add_header_line, json);
     json_close(json, ']');
+    json_text(json, "format", import_is_named(path) ? "imported" : ewa_model_format_name(facts->format));
+    if (facts->is_mesh) info_mesh_write(json, &facts->mesh);
     json_count(json, "points", facts->point_count);
     json_count(json, "finite_points", facts->bounds.finite_count);
     if (facts->bounds.finite_count) {
@@ -353,17 +372,18 @@ static int run(const void *data) {
                 exit_status = EXIT_FAILED;
             continue;
         }
-        ewa_cloud *cloud = input_load(&session, path);
+        ewa_model model;
         cloud_facts facts;
-        if (cloud && gather(&session, path, cloud, &facts)) {
+        if (model_input_load(&session, path, EWA_MODEL_POINTS | EWA_MODEL_MESH, &model) &&
+            gather(&session, path, &model, &facts)) {
             if (arguments->json)
-                print_json(&session, &json, path, cloud, &facts);
+                print_json(&session, &json, path, model.points, &facts);
             else
-                print_text(&session, path, cloud, &facts);
+                print_text(&session, path, model.points, &facts);
         } else {
             exit_status = EXIT_FAILED;
         }
-        ewa_cloud_destroy(&cloud);
+        ewa_model_free(&model);
     }
     if (arguments->json) {
         json_close(&json, ']');
@@ -387,9 +407,11 @@ const cli_command info_command = {
     .name = "info",
     .operands = "IN...",
     .summary = "say what files hold: counts, bounds, attributes with their ranges, spacing, problems",
-    .details = "Problems are counted, not judged: the exit status is 0 when the files could be read. Volumes "
-               "are told by their suffix (.nrrd, .nhdr, .nii, .mha, .mhd, .vti, .vtk, .raw, and .gz of "
-               "these) or by --dims.",
+    .details =
+        "A file that has faces is a mesh: faces, area, whether it is closed, materials; then its vertices. "
+        "Problems are counted, not judged: the exit status is 0 when the files could be read. Volumes "
+        "are told by their suffix (.nrrd, .nhdr, .nii, .mha, .mhd, .vti, .vtk, .raw, and .gz of "
+        "these) or by --dims.",
     .examples = "ewa info scan.ply\n"
                 "ewa info --json *.ply > scans.json\n"
                 "ewa info scan.nii.gz\n",

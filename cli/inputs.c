@@ -3,22 +3,12 @@
 //
 // Clouds from the files of the command line: loading, what is missing, merging.
 #include "inputs.h"
+#include "model_input.h"
 #include "screening.h"
-#include "volume_input.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
-
-/// Files that hold triangles and no points.
-static const char *const mesh_suffixes[] = {".obj", ".stl", ".gltf", ".glb"};
-
-/// A mesh is drawn from at least so many points, and from so many per triangle.
-static const uint64_t MESH_POINTS = 200000, MESH_POINTS_PER_TRIANGLE = 4;
-
-/// Least cutoff that axes of a mesh's points are made for.
-static const double MESH_CUTOFF = 1e-3;
 
 /// sRGB of files without colours that are merged with coloured ones: as bright as the renderer's grey, linear
 /// 0.6.
@@ -39,65 +29,49 @@ static bool streams_differ(const ewa_cloud *a, const ewa_cloud *b, const char *n
     return first->type != second->type || first->component_count != second->component_count;
 }
 
-static bool is_mesh(const char *path) {
-    const char *suffix = strrchr(path, '.');
-    for (size_t i = 0; suffix && i < sizeof mesh_suffixes / sizeof mesh_suffixes[0]; i++)
-        if (strcasecmp(suffix, mesh_suffixes[i]) == 0) return true;
-    return false;
-}
-
-/// Samples the triangles of a file; NULL after reporting.
-static ewa_cloud *load_mesh(cli_session *session, const char *path, double cutoff) {
-    session->subject = path;
-    const double started_s = clock_now_s();
-    ewa_mesh mesh = {0};
-    ewa_cloud *cloud = NULL;
-    ewa_status status = ewa_mesh_load(session->context, path, &mesh);
-    if (status == EWA_OK) {
-        ewa_mesh_sample_options options;
-        ewa_mesh_sample_options_init(&options, sizeof options);
-        options.cutoff = fmax(cutoff, MESH_CUTOFF);
-        options.point_count = MESH_POINTS_PER_TRIANGLE * mesh.triangle_count;
-        if (options.point_count < MESH_POINTS) options.point_count = MESH_POINTS;
-        options.texture_filter = EWA_TEXTURE_EWA; // least squares would take most of the time
-        status = ewa_mesh_sample(&mesh, &options, &cloud);
-    }
-    if (status != EWA_OK)
-        session_failed(session, status);
-    else
-        session_say(session, "%s: %llu points on %u triangles in %.3f s; `ewa sample` has options for this",
-                    path, (unsigned long long)ewa_cloud_point_count(cloud), mesh.triangle_count,
-                    clock_now_s() - started_s);
-    ewa_mesh_free(&mesh);
-    return cloud;
+/// Says that faces of a file are not used, and how they can be.
+static void note_faces(cli_session *session, const char *path, uint64_t face_count) {
+    session_note(session,
+                 "%s: a mesh of %llu faces; its vertices are taken, `ewa sample` makes points on the faces",
+                 path, (unsigned long long)face_count);
 }
 
 ewa_cloud *input_load(cli_session *session, const char *path) {
-    session->subject = path;
-    if (is_mesh(path)) {
-        session_fail(session, "%s: a mesh; `ewa sample %s -o FILE.ply` makes points of it", path, path);
-        return NULL;
-    }
-    if (volume_input_is_named(path)) {
-        session_fail(session, "%s: a volume; `ewa volume %s -o FILE.png` draws it", path, path);
-        return NULL;
-    }
-    const double started_s = clock_now_s();
+    ewa_model model;
     ewa_cloud *cloud = NULL;
-    const ewa_status status = ewa_cloud_load(session->context, path, &cloud);
-    if (status != EWA_OK) {
-        session_failed(session, status);
-        return NULL;
+    if (model_input_load(session, path, EWA_MODEL_POINTS, &model)) {
+        if (model.face_count) note_faces(session, path, model.face_count);
+        cloud = model.points;
+        model.points = NULL;
     }
-    const uint64_t count = ewa_cloud_point_count(cloud);
-    if (count == 0) {
-        session_fail(session, "%s: the file has no points", path);
-        ewa_cloud_destroy(&cloud);
-        return NULL;
+    ewa_model_free(&model);
+    return cloud;
+}
+
+ewa_cloud *input_load_elements(cli_session *session, const char *path, ewa_elements **elements) {
+    ewa_model model;
+    ewa_cloud *cloud = NULL;
+    *elements = NULL;
+    if (model_input_load(session, path, EWA_MODEL_POINTS | EWA_MODEL_ELEMENTS, &model)) {
+        cloud = model.points;
+        *elements = model.elements;
+        model.points = NULL;
+        model.elements = NULL;
     }
-    session_say(session, "%s: %llu points read in %.3f s", path, (unsigned long long)count,
-                clock_now_s() - started_s);
-    screening_check_steps(session, path, cloud);
+    ewa_model_free(&model);
+    return cloud;
+}
+
+/// Loads one file; triangles are sampled. NULL after reporting.
+static ewa_cloud *load_or_sample(cli_session *session, const char *path, double cutoff) {
+    ewa_model model;
+    ewa_cloud *cloud = NULL;
+    if (model_input_load(session, path, EWA_MODEL_MESH, &model)) {
+        cloud = model.points;
+        model.points = NULL;
+        if (!cloud) cloud = model_input_sample(session, path, &model.mesh, cutoff);
+    }
+    ewa_model_free(&model);
     return cloud;
 }
 
@@ -337,7 +311,7 @@ static bool drop_isolated(cli_session *session, const char *path, ewa_cloud **cl
 }
 
 ewa_cloud *input_as_surfels(cli_session *session, const char *path, double cutoff, double *estimate_s) {
-    ewa_cloud *cloud = is_mesh(path) ? load_mesh(session, path, cutoff) : input_load(session, path);
+    ewa_cloud *cloud = load_or_sample(session, path, cutoff);
     if (!cloud || cloud_is_drawable(cloud)) return cloud;
     if (!screening_admit(session, path, cloud)) {
         ewa_cloud_destroy(&cloud);

@@ -7,8 +7,13 @@
 
 #include "session.h"
 
-/// Loads one file that has at least one point; NULL after reporting, also for a mesh.
+/// Loads the points of one file that has at least one; of a mesh, after a note, its vertices. NULL after
+/// reporting.
 ewa_cloud *input_load(cli_session *session, const char *path);
+
+/// The same with everything else that a PLY file holds, so that its faces are kept; `*elements`, which the
+/// caller frees, are NULL for other formats.
+ewa_cloud *input_load_elements(cli_session *session, const char *path, ewa_elements **elements);
 
 /// Loads one file and estimates what a surfel needs and it lacks; a mesh is sampled; NULL after reporting.
 /// Axes that are made of a mesh are for kernels that end at `cutoff` standard deviations. `*estimate_s` grows

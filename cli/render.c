@@ -429,12 +429,14 @@ static const option_group *const groups[] = {&output_options, &view_options,  &f
 const cli_command render_command = {
     .name = "render",
     .operands = "IN... -o OUT",
-    .summary = "draw point clouds as a continuous, antialiased surface",
+    .summary = "draw point clouds and meshes as continuous, antialiased surfaces",
     .details =
         "Several inputs are drawn together. Normals and radii that a file lacks are estimated from "
         "the neighbours "
         "of each point, and points far from all others are left out then, which a message says; "
-        "'ewa surfels' does the same with options and keeps the result.\n"
+        "'ewa surfels' does the same with options and keeps the result. A file that has faces (PLY, OBJ, "
+        "STL, OFF, glTF), whatever its name, is a mesh: points are put onto its faces, 'ewa sample' does it "
+        "with options.\n"
         "\n"
         "Without --camera and --eye the cloud is framed whole; when less than one point in a hundred "
         "lies so far off "

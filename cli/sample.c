@@ -3,6 +3,7 @@
 //
 // ewa sample: surfels from a triangle mesh.
 #include "commands.h"
+#include "model_input.h"
 #include "session.h"
 #include "textured.h"
 
@@ -89,8 +90,17 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
 
 static bool has_picture(const ewa_mesh *mesh) {
     bool found = false;
-    for (uint32_t m = 0; m < mesh->material_count; m++) found = found || mesh->materials[m].texture.pixels;
+    for (uint32_t m = 0; m < mesh->material_count; m++) found = found || mesh->textures[m].pixels;
     return found;
+}
+
+/// Loads a file that has faces; false after reporting, with nothing to free.
+static bool load(cli_session *session, const char *path, ewa_model *model) {
+    const bool loaded = model_input_load(session, path, EWA_MODEL_MESH, model);
+    if (loaded && model->mesh.triangle_count) return true;
+    if (loaded) session_fail(session, "%s: there are no faces to sample; `ewa surfels` is for points", path);
+    ewa_model_free(model);
+    return false;
 }
 
 static ewa_cloud *make(cli_session *session, const void *data) {
@@ -110,24 +120,26 @@ static ewa_cloud *make(cli_session *session, const void *data) {
     options.pixel_sigma_px = arguments->textured.pixel_sigma_px;
     ewa_image picture;
     if (!textured_load(session, &arguments->textured, &picture)) return NULL;
-    session->subject = path;
-    ewa_mesh mesh = {0};
+    ewa_model model;
     ewa_cloud *cloud = NULL;
-    ewa_status status = ewa_mesh_load(session->context, path, &mesh);
-    if (status == EWA_OK && picture.pixels) status = ewa_mesh_set_picture(&mesh, &picture);
-    if (status == EWA_OK && mesh.texcoords && !has_picture(&mesh))
+    if (!load(session, path, &model)) {
+        ewa_image_free(&picture);
+        return NULL;
+    }
+    ewa_mesh *mesh = &model.mesh;
+    ewa_status status = picture.pixels ? ewa_mesh_set_picture(mesh, &picture) : EWA_OK;
+    if (status == EWA_OK && mesh->texcoords && !has_picture(mesh))
         session_note(session, "%s: has texture coordinates, but names no picture; say --texture IMAGE", path);
     const double loaded_s = clock_now_s();
-    if (status == EWA_OK) status = ewa_mesh_sample(&mesh, &options, &cloud);
+    if (status == EWA_OK) status = ewa_mesh_sample(mesh, &options, &cloud);
     if (status == EWA_OK) {
         const double sampled_s = clock_now_s() - loaded_s;
-        session_say(session, "%s: %u triangles in %.3f s, %.3g million points per second", path,
-                    mesh.triangle_count, loaded_s - session->started_s,
+        session_say(session, "%s: %u triangles, %.3g million points per second", path, mesh->triangle_count,
                     (double)ewa_cloud_point_count(cloud) / sampled_s / 1e6);
     } else {
         session_failed(session, status);
     }
-    ewa_mesh_free(&mesh);
+    ewa_model_free(&model);
     ewa_image_free(&picture);
     if (cloud && !procedure_apply(session, &arguments->textured.procedure, arguments->cutoff, cloud))
         ewa_cloud_destroy(&cloud);
@@ -144,11 +156,11 @@ static const option_group *const groups[] = {&cloud_output_options, &sample_opti
 const cli_command sample_command = {
     .name = "sample",
     .operands = "MESH -o OUT",
-    .summary = "make surfels from a mesh (OBJ, PLY, STL, glTF), sharp edges as clip lines",
+    .summary = "make surfels from a mesh (PLY, OBJ, STL, OFF, glTF), sharp edges as clip lines",
     .details =
         "Points keep their distance (Poisson-disc) and are even in area; vertex colours and textures go "
         "onto them. Radii close the surface. Where edges are sharp, the file gets tangent axes and clip "
-        "lines.",
+        "lines. FBX, Collada, 3DS and others are read where the helper ewa-import is installed.",
     .examples = "ewa sample part.stl -o part.ply --points 200000\n"
                 "ewa sample scan.obj -o scan.ply --spacing 0.5 --crease 60\n"
                 "ewa sample cow.obj --texture cow.png -o cow.ply\n"

@@ -148,6 +148,8 @@ const cli_command surfels_command = {
     .name = "surfels",
     .operands = "IN -o OUT",
     .summary = "estimate normals and radii, or elliptical axes, from positions; remove outliers",
+    .details =
+        "Of a mesh the vertices are taken, which a message says; 'ewa sample' makes surfels on its faces.",
     .examples = "ewa surfels scan.ply -o surfels.ply\n"
                 "ewa surfels scan.ply -o surfels.ply --viewpoint 0,0,1.7 --outliers 3\n"
                 "ewa surfels lines.ply -o ellipses.ply --shape ellipse --keep-normals off\n",

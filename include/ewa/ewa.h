@@ -13,6 +13,7 @@
 #include "ewa/io.h"
 #include "ewa/math.h"
 #include "ewa/mesh.h"
+#include "ewa/model.h"
 #include "ewa/prepare.h"
 #include "ewa/procedure.h"
 #include "ewa/render.h"

@@ -54,9 +54,23 @@ typedef enum ewa_ply_encoding {
     EWA_PLY_ASCII = 2,
 } ewa_ply_encoding;
 
+/// What a PLY file holds beside its vertices, such as faces: ewa_model_load() reads it, ewa_cloud_save()
+/// writes it.
+typedef struct ewa_elements ewa_elements;
+
+/// Returns how many faces and strips are among them; of NULL, 0.
+EWA_API uint64_t ewa_elements_face_count(const ewa_elements *elements);
+
+/// Frees the elements and sets `*elements` to NULL; accepts NULL and a pointer to NULL.
+EWA_API void ewa_elements_free(ewa_elements **elements);
+
 typedef struct ewa_cloud_save_options {
     size_t struct_size;
     ewa_ply_encoding ply_encoding; ///< default EWA_PLY_BINARY_LITTLE_ENDIAN
+    /// Elements that are written with the vertices, in the order of their file, after its comments; default
+    /// NULL. Their numbers of vertices count only as long as the cloud has the points of that file in their
+    /// order.
+    const ewa_elements *elements;
 } ewa_cloud_save_options;
 
 EWA_API void ewa_cloud_save_options_init(ewa_cloud_save_options *options, size_t struct_size);
@@ -102,13 +116,14 @@ EWA_API ewa_status ewa_image_save(const ewa_image *image, const char *path,
 EWA_API ewa_status ewa_png_save(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px,
                                 uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes);
 
-/// Reads PNG, JPEG, OpenEXR, PFM or Radiance (.hdr), by content; "-" reads standard input. The caller frees
-/// the image. PNG: sRGB of up to 16 bits to linear light; grey gives 1 channel, RGB and palettes 3, anything
-/// with alpha 4, premultiplied; gamma and colour profiles are not looked at. JPEG: grey or colour, sRGB.
-/// OpenEXR: the data window of the first part, scan lines or tiles; R G B [A] when present, else its channels
-/// in alphabetical order, at most 16. PFM: 1 or 3 channels, either byte order. Radiance: RGBE, plain or
-/// run-length encoded, divided by its exposure; 3 channels. Errors (image empty): EWA_ERROR_IO,
-/// EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+/// Reads PNG, JPEG, WebP, OpenEXR, PFM or Radiance (.hdr), by content; "-" reads standard input. The caller
+/// frees the image. PNG: sRGB of up to 16 bits to linear light; grey gives 1 channel, RGB and palettes 3,
+/// anything with alpha 4, premultiplied; gamma and colour profiles are not looked at. JPEG: grey or colour,
+/// sRGB. WebP: a still picture, sRGB, with alpha 4 channels, premultiplied. OpenEXR: the data window of the
+/// first part, scan lines or tiles; R G B [A] when present, else its channels in alphabetical order, at
+/// most 16. PFM: 1 or 3 channels, either byte order. Radiance: RGBE, plain or run-length encoded, divided by
+/// its exposure; 3 channels. Errors (image empty): EWA_ERROR_IO, EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED,
+/// EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_image_load(ewa_context *context, const char *path, ewa_image *image);
 
 /// The same from `size_bytes` bytes in memory; `name` stands for the file in messages.

@@ -17,7 +17,7 @@ extern "C" {
 /// What the triangles of one kind look like.
 typedef struct ewa_mesh_material {
     float base_color[4]; ///< linear red green blue, straight alpha; times vertex colour and texture
-    ewa_image texture;   ///< 1, 3 or 4 channels as ewa_image_load() gives them; no pixels: none
+    uint32_t texture;    ///< index into the mesh's textures, which several materials may share
 } ewa_mesh_material;
 
 /// Triangles over shared vertices. A caller may fill one with memory of its own, for which ewa_mesh_free() is
@@ -25,45 +25,48 @@ typedef struct ewa_mesh_material {
 typedef struct ewa_mesh {
     ewa_context *context;
     uint32_t vertex_count, triangle_count, material_count;
-    float *positions;    ///< 3 per vertex, world units
+    double *positions;   ///< 3 per vertex, world units
+    float *normals;      ///< 3 per vertex, outward, any length; zero: none there; NULL: none
     float *colors;       ///< 4 per vertex: linear red green blue, straight alpha; NULL: none
     float *texcoords;    ///< 2 per vertex, (0, 0) bottom left of the picture, which repeats; NULL: none
     uint32_t *triangles; ///< 3 vertices per triangle, counter-clockwise seen from outside
     uint32_t *triangle_materials; ///< 1 per triangle; NULL when there are no materials
     ewa_mesh_material *materials;
+    ewa_image *textures; ///< material_count images of 1, 3 or 4 channels as ewa_image_load() gives them; no
+                         ///< pixels: none
 } ewa_mesh;
 
 /// Which of the optional streams ewa_mesh_create() makes.
 enum {
     EWA_MESH_COLORS = 1u << 0,
     EWA_MESH_TEXCOORDS = 1u << 1,
+    EWA_MESH_NORMALS = 1u << 2,
 };
 
-/// Makes a mesh with everything zero; `streams` are EWA_MESH_* bits. The caller frees it with
-/// ewa_mesh_free(). Errors (mesh zeroed): EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT (vertices or triangles over
-/// max_points, bytes over max_memory_bytes), EWA_ERROR_MEMORY.
+/// Makes a mesh with everything zero, but for `texture` of material i, which is i; `streams` are EWA_MESH_*
+/// bits. The caller frees it with ewa_mesh_free(). Errors (mesh zeroed): EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT
+/// (vertices or triangles over max_points, bytes over max_memory_bytes), EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_mesh_create(ewa_context *context, uint32_t vertex_count, uint32_t triangle_count,
                                    uint32_t material_count, uint32_t streams, ewa_mesh *mesh);
 
 /// Frees streams, materials and textures and zeroes the struct; accepts NULL and a zeroed struct.
 EWA_API void ewa_mesh_free(ewa_mesh *mesh);
 
-/// Reads a triangle mesh through Assimp: OBJ (with MTL), PLY, STL, glTF and GLB, by suffix.
-///
-/// Polygons become triangles, nodes are put into place, points and lines are left out; normals of the file
-/// are not looked at. Vertex colours of 8 bits are sRGB. Pictures, of any format that ewa_image_load() reads,
-/// are beside the mesh or embedded in it; a path that leads out of the mesh's folder is cut to its last name.
-/// One that is missing or broken is left out with a warning that names it. Whatever Assimp returns is checked
-/// again: triangles with a vertex beyond the last are an error, those with a coordinate that is not finite
-/// are left to ewa_mesh_sample(). The caller frees `*mesh`, which is zeroed after a failure. Errors:
-/// EWA_ERROR_IO, EWA_ERROR_FORMAT (what Assimp says, no triangles), EWA_ERROR_UNSUPPORTED (suffix),
-/// EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
-EWA_API ewa_status ewa_mesh_load(ewa_context *context, const char *path, ewa_mesh *mesh);
-
 /// Gives all triangles one white material with this picture, in place of their materials and vertex colours.
 /// The mesh, which has texture coordinates, takes the pixels, and `*picture` is zeroed; both belong to one
 /// context. Errors (nothing has changed): EWA_ERROR_ARGUMENT, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_mesh_set_picture(ewa_mesh *mesh, ewa_image *picture);
+
+/// Reads the triangles of a file of any format that ewa_model_load() knows, which says what is read and how.
+/// The caller frees `*mesh`, which is zeroed after a failure. Errors: as there, and EWA_ERROR_FORMAT when
+/// there are no faces.
+EWA_API ewa_status ewa_mesh_load(ewa_context *context, const char *path, ewa_mesh *mesh);
+
+/// Tells whether a mesh bounds a solid: every edge has just two triangles, which go along it in opposite
+/// directions. Vertices at the same place are one; triangles with two corners at one place do not count. A
+/// mesh without triangles, or with a coordinate of one that is not finite, is not closed. Errors:
+/// EWA_ERROR_ARGUMENT (a triangle with a vertex beyond the last), EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_mesh_is_closed(const ewa_mesh *mesh, bool *closed);
 
 /// How a mesh becomes surfels. Fill with ewa_mesh_sample_options_init().
 typedef struct ewa_mesh_sample_options {

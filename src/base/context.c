@@ -18,6 +18,7 @@ struct ewa_context {
     ewa_context_options options;
     ewa_pool *pool;
     uint32_t cpu_features;
+    bool soft_failures;
 };
 
 enum {
@@ -198,10 +199,12 @@ static void report(ewa_context *context, ewa_severity severity, const char *form
 ewa_status ewa_fail(ewa_context *context, ewa_status status, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    report(context, EWA_SEVERITY_ERROR, format, arguments);
+    report(context, context->soft_failures ? EWA_SEVERITY_WARNING : EWA_SEVERITY_ERROR, format, arguments);
     va_end(arguments);
     return status;
 }
+
+void ewa_failures_soften(ewa_context *context, bool soft) { context->soft_failures = soft; }
 
 void ewa_report(ewa_context *context, ewa_severity severity, const char *format, ...) {
     va_list arguments;

@@ -12,14 +12,15 @@ static int bits_of(char c) {
     return c == '+' ? 62 : c == '/' ? 63 : -1;
 }
 
-size_t ewa_base64_read(const char *text, size_t text_bytes, size_t skipped_bytes, uint8_t *to, size_t room) {
-    size_t done = 0;
+size_t ewa_base64_read(const char *text, size_t text_bytes, size_t skipped_bytes, uint8_t *to, size_t room,
+                       size_t *used_bytes) {
+    size_t done = 0, i = 0;
     uint32_t held = 0;
     int held_bits = 0;
-    for (size_t i = 0; i < text_bytes && done < room; i++) {
+    for (; i < text_bytes && done < room; i++) {
         const char c = text[i];
         if (c == ' ' || (c >= '\t' && c <= '\r')) continue;
-        if (c == '=') { // what is left is filling
+        if (c == '=' && held_bits < 6) { // what is left is filling
             held_bits = 0;
             continue;
         }
@@ -35,5 +36,7 @@ size_t ewa_base64_read(const char *text, size_t text_bytes, size_t skipped_bytes
         else
             to[done++] = byte;
     }
+    // A digit alone is no byte.
+    if (used_bytes) *used_bytes = i == text_bytes && held_bits == 6 ? i - 1 : i;
     return done;
 }

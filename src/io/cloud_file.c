@@ -82,7 +82,7 @@ ewa_status ewa_cloud_save(const ewa_cloud *cloud, const char *path, const ewa_cl
     ewa_writer *writer = NULL;
     ewa_status status = ewa_writer_open(context, path, &writer);
     if (status != EWA_OK) return status;
-    status = ewa_ply_write(cloud, chosen.ply_encoding, path, writer);
+    status = ewa_ply_write(cloud, chosen.elements, chosen.ply_encoding, path, writer);
     if (status == EWA_OK) return ewa_writer_commit(&writer);
     ewa_writer_abort(&writer);
     return status;

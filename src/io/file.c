@@ -83,21 +83,30 @@ static ewa_status read_stream(ewa_context *context, const char *path, int descri
     return status;
 }
 
+/// Maps a regular file that is not empty.
+static bool map_file(int descriptor, const struct stat *facts, ewa_file *file) {
+    if (!S_ISREG(facts->st_mode) || facts->st_size <= 0 || (uint64_t)facts->st_size > SIZE_MAX ||
+        lseek(descriptor, 0, SEEK_CUR) != 0)
+        return false;
+    const size_t size = (size_t)facts->st_size;
+    void *mapped = mmap(NULL, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
+    if (mapped == MAP_FAILED) return false;
+    *file = (ewa_file){.bytes = mapped, .size_bytes = size, .capacity_bytes = size, .mapped = true};
+    return true;
+}
+
+bool ewa_file_map_descriptor(int descriptor, ewa_file *file) {
+    struct stat facts;
+    *file = (ewa_file){0};
+    return fstat(descriptor, &facts) == 0 && (facts.st_size == 0 || map_file(descriptor, &facts, file));
+}
+
 static ewa_status read_descriptor(ewa_context *context, const char *path, int descriptor, ewa_file *file) {
     struct stat facts;
     if (fstat(descriptor, &facts) != 0) return fail_errno(context, path, errno);
     if (S_ISDIR(facts.st_mode)) return fail_errno(context, path, EISDIR);
     // Files of /proc call themselves regular and empty, and some file systems cannot map: both can be read.
-    if (S_ISREG(facts.st_mode) && facts.st_size > 0 && (uint64_t)facts.st_size <= SIZE_MAX &&
-        lseek(descriptor, 0, SEEK_CUR) == 0) {
-        const size_t size = (size_t)facts.st_size;
-        void *mapped = mmap(NULL, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
-        if (mapped != MAP_FAILED) {
-            *file = (ewa_file){.bytes = mapped, .size_bytes = size, .capacity_bytes = size, .mapped = true};
-            return EWA_OK;
-        }
-    }
-    return read_stream(context, path, descriptor, file);
+    return map_file(descriptor, &facts, file) ? EWA_OK : read_stream(context, path, descriptor, file);
 }
 
 ewa_status ewa_file_map(ewa_context *context, const char *path, ewa_file *file) {

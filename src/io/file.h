@@ -23,6 +23,10 @@ typedef struct ewa_file {
 /// SIGBUS. Errors, with the message "PATH: reason": EWA_ERROR_IO, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
 ewa_status ewa_file_map(ewa_context *context, const char *path, ewa_file *file);
 
+/// The same for a regular file that is open, at its begin; false, without a report, when it cannot be mapped.
+/// An empty file has no bytes and is held by nothing.
+bool ewa_file_map_descriptor(int descriptor, ewa_file *file);
+
 /// Gives the bytes back and clears `*file`; accepts a cleared one.
 void ewa_file_unmap(ewa_context *context, ewa_file *file);
 

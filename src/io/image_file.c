@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Pictures: the format by content on input and by suffix on output; float pixels to 8-bit sRGB.
+#include "io/image_file.h"
 #include "base/base.h"
 #include "ewa/io.h"
 #include "image/srgb.h"
@@ -11,6 +12,7 @@
 #include "io/jpeg.h"
 #include "io/pfm.h"
 #include "io/png.h"
+#include "io/webp.h"
 
 #include <string.h>
 #include <strings.h>
@@ -97,11 +99,13 @@ ewa_status ewa_image_save(const ewa_image *image, const char *path, const ewa_im
     return ewa_fail(image->context, EWA_ERROR_UNSUPPORTED, "%s: the suffix is none of .png .exr .pfm", path);
 }
 
-ewa_status ewa_image_load_memory(ewa_context *context, const void *bytes, size_t size_bytes, const char *name,
-                                 ewa_image *image) {
-    if (!context || !image || !name || (!bytes && size_bytes)) return EWA_ERROR_ARGUMENT;
+ewa_status ewa_image_decode(ewa_context *context, const void *bytes, size_t size_bytes, const char *name,
+                            bool straight, ewa_image *image) {
     *image = (ewa_image){0};
-    if (ewa_png_recognise(bytes, size_bytes)) return ewa_png_decode(context, name, bytes, size_bytes, image);
+    if (ewa_png_recognise(bytes, size_bytes))
+        return ewa_png_decode(context, name, bytes, size_bytes, straight, image);
+    if (ewa_webp_recognise(bytes, size_bytes))
+        return ewa_webp_decode(context, name, bytes, size_bytes, straight, image);
     if (ewa_exr_recognise(bytes, size_bytes)) return ewa_exr_decode(context, name, bytes, size_bytes, image);
     if (ewa_pfm_recognise(bytes, size_bytes)) return ewa_pfm_decode(context, name, bytes, size_bytes, image);
     if (ewa_hdr_recognise(bytes, size_bytes)) return ewa_hdr_decode(context, name, bytes, size_bytes, image);
@@ -109,7 +113,14 @@ ewa_status ewa_image_load_memory(ewa_context *context, const void *bytes, size_t
         return ewa_jpeg_decode(context, name, bytes, size_bytes, image);
     return ewa_fail(
         context, EWA_ERROR_FORMAT,
-        "%s: no picture: neither PNG nor JPEG nor OpenEXR nor PFM nor Radiance by its first bytes", name);
+        "%s: no picture: neither PNG nor JPEG nor WebP nor OpenEXR nor PFM nor Radiance by its first bytes",
+        name);
+}
+
+ewa_status ewa_image_load_memory(ewa_context *context, const void *bytes, size_t size_bytes, const char *name,
+                                 ewa_image *image) {
+    if (!context || !image || !name || (!bytes && size_bytes)) return EWA_ERROR_ARGUMENT;
+    return ewa_image_decode(context, bytes, size_bytes, name, false, image);
 }
 
 ewa_status ewa_depth_load_memory(ewa_context *context, const void *bytes, size_t size_bytes, const char *name,

@@ -23,6 +23,7 @@ typedef enum fault {
     FAULT_NUMBER, // no number
     FAULT_RANGE,  // a number that its type cannot hold
     FAULT_LENGTH, // no natural number as length of a list
+    FAULT_ROOM,   // no room for a list
 } fault;
 
 /// A record being read: what it consists of and where the text ends.
@@ -30,7 +31,11 @@ typedef struct grammar {
     const ewa_ply_property *properties;
     uint32_t property_count;
     const char *end;
-    int stop; // byte that ends the record's text, or NO_STOP
+    int stop;                     // byte that ends the record's text, or NO_STOP
+    const ewa_ply_source *source; // of lists that are kept:
+    ewa_ply_list *lists;          // or NULL
+    uint64_t record;
+    ewa_status status; // why a list could not be kept
 } grammar;
 
 static bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
@@ -99,28 +104,45 @@ static inline const char *read_number(const char *text, const char *end, ewa_typ
     return text;
 }
 
-/// Steps over a list; returns what follows it.
-static const char *skip_list(const grammar *g, const char *text, fault *why) {
+/// Steps over a list, or keeps its numbers when `list` is not NULL; returns what follows it.
+static const char *read_list(grammar *g, ewa_type type, const char *text, ewa_ply_list *list, fault *why) {
     int64_t count;
     const char *after = read_integer(text, g->end, &count);
     if (!after || (after < g->end && !is_space(*after)) || count < 0) {
         *why = FAULT_LENGTH;
         return text;
     }
+    const size_t number_bytes = ewa_type_bytes(type);
     for (; count > 0; count--) {
         text = skip_space(after, g->end, g->stop);
         if (text == g->end || *text == g->stop) {
             *why = FAULT_END;
             return text;
         }
-        after = skip_word(text, g->end);
+        if (!list) {
+            after = skip_word(text, g->end);
+            continue;
+        }
+        uint8_t *to = ewa_ply_list_add(g->source, list, 1, number_bytes, &g->status);
+        if (!to) {
+            *why = FAULT_ROOM;
+            return text;
+        }
+        after = read_number(text, g->end, type, to, why);
+        if (*why != FAULT_NONE) return text;
+        if (!after || (after < g->end && !is_space(*after))) {
+            *why = FAULT_NUMBER;
+            return text;
+        }
     }
+    if (list) list->first[g->record + 1] = list->count;
     return after;
 }
 
 /// Reads one record; its scalars go to `record`, or are only stepped over when that is NULL. Returns what
 /// follows the last word, or the offending word with `*why` set.
-static inline const char *read_record(const grammar *g, const char *text, uint8_t *record, fault *why) {
+static inline const char *read_record(grammar *g, const char *text, uint8_t *record, fault *why) {
+    ewa_ply_list *list = g->lists;
     for (uint32_t i = 0; i < g->property_count; i++) {
         const ewa_ply_property *property = &g->properties[i];
         text = skip_space(text, g->end, g->stop);
@@ -130,7 +152,8 @@ static inline const char *read_record(const grammar *g, const char *text, uint8_
         }
         const char *after;
         if (property->is_list) {
-            after = skip_list(g, text, why);
+            after = read_list(g, property->type, text, list, why);
+            if (list) list++;
             if (*why != FAULT_NONE) return after;
         } else if (record) {
             after = read_number(text, g->end, property->type, record + property->offset_bytes, why);
@@ -157,17 +180,17 @@ static uint64_t line_of(const ewa_ply_source *source, const ewa_ply_header *head
 static ewa_status fail_record(const ewa_ply_source *source, const ewa_ply_header *header,
                               const ewa_ply_element *element, uint64_t index, const grammar *g,
                               const char *place, fault why) {
-    char quote[EWA_PLY_QUOTE_BYTES], element_quote[EWA_PLY_QUOTE_BYTES];
-    ewa_ply_quote(element->name, element_quote);
+    char quote[EWA_QUOTE_BYTES], element_quote[EWA_QUOTE_BYTES];
+    ewa_quote(element->name, element_quote);
     if (why == FAULT_END) // the last line with something on it says more than the empty one after it
         while (place > (const char *)source->bytes + header->body_at && is_space(place[-1])) place--;
     const unsigned long long line = line_of(source, header, place), record = index, count = element->count;
-    const ewa_ply_text word = {place, (size_t)(skip_word(place, g->end) - place)};
+    const ewa_text word = {place, (size_t)(skip_word(place, g->end) - place)};
     if (why == FAULT_END)
         return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: line %llu: the file ends in %s %llu of %llu",
                         source->name, line, element_quote, record, count);
     return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: line %llu: %s %llu of %llu: %s %s", source->name,
-                    line, element_quote, record, count, ewa_ply_quote(word, quote),
+                    line, element_quote, record, count, ewa_quote(word, quote),
                     why == FAULT_RANGE    ? "does not fit the type of its property"
                     : why == FAULT_LENGTH ? "is no length of a list"
                                           : "is no number of the type of its property");
@@ -178,7 +201,8 @@ static grammar grammar_of(const ewa_ply_source *source, const ewa_ply_header *he
     return (grammar){.properties = &header->properties[element->first_property],
                      .property_count = element->property_count,
                      .end = (const char *)source->bytes + source->size_bytes,
-                     .stop = stop};
+                     .stop = stop,
+                     .source = source};
 }
 
 /// Steps over the rest of a line if nothing stands there.
@@ -192,7 +216,7 @@ static const char *finish_line(const ewa_ply_header *header, const char *text, c
 ewa_status ewa_ply_ascii_skip(const ewa_ply_source *source, const ewa_ply_header *header,
                               const ewa_ply_element *element, uint64_t *at) {
     if (element->count == 0 || element->property_count == 0) return EWA_OK;
-    const grammar g = grammar_of(source, header, element, NO_STOP);
+    grammar g = grammar_of(source, header, element, NO_STOP);
     const char *text = (const char *)source->bytes + *at;
     fault why = FAULT_NONE;
     for (uint64_t i = 0; i < element->count; i++) {
@@ -245,7 +269,7 @@ static void count_lines(void *data, uint32_t chunk, uint32_t worker) {
 static void read_lines(void *data, uint32_t chunk, uint32_t worker) {
     (void)worker;
     line_job *job = data;
-    const grammar *g = &job->grammar;
+    grammar own = job->grammar, *g = &own;
     const uint32_t record_bytes = job->element->record_bytes;
     const uint64_t block = ewa_ply_block_records(record_bytes);
     uint64_t index = job->lines[chunk];
@@ -318,7 +342,8 @@ static ewa_status read_by_line(const ewa_ply_source *source, const ewa_ply_heade
 /// Reads records as a stream of numbers. Warns once when lines and records differ by more than blank lines.
 static ewa_status read_by_number(const ewa_ply_source *source, const ewa_ply_header *header,
                                  const ewa_ply_element *element, const ewa_ply_sink *sink, uint64_t *at) {
-    const grammar g = grammar_of(source, header, element, NO_STOP);
+    grammar g = grammar_of(source, header, element, NO_STOP);
+    g.lists = sink->lists;
     const uint64_t block = ewa_ply_block_records(element->record_bytes);
     uint8_t records[EWA_PLY_BLOCK_BYTES];
     const char *text = (const char *)source->bytes + *at;
@@ -328,7 +353,9 @@ static ewa_status read_by_number(const ewa_ply_source *source, const ewa_ply_hea
         for (uint64_t i = 0; i < count; i++) {
             fault why = FAULT_NONE;
             const char *start = skip_space(text, g.end, NO_STOP);
+            g.record = first + i;
             text = read_record(&g, start, records + i * element->record_bytes, &why);
+            if (why == FAULT_ROOM) return g.status;
             if (why != FAULT_NONE) return fail_record(source, header, element, first + i, &g, text, why);
             bool line_ends;
             const char *next = finish_line(header, text, g.end, &line_ends);
@@ -346,11 +373,11 @@ static ewa_status read_by_number(const ewa_ply_source *source, const ewa_ply_hea
     }
     const char *rest = skip_space(text, g.end, NO_STOP);
     if (warned && element == &header->elements[header->element_count - 1] && rest < g.end) {
-        char quote[EWA_PLY_QUOTE_BYTES];
-        const ewa_ply_text word = {rest, (size_t)(skip_word(rest, g.end) - rest)};
+        char quote[EWA_QUOTE_BYTES];
+        const ewa_text word = {rest, (size_t)(skip_word(rest, g.end) - rest)};
         return ewa_fail(source->context, EWA_ERROR_FORMAT,
                         "%s: line %llu: %s follows the last of %llu records", source->name,
-                        (unsigned long long)line_of(source, header, rest), ewa_ply_quote(word, quote),
+                        (unsigned long long)line_of(source, header, rest), ewa_quote(word, quote),
                         (unsigned long long)element->count);
     }
     *at = (uint64_t)(text - (const char *)source->bytes);
@@ -359,8 +386,9 @@ static ewa_status read_by_number(const ewa_ply_source *source, const ewa_ply_hea
 
 ewa_status ewa_ply_ascii_read(const ewa_ply_source *source, const ewa_ply_header *header,
                               const ewa_ply_element *element, const ewa_ply_sink *sink, uint64_t *at) {
-    if (element->count == 0) return EWA_OK;
-    bool regular;
-    const ewa_status status = read_by_line(source, header, element, sink, at, &regular);
+    if (element->count == 0 || element->property_count == 0) return EWA_OK;
+    bool regular = false; // lists are kept in the order of the file
+    const ewa_status status =
+        sink->lists ? EWA_OK : read_by_line(source, header, element, sink, at, &regular);
     return status != EWA_OK || regular ? status : read_by_number(source, header, element, sink, at);
 }

@@ -15,17 +15,13 @@ enum {
     WAVE_TASKS = 1 << 6,  // tasks between two reports of progress
 };
 
-static bool is_swapped(const ewa_ply_header *header) {
-    return (header->encoding == EWA_PLY_BINARY_BIG_ENDIAN) != (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__);
-}
-
 static ewa_status fail_truncated(const ewa_ply_source *source, const ewa_ply_element *element, uint64_t index,
                                  uint64_t at, uint64_t wanted) {
-    char quote[EWA_PLY_QUOTE_BYTES];
+    char quote[EWA_QUOTE_BYTES];
     return ewa_fail(
         source->context, EWA_ERROR_FORMAT,
         "%s: the file ends in %s %llu of %llu: %llu bytes wanted from byte %llu on, %llu are there",
-        source->name, ewa_ply_quote(element->name, quote), (unsigned long long)index,
+        source->name, ewa_quote(element->name, quote), (unsigned long long)index,
         (unsigned long long)element->count, (unsigned long long)wanted, (unsigned long long)at,
         (unsigned long long)(source->size_bytes - at));
 }
@@ -40,10 +36,24 @@ static bool read_count(const uint8_t *bytes, ewa_type type, bool swap, uint64_t 
     return true;
 }
 
-/// Steps over one record; its scalars go to `record` unless that is NULL.
+/// Appends the numbers of one list to those of the records before.
+static ewa_status keep_list(const ewa_ply_source *source, ewa_type type, bool swap, const uint8_t *bytes,
+                            uint64_t count, uint64_t index, ewa_ply_list *list) {
+    ewa_status status = EWA_OK;
+    const size_t number_bytes = ewa_type_bytes(type);
+    uint8_t *to = ewa_ply_list_add(source, list, count, number_bytes, &status);
+    if (!to) return status;
+    const ewa_move move = {.from_type = type, .to_type = type, .component_count = 1, .swap = swap};
+    ewa_move_numbers(&move, to, number_bytes, bytes, number_bytes, (size_t)count);
+    list->first[index + 1] = list->count;
+    return EWA_OK;
+}
+
+/// Steps over one record; its scalars go to `record` unless that is NULL, its lists to `lists` unless that
+/// is.
 static ewa_status walk_record(const ewa_ply_source *source, const ewa_ply_header *header,
                               const ewa_ply_element *element, uint64_t index, ewa_reader *reader,
-                              uint8_t *record) {
+                              uint8_t *record, ewa_ply_list *lists) {
     for (uint32_t i = 0; i < element->property_count; i++) {
         const ewa_ply_property *property = &header->properties[element->first_property + i];
         const uint64_t at = reader->at_bytes, number_bytes = ewa_type_bytes(property->type);
@@ -55,16 +65,20 @@ static ewa_status walk_record(const ewa_ply_source *source, const ewa_ply_header
             continue;
         }
         uint64_t count;
-        if (!read_count(bytes, property->count_type, is_swapped(header), &count)) {
-            char element_quote[EWA_PLY_QUOTE_BYTES], quote[EWA_PLY_QUOTE_BYTES];
+        if (!read_count(bytes, property->count_type, ewa_ply_is_swapped(header), &count)) {
+            char element_quote[EWA_QUOTE_BYTES], quote[EWA_QUOTE_BYTES];
             return ewa_fail(source->context, EWA_ERROR_FORMAT,
                             "%s: byte %llu: list %s of %s %llu has a negative length", source->name,
-                            (unsigned long long)at, ewa_ply_quote(property->name, quote),
-                            ewa_ply_quote(element->name, element_quote), (unsigned long long)index);
+                            (unsigned long long)at, ewa_quote(property->name, quote),
+                            ewa_quote(element->name, element_quote), (unsigned long long)index);
         }
         wanted = count * number_bytes; // at most 2^32 * 8
-        if (!ewa_reader_take(reader, wanted))
-            return fail_truncated(source, element, index, reader->at_bytes, wanted);
+        bytes = ewa_reader_take(reader, wanted);
+        if (!bytes) return fail_truncated(source, element, index, reader->at_bytes, wanted);
+        if (!lists) continue;
+        const ewa_status status =
+            keep_list(source, property->type, ewa_ply_is_swapped(header), bytes, count, index, lists++);
+        if (status != EWA_OK) return status;
     }
     return EWA_OK;
 }
@@ -77,7 +91,7 @@ ewa_status ewa_ply_binary_skip(const ewa_ply_source *source, const ewa_ply_heade
     }
     ewa_reader reader = {.bytes = source->bytes, .size_bytes = source->size_bytes, .at_bytes = *at};
     for (uint64_t i = 0; i < element->count; i++) {
-        const ewa_status status = walk_record(source, header, element, i, &reader, NULL);
+        const ewa_status status = walk_record(source, header, element, i, &reader, NULL, NULL);
         if (status != EWA_OK) return status;
     }
     *at = reader.at_bytes;
@@ -135,8 +149,8 @@ static ewa_status read_with_lists(const ewa_ply_source *source, const ewa_ply_he
     for (uint64_t first = 0; first < element->count;) {
         const uint64_t count = element->count - first < block ? element->count - first : block;
         for (uint64_t i = 0; i < count; i++) {
-            const ewa_status status =
-                walk_record(source, header, element, first + i, &reader, records + i * element->record_bytes);
+            const ewa_status status = walk_record(source, header, element, first + i, &reader,
+                                                  records + i * element->record_bytes, sink->lists);
             if (status != EWA_OK) return status;
         }
         ewa_ply_sink_put(sink, first, records, element->record_bytes, count);

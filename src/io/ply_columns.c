@@ -108,7 +108,7 @@ static bool is_used(const ewa_ply_column *columns, uint32_t column_count, const 
 }
 
 /// Whether bytes are UTF-8 without control characters. Based on: The Unicode Standard 15.0, table 3-7.
-static bool is_clean_text(ewa_ply_text text) {
+static bool is_clean_text(ewa_text text) {
     const unsigned char *c = (const unsigned char *)text.chars, *end = c + text.length;
     while (c < end) {
         const unsigned char lead = *c++;
@@ -125,12 +125,12 @@ static bool is_clean_text(ewa_ply_text text) {
 }
 
 /// Whether a scalar can be an attribute under its own name; if not, says why.
-static bool is_keepable(const ewa_ply_source *source, ewa_ply_text name) {
-    char quote[EWA_PLY_QUOTE_BYTES];
+static bool is_keepable(const ewa_ply_source *source, ewa_text name) {
+    char quote[EWA_QUOTE_BYTES];
     if (name.length >= EWA_NAME_BYTES || !is_clean_text(name)) {
         ewa_report(source->context, EWA_SEVERITY_WARNING,
                    "%s: property %s is left out: its name is not UTF-8 of at most %d bytes", source->name,
-                   ewa_ply_quote(name, quote), EWA_NAME_BYTES - 1);
+                   ewa_quote(name, quote), EWA_NAME_BYTES - 1);
         return false;
     }
     for (uint32_t g = 0; g < GROUP_COUNT; g++) {
@@ -139,7 +139,7 @@ static bool is_keepable(const ewa_ply_source *source, ewa_ply_text name) {
             memcmp(name.chars, groups[g].attribute, length) == 0) {
             ewa_report(source->context, EWA_SEVERITY_WARNING,
                        "%s: property %s is left out: an attribute of that name has %u components",
-                       source->name, ewa_ply_quote(name, quote), groups[g].least_components);
+                       source->name, ewa_quote(name, quote), groups[g].least_components);
             return false;
         }
     }

@@ -33,32 +33,13 @@ static ewa_status fail_line(const ewa_ply_source *source, const ewa_ply_header *
                     (unsigned long long)header->line_count, reason);
 }
 
-const char *ewa_ply_quote(ewa_ply_text text, char quote[EWA_PLY_QUOTE_BYTES]) {
-    const size_t room = EWA_PLY_QUOTE_BYTES - 6; // two quotes, three dots, the zero
-    size_t at = 0;
-    quote[at++] = '\'';
-    for (size_t i = 0; i < text.length && i < room; i++)
-        quote[at++] = (char)(text.chars[i] >= ' ' && text.chars[i] <= '~' ? text.chars[i] : '?');
-    if (text.length > room) {
-        memcpy(quote + at, "...", 3);
-        at += 3;
-    }
-    quote[at++] = '\'';
-    quote[at] = 0;
-    return quote;
-}
-
 static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
-static bool same(ewa_ply_text a, ewa_ply_text b) {
+static bool same(ewa_text a, ewa_text b) {
     return a.length == b.length && memcmp(a.chars, b.chars, a.length) == 0;
 }
 
-static bool is_word(ewa_ply_text text, const char *word) {
-    return text.length == strlen(word) && memcmp(text.chars, word, text.length) == 0;
-}
-
-static uint32_t split(ewa_ply_text line, ewa_ply_text words[MAX_WORDS]) {
+static uint32_t split(ewa_text line, ewa_text words[MAX_WORDS]) {
     uint32_t count = 0;
     const char *at = line.chars, *end = line.chars + line.length;
     while (count < MAX_WORDS) {
@@ -66,12 +47,12 @@ static uint32_t split(ewa_ply_text line, ewa_ply_text words[MAX_WORDS]) {
         if (at == end) break;
         const char *word = at;
         while (at < end && !is_blank(*at)) at++;
-        words[count++] = (ewa_ply_text){word, (size_t)(at - word)};
+        words[count++] = (ewa_text){word, (size_t)(at - word)};
     }
     return count;
 }
 
-static bool find_type(ewa_ply_text word, ewa_type *type) {
+static bool find_type(ewa_text word, ewa_type *type) {
     static const struct {
         const char *name;
         ewa_type type;
@@ -82,35 +63,35 @@ static bool find_type(ewa_ply_text word, ewa_type *type) {
         {"int", EWA_I32},   {"int32", EWA_I32},   {"uint", EWA_U32},   {"uint32", EWA_U32},
     };
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        if (!is_word(word, names[i].name)) continue;
+        if (!ewa_text_is(word, names[i].name)) continue;
         *type = names[i].type;
         return true;
     }
     return false;
 }
 
-static ewa_status read_format(const ewa_ply_source *source, ewa_ply_header *header, const ewa_ply_text *words,
+static ewa_status read_format(const ewa_ply_source *source, ewa_ply_header *header, const ewa_text *words,
                               uint32_t word_count, bool *known) {
     static const char *const names[] = {"binary_little_endian", "binary_big_endian", "ascii"};
-    char quote[EWA_PLY_QUOTE_BYTES];
+    char quote[EWA_QUOTE_BYTES];
     if (*known) return fail_line(source, header, EWA_ERROR_FORMAT, "a second format");
     if (word_count != 3)
         return fail_line(source, header, EWA_ERROR_FORMAT, "'format' wants an encoding and a version");
-    if (!is_word(words[2], "1.0"))
+    if (!ewa_text_is(words[2], "1.0"))
         return fail_line(source, header, EWA_ERROR_UNSUPPORTED, "version %s; 1.0 is read",
-                         ewa_ply_quote(words[2], quote));
+                         ewa_quote(words[2], quote));
     for (int i = 0; i < 3; i++) {
-        if (!is_word(words[1], names[i])) continue;
+        if (!ewa_text_is(words[1], names[i])) continue;
         header->encoding = (ewa_ply_encoding)i;
         *known = true;
         return EWA_OK;
     }
-    return fail_line(source, header, EWA_ERROR_UNSUPPORTED, "encoding %s", ewa_ply_quote(words[1], quote));
+    return fail_line(source, header, EWA_ERROR_UNSUPPORTED, "encoding %s", ewa_quote(words[1], quote));
 }
 
-static ewa_status read_element(const ewa_ply_source *source, ewa_ply_header *header,
-                               const ewa_ply_text *words, uint32_t word_count) {
-    char quote[EWA_PLY_QUOTE_BYTES];
+static ewa_status read_element(const ewa_ply_source *source, ewa_ply_header *header, const ewa_text *words,
+                               uint32_t word_count) {
+    char quote[EWA_QUOTE_BYTES];
     if (word_count != 3)
         return fail_line(source, header, EWA_ERROR_FORMAT, "'element' wants a name and a count");
     if (header->element_count == EWA_PLY_MAX_ELEMENTS)
@@ -118,24 +99,23 @@ static ewa_status read_element(const ewa_ply_source *source, ewa_ply_header *hea
     for (uint32_t i = 0; i < header->element_count; i++)
         if (same(header->elements[i].name, words[1]))
             return fail_line(source, header, EWA_ERROR_FORMAT, "element %s a second time",
-                             ewa_ply_quote(words[1], quote));
+                             ewa_quote(words[1], quote));
     uint64_t count = 0;
     for (size_t i = 0; i < words[2].length; i++) {
         const unsigned digit = (unsigned char)(words[2].chars[i] - '0');
         if (digit > 9 || __builtin_mul_overflow(count, 10, &count) ||
             __builtin_add_overflow(count, digit, &count))
-            return fail_line(source, header, EWA_ERROR_FORMAT, "%s is no count",
-                             ewa_ply_quote(words[2], quote));
+            return fail_line(source, header, EWA_ERROR_FORMAT, "%s is no count", ewa_quote(words[2], quote));
     }
     header->elements[header->element_count++] =
         (ewa_ply_element){.name = words[1], .count = count, .first_property = header->property_count};
     return EWA_OK;
 }
 
-static ewa_status read_property(const ewa_ply_source *source, ewa_ply_header *header,
-                                const ewa_ply_text *words, uint32_t word_count) {
-    char quote[EWA_PLY_QUOTE_BYTES];
-    const bool is_list = word_count > 1 && is_word(words[1], "list");
+static ewa_status read_property(const ewa_ply_source *source, ewa_ply_header *header, const ewa_text *words,
+                                uint32_t word_count) {
+    char quote[EWA_QUOTE_BYTES];
+    const bool is_list = word_count > 1 && ewa_text_is(words[1], "list");
     if (word_count != (is_list ? 5 : 3))
         return fail_line(source, header, EWA_ERROR_FORMAT,
                          "'property' wants a type and a name, or list, two types "
@@ -147,16 +127,16 @@ static ewa_status read_property(const ewa_ply_source *source, ewa_ply_header *he
     ewa_ply_property property = {.name = words[word_count - 1], .is_list = is_list};
     if (!find_type(words[word_count - 2], &property.type))
         return fail_line(source, header, EWA_ERROR_FORMAT, "unknown type %s",
-                         ewa_ply_quote(words[word_count - 2], quote));
+                         ewa_quote(words[word_count - 2], quote));
     if (is_list && (!find_type(words[2], &property.count_type) || property.count_type == EWA_F32 ||
                     property.count_type == EWA_F64))
         return fail_line(source, header, EWA_ERROR_FORMAT, "a list cannot be counted by %s",
-                         ewa_ply_quote(words[2], quote));
+                         ewa_quote(words[2], quote));
     ewa_ply_element *element = &header->elements[header->element_count - 1];
     for (uint32_t i = element->first_property; i < header->property_count; i++)
         if (same(header->properties[i].name, property.name))
             return fail_line(source, header, EWA_ERROR_FORMAT, "property %s a second time",
-                             ewa_ply_quote(property.name, quote));
+                             ewa_quote(property.name, quote));
     if (is_list) {
         element->list_count++;
         element->least_bytes += (uint32_t)ewa_type_bytes(property.count_type);
@@ -190,7 +170,7 @@ static bool read_magic(ewa_reader *reader, char *line_end) {
 }
 
 /// Takes a line, also a last one without an end; false when nothing is left.
-static bool take_line(ewa_reader *reader, char line_end, ewa_ply_text *line) {
+static bool take_line(ewa_reader *reader, char line_end, ewa_text *line) {
     uint64_t length = ewa_reader_left(reader);
     line->chars = (const char *)reader->bytes + reader->at_bytes;
     if (length == 0) return false;
@@ -207,7 +187,7 @@ ewa_status ewa_ply_header_read(const ewa_ply_source *source, ewa_ply_header *hea
         return fail_line(source, header, EWA_ERROR_FORMAT, "a PLY file begins with a line 'ply'");
     bool format_known = false;
     for (;;) {
-        ewa_ply_text line, words[MAX_WORDS];
+        ewa_text line, words[MAX_WORDS];
         uint64_t length = ewa_reader_left(&reader);
         if (length == 0)
             return fail_line(source, header, EWA_ERROR_FORMAT, "the file ends before 'end_header'");
@@ -218,18 +198,19 @@ ewa_status ewa_ply_header_read(const ewa_ply_source *source, ewa_ply_header *hea
         line.length = (size_t)length;
         const uint32_t word_count = split(line, words);
         ewa_status status = EWA_OK;
-        if (word_count == 0 || is_word(words[0], "comment") || is_word(words[0], "obj_info")) continue;
-        if (is_word(words[0], "end_header")) break;
-        if (is_word(words[0], "format")) {
+        if (word_count == 0 || ewa_text_is(words[0], "comment") || ewa_text_is(words[0], "obj_info"))
+            continue;
+        if (ewa_text_is(words[0], "end_header")) break;
+        if (ewa_text_is(words[0], "format")) {
             status = read_format(source, header, words, word_count, &format_known);
-        } else if (is_word(words[0], "element")) {
+        } else if (ewa_text_is(words[0], "element")) {
             status = read_element(source, header, words, word_count);
-        } else if (is_word(words[0], "property")) {
+        } else if (ewa_text_is(words[0], "property")) {
             status = read_property(source, header, words, word_count);
         } else {
-            char quote[EWA_PLY_QUOTE_BYTES];
-            status = fail_line(source, header, EWA_ERROR_FORMAT, "unknown word %s",
-                               ewa_ply_quote(words[0], quote));
+            char quote[EWA_QUOTE_BYTES];
+            status =
+                fail_line(source, header, EWA_ERROR_FORMAT, "unknown word %s", ewa_quote(words[0], quote));
         }
         if (status != EWA_OK) return status;
     }
@@ -244,7 +225,7 @@ ewa_status ewa_ply_header_read(const ewa_ply_source *source, ewa_ply_header *hea
 void ewa_ply_header_lines(const ewa_ply_source *source, const ewa_ply_header *header, ewa_line_callback *line,
                           void *user) {
     ewa_reader reader = {.bytes = source->bytes, .size_bytes = source->size_bytes};
-    ewa_ply_text text;
+    ewa_text text;
     take_line(&reader, header->line_end, &text);
     for (uint64_t i = 3; i <= header->line_count && take_line(&reader, header->line_end, &text); i++) {
         char shown[SHOWN_LINE_BYTES];

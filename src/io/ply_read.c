@@ -17,7 +17,7 @@ void ewa_ply_sink_put(const ewa_ply_sink *sink, uint64_t first, const uint8_t *r
     }
 }
 
-static const ewa_ply_element *find_vertices(const ewa_ply_header *header) {
+const ewa_ply_element *ewa_ply_vertices(const ewa_ply_header *header) {
     for (uint32_t i = 0; i < header->element_count; i++)
         if (header->elements[i].name.length == 6 && memcmp(header->elements[i].name.chars, "vertex", 6) == 0)
             return &header->elements[i];
@@ -42,9 +42,8 @@ static ewa_status check_limits(const ewa_ply_source *source, const ewa_ply_eleme
     return EWA_OK;
 }
 
-/// Checks that all records can be there before anything is made or walked for them.
-static ewa_status check_size(const ewa_ply_source *source, const ewa_ply_header *header,
-                             const ewa_ply_element *element, uint64_t at) {
+ewa_status ewa_ply_check_size(const ewa_ply_source *source, const ewa_ply_header *header,
+                              const ewa_ply_element *element, uint64_t at) {
     const bool ascii = header->encoding == EWA_PLY_ASCII;
     const uint64_t left = source->size_bytes - at, least_bytes = element->least_bytes;
     // The last number of an ascii file needs no blank after it.
@@ -52,20 +51,20 @@ static ewa_status check_size(const ewa_ply_source *source, const ewa_ply_header 
     if (least_bytes == 0 || element->count <= room / least_bytes) return EWA_OK;
     uint64_t wanted;
     if (__builtin_mul_overflow(element->count, least_bytes, &wanted)) wanted = UINT64_MAX;
-    char quote[EWA_PLY_QUOTE_BYTES];
+    char quote[EWA_QUOTE_BYTES];
     return ewa_fail(source->context, EWA_ERROR_FORMAT,
                     "%s: the file ends in %s %llu of %llu or before: %s%llu bytes wanted from byte %llu on, "
                     "%llu are there, "
                     "%llu are missing",
-                    source->name, ewa_ply_quote(element->name, quote),
-                    (unsigned long long)(room / least_bytes), (unsigned long long)element->count,
-                    ascii || element->list_count ? "at least " : "", (unsigned long long)wanted,
-                    (unsigned long long)at, (unsigned long long)left, (unsigned long long)(wanted - left));
+                    source->name, ewa_quote(element->name, quote), (unsigned long long)(room / least_bytes),
+                    (unsigned long long)element->count, ascii || element->list_count ? "at least " : "",
+                    (unsigned long long)wanted, (unsigned long long)at, (unsigned long long)left,
+                    (unsigned long long)(wanted - left));
 }
 
 static ewa_status skip_element(const ewa_ply_source *source, const ewa_ply_header *header,
                                const ewa_ply_element *element, uint64_t *at) {
-    const ewa_status status = check_size(source, header, element, *at);
+    const ewa_status status = ewa_ply_check_size(source, header, element, *at);
     if (status != EWA_OK) return status;
     return header->encoding == EWA_PLY_ASCII ? ewa_ply_ascii_skip(source, header, element, at)
                                              : ewa_ply_binary_skip(source, header, element, at);
@@ -82,10 +81,10 @@ static void inspect_rest(const ewa_ply_source *source, const ewa_ply_header *hea
         // The last number of an ascii file needs no blank after it.
         if (__builtin_mul_overflow(element->count, element->least_bytes, &least_bytes) ||
             least_bytes > left + 1) {
-            char quote[EWA_PLY_QUOTE_BYTES];
+            char quote[EWA_QUOTE_BYTES];
             ewa_report(source->context, EWA_SEVERITY_WARNING,
                        "%s: the file ends within %llu records of %s; the vertices before them are whole",
-                       source->name, (unsigned long long)element->count, ewa_ply_quote(element->name, quote));
+                       source->name, (unsigned long long)element->count, ewa_quote(element->name, quote));
             return;
         }
         exact = exact && element->list_count == 0;
@@ -123,51 +122,52 @@ static ewa_status add_stream(ewa_cloud *cloud, const ewa_ply_column *column, boo
     return EWA_OK;
 }
 
-/// Makes the cloud and fills it from byte `at` on.
-static ewa_status read_vertices(const ewa_ply_source *source, const ewa_ply_header *header,
-                                const ewa_ply_element *vertices, const ewa_ply_column *columns,
-                                uint32_t column_count, uint64_t at, ewa_cloud **cloud) {
+/// Makes the cloud and fills it from byte `*at` on, which steps over the records.
+static ewa_status fill_cloud(const ewa_ply_source *source, const ewa_ply_header *header,
+                             const ewa_ply_element *vertices, const ewa_ply_column *columns,
+                             uint32_t column_count, uint64_t *at, ewa_cloud **cloud) {
     ewa_ply_sink sink = {.stream_capacity = vertices->property_count};
     sink.streams = ewa_allocate(source->context, sink.stream_capacity, sizeof *sink.streams);
     if (!sink.streams) return EWA_ERROR_MEMORY;
     const bool ascii = header->encoding == EWA_PLY_ASCII;
-    // Ascii records are decoded to the byte order of this machine.
-    const bool swap =
-        !ascii && (header->encoding == EWA_PLY_BINARY_BIG_ENDIAN) != (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__);
     ewa_cloud *made = NULL;
     ewa_status status = ewa_cloud_create(source->context, vertices->count, &made);
     for (uint32_t i = 0; i < column_count && status == EWA_OK; i++)
-        status = add_stream(made, &columns[i], swap, &sink);
+        status = add_stream(made, &columns[i], ewa_ply_is_swapped(header), &sink);
     if (status == EWA_OK)
-        status = ascii ? ewa_ply_ascii_read(source, header, vertices, &sink, &at)
-                       : ewa_ply_binary_read(source, header, vertices, &sink, &at);
+        status = ascii ? ewa_ply_ascii_read(source, header, vertices, &sink, at)
+                       : ewa_ply_binary_read(source, header, vertices, &sink, at);
     ewa_release(source->context, sink.streams, sink.stream_capacity, sizeof *sink.streams);
-    if (status != EWA_OK) {
-        ewa_cloud_destroy(&made);
-        return status;
-    }
-    inspect_rest(source, header, vertices, at);
+    if (status != EWA_OK) ewa_cloud_destroy(&made);
     *cloud = made;
-    return EWA_OK;
+    return status;
 }
 
-static ewa_status read_body(const ewa_ply_source *source, const ewa_ply_header *header, ewa_cloud **cloud) {
-    const ewa_ply_element *vertices = find_vertices(header);
-    if (!vertices)
-        return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: the header has no element 'vertex'",
-                        source->name);
+ewa_status ewa_ply_read_vertices(const ewa_ply_source *source, const ewa_ply_header *header,
+                                 const ewa_ply_element *vertices, uint64_t *at, ewa_cloud **cloud) {
     const size_t column_capacity = vertices->property_count + (size_t)1; // one more to try a group in
     ewa_ply_column *columns = ewa_allocate(source->context, column_capacity, sizeof *columns);
     if (!columns) return EWA_ERROR_MEMORY;
     uint32_t column_count = 0;
-    uint64_t at = header->body_at;
     ewa_status status = ewa_ply_columns_map(source, header, vertices, columns, &column_count);
     if (status == EWA_OK) status = check_limits(source, vertices, columns, column_count);
+    if (status == EWA_OK) status = ewa_ply_check_size(source, header, vertices, *at);
+    if (status == EWA_OK) status = fill_cloud(source, header, vertices, columns, column_count, at, cloud);
+    ewa_release(source->context, columns, column_capacity, sizeof *columns);
+    return status;
+}
+
+static ewa_status read_body(const ewa_ply_source *source, const ewa_ply_header *header, ewa_cloud **cloud) {
+    const ewa_ply_element *vertices = ewa_ply_vertices(header);
+    if (!vertices)
+        return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: the header has no element 'vertex'",
+                        source->name);
+    uint64_t at = header->body_at;
+    ewa_status status = EWA_OK;
     for (const ewa_ply_element *element = header->elements; element < vertices && status == EWA_OK; element++)
         status = skip_element(source, header, element, &at);
-    if (status == EWA_OK) status = check_size(source, header, vertices, at);
-    if (status == EWA_OK) status = read_vertices(source, header, vertices, columns, column_count, at, cloud);
-    ewa_release(source->context, columns, column_capacity, sizeof *columns);
+    if (status == EWA_OK) status = ewa_ply_read_vertices(source, header, vertices, &at, cloud);
+    if (status == EWA_OK) inspect_rest(source, header, vertices, at);
     return status;
 }
 

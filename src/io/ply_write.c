@@ -75,7 +75,7 @@ static void make_records(const write_job *job, uint64_t first, uint64_t count, u
     }
 }
 
-static size_t write_number(ewa_type type, const uint8_t *from, char *text) {
+size_t ewa_ply_write_number(ewa_type type, const uint8_t *from, char *text) {
     if (type == EWA_F32) {
         float value;
         memcpy(&value, from, sizeof value);
@@ -94,7 +94,7 @@ static size_t write_lines(const write_job *job, const uint8_t *records, uint64_t
             const field *f = &job->fields[i];
             const size_t number_bytes = ewa_type_bytes(f->type);
             for (uint32_t c = 0; c < f->attribute->component_count; c++) {
-                text += write_number(f->type, records + f->offset_bytes + c * number_bytes, text);
+                text += ewa_ply_write_number(f->type, records + f->offset_bytes + c * number_bytes, text);
                 *text++ = ' ';
             }
         }
@@ -183,11 +183,9 @@ static ewa_status lay_out(write_job *job, const char *file_name) {
     return status;
 }
 
-static ewa_status write_header(const write_job *job, ewa_ply_encoding encoding, ewa_writer *writer) {
-    static const char *const formats[] = {"binary_little_endian", "binary_big_endian", "ascii"};
+static ewa_status write_vertex_header(const write_job *job, ewa_writer *writer) {
     char line[256];
-    int length = snprintf(line, sizeof line, "ply\nformat %s 1.0\nelement vertex %llu\n", formats[encoding],
-                          (unsigned long long)job->point_count);
+    int length = snprintf(line, sizeof line, "element vertex %llu\n", (unsigned long long)job->point_count);
     ewa_status status = ewa_writer_put(writer, line, (size_t)length);
     for (uint32_t i = 0; i < job->field_count; i++) {
         const field *f = &job->fields[i];
@@ -198,11 +196,27 @@ static ewa_status write_header(const write_job *job, ewa_ply_encoding encoding, 
             status = ewa_writer_put(writer, line, (size_t)length);
         }
     }
+    return status;
+}
+
+/// Writes the header: the vertices where they are among the other elements, which may be NULL.
+static ewa_status write_header(const write_job *job, const ewa_elements *elements, ewa_ply_encoding encoding,
+                               ewa_writer *writer) {
+    static const char *const formats[] = {"binary_little_endian", "binary_big_endian", "ascii"};
+    char line[64];
+    const int length = snprintf(line, sizeof line, "ply\nformat %s 1.0\n", formats[encoding]);
+    ewa_status status = ewa_writer_put(writer, line, (size_t)length);
+    if (status == EWA_OK && elements) status = ewa_ply_write_comments(elements, writer);
+    const uint32_t count = elements ? elements->table_count : 1;
+    for (uint32_t i = 0; i < count && status == EWA_OK; i++)
+        status = elements && elements->tables[i].element != ewa_ply_vertices(elements->header)
+                     ? ewa_ply_write_element_header(elements, i, writer)
+                     : write_vertex_header(job, writer);
     return status == EWA_OK ? ewa_writer_put(writer, "end_header\n", 11) : status;
 }
 
-ewa_status ewa_ply_write(const ewa_cloud *cloud, ewa_ply_encoding encoding, const char *name,
-                         ewa_writer *writer) {
+ewa_status ewa_ply_write(const ewa_cloud *cloud, const ewa_elements *elements, ewa_ply_encoding encoding,
+                         const char *name, ewa_writer *writer) {
     ewa_context *context = ewa_cloud_context(cloud);
     const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
     if (!position || position->component_count != 3)
@@ -222,8 +236,12 @@ ewa_status ewa_ply_write(const ewa_cloud *cloud, ewa_ply_encoding encoding, cons
     job.fields = ewa_allocate(context, field_count, sizeof *job.fields);
     if (!job.fields) return EWA_ERROR_MEMORY;
     ewa_status status = lay_out(&job, name);
-    if (status == EWA_OK) status = write_header(&job, encoding, writer);
-    if (status == EWA_OK) status = write_body(&job, writer);
+    if (status == EWA_OK) status = write_header(&job, elements, encoding, writer);
+    const uint32_t count = elements ? elements->table_count : 1;
+    for (uint32_t i = 0; i < count && status == EWA_OK; i++)
+        status = elements && elements->tables[i].element != ewa_ply_vertices(elements->header)
+                     ? ewa_ply_write_element(elements, i, encoding, writer)
+                     : write_body(&job, writer);
     ewa_release(context, job.fields, field_count, sizeof *job.fields);
     return status;
 }

@@ -11,9 +11,9 @@
 bool ewa_png_recognise(const uint8_t *bytes, size_t size_bytes);
 
 /// Decodes a PNG file of 8 or 16 bits, sRGB, to linear light: grey gives 1 channel, RGB 3, anything with
-/// alpha (grey or palette too) 4, premultiplied. `name` stands for the file in messages.
+/// alpha (grey or palette too) 4, premultiplied unless `straight`. `name` stands for the file in messages.
 ewa_status ewa_png_decode(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
-                          ewa_image *image);
+                          bool straight, ewa_image *image);
 
 /// Decodes a grey PNG file of 8 or 16 bits to its numbers, one channel; the largest of 16 bits to infinity.
 ewa_status ewa_png_decode_numbers(ewa_context *context, const char *name, const uint8_t *bytes,

@@ -23,6 +23,7 @@ typedef struct reader {
     spng_ctx *png;
     struct spng_ihdr header;
     uint32_t channel_count;
+    bool straight; // colours are not multiplied by alpha
 } reader;
 
 static ewa_status fail_spng(const reader *in, int error) {
@@ -69,38 +70,38 @@ static ewa_status check_size(reader *in, size_t size_bytes) {
     return EWA_OK;
 }
 
-/// RGBA of 8 bits to the image's channels, linear and premultiplied.
-static void convert_8(const uint8_t *rgba, ewa_image *image) {
+/// RGBA of 8 bits to the image's channels, linear, and premultiplied unless `straight`.
+static void convert_8(const uint8_t *rgba, bool straight, ewa_image *image) {
     const size_t pixel_count = (size_t)image->width_px * image->height_px;
     const uint32_t colours = image->channel_count == 1 ? 1 : 3;
     float *out = image->pixels;
     for (size_t i = 0; i < pixel_count; i++, rgba += 4) {
-        const float alpha = (float)rgba[3] / 255.0f;
-        for (uint32_t c = 0; c < colours; c++) *out++ = ewa_srgb_decoded[rgba[c]] * alpha;
+        const float alpha = (float)rgba[3] / 255.0f, weight = straight ? 1 : alpha;
+        for (uint32_t c = 0; c < colours; c++) *out++ = ewa_srgb_decoded[rgba[c]] * weight;
         if (image->channel_count == 4) *out++ = alpha;
     }
 }
 
-static void convert_16(const uint16_t *rgba, const float linear[65536], ewa_image *image) {
+static void convert_16(const uint16_t *rgba, const float linear[65536], bool straight, ewa_image *image) {
     const size_t pixel_count = (size_t)image->width_px * image->height_px;
     const uint32_t colours = image->channel_count == 1 ? 1 : 3;
     float *out = image->pixels;
     for (size_t i = 0; i < pixel_count; i++, rgba += 4) {
-        const float alpha = (float)rgba[3] / 65535.0f;
-        for (uint32_t c = 0; c < colours; c++) *out++ = linear[rgba[c]] * alpha;
+        const float alpha = (float)rgba[3] / 65535.0f, weight = straight ? 1 : alpha;
+        for (uint32_t c = 0; c < colours; c++) *out++ = linear[rgba[c]] * weight;
         if (image->channel_count == 4) *out++ = alpha;
     }
 }
 
 static ewa_status convert(const reader *in, const void *rgba, ewa_image *image) {
     if (in->header.bit_depth != 16) {
-        convert_8(rgba, image);
+        convert_8(rgba, in->straight, image);
         return EWA_OK;
     }
     float *linear = ewa_allocate(in->context, 65536, sizeof *linear);
     if (!linear) return EWA_ERROR_MEMORY;
     for (int code = 0; code < 65536; code++) linear[code] = (float)ewa_srgb_decode(code / 65535.0);
-    convert_16(rgba, linear, image);
+    convert_16(rgba, linear, in->straight, image);
     ewa_release(in->context, linear, 65536, sizeof *linear);
     return EWA_OK;
 }
@@ -127,9 +128,9 @@ bool ewa_png_recognise(const uint8_t *bytes, size_t size_bytes) {
 }
 
 ewa_status ewa_png_decode(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
-                          ewa_image *image) {
+                          bool straight, ewa_image *image) {
     *image = (ewa_image){0};
-    reader in = {.context = context, .name = name};
+    reader in = {.context = context, .name = name, .straight = straight};
     ewa_status status = open_png(&in, bytes, size_bytes);
     if (status == EWA_OK) status = check_size(&in, size_bytes);
     if (status == EWA_OK) status = read_pixels(&in, image);

@@ -182,7 +182,8 @@ static ewa_status find_appended(const vti *file, uint64_t offset, array_bytes *f
 
 /// Copies `size_bytes` bytes from behind the first `skipped_bytes`; returns how many there are.
 static size_t copy_bytes(const array_bytes *from, size_t skipped_bytes, uint8_t *to, size_t size_bytes) {
-    if (from->base64) return ewa_base64_read(from->text, from->text_bytes, skipped_bytes, to, size_bytes);
+    if (from->base64)
+        return ewa_base64_read(from->text, from->text_bytes, skipped_bytes, to, size_bytes, NULL);
     if (skipped_bytes > from->text_bytes) return 0;
     const size_t left = from->text_bytes - skipped_bytes, count = left < size_bytes ? left : size_bytes;
     memcpy(to, from->text + skipped_bytes, count);

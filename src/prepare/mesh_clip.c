@@ -38,14 +38,14 @@ static size_t bucket_of(const mesh_edge_grid *grid, const int64_t cell[3]) {
     return hash & (grid->bucket_count - 1);
 }
 
-static int64_t cell_at(const mesh_edge_grid *grid, double world, int axis) {
-    return (int64_t)floor((world - grid->surface->low_world[axis]) / grid->cell_world);
+static int64_t cell_at(const mesh_edge_grid *grid, double place) {
+    return (int64_t)floor(place / grid->cell_world);
 }
 
 /// Calls for the buckets of all cells within reach of an edge: those of the boxes around places along it.
 static void enter_edge(mesh_edge_grid *grid, uint32_t index, bool store) {
     const mesh_edge *edge = &grid->surface->edges[index];
-    const ewa_vec3 a = vec3_load(edge->a_world), b = vec3_load(edge->b_world);
+    const ewa_vec3 a = vec3_load(edge->a), b = vec3_load(edge->b);
     const double length = vec3_length(vec3_sub(b, a));
     const uint64_t steps = (uint64_t)(length / grid->reach_world) + 1;
     // Half a step to the next place along the edge, and the reach across it.
@@ -56,8 +56,8 @@ static void enter_edge(mesh_edge_grid *grid, uint32_t index, bool store) {
         int64_t low[3], high[3], cell[3];
         vec3_store(vec3_add(vec3_scale(a, 1 - along), vec3_scale(b, along)), p);
         for (int c = 0; c < 3; c++) {
-            low[c] = cell_at(grid, p[c] - margin, c);
-            high[c] = cell_at(grid, p[c] + margin, c);
+            low[c] = cell_at(grid, p[c] - margin);
+            high[c] = cell_at(grid, p[c] + margin);
         }
         for (cell[2] = low[2]; cell[2] <= high[2]; cell[2]++)
             for (cell[1] = low[1]; cell[1] <= high[1]; cell[1]++)
@@ -77,8 +77,7 @@ ewa_status ewa_mesh_edge_grid_make(const mesh_surface *surface, double reach_wor
     if (!surface->edge_count) return EWA_OK;
     double steps = 0;
     for (uint32_t e = 0; e < surface->edge_count; e++)
-        steps += vec3_length(
-                     vec3_sub(vec3_load(surface->edges[e].b_world), vec3_load(surface->edges[e].a_world))) /
+        steps += vec3_length(vec3_sub(vec3_load(surface->edges[e].b), vec3_load(surface->edges[e].a))) /
                      reach_world +
                  1;
     if (!(steps < 4e8)) return ewa_fail(context, EWA_ERROR_LIMIT, "sample: edges are %.3g discs long", steps);
@@ -111,12 +110,12 @@ static bool project(const mesh_surface *surface, const mesh_clip_disc *disc, uin
     const mesh_edge *edge = &surface->edges[index];
     if (surface->part[edge->triangle] != disc->part) return false;
     const float *facing = surface->normal[edge->triangle];
-    const ewa_vec3 center = vec3_load(disc->center_world), u = vec3_load(disc->u), v = vec3_load(disc->v),
+    const ewa_vec3 center = vec3_load(disc->center), u = vec3_load(disc->u), v = vec3_load(disc->v),
                    n = vec3_load(disc->normal);
     if (vec3_dot(vec3_make((double)facing[0], (double)facing[1], (double)facing[2]), n) < MIN_FACING)
         return false;
-    const ewa_vec3 a = vec3_sub(vec3_load(edge->a_world), center),
-                   b = vec3_sub(vec3_load(edge->b_world), center), inward = vec3_load(edge->inward);
+    const ewa_vec3 a = vec3_sub(vec3_load(edge->a), center), b = vec3_sub(vec3_load(edge->b), center),
+                   inward = vec3_load(edge->inward);
     const double from[2] = {vec3_dot(a, u), vec3_dot(a, v)}, to[2] = {vec3_dot(b, u), vec3_dot(b, v)};
     const double along[2] = {to[0] - from[0], to[1] - from[1]};
     const double length2 = along[0] * along[0] + along[1] * along[1];
@@ -178,7 +177,7 @@ void ewa_mesh_clip_disc(const mesh_edge_grid *grid, mesh_clip_disc *disc) {
     disc->either = false;
     if (!grid->entry_count) return;
     int64_t cell[3];
-    for (int c = 0; c < 3; c++) cell[c] = cell_at(grid, disc->center_world[c], c);
+    for (int c = 0; c < 3; c++) cell[c] = cell_at(grid, disc->center[c]);
     const size_t bucket = bucket_of(grid, cell);
     plane_edge first, second;
     if (!find_nearest(grid, disc, bucket, NULL, &first)) return;

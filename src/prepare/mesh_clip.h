@@ -16,10 +16,10 @@ typedef struct mesh_edge_grid {
     size_t bucket_count, entry_count;
 } mesh_edge_grid;
 
-/// A disc in its plane: centre, axes of unit length, and up to two lines (a, b, c), c in world units; without
-/// a line a = b = 0.
+/// A disc in its plane: centre relative to the surface's origin, axes of unit length, and up to two lines (a,
+/// b, c), c in world units; without a line a = b = 0.
 typedef struct mesh_clip_disc {
-    double center_world[3], u[3], v[3], normal[3];
+    double center[3], u[3], v[3], normal[3];
     double radius_world;
     uint32_t part;
     double line[2][3]; ///< out

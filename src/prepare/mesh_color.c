@@ -21,8 +21,13 @@ ewa_status ewa_mesh_colors_make(const ewa_mesh *mesh, mesh_colors *colors) {
     for (uint32_t v = 0; mesh->colors && v < mesh->vertex_count; v++)
         opaque = opaque && mesh->colors[4 * (size_t)v + 3] >= 1;
     for (uint32_t m = 0; m < mesh->material_count; m++) {
-        opaque = opaque && mesh->materials[m].base_color[3] >= 1;
-        colors->has_pictures = colors->has_pictures || (mesh->texcoords && mesh->materials[m].texture.pixels);
+        const ewa_mesh_material *material = &mesh->materials[m];
+        if (material->texture >= mesh->material_count)
+            return ewa_fail(context, EWA_ERROR_ARGUMENT, "sample: material %u has texture %u, there are %u",
+                            m, material->texture, mesh->material_count);
+        opaque = opaque && material->base_color[3] >= 1;
+        colors->has_pictures =
+            colors->has_pictures || (mesh->texcoords && mesh->textures[material->texture].pixels);
     }
     colors->component_count = opaque ? 3 : 4;
     return EWA_OK;
@@ -54,8 +59,7 @@ void ewa_mesh_chart_at(const ewa_mesh *mesh, uint32_t triangle, const double wei
     double at[2] = {0, 0};
     const float *uv[3];
     for (int k = 0; k < 3; k++) {
-        const float *xyz = mesh->positions + 3 * (size_t)vertex[k];
-        p[k] = vec3_make((double)xyz[0], (double)xyz[1], (double)xyz[2]);
+        p[k] = vec3_load(mesh->positions + 3 * (size_t)vertex[k]);
         uv[k] = mesh->texcoords + 2 * (size_t)vertex[k];
         for (int c = 0; c < 2; c++) at[c] += weight[k] * (double)uv[k][c];
     }

@@ -14,7 +14,7 @@ typedef struct mesh_colors {
                               ///< opaque
 } mesh_colors;
 
-/// Errors: EWA_ERROR_ARGUMENT (a material beyond the last).
+/// Errors: EWA_ERROR_ARGUMENT (a material or a texture beyond the last).
 ewa_status ewa_mesh_colors_make(const ewa_mesh *mesh, mesh_colors *colors);
 
 /// Vertex colour times base colour at a place of a triangle of the mesh, `weight` of its three vertices:

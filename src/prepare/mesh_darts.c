@@ -48,7 +48,7 @@ typedef struct dart_block {
 
 enum { NONE = UINT32_MAX, HIT = 1u << 31 };
 
-/// A dart in the small grid of a worker; lengths in spacings, from the low corner of the surface.
+/// A dart in the small grid of a worker; lengths in spacings, from the low corner of the block.
 typedef struct grid_dart {
     float at[3], normal[3];
     float distance2; ///< that it keeps at most
@@ -62,7 +62,7 @@ typedef struct dart_scratch {
 
 typedef struct dart_job {
     const mesh_surface *surface;
-    double spacing, cell; // cell: in world units
+    double spacing, cell, unit; // of the grid and of darts, in world units
     uint64_t key;
     mesh_dart *pool;    // by throws and blocks: the darts so far, then the candidates of the present throw
     mesh_dart *thrown;  // candidates of the present throw, in order of area
@@ -86,30 +86,34 @@ static double unit_of(uint64_t random) { return (double)(random >> 11) * 0x1p-53
 
 static void point_of(const mesh_surface *surface, uint32_t triangle, ewa_vec3 p[3]) {
     const uint32_t *v = surface->mesh->triangles + 3 * (size_t)surface->source[triangle];
-    for (int c = 0; c < 3; c++) {
-        const float *xyz = surface->mesh->positions + 3 * (size_t)v[c];
-        p[c] = vec3_make((double)xyz[0], (double)xyz[1], (double)xyz[2]);
-    }
+    for (int c = 0; c < 3; c++) p[c] = ewa_mesh_place(surface, v[c]);
 }
 
-static mesh_dart dart_at(ewa_vec3 p, uint32_t triangle) {
-    return (mesh_dart){{(float)p.x, (float)p.y, (float)p.z}, triangle};
+/// Rounding may put a place a little out of the box.
+static uint32_t dart_number(double place, double unit) {
+    const double number = place / unit;
+    return number >= 0x1p32 ? UINT32_MAX : number > 0 ? (uint32_t)number : 0;
+}
+
+static mesh_dart dart_at(const dart_job *job, ewa_vec3 p, uint32_t triangle) {
+    return (mesh_dart){
+        {dart_number(p.x, job->unit), dart_number(p.y, job->unit), dart_number(p.z, job->unit)}, triangle};
 }
 
 /// The point of a row at `along` (0 at a, 1 at b) of an edge, moved in by `inset`, but not out of the
 /// triangle.
-static mesh_dart row_dart(const mesh_edge *edge, double along, double inset) {
+static mesh_dart row_dart(const dart_job *job, const mesh_edge *edge, double along, double inset) {
     double room = edge->height_world;
     if (edge->foot > 0) room = fmin(room, edge->height_world * (along / edge->foot));
     if (edge->foot < 1) room = fmin(room, edge->height_world * ((1 - along) / (1 - edge->foot)));
-    const ewa_vec3 a = vec3_load(edge->a_world), b = vec3_load(edge->b_world);
+    const ewa_vec3 a = vec3_load(edge->a), b = vec3_load(edge->b);
     const ewa_vec3 foot = vec3_add(vec3_scale(a, 1 - along), vec3_scale(b, along));
-    return dart_at(vec3_add(foot, vec3_scale(vec3_load(edge->inward), fmin(inset, 0.95 * room))),
+    return dart_at(job, vec3_add(foot, vec3_scale(vec3_load(edge->inward), fmin(inset, 0.95 * room))),
                    edge->triangle);
 }
 
 static double edge_length(const mesh_edge *edge) {
-    return vec3_length(vec3_sub(vec3_load(edge->b_world), vec3_load(edge->a_world)));
+    return vec3_length(vec3_sub(vec3_load(edge->b), vec3_load(edge->a)));
 }
 
 /// Two candidates per edge: one at each end; where there is no corner the rows do.
@@ -120,8 +124,8 @@ static uint64_t fill_corners(const dart_job *job, mesh_dart *darts) {
     for (uint32_t e = 0; e < surface->edge_count; e++) {
         const mesh_edge *edge = &surface->edges[e];
         const double along = fmin(inset / edge_length(edge), 0.5);
-        if (edge->corner_a) darts[count++] = row_dart(edge, along, inset);
-        if (edge->corner_b) darts[count++] = row_dart(edge, 1 - along, inset);
+        if (edge->corner_a) darts[count++] = row_dart(job, edge, along, inset);
+        if (edge->corner_b) darts[count++] = row_dart(job, edge, 1 - along, inset);
     }
     return count;
 }
@@ -137,7 +141,7 @@ static void fill_rows(void *data, uint32_t part, uint32_t worker) {
         for (uint64_t i = 0; i < count; i++) {
             const double along =
                 ((double)i + unit_of(ewa_generate_random(job->key + ROWS, first + i))) / (double)count;
-            job->thrown[first + i] = row_dart(&surface->edges[e], along, MESH_ROW_INSET * job->spacing);
+            job->thrown[first + i] = row_dart(job, &surface->edges[e], along, MESH_ROW_INSET * job->spacing);
         }
     }
 }
@@ -184,16 +188,12 @@ static void fill_inside(void *data, uint32_t part, uint32_t worker) {
         double u = (double)(u_bits >> 32) * 0x1p-32, v = (double)(v_bits >> 32) * 0x1p-32;
         if (u + v > 1) u = 1 - u, v = 1 - v;
         job->thrown[i] =
-            dart_at(vec3_add(p[0], vec3_add(vec3_scale(p[1], u), vec3_scale(p[2], v))), triangle);
+            dart_at(job, vec3_add(p[0], vec3_add(vec3_scale(p[1], u), vec3_scale(p[2], v))), triangle);
     }
 }
 
-static void cell_of(const dart_job *job, const float position[3], int64_t cell[3]) {
-    for (int c = 0; c < 3; c++) {
-        // Rounding to single precision may put a dart a little below the lowest vertex.
-        const double at = ((double)position[c] - job->surface->low_world[c]) / job->cell;
-        cell[c] = at > 0 ? (int64_t)at : 0;
-    }
+static void cell_of(const dart_job *job, const mesh_dart *dart, int64_t cell[3]) {
+    for (int c = 0; c < 3; c++) cell[c] = (int64_t)((double)dart->at[c] * job->unit / job->cell);
 }
 
 static size_t slot_of(const dart_job *job, const int32_t at[3]) {
@@ -238,7 +238,7 @@ static ewa_status sort_candidates(dart_job *job) {
     uint32_t last = NONE;
     for (uint64_t i = 0; i < count; i++) {
         int64_t cell[3];
-        cell_of(job, job->thrown[i].position_world, cell);
+        cell_of(job, &job->thrown[i], cell);
         const int32_t at[3] = {(int32_t)(cell[0] / BLOCK_CELLS), (int32_t)(cell[1] / BLOCK_CELLS),
                                (int32_t)(cell[2] / BLOCK_CELLS)};
         if (last == NONE || at[0] != last_at[0] || at[1] != last_at[1] || at[2] != last_at[2]) {
@@ -319,13 +319,13 @@ static ewa_status make_scratch(dart_job *job) {
 static bool locate(const dart_job *job, const dart_block *block, const mesh_dart *dart, uint32_t which,
                    grid_dart *made, uint32_t *slot) {
     int64_t cell[3];
-    cell_of(job, dart->position_world, cell);
+    cell_of(job, dart, cell);
     uint32_t local[3];
     for (int c = 0; c < 3; c++) {
         const int64_t place = cell[c] - (int64_t)BLOCK_CELLS * block->at[c] + 1;
         if (place < 0 || place >= GRID_CELLS) return false;
         local[c] = (uint32_t)place;
-        made->at[c] = (float)(((double)dart->position_world[c] - job->surface->low_world[c]) / job->spacing -
+        made->at[c] = (float)((double)dart->at[c] * job->unit / job->spacing -
                               (double)block->at[c] * (BLOCK_CELLS * job->cell / job->spacing));
         made->normal[c] = job->surface->normal[dart->triangle][c];
     }
@@ -457,7 +457,7 @@ static ewa_status prepare(dart_job *job) {
     ewa_context *context = surface->context;
     const double area = surface->area_below[surface->triangle_count];
     double extent = 0, rows = 0;
-    for (int c = 0; c < 3; c++) extent = fmax(extent, surface->high_world[c] - surface->low_world[c]);
+    for (int c = 0; c < 3; c++) extent = fmax(extent, surface->extent_world[c]);
     for (uint32_t e = 0; e < surface->edge_count; e++) {
         rows += ceil(ROW_CANDIDATES * edge_length(&surface->edges[e]) / job->spacing);
         job->throw_count[CORNERS] += surface->edges[e].corner_a + surface->edges[e].corner_b;
@@ -507,11 +507,15 @@ static ewa_status run(dart_job *job) {
     return status;
 }
 
-double ewa_mesh_dart_estimate(const mesh_surface *surface, double spacing_world) {
+double ewa_mesh_dart_rows(const mesh_surface *surface) {
     double length = 0;
     for (uint32_t e = 0; e < surface->edge_count; e++) length += edge_length(&surface->edges[e]);
+    return ROW_POINTS * length;
+}
+
+double ewa_mesh_dart_estimate(const mesh_surface *surface, double spacing_world) {
     return surface->area_below[surface->triangle_count] / (spacing_world * spacing_world) +
-           ROW_POINTS * length / spacing_world;
+           ewa_mesh_dart_rows(surface) / spacing_world;
 }
 
 ewa_status ewa_mesh_throw_darts(const mesh_surface *surface, double spacing_world, uint64_t seed,
@@ -520,6 +524,7 @@ ewa_status ewa_mesh_throw_darts(const mesh_surface *surface, double spacing_worl
     dart_job job = {.surface = surface, .spacing = spacing_world, .key = ewa_generate_random(seed, 0)};
     // A hair wider than the distance, so that rounding hides no conflict.
     job.cell = 1.0001 * MESH_INNER_DISTANCE * spacing_world;
+    job.unit = ewa_mesh_dart_unit(surface);
     const ewa_status status = run(&job);
     *darts = status == EWA_OK ? job.pool : NULL;
     *capacity = job.capacity;

@@ -7,10 +7,17 @@
 
 #include "prepare/mesh_surface.h"
 
+/// A place in the box of the surface, in units that make its longest edge 2^32: finer than floats, and even.
 typedef struct mesh_dart {
-    float position_world[3];
+    uint32_t at[3];
     uint32_t triangle; ///< of the surface
 } mesh_dart;
+
+/// Length of a unit of darts.
+static inline double ewa_mesh_dart_unit(const mesh_surface *surface) {
+    const double *extent = surface->extent_world;
+    return fmax(extent[0], fmax(extent[1], extent[2])) * 0x1p-32;
+}
 
 /// Least distances within one smooth part, in spacings: between points of its inside and any, between points
 /// of the rows along its sharp edges. The first one makes the density one point per spacing squared.
@@ -19,6 +26,9 @@ typedef struct mesh_dart {
 
 /// How far rows are from their edge, in spacings.
 #define MESH_ROW_INSET 0.2
+
+/// Estimated points of the rows along all edges, times the spacing.
+double ewa_mesh_dart_rows(const mesh_surface *surface);
 
 /// Estimated points of a sampling: its inside and its rows.
 double ewa_mesh_dart_estimate(const mesh_surface *surface, double spacing_world);

@@ -13,15 +13,21 @@
 
 enum { TASK_POINTS = 1 << 12 };
 
+/// A mesh that is more than so many spacings long gets places in doubles: floats, from one corner of it,
+/// would miss by more than a thousandth of a spacing at the other.
+#define WIDE_SPACINGS 16384.0
+
 typedef struct sample_job {
     const mesh_surface *surface;
     const ewa_mesh_sample_options *options;
     const mesh_dart *darts;
     uint64_t count;
-    double spacing;
+    double spacing, unit; // of the darts
     mesh_edge_grid grid;
     mesh_colors colors;
-    float *position, *normal, *radius, *tangent_u, *tangent_v, *clip[2];
+    float *position; // or:
+    double *wide_position;
+    float *normal, *radius, *tangent_u, *tangent_v, *clip[2];
     uint8_t *color, *clip_mode;
     float *tint, *texcoord, *gradient[2]; // of meshes with pictures, the tint in place of the color
     uint32_t *texture, *part;
@@ -69,33 +75,61 @@ static ewa_status check_options(ewa_context *context, const ewa_mesh_sample_opti
     return status;
 }
 
-/// Weights of the three vertices of a triangle at a place on it.
-static void weights_at(const mesh_surface *surface, const mesh_dart *dart, double weight[3]) {
+static ewa_vec3 load_normal(const float n[3]) { return vec3_make((double)n[0], (double)n[1], (double)n[2]); }
+
+/// Weights of the three vertices of a triangle at a dart on it, and its place in the triangle's plane.
+static ewa_vec3 weights_at(const sample_job *job, const mesh_dart *dart, double weight[3]) {
+    const mesh_surface *surface = job->surface;
     const uint32_t *vertex = surface->mesh->triangles + 3 * (size_t)surface->source[dart->triangle];
-    const float *facing = surface->normal[dart->triangle];
-    const ewa_vec3 n = vec3_make((double)facing[0], (double)facing[1], (double)facing[2]);
-    ewa_vec3 to[3];
+    const ewa_vec3 n = load_normal(surface->normal[dart->triangle]);
+    const ewa_vec3 at =
+        vec3_scale(vec3_make((double)dart->at[0] + 0.5, (double)dart->at[1] + 0.5, (double)dart->at[2] + 0.5),
+                   job->unit);
+    ewa_vec3 place[3], to[3], sum_place = {0, 0, 0};
     for (int c = 0; c < 3; c++) {
-        const float *p = surface->mesh->positions + 3 * (size_t)vertex[c], *at = dart->position_world;
-        to[c] = vec3_make((double)p[0] - (double)at[0], (double)p[1] - (double)at[1],
-                          (double)p[2] - (double)at[2]);
+        place[c] = ewa_mesh_place(surface, vertex[c]);
+        to[c] = vec3_sub(place[c], at);
     }
     double sum = 0;
     for (int c = 0; c < 3; c++) {
         weight[c] = fmax(0, vec3_dot(vec3_cross(to[(c + 1) % 3], to[(c + 2) % 3]), n));
         sum += weight[c];
     }
-    for (int c = 0; c < 3; c++) weight[c] = sum > 0 ? weight[c] / sum : 1.0 / 3;
+    for (int c = 0; c < 3; c++) {
+        weight[c] = sum > 0 ? weight[c] / sum : 1.0 / 3;
+        sum_place = vec3_add(sum_place, vec3_scale(place[c], weight[c]));
+    }
+    return sum_place;
 }
 
-static ewa_vec3 normal_at(const mesh_surface *surface, uint32_t triangle, const double weight[3]) {
+/// The mesh's own normals at a place; false where one of them is missing or bends from the triangle like a
+/// sharp edge.
+static bool given_normal_at(const mesh_surface *surface, uint32_t triangle, const double weight[3],
+                            ewa_vec3 *normal) {
+    const uint32_t *vertex = surface->mesh->triangles + 3 * (size_t)surface->source[triangle];
+    const ewa_vec3 flat = load_normal(surface->normal[triangle]);
     ewa_vec3 sum = {0, 0, 0};
     for (int c = 0; c < 3; c++) {
-        const float *n = surface->group_normal[surface->corner_group[3 * (size_t)triangle + c]];
-        sum = vec3_add(sum, vec3_scale(vec3_make((double)n[0], (double)n[1], (double)n[2]), weight[c]));
+        ewa_vec3 n = load_normal(surface->mesh->normals + 3 * (size_t)vertex[c]);
+        if (!vec3_normalize(&n) || !(vec3_dot(n, flat) > fmax(surface->crease_cosine, 0))) return false;
+        sum = vec3_add(sum, vec3_scale(n, weight[c]));
     }
-    const float *facing = surface->normal[triangle];
-    const ewa_vec3 flat = vec3_make((double)facing[0], (double)facing[1], (double)facing[2]);
+    *normal = sum;
+    return vec3_normalize(normal);
+}
+
+static ewa_vec3 normal_at(const sample_job *job, uint32_t triangle, const double weight[3]) {
+    const mesh_surface *surface = job->surface;
+    ewa_vec3 sum = {0, 0, 0};
+    if (surface->mesh->normals && job->options->smooth_normals &&
+        given_normal_at(surface, triangle, weight, &sum))
+        return sum;
+    sum = vec3_make(0, 0, 0);
+    for (int c = 0; c < 3; c++) {
+        const float *n = surface->group_normal[surface->corner_group[3 * (size_t)triangle + (size_t)c]];
+        sum = vec3_add(sum, vec3_scale(load_normal(n), weight[c]));
+    }
+    const ewa_vec3 flat = load_normal(surface->normal[triangle]);
     return vec3_normalize(&sum) && vec3_dot(sum, flat) > 0 ? sum : flat;
 }
 
@@ -105,14 +139,25 @@ static void store(float *to, ewa_vec3 v, double scale) {
     to[2] = (float)(v.z * scale);
 }
 
-static void finish_clip(const sample_job *job, uint64_t i, ewa_vec3 normal) {
+/// Keeps a place; returns it as it is kept.
+static ewa_vec3 store_place(const sample_job *job, uint64_t i, ewa_vec3 place) {
+    if (job->wide_position) {
+        vec3_store(place, job->wide_position + 3 * i);
+        return place;
+    }
+    float *to = job->position + 3 * i;
+    store(to, place, 1);
+    return vec3_make((double)to[0], (double)to[1], (double)to[2]);
+}
+
+static void finish_clip(const sample_job *job, uint64_t i, ewa_vec3 place, ewa_vec3 normal) {
     const double radius = job->options->radius_scale * job->spacing, sigma = radius / job->options->cutoff;
     const ewa_vec3 axis = fabs(normal.x) < 0.6 ? vec3_make(1, 0, 0) : vec3_make(0, 1, 0);
     ewa_vec3 u = vec3_cross(axis, normal);
     vec3_normalize(&u);
     const ewa_vec3 v = vec3_cross(normal, u);
     mesh_clip_disc disc = {.radius_world = radius, .part = job->surface->part[job->darts[i].triangle]};
-    for (int c = 0; c < 3; c++) disc.center_world[c] = (double)job->position[3 * i + (size_t)c];
+    vec3_store(place, disc.center);
     vec3_store(u, disc.u);
     vec3_store(v, disc.v);
     vec3_store(normal, disc.normal);
@@ -148,9 +193,8 @@ static void finish_points(void *data, uint32_t part, uint32_t worker) {
     for (uint64_t i = first; i < end; i++) {
         const mesh_dart *dart = &job->darts[i];
         double weight[3];
-        weights_at(job->surface, dart, weight);
-        const ewa_vec3 normal = normal_at(job->surface, dart->triangle, weight);
-        memcpy(job->position + 3 * i, dart->position_world, sizeof dart->position_world);
+        const ewa_vec3 place = store_place(job, i, weights_at(job, dart, weight));
+        const ewa_vec3 normal = normal_at(job, dart->triangle, weight);
         store(job->normal + 3 * i, normal, 1);
         if (job->colors.component_count) finish_color(job, i, weight);
         if (job->part) job->part[i] = job->surface->part[dart->triangle];
@@ -160,13 +204,14 @@ static void finish_points(void *data, uint32_t part, uint32_t worker) {
         if (job->radius)
             job->radius[i] = (float)(job->options->radius_scale * job->spacing);
         else
-            finish_clip(job, i, normal);
+            finish_clip(job, i, place, normal);
     }
 }
 
 static ewa_status add_attributes(sample_job *job, ewa_cloud *cloud) {
     const bool sharp = job->surface->edge_count > 0, colored = job->colors.component_count > 0,
-               pictures = job->colors.has_pictures, charts = pictures || job->options->texcoords;
+               pictures = job->colors.has_pictures, charts = pictures || job->options->texcoords,
+               wide = job->unit * 0x1p32 > WIDE_SPACINGS * job->spacing;
     const struct {
         const char *name;
         ewa_type type;
@@ -174,7 +219,8 @@ static ewa_status add_attributes(sample_job *job, ewa_cloud *cloud) {
         bool wanted;
         void *data;
     } rows[] = {
-        {EWA_POSITION, EWA_F32, 3, true, &job->position},
+        {EWA_POSITION, EWA_F32, 3, !wide, &job->position},
+        {EWA_POSITION, EWA_F64, 3, wide, &job->wide_position},
         {EWA_NORMAL, EWA_F32, 3, true, &job->normal},
         {EWA_COLOR, EWA_U8, job->colors.component_count, colored && !pictures, &job->color},
         {EWA_COLOR, EWA_F32, job->colors.component_count, pictures, &job->tint},
@@ -201,7 +247,7 @@ static ewa_status add_attributes(sample_job *job, ewa_cloud *cloud) {
 static double choose_spacing(const mesh_surface *surface, const ewa_mesh_sample_options *options) {
     if (options->spacing_world > 0) return options->spacing_world;
     const double count = (double)options->point_count, area = surface->area_below[surface->triangle_count];
-    const double rows = ewa_mesh_dart_estimate(surface, 1) - area;
+    const double rows = ewa_mesh_dart_rows(surface);
     return (rows + sqrt(rows * rows + 4 * area * count)) / (2 * count);
 }
 
@@ -216,7 +262,8 @@ static ewa_status add_pictures(const sample_job *job, ewa_cloud *cloud) {
     options.modulate = true;
     ewa_image *images = ewa_allocate(mesh->context, mesh->material_count, sizeof *images);
     if (!images) return EWA_ERROR_MEMORY;
-    for (uint32_t m = 0; m < mesh->material_count; m++) images[m] = mesh->materials[m].texture;
+    for (uint32_t m = 0; m < mesh->material_count; m++)
+        images[m] = mesh->textures[mesh->materials[m].texture];
     const ewa_status status = ewa_cloud_acquire(cloud, images, mesh->material_count, &options, NULL);
     ewa_release(mesh->context, images, mesh->material_count, sizeof *images);
     if (job->options->texcoords) return status;
@@ -232,6 +279,7 @@ static ewa_status sample(ewa_context *context, sample_job *job, ewa_cloud **clou
     mesh_dart *darts = NULL;
     uint64_t capacity = 0;
     job->spacing = choose_spacing(job->surface, job->options);
+    job->unit = ewa_mesh_dart_unit(job->surface);
     ewa_status status =
         ewa_mesh_throw_darts(job->surface, job->spacing, job->options->seed, &darts, &capacity, &job->count);
     if (status != EWA_OK) return status;
@@ -241,6 +289,7 @@ static ewa_status sample(ewa_context *context, sample_job *job, ewa_cloud **clou
     if (status == EWA_OK) status = ewa_mesh_colors_make(job->surface->mesh, &job->colors);
     if (status == EWA_OK) status = ewa_cloud_create(context, job->count, &made);
     if (status == EWA_OK) status = add_attributes(job, made);
+    if (status == EWA_OK) ewa_cloud_set_origin(made, job->surface->origin_world);
     if (status == EWA_OK) status = ewa_progress(context, "sample", 0.7);
     if (status == EWA_OK) {
         ewa_parallel(context, finish_points, job, (uint32_t)((job->count + TASK_POINTS - 1) / TASK_POINTS));
@@ -257,9 +306,9 @@ static ewa_status sample(ewa_context *context, sample_job *job, ewa_cloud **clou
 }
 
 static ewa_status check_mesh(const ewa_mesh *mesh, const ewa_mesh_sample_options *options) {
-    const bool complete = (mesh->positions || !mesh->vertex_count) &&
-                          (mesh->triangles || !mesh->triangle_count) &&
-                          (!mesh->material_count || (mesh->materials && mesh->triangle_materials));
+    const bool complete =
+        (mesh->positions || !mesh->vertex_count) && (mesh->triangles || !mesh->triangle_count) &&
+        (!mesh->material_count || (mesh->materials && mesh->triangle_materials && mesh->textures));
     if (!complete) return ewa_fail(mesh->context, EWA_ERROR_ARGUMENT, "sample: the mesh lacks a stream");
     if (options->texcoords && !mesh->texcoords)
         return ewa_fail(mesh->context, EWA_ERROR_ARGUMENT, "sample: the mesh has no texture coordinates");

@@ -5,7 +5,7 @@
 // united over edges that do not bend; what is left between two parts is sharp.
 #include "prepare/mesh_surface.h"
 #include "base/base.h"
-#include "math/vec.h"
+#include "cloud/mesh.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -40,15 +40,10 @@ typedef struct surface_job {
     uint8_t *kind;  ///< edge_kind by half edge
     uint32_t *root;
     double *part_area;
-    double cosine, spacing;
+    double spacing;
 } surface_job;
 
 enum { NONE = UINT32_MAX };
-
-static ewa_vec3 place(const mesh_surface *surface, uint32_t vertex) {
-    const float *p = surface->mesh->positions + 3 * (size_t)vertex;
-    return vec3_make((double)p[0], (double)p[1], (double)p[2]);
-}
 
 static uint32_t vertex_of(const mesh_surface *surface, uint32_t triangle, uint32_t corner) {
     return surface->mesh->triangles[3 * (size_t)surface->source[triangle] + corner];
@@ -81,7 +76,7 @@ static uint32_t unite(uint32_t *root, uint32_t a, uint32_t b) {
     return low;
 }
 
-/// Keeps the triangles with three different finite places that span an area.
+/// Keeps the triangles with three different finite places that span an area, and finds their box.
 static ewa_status keep_triangles(mesh_surface *surface) {
     const ewa_mesh *mesh = surface->mesh;
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -93,7 +88,7 @@ static ewa_status keep_triangles(mesh_surface *surface) {
                 return ewa_fail(mesh->context, EWA_ERROR_ARGUMENT,
                                 "sample: triangle %u has vertex %u, there are %u", t, v[c],
                                 mesh->vertex_count);
-            p[c] = place(surface, v[c]);
+            p[c] = vec3_load(mesh->positions + 3 * (size_t)v[c]);
         }
         ewa_vec3 normal = vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0]));
         const double area = 0.5 * vec3_length(normal);
@@ -112,52 +107,17 @@ static ewa_status keep_triangles(mesh_surface *surface) {
             }
         }
     }
-    memcpy(surface->low_world, low, sizeof low);
-    memcpy(surface->high_world, high, sizeof high);
     if (!surface->triangle_count)
         return ewa_fail(mesh->context, EWA_ERROR_NUMERIC, "sample: none of %u triangles has an area",
                         mesh->triangle_count);
+    for (int k = 0; k < 3; k++) {
+        surface->origin_world[k] = low[k];
+        surface->extent_world[k] = high[k] - low[k];
+    }
     const uint32_t dropped = mesh->triangle_count - surface->triangle_count;
     if (dropped)
         ewa_report(mesh->context, EWA_SEVERITY_INFO, "sample: %u of %u triangles have no area; left out",
                    dropped, mesh->triangle_count);
-    return EWA_OK;
-}
-
-static uint64_t hash_place(const float p[3]) {
-    uint64_t hash = 0;
-    for (int c = 0; c < 3; c++) {
-        const float value = p[c] + 0.0f; // -0 becomes 0
-        uint32_t bits;
-        memcpy(&bits, &value, sizeof bits);
-        hash = (hash ^ bits) * 0x9e3779b97f4a7c15u;
-        hash ^= hash >> 29;
-    }
-    return hash;
-}
-
-/// Gives every vertex the first one at the same place.
-static ewa_status weld_vertices(const mesh_surface *surface, uint32_t *weld) {
-    const ewa_mesh *mesh = surface->mesh;
-    size_t slots = 16;
-    while (slots < 2 * (size_t)mesh->vertex_count) slots *= 2;
-    uint32_t *table = ewa_allocate(mesh->context, slots, sizeof *table);
-    if (!table) return EWA_ERROR_MEMORY;
-    memset(table, 0xff, slots * sizeof *table);
-    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
-        const float *p = mesh->positions + 3 * (size_t)v;
-        size_t slot = hash_place(p) & (slots - 1);
-        for (;; slot = (slot + 1) & (slots - 1)) {
-            const uint32_t other = table[slot];
-            if (other == NONE) break;
-            const float *q = mesh->positions + 3 * (size_t)other;
-            // Equal bits are one place even where they are no number, or NaN would fill one long chain.
-            if ((p[0] == q[0] && p[1] == q[1] && p[2] == q[2]) || memcmp(p, q, 3 * sizeof *p) == 0) break;
-        }
-        if (table[slot] == NONE) table[slot] = v;
-        weld[v] = table[slot];
-    }
-    ewa_release(mesh->context, table, slots, sizeof *table);
     return EWA_OK;
 }
 
@@ -197,8 +157,8 @@ static void sort_halves(const surface_job *job) {
             qsort(job->halves + first[v], first[v + 1] - first[v], sizeof *job->halves, compare_halves);
 }
 
-/// Decides on one edge from all half edges that lie on it.
-static void judge_edge(surface_job *job, const half_edge *halves, uint32_t count) {
+/// Decides on one edge from all half edges that lie on it; true when there are more than two.
+static bool judge_edge(surface_job *job, const half_edge *halves, uint32_t count) {
     const mesh_surface *surface = job->surface;
     edge_kind kind = count == 1 ? EDGE_BORDER : EDGE_MANY;
     if (count == 2) {
@@ -209,23 +169,77 @@ static void judge_edge(surface_job *job, const half_edge *halves, uint32_t count
         const double sign = from[0] == from[1] ? -1 : 1;
         const double cosine =
             sign * vec3_dot(normal_of(surface, halves[0].half / 3), normal_of(surface, halves[1].half / 3));
-        kind = cosine < job->cosine ? EDGE_CREASE : EDGE_SMOOTH;
+        kind = cosine < job->surface->crease_cosine ? EDGE_CREASE : EDGE_SMOOTH;
         job->mate[halves[0].half] = halves[1].half;
         job->mate[halves[1].half] = halves[0].half;
     }
     for (uint32_t i = 0; i < count; i++) job->kind[halves[i].half] = (uint8_t)kind;
+    return kind == EDGE_MANY;
 }
 
-static void judge_edges(surface_job *job) {
+/// Sorts and judges all edges; true when some have more than two triangles.
+static bool judge_edges(surface_job *job) {
+    memset(job->mate, 0xff, 3 * (size_t)job->surface->triangle_count * sizeof *job->mate);
+    sort_halves(job);
+    bool many = false;
     const uint32_t vertex_count = job->surface->mesh->vertex_count;
     for (uint32_t v = 0; v < vertex_count; v++) {
         const uint32_t end = job->first_half[v + 1];
         for (uint32_t i = job->first_half[v], next; i < end; i = next) {
             for (next = i + 1; next < end && job->halves[next].far_vertex == job->halves[i].far_vertex;)
                 next++;
-            judge_edge(job, job->halves + i, next - i);
+            many |= judge_edge(job, job->halves + i, next - i);
         }
     }
+    return many;
+}
+
+/// The welded vertices of a triangle, the lowest first.
+static void triangle_key(const surface_job *job, uint32_t triangle, uint32_t key[3]) {
+    uint32_t w[3], low = 0;
+    for (uint32_t c = 0; c < 3; c++) {
+        w[c] = job->weld[vertex_of(job->surface, triangle, c)];
+        if (w[c] < w[low]) low = c;
+    }
+    for (uint32_t c = 0; c < 3; c++) key[c] = w[(low + c) % 3];
+}
+
+/// Takes triangles out that are there already, which would make sharp edges of each other's; true when there
+/// were some. Those that are turned the other way stay: they are another side.
+static ewa_status drop_copies(surface_job *job, bool *dropped) {
+    mesh_surface *surface = job->surface;
+    const uint32_t count = surface->triangle_count;
+    size_t slots = 16;
+    while (slots < 2 * (size_t)count) slots *= 2;
+    uint32_t *table = ewa_allocate(surface->context, slots, sizeof *table);
+    if (!table) return EWA_ERROR_MEMORY;
+    memset(table, 0xff, slots * sizeof *table);
+    uint32_t kept = 0;
+    for (uint32_t t = 0; t < count; t++) {
+        uint32_t key[3], other[3];
+        triangle_key(job, t, key);
+        uint64_t hash =
+            (((uint64_t)key[0] << 32 | key[1]) * 0x9e3779b97f4a7c15u ^ key[2]) * 0x9e3779b97f4a7c15u;
+        size_t slot = (hash ^ hash >> 29) & (slots - 1);
+        for (; table[slot] != NONE; slot = (slot + 1) & (slots - 1)) {
+            triangle_key(job, table[slot], other);
+            if (memcmp(key, other, sizeof key) == 0) break;
+        }
+        if (table[slot] != NONE) continue;
+        const double area = area_of(surface, t);
+        table[slot] = kept;
+        surface->source[kept] = surface->source[t];
+        memcpy(surface->normal[kept], surface->normal[t], sizeof surface->normal[t]);
+        surface->area_below[kept + 1] = surface->area_below[kept] + area;
+        kept++;
+    }
+    ewa_release(surface->context, table, slots, sizeof *table);
+    *dropped = kept < count;
+    if (*dropped)
+        ewa_report(surface->context, EWA_SEVERITY_INFO,
+                   "sample: %u of %u triangles are there twice; left out", count - kept, count);
+    surface->triangle_count = kept;
+    return EWA_OK;
 }
 
 /// Unites triangles over smooth edges, then parts smaller than a point's area with their neighbours.
@@ -253,8 +267,9 @@ static void unite_parts(surface_job *job) {
 
 static double half_length(const surface_job *job, uint32_t half) {
     const uint32_t triangle = half / 3, corner = half % 3;
-    return vec3_length(vec3_sub(place(job->surface, vertex_of(job->surface, triangle, (corner + 1) % 3)),
-                                place(job->surface, vertex_of(job->surface, triangle, corner))));
+    return vec3_length(
+        vec3_sub(ewa_mesh_place(job->surface, vertex_of(job->surface, triangle, (corner + 1) % 3)),
+                 ewa_mesh_place(job->surface, vertex_of(job->surface, triangle, corner))));
 }
 
 /// Borders of small holes are none. Uses first_half and the front of halves as room: they are done with.
@@ -296,7 +311,7 @@ static ewa_status make_group_normals(surface_job *job, bool smooth) {
         half_vertices(job, half, &from, &to);
         half_vertices(job, mate, &mate_from, &mate_to);
         const double cosine = vec3_dot(normal_of(surface, half / 3), normal_of(surface, mate / 3));
-        if (from != mate_to || cosine < job->cosine) continue;
+        if (from != mate_to || cosine < job->surface->crease_cosine) continue;
         unite(root, half, mate / 3 * 3 + (mate % 3 + 1) % 3);
         unite(root, half / 3 * 3 + (half % 3 + 1) % 3, mate);
     }
@@ -306,9 +321,9 @@ static ewa_status make_group_normals(surface_job *job, bool smooth) {
         // Weighted by the angle at the corner, so that it does not matter how a polygon is cut. The weight is
         // (1 - cosine), which grows with the angle and needs no library function.
         const uint32_t t = i / 3, c = i % 3;
-        const ewa_vec3 p = place(surface, vertex_of(surface, t, c));
-        ewa_vec3 u = vec3_sub(place(surface, vertex_of(surface, t, (c + 1) % 3)), p);
-        ewa_vec3 v = vec3_sub(place(surface, vertex_of(surface, t, (c + 2) % 3)), p);
+        const ewa_vec3 p = ewa_mesh_place(surface, vertex_of(surface, t, c));
+        ewa_vec3 u = vec3_sub(ewa_mesh_place(surface, vertex_of(surface, t, (c + 1) % 3)), p);
+        ewa_vec3 v = vec3_sub(ewa_mesh_place(surface, vertex_of(surface, t, (c + 2) % 3)), p);
         if (!vec3_normalize(&u) || !vec3_normalize(&v)) continue;
         const double weight = 1 - vec3_dot(u, v);
         float *sum = surface->group_normal[find_root(root, i)];
@@ -331,14 +346,14 @@ static bool is_sharp(uint8_t kind) { return kind != EDGE_SMOOTH; }
 static void fill_edge(const surface_job *job, uint32_t half, mesh_edge *edge) {
     const mesh_surface *surface = job->surface;
     const uint32_t triangle = half / 3, corner = half % 3;
-    const ewa_vec3 a = place(surface, vertex_of(surface, triangle, corner)),
-                   b = place(surface, vertex_of(surface, triangle, (corner + 1) % 3)),
-                   c = place(surface, vertex_of(surface, triangle, (corner + 2) % 3));
+    const ewa_vec3 a = ewa_mesh_place(surface, vertex_of(surface, triangle, corner)),
+                   b = ewa_mesh_place(surface, vertex_of(surface, triangle, (corner + 1) % 3)),
+                   c = ewa_mesh_place(surface, vertex_of(surface, triangle, (corner + 2) % 3));
     const ewa_vec3 along = vec3_sub(b, a);
     ewa_vec3 inward = vec3_cross(normal_of(surface, triangle), along);
     vec3_normalize(&inward);
-    vec3_store(a, edge->a_world);
-    vec3_store(b, edge->b_world);
+    vec3_store(a, edge->a);
+    vec3_store(b, edge->b);
     vec3_store(inward, edge->inward);
     edge->height_world = vec3_dot(vec3_sub(c, a), inward);
     edge->foot = vec3_dot(vec3_sub(c, a), along) / vec3_dot(along, along);
@@ -355,7 +370,7 @@ static int compare_ends(const void *a, const void *b) {
 
 /// Direction of an edge away from one of its ends.
 static ewa_vec3 direction_from(const mesh_edge *edge, uint32_t at_b) {
-    ewa_vec3 d = vec3_sub(vec3_load(edge->b_world), vec3_load(edge->a_world));
+    ewa_vec3 d = vec3_sub(vec3_load(edge->b), vec3_load(edge->a));
     vec3_normalize(&d);
     return at_b ? vec3_scale(d, -1) : d;
 }
@@ -424,11 +439,16 @@ static double cosine_of_degrees(double degrees) {
 
 static ewa_status run(surface_job *job, const ewa_mesh_sample_options *options) {
     mesh_surface *surface = job->surface;
-    ewa_status status = weld_vertices(surface, job->weld);
+    ewa_status status =
+        ewa_mesh_weld(surface->context, surface->mesh->positions, surface->mesh->vertex_count, job->weld);
     if (status != EWA_OK) return status;
-    memset(job->mate, 0xff, 3 * (size_t)surface->triangle_count * sizeof *job->mate);
-    sort_halves(job);
-    judge_edges(job);
+    bool again = judge_edges(job);
+    if (again) status = drop_copies(job, &again);
+    if (status != EWA_OK) return status;
+    if (again) judge_edges(job);
+    const double area = surface->area_below[surface->triangle_count];
+    job->spacing =
+        options->spacing_world > 0 ? options->spacing_world : sqrt(area / (double)options->point_count);
     unite_parts(job);
     status = drop_short_borders(job);
     if (status == EWA_OK) status = make_group_normals(job, options->smooth_normals);
@@ -446,7 +466,8 @@ ewa_status ewa_mesh_surface_make(const ewa_mesh *mesh, const ewa_mesh_sample_opt
     surface->normal = ewa_allocate(context, count, sizeof *surface->normal);
     surface->part = ewa_allocate(context, count, sizeof *surface->part);
     surface->corner_group = ewa_allocate(context, halves, sizeof *surface->corner_group);
-    surface_job job = {.surface = surface, .cosine = cosine_of_degrees(options->crease_degrees)};
+    surface->crease_cosine = cosine_of_degrees(options->crease_degrees);
+    surface_job job = {.surface = surface};
     job.weld = ewa_allocate(context, vertices, sizeof *job.weld);
     job.first_half = ewa_allocate(context, vertices + 2, sizeof *job.first_half);
     job.halves = ewa_allocate(context, halves, sizeof *job.halves);
@@ -458,12 +479,7 @@ ewa_status ewa_mesh_surface_make(const ewa_mesh *mesh, const ewa_mesh_sample_opt
     if (surface->source && surface->area_below && surface->normal && surface->part && surface->corner_group &&
         job.weld && job.first_half && job.halves && job.mate && job.kind && job.root && job.part_area) {
         status = keep_triangles(surface);
-        if (status == EWA_OK) {
-            const double area = surface->area_below[surface->triangle_count];
-            job.spacing = options->spacing_world > 0 ? options->spacing_world
-                                                     : sqrt(area / (double)options->point_count);
-            status = run(&job, options);
-        }
+        if (status == EWA_OK) status = run(&job, options);
     }
     ewa_release(context, job.weld, vertices, sizeof *job.weld);
     ewa_release(context, job.first_half, vertices + 2, sizeof *job.first_half);

@@ -130,7 +130,7 @@ static void put_broken_clouds(const char *folder) {
     stand_in_text(
         folder, "gaussians/guitar.compressed.ply",
         "ply\nformat binary_little_endian 1.0\nelement chunk 1\nproperty float min_x\nelement vertex 1\n"
-        "property uint packed_position\nend_header\n01234567");
+        "property uint packed_position\nproperty uint packed_rotation\nend_header\n0123456789ab");
     stand_in_text(folder, "hostile/mesh/draco_inf_nan.obj", "v inf nan 0\nv 0 0 0\nv 1 0 0\nf 1 2 3\n");
 }
 

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-static inline void shape_fill(ewa_context *context, uint32_t vertex_count, const float *positions,
+static inline void shape_fill(ewa_context *context, uint32_t vertex_count, const double *positions,
                               uint32_t triangle_count, const uint32_t *triangles, ewa_mesh *mesh) {
     assert_int_equal(ewa_mesh_create(context, vertex_count, triangle_count, 0, 0, mesh), EWA_OK);
     memcpy(mesh->positions, positions, vertex_count * 3 * sizeof *positions);
@@ -21,20 +21,20 @@ static inline void shape_fill(ewa_context *context, uint32_t vertex_count, const
 static inline void shape_cube(ewa_context *context, ewa_mesh *mesh) {
     static const uint32_t triangles[36] = {0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
                                            2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6};
-    float positions[24];
-    for (int i = 0; i < 24; i++) positions[i] = i / 3 >> i % 3 & 1 ? 1.0f : -1.0f;
+    double positions[24];
+    for (int i = 0; i < 24; i++) positions[i] = i / 3 >> i % 3 & 1 ? 1.0 : -1.0;
     shape_fill(context, 8, positions, 12, triangles, mesh);
 }
 
 /// The cube less its upper right quarter: an L along y, whose ends are polygons with a concave corner.
 static inline void shape_angle(ewa_context *context, ewa_mesh *mesh) {
-    static const float outline[6][2] = {{-1, -1}, {1, -1}, {1, 0}, {0, 0}, {0, 1}, {-1, 1}};
+    static const double outline[6][2] = {{-1, -1}, {1, -1}, {1, 0}, {0, 0}, {0, 1}, {-1, 1}};
     static const uint32_t ends[4][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}};
-    float positions[36];
+    double positions[36];
     uint32_t triangles[60], count = 0;
     for (int i = 0; i < 12; i++) {
         positions[3 * i] = outline[i % 6][0];
-        positions[3 * i + 1] = i < 6 ? -1.0f : 1.0f;
+        positions[3 * i + 1] = i < 6 ? -1.0 : 1.0;
         positions[3 * i + 2] = outline[i % 6][1];
     }
     for (int t = 0; t < 4; t++) {
@@ -56,8 +56,8 @@ static inline void shape_sphere(ewa_context *context, uint32_t rows, ewa_mesh *m
         for (uint32_t c = 0; c < columns; c++) {
             const double polar = 3.141592653589793 * r / rows, around = 2 * 3.141592653589793 * c / columns;
             const double ring = r == 0 || r == rows ? 0 : sin(polar);
-            float *p = mesh->positions + 3 * (r * columns + c);
-            p[0] = (float)(ring * cos(around)), p[1] = (float)(ring * sin(around)), p[2] = (float)cos(polar);
+            double *p = mesh->positions + 3 * (r * columns + c);
+            p[0] = ring * cos(around), p[1] = ring * sin(around), p[2] = cos(polar);
         }
     }
     uint32_t *t = mesh->triangles;
@@ -68,6 +68,17 @@ static inline void shape_sphere(ewa_context *context, uint32_t rows, ewa_mesh *m
             memcpy(t, two, sizeof two);
         }
     }
+}
+
+/// World coordinates of a cloud's points, three each; the caller frees.
+static inline double *shape_places(const ewa_cloud *cloud) {
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    double *places = malloc(3 * count * sizeof *places), origin[3];
+    assert_non_null(places);
+    ewa_attribute_read_f64(ewa_cloud_find(cloud, EWA_POSITION), 0, count, places);
+    ewa_cloud_origin(cloud, origin);
+    for (uint64_t i = 0; i < 3 * count; i++) places[i] += origin[i % 3];
+    return places;
 }
 
 static inline ewa_cloud *shape_sample(const ewa_mesh *mesh, const ewa_mesh_sample_options *options) {

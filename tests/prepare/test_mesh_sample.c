@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Surfels from meshes: where they are, how far apart, which lines they get, what bad meshes give.
+#include "io/scratch.h"
 #include "mesh_shapes.h"
 
 static const float *stream(const ewa_cloud *cloud, const char *name) {
@@ -35,8 +36,8 @@ static void test_cube_points(void **state) {
     ewa_cloud *cloud = shape_sample(&mesh, &options);
     const uint64_t count = ewa_cloud_point_count(cloud);
     assert_in_range(count, 5700, 6300);
-    const float *p = stream(cloud, EWA_POSITION), *n = stream(cloud, EWA_NORMAL),
-                *u = stream(cloud, EWA_TANGENT_U);
+    double *p = shape_places(cloud);
+    const float *n = stream(cloud, EWA_NORMAL), *u = stream(cloud, EWA_TANGENT_U);
     const double radius = 3 * sqrt((double)(u[0] * u[0] + u[1] * u[1] + u[2] * u[2])), spacing = radius / 1.6;
     uint64_t of_face[6] = {0}, inner = 0;
     bool *is_inner = calloc(count, 1);
@@ -46,22 +47,23 @@ static void test_cube_points(void **state) {
         assert_true(face >= 0);
         of_face[face]++;
         for (int c = 0; c < 3; c++)
-            assert_true(c == face / 2 ? p[3 * i + c] == (face & 1 ? 1.0f : -1.0f) : fabsf(p[3 * i + c]) <= 1);
+            assert_true(c == face / 2 ? p[3 * i + c] == (face & 1 ? 1 : -1) : fabs(p[3 * i + c]) <= 1);
         bool near_edge = false;
         for (int c = 0; c < 3; c++)
-            near_edge = near_edge || (c != face / 2 && 1 - fabsf(p[3 * i + c]) < 0.21 * spacing);
+            near_edge = near_edge || (c != face / 2 && 1 - fabs(p[3 * i + c]) < 0.21 * spacing);
         is_inner[i] = !near_edge;
         inner += !near_edge;
         for (uint64_t k = 0; k < i; k++) {
             if (face_of(n + 3 * k) != face) continue;
             double d2 = 0;
-            for (int c = 0; c < 3; c++) d2 += pow((double)p[3 * i + c] - (double)p[3 * k + c], 2);
+            for (int c = 0; c < 3; c++) d2 += pow(p[3 * i + c] - p[3 * k + c], 2);
             // Rows along edges are closer than the inside, corners closest.
             assert_true(d2 > pow(0.39 * spacing, 2));
             if (is_inner[i] && is_inner[k]) assert_true(d2 > pow(0.77 * spacing, 2));
         }
     }
     free(is_inner);
+    free(p);
     for (int f = 0; f < 6; f++)
         assert_true(fabs((double)of_face[f] - (double)count / 6) < 0.05 * (double)count / 6);
     assert_true((double)inner > 0.7 * (double)count);
@@ -81,16 +83,15 @@ static void test_cube_points(void **state) {
 }
 
 /// Whether a place of the plane of point i is kept by its lines.
-static bool keeps(const ewa_cloud *cloud, uint64_t i, const double at[3]) {
-    const float *p = stream(cloud, EWA_POSITION) + 3 * i, *u = stream(cloud, EWA_TANGENT_U) + 3 * i,
-                *v = stream(cloud, EWA_TANGENT_V) + 3 * i;
+static bool keeps(const ewa_cloud *cloud, const double *p, uint64_t i, const double at[3]) {
+    const float *u = stream(cloud, EWA_TANGENT_U) + 3 * i, *v = stream(cloud, EWA_TANGENT_V) + 3 * i;
     const float *lines[2] = {stream(cloud, EWA_CLIP0) + 3 * i, stream(cloud, EWA_CLIP1) + 3 * i};
     const bool either = ((const uint8_t *)ewa_cloud_find(cloud, EWA_CLIP_MODE)->data)[i];
     double a = 0, b = 0, uu = 0, vv = 0;
     bool kept[2];
     int count = 0;
     for (int c = 0; c < 3; c++) {
-        const double d = at[c] - (double)p[c];
+        const double d = at[c] - p[3 * i + (uint64_t)c];
         a += d * (double)u[c], b += d * (double)v[c];
         uu += (double)u[c] * (double)u[c], vv += (double)v[c] * (double)v[c];
     }
@@ -129,8 +130,9 @@ static void hold_outline(void (*make)(ewa_context *, ewa_mesh *), outline *insid
     const ewa_mesh_sample_options options = options_of(4000);
     ewa_cloud *cloud = shape_sample(&mesh, &options);
     check_random random = {5};
-    const float *p = stream(cloud, EWA_POSITION), *n = stream(cloud, EWA_NORMAL),
-                *u = stream(cloud, EWA_TANGENT_U), *v = stream(cloud, EWA_TANGENT_V);
+    double *p = shape_places(cloud);
+    const float *n = stream(cloud, EWA_NORMAL), *u = stream(cloud, EWA_TANGENT_U),
+                *v = stream(cloud, EWA_TANGENT_V);
     uint64_t lines[3] = {0};
     for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
         const float *clips[2] = {stream(cloud, EWA_CLIP0) + 3 * i, stream(cloud, EWA_CLIP1) + 3 * i};
@@ -140,13 +142,14 @@ static void hold_outline(void (*make)(ewa_context *, ewa_mesh *), outline *insid
             if (a * a + b * b > 9) continue;
             double at[3];
             for (int c = 0; c < 3; c++)
-                at[c] = (double)p[3 * i + c] + a * (double)u[3 * i + c] + b * (double)v[3 * i + c];
+                at[c] = p[3 * i + (uint64_t)c] + a * (double)u[3 * i + c] + b * (double)v[3 * i + c];
             const double depth = inside(n + 3 * i, at);
             if (fabs(depth) < 1e-5) continue;
-            assert_int_equal(keeps(cloud, i, at), depth > 0);
+            assert_int_equal(keeps(cloud, p, i, at), depth > 0);
         }
     }
     assert_true(lines[0] > 500 && lines[1] > 500 && lines[2] >= 24);
+    free(p);
     ewa_cloud_destroy(&cloud);
     ewa_mesh_free(&mesh);
     ewa_context_destroy(&context);
@@ -174,26 +177,29 @@ static void test_sphere(void **state) {
     assert_null(ewa_cloud_find(cloud, EWA_CLIP0));
     assert_null(ewa_cloud_find(cloud, EWA_TANGENT_U));
     assert_non_null(ewa_cloud_find(cloud, EWA_RADIUS));
-    const float *p = stream(cloud, EWA_POSITION), *n = stream(cloud, EWA_NORMAL);
+    double *p = shape_places(cloud);
+    const float *n = stream(cloud, EWA_NORMAL);
     for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
-        const float *a = p + 3 * i, *b = n + 3 * i;
-        const float length = sqrtf(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-        assert_true(length > 0.99f && length < 1.0001f);
-        assert_true(a[0] * b[0] + a[1] * b[1] + a[2] * b[2] > 0.9995f * length);
+        const double *a = p + 3 * i, length = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+        const float *b = n + 3 * i;
+        assert_true(length > 0.99 && length < 1.0001);
+        assert_true(a[0] * (double)b[0] + a[1] * (double)b[1] + a[2] * (double)b[2] > 0.9995 * length);
     }
+    free(p);
     ewa_cloud_destroy(&cloud);
 
     mesh.triangle_count /= 2; // the upper half
     cloud = shape_sample(&mesh, &options);
-    p = stream(cloud, EWA_POSITION);
+    p = shape_places(cloud);
     const float *clip = stream(cloud, EWA_CLIP0), *u = stream(cloud, EWA_TANGENT_U);
     const float reach = 3 * sqrtf(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
     uint64_t clipped = 0;
     for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
         if (clip[3 * i] == 0 && clip[3 * i + 1] == 0) continue;
-        assert_true(p[3 * i + 2] < 1.05f * reach);
+        assert_true(p[3 * i + 2] < 1.05 * (double)reach);
         clipped++;
     }
+    free(p);
     assert_true(clipped > 100);
     mesh.triangle_count *= 2;
     ewa_cloud_destroy(&cloud);
@@ -203,8 +209,8 @@ static void test_sphere(void **state) {
 
 static void test_colors(void **state) {
     (void)state;
-    static const float positions[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0},
-                       texcoords[8] = {0, 0, 1, 0, 1, 1, 0, 1};
+    static const double positions[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+    static const float texcoords[8] = {0, 0, 1, 0, 1, 1, 0, 1};
     static const uint32_t triangles[6] = {0, 1, 2, 0, 2, 3};
     ewa_context *context = check_context(0, NULL);
     ewa_mesh mesh;
@@ -215,8 +221,8 @@ static void test_colors(void **state) {
     for (int i = 0; i < 16; i++) mesh.colors[i] = i % 4 == 1 ? 0.5f : 1;
     for (int c = 0; c < 4; c++) mesh.materials[0].base_color[c] = 1;
     // Left half black, right half white; rows from the top: the upper right quarter is red.
-    assert_int_equal(ewa_image_create(context, 64, 64, 3, &mesh.materials[0].texture), EWA_OK);
-    float *pixels = mesh.materials[0].texture.pixels;
+    assert_int_equal(ewa_image_create(context, 64, 64, 3, &mesh.textures[0]), EWA_OK);
+    float *pixels = mesh.textures[0].pixels;
     for (int i = 0; i < 64 * 64; i++)
         for (int c = 0; c < 3; c++) pixels[3 * i + c] = i % 64 >= 32 && (c == 0 || i / 64 >= 32) ? 1 : 0;
     ewa_mesh_sample_options options = options_of(400);
@@ -249,7 +255,8 @@ static void test_colors(void **state) {
 /// A picture in place of materials and vertex colours; its coordinates stay when asked for.
 static void test_picture(void **state) {
     (void)state;
-    static const float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, texcoords[6] = {0, 0, 1, 0, 0, 1};
+    static const double positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    static const float texcoords[6] = {0, 0, 1, 0, 0, 1};
     ewa_context *context = check_context(0, NULL);
     ewa_mesh mesh;
     ewa_image picture;
@@ -324,8 +331,9 @@ static void test_bad_meshes(void **state) {
     memset(mesh.triangles + 3, 0, 3 * sizeof *mesh.triangles);
     mesh.positions[3 * 7] = NAN;
     ewa_cloud *cloud = shape_sample(&mesh, &options);
-    const float *p = stream(cloud, EWA_POSITION);
-    for (uint64_t i = 0; i < 3 * ewa_cloud_point_count(cloud); i++) assert_true(fabsf(p[i]) <= 1);
+    double *p = shape_places(cloud);
+    for (uint64_t i = 0; i < 3 * ewa_cloud_point_count(cloud); i++) assert_true(fabs(p[i]) <= 1);
+    free(p);
     ewa_cloud_destroy(&cloud);
     for (int i = 0; i < 24; i++) mesh.positions[i] = 1;
     refuse(&mesh, &options, &log, EWA_ERROR_NUMERIC, "none of 12 triangles has an area");
@@ -348,7 +356,7 @@ static void test_soup(void **state) {
         assert_int_equal(ewa_mesh_create(context, 40, 60, 0, 0, &mesh), EWA_OK);
         const double size = pow(10, check_uniform(&random, -6, 6));
         for (int i = 0; i < 120; i++)
-            mesh.positions[i] = (float)(size * check_uniform(&random, -1, 1) * (i < 60 ? 1 : 1e-3));
+            mesh.positions[i] = size * check_uniform(&random, -1, 1) * (i < 60 ? 1 : 1e-3);
         for (int i = 0; i < 180; i++) mesh.triangles[i] = (uint32_t)(check_random_u64(&random) % 40);
         const ewa_mesh_sample_options options = options_of(2000);
         ewa_cloud *cloud = shape_sample(&mesh, &options);
@@ -365,12 +373,221 @@ static void test_soup(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Everything of two clouds but their origin.
+static void same_points(const ewa_cloud *a, const ewa_cloud *b) {
+    assert_int_equal(ewa_cloud_point_count(a), ewa_cloud_point_count(b));
+    assert_int_equal(ewa_cloud_attribute_count(a), ewa_cloud_attribute_count(b));
+    for (uint32_t k = 0; k < ewa_cloud_attribute_count(a); k++) {
+        const ewa_attribute *x = ewa_cloud_attribute_at(a, k), *y = ewa_cloud_attribute_at(b, k);
+        assert_string_equal(x->name, y->name);
+        assert_int_equal(x->type, y->type);
+        assert_memory_equal(x->data, y->data, ewa_cloud_point_count(a) * x->stride_bytes);
+    }
+}
+
+/// A mesh far from the origin is sampled as the same mesh at it, bit for bit, where the shift is exact; the
+/// origin of the cloud says where it is.
+static void test_map_coordinates(void **state) {
+    (void)state;
+    static const double shifts[][3] = {{500000, 4200000, 0}, {-6378137, 6378137.5, 1e6}, {1e9, -1e9, 1e9}};
+    ewa_context *context = check_context(0, NULL);
+    for (int shape = 0; shape < 3; shape++) {
+        ewa_mesh mesh;
+        void (*const shapes[2])(ewa_context *, ewa_mesh *) = {shape_cube, shape_angle};
+        if (shape < 2)
+            shapes[shape](context, &mesh);
+        else
+            shape_sphere(context, 12, &mesh);
+        // Multiples of 2^-20, which all the shifts keep.
+        for (uint32_t i = 0; i < 3 * mesh.vertex_count; i++)
+            mesh.positions[i] = round(mesh.positions[i] * 0x1p20) * 0x1p-20;
+        const ewa_mesh_sample_options options = options_of(3000);
+        ewa_cloud *near = shape_sample(&mesh, &options);
+        for (size_t s = 0; s < sizeof shifts / sizeof shifts[0]; s++) {
+            double origin[2][3];
+            for (uint32_t i = 0; i < 3 * mesh.vertex_count; i++) mesh.positions[i] += shifts[s][i % 3];
+            ewa_cloud *far = shape_sample(&mesh, &options);
+            for (uint32_t i = 0; i < 3 * mesh.vertex_count; i++) mesh.positions[i] -= shifts[s][i % 3];
+            same_points(near, far);
+            ewa_cloud_origin(near, origin[0]);
+            ewa_cloud_origin(far, origin[1]);
+            for (int c = 0; c < 3; c++) assert_true(origin[1][c] - origin[0][c] == shifts[s][c]);
+            ewa_cloud_destroy(&far);
+        }
+        ewa_cloud_destroy(&near);
+        ewa_mesh_free(&mesh);
+    }
+    ewa_context_destroy(&context);
+}
+
+/// Two small cubes far apart: places are doubles, and lie on their faces to a billionth of the distance.
+static void test_far_parts(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    ewa_mesh cube, mesh;
+    shape_cube(context, &cube);
+    assert_int_equal(ewa_mesh_create(context, 16, 24, 0, 0, &mesh), EWA_OK);
+    const double apart = 1e5;
+    for (uint32_t i = 0; i < 72; i++) mesh.triangles[i] = cube.triangles[i % 36] + i / 36 * 8;
+    for (uint32_t i = 0; i < 48; i++) mesh.positions[i] = cube.positions[i % 24] + (i >= 24 ? apart : 0);
+    const ewa_mesh_sample_options options = options_of(4000);
+    ewa_cloud *cloud = shape_sample(&mesh, &options);
+    assert_int_equal(ewa_cloud_find(cloud, EWA_POSITION)->type, EWA_F64);
+    double *p = shape_places(cloud);
+    const float *n = stream(cloud, EWA_NORMAL);
+    uint64_t far = 0;
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
+        const int face = face_of(n + 3 * i);
+        assert_true(face >= 0);
+        const bool second = p[3 * i] > apart / 2;
+        far += second;
+        for (int c = 0; c < 3; c++) {
+            const double at = p[3 * i + (uint64_t)c] - (second ? apart : 0);
+            assert_true(c == face / 2 ? fabs(at - (face & 1 ? 1 : -1)) < 1e-10 : fabs(at) <= 1 + 1e-10);
+        }
+    }
+    assert_true(far > 1800 && far < 2200);
+    free(p);
+    ewa_cloud_destroy(&cloud);
+    ewa_mesh_free(&cube);
+    ewa_mesh_free(&mesh);
+    ewa_context_destroy(&context);
+}
+
+/// Triangles that are there twice count once; those of another side stay.
+static void test_copies(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    ewa_mesh cube, mesh;
+    shape_cube(context, &cube);
+    const ewa_mesh_sample_options options = options_of(3000);
+    ewa_cloud *once = shape_sample(&cube, &options);
+    // Each triangle five times, begun at other corners, through vertices of their own.
+    assert_int_equal(ewa_mesh_create(context, 40, 60, 0, 0, &mesh), EWA_OK);
+    for (uint32_t t = 0; t < 60; t++)
+        for (uint32_t c = 0; c < 3; c++)
+            mesh.triangles[3 * t + c] = cube.triangles[3 * (t % 12) + (c + t / 12) % 3] + t / 12 * 8;
+    for (uint32_t i = 0; i < 120; i++) mesh.positions[i] = cube.positions[i % 24];
+    ewa_cloud *copies = shape_sample(&mesh, &options);
+    same_points(once, copies);
+    ewa_cloud_destroy(&copies);
+    // Turned, they are the inside: as many points on each side.
+    mesh.triangle_count = 24;
+    for (uint32_t i = 36; i < 72; i += 3) {
+        const uint32_t kept = mesh.triangles[i];
+        mesh.triangles[i] = mesh.triangles[i + 1];
+        mesh.triangles[i + 1] = kept;
+    }
+    ewa_cloud *both = shape_sample(&mesh, &options);
+    const float *n = stream(both, EWA_NORMAL);
+    double *p = shape_places(both);
+    uint64_t outward = 0;
+    for (uint64_t i = 0; i < ewa_cloud_point_count(both); i++) {
+        double dot = 0;
+        for (uint64_t c = 0; c < 3; c++) dot += p[3 * i + c] * (double)n[3 * i + c];
+        outward += dot > 0;
+    }
+    assert_true(fabs((double)outward / (double)ewa_cloud_point_count(both) - 0.5) < 0.05);
+    free(p);
+    mesh.triangle_count = 60;
+    ewa_cloud_destroy(&both);
+    ewa_cloud_destroy(&once);
+    ewa_mesh_free(&mesh);
+    ewa_mesh_free(&cube);
+    ewa_context_destroy(&context);
+}
+
+/// Normals of the mesh are used where they are within the crease angle of the triangle, and only there.
+static void test_given_normals(void **state) {
+    (void)state;
+    static const double positions[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+    static const uint32_t triangles[6] = {0, 1, 2, 0, 2, 3};
+    ewa_context *context = check_context(0, NULL);
+    ewa_mesh mesh;
+    assert_int_equal(ewa_mesh_create(context, 4, 2, 0, EWA_MESH_NORMALS, &mesh), EWA_OK);
+    memcpy(mesh.positions, positions, sizeof positions);
+    memcpy(mesh.triangles, triangles, sizeof triangles);
+    // Leaning by 27 degrees to both sides; any length.
+    for (int v = 0; v < 4; v++) {
+        mesh.normals[3 * v] = positions[3 * v] > 0 ? 1 : -1;
+        mesh.normals[3 * v + 2] = 2;
+    }
+    for (int kind = 0; kind < 4; kind++) {
+        ewa_mesh_sample_options options = options_of(400);
+        if (kind == 1) options.smooth_normals = false;
+        if (kind == 2) options.crease_degrees = 20;
+        if (kind == 3) memset(mesh.normals + 6, 0, 3 * sizeof(float)); // one is missing
+        ewa_cloud *cloud = shape_sample(&mesh, &options);
+        const float *n = stream(cloud, EWA_NORMAL), *u = stream(cloud, EWA_TANGENT_U),
+                    *v = stream(cloud, EWA_TANGENT_V);
+        double *p = shape_places(cloud);
+        for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
+            const double x = 2 * p[3 * i] - 1, wanted = kind ? 0 : x / sqrt(x * x + 4);
+            assert_float_equal(n[3 * i], wanted, 1e-5);
+            assert_float_equal(n[3 * i] * u[3 * i] + n[3 * i + 2] * u[3 * i + 2], 0, 1e-6);
+            assert_float_equal(n[3 * i] * v[3 * i] + n[3 * i + 2] * v[3 * i + 2], 0, 1e-6);
+        }
+        free(p);
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_mesh_free(&mesh);
+    ewa_context_destroy(&context);
+}
+
+/// A cube with colours, a picture and copies of triangles, so that every allocation of the sampling is
+/// reached.
+static ewa_status sample_all(ewa_context *context, void *user) {
+    (void)user;
+    static const double positions[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 1};
+    static const uint32_t triangles[12] = {0, 1, 2, 0, 2, 3, 0, 1, 2, 0, 3, 1};
+    ewa_mesh mesh;
+    ewa_status status = ewa_mesh_create(context, 4, 4, 1, EWA_MESH_COLORS | EWA_MESH_TEXCOORDS, &mesh);
+    if (status != EWA_OK) return status;
+    memcpy(mesh.positions, positions, sizeof positions);
+    memcpy(mesh.triangles, triangles, sizeof triangles);
+    for (int i = 0; i < 8; i++) mesh.texcoords[i] = (float)positions[i / 2 * 3 + i % 2];
+    status = ewa_image_create(context, 4, 4, 3, &mesh.textures[0]);
+    ewa_cloud *cloud = NULL;
+    const ewa_mesh_sample_options options = options_of(100);
+    if (status == EWA_OK) status = ewa_mesh_sample(&mesh, &options, &cloud);
+    assert_true((status == EWA_OK) == (cloud != NULL));
+    ewa_cloud_destroy(&cloud);
+    ewa_mesh_free(&mesh);
+    return status;
+}
+
+static void test_failing_allocations(void **state) {
+    (void)state;
+    scratch_fail_each(sample_all, NULL);
+}
+
+/// A needle of 1e20 by 1e32: its rows, not its area, say how far points are from each other.
+static void test_needle(void **state) {
+    (void)state;
+    ewa_context *context = NULL;
+    assert_int_equal(ewa_context_create(NULL, &context), EWA_OK);
+    static const double places[9] = {0, 0, 0, 1e20, 0, 0, 0, 1e32, 0};
+    ewa_mesh mesh;
+    shape_fill(context, 3, places, 1, (const uint32_t[]){0, 1, 2}, &mesh);
+    ewa_mesh_sample_options options;
+    ewa_mesh_sample_options_init(&options, sizeof options);
+    options.point_count = 32;
+    ewa_cloud *cloud = shape_sample(&mesh, &options);
+    assert_in_range(ewa_cloud_point_count(cloud), 8, 128);
+    ewa_cloud_destroy(&cloud);
+    ewa_mesh_free(&mesh);
+    ewa_context_destroy(&context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cube_points), cmocka_unit_test(test_cube_lines),
-        cmocka_unit_test(test_angle_lines), cmocka_unit_test(test_sphere),
-        cmocka_unit_test(test_colors),      cmocka_unit_test(test_picture),
-        cmocka_unit_test(test_bad_meshes),  cmocka_unit_test(test_soup),
+        cmocka_unit_test(test_needle),        cmocka_unit_test(test_cube_points),
+        cmocka_unit_test(test_cube_lines),    cmocka_unit_test(test_angle_lines),
+        cmocka_unit_test(test_sphere),        cmocka_unit_test(test_colors),
+        cmocka_unit_test(test_picture),       cmocka_unit_test(test_bad_meshes),
+        cmocka_unit_test(test_soup),          cmocka_unit_test(test_map_coordinates),
+        cmocka_unit_test(test_far_parts),     cmocka_unit_test(test_copies),
+        cmocka_unit_test(test_given_normals), cmocka_unit_test(test_failing_allocations),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -205,7 +205,7 @@ void probe_sampled(probe *to) {
             abort();
         for (uint32_t i = 0; i < 10; i++)
             for (uint32_t c = 0; c < 3; c++) {
-                mesh.positions[3 * i + c] = positions[i][c];
+                mesh.positions[3 * i + c] = (double)positions[i][c];
                 mesh.colors[4 * i + c] = 0.3f + 0.06f * (float)((i + c) % 10);
                 mesh.colors[4 * i + 3] = 1;
                 if (c < 2) mesh.texcoords[2 * i + c] = positions[i][c] + 0.3f * positions[i][2];
@@ -217,7 +217,7 @@ void probe_sampled(probe *to) {
         for (int m = 0; m < 2; m++)
             for (int c = 0; c < 4; c++)
                 mesh.materials[m].base_color[c] = c == 3 ? 1 : 0.5f + 0.1f * (float)(m + c);
-        if (k >= 3) mesh.materials[1].texture = picture(to, 24, 3);
+        if (k >= 3) mesh.textures[1] = picture(to, 24, 3);
         ewa_mesh_sample_options options;
         ewa_mesh_sample_options_init(&options, sizeof options);
         options.point_count = 400 + 300 * (uint64_t)k;

@@ -54,8 +54,8 @@ static void save(const char *folder, const char *name, uint64_t count, const ewa
 static void frame_mesh(const ewa_mesh *mesh, double azimuth_deg, ewa_camera *camera) {
     ewa_bounds bounds = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 1};
     for (uint32_t i = 0; i < 3 * mesh->vertex_count; i++) {
-        bounds.low_world[i % 3] = fmin(bounds.low_world[i % 3], (double)mesh->positions[i]);
-        bounds.high_world[i % 3] = fmax(bounds.high_world[i % 3], (double)mesh->positions[i]);
+        bounds.low_world[i % 3] = fmin(bounds.low_world[i % 3], mesh->positions[i]);
+        bounds.high_world[i % 3] = fmax(bounds.high_world[i % 3], mesh->positions[i]);
     }
     double target[3], size = 0;
     for (int c = 0; c < 3; c++) {

@@ -55,8 +55,8 @@ static void test_figure_6(void **state) {
 /// A quad with a checkerboard, whose ray-cast picture is known in its middle.
 static void test_ray_caster(void **state) {
     (void)state;
-    static const float positions[12] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0},
-                       texcoords[8] = {0, 0, 1, 0, 1, 1, 0, 1};
+    static const double positions[12] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
+    static const float texcoords[8] = {0, 0, 1, 0, 1, 1, 0, 1};
     static const uint32_t triangles[6] = {0, 1, 2, 0, 2, 3};
     const double eye[3] = {0, 0, 3}, back[3] = {0, 0, -3}, target[3] = {0, 0, 0}, up[3] = {0, 1, 0};
     ewa_context *context = check_context(0, NULL);

@@ -12,12 +12,11 @@ typedef struct hit {
     float depth, color[3];
 } hit;
 
-static ewa_vec3 to_camera(const ewa_camera *camera, const float *world) {
+static ewa_vec3 to_camera(const ewa_camera *camera, const double *world) {
     const double *m = camera->world_to_camera;
     double p[3];
     for (int r = 0; r < 3; r++)
-        p[r] = m[4 * r] * (double)world[0] + m[4 * r + 1] * (double)world[1] +
-               m[4 * r + 2] * (double)world[2] + m[4 * r + 3];
+        p[r] = m[4 * r] * world[0] + m[4 * r + 1] * world[1] + m[4 * r + 2] * world[2] + m[4 * r + 3];
     return vec3_load(p);
 }
 
@@ -77,7 +76,8 @@ static void draw_triangle(const ewa_mesh *mesh, const ewa_camera *camera, uint32
                         u * (double)mesh->texcoords[2 * (size_t)vertex[1] + (size_t)c] +
                         v * (double)mesh->texcoords[2 * (size_t)vertex[2] + (size_t)c];
             for (int c = 0; c < 3; c++) at->color[c] = 1;
-            if (material->texture.pixels) look_up(&material->texture, st[0], st[1], at->color);
+            const ewa_image *texture = &mesh->textures[material->texture];
+            if (texture->pixels) look_up(texture, st[0], st[1], at->color);
             for (int c = 0; c < 3; c++) at->color[c] *= material->base_color[c];
         }
 }

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Pictures from memory, the inner side.
+#ifndef EWA_SRC_IMAGE_FILE_H
+#define EWA_SRC_IMAGE_FILE_H
+
+#include "ewa/image.h"
+
+/// ewa_image_load_memory(); with `straight`, colours of PNG and WebP are not multiplied by alpha, so that
+/// those of transparent pixels are there.
+ewa_status ewa_image_decode(ewa_context *context, const void *bytes, size_t size_bytes, const char *name,
+                            bool straight, ewa_image *image);
+
+#endif

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// WebP, read from memory.
+#ifndef EWA_SRC_WEBP_H
+#define EWA_SRC_WEBP_H
+
+#include "ewa/image.h"
+
+/// Tells whether the bytes begin like a WebP file.
+bool ewa_webp_recognise(const uint8_t *bytes, size_t size_bytes);
+
+/// Decodes a still WebP picture, sRGB, to linear light: 3 channels, with alpha 4, premultiplied unless
+/// `straight`. `name` stands for the file in messages. Errors: EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED
+/// (animations), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+ewa_status ewa_webp_decode(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
+                           bool straight, ewa_image *image);
+
+#endif
