@@ -332,7 +332,7 @@ void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *sur
         const double size = view->point_sigma_px * (view->orthographic ? 1 : p.z);
         u = vec3_make(size / view->fx_px, 0, 0);
         v = vec3_make(0, size / view->fy_px, 0);
-        const ewa_vec3 ahead = vec3_load(view->placement.linear.m[2]);
+        const ewa_vec3 ahead = mat3_row(&view->placement.linear, 2);
         normal_world = vec3_scale(ahead, -1 / vec3_length(ahead));
     }
     ewa_vec3 n = to_camera(view, normal_world);
