@@ -45,9 +45,10 @@ QUIET_LINES = re.compile(
 ARRAY_LENGTH = re.compile(r"^\s*(static |const |extern )*(unsigned |struct )?\w+ \**\w+[\w\s,*\[\]]*\[$")
 
 # Near tests by the beginning of a path, cheapest first; the first that fails kills the mutant.
-PICTURES = ["surfel", "packets", "reference_splat", "clip_lines_road", "kernel_tables", "resolve", "kernels", "abuffer",
-            "reference", "reference_invariance", "shade", "random_scenes", "silhouette", "holes", "layers", "shade_road",
-            "clip_lines", "environment", "kernel_pictures"]
+PICTURES = ["surfel", "packets", "reference_splat", "points", "tolerance", "resolve", "kernels", "abuffer", "reference",
+            "reference_invariance", "shade", "random_scenes", "ranges", "silhouette", "holes", "facing", "layers",
+            "shade_road", "clip_lines", "environment", "sharp"]
+MESHES = ["mesh_ply", "mesh_obj", "mesh_stl", "mesh_polygon", "mesh_gltf", "mesh_gltf_look", "mesh_broken", "beside"]
 NEAR = [
     ("src/math/camera_path", ["camera_path"]),
     ("src/math/camera", ["camera", "camera_path", "geometry", "paper", "cli_render"]),
@@ -56,35 +57,35 @@ NEAR = [
     ("src/math/noise", ["procedure", "generate"]),
     ("src/math/gaussian", ["acquire", "refit", "procedure", "texture"]),
     ("src/math/wide", ["wide_functions", "resolve", "packets", "kernel_tables", "random_scenes"]),
-    ("src/math", ["geometry", "map", "paper", "clip", "camera", "wide_functions", "reference_splat", "random_scenes"]),
+    ("src/math", ["geometry", "map", "paper", "clip", "camera", "wide_functions", "reference_splat", "random_scenes", "ranges"]),
     ("src/image/environment", ["environment", "shade", "shade_road"]),
-    ("src/image/volume", ["volume_file", "voxels", "transfer", "generate_volume"]),
-    ("src/image/transfer", ["transfer", "volume_file", "cli_volume"]),
+    ("src/image/volume", ["volume_file", "voxels", "transfer", "generate_volume", "automatic"]),
+    ("src/image/transfer", ["transfer", "volume_file", "automatic", "cli_volume"]),
     ("src/image/texture", ["acquire", "cli_acquire"]),
     ("src/image", ["image", "srgb", "colormap", "environment", "resolve", "png", "transfer"]),
-    ("src/cloud/mesh", ["mesh_file", "mesh_sample"]),
-    ("src/cloud", ["cloud", "edit", "morton", "neighbours", "estimate", "packets"]),
+    ("src/cloud/mesh", ["mesh"] + MESHES + ["mesh_sample"]),
+    ("src/cloud", ["cloud", "edit", "morton", "neighbours", "local", "estimate", "orient", "packets", "radii"]),
     ("src/io/ply", ["ply", "ply_bad", "ply_write", "number", "file"]),
     ("src/io/camera", ["camera_file", "camera_poses", "number"]),
     ("src/io/volume", ["volume_file", "volume_bad"]),
-    ("src/io/mesh", ["mesh_file"]),
+    ("src/io/mesh", MESHES),
     ("src/io/png", ["png"]), ("src/io/exr", ["exr"]), ("src/io/pfm", ["pfm"]), ("src/io/hdr", ["hdr"]),
     ("src/io/jpeg", ["jpeg"]), ("src/io/transfer", ["transfer"]), ("src/io/materials", ["materials"]),
-    ("src/io", ["number", "file", "ply", "png", "exr", "pfm", "hdr", "jpeg", "mesh_file", "camera_file", "materials",
-                "transfer", "volume_file", "volume_bad", "ply_bad", "ply_write", "camera_poses"]),
+    ("src/io", ["number", "file", "ply", "png", "exr", "pfm", "hdr", "jpeg", "webp", "camera_file", "materials",
+                "transfer", "volume_file", "volume_bad", "ply_bad", "ply_write", "camera_poses"] + MESHES),
     ("src/prepare/acquire", ["acquire", "acquire_quality", "cli_acquire"]),
     ("src/prepare/csg", ["csg", "sharp"]), ("src/prepare/solid", ["csg", "sharp"]),
     ("src/prepare/feature", ["features", "feature_quality"]),
     ("src/prepare/generate_volume", ["generate_volume", "volume_integrals"]),
     ("src/prepare/generate", ["generate", "sharp", "acquire", "csg"]),
-    ("src/prepare/mesh", ["mesh_sample", "mesh_edges", "mesh_file"]),
+    ("src/prepare/mesh", ["mesh_sample", "mesh_edges"]),
     ("src/prepare/pattern", ["procedure", "acquire"]), ("src/prepare/procedure", ["procedure"]),
     ("src/prepare/refit", ["refit", "sparse"]), ("src/prepare/sparse", ["sparse", "acquire", "refit"]),
     ("src/prepare/volume_outline", ["generate_volume", "cli_volume"]),
-    ("src/prepare", ["estimate", "orient", "features", "feature_quality", "holes"]),
-    ("src/resample/texture", ["texture", "texture_maps", "cli_texture"]),
-    ("src/resample/warp", ["warp", "warp_nearest", "warp_pictures", "cli_warp"]),
-    ("src/volume", ["voxels", "volume_kernels", "volume_integrals", "volume_render", "cli_volume"]),
+    ("src/prepare", ["local", "estimate", "orient", "features", "feature_quality", "holes", "radii"]),
+    ("src/resample/texture", ["texture_kernels", "texture", "texture_maps", "cli_texture"]),
+    ("src/resample/warp", ["warp_kernels", "warp", "warp_nearest", "warp_pictures", "cli_warp"]),
+    ("src/volume", ["voxels", "volume_points", "volume_plain", "volume_near", "volume_integrals", "volume_render", "cli_volume"]),
     ("src/kernels", PICTURES), ("src/splat", PICTURES),
 ]
 
@@ -411,7 +412,8 @@ def run(jobs, only, again):
     queues = {}
     for entry in wanted:  # one file after another, so that little is built again
         queues.setdefault(entry.path, []).append(entry)
-    pending, lock = sorted(queues, key=lambda path: -len(queues[path])), threading.Lock()
+    pending, lock = sorted(queues), threading.Lock()
+    random.Random(len(pending)).shuffle(pending)  # a run that is cut short has asked every room
 
     def work(tree):
         while True:

@@ -158,7 +158,8 @@ EWA_API void ewa_renderer_destroy(ewa_renderer **renderer);
 
 /// Draws surfels. The same bytes for every number of threads, every instruction set and every order of the
 /// points. `options` and `stats` may be NULL. Implements math.md sections 3 to 7; held to
-/// ewa_render_reference() by tests. Errors: EWA_ERROR_ARGUMENT (camera, options, a surfel's material that the
+/// ewa_render_reference() by tests. A warning says how many pixels have a colour that is infinite or not a
+/// number. Errors: EWA_ERROR_ARGUMENT (camera, options, a surfel's material that the
 /// table does not have), EWA_ERROR_MEMORY,
 /// EWA_CANCELLED.
 EWA_API ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const ewa_camera *camera,

@@ -46,20 +46,24 @@ enum {
 /// Largest s that the kernels' exponential takes before it doubles: cutoffs up to 3 need two doublings.
 #define EWA_EXPONENT_END 1.13
 
-/// Everything about camera and options that the kernels read, in single precision, camera space in world
-/// units.
+/// Everything about camera and options that the kernels read. Camera space has a unit of its own, a power of
+/// two near the scene's size from the eye, so that no square leaves single precision; packets have theirs.
 typedef struct ewa_view {
-    float rotation[9];    ///< camera from world, row-major, without scale
-    float translation[3]; ///< of the surfels' local origin, camera space
-    float scale;          ///< of world_to_camera
+    double linear[9], anchor[3],
+        offset[3];                       ///< packets' centres to camera space: linear (c - anchor) + offset
+    double focal_px[2], principal_px[2]; ///< orthographic: pixels per unit
+    float rotation[9];                   ///< camera from world, row-major, without scale
+    float scale;                         ///< of lengths in packets to camera space
     float fx_px, fy_px, cx_px, cy_px;
+    float zoom;                 ///< power of two near the larger focal length
+    float fx_zoomed, fy_zoomed; ///< focal lengths over it
+    float broad; ///< a sigma of this many depths (orthographic: this large) is drawn by pixel rays
     float cutoff, cutoff2;
     float prefilter2_px2; ///< h^2
     float reach_px;       ///< F h; points: F point_sigma_px
     float point_sigma_px; ///< of points (semantics.h); 0: surfels as they are
     float tolerance;      ///< kappa F
     float grazing; ///< 1, or 0 with one pass: whether the tolerance grows where surfels are seen edge-on
-    float color_scale[3], color_offset[3];
     float exponent_scale; ///< s = exponent_scale r^2, so that exp(-r^2/2) = exp(-s)^(2^doublings)
     float exponent_end;   ///< exponent_scale F^2
     uint32_t doublings;
@@ -72,6 +76,16 @@ typedef struct ewa_view {
     float side_planes[4][3]; ///< inward unit normals of the frustum's sides through the eye, widened by
                              ///< reach_px and a pixel
 } ewa_view;
+
+/// Packets' centres in camera space, one entry each, written by `cull` for those that it keeps. Surfels are
+/// projected relative to their centre's picture, so that they lose nothing by its distance from the eye, from
+/// the axis or from the world's origin.
+///
+/// Perspective: x = slope_x z + rest_x, slope_x a float near x / z (0 where packets touch the eye plane),
+/// likewise y. Orthographic: x = slope_x + rest_x.
+typedef struct ewa_packet_places {
+    float *slope_x, *slope_y, *rest_x, *rest_y, *depth;
+} ewa_packet_places;
 
 /// Rectangle of tiles that a packet may touch: [x0, x1) x [y0, y1); empty when culled.
 typedef struct ewa_tile_rect {
@@ -120,16 +134,14 @@ typedef struct ewa_clip {
 
 /// A splat of a run that has clip lines.
 typedef struct ewa_clipped {
-    uint32_t record;            ///< in the run
-    uint32_t surfel;            ///< packet * 16 + lane
-    float center[3], normal[3]; ///< camera space
+    uint32_t record; ///< in the run
+    uint32_t surfel; ///< packet * 16 + lane
 } ewa_clipped;
 
-/// A surfel that touches the eye plane, by pixel rays: U, V, W are linear in the tile's pixel coordinates;
-/// u = U/W, v = V/W in standard deviations, z = plane / W.
+/// A surfel that is drawn by pixel rays: U, V, W, Z are linear in the tile's pixel coordinates; u = U/W, v =
+/// V/W in standard deviations, z = Z/W.
 typedef struct ewa_near_record {
-    float u[3], v[3], w[3]; ///< at the tile's origin, per x, per y
-    float plane;            ///< n.p
+    float u[3], v[3], w[3], z[3]; ///< at the tile's origin, per x, per y
     float depth_low, depth_high;
     float tolerance;
     float color[3], normal[3]; ///< colour times opacity
@@ -148,6 +160,8 @@ typedef struct ewa_load {
 /// Where packets are, and what belongs to them.
 typedef struct ewa_packet_source {
     const ewa_packet *packets;
+    const uint16_t *colors; ///< the form of their colours
+    ewa_packet_places places;
     const uint16_t *opacities;  ///< [packet][lane], times 65535; NULL: all are opaque
     const uint16_t *clip_masks; ///< [packet]: lanes with clip lines; NULL: none
     const uint8_t *materials;   ///< [packet][lane]: codes; NULL: all have the same
@@ -268,6 +282,7 @@ typedef struct ewa_resolve {
     float ray_x[2], ray_y[2];              ///< slope = ray[0] pixel + ray[1]
     float to_world[9];                     ///< world from camera, row-major, without scale
     uint32_t width_px;
+    float depth_unit; ///< world units of 1 in camera space
     uint8_t *rgba8;
     float *rgba, *depth, *normal, *coverage;
 } ewa_resolve;
@@ -291,23 +306,24 @@ typedef struct ewa_eye_dome {
 typedef struct ewa_road_kernels {
     const char *name;
 
-    /// Finds the tiles of packets [first, first + count); returns how many are culled.
+    /// Finds the tiles of packets [first, first + count), and the places of those that have some; `first` and
+    /// the room of `places` are multiples of 16. Returns how many are culled.
     uint32_t (*cull)(const ewa_view *view, const ewa_packet_bounds *bounds, uint32_t first, uint32_t count,
-                     ewa_tile_rect *rects);
+                     const ewa_packet_places *places, ewa_tile_rect *rects);
 
     /// Sets cells[row][column] (rows of EWA_TILE_CELLS) to the smallest tile->nearest in each cell.
     void (*set_cells)(const ewa_tile *tile, float *cells);
 
     /// Sets depths[i] to where packet ids[i] begins in camera space. Room for a multiple of 16.
-    void (*depths)(const ewa_view *view, const ewa_packet_bounds *bounds, const uint32_t *ids, uint32_t count,
-                   float *depths);
+    void (*depths)(const ewa_view *view, const ewa_packet_bounds *bounds, const ewa_packet_places *places,
+                   const uint32_t *ids, uint32_t count, float *depths);
 
     /// Splits packets into those that may show in front of their cells' keys and those that are hidden, each
     /// in order; returns how many may show. `shown` and `hidden` have room for one more than there are;
     /// `hidden` may be `ids`.
-    uint32_t (*hide)(const ewa_view *view, const ewa_packet_bounds *bounds, const ewa_tile *tile,
-                     const float *cells, const uint32_t *ids, uint32_t count, uint32_t *shown,
-                     uint32_t *hidden);
+    uint32_t (*hide)(const ewa_view *view, const ewa_packet_bounds *bounds, const ewa_packet_places *places,
+                     const ewa_tile *tile, const float *cells, const uint32_t *ids, uint32_t count,
+                     uint32_t *shown, uint32_t *hidden);
 
     /// Sets up `count` <= EWA_RUN_PACKETS packets for one tile into `run`; `packet_ids` holds `announced` >=
     /// count numbers, those of later runs too, so that packets can be fetched ahead.
@@ -357,9 +373,9 @@ typedef struct ewa_road_kernels {
                              bool merged);
 
     /// Writes the tile's pixels to the planes; edges->behind (`edges` may be NULL) is under the blocks that
-    /// `edge_rows` marks.
-    void (*resolve)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges,
-                    const uint32_t *edge_rows);
+    /// `edge_rows` marks. Returns how many pixels got a colour that is infinite or no number.
+    uint32_t (*resolve)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges,
+                        const uint32_t *edge_rows);
 
     /// Eye-dome lighting: fills row [0, height + 2 EWA_DOME_REACH) of the keys.
     void (*dome_keys)(const ewa_eye_dome *dome, uint32_t row);

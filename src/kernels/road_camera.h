@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of road_body.h: the root, and vectors of the packets in camera space.
+// Part of road_body.h: the root, and what steps of the road do to vectors.
 #ifndef EWA_SRC_KERNELS_ROAD_CAMERA_H
 #define EWA_SRC_KERNELS_ROAD_CAMERA_H
 
@@ -45,9 +45,15 @@ static inline void rotate(const float m[9], wf x, wf y, wf z, wf out[3]) {
             wf_fma(wf_set(m[3 * i]), x, wf_fma(wf_set(m[3 * i + 1]), y, wf_mul(wf_set(m[3 * i + 2]), z)));
 }
 
-static inline void to_camera(const ewa_view *view, wf x, wf y, wf z, wf out[3]) {
-    rotate(view->rotation, x, y, z, out);
-    for (int i = 0; i < 3; i++) out[i] = wf_fma(wf_set(view->scale), out[i], wf_set(view->translation[i]));
+/// Unit vectors of octahedral coordinates.
+static inline void unfold(wf u, wf v, wf n[3]) {
+    const wf z = wf_sub(wf_sub(wf_set(1), wf_abs(u)), wf_abs(v));
+    const wf fold = wf_max(wf_negate(z), wf_set(0));
+    const wf x = wf_sub(u, wf_select(wf_lt(u, wf_set(0)), wf_negate(fold), fold));
+    const wf y = wf_sub(v, wf_select(wf_lt(v, wf_set(0)), wf_negate(fold), fold));
+    const wf length2 = wf_fma(x, x, wf_fma(y, y, wf_mul(z, z)));
+    const wf inverse = wf_inverse_root(length2);
+    n[0] = wf_mul(x, inverse), n[1] = wf_mul(y, inverse), n[2] = wf_mul(z, inverse);
 }
 
 #endif

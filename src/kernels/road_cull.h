@@ -6,6 +6,7 @@
 #define EWA_SRC_KERNELS_ROAD_CULL_H
 
 #include "kernels/road_camera.h"
+#include "math/wide_double.h"
 
 #include <string.h>
 
@@ -30,60 +31,68 @@ static inline wf affine_reach(wf middle, wf half, wf reach, float f_px, float c_
 /// Sixteen packets on the screen: the boxes around their spheres' outlines, in pixels.
 typedef struct packet_outline {
     wf center[3], radius; ///< camera space
+    wf slope[2];          ///< x / z, y / z; orthographic: x, y
     wf x, y, half_x, half_y;
-    wm before_eye; ///< not wholly behind the eye plane
-    wm near;       ///< touches it: no box
+    wm near; ///< touches the eye plane: no box
 } packet_outline;
 
-static ALWAYS_INLINE packet_outline packet_outlines(const ewa_view *view, wf x, wf y, wf z, wf radius) {
-    packet_outline o;
-    wf *c = o.center;
-    to_camera(view, x, y, z, c);
-    const wf r = o.radius = wf_mul(radius, wf_set(view->scale));
-    o.before_eye = wf_lt(wf_negate(r), c[2]);
+/// What half sizes of boxes lose by rounding where the principal point or the box is far from the picture.
+static inline wf widened(wf half, wf middle, float c_px) {
+    return wf_fma(wf_add(wf_abs(middle), wf_set(c_px < 0 ? -c_px : c_px)), wf_set(0x1p-20f), half);
+}
+
+/// Sets what follows from centre and radius.
+static ALWAYS_INLINE void outline_packets(const ewa_view *view, packet_outline *o) {
+    const wf *c = o->center, r = o->radius;
     if (view->orthographic) {
-        o.near = wm_of_bits(0);
-        o.x = wf_fma(c[0], wf_set(view->fx_px), wf_set(view->cx_px));
-        o.y = wf_fma(c[1], wf_set(view->fy_px), wf_set(view->cy_px));
+        o->near = wm_of_bits(0);
+        o->slope[0] = c[0], o->slope[1] = c[1];
+        o->x = wf_fma(c[0], wf_set(view->fx_px), wf_set(view->cx_px));
+        o->y = wf_fma(c[1], wf_set(view->fy_px), wf_set(view->cy_px));
         const float larger_px = view->fx_px > view->fy_px ? view->fx_px : view->fy_px;
-        o.half_x = wf_mul(r, wf_set(view->circular ? larger_px : view->fx_px));
-        o.half_y = wf_mul(r, wf_set(view->circular ? larger_px : view->fy_px));
+        o->half_x = wf_mul(r, wf_set(view->circular ? larger_px : view->fx_px));
+        o->half_y = wf_mul(r, wf_set(view->circular ? larger_px : view->fy_px));
     } else {
-        o.near = wf_le(c[2], wf_mul(r, wf_set((float)EWA_NEAR_RATIO)));
-        // The tight box of a sphere's outline: D = r^2 I - c'c (math.md section 3).
-        const wf r2 = wf_mul(r, r), z2 = wf_mul(c[2], c[2]);
-        const wf inverse = wf_div(wf_set(1), wf_sub(z2, r2));
-        const wf rx = wf_sqrt(wf_max(wf_fma(c[0], c[0], wf_sub(z2, r2)), wf_set(0)));
-        const wf ry = wf_sqrt(wf_max(wf_fma(c[1], c[1], wf_sub(z2, r2)), wf_set(0)));
-        const wf zi = wf_mul(c[2], inverse), ri = wf_mul(r, inverse);
-        o.x = wf_fma(wf_mul(c[0], zi), wf_set(view->fx_px), wf_set(view->cx_px));
-        o.y = wf_fma(wf_mul(c[1], zi), wf_set(view->fy_px), wf_set(view->cy_px));
-        o.half_x = wf_mul(wf_mul(rx, ri), wf_set(view->fx_px));
-        o.half_y = wf_mul(wf_mul(ry, ri), wf_set(view->fy_px));
+        o->near = wf_le(c[2], wf_mul(r, wf_set((float)EWA_NEAR_RATIO)));
+        // The tight box of a sphere's outline: D = r^2 I - c'c (math.md section 3), over z^2.
+        const wf one = wf_set(1), inverse_z = wf_div(one, c[2]), q = wf_mul(r, inverse_z);
+        const wf sx = wf_mul(c[0], inverse_z), sy = wf_mul(c[1], inverse_z), rest = wf_fnma(q, q, one);
+        const wf inverse = wf_div(one, rest), half = wf_mul(q, inverse);
+        const wf rx = wf_sqrt(wf_max(wf_fma(sx, sx, rest), wf_set(0)));
+        const wf ry = wf_sqrt(wf_max(wf_fma(sy, sy, rest), wf_set(0)));
+        o->slope[0] = sx, o->slope[1] = sy;
+        o->x = wf_fma(wf_mul(sx, inverse), wf_set(view->fx_px), wf_set(view->cx_px));
+        o->y = wf_fma(wf_mul(sy, inverse), wf_set(view->fy_px), wf_set(view->cy_px));
+        o->half_x = wf_mul(wf_mul(rx, half), wf_set(view->fx_px));
+        o->half_y = wf_mul(wf_mul(ry, half), wf_set(view->fy_px));
         if (view->affine) {
             // Affine ellipses may leave the sphere's outline: |J t| <= (1 + |slope|) |t| / z around a
             // centre in it.
-            const wf reach = wf_div(r, wf_sub(c[2], r));
-            const wf reach_x = affine_reach(o.x, o.half_x, reach, view->fx_px, view->cx_px);
-            const wf reach_y = affine_reach(o.y, o.half_y, reach, view->fy_px, view->cy_px);
-            o.half_x = wf_add(o.half_x, view->circular ? wf_add(reach_x, reach_y) : reach_x);
-            o.half_y = wf_add(o.half_y, view->circular ? wf_add(reach_x, reach_y) : reach_y);
+            const wf reach = wf_div(q, wf_sub(one, q));
+            const wf reach_x = affine_reach(o->x, o->half_x, reach, view->fx_px, view->cx_px);
+            const wf reach_y = affine_reach(o->y, o->half_y, reach, view->fy_px, view->cy_px);
+            o->half_x = wf_add(o->half_x, view->circular ? wf_add(reach_x, reach_y) : reach_x);
+            o->half_y = wf_add(o->half_y, view->circular ? wf_add(reach_x, reach_y) : reach_y);
         }
     }
     const wf margin_px = wf_set(view->reach_px + 1);
-    o.half_x = wf_add(o.half_x, margin_px), o.half_y = wf_add(o.half_y, margin_px);
-    return o;
+    o->half_x = widened(wf_add(o->half_x, margin_px), o->x, view->cx_px);
+    o->half_y = widened(wf_add(o->half_y, margin_px), o->y, view->cy_px);
 }
 
-/// Which packets lie within the view volume's sides. The planes bound exact outlines, not affine ellipses.
+/// Which packets are not wholly behind the eye plane and lie within the view volume's sides. The planes bound
+/// exact outlines, not affine ellipses.
 static ALWAYS_INLINE wm within_sides(const ewa_view *view, const packet_outline *o) {
-    wm within = o->before_eye;
+    const wf *c = o->center;
+    wm within = wf_lt(wf_negate(o->radius), c[2]);
     if (view->orthographic || view->affine) return within;
+    // A distance from a side has the rounding errors of that from the eye.
+    const wf size = wf_add(wf_add(wf_abs(c[0]), wf_abs(c[1])), wf_abs(c[2]));
+    const wf outward = wf_negate(wf_fma(size, wf_set(0x1p-20f), o->radius));
     for (int k = 0; k < 4; k++) {
         const float *n = view->side_planes[k];
-        const wf d = wf_fma(wf_set(n[0]), o->center[0],
-                            wf_fma(wf_set(n[1]), o->center[1], wf_mul(wf_set(n[2]), o->center[2])));
-        within = wm_and(within, wf_lt(wf_negate(o->radius), d));
+        const wf d = wf_fma(wf_set(n[0]), c[0], wf_fma(wf_set(n[1]), c[1], wf_mul(wf_set(n[2]), c[2])));
+        within = wm_and(within, wf_lt(outward, d));
     }
     return within;
 }
@@ -92,41 +101,85 @@ static ALWAYS_INLINE wm within_sides(const ewa_view *view, const packet_outline 
 static ALWAYS_INLINE wm back_facing(const ewa_view *view, const ewa_packet_bounds *bounds, uint32_t first,
                                     const packet_outline *o) {
     const wf *c = o->center;
-    wf axis[3];
-    rotate(view->rotation, wf_load(bounds->axis_x + first), wf_load(bounds->axis_y + first),
-           wf_load(bounds->axis_z + first), axis);
-    const wf sine = wf_load(bounds->cone_sine + first);
-    if (view->orthographic) return wf_lt(sine, axis[2]);
+    const wi code = wi_load((const int32_t *)(const void *)(bounds->cone + first));
+    const wi axis_mask = wi_set((1 << EWA_CONE_BITS) - 1), offset = wi_set(EWA_CONE_AXIS);
+    const wf u = wf_mul(wf_from_i(wi_sub(wi_and(code, axis_mask), offset)), wf_set(1.0f / EWA_CONE_AXIS));
+    const wf v = wf_mul(wf_from_i(wi_sub(wi_and(wi_sar(code, EWA_CONE_BITS), axis_mask), offset)),
+                        wf_set(1.0f / EWA_CONE_AXIS));
+    const wi sine_code = wi_and(wi_sar(code, 2 * EWA_CONE_BITS), wi_set((1 << (32 - 2 * EWA_CONE_BITS)) - 1));
+    const wf sine = wf_mul(wf_from_i(sine_code), wf_set(1.0f / EWA_CONE_SINE));
+    const wm wide = wf_lt(wf_set(EWA_CONE_SINE), wf_from_i(sine_code));
+    wf world[3], axis[3];
+    unfold(u, v, world);
+    rotate(view->rotation, world[0], world[1], world[2], axis);
+    if (view->orthographic) return wm_and(wm_not(wide), wf_lt(sine, axis[2]));
     const wf along = wf_fma(axis[0], c[0], wf_fma(axis[1], c[1], wf_mul(axis[2], c[2])));
-    const wf length = wf_sqrt(wf_fma(c[0], c[0], wf_fma(c[1], c[1], wf_mul(c[2], c[2]))));
-    return wf_lt(wf_fma(length, sine, o->radius), along);
+    const wf length2 = wf_fma(c[0], c[0], wf_fma(c[1], c[1], wf_mul(c[2], c[2])));
+    const wm away = wf_lt(wf_fma(wf_sqrt(length2), sine, o->radius), along);
+    return wm_and(wm_and(wm_not(wide), wf_lt(wf_set(0x1p-120f), length2)), away);
+}
+
+/// The radii of packets [first, first + 16), camera space; 0: empty.
+static inline wf packet_radii(const ewa_view *view, const uint16_t *codes) {
+    return wf_mul(wf_of_bits(wi_shl(wi_load_u16(codes), EWA_RADIUS_SHIFT)), wf_set(view->scale));
+}
+
+/// Takes the centres of packets [first, first + 16) to camera space.
+static inline void place_centers(const ewa_view *view, const ewa_packet_bounds *bounds, uint32_t first,
+                                 wd center[3]) {
+    const double *m = view->linear;
+    const wd x = wd_sub(wd_load(bounds->center_x + first), wd_set(view->anchor[0]));
+    const wd y = wd_sub(wd_load(bounds->center_y + first), wd_set(view->anchor[1]));
+    const wd z = wd_sub(wd_load(bounds->center_z + first), wd_set(view->anchor[2]));
+    for (int i = 0; i < 3; i++)
+        center[i] =
+            wd_fma(wd_set(m[3 * i]), x,
+                   wd_fma(wd_set(m[3 * i + 1]), y, wd_fma(wd_set(m[3 * i + 2]), z, wd_set(view->offset[i]))));
+}
+
+static inline void store_places(const ewa_view *view, const wd center[3], const packet_outline *o,
+                                const ewa_packet_places *places, uint32_t first) {
+    float *const slopes[2] = {places->slope_x, places->slope_y}, *const rests[2] = {places->rest_x,
+                                                                                    places->rest_y};
+    wf_store(places->depth + first, o->center[2]);
+    for (int i = 0; i < 2; i++) {
+        const wf slope = wf_select(o->near, wf_set(0), o->slope[i]);
+        const wd steep = wd_from_f(slope);
+        const wd rest = view->orthographic ? wd_sub(center[i], steep) : wd_fnma(steep, center[2], center[i]);
+        wf_store(slopes[i] + first, slope);
+        wf_store(rests[i] + first, wf_from_d(rest));
+    }
 }
 
 static uint32_t cull(const ewa_view *view, const ewa_packet_bounds *bounds, uint32_t first, uint32_t count,
-                     ewa_tile_rect *rects) {
+                     const ewa_packet_places *places, ewa_tile_rect *rects) {
     const float tile_px = (float)view->tile_px;
     const float tiles_x = tile_count(view->width_px, view->tile_px),
                 tiles_y = tile_count(view->height_px, view->tile_px);
     uint32_t culled = 0;
     for (uint32_t i = 0; i < count; i += 16) {
-        const uint32_t p = first + i;
-        const packet_outline o =
-            packet_outlines(view, wf_load(bounds->center_x + p), wf_load(bounds->center_y + p),
-                            wf_load(bounds->center_z + p), wf_load(bounds->radius + p));
-        wm alive = within_sides(view, &o);
+        const uint32_t p = first + i, here = count - i < 16 ? count - i : 16;
+        packet_outline o = {.radius = packet_radii(view, bounds->radius + p)};
+        wd center[3];
+        place_centers(view, bounds, p, center);
+        for (int k = 0; k < 3; k++) o.center[k] = wf_from_d(center[k]);
+        wm alive = wm_and(within_sides(view, &o), wf_lt(wf_set(0), o.radius));
         if (view->cull_back) alive = wm_and(alive, wm_not(back_facing(view, bounds, p, &o)));
         wf x0, x1, y0, y1;
-        tile_range(wf_sub(o.x, o.half_x), wf_add(o.x, o.half_x), tile_px, tiles_x, &x0, &x1);
-        tile_range(wf_sub(o.y, o.half_y), wf_add(o.y, o.half_y), tile_px, tiles_y, &y0, &y1);
-        x0 = wf_select(o.near, wf_set(0), x0), x1 = wf_select(o.near, wf_set(tiles_x), x1);
-        y0 = wf_select(o.near, wf_set(0), y0), y1 = wf_select(o.near, wf_set(tiles_y), y1);
-        alive = wm_and(alive, wm_and(wf_lt(x0, x1), wf_lt(y0, y1)));
-        const uint32_t here = count - i < 16 ? count - i : 16;
+        if (wm_bits(alive)) {
+            outline_packets(view, &o);
+            tile_range(wf_sub(o.x, o.half_x), wf_add(o.x, o.half_x), tile_px, tiles_x, &x0, &x1);
+            tile_range(wf_sub(o.y, o.half_y), wf_add(o.y, o.half_y), tile_px, tiles_y, &y0, &y1);
+            x0 = wf_select(o.near, wf_set(0), x0), x1 = wf_select(o.near, wf_set(tiles_x), x1);
+            y0 = wf_select(o.near, wf_set(0), y0), y1 = wf_select(o.near, wf_set(tiles_y), y1);
+            alive = wm_and(alive, wm_and(wf_lt(x0, x1), wf_lt(y0, y1)));
+        }
         if (!wm_bits(alive)) {
             memset(rects + p, 0, here * sizeof *rects);
             culled += here;
             continue;
         }
+        store_places(view, center, &o, places, p);
         int32_t corners[4][16];
         wi_store(corners[0], wi_from_f(wf_keep(alive, x0)));
         wi_store(corners[1], wi_from_f(wf_keep(alive, y0)));
@@ -174,33 +227,43 @@ static ALWAYS_INLINE float least_key(const float *cells, int32_t left, int32_t t
     return least;
 }
 
-static ALWAYS_INLINE void load_spheres(const ewa_packet_bounds *bounds, const uint32_t *ids, uint32_t count,
-                                       wf sphere[4]) {
-    const float *const from[4] = {bounds->center_x, bounds->center_y, bounds->center_z, bounds->radius};
+/// Centres and radii of packets by their numbers.
+static ALWAYS_INLINE void load_spheres(const ewa_view *view, const ewa_packet_bounds *bounds,
+                                       const ewa_packet_places *places, const uint32_t *ids, uint32_t count,
+                                       packet_outline *o) {
+    const float *const from[5] = {places->slope_x, places->slope_y, places->rest_x, places->rest_y,
+                                  places->depth};
+    wf to[5];
     if (count == 16 && ids[15] - ids[0] == 15) { // neighbours in the order of the packets
-        for (int i = 0; i < 4; i++) sphere[i] = wf_load(from[i] + ids[0]);
-        return;
+        for (int i = 0; i < 5; i++) to[i] = wf_load(from[i] + ids[0]);
+        o->radius = packet_radii(view, bounds->radius + ids[0]);
+    } else {
+        uint16_t codes[16];
+        for (uint32_t k = 0; k < 16; k++) codes[k] = bounds->radius[ids[k < count ? k : 0]];
+        for (int i = 0; i < 5; i++) {
+            float lanes[16];
+            for (uint32_t k = 0; k < 16; k++) lanes[k] = from[i][ids[k < count ? k : 0]];
+            to[i] = wf_load(lanes);
+        }
+        o->radius = packet_radii(view, codes);
     }
-    for (int i = 0; i < 4; i++) {
-        float lanes[16];
-        for (uint32_t k = 0; k < 16; k++) lanes[k] = from[i][ids[k < count ? k : 0]];
-        sphere[i] = wf_load(lanes);
-    }
+    const wf z = o->center[2] = to[4];
+    o->center[0] = view->orthographic ? wf_add(to[0], to[2]) : wf_fma(to[0], z, to[2]);
+    o->center[1] = view->orthographic ? wf_add(to[1], to[3]) : wf_fma(to[1], z, to[3]);
 }
 
-static void depths(const ewa_view *view, const ewa_packet_bounds *bounds, const uint32_t *ids, uint32_t count,
-                   float *depths_world) {
+static void depths(const ewa_view *view, const ewa_packet_bounds *bounds, const ewa_packet_places *places,
+                   const uint32_t *ids, uint32_t count, float *depths) {
     for (uint32_t first = 0; first < count; first += 16) {
-        wf sphere[4], center[3];
-        load_spheres(bounds, ids + first, count - first < 16 ? count - first : 16, sphere);
-        to_camera(view, sphere[0], sphere[1], sphere[2], center);
-        wf_store(depths_world + first, wf_fnma(sphere[3], wf_set(view->scale), center[2]));
+        packet_outline o;
+        load_spheres(view, bounds, places, ids + first, count - first < 16 ? count - first : 16, &o);
+        wf_store(depths + first, wf_sub(o.center[2], o.radius));
     }
 }
 
-static uint32_t hide(const ewa_view *view, const ewa_packet_bounds *bounds, const ewa_tile *tile,
-                     const float *cells, const uint32_t *ids, uint32_t count, uint32_t *shown,
-                     uint32_t *hidden) {
+static uint32_t hide(const ewa_view *view, const ewa_packet_bounds *bounds, const ewa_packet_places *places,
+                     const ewa_tile *tile, const float *cells, const uint32_t *ids, uint32_t count,
+                     uint32_t *shown, uint32_t *hidden) {
     const float last_column = (float)((tile->blocks_per_row - 1) / EWA_CELL_BLOCKS);
     const float last_row = (float)((tile->block_rows - 1) / EWA_CELL_BLOCKS);
     const wf per_px = wf_set(1.0f / (EWA_CELL_BLOCKS * EWA_BLOCK_PX));
@@ -208,9 +271,9 @@ static uint32_t hide(const ewa_view *view, const ewa_packet_bounds *bounds, cons
     uint32_t shown_count = 0, hidden_count = 0;
     for (uint32_t first = 0; first < count; first += 16) {
         const uint32_t here = count - first < 16 ? count - first : 16;
-        wf sphere[4];
-        load_spheres(bounds, ids + first, here, sphere);
-        const packet_outline o = packet_outlines(view, sphere[0], sphere[1], sphere[2], sphere[3]);
+        packet_outline o;
+        load_spheres(view, bounds, places, ids + first, here, &o);
+        outline_packets(view, &o);
         // No key is beyond this: a disc's range, and how far its plane may go beyond (semantics.h), which is
         // EWA_FREE_RADII support radii for affine ellipses, half of that for others, more for circles.
         const float free_radii = (float)EWA_FREE_RADII * (view->affine ? 1.0f : 0.5f) +

@@ -411,12 +411,12 @@ static void edge_near_pass(const ewa_view *view, const ewa_tile *tile, const ewa
                 const uint32_t column = (uint32_t)__builtin_ctz(marked);
                 const size_t block = block_at(tile, row, column);
                 const near_sample sample = near_block(view, &records[i], row, column);
-                const wf key = wf_div(wf_set(1), sample.z);
+                const wf key = key_of_depth(view, sample.z);
                 float *nearest = edges->nearest + block * EWA_BLOCK_LANES;
                 wm counts =
                     wm_and(sample.counts, wf_lt(key, wf_load(edges->passed + block * EWA_BLOCK_LANES)));
                 if (!second_pass) {
-                    near_raise(&records[i], &sample, counts, nearest);
+                    near_raise(view, &records[i], &sample, counts, nearest);
                     continue;
                 }
                 counts = wm_and(counts, wf_le(wf_load(nearest), key));

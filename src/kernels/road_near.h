@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of road_body.h: surfels that touch the eye plane, by pixel rays (semantics.h, near surfels).
+// Part of road_body.h: surfels that touch the eye plane, and broad ones, by pixel rays (semantics.h, near
+// surfels).
 #ifndef EWA_SRC_KERNELS_ROAD_NEAR_H
 #define EWA_SRC_KERNELS_ROAD_NEAR_H
 
@@ -24,7 +25,7 @@ static ALWAYS_INLINE near_sample near_evaluate(const ewa_view *view, const ewa_n
     const wf one = wf_set(1), h2 = wf_set(view->prefilter2_px2);
     const wf inverse = wf_div(one, linear(r->w, x, y));
     const wf u = wf_mul(linear(r->u, x, y), inverse), v = wf_mul(linear(r->v, x, y), inverse);
-    const wf z = wf_mul(wf_set(r->plane), inverse);
+    const wf z = wf_mul(linear(r->z, x, y), inverse);
     const wf ux = wf_mul(wf_fnma(u, wf_set(r->w[1]), wf_set(r->u[1])), inverse);
     const wf uy = wf_mul(wf_fnma(u, wf_set(r->w[2]), wf_set(r->u[2])), inverse);
     const wf vx = wf_mul(wf_fnma(v, wf_set(r->w[1]), wf_set(r->v[1])), inverse);
@@ -43,7 +44,7 @@ static ALWAYS_INLINE near_sample near_evaluate(const ewa_view *view, const ewa_n
     sample.weight = wf_div(wf_set((float)EWA_INVERSE_TWO_PI), wf_sqrt(det));
     const wm inside = wm_and(wf_lt(sample.exponent, wf_set(view->exponent_end)),
                              wf_lt(wf_add(u2, v2), wf_set(4 * view->cutoff2)));
-    sample.counts = wm_and(inside, wf_lt(wf_set(0), z));
+    sample.counts = view->orthographic ? inside : wm_and(inside, wf_lt(wf_set(0), z));
     sample.z = wf_min(wf_max(z, wf_set(r->depth_low)), wf_set(r->depth_high));
     if (r->clipped) {
         sample.left = clip_at(&r->clip, x, y);
@@ -52,10 +53,14 @@ static ALWAYS_INLINE near_sample near_evaluate(const ewa_view *view, const ewa_n
     return sample;
 }
 
-static ALWAYS_INLINE void near_raise(const ewa_near_record *r, const near_sample *sample, wm counts,
-                                     float *nearest) {
+static ALWAYS_INLINE wf key_of_depth(const ewa_view *view, wf z) {
+    return view->orthographic ? wf_negate(z) : wf_div(wf_set(1), z);
+}
+
+static ALWAYS_INLINE void near_raise(const ewa_view *view, const ewa_near_record *r,
+                                     const near_sample *sample, wm counts, float *nearest) {
     const wf old = wf_load(nearest);
-    const wf key = wf_div(wf_set(1), wf_add(sample->z, wf_set(r->tolerance)));
+    const wf key = key_of_depth(view, wf_add(sample->z, wf_set(r->tolerance)));
     wf_store(nearest, wf_select(counts, wf_max(key, old), old));
 }
 
@@ -79,7 +84,8 @@ static ALWAYS_INLINE void near_add(const ewa_view *view, const ewa_tile *tile, c
         weight = wf_mul(weight, wf_keep(counts, sample->left.share));
     }
     add_channels(block_sums(tile, r->turned, row, column), tile->channel_count, weight, &add,
-                 wf_select(counts, key, wf_set(1)), channels_of(tile) | (with_depth ? ADD_DEPTH : 0));
+                 wf_select(counts, key, wf_set(1)),
+                 channels_of(tile) | (with_depth ? ADD_DEPTH : 0) | (view->orthographic ? ORTHOGRAPHIC : 0));
 }
 
 static ALWAYS_INLINE near_sample near_block(const ewa_view *view, const ewa_near_record *r, uint32_t row,
@@ -95,7 +101,7 @@ static void near_visibility(const ewa_view *view, const ewa_tile *tile, const ew
         for (uint32_t row = 0; row < tile->block_rows; row++) {
             for (uint32_t column = 0; column < tile->blocks_per_row; column++, nearest += EWA_BLOCK_LANES) {
                 const near_sample sample = near_block(view, &records[i], row, column);
-                near_raise(&records[i], &sample, sample.counts, nearest);
+                near_raise(view, &records[i], &sample, sample.counts, nearest);
             }
         }
     }
@@ -108,7 +114,7 @@ static void near_accumulate(const ewa_view *view, const ewa_tile *tile, const ew
         for (uint32_t row = 0; row < tile->block_rows; row++) {
             for (uint32_t column = 0; column < tile->blocks_per_row; column++, nearest += EWA_BLOCK_LANES) {
                 const near_sample sample = near_block(view, &records[i], row, column);
-                const wf key = wf_div(wf_set(1), sample.z);
+                const wf key = key_of_depth(view, sample.z);
                 const wm counts = wm_and(sample.counts, wf_le(wf_load(nearest), key));
                 near_add(view, tile, &records[i], &sample, counts, key, row, column, tile->with_depth);
             }

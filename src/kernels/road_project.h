@@ -12,21 +12,13 @@
 
 #include <string.h>
 
-/// Unit normals from their octahedral form.
 static inline void decode_normals(const ewa_packet *packet, wf n[3]) {
     const wf unit = wf_set(1.0f / 32767.0f);
-    const wf u = wf_mul(wf_from_i(wi_load_i16(packet->oct_x)), unit);
-    const wf v = wf_mul(wf_from_i(wi_load_i16(packet->oct_y)), unit);
-    const wf z = wf_sub(wf_sub(wf_set(1), wf_abs(u)), wf_abs(v));
-    const wf fold = wf_max(wf_negate(z), wf_set(0));
-    const wf x = wf_sub(u, wf_select(wf_lt(u, wf_set(0)), wf_negate(fold), fold));
-    const wf y = wf_sub(v, wf_select(wf_lt(v, wf_set(0)), wf_negate(fold), fold));
-    const wf length2 = wf_fma(x, x, wf_fma(y, y, wf_mul(z, z)));
-    const wf inverse = wf_inverse_root(length2);
-    n[0] = wf_mul(x, inverse), n[1] = wf_mul(y, inverse), n[2] = wf_mul(z, inverse);
+    unfold(wf_mul(wf_from_i(wi_load_i16(packet->oct_x)), unit),
+           wf_mul(wf_from_i(wi_load_i16(packet->oct_y)), unit), n);
 }
 
-/// Unit major axes: the frame of ewa_packet_frame() turned by the diamond angle.
+/// Unit major axes: the frame of packet_frame() (packets.c) turned by the diamond angle.
 static inline void decode_axes(const ewa_packet *packet, const wf n[3], wf axis[3]) {
     const wf t = wf_mul(wf_from_i(wi_load_u16(packet->angle)), wf_set(1.0f / 32768.0f));
     wf c = wf_sub(wf_set(1), t);
@@ -44,9 +36,44 @@ static inline void decode_axes(const ewa_packet *packet, const wf n[3], wf axis[
     axis[2] = wf_fnma(s, n[1], wf_mul(c, uz));
 }
 
-static inline wf decode_color(const ewa_view *view, const uint16_t *values, int channel) {
-    return wf_fma(wf_from_i(wi_load_u16(values)), wf_set(view->color_scale[channel]),
-                  wf_set(view->color_offset[channel]));
+/// Minor sigmas over major ones.
+static inline wf decode_ratios(const ewa_packet *packet) {
+    const wf root = wf_mul(wf_from_i(wi_load_u16(packet->ratio)), wf_set(1.0f / 65535.0f));
+    const wf square = wf_mul(root, root);
+    return wf_mul(square, square);
+}
+
+/// How the colours of a packet are coded (ewa_packet_bounds).
+typedef struct color_form {
+    bool even;
+    float unit;     ///< even: of a step
+    int shift;      ///< the rest is of those that are not
+    int32_t digits; ///< the bits of a code but for its sign
+} color_form;
+
+static inline color_form read_color_form(uint16_t form) {
+    const bool with_sign = form & EWA_COLOR_SIGN;
+    const int octave_bits = form >> 8 & 15;
+    const bool even = !with_sign && octave_bits == 0;
+    // A power of two, by way of its bits; the step of even codes has the digits of 1 / 65535.
+    const union {
+        float value;
+        uint32_t bits;
+    } step = {.value = 1.0f / 65535.0f}, unit = {.bits = ((uint32_t)(form & 255) - 1) << 23},
+      even_unit = {.bits = step.bits + (((uint32_t)(form & 255) - 128) << 23)};
+    return (color_form){even, even ? even_unit.value : unit.value, 7 + octave_bits + with_sign,
+                        with_sign ? 0x7fff : 0xffff};
+}
+
+static ALWAYS_INLINE wf decode_color(const color_form *form, const uint16_t *values) {
+    const wi code = wi_load_u16(values);
+    const wf unit = wf_set(form->unit);
+    if (form->even) return wf_mul(wf_from_i(code), unit);
+    const wi digits = wi_set(form->digits);
+    const wf octaves = wf_of_bits(wi_add(wi_shl(wi_and(code, digits), form->shift), wi_set(0x3f800000)));
+    const wf size = wf_fma(octaves, unit, wf_negate(unit));
+    const wi sign = wi_shl(wi_and(code, wi_sub(wi_set(0xffff), digits)), 16);
+    return wf_of_bits(wi_or(wi_of_bits(size), sign));
 }
 
 static inline wi select_int(wm m, int32_t a, wi b) {
@@ -64,44 +91,78 @@ static inline wi box_classes(wi columns, wi rows, wm steep, wm wide) {
 
 /// Sixteen surfels between the steps of the setup. The steps are short loops over a few packets, so that the
 /// processor overlaps one packet's long chains of divisions and roots with the next one's.
+///
+/// Perspective: sizes on the screen are over the depth of the surfel, slopes, so that no power of a depth is
+/// needed; orthographic ones are in camera space. Both are times the view's zoom, which makes them near
+/// pixels: squares neither overflow nor vanish.
 typedef struct stage {
     wm alive;
-    wf p[3], n[3];
-    wf sigma, minor, range;       ///< camera space: major and minor axis, depth half range R
+    wf z, n[3];
+    float base_x, base_y;         ///< of the packet's centre, tile's pixels
+    wf dx, dy;                    ///< from there to the projected centre, slopes (orthographic: camera space)
+    wf sigma, range;              ///< camera space: major axis, depth half range R
+    wf major, minor;              ///< axes on the screen, zoomed
+    wf part;                      ///< R / pz
     wf inverse_z, x0, y0, facing; ///< 1/pz, slopes of the centre, n.p / pz (orthographic: 1, 0, 0, nz)
-    wf s11, s12, s22, s13, s23;   ///< sheared covariance
-    wf root_k;                    ///< 1 / sqrt(pz^2 - R^2)
-    wf c1, c2;                    ///< ellipse's centre minus the projected centre, slopes
+    wf s11, s12, s22, s13, s23;   ///< sheared covariance, on the screen, zoomed
+    wf root_k;                    ///< 1 / sqrt(1 - (R / pz)^2)
+    wf c1, c2;                    ///< ellipse's centre minus the projected centre, zoomed
     wf xx, xy, yy, peak;
     wf half_x, half_y;
     wf key_x, key_y;
 } stage;
 
+/// Projects centres relative to their packet's (ewa_packet_places).
+static ALWAYS_INLINE void place_surfels(const ewa_view *view, const ewa_packet_source *source, uint32_t id,
+                                        const ewa_tile *tile, stage *t) {
+    const ewa_packet *packet = &source->packets[id];
+    const ewa_packet_places *places = &source->places;
+    const float slope_x = places->slope_x[id], slope_y = places->slope_y[id];
+    const wf scale = wf_set(view->scale), one = wf_set(1), zero = wf_set(0);
+    wf offset[3];
+    rotate(view->rotation, wf_load(packet->x), wf_load(packet->y), wf_load(packet->z), offset);
+    t->base_x = (float)((double)slope_x * view->focal_px[0] + (view->principal_px[0] - (double)tile->x_px));
+    t->base_y = (float)((double)slope_y * view->focal_px[1] + (view->principal_px[1] - (double)tile->y_px));
+    t->z = wf_fma(scale, offset[2], wf_set(places->depth[id]));
+    if (view->orthographic) {
+        t->inverse_z = one, t->x0 = zero, t->y0 = zero;
+        t->dx = wf_fma(scale, offset[0], wf_set(places->rest_x[id]));
+        t->dy = wf_fma(scale, offset[1], wf_set(places->rest_y[id]));
+        return;
+    }
+    // x / z - s = (x - s z) / z, of which the packet's centre leaves `rest`.
+    t->inverse_z = wf_div(one, t->z);
+    const wf sx = wf_set(slope_x), sy = wf_set(slope_y);
+    t->dx =
+        wf_mul(wf_fma(scale, wf_fnma(sx, offset[2], offset[0]), wf_set(places->rest_x[id])), t->inverse_z);
+    t->dy =
+        wf_mul(wf_fma(scale, wf_fnma(sy, offset[2], offset[1]), wf_set(places->rest_y[id])), t->inverse_z);
+    t->x0 = wf_add(sx, t->dx), t->y0 = wf_add(sy, t->dy);
+}
+
 /// Makes a point of a surfel: what stage_place() gives a disc parallel to the picture, of the same size on
 /// the screen wherever it lies.
 static ALWAYS_INLINE void place_point(const ewa_view *view, stage *t) {
-    const wf zero = wf_set(0), depth = view->orthographic ? wf_set(1) : t->p[2];
-    const wf x = wf_mul(depth, wf_set(view->point_sigma_px / view->fx_px));
-    const wf y = wf_mul(depth, wf_set(view->point_sigma_px / view->fy_px));
-    t->sigma = wf_max(x, y), t->minor = wf_min(x, y);
-    t->s11 = wf_mul(x, x), t->s22 = wf_mul(y, y);
+    const wf zero = wf_set(0), one = wf_set(1);
+    const float x = view->point_sigma_px / view->fx_zoomed, y = view->point_sigma_px / view->fy_zoomed;
+    const float major = x < y ? y : x;
+    t->major = wf_set(major), t->minor = wf_set(x < y ? x : y);
+    t->sigma = wf_mul(wf_set(major / view->zoom), view->orthographic ? one : t->z);
+    t->s11 = wf_set(x * x), t->s22 = wf_set(y * y);
     t->s12 = t->s13 = t->s23 = zero;
     t->n[0] = t->n[1] = zero, t->n[2] = wf_set(-1);
     t->facing = wf_set(-1);
-    t->range = zero;
-    t->alive = wm_and(t->alive, wf_lt(zero, t->p[2]));
-    t->inverse_z = wf_div(wf_set(1), depth);
-    t->x0 = view->orthographic ? zero : wf_mul(t->p[0], t->inverse_z);
-    t->y0 = view->orthographic ? zero : wf_mul(t->p[1], t->inverse_z);
-    t->root_k = view->orthographic ? wf_set(1) : t->inverse_z;
+    t->range = t->part = zero, t->root_k = one;
+    t->alive = wm_and(t->alive, wf_lt(zero, t->z));
 }
 
-/// First step: into camera space, near surfels aside, covariance.
-static ALWAYS_INLINE void stage_place(const ewa_view *view, const ewa_packet *packet, uint32_t id,
-                                      bool ellipses, stage *t, ewa_run *run) {
+/// First step: into camera space, near and broad surfels aside, covariance.
+static ALWAYS_INLINE void stage_place(const ewa_view *view, const ewa_packet_source *source, uint32_t id,
+                                      bool ellipses, const ewa_tile *tile, stage *t, ewa_run *run) {
     const wf one = wf_set(1), zero = wf_set(0);
+    const ewa_packet *packet = &source->packets[id];
     wf n_world[3], axis[3] = {zero, zero, zero};
-    to_camera(view, wf_load(packet->x), wf_load(packet->y), wf_load(packet->z), t->p);
+    place_surfels(view, source, id, tile, t);
     t->sigma = wf_mul(wf_load(packet->sigma), wf_set(view->scale));
     t->alive = wf_lt(zero, t->sigma);
     if (view->point_sigma_px > 0) {
@@ -110,41 +171,43 @@ static ALWAYS_INLINE void stage_place(const ewa_view *view, const ewa_packet *pa
     }
     decode_normals(packet, n_world);
     rotate(view->rotation, n_world[0], n_world[1], n_world[2], t->n);
-    const wf *n = t->n, *p = t->p;
+    const wf *n = t->n;
 
-    // Sigma = minor^2 (I - n'n) + extra axis'axis.
-    wf minor2 = wf_mul(t->sigma, t->sigma), extra = zero;
-    t->minor = t->sigma;
+    // Sigma = minor^2 (I - n'n) + extra axis'axis; first in units of the major axis.
+    wf ratio2 = one, part33 = wf_fma(n[0], n[0], wf_mul(n[1], n[1])); // of Sigma33
+    wf ratio = one;
     if (ellipses) {
         wf axis_world[3];
         decode_axes(packet, n_world, axis_world);
         rotate(view->rotation, axis_world[0], axis_world[1], axis_world[2], axis);
-        t->minor = wf_mul(t->sigma, wf_mul(wf_from_i(wi_load_u16(packet->ratio)), wf_set(1.0f / 65535.0f)));
-        const wf major2 = minor2;
-        minor2 = wf_mul(t->minor, t->minor);
-        extra = wf_sub(major2, minor2);
+        ratio = decode_ratios(packet);
+        ratio2 = wf_mul(ratio, ratio);
+        part33 = wf_fma(wf_sub(one, ratio2), wf_mul(axis[2], axis[2]), wf_mul(ratio2, part33));
     }
-    wf sigma33 = wf_mul(minor2, wf_fma(n[0], n[0], wf_mul(n[1], n[1])));
-    if (ellipses) sigma33 = wf_fma(extra, wf_mul(axis[2], axis[2]), sigma33);
-    const wf range2 = wf_mul(wf_set(view->cutoff2), sigma33);
-    t->range = wf_sqrt(range2);
+    t->range = wf_mul(t->sigma, wf_sqrt(wf_mul(wf_set(view->cutoff2), part33)));
+    wm by_rays;
     if (view->orthographic) {
-        t->alive = wm_and(t->alive, wf_lt(zero, p[2]));
-        t->inverse_z = one, t->x0 = zero, t->y0 = zero, t->facing = n[2];
+        t->alive = wm_and(t->alive, wf_lt(zero, t->z));
+        t->facing = n[2];
+        by_rays = wf_lt(wf_set(view->broad), t->sigma);
     } else {
-        t->alive = wm_and(t->alive, wf_lt(wf_negate(t->range), p[2]));
-        const wm near = wm_and(t->alive, wf_le(p[2], wf_mul(t->range, wf_set((float)EWA_NEAR_RATIO))));
-        t->alive = wm_and(t->alive, wm_not(near));
-        for (uint32_t bits = wm_bits(near), lane = 0; bits; bits >>= 1, lane++)
-            if (bits & 1) run->near_surfels[run->near_count++] = id * EWA_PACKET_LANES + lane;
-        t->inverse_z = wf_div(one, p[2]);
-        t->x0 = wf_mul(p[0], t->inverse_z), t->y0 = wf_mul(p[1], t->inverse_z);
+        t->alive = wm_and(t->alive, wf_lt(wf_negate(t->range), t->z));
         t->facing = wf_fma(n[0], t->x0, wf_fma(n[1], t->y0, n[2]));
+        by_rays = wf_le(t->z, wf_max(wf_mul(t->range, wf_set((float)EWA_NEAR_RATIO)),
+                                     wf_mul(t->sigma, wf_set(view->broad))));
     }
+    by_rays = wm_and(t->alive, by_rays);
+    t->alive = wm_and(t->alive, wm_not(by_rays));
+    for (uint32_t bits = wm_bits(by_rays), lane = 0; bits; bits >>= 1, lane++)
+        if (bits & 1) run->near_surfels[run->near_count++] = id * EWA_PACKET_LANES + lane;
     if (view->cull_back) t->alive = wm_and(t->alive, wf_lt(t->facing, zero));
-    t->root_k = view->orthographic ? one : wf_inverse_root(wf_sub(wf_mul(p[2], p[2]), range2));
+    t->part = view->orthographic ? zero : wf_mul(t->range, t->inverse_z);
+    t->root_k = view->orthographic ? one : wf_inverse_root(wf_fnma(t->part, t->part, one));
 
     // G Sigma G' (math.md section 3), with m = n_xy - x0 nz and b = axis_xy - x0 axis_z.
+    t->major = wf_mul(wf_mul(t->sigma, t->inverse_z), wf_set(view->zoom));
+    t->minor = ellipses ? wf_mul(t->major, ratio) : t->major;
+    const wf minor2 = wf_mul(t->minor, t->minor);
     const wf m1 = wf_fnma(t->x0, n[2], n[0]), m2 = wf_fnma(t->y0, n[2], n[1]);
     t->s11 = wf_mul(minor2, wf_fnma(m1, m1, wf_fma(t->x0, t->x0, one)));
     t->s22 = wf_mul(minor2, wf_fnma(m2, m2, wf_fma(t->y0, t->y0, one)));
@@ -152,6 +215,7 @@ static ALWAYS_INLINE void stage_place(const ewa_view *view, const ewa_packet *pa
     t->s13 = wf_mul(wf_negate(minor2), wf_fma(m1, n[2], t->x0));
     t->s23 = wf_mul(wf_negate(minor2), wf_fma(m2, n[2], t->y0));
     if (ellipses) {
+        const wf extra = wf_mul(wf_mul(t->major, t->major), wf_sub(one, ratio2));
         const wf b1 = wf_fnma(t->x0, axis[2], axis[0]), b2 = wf_fnma(t->y0, axis[2], axis[1]);
         const wf e1 = wf_mul(extra, b1), e2 = wf_mul(extra, b2);
         t->s11 = wf_fma(e1, b1, t->s11), t->s12 = wf_fma(e1, b2, t->s12), t->s22 = wf_fma(e2, b2, t->s22);
@@ -203,7 +267,7 @@ static ALWAYS_INLINE void circular_shape(const ewa_view *view, wf w11, wf w12, w
 /// nearest).
 static ALWAYS_INLINE void raycast_shape(const ewa_view *view, wf v11, wf v12, wf v22, wf root_det, stage *t) {
     const wf h2 = wf_set(view->prefilter2_px2);
-    const wf most = wf_mul(wf_mul(t->p[2], wf_add(t->p[2], t->range)), wf_mul(t->root_k, t->root_k));
+    const wf most = wf_mul(wf_add(wf_set(1), t->part), wf_mul(t->root_k, t->root_k));
     const wf most2 = wf_mul(most, most);
     t->xx = v11, t->xy = v12, t->yy = v22;
     t->peak = wf_mul(root_det, wf_set((float)EWA_INVERSE_TWO_PI));
@@ -214,12 +278,12 @@ static ALWAYS_INLINE void raycast_shape(const ewa_view *view, wf v11, wf v12, wf
 /// Second step: the filtered ellipse (math.md sections 3 and 4) and the slope of the key.
 static ALWAYS_INLINE void stage_shape(const ewa_view *view, stage *t) {
     const wf one = wf_set(1), zero = wf_set(0);
-    const wf fx = wf_set(view->fx_px), fy = wf_set(view->fy_px);
-    const wf root_k = view->affine && !view->orthographic ? t->inverse_z : t->root_k;
+    const wf fx = wf_set(view->fx_zoomed), fy = wf_set(view->fy_zoomed);
+    const wf root_k = view->affine ? one : t->root_k;
     const wf k = wf_mul(root_k, root_k);
     t->c1 = zero, t->c2 = zero;
     if (!view->affine && !view->orthographic) {
-        const wf f2k = wf_mul(wf_set(-view->cutoff2), k);
+        const wf f2k = wf_mul(wf_set(-view->cutoff2 / view->zoom), k);
         t->c1 = wf_mul(f2k, t->s13), t->c2 = wf_mul(f2k, t->s23);
     }
     const wf c1f = wf_mul(t->c1, wf_set(1 / view->cutoff)), c2f = wf_mul(t->c2, wf_set(1 / view->cutoff));
@@ -227,14 +291,14 @@ static ALWAYS_INLINE void stage_shape(const ewa_view *view, stage *t) {
     const wf v22 = wf_mul(wf_mul(fy, fy), wf_fma(c2f, c2f, wf_mul(t->s22, k)));
     const wf v12 = wf_mul(wf_mul(fx, fy), wf_fma(c1f, c2f, wf_mul(t->s12, k)));
     // |V| in closed form: |D| is -(F^2 minor major n.p)^2, so nothing cancels for edge-on surfels.
-    const wf plane = view->orthographic ? t->facing : wf_mul(t->facing, t->p[2]);
-    const wf area = wf_mul(wf_mul(wf_mul(t->minor, t->sigma), wf_mul(fx, fy)), plane);
+    const wf area = wf_mul(wf_mul(wf_mul(t->minor, t->major), wf_mul(fx, fy)), t->facing);
     const wf root_det = wf_mul(wf_abs(area), wf_mul(k, root_k));
     const wf h2 = wf_set(view->prefilter2_px2);
     const wf w11 = wf_add(v11, h2), w22 = wf_add(v22, h2);
     const wf det_filtered = wf_fma(h2, wf_add(wf_add(v11, v22), h2), wf_mul(root_det, root_det));
     // Without a prefilter an edge-on splat is a line of no area: it covers no pixel.
     t->alive = wm_and(t->alive, wf_lt(wf_mul(wf_set((float)EWA_FLAT), wf_mul(w11, w22)), det_filtered));
+    t->alive = wm_and(t->alive, wf_le(wf_set((float)EWA_LEAST_SPLAT), root_det));
     const wf inverse_root_det = wf_inverse_root(det_filtered);
     const wf scaled = wf_mul(wf_mul(inverse_root_det, inverse_root_det), wf_set(view->exponent_scale));
     t->peak = wf_mul(wf_mul(root_det, inverse_root_det), wf_set((float)EWA_INVERSE_TWO_PI));
@@ -291,18 +355,11 @@ static ALWAYS_INLINE void emit(ewa_run *run, uint32_t alive_bits, const wf recor
 }
 
 /// Notes the records that the next emit() makes of clipped lanes.
-static void list_clipped(ewa_run *run, uint32_t clipped_bits, uint32_t alive_bits, uint32_t id,
-                         const stage *t) {
-    float center[3][16], normal[3][16];
-    for (int k = 0; k < 3; k++) wf_store(center[k], t->p[k]), wf_store(normal[k], t->n[k]);
+static void list_clipped(ewa_run *run, uint32_t clipped_bits, uint32_t alive_bits, uint32_t id) {
     for (; clipped_bits; clipped_bits &= clipped_bits - 1) {
         const uint32_t lane = (uint32_t)__builtin_ctz(clipped_bits);
         const uint32_t before = (uint32_t)__builtin_popcount(alive_bits & ((1u << lane) - 1));
-        run->clipped[run->clipped_count++] =
-            (ewa_clipped){run->count + before,
-                          id * EWA_PACKET_LANES + lane,
-                          {center[0][lane], center[1][lane], center[2][lane]},
-                          {normal[0][lane], normal[1][lane], normal[2][lane]}};
+        run->clipped[run->clipped_count++] = (ewa_clipped){run->count + before, id * EWA_PACKET_LANES + lane};
     }
 }
 
@@ -311,42 +368,44 @@ static void list_clipped(ewa_run *run, uint32_t clipped_bits, uint32_t alive_bit
 enum { TANGENT_PARTS = 16 };
 
 /// Third step: tolerance, box in the tile, and the records of the lanes that are in it.
-static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *packet, uint32_t id, wm clipped,
-                                     const uint16_t *opacities_u16, const uint8_t *materials,
+static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_source *source, uint32_t id,
                                      const ewa_tile *tile, stage *t, ewa_run *run, wf *least) {
     const wf one = wf_set(1), zero = wf_set(0), half = wf_set(0.5f);
-    const wf fx = wf_set(view->fx_px), fy = wf_set(view->fy_px);
-    const wf *p = t->p;
-    const wf c1_px = wf_mul(t->c1, fx), c2_px = wf_mul(t->c2, fy);
+    const wf fx = wf_set(view->fx_px), fy = wf_set(view->fy_px), z = t->z;
+    const ewa_packet *packet = &source->packets[id];
+    const size_t first_lane = (size_t)id * EWA_PACKET_LANES;
+    const uint16_t *opacities_u16 = source->opacities ? source->opacities + first_lane : NULL;
+    const uint8_t *materials = source->materials ? source->materials + first_lane : NULL;
+    const wm clipped = wm_of_bits(source->clip_masks ? source->clip_masks[id] : 0);
+    const wf c1_px = wf_mul(t->c1, wf_set(view->fx_zoomed)), c2_px = wf_mul(t->c2, wf_set(view->fy_zoomed));
     const wf slope = wf_sqrt(wf_fma(t->key_x, t->key_x, wf_mul(t->key_y, t->key_y)));
     // The depth that the prefilter reaches across, the most that goes into the tolerance, and how far the
     // plane may be used beyond the disc's range; the latter in units of the key.
     const wf support = wf_mul(wf_set(view->cutoff), t->sigma), reach = wf_mul(wf_set(view->reach_px), slope);
     wf key, key_low, key_high, reach_depth = reach;
     wf limit =
-        wf_min(wf_mul(wf_set((float)EWA_FREE_RADII), support), wf_mul(wf_set((float)EWA_FREE_DEPTH), p[2]));
+        wf_min(wf_mul(wf_set((float)EWA_FREE_RADII), support), wf_mul(wf_set((float)EWA_FREE_DEPTH), z));
     if (view->orthographic) {
-        key = wf_negate(p[2]);
-        key_low = wf_negate(wf_add(p[2], t->range)), key_high = wf_sub(t->range, p[2]);
+        key = wf_negate(z);
+        key_low = wf_negate(wf_add(z, t->range)), key_high = wf_sub(t->range, z);
     } else {
-        const wf k = wf_mul(t->root_k, t->root_k), inverse_z2 = wf_mul(t->inverse_z, t->inverse_z);
+        const wf k = wf_mul(wf_mul(t->root_k, t->root_k), t->inverse_z);
         key = wf_fma(t->key_x, c1_px, wf_fma(t->key_y, c2_px, t->inverse_z));
-        key_low = wf_mul(wf_sub(p[2], t->range), k), key_high = wf_mul(wf_add(p[2], t->range), k);
-        reach_depth = wf_mul(reach, wf_mul(p[2], p[2]));
-        limit = wf_mul(limit, inverse_z2);
+        key_low = wf_mul(wf_sub(one, t->part), k), key_high = wf_mul(wf_add(one, t->part), k);
+        reach_depth = wf_mul(wf_mul(reach, z), z);
+        limit = wf_mul(wf_mul(limit, t->inverse_z), t->inverse_z);
     }
     wf margin = wf_max(wf_sub(limit, reach), zero);
     if (view->circular) {
         const wf most = wf_mul(wf_set((float)EWA_GRAZING_TOLERANCE), support);
-        const wf most_key = view->orthographic ? most : wf_mul(most, wf_mul(t->inverse_z, t->inverse_z));
+        const wf most_key = view->orthographic ? most : wf_mul(wf_mul(most, t->inverse_z), t->inverse_z);
         margin = wf_add(margin, wf_min(wf_mul(t->half_x, slope), most_key));
     }
     const wf grazing = wf_min(wf_mul(wf_set(view->grazing), reach_depth),
                               wf_mul(wf_set((float)EWA_GRAZING_TOLERANCE), support));
     const wf tolerance = wf_fma(wf_set(view->tolerance), t->sigma, grazing);
-    const wf px = view->orthographic ? p[0] : t->x0, py = view->orthographic ? p[1] : t->y0;
-    const wf cx = wf_add(wf_fma(px, fx, wf_set(view->cx_px - (float)tile->x_px)), c1_px);
-    const wf cy = wf_add(wf_fma(py, fy, wf_set(view->cy_px - (float)tile->y_px)), c2_px);
+    const wf cx = wf_add(wf_fma(t->dx, fx, wf_set(t->base_x)), c1_px);
+    const wf cy = wf_add(wf_fma(t->dy, fy, wf_set(t->base_y)), c2_px);
     const wf first_x = wf_max(wf_add(wf_floor(wf_sub(wf_sub(cx, t->half_x), half)), one), zero);
     const wf first_y = wf_max(wf_add(wf_floor(wf_sub(wf_sub(cy, t->half_y), half)), one), zero);
     const wf last_x =
@@ -384,13 +443,14 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
     // The key of z + eps; perspective: the tangent at the centre of 1 / (1 / key + eps).
     wf bound_scale = one, bound_offset = wf_negate(tolerance);
     if (!view->orthographic) {
-        const wf share = wf_div(p[2], wf_add(p[2], tolerance)), share2 = wf_mul(share, share);
+        const wf share = wf_div(z, wf_add(z, tolerance)), share2 = wf_mul(share, share);
         bound_scale = wf_select(wide, zero, share2);
         bound_offset = wf_select(wide, tolerance, wf_mul(wf_sub(share, share2), t->inverse_z));
     }
     const wf low = wf_select(steep, lowest, least_key);
     *least = wf_min(wf_select(alive, low, wf_set(__builtin_inff())), *least);
 
+    const color_form form = read_color_form(source->colors[id]);
     const wm turned = wf_lt(zero, t->facing); // normals are turned towards the viewer
     wf opacity = t->peak;                     // times the peak
     if (opacities_u16)
@@ -408,9 +468,9 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
         wf_select(steep, bound_offset, wf_mul(bound_scale, t->key_x)),
         wf_select(steep, wf_add(key_high, margin), wf_mul(bound_scale, t->key_y)),
         low,
-        wf_mul(opacity, decode_color(view, packet->red, 0)),
-        wf_mul(opacity, decode_color(view, packet->green, 1)),
-        wf_mul(opacity, decode_color(view, packet->blue, 2)),
+        wf_mul(opacity, decode_color(&form, packet->red)),
+        wf_mul(opacity, decode_color(&form, packet->green)),
+        wf_mul(opacity, decode_color(&form, packet->blue)),
         wf_of_bits(wi_or(box, wi_or(select_int(clipped, EWA_CLIP_BIT, wi_set(0)),
                                     select_int(turned, EWA_TURNED_BIT, wi_set(0))))),
     };
@@ -421,8 +481,7 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet *pac
              t->peak);
     uint8_t classes[16];
     wi_store_u8(classes, select_int(clipped, EWA_CLIP_CLASS, box_classes(columns, rows, steep, wide)));
-    if (wm_bits(wm_and(alive, clipped)))
-        list_clipped(run, wm_bits(wm_and(alive, clipped)), alive_bits, id, t);
+    if (wm_bits(wm_and(alive, clipped))) list_clipped(run, wm_bits(wm_and(alive, clipped)), alive_bits, id);
     float opacities[16];
     wf_store(opacities, opacity);
     emit(run, alive_bits, lanes, loads, opacities, materials, classes);
@@ -446,16 +505,11 @@ static ALWAYS_INLINE void setup_run(const ewa_view *view, const ewa_packet_sourc
                 for (size_t line = 0; line < sizeof(ewa_packet) + LINE_BYTES - 1; line += LINE_BYTES)
                     __builtin_prefetch(later + line);
             }
-            stage_place(view, &packets[ids[i]], ids[i], ellipses, &stages[i], run);
+            stage_place(view, source, ids[i], ellipses, tile, &stages[i], run);
         }
         for (uint32_t i = 0; i < here; i++) stage_shape(view, &stages[i]);
         for (uint32_t i = 0; i < here; i++)
-            if (wm_bits(stages[i].alive))
-                stage_emit(view, &packets[ids[i]], ids[i],
-                           wm_of_bits(source->clip_masks ? source->clip_masks[ids[i]] : 0),
-                           source->opacities ? source->opacities + (size_t)ids[i] * EWA_PACKET_LANES : NULL,
-                           source->materials ? source->materials + (size_t)ids[i] * EWA_PACKET_LANES : NULL,
-                           tile, &stages[i], run, &least);
+            if (wm_bits(stages[i].alive)) stage_emit(view, source, ids[i], tile, &stages[i], run, &least);
     }
     run->least_key = -largest_lane(wf_negate(least));
 }

@@ -120,7 +120,7 @@ static void store_planes(const ewa_tile *tile, const ewa_resolve *to, const floa
     const wm covered = wf_lt(zero, weight);
     if (to->depth) {
         const float *depth = sums + (tile->with_normals ? 7 : 4) * EWA_BLOCK_LANES;
-        const wf z = wf_mul(wf_load(depth), inverse_weight(weight));
+        const wf z = wf_mul(wf_mul(wf_load(depth), inverse_weight(weight)), wf_set(to->depth_unit));
         wf_store(lanes, wf_select(covered, z, wf_set(__builtin_inff())));
         store_block(to->depth, 1, to, at, lanes);
     }
@@ -147,8 +147,20 @@ static ALWAYS_INLINE block_place place_of(const ewa_tile *tile, uint32_t row, ui
                          height < EWA_BLOCK_PX ? height : EWA_BLOCK_PX};
 }
 
-static void resolve(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges *edges,
-                    const uint32_t *edge_rows) {
+/// How many of a block's pixels have a colour that is infinite or no number.
+static inline uint32_t count_broken(const block_place *at, const wf color[4]) {
+    const wf largest = wf_set(0x1.fffffep127f);
+    wm whole = wf_le(wf_abs(color[0]), largest);
+    for (int i = 1; i < 4; i++) whole = wm_and(whole, wf_le(wf_abs(color[i]), largest));
+    const uint32_t broken = wm_bits(wm_not(whole));
+    uint32_t count = 0;
+    for (uint32_t row = 0; broken && row < at->height; row++)
+        count += (uint32_t)__builtin_popcount(broken >> row * EWA_BLOCK_PX & ((1u << at->width) - 1));
+    return count;
+}
+
+static uint32_t resolve(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges *edges,
+                        const uint32_t *edge_rows) {
     const bool planes = to->rgba || to->depth || to->coverage || to->normal;
     const ewa_resolve at_hand = *to; // bytes that are written to pixels cannot change this
     const ewa_tile in_tile = *tile;
@@ -158,6 +170,7 @@ static void resolve(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges
     const float *sums = tile->sums, *behind = edges ? edges->behind : NULL;
     const size_t block_floats = (size_t)tile->channel_count * EWA_BLOCK_LANES;
     float shades[EWA_MAX_TILE_BLOCKS * EWA_SHADE_FLOATS];
+    uint32_t broken_count = 0;
     for (uint32_t row = 0; row < in_tile.block_rows; row++) {
         // Long chains of operations: a row's worth of each at a time keeps the processor busy.
         for (uint32_t column = 0; column < in_tile.blocks_per_row; column++) {
@@ -176,12 +189,14 @@ static void resolve(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges
                                      cut_cover(&in_tile, row, column));
                 wf color[4];
                 composite(&at_hand, &s, marked >> column & 1 ? behind : NULL, color);
+                broken_count += count_broken(&at, color);
                 if (at_hand.rgba8) store_codes(&at_hand, &at, color_codes(color));
                 if (planes) store_planes(tile, to, sums, color, &at);
             }
             if (edges) behind += 4 * EWA_BLOCK_LANES;
         }
     }
+    return broken_count;
 }
 
 #endif

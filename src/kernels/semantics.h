@@ -12,18 +12,21 @@
 // per surfel: where n.p > 0 (orthographic nz > 0) it is negated; the splat is then called turned.
 //
 // Near surfels (perspective, pz <= EWA_NEAR_RATIO * R) touch or nearly touch the eye plane: their conic is no
-// safe ellipse. They are drawn by pixel rays, whatever the kernel:
+// safe ellipse. Of broad ones (sigma max(fx, fy) >= EWA_BROAD_PX pz; orthographic: sigma max(fx, fy) >
+// EWA_BROAD_PX) it is out of range. Both are drawn by pixel rays, whatever the kernel:
 //   ray d = ((x - cx)/fx, (y - cy)/fy, 1), z = n.p / n.d, q = z d - p, u = (q.tu / tu.tu, q.tv / tv.tv);
 //   a = du/dx, b = du/dy per pixel (exact derivatives); W = I + h^2 (a'a + b'b); r^2 = u W^-1 u';
 //   weight = exp(-r^2 / 2) / (2 pi sqrt|W|); the pixel counts where z > 0, r^2 < F^2 and u.u < 4 F^2 (the
 //   linearised prefilter is not trusted farther from the disc than that). A surfel with |n.p| < EWA_EDGE_ON
-//   |p| is then dropped.
+//   |p| (orthographic: |nz| < EWA_EDGE_ON) is then dropped.
+//   Orthographic: q = ((x - cx)/fx, (y - cy)/fy, z) - p where n.q = 0.
 //
 // All others: ellipse with variance V' = V + h^2 I around its centre, pixel counts where r^2 < F^2,
 // weight = sqrt(|V| / |V'|) exp(-r^2 / 2) / (2 pi) (math.md section 4); V by the perspective kernel, or V =
 // J'J around the projected centre, J the Jacobian there (affine).
 //
-// Without a prefilter a splat with |V'| < EWA_FLAT V'11 V'22 is a line: it covers no pixel.
+// Without a prefilter a splat with |V'| < EWA_FLAT V'11 V'22 is a line: it covers no pixel. Nor does one with
+// sqrt|V| < EWA_LEAST_SPLAT, whatever its pixels' alpha is made of.
 //
 // Other kernels of the affine map (orthographic: of the same ellipse):
 //
@@ -147,6 +150,12 @@
 /// support radii and at most in depths of the centre. The reach takes from it.
 #define EWA_FREE_RADII 2.0
 #define EWA_FREE_DEPTH 0.25
+
+/// Standard deviation from which on a splat is drawn by pixel rays.
+#define EWA_BROAD_PX 1e8
+
+/// Smallest sqrt|V| of a splat that is drawn, in square pixels: squares of less are lost in single precision.
+#define EWA_LEAST_SPLAT 1e-16
 
 /// Smallest |V'| / (V'11 V'22) that counts as an area.
 #define EWA_FLAT 1e-14

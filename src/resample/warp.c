@@ -10,6 +10,7 @@
 #include "image/srgb.h"
 #include "prepare/color.h"
 #include "resample/warp_options.h"
+#include "splat/color_form.h"
 #include "splat/options.h"
 
 #include <math.h>
@@ -32,7 +33,7 @@ static const double CREASE = 0.36;
 /// What one strip came to.
 typedef struct strip_facts {
     uint64_t sample_count, flying_count;
-    float brightest;
+    ewa_bounds centers; ///< of packets
 } strip_facts;
 
 /// What the tasks share.
@@ -40,8 +41,7 @@ typedef struct taking {
     ewa_warp *warp;
     const ewa_warp_kernels *kernels;
     strip_facts *strips;
-    uint16_t codes[256]; // of 8-bit colours
-    float code_per_light;
+    uint16_t codes[256], grey_code; // of 8-bit colours
     size_t stride, floats_per_worker;
 } taking;
 
@@ -112,9 +112,7 @@ static ewa_status lay_out(ewa_warp *warp, const ewa_depth_image *images, uint32_
         set_source(source, options);
         const ewa_vec3 eye = set_pose(camera, source->lens.from_camera);
         if (i == 0) origin = eye;
-        const ewa_vec3 offset = vec3_sub(eye, origin);
-        source->lens.eye[0] = (float)offset.x, source->lens.eye[1] = (float)offset.y;
-        source->lens.eye[2] = (float)offset.z;
+        vec3_store(vec3_sub(eye, origin), source->eye);
         source->cells_x = (camera->width_px + EWA_WARP_CELL_PX - 1) / EWA_WARP_CELL_PX;
         source->strip_count = (camera->height_px + EWA_WARP_STRIP_PX - 1) / EWA_WARP_STRIP_PX;
         *group_count += (uint64_t)source->cells_x * source->strip_count;
@@ -137,36 +135,6 @@ static const ewa_warp_source *source_of_strip(const ewa_warp *warp, uint32_t str
 
 static const void *row_of(const void *plane, size_t stride_bytes, uint32_t y) {
     return (const char *)plane + y * stride_bytes;
-}
-
-/// Largest number of the colours of a strip.
-static void survey_strip(void *data, uint32_t strip, uint32_t worker) {
-    (void)worker;
-    const taking *t = data;
-    const ewa_warp_source *source = source_of_strip(t->warp, strip);
-    const ewa_depth_image *image = &source->image;
-    float brightest = 1;
-    const uint32_t first = (strip - source->first_strip) * EWA_WARP_STRIP_PX;
-    const uint32_t channels = image->color_channel_count, colors = channels == 1 ? 1 : 3;
-    for (uint32_t y = first; image->color && image->color_type == EWA_F32 && y < first + EWA_WARP_STRIP_PX &&
-                             y < image->camera.height_px;
-         y++) {
-        const float *color = row_of(image->color, image->color_stride_bytes, y);
-        for (uint32_t x = 0; x < image->camera.width_px; x++, color += channels) {
-            const float alpha = channels == 4 && color[3] > 0 ? color[3] : 1;
-            for (uint32_t c = 0; c < colors; c++) {
-                const float light = color[c] / alpha;
-                if (light > brightest && light < INFINITY) brightest = light;
-            }
-        }
-    }
-    t->strips[strip].brightest = brightest;
-}
-
-/// The colour code of linear light; NaN gives 0.
-static uint16_t code_of(const taking *t, float light) {
-    const float scaled = light * t->code_per_light;
-    return scaled > 0 ? (uint16_t)((scaled < 65535 ? scaled : 65535) + 0.5f) : 0;
 }
 
 static void set_row_nan(const taking *t, float *keys) {
@@ -211,36 +179,55 @@ static void read_keys(const taking *t, const ewa_warp_source *source, uint32_t y
     }
 }
 
-/// Sets the colours of the samples of a block that are in the picture.
-static void set_colors(const taking *t, const ewa_depth_image *image, uint32_t x, uint32_t y,
-                       ewa_packet *packet) {
+/// Light of a float colour: none where it is negative or NaN, and the largest half float where it is
+/// infinite, which files of these have for all that is brighter.
+static double light_of(float number) {
+    if (!(number > 0)) return 0;
+    return isfinite(number) ? (double)number : 65504;
+}
+
+/// Sets the float colours of the samples of a block; returns their form.
+static uint16_t set_float_colors(const ewa_depth_image *image, uint32_t x, uint32_t y, uint32_t columns,
+                                 uint32_t rows, ewa_packet *packet) {
+    const uint32_t channels = image->color_channel_count;
+    double light[EWA_PACKET_LANES][3] = {{0}};
+    for (uint32_t r = 0; r < rows; r++) {
+        const float *color =
+            (const float *)row_of(image->color, image->color_stride_bytes, y + r) + (size_t)x * channels;
+        for (uint32_t i = 4 * r; i < 4 * r + columns; i++, color += channels) {
+            const float inverse = channels == 4 ? 1 / color[3] : 1;
+            for (uint32_t c = 0; c < 3; c++) light[i][c] = light_of(color[channels > 1 ? c : 0] * inverse);
+        }
+    }
+    const uint16_t form = ewa_color_form_choose((const double(*)[3])light, EWA_PACKET_LANES);
+    uint16_t *const codes[3] = {packet->red, packet->green, packet->blue};
+    ewa_color_encode(form, (const double(*)[3])light, EWA_PACKET_LANES, codes);
+    return form;
+}
+
+/// Sets the colours of the samples of a block that are in the picture; returns their form.
+static uint16_t set_colors(const taking *t, const ewa_depth_image *image, uint32_t x, uint32_t y,
+                           ewa_packet *packet) {
     const uint32_t channels = image->color_channel_count, green = channels > 1, blue = 2 * green;
     const uint32_t columns = image->camera.width_px - x < 4 ? image->camera.width_px - x : 4;
     const uint32_t rows = image->camera.height_px - y < 4 ? image->camera.height_px - y : 4;
+    if (image->color && image->color_type == EWA_F32)
+        return set_float_colors(image, x, y, columns, rows, packet);
     for (uint32_t r = 0; r < rows; r++) {
         if (!image->color) {
-            const uint16_t grey = code_of(t, (float)EWA_DEFAULT_GREY);
             for (uint32_t i = 4 * r; i < 4 * r + columns; i++)
-                packet->red[i] = packet->green[i] = packet->blue[i] = grey;
-        } else if (image->color_type == EWA_U8) {
-            const uint8_t *color = (const uint8_t *)row_of(image->color, image->color_stride_bytes, y + r) +
-                                   (size_t)x * channels;
-            for (uint32_t i = 4 * r; i < 4 * r + columns; i++, color += channels) {
-                packet->red[i] = t->codes[color[0]];
-                packet->green[i] = t->codes[color[green]];
-                packet->blue[i] = t->codes[color[blue]];
-            }
-        } else {
-            const float *color =
-                (const float *)row_of(image->color, image->color_stride_bytes, y + r) + (size_t)x * channels;
-            for (uint32_t i = 4 * r; i < 4 * r + columns; i++, color += channels) {
-                const float inverse = channels == 4 ? 1 / color[3] : 1;
-                packet->red[i] = code_of(t, color[0] * inverse);
-                packet->green[i] = code_of(t, color[green] * inverse);
-                packet->blue[i] = code_of(t, color[blue] * inverse);
-            }
+                packet->red[i] = packet->green[i] = packet->blue[i] = t->grey_code;
+            continue;
+        }
+        const uint8_t *color =
+            (const uint8_t *)row_of(image->color, image->color_stride_bytes, y + r) + (size_t)x * channels;
+        for (uint32_t i = 4 * r; i < 4 * r + columns; i++, color += channels) {
+            packet->red[i] = t->codes[color[0]];
+            packet->green[i] = t->codes[color[green]];
+            packet->blue[i] = t->codes[color[blue]];
         }
     }
+    return EWA_COLOR_FORM_UNIT;
 }
 
 /// Reads keys of rows [first_y, first_y + count) of a picture, NaN outside of it.
@@ -295,15 +282,30 @@ static inline void prefetch_packet(const ewa_packet *packet) {
 
 /// Makes the surfels of one block; returns the mask of those that exist.
 static uint16_t make_block(const taking *t, const ewa_warp_source *source, const ewa_warp_rows *rows,
-                           uint32_t x, uint32_t y, ewa_packet *packet) {
+                           uint32_t x, uint32_t y, uint64_t index) {
+    ewa_surfels *surfels = &t->warp->grid.surfels;
+    ewa_packet *packet = &surfels->packets[index];
+    prefetch_packet(packet + PACKETS_AHEAD);
     float normal[3][16], axis_u[3][16], axis_v[3][16];
     const uint32_t mask = t->kernels->block(
         &source->lens, x, y, rows, y % EWA_WARP_STRIP_PX * rows->stride + x, packet, normal, axis_u, axis_v);
     if (!mask) return 0;
     t->warp->grid.kernels->code_ellipses((const float(*)[16])normal, (const float(*)[16])axis_u,
                                          (const float(*)[16])axis_v, packet);
-    set_colors(t, &source->image, x, y, packet);
+    surfels->bounds.colors[index] = set_colors(t, &source->image, x, y, packet);
     return (uint16_t)mask;
+}
+
+static void grow_bounds(ewa_bounds *bounds, ewa_vec3 low, ewa_vec3 high) {
+    const double lows[3] = {low.x, low.y, low.z}, highs[3] = {high.x, high.y, high.z};
+    for (int c = 0; c < 3; c++) {
+        bounds->low_world[c] = fmin(bounds->low_world[c], lows[c]);
+        bounds->high_world[c] = fmax(bounds->high_world[c], highs[c]);
+    }
+}
+
+static ewa_bounds no_bounds(void) {
+    return (ewa_bounds){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0};
 }
 
 static void take_strip(void *data, uint32_t strip, uint32_t worker) {
@@ -316,26 +318,24 @@ static void take_strip(void *data, uint32_t strip, uint32_t worker) {
     float *memory = (float *)warp->row_buffer.data + worker * t->floats_per_worker;
     facts->flying_count = measure_strip(t, source, first_y, memory, &rows);
     facts->sample_count = 0;
+    facts->centers = no_bounds();
     for (uint32_t cell = 0; cell < source->cells_x; cell++) {
         const uint64_t group = source->first_group + (uint64_t)cell_row * source->cells_x + cell;
         uint16_t masks[EWA_GRID_GROUP];
         for (uint32_t k = 0; k < EWA_GRID_GROUP; k++) {
             const uint32_t x = cell * EWA_WARP_CELL_PX + k % BLOCKS_PER_CELL * EWA_WARP_BLOCK_PX;
             const uint32_t y = first_y + k / BLOCKS_PER_CELL * EWA_WARP_BLOCK_PX;
-            ewa_packet *packet = &warp->grid.surfels.packets[group * EWA_GRID_GROUP + k];
-            prefetch_packet(packet + PACKETS_AHEAD);
-            masks[k] = make_block(t, source, &rows, x, y, packet);
+            masks[k] = make_block(t, source, &rows, x, y, group * EWA_GRID_GROUP + k);
             facts->sample_count += (uint64_t)__builtin_popcount(masks[k]);
         }
-        ewa_grid_end_group(&warp->grid, group, masks);
+        ewa_grid_end_group(&warp->grid, group, masks, source->eye);
+        for (uint32_t k = 0; k < EWA_GRID_GROUP; k++) {
+            if (!masks[k]) continue;
+            const ewa_vec3 center =
+                ewa_packet_center(&warp->grid.surfels, (uint32_t)(group * EWA_GRID_GROUP + k));
+            grow_bounds(&facts->centers, center, center);
+        }
     }
-}
-
-static bool any_float_color(const ewa_warp *warp) {
-    bool any = false;
-    for (uint32_t i = 0; i < warp->source_count; i++)
-        any |= warp->sources[i].image.color && warp->sources[i].image.color_type == EWA_F32;
-    return any;
 }
 
 /// The kernels of a plane's grid sum to sigma^2 (1 - exp(-F^2 / 2)) in units of the spacing (math.md section
@@ -354,20 +354,13 @@ static ewa_status reserve(taking *t, uint64_t group_count, uint32_t widest_px,
         ewa_buffer_reserve(context, &warp->strip_buffer, warp->strip_count, sizeof *t->strips);
     if (status != EWA_OK) return status;
     t->strips = warp->strip_buffer.data;
-    float brightest = 1;
-    if (any_float_color(warp)) {
-        ewa_parallel(context, survey_strip, t, warp->strip_count);
-        for (uint32_t i = 0; i < warp->strip_count; i++)
-            brightest = t->strips[i].brightest > brightest ? t->strips[i].brightest : brightest;
-    }
-    t->code_per_light = 65535 / brightest;
-    for (int i = 0; i < 256; i++) t->codes[i] = code_of(t, ewa_srgb_decoded[i]);
+    for (int i = 0; i < 256; i++) t->codes[i] = ewa_color_unit_code((double)ewa_srgb_decoded[i]);
+    t->grey_code = ewa_color_unit_code(EWA_DEFAULT_GREY);
     t->stride = EWA_WARP_FRONT + ((size_t)widest_px + 15) / 16 * 16 + EWA_WARP_BACK;
     t->floats_per_worker = ROWS * t->stride;
     status = ewa_buffer_reserve(context, &warp->row_buffer, ewa_context_worker_count(context),
                                 t->floats_per_worker * sizeof(float));
-    if (status == EWA_OK)
-        status = ewa_grid_reserve(context, &warp->grid, group_count, options->cutoff, brightest);
+    if (status == EWA_OK) status = ewa_grid_reserve(context, &warp->grid, group_count, options->cutoff);
     return status;
 }
 
@@ -423,9 +416,13 @@ ewa_status ewa_warp_take(ewa_warp *warp, const ewa_depth_image *images, uint32_t
     ewa_warp_facts all = {.pixel_count = 0};
     for (uint32_t i = 0; i < count; i++)
         all.pixel_count += (uint64_t)images[i].camera.width_px * images[i].camera.height_px;
+    surfels->extent = no_bounds();
     for (uint32_t i = 0; i < warp->strip_count; i++) {
-        all.sample_count += t.strips[i].sample_count;
-        all.flying_count += t.strips[i].flying_count;
+        const strip_facts *strip = &t.strips[i];
+        all.sample_count += strip->sample_count;
+        all.flying_count += strip->flying_count;
+        grow_bounds(&surfels->extent, vec3_load(strip->centers.low_world),
+                    vec3_load(strip->centers.high_world));
     }
     memcpy(surfels->origin_world, origin_world, sizeof origin_world);
     surfels->count = (uint32_t)all.sample_count;

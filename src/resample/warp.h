@@ -18,6 +18,7 @@ enum {
 typedef struct ewa_warp_source {
     ewa_depth_image image;
     ewa_warp_lens lens;
+    double eye[3];        ///< world axes, from the surfels' origin
     uint64_t first_group; ///< of its cells, row by row
     uint32_t cells_x, first_strip, strip_count;
     float key_low, key_high; ///< limits

@@ -9,6 +9,8 @@
 #include "math/wide.h"
 #include "resample/warp_sample.h"
 
+#include <string.h>
+
 /// A second difference that is not known.
 static const float UNKNOWN = 1e30f;
 
@@ -163,12 +165,12 @@ static uint32_t block(const ewa_warp_lens *lens, uint32_t x, uint32_t y, const e
     const wf p[3] = {wf_mul(z, ray_x), wf_mul(z, ray_y), z};
     float position[3][16];
     store_turned(lens->from_camera, p, position);
+    memcpy(packet->x, position[0], sizeof packet->x);
+    memcpy(packet->y, position[1], sizeof packet->y);
+    memcpy(packet->z, position[2], sizeof packet->z);
     store_turned(lens->from_camera, n, normal);
     store_turned(lens->from_camera, u, axis_u);
     store_turned(lens->from_camera, v, axis_v);
-    wf_store(packet->x, wf_add(wf_load(position[0]), wf_set(lens->eye[0])));
-    wf_store(packet->y, wf_add(wf_load(position[1]), wf_set(lens->eye[1])));
-    wf_store(packet->z, wf_add(wf_load(position[2]), wf_set(lens->eye[2])));
     return mask;
 }
 

@@ -10,7 +10,9 @@
 // where it is behind, farther. Rows and columns are therefore walked towards the epipole or away from it, in
 // up to four sheets that it separates.
 #include "image/srgb.h"
+#include "math/placement.h"
 #include "resample/warp.h"
+#include "splat/color_form.h"
 
 #include <math.h>
 #include <string.h>
@@ -28,37 +30,26 @@ typedef struct drawing {
     const ewa_render_options *options;
     const ewa_frame *frame;
     uint8_t *holes;
-    double rotation[9], translation[3]; // camera from the surfels' space
-    uint32_t *pixels;                   // of the source's samples, row by row
-    uint32_t *winners;                  // of the target's pixels
-    const uint32_t *layer;              // likewise, of one more source
+    ewa_placement place;   // of the target before the surfels
+    uint32_t *pixels;      // of the source's samples, row by row
+    uint32_t *winners;     // of the target's pixels
+    const uint32_t *layer; // likewise, of one more source
 } drawing;
 
-static void set_camera(drawing *d) {
-    const double *m = d->target->world_to_camera, *origin = d->warp->grid.surfels.origin_world;
-    for (int r = 0; r < 3; r++) {
-        for (int c = 0; c < 3; c++) d->rotation[3 * r + c] = m[4 * r + c];
-        d->translation[r] =
-            m[4 * r] * origin[0] + m[4 * r + 1] * origin[1] + m[4 * r + 2] * origin[2] + m[4 * r + 3];
-    }
+static ewa_vec3 sample_in_camera(const drawing *d, uint32_t packet, uint32_t lane) {
+    const ewa_surfels *surfels = &d->warp->grid.surfels;
+    const ewa_packet *of = &surfels->packets[packet];
+    const ewa_vec3 offset = vec3_make((double)of->x[lane], (double)of->y[lane], (double)of->z[lane]);
+    // The way from the anchor first: it is short where the centre is near.
+    const ewa_vec3 way = vec3_add(vec3_sub(ewa_packet_center(surfels, packet), d->place.anchor), offset);
+    return vec3_add(mat3_mul_vec3(&d->place.linear, way), d->place.offset);
 }
 
-static void sample_in_camera(const drawing *d, const ewa_packet *packet, uint32_t lane, double p[3]) {
-    const double x = (double)packet->x[lane], y = (double)packet->y[lane], z = (double)packet->z[lane];
-    for (int r = 0; r < 3; r++)
-        p[r] = d->rotation[3 * r] * x + d->rotation[3 * r + 1] * y + d->rotation[3 * r + 2] * z +
-               d->translation[r];
-}
-
-static bool faces_away(const drawing *d, uint32_t packet, uint32_t lane, const double p[3]) {
+static bool faces_away(const drawing *d, uint32_t packet, uint32_t lane, ewa_vec3 p) {
     ewa_packet_surfel surfel;
     ewa_packet_decode(&d->warp->grid.surfels, packet, lane, &surfel);
-    const double *r = d->rotation;
-    double n[3];
-    for (int i = 0; i < 3; i++)
-        n[i] = r[3 * i] * surfel.normal.x + r[3 * i + 1] * surfel.normal.y + r[3 * i + 2] * surfel.normal.z;
-    if (d->target->projection == EWA_ORTHOGRAPHIC) return n[2] >= 0;
-    return n[0] * p[0] + n[1] * p[1] + n[2] * p[2] >= 0;
+    const ewa_vec3 n = mat3_mul_vec3(&d->place.linear, surfel.normal);
+    return d->target->projection == EWA_ORTHOGRAPHIC ? n.z >= 0 : vec3_dot(n, p) >= 0;
 }
 
 /// The pixel that one sample falls into.
@@ -66,12 +57,11 @@ static uint32_t pixel_of(const drawing *d, uint64_t packet_index, uint32_t lane)
     const ewa_packet *packet = &d->warp->grid.surfels.packets[packet_index];
     if (!(packet->sigma[lane] > 0)) return NOWHERE;
     const ewa_camera *target = d->target;
-    double p[3];
-    sample_in_camera(d, packet, lane, p);
-    if (!(p[2] > 0)) return NOWHERE;
-    const double over = target->projection == EWA_ORTHOGRAPHIC ? 1 : 1 / p[2];
-    const double x = floor(target->fx_px * p[0] * over + target->cx_px),
-                 y = floor(target->fy_px * p[1] * over + target->cy_px);
+    const ewa_vec3 p = sample_in_camera(d, (uint32_t)packet_index, lane);
+    if (!(p.z > 0)) return NOWHERE;
+    const double over = target->projection == EWA_ORTHOGRAPHIC ? 1 : 1 / p.z;
+    const double x = floor(target->fx_px * p.x * over + target->cx_px),
+                 y = floor(target->fy_px * p.y * over + target->cy_px);
     if (!(x >= 0 && x < target->width_px && y >= 0 && y < target->height_px)) return NOWHERE;
     if (d->options->cull == EWA_CULL_BACK && faces_away(d, (uint32_t)packet_index, lane, p)) return NOWHERE;
     return (uint32_t)y * target->width_px + (uint32_t)x;
@@ -120,9 +110,7 @@ static void write_in_order(const drawing *d, uint32_t *winners) {
     double eye_world[3], eye[3];
     const double *m = camera->world_to_camera;
     if (d->target->projection == EWA_ORTHOGRAPHIC) { // an eye infinitely far back
-        for (int r = 0; r < 3; r++)
-            eye[r] =
-                -(m[4 * r] * d->rotation[6] + m[4 * r + 1] * d->rotation[7] + m[4 * r + 2] * d->rotation[8]);
+        for (int r = 0; r < 3; r++) eye[r] = -vec3_dot(vec3_load(&m[4 * r]), mat3_row(&d->place.linear, 2));
     } else {
         ewa_camera_eye(d->target, eye_world);
         for (int r = 0; r < 3; r++)
@@ -147,9 +135,7 @@ static void write_in_order(const drawing *d, uint32_t *winners) {
 }
 
 static double depth_of(const drawing *d, uint32_t winner) {
-    double p[3];
-    sample_in_camera(d, &d->warp->grid.surfels.packets[(winner - 1) / LANES], (winner - 1) % LANES, p);
-    return p[2];
+    return sample_in_camera(d, (winner - 1) / LANES, (winner - 1) % LANES).z;
 }
 
 /// Keeps the nearer of two sources' samples; of equally near ones the first source's.
@@ -168,9 +154,7 @@ static void set_normal(const drawing *d, uint32_t winner, float normal[3]) {
     ewa_packet_surfel surfel;
     const uint32_t packet = (winner - 1) / LANES, lane = (winner - 1) % LANES;
     ewa_packet_decode(&d->warp->grid.surfels, packet, lane, &surfel);
-    double p[3];
-    sample_in_camera(d, &d->warp->grid.surfels.packets[packet], lane, p);
-    const double sign = faces_away(d, packet, lane, p) ? -1 : 1;
+    const double sign = faces_away(d, packet, lane, sample_in_camera(d, packet, lane)) ? -1 : 1;
     normal[0] = (float)(sign * surfel.normal.x), normal[1] = (float)(sign * surfel.normal.y);
     normal[2] = (float)(sign * surfel.normal.z);
 }
@@ -180,10 +164,11 @@ static void put_color(const drawing *d, size_t pixel, uint32_t winner) {
     const float *background = d->options->background;
     float light[3], alpha = 1;
     if (winner) {
-        const ewa_packet *packet = &surfels->packets[(winner - 1) / LANES];
-        const uint32_t lane = (winner - 1) % LANES;
+        const uint32_t index = (winner - 1) / LANES, lane = (winner - 1) % LANES;
+        const ewa_packet *packet = &surfels->packets[index];
         const uint16_t codes[3] = {packet->red[lane], packet->green[lane], packet->blue[lane]};
-        for (int c = 0; c < 3; c++) light[c] = (float)codes[c] * surfels->color_scale[c];
+        for (int c = 0; c < 3; c++)
+            light[c] = (float)ewa_color_decode_code(surfels->bounds.colors[index], codes[c]);
     } else {
         memcpy(light, background, sizeof light);
         alpha = background[3];
@@ -242,8 +227,8 @@ ewa_status ewa_warp_draw_nearest(ewa_warp *warp, const ewa_camera *target, const
                  .holes = holes,
                  .pixels = n->pixel_buffer.data,
                  .winners = n->winner_buffer.data,
-                 .layer = n->layer_buffer.data};
-    set_camera(&d);
+                 .layer = n->layer_buffer.data,
+                 .place = ewa_placement_make(target, warp->grid.surfels.origin_world, NULL, 0)};
     const uint32_t tasks = (target->height_px + ROWS_PER_TASK - 1) / ROWS_PER_TASK;
     for (uint32_t i = 0; i < warp->source_count; i++) {
         d.source = &warp->sources[i];

@@ -24,7 +24,6 @@ enum {
 typedef struct ewa_warp_lens {
     float ray_x[2], ray_y[2]; ///< slope of column x: ray_x[0] x + ray_x[1], at the pixel's centre
     float from_camera[9];     ///< world from camera, row-major, scale included
-    float eye[3];             ///< world, from the surfels' origin
     float sigma;              ///< of a sample, in units of the spacing
     float jump, steep;        ///< largest differences of keys over the larger one: at any rate, of planes
     float bend;               ///< largest second difference of a plane, likewise
@@ -53,8 +52,8 @@ typedef struct ewa_warp_kernels {
                        const ewa_warp_rows *rows, size_t at);
 
     /// Makes surfels of the 4 x 4 samples at column x, row y of the picture, number `at` of `samples`:
-    /// positions into the packet, normals and axes. Returns the mask of those that exist; the others have
-    /// harmless numbers.
+    /// positions from the eye into the packet, normals and axes. Returns the mask of those that exist; the
+    /// others have harmless numbers.
     uint32_t (*block)(const ewa_warp_lens *lens, uint32_t x, uint32_t y, const ewa_warp_rows *samples,
                       size_t at, ewa_packet *packet, float normal[3][16], float axis_u[3][16],
                       float axis_v[3][16]);

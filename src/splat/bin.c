@@ -29,7 +29,8 @@ static void count_part(void *data, uint32_t part, uint32_t worker) {
     uint64_t *counts = job->counts + (size_t)part * job->tiles;
     for (uint32_t tile = 0; tile < job->tiles; tile++) counts[tile] = 0;
     const uint32_t first = part_first(job, part), end = part_first(job, part + 1);
-    job->culled[part] = job->kernels->cull(job->view, &job->surfels->bounds, first, end - first, job->rects);
+    job->culled[part] = job->kernels->cull(job->view, &job->surfels->bounds, first, end - first,
+                                           &job->bins->places, job->rects);
     for (uint32_t p = first; p < end; p++) {
         const ewa_tile_rect r = job->rects[p];
         for (uint32_t y = r.y0; y < r.y1; y++)
@@ -87,7 +88,14 @@ ewa_status ewa_bins_fill(ewa_context *context, ewa_bins *bins, const ewa_road_ke
     if (status == EWA_OK)
         status =
             ewa_buffer_reserve(context, &bins->tile_first_buffer, (size_t)job.tiles + 1, sizeof(uint64_t));
+    enum { STREAMS = sizeof(ewa_packet_places) / sizeof(float *) };
+    const size_t stride = surfels->bounds_stride;
+    if (status == EWA_OK)
+        status = ewa_buffer_reserve(context, &bins->places_buffer, STREAMS * stride, sizeof(float));
     if (status != EWA_OK) return status;
+    float *places = bins->places_buffer.data;
+    bins->places = (ewa_packet_places){places, places + stride, places + 2 * stride, places + 3 * stride,
+                                       places + 4 * stride};
     job.rects = bins->rects.data;
     job.counts = bins->counts.data;
     job.culled = job.counts + (size_t)job.parts * job.tiles;
@@ -108,4 +116,5 @@ void ewa_bins_free(ewa_context *context, ewa_bins *bins) {
     ewa_buffer_free(context, &bins->counts);
     ewa_buffer_free(context, &bins->tile_first_buffer);
     ewa_buffer_free(context, &bins->entries_buffer);
+    ewa_buffer_free(context, &bins->places_buffer);
 }

@@ -17,8 +17,7 @@ static inline const void *numbers_at(const ewa_attribute *attribute, uint64_t po
 
 static inline double center_at(const ewa_discs *discs, uint64_t point, int c) {
     const void *at = numbers_at(discs->reader->position, point);
-    const double number = discs->wide_positions ? ((const double *)at)[c] : (double)((const float *)at)[c];
-    return number + discs->reader->origin_world[c];
+    return discs->wide_positions ? ((const double *)at)[c] : (double)((const float *)at)[c];
 }
 
 static inline double sigma_at(const ewa_discs *discs, uint64_t point) {
@@ -28,12 +27,9 @@ static inline double sigma_at(const ewa_discs *discs, uint64_t point) {
 
 /// What is safe in single precision; everything else is looked at in double precision.
 static ewa_safe_range safe_range(const ewa_surfel_reader *reader) {
-    double farthest = 0;
-    for (int c = 0; c < 3; c++) farthest = fmax(farthest, fabs(reader->origin_world[c]));
     const double least = 2 / EWA_SURFEL_LIMIT / reader->sigma_per_radius,
                  most = 0.5 * EWA_SURFEL_LIMIT / reader->sigma_per_radius;
-    return (ewa_safe_range){.position_most = (float)(0.5 * EWA_SURFEL_LIMIT - farthest),
-                            .radius_least = (float)fmax(least, (double)FLT_MIN),
+    return (ewa_safe_range){.radius_least = (float)fmax(least, (double)FLT_MIN),
                             .radius_most = (float)fmin(most, (double)FLT_MAX)};
 }
 
@@ -86,11 +82,9 @@ static uint64_t survey_packed(const ewa_discs *discs, uint64_t first, uint64_t c
         discs->kernels->survey(&discs->safe, numbers_at(r->position, first), numbers_at(r->normal, first),
                                numbers_at(r->radius, first), count / LANES, low, high);
     memset(drawable, 1, groups * LANES);
-    // Adding the origin keeps the order.
     for (int k = 0; groups && k < EWA_BOX_FLOATS; k++) {
-        const double origin = r->origin_world[k % 3];
-        facts->low_world[k % 3] = fmin(facts->low_world[k % 3], (double)low[k] + origin);
-        facts->high_world[k % 3] = fmax(facts->high_world[k % 3], (double)high[k] + origin);
+        facts->low[k % 3] = fmin(facts->low[k % 3], (double)low[k]);
+        facts->high[k % 3] = fmax(facts->high[k % 3], (double)high[k]);
     }
     return groups * LANES;
 }
@@ -100,8 +94,8 @@ void ewa_discs_survey(const ewa_discs *discs, uint64_t first, uint64_t count, ui
     double low[3][LANES], high[3][LANES];
     for (int c = 0; c < 3; c++)
         for (int i = 0; i < LANES; i++) low[c][i] = INFINITY, high[c][i] = -INFINITY;
-    *facts = (ewa_disc_facts){.low_world = {INFINITY, INFINITY, INFINITY},
-                              .high_world = {-INFINITY, -INFINITY, -INFINITY}};
+    *facts =
+        (ewa_disc_facts){.low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}};
     for (uint64_t done = 0; done < count;) {
         if (discs->packed) done += survey_packed(discs, first + done, count - done, drawable + done, facts);
         if (done == count) break;
@@ -114,20 +108,23 @@ void ewa_discs_survey(const ewa_discs *discs, uint64_t first, uint64_t count, ui
     for (uint64_t i = 0; i < count; i++) facts->drawable_count += drawable[i];
     for (int c = 0; c < 3; c++)
         for (int i = 0; i < LANES; i++) {
-            facts->low_world[c] = fmin(facts->low_world[c], low[c][i]);
-            facts->high_world[c] = fmax(facts->high_world[c], high[c][i]);
+            facts->low[c] = fmin(facts->low[c], low[c][i]);
+            facts->high[c] = fmax(facts->high[c], high[c][i]);
         }
 }
 
-void ewa_discs_load(const ewa_discs *discs, const double origin_world[3], const uint32_t *points,
-                    uint32_t count, ewa_packet *packet, float normal[3][LANES]) {
+void ewa_discs_load(const ewa_discs *discs, double unit, const uint32_t *points, uint32_t count,
+                    double first[3], ewa_packet *packet, float normal[3][LANES]) {
+    const double per_unit = 1 / unit;
+    double start[3];
+    for (int c = 0; c < 3; c++) start[c] = center_at(discs, points[0], c), first[c] = start[c] * per_unit;
     for (uint32_t i = 0; i < LANES; i++) {
         const uint32_t point = points[i < count ? i : 0];
         const float *n = numbers_at(discs->reader->normal, point);
-        packet->x[i] = (float)(center_at(discs, point, 0) - origin_world[0]);
-        packet->y[i] = (float)(center_at(discs, point, 1) - origin_world[1]);
-        packet->z[i] = (float)(center_at(discs, point, 2) - origin_world[2]);
-        packet->sigma[i] = (float)sigma_at(discs, point);
+        packet->x[i] = (float)((center_at(discs, point, 0) - start[0]) * per_unit);
+        packet->y[i] = (float)((center_at(discs, point, 1) - start[1]) * per_unit);
+        packet->z[i] = (float)((center_at(discs, point, 2) - start[2]) * per_unit);
+        packet->sigma[i] = ewa_packed_sigma(sigma_at(discs, point) * per_unit);
         for (int c = 0; c < 3; c++) normal[c][i] = n[c];
     }
     for (uint32_t i = 0; i < LANES; i++) packet->angle[i] = 0, packet->ratio[i] = UINT16_MAX;

@@ -19,10 +19,10 @@ typedef struct ewa_discs {
     ewa_safe_range safe;
 } ewa_discs;
 
-/// Box of the drawable surfels.
+/// Box of the drawable surfels, from the cloud's origin.
 typedef struct ewa_disc_facts {
     uint64_t drawable_count;
-    double low_world[3], high_world[3];
+    double low[3], high[3];
 } ewa_disc_facts;
 
 /// Returns false when the cloud's streams are of other kinds.
@@ -34,9 +34,10 @@ void ewa_discs_survey(const ewa_discs *discs, uint64_t first, uint64_t count, ui
                       ewa_disc_facts *facts);
 
 /// Sets the lanes of a packet but for its colours and normal codes to the drawable discs points[0 .. count),
-/// 1 to 16 of them, and the normals that belong to it; the first disc fills the lanes that are left.
-void ewa_discs_load(const ewa_discs *discs, const double origin_world[3], const uint32_t *points,
-                    uint32_t count, ewa_packet *packet, float normal[3][EWA_PACKET_LANES]);
+/// 1 to 16 of them, and the normals that belong to it; the first disc fills the lanes that are left. Lengths
+/// are in units of `unit` world units; positions are relative to `first`, which is set to the first disc's.
+void ewa_discs_load(const ewa_discs *discs, double unit, const uint32_t *points, uint32_t count,
+                    double first[3], ewa_packet *packet, float normal[3][EWA_PACKET_LANES]);
 
 /// Asks for the memory of one disc that will be loaded soon.
 void ewa_discs_prefetch(const ewa_discs *discs, uint32_t point);

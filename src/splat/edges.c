@@ -109,8 +109,8 @@ static uint32_t show_behind_edges(const ewa_tile_job *job, const ewa_tile *tile,
             const uint32_t column = (uint32_t)__builtin_ctz(marked);
             s->cells[row / EWA_CELL_BLOCKS * EWA_TILE_CELLS + column / EWA_CELL_BLOCKS] = -INFINITY;
         }
-    return job->kernels->hide(&job->view, &job->surfels->bounds, tile, s->cells, s->hidden,
-                              (uint32_t)s->hidden_count, s->shown + s->shown_count, s->hidden);
+    return job->kernels->hide(&job->view, &job->surfels->bounds, &job->source.places, tile, s->cells,
+                              s->hidden, (uint32_t)s->hidden_count, s->shown + s->shown_count, s->hidden);
 }
 
 /// Whether anything may lie behind a marked block.

@@ -5,6 +5,7 @@
 // clouds that have several; clip lines, for the surfels that have them.
 #include "splat/extras.h"
 #include "base/base.h"
+#include "splat/packet_order.h"
 
 enum { LANES = EWA_PACKET_LANES, PART_PACKETS = 1024 };
 
@@ -29,7 +30,7 @@ static void encode_opacities(void *data, uint32_t part, uint32_t worker) {
     const work *w = data;
     const ewa_surfels *surfels = w->surfels;
     for (uint64_t i = (uint64_t)part * PART_PACKETS * LANES; i < part_end(w, part) * LANES; i++) {
-        const double alpha = i < surfels->count ? ewa_surfel_alpha(w->reader, w->order[i]) : 0;
+        const double alpha = w->order[i] != EWA_NO_POINT ? ewa_surfel_alpha(w->reader, w->order[i]) : 1;
         surfels->opacities[i] = (uint16_t)(alpha * 65535 + 0.5);
     }
 }
@@ -42,7 +43,7 @@ static ewa_status set_opacities(ewa_context *context, work *w) {
     if (!surfels->opacities) return EWA_ERROR_MEMORY;
     ewa_parallel(context, encode_opacities, w, part_count(surfels));
     uint16_t least = 65535;
-    for (uint32_t i = 0; i < surfels->count; i++)
+    for (size_t i = 0; i < (size_t)surfels->packet_count * LANES; i++)
         least = surfels->opacities[i] < least ? surfels->opacities[i] : least;
     if (least < 65535) return EWA_OK;
     ewa_release(context, surfels->opacities, (size_t)surfels->packet_count * LANES,
@@ -56,7 +57,7 @@ static void copy_materials(void *data, uint32_t part, uint32_t worker) {
     const work *w = data;
     const ewa_surfels *surfels = w->surfels;
     for (uint64_t i = (uint64_t)part * PART_PACKETS * LANES; i < part_end(w, part) * LANES; i++)
-        surfels->materials[i] = ewa_surfel_material(w->reader, w->order[i < surfels->count ? i : 0]);
+        surfels->materials[i] = ewa_surfel_material(w->reader, w->order[w->order[i] != EWA_NO_POINT ? i : 0]);
 }
 
 static ewa_status set_materials(ewa_context *context, work *w) {
@@ -84,14 +85,15 @@ static void mark_clips(void *data, uint32_t part, uint32_t worker) {
     const ewa_surfels *surfels = w->surfels;
     for (uint64_t p = (uint64_t)part * PART_PACKETS; p < part_end(w, part); p++) {
         uint32_t mask = 0;
-        for (uint32_t lane = 0; lane < LANES && p * LANES + lane < surfels->count; lane++)
-            mask |= (uint32_t)ewa_surfel_is_clipped(w->reader, w->order[p * LANES + lane]) << lane;
+        const uint32_t *points = w->order + p * LANES;
+        for (uint32_t lane = 0; lane < LANES && points[lane] != EWA_NO_POINT; lane++)
+            mask |= (uint32_t)ewa_surfel_is_clipped(w->reader, points[lane]) << lane;
         surfels->clip_masks[p] = (uint16_t)mask;
     }
 }
 
-/// From the frame of a surfel's axes to its plane.
-static void encode_clip(const ewa_surfel *surfel, ewa_surfel_clip *clip) {
+/// From the frame of a surfel's axes to its plane, where lengths are in units of `unit_world`.
+static void encode_clip(const ewa_surfel *surfel, double unit_world, ewa_surfel_clip *clip) {
     const ewa_vec3 axes[2] = {vec3_load(surfel->axis_u_world), vec3_load(surfel->axis_v_world)};
     clip->either = surfel->clip_either == 1;
     for (int k = 0; k < 2; k++) {
@@ -103,7 +105,7 @@ static void encode_clip(const ewa_surfel *surfel, ewa_surfel_clip *clip) {
         const ewa_vec3 unit = line ? vec3_scale(toward, 1 / length) : toward;
         clip->toward[k][0] = (float)unit.x, clip->toward[k][1] = (float)unit.y;
         clip->toward[k][2] = (float)unit.z;
-        clip->offset[k] = line ? (float)(surfel->clip[k][2] / length) : 1;
+        clip->offset[k] = line ? (float)(surfel->clip[k][2] / length / unit_world) : 1;
         clip->either = clip->either && line; // one line alone has nothing to choose from
     }
 }
@@ -119,7 +121,7 @@ static void encode_clips(void *data, uint32_t part, uint32_t worker) {
             bool drawable;
             ewa_surfel_read(w->reader, w->order[p * LANES + (uint64_t)__builtin_ctz(lanes)], 1, &surfel,
                             &drawable);
-            encode_clip(&surfel, clip++);
+            encode_clip(&surfel, surfels->unit, clip++);
         }
     }
 }

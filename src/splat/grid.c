@@ -9,8 +9,7 @@
 
 enum { LANES = EWA_PACKET_LANES };
 
-ewa_status ewa_grid_reserve(ewa_context *context, ewa_grid *grid, uint64_t group_count, double cutoff,
-                            float brightest) {
+ewa_status ewa_grid_reserve(ewa_context *context, ewa_grid *grid, uint64_t group_count, double cutoff) {
     const uint64_t packet_count = group_count * EWA_GRID_GROUP;
     if (packet_count > UINT32_MAX / LANES)
         return ewa_fail(context, EWA_ERROR_LIMIT, "%llu samples are more than a renderer holds",
@@ -19,21 +18,20 @@ ewa_status ewa_grid_reserve(ewa_context *context, ewa_grid *grid, uint64_t group
     ewa_status status =
         ewa_buffer_reserve(context, &grid->packet_buffer, (size_t)packet_count, sizeof *s->packets);
     if (status == EWA_OK)
-        status = ewa_buffer_reserve(context, &grid->bounds_buffer, EWA_BOUNDS_STREAMS * (size_t)packet_count,
-                                    sizeof *s->bounds_floats);
+        status = ewa_buffer_reserve(context, &grid->bounds_buffer, (size_t)packet_count, EWA_BOUNDS_BYTES);
     if (status != EWA_OK) return status;
     grid->kernels = ewa_pack_kernels_choose(ewa_context_cpu_features(context));
     *s = (ewa_surfels){
         .context = context,
         .packet_count = (uint32_t)packet_count,
         .packets = grid->packet_buffer.data,
-        .bounds_floats = grid->bounds_buffer.data,
+        .bounds_memory = grid->bounds_buffer.data,
         .bounds_stride = (size_t)packet_count,
+        .unit = 1,
         .cutoff = cutoff,
         .ellipses = true,
         .unit_coverage = 1,
     };
-    for (int c = 0; c < 3; c++) s->color_scale[c] = brightest / 65535;
     ewa_packets_view_bounds(s);
     return EWA_OK;
 }
@@ -56,7 +54,8 @@ static void empty_lanes(ewa_packet *packet, uint32_t mask) {
     }
 }
 
-void ewa_grid_end_group(ewa_grid *grid, uint64_t group, const uint16_t masks[EWA_GRID_GROUP]) {
+void ewa_grid_end_group(ewa_grid *grid, uint64_t group, const uint16_t masks[EWA_GRID_GROUP],
+                        const double start[3]) {
     const ewa_surfels *s = &grid->surfels;
     const uint64_t first = group * EWA_GRID_GROUP;
     ewa_packet *packets = &s->packets[first];
@@ -72,12 +71,15 @@ void ewa_grid_end_group(ewa_grid *grid, uint64_t group, const uint16_t masks[EWA
         for (uint32_t i = 0; i < LANES; i++) packets[k].sigma[i] = 0;
     }
     if (whole) {
-        grid->kernels->bound_packets(packets, EWA_GRID_GROUP, (float)s->cutoff, &s->bounds, first);
-    } else {
-        for (int i = 0; i < EWA_BOUNDS_STREAMS; i++)
-            memset(s->bounds_floats + (size_t)i * s->bounds_stride + first, 0,
-                   EWA_GRID_GROUP * sizeof(float));
+        double starts[EWA_GRID_GROUP][3];
+        for (uint32_t k = 0; k < EWA_GRID_GROUP; k++) memcpy(starts[k], start, sizeof starts[k]);
+        grid->kernels->bound_packets(packets, EWA_GRID_GROUP, (const double(*)[3])starts, (float)s->cutoff,
+                                     INFINITY, &s->bounds, first);
     }
-    for (uint32_t k = 0; k < EWA_GRID_GROUP; k++)
-        if (!masks[k]) s->bounds.radius[first + k] = -INFINITY;
+    for (uint32_t k = 0; k < EWA_GRID_GROUP; k++) {
+        if (masks[k]) continue;
+        s->bounds.center_x[first + k] = s->bounds.center_y[first + k] = s->bounds.center_z[first + k] = 0;
+        s->bounds.radius[first + k] = 0;
+        s->bounds.cone[first + k] = 0;
+    }
 }

@@ -19,16 +19,17 @@ typedef struct ewa_grid {
     const ewa_pack_kernels *kernels;
 } ewa_grid;
 
-/// Makes room for `group_count` groups of packets, for ellipses that end at `cutoff` standard deviations and
-/// opaque colours of [0, `brightest`]. The caller sets the packets, the number of surfels and the origin.
-/// Errors: EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
-ewa_status ewa_grid_reserve(ewa_context *context, ewa_grid *grid, uint64_t group_count, double cutoff,
-                            float brightest);
+/// Makes room for `group_count` groups of packets, for opaque ellipses that end at `cutoff` standard
+/// deviations. The caller sets the packets and the forms of their colours, the number of surfels and the
+/// origin. Errors: EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+ewa_status ewa_grid_reserve(ewa_context *context, ewa_grid *grid, uint64_t group_count, double cutoff);
 
 void ewa_grid_free(ewa_context *context, ewa_grid *grid);
 
-/// Ends a group of which all packets are set: lanes that are not in `masks[packet]` become empty, whatever
-/// they hold, and packets without lanes are culled whatever the camera. Any thread, one group each.
-void ewa_grid_end_group(ewa_grid *grid, uint64_t group, const uint16_t masks[EWA_GRID_GROUP]);
+/// Ends a group of which all packets are set, their positions relative to `start`: lanes that are not in
+/// `masks[packet]` become empty, whatever they hold, and packets without lanes are culled whatever the
+/// camera. Any thread, one group each.
+void ewa_grid_end_group(ewa_grid *grid, uint64_t group, const uint16_t masks[EWA_GRID_GROUP],
+                        const double start[3]);
 
 #endif

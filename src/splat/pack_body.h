@@ -5,18 +5,19 @@
 // PACK_KERNELS, the name of the table.
 //
 // Octahedral normals: Meyer et al., "On Floating-Point Normal Vectors", 2010.
+#include "math/wide_double.h"
 #include "math/wide_functions.h"
 #include "splat/pack.h"
 
 enum { LANES = EWA_PACKET_LANES };
 
-/// Single precision of centre, radius, axis and sine, rounded to the safe side.
+/// Single precision of radius, axis and sine, rounded to the safe side.
 static const float SLACK = 16 * 0x1p-24f;
 
 static uint64_t survey(const ewa_safe_range *range, const float *position, const float *normal,
                        const float *radius, uint64_t group_count, float low[EWA_BOX_FLOATS],
                        float high[EWA_BOX_FLOATS]) {
-    const wf position_most = wf_set(range->position_most), finite_most = wf_set(0x1.fffffep127f);
+    const wf finite_most = wf_set(0x1.fffffep127f);
     const wf radius_least = wf_set(range->radius_least), radius_most = wf_set(range->radius_most);
     wf lows[3], highs[3];
     for (int c = 0; c < 3; c++) lows[c] = wf_load(low + c * LANES), highs[c] = wf_load(high + c * LANES);
@@ -29,7 +30,7 @@ static uint64_t survey(const ewa_safe_range *range, const float *position, const
         for (int c = 0; c < 3; c++) {
             at[c] = wf_load(position + group * EWA_BOX_FLOATS + c * LANES);
             const wf n = wf_abs(wf_load(normal + group * EWA_BOX_FLOATS + c * LANES));
-            good = wm_and(good, wm_and(wf_le(wf_abs(at[c]), position_most), wf_le(n, finite_most)));
+            good = wm_and(good, wm_and(wf_le(wf_abs(at[c]), finite_most), wf_le(n, finite_most)));
             zeros |= (uint64_t)wm_bits(wf_le(n, wf_set(0))) << c * LANES;
         }
         const uint64_t firsts = 0x249249249249u; // of each normal
@@ -68,15 +69,20 @@ static void code_normals(const float normal[3][LANES], ewa_packet *packet) {
     code_directions(n, packet);
 }
 
-static inline void decode_normals(const ewa_packet *packet, wf n[3]) {
-    const wf unit = wf_set(1.0f / 32767.0f), zero = wf_set(0);
-    const wf u = wf_mul(wf_from_i(wi_load_i16(packet->oct_x)), unit);
-    const wf v = wf_mul(wf_from_i(wi_load_i16(packet->oct_y)), unit);
+/// The unit vectors of octahedral coordinates.
+static inline void unfold(wf u, wf v, wf n[3]) {
+    const wf zero = wf_set(0);
     const wf z = wf_sub(wf_sub(wf_set(1), wf_abs(u)), wf_abs(v));
     const wf fold = wf_max(wf_sub(zero, z), zero);
     const wf x = wf_sub(u, with_sign_of(fold, u)), y = wf_sub(v, with_sign_of(fold, v));
     const wf inverse = wf_inverse_root(wf_fma(x, x, wf_fma(y, y, wf_mul(z, z))));
     n[0] = wf_mul(x, inverse), n[1] = wf_mul(y, inverse), n[2] = wf_mul(z, inverse);
+}
+
+static inline void decode_normals(const ewa_packet *packet, wf n[3]) {
+    const wf unit = wf_set(1.0f / 32767.0f);
+    unfold(wf_mul(wf_from_i(wi_load_i16(packet->oct_x)), unit),
+           wf_mul(wf_from_i(wi_load_i16(packet->oct_y)), unit), n);
 }
 
 static inline wf dot(const wf a[3], const wf b[3]) {
@@ -118,7 +124,7 @@ static void code_ellipses(const float normal[3][LANES], const float axis_u[3][LA
                          wf_sub(wf_mul(u[0], v[1]), wf_mul(u[1], v[0]))};
     const wf area = wf_sqrt(dot(cross, cross));
     const wf thin = wf_min(wf_mul(area, wf_mul(inverse_major, inverse_major)), one);
-    const wf ratio = wf_select(round, one, thin);
+    const wf ratio = wf_sqrt(wf_sqrt(wf_select(round, one, thin)));
     wf_store(packet->sigma, wf_mul(wf_mul(major2, inverse_major), largest));
 
     // The angle in the frame of the decoded normal: packet_frame() of packets.c.
@@ -161,56 +167,115 @@ static inline wf greatest_of_rows(wf rows[LANES]) {
     return greatest;
 }
 
-/// Middles of the boxes around the positions; `values` are the packets' coordinates c.
-static inline wf middle_of(const float *const values[LANES]) {
+/// Middles of the boxes around the positions, whose coordinates c are `values`; raises `extent` to theirs.
+static inline wf middle_of(float *const values[LANES], wf *extent) {
     wf low[LANES], high[LANES];
     for (int k = 0; k < LANES; k++) low[k] = high[k] = wf_load(values[k]);
     // Halves first: the sum of two coordinates may overflow.
     const wf half = wf_set(0.5f);
-    return wf_add(wf_mul(least_of_rows(low), half), wf_mul(greatest_of_rows(high), half));
+    const wf least = wf_mul(least_of_rows(low), half), greatest = wf_mul(greatest_of_rows(high), half);
+    *extent = wf_max(wf_sub(greatest, least), *extent);
+    return wf_add(least, greatest);
 }
 
-static inline wf radii(const ewa_packet *const packets[LANES], float cutoff, const float center[3][LANES]) {
-    wf reach[LANES];
+/// Rounds middles to steps of about a hundredth of the extent: that much more digits than a centre needs
+/// would be lost where the packet is far from the origin.
+static inline wf round_middle(wf middle, wf extent) {
+    const wf power = wf_of_bits(wi_and(wi_of_bits(extent), wi_set(0x7f800000)));
+    const wf rounder = wf_mul(power, wf_set(0x1.8p16f));
+    return wf_sub(wf_add(middle, rounder), rounder);
+}
+
+/// Radii of the spheres around the packets' centres; sets the mask of packets that reach too far.
+static inline wf radii(const ewa_packet *const packets[LANES], float cutoff, float reach, uint32_t *wide) {
+    wf reaches[LANES];
+    *wide = 0;
     for (int k = 0; k < LANES; k++) {
         const ewa_packet *p = packets[k];
-        const wf x = wf_sub(wf_load(p->x), wf_set(center[0][k]));
-        const wf y = wf_sub(wf_load(p->y), wf_set(center[1][k]));
-        const wf z = wf_sub(wf_load(p->z), wf_set(center[2][k]));
+        const wf x = wf_load(p->x), y = wf_load(p->y), z = wf_load(p->z), sigma = wf_load(p->sigma);
         // By way of the largest one: squares of coordinates may overflow.
         const wf largest = wf_max(wf_max(wf_abs(x), wf_max(wf_abs(y), wf_abs(z))), wf_set(0x1p-100f));
         const wf inverse = wf_reciprocal(largest);
         const wf a = wf_mul(x, inverse), b = wf_mul(y, inverse), c = wf_mul(z, inverse);
         const wf square = wf_fma(a, a, wf_fma(b, b, wf_mul(c, c)));
-        const wf length = wf_mul(square, wf_inverse_root(square));
-        reach[k] = wf_fma(length, largest, wf_mul(wf_set(cutoff), wf_load(p->sigma)));
+        const wf length = wf_mul(wf_mul(square, wf_inverse_root(square)), largest);
+        reaches[k] = wf_fma(wf_set(cutoff), sigma, length);
+        *wide |= (uint32_t)(wm_bits(wf_le(wf_mul(wf_set(reach), sigma), length)) != 0) << k;
     }
-    return greatest_of_rows(reach);
+    return greatest_of_rows(reaches);
 }
 
-static inline void bound_normals(const ewa_packet *const packets[LANES], const ewa_packet_bounds *bounds,
-                                 uint64_t first) {
+/// Sets the packets' centres and moves their positions there.
+static inline void center_packets(ewa_packet *packets, uint32_t count, const double starts[LANES][3],
+                                  const ewa_packet_bounds *bounds, uint64_t first) {
+    float *values[3][LANES];
+    double start[3][LANES];
+    for (uint32_t k = 0; k < LANES; k++) {
+        ewa_packet *p = &packets[k < count ? k : 0];
+        values[0][k] = p->x, values[1][k] = p->y, values[2][k] = p->z;
+        for (int c = 0; c < 3; c++) start[c][k] = starts[k < count ? k : 0][c];
+    }
+    wf middle[3], extent = wf_set(0);
+    for (int c = 0; c < 3; c++) middle[c] = middle_of(values[c], &extent);
+    double *const streams[3] = {bounds->center_x + first, bounds->center_y + first, bounds->center_z + first};
+    for (int c = 0; c < 3; c++) {
+        // Where the centre had to be rounded once more, the way there is what is left.
+        float moved[LANES];
+        const wd from = wd_load(start[c]), to = wd_add(from, wd_from_f(round_middle(middle[c], extent)));
+        wd_store(streams[c], to);
+        wf_store(moved, wf_from_d(wd_sub(to, from)));
+        for (uint32_t k = 0; k < count; k++)
+            wf_store(values[c][k], wf_sub(wf_load(values[c][k]), wf_set(moved[k])));
+    }
+}
+
+/// Radii as the codes of floats that are no smaller.
+static inline void store_radii(wf radius, uint16_t *codes) {
+    const wi round_up = wi_set((1 << EWA_RADIUS_SHIFT) - 1);
+    int32_t lanes[LANES];
+    wi_store(lanes, wi_sar(wi_add(wi_of_bits(radius), round_up), EWA_RADIUS_SHIFT));
+    for (int k = 0; k < LANES; k++) codes[k] = (uint16_t)lanes[k];
+}
+
+/// Octahedral codes of unit vectors, and the unit vectors that these stand for.
+static inline wi code_axes(wf axis[3]) {
+    const wf one = wf_set(1), steps = wf_set(EWA_CONE_AXIS), half = wf_set(0.5f);
+    const wf inverse = wf_div(one, wf_add(wf_add(wf_abs(axis[0]), wf_abs(axis[1])), wf_abs(axis[2])));
+    const wf u = wf_mul(axis[0], inverse), v = wf_mul(axis[1], inverse);
+    const wm below = wf_lt(axis[2], wf_set(0));
+    const wf x = wf_select(below, with_sign_of(wf_sub(one, wf_abs(v)), u), u);
+    const wf y = wf_select(below, with_sign_of(wf_sub(one, wf_abs(u)), v), v);
+    const wi codes[2] = {wi_from_f(wf_floor(wf_fma(x, steps, half))),
+                         wi_from_f(wf_floor(wf_fma(y, steps, half)))};
+    const wf coded[2] = {wf_mul(wf_from_i(codes[0]), wf_set(1.0f / EWA_CONE_AXIS)),
+                         wf_mul(wf_from_i(codes[1]), wf_set(1.0f / EWA_CONE_AXIS))};
+    unfold(coded[0], coded[1], axis);
+    const wi offset = wi_set(EWA_CONE_AXIS);
+    return wi_or(wi_add(codes[0], offset), wi_shl(wi_add(codes[1], offset), EWA_CONE_BITS));
+}
+
+static inline void bound_normals(const ewa_packet *const packets[LANES], uint32_t *cones) {
     wf normal[3][LANES];
     for (int k = 0; k < LANES; k++) {
         wf n[3];
         decode_normals(packets[k], n);
         for (int c = 0; c < 3; c++) normal[c][k] = n[c];
     }
-    float *const streams[3] = {bounds->axis_x + first, bounds->axis_y + first, bounds->axis_z + first};
-    wf rows[LANES], sum[3];
+    wf rows[LANES], axis[3];
     for (int c = 0; c < 3; c++) {
         for (int k = 0; k < LANES; k++) rows[k] = normal[c][k];
-        sum[c] = sum_rows(rows);
+        axis[c] = sum_rows(rows);
     }
-    const wf length2 = wf_fma(sum[0], sum[0], wf_fma(sum[1], sum[1], wf_mul(sum[2], sum[2])));
+    const wf length2 = wf_fma(axis[0], axis[0], wf_fma(axis[1], axis[1], wf_mul(axis[2], axis[2])));
     const wm directed = wf_lt(wf_set(SLACK), length2);
-    const wf length = wf_sqrt(length2);
-    for (int c = 0; c < 3; c++)
-        wf_store(streams[c], wf_select(directed, wf_div(sum[c], length), wf_set(c == 2)));
+    for (int c = 0; c < 3; c++) axis[c] = wf_select(directed, axis[c], wf_set(c == 2));
+    const wi codes = code_axes(axis);
+    float axes[3][LANES];
+    for (int c = 0; c < 3; c++) wf_store(axes[c], axis[c]);
     wf cosine[LANES], sine2[LANES];
     for (int k = 0; k < LANES; k++) {
         const wf x = normal[0][k], y = normal[1][k], z = normal[2][k];
-        const wf a = wf_set(streams[0][k]), b = wf_set(streams[1][k]), c = wf_set(streams[2][k]);
+        const wf a = wf_set(axes[0][k]), b = wf_set(axes[1][k]), c = wf_set(axes[2][k]);
         cosine[k] = wf_fma(x, a, wf_fma(y, b, wf_mul(z, c)));
         // By the cross product, which is exact where the cosine says nothing.
         const wf s = wf_sub(wf_mul(y, c), wf_mul(z, b)), t = wf_sub(wf_mul(z, a), wf_mul(x, c)),
@@ -219,29 +284,20 @@ static inline void bound_normals(const ewa_packet *const packets[LANES], const e
     }
     const wm narrow = wm_and(directed, wf_lt(wf_set(SLACK), least_of_rows(cosine)));
     const wf sine = wf_add(wf_sqrt(greatest_of_rows(sine2)), wf_set(SLACK));
-    wf_store(bounds->cone_sine + first, wf_select(narrow, sine, wf_set(2)));
+    const wf steps = wf_min(wf_fma(sine, wf_set(EWA_CONE_SINE), wf_set(1)), wf_set(EWA_CONE_SINE)); // upwards
+    const wi sine_codes = wi_from_f(wf_select(narrow, steps, wf_set(EWA_CONE_SINE + 1)));
+    wi_store((int32_t *)(void *)cones, wi_or(codes, wi_shl(sine_codes, 2 * EWA_CONE_BITS)));
 }
 
-static void bound_packets(const ewa_packet *packets, uint32_t count, float cutoff,
-                          const ewa_packet_bounds *bounds, uint64_t first) {
+static uint32_t bound_packets(ewa_packet *packets, uint32_t count, const double starts[LANES][3],
+                              float cutoff, float reach, const ewa_packet_bounds *bounds, uint64_t first) {
+    center_packets(packets, count, starts, bounds, first);
     const ewa_packet *all[LANES];
-    const float *positions[3][LANES];
-    for (uint32_t k = 0; k < LANES; k++) {
-        all[k] = &packets[k < count ? k : 0];
-        positions[0][k] = all[k]->x, positions[1][k] = all[k]->y, positions[2][k] = all[k]->z;
-    }
-    float *const streams[3] = {bounds->center_x + first, bounds->center_y + first, bounds->center_z + first};
-    float center[3][LANES];
-    wf size = wf_set(0);
-    for (int c = 0; c < 3; c++) {
-        const wf middle = middle_of(positions[c]);
-        wf_store(center[c], middle);
-        wf_store(streams[c], middle);
-        size = wf_add(size, wf_abs(middle));
-    }
-    const wf radius = wf_mul(radii(all, cutoff, center), wf_set(1 + SLACK));
-    wf_store(bounds->radius + first, wf_fma(size, wf_set(SLACK), radius));
-    bound_normals(all, bounds, first);
+    for (uint32_t k = 0; k < LANES; k++) all[k] = &packets[k < count ? k : 0];
+    uint32_t wide;
+    store_radii(wf_mul(radii(all, cutoff, reach, &wide), wf_set(1 + SLACK)), bounds->radius + first);
+    bound_normals(all, bounds->cone + first);
+    return wide;
 }
 
 const ewa_pack_kernels PACK_KERNELS = {survey, code_normals, code_ellipses, bound_packets};

@@ -9,14 +9,14 @@
 #include "base/base.h"
 #include "cloud/morton.h"
 #include "kernels/semantics.h"
+#include "splat/color_form.h"
 #include "splat/discs.h"
 #include "splat/extras.h"
 #include "splat/options.h"
 #include "splat/pack.h"
-#include "splat/surfel.h"
+#include "splat/packet_order.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum {
@@ -24,14 +24,12 @@ enum {
     READ_BLOCK = 256,
     MAX_PARTS = 64,
     PREFETCH_POINTS = 64, // between asking for a point's numbers and reading them: four packets
-    TIE_BLOCK = 64,       // points that are looked at together for ties, which are rare
 };
 
 /// What one part of the cloud contributes to the facts about the whole.
 typedef struct part_facts {
     uint64_t drawable_count;
     double low[3], high[3];
-    double color_low[3], color_high[3];
     bool ellipses;
 } part_facts;
 
@@ -40,12 +38,13 @@ typedef struct build {
     ewa_discs discs;
     bool are_discs; // `discs` can be used
     const ewa_pack_kernels *kernels;
-    uint16_t color_codes[3][256], grey_codes[3]; // of discs
+    uint16_t color_codes[256], grey_code; // of discs
     uint64_t point_count;
     uint32_t parts;
     uint8_t *drawable; // per point
     part_facts facts[MAX_PARTS];
-    uint32_t *order; // drawable points in packet order
+    ewa_packet_order order;
+    uint8_t *wide; // [packet]: whether it reaches too far
     ewa_surfels *surfels;
 } build;
 
@@ -53,7 +52,6 @@ typedef struct build {
 static inline double least(double a, double b) { return a < b ? a : b; }
 static inline double most(double a, double b) { return a > b ? a : b; }
 
-/// Surveys discs, whose colours are within [0, 1].
 static void survey_discs(build *b, uint32_t part) {
     const uint64_t first = ewa_split(b->point_count, b->parts, part),
                    end = ewa_split(b->point_count, b->parts, part + 1);
@@ -61,17 +59,11 @@ static void survey_discs(build *b, uint32_t part) {
     ewa_discs_survey(&b->discs, first, end - first, b->drawable + first, &discs);
     part_facts *facts = &b->facts[part];
     *facts = (part_facts){.drawable_count = discs.drawable_count};
-    for (int c = 0; c < 3; c++) {
-        facts->low[c] = discs.low_world[c], facts->high[c] = discs.high_world[c];
-        facts->color_low[c] = 0, facts->color_high[c] = 1;
-    }
+    for (int c = 0; c < 3; c++) facts->low[c] = discs.low[c], facts->high[c] = discs.high[c];
 }
 
 static void survey_surfels(build *b, uint32_t part) {
-    part_facts facts = {.low = {INFINITY, INFINITY, INFINITY},
-                        .high = {-INFINITY, -INFINITY, -INFINITY},
-                        .color_low = {INFINITY, INFINITY, INFINITY},
-                        .color_high = {-INFINITY, -INFINITY, -INFINITY}};
+    part_facts facts = {.low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}};
     ewa_surfel surfels[READ_BLOCK];
     bool drawable[READ_BLOCK];
     const uint64_t end = ewa_split(b->point_count, b->parts, part + 1);
@@ -84,10 +76,8 @@ static void survey_surfels(build *b, uint32_t part) {
             const ewa_surfel *s = &surfels[i];
             double u2 = 0, v2 = 0;
             for (int c = 0; c < 3; c++) {
-                facts.low[c] = least(facts.low[c], s->center_world[c]);
-                facts.high[c] = most(facts.high[c], s->center_world[c]);
-                facts.color_low[c] = least(facts.color_low[c], s->color_linear[c]);
-                facts.color_high[c] = most(facts.color_high[c], s->color_linear[c]);
+                facts.low[c] = least(facts.low[c], s->center[c]);
+                facts.high[c] = most(facts.high[c], s->center[c]);
                 u2 += s->axis_u_world[c] * s->axis_u_world[c];
                 v2 += s->axis_v_world[c] * s->axis_v_world[c];
             }
@@ -106,7 +96,7 @@ static void survey_part(void *data, uint32_t part, uint32_t worker) {
         survey_surfels(b, part);
 }
 
-/// Joins the parts' facts and fixes local origin and colour range.
+/// Joins the parts' facts and fixes the origin.
 static void settle(build *b) {
     ewa_surfels *s = b->surfels;
     part_facts all = b->facts[0];
@@ -117,24 +107,15 @@ static void settle(build *b) {
         for (int c = 0; c < 3; c++) {
             all.low[c] = least(all.low[c], f->low[c]);
             all.high[c] = most(all.high[c], f->high[c]);
-            all.color_low[c] = least(all.color_low[c], f->color_low[c]);
-            all.color_high[c] = most(all.color_high[c], f->color_high[c]);
         }
     }
     s->count = (uint32_t)all.drawable_count;
     s->left_out_count = b->point_count - all.drawable_count;
     s->ellipses = all.ellipses;
     s->extent.finite_count = all.drawable_count;
-    for (int c = 0; c < 3; c++) {
-        s->extent.low_world[c] = all.low[c];
-        s->extent.high_world[c] = all.high[c];
-        s->origin_world[c] = s->count ? 0.5 * all.low[c] + 0.5 * all.high[c] : 0;
-        // Colours of [0, 1] share one code, so that equal colours of two clouds stay equal.
-        const double low = s->count ? least(all.color_low[c], 0) : 0,
-                     high = s->count ? most(all.color_high[c], 1) : 1;
-        s->color_offset[c] = (float)low;
-        s->color_scale[c] = (float)((high - low) / 65535);
-    }
+    memcpy(s->extent.low_world, all.low, sizeof all.low);
+    memcpy(s->extent.high_world, all.high, sizeof all.high);
+    memcpy(s->origin_world, b->reader.origin_world, sizeof s->origin_world);
 }
 
 static ewa_vec3 oct_decode(int16_t code_x, int16_t code_y) {
@@ -160,58 +141,61 @@ static uint16_t encode_angle(const ewa_packet *packet, uint32_t lane, ewa_vec3 a
     return (uint16_t)((uint32_t)((sum > 0 ? 1 - c / sum : 0) * 32768 + 0.5) & 0xffff);
 }
 
-void ewa_packets_encode_color(const ewa_surfels *surfels, const double color_linear[3], uint16_t codes[3]) {
-    for (int k = 0; k < 3; k++) {
-        const double value =
-            (color_linear[k] - (double)surfels->color_offset[k]) / (double)surfels->color_scale[k];
-        codes[k] = (uint16_t)(least(most(value, 0), 65535) + 0.5);
-    }
+ewa_vec3 ewa_packet_center(const ewa_surfels *surfels, uint32_t packet) {
+    const ewa_packet_bounds *bounds = &surfels->bounds;
+    return vec3_make(bounds->center_x[packet], bounds->center_y[packet], bounds->center_z[packet]);
+}
+
+/// The minor sigma over the major one.
+static double decode_ratio(uint16_t code) {
+    const double root = code / 65535.0, square = root * root;
+    return square * square;
 }
 
 void ewa_packet_decode(const ewa_surfels *surfels, uint32_t index, uint32_t lane, ewa_packet_surfel *surfel) {
     const ewa_packet *packet = &surfels->packets[index];
-    surfel->center = vec3_make((double)packet->x[lane], (double)packet->y[lane], (double)packet->z[lane]);
+    surfel->offset = vec3_make((double)packet->x[lane], (double)packet->y[lane], (double)packet->z[lane]);
     surfel->normal = oct_decode(packet->oct_x[lane], packet->oct_y[lane]);
     ewa_vec3 first, second;
     packet_frame(surfel->normal, &first, &second);
     const double c = 1 - packet->angle[lane] / 32768.0, t = 1 - fabs(c);
-    const double major = (double)packet->sigma[lane], ratio = packet->ratio[lane] / 65535.0;
+    const double major = (double)packet->sigma[lane];
     const ewa_vec3 axis = vec3_add(vec3_scale(first, c), vec3_scale(second, t));
     surfel->axis_u = vec3_scale(axis, major / sqrt(c * c + t * t));
-    surfel->axis_v = vec3_scale(vec3_cross(surfel->normal, surfel->axis_u), ratio);
+    surfel->axis_v =
+        vec3_scale(vec3_cross(surfel->normal, surfel->axis_u), decode_ratio(packet->ratio[lane]));
     const uint16_t codes[3] = {packet->red[lane], packet->green[lane], packet->blue[lane]};
     for (int k = 0; k < 3; k++)
-        surfel->color[k] = codes[k] * (double)surfels->color_scale[k] + (double)surfels->color_offset[k];
+        surfel->color[k] = ewa_color_decode_code(surfels->bounds.colors[index], codes[k]);
     surfel->opacity = surfels->opacities ? surfels->opacities[(size_t)index * LANES + lane] / 65535.0 : 1;
 }
 
-static void put_color(ewa_packet *packet, uint32_t lane, const uint16_t codes[3]) {
-    packet->red[lane] = codes[0], packet->green[lane] = codes[1], packet->blue[lane] = codes[2];
-}
-
 /// Packs discs of a cloud whose streams need no general reading.
-static void encode_discs(const build *b, const uint32_t *points, uint32_t count, ewa_packet *packet) {
+static void encode_discs(const build *b, const uint32_t *points, uint32_t count, double start[3],
+                         ewa_packet *packet) {
     float normal[3][LANES];
-    ewa_discs_load(&b->discs, b->surfels->origin_world, points, count, packet, normal);
+    ewa_discs_load(&b->discs, b->surfels->unit, points, count, start, packet, normal);
     b->kernels->code_normals(normal, packet);
     const ewa_attribute *color = b->reader.color;
     for (uint32_t lane = 0; lane < LANES; lane++) {
         if (!color) {
-            put_color(packet, lane, b->grey_codes);
+            packet->red[lane] = packet->green[lane] = packet->blue[lane] = b->grey_code;
             continue;
         }
         const uint32_t point = points[lane < count ? lane : 0];
         const uint8_t *c = (const uint8_t *)color->data + point * color->stride_bytes;
-        packet->red[lane] = b->color_codes[0][c[0]];
-        packet->green[lane] = b->color_codes[1][c[1]];
-        packet->blue[lane] = b->color_codes[2][c[2]];
+        packet->red[lane] = b->color_codes[c[0]];
+        packet->green[lane] = b->color_codes[c[1]];
+        packet->blue[lane] = b->color_codes[c[2]];
     }
 }
 
-/// Packs any surfels.
-static void encode_surfels(const build *b, const uint32_t *points, uint32_t count, ewa_packet *packet) {
-    const double *origin = b->surfels->origin_world;
+/// Packs any surfels; returns the form of their colours.
+static uint16_t encode_surfels(const build *b, const uint32_t *points, uint32_t count, double start[3],
+                               ewa_packet *packet) {
+    const double per_unit = 1 / b->surfels->unit;
     ewa_surfel surfels[LANES];
+    double colors[LANES][3];
     float normal[3][LANES];
     for (uint32_t i = 0; i < LANES; i++) {
         bool drawable;
@@ -220,23 +204,30 @@ static void encode_surfels(const build *b, const uint32_t *points, uint32_t coun
         else
             surfels[i] = surfels[0];
         const ewa_surfel *s = &surfels[i];
+        const double *from = surfels[0].center;
         const double major = vec3_length(vec3_load(s->axis_u_world)),
                      minor = vec3_length(vec3_load(s->axis_v_world));
-        packet->x[i] = (float)(s->center_world[0] - origin[0]);
-        packet->y[i] = (float)(s->center_world[1] - origin[1]);
-        packet->z[i] = (float)(s->center_world[2] - origin[2]);
-        packet->sigma[i] = (float)major;
-        packet->ratio[i] = (uint16_t)(least(minor / major, 1) * 65535 + 0.5);
+        packet->x[i] = (float)((s->center[0] - from[0]) * per_unit);
+        packet->y[i] = (float)((s->center[1] - from[1]) * per_unit);
+        packet->z[i] = (float)((s->center[2] - from[2]) * per_unit);
+        packet->sigma[i] = ewa_packed_sigma(major * per_unit);
+        packet->ratio[i] = (uint16_t)(sqrt(sqrt(least(minor / major, 1))) * 65535 + 0.5);
         for (int c = 0; c < 3; c++) normal[c][i] = (float)s->normal_world[c];
-        uint16_t codes[3];
-        ewa_packets_encode_color(b->surfels, s->color_linear, codes);
-        put_color(packet, i, codes);
+        memcpy(colors[i], s->color_linear, sizeof colors[i]);
     }
+    for (int c = 0; c < 3; c++) start[c] = surfels[0].center[c] * per_unit;
     b->kernels->code_normals(normal, packet);
+    const ewa_attribute *color = b->reader.color;
+    const bool even = !color || color->type == EWA_U8; // as packets of discs have
+    const uint16_t form =
+        even ? EWA_COLOR_FORM_UNIT : ewa_color_form_choose((const double(*)[3])colors, LANES);
     for (uint32_t i = 0; i < LANES; i++) {
         const bool circle = packet->ratio[i] == 65535;
         packet->angle[i] = circle ? 0 : encode_angle(packet, i, vec3_load(surfels[i].axis_u_world));
     }
+    uint16_t *const channels[3] = {packet->red, packet->green, packet->blue};
+    ewa_color_encode(form, (const double(*)[3])colors, LANES, channels);
+    return form;
 }
 
 /// Clears the lanes from `count` on.
@@ -248,28 +239,41 @@ static void empty_lanes(ewa_packet *packet, uint32_t count) {
     }
 }
 
+static uint32_t count_points(const uint32_t points[LANES]) {
+    uint32_t count = LANES;
+    while (points[count - 1] == EWA_NO_POINT) count--;
+    return count;
+}
+
 /// Packs and bounds the sixteen packets of a group, fewer in the last one.
 static void encode_group(const build *b, uint64_t group) {
     const ewa_surfels *surfels = b->surfels;
     const uint64_t first = group * LANES, packets_left = surfels->packet_count - first;
     const uint32_t packet_count = packets_left < LANES ? (uint32_t)packets_left : LANES;
-    uint32_t count = LANES;
-    for (uint32_t k = 0; k < packet_count; k++) {
-        const uint64_t at = (first + k) * LANES, left = surfels->count - at;
+    const uint32_t *points = b->order.points + first * LANES;
+    uint32_t counts[LANES];
+    double starts[LANES][3];
+    for (uint32_t k = 0; k < packet_count; k++, points += LANES) {
         ewa_packet *packet = &surfels->packets[first + k];
-        count = left < LANES ? (uint32_t)left : LANES;
+        counts[k] = count_points(points);
         if (!b->are_discs) {
-            encode_surfels(b, &b->order[at], count, packet);
+            surfels->bounds.colors[first + k] = encode_surfels(b, points, counts[k], starts[k], packet);
             continue;
         }
-        if (left >= PREFETCH_POINTS + LANES)
+        if ((surfels->packet_count - first - k) * LANES >= PREFETCH_POINTS + LANES)
             for (uint32_t i = 0; i < LANES; i++)
-                ewa_discs_prefetch(&b->discs, b->order[at + PREFETCH_POINTS + i]);
-        encode_discs(b, &b->order[at], count, packet);
+                if (points[PREFETCH_POINTS + i] != EWA_NO_POINT)
+                    ewa_discs_prefetch(&b->discs, points[PREFETCH_POINTS + i]);
+        encode_discs(b, points, counts[k], starts[k], packet);
+        surfels->bounds.colors[first + k] = EWA_COLOR_FORM_UNIT;
     }
-    b->kernels->bound_packets(&surfels->packets[first], packet_count, (float)surfels->cutoff,
-                              &surfels->bounds, first);
-    empty_lanes(&surfels->packets[first + packet_count - 1], count);
+    const uint32_t wide =
+        b->kernels->bound_packets(&surfels->packets[first], packet_count, (const double(*)[3])starts,
+                                  (float)surfels->cutoff, (float)EWA_PACKET_REACH, &surfels->bounds, first);
+    for (uint32_t k = 0; k < packet_count; k++) {
+        b->wide[first + k] = wide >> k & 1;
+        if (counts[k] < LANES) empty_lanes(&surfels->packets[first + k], counts[k]);
+    }
 }
 
 static void encode_part(void *data, uint32_t part, uint32_t worker) {
@@ -278,78 +282,6 @@ static void encode_part(void *data, uint32_t part, uint32_t worker) {
     const uint64_t groups = ((uint64_t)b->surfels->packet_count + LANES - 1) / LANES;
     const uint64_t end = ewa_split(groups, b->parts, part + 1);
     for (uint64_t g = ewa_split(groups, b->parts, part); g < end; g++) encode_group(b, g);
-}
-
-/// A surfel with its point, for ordering what the Morton curve leaves in the order of the input.
-typedef struct tied_surfel {
-    ewa_surfel surfel;
-    uint32_t point;
-} tied_surfel;
-
-static int compare_tied(const void *a, const void *b) {
-    const tied_surfel *s = a, *t = b;
-    const double *x = &s->surfel.center_world[0], *y = &t->surfel.center_world[0];
-    for (size_t i = 0; i < sizeof(ewa_surfel) / sizeof(double); i++)
-        if (x[i] != y[i]) return x[i] < y[i] ? -1 : 1;
-    return s->point < t->point ? -1 : s->point > t->point;
-}
-
-/// Whether some of the next TIE_BLOCK points is not told apart from the one before it.
-static bool any_same(const uint16_t split_level[TIE_BLOCK]) {
-    uint16_t any = 0;
-    for (int i = 0; i < TIE_BLOCK; i++) any |= split_level[i] == EWA_MORTON_SAME;
-    return any;
-}
-
-/// Orders runs of points that the curve does not tell apart by everything that is drawn of them.
-static ewa_status order_ties(build *b, ewa_context *context, const uint16_t *split_level, uint32_t count) {
-    for (uint32_t first = 0, end; first < count; first = end) {
-        if (count - first > TIE_BLOCK && !any_same(&split_level[first + 1])) {
-            end = first + TIE_BLOCK;
-            continue;
-        }
-        end = first + 1;
-        while (end < count && split_level[end] == EWA_MORTON_SAME) end++;
-        if (end - first < 2) continue;
-        tied_surfel *tied = ewa_allocate_zeroed(context, end - first, sizeof *tied);
-        if (!tied) return EWA_ERROR_MEMORY;
-        for (uint32_t i = first; i < end; i++) {
-            tied_surfel *t = &tied[i - first];
-            bool drawable;
-            ewa_surfel_read(&b->reader, b->order[i], 1, &t->surfel, &drawable);
-            if (!drawable) memset(&t->surfel, 0, sizeof t->surfel);
-            t->point = b->order[i];
-        }
-        qsort(tied, end - first, sizeof *tied, compare_tied);
-        for (uint32_t i = first; i < end; i++) b->order[i] = tied[i - first].point;
-        ewa_release(context, tied, end - first, sizeof *tied);
-    }
-    return EWA_OK;
-}
-
-/// Fills b->order with the drawable points in packet order.
-static ewa_status order_points(build *b, ewa_context *context) {
-    const uint32_t count = (uint32_t)b->point_count;
-    uint16_t *split_level = ewa_allocate(context, count, sizeof *split_level);
-    if (!split_level) return EWA_ERROR_MEMORY;
-    // The sort may use the packets' memory before there are packets.
-    ewa_surfels *surfels = b->surfels;
-    const bool fits = surfels->packet_count * sizeof *surfels->packets >= ewa_morton_room_bytes(count);
-    ewa_bounds box = surfels->extent;
-    for (int c = 0; c < 3; c++) {
-        box.low_world[c] -= b->reader.origin_world[c];
-        box.high_world[c] -= b->reader.origin_world[c];
-    }
-    ewa_status status = ewa_morton_order_in(context, b->reader.position, count, &box,
-                                            fits ? surfels->packets : NULL, b->order, split_level);
-    if (status == EWA_OK) status = order_ties(b, context, split_level, count);
-    if (status == EWA_OK && b->surfels->left_out_count) {
-        uint32_t kept = 0;
-        for (uint32_t i = 0; i < count; i++)
-            if (b->drawable[b->order[i]]) b->order[kept++] = b->order[i];
-    }
-    ewa_release(context, split_level, count, sizeof *split_level);
-    return status;
 }
 
 const ewa_pack_kernels *ewa_pack_kernels_choose(uint32_t features) {
@@ -363,54 +295,100 @@ const ewa_pack_kernels *ewa_pack_kernels_choose(uint32_t features) {
     return kernels;
 }
 
-/// Makes tables from the colours that discs can have to their codes.
+/// Makes codes of the numbers that colours of discs can have.
 static void set_color_codes(build *b) {
-    const double grey[3] = {EWA_DEFAULT_GREY, EWA_DEFAULT_GREY, EWA_DEFAULT_GREY};
-    ewa_packets_encode_color(b->surfels, grey, b->grey_codes);
-    for (int value = 0; value < 256; value++) {
-        const double linear = b->reader.colors.linear_from_u8[value], color[3] = {linear, linear, linear};
-        uint16_t codes[3];
-        ewa_packets_encode_color(b->surfels, color, codes);
-        for (int k = 0; k < 3; k++) b->color_codes[k][value] = codes[k];
-    }
+    b->grey_code = ewa_color_unit_code(EWA_DEFAULT_GREY);
+    for (int value = 0; value < 256; value++)
+        b->color_codes[value] = ewa_color_unit_code(b->reader.colors.linear_from_u8[value]);
 }
 
 void ewa_packets_view_bounds(ewa_surfels *surfels) {
-    float **const streams[EWA_BOUNDS_STREAMS] = {&surfels->bounds.center_x, &surfels->bounds.center_y,
-                                                 &surfels->bounds.center_z, &surfels->bounds.radius,
-                                                 &surfels->bounds.axis_x,   &surfels->bounds.axis_y,
-                                                 &surfels->bounds.axis_z,   &surfels->bounds.cone_sine};
-    for (int i = 0; i < EWA_BOUNDS_STREAMS; i++)
-        *streams[i] = surfels->bounds_floats + i * surfels->bounds_stride;
+    const size_t stride = surfels->bounds_stride;
+    double *centers = surfels->bounds_memory;
+    uint32_t *cones = (uint32_t *)(void *)(centers + 3 * stride);
+    uint16_t *halves = (uint16_t *)(void *)(cones + stride);
+    surfels->bounds = (ewa_packet_bounds){.center_x = centers,
+                                          .center_y = centers + stride,
+                                          .center_z = centers + 2 * stride,
+                                          .cone = cones,
+                                          .radius = halves,
+                                          .colors = halves + stride};
 }
 
-static ewa_status allocate_packets(ewa_surfels *surfels) {
+static void free_packets(ewa_surfels *surfels) {
     ewa_context *context = surfels->context;
-    surfels->packet_count = (uint32_t)(((uint64_t)surfels->count + LANES - 1) / LANES);
-    surfels->bounds_stride = ((size_t)surfels->packet_count + LANES - 1) / LANES * LANES;
+    ewa_release(context, surfels->packets, surfels->packet_count, sizeof *surfels->packets);
+    ewa_release(context, surfels->bounds_memory, surfels->bounds_stride, EWA_BOUNDS_BYTES);
+    surfels->packets = NULL;
+    surfels->bounds_memory = NULL;
+}
+
+static ewa_status allocate_packets(ewa_surfels *surfels, uint32_t packet_count) {
+    ewa_context *context = surfels->context;
+    free_packets(surfels);
+    surfels->packet_count = packet_count;
+    surfels->bounds_stride = ((size_t)packet_count + LANES - 1) / LANES * LANES;
     surfels->packets = ewa_allocate(context, surfels->packet_count, sizeof *surfels->packets);
-    surfels->bounds_floats = ewa_allocate_zeroed(context, EWA_BOUNDS_STREAMS * surfels->bounds_stride,
-                                                 sizeof *surfels->bounds_floats);
-    if (!surfels->packets || !surfels->bounds_floats) return EWA_ERROR_MEMORY;
+    surfels->bounds_memory = ewa_allocate_zeroed(context, surfels->bounds_stride, EWA_BOUNDS_BYTES);
+    if (!surfels->packets || !surfels->bounds_memory) return EWA_ERROR_MEMORY;
     ewa_packets_view_bounds(surfels);
     return EWA_OK;
 }
 
+/// The unit of lengths in packets: a power of two near the sigma of a surfel amid the others, so that sets
+/// may be as small or large as doubles.
+static double choose_unit(const build *b) {
+    ewa_surfel surfel;
+    bool drawable;
+    if (b->surfels->count == 0) return 1;
+    const size_t middle = (size_t)(b->order.packet_count / 2) * LANES;
+    ewa_surfel_read(&b->reader, b->order.points[middle], 1, &surfel, &drawable);
+    return ldexp(1, ilogb(vec3_length(vec3_load(surfel.axis_u_world))));
+}
+
+/// Packs all surfels as they are ordered.
+static ewa_status encode(build *b, ewa_context *context) {
+    const size_t packet_count = b->surfels->packet_count;
+    b->wide = ewa_allocate(context, packet_count, sizeof *b->wide);
+    if (!b->wide) return EWA_ERROR_MEMORY;
+    ewa_parallel(context, encode_part, b, b->parts);
+    bool any = false;
+    for (size_t p = 0; p < packet_count; p++) any |= b->wide[p];
+    ewa_status status = EWA_OK;
+    if (any) status = ewa_packet_order_split(context, &b->reader, b->wide, &b->order);
+    if (status == EWA_OK && b->order.packet_count != packet_count && any) {
+        status = allocate_packets(b->surfels, b->order.packet_count);
+        ewa_release(context, b->wide, packet_count, sizeof *b->wide);
+        b->wide = status == EWA_OK ? ewa_allocate(context, b->order.packet_count, sizeof *b->wide) : NULL;
+        if (!b->wide) return EWA_ERROR_MEMORY;
+        ewa_parallel(context, encode_part, b, b->parts);
+    }
+    ewa_release(context, b->wide, b->surfels->packet_count, sizeof *b->wide);
+    return status;
+}
+
 static ewa_status build_surfels(build *b, ewa_context *context) {
     b->drawable = ewa_allocate(context, b->point_count, sizeof *b->drawable);
-    b->order = ewa_allocate(context, b->point_count, sizeof *b->order);
-    if (!b->drawable || !b->order) return EWA_ERROR_MEMORY;
+    if (!b->drawable) return EWA_ERROR_MEMORY;
     b->kernels = ewa_pack_kernels_choose(ewa_context_cpu_features(context));
     b->are_discs = ewa_discs_open(&b->reader, b->kernels, &b->discs);
     ewa_parallel(context, survey_part, b, b->parts);
     settle(b);
     if (b->are_discs) set_color_codes(b);
-    ewa_status status = allocate_packets(b->surfels);
-    if (status == EWA_OK) status = order_points(b, context);
+    ewa_surfels *s = b->surfels;
+    const uint32_t count = (uint32_t)b->point_count;
+    ewa_status status = allocate_packets(s, (uint32_t)(((uint64_t)s->count + LANES - 1) / LANES));
     if (status != EWA_OK) return status;
-    ewa_parallel(context, encode_part, b, b->parts);
-    b->surfels->unit_coverage = ewa_packets_unit_coverage(b->surfels);
-    return ewa_extras_make(context, b->surfels, &b->reader, b->order);
+    // The sort may use the packets' memory before there are packets.
+    const bool fits = s->packet_count * sizeof *s->packets >= ewa_morton_room_bytes(count);
+    status = ewa_packet_order_make(context, &b->reader, count, b->drawable, s->count, &s->extent,
+                                   fits ? s->packets : NULL, &b->order);
+    if (status != EWA_OK) return status;
+    s->unit = choose_unit(b);
+    status = encode(b, context);
+    if (status != EWA_OK) return status;
+    s->unit_coverage = ewa_packets_unit_coverage(s);
+    return ewa_extras_make(context, s, &b->reader, b->order.points);
 }
 
 ewa_status ewa_surfels_create(const ewa_cloud *cloud, const ewa_surfels_options *options,
@@ -441,7 +419,7 @@ ewa_status ewa_surfels_create(const ewa_cloud *cloud, const ewa_surfels_options 
                           (unsigned long long)b->point_count);
     if (status == EWA_OK) status = build_surfels(b, context);
     ewa_release(context, b->drawable, b->point_count, sizeof *b->drawable);
-    ewa_release(context, b->order, b->point_count, sizeof *b->order);
+    ewa_packet_order_free(context, &b->order);
     ewa_release(context, b, 1, sizeof *b);
     if (status == EWA_OK)
         *surfels = made;
@@ -454,24 +432,26 @@ void ewa_surfels_destroy(ewa_surfels **surfels) {
     if (!surfels || !*surfels) return;
     ewa_surfels *old = *surfels;
     ewa_context *context = old->context;
-    ewa_release(context, old->packets, old->packet_count, sizeof *old->packets);
     ewa_extras_free(context, old);
-    ewa_release(context, old->bounds_floats, EWA_BOUNDS_STREAMS * old->bounds_stride,
-                sizeof *old->bounds_floats);
+    free_packets(old);
     ewa_release(context, old, 1, sizeof *old);
     *surfels = NULL;
 }
 
 void ewa_surfels_describe(const ewa_surfels *surfels, ewa_surfels_info *info) {
+    ewa_bounds bounds = surfels->extent;
+    for (int c = 0; c < 3 && surfels->count; c++) {
+        bounds.low_world[c] += surfels->origin_world[c];
+        bounds.high_world[c] += surfels->origin_world[c];
+    }
     *info = (ewa_surfels_info){
         .point_count = surfels->count,
         .left_out_count = surfels->left_out_count,
         .resident_bytes = sizeof *surfels + surfels->packet_count * sizeof *surfels->packets +
-                          EWA_BOUNDS_STREAMS * surfels->bounds_stride * sizeof *surfels->bounds_floats +
-                          ewa_extras_bytes(surfels),
+                          EWA_BOUNDS_BYTES * surfels->bounds_stride + ewa_extras_bytes(surfels),
         .unit_coverage = surfels->unit_coverage,
         .transparent = surfels->opacities != NULL,
-        .bounds = surfels->extent,
+        .bounds = bounds,
         .material_count = (uint32_t)surfels->most_material + 1,
     };
 }

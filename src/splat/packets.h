@@ -9,8 +9,8 @@
 #include "kernels/packet.h"
 #include "math/vec.h"
 
-/// The clip lines of a surfel, local space: keep toward.(q - center) + offset >= 0 for q in its plane; toward
-/// is a unit vector of the plane, or 0 and offset 1 where there is no line.
+/// The clip lines of a surfel: keep toward.(q - center) + offset >= 0 for q in its plane, in the surfels'
+/// unit; toward is a unit vector of the plane, or 0 and offset 1 where there is no line.
 typedef struct ewa_surfel_clip {
     float toward[2][3], offset[2];
     bool either;
@@ -28,33 +28,34 @@ struct ewa_surfels {
     uint32_t *clip_first;   ///< [packet]: of its lanes' in `clips`
     ewa_surfel_clip *clips; ///< `clip_count` of them, in the order of packets and lanes
     uint64_t clip_count;
-    ewa_packet_bounds bounds; ///< views into `bounds_floats`
-    float *bounds_floats;
+    ewa_packet_bounds bounds; ///< views into `bounds_memory`
+    void *bounds_memory;
     size_t bounds_stride;   ///< packet_count rounded up to a full vector
-    double origin_world[3]; ///< of the packets' positions
-    float color_scale[3], color_offset[3];
+    double origin_world[3]; ///< of the packets' centres
+    double unit;            ///< of all lengths in packets, world units; a power of two near their sigmas
+    ewa_bounds extent;      ///< of the surfels' centres, from the origin, in world units
     double cutoff;
     bool ellipses; ///< some kernel is not a circle
     double unit_coverage;
-    ewa_bounds extent;
 };
 
-enum { EWA_BOUNDS_STREAMS = 8 };
+enum { EWA_BOUNDS_BYTES = 3 * sizeof(double) + 2 * sizeof(uint16_t) + sizeof(uint32_t) }; ///< of a packet
 
-/// Sets the views of `bounds` into `bounds_floats`.
+/// Sets the views of `bounds` into `bounds_memory`.
 void ewa_packets_view_bounds(ewa_surfels *surfels);
 
-/// Encodes one linear colour.
-void ewa_packets_encode_color(const ewa_surfels *surfels, const double color_linear[3], uint16_t codes[3]);
-
-/// One surfel of a packet, local space, axes of length sigma.
+/// One surfel of a packet; lengths in the surfels' unit, axes of length sigma.
 typedef struct ewa_packet_surfel {
-    ewa_vec3 center, axis_u, axis_v, normal;
+    ewa_vec3 offset; ///< from the packet's centre
+    ewa_vec3 axis_u, axis_v, normal;
     double color[3], opacity;
 } ewa_packet_surfel;
 
 /// Decodes lane `lane` of packet `packet`, as the kernels do but in double precision.
 void ewa_packet_decode(const ewa_surfels *surfels, uint32_t packet, uint32_t lane, ewa_packet_surfel *surfel);
+
+/// Returns a packet's centre, from the origin in the surfels' unit.
+ewa_vec3 ewa_packet_center(const ewa_surfels *surfels, uint32_t packet);
 
 /// Estimates q0 (math.md section 7): the median over a sample of surfels of sigma_u sigma_v density
 /// (1 - exp(-F^2 / 2)), each surfel counting at least itself within its own support.

@@ -6,6 +6,7 @@
 // Zwicker, H. Pfister, J. van Baar, M. Gross, "Surface Splatting", 2001, sections 4 and 7; M. Zwicker, J.
 // Rasanen, M. Botsch, C. Dachsbacher, M. Pauly, "Perspective Accurate Splatting", 2004, section 6.
 #include "base/base.h"
+#include "cloud/cloud.h"
 #include "image/srgb.h"
 #include "kernels/semantics.h"
 #include "splat/options.h"
@@ -148,9 +149,7 @@ static ewa_reference_surface surface_at(const reference *work, int32_t x, int32_
                                      .reflection = at->material[4] * inverse};
     // From the surface to the eye, back to world space: -d A, A being a rotation but for its scale.
     const ewa_vec3 d = ewa_reference_ray(&work->view, x + 0.5, y + 0.5);
-    ewa_vec3 view = vec3_make(0, 0, 0);
-    for (int row = 0; row < 3; row++)
-        view = vec3_sub(view, vec3_scale(work->view.rows[row], row == 0 ? d.x : row == 1 ? d.y : d.z));
+    const ewa_vec3 view = vec3_scale(vec3_mul_mat3(d, &work->view.placement.linear), -1);
     surface.view_world = vec3_scale(view, 1 / vec3_length(view));
     return surface;
 }
@@ -217,7 +216,7 @@ static bool resolve_surface(const reference *work, uint32_t layer, int32_t x, in
         at->through *= 1 - alpha;
     }
     if (layer == 0) {
-        write_surface(&work->frame, index, depth, normal, coverage);
+        write_surface(&work->frame, index, depth * work->view.placement.unit, normal, coverage);
         at->depth = depth;
     }
     const bool open = q > 0 && at->through > 0;
@@ -390,6 +389,9 @@ ewa_status ewa_render_reference(const ewa_cloud *cloud, const ewa_surfels_option
     if (work.options.point_size_px > 0)
         work.unit_coverage = ewa_point_profile_make(&work.options).unit_coverage;
     ewa_reference_view_make(camera, chosen.cutoff, &work.options, &work.view);
+    ewa_bounds box;
+    ewa_position_measure(context, work.reader.position, work.surfel_count, &box);
+    ewa_reference_view_place(camera, work.reader.origin_world, &box, &work.view);
     ewa_shading_setup_make(&work.options, &work.shading);
     const uint64_t bands = (uint64_t)ewa_context_worker_count(context) * BANDS_PER_WORKER;
     work.band_count = bands < camera->height_px ? (uint32_t)bands : camera->height_px;

@@ -13,7 +13,7 @@ static const double TWO_PI = 6.283185307179586;
 
 /// v A': a direction from world to camera space.
 static ewa_vec3 to_camera(const ewa_reference_view *view, ewa_vec3 v) {
-    return vec3_make(vec3_dot(view->rows[0], v), vec3_dot(view->rows[1], v), vec3_dot(view->rows[2], v));
+    return mat3_mul_vec3(&view->placement.linear, v);
 }
 
 void ewa_reference_view_make(const ewa_camera *camera, double cutoff, const ewa_render_options *options,
@@ -37,15 +37,21 @@ void ewa_reference_view_make(const ewa_camera *camera, double cutoff, const ewa_
         view->cutoff = profile.cutoff;
         view->point_sigma_px = profile.sigma_px;
     }
-    for (int row = 0; row < 3; row++) {
-        view->rows[row] = vec3_load(&camera->world_to_camera[4 * row]);
-        view->translation[row] = camera->world_to_camera[4 * row + 3];
-    }
     for (int corner = 0; corner < 4; corner++) {
         const ewa_vec3 ray =
             ewa_reference_ray(view, corner & 1 ? view->width_px : 0, corner & 2 ? view->height_px : 0);
         view->farthest_slope = fmax(view->farthest_slope, vec3_length(ray));
     }
+    const double origin_world[3] = {0, 0, 0};
+    view->placement = ewa_placement_make(camera, origin_world, NULL, 0);
+}
+
+void ewa_reference_view_place(const ewa_camera *camera, const double origin_world[3], const ewa_bounds *box,
+                              ewa_reference_view *view) {
+    view->placement = ewa_placement_make(camera, origin_world, box, 0);
+    if (!view->orthographic) return;
+    view->fx_px = camera->fx_px * view->placement.unit;
+    view->fy_px = camera->fy_px * view->placement.unit;
 }
 
 ewa_vec3 ewa_reference_ray(const ewa_reference_view *view, double x_px, double y_px) {
@@ -104,6 +110,7 @@ static bool filter_ellipse(const ewa_reference_view *view, double jacobian[2][2]
     double determinant = root * root + h2 * (variance[0] + variance[2]) + h2 * h2;
     // Without a prefilter a splat from the edge is a line of no area.
     if (!(determinant > EWA_FLAT * (variance[0] + h2) * (variance[2] + h2))) return false;
+    if (!(root >= EWA_LEAST_SPLAT)) return false;
     double filtered[3] = {variance[0] + h2, variance[1], variance[2] + h2}; // V'
     if (view->kernel == EWA_KERNEL_CIRCULAR) {
         const double mean = (filtered[0] + filtered[2]) / 2, difference = (filtered[0] - filtered[2]) / 2;
@@ -186,6 +193,14 @@ static bool make_ellipse(const ewa_reference_view *view, ewa_reference_splat *sp
 /// the circumscribed rectangle, clipped to the depths at which rays of the picture meet the plane at all.
 static void bound_near(const ewa_reference_view *view, ewa_reference_splat *splat) {
     const double reach = 2 * view->cutoff;
+    if (view->orthographic) {
+        const ewa_vec3 p = splat->center, u = splat->axis_u, v = splat->axis_v;
+        const double x = view->fx_px * p.x + view->cx_px, y = view->fy_px * p.y + view->cy_px;
+        const double half_x = view->fx_px * reach * hypot(u.x, v.x),
+                     half_y = view->fy_px * reach * hypot(u.y, v.y);
+        set_box(view, x - half_x, x + half_x, y - half_y, y + half_y, splat);
+        return;
+    }
     // A ray d meets the plane at z = n.p / n.d, and |n.d| <= |d|.
     const double z_min = 0.999 * fabs(vec3_dot(splat->normal, splat->center)) / view->farthest_slope;
     ewa_vec3 corners[4];
@@ -308,9 +323,7 @@ static void clip_sample(const ewa_reference_splat *splat, double x_px, double y_
 void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *surfel,
                            ewa_reference_splat *splat) {
     splat->drawn = false;
-    const double *t = view->translation;
-    const ewa_vec3 p =
-        vec3_add(to_camera(view, vec3_load(surfel->center_world)), vec3_make(t[0], t[1], t[2]));
+    const ewa_vec3 p = ewa_placement_apply(&view->placement, vec3_load(surfel->center));
     ewa_vec3 u = to_camera(view, vec3_load(surfel->axis_u_world));
     ewa_vec3 v = to_camera(view, vec3_load(surfel->axis_v_world));
     ewa_vec3 normal_world = vec3_load(surfel->normal_world);
@@ -319,7 +332,8 @@ void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *sur
         const double size = view->point_sigma_px * (view->orthographic ? 1 : p.z);
         u = vec3_make(size / view->fx_px, 0, 0);
         v = vec3_make(0, size / view->fy_px, 0);
-        normal_world = vec3_scale(view->rows[2], -1 / vec3_length(view->rows[2]));
+        const ewa_vec3 ahead = mat3_row(&view->placement.linear, 2);
+        normal_world = vec3_scale(ahead, -1 / vec3_length(ahead));
     }
     ewa_vec3 n = to_camera(view, normal_world);
     n = vec3_scale(n, 1 / vec3_length(n));
@@ -328,8 +342,9 @@ void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *sur
     const double facing = view->orthographic ? n.z : vec3_dot(n, p);
     if (view->orthographic || is_point ? p.z <= 0 : p.z + half_range <= 0) return;
     if (view->cull == EWA_CULL_BACK && facing >= 0) return;
-    const bool by_rays = !view->orthographic && p.z <= EWA_NEAR_RATIO * half_range;
-    if (by_rays && fabs(facing) < EWA_EDGE_ON * vec3_length(p)) return;
+    const double broad = fmax(vec3_length(u), vec3_length(v)) * fmax(view->fx_px, view->fy_px) / EWA_BROAD_PX;
+    const bool by_rays = view->orthographic ? broad > 1 : p.z <= fmax(EWA_NEAR_RATIO * half_range, broad);
+    if (by_rays && fabs(facing) < EWA_EDGE_ON * (view->orthographic ? 1 : vec3_length(p))) return;
     splat->turned = facing > 0;
     const double sign = splat->turned ? -1 : 1;
     splat->center = p;
@@ -365,21 +380,27 @@ static void sample_plane(const ewa_reference_view *view, const double at[2], con
     sample->weight = exp(-0.5 * sample->distance2) / sqrt(determinant) / TWO_PI;
 }
 
-/// A near surfel along a ray: q = z d - p in the tangent frame, u = (q.tu / tu.tu, q.tv / tv.tv), with the
-/// derivatives of u at this very pixel.
+/// A surfel along a ray: q = z d - p in the tangent frame, u = (q.tu / tu.tu, q.tv / tv.tv), with the
+/// derivatives of u at this very pixel. Orthographic: the ray goes through (x, y, 0) along d = (0, 0, 1).
 static bool sample_ray(const ewa_reference_view *view, const ewa_reference_splat *splat, double x_px,
                        double y_px, ewa_reference_sample *sample) {
     const ewa_vec3 d = ewa_reference_ray(view, x_px, y_px), p = splat->center, n = splat->normal;
-    const double np = vec3_dot(n, p), nd = vec3_dot(n, d), z = np / nd;
-    if (!(z > 0) || !isfinite(z)) return false;
+    const bool flat = view->orthographic;
+    ewa_vec3 way = vec3_scale(p, -1); // from the centre to where the ray starts
+    if (flat) {
+        way.x += (x_px - view->cx_px) / view->fx_px;
+        way.y += (y_px - view->cy_px) / view->fy_px;
+    }
+    const double nd = vec3_dot(n, d), z = -vec3_dot(n, way) / nd, stretch = flat ? 1 : z;
+    if (!(flat || z > 0) || !isfinite(z)) return false;
     const ewa_vec3 tangents[2] = {splat->axis_u, splat->axis_v};
     double u[2], by_x[2], by_y[2];
     for (int i = 0; i < 2; i++) {
         const ewa_vec3 t = vec3_scale(tangents[i], 1 / vec3_dot(tangents[i], tangents[i]));
-        u[i] = vec3_dot(vec3_sub(vec3_scale(d, z), p), t);
-        // d(z d)/dx = dz/dx d + z (1/fx, 0, 0), dz/dx = -z nx / (fx n.d); likewise y
-        by_x[i] = z / view->fx_px * (t.x - n.x / nd * vec3_dot(d, t));
-        by_y[i] = z / view->fy_px * (t.y - n.y / nd * vec3_dot(d, t));
+        u[i] = vec3_dot(vec3_add(vec3_scale(d, z), way), t);
+        // d(z d)/dx = dz/dx d + z (1/fx, 0, 0), dz/dx = -z nx / (fx n.d); likewise y; orthographic: without z
+        by_x[i] = stretch / view->fx_px * (t.x - n.x / nd * vec3_dot(d, t));
+        by_y[i] = stretch / view->fy_px * (t.y - n.y / nd * vec3_dot(d, t));
     }
     if (!(u[0] * u[0] + u[1] * u[1] < 4 * view->cutoff * view->cutoff)) return false;
     sample_plane(view, u, by_x, by_y, sample);

@@ -5,16 +5,17 @@
 #ifndef EWA_SRC_SPLAT_REFERENCE_SPLAT_H
 #define EWA_SRC_SPLAT_REFERENCE_SPLAT_H
 
+#include "math/placement.h"
 #include "math/vec.h"
 #include "splat/surfel.h"
 
-/// A camera and the options that decide where a splat lies and what it weighs.
+/// A camera and the options that decide where a splat lies and what it weighs. Lengths in camera space are in
+/// units of the placement.
 typedef struct ewa_reference_view {
     bool orthographic;
     int32_t width_px, height_px;
-    double fx_px, fy_px, cx_px, cy_px;
-    ewa_vec3 rows[3];      ///< of A
-    double translation[3]; ///< t: camera space p = A w + t
+    double fx_px, fy_px, cx_px, cy_px; ///< orthographic: pixels per unit of camera space
+    ewa_placement placement;
     double farthest_slope; ///< length of the longest ray (x, y, 1) to the picture
     ewa_kernel kernel;
     ewa_cull cull;
@@ -60,9 +61,14 @@ typedef struct ewa_reference_sample {
     double inward[2]; ///< share < 1: on the screen, from what is cut off to what is kept; at most of length 1
 } ewa_reference_sample;
 
-/// Both structs must have been checked; `cutoff` is the surfels', which points do not use.
+/// Both structs must have been checked; `cutoff` is the surfels', which points do not use. Surfels are in the
+/// world as they are, camera space is the camera's.
 void ewa_reference_view_make(const ewa_camera *camera, double cutoff, const ewa_render_options *options,
                              ewa_reference_view *view);
+
+/// Places the camera of such a view before surfels within `box`, relative to `origin_world`.
+void ewa_reference_view_place(const ewa_camera *camera, const double origin_world[3], const ewa_bounds *box,
+                              ewa_reference_view *view);
 
 /// Returns the direction through a point of the picture, z = 1 (camera space).
 ewa_vec3 ewa_reference_ray(const ewa_reference_view *view, double x_px, double y_px);

@@ -83,6 +83,16 @@ static void gather_stats(const ewa_renderer *renderer, const ewa_surfels *surfel
     stats->total_s = ewa_now_s() - start_s;
 }
 
+/// Tells of colours that cannot be shown: 8-bit pixels hide them.
+static void report_broken(const ewa_renderer *renderer, ewa_context *context, const ewa_camera *camera) {
+    uint64_t broken = 0;
+    for (uint32_t i = 0; i < renderer->worker_count; i++) broken += renderer->scratch[i]->broken_pixel_count;
+    if (broken)
+        ewa_report(context, EWA_SEVERITY_WARNING,
+                   "%llu of %llu pixels have a colour that is infinite or not a number",
+                   (unsigned long long)broken, (unsigned long long)camera->width_px * camera->height_px);
+}
+
 /// How many surfaces are composited, and whether they are transparent.
 static void set_layers(ewa_tile_job *job, const ewa_render_options *options) {
     const bool see_through = options->opacity < 1 || job->surfels->opacities;
@@ -131,15 +141,18 @@ ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const 
     ewa_tile_job job = {.kernels = renderer->kernels,
                         .surfels = surfels,
                         .source = {.packets = surfels->packets,
+                                   .colors = surfels->bounds.colors,
                                    .clip_masks = chosen.point_size_px > 0 ? NULL : surfels->clip_masks},
                         .bins = &renderer->bins,
                         .with_normals = shading.lit || drawn.normal,
                         .with_depth = drawn.depth != NULL,
                         .count_fragments = stats != NULL,
                         .scratch = renderer->scratch};
-    status = ewa_view_set(&job.view, surfels, camera, &chosen, tile_side_px(camera, surfels));
+    const ewa_placement placement =
+        ewa_placement_make(camera, surfels->origin_world, &surfels->extent, surfels->unit);
+    status = ewa_view_set(&job.view, surfels, camera, &placement, &chosen, tile_side_px(camera, surfels));
     if (status != EWA_OK) return status;
-    ewa_resolve_set(&job.resolve, surfels, camera, &chosen, &shading, &drawn);
+    ewa_resolve_set(&job.resolve, surfels, camera, &placement, &chosen, &shading, &drawn);
     set_layers(&job, &chosen);
     set_materials(&job, &shading);
     job.channel_count = 4 + (job.with_normals ? 3 : 0) + (job.with_depth ? 1 : 0) +
@@ -147,12 +160,14 @@ ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const 
 
     status = ewa_bins_fill(context, &renderer->bins, renderer->kernels, &job.view, surfels);
     if (status != EWA_OK) return status;
+    job.source.places = renderer->bins.places;
     const double binned_s = ewa_now_s();
     for (uint32_t i = 0; i < renderer->worker_count && status == EWA_OK; i++)
         status = ewa_tile_scratch_reserve(context, renderer->scratch[i], &job, renderer->bins.largest_bin);
     if (status != EWA_OK) return status;
     ewa_parallel(context, ewa_tile_draw, &job, renderer->bins.tiles_x * renderer->bins.tiles_y);
     if (with_dome) ewa_dome_pass_finish(context, &renderer->dome);
+    report_broken(renderer, context, camera);
     if (stats) gather_stats(renderer, surfels, start_s, binned_s, stats);
     return EWA_OK;
 }

@@ -46,7 +46,8 @@ static bool make_ellipse(ewa_vec3 tu, ewa_vec3 tv, ewa_vec3 given, ewa_surfel *s
     double cosine = 1, sine = 0;
     if (mixed != 0 || difference < 0) {
         // Half of the angle of (difference, mixed), in [-90, 90] degrees: the longer axis becomes u.
-        const double length = sqrt(difference * difference + mixed * mixed);
+        const double largest = fmax(fabs(difference), fabs(mixed)); // whose square may be beyond doubles
+        const double x = difference / largest, y = mixed / largest, length = largest * sqrt(x * x + y * y);
         const double larger = sqrt((1 + fabs(difference) / length) / 2);
         const double smaller = fabs(mixed) / length / (2 * larger);
         cosine = difference >= 0 ? larger : smaller;
@@ -163,13 +164,12 @@ static uint64_t read_block(const ewa_surfel_reader *reader, uint64_t first, uint
     for (int k = 0; k < 2; k++)
         if (reader->clip[k]) ewa_attribute_read_f64(reader->clip[k], first, count, clip[k]);
     if (reader->clip_mode) ewa_attribute_read_f64(reader->clip_mode, first, count, mode);
-    const ewa_vec3 origin = vec3_load(reader->origin_world);
     uint64_t kept = 0;
     for (uint64_t i = 0; i < count; i++) {
         ewa_surfel *surfel = &surfels[i];
         double turn[2] = {1, 0};
-        const ewa_vec3 center = vec3_add(vec3_load(&position[3 * i]), origin);
-        vec3_store(center, surfel->center_world);
+        const ewa_vec3 center = vec3_load(&position[3 * i]);
+        vec3_store(center, surfel->center);
         const ewa_vec3 given = reader->normal ? vec3_load(&normal[3 * i]) : vec3_make(0, 0, 0);
         if (reader->tangent_u)
             drawable[i] = make_ellipse(vec3_scale(vec3_load(&first_axis[3 * i]), reader->axis_scale),

@@ -10,7 +10,7 @@
 
 /// One surfel in world space. Its covariance is axis_u' axis_u + axis_v' axis_v (math.md section 2).
 typedef struct ewa_surfel {
-    double center_world[3]; ///< the cloud's origin included
+    double center[3]; ///< world axes, from the cloud's origin: adding that would round
     double axis_u_world[3],
         axis_v_world[3];    ///< orthogonal, length = sigma, |u| >= |v|, radius_scale included
     double normal_world[3]; ///< unit; +-(u x v), on the side of the cloud's normal if it has one
@@ -23,8 +23,8 @@ typedef struct ewa_surfel {
 } ewa_surfel;
 
 /// Largest magnitude of a coordinate and of an axis, and the inverse of the smallest axis: surfels outside
-/// are not drawn, so that no square or product of what is left overflows.
-#define EWA_SURFEL_LIMIT 1e15
+/// are not drawn, so that no square of what is left overflows.
+#define EWA_SURFEL_LIMIT 1e36
 
 /// Smallest |v| / |u| that is an ellipse; thinner ones are lines without a normal and are not drawn.
 #define EWA_SURFEL_MIN_ASPECT 1e-6
@@ -33,7 +33,7 @@ typedef struct ewa_surfel {
 typedef struct ewa_surfel_reader {
     const ewa_attribute *position, *normal, *radius, *tangent_u, *tangent_v, *color; ///< NULL: not used
     const ewa_attribute *clip[2], *clip_mode, *material;
-    double origin_world[3];
+    double origin_world[3];  ///< of the positions
     double sigma_per_radius; ///< radius_scale / F
     double axis_scale;       ///< radius_scale
     ewa_color_table colors;

@@ -89,7 +89,7 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     s->hidden = s->shown + packet_count;
     s->ordered = s->hidden + packet_count;
     s->depths_world = (float *)(s->ordered + packet_count);
-    s->drawn_count = s->fragment_count = s->hidden_splat_count = 0;
+    s->drawn_count = s->fragment_count = s->hidden_splat_count = s->broken_pixel_count = 0;
     s->setup_s = s->visibility_s = s->accumulate_s = s->edge_s = s->resolve_s = 0;
     return EWA_OK;
 }
@@ -174,8 +174,8 @@ static void prepare_run(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_
     sort_run(&s->run, s->order + at, sorted);
     sorted->clips = s->clips ? s->clips + at : NULL;
     for (uint32_t i = 0; i < s->run.clipped_count; i++)
-        ewa_clip_set(&s->clips[at + s->run.clipped[i].record], job->surfels, &s->run.clipped[i], &job->view,
-                     tile);
+        ewa_clip_set(&s->clips[at + s->run.clipped[i].record], job->surfels, s->run.clipped[i].surfel,
+                     &job->view, tile);
 }
 
 static void visit_run(const ewa_tile_job *job, const ewa_tile *tile, const ewa_sorted_run *run,
@@ -259,7 +259,8 @@ static const uint32_t *front_to_back(const ewa_tile_job *job, ewa_tile_scratch *
                                      uint64_t count) {
     const uint64_t run_count = count / EWA_RUN_PACKETS; // the rest stays at the end
     float *depths = s->depths_world, nearest = INFINITY, farthest = -INFINITY;
-    job->kernels->depths(&job->view, &job->surfels->bounds, ids, (uint32_t)count, depths);
+    job->kernels->depths(&job->view, &job->surfels->bounds, &job->source.places, ids, (uint32_t)count,
+                         depths);
     for (uint64_t run = 0; run < run_count; run++) {
         float begin = INFINITY;
         for (uint32_t i = 0; i < EWA_RUN_PACKETS; i++)
@@ -303,8 +304,8 @@ static void draw_visible(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile
         } else {
             job->kernels->set_cells(tile, s->cells);
             const uint32_t shown =
-                job->kernels->hide(&job->view, &job->surfels->bounds, tile, s->cells, ids + first, here,
-                                   s->shown + s->shown_count, s->hidden + s->hidden_count);
+                job->kernels->hide(&job->view, &job->surfels->bounds, &job->source.places, tile, s->cells,
+                                   ids + first, here, s->shown + s->shown_count, s->hidden + s->hidden_count);
             s->shown_count += shown;
             s->hidden_count += here - shown;
             to_pass = shown < here ? 0 : to_pass < MOST_PASSED ? to_pass + 1 : MOST_PASSED;
@@ -361,6 +362,7 @@ void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
     const bool edges = ewa_tile_draw_edges(job, &tile, s, kept);
     const double before = ewa_now_s();
     s->edge_s += before - accumulated;
-    job->kernels->resolve(&tile, &job->resolve, edges ? &s->edges : NULL, s->edge_rows);
+    s->broken_pixel_count +=
+        job->kernels->resolve(&tile, &job->resolve, edges ? &s->edges : NULL, s->edge_rows);
     s->resolve_s += ewa_now_s() - before;
 }

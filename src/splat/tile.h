@@ -63,7 +63,7 @@ typedef struct ewa_tile_scratch {
     uint32_t edge_rows[EWA_MAX_TILE_BLOCKS], edge_rows_left[EWA_MAX_TILE_BLOCKS];
     ewa_apart apart; ///< of the first surface; its planes for turned splats serve those behind it, too
     uint32_t turned_rows[2][EWA_MAX_TILE_BLOCKS], cut_rows[2][EWA_MAX_TILE_BLOCKS];
-    uint64_t drawn_count, fragment_count, hidden_splat_count;
+    uint64_t drawn_count, fragment_count, hidden_splat_count, broken_pixel_count;
     double setup_s, visibility_s, accumulate_s, edge_s, resolve_s;
 } ewa_tile_scratch;
 

@@ -39,53 +39,66 @@ typedef struct sampling {
     double values[SAMPLES];
 } sampling;
 
-/// Takes the surfels of a packet that are among [first, end) but for the one at `index`.
-static void take_packet(const ewa_surfels *surfels, uint32_t p, uint32_t first, uint32_t end, uint32_t index,
-                        const double place[3], double smallest[NEIGHBOURS]) {
+static uint64_t lane_count(const ewa_surfels *surfels) {
+    return (uint64_t)surfels->packet_count * EWA_PACKET_LANES;
+}
+
+/// Takes the surfels of a packet that are in lanes [first, end) of all packets but for the one at `index`;
+/// `place` is from the packet's centre.
+static void take_packet(const ewa_surfels *surfels, uint32_t p, uint64_t first, uint64_t end, uint64_t index,
+                        ewa_vec3 place, double smallest[NEIGHBOURS]) {
     const ewa_packet *packet = &surfels->packets[p];
     double distance2[EWA_PACKET_LANES];
     uint32_t nearer = 0;
     for (uint32_t l = 0; l < EWA_PACKET_LANES; l++) {
-        const double dx = (double)packet->x[l] - place[0], dy = (double)packet->y[l] - place[1],
-                     dz = (double)packet->z[l] - place[2];
+        const double dx = (double)packet->x[l] - place.x, dy = (double)packet->y[l] - place.y,
+                     dz = (double)packet->z[l] - place.z;
         distance2[l] = dx * dx + dy * dy + dz * dz;
     }
     const double largest = smallest[0];
     for (uint32_t l = 0; l < EWA_PACKET_LANES; l++) nearer |= distance2[l] < largest;
     if (!nearer) return;
     for (uint32_t l = 0; l < EWA_PACKET_LANES; l++) {
-        const uint32_t i = p * EWA_PACKET_LANES + l;
-        if (i >= first && i < end && i != index) keep_smallest(smallest, distance2[l]);
+        const uint64_t i = (uint64_t)p * EWA_PACKET_LANES + l;
+        if (i >= first && i < end && i != index && packet->sigma[l] > 0)
+            keep_smallest(smallest, distance2[l]);
     }
 }
 
-static double coverage_at(const ewa_surfels *surfels, uint32_t index) {
-    const uint32_t home = index / EWA_PACKET_LANES, lane = index % EWA_PACKET_LANES;
+static double coverage_at(const ewa_surfels *surfels, uint64_t index) {
+    const uint32_t home = (uint32_t)(index / EWA_PACKET_LANES);
     const ewa_packet *packet = &surfels->packets[home];
-    const double place[3] = {(double)packet->x[lane], (double)packet->y[lane], (double)packet->z[lane]};
+    if (!(packet->sigma[index % EWA_PACKET_LANES] > 0)) index = (uint64_t)home * EWA_PACKET_LANES;
+    ewa_packet_surfel surfel;
+    ewa_packet_decode(surfels, home, index % EWA_PACKET_LANES, &surfel);
+    const ewa_vec3 center = ewa_packet_center(surfels, home);
     double distance2[NEIGHBOURS];
     for (int i = 0; i < NEIGHBOURS; i++) distance2[i] = INFINITY;
-    const uint32_t first = index > WINDOW ? index - WINDOW : 0;
-    const uint32_t end = surfels->count - index > WINDOW ? index + WINDOW : surfels->count;
+    const uint64_t first = index > WINDOW ? index - WINDOW : 0;
+    const uint64_t end = lane_count(surfels) - index > WINDOW ? index + WINDOW : lane_count(surfels);
     // From the nearest packets outward, so that most of the others are rejected as a whole.
-    for (uint32_t p = home + 1; p-- > first / EWA_PACKET_LANES;)
-        take_packet(surfels, p, first, end, index, place, distance2);
-    for (uint32_t p = home + 1; p <= (end - 1) / EWA_PACKET_LANES; p++)
-        take_packet(surfels, p, first, end, index, place, distance2);
-    const double sigma_u = (double)packet->sigma[lane], sigma_v = sigma_u * packet->ratio[lane] / 65535.0;
+    for (uint32_t p = home + 1; p-- > first / EWA_PACKET_LANES;) {
+        const ewa_vec3 way = vec3_sub(center, ewa_packet_center(surfels, p));
+        take_packet(surfels, p, first, end, index, vec3_add(surfel.offset, way), distance2);
+    }
+    for (uint32_t p = home + 1; p <= (end - 1) / EWA_PACKET_LANES; p++) {
+        const ewa_vec3 way = vec3_sub(center, ewa_packet_center(surfels, p));
+        take_packet(surfels, p, first, end, index, vec3_add(surfel.offset, way), distance2);
+    }
+    const double area = vec3_length(surfel.axis_u) * vec3_length(surfel.axis_v);
     const double pi = 3.14159265358979323846;
     // The farthest neighbour lies on the rim of the circle: it counts half, the surfel itself counts whole.
     const double density =
         distance2[0] > 0 && isfinite(distance2[0]) ? (NEIGHBOURS + 0.5) / (pi * distance2[0]) : 0;
     const double alone = 1 / (pi * surfels->cutoff * surfels->cutoff);
-    return fmax(sigma_u * sigma_v * density, alone);
+    return fmax(area * density, alone);
 }
 
 static void sample_task(void *data, uint32_t task, uint32_t worker) {
     (void)worker;
     sampling *s = data;
     for (uint32_t i = task; i < s->sample_count; i += TASKS)
-        s->values[i] = coverage_at(s->surfels, (uint32_t)((uint64_t)i * s->surfels->count / s->sample_count));
+        s->values[i] = coverage_at(s->surfels, i * lane_count(s->surfels) / s->sample_count);
 }
 
 double ewa_packets_unit_coverage(const ewa_surfels *surfels) {

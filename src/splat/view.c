@@ -45,17 +45,29 @@ static ewa_status set_sides(ewa_context *context, ewa_view *view, const ewa_came
     return EWA_OK;
 }
 
-ewa_status ewa_view_set(ewa_view *view, const ewa_surfels *surfels, const ewa_camera *camera,
-                        const ewa_render_options *options, uint32_t tile_px) {
+/// Where the packets are in camera space.
+static void set_places(ewa_view *view, const ewa_surfels *surfels, const ewa_camera *camera,
+                       const ewa_placement *placement) {
     ewa_mat3 rotation;
-    memset(view, 0, sizeof *view);
-    view->scale = (float)split_scale(camera, &rotation);
-    for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 3; j++) view->rotation[3 * i + j] = (float)rotation.m[i][j];
-        const double *row = &camera->world_to_camera[4 * i];
-        view->translation[i] = (float)(vec3_dot(vec3_load(row), vec3_load(surfels->origin_world)) + row[3]);
+    const double scale = split_scale(camera, &rotation);
+    view->scale = (float)(scale * surfels->unit / placement->unit);
+    for (int i = 0; i < 9; i++) {
+        view->rotation[i] = (float)rotation.m[i / 3][i % 3];
+        view->linear[i] = placement->linear.m[i / 3][i % 3] * surfels->unit;
     }
-    view->fx_px = (float)camera->fx_px, view->fy_px = (float)camera->fy_px;
+    vec3_store(vec3_scale(placement->anchor, 1 / surfels->unit), view->anchor);
+    vec3_store(placement->offset, view->offset);
+}
+
+ewa_status ewa_view_set(ewa_view *view, const ewa_surfels *surfels, const ewa_camera *camera,
+                        const ewa_placement *placement, const ewa_render_options *options, uint32_t tile_px) {
+    memset(view, 0, sizeof *view);
+    view->orthographic = camera->projection == EWA_ORTHOGRAPHIC;
+    set_places(view, surfels, camera, placement);
+    const double per_unit = view->orthographic ? placement->unit : 1; // of orthographic focal lengths
+    view->focal_px[0] = camera->fx_px * per_unit, view->focal_px[1] = camera->fy_px * per_unit;
+    view->principal_px[0] = camera->cx_px, view->principal_px[1] = camera->cy_px;
+    view->fx_px = (float)view->focal_px[0], view->fy_px = (float)view->focal_px[1];
     view->cx_px = (float)camera->cx_px, view->cy_px = (float)camera->cy_px;
     double cutoff = surfels->cutoff, reach_px = cutoff * options->prefilter_px;
     if (options->point_size_px > 0) {
@@ -64,14 +76,17 @@ ewa_status ewa_view_set(ewa_view *view, const ewa_surfels *surfels, const ewa_ca
         reach_px = cutoff * profile.sigma_px;
         view->point_sigma_px = (float)profile.sigma_px;
     }
+    const double larger_px = fmax(view->focal_px[0], view->focal_px[1]);
+    const double zoom = ldexp(1, ilogb(larger_px));
+    view->zoom = (float)zoom;
+    view->fx_zoomed = (float)(view->focal_px[0] / zoom), view->fy_zoomed = (float)(view->focal_px[1] / zoom);
+    view->broad = (float)(view->orthographic ? EWA_BROAD_PX / larger_px : larger_px / EWA_BROAD_PX);
     view->cutoff = (float)cutoff, view->cutoff2 = (float)(cutoff * cutoff);
     view->prefilter2_px2 = (float)(options->prefilter_px * options->prefilter_px);
     view->reach_px = (float)reach_px;
     // With one pass the nearest splat wins: no tolerance.
     view->tolerance = options->passes == 1 ? 0 : (float)(options->tolerance * cutoff);
     view->grazing = options->passes == 1 ? 0 : 1;
-    memcpy(view->color_scale, surfels->color_scale, sizeof view->color_scale);
-    memcpy(view->color_offset, surfels->color_offset, sizeof view->color_offset);
     // Halve r^2 / 2 until F^2 / 2 is in the range of the exponential's polynomial.
     view->doublings = 2;
     double exponent_scale = 0.125;
@@ -80,7 +95,6 @@ ewa_status ewa_view_set(ewa_view *view, const ewa_surfels *surfels, const ewa_ca
     view->exponent_end = (float)(exponent_scale * cutoff * cutoff);
     view->width_px = camera->width_px, view->height_px = camera->height_px;
     view->tile_px = tile_px;
-    view->orthographic = camera->projection == EWA_ORTHOGRAPHIC;
     view->affine = options->kernel != EWA_KERNEL_PERSPECTIVE;
     view->source = options->kernel == EWA_KERNEL_SOURCE;
     view->circular = options->kernel == EWA_KERNEL_CIRCULAR;
@@ -131,8 +145,8 @@ static void set_shading(ewa_resolve *resolve, const ewa_surfels *surfels, const 
 }
 
 void ewa_resolve_set(ewa_resolve *resolve, const ewa_surfels *surfels, const ewa_camera *camera,
-                     const ewa_render_options *options, const ewa_shading_setup *shading,
-                     const ewa_frame *frame) {
+                     const ewa_placement *placement, const ewa_render_options *options,
+                     const ewa_shading_setup *shading, const ewa_frame *frame) {
     ewa_mat3 rotation;
     memset(resolve, 0, sizeof *resolve);
     split_scale(camera, &rotation);
@@ -154,6 +168,7 @@ void ewa_resolve_set(ewa_resolve *resolve, const ewa_surfels *surfels, const ewa
     resolve->ray_y[0] = (float)(1 / camera->fy_px),
     resolve->ray_y[1] = (float)(-camera->cy_px / camera->fy_px);
     resolve->width_px = camera->width_px;
+    resolve->depth_unit = (float)placement->unit;
     resolve->rgba8 = frame->rgba8;
     resolve->rgba = frame->rgba;
     resolve->depth = frame->depth;
@@ -173,8 +188,8 @@ static ewa_vec3 turn(const ewa_view *view, ewa_vec3 v, double scale) {
 
 /// Sets `terms` to the linear function of tile pixels that a vector's product with pixel rays (x, y, 1) is.
 static void set_linear(float terms[3], ewa_vec3 n, const ewa_view *view, const ewa_tile *tile) {
-    const double fx = (double)view->fx_px, fy = (double)view->fy_px;
-    const double x = (tile->x_px - (double)view->cx_px) / fx, y = (tile->y_px - (double)view->cy_px) / fy;
+    const double fx = view->focal_px[0], fy = view->focal_px[1];
+    const double x = (tile->x_px - view->principal_px[0]) / fx, y = (tile->y_px - view->principal_px[1]) / fy;
     terms[0] = (float)(n.x * x + n.y * y + n.z);
     terms[1] = (float)(n.x / fx);
     terms[2] = (float)(n.y / fy);
@@ -219,12 +234,31 @@ static void set_clip_line(ewa_clip_line *line, ewa_vec3 g, double d, ewa_vec3 n,
                             .per_widths = 1 / (2 * wide)};
 }
 
-void ewa_clip_set(ewa_clip *clip, const ewa_surfels *surfels, const ewa_clipped *splat, const ewa_view *view,
+/// A surfel in camera space.
+typedef struct placed_surfel {
+    ewa_packet_surfel coded;
+    ewa_vec3 p, u, v, n;
+} placed_surfel;
+
+static placed_surfel place_surfel(const ewa_surfels *surfels, uint32_t surfel, const ewa_view *view) {
+    const uint32_t packet = surfel / EWA_PACKET_LANES;
+    const double scale = (double)view->scale;
+    placed_surfel placed;
+    ewa_packet_decode(surfels, packet, surfel % EWA_PACKET_LANES, &placed.coded);
+    const ewa_vec3 way = vec3_sub(ewa_packet_center(surfels, packet), vec3_load(view->anchor));
+    double center[3];
+    for (int i = 0; i < 3; i++) center[i] = vec3_dot(vec3_load(&view->linear[3 * i]), way) + view->offset[i];
+    placed.p = vec3_add(vec3_load(center), turn(view, placed.coded.offset, scale));
+    placed.u = turn(view, placed.coded.axis_u, scale);
+    placed.v = turn(view, placed.coded.axis_v, scale);
+    placed.n = turn(view, placed.coded.normal, 1);
+    return placed;
+}
+
+void ewa_clip_set(ewa_clip *clip, const ewa_surfels *surfels, uint32_t surfel, const ewa_view *view,
                   const ewa_tile *tile) {
-    const ewa_surfel_clip *from = find_clip(surfels, splat->surfel);
-    const float *p = splat->center, *n = splat->normal;
-    const ewa_vec3 center = vec3_make((double)p[0], (double)p[1], (double)p[2]);
-    const ewa_vec3 normal = vec3_make((double)n[0], (double)n[1], (double)n[2]);
+    const ewa_surfel_clip *from = find_clip(surfels, surfel);
+    const placed_surfel placed = place_surfel(surfels, surfel, view);
     clip->either = from->either;
     for (int k = 0; k < 2; k++) {
         const float *g = from->toward[k];
@@ -234,23 +268,28 @@ void ewa_clip_set(ewa_clip *clip, const ewa_surfels *surfels, const ewa_clipped 
         }
         const ewa_vec3 toward = vec3_make((double)g[0], (double)g[1], (double)g[2]);
         set_clip_line(&clip->line[k], turn(view, toward, 1), (double)view->scale * (double)from->offset[k],
-                      normal, center, view, tile);
+                      placed.n, placed.p, view, tile);
     }
 }
 
-bool ewa_near_record_set(ewa_near_record *record, const ewa_surfels *surfels, uint32_t surfel,
-                         const ewa_view *view, const ewa_tile *tile) {
-    ewa_packet_surfel s;
-    ewa_packet_decode(surfels, surfel / EWA_PACKET_LANES, surfel % EWA_PACKET_LANES, &s);
-    const double scale = (double)view->scale;
-    const ewa_vec3 u = turn(view, s.axis_u, scale), v = turn(view, s.axis_v, scale),
-                   n = turn(view, s.normal, 1);
-    const ewa_vec3 shift =
-        vec3_make((double)view->translation[0], (double)view->translation[1], (double)view->translation[2]);
-    const ewa_vec3 p = vec3_add(turn(view, s.center, scale), shift);
-    const double plane = vec3_dot(n, p);
-    if (fabs(plane) < EWA_EDGE_ON * vec3_length(p)) return false;
-    if (view->cull_back && plane >= 0) return false;
+/// U, V, W and Z of a surfel (ewa_near_record); returns what z changes per pixel at the centre.
+static double set_rays(ewa_near_record *record, const placed_surfel *s, const ewa_view *view,
+                       const ewa_tile *tile) {
+    const ewa_vec3 u = s->u, v = s->v, n = s->n, p = s->p;
+    const double fx = view->focal_px[0], fy = view->focal_px[1];
+    if (view->orthographic) {
+        // With (x, y) on the plane, z = pz - ((x - px) nx + (y - py) ny) / nz and u = (q - p).tu / tu.tu.
+        const double a = -n.x / n.z, b = -n.y / n.z;
+        const ewa_vec3 axes[2] = {vec3_scale(u, 1 / vec3_dot(u, u)), vec3_scale(v, 1 / vec3_dot(v, v))};
+        float *const terms[2] = {record->u, record->v};
+        for (int i = 0; i < 2; i++) {
+            const double x = axes[i].x + axes[i].z * a, y = axes[i].y + axes[i].z * b;
+            set_linear(terms[i], vec3_make(x, y, -x * p.x - y * p.y), view, tile);
+        }
+        set_linear(record->w, vec3_make(0, 0, 1), view, tile);
+        set_linear(record->z, vec3_make(a, b, p.z - a * p.x - b * p.y), view, tile);
+        return hypot(a / fx, b / fy);
+    }
     // (u, v, 1) M = z x with the rows tu, tv, p of M (PAS equation 4), so (u, v, 1) ~ x adj(M) and z = |M| /
     // W.
     // Divided by |tu x tv|, W is n itself and |M| is n.p, whatever the unit of length.
@@ -259,35 +298,41 @@ bool ewa_near_record_set(ewa_near_record *record, const ewa_surfels *surfels, ui
     set_linear(record->u, mat3_column(&inverse, 0), view, tile);
     set_linear(record->v, mat3_column(&inverse, 1), view, tile);
     set_linear(record->w, mat3_column(&inverse, 2), view, tile);
-    record->plane = (float)vec3_dot(mat3_column(&inverse, 2), p);
-    const double range = surfels->cutoff * sqrt(u.z * u.z + v.z * v.z);
-    record->depth_low = (float)(p.z - range);
-    record->depth_high = (float)(p.z + range);
-    const double sigma = vec3_length(u);
-    const double slope_x = n.x / plane / (double)view->fx_px, slope_y = n.y / plane / (double)view->fy_px;
-    const double per_px = sqrt(slope_x * slope_x + slope_y * slope_y) * p.z * p.z;
+    record->z[0] = (float)vec3_dot(mat3_column(&inverse, 2), p);
+    record->z[1] = record->z[2] = 0;
+    const double plane = vec3_dot(n, p), slope_x = n.x / plane / fx, slope_y = n.y / plane / fy;
+    return sqrt(slope_x * slope_x + slope_y * slope_y) * p.z * p.z;
+}
+
+bool ewa_near_record_set(ewa_near_record *record, const ewa_surfels *surfels, uint32_t surfel,
+                         const ewa_view *view, const ewa_tile *tile) {
+    const placed_surfel s = place_surfel(surfels, surfel, view);
+    const double facing = view->orthographic ? s.n.z : vec3_dot(s.n, s.p);
+    if (fabs(facing) < EWA_EDGE_ON * (view->orthographic ? 1 : vec3_length(s.p))) return false;
+    if (view->cull_back && facing >= 0) return false;
+    const double per_px = set_rays(record, &s, view, tile);
+    const double range = surfels->cutoff * sqrt(s.u.z * s.u.z + s.v.z * s.v.z);
+    record->depth_low = (float)(s.p.z - range);
+    record->depth_high = (float)(s.p.z + range);
+    const double sigma = vec3_length(s.u);
     const double grazing =
         fmin((double)view->reach_px * per_px, EWA_GRAZING_TOLERANCE * surfels->cutoff * sigma);
     record->tolerance = (float)((double)view->tolerance * sigma + (double)view->grazing * grazing);
-    const ewa_vec3 toward = vec3_scale(n, plane > 0 ? -1 : 1); // normals face the viewer
-    const double normal[3] = {toward.x, toward.y, toward.z}, opacity = tile->with_opacity ? s.opacity : 1;
+    const ewa_vec3 toward = vec3_scale(s.n, facing > 0 ? -1 : 1); // normals face the viewer
+    const double normal[3] = {toward.x, toward.y, toward.z},
+                 opacity = tile->with_opacity ? s.coded.opacity : 1;
     for (int i = 0; i < 3; i++) {
-        record->color[i] = (float)(s.color[i] * opacity);
+        record->color[i] = (float)(s.coded.color[i] * opacity);
         record->normal[i] = (float)normal[i];
     }
     record->opacity = (float)opacity;
-    record->turned = plane > 0;
+    record->turned = facing > 0;
     if (tile->with_materials)
         memcpy(record->material, view->materials[surfels->materials[surfel]], sizeof record->material);
     else
         memset(record->material, 0, sizeof record->material);
     const uint32_t packet = surfel / EWA_PACKET_LANES, lane = surfel % EWA_PACKET_LANES;
     record->clipped = surfels->clip_masks && surfels->clip_masks[packet] >> lane & 1;
-    if (record->clipped) {
-        const ewa_clipped splat = {.surfel = surfel,
-                                   .center = {(float)p.x, (float)p.y, (float)p.z},
-                                   .normal = {(float)n.x, (float)n.y, (float)n.z}};
-        ewa_clip_set(&record->clip, surfels, &splat, view, tile);
-    }
+    if (record->clipped) ewa_clip_set(&record->clip, surfels, surfel, view, tile);
     return true;
 }

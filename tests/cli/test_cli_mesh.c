@@ -4,6 +4,7 @@
 // Files that have faces, from the command line: what each command makes of them, whatever their names are.
 #include "run_ewa.h"
 
+#include <math.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -77,7 +78,31 @@ static void test_formats(void **state) {
     run_fails(1, "points.obj: there are no faces to sample|ewa surfels", "ewa sample points.obj -o p.ply");
 }
 
-/// At map coordinates and those of the earth's centre, the picture is that at the origin, byte for byte.
+/// Whether two pictures differ by no more than what the last digits of a camera's place do: in one pixel of a
+/// hundred, by one level.
+static bool nearly_same(const char *first, const char *second) {
+    ewa_context *context;
+    assert_int_equal(ewa_context_create(NULL, &context), EWA_OK);
+    ewa_image images[2];
+    assert_int_equal(ewa_image_load(context, scratch_path(first), &images[0]), EWA_OK);
+    assert_int_equal(ewa_image_load(context, scratch_path(second), &images[1]), EWA_OK);
+    const size_t count = (size_t)images[0].width_px * images[0].height_px * images[0].channel_count;
+    assert_int_equal(images[1].width_px * images[1].height_px * images[1].channel_count, count);
+    size_t differ = 0;
+    double most = 0;
+    for (size_t i = 0; i < count; i++) {
+        const double a = 255 * (double)ewa_srgb_from_linear(images[0].pixels[i]),
+                     b = 255 * (double)ewa_srgb_from_linear(images[1].pixels[i]);
+        differ += fabs(a - b) > 0.5;
+        most = fmax(most, fabs(a - b));
+    }
+    for (int i = 0; i < 2; i++) ewa_image_free(&images[i]);
+    ewa_context_destroy(&context);
+    return 100 * differ <= count && most < 1.5;
+}
+
+/// At map coordinates and those of the earth's centre, the picture is that at the origin. The matrix of the
+/// camera that frames it holds its place to 2^-30 there.
 static void test_map_coordinates(void **state) {
     (void)state;
     static const double places[][3] = {{-1, -1, -1}, {500000, 4200000, 0}, {6000000.5, -3000000.25, 1048576}};
@@ -93,7 +118,7 @@ static void test_map_coordinates(void **state) {
         for (int f = 0; f < 2; f++) {
             char name[32];
             snprintf(name, sizeof name, "at%d_%d.png", i, f);
-            assert_true(scratch_same("at0_0.png", name));
+            assert_true(nearly_same("at0_0.png", name));
         }
     run_done("ewa sample at1.obj -o at1.points.ply -n 2000");
     run_done("ewa info at1.points.ply --json");
@@ -110,7 +135,7 @@ static void test_map_coordinates(void **state) {
                  "--target %.17g,%.17g,%.17g --up 0,0,1 --cull back",
                  i, i, at[0] + 4, at[1] - 4, at[2] + 3.5, at[0], at[1], at[2]);
     }
-    assert_true(scratch_same("rest0.png", "rest1.png"));
+    assert_true(nearly_same("rest0.png", "rest1.png"));
     // Floats cannot say where it is.
     scratch_text("coarse.ply",
                  "ply\nformat ascii 1.0\nelement vertex 3\n" XYZ(

@@ -53,7 +53,7 @@ static inline void store(ewa_vec3 v, double to[3]) {
 static inline ewa_surfel make_surfel(ewa_vec3 center, ewa_vec3 u, ewa_vec3 v) {
     ewa_surfel surfel = {.color_linear = {1, 1, 1}, .alpha = 1};
     const ewa_vec3 n = vec3_cross(u, v);
-    store(center, surfel.center_world);
+    store(center, surfel.center);
     store(u, surfel.axis_u_world);
     store(v, surfel.axis_v_world);
     store(vec3_scale(n, 1 / vec3_length(n)), surfel.normal_world);

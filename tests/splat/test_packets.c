@@ -37,7 +37,7 @@ static void make_numbers(numbers *made) {
             made->position[i][1] = NAN;
             break;
         case 1:
-            made->position[i][2] = 3e15f;
+            made->position[i][2] = -INFINITY;
             break;
         case 2:
             memset(made->normal[i], 0, sizeof made->normal[i]);
@@ -92,9 +92,11 @@ static ewa_surfels *surfels_of(ewa_context *context, const numbers *of) {
 static void assert_same_packets(const ewa_surfels *a, const ewa_surfels *b) {
     assert_int_equal(a->count, b->count);
     assert_int_equal(a->left_out_count, b->left_out_count);
+    assert_int_equal(a->packet_count, b->packet_count);
+    assert_true(a->unit == b->unit);
     assert_memory_equal(a->origin_world, b->origin_world, sizeof a->origin_world);
     assert_memory_equal(a->packets, b->packets, a->packet_count * sizeof *a->packets);
-    assert_memory_equal(a->bounds_floats, b->bounds_floats, 8 * a->bounds_stride * sizeof(float));
+    assert_memory_equal(a->bounds_memory, b->bounds_memory, a->bounds_stride * EWA_BOUNDS_BYTES);
 }
 
 static void test_same_bytes_from_all_kernels(void **state) {
@@ -172,7 +174,7 @@ static void test_discs_equal_surfels(void **state) {
         ewa_packet_surfel a, b;
         ewa_packet_decode(discs, (uint32_t)(i / 16), i % 16, &a);
         ewa_packet_decode(surfels, (uint32_t)(i / 16), i % 16, &b);
-        assert_memory_equal(&a.center, &b.center, sizeof a.center);
+        assert_memory_equal(&a.offset, &b.offset, sizeof a.offset);
         assert_memory_equal(a.color, b.color, sizeof a.color);
         assert_true(vec3_dot(a.normal, b.normal) > 1 - 1e-8);
         const double sigma = vec3_length(b.axis_u);
@@ -211,6 +213,26 @@ static void test_normals_are_kept(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// The axis of a cone and the sine of its half angle; 2: it is no cone.
+static double decode_cone(uint32_t code, ewa_vec3 *axis) {
+    const int mask = (1 << EWA_CONE_BITS) - 1, x = (int)code & mask, y = (int)(code >> EWA_CONE_BITS) & mask;
+    const double u = (x - EWA_CONE_AXIS) / (double)EWA_CONE_AXIS,
+                 v = (y - EWA_CONE_AXIS) / (double)EWA_CONE_AXIS;
+    const double z = 1 - fabs(u) - fabs(v), fold = fmax(-z, 0);
+    *axis = vec3_make(u - (u < 0 ? -fold : fold), v - (v < 0 ? -fold : fold), z);
+    assert_true(vec3_normalize(axis));
+    const uint32_t sine = code >> 2 * EWA_CONE_BITS;
+    return sine > EWA_CONE_SINE ? 2 : sine / (double)EWA_CONE_SINE;
+}
+
+static double radius_of(const ewa_surfels *surfels, uint32_t packet) {
+    const uint32_t bits = (uint32_t)surfels->bounds.radius[packet] << EWA_RADIUS_SHIFT;
+    float radius;
+    memcpy(&radius, &bits, sizeof radius);
+    return (double)radius;
+}
+
+/// Spheres and cones hold their surfels, and are hardly larger.
 static void test_bounds_hold(void **state) {
     (void)state;
     static numbers of;
@@ -218,23 +240,23 @@ static void test_bounds_hold(void **state) {
     for (int i = 0; i < POINTS; i++) of.normal[i][2] = 30 * fabsf(of.normal[i][0]); // narrow and wide cones
     ewa_context *context = context_of(2, EWA_CPU_ALL);
     ewa_surfels *surfels = surfels_of(context, &of);
-    const ewa_packet_bounds *b = &surfels->bounds;
     int narrow = 0;
-    for (uint32_t i = 0; i < surfels->count; i++) {
-        const uint32_t p = i / 16;
-        ewa_packet_surfel s;
-        ewa_packet_decode(surfels, (uint32_t)(p), i % 16, &s);
-        const ewa_vec3 center =
-            vec3_make((double)b->center_x[p], (double)b->center_y[p], (double)b->center_z[p]);
-        const ewa_vec3 axis = vec3_make((double)b->axis_x[p], (double)b->axis_y[p], (double)b->axis_z[p]);
-        const double reach =
-            vec3_length(vec3_sub(s.center, center)) + surfels->cutoff * vec3_length(s.axis_u);
-        assert_true(reach <= (double)b->radius[p]);
-        assert_true(fabs(vec3_length(axis) - 1) < 1e-6);
-        if (b->cone_sine[p] > 1) continue;
-        narrow++;
-        assert_true(vec3_dot(s.normal, axis) > 0);
-        assert_true(vec3_length(vec3_cross(s.normal, axis)) <= (double)b->cone_sine[p]);
+    for (uint32_t p = 0; p < surfels->packet_count; p++) {
+        ewa_vec3 axis;
+        const double sine = decode_cone(surfels->bounds.cone[p], &axis);
+        double reach = 0, widest = 0;
+        for (uint32_t lane = 0; lane < 16 && p * 16 + lane < surfels->count; lane++) {
+            ewa_packet_surfel s;
+            ewa_packet_decode(surfels, p, lane, &s);
+            reach = fmax(reach, vec3_length(s.offset) + surfels->cutoff * vec3_length(s.axis_u));
+            widest = fmax(widest, vec3_length(vec3_cross(s.normal, axis)));
+            if (sine > 1) continue;
+            narrow++;
+            assert_true(vec3_dot(s.normal, axis) > 0);
+        }
+        const double radius = radius_of(surfels, p);
+        assert_true(reach <= radius && radius < 1.01 * reach);
+        assert_true(sine > 1 || (widest <= sine && sine < widest + 0.003));
     }
     assert_true(narrow > POINTS / 4);
     ewa_surfels_destroy(&surfels);

@@ -39,7 +39,7 @@ static ewa_cloud *copy_surfels(const ewa_cloud *cloud, const ewa_mat3 *rotation,
         bool drawable;
         ewa_surfel_read(&reader, i * step % count, 1, &surfel, &drawable);
         assert_true(drawable);
-        const double *from[4] = {surfel.center_world, surfel.axis_u_world, surfel.axis_v_world,
+        const double *from[4] = {surfel.center, surfel.axis_u_world, surfel.axis_v_world,
                                  surfel.normal_world};
         for (int a = 0; a < 4; a++) {
             const ewa_vec3 v = vec3_scale(mat3_mul_vec3(rotation, vec3_load(from[a])), scale);

@@ -72,7 +72,7 @@ static void test_discs(void **state) {
                               u[0] * v[1] - u[1] * v[0]};
         assert_true(dot(uv, n) > 0);
         for (int c = 0; c < 3; c++) {
-            assert_true(s->center_world[c] == position[3 * i + c] + origin[c]);
+            assert_true(s->center[c] == position[3 * i + c] && reader.origin_world[c] == origin[c]);
             assert_true(s->color_linear[c] == EWA_DEFAULT_GREY);
         }
         assert_true(s->alpha == 1);
