@@ -5,8 +5,8 @@
 #
 #   make demo [FILE=scan.ply]   installs what is missing, builds, renders, says where the picture is
 #   make check                  the same set-up, then every test, also under the address and undefined behaviour
-#                               sanitizers, the quick ones as clang builds them, those of threads under the thread
-#                               sanitizer; the last line counts them
+#                               sanitizers, those of threads as clang builds them and under the thread sanitizer; the
+#                               last line counts them
 #   make                        builds everything into build/release
 #   make asan tsan clang fuzz   other builds and their tests
 #   make mutate                 breaks the library on purpose and says what the tests notice (hours)
@@ -45,7 +45,7 @@ demo: program
 	@sh tools/demo.sh $(EWA) "$(OUT)" "$(FILE)"
 
 check: build asan-build clang-build tsan-build
-	@sh tools/check.sh build/release build/asan build/clang:quick build/tsan:parallel
+	@sh tools/check.sh build/release build/asan build/clang:parallel build/tsan:parallel
 
 # Optimised, so that the tests take minutes and not an hour.
 asan-build: setup
@@ -68,13 +68,18 @@ tsan: setup
 	$(call quietly,cmake --build build/tsan -j $(JOBS))
 	@sh tools/check.sh build/tsan
 
+# All of the product, and the tests of what runs in threads; `make clang` builds and runs every test.
 clang-build:
 	@sh tools/setup.sh clang
 	@echo "Building build/clang"
 	$(call quietly,cmake --preset clang)
-	$(call quietly,cmake --build build/clang -j $(JOBS))
+	$(call quietly,cmake --build build/clang -j $(JOBS) --target ewa ewa_shared parallel_tests)
 
-clang: clang-build
+clang:
+	@sh tools/setup.sh clang
+	@echo "Building build/clang"
+	$(call quietly,cmake --preset clang)
+	$(call quietly,cmake --build build/clang -j $(JOBS))
 	@sh tools/check.sh build/clang
 
 mutate:
