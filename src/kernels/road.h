@@ -87,10 +87,11 @@ typedef struct ewa_packet_places {
     float *slope_x, *slope_y, *rest_x, *rest_y, *depth;
 } ewa_packet_places;
 
-/// Rectangle of tiles that a packet may touch: [x0, x1) x [y0, y1); empty when culled.
-typedef struct ewa_tile_rect {
-    uint16_t x0, y0, x1, y1;
-} ewa_tile_rect;
+/// Lists of the packets that may touch some tile, ascending, and of the rectangles of those tiles. Corners
+/// are x | y << 16; `tiles_end` is beyond the last column and row.
+typedef struct ewa_kept_packets {
+    int32_t *packets, *tiles_first, *tiles_end;
+} ewa_kept_packets;
 
 /// One splat in one tile. dx, dy below are measured from the splat's centre to a pixel's centre.
 ///
@@ -306,10 +307,11 @@ typedef struct ewa_eye_dome {
 typedef struct ewa_road_kernels {
     const char *name;
 
-    /// Finds the tiles of packets [first, first + count), and the places of those that have some; `first` and
-    /// the room of `places` are multiples of 16. Returns how many are culled.
+    /// Lists those of packets [first, first + count) that may touch some tile, from entry `first` of `kept`
+    /// on, and writes their places; `first` and the room of `kept` and `places` are multiples of 16. Returns
+    /// how many there are.
     uint32_t (*cull)(const ewa_view *view, const ewa_packet_bounds *bounds, uint32_t first, uint32_t count,
-                     const ewa_packet_places *places, ewa_tile_rect *rects);
+                     const ewa_packet_places *places, const ewa_kept_packets *kept);
 
     /// Sets cells[row][column] (rows of EWA_TILE_CELLS) to the smallest tile->nearest in each cell.
     void (*set_cells)(const ewa_tile *tile, float *cells);

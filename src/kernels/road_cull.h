@@ -8,8 +8,6 @@
 #include "kernels/road_camera.h"
 #include "math/wide_double.h"
 
-#include <string.h>
-
 static inline float tile_count(uint32_t side_px, uint32_t tile_px) {
     return (float)((side_px + tile_px - 1) / tile_px);
 }
@@ -151,47 +149,44 @@ static inline void store_places(const ewa_view *view, const wd center[3], const 
     }
 }
 
+/// Corners of rectangles in the form of ewa_kept_packets.
+static inline wi tile_corners(wm alive, wf x, wf y) {
+    return wi_or(wi_from_f(wf_keep(alive, x)), wi_shl(wi_from_f(wf_keep(alive, y)), 16));
+}
+
 static uint32_t cull(const ewa_view *view, const ewa_packet_bounds *bounds, uint32_t first, uint32_t count,
-                     const ewa_packet_places *places, ewa_tile_rect *rects) {
+                     const ewa_packet_places *places, const ewa_kept_packets *kept) {
     const float tile_px = (float)view->tile_px;
     const float tiles_x = tile_count(view->width_px, view->tile_px),
                 tiles_y = tile_count(view->height_px, view->tile_px);
-    uint32_t culled = 0;
-    for (uint32_t i = 0; i < count; i += 16) {
-        const uint32_t p = first + i, here = count - i < 16 ? count - i : 16;
+    const wi lanes = wi_load((const int32_t[16]){0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15});
+    uint32_t next = first;
+    for (uint32_t p = first; p < first + count; p += 16) {
         packet_outline o = {.radius = packet_radii(view, bounds->radius + p)};
         wd center[3];
         place_centers(view, bounds, p, center);
         for (int k = 0; k < 3; k++) o.center[k] = wf_from_d(center[k]);
         wm alive = wm_and(within_sides(view, &o), wf_lt(wf_set(0), o.radius));
+        const uint32_t left = first + count - p;
+        if (left < 16) alive = wm_and(alive, wm_of_bits((1u << left) - 1));
+        if (!wm_bits(alive)) continue;
         if (view->cull_back) alive = wm_and(alive, wm_not(back_facing(view, bounds, p, &o)));
+        if (!wm_bits(alive)) continue;
+        outline_packets(view, &o);
         wf x0, x1, y0, y1;
-        if (wm_bits(alive)) {
-            outline_packets(view, &o);
-            tile_range(wf_sub(o.x, o.half_x), wf_add(o.x, o.half_x), tile_px, tiles_x, &x0, &x1);
-            tile_range(wf_sub(o.y, o.half_y), wf_add(o.y, o.half_y), tile_px, tiles_y, &y0, &y1);
-            x0 = wf_select(o.near, wf_set(0), x0), x1 = wf_select(o.near, wf_set(tiles_x), x1);
-            y0 = wf_select(o.near, wf_set(0), y0), y1 = wf_select(o.near, wf_set(tiles_y), y1);
-            alive = wm_and(alive, wm_and(wf_lt(x0, x1), wf_lt(y0, y1)));
-        }
-        if (!wm_bits(alive)) {
-            memset(rects + p, 0, here * sizeof *rects);
-            culled += here;
-            continue;
-        }
+        tile_range(wf_sub(o.x, o.half_x), wf_add(o.x, o.half_x), tile_px, tiles_x, &x0, &x1);
+        tile_range(wf_sub(o.y, o.half_y), wf_add(o.y, o.half_y), tile_px, tiles_y, &y0, &y1);
+        x0 = wf_select(o.near, wf_set(0), x0), x1 = wf_select(o.near, wf_set(tiles_x), x1);
+        y0 = wf_select(o.near, wf_set(0), y0), y1 = wf_select(o.near, wf_set(tiles_y), y1);
+        alive = wm_and(alive, wm_and(wf_lt(x0, x1), wf_lt(y0, y1)));
+        if (!wm_bits(alive)) continue;
         store_places(view, center, &o, places, p);
-        int32_t corners[4][16];
-        wi_store(corners[0], wi_from_f(wf_keep(alive, x0)));
-        wi_store(corners[1], wi_from_f(wf_keep(alive, y0)));
-        wi_store(corners[2], wi_from_f(wf_keep(alive, x1)));
-        wi_store(corners[3], wi_from_f(wf_keep(alive, y1)));
-        for (uint32_t k = 0; k < here; k++) {
-            rects[p + k] = (ewa_tile_rect){(uint16_t)corners[0][k], (uint16_t)corners[1][k],
-                                           (uint16_t)corners[2][k], (uint16_t)corners[3][k]};
-            culled += corners[0][k] == corners[2][k];
-        }
+        wi_pack(kept->packets + next, alive, wi_add(wi_set((int32_t)p), lanes));
+        wi_pack(kept->tiles_first + next, alive, tile_corners(alive, x0, y0));
+        wi_pack(kept->tiles_end + next, alive, tile_corners(alive, x1, y1));
+        next += (uint32_t)__builtin_popcount(wm_bits(alive));
     }
-    return culled;
+    return next - first;
 }
 
 static void set_cells(const ewa_tile *tile, float *cells) {

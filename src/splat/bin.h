@@ -18,7 +18,7 @@ typedef struct ewa_bins {
     ewa_packet_places places; ///< of the packets that some tile has
     uint64_t largest_bin;     ///< entries of the fullest tile
     uint64_t culled_packet_count;
-    ewa_buffer tile_first_buffer, entries_buffer, rects, counts, places_buffer;
+    ewa_buffer tile_first_buffer, entries_buffer, kept_buffer, counts, places_buffer;
 } ewa_bins;
 
 /// Fills the bins in parallel; the result does not depend on the number of workers.
