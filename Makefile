@@ -4,9 +4,9 @@
 # Short names for what one does here; CMake does the work.
 #
 #   make demo [FILE=scan.ply]   installs what is missing, builds, renders, says where the picture is
-#   make check                  the same set-up, then every test, also under the address and undefined behaviour
-#                               sanitizers, those of threads as clang builds them and under the thread sanitizer; the
-#                               last line counts them
+#   make check                  the same set-up, then every test, the quick ones also under the address and undefined
+#                               behaviour sanitizers, those of threads also as clang builds them and under the thread
+#                               sanitizer; the last line counts them
 #   make                        builds everything into build/release
 #   make asan tsan clang fuzz   other builds and their tests
 #   make mutate                 breaks the library on purpose and says what the tests notice (hours)
@@ -45,7 +45,7 @@ demo: program
 	@sh tools/demo.sh $(EWA) "$(OUT)" "$(FILE)"
 
 check: build asan-build clang-build tsan-build
-	@sh tools/check.sh build/release build/asan build/clang:parallel build/tsan:parallel
+	@sh tools/check.sh build/release build/asan:quick build/clang:parallel build/tsan:parallel
 
 # Optimised, so that the tests take minutes and not an hour.
 asan-build: setup
