@@ -67,7 +67,8 @@ typedef struct ewa_visit_choice {
                            ///< are set, and maybe others between them
     const char *stage;     ///< for the progress callback
     uint8_t chosen_bits;   ///< of an entry of `chosen` that count; 0: all
-    const float *spacing;  ///< NULL; else by place: of the sampling, which tells how far to look; changes no result
+    const float *spacing;  ///< NULL; else by place: of the sampling, which tells how far to look;
+                           ///< changes no result
 } ewa_visit_choice;
 
 /// Visits neighbourhoods, each once, from all workers.

@@ -88,7 +88,8 @@ static ewa_status measure(ewa_context *context, const ewa_neighbours *neighbours
     ewa_status status = EWA_ERROR_MEMORY;
     if (job.spacing && histogram) {
         for (uint32_t place = 0; place < places; place++) job.spacing[place] = -1;
-        const ewa_visit_choice choice = {SPACING_NEIGHBOURS, (uint32_t)(places / wanted), NULL, "spacing", 0, NULL};
+        const ewa_visit_choice choice = {
+            SPACING_NEIGHBOURS, (uint32_t)(places / wanted), NULL, "spacing", 0, NULL};
         status = ewa_neighbours_visit(neighbours, &choice, visit, &job);
         const uint32_t measured = status == EWA_OK ? compact(job.spacing, places, wanted) : 0;
         if (measured) summarise(job.spacing, measured, histogram, spacing);

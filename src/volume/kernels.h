@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The hot loops of volumes: what goes in and out of them. One body (kernels_body.h), one stub per instruction
+// The hot loops of volumes: what goes in and out of them. One body (kernels_body.h), one file per instruction
 // set, the same bytes from each.
 //
 // Voxels at the eye, which have no ellipse on the screen, come first: `append_near` lists them for all tiles,

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Tests of the volume files: known voxels and places in every format, files of several parts, saving.
-#include "volume_sample.h"
 #include "tests/data/facts.h"
+#include "volume_sample.h"
 
 #include <math.h>
 
