@@ -143,6 +143,74 @@ static void test_packed_ellipses(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// The normal of the surfel that a pixel was made into.
+static ewa_vec3 normal_at(const ewa_warp *warp, uint32_t column, uint32_t row) {
+    ewa_packet_surfel surfel;
+    const uint32_t packet = (uint32_t)ewa_warp_packet(&warp->sources[0], column, row);
+    ewa_packet_decode(&warp->grid.surfels, packet, ewa_warp_lane(column, row), &surfel);
+    ewa_vec3 normal = vec3_cross(surfel.axis_u, surfel.axis_v);
+    vec3_normalize(&normal);
+    return normal;
+}
+
+/// Roofs whose sides' slopes differ by more than 0.36 have a crease: a surfel at the ridge lies on one side.
+/// Flatter ones are bent, and it lies between both. Along rows and columns, with pixels that are no squares.
+static void test_creases(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    ewa_warp *warp = plane_warp(context);
+    static const double slopes[] = {0.05, 0.12, 0.16, 0.2, 0.25, 0.33};
+    for (int k = 0; k < 12; k++) {
+        const double slope = slopes[k / 2];
+        const bool down = k % 2;
+        plane_set(&plane, 1);
+        plane.image.camera.fy_px = 50;
+        const int ridge_x = PLANE_WIDTH / 2, ridge_y = PLANE_HEIGHT / 2;
+        for (int i = 0; i < PLANE_PIXELS;
+             i++) { // z = 2 + slope |x|, whose ridge passes through a pixel's centre
+            const double x = (i % PLANE_WIDTH - ridge_x) / 80.0, y = (i / PLANE_WIDTH - ridge_y) / 50.0;
+            plane.depth[i] = (float)(2 / (1 - slope * fabs(down ? y : x)));
+        }
+        plane.image.camera.cx_px += 0.5, plane.image.camera.cy_px += 0.5;
+        plane_take(warp, &plane, NULL);
+        const uint32_t column = (uint32_t)ridge_x, row = (uint32_t)ridge_y;
+        const ewa_vec3 n = normal_at(warp, down ? column + 5 : column, down ? row : row + 5),
+                       beside = normal_at(warp, down ? column : column + 3, down ? row + 3 : row);
+        const double across = fabs((down ? n.y : n.x) / n.z);
+        assert_float_equal(fabs((down ? beside.y : beside.x) / beside.z), slope, 4e-3);
+        assert_float_equal(across, 2 * slope > 0.36 ? slope : 0, 4e-3);
+    }
+    ewa_warp_destroy(&warp);
+    ewa_context_destroy(&context);
+}
+
+/// What a plane's grid adds up to, seen from where it was taken, whatever the kernels' size and cutoff are:
+/// the sum is told as the coverage that a whole surface has.
+static void test_coverage_of_planes(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    ewa_warp *warp = plane_warp(context);
+    static const double cutoffs[] = {1.5, 2, 3}, radii[] = {1.1, 1.3, 1.5};
+    for (int k = 0; k < 9; k++) {
+        plane_set(&plane, 2);
+        ewa_warp_options options;
+        ewa_warp_options_init(&options, sizeof options);
+        options.cutoff = cutoffs[k / 3], options.radius_spacings = radii[k % 3];
+        assert_int_equal(ewa_warp_take(warp, &plane.image, 1, &options, NULL), EWA_OK);
+        // Eight times as near: kernels so large that the filter adds nothing; the mean of some 4 spacings.
+        ewa_camera target = plane.image.camera;
+        target.fx_px *= 8, target.fy_px *= 8;
+        plane_draw(warp, &target, EWA_WARP_HYBRID, &drawn);
+        double mean = 0;
+        int count = 0;
+        for (int y = 24; y < 40; y++)
+            for (int x = 40; x < 56; x++) mean += (double)drawn.coverage[y * PLANE_WIDTH + x], count++;
+        assert_float_equal(mean / count, 1, 0.02);
+    }
+    ewa_warp_destroy(&warp);
+    ewa_context_destroy(&context);
+}
+
 /// Rows with gaps between them, floats instead of bytes, grey and alpha.
 static void test_layouts(void **state) {
     (void)state;
@@ -347,6 +415,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_masked_depths), cmocka_unit_test(test_sixteen_bits),
         cmocka_unit_test(test_kinds),         cmocka_unit_test(test_packed_ellipses),
+        cmocka_unit_test(test_creases),       cmocka_unit_test(test_coverage_of_planes),
         cmocka_unit_test(test_layouts),       cmocka_unit_test(test_bad_images),
         cmocka_unit_test(test_bad_options),   cmocka_unit_test(test_failing_allocations),
         cmocka_unit_test(test_warm),

@@ -3,6 +3,7 @@
 //
 // The resident form of volumes, and what both it and the renderer refuse or survive.
 #include "check.h"
+#include "volume/classify.h"
 #include "volume/scene.h"
 
 #include <math.h>
@@ -97,6 +98,69 @@ static void refuse(ewa_context *context, const ewa_volume *volume, const ewa_tra
     assert_null(voxels);
     if (!strstr(log->text, part)) print_message("%s\n", log->text);
     assert_non_null(strstr(log->text, part));
+}
+
+/// A volume of values that are a plane has that plane's gradient in every voxel, the border among them, and
+/// for every type. Around it in memory lie other numbers, that no border may look at.
+static void test_gradients_up_to_the_border(void **state) {
+    (void)state;
+    enum { GUARD = 400, MOST = 7 * 6 * 9 };
+    static const uint32_t shapes[][3] = {{7, 6, 3}, {3, 7, 6}, {6, 3, 7}, {2, 5, 9}, {5, 2, 2}, {4, 4, 4}};
+    static const ewa_type types[] = {EWA_U8, EWA_I8, EWA_U16, EWA_I16, EWA_F32};
+    static union {
+        uint8_t u8[MOST + 2 * GUARD];
+        int8_t i8[MOST + 2 * GUARD];
+        uint16_t u16[MOST + 2 * GUARD];
+        int16_t i16[MOST + 2 * GUARD];
+        float f32[MOST + 2 * GUARD];
+    } numbers;
+    ewa_context *context = check_context(1, NULL);
+    ewa_transfer transfer = {.point_count = 2, .unit_length_world = 1};
+    transfer.points[0] = (ewa_transfer_point){-1000, {1, 1, 1}, 1};
+    transfer.points[1] = (ewa_transfer_point){1000, {1, 1, 1}, 1};
+    for (int k = 0; k < 30; k++) {
+        ewa_volume volume = {.type = types[k % 5], .index_to_world = {1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 3, 0}};
+        memcpy(volume.dims, shapes[k / 5], sizeof volume.dims);
+        const uint32_t *dims = volume.dims, count = dims[0] * dims[1] * dims[2];
+        for (uint32_t n = 0; n < MOST + 2 * GUARD; n++) {
+            const uint32_t at = n - GUARD;
+            const bool inside = at < count; // what comes before wraps around
+            const int value =
+                inside
+                    ? (int)(3 * (at % dims[0]) + 8 * (at / dims[0] % dims[1]) + 5 * (at / dims[0] / dims[1]))
+                    : 119 - (int)(n % 7);
+            switch (volume.type) {
+            case EWA_U8:
+                numbers.u8[n] = (uint8_t)value;
+                break;
+            case EWA_I8:
+                numbers.i8[n] = (int8_t)value;
+                break;
+            case EWA_U16:
+                numbers.u16[n] = (uint16_t)value;
+                break;
+            case EWA_I16:
+                numbers.i16[n] = (int16_t)value;
+                break;
+            default:
+                numbers.f32[n] = (float)value;
+            }
+        }
+        static const size_t bytes[] = {1, 1, 2, 2, 4};
+        volume.voxels = numbers.u8 + GUARD * bytes[k % 5];
+        ewa_classifier classifier;
+        assert_int_equal(ewa_classifier_make(context, &volume, &transfer, &classifier), EWA_OK);
+        const double expected[3] = {3, 4, 5.0 / 3}, length = sqrt(9 + 16 + 25.0 / 9);
+        for (uint32_t n = 0; n < count; n++) {
+            ewa_voxel voxel;
+            assert_true(ewa_classify(&classifier, n % dims[0], n / dims[0] % dims[1], n / dims[0] / dims[1],
+                                     true, &voxel));
+            assert_float_equal(voxel.normal_world.x, -expected[0] / length, 1e-9);
+            assert_float_equal(voxel.normal_world.y, -expected[1] / length, 1e-9);
+            assert_float_equal(voxel.normal_world.z, -expected[2] / length, 1e-9);
+        }
+    }
+    ewa_context_destroy(&context);
 }
 
 static void test_bad_input(void **state) {
@@ -297,9 +361,13 @@ static void test_odd_views(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_counts_and_bytes), cmocka_unit_test(test_types_and_holes),
-        cmocka_unit_test(test_bad_input),        cmocka_unit_test(test_bad_options),
-        cmocka_unit_test(test_failing_memory),   cmocka_unit_test(test_odd_views),
+        cmocka_unit_test(test_counts_and_bytes),
+        cmocka_unit_test(test_types_and_holes),
+        cmocka_unit_test(test_gradients_up_to_the_border),
+        cmocka_unit_test(test_bad_input),
+        cmocka_unit_test(test_bad_options),
+        cmocka_unit_test(test_failing_memory),
+        cmocka_unit_test(test_odd_views),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
