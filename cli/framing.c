@@ -237,7 +237,9 @@ static void measure_slices(const cloud_framing *framing, const double shift[3], 
         double p[3];
         for (int c = 0; c < 3; c++) p[c] = framing->offsets[i][c] + shift[c];
         const double height = dot(axis, p);
-        const int slice = high > low ? (int)((height - low) / (high - low) * (SLICES - 1)) : 0;
+        // Rounded otherwise than the ends: where these are next to each other it may be far beyond them.
+        const double place = high > low ? (height - low) / (high - low) * (SLICES - 1) : 0;
+        const int slice = place > 0 ? (place < SLICES - 1 ? (int)place : SLICES - 1) : 0;
         for (int c = 0; c < 3; c++) p[c] -= height * axis[c];
         reach[slice] = fmax(reach[slice], sqrt(dot(p, p)));
     }
