@@ -373,46 +373,12 @@ static void test_order(void **state) {
     assert_true(scratch_same("a.json", "b.json"));
 }
 
-/// Real files, with what is up in them by eye.
-static void test_real_files(void **state) {
-    (void)state;
-    static const struct {
-        const char *path, *up, *view;
-    } files[] = {
-        {"models/armadillo_86k_tri.obj", "y", "front"},
-        {"models/bunny_zipper_ascii.ply", "y", "front"},
-        {"models/dragon_100k_tri_normals.ply", "y", "front"},
-        {"models/fuze/fuze.obj", "z", "front"},
-        {"models/head_lps/LeePerrySmith.obj", "y", "front"},
-        {"models/head_lps/head_surfels_100k.ply", "y", "front"},
-        {"models/laurana50k_colour.ply", "y", "front"},
-        {"models/lucy_100k_tri.ply", "z", "front"},
-        {"models/nefertiti_100k_tri.obj", "z", "front"},
-        {"models/rangemap_lato000.ply", "y", "the origin"},
-        {"models/spot/spot.obj", "y", "iso"},
-        {"clouds/ply/Guanyin_colour.ply", "y", "front"},
-        {"clouds/ply/lion_takanawa_normals_colour.ply", "z", "front"},
-        {"clouds/ply/pond_normals_colour_psz.ply", "y", "iso"},
-        {"clouds/text/1.2-with-color.obj", "z", "iso"},
-        {"gaussians/garden_sfm_points.ply", "z", "iso"},
-    };
-    size_t seen = 0;
-    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
-        char path[1024];
-        if (!check_data(files[i].path, path, sizeof path)) continue;
-        expect(path, files[i].up, files[i].view);
-        seen++;
-    }
-    if (seen == 0) skip();
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bases),       cmocka_unit_test(test_flat_body),
         cmocka_unit_test(test_ground),      cmocka_unit_test(test_what_lies),
         cmocka_unit_test(test_planes),      cmocka_unit_test(test_range_images),
         cmocka_unit_test(test_conventions), cmocka_unit_test(test_order),
-        cmocka_unit_test(test_real_files),
     };
     return cmocka_run_group_tests(tests, enter, NULL);
 }
