@@ -319,6 +319,10 @@ class Tree:
     def test(self, name, timeout):
         return self.call(["ctest", "--test-dir", str(self.build), "-R", "^%s$" % name, "--timeout", str(timeout)])
 
+    def rebuild(self, name):
+        """Tests that have a header's functions in themselves; the library is one that is loaded. False: not to be had."""
+        return self.call(["cmake", "--build", str(self.build), "--target", "test_" + name]) == 0
+
     def near_tests(self, path):
         names = next(tests for start, tests in NEAR if path.startswith(start))
         return [name for name in names if name in self.tests]
@@ -346,6 +350,8 @@ class Tree:
         if not self.differs(sections_of(entry.path)):
             return "irrelevant", ""
         for name in self.near_tests(entry.path):
+            if entry.path.endswith(".h") and not self.rebuild(name):
+                return "uncompilable", name
             if self.test(name, timeouts[name]):
                 return "killed", name
         return "survived", ""
