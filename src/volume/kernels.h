@@ -41,7 +41,7 @@ enum {
 typedef float ewa_point_filter[EWA_FILTER_PHASES][4];
 
 /// A voxel on its way. Points: r, g, b, 1, all times the mass; where the window begins in the sums; phases
-/// and blocks touched (point_info); depth. Splats: r, g, b; extinction; x, y in the tile; depth; distance.
+/// and blocks touched; depth. Splats: r, g, b; extinction; x, y in the tile; depth; distance.
 typedef struct ewa_volume_record {
     float color[4];
     union {
