@@ -16,9 +16,15 @@ enum { SAMPLES = 1 << 16 };
 /// times larger the box of all points is then.
 static const double FAR_SHARE = 0.005, FAR_RATIO = 3;
 
+/// Discs count as far as so many times the median radius: a giant one may leave the picture, and does not
+/// shrink all else.
+static const double RIM_RATIO = 3;
+
 /// Room around the object, as a share of the picture. It also holds the outermost points that the sample
 /// misses.
 static const double MARGIN = 0.04;
+
+static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 static double diagonal(const ewa_bounds *box) {
     double squared = 0;
@@ -45,22 +51,40 @@ static void trim_box(double (*points)[3], size_t count, double *numbers, ewa_bou
     }
 }
 
-/// Median support radius of the sampled points, as drawn; 0 when the cloud has none.
-static double median_radius(const ewa_cloud *cloud, const point_sample *sample, double *numbers) {
+/// Support radius of a point as drawn; 0 when nothing is drawn of it.
+static double support_radius(const ewa_attribute *radius, const ewa_attribute *u, const ewa_attribute *v,
+                             double cutoff, uint64_t point) {
+    double r[3], s[3], reach;
+    ewa_attribute_read_f64(u ? u : radius, point, 1, r);
+    if (u) {
+        // The longer axis of the ellipse: the root of the larger eigenvalue of tu'tu + tv'tv.
+        ewa_attribute_read_f64(v, point, 1, s);
+        const double uu = dot(r, r), vv = dot(s, s), half = 0.5 * (uu - vv), uv = dot(r, s);
+        reach = cutoff * sqrt(0.5 * (uu + vv) + sqrt(half * half + uv * uv));
+    } else {
+        reach = r[0];
+    }
+    return reach > 0 && isfinite(reach) ? reach : 0;
+}
+
+/// Sets the rims of the sampled points, none over RIM_RATIO times the median. `numbers` has room for as many.
+static void read_rims(const ewa_cloud *cloud, const point_sample *sample, double radius_scale,
+                      double *numbers, double *rims_world) {
     const ewa_attribute *radius = ewa_cloud_find(cloud, EWA_RADIUS),
-                        *u = ewa_cloud_find(cloud, EWA_TANGENT_U);
-    const ewa_attribute *source = u ? u : radius;
-    if (!source || source->component_count != (u ? 3u : 1u)) return 0;
+                        *u = ewa_cloud_find(cloud, EWA_TANGENT_U), *v = ewa_cloud_find(cloud, EWA_TANGENT_V);
+    const bool axes = u && v && u->component_count == 3 && v->component_count == 3;
+    const bool sized = axes || (radius && radius->component_count == 1);
     ewa_surfels_options surfels;
     ewa_surfels_options_init(&surfels, sizeof surfels);
     size_t count = 0;
     for (size_t i = 0; i < sample->count; i++) {
-        double r[3];
-        ewa_attribute_read_f64(source, sample->indices[i], 1, r);
-        const double reach = u ? surfels.cutoff * sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]) : r[0];
-        if (reach > 0 && isfinite(reach)) numbers[count++] = reach;
+        rims_world[i] = sized ? radius_scale * support_radius(radius, axes ? u : NULL, v, surfels.cutoff,
+                                                              sample->indices[i])
+                              : 0;
+        if (rims_world[i] > 0) numbers[count++] = rims_world[i];
     }
-    return count ? rank_select(numbers, count, count / 2) : 0;
+    const double most = count ? RIM_RATIO * rank_select(numbers, count, count / 2) : 0;
+    for (size_t i = 0; i < sample->count; i++) rims_world[i] = fmin(rims_world[i], most);
 }
 
 /// Reads the sampled points, in the world.
@@ -91,13 +115,14 @@ static void frame_sample(const ewa_cloud *cloud, const point_sample *sample, dou
     }
     const double *low = framing->box.low_world, *high = framing->box.high_world;
     for (int c = 0; c < 3; c++) framing->middle_world[c] = 0.5 * low[c] + 0.5 * high[c];
+    read_rims(cloud, sample, radius_scale, numbers, framing->rims_world);
     for (size_t i = 0; i < count; i++) {
         bool inside = true;
         for (int c = 0; c < 3; c++) inside &= points[i][c] >= low[c] && points[i][c] <= high[c];
         for (int c = 0; c < 3; c++) points[framing->count][c] = points[i][c] - framing->middle_world[c];
+        framing->rims_world[framing->count] = framing->rims_world[i];
         framing->count += inside;
     }
-    framing->rim_world = radius_scale * median_radius(cloud, sample, numbers);
 }
 
 bool framing_make(cli_session *session, const ewa_cloud *cloud, double radius_scale, cloud_framing *framing) {
@@ -116,8 +141,9 @@ bool framing_make(cli_session *session, const ewa_cloud *cloud, double radius_sc
     bool done = sampling_choose(cloud, SAMPLES, &sample);
     if (done) {
         framing->offsets = malloc((sample.count + 1) * sizeof *framing->offsets);
+        framing->rims_world = malloc((sample.count + 1) * sizeof *framing->rims_world);
         numbers = malloc((sample.count + 1) * sizeof *numbers);
-        done = framing->offsets && numbers;
+        done = framing->offsets && framing->rims_world && numbers;
     }
     if (done)
         frame_sample(cloud, &sample, radius_scale, numbers, framing);
@@ -130,6 +156,7 @@ bool framing_make(cli_session *session, const ewa_cloud *cloud, double radius_sc
 
 void framing_free(cloud_framing *framing) {
     free(framing->offsets);
+    free(framing->rims_world);
     *framing = (cloud_framing){.count = 0};
 }
 
@@ -138,12 +165,13 @@ void framing_free(cloud_framing *framing) {
 /// `*depth`.
 static double fit_axis(const cloud_framing *framing, const double *rotation, int axis, double slope,
                        double *depth) {
-    const double rim = framing->rim_world * sqrt(1 + slope * slope);
+    const double slanted = sqrt(1 + slope * slope);
     double above = -INFINITY, below = -INFINITY;
     for (size_t i = 0; i < framing->count; i++) {
         const double *p = framing->offsets[i], *side = rotation + 4 * axis, *ahead = rotation + 8;
         const double x = side[0] * p[0] + side[1] * p[1] + side[2] * p[2];
         const double z = ahead[0] * p[0] + ahead[1] * p[1] + ahead[2] * p[2];
+        const double rim = slanted * framing->rims_world[i];
         above = fmax(above, x - slope * z + rim);
         below = fmax(below, -x - slope * z + rim);
     }
@@ -157,7 +185,9 @@ ewa_status framing_fit(const cloud_framing *framing, const double direction_worl
                        const double up_world[3], ewa_camera *camera) {
     const ewa_status status = ewa_camera_frame(camera, &framing->box, direction_world, up_world, MARGIN);
     // Without extent there is nothing to fit; the library's framing of a box of size 1 stays.
-    const bool flat = diagonal(&framing->box) == 0 && framing->rim_world == 0;
+    double largest = 0;
+    for (size_t i = 0; i < framing->count; i++) largest = fmax(largest, framing->rims_world[i]);
+    const bool flat = diagonal(&framing->box) == 0 && largest == 0;
     if (status != EWA_OK || framing->count == 0 || flat || camera->projection != EWA_PERSPECTIVE)
         return status;
     double *m = camera->world_to_camera;
@@ -190,7 +220,7 @@ ewa_status framing_zoom(const cloud_framing *framing, const double eye_world[3],
                 for (int c = 0; c < 3; c++)
                     p[r] += m[4 * r + c] * (framing->offsets[i][c] + framing->middle_world[c]);
             }
-            const double rim = framing->rim_world / p[2];
+            const double rim = framing->rims_world[i] / p[2];
             for (int c = 0; c < 2 && p[2] > 0; c++) {
                 low[c] = fmin(low[c], p[c] / p[2] - rim);
                 high[c] = fmax(high[c], p[c] / p[2] + rim);
@@ -218,8 +248,6 @@ enum { SLICES = 256, CORNERS = 64 };
 static const double STEP_COSINE = 0.99518472667219693, STEP_SINE = 0.098017140329560604,
                     OUTSIDE = 1.0012059964150579;
 
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 /// Makes `v` perpendicular to the unit vector `axis` and scales it to length 1; false when nothing is left.
 static bool make_perpendicular(const double axis[3], double v[3]) {
     const double along = dot(axis, v), length = sqrt(dot(v, v));
@@ -229,23 +257,27 @@ static bool make_perpendicular(const double axis[3], double v[3]) {
     return left > 1e-6 * length;
 }
 
-/// Largest distance from the axis of the points in each slice of [low, high] along it; -1: no point.
+/// Largest distance from the axis and largest rim of the points in each slice of [low, high] along it; -1: no
+/// point.
 static void measure_slices(const cloud_framing *framing, const double shift[3], const double axis[3],
-                           double low, double high, double reach[SLICES]) {
-    for (int k = 0; k < SLICES; k++) reach[k] = -1;
+                           double low, double high, double reach[SLICES], double rims_world[SLICES]) {
+    for (int k = 0; k < SLICES; k++) reach[k] = rims_world[k] = -1;
     for (size_t i = 0; i < framing->count; i++) {
         double p[3];
         for (int c = 0; c < 3; c++) p[c] = framing->offsets[i][c] + shift[c];
         const double height = dot(axis, p);
-        const int slice = high > low ? (int)((height - low) / (high - low) * (SLICES - 1)) : 0;
+        // Rounded otherwise than the ends: where these are next to each other it may be far beyond them.
+        const double place = high > low ? (height - low) / (high - low) * (SLICES - 1) : 0;
+        const int slice = place > 0 ? (place < SLICES - 1 ? (int)place : SLICES - 1) : 0;
         for (int c = 0; c < 3; c++) p[c] -= height * axis[c];
         reach[slice] = fmax(reach[slice], sqrt(dot(p, p)));
+        rims_world[slice] = fmax(rims_world[slice], framing->rims_world[i]);
     }
 }
 
 bool framing_revolve(cli_session *session, const cloud_framing *framing, const double pivot_world[3],
                      const double axis_world[3], const double direction_world[3], cloud_framing *solid) {
-    *solid = (cloud_framing){.rim_world = framing->rim_world};
+    *solid = (cloud_framing){.count = 0};
     double axis[3], shift[3], ahead[3], low = INFINITY, high = -INFINITY;
     const double length = sqrt(dot(axis_world, axis_world));
     for (int c = 0; c < 3; c++) {
@@ -274,12 +306,13 @@ bool framing_revolve(cli_session *session, const cloud_framing *framing, const d
         high = fmax(high, height);
     }
     solid->offsets = malloc(2 * SLICES * CORNERS * sizeof *solid->offsets);
-    if (!solid->offsets) {
+    solid->rims_world = malloc(2 * SLICES * CORNERS * sizeof *solid->rims_world);
+    if (!solid->offsets || !solid->rims_world) {
         session_fail(session, "out of memory");
         return false;
     }
-    double reach[SLICES];
-    measure_slices(framing, shift, axis, low, high, reach);
+    double reach[SLICES], rims_world[SLICES];
+    measure_slices(framing, shift, axis, low, high, reach, rims_world);
     ewa_bounds *box = &solid->box;
     *box = (ewa_bounds){.low_world = {INFINITY, INFINITY, INFINITY},
                         .high_world = {-INFINITY, -INFINITY, -INFINITY}};
@@ -289,6 +322,7 @@ bool framing_revolve(cli_session *session, const cloud_framing *framing, const d
         const double height = low + (high - low) * fmin(1, (double)(k / 2 + k % 2) / (SLICES - 1));
         double x = OUTSIDE * reach[k / 2], y = 0;
         for (int corner = 0; corner < CORNERS; corner++) {
+            solid->rims_world[solid->count] = rims_world[k / 2];
             double *p = solid->offsets[solid->count++];
             for (int c = 0; c < 3; c++) {
                 p[c] = height * axis[c] + x * ahead[c] + y * side[c];

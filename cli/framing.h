@@ -12,9 +12,9 @@ typedef struct cloud_framing {
     ewa_bounds box; ///< of the points to show
     double middle_world[3];
     double (*offsets)[3]; ///< of sampled points inside the box, from its middle
+    double *rims_world;   ///< how far their discs reach beyond them, as far as that is usual
     size_t count;
-    double rim_world; ///< how far a disc usually reaches beyond its point
-    bool trimmed;     ///< a few far points are outside the box
+    bool trimmed; ///< a few far points are outside the box
 } cloud_framing;
 
 /// Measures a cloud; `radius_scale` multiplies its radii. Returns false after reporting; free in any case.

@@ -28,6 +28,12 @@ static const double BELOW_SHARE = 0.002, BASE_THICKNESS = 0.02;
 /// How far from the rim of the base the middle has to be, over the size of the footprint.
 static const double STABLE_MARGIN = 0.05;
 
+/// The class of `count` that a place in classes is in. Extents may overflow or vanish, and places be none.
+static size_t class_of(double place, size_t count) {
+    if (!(place >= 0)) return 0;
+    return place < (double)count ? (size_t)place : count - 1;
+}
+
 void measure_extent(point_cloud_sample *points) {
     for (int c = 0; c < 3; c++) {
         points->low[c] = INFINITY;
@@ -67,13 +73,12 @@ static void start_grid(depth_grid *grid, const double low[2], const double high[
     }
 }
 
-static int cell_of(const depth_grid *grid, int axis, double place) {
-    const int cell = (int)((place - grid->low[axis]) / grid->cell);
-    return cell < grid->sides ? cell : grid->sides - 1;
+static size_t cell_of(const depth_grid *grid, int axis, double place) {
+    return class_of((place - grid->low[axis]) / grid->cell, (size_t)grid->sides);
 }
 
 static void put_in_grid(depth_grid *grid, double x, double y, double depth) {
-    const int column = cell_of(grid, 0, x), row = cell_of(grid, 1, y);
+    const size_t column = cell_of(grid, 0, x), row = cell_of(grid, 1, y);
     grid->nearest[row][column] = fmin(grid->nearest[row][column], depth);
     grid->farthest[row][column] = fmax(grid->farthest[row][column], depth);
     grid->counts[row][column]++;
@@ -113,7 +118,7 @@ typedef struct mark_set {
 } mark_set;
 
 static void mark(mark_set *set, double number, double low, double high) {
-    const size_t place = high > low ? (size_t)((number - low) / (high - low) * (MARKS - 1)) : 0;
+    const size_t place = high > low ? class_of((number - low) / (high - low) * (MARKS - 1), MARKS) : 0;
     set->bits[place / 64] |= (uint64_t)1 << place % 64;
 }
 
@@ -181,7 +186,7 @@ typedef struct strip_hull {
 
 static void put_in_hull(strip_hull *hull, double x, double y) {
     const double place = hull->high > hull->low ? (x - hull->low) / (hull->high - hull->low) : 0;
-    const int strip = (int)fmin(STRIPS - 1, place * STRIPS);
+    const size_t strip = class_of(place * STRIPS, STRIPS);
     // Of equal ones the one with the lesser x, whatever the order.
     point2 *bottom = &hull->bottom[strip], *top = &hull->top[strip];
     const bool met = hull->met[strip];
@@ -249,11 +254,9 @@ static double polygon_depth(size_t count, const point2 *corners, point2 p) {
 static void occupied_middle(const point_cloud_sample *points, double size, double middle[3]) {
     uint64_t cubes[GRID][GRID] = {{0}}; // bit x
     for (size_t i = 0; i < points->count; i++) {
-        int place[3];
-        for (int c = 0; c < 3; c++) {
-            place[c] = (int)((points->offsets[i][c] - points->low[c]) / size * GRID);
-            if (place[c] >= GRID) place[c] = GRID - 1;
-        }
+        size_t place[3];
+        for (int c = 0; c < 3; c++)
+            place[c] = class_of((points->offsets[i][c] - points->low[c]) / size * GRID, GRID);
         cubes[place[2]][place[1]] |= (uint64_t)1 << place[0];
     }
     uint64_t count = 0, sums[3] = {0};
@@ -278,7 +281,7 @@ static double base_height(const point_cloud_sample *points, int axis) {
     const double low = points->low[axis], extent = points->extent[axis];
     if (!(extent > 0)) return low;
     for (size_t i = 0; i < points->count; i++)
-        counts[(size_t)((points->offsets[i][axis] - low) / extent * (HEIGHTS - 1))]++;
+        counts[class_of((points->offsets[i][axis] - low) / extent * (HEIGHTS - 1), HEIGHTS)]++;
     size_t step = 0;
     while (step < HEIGHTS - 1 && (double)(below + counts[step]) <= BELOW_SHARE * (double)points->count)
         below += counts[step++];

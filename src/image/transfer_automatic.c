@@ -168,7 +168,8 @@ static void make_map(const ewa_volume *volume, const ewa_volume_facts *facts, ma
     }
 }
 
-/// The threshold in (first, last] from which on the upper of two classes begins.
+/// The threshold in (first, last] from which on the upper of two classes begins; the last where there is
+/// none.
 static int split(const material_map *map, int first) {
     const double *counts = map->surfaces.counts;
     double all = 0, moment = 0, below = 0, below_moment = 0, best = -1;
@@ -176,7 +177,7 @@ static int split(const material_map *map, int first) {
         all += counts[i];
         moment += counts[i] * i;
     }
-    int at = first + 1;
+    int at = first < map->last ? first + 1 : map->last;
     for (int i = first; i < map->last; i++) {
         below += counts[i];
         below_moment += counts[i] * i;

@@ -16,8 +16,11 @@ enum {
     HEADER_BYTES = 12, // of a .glb
     CHUNK_JSON = 0x4e4f534a,
     CHUNK_BIN = 0x004e4942,
+    MAX_MEMBERS = 128,    // of an object that are looked at
     FREE_ITEMS = 1 << 22, // that any file may be made of,
-    ITEMS_PER_BYTE = 32,  // and more for each byte that it has
+    ITEMS_PER_BYTE = 32,  // and more for each byte that it and its buffers have
+    ITEM_BYTES = 4,       // that an item takes at least in a mesh
+    PRIMITIVE_ITEMS = 16, // that a primitive costs, even an empty one
     POINTS = 0,
     TRIANGLES = 4,
     STRIP = 5,
@@ -35,7 +38,28 @@ ewa_status ewa_gltf_fail(const gltf *g, const char *array, uint64_t index, const
 }
 
 const cJSON *ewa_gltf_member(const cJSON *object, const char *name) {
-    return cJSON_IsObject(object) ? cJSON_GetObjectItemCaseSensitive(object, name) : NULL;
+    const cJSON *member = cJSON_IsObject(object) ? object->child : NULL;
+    for (int i = 0; member && i < MAX_MEMBERS; i++, member = member->next)
+        if (member->string && strcmp(member->string, name) == 0) return member;
+    return NULL;
+}
+
+void ewa_gltf_grant(gltf *g, uint64_t size_bytes) {
+    // More than that no mesh within the limit has, however often a buffer is named.
+    const uint64_t most = ewa_context_limits(g->build->context)->max_memory_bytes / ITEM_BYTES;
+    const uint64_t room = most > g->items_granted ? most - g->items_granted : 0;
+    const uint64_t items = size_bytes < room / ITEMS_PER_BYTE ? size_bytes * ITEMS_PER_BYTE : room;
+    g->items_granted += items;
+    g->items_left += items;
+}
+
+ewa_status ewa_gltf_spend(gltf *g, uint64_t item_count) {
+    if (item_count > g->items_left)
+        return ewa_fail(g->build->context, EWA_ERROR_LIMIT,
+                        "%s: more vertices and corners than a file of %zu bytes and its buffers may have",
+                        g->build->source->name, g->build->source->size_bytes);
+    g->items_left -= item_count;
+    return EWA_OK;
 }
 
 const cJSON *ewa_gltf_extension(const cJSON *object, const char *extension) {
@@ -56,14 +80,14 @@ bool ewa_gltf_count(const cJSON *object, const char *name, uint64_t otherwise, u
 bool ewa_gltf_numbers(const cJSON *object, const char *name, uint32_t count, double *values) {
     const cJSON *array = ewa_gltf_member(object, name);
     if (!array) return true;
-    if (!cJSON_IsArray(array) || cJSON_GetArraySize(array) != (int)count) return false;
+    if (!cJSON_IsArray(array)) return false;
     uint32_t i = 0;
     const cJSON *item;
     cJSON_ArrayForEach(item, array) {
-        if (!cJSON_IsNumber(item)) return false;
+        if (i == count || !cJSON_IsNumber(item)) return false;
         values[i++] = item->valuedouble;
     }
-    return true;
+    return i == count;
 }
 
 // ---- nodes
@@ -240,6 +264,8 @@ static ewa_status add_triangles(gltf *g, const primitive *p, uint64_t mode) {
 static ewa_status add_primitive(gltf *g, uint64_t mesh, const cJSON *item, const placement *at) {
     primitive p = {.mesh = mesh, .attributes = ewa_gltf_member(item, "attributes")};
     uint64_t mode, material, indices, set = 0;
+    ewa_status status = ewa_gltf_spend(g, PRIMITIVE_ITEMS); // many nodes may have one mesh
+    if (status != EWA_OK) return status;
     if (!ewa_gltf_count(item, "mode", TRIANGLES, &mode) || mode > FAN ||
         !ewa_gltf_count(item, "material", UINT64_MAX, &material) ||
         !ewa_gltf_count(item, "indices", UINT64_MAX, &indices))
@@ -251,7 +277,6 @@ static ewa_status add_primitive(gltf *g, uint64_t mesh, const cJSON *item, const
     double cofactor[3][3];
     p.mirrored = cofactors(at, cofactor) < 0;
     g->build->look = EWA_MESH_NONE;
-    ewa_status status = EWA_OK;
     if (material != UINT64_MAX) status = ewa_gltf_look(g, material, &g->build->look, &set);
     if (status == EWA_OK) status = add_positions(g, &p, at);
     if (status == EWA_OK) status = add_colors(g, &p);
@@ -440,7 +465,8 @@ static ewa_status open_container(gltf *g, const uint8_t **json, size_t *json_byt
 ewa_status ewa_mesh_read_gltf(ewa_mesh_build *build) {
     const ewa_mesh_source *source = build->source;
     gltf g = {.build = build};
-    g.items_left = FREE_ITEMS + (uint64_t)ITEMS_PER_BYTE * source->size_bytes;
+    g.items_left = FREE_ITEMS;
+    ewa_gltf_grant(&g, source->size_bytes);
     build->float_positions = true; // unless a node moves them
     const uint8_t *json = source->bytes;
     size_t json_bytes = source->size_bytes;

@@ -36,7 +36,8 @@ typedef struct gltf {
     size_t chunk_bytes;
     bool *visited; ///< by node
     bool has_triangles;
-    uint64_t items_left; ///< vertices and corners that may still be made of the file
+    uint64_t items_granted; ///< vertices and corners that may be made of the file and its buffers
+    uint64_t items_left;    ///< of these, by now
 } gltf;
 
 /// Reports EWA_ERROR_FORMAT for item `index` of an array of the tree.
@@ -46,7 +47,14 @@ ewa_status ewa_gltf_fail(const gltf *g, const char *array, uint64_t index, const
 /// something else.
 bool ewa_gltf_count(const cJSON *object, const char *name, uint64_t otherwise, uint64_t *value);
 
-/// The member of an object, of an extension of the object, or NULL.
+/// Grants vertices and corners for so many bytes that the file or a buffer beside it has.
+void ewa_gltf_grant(gltf *g, uint64_t size_bytes);
+
+/// Takes from what was granted. Errors: EWA_ERROR_LIMIT.
+ewa_status ewa_gltf_spend(gltf *g, uint64_t item_count);
+
+/// The member of an object, of an extension of the object, or NULL. Only the first 128 members are looked at:
+/// no object of glTF has as many, and one that is used often must not cost its length each time.
 const cJSON *ewa_gltf_member(const cJSON *object, const char *name);
 const cJSON *ewa_gltf_extension(const cJSON *object, const char *extension);
 

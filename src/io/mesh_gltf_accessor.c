@@ -102,6 +102,7 @@ static ewa_status open_buffer(gltf *g, uint64_t index) {
                             ewa_quote((ewa_text){uri->valuestring, strlen(uri->valuestring)}, quote), reason);
         buffer->bytes = buffer->file.bytes;
         buffer->size_bytes = buffer->file.size_bytes;
+        ewa_gltf_grant(g, buffer->size_bytes);
     }
     buffer->opened = true;
     if (buffer->size_bytes < wanted)
@@ -248,12 +249,9 @@ ewa_status ewa_gltf_read_accessor(gltf *g, uint64_t index, uint32_t low, uint32_
     if (!ewa_gltf_count(accessor, "count", 0, &array->count))
         return ewa_gltf_fail(g, "accessors", index, "count is no count");
     // A short file may name one accessor many times, or one that is all zeros.
-    if (array->count > g->items_left)
-        return ewa_fail(g->build->context, EWA_ERROR_LIMIT,
-                        "%s: more vertices and corners than a file of %zu bytes may have",
-                        g->build->source->name, g->build->source->size_bytes);
-    g->items_left -= array->count;
-    const ewa_status status = read_numbers(g, index, accessor, type, array);
+    ewa_status status = ewa_gltf_spend(g, array->count);
+    if (status != EWA_OK) return status;
+    status = read_numbers(g, index, accessor, type, array);
     if (status != EWA_OK) ewa_gltf_free_array(g, array);
     return status;
 }

@@ -151,6 +151,53 @@ static void test_outputs(void **state) {
     assert_int_equal(scratch_count(), before + 1);
 }
 
+/// Writes a cloud of doubles: `count` points, three numbers each.
+static void write_doubles(const char *name, int count, const double *numbers) {
+    FILE *file = fopen(scratch_path(name), "w");
+    assert_non_null(file);
+    fprintf(file,
+            "ply\nformat ascii 1.0\nelement vertex %d\nproperty double x\nproperty double y\nproperty "
+            "double z\nend_header\n",
+            count);
+    for (int i = 0; i < count; i++)
+        fprintf(file, "%.17g %.17g %.17g\n", numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);
+    fclose(file);
+}
+
+/// Extents that overflow, that vanish when they are divided, and that are nothing but rounding.
+static void test_extents(void **state) {
+    (void)state;
+    enum { COUNT = 4000 };
+    static double numbers[3 * COUNT];
+    static const double scales[][3] = {
+        {1.7e308, 1.7e308, 1}, {5e-323, 5e-323, 5e-324}, {5e-323, 5e-323, 1}, {1.7e308, 5e-323, 1.7e308}};
+    const int before = scratch_count();
+    for (size_t k = 0; k < sizeof scales / sizeof scales[0]; k++) {
+        uint32_t state_bits = 1;
+        for (int i = 0; i < 3 * COUNT; i++) {
+            state_bits = state_bits * 1664525 + 1013904223;
+            numbers[i] = (2 * (state_bits >> 8) / 16777215.0 - 1) * scales[k][i % 3] + (i % 3 == 2);
+        }
+        write_doubles("extent.ply", COUNT, numbers);
+        if (run("ewa info extent.ply") != 0) fail_msg("case %zu: %s", k, last_run.err);
+        const int status = run("ewa render extent.ply -o out.png --size 64x64; status=$?; rm -f out.png; "
+                               "exit $status");
+        if (status > 1) fail_msg("case %zu: status %d, %s", k, status, last_run.err);
+    }
+    // A plane across the axis of a turntable: where its points are along that is rounding.
+    for (int i = 0; i < COUNT; i++) {
+        const double x = i % 61 / 61.0, y = i / 61 / 61.0;
+        numbers[3 * i] = x, numbers[3 * i + 1] = y, numbers[3 * i + 2] = -(x + 3 * y) / 7;
+    }
+    write_doubles("extent.ply", COUNT, numbers);
+    const int status =
+        run("ewa render extent.ply -o out_%%d.png --size 64x64 --turntable 2 --up 1,3,7 --target "
+            "0.5,0.5,-1; status=$?; rm -f out_?.png; exit $status");
+    if (status != 0) fail_msg("status %d, %s", status, last_run.err);
+    run_done("rm extent.ply");
+    assert_int_equal(scratch_count(), before);
+}
+
 static void test_out_of_memory(void **state) {
     (void)state;
 #ifdef __SANITIZE_ADDRESS__
@@ -185,6 +232,7 @@ int main(void) {
         cmocka_unit_test(test_every_truncation), cmocka_unit_test(test_nothing_to_draw),
         cmocka_unit_test(test_odd_clouds),       cmocka_unit_test(test_outputs),
         cmocka_unit_test(test_out_of_memory),    cmocka_unit_test(test_interruption),
+        cmocka_unit_test(test_extents),
     };
     return cmocka_run_group_tests(tests, enter, NULL);
 }

@@ -6,6 +6,7 @@
 #include "image/standins.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { ALL_TREE = 1 << STANDIN_LEAVES | 1 << STANDIN_WOOD | 1 << STANDIN_POT };
 
@@ -213,11 +214,32 @@ static void test_full_volume(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Nearly all voxels have the value next to the highest, and the lowest is in a row that is not looked at: no
+/// class begins above the last threshold.
+static void test_highest_class(void **state) {
+    (void)state;
+    enum { SIDE = 128 };
+    ewa_context *context = check_context(1, NULL);
+    const uint32_t dims[3] = {SIDE, SIDE, SIDE};
+    ewa_volume volume;
+    assert_int_equal(ewa_volume_create(context, dims, EWA_U8, &volume), EWA_OK);
+    uint8_t *voxels = volume.voxels;
+    memset(voxels, 254, (size_t)SIDE * SIDE * SIDE);
+    memset(voxels, 255, 50);
+    voxels[(size_t)5 * SIDE * SIDE + SIDE + 7] = 0;
+    const ewa_transfer transfer = look_of(&volume);
+    for (uint32_t i = 0; i < transfer.point_count; i++)
+        expect("point", transfer.points[i].value, 254.4999, 255);
+    ewa_volume_free(&volume);
+    ewa_context_destroy(&context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bonsai),      cmocka_unit_test(test_walnut),
-        cmocka_unit_test(test_heads),       cmocka_unit_test(test_same_look),
-        cmocka_unit_test(test_odd_volumes), cmocka_unit_test(test_full_volume),
+        cmocka_unit_test(test_bonsai),        cmocka_unit_test(test_walnut),
+        cmocka_unit_test(test_heads),         cmocka_unit_test(test_same_look),
+        cmocka_unit_test(test_odd_volumes),   cmocka_unit_test(test_full_volume),
+        cmocka_unit_test(test_highest_class),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

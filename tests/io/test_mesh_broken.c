@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Meshes that are wrong: every truncation of a file of each format, thousands of seeded changes of it, the
-// n-th allocation failing, limits, hostile files from elsewhere. Each is a mesh or a clear failure.
+// n-th allocation failing, limits. Each is a mesh or a clear failure; mesh_real has hostile files from
+// elsewhere.
 #include "io/mesh_check.h"
 
 #include <time.h>
@@ -355,26 +356,6 @@ static void test_time(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void load_hostile(void *user, const char *path) {
-    mesh_messages *messages = user;
-    ewa_context *context = mesh_context(messages);
-    ewa_model model;
-    const ewa_status status = ewa_model_load(context, path, EWA_MODEL_MESH, &model);
-    if (status == EWA_OK)
-        ewa_model_free(&model);
-    else
-        assert_true(messages->errors > 0 && strncmp(messages->text, path, strlen(path)) == 0);
-    ewa_context_destroy(&context);
-}
-
-static void test_hostile_files(void **state) {
-    (void)state;
-    mesh_messages messages;
-    if (!scratch_each("hostile/mesh", load_hostile, &messages)) skip();
-    scratch_each("hostile/img", load_hostile, &messages);
-    scratch_each("hostile/text", load_hostile, &messages);
-}
-
 /// Every format under every name, and what is none.
 static void test_probe(void **state) {
     (void)state;
@@ -428,7 +409,7 @@ int main(void) {
         cmocka_unit_test(test_samples_load),  cmocka_unit_test(test_every_truncation),
         cmocka_unit_test(test_changed_bytes), cmocka_unit_test(test_failing_allocations),
         cmocka_unit_test(test_limits),        cmocka_unit_test(test_time),
-        cmocka_unit_test(test_hostile_files), cmocka_unit_test(test_probe),
+        cmocka_unit_test(test_probe),
     };
     return cmocka_run_group_tests(tests, make_samples, NULL);
 }

@@ -455,6 +455,56 @@ static void test_amplification(void **state) {
                 "more vertices and corners");
 }
 
+/// A short file over a large buffer beside it: how much it may hold goes by both.
+static void test_large_buffer(void **state) {
+    (void)state;
+    enum { PLACES = 3, CORNERS = 4500000, BYTES = 12 * PLACES + CORNERS };
+    uint8_t *bytes = calloc(BYTES, 1);
+    assert_non_null(bytes);
+    const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    memcpy(bytes, triangle, sizeof triangle);
+    for (int i = 0; i < CORNERS; i++) bytes[sizeof triangle + (size_t)i] = (uint8_t)(i % 3);
+    char json[1024], path[512];
+    scratch_write(scratch_path("large.bin", path), bytes, BYTES);
+    free(bytes);
+    snprintf(json, sizeof json,
+             GLTF_HEAD(GLTF_NODE) "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},"
+                                  "\"indices\":1}]}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,"
+                                  "\"count\":3,\"type\":\"VEC3\"},{\"bufferView\":1,\"componentType\":5121,"
+                                  "\"count\":%d,\"type\":\"SCALAR\"}],\"bufferViews\":[{\"buffer\":0,"
+                                  "\"byteLength\":36},{\"buffer\":0,\"byteOffset\":36,\"byteLength\":%d}],"
+                                  "\"buffers\":[{\"byteLength\":%d,\"uri\":\"large.bin\"}]}",
+             CORNERS, CORNERS, BYTES);
+    scratch_write(scratch_path("large.gltf", path), json, strlen(json));
+    ewa_mesh mesh;
+    assert_int_equal(ewa_mesh_load(context, path, &mesh), EWA_OK);
+    assert_int_equal(mesh.triangle_count, CORNERS / 3);
+    ewa_mesh_free(&mesh);
+}
+
+/// What is looked at again and again costs little each time: empty primitives of a mesh that many nodes have,
+/// and objects of more members than glTF has names for.
+static void test_repetition(void **state) {
+    (void)state;
+    static char text[1 << 17];
+    size_t at = (size_t)snprintf(text, sizeof text, "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{}");
+    for (int i = 0; i < 4000; i++) at += (size_t)snprintf(text + at, sizeof text - at, ",{\"mesh\":0}");
+    at += (size_t)snprintf(text + at, sizeof text - at, "],\"meshes\":[{\"primitives\":[{}");
+    for (int i = 0; i < 4000; i++) at += (size_t)snprintf(text + at, sizeof text - at, ",{}");
+    snprintf(text + at, sizeof text - at, "]}]}");
+    mesh_refuse(context, &messages, "a.gltf", text, strlen(text), EWA_ERROR_LIMIT,
+                "more vertices and corners");
+    for (int members = 100; members <= 200; members += 100) {
+        at = (size_t)snprintf(text, sizeof text, GLTF_HEAD(GLTF_NODE) "\"materials\":[{");
+        for (int i = 0; i < members; i++) at += (size_t)snprintf(text + at, sizeof text - at, "\"%d\":0,", i);
+        snprintf(text + at, sizeof text - at,
+                 "\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,0]}}],\"meshes\":[{\"primitives\":[{"
+                 "\"material\":0}]}]}");
+        mesh_refuse(context, &messages, "a.gltf", text, strlen(text), EWA_ERROR_FORMAT,
+                    members == 100 ? "its factor is no array of 4 numbers" : "neither faces nor points");
+    }
+}
+
 int main(void) {
 #define CASE(f) cmocka_unit_test_setup_teardown(f, begin, end)
     const struct CMUnitTest tests[] = {CASE(test_primitives),
@@ -465,6 +515,8 @@ int main(void) {
                                        CASE(test_buffers),
                                        CASE(test_points_and_lines),
                                        CASE(test_lies),
-                                       CASE(test_amplification)};
+                                       CASE(test_amplification),
+                                       CASE(test_large_buffer),
+                                       CASE(test_repetition)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Meshes of the data set, which others' programs have written. Only where that is there: what is read of each
-// format is held by files that the other tests make.
+// Meshes of the data set, which others' programs have written, and broken ones. Only where that is there:
+// what is read of each format, and what is refused, is held by files that the other tests make.
 #include "io/mesh_check.h"
 
 static mesh_messages messages;
@@ -122,8 +122,27 @@ static void test_stl(void **state) {
     assert_string_equal(messages.text, "");
 }
 
+static void load_hostile(void *user, const char *path) {
+    (void)user;
+    ewa_model model;
+    messages = (mesh_messages){.errors = 0};
+    const ewa_status status = ewa_model_load(context, path, EWA_MODEL_MESH, &model);
+    if (status == EWA_OK)
+        ewa_model_free(&model);
+    else
+        assert_true(messages.errors > 0 && strncmp(messages.text, path, strlen(path)) == 0);
+}
+
+static void test_hostile_files(void **state) {
+    (void)state;
+    static const char *const folders[] = {"hostile/mesh", "hostile/img", "hostile/text"};
+    for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++)
+        assert_true(scratch_each(folders[i], load_hostile, NULL) > 0);
+}
+
 int main(void) {
 #define CASE(f) cmocka_unit_test_setup_teardown(f, begin, end)
-    const struct CMUnitTest tests[] = {CASE(test_ply), CASE(test_obj), CASE(test_stl)};
+    const struct CMUnitTest tests[] = {CASE(test_ply), CASE(test_obj), CASE(test_stl),
+                                       CASE(test_hostile_files)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

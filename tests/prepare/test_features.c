@@ -77,6 +77,10 @@ static void line_in_world(const ewa_cloud *cloud, const float *clip, uint64_t i,
     for (int c = 0; c < 3; c++) foot[c] = p[3 * i + c] - clip[3 * i + 2] * across[c] / length2;
 }
 
+static double length_of(const float *v) {
+    return sqrt((double)v[0] * (double)v[0] + (double)v[1] * (double)v[1] + (double)v[2] * (double)v[2]);
+}
+
 static void check_crease(double angle_deg, bool valley) {
     ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = make_crease(context, angle_deg, valley),
@@ -89,6 +93,8 @@ static void check_crease(double angle_deg, bool valley) {
     const float *clip = check_stream(cloud, EWA_CLIP0), *normal = check_stream(cloud, EWA_NORMAL);
     const float *position = check_stream(cloud, EWA_POSITION), *old = check_stream(before, EWA_POSITION);
     const float *old_normal = check_stream(before, EWA_NORMAL);
+    const float *radius = check_stream(before, EWA_RADIUS), *along = check_stream(cloud, EWA_TANGENT_U),
+                *across = check_stream(cloud, EWA_TANGENT_V);
     assert_null(ewa_cloud_find(cloud, EWA_RADIUS));
     uint32_t near = 0, clipped = 0;
     for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
@@ -107,6 +113,9 @@ static void check_crease(double angle_deg, bool valley) {
         assert_true(fabs(foot[0]) < 0.02 && fabs(foot[2]) < 0.02);
         assert_true(fabs(foot[1] - (double)old[3 * i + 1]) < 0.05);
         assert_true(clip[3 * i + 2] > -0.05f); // what is kept holds the centre
+        // A disc that ends at the edge is 1.5 times as wide, and 1.1 times as long along it.
+        assert_float_equal(length_of(&across[3 * i]), 1.5 * (double)radius[i] / 3, 1e-5);
+        assert_float_equal(length_of(&along[3 * i]), 1.1 * (double)radius[i] / 3, 1e-5);
         for (int c = 0; c < 3; c++) dot += (double)normal[3 * i + c] * (double)old_normal[3 * i + c];
         assert_true(dot > 0.9999);
     }
@@ -125,6 +134,44 @@ static void test_creases(void **state) {
         check_crease(angles[i], false);
         check_crease(angles[i], true);
     }
+}
+
+/// Points over the surface are put onto it up to 0.3 spacings, or 4 times the noise where that is more; those
+/// that are farther off are left alone.
+static void test_outliers(void **state) {
+    (void)state;
+    static const struct {
+        double noise;  ///< in spacings, which are 0.87 here
+        double height; ///< in world units
+        bool snapped;
+    } cases[] = {{0.01, 0.23, true}, {0.01, 0.29, false}, {0.1, 0.32, true}, {0.1, 0.39, false}};
+    ewa_context *context = check_context(2, NULL);
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        ewa_cloud *cloud = make_crease(context, 90, false), *before = make_crease(context, 90, false);
+        float *position = ewa_cloud_find(cloud, EWA_POSITION)->data;
+        const float *old = check_stream(before, EWA_POSITION), *normal = check_stream(before, EWA_NORMAL);
+        uint32_t lifted = 0, snapped = 0;
+        for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i += 17) {
+            if (fabsf(old[3 * i]) > 1) continue;
+            for (int c = 0; c < 3; c++) position[3 * i + c] += (float)cases[k].height * normal[3 * i + c];
+        }
+        ewa_feature_options options = default_options();
+        options.noise = cases[k].noise;
+        assert_int_equal(ewa_cloud_detect_features(cloud, &options, NULL), EWA_OK);
+        position = ewa_cloud_find(cloud, EWA_POSITION)->data;
+        for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i += 17) {
+            if (fabsf(old[3 * i]) > 1 || old[3 * i + 1] < 3 || old[3 * i + 1] > SIDE - 3) continue;
+            double height = 0;
+            for (int c = 0; c < 3; c++)
+                height += (double)(position[3 * i + c] - old[3 * i + c]) * (double)normal[3 * i + c];
+            lifted++, snapped += fabs(height) < 0.5 * cases[k].height;
+        }
+        assert_true(lifted > 5);
+        assert_int_equal(snapped, cases[k].snapped ? lifted : 0);
+        ewa_cloud_destroy(&cloud);
+        ewa_cloud_destroy(&before);
+    }
+    ewa_context_destroy(&context);
 }
 
 /// Below the threshold nothing changes, not even the streams.
@@ -388,15 +435,11 @@ static void test_failing_allocations(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_creases),
-        cmocka_unit_test(test_threshold),
-        cmocka_unit_test(test_corners),
-        cmocka_unit_test(test_smooth),
-        cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_odd_clouds),
-        cmocka_unit_test(test_streams),
-        cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_failing_allocations),
+        cmocka_unit_test(test_creases),    cmocka_unit_test(test_outliers),
+        cmocka_unit_test(test_threshold),  cmocka_unit_test(test_corners),
+        cmocka_unit_test(test_smooth),     cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_odd_clouds), cmocka_unit_test(test_streams),
+        cmocka_unit_test(test_refusals),   cmocka_unit_test(test_failing_allocations),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

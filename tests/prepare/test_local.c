@@ -186,8 +186,8 @@ static void measure_cell(const ewa_block *block, uint32_t lane, double frame[2][
     }
 }
 
-/// A place among others that are, by turns, on a plane, beside its border, on lines, on a bent surface and
-/// anywhere.
+/// A place among others that are, by turns, on a plane, beside its border, on lines, on a bent surface,
+/// anywhere, far apart one way and on a strip, whose parts are by some as thin as lines.
 static void make_place(int kind, int i, check_random *random, double p[3]) {
     const double x = check_uniform(random, -1, 1), y = check_uniform(random, -1, 1);
     p[0] = x, p[1] = y, p[2] = 0.02 * x;
@@ -196,14 +196,15 @@ static void make_place(int kind, int i, check_random *random, double p[3]) {
     if (kind == 3) p[2] = 0.4 * x * y + 0.03 * check_uniform(random, -1, 1);
     if (kind == 4) p[2] = check_uniform(random, -1, 1);
     if (kind == 5) p[0] = 4 * x, p[2] += 0.5 * y;
+    if (kind == 6) p[1] = 0.065 * y;
 }
 
 static void make_block(int number, ewa_block *block) {
     check_random random = {(uint64_t)number + 1};
     double place[PLACES][3];
-    for (int i = 0; i < PLACES; i++) make_place(number % 6, i, &random, place[i]);
+    for (int i = 0; i < PLACES; i++) make_place(number % 7, i, &random, place[i]);
     // The lanes are the places nearest to one of them.
-    const uint32_t neighbours = number / 6 % 3 == 0 ? 8 : number / 6 % 3 == 1 ? 16 : 64;
+    const uint32_t neighbours = number / 7 % 3 == 0 ? 8 : number / 7 % 3 == 1 ? 16 : 64;
     memset(block, 0, sizeof *block);
     block->candidate_count = PLACES;
     block->lane_count = number % 4 ? 16 : 11;

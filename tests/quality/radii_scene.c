@@ -56,6 +56,12 @@ void radii_scene_fill(radii_kind kind, double detail, uint32_t count, float *xyz
             const double t = i / (double)count;
             p[0] = cos(4 * PI * t), p[1] = sin(4 * PI * t), p[2] = 2 * t - 1;
         }
+        // As many points between each distance and its double, flat as a garden.
+        if (kind == RADII_GARDEN) {
+            const double z = check_uniform(&random, -1, 1), a = PI * p[0], flat = sqrt(1 - z * z);
+            const double r = pow(1000, -check_uniform(&random, 0, 1));
+            p[0] = r * flat * cos(a), p[1] = r * flat * sin(a), p[2] = 0.3 * r * z;
+        }
         if (kind == RADII_FOG) p[2] = check_uniform(&random, -1, 1);
         for (int c = 0; c < 3; c++) xyz[3 * (size_t)i + (size_t)c] = (float)p[c];
     }

@@ -19,6 +19,7 @@ typedef enum radii_kind {
     RADII_LONE,    ///< a random plane, and one point in 5000 far above it
     RADII_CURVE,   ///< a helix: no surface
     RADII_FOG,     ///< random points of a cube: no surface
+    RADII_GARDEN,  ///< ever sparser points around a place: a sparse reconstruction
 } radii_kind;
 
 /// Fills `count` positions; the plane has edge 2, all else about that size.

@@ -64,6 +64,7 @@ static void test_limited(void **state) {
     } scenes[] = {{"plane", RADII_PLANE, 0, 20000, 3.2},
                   {"lone points", RADII_LONE, 0, 20000, 3.2},
                   {"fog", RADII_FOG, 0, 20000, 3.8},
+                  {"garden", RADII_GARDEN, 0, 20000, 4.2},
                   {"lines 20 : 1", RADII_LINES, 20, 20000, 4}};
     ewa_context *context = check_context(0, NULL);
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
@@ -98,33 +99,11 @@ static void test_lone_points(void **state) {
     ewa_context_destroy(&context);
 }
 
-/// A sparse reconstruction of a garden, where points far from all others once became balls.
-static void test_garden(void **state) {
-    (void)state;
-    char path[1024];
-    const char *file = check_data("gaussians/garden_sfm_points.ply", path, sizeof path);
-    if (!file) skip();
-    ewa_context *context = check_context(0, NULL);
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_load(context, file, &cloud), EWA_OK);
-    ewa_estimate_options options;
-    ewa_estimate_options_init(&options, sizeof options);
-    assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
-    radii_sizes sizes;
-    radii_measure_sizes(cloud, 300, &sizes);
-    print_message("garden: the largest radius is %.2f spacings, %.3f of the diagonal\n", sizes.largest,
-                  sizes.of_diagonal);
-    assert_true(sizes.largest < 3.4 && sizes.of_diagonal < 0.03);
-    ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_closed),
         cmocka_unit_test(test_limited),
         cmocka_unit_test(test_lone_points),
-        cmocka_unit_test(test_garden),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,330 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What the camera that frames a cloud shows: all discs, the room around them, nothing of what lies far off.
+#include "check.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+#include "cli/framing.h"
+
+static cli_session session;
+
+static int begin(void **state) {
+    (void)state;
+    static const common_arguments common = {.threads = 1, .progress = 0};
+    assert_true(session_start(&session, &common));
+    return 0;
+}
+
+static int end(void **state) {
+    (void)state;
+    session_end(&session, 0);
+    return 0;
+}
+
+/// A point, its radius and the way that its disc faces.
+typedef struct disc {
+    double place[3], radius, normal[3];
+} disc;
+
+static ewa_cloud *make_cloud(const disc *discs, uint32_t count) {
+    ewa_cloud *cloud = NULL;
+    double *position = NULL;
+    float *radius = NULL, *normal = NULL;
+    assert_int_equal(ewa_cloud_create(session.context, count, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, (void **)&position), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, (void **)&radius), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, (void **)&normal), EWA_OK);
+    for (uint32_t i = 0; i < count; i++) {
+        radius[i] = (float)discs[i].radius;
+        for (int c = 0; c < 3; c++) {
+            position[3 * i + (uint32_t)c] = discs[i].place[c];
+            normal[3 * i + (uint32_t)c] = (float)discs[i].normal[c];
+        }
+    }
+    return cloud;
+}
+
+static ewa_camera make_lens(void) {
+    ewa_camera camera;
+    ewa_camera_init(&camera, sizeof camera);
+    camera.width_px = 800;
+    camera.height_px = 600;
+    assert_int_equal(ewa_camera_set_fov(&camera, 30), EWA_OK);
+    return camera;
+}
+
+/// The camera that frames a cloud from a direction, y or z up.
+static ewa_camera fit(const ewa_cloud *cloud, double radius_scale, const double direction[3]) {
+    const double up[3] = {0, direction[1] == 0, direction[1] != 0};
+    ewa_camera camera = make_lens();
+    cloud_framing framing;
+    assert_true(framing_make(&session, cloud, radius_scale, &framing));
+    assert_int_equal(framing_fit(&framing, direction, up, &camera), EWA_OK);
+    framing_free(&framing);
+    return camera;
+}
+
+/// The outermost pixels that a disc's rim meets: least x, least y, greatest x, greatest y.
+static void add_rim(const ewa_camera *camera, const disc *d, double box[4]) {
+    const double *n = d->normal, *m = camera->world_to_camera;
+    const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    double u[3] = {0}, v[3];
+    const int least =
+        fabs(n[0]) < fabs(n[1]) ? (fabs(n[0]) < fabs(n[2]) ? 0 : 2) : (fabs(n[1]) < fabs(n[2]) ? 1 : 2);
+    for (int c = 0; c < 3; c++) u[c] = (c == least) - n[least] * n[c] / (length * length);
+    const double scale = 1 / sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+    for (int c = 0; c < 3; c++) u[c] *= scale;
+    for (int c = 0; c < 3; c++)
+        v[c] = (n[(c + 1) % 3] * u[(c + 2) % 3] - n[(c + 2) % 3] * u[(c + 1) % 3]) / length;
+    for (int k = 0; k < 64; k++) {
+        const double x = d->radius * cos(k * 0.0981747704246810), y = d->radius * sin(k * 0.0981747704246810);
+        double p[3];
+        for (int r = 0; r < 3; r++) {
+            p[r] = m[4 * r + 3];
+            for (int c = 0; c < 3; c++) p[r] += m[4 * r + c] * (d->place[c] + x * u[c] + y * v[c]);
+        }
+        assert_true(p[2] > 0);
+        const double pixel[2] = {camera->fx_px * p[0] / p[2] + camera->cx_px,
+                                 camera->fy_px * p[1] / p[2] + camera->cy_px};
+        for (int c = 0; c < 2; c++) {
+            box[c] = fmin(box[c], pixel[c]);
+            box[2 + c] = fmax(box[2 + c], pixel[c]);
+        }
+    }
+}
+
+static void rims_box(const ewa_camera *camera, const disc *discs, uint32_t count, double box[4]) {
+    box[0] = box[1] = INFINITY;
+    box[2] = box[3] = -INFINITY;
+    for (uint32_t i = 0; i < count; i++) add_rim(camera, &discs[i], box);
+}
+
+static const double AHEAD[3] = {0, 0, -1};
+
+/// Discs that face the camera end at 0.04 of the width from either side.
+static void test_room(void **state) {
+    (void)state;
+    const disc discs[] = {
+        {{-1, 0, 0}, 0.02, {0, 0, 1}}, {{0, 0.1, 0}, 0.02, {0, 0, 1}}, {{1, 0, 0}, 0.05, {0, 0, 1}}};
+    ewa_cloud *cloud = make_cloud(discs, 3);
+    const ewa_camera camera = fit(cloud, 1, AHEAD);
+    double box[4];
+    rims_box(&camera, discs, 3, box);
+    assert_true(fabs(box[0] - 32) < 3 && fabs(box[2] - 768) < 3);
+    ewa_cloud_destroy(&cloud);
+}
+
+/// No disc of a few unequal ones reaches over the frame, whichever way it faces and from wherever it is seen;
+/// nor is the frame much larger than they are.
+static void test_unequal_discs(void **state) {
+    (void)state;
+    static const double directions[][3] = {{0, 0, -1}, {1, 0, 0}, {0, -1, 0}, {-1, -1, -1}, {-0.3, 0.2, 0.5}};
+    check_random random = {5};
+    for (int round = 0; round < 40; round++) {
+        disc discs[12];
+        const uint32_t count = 3 + (uint32_t)round % 10;
+        for (uint32_t i = 0; i < count; i++) {
+            check_uniform3(&random, -1, 1, discs[i].place);
+            check_uniform3(&random, -1, 1, discs[i].normal);
+            // At most 2.9 times as large as another.
+            discs[i].radius = check_uniform(&random, 0.2, 0.58);
+        }
+        ewa_cloud *cloud = make_cloud(discs, count);
+        for (size_t k = 0; k < sizeof directions / sizeof *directions; k++) {
+            const ewa_camera camera = fit(cloud, 1, directions[k]);
+            double box[4];
+            rims_box(&camera, discs, count, box);
+            if (!(box[0] > 0 && box[1] > 0 && box[2] < 800 && box[3] < 600))
+                fail_msg("round %d, direction %zu: %g to %g, %g to %g", round, k, box[0], box[2], box[1],
+                         box[3]);
+            assert_true(box[2] - box[0] > 0.6 * 800 || box[3] - box[1] > 0.6 * 600);
+        }
+        // Larger ones by --radius-scale.
+        const ewa_camera camera = fit(cloud, 2, AHEAD);
+        double box[4];
+        for (uint32_t i = 0; i < count; i++) discs[i].radius *= 2;
+        rims_box(&camera, discs, count, box);
+        assert_true(box[0] > 0 && box[1] > 0 && box[2] < 800 && box[3] < 600);
+        ewa_cloud_destroy(&cloud);
+    }
+}
+
+/// How far the camera is from the middle of what it frames.
+static double distance_of(const ewa_camera *camera) {
+    double eye[3];
+    ewa_camera_eye(camera, eye);
+    return eye[2];
+}
+
+/// A disc of 2.9 times the median is framed as any other; of a giant one as much as of one of three times.
+static void test_giant_disc(void **state) {
+    (void)state;
+    enum { COUNT = 100 };
+    static const double radii[] = {0.1, 0.29, 0.3, 100, 1e30};
+    disc discs[COUNT];
+    double distances[5];
+    check_random random = {6};
+    for (int i = 0; i < COUNT; i++) {
+        discs[i] = (disc){{check_uniform(&random, -1, 1), 0, 0}, 0.1, {0, 0, 1}};
+        discs[i].place[1] = check_uniform(&random, -0.1, 0.1);
+    }
+    for (int k = 0; k < 5; k++) {
+        discs[0] = (disc){{1, 0, 0}, radii[k], {0, 0, 1}};
+        ewa_cloud *cloud = make_cloud(discs, COUNT);
+        const ewa_camera camera = fit(cloud, 1, AHEAD);
+        double box[4];
+        rims_box(&camera, discs, COUNT, box);
+        if (k < 3) assert_true(box[0] > 0 && box[2] < 800 && box[2] > 760);
+        distances[k] = distance_of(&camera);
+        ewa_cloud_destroy(&cloud);
+    }
+    assert_true(distances[1] > 1.07 * distances[0] && distances[2] > 1.003 * distances[1]);
+    assert_float_equal(distances[3], distances[2], 1e-6 * distances[2]);
+    assert_float_equal(distances[4], distances[2], 1e-6 * distances[2]);
+}
+
+/// Axes of surfels count by the longer axis of their ellipse, which need not be one of them.
+static void test_axes(void **state) {
+    (void)state;
+    ewa_cloud *cloud = NULL;
+    double *position = NULL;
+    float *u = NULL, *v = NULL;
+    assert_int_equal(ewa_cloud_create(session.context, 2, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, (void **)&position), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_TANGENT_U, EWA_F32, 3, (void **)&u), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_TANGENT_V, EWA_F32, 3, (void **)&v), EWA_OK);
+    memcpy(position, (double[6]){-1, 0, 0, 1, 0, 0}, 6 * sizeof *position);
+    // Support 3 sigma: 0.6 along v; the sum of two that are almost the same is as long as their root of two.
+    memcpy(u, (float[6]){0, 0.05f, 0, 0.1f, 0.01f, 0}, 6 * sizeof *u);
+    memcpy(v, (float[6]){0.2f, 0, 0, 0.1f, -0.01f, 0}, 6 * sizeof *v);
+    cloud_framing framing;
+    assert_true(framing_make(&session, cloud, 1, &framing));
+    assert_int_equal(framing.count, 2);
+    assert_float_equal(framing.rims_world[0], 0.6, 1e-6);
+    assert_float_equal(framing.rims_world[1], 0.3 * sqrt(2), 1e-6);
+    framing_free(&framing);
+    ewa_cloud_destroy(&cloud);
+}
+
+/// Points without a radius that is drawn have no rim, and do not count for the median.
+static void test_no_radius(void **state) {
+    (void)state;
+    const disc discs[] = {{{0, 0, 0}, NAN, {0, 0, 1}},
+                          {{1, 0, 0}, 0, {0, 0, 1}},
+                          {{0, 1, 0}, -1, {0, 0, 1}},
+                          {{1, 1, 0}, 0.1, {0, 0, 1}}};
+    ewa_cloud *cloud = make_cloud(discs, 4);
+    cloud_framing framing;
+    assert_true(framing_make(&session, cloud, 2, &framing));
+    double sum = 0;
+    for (size_t i = 0; i < framing.count; i++) sum += framing.rims_world[i];
+    assert_float_equal(sum, 0.2, 1e-7);
+    framing_free(&framing);
+    ewa_cloud_destroy(&cloud);
+}
+
+/// The lens of an eye at the origin shows all discs, as large as it goes.
+static void test_zoom(void **state) {
+    (void)state;
+    static const double origin[3] = {0, 0, 0}, up[3] = {0, 1, 0};
+    const disc discs[] = {{{-1, 0.2, -4}, 0.2, {0, 0, 1}},
+                          {{0, 0, -5}, 0.3, {0, 0, 1}},
+                          {{1.5, 0, -6}, 0.55, {0, 0, 1}},
+                          {{0, -0.5, -4}, 0.2, {0, 0, 1}}};
+    ewa_cloud *cloud = make_cloud(discs, 4);
+    cloud_framing framing;
+    ewa_camera camera = make_lens();
+    assert_true(framing_make(&session, cloud, 1, &framing));
+    assert_int_equal(framing_zoom(&framing, origin, up, &camera), EWA_OK);
+    double box[4];
+    rims_box(&camera, discs, 4, box);
+    // The aim is good to a hundredth of the width; the other side is exact.
+    assert_true(fabs(box[0] - 32) < 8 && fabs(box[2] - 768) < 3 && box[1] > 24 && box[3] < 576);
+    framing_free(&framing);
+    ewa_cloud_destroy(&cloud);
+}
+
+/// A share of less than 0.005 of the points that makes the box three times as large is left outside.
+static void test_far_points(void **state) {
+    (void)state;
+    enum { COUNT = 10000 };
+    static disc discs[COUNT];
+    static const struct {
+        int far;
+        double place;
+        bool trimmed;
+    } cases[] = {{45, 12, true}, {55, 12, false}, {45, 11.6, true}, {45, 9.2, false}};
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        check_random random = {8};
+        for (int i = 0; i < COUNT; i++) {
+            discs[i] = (disc){.radius = 0.01, .normal = {0, 0, 1}};
+            check_uniform3(&random, -1, 1, discs[i].place);
+            if (i < cases[k].far) discs[i] = (disc){{cases[k].place, 0, 0}, 0.02, {0, 0, 1}};
+        }
+        ewa_cloud *cloud = make_cloud(discs, COUNT);
+        cloud_framing framing;
+        assert_true(framing_make(&session, cloud, 1, &framing));
+        assert_int_equal(framing.trimmed, cases[k].trimmed);
+        // What is left outside is not the object's own rim, and takes its discs along.
+        if (framing.trimmed) {
+            assert_int_equal(framing.count, COUNT - cases[k].far);
+            assert_true(framing.box.high_world[0] > 1.04 && framing.box.high_world[0] < 1.14);
+            for (size_t i = 0; i < framing.count; i++) assert_float_equal(framing.rims_world[i], 0.01, 1e-8);
+        }
+        framing_free(&framing);
+        ewa_cloud_destroy(&cloud);
+    }
+}
+
+/// The body of all turns holds every point in every turn, closely, with its disc.
+static void test_revolve(void **state) {
+    (void)state;
+    static const double axis[3] = {0, 0, 2}, directions[][3] = {{0, 1, 0}, {0, 0, -1}, {1, 2, -1}};
+    const disc discs[] = {
+        {{1, 0, 0}, 0.1, {0, 0, 1}}, {{3, 4, 1}, 0.2, {0, 0, 1}}, {{0, 2, 3}, 0.15, {1, 0, 0}}};
+    const double pivot[3] = {1, 1, 0}, reaches[] = {1, sqrt(13), sqrt(2)};
+    ewa_cloud *cloud = make_cloud(discs, 3);
+    cloud_framing framing, solid;
+    assert_true(framing_make(&session, cloud, 1, &framing));
+    for (size_t d = 0; d < 3; d++) {
+        assert_true(framing_revolve(&session, &framing, pivot, axis, directions[d], &solid));
+        for (int i = 0; i < 3; i++) {
+            // Of the corners about as high: how far they reach each way, and with which rim.
+            double least = INFINITY, greatest = 0, rim = INFINITY, below = INFINITY, above = INFINITY;
+            for (int k = 0; k < 1000; k++) {
+                const double x = cos(k * 0.00628318530717959), y = sin(k * 0.00628318530717959);
+                double reach = 0;
+                for (size_t p = 0; p < solid.count; p++) {
+                    const double *o = solid.offsets[p], up = o[2] + pivot[2] - discs[i].place[2];
+                    if (fabs(up) > 0.02) continue;
+                    reach = fmax(reach, x * o[0] + y * o[1]);
+                    rim = fmin(rim, solid.rims_world[p]);
+                    below = fmin(below, up <= 1e-12 ? -up : INFINITY);
+                    above = fmin(above, up >= -1e-12 ? up : INFINITY);
+                }
+                least = fmin(least, reach);
+                greatest = fmax(greatest, reach);
+            }
+            assert_float_equal(rim, discs[i].radius, 1e-6);
+            assert_true(least > reaches[i] * (1 - 1e-9) && greatest < 1.0013 * reaches[i]);
+            // The slice begins below the point and ends above it.
+            assert_true(below < 0.0118 && above < 0.0118);
+        }
+        framing_free(&solid);
+    }
+    framing_free(&framing);
+    ewa_cloud_destroy(&cloud);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_room),       cmocka_unit_test(test_unequal_discs),
+        cmocka_unit_test(test_giant_disc), cmocka_unit_test(test_axes),
+        cmocka_unit_test(test_no_radius),  cmocka_unit_test(test_zoom),
+        cmocka_unit_test(test_far_points), cmocka_unit_test(test_revolve),
+    };
+    return cmocka_run_group_tests(tests, begin, end);
+}

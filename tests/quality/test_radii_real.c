@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Estimated radii of a sparse reconstruction of a garden, where points far from all others once became balls.
+// Only where the data set is: test_radii holds the rule on samplings that it makes.
+#include "quality/radii_scene.h"
+
+static void test_garden(void **state) {
+    (void)state;
+    char path[1024];
+    const char *file = check_data("gaussians/garden_sfm_points.ply", path, sizeof path);
+    if (!file) skip();
+    ewa_context *context = check_context(0, NULL);
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_cloud_load(context, file, &cloud), EWA_OK);
+    ewa_estimate_options options;
+    ewa_estimate_options_init(&options, sizeof options);
+    assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+    radii_sizes sizes;
+    radii_measure_sizes(cloud, 300, &sizes);
+    print_message("garden: the largest radius is %.2f spacings, %.3f of the diagonal\n", sizes.largest,
+                  sizes.of_diagonal);
+    assert_true(sizes.largest < 3.4 && sizes.of_diagonal < 0.03);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_garden)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
