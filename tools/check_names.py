@@ -97,6 +97,7 @@ class Tree:
                  name.endswith(("CMakeLists.txt", ".cmake", ".sh", ".yml", ".in", "Makefile")) or
                  (name.startswith("tools/") and name.endswith(".py") and name != "tools/check_names.py")]
         self.words = set(re.findall(r"\w+", " ".join(self.code + built)))
+        self.words |= {Path(name).stem for name in self.files if name.endswith((".c", ".h"))}  # programs among them
         self.build_words = set(re.findall(r"[\w.-]+", " ".join(built)))
         self.system_headers = set(re.findall(r"# *include +<([^>]+)>", " ".join(self.code)))
         self.structs = {}
