@@ -23,7 +23,7 @@ typedef enum bench_scene_kind {
     BENCH_SCENE_COUNT
 } bench_scene_kind;
 
-/// The words for the kinds, as option_set takes them.
+/// The words for the kinds, as OPTION_SET takes them.
 #define BENCH_SCENES "plane|color|large|hidden|points|culled|closed|seen|peer|layers|phong"
 
 enum { BENCH_VARIANTS = 3 };

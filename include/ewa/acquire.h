@@ -83,10 +83,9 @@ typedef struct ewa_acquire_report {
 ///   copies of the picture. The filtered colour is the mean of the texture under the kernel, cut by its clip
 ///   lines.
 /// - Optimal: kernels of one part whose supports overlap interact, the less the more their normals differ.
-/// One
-///   sparse, symmetric, positive definite system, all channels at once. Should it not be definite (kernels
-///   that overlap by far too much), the ridge is raised. Kernels on the same place of which two charts say
-///   different things stay near their filtered colours.
+///   One sparse, symmetric, positive definite system, all channels at once (docs/math.md section 10). Should
+///   it not be definite (kernels that overlap by far too much), the ridge is raised. Kernels on the same
+///   place of which two charts say different things stay near their filtered colours.
 ///
 /// `options` and `report` may be NULL. The result does not depend on the number of threads. Progress stages:
 /// "texture", and that of the solver. After a failure the cloud keeps its colours. Errors: EWA_ERROR_ARGUMENT

@@ -21,7 +21,7 @@ typedef enum ewa_projection {
 ///
 /// Camera space p = A w + t for world points w as columns, [A t] the upper three rows of world_to_camera.
 /// Perspective: pixel = (fx px / pz + cx, fy py / pz + cy). Orthographic: pixel = (fx px + cx, fy py + cy).
-/// Pixel (i, j) covers [i, i+1) x [j, j+1) (math.md section 0).
+/// Pixel (i, j) covers [i, i+1) x [j, j+1) (docs/math.md section 0).
 typedef struct ewa_camera {
     size_t struct_size;
     ewa_projection projection;

@@ -190,7 +190,7 @@ EWA_API ewa_mat4 ewa_mat4_transpose(const ewa_mat4 *map);
 /// Inverts a map. Errors: EWA_ERROR_NUMERIC when it is singular to within rounding.
 EWA_API ewa_status ewa_mat4_invert(const ewa_mat4 *map, ewa_mat4 *inverse);
 
-// ---- What a map does (math.md section 1). "Pull" goes from the image back to the source and needs no
+// ---- What a map does (docs/math.md section 1). "Pull" goes from the image back to the source and needs no
 // inverse; to send many things forward, invert the map once and pull by the inverse.
 // --------------------------------------------
 
@@ -218,8 +218,8 @@ EWA_API ewa_conic ewa_dual_conic_transform(const ewa_conic *dual, const ewa_mat3
 EWA_API ewa_status ewa_conic_transform(const ewa_conic *conic, const ewa_mat3 *map, ewa_conic *image_conic);
 
 /// Reads an ellipse off its dual conic: centre c and shape S = (xx, xy, yy) with the boundary (x - c) S^-1 (x
-/// - c)' = 1, so that sqrt(xx) and sqrt(yy) are the half sides of its tight box (math.md section 3). Errors:
-/// EWA_ERROR_NUMERIC when it is no real ellipse.
+/// - c)' = 1, so that sqrt(xx) and sqrt(yy) are the half sides of its tight box (docs/math.md section 3).
+/// Errors: EWA_ERROR_NUMERIC when it is no real ellipse.
 EWA_API ewa_status ewa_dual_conic_ellipse(const ewa_conic *dual, double center[2], double shape[3]);
 
 // ---- Perspective (HC, Perspective Space)

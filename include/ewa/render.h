@@ -43,20 +43,20 @@ typedef struct ewa_surfels_info {
     uint64_t point_count;    ///< that can be drawn
     uint64_t left_out_count; ///< of the cloud's points
     size_t resident_bytes;
-    double unit_coverage;    ///< q0 of math.md section 7: the sum of kernels that a covered pixel expects
-    bool transparent;        ///< some surfel's colour has an alpha below 1
-    ewa_bounds bounds;       ///< of the centres
+    double unit_coverage; ///< q0 of docs/math.md section 7: the sum of kernels that a covered pixel expects
+    bool transparent;     ///< some surfel's colour has an alpha below 1
+    ewa_bounds bounds;    ///< of the centres
     uint32_t material_count; ///< 1 + the largest "material"
 } ewa_surfels_info;
 
 EWA_API void ewa_surfels_describe(const ewa_surfels *surfels, ewa_surfels_info *info);
 
 typedef enum ewa_kernel {
-    EWA_KERNEL_PERSPECTIVE = 0, ///< exact projected ellipse (PAS; math.md section 3)
-    EWA_KERNEL_AFFINE = 1,      ///< Jacobian at the centre (SS; math.md section 3, last line)
+    EWA_KERNEL_PERSPECTIVE = 0, ///< exact projected ellipse (PAS; docs/math.md section 3)
+    EWA_KERNEL_AFFINE = 1,      ///< Jacobian at the centre (SS; docs/math.md section 3)
     EWA_KERNEL_SOURCE = 2,   ///< the same kernel in the surfel's plane, by backward mapping (SS equation 8)
     EWA_KERNEL_CIRCULAR = 3, ///< circle around the affine, filtered ellipse (SS figure 8, third row)
-    EWA_KERNEL_RAYCAST = 4,  ///< exact projective kernel at each pixel (math.md section 9)
+    EWA_KERNEL_RAYCAST = 4,  ///< exact projective kernel at each pixel (docs/math.md section 9)
 } ewa_kernel;
 
 typedef enum ewa_shading {
@@ -86,25 +86,25 @@ typedef struct ewa_render_options {
     /// its rim, over about a pixel (over a sixteenth of larger diameters), and adds up to its area; without
     /// edge antialiasing, and with one pass, it ends at the rim. For clouds that are no surface.
     double point_size_px;
-    double
-        tolerance; ///< kappa of math.md section 6: depth tolerance in units of the support radius; default 1
+    double tolerance; ///< kappa of docs/math.md section 6: depth tolerance in units of the support radius;
+                      ///< default 1
     uint32_t
         passes; ///< 3: splats of one surface are blended; 1: the nearest splat of each pixel wins; default 3
     bool edge_antialiasing; ///< alpha from coverage; default true
-    double edge_threshold;  ///< tau of math.md section 7; default 0.45
+    double edge_threshold;  ///< tau of docs/math.md section 7; default 0.45
     /// Surfaces that may share an antialiased edge: what lies behind a silhouette shows through its partly
     /// covered pixels, front to back, up to this many surfaces; 1: the background shows through instead
-    /// (math.md section 7); [1, EWA_MAX_EDGE_LAYERS]; default EWA_MAX_EDGE_LAYERS
+    /// (docs/math.md section 7); [1, EWA_MAX_EDGE_LAYERS]; default EWA_MAX_EDGE_LAYERS
     uint32_t edge_layers;
     double
         opacity; ///< of every surface, times the surfels' own (the alpha of their colour); [0, 1]; default 1
-    /// Surfaces of a pixel that are composited, front to back, where they are transparent (math.md section 8;
-    /// SS section 6): 1: the nearest only, as if opaque; L: the L - 1 nearest, and all that lies behind as
-    /// one more, with the alpha of as many surfaces as its coverage is worth; EWA_LAYERS_EXACT: all. 0
-    /// (default): all if opacity or a surfel's alpha is below 1, else 1. Surfaces are those of the visibility
-    /// test, gathered one after another, so that neither the order of the points nor the number of layers in
-    /// front changes what a layer is: unlike the paper's A-buffer, which merges whichever fragments it holds.
-    /// With one pass: 1.
+    /// Surfaces of a pixel that are composited, front to back, where they are transparent (docs/math.md
+    /// section 8; SS section 6): 1: the nearest only, as if opaque; L: the L - 1 nearest, and all that lies
+    /// behind as one more, with the alpha of as many surfaces as its coverage is worth; EWA_LAYERS_EXACT:
+    /// all. 0 (default): all if opacity or a surfel's alpha is below 1, else 1. Surfaces are those of the
+    /// visibility test, gathered one after another, so that neither the order of the points nor the number of
+    /// layers in front changes what a layer is: unlike the paper's A-buffer, which merges whichever fragments
+    /// it holds. With one pass: 1.
     uint32_t layers;
     ewa_cull cull;
     ewa_shading shading; ///< default EWA_SHADING_LAMBERT
@@ -157,7 +157,7 @@ EWA_API ewa_status ewa_renderer_create(ewa_context *context, ewa_renderer **rend
 EWA_API void ewa_renderer_destroy(ewa_renderer **renderer);
 
 /// Draws surfels. The same bytes for every number of threads, every instruction set and every order of the
-/// points. `options` and `stats` may be NULL. Implements math.md sections 3 to 7; held to
+/// points. `options` and `stats` may be NULL. Implements docs/math.md sections 3 to 7; held to
 /// ewa_render_reference() by tests. A warning says how many pixels have a colour that is infinite or not a
 /// number. Errors: EWA_ERROR_ARGUMENT (camera, options, a surfel's material that the
 /// table does not have), EWA_ERROR_MEMORY,

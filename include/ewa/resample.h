@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Forward mapping of planar textures: every texel is sent to the picture, as a splat where it is magnified
-// and as a point where it is minified (math.md section 11, docs/texture.md).
+// and as a point where it is minified (docs/math.md section 11, docs/texture.md).
 //
 // Texture coordinates (u, v) and picture coordinates (x, y) are in pixels of each, texel (i, j) covers
 // [i, i+1) x [j, j+1). A map takes row vectors: [x w, y w, w] = [u, v, 1] M; what has w > 0 is seen.

@@ -63,7 +63,7 @@ typedef enum ewa_volume_method {
     EWA_VOLUME_POINTS = 2, ///< with a filter of at most 0.9 px: magnified volumes have holes
 } ewa_volume_method;
 
-/// How a pixel of a splat finds its place in the footprint (math.md section 12).
+/// How a pixel of a splat finds its place in the footprint (docs/math.md section 12).
 typedef enum ewa_volume_index {
     EWA_INDEX_EXACT = 0, ///< how far the pixel's ray passes the voxel's centre, also off the axis
     EWA_INDEX_TABLE = 1, ///< HFR 4.2: by the place in the ellipse and the cone's half angle alpha, tabled up
@@ -131,9 +131,9 @@ EWA_API void ewa_volume_renderer_destroy(ewa_volume_renderer **renderer);
 
 /// Draws voxels, front to back. Of the frame's planes rgba8, rgba, depth (where half of the light is gone;
 /// +infinity where that never happens) and coverage (alpha of the volume alone) are written; normal must be
-/// NULL. The same bytes for every number of threads and every instruction set. What lies within `cutoff`
-/// standard deviations of a perspective camera's eye plane is not drawn, and fades in over as much again.
-/// `options` and `stats` may be NULL. Implements HFR section 4 and math.md section 12; held to
+/// NULL. The same bytes for every number of threads and every instruction set. Voxels whose kernels reach a
+/// perspective camera's eye plane are drawn ray by ray, before all others.
+/// `options` and `stats` may be NULL. Implements HFR section 4 and docs/math.md section 12; held to
 /// ewa_volume_render_reference() by tests. Errors: EWA_ERROR_ARGUMENT (camera, options, a level that the
 /// voxels do not have, frame.normal), EWA_ERROR_MEMORY, EWA_CANCELLED.
 EWA_API ewa_status ewa_volume_render(ewa_volume_renderer *renderer, const ewa_voxels *voxels,

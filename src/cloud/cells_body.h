@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Body of the kernels that code cells (KERNEL): plain loops that the compiler turns into vectors of whatever
-// instruction set the including file is compiled for.
+// instruction set the including file is compiled for. No section of docs/math.md is about them.
 //
 // Based on G. M. Morton, "A computer oriented geodetic data base and a new technique in file sequencing",
 // 1966.

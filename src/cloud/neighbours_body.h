@@ -3,7 +3,7 @@
 //
 // The hot loops of the search, written once. A file that includes this defines KERNELS, the name of the
 // table, and what math/wide.h asks for. One lane is one place that searches; lanes never mix, so every
-// machine gives the same bytes.
+// machine gives the same bytes. No section of docs/math.md is about it.
 #include "cloud/neighbours_tree.h"
 #include "math/wide.h"
 

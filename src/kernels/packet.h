@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The resident form of surfels: packets of sixteen neighbours in Morton order, 30 bytes per surfel, and per
-// packet its place, a bounding sphere, a normal cone and the form of its colours, 2 bytes per surfel.
+// packet its place, a bounding sphere, a normal cone and the form of its colours, 2 bytes per surfel. What a
+// surfel is: docs/math.md section 2; what storing costs: docs/conventions.md, precision.
 #ifndef EWA_SRC_KERNELS_PACKET_H
 #define EWA_SRC_KERNELS_PACKET_H
 

@@ -3,7 +3,7 @@
 //
 // The hot loops of the road, written once in road_body.h and compiled per instruction set; the same bytes
 // from each. Their reference is src/splat/reference.c; rules and numbers are those of
-// src/kernels/semantics.h.
+// docs/math.md sections 2 to 9 and of semantics.h.
 //
 // A frame: cull packets into tile rectangles; then per tile, run by run (32 packets): set up records, sort
 // them by the shape of their box in 4x4-pixel blocks, lower `nearest`; when all runs are done turn `nearest`

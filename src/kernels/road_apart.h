@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Part of road_body.h: what is gathered beside a surface's sums, block by block where there is some, and what
-// it makes of them in the end (semantics.h: facing, clip lines).
+// it makes of them in the end (docs/math.md sections 6 and 7; semantics.h: facing, clip lines).
 #ifndef EWA_SRC_KERNELS_ROAD_APART_H
 #define EWA_SRC_KERNELS_ROAD_APART_H
 

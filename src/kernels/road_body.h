@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The road's kernels over the wide type. The including file defines WIDE_AVX512, WIDE_AVX2 or WIDE_PORTABLE,
-// ROAD_NAME and ROAD_KERNELS; this file undefines them. Reference: src/splat/reference.c; equality class of
-// the versions among themselves: the same bytes.
+// ROAD_NAME and ROAD_KERNELS; this file undefines them. Reference: src/splat/reference.c, docs/math.md
+// sections 2 to 9; equality class of the versions among themselves: the same bytes.
 #include "kernels/road_cull.h"
 #include "kernels/road_edges.h"
 #include "kernels/road_eye_dome.h"

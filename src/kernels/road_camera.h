@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of road_body.h: the root, and what steps of the road do to vectors.
+// Part of road_body.h: the root, and what steps of the road do to vectors (docs/math.md section 0).
 #ifndef EWA_SRC_KERNELS_ROAD_CAMERA_H
 #define EWA_SRC_KERNELS_ROAD_CAMERA_H
 

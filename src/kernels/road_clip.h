@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of road_body.h: what clip lines leave of pixels (semantics.h, clip lines).
+// Part of road_body.h: what clip lines leave of pixels (docs/math.md section 5; semantics.h, clip lines).
 #ifndef EWA_SRC_KERNELS_ROAD_CLIP_H
 #define EWA_SRC_KERNELS_ROAD_CLIP_H
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of road_body.h: packets to tiles, and packets that nothing can be seen of.
+// Part of road_body.h: packets to tiles, and packets that nothing can be seen of (docs/math.md sections 2 and
+// 3).
 #ifndef EWA_SRC_KERNELS_ROAD_CULL_H
 #define EWA_SRC_KERNELS_ROAD_CULL_H
 
@@ -52,7 +53,7 @@ static ALWAYS_INLINE void outline_packets(const ewa_view *view, packet_outline *
         o->half_y = wf_mul(r, wf_set(view->circular ? larger_px : view->fy_px));
     } else {
         o->near = wf_le(c[2], wf_mul(r, wf_set((float)EWA_NEAR_RATIO)));
-        // The tight box of a sphere's outline: D = r^2 I - c'c (math.md section 3), over z^2.
+        // The tight box of a sphere's outline: D = r^2 I - c'c (docs/math.md section 3), over z^2.
         const wf one = wf_set(1), inverse_z = wf_div(one, c[2]), q = wf_mul(r, inverse_z);
         const wf sx = wf_mul(c[0], inverse_z), sy = wf_mul(c[1], inverse_z), rest = wf_fnma(q, q, one);
         const wf inverse = wf_div(one, rest), half = wf_mul(q, inverse);

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Part of road_body.h: what lies behind antialiased edges. The surfaces behind the first one are gathered in
-// the few blocks that hold a partly covered pixel, one surface after another (semantics.h, edge layers).
+// the few blocks that hold a partly covered pixel, one surface after another (docs/math.md section 8;
+// semantics.h, layers).
 #ifndef EWA_SRC_KERNELS_ROAD_EDGES_H
 #define EWA_SRC_KERNELS_ROAD_EDGES_H
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of road_body.h: eye-dome lighting of a finished picture by its depths (semantics.h).
+// Part of road_body.h: eye-dome lighting of a finished picture by its depths (docs/math.md section 7;
+// semantics.h).
 //
 // Based on: C. Boucheny, "Interactive Scientific Visualization of Large Datasets: Towards a Perceptive-Based
 // Approach", 2009; by pairs of opposite pixels of 1/z, which is linear on planes.

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of road_body.h: surfels that touch the eye plane, and broad ones, by pixel rays (semantics.h, near
-// surfels).
+// Part of road_body.h: surfels that touch the eye plane, and broad ones, by pixel rays (docs/math.md section
+// 3; semantics.h, near surfels).
 #ifndef EWA_SRC_KERNELS_ROAD_NEAR_H
 #define EWA_SRC_KERNELS_ROAD_NEAR_H
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of road_body.h: surfels to records, records to classes.
+// Part of road_body.h: surfels to records, records to classes (docs/math.md sections 2 to 6, 9).
 //
 // Based on: Zwicker, Rasanen, Botsch, Dachsbacher, Pauly, "Perspective Accurate Splatting", 2004, section 4,
-// in the sheared form of math.md section 3, which single precision needs.
+// in the sheared form of docs/math.md section 3, which single precision needs.
 #ifndef EWA_SRC_KERNELS_ROAD_PROJECT_H
 #define EWA_SRC_KERNELS_ROAD_PROJECT_H
 
@@ -204,7 +204,7 @@ static ALWAYS_INLINE void stage_place(const ewa_view *view, const ewa_packet_sou
     t->part = view->orthographic ? zero : wf_mul(t->range, t->inverse_z);
     t->root_k = view->orthographic ? one : wf_inverse_root(wf_fnma(t->part, t->part, one));
 
-    // G Sigma G' (math.md section 3), with m = n_xy - x0 nz and b = axis_xy - x0 axis_z.
+    // G Sigma G' (docs/math.md section 3), with m = n_xy - x0 nz and b = axis_xy - x0 axis_z.
     t->major = wf_mul(wf_mul(t->sigma, t->inverse_z), wf_set(view->zoom));
     t->minor = ellipses ? wf_mul(t->major, ratio) : t->major;
     const wf minor2 = wf_mul(t->minor, t->minor);
@@ -275,7 +275,7 @@ static ALWAYS_INLINE void raycast_shape(const ewa_view *view, wf v11, wf v12, wf
     t->half_y = wf_mul(wf_set(view->cutoff), wf_sqrt(wf_fma(most2, v22, h2)));
 }
 
-/// Second step: the filtered ellipse (math.md sections 3 and 4) and the slope of the key.
+/// Second step: the filtered ellipse (docs/math.md sections 3 and 4) and the slope of the key.
 static ALWAYS_INLINE void stage_shape(const ewa_view *view, stage *t) {
     const wf one = wf_set(1), zero = wf_set(0);
     const wf fx = wf_set(view->fx_zoomed), fy = wf_set(view->fy_zoomed);

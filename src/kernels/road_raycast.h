@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of road_body.h: the exact projective kernel at a block's pixels (semantics.h, raycast).
+// Part of road_body.h: the exact projective kernel at a block's pixels (docs/math.md section 9; semantics.h,
+// raycast).
 //
 // A ray meets the surfel's plane at u = (x - c) J^-1 / w, with the Jacobian J at the projected centre c and w
 // = pz / z(x), pz times the key: the kernel at a pixel is the affine one with w^2 V for V. So records serve:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of road_body.h: from sums to pixels (math.md section 7).
+// Part of road_body.h: from sums to pixels (docs/math.md section 7).
 //
 // Based on: Zwicker, Pfister, van Baar, Gross, "Surface Splatting", 2001, equation 9, sections 4 and 7.
 #ifndef EWA_SRC_KERNELS_ROAD_RESOLVE_H

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Part of road_body.h: from a block's sums to the straight colours of its surface, by its filtered normal,
-// colour and material (math.md section 7; semantics.h, shading).
+// colour and material (docs/math.md section 7; semantics.h, shading).
 //
 // Based on: Zwicker, Pfister, van Baar, Gross, "Surface Splatting", 2001, section 4 (deferred shading of
 // filtered attributes); J. Blinn, "Models of Light Reflection for Computer Synthesized Pictures", 1977 (the

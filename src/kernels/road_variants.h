@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The kernel tables that exist in this build.
+// The kernel tables that exist in this build. No section of docs/math.md is about them.
 #ifndef EWA_SRC_KERNELS_ROAD_VARIANTS_H
 #define EWA_SRC_KERNELS_ROAD_VARIANTS_H
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of road_body.h and of the kernels of volumes: the sRGB curve over the wide type.
+// Part of road_body.h and of the kernels of volumes: the sRGB curve over the wide type (docs/math.md section
+// 7, last step).
 #ifndef EWA_SRC_KERNELS_SRGB_CODES_H
 #define EWA_SRC_KERNELS_SRGB_CODES_H
 

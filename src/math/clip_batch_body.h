@@ -3,6 +3,7 @@
 //
 // The batch clipper, written once over vectors of LANES floats; the file that includes it defines LANES and
 // KERNEL. Both cones in one go: alpha of each plane is computed where the segment crosses it and serves both.
+// Formulas: docs/math.md section 1, docs/homogeneous.md.
 #include <stdbool.h>
 #include <string.h>
 

@@ -4,7 +4,8 @@
 // Conics, their duals, and the ellipse of a dual conic.
 //
 // Based on: Bloomenthal and Rokne, Homogeneous Coordinates, section Homogeneous Coordinates for the
-// Projective Plane (a conic is a form of degree two in x, y, w); math.md sections 1 and 3 (PAS section 4).
+// Projective Plane (a conic is a form of degree two in x, y, w); docs/math.md sections 1 and 3 (PAS section
+// 4).
 #include "math/noise.h"
 
 /// M S M' of a symmetric S, symmetric by construction.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Small vectors and matrices in double precision, inline, for every room above. Row vectors: x' = x M,
-// math.md section 0. Total functions: infinities and NaN pass through but for vec3_normalize().
+// docs/math.md section 0. Total functions: infinities and NaN pass through but for vec3_normalize().
 #ifndef EWA_SRC_MATH_VEC_H
 #define EWA_SRC_MATH_VEC_H
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Textures onto surfels: options, surfels with their charts, the nearest pixel and the filtered colour, and
-// where the colours go.
+// where the colours go (docs/math.md section 10).
 // Based on M. Zwicker, H. Pfister, J. van Baar, M. Gross, "Surface Splatting", 2001, section 5.
 #include "prepare/acquire.h"
 #include "base/base.h"

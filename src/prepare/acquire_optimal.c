@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Optimal colours: the normal equations of the texture's approximation by the kernels.
+// Optimal colours: the normal equations of the texture's approximation by the kernels (docs/math.md section
+// 10).
 //
 // What is drawn is sum w_k r_k / S, S = sum r_k. Its error, weighted by S^2, is |S f - sum w_k r_k|^2, and is
 // least where R w = c with R_kj = <r_k, r_j> and c_k = <r_k, S f> = sum_j R_kj f_kj, f_kj the mean of f under

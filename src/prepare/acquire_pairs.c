@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What two kernels have to do with each other: who interacts with whom, inner products in closed form, and
-// the texture under a product.
+// the texture under a product (docs/math.md section 10).
 //
 // The product of two Gaussians is a Gaussian. On a curved surface kernels get a thickness, the same for all:
 // inner products of Gaussians in space always make a positive definite matrix, in a plane they are those of

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Normal, spacing and shape from a neighbourhood, sixteen at a time. A file that includes this defines
-// KERNELS, the name of the table, and what math/wide.h asks for.
+// KERNELS, the name of the table, and what math/wide.h asks for. No section of docs/math.md is about it; what
+// radii come to is in docs/quality.md.
 //
 // Normal: the direction of least variance of the neighbourhood. Based on H. Hoppe, T. DeRose, T. Duchamp,
 // J. McDonald, W. Stuetzle, "Surface reconstruction from unorganized points", 1992, section 3.2.

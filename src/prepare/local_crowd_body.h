@@ -3,7 +3,8 @@
 //
 // The part of local_body.h for places that are measured by many neighbours. They are few and far between:
 // taken from several blocks, each with its own neighbours, they fill all lanes. Neighbours are in the order
-// of their block, so that a place gives the same bytes in whatever company.
+// of their block, so that a place gives the same bytes in whatever company. No section of docs/math.md is
+// about it.
 
 /// Where no neighbour of a lane is: at the place itself, where it adds nothing.
 static uint32_t fill_rows(local_crowd *crowd) {

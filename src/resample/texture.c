@@ -3,8 +3,8 @@
 //
 // Forward texture mapping, tile by tile: levels, walk, sums, pixels.
 //
-// Based on: Yuan et al., "Hybrid Forward Resampling and Volume Rendering", 2003, section 3 (math.md section
-// 11).
+// Based on: Yuan et al., "Hybrid Forward Resampling and Volume Rendering", 2003, section 3 (docs/math.md
+// section 11).
 #include "resample/texture.h"
 
 #include <string.h>
@@ -51,10 +51,10 @@ static void choose_brush(const ewa_texture_plan *plan, ewa_texture_brush *brush)
     }
 #endif
     brush->filter = (ewa_texel_filter){.cutoff2 = (float)(f * f),
-                                         .prefilter2 = (float)(h * h),
-                                         .reach_px = (float)(f * h),
-                                         .sigma = (float)sigma,
-                                         .determinant = (float)(sigma * sigma * plan->determinant)};
+                                       .prefilter2 = (float)(h * h),
+                                       .reach_px = (float)(f * h),
+                                       .sigma = (float)sigma,
+                                       .determinant = (float)(sigma * sigma * plan->determinant)};
 }
 
 static void tile_place(const texture_job *job, uint32_t index, uint32_t *x, uint32_t *y) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What the parts of forward texture mapping share: the plan of a picture, the sums of a tile, the contract of
-// the kernels, and one texel's kernel in double precision (math.md sections 3, 4, 11).
+// the kernels, and one texel's kernel in double precision (docs/math.md sections 3, 4, 11).
 #ifndef EWA_SRC_RESAMPLE_TEXTURE_H
 #define EWA_SRC_RESAMPLE_TEXTURE_H
 

@@ -6,7 +6,7 @@
 // added one by one.
 //
 // Based on: Yuan et al., "Hybrid Forward Resampling and Volume Rendering", 2003, section 3; Zwicker et al.,
-// "Perspective Accurate Splatting", 2004, section 4 (math.md sections 3, 4, 11).
+// "Perspective Accurate Splatting", 2004, section 4 (docs/math.md sections 3, 4, 11).
 #include "math/wide_functions.h"
 #include "resample/texture.h"
 #include "resample/texture_resolve.h"
@@ -125,9 +125,8 @@ static ALWAYS_INLINE void add_ellipses(const ewa_texel_filter *filter, const ell
 }
 
 /// Points whose filter reaches one pixel at most: two by two pixels.
-static ALWAYS_INLINE uint32_t add_small_points(const ewa_texel_filter *filter, const texels *t,
-                                               wf amplitude, float (*colors)[4],
-                                               const ewa_texture_sums *sums) {
+static ALWAYS_INLINE uint32_t add_small_points(const ewa_texel_filter *filter, const texels *t, wf amplitude,
+                                               float (*colors)[4], const ewa_texture_sums *sums) {
     const wf half = wf_set(0.5f), one = wf_set(1), low = wf_set(-1), end = wf_set(EWA_TEXTURE_TILE);
     const wf x = wf_sub(t->x, half), y = wf_sub(t->y, half);
     const wm inside_x = wm_and(wf_le(low, x), wf_lt(x, end)), inside_y = wm_and(wf_le(low, y), wf_lt(y, end));

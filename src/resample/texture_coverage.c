@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Forward texture mapping: how much of a pixel the texture covers, and writing pixels.
+// Forward texture mapping: how much of a pixel the texture covers, and writing pixels
+// (docs/math.md section 11).
 #include "image/srgb.h"
 #include "resample/texture.h"
 

@@ -4,8 +4,8 @@
 // The definition of forward texture mapping: one texel after another, in double precision, without tiles and
 // levels.
 //
-// Based on: Yuan et al., "Hybrid Forward Resampling and Volume Rendering", 2003, section 3 (math.md section
-// 11).
+// Based on: Yuan et al., "Hybrid Forward Resampling and Volume Rendering", 2003, section 3 (docs/math.md
+// section 11).
 #include "resample/texture.h"
 
 #include <math.h>

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of texture_body.h: from sums to pixels, sixteen at a time; ewa_texture_put() in single precision.
+// Part of texture_body.h: from sums to pixels, sixteen at a time; ewa_texture_put() in single precision
+// (docs/math.md section 11).
 #ifndef EWA_SRC_RESAMPLE_TEXTURE_RESOLVE_H
 #define EWA_SRC_RESAMPLE_TEXTURE_RESOLVE_H
 

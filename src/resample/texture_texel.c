@@ -4,7 +4,7 @@
 // One texel in double precision: how it is seen, its weight at a pixel, its colour.
 //
 // Based on: Yuan et al., "Hybrid Forward Resampling and Volume Rendering", 2003, section 3; Zwicker et al.,
-// "Perspective Accurate Splatting", 2004, section 4 (math.md sections 3, 4, 11).
+// "Perspective Accurate Splatting", 2004, section 4 (docs/math.md sections 3, 4, 11).
 #include "image/srgb.h"
 #include "resample/texture.h"
 

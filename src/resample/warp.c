@@ -5,7 +5,7 @@
 // which the road draws as it draws any.
 //
 // Based on: Yuan et al., "Hybrid Forward Resampling and Volume Rendering", 2003, section 3. The points of
-// that paper are what the road makes of surfels much smaller than its filter (math.md section 4).
+// that paper are what the road makes of surfels much smaller than its filter (docs/math.md section 4).
 #include "resample/warp.h"
 #include "image/srgb.h"
 #include "prepare/color.h"
@@ -338,8 +338,8 @@ static void take_strip(void *data, uint32_t strip, uint32_t worker) {
     }
 }
 
-/// The kernels of a plane's grid sum to sigma^2 (1 - exp(-F^2 / 2)) in units of the spacing (math.md section
-/// 7); of sources that overlap, each alone covers.
+/// The kernels of a plane's grid sum to sigma^2 (1 - exp(-F^2 / 2)) in units of the spacing (docs/math.md
+/// section 7); of sources that overlap, each alone covers.
 static double unit_coverage(const ewa_warp_options *options) {
     const double sigma = options->radius_spacings / options->cutoff;
     return sigma * sigma * (1 - exp(-0.5 * options->cutoff * options->cutoff));

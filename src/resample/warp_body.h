@@ -5,7 +5,7 @@
 // WARP_KERNELS, the name of the table.
 //
 // Based on: Yuan et al., "Hybrid Forward Resampling and Volume Rendering", 2003, section 3 (splat sizes from
-// neighbours of the same surface, normals).
+// neighbours of the same surface, normals; docs/math.md section 11).
 #include "math/wide.h"
 #include "resample/warp_sample.h"
 

@@ -3,6 +3,7 @@
 //
 // The contract of the sampling kernels: depths to surfels. Each does the same correctly rounded operations in
 // the same order, so all give the same bytes.
+// docs/math.md section 11.
 //
 // Planes are linear in the key 1/z over the picture, so that everything about neighbours is decided by first
 // and second differences of keys. NaN marks a pixel without a depth: comparisons with it are false.

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The surfaces behind a tile's antialiased edges (semantics.h, edge layers). Few blocks have edges, and few
-// splats lie behind them: these are listed block by block, so that a block's sums are gathered in one go.
+// The surfaces behind a tile's antialiased edges (docs/math.md section 8; semantics.h, layers). Few blocks
+// have edges, and few splats lie behind them: these are listed block by block, so that a block's sums are
+// gathered in one go.
 #include "splat/tile.h"
 
 #include <math.h>

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The packing kernels over the wide type: the file that includes it defines which one that is, and
-// PACK_KERNELS, the name of the table.
+// PACK_KERNELS, the name of the table. What a surfel is: docs/math.md section 2; what storing costs:
+// docs/conventions.md, precision.
 //
 // Octahedral normals: Meyer et al., "On Floating-Point Normal Vectors", 2010.
 #include "math/wide_double.h"

@@ -57,7 +57,7 @@ void ewa_packet_decode(const ewa_surfels *surfels, uint32_t packet, uint32_t lan
 /// Returns a packet's centre, from the origin in the surfels' unit.
 ewa_vec3 ewa_packet_center(const ewa_surfels *surfels, uint32_t packet);
 
-/// Estimates q0 (math.md section 7): the median over a sample of surfels of sigma_u sigma_v density
+/// Estimates q0 (docs/math.md section 7): the median over a sample of surfels of sigma_u sigma_v density
 /// (1 - exp(-F^2 / 2)), each surfel counting at least itself within its own support.
 double ewa_packets_unit_coverage(const ewa_surfels *surfels);
 

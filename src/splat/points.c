@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// A Gaussian whose thresholded alpha is a disc with an antialiased rim.
+// A Gaussian whose thresholded alpha is a disc with an antialiased rim (docs/math.md section 9).
 //
 // With edge antialiasing alpha(r) = min(1, exp((a^2 - r^2) / (2 s^2))): 1 up to the radius a, then falling.
 // Its integral over the plane is pi a^2 + 2 pi s^2, which is the disc's area pi R^2 for a^2 = R^2 - 2 s^2.

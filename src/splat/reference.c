@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // The reference renderer: three passes over all splats in double precision, one pixel after another. It is
-// the definition of what ewa_render() draws; math.md and semantics.h are its specification. Based on: M.
-// Zwicker, H. Pfister, J. van Baar, M. Gross, "Surface Splatting", 2001, sections 4 and 7; M. Zwicker, J.
-// Rasanen, M. Botsch, C. Dachsbacher, M. Pauly, "Perspective Accurate Splatting", 2004, section 6.
+// the definition of what ewa_render() draws; docs/math.md sections 2 to 9 and semantics.h are its
+// specification. Based on: M. Zwicker, H. Pfister, J. van Baar, M. Gross, "Surface Splatting", 2001, sections
+// 4 and 7; M. Zwicker, J. Rasanen, M. Botsch, C. Dachsbacher, M. Pauly, "Perspective Accurate Splatting",
+// 2004, section 6.
 #include "base/base.h"
 #include "cloud/cloud.h"
 #include "image/srgb.h"
@@ -354,7 +355,7 @@ static bool any_transparent(const ewa_surfel_reader *reader, uint64_t count) {
     return false;
 }
 
-/// math.md section 8, one surface after another: see ewa_render_options.layers.
+/// docs/math.md section 8, one surface after another: see ewa_render_options.layers.
 static void set_layers(reference *work) {
     const ewa_render_options *options = &work->options;
     work->transparent = options->layers != 1 && options->passes == 3 &&

@@ -7,7 +7,8 @@
 //
 // What the paper leaves open is decided here so:
 // - A fragment's depth is the weighted mean of its contributions'; that of a merged one is the front one's.
-// - The threshold is the tolerance of the contribution's splat (math.md section 6). Where several fragments
+// - The threshold is the tolerance of the contribution's splat (docs/math.md section 6). Where several
+// fragments
 //   lie within it, the contribution goes to the nearest in depth.
 // - "Smaller than the limit" is read as: at most l fragments stay.
 // - A contribution to a fragment that has been shaded is shaded by itself and averaged in; the negative

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Shading in double precision, one pixel after another.
+// Shading in double precision, one pixel after another (docs/math.md section 7).
 //
 // Based on: M. Zwicker, H. Pfister, J. van Baar, M. Gross, "Surface Splatting", 2001, section 4 (shading of
 // filtered attributes); J. Blinn, "Models of Light Reflection for Computer Synthesized Pictures", 1977; C.

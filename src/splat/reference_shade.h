@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Shading in double precision, one pixel after another: the definition of what src/kernels/road_shade.h and
-// road_eye_dome.h compute (semantics.h, shading and eye-dome lighting).
+// road_eye_dome.h compute (docs/math.md section 7; semantics.h, shading and eye-dome lighting).
 #ifndef EWA_SRC_SPLAT_REFERENCE_SHADE_H
 #define EWA_SRC_SPLAT_REFERENCE_SHADE_H
 

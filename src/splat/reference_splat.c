@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The projection of one surfel, written to be read beside math.md.
+// The projection of one surfel, written to be read beside docs/math.md.
 // Based on: M. Zwicker, J. Rasanen, M. Botsch, C. Dachsbacher, M. Pauly, "Perspective Accurate Splatting",
-// 2004, section 4, by way of the dual conic (math.md section 3); M. Zwicker, H. Pfister, J. van Baar, M.
+// 2004, section 4, by way of the dual conic (docs/math.md section 3); M. Zwicker, H. Pfister, J. van Baar, M.
 // Gross, "Surface Splatting", 2001, sections 3 and 4 (affine kernel, visibility).
 #include "splat/reference_splat.h"
 #include "kernels/semantics.h"
@@ -100,13 +100,13 @@ static bool make_backward_map(const ewa_reference_view *view, double jacobian[2]
     return true;
 }
 
-/// The resampling kernel (math.md sections 4 and 9) of a splat with its centre and V set, and its box. `root`
-/// is sqrt|V|. Returns whether there is one.
+/// The resampling kernel (docs/math.md sections 4 and 9) of a splat with its centre and V set, and its box.
+/// `root` is sqrt|V|. Returns whether there is one.
 static bool filter_ellipse(const ewa_reference_view *view, double jacobian[2][2], double root,
                            ewa_reference_splat *splat) {
     const double F = view->cutoff, h2 = view->prefilter_px * view->prefilter_px, z = splat->center.z;
     const double *variance = splat->variance_px2, *center = splat->center_px;
-    // V' = V + h^2 I (math.md section 4); its determinant by a sum of positive terms.
+    // V' = V + h^2 I (docs/math.md section 4); its determinant by a sum of positive terms.
     double determinant = root * root + h2 * (variance[0] + variance[2]) + h2 * h2;
     // Without a prefilter a splat from the edge is a line of no area.
     if (!(determinant > EWA_FLAT * (variance[0] + h2) * (variance[2] + h2))) return false;
@@ -142,7 +142,7 @@ static bool filter_ellipse(const ewa_reference_view *view, double jacobian[2][2]
     return true;
 }
 
-/// The ellipse of a surfel at a distance (math.md section 3).
+/// The ellipse of a surfel at a distance (docs/math.md section 3).
 ///
 /// The dual conic of the support's rim is D = F^2 Sigma - p'p. A shear G of the rays, x -= (px/pz) z, y -=
 /// (py/pz) z, lays p onto the z axis and moves the picture's origin to the projected centre x0; with it
@@ -227,7 +227,7 @@ static void bound_near(const ewa_reference_view *view, ewa_reference_splat *spla
     set_box(view, x_low - 1e-3, x_high + 1e-3, y_low - 1e-3, y_high + 1e-3, splat);
 }
 
-/// The tangent plane on the screen and the tolerance of the visibility test (math.md sections 5 and 6).
+/// The tangent plane on the screen and the tolerance of the visibility test (docs/math.md sections 5 and 6).
 ///     1/z(x) = n.d(x) / n.p = 1/pz + n.(d(x) - p/pz) / n.p
 /// Orthographic: z(x) = pz - ((X - px) nx + (Y - py) ny) / nz at X = (x - cx) / fx, Y = (y - cy) / fy.
 static void make_depth(const ewa_reference_view *view, double half_range, ewa_reference_splat *splat) {
@@ -255,9 +255,9 @@ static void make_depth(const ewa_reference_view *view, double half_range, ewa_re
     }
 }
 
-/// Clip lines on the screen (math.md section 5, PAS 4.4): l' = M^-1 l by the adjugate of M with the rows tu,
-/// tv, p, with the sign that makes (x, y, 1).l' positive inside for z > 0. Orthographic: (x, y) - p is the
-/// picture of u tu + v tv, so (u, v) is its product with the inverse of the axes' first two components.
+/// Clip lines on the screen (docs/math.md section 5, PAS 4.4): l' = M^-1 l by the adjugate of M with the rows
+/// tu, tv, p, with the sign that makes (x, y, 1).l' positive inside for z > 0. Orthographic: (x, y) - p is
+/// the picture of u tu + v tv, so (u, v) is its product with the inverse of the axes' first two components.
 static void make_clip(const ewa_reference_view *view, const ewa_surfel *surfel, ewa_reference_splat *splat) {
     splat->clipped = false;
     if (view->point_sigma_px > 0) return;

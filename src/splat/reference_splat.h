@@ -73,7 +73,7 @@ void ewa_reference_view_place(const ewa_camera *camera, const double origin_worl
 /// Returns the direction through a point of the picture, z = 1 (camera space).
 ewa_vec3 ewa_reference_ray(const ewa_reference_view *view, double x_px, double y_px);
 
-/// Projects a surfel (math.md sections 3 to 6, semantics.h).
+/// Projects a surfel (docs/math.md sections 3 to 6, semantics.h).
 void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *surfel,
                            ewa_reference_splat *splat);
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// From splats to a pixel's surface in double precision: sums apart by facing and of what clip lines cut.
+// From splats to a pixel's surface in double precision: sums apart by facing and of what clip lines cut
+// (docs/math.md sections 6 to 8).
 #include "splat/reference_sums.h"
 #include "kernels/semantics.h"
 

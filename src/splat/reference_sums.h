@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// What gathers of one surface at a pixel in the reference, and what it comes to (semantics.h: facing, clip
-// lines, resolve).
+// What gathers of one surface at a pixel in the reference, and what it comes to (docs/math.md sections 6 to
+// 8; semantics.h: facing, clip lines, resolve).
 #ifndef EWA_SRC_SPLAT_REFERENCE_SUMS_H
 #define EWA_SRC_SPLAT_REFERENCE_SUMS_H
 

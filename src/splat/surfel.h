@@ -8,7 +8,7 @@
 #include "ewa/render.h"
 #include "prepare/color.h"
 
-/// One surfel in world space. Its covariance is axis_u' axis_u + axis_v' axis_v (math.md section 2).
+/// One surfel in world space. Its covariance is axis_u' axis_u + axis_v' axis_v (docs/math.md section 2).
 typedef struct ewa_surfel {
     double center[3]; ///< world axes, from the cloud's origin: adding that would round
     double axis_u_world[3],

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // One tile from its packets to its pixels: runs of packets are set up, sorted and raise the depth bound; then
-// all records that reach the bound are summed, and the sums resolved (math.md sections 6 and 7).
+// all records that reach the bound are summed, and the sums resolved (docs/math.md sections 6 and 7).
 //
 // Records are kept from the first pass to the second. A tile that would need more than EWA_KEPT_RECORDS sets
 // its runs up again for the second pass instead: the same records in the same order, so the same bytes.

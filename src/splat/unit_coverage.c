@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// What a fully covered pixel expects of the sum of kernels: q0 of math.md section 7.
+// What a fully covered pixel expects of the sum of kernels: q0 of docs/math.md section 7.
 //
 // A kernel of unit peak integrates to sigma_u sigma_v (1 - exp(-F^2 / 2)) over its support in the scale of
 // rho = exp(-r^2 / 2) / (2 pi); times surfels per area this is the mean of the sum over the surface. The

@@ -203,7 +203,7 @@ static const ewa_surfel_clip *find_clip(const ewa_surfels *surfels, uint32_t sur
 }
 
 /// A line of the surfel's plane, keep g.(q - p) + d >= 0, on the screen. With q = z x on the ray x and z =
-/// n.p / n.x this is, divided by z > 0, x.(g - (g.p - d) / n.p n): math.md section 5, M^-1 l without the
+/// n.p / n.x this is, divided by z > 0, x.(g - (g.p - d) / n.p n): docs/math.md section 5, M^-1 l without the
 /// frame. Orthographic: z = pz - ((x - px) nx + (y - py) ny) / nz is linear itself.
 static void set_clip_line(ewa_clip_line *line, ewa_vec3 g, double d, ewa_vec3 n, ewa_vec3 p,
                           const ewa_view *view, const ewa_tile *tile) {

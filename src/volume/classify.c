@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// What a volume's voxels look like under a transfer function: colour, extinction, normal.
+// What a volume's voxels look like under a transfer function: colour, extinction, normal (docs/math.md
+// section 12).
 //
 // Based on: M. Levoy, "Display of Surfaces from Volume Data", 1988 (classification by value and gradient,
 // shading by the gradient); S. Zucker, R. Hummel, "A Three-Dimensional Edge Operator", 1981 (differences

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Where in a voxel's footprint a pixel of its ellipse is (math.md section 12).
+// Where in a voxel's footprint a pixel of its ellipse is (docs/math.md section 12).
 //
 // Based on: X. Yuan, M. Nguyen, H. Xu, B. Chen, "Hybrid Forward Resampling and Volume Rendering", 2003,
 // section 4.2, with the sine of the half angle where the paper prints its tangent.

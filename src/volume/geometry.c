@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// A camera's view of the voxels of one grid.
+// A camera's view of the voxels of one grid (docs/math.md sections 2 and 12).
 #include "volume/geometry.h"
 #include "volume/classify.h"
 

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT
 //
 // The hot loops of volumes: what goes in and out of them. One body (kernels_body.h), one file per instruction
-// set, the same bytes from each.
+// set, the same bytes from each. Formulas: docs/math.md section 12.
 //
 // Voxels at the eye, which have no ellipse on the screen, come first: `append_near` lists them for all tiles,
 // `draw_near` draws them ray by ray. Then, front to back, one tile at a time: `append` projects and shades
 // the voxels of a block into buckets, one for each depth unit. A bucket of points is summed with the circular
-// filter (`sum_points`), then composited once
-// (`composite`); a bucket of splats is sorted, then composited one by one (`draw_splats`).
+// filter (`sum_points`), then composited once (`composite`); a bucket of splats is sorted, then composited
+// one by one (`draw_splats`).
 #ifndef EWA_SRC_VOLUME_KERNELS_H
 #define EWA_SRC_VOLUME_KERNELS_H
 
@@ -41,7 +41,7 @@ enum {
 typedef float ewa_point_filter[EWA_FILTER_PHASES][4];
 
 /// A voxel on its way. Points: r, g, b, 1, all times the mass; where the window begins in the sums; phases
-/// and blocks touched (point_info); depth. Splats: r, g, b; extinction; x, y in the tile; depth; distance.
+/// and blocks touched; depth. Splats: r, g, b; extinction; x, y in the tile; depth; distance.
 typedef struct ewa_volume_record {
     float color[4];
     union {

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of kernels_body.h: from the voxels of a block to records in the buckets of a tile.
+// Part of kernels_body.h: from the voxels of a block to records in the buckets of a tile
+// (docs/math.md sections 3 and 12).
 //
 // Based on: J. Blinn, "Models of Light Reflection for Computer Synthesized Pictures", 1977 (shading).
 #ifndef EWA_SRC_VOLUME_KERNELS_APPEND_H

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The kernels of volumes over the wide type. The including file defines WIDE_AVX512, WIDE_AVX2 or
-// WIDE_PORTABLE, VOLUME_NAME and VOLUME_KERNELS; this file undefines them. Reference: src/volume/reference.c;
-// equality class of the versions among themselves: the same bytes.
+// WIDE_PORTABLE, VOLUME_NAME and VOLUME_KERNELS; this file undefines them. Reference: src/volume/reference.c,
+// docs/math.md section 12; equality class of the versions among themselves: the same bytes.
 #include "volume/kernels_append.h"
 #include "volume/kernels_near.h"
 #include "volume/kernels_points.h"

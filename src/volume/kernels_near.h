@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Part of kernels_body.h: voxels at the eye, ray by ray. Their kernels reach to or behind the eye, where
-// there is no ellipse, and what is behind it does not count.
+// there is no ellipse, and what is behind it does not count (docs/math.md section 12).
 //
 // In standard deviations along i, j, k every kernel is the same ball. A ray of direction g, |g| = 1, passes a
 // voxel at d after t = d g at the distance m, m^2 = d^2 - t^2; of its Gaussian the share Phi(t) lies ahead of

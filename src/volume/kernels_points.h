@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of kernels_body.h: points, summed over a depth unit, then composited.
+// Part of kernels_body.h: points, summed over a depth unit, then composited (docs/math.md section 12).
 //
 // Based on: X. Yuan, M. Nguyen, H. Xu, B. Chen, "Hybrid Forward Resampling and Volume Rendering", 2003,
 // section 4.1.
@@ -11,8 +11,7 @@
 #include "volume/kernels_append.h"
 
 /// 1 - exp(-t) for t >= 0, within 3e-7 of itself also where t is small: with t = ln 2 (n - f), n whole and f
-/// in
-/// [-1/2, 1/2], it is (1 - 2^-n) - 2^-n (2^f - 1).
+/// in [-1/2, 1/2], it is (1 - 2^-n) - 2^-n (2^f - 1).
 static ALWAYS_INLINE wf absorbed(wf t) {
     const wf bits = wf_min(wf_mul(t, wf_set(1.44269504f)), wf_set(100));
     const wf whole = wf_floor(wf_add(bits, wf_set(0.5f))), f = wf_sub(whole, bits), f2 = wf_mul(f, f);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of kernels_body.h: from a tile's pixels to those of the frame.
+// Part of kernels_body.h: from a tile's pixels to those of the frame (docs/math.md section 12; over what is
+// behind: section 7).
 #ifndef EWA_SRC_VOLUME_KERNELS_RESOLVE_H
 #define EWA_SRC_VOLUME_KERNELS_RESOLVE_H
 

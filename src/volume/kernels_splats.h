@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of kernels_body.h: splats with the exact perspective ellipse, composited one by one (math.md sections
-// 3 and 12).
+// Part of kernels_body.h: splats with the exact perspective ellipse, composited one by one (docs/math.md
+// sections 3 and 12).
 //
 // Based on: X. Yuan, M. Nguyen, H. Xu, B. Chen, "Hybrid Forward Resampling and Volume Rendering", 2003,
 // section 4.2 and appendix A.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Voxels at the eye.
+// Voxels at the eye (docs/math.md section 12).
 #include "volume/near.h"
 #include "volume/sort.h"
 

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The reference renderer of volumes: every voxel a splat in double precision, composited front to back pixel
-// by pixel. It is the definition of what ewa_volume_render() draws; math.md section 12 is its specification.
+// by pixel. It is the definition of what ewa_volume_render() draws; docs/math.md section 12 is its
+// specification.
 //
 // Based on: X. Yuan, M. Nguyen, H. Xu, B. Chen, "Hybrid Forward Resampling and Volume Rendering", 2003,
 // section 4; L. Westover, "Footprint Evaluation for Volume Rendering", 1990 (splats composited one by one).
@@ -79,7 +80,7 @@ static ewa_vec3 shade(const reference *work, const ewa_voxel *voxel, ewa_vec3 pl
     return ewa_reference_shade(&work->shading, NULL, &at, &nothing, &nothing);
 }
 
-/// V in pixels and the ellipse's centre (math.md section 3, sheared).
+/// V in pixels and the ellipse's centre (docs/math.md section 3, sheared).
 static void project(const ewa_grid_view *grid, ewa_vec3 p, double v[3], double center_px[2]) {
     const ewa_mat3 *s = &grid->covariance;
     const double fx = grid->fx_px, fy = grid->fy_px;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Camera, grid and options in the single-precision form that the kernels read; depth units; point filters.
+// Camera, grid and options in the single-precision form that the kernels read; depth units; point filters
+// (docs/math.md section 12).
 #include "volume/view.h"
 
 #include <math.h>

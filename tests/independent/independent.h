@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// A renderer for tests, written a second time from math.md, docs/conventions.md and semantics.h alone. It
-// shares no function, constant or table with the library, and takes other ways where there are any: dual
+// A renderer for tests, written a second time from docs/math.md, docs/conventions.md and semantics.h alone.
+// It shares no function, constant or table with the library, and takes other ways where there are any: dual
 // conics by generic matrices in long double instead of sheared ones, rays by dual numbers instead of derived
 // formulas, fragments of a pixel in a list instead of passes over the picture. A mistake that the road and
 // the reference make together shows against it. It reads the public structs of camera and options, and

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Clip lines (math.md section 5): known answers, the fast road against the reference in every mode, what is
-// no line.
+// Clip lines (docs/math.md section 5): known answers, the fast road against the reference in every mode, what
+// is no line.
 #include "tests/splat/picture.h"
 
 #include <math.h>

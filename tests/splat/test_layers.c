@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Transparent surfaces (math.md section 8): known answers, the fast road against the reference, order.
+// Transparent surfaces (docs/math.md section 8): known answers, the fast road against the reference, order.
 #include "tests/splat/picture.h"
 
 #include <math.h>

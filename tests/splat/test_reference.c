@@ -130,8 +130,9 @@ static void test_plane_depth(void **state) {
 }
 
 /// A floor of large discs through the eye plane covers everything below the horizon, with its depth. F, h and
-/// tau are those of math.md: an ellipse's bell sits nearer to the eye than its disc's middle, which discs as
-/// large as here (0.6 of their distance) do not even out at F = 3, where two rows have alpha 0.81.
+/// tau are the first ones of docs/math.md section 14: an ellipse's bell sits nearer to the eye than its
+/// disc's middle, which discs as large as here (0.6 of their distance) do not even out at F = 3, where two
+/// rows have alpha 0.81.
 static void test_floor_through_the_eye(void **state) {
     (void)state;
     enum { ROWS = 40, COUNT = ROWS * ROWS };

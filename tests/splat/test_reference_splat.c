@@ -231,7 +231,7 @@ static void test_affine_limit(void **state) {
     assert_true(worst[1] < 0.02 * worst[0] && worst[2] < 0.02 * worst[1]);
 }
 
-/// The Jacobian of the projection by differences of projected points (SS 3; math.md section 3, last line).
+/// The Jacobian of the projection by differences of projected points (SS 3; docs/math.md section 3, affine).
 static void test_affine_jacobian(void **state) {
     (void)state;
     const ewa_camera camera = odd_camera();
