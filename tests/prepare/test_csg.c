@@ -252,6 +252,78 @@ static void test_against_closed_form(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// The distance of a place from the plane of a face of the cube that a matrix puts into the world; faces are
+/// numbered 0 to 5.
+static double distance_from_face(const double matrix[16], double half, int face, const double p[3]) {
+    double along = 0;
+    for (int c = 0; c < 3; c++) along += matrix[4 * c + face / 2] * (p[c] - matrix[4 * c + 3]);
+    return along - (face % 2 ? half : -half);
+}
+
+/// How far a line of a surfel is, within the disc, from the plane of a face of either cube that is not the
+/// disc's own, at best.
+static double distance_from_faces(const plain_surfels *s, uint64_t i, const double *line,
+                                  const double (*matrices)[16], const double half[2]) {
+    const double length = hypot(line[0], line[1]), along = -line[2] / length;
+    const double reach = sqrt(fmax(CUTOFF * CUTOFF - along * along, 0));
+    double best = INFINITY;
+    for (int face = 0; face < 12; face++) {
+        const double *matrix = matrices[face / 6];
+        double worst = 0, facing = 0;
+        for (int c = 0; c < 3; c++) facing += matrix[4 * c + face % 6 / 2] * s->normal[3 * i + (uint64_t)c];
+        if (fabs(facing) > 0.999) continue;
+        for (int end = -1; end < 2; end += 2) {
+            const double u = (along * line[0] - end * reach * line[1]) / length,
+                         v = (along * line[1] + end * reach * line[0]) / length;
+            double p[3];
+            for (uint64_t c = 0; c < 3; c++)
+                p[c] = s->position[3 * i + c] + u * s->axis[0][3 * i + c] + v * s->axis[1][3 * i + c];
+            worst = fmax(worst, fabs(distance_from_face(matrix, half[face / 6], face % 6, p)));
+        }
+        best = fmin(best, worst);
+    }
+    return best;
+}
+
+/// Where every face is a plane, lines are exact: each lies in the plane of a face, that of the own cube
+/// beyond an edge or one of the other cube, on whole surfels as on their parts.
+static void test_lines_of_planes(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    const double here[3] = {0, 0, 0}, half[2] = {1, 0.75};
+    // The second cube is turned by 3-4-5 about z, then by 5-12-13 about x, so that no edge is along an axis.
+    const double a = 0.6, b = 0.8, c = 12.0 / 13, d = 5.0 / 13;
+    const double matrices[2][16] = {
+        {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+        {a, -b, 0, 0.63, c * b, c * a, -d, 0.71, d * b, d * a, c, 0.82, 0, 0, 0, 1}};
+    ewa_cloud *operands[2];
+    for (int k = 0; k < 2; k++) {
+        operands[k] = make(context, EWA_OBJECT_CUBE, 4000, 2 * half[k], here);
+        assert_int_equal(ewa_cloud_transform(operands[k], matrices[k]), EWA_OK);
+    }
+    for (int operation = 0; operation < 3; operation++) {
+        ewa_cloud *result = combine(operands[0], operands[1], (ewa_csg_operation)operation);
+        plain_surfels s = read_surfels(result);
+        uint64_t lines = 0, exact = 0;
+        double worst = 0;
+        for (uint64_t i = 0; i < s.count; i++)
+            for (int k = 0; k < 2; k++) {
+                const double *line = &s.line[k][3 * i];
+                if (line[0] == 0 && line[1] == 0) continue;
+                const double distance = distance_from_faces(&s, i, line, matrices, half);
+                lines++, exact += distance < 1e-5, worst = fmax(worst, distance);
+            }
+        print_message("operation %d: %llu of %llu lines in faces, the worst %g off\n", operation,
+                      (unsigned long long)exact, (unsigned long long)lines, worst);
+        assert_true(lines > 1000);
+        assert_int_equal(exact, lines);
+        free_surfels(&s);
+        ewa_cloud_destroy(&result);
+    }
+    for (int k = 0; k < 2; k++) ewa_cloud_destroy(&operands[k]);
+    ewa_context_destroy(&context);
+}
+
 /// Counts surfels on the plane x = at within the unit square about the axis.
 static uint64_t count_on_plane(const ewa_cloud *cloud, double at) {
     plain_surfels s = read_surfels(cloud);
@@ -489,6 +561,7 @@ static void test_failing_allocations(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_against_closed_form),
+        cmocka_unit_test(test_lines_of_planes),
         cmocka_unit_test(test_coinciding_faces),
         cmocka_unit_test(test_far_apart_and_within),
         cmocka_unit_test(test_open_operands),
