@@ -78,7 +78,7 @@ NEAR = [
     ("src/prepare/feature", ["features", "feature_quality"]),
     ("src/prepare/generate_volume", ["generate_volume", "volume_integrals"]),
     ("src/prepare/generate", ["generate", "sharp", "acquire", "csg"]),
-    ("src/prepare/mesh", ["mesh_sample", "mesh_edges"]),
+    ("src/prepare/mesh", ["mesh_surface", "mesh_sample", "mesh_edges"]),
     ("src/prepare/pattern", ["procedure", "acquire"]), ("src/prepare/procedure", ["procedure"]),
     ("src/prepare/refit", ["refit", "sparse"]), ("src/prepare/sparse", ["sparse", "acquire", "refit"]),
     ("src/prepare/volume_outline", ["generate_volume", "cli_volume"]),
