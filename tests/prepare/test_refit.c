@@ -228,6 +228,46 @@ static void test_cancel_and_memory(void **state) {
     assert_true(check_cancel_each("refit", refit_plane, NULL) > 5);
 }
 
+/// What the solver reports, from its first step on.
+typedef struct solver_progress {
+    int count;
+    double last, longest; ///< the longest way between two reports before the last one, which is 1
+} solver_progress;
+
+static bool note_progress(void *user, const char *stage, double fraction) {
+    solver_progress *progress = user;
+    (void)stage;
+    if (fraction >= 0.3 && fraction < 1) {
+        if (progress->count++) progress->longest = fmax(progress->longest, fraction - progress->last);
+        progress->last = fraction;
+    }
+    return true;
+}
+
+/// The steps end at a share of the first gradient that is known beforehand, and each takes off about as much,
+/// so that the report of progress gets there evenly.
+static void test_progress(void **state) {
+    (void)state;
+    solver_progress progress = {0};
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.progress = note_progress;
+    options.progress_user = &progress;
+    ewa_context *context = NULL;
+    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+    ewa_cloud *cloud = generate(context, EWA_OBJECT_PLANE, 3000, false);
+    random_colors(cloud, 3);
+    progress = (solver_progress){0};
+    ewa_refit_report report;
+    assert_int_equal(ewa_cloud_refit_colors(cloud, NULL, &report), EWA_OK);
+    print_message("%u steps, %d reports, the last but one %.3f, the longest way %.3f\n",
+                  report.iteration_count, progress.count, progress.last, progress.longest);
+    assert_true(report.iteration_count >= 5);
+    assert_true(progress.last > 0.9 && progress.longest < 0.1);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
 /// Pictures of a magnified texture come nearer to it: by over a decibel for exact colours, by some for noisy
 /// ones that are fitted.
 static void test_pictures(void **state) {
@@ -307,7 +347,7 @@ int main(void) {
         cmocka_unit_test(test_threads),        cmocka_unit_test(test_bad_points),
         cmocka_unit_test(test_arguments),      cmocka_unit_test(test_cancel_and_memory),
         cmocka_unit_test(test_pictures),       cmocka_unit_test(test_drawn),
-        cmocka_unit_test(test_file),
+        cmocka_unit_test(test_file),           cmocka_unit_test(test_progress),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
