@@ -518,10 +518,56 @@ static void test_sharp_objects(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// The part measures what docs/sharp.md says: its box, the floors of slot and notch, and its holes, whose
+/// axes are a radius in front of every place of their walls.
+static void test_part_measures(void **state) {
+    (void)state;
+    enum { WALLS = 2 };
+    static const struct {
+        int axis;
+        double center[2], radius; ///< across the axis: x and y, or x and z
+    } holes[WALLS] = {{2, {-0.225, 0}, 0.32 / 2}, {1, {0.395, -0.1}, 0.1 / 2}};
+    static const double box[3] = {1, 0.7, 0.4};
+    ewa_context *context = check_context(0, NULL);
+    ewa_generate_options options = options_of(EWA_OBJECT_CSG, 7000);
+    options.size_world = 3;
+    ewa_cloud *cloud = generate(context, &options);
+    const float *p = data_of(cloud, EWA_POSITION), *n = data_of(cloud, EWA_NORMAL);
+    uint64_t on_wall[WALLS] = {0}, bottom_of_slot = 0, bottom_of_notch = 0;
+    double high[3] = {0};
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
+        double at[3], facing[3];
+        for (int c = 0; c < 3; c++) {
+            at[c] = p[3 * i + c] / options.size_world, facing[c] = n[3 * i + c];
+            high[c] = fmax(high[c], fabs(at[c]));
+        }
+        if (facing[2] == 1 && fabs(at[2]) < 1e-6) {
+            const bool slot = at[0] > 0.05 - 1e-6 && at[0] < 0.25 + 1e-6;
+            assert_true(slot || (at[0] > 0.35 - 1e-6 && at[1] > 0.1 - 1e-6));
+            bottom_of_slot += slot;
+            bottom_of_notch += !slot;
+        }
+        for (int k = 0; k < WALLS; k++) {
+            const int across[2] = {0, 3 - holes[k].axis};
+            if (facing[holes[k].axis] != 0 || facing[0] == 0 || facing[across[1]] == 0) continue;
+            on_wall[k]++;
+            for (int c = 0; c < 2; c++)
+                assert_true(fabs(at[across[c]] + holes[k].radius * facing[across[c]] - holes[k].center[c]) <
+                            1e-6);
+        }
+    }
+    for (int c = 0; c < 3; c++) assert_true(fabs(2 * high[c] - box[c]) < 1e-6);
+    for (int k = 0; k < WALLS; k++) assert_true(on_wall[k] > 100);
+    assert_true(bottom_of_slot > 100 && bottom_of_notch > 30);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sine_and_cosine),
         cmocka_unit_test(test_sharp_objects),
+        cmocka_unit_test(test_part_measures),
         cmocka_unit_test(test_counts_and_attributes),
         cmocka_unit_test(test_positions_and_normals),
         cmocka_unit_test(test_terrain_normals_are_its_derivatives),
