@@ -99,11 +99,51 @@ static void test_lone_points(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// The radius of a place in the middle of a round hole in a plane of unit spacing.
+static double radius_in_hole(ewa_context *context, double hole) {
+    enum { SIDE = 100 };
+    ewa_cloud *cloud = NULL, *left = NULL;
+    float *xyz = NULL;
+    uint64_t kept[SIDE * SIDE], count = 0;
+    assert_int_equal(ewa_cloud_create(context, SIDE * SIDE, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&xyz), EWA_OK);
+    check_random random = {4};
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        xyz[3 * i] = i ? (float)(i % SIDE - SIDE / 2 + check_uniform(&random, -0.4, 0.4)) : 0;
+        xyz[3 * i + 1] = i ? (float)(i / SIDE - SIDE / 2 + check_uniform(&random, -0.4, 0.4)) : 0;
+        xyz[3 * i + 2] = 0;
+        if (i == 0 || hypotf(xyz[3 * i], xyz[3 * i + 1]) > (float)hole) kept[count++] = (uint64_t)i;
+    }
+    assert_int_equal(ewa_cloud_select(cloud, kept, count, &left), EWA_OK);
+    ewa_estimate_options options;
+    ewa_estimate_options_init(&options, sizeof options);
+    assert_int_equal(ewa_cloud_estimate(&left, &options), EWA_OK);
+    const double radius = (double)((const float *)ewa_cloud_find(left, EWA_RADIUS)->data)[0];
+    ewa_cloud_destroy(&left);
+    ewa_cloud_destroy(&cloud);
+    return radius;
+}
+
+/// A place in a gap is enlarged to close it, but in a hole that is much wider than the spacing it is alone:
+/// it gets the plain radius of what is around.
+static void test_holes(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    for (int hole = 2; hole < 12; hole++) {
+        const double radius = radius_in_hole(context, hole);
+        print_message("in a hole of %d spacings: radius %.3f\n", hole, radius);
+        if (hole <= 2) assert_true(radius > hole);
+        if (hole >= 5) assert_true(radius > 1 && radius < 1.5);
+    }
+    ewa_context_destroy(&context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_closed),
         cmocka_unit_test(test_limited),
         cmocka_unit_test(test_lone_points),
+        cmocka_unit_test(test_holes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
