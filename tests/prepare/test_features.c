@@ -191,6 +191,70 @@ static void test_threshold(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Exact points have 24 neighbours looked at, those with noise of a quarter of a spacing or more all 64, and
+/// between these as many more as there is noise.
+static void test_neighbour_counts(void **state) {
+    (void)state;
+    static const double noise[] = {0, 0.0625, 0.125, 0.1875, 0.25, 0.5};
+    static const uint32_t expected[] = {24, 34, 44, 54, 64, 64};
+    ewa_context *context = check_context(2, NULL);
+    ewa_cloud *cloud = make_crease(context, 90, false);
+    for (size_t k = 0; k < sizeof noise / sizeof noise[0]; k++) {
+        ewa_feature_options options = default_options();
+        options.noise = noise[k];
+        ewa_feature_counts counts;
+        assert_int_equal(ewa_cloud_detect_features(cloud, &options, &counts), EWA_OK);
+        assert_int_equal(counts.neighbour_count, expected[k]);
+    }
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
+/// The lines near a step of so many spacings that runs across a crease, and how many of them are not where
+/// their own side of the step has the edge.
+static void count_at_step(double step, uint32_t *lines, uint32_t *moved) {
+    ewa_context *context = check_context(2, NULL);
+    ewa_cloud *cloud = make_crease(context, 90, false);
+    // The faces of the crease are tilted by half of a right angle; the spacing is 0.87.
+    const double lift = step * 0.87 * sqrt(2);
+    float *position = ewa_cloud_find(cloud, EWA_POSITION)->data;
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++)
+        if (position[3 * i + 1] > SIDE / 2) position[3 * i + 2] += (float)lift;
+    ewa_feature_options options = default_options();
+    options.noise = 0;
+    assert_int_equal(ewa_cloud_detect_features(cloud, &options, NULL), EWA_OK);
+    const float *clip = check_stream(cloud, EWA_CLIP0);
+    position = ewa_cloud_find(cloud, EWA_POSITION)->data;
+    *lines = *moved = 0;
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
+        const double beyond = (double)position[3 * i + 1] - SIDE / 2;
+        if (fabs(beyond) > 8 || !has_line(clip, i)) continue;
+        double foot[3];
+        line_in_world(cloud, clip, i, foot);
+        *lines += 1;
+        *moved += fabs(foot[2] - (beyond > 0 ? lift : 0)) > 0.02;
+    }
+    print_message("step of %g spacings: %u lines, %u moved\n", step, *lines, *moved);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
+/// Neighbours whose planes are less than 0.6 spacings apart have one edge, the mean of theirs; at a higher
+/// step each side keeps its own.
+static void test_steps(void **state) {
+    (void)state;
+    static const double high[] = {0.7, 0.75, 0.8, 0.9};
+    uint32_t lines, moved;
+    count_at_step(0, &lines, &moved);
+    assert_true(lines > 40 && moved == 0);
+    count_at_step(0.56, &lines, &moved);
+    assert_true(lines > 40 && moved > 12);
+    for (size_t k = 0; k < sizeof high / sizeof high[0]; k++) {
+        count_at_step(high[k], &lines, &moved);
+        assert_true(lines > 40 && moved == 0);
+    }
+}
+
 /// Squares that meet in the origin at right angles; returns how many points.
 typedef enum corner_kind { CORNER_CUBE, CORNER_ROOM, CORNER_NOTCH } corner_kind;
 
@@ -439,7 +503,8 @@ int main(void) {
         cmocka_unit_test(test_threshold),  cmocka_unit_test(test_corners),
         cmocka_unit_test(test_smooth),     cmocka_unit_test(test_threads),
         cmocka_unit_test(test_odd_clouds), cmocka_unit_test(test_streams),
-        cmocka_unit_test(test_refusals),   cmocka_unit_test(test_failing_allocations),
+        cmocka_unit_test(test_refusals),   cmocka_unit_test(test_neighbour_counts),
+        cmocka_unit_test(test_steps),      cmocka_unit_test(test_failing_allocations),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
