@@ -275,6 +275,31 @@ static ewa_status color_points(ewa_context *context, void *user) {
     return status;
 }
 
+/// The default colours are those of the table in docs/colors.md.
+static void test_default_colors(void **state) {
+    (void)state;
+    static const char *const names[] = {"checker", "marble", "wood", "noise"};
+    char path[512], line[512], name[32];
+    snprintf(path, sizeof path, "%s/docs/colors.md", getenv("EWA_SOURCE_DIR"));
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    int found = 0;
+    while (fgets(line, sizeof line, file)) {
+        float colors[2][3];
+        if (sscanf(line, "| %31s | %f,%f,%f | %f,%f,%f |", name, &colors[0][0], &colors[0][1], &colors[0][2],
+                   &colors[1][0], &colors[1][1], &colors[1][2]) != 7)
+            continue;
+        assert_true(found < 4);
+        assert_string_equal(name, names[found]);
+        ewa_procedure_options options;
+        ewa_procedure_options_init(&options, (ewa_procedure)found, sizeof options);
+        assert_memory_equal(options.colors, colors, sizeof colors);
+        found++;
+    }
+    fclose(file);
+    assert_int_equal(found, 4);
+}
+
 static void test_cancel_and_memory(void **state) {
     (void)state;
     uint64_t count = 100;
@@ -285,13 +310,10 @@ static void test_cancel_and_memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_checker_means),
-        cmocka_unit_test(test_wave_means),
-        cmocka_unit_test(test_high_frequency),
-        cmocka_unit_test(test_clouds),
-        cmocka_unit_test(test_values),
-        cmocka_unit_test(test_arguments),
-        cmocka_unit_test(test_cancel_and_memory),
+        cmocka_unit_test(test_checker_means),  cmocka_unit_test(test_wave_means),
+        cmocka_unit_test(test_high_frequency), cmocka_unit_test(test_clouds),
+        cmocka_unit_test(test_values),         cmocka_unit_test(test_default_colors),
+        cmocka_unit_test(test_arguments),      cmocka_unit_test(test_cancel_and_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
