@@ -52,6 +52,7 @@ MESHES = ["mesh_ply", "mesh_obj", "mesh_stl", "mesh_polygon", "mesh_gltf", "mesh
 NEAR = [
     ("src/math/camera_path", ["camera_path"]),
     ("src/math/camera", ["camera", "camera_path", "geometry", "paper", "cli_render"]),
+    ("src/math/angle", ["camera_path", "camera"]),
     ("src/math/clip", ["clip", "clip_batch", "paper", "geometry", "map"]),
     ("src/math/wave", ["procedure", "wide_functions"]),
     ("src/math/noise", ["procedure", "generate"]),
@@ -78,7 +79,7 @@ NEAR = [
     ("src/prepare/feature", ["features", "feature_quality"]),
     ("src/prepare/generate_volume", ["generate_volume", "volume_integrals"]),
     ("src/prepare/generate", ["generate", "sharp", "acquire", "csg"]),
-    ("src/prepare/mesh", ["mesh_sample", "mesh_edges"]),
+    ("src/prepare/mesh", ["mesh_sample", "mesh_pages", "mesh_edges"]),
     ("src/prepare/pattern", ["procedure", "acquire"]), ("src/prepare/procedure", ["procedure"]),
     ("src/prepare/refit", ["refit", "sparse"]), ("src/prepare/sparse", ["sparse", "acquire", "refit"]),
     ("src/prepare/volume_outline", ["generate_volume", "cli_volume"]),
