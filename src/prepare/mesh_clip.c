@@ -29,8 +29,10 @@ typedef struct plane_edge {
     uint32_t index;
 } plane_edge;
 
-static size_t bucket_of(const mesh_edge_grid *grid, const int64_t cell[3]) {
-    uint64_t hash = 0;
+/// The bucket of a part's edges in a cell: discs see edges of their own part only, and of sheets that meet in
+/// one edge, like the pages of a book, each may be a part.
+static size_t bucket_of(const mesh_edge_grid *grid, const int64_t cell[3], uint32_t part) {
+    uint64_t hash = part;
     for (int c = 0; c < 3; c++) {
         hash = (hash ^ (uint64_t)cell[c]) * 0x9e3779b97f4a7c15u;
         hash ^= hash >> 29;
@@ -45,6 +47,7 @@ static int64_t cell_at(const mesh_edge_grid *grid, double place) {
 /// Calls for the buckets of all cells within reach of an edge: those of the boxes around places along it.
 static void enter_edge(mesh_edge_grid *grid, uint32_t index, bool store) {
     const mesh_edge *edge = &grid->surface->edges[index];
+    const uint32_t part = grid->surface->part[edge->triangle];
     const ewa_vec3 a = vec3_load(edge->a), b = vec3_load(edge->b);
     const double length = vec3_length(vec3_sub(b, a));
     const uint64_t steps = (uint64_t)(length / grid->reach_world) + 1;
@@ -62,7 +65,7 @@ static void enter_edge(mesh_edge_grid *grid, uint32_t index, bool store) {
         for (cell[2] = low[2]; cell[2] <= high[2]; cell[2]++)
             for (cell[1] = low[1]; cell[1] <= high[1]; cell[1]++)
                 for (cell[0] = low[0]; cell[0] <= high[0]; cell[0]++) {
-                    const size_t bucket = bucket_of(grid, cell);
+                    const size_t bucket = bucket_of(grid, cell, part);
                     if (store)
                         grid->edge[grid->first[bucket + 1]++] = index;
                     else
@@ -178,7 +181,7 @@ void ewa_mesh_clip_disc(const mesh_edge_grid *grid, mesh_clip_disc *disc) {
     if (!grid->entry_count) return;
     int64_t cell[3];
     for (int c = 0; c < 3; c++) cell[c] = cell_at(grid, disc->center[c]);
-    const size_t bucket = bucket_of(grid, cell);
+    const size_t bucket = bucket_of(grid, cell, disc->part);
     plane_edge first, second;
     if (!find_nearest(grid, disc, bucket, NULL, &first)) return;
     // A centre beyond its line is the work of a curved part or of an edge that ends: it is left alone.

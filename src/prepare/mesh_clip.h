@@ -11,8 +11,8 @@
 typedef struct mesh_edge_grid {
     const mesh_surface *surface;
     double reach_world, cell_world;
-    uint32_t *first; ///< by hash of a cell: bucket_count + 1 sums
-    uint32_t *edge;  ///< edges that are within reach of some place in a cell with that hash; may repeat
+    uint32_t *first; ///< by hash of a cell and a part: bucket_count + 1 sums
+    uint32_t *edge;  ///< edges of the part within reach of some place in the cell, for a hash; may repeat
     size_t bucket_count, entry_count;
 } mesh_edge_grid;
 

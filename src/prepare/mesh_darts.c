@@ -20,7 +20,7 @@ enum {
     THROWS = 2 + INNER_THROWS,
     BLOCK_CELLS = 12, // along an edge of a block; a cell is as wide as the largest distance
     GRID_CELLS = BLOCK_CELLS + 2,
-    GRID_SIZE = GRID_CELLS * GRID_CELLS * GRID_CELLS,
+    HEADS = 1 << 12,       // of lists of darts: more than cells
     INNER_CANDIDATES = 12, // per point
     ROW_CANDIDATES = 8,    // per spacing of an edge
     TASK_CANDIDATES = 1 << 14,
@@ -56,7 +56,7 @@ typedef struct grid_dart {
 } grid_dart;
 
 typedef struct dart_scratch {
-    uint32_t head[GRID_SIZE];
+    uint32_t head[HEADS]; ///< by cell and part: see head_of()
     grid_dart *darts;
 } dart_scratch;
 
@@ -315,16 +315,23 @@ static ewa_status make_scratch(dart_job *job) {
     return EWA_OK;
 }
 
+/// The list of the darts of a part in a cell. Only darts of one part see each other, so that sheets of many
+/// parts that meet in one cell, like the pages of a book, are kept apart: every part's lists begin at a place
+/// of their own, and those few that share a list are told apart by conflict().
+static uint32_t head_of(int32_t cell, uint32_t part) {
+    return ((uint32_t)cell + (part * 0x9e3779b1u >> 16)) % HEADS;
+}
+
 /// Makes a dart one of the grid's; false when it is beside the grid.
 static bool locate(const dart_job *job, const dart_block *block, const mesh_dart *dart, uint32_t which,
-                   grid_dart *made, uint32_t *slot) {
+                   grid_dart *made, int32_t *slot) {
     int64_t cell[3];
     cell_of(job, dart, cell);
-    uint32_t local[3];
+    int32_t local[3];
     for (int c = 0; c < 3; c++) {
         const int64_t place = cell[c] - (int64_t)BLOCK_CELLS * block->at[c] + 1;
         if (place < 0 || place >= GRID_CELLS) return false;
-        local[c] = (uint32_t)place;
+        local[c] = (int32_t)place;
         made->at[c] = (float)((double)dart->at[c] * job->unit / job->spacing -
                               (double)block->at[c] * (BLOCK_CELLS * job->cell / job->spacing));
         made->normal[c] = job->surface->normal[dart->triangle][c];
@@ -351,17 +358,24 @@ static bool conflict(const grid_dart *a, const grid_dart *b) {
     return facing > 0.5f && above * above < 0.25f * distance2;
 }
 
-static bool is_free(const dart_scratch *scratch, const grid_dart *dart, uint32_t slot) {
+static bool is_free(const dart_scratch *scratch, const grid_dart *dart, int32_t slot) {
     static const int16_t order[3] = {0, -1, 1}; // the own cell first: most conflicts are there
     for (int z = 0; z < 3; z++)
         for (int y = 0; y < 3; y++)
             for (int x = 0; x < 3; x++) {
-                const int32_t near =
-                    (int32_t)slot + (order[z] * GRID_CELLS + order[y]) * GRID_CELLS + order[x];
-                for (uint32_t i = scratch->head[near]; i != NONE; i = scratch->darts[i].next)
+                const int32_t near = slot + (order[z] * GRID_CELLS + order[y]) * GRID_CELLS + order[x];
+                for (uint32_t i = scratch->head[head_of(near, dart->part)]; i != NONE;
+                     i = scratch->darts[i].next)
                     if (conflict(dart, &scratch->darts[i])) return false;
             }
     return true;
+}
+
+static void add_dart(dart_scratch *scratch, uint32_t index, int32_t slot) {
+    grid_dart *dart = &scratch->darts[index];
+    uint32_t *head = &scratch->head[head_of(slot, dart->part)];
+    dart->next = *head;
+    *head = index;
 }
 
 static uint32_t greatest_divisor(uint32_t a, uint32_t b) {
@@ -375,7 +389,8 @@ static uint32_t greatest_divisor(uint32_t a, uint32_t b) {
 
 static void throw_block(const dart_job *job, dart_block *block, dart_scratch *scratch) {
     const uint32_t candidates = block->candidates[job->which];
-    uint32_t used = 0, slot;
+    uint32_t used = 0;
+    int32_t slot;
     if (!candidates) return;
     memset(scratch->head, 0xff, sizeof scratch->head);
     for (int n = 0; n < 27; n++) {
@@ -385,8 +400,7 @@ static void throw_block(const dart_job *job, dart_block *block, dart_scratch *sc
             for (uint32_t i = 0; i < other->accepted[k]; i++) {
                 if (!locate(job, block, &job->pool[other->first[k] + i], k, &scratch->darts[used], &slot))
                     continue;
-                scratch->darts[used].next = scratch->head[slot];
-                scratch->head[slot] = used++;
+                add_dart(scratch, used++, slot);
             }
         }
     }
@@ -399,8 +413,7 @@ static void throw_block(const dart_job *job, dart_block *block, dart_scratch *sc
     for (uint32_t i = 0; i < candidates; i++) {
         grid_dart *dart = &scratch->darts[used];
         if (locate(job, block, &own[at], job->which, dart, &slot) && is_free(scratch, dart, slot)) {
-            dart->next = scratch->head[slot];
-            scratch->head[slot] = used++;
+            add_dart(scratch, used++, slot);
             own[at].triangle |= HIT;
             accepted++;
         }

@@ -4,6 +4,7 @@
 // Transfer functions from volumes alone: what of scans is seen.
 #include "check.h"
 #include "image/standins.h"
+#include "image/volume_surfaces.h"
 
 #include <math.h>
 #include <string.h>
@@ -234,12 +235,47 @@ static void test_highest_class(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// A look along one column of voxels, from its two ends: three voxels in front hide, two do not; a gap of
+/// three parts, one of two does not. Across, lines are too short to meet anything.
+static void test_sight(void **state) {
+    (void)state;
+    static const struct {
+        const char *column; // o: outer, i: inner, anything else: neither
+        double met, hidden, apart;
+    } cases[] = {
+        {"..ii..", 2, 0, 0},       {"ooii..", 2, 0, 0},           {"oooii.", 2, 0.5, 0},
+        {"oooiioo", 2, 0.5, 0},    {"oooiiooo", 2, 1, 0},         {"oo..ii", 2, 0, 0},
+        {"oo...ii", 2, 0, 0.5},    {"oo...iioo...oo", 2, 0.5, 1}, {"o.o.o.ii", 2, 0.5, 0},
+        {"o...ii", 2, 0, 0},       {"oo...ii..oo", 2, 0, 0.5},    {"oo...ii...oo", 2, 0, 1},
+        {"oo.o.o.oii", 2, 0.5, 0}, {"ooo.i.ooo", 0, 0, 0},
+    };
+    ewa_context *context = check_context(1, NULL);
+    for (size_t n = 0; n < sizeof cases / sizeof cases[0]; n++) {
+        const char *column = cases[n].column;
+        for (int axis = 0; axis < 3; axis++) {
+            uint32_t dims[3] = {1, 1, 1};
+            dims[axis] = (uint32_t)strlen(column);
+            ewa_volume volume;
+            assert_int_equal(ewa_volume_create(context, dims, EWA_U8, &volume), EWA_OK);
+            for (uint32_t i = 0; i < dims[axis]; i++)
+                ((uint8_t *)volume.voxels)[i] = column[i] == 'i' ? 200 : column[i] == 'o' ? 100 : 3;
+            ewa_volume_sight sight;
+            assert_int_equal(ewa_volume_sight_measure(&volume, 100, 200, &sight), EWA_OK);
+            expect(column, sight.met, cases[n].met, cases[n].met);
+            expect(column, sight.hidden, cases[n].hidden, cases[n].hidden);
+            expect(column, sight.apart, cases[n].apart, cases[n].apart);
+            ewa_volume_free(&volume);
+        }
+    }
+    ewa_context_destroy(&context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bonsai),        cmocka_unit_test(test_walnut),
         cmocka_unit_test(test_heads),         cmocka_unit_test(test_same_look),
         cmocka_unit_test(test_odd_volumes),   cmocka_unit_test(test_full_volume),
-        cmocka_unit_test(test_highest_class),
+        cmocka_unit_test(test_highest_class), cmocka_unit_test(test_sight),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

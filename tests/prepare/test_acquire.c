@@ -29,6 +29,68 @@ static void make_picture(ewa_context *context, uint32_t width, uint32_t height, 
         }
 }
 
+/// The mean under a Gaussian is the sum over all pixels, near and far, less what is under its outermost part;
+/// of a picture turned upside down or around it is the same, wherever the Gaussian begins and ends.
+static void test_means_are_sums(void **state) {
+    (void)state;
+    enum { WIDTH = 23, HEIGHT = 19 };
+    ewa_context *context = check_context(1, NULL);
+    check_random random = {21};
+    ewa_image images[4]; // as it is, mirrored across, mirrored down, both
+    ewa_texture textures[4];
+    for (int k = 0; k < 4; k++)
+        assert_int_equal(ewa_image_create(context, WIDTH, HEIGHT, 3, &images[k]), EWA_OK);
+    for (uint32_t y = 0; y < HEIGHT; y++)
+        for (uint32_t x = 0; x < WIDTH; x++)
+            for (uint32_t c = 0; c < 3; c++) {
+                const float number = (float)check_uniform(&random, 0, 1);
+                for (uint32_t k = 0; k < 4; k++) {
+                    const uint32_t column = k & 1 ? WIDTH - 1 - x : x, row = k & 2 ? HEIGHT - 1 - y : y;
+                    images[k].pixels[3 * (row * WIDTH + column) + c] = number;
+                }
+            }
+    for (int k = 0; k < 4; k++)
+        assert_int_equal(ewa_texture_make(&images[k], EWA_TEXTURE_CLAMP, EWA_TEXTURE_CLAMP, &textures[k]),
+                         EWA_OK);
+    for (int i = 0; i < 3000; i++) {
+        // From Gaussians of a fraction of a pixel, of which single rows decide, to ones of several.
+        const double xx = exp(check_uniform(&random, log(0.03), log(3))),
+                     yy = exp(check_uniform(&random, log(0.03), log(3)));
+        const double xy = check_uniform(&random, -0.8, 0.8) * sqrt(xx * yy), determinant = xx * yy - xy * xy;
+        const double x = check_uniform(&random, 7, WIDTH - 7), y = check_uniform(&random, 7, HEIGHT - 7);
+        double sums[4] = {0}, most = 0;
+        for (uint32_t p = 0; p < WIDTH * HEIGHT; p++) {
+            const double dx = p % WIDTH + 0.5 - x, dy = (double)(p / WIDTH) + 0.5 - y;
+            const double weight = exp(-0.5 * (yy * dx * dx - 2 * xy * dx * dy + xx * dy * dy) / determinant);
+            for (int c = 0; c < 3; c++) sums[c] += weight * (double)images[0].pixels[3 * p + c];
+            sums[3] += weight;
+            most = fmax(most, weight);
+        }
+        double mean[4];
+        const ewa_texture_gauss gauss = {x, y, xx, xy, yy};
+        ewa_texture_mean(&textures[0], 0, &gauss, mean);
+        for (int c = 0; c < 3 && most > 0.1; c++)
+            if (!(fabs(mean[c] - sums[c] / sums[3]) < 0.03))
+                fail_msg("Gaussian %g %g, %g %g %g: %g, not %g", x, y, xx, xy, yy, mean[c],
+                         sums[c] / sums[3]);
+        for (int k = 1; k < 4; k++) {
+            const ewa_texture_gauss turned = {k & 1 ? WIDTH - x : x, k & 2 ? HEIGHT - y : y, xx,
+                                              k == 3 ? xy : -xy, yy};
+            double again[4];
+            ewa_texture_mean(&textures[k], 0, &turned, again);
+            for (int c = 0; c < 3; c++)
+                if (!(fabs(again[c] - mean[c]) < 1e-5))
+                    fail_msg("Gaussian %g %g, %g %g %g, turned %d: %g, not %g", x, y, xx, xy, yy, k, again[c],
+                             mean[c]);
+        }
+    }
+    for (int k = 0; k < 4; k++) {
+        ewa_texture_free(&textures[k]);
+        ewa_image_free(&images[k]);
+    }
+    ewa_context_destroy(&context);
+}
+
 /// The mean on a small copy of a picture is near that on the picture itself.
 static void test_means_of_levels_agree(void **state) {
     (void)state;
@@ -501,6 +563,7 @@ static void test_charts_of_objects(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_means_are_sums),
         cmocka_unit_test(test_means_of_levels_agree),
         cmocka_unit_test(test_a_constant_stays),
         cmocka_unit_test(test_a_ramp_is_kept),

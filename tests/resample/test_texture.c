@@ -397,6 +397,93 @@ static void test_repeat(void **state) {
     }
 }
 
+/// Where in the texture a place of the picture is from; false where that is behind the eye or near it.
+static bool pull_back(const double h[9], double x, double y, double *u, double *v) {
+    // u (h0 - x h6) + v (h1 - x h7) + h2 - x h8 = 0, and the same for y.
+    const double a = h[0] - x * h[6], b = h[1] - x * h[7], c = h[2] - x * h[8];
+    const double d = h[3] - y * h[6], e = h[4] - y * h[7], f = h[5] - y * h[8];
+    *u = (b * f - c * e) / (a * e - b * d), *v = (c * d - a * f) / (a * e - b * d);
+    return *u * h[6] + *v * h[7] + h[8] > 0.1;
+}
+
+/// Backward mapping is the sum of the texels around where a pixel's centre is from, each weighted by what the
+/// distance leaves of a texel along u and along v.
+static void test_bilinear(void **state) {
+    (void)state;
+    enum { WIDTH = 150, HEIGHT = 110, U = 96, V = 80 };
+    raster source = raster_make(EWA_PIXEL_LINEAR, 4, U, V);
+    raster target = raster_make(EWA_PIXEL_LINEAR, 4, WIDTH, HEIGHT);
+    raster_paint(&source, 11);
+    for (int m = 0; m < 8; m++) {
+        const ewa_mat3 map = texture_map_of(maps[m].h);
+        const ewa_texture_options options = texture_options(EWA_TEXTURE_BILINEAR);
+        texture_draw(context, &source, &map, &options, &target);
+        int compared = 0;
+        for (uint32_t at = 0; at < WIDTH * HEIGHT; at++) {
+            const uint32_t x = at % WIDTH, y = at / WIDTH;
+            double u = 0, v = 0;
+            bool inside = true; // all of the pixel: at its ends the texture covers pixels in part
+            for (int corner = 0; corner < 5; corner++) {
+                const double dx = corner < 4 ? corner & 1 : 0.5, dy = corner < 4 ? corner >> 1 : 0.5;
+                inside = inside && pull_back(maps[m].h, x + dx, y + dy, &u, &v) && u > 1 && v > 1 &&
+                         u < U - 1 && v < V - 1;
+            }
+            if (!inside) continue;
+            double sums[4] = {0};
+            for (uint32_t j = (uint32_t)v - 1; j <= (uint32_t)v + 1; j++)
+                for (uint32_t i = (uint32_t)u - 1; i <= (uint32_t)u + 1; i++)
+                    for (uint32_t c = 0; c < 4; c++)
+                        sums[c] += fmax(1 - fabs(u - i - 0.5), 0) * fmax(1 - fabs(v - j - 0.5), 0) *
+                                   raster_get(&source, i, j, c);
+            for (uint32_t c = 0; c < 4; c++)
+                if (!(fabs(raster_get(&target, x, y, c) - sums[c]) < 2e-5))
+                    fail_msg("%s, pixel %u %u: %g, not %g", maps[m].name, x, y, raster_get(&target, x, y, c),
+                             sums[c]);
+            compared++;
+        }
+        if (compared < 100) fail_msg("%s: %d pixels", maps[m].name, compared);
+    }
+    raster_free(&source);
+    raster_free(&target);
+}
+
+/// Where neighbours along one axis part ever farther along the other, like the ribs of a fan, only texels
+/// that are close along both axes are points: not more than by the definition, and not a few.
+static void test_points_of_a_fan(void **state) {
+    (void)state;
+    enum { RIBS = 128, LONG = 24 };
+    const double wide = 0.5, high = 0.3, tilt = 0.02;
+    for (int k = 0; k < 4; k++) {
+        const bool turned = k & 1;
+        const double shift = k & 2 ? 128 : 0; // whole tiles
+        // (wide u, high v) / (1 + tilt v) from `shift` on, with u and v swapped in every other case.
+        const double fan[9] = {wide, shift * tilt, shift, 0, high, 0, 0, tilt, 1};
+        const double swapped[9] = {shift * tilt, wide, shift, high, 0, 0, tilt, 0, 1};
+        const ewa_mat3 map = texture_map_of(turned ? swapped : fan);
+        raster source = raster_make(EWA_PIXEL_LINEAR, 3, turned ? LONG : RIBS, turned ? RIBS : LONG);
+        raster target = raster_make(EWA_PIXEL_LINEAR, 3, 200, 12);
+        ewa_texture_options options = texture_options(EWA_TEXTURE_HYBRID);
+        options.point_spacing_px = 0.55; // no texel is just as close
+        uint64_t minified = 0;
+        for (int n = 0; n < RIBS * LONG; n++) {
+            const double u = n % RIBS + 0.5, v = n / RIBS + 0.5, w = 1 + tilt * v;
+            // The places' derivatives by u and by v.
+            const double along_u = wide / w;
+            const double along_v = hypot(wide * u * tilt / (w * w), high / w - high * v * tilt / (w * w));
+            minified += along_u <= options.point_spacing_px && along_v <= options.point_spacing_px;
+        }
+        assert_true(minified > RIBS * LONG / 2 && minified < RIBS * LONG);
+        ewa_texture_stats stats;
+        assert_int_equal(ewa_texture_map(context, &source.source, &map, &options, &target.target, &stats),
+                         EWA_OK);
+        print_message("fan %d: %llu of %d texels are close, %llu are points\n", k,
+                      (unsigned long long)minified, RIBS * LONG, (unsigned long long)stats.point_texel_count);
+        assert_true(stats.point_texel_count <= minified && stats.point_texel_count > minified / 4);
+        raster_free(&source);
+        raster_free(&target);
+    }
+}
+
 /// The least textures and pictures.
 static void test_tiny(void **state) {
     (void)state;
@@ -432,6 +519,7 @@ int main(void) {
         cmocka_unit_test(test_shift),      cmocka_unit_test(test_constant_and_area),
         cmocka_unit_test(test_energy),     cmocka_unit_test(test_formats),
         cmocka_unit_test(test_horizon),    cmocka_unit_test(test_repeat),
+        cmocka_unit_test(test_bilinear),   cmocka_unit_test(test_points_of_a_fan),
         cmocka_unit_test(test_tiny),
     };
     return cmocka_run_group_tests(tests, enter, leave);

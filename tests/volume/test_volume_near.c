@@ -4,6 +4,7 @@
 // Volumes from within: voxels at the eye, scales of the world and of the camera.
 #include "check.h"
 #include "volume/march.h"
+#include "volume/near.h"
 #include "volume/scene.h"
 
 #include <math.h>
@@ -330,12 +331,64 @@ static void test_extremes(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// The angle between two directions, free of cancellation.
+static double angle_of(ewa_vec3 a, ewa_vec3 b) {
+    return atan2(vec3_length(vec3_cross(a, b)), vec3_dot(a, b));
+}
+
+/// All rays of a rectangle of pixels are in its cone, which is no wider than the rectangle is across; it
+/// meets balls at these rays, and none that lies farther off than it is wide.
+static void test_ray_cones(void **state) {
+    (void)state;
+    check_random random = {12};
+    for (int round = 0; round < 200; round++) {
+        ewa_grid_view grid = {.fx_px = check_uniform(&random, 60, 300),
+                              .fy_px = check_uniform(&random, 60, 300)};
+        grid.cx_px = check_uniform(&random, -20, 120), grid.cy_px = check_uniform(&random, -20, 120);
+        // Steps of different length along axes that are turned.
+        const double turn = check_uniform(&random, 0, 6);
+        const double c = cos(turn), s = sin(turn), long_step = check_uniform(&random, 0.5, 2);
+        grid.to_steps = (ewa_mat3){{{c, s, 0}, {-s * long_step, c * long_step, 0}, {0, 0, 1}}};
+        const double left = check_uniform(&random, 0, 90), right = left + check_uniform(&random, 2, 40);
+        const double top = check_uniform(&random, 0, 90), bottom = top + check_uniform(&random, 2, 40);
+        ewa_ray_cone cone;
+        ewa_ray_cone_make(&cone, &grid, left, top, right, bottom);
+        const ewa_vec3 axis = vec3_load(cone.axis);
+        assert_float_equal(vec3_length(axis), 1, 1e-12);
+        ewa_vec3 corners[4];
+        double across = 0;
+        for (int i = 0; i < 10 * 10; i++) {
+            const double x = left + (right - left) * (i % 10) / 9, y = top + (bottom - top) * (i / 10) / 9;
+            const ewa_vec3 ray = vec3_mul_mat3(
+                vec3_make((x - grid.cx_px) / grid.fx_px, (y - grid.cy_px) / grid.fy_px, 1), &grid.to_steps);
+            const double angle = angle_of(ray, axis);
+            if (angle > cone.angle)
+                fail_msg("round %d: a ray at %g of a cone of %g", round, angle, cone.angle);
+            const double at_ray[3] = {9 * ray.x, 9 * ray.y, 9 * ray.z};
+            assert_true(ewa_ray_cone_meets(&cone, at_ray, 0.01));
+            if ((i % 10 == 0 || i % 10 == 9) && (i < 10 || i >= 90))
+                corners[(i >= 90) * 2 + (i % 10 == 9)] = ray;
+        }
+        for (int i = 0; i < 16; i++) across = fmax(across, angle_of(corners[i / 4], corners[i % 4]));
+        if (cone.angle > 0.75 * across)
+            fail_msg("round %d: a cone of %g around what is %g across", round, cone.angle, across);
+        ewa_vec3 aside = vec3_cross(axis, vec3_make(0.3, 0.5, -0.4));
+        vec3_normalize(&aside);
+        const double beyond = 1.05 * across + 0.02; // a ball of 0.1 at a distance of 10 is 0.01 wide
+        const ewa_vec3 far =
+            vec3_add(vec3_scale(axis, 10 * cos(beyond)), vec3_scale(aside, 10 * sin(beyond)));
+        const double off[3] = {far.x, far.y, far.z};
+        assert_false(ewa_ray_cone_meets(&cone, off, 0.1));
+        assert_true(ewa_ray_cone_meets(&cone, off, 11)); // the eye is in the ball
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_marched),    cmocka_unit_test(test_equals_reference),
         cmocka_unit_test(test_moving),     cmocka_unit_test(test_plane_in_fog),
         cmocka_unit_test(test_same_bytes), cmocka_unit_test(test_scales),
-        cmocka_unit_test(test_extremes),
+        cmocka_unit_test(test_extremes),   cmocka_unit_test(test_ray_cones),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
