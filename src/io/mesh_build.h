@@ -79,6 +79,7 @@ typedef struct ewa_mesh_build {
     uint64_t short_count;             ///< of fewer than three corners
     uint64_t beyond_count;            ///< with a vertex that is not there
     uint64_t uncut_count;             ///< that were not cut well
+    uint64_t odd_color_count;         ///< that are not finite
     uint64_t line_count, point_count; ///< lines and points of the file that are no faces
     uint64_t unread_count;            ///< numbers that are none
     uint64_t unread_line;             ///< where the first is

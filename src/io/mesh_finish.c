@@ -232,6 +232,9 @@ static void say_losses(const ewa_mesh_build *build, bool is_mesh, uint64_t not_f
         ewa_report(build->context, EWA_SEVERITY_WARNING,
                    "%s: %llu polygons meet themselves or are too large; their triangles may overlap",
                    build->source->name, (unsigned long long)build->uncut_count);
+    if (build->odd_color_count)
+        ewa_report(build->context, EWA_SEVERITY_WARNING, "%s: %llu colours are not finite and count as white",
+                   build->source->name, (unsigned long long)build->odd_color_count);
     if (build->missing_count > 1)
         ewa_report(build->context, EWA_SEVERITY_WARNING, "%s: %llu pictures are left out in all",
                    build->source->name, (unsigned long long)build->missing_count);

@@ -192,11 +192,14 @@ static ewa_status add_colors(gltf *g, const primitive *p) {
     // Colours go by place: what has none before this primitive is white.
     const uint64_t end = build->positions.count;
     build->positions.count = p->position;
-    for (uint64_t i = 0; i < array.count && status == EWA_OK; i++) {
+    for (uint64_t i = 0; i < array.count && build->positions.count < end && status == EWA_OK; i++) {
         const double *from = array.numbers + array.components * i;
         float color[4] = {1, 1, 1, 1};
-        for (uint32_t c = 0; c < array.components; c++)
+        bool odd = false;
+        for (uint32_t c = 0; c < array.components; c++) odd |= !isfinite(from[c]);
+        for (uint32_t c = 0; c < array.components && !odd; c++)
             color[c] = (float)(from[c] >= 0 ? fmin(from[c], 1) : 0);
+        build->odd_color_count += odd;
         build->positions.count++;
         status = ewa_mesh_add_color(build, white, color);
     }

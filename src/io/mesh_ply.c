@@ -70,10 +70,17 @@ static float alpha_of(double value, ewa_type type) {
     return value >= 0 ? (float)fmin(value / full, 1) : 1;
 }
 
-/// Fills 4 floats from 3 or 4 numbers of a type. Numbers that are no colours count as white.
-static void color_of(const double *values, uint32_t count, ewa_type type, float color[4]) {
-    for (uint32_t c = 0; c < 3; c++) color[c] = isfinite(values[c]) ? linear_of(values[c], type) : 1;
+/// Fills 4 floats from 3 or 4 numbers of a type. What is not finite counts as white.
+static void color_of(ewa_mesh_build *build, const double *values, uint32_t count, ewa_type type,
+                     float color[4]) {
+    bool odd = count == 4 && !isfinite(values[3]);
+    for (uint32_t c = 0; c < 3; c++) {
+        color[c] = linear_of(values[c], type);
+        odd |= !isfinite(values[c]) || !isfinite(color[c]);
+    }
+    for (uint32_t c = 0; c < 3 && odd; c++) color[c] = 1;
     color[3] = count == 4 ? alpha_of(values[3], type) : 1;
+    build->odd_color_count += odd;
 }
 
 static ewa_status add_texcoords(ply_mesh *mesh, const ewa_cloud *vertices) {
@@ -113,7 +120,7 @@ static ewa_status add_vertices(ply_mesh *mesh, const ewa_cloud *vertices) {
         status = ewa_mesh_add_position(build, values);
         if (status == EWA_OK && color) {
             ewa_attribute_read_f64(color, i, 1, values);
-            color_of(values, color->component_count, color->type, rgba);
+            color_of(build, values, color->component_count, color->type, rgba);
             status = ewa_mesh_add_color(build, rgba, rgba);
         }
         if (status == EWA_OK && normal) {
@@ -299,7 +306,7 @@ static ewa_status add_faces(ply_mesh *mesh, const ewa_ply_table *table, uint32_t
             double values[4];
             for (uint32_t c = 0; c < of.color_count; c++)
                 values[c] = ewa_ply_table_number(header, table, of.color[c], f);
-            color_of(values, of.color_count, header->properties[of.color[0]].type, build->face_color);
+            color_of(build, values, of.color_count, header->properties[of.color[0]].type, build->face_color);
         }
         status = ewa_mesh_add_polygon(build, mesh->corners, count);
     }

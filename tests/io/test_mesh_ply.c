@@ -291,6 +291,25 @@ static void test_bad_faces(void **state) {
                 "the file ends in 'face' 1 of 2");
 }
 
+/// Colours that are not finite, or not as floats, are counted and white; others stay.
+static void test_odd_colors(void **state) {
+    (void)state;
+    static const char text[] = "ply\nformat ascii 1.0\nelement vertex 4\n" XYZ
+                               "property double red\nproperty double green\nproperty double blue\n"
+                               "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+                               "0 0 0 1e300 0.5 0.5\n1 0 0 0.25 nan 0.5\n1 1 0 0.25 0.5 4\n0 1 0 -inf 0 0\n"
+                               "3 0 1 2\n3 0 2 3\n";
+    ewa_mesh mesh;
+    mesh_load_bytes(context, &messages, "a.ply", text, strlen(text), true, &mesh);
+    mesh_says(&messages, "a.ply: 3 colours are not finite and count as white");
+    assert_int_equal(mesh.vertex_count, 4);
+    for (uint32_t v = 0; v < 4; v++) {
+        const float expected[2][4] = {{1, 1, 1, 1}, {0.25f, 0.5f, 4, 1}};
+        assert_memory_equal(mesh.colors + 4 * v, expected[v == 2], 4 * sizeof(float));
+    }
+    ewa_mesh_free(&mesh);
+}
+
 /// Without faces it is a cloud, whatever is declared; with them, a mesh whatever the name.
 static void test_what_is_a_mesh(void **state) {
     (void)state;
@@ -388,17 +407,12 @@ static void test_elements_round_trip(void **state) {
 
 int main(void) {
 #define CASE(f) cmocka_unit_test_setup_teardown(f, begin, end)
-    const struct CMUnitTest tests[] = {CASE(test_polygons),
-                                       CASE(test_order_of_elements),
-                                       CASE(test_line_ends),
-                                       CASE(test_strips),
-                                       CASE(test_colors_and_normals),
-                                       CASE(test_texcoords_of_vertices),
-                                       CASE(test_texcoords_of_faces),
-                                       CASE(test_multi_texture),
-                                       CASE(test_bad_faces),
-                                       CASE(test_what_is_a_mesh),
-                                       CASE(test_digits),
+    const struct CMUnitTest tests[] = {CASE(test_polygons),           CASE(test_order_of_elements),
+                                       CASE(test_line_ends),          CASE(test_strips),
+                                       CASE(test_colors_and_normals), CASE(test_texcoords_of_vertices),
+                                       CASE(test_texcoords_of_faces), CASE(test_multi_texture),
+                                       CASE(test_bad_faces),          CASE(test_odd_colors),
+                                       CASE(test_what_is_a_mesh),     CASE(test_digits),
                                        CASE(test_elements_round_trip)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
