@@ -2,27 +2,11 @@
 // SPDX-License-Identifier: MIT
 //
 // What the camera that frames a cloud shows: all discs, the room around them, nothing of what lies far off.
-#include "check.h"
+#include "check_session.h"
+#include "cli/framing.h"
 
 #include <math.h>
 #include <stdbool.h>
-
-#include "cli/framing.h"
-
-static cli_session session;
-
-static int begin(void **state) {
-    (void)state;
-    static const common_arguments common = {.threads = 1, .progress = 0};
-    assert_true(session_start(&session, &common));
-    return 0;
-}
-
-static int end(void **state) {
-    (void)state;
-    session_end(&session, 0);
-    return 0;
-}
 
 /// A point, its radius and the way that its disc faces.
 typedef struct disc {
@@ -326,5 +310,5 @@ int main(void) {
         cmocka_unit_test(test_no_radius),  cmocka_unit_test(test_zoom),
         cmocka_unit_test(test_far_points), cmocka_unit_test(test_revolve),
     };
-    return cmocka_run_group_tests(tests, begin, end);
+    return cmocka_run_group_tests(tests, session_begin, session_finish);
 }

@@ -5,26 +5,12 @@
 // is built.
 #define _DEFAULT_SOURCE // mkdtemp
 #include "../../cli/import.h"
+#include "check_session.h"
 #include "io/scratch.h"
 
 #include <math.h>
 
-static cli_session session;
 static char said[4096];
-
-/// The session of a program that says nothing, its errors kept in a file.
-static int begin(void **state) {
-    (void)state;
-    static const common_arguments common = {.threads = 1, .progress = 0};
-    assert_true(session_start(&session, &common));
-    return 0;
-}
-
-static int end(void **state) {
-    (void)state;
-    session_end(&session, 0);
-    return 0;
-}
 
 /// Writes a helper as a script; its path is valid until the next call.
 static const char *make_helper(const char *script) {
@@ -175,7 +161,7 @@ static void test_real_helper(void **state) {
 }
 
 int main(void) {
-#define CASE(f) cmocka_unit_test_setup_teardown(f, begin, end)
+#define CASE(f) cmocka_unit_test_setup_teardown(f, session_begin, session_finish)
     const struct CMUnitTest tests[] = {CASE(test_helpers), CASE(test_names), CASE(test_real_helper)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
