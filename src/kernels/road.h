@@ -33,15 +33,22 @@ enum {
     EWA_CLIP_BIT = 1 << 15,    ///< in ewa_record.box: clipped
     EWA_MATERIAL_CHANNELS = 5, ///< ambient, diffuse, specular, shininess, reflection
     EWA_MAX_CHANNELS = 9 + EWA_MATERIAL_CHANNELS,
-    EWA_CUT_CHANNELS = 4, ///< of splats that clip lines cut: kept weight, whole weight, direction
-    EWA_CELL_BLOCKS = 4,  ///< along a side of a cell, for which one depth decides whether packets are hidden
-    EWA_TILE_CELLS = 8,   ///< cells along a side of the largest tile
+    EWA_SUM_UNITS =
+        1 << 22, ///< the range of sums, and at most of a weight of 1; splats have up to 1 / (2 pi)
+    EWA_MOST_TERM_UNITS = 667600, ///< no less than EWA_SUM_UNITS / (2 pi)
+    EWA_CUT_CHANNELS = 4,         ///< of splats that clip lines cut: kept weight, whole weight, direction
+    EWA_CELL_BLOCKS = 4, ///< along a side of a cell, for which one depth decides whether packets are hidden
+    EWA_TILE_CELLS = 8,  ///< cells along a side of the largest tile
+    EWA_FIELD_PX = 128,  ///< side of a field: squares of the picture in which places are measured
     EWA_GROUP_RECORDS = 64,
     EWA_BOX_LEVELS = 3,       ///< of ewa_edge_boxes
     EWA_BOX_GUARD = 0x8080,   ///< a bit above each number, so that they can be compared by one subtraction
     EWA_DOME_REACH = 4,       ///< pixels that eye-dome lighting looks away
     EWA_MAX_TILE_BLOCKS = 32, ///< along a side, so that a row of blocks is a word of bits
 };
+
+/// Where sums begin: in the middle of the floats that are whole numbers.
+#define EWA_SUM_ORIGIN 0x1.8p23f
 
 /// Largest s that the kernels' exponential takes before it doubles: cutoffs up to 3 need two doublings.
 #define EWA_EXPONENT_END 1.13
@@ -72,7 +79,11 @@ typedef struct ewa_view {
     bool orthographic, cull_back, ellipses;
     bool affine;                    ///< V is that of the affine map: all kernels but perspective
     bool source, circular, raycast; ///< what becomes of V; neither: affine
-    const float (*materials)[EWA_MATERIAL_CHANNELS]; ///< [code]; NULL: surfels have no codes
+    float sum_scale;   ///< units of sums per weight: the largest weight has at most EWA_SUM_UNITS / (2 pi)
+    float color_scale; ///< per colour
+    float depth_scale; ///< orthographic: depths times this are within [-1, 1]
+    const float (
+        *materials)[EWA_MATERIAL_CHANNELS]; ///< [code], over the largest; NULL: surfels have no codes
     float side_planes[4][3]; ///< inward unit normals of the frustum's sides through the eye, widened by
                              ///< reach_px and a pixel
 } ewa_view;
@@ -93,7 +104,10 @@ typedef struct ewa_kept_packets {
     int32_t *packets, *tiles_first, *tiles_end;
 } ewa_kept_packets;
 
-/// One splat in one tile. dx, dy below are measured from the splat's centre to a pixel's centre.
+/// One splat in one tile. Places are measured from the middle of the field, of EWA_FIELD_PX pixels a side,
+/// that the tile lies in, and centres are rounded so that their distances from pixels there are exact: what a
+/// pixel gets does not depend on how the picture is cut into tiles. dx, dy below are measured from the
+/// splat's centre to a pixel's centre.
 ///
 /// Plain splats compare planes: their key, and that of z + eps (perspective: its tangent at the centre). The
 /// key of steep ones (semantics.h) is clamped first, and the key of z + eps made of it: bound_scale key +
@@ -113,12 +127,12 @@ typedef struct ewa_record {
         };
     };
     float key_low;          ///< the key is nowhere below, plain or not
-    float red, green, blue; ///< times the resampling kernel's peak and the surfel's opacity
+    float red, green, blue; ///< times the resampling kernel's peak and the surfel's opacity, in units of sums
     uint32_t box; ///< first column | EWA_TURNED_BIT | EWA_STEEP_BIT | first row << 8 | EWA_CLIP_BIT | columns
                   ///< << 16 | rows << 24, in blocks
 } ewa_record;
 
-/// A clip line on the screen: the pixel whose centre is x, y in the tile is x_inward x + y_inward y + offset
+/// A clip line on the screen: the pixel whose centre is x, y in the field is x_inward x + y_inward y + offset
 /// pixels inside. A line that is not there keeps everything: 0, 0, 1, and 0.
 typedef struct ewa_clip_line {
     float x_inward, y_inward, offset;
@@ -139,10 +153,10 @@ typedef struct ewa_clipped {
     uint32_t surfel; ///< packet * 16 + lane
 } ewa_clipped;
 
-/// A surfel that is drawn by pixel rays: U, V, W, Z are linear in the tile's pixel coordinates; u = U/W, v =
+/// A surfel that is drawn by pixel rays: U, V, W, Z are linear in the field's pixel coordinates; u = U/W, v =
 /// V/W in standard deviations, z = Z/W.
 typedef struct ewa_near_record {
-    float u[3], v[3], w[3], z[3]; ///< at the tile's origin, per x, per y
+    float u[3], v[3], w[3], z[3]; ///< at the field's origin, per x, per y
     float depth_low, depth_high;
     float tolerance;
     float color[3], normal[3]; ///< colour times opacity
@@ -155,7 +169,7 @@ typedef struct ewa_near_record {
 /// The part of a splat that only the second pass reads.
 typedef struct ewa_load {
     float normal[3]; ///< camera space, unit, towards the viewer; times peak
-    float peak;      ///< of the resampling kernel
+    float peak;      ///< of the resampling kernel, in units of sums
 } ewa_load;
 
 /// Where packets are, and what belongs to them.
@@ -193,28 +207,41 @@ typedef struct ewa_sorted_run {
     uint16_t class_first[EWA_CLASS_COUNT + 1];
 } ewa_sorted_run;
 
+/// Sums of a tile's pixels, in units until they are settled (road_sums.h), then floats.
+typedef struct ewa_sums {
+    float *planes;       ///< [block][channel][16]
+    float *high;         ///< the same: bits of integers, what has been carried, of blocks that have some
+    size_t fine;         ///< numbers from either to what the units of terms leave; 0: that is lost
+    bool careful;        ///< terms are counted, so that sums have no bounds
+    uint32_t *visits;    ///< [block]: terms since something was carried (road_sums.h)
+    uint32_t *high_rows; ///< [block row]: bit per block column of which something has been carried
+} ewa_sums;
+
 /// What is gathered beside a surface's sums, in the blocks that have some: of a block that is not marked,
 /// nothing is set. With unclipped splats only `cut` and `cut_rows` may be NULL.
 typedef struct ewa_apart {
-    float *turned; ///< as ewa_tile.sums: of the splats that face away
-    float *cut;    ///< [block][EWA_CUT_CHANNELS][16]; settled: covered share, nothing, mean direction inward
+    ewa_sums turned;       ///< as ewa_tile.sums: of the splats that face away
+    ewa_sums cut;          ///< EWA_CUT_CHANNELS; settled: covered share, nothing, mean direction inward
     uint32_t *turned_rows; ///< [block row]: bit per block column
     uint32_t *cut_rows;
 } ewa_apart;
 
 /// A tile and its pixels, block by block (row-major), 16 lanes per block (4 rows of 4 pixels).
 typedef struct ewa_tile {
-    int32_t x_px, y_px;          ///< origin in the picture
-    int32_t width_px, height_px; ///< part inside the picture
+    int32_t x_px, y_px;           ///< origin in the picture
+    float field_x_px, field_y_px; ///< and from the middle of its field
+    int32_t width_px, height_px;  ///< part inside the picture
     uint32_t blocks_per_row, block_rows;
     float *nearest; ///< [block][16]: the smallest key that counts, the largest key of z + eps
-    float *sums; ///< [block][channel][16]: weight, r, g, b [, normal x, y, z] [, z] [, material] [, opacity]
+    ewa_sums sums;  ///< weight, r, g, b [, normal x, y, z] [, z] [, material] [, opacity]
     ewa_apart apart;
     uint32_t channel_count;
     bool with_normals, with_depth;
     bool with_opacity;   ///< with_normals then too
     bool with_materials; ///< with_normals and with_depth then too
+    bool with_fine;      ///< what the units of terms leave is summed of all channels, not only for depths
     const float *passed; ///< [block][16]: only keys below count, for surfaces behind the first; NULL: all do
+    uint32_t *settled_rows; ///< [block row]: bit per block column whose sums are floats
 } ewa_tile;
 
 /// The blocks of a tile whose edges show what lies behind, and what that is.
@@ -224,7 +251,7 @@ typedef struct ewa_edges {
     float *reach; ///< [block]: the largest of `passed`: what is nowhere beyond it is not wanted; -infinity in
                   ///< blocks that are not marked
     float *nearest; ///< [block][16]: the smallest key of the surface that is being gathered
-    float *sums;    ///< as ewa_tile's
+    ewa_sums sums;  ///< as ewa_tile's
     ewa_apart apart;
     float *behind; ///< [block][4][16]: premultiplied r, g, b and alpha of all surfaces but the first
 } ewa_edges;
@@ -265,13 +292,17 @@ typedef enum ewa_road_shading {
     EWA_ROAD_PHONG,   ///< everything
 } ewa_road_shading;
 
+/// The forms of sums: `units[form] sum + offsets[form]` is what they stand for.
+enum { EWA_IN_UNITS, EWA_SETTLED };
+
 /// How pixels become colours, and where they go. Planes as in ewa_frame, of the whole picture.
 typedef struct ewa_resolve {
-    float unit_coverage_inverse; ///< 1 / q0
-    float alpha_scale;           ///< 1 / (tau q0)
-    float covering;              ///< tau q0
-    float front_scale;           ///< 1 / (EWA_FRONT q0)
-    float opacity;               ///< of all surfaces, beside the surfels' own
+    float unit_coverage_inverse;                                    ///< 1 / q0
+    float alpha_scale;                                              ///< 1 / (tau q0)
+    float covering;                                                 ///< tau q0
+    float front_scale;                                              ///< 1 / (EWA_FRONT q0)
+    float units[2][EWA_MAX_CHANNELS], offsets[2][EWA_MAX_CHANNELS]; ///< of sums in either form, by channel
+    float opacity; ///< of all surfaces, beside the surfels' own
     bool edge_antialiasing, transparent, one_pass, orthographic;
     ewa_road_shading shading;
     uint32_t light_count;
@@ -283,7 +314,8 @@ typedef struct ewa_resolve {
     float ray_x[2], ray_y[2];              ///< slope = ray[0] pixel + ray[1]
     float to_world[9];                     ///< world from camera, row-major, without scale
     uint32_t width_px;
-    float depth_unit; ///< world units of 1 in camera space
+    float depth_unit;      ///< world units of 1 in camera space
+    float depth_per_share; ///< orthographic: camera space of 1 in sums of depths
     uint8_t *rgba8;
     float *rgba, *depth, *normal, *coverage;
 } ewa_resolve;
@@ -337,16 +369,20 @@ typedef struct ewa_road_kernels {
     void (*near_visibility)(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *records,
                             uint32_t count);
 
-    /// Sets nearest to -infinity and the sums to zero; nothing is apart.
-    void (*clear)(const ewa_tile *tile);
+    /// Sets nearest to -infinity.
+    void (*clear_nearest)(const ewa_tile *tile);
 
     /// Adds a run's splats to tile->sums where their key reaches tile->nearest.
     void (*accumulate)(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run);
     void (*near_accumulate)(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *records,
                             uint32_t count);
 
-    /// Makes of what a surface has gathered what it shows (semantics.h: facing, clip lines).
-    void (*settle)(const ewa_tile *tile, const ewa_resolve *resolve);
+    /// Makes of what a surface has gathered what it shows (semantics.h: facing, clip lines). False: some sum
+    /// was too large; start the sums over and accumulate with care.
+    bool (*settle)(const ewa_tile *tile, const ewa_resolve *resolve);
+
+    /// Sets the sums to zero; nothing is apart.
+    void (*clear_sums)(const ewa_tile *tile);
 
     /// Marks in edges->rows the blocks with a partly covered pixel and starts their planes; returns how many.
     uint32_t (*find_edges)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges);

@@ -7,55 +7,53 @@
 #define EWA_SRC_KERNELS_ROAD_APART_H
 
 #include "kernels/road_clip.h"
+#include "kernels/road_sums.h"
 
 /// Channels of ewa_apart.cut.
 enum { CUT_KEPT, CUT_WHOLE, CUT_X, CUT_Y };
 
-/// The planes of a block among those that are only there where `rows` says so; from now on they are.
-static ALWAYS_INLINE float *marked_block(float *planes, uint32_t *rows, const ewa_tile *tile, uint32_t row,
-                                         uint32_t column, uint32_t channels) {
-    float *block = planes + ((size_t)row * tile->blocks_per_row + column) * channels * EWA_BLOCK_LANES;
-    if (rows[row] >> column & 1) return block;
+/// The depth's channel.
+static ALWAYS_INLINE uint32_t depth_channel(const ewa_tile *tile) { return tile->with_normals ? 7 : 4; }
+
+/// visit_block() of sums that are only there in the blocks that `rows` marks; from now on in this one.
+static ALWAYS_INLINE float *visit_marked(const ewa_tile *tile, const ewa_sums *of, uint32_t *rows,
+                                         uint32_t row, uint32_t column, uint32_t channels) {
+    if (!(rows[row] >> column & 1)) clear_block(tile, of, row, column, channels);
     rows[row] |= 1u << column;
-    for (uint32_t c = 0; c < channels; c++) wf_store(block + c * EWA_BLOCK_LANES, wf_set(0));
-    return block;
+    return visit_block(tile, of, row, column, channels);
 }
 
 /// Where a splat is summed that counts in a block.
-static ALWAYS_INLINE float *block_sums(const ewa_tile *tile, bool turned, uint32_t row, uint32_t column) {
+static ALWAYS_INLINE float *visit_sums(const ewa_tile *tile, bool turned, uint32_t row, uint32_t column) {
+    const ewa_apart *apart = &tile->apart;
     if (turned)
-        return marked_block(tile->apart.turned, tile->apart.turned_rows, tile, row, column,
-                            tile->channel_count);
-    return tile->sums + ((size_t)row * tile->blocks_per_row + column) * tile->channel_count * EWA_BLOCK_LANES;
+        return visit_marked(tile, &apart->turned, apart->turned_rows, row, column, tile->channel_count);
+    return visit_block(tile, &tile->sums, row, column, tile->channel_count);
 }
 
-static ALWAYS_INLINE void add_plane(float *sums, int channel, wf value) {
-    float *plane = sums + (size_t)channel * EWA_BLOCK_LANES;
-    wf_store(plane, wf_add(wf_load(plane), value));
-}
-
-/// Notes where clip lines cut a splat in a block. `whole` is its weight without them, 0 where it does not
-/// count.
+/// Notes where clip lines cut a splat in a block. `whole` is its weight without them, in units, 0 where it
+/// does not count.
 static ALWAYS_INLINE void add_cut(const ewa_tile *tile, uint32_t row, uint32_t column, const ewa_clip *clip,
                                   const clip_sample *left, wf whole) {
     const wf zero = wf_set(0), one = wf_set(1);
     const wf off = wf_mul(wf_sub(one, left->share), wf_set((float)(1 / EWA_CUT)));
     const wf cut = wf_mul(wf_min(off, one), whole);
     if (!wm_bits(wf_lt(zero, cut))) return;
-    float *sums = marked_block(tile->apart.cut, tile->apart.cut_rows, tile, row, column, EWA_CUT_CHANNELS);
+    const ewa_apart *apart = &tile->apart;
+    float *sums = visit_marked(tile, &apart->cut, apart->cut_rows, row, column, EWA_CUT_CHANNELS);
     wf decides[2];
     for (int i = 0; i < 2; i++) decides[i] = clip->either ? left->line[i] : wf_sub(one, left->line[i]);
     const wf sum = wf_add(decides[0], decides[1]);
-    const wf scaled = wf_div(cut, wf_select(wf_lt(zero, sum), sum, one));
+    const wf scaled = wf_div(one, wf_select(wf_lt(zero, sum), sum, one));
     const ewa_clip_line *lines = clip->line;
-    add_plane(sums, CUT_KEPT, wf_mul(cut, left->share));
-    add_plane(sums, CUT_WHOLE, cut);
-    add_plane(sums, CUT_X,
-              wf_mul(scaled, wf_fma(decides[0], wf_set(lines[0].x_inward),
-                                    wf_mul(decides[1], wf_set(lines[1].x_inward)))));
-    add_plane(sums, CUT_Y,
-              wf_mul(scaled, wf_fma(decides[0], wf_set(lines[0].y_inward),
-                                    wf_mul(decides[1], wf_set(lines[1].y_inward)))));
+    const wf x = wf_fma(decides[0], wf_set(lines[0].x_inward), wf_mul(decides[1], wf_set(lines[1].x_inward)));
+    const wf y = wf_fma(decides[0], wf_set(lines[0].y_inward), wf_mul(decides[1], wf_set(lines[1].y_inward)));
+    const wf parts[EWA_CUT_CHANNELS] = {[CUT_KEPT] = left->share,
+                                        [CUT_WHOLE] = one,
+                                        [CUT_X] = wf_mul(scaled, x),
+                                        [CUT_Y] = wf_mul(scaled, y)};
+    for (int c = 0; c < EWA_CUT_CHANNELS; c++)
+        add_product(sums + (size_t)c * EWA_BLOCK_LANES, one, wf_odd(wf_mul(cut, parts[c])));
 }
 
 /// Joins a block's sums, those of the splats that face the viewer, with those of the splats that face away.
@@ -97,31 +95,98 @@ static ALWAYS_INLINE void cover_cut(const ewa_resolve *to, const float *sums, fl
     wf_store(cut + CUT_Y * LANES, wf_mul(y, per));
 }
 
+/// The units in channel `channel` of a block whose planes begin at `first`, with what they leave.
+static ALWAYS_INLINE wf read_finely(const ewa_sums *of, size_t first, uint32_t channel, bool has_high) {
+    const size_t at = first + channel * EWA_BLOCK_LANES;
+    const wf units = read_units(of->planes + at, of->high + at, has_high);
+    const wf left = read_units(of->planes + at + of->fine, of->high + at + of->fine, has_high);
+    return wf_fma(left, wf_set(FINE_UNIT), units);
+}
+
+/// Turns a block's units into floats; `unit` is what one of each channel stands for.
+static ALWAYS_INLINE void settle_planes(const ewa_tile *tile, const ewa_sums *of, uint32_t row,
+                                        uint32_t column, uint32_t channels, const float *unit, bool finely) {
+    const size_t first = first_number(tile, row, column, channels);
+    const bool has_high = of->high_rows[row] >> column & 1;
+    for (uint32_t c = 0; c < channels; c++) {
+        const size_t at = first + c * EWA_BLOCK_LANES;
+        const wf units = finely ? read_finely(of, first, c, has_high)
+                                : read_units(of->planes + at, of->high + at, has_high);
+        wf_store(of->planes + at, wf_mul(units, wf_set(unit[c])));
+    }
+}
+
+/// The mean depth of a block; their weights are finer than those of colours, which no
+/// plane that is wanted beside them changes.
+static ALWAYS_INLINE wf mean_depth(const ewa_tile *tile, const ewa_sums *of, const ewa_resolve *to,
+                                   uint32_t row, uint32_t column) {
+    const size_t first = first_number(tile, row, column, tile->channel_count);
+    const bool has_high = of->high_rows[row] >> column & 1;
+    const wf weight = read_finely(of, first, 0, has_high), zero = wf_set(0);
+    const wm some = wf_lt(zero, weight);
+    const wf share = wf_keep(some, wf_div(read_finely(of, first, depth_channel(tile), has_high),
+                                          wf_select(some, weight, wf_set(1))));
+    if (to->orthographic) return wf_mul(share, wf_set(to->depth_per_share));
+    // Of the largest that counts.
+    const wf nearest = wf_load(tile->nearest + first_number(tile, row, column, 1));
+    const wm seen = wf_lt(zero, nearest);
+    return wf_keep(seen, wf_div(share, wf_select(seen, nearest, wf_set(1))));
+}
+
+/// The sums of a block, or of its splats that face away.
+static ALWAYS_INLINE void settle_sums(const ewa_tile *tile, const ewa_sums *of, const ewa_resolve *to,
+                                      uint32_t row, uint32_t column, bool finely) {
+    const uint32_t channels = tile->channel_count;
+    const wf depth = tile->with_depth ? mean_depth(tile, of, to, row, column) : wf_set(0);
+    settle_planes(tile, of, row, column, channels, to->units[EWA_IN_UNITS], finely);
+    if (!tile->with_depth) return;
+    float *planes = of->planes + first_number(tile, row, column, channels);
+    wf_store(planes + depth_channel(tile) * EWA_BLOCK_LANES, wf_mul(depth, wf_load(planes)));
+}
+
 /// A block of a surface, when all of it is gathered.
 static ALWAYS_INLINE void settle_block(const ewa_tile *tile, const ewa_resolve *to, uint32_t row,
                                        uint32_t column, bool merged) {
-    const size_t block = (size_t)row * tile->blocks_per_row + column;
     const ewa_apart *apart = &tile->apart;
-    float *sums = tile->sums + block * tile->channel_count * EWA_BLOCK_LANES;
-    if (apart->turned_rows[row] >> column & 1)
-        join_turned(tile, to, apart->turned + block * tile->channel_count * EWA_BLOCK_LANES, sums, merged);
-    if (!merged && apart->cut_rows && apart->cut_rows[row] >> column & 1)
-        cover_cut(to, sums, apart->cut + block * EWA_CUT_CHANNELS * EWA_BLOCK_LANES);
+    const size_t first = first_number(tile, row, column, tile->channel_count);
+    const bool cut = apart->cut_rows && apart->cut_rows[row] >> column & 1;
+    settle_sums(tile, &tile->sums, to, row, column, tile->with_fine || cut);
+    if (apart->turned_rows[row] >> column & 1) {
+        settle_sums(tile, &apart->turned, to, row, column, tile->with_fine || cut);
+        join_turned(tile, to, apart->turned.planes + first, tile->sums.planes + first, merged);
+    }
+    if (cut) {
+        const float unit = to->units[EWA_IN_UNITS][0], cut_units[EWA_CUT_CHANNELS] = {unit, unit, unit, unit};
+        settle_planes(tile, &apart->cut, row, column, EWA_CUT_CHANNELS, cut_units, false);
+        if (!merged)
+            cover_cut(to, tile->sums.planes + first,
+                      apart->cut.planes + first_number(tile, row, column, EWA_CUT_CHANNELS));
+    }
 }
 
-static void settle(const ewa_tile *tile, const ewa_resolve *to) {
+static bool settle(const ewa_tile *tile, const ewa_resolve *to) {
     const ewa_apart *apart = &tile->apart;
+    const uint32_t whole_row = ~0u >> (32 - tile->blocks_per_row);
+    for (uint32_t row = 0; row < tile->block_rows && !tile->sums.careful; row++)
+        for (uint32_t column = 0; column < tile->blocks_per_row; column++)
+            if (is_beyond(tile, &tile->sums, row, column, tile->channel_count)) return false;
+    // What is nothing but sums in units stays as it is: it is read once.
+    const bool all = tile->sums.careful || tile->with_fine || tile->with_depth;
     for (uint32_t row = 0; row < tile->block_rows; row++) {
-        uint32_t some = apart->turned_rows[row] | (apart->cut_rows ? apart->cut_rows[row] : 0);
-        for (; some; some &= some - 1) settle_block(tile, to, row, (uint32_t)__builtin_ctz(some), false);
+        tile->settled_rows[row] =
+            all ? whole_row : apart->turned_rows[row] | (apart->cut_rows ? apart->cut_rows[row] : 0);
+        for (uint32_t left = tile->settled_rows[row]; left; left &= left - 1)
+            settle_block(tile, to, row, (uint32_t)__builtin_ctz(left), false);
     }
+    return true;
 }
 
 /// The settled planes of a block where clip lines have a say, else NULL: first of all the covered shares.
 static ALWAYS_INLINE const float *cut_cover(const ewa_tile *tile, uint32_t row, uint32_t column) {
     const ewa_apart *apart = &tile->apart;
     if (!apart->cut_rows || !(apart->cut_rows[row] >> column & 1)) return NULL;
-    return apart->cut + ((size_t)row * tile->blocks_per_row + column) * EWA_CUT_CHANNELS * EWA_BLOCK_LANES;
+    return apart->cut.planes +
+           ((size_t)row * tile->blocks_per_row + column) * EWA_CUT_CHANNELS * EWA_BLOCK_LANES;
 }
 
 #endif

@@ -38,6 +38,14 @@ static ALWAYS_INLINE wf lanes_y(void) {
     return wf_load(y);
 }
 
+/// Where a column of a tile's blocks begins in the field; likewise a row.
+static ALWAYS_INLINE float column_px(const ewa_tile *tile, uint32_t column) {
+    return tile->field_x_px + (float)(EWA_BLOCK_PX * column);
+}
+static ALWAYS_INLINE float row_px(const ewa_tile *tile, uint32_t row) {
+    return tile->field_y_px + (float)(EWA_BLOCK_PX * row);
+}
+
 /// Rows of a rotation times a vector.
 static inline void rotate(const float m[9], wf x, wf y, wf z, wf out[3]) {
     for (int i = 0; i < 3; i++)

@@ -17,7 +17,7 @@ static ALWAYS_INLINE wide_line broadcast_line(const ewa_clip_line *l) {
                        wf_set(l->narrow),   wf_set(l->per_narrow), wf_set(l->per_widths)};
 }
 
-/// The area of pixels' squares on the inner side of a line. x, y: pixel centres in the tile.
+/// The area of pixels' squares on the inner side of a line. x, y: pixel centres in the field.
 static ALWAYS_INLINE wf half_plane_share(const wide_line *l, wf x, wf y) {
     const wf zero = wf_set(0), inside = wf_fma(l->x_inward, x, wf_fma(l->y_inward, y, l->offset));
     // What is on the far side of the line is a triangle, as far as it is narrow, and a parallelogram.
@@ -46,9 +46,10 @@ static ALWAYS_INLINE clip_sample clip_at(const ewa_clip *clip, wf x, wf y) {
 }
 
 /// Of a block in the tile.
-static ALWAYS_INLINE clip_sample clip_block(const ewa_clip *clip, uint32_t row, uint32_t column) {
-    return clip_at(clip, wf_add(lanes_x(), wf_set((float)(EWA_BLOCK_PX * column))),
-                   wf_add(lanes_y(), wf_set((float)(EWA_BLOCK_PX * row))));
+static ALWAYS_INLINE clip_sample clip_block(const ewa_tile *tile, const ewa_clip *clip, uint32_t row,
+                                            uint32_t column) {
+    return clip_at(clip, wf_add(lanes_x(), wf_set(column_px(tile, column))),
+                   wf_add(lanes_y(), wf_set(row_px(tile, row))));
 }
 
 #endif

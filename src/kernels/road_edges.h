@@ -22,8 +22,7 @@ static void start_surface(const ewa_tile *tile, const ewa_edges *edges, uint32_t
     wf_store(edges->passed + block * EWA_BLOCK_LANES, passed);
     edges->reach[block] = largest_lane(passed);
     wf_store(edges->nearest + block * EWA_BLOCK_LANES, never);
-    float *sums = edges->sums + block * tile->channel_count * EWA_BLOCK_LANES;
-    for (uint32_t c = 0; c < tile->channel_count; c++) wf_store(sums + c * EWA_BLOCK_LANES, wf_set(0));
+    clear_block(tile, &edges->sums, row, column, tile->channel_count);
     const uint32_t others = ~(1u << column);
     edges->apart.turned_rows[row] &= others;
     if (edges->apart.cut_rows) edges->apart.cut_rows[row] &= others;
@@ -33,20 +32,22 @@ static void start_surface(const ewa_tile *tile, const ewa_edges *edges, uint32_t
 static ewa_tile tile_behind(const ewa_tile *tile, const ewa_edges *edges) {
     ewa_tile behind = *tile;
     behind.nearest = edges->nearest, behind.sums = edges->sums, behind.apart = edges->apart;
+    behind.with_depth = false;
     return behind;
 }
 
 static uint32_t find_edges(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges *edges) {
     enum { LANES = EWA_BLOCK_LANES };
     uint32_t count = 0;
-    const wf one = wf_set(1), zero = wf_set(0);
+    const wf one = wf_set(1), zero = wf_set(0), never = wf_set(-__builtin_inff());
     for (uint32_t row = 0; row < tile->block_rows; row++) {
         edges->rows[row] = 0;
         for (uint32_t column = 0; column < tile->blocks_per_row; column++) {
             const size_t block = block_at(tile, row, column);
-            const float *sums = tile->sums + block * tile->channel_count * LANES;
-            const wf alpha = surface_alpha(tile, to, sums, cut_cover(tile, row, column));
-            const wm open = wm_and(wf_lt(zero, wf_load(sums)), wf_lt(alpha, one));
+            const block_sums sums = tile_block(tile, to, row, column);
+            const wf alpha = surface_alpha(tile, to, &sums, cut_cover(tile, row, column));
+            // What is in front may be too small for its weight to be told from none.
+            const wm open = wm_and(wf_lt(never, wf_load(tile->nearest + block * LANES)), wf_lt(alpha, one));
             edges->reach[block] = -__builtin_inff();
             if (!wm_bits(open)) continue;
             edges->rows[row] |= 1u << column;
@@ -277,8 +278,8 @@ static void edge_raise(const ewa_view *view, const ewa_tile *tile, const ewa_edg
             }
             wm beyond = wm_and(wf_lt(exponent, end), wf_lt(key, wf_set(passed[pixel])));
             if (any_clipped) {
-                const float x_px = (float)(column * EWA_BLOCK_PX + x) + 0.5f;
-                const float y_px = (float)(row * EWA_BLOCK_PX + y) + 0.5f;
+                const float x_px = column_px(tile, column) + (float)x + 0.5f;
+                const float y_px = row_px(tile, row) + (float)y + 0.5f;
                 beyond = wm_and(beyond, wf_lt(zero, lane_shares(&s, x_px, y_px)));
             }
             if (any_exact) {
@@ -325,14 +326,14 @@ static ALWAYS_INLINE void edge_sum(const ewa_view *view, const ewa_tile *tile, c
             const ewa_clip *clip = clip_of(splats->clips, index);
             clip_sample kept;
             if (box_clipped(r->box)) {
-                kept = clip_block(clip, row, column);
+                kept = clip_block(tile, clip, row, column);
                 counts = wm_and(counts, wf_lt(wf_set(0), kept.share));
             }
             if (!wm_bits(counts)) continue;
             const payload add = payload_load(view, r, &splats->loads[index], splats->opacities,
                                              splats->materials, index, what);
             add_splat(&behind, r, clip, &kept, row, column,
-                      wf_keep(counts, exponential(sample.exponent, view->doublings)), &add, sample.key, what);
+                      wf_keep(counts, exponential(sample.exponent, view->doublings)), &add, wf_set(0), what);
         }
     }
 }
@@ -349,7 +350,8 @@ static void ray_edge_raise(const ewa_view *view, const ewa_tile *tile, const ewa
         const ewa_record *r = &splats->records[index];
         const ray_splat ray = ray_start(view, r, splats->loads[index].peak);
         clip_sample left;
-        const ray_sample sample = ray_block(view, r, &ray, clip_of(splats->clips, index), row, column, &left);
+        const ray_sample sample =
+            ray_block(view, tile, r, &ray, clip_of(splats->clips, index), row, column, &left);
         const wm beyond = wm_and(wf_lt(sample.exponent, end), wf_lt(sample.key, passed));
         if (!wm_bits(beyond)) continue;
         ray_raise(r, &sample, beyond, edges->nearest + at);
@@ -372,14 +374,14 @@ static void ray_edge_sum(const ewa_view *view, const ewa_tile *tile, const ewa_e
         const ray_splat ray = ray_start(view, r, load->peak);
         const ewa_clip *clip = clip_of(splats->clips, index);
         clip_sample left;
-        const ray_sample sample = ray_block(view, r, &ray, clip, row, column, &left);
+        const ray_sample sample = ray_block(view, tile, r, &ray, clip, row, column, &left);
         const wm counts = wm_and(wf_lt(sample.exponent, wf_set(view->exponent_end)),
                                  wm_and(wf_lt(sample.key, passed), wf_le(nearest, sample.key)));
         if (!wm_bits(counts)) continue;
         const payload add = payload_load(view, r, load, splats->opacities, splats->materials, index, what);
+        const payload gained = payload_times(&add, wf_keep(counts, sample.gain), what);
         const wf bell = exponential(wf_keep(counts, sample.exponent), view->doublings);
-        add_splat(&behind, r, clip, &left, row, column, wf_keep(counts, wf_mul(bell, sample.gain)), &add,
-                  sample.key, what);
+        add_splat(&behind, r, clip, &left, row, column, wf_keep(counts, bell), &gained, wf_set(0), what);
     }
 }
 
@@ -391,6 +393,8 @@ static void edge_pass(const ewa_view *view, const ewa_tile *tile, const ewa_edge
         ray_edge_raise(view, tile, edges, row, column, splats);
     else if (!second_pass)
         edge_raise(view, tile, edges, row, column, splats);
+    else if (tile->with_fine)
+        edge_sum(view, tile, edges, row, column, splats, channels_of(tile));
     else if (tile->with_materials && tile->with_opacity)
         edge_sum(view, tile, edges, row, column, splats, ADD_NORMAL | ADD_MATERIAL | ADD_OPACITY);
     else if (tile->with_materials)
@@ -411,7 +415,7 @@ static void edge_near_pass(const ewa_view *view, const ewa_tile *tile, const ewa
             for (uint32_t marked = edges->rows[row]; marked; marked &= marked - 1) {
                 const uint32_t column = (uint32_t)__builtin_ctz(marked);
                 const size_t block = block_at(tile, row, column);
-                const near_sample sample = near_block(view, &records[i], row, column);
+                const near_sample sample = near_block(view, tile, &records[i], row, column);
                 const wf key = key_of_depth(view, sample.z);
                 float *nearest = edges->nearest + block * EWA_BLOCK_LANES;
                 wm counts =
@@ -421,7 +425,8 @@ static void edge_near_pass(const ewa_view *view, const ewa_tile *tile, const ewa
                     continue;
                 }
                 counts = wm_and(counts, wf_le(wf_load(nearest), key));
-                near_add(view, &behind, &records[i], &sample, counts, key, row, column, false);
+                near_add(view, &behind, &records[i], &sample, counts, key, wf_load(nearest), row, column,
+                         false);
             }
         }
     }
@@ -467,22 +472,24 @@ static wm compose_block(const ewa_tile *tile, const ewa_resolve *to, const ewa_e
                         uint32_t row, uint32_t column) {
     enum { LANES = EWA_BLOCK_LANES };
     const size_t block = block_at(tile, row, column);
-    const float *sums = edges->sums + block * tile->channel_count * LANES;
     const ewa_tile gathered = tile_behind(tile, edges);
     settle_block(&gathered, to, row, column, merged);
+    const block_sums sums =
+        settled_block(to, edges->sums.planes + first_number(tile, row, column, tile->channel_count));
     float shade[EWA_SHADE_FLOATS];
-    shade_block(tile, to, sums, (uint32_t)tile->x_px + column * EWA_BLOCK_PX,
+    shade_block(tile, to, &sums, (uint32_t)tile->x_px + column * EWA_BLOCK_PX,
                 (uint32_t)tile->y_px + row * EWA_BLOCK_PX, shade);
     const float *cut = merged ? NULL : cut_cover(&gathered, row, column);
     const float *first_cut = cut_cover(tile, row, column);
-    surface found = gathered_surface(tile, to, sums, shade, cut);
+    surface found = gathered_surface(tile, to, &sums, shade, cut);
     if (cut && first_cut && !to->transparent) {
-        const wf first = surface_alpha(tile, to, tile->sums + block * tile->channel_count * LANES, first_cut);
-        const wf whole = surface_alpha(&gathered, to, sums, NULL);
+        const block_sums in_front = tile_block(tile, to, row, column);
+        const wf first = surface_alpha(tile, to, &in_front, first_cut);
+        const wf whole = surface_alpha(&gathered, to, &sums, NULL);
         found.alpha = cover_behind_cut(first, first_cut, whole, cut);
     }
     if (merged)
-        found.alpha = merged_alpha(found.alpha, wf_mul(wf_load(sums), wf_set(to->unit_coverage_inverse)));
+        found.alpha = merged_alpha(found.alpha, wf_mul(sum_of(&sums, 0), wf_set(to->unit_coverage_inverse)));
     float *behind = edges->behind + block * 4 * LANES;
     const wf covered = wf_load(behind + 3 * LANES);
     const wf share = wf_mul(wf_sub(wf_set(1), covered), found.alpha);
@@ -490,7 +497,8 @@ static wm compose_block(const ewa_tile *tile, const ewa_resolve *to, const ewa_e
         wf_store(behind + c * LANES, wf_fma(found.color[c], share, wf_load(behind + c * LANES)));
     const wf total = wf_add(covered, share);
     wf_store(behind + 3 * LANES, total);
-    return wm_and(wf_lt(wf_set(0), wf_load(sums)), wf_lt(total, wf_set(1)));
+    const wm found_some = wf_lt(wf_set(-__builtin_inff()), wf_load(edges->nearest + block * LANES));
+    return wm_and(found_some, wf_lt(total, wf_set(1)));
 }
 
 static uint32_t edge_compose(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges *edges,

@@ -66,32 +66,34 @@ static ALWAYS_INLINE void near_raise(const ewa_view *view, const ewa_near_record
 
 /// Adds a near surfel to what a block has gathered; its depth only with `with_depth`.
 static ALWAYS_INLINE void near_add(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *r,
-                                   const near_sample *sample, wm counts, wf key, uint32_t row,
+                                   const near_sample *sample, wm counts, wf key, wf nearest, uint32_t row,
                                    uint32_t column, bool with_depth) {
     if (!wm_bits(counts)) return;
     // Lanes that do not count may hold anything.
-    payload add = {.peak = wf_keep(counts, sample->weight)};
+    const wf peak = wf_mul(wf_keep(counts, sample->weight), wf_set(view->sum_scale));
+    payload add = {.peak = wf_odd(peak)};
     for (int k = 0; k < 3; k++) {
-        add.color[k] = wf_mul(add.peak, wf_set(r->color[k]));
-        add.normal[k] = wf_mul(add.peak, wf_set(r->normal[k]));
+        add.color[k] = wf_odd(wf_mul(peak, wf_set(r->color[k])));
+        add.normal[k] = wf_odd(wf_mul(peak, wf_set(r->normal[k])));
     }
-    add.opacity = wf_mul(add.peak, wf_set(r->opacity));
+    add.opacity = wf_odd(wf_mul(peak, wf_set(r->opacity)));
     for (int k = 0; k < EWA_MATERIAL_CHANNELS; k++)
-        add.material[k] = wf_mul(add.peak, wf_set(r->material[k]));
+        add.material[k] = wf_odd(wf_mul(peak, wf_set(r->material[k])));
     wf weight = wf_keep(counts, exponential(wf_keep(counts, sample->exponent), view->doublings));
     if (r->clipped) {
-        add_cut(tile, row, column, &r->clip, &sample->left, wf_mul(weight, add.peak));
+        add_cut(tile, row, column, &r->clip, &sample->left, wf_mul(weight, peak));
         weight = wf_mul(weight, wf_keep(counts, sample->left.share));
     }
-    add_channels(block_sums(tile, r->turned, row, column), tile->channel_count, weight, &add,
-                 wf_select(counts, key, wf_set(1)),
-                 channels_of(tile) | (with_depth ? ADD_DEPTH : 0) | (view->orthographic ? ORTHOGRAPHIC : 0));
+    const int what = channels_of(tile) | (with_depth ? ADD_DEPTH : 0) |
+                     (view->orthographic ? ORTHOGRAPHIC : 0) | (r->clipped ? ADD_FINE : 0);
+    add_channels(visit_sums(tile, r->turned, row, column), sums_for(tile, r->turned), tile->channel_count,
+                 weight, &add, depth_share(view, wf_select(counts, key, wf_set(1)), nearest, what), what);
 }
 
-static ALWAYS_INLINE near_sample near_block(const ewa_view *view, const ewa_near_record *r, uint32_t row,
-                                            uint32_t column) {
-    return near_evaluate(view, r, wf_add(lanes_x(), wf_set((float)(EWA_BLOCK_PX * column))),
-                         wf_add(lanes_y(), wf_set((float)(EWA_BLOCK_PX * row))));
+static ALWAYS_INLINE near_sample near_block(const ewa_view *view, const ewa_tile *tile,
+                                            const ewa_near_record *r, uint32_t row, uint32_t column) {
+    return near_evaluate(view, r, wf_add(lanes_x(), wf_set(column_px(tile, column))),
+                         wf_add(lanes_y(), wf_set(row_px(tile, row))));
 }
 
 static void near_visibility(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *records,
@@ -100,7 +102,7 @@ static void near_visibility(const ewa_view *view, const ewa_tile *tile, const ew
         float *nearest = tile->nearest;
         for (uint32_t row = 0; row < tile->block_rows; row++) {
             for (uint32_t column = 0; column < tile->blocks_per_row; column++, nearest += EWA_BLOCK_LANES) {
-                const near_sample sample = near_block(view, &records[i], row, column);
+                const near_sample sample = near_block(view, tile, &records[i], row, column);
                 near_raise(view, &records[i], &sample, sample.counts, nearest);
             }
         }
@@ -113,10 +115,11 @@ static void near_accumulate(const ewa_view *view, const ewa_tile *tile, const ew
         const float *nearest = tile->nearest;
         for (uint32_t row = 0; row < tile->block_rows; row++) {
             for (uint32_t column = 0; column < tile->blocks_per_row; column++, nearest += EWA_BLOCK_LANES) {
-                const near_sample sample = near_block(view, &records[i], row, column);
+                const near_sample sample = near_block(view, tile, &records[i], row, column);
                 const wf key = key_of_depth(view, sample.z);
                 const wm counts = wm_and(sample.counts, wf_le(wf_load(nearest), key));
-                near_add(view, tile, &records[i], &sample, counts, key, row, column, tile->with_depth);
+                near_add(view, tile, &records[i], &sample, counts, key, wf_load(nearest), row, column,
+                         tile->with_depth);
             }
         }
     }

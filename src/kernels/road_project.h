@@ -98,7 +98,7 @@ static inline wi box_classes(wi columns, wi rows, wm steep, wm wide) {
 typedef struct stage {
     wm alive;
     wf z, n[3];
-    float base_x, base_y;         ///< of the packet's centre, tile's pixels
+    float base_x, base_y;         ///< of the packet's centre, from the middle of the field
     wf dx, dy;                    ///< from there to the projected centre, slopes (orthographic: camera space)
     wf sigma, range;              ///< camera space: major axis, depth half range R
     wf major, minor;              ///< axes on the screen, zoomed
@@ -121,8 +121,10 @@ static ALWAYS_INLINE void place_surfels(const ewa_view *view, const ewa_packet_s
     const wf scale = wf_set(view->scale), one = wf_set(1), zero = wf_set(0);
     wf offset[3];
     rotate(view->rotation, wf_load(packet->x), wf_load(packet->y), wf_load(packet->z), offset);
-    t->base_x = (float)((double)slope_x * view->focal_px[0] + (view->principal_px[0] - (double)tile->x_px));
-    t->base_y = (float)((double)slope_y * view->focal_px[1] + (view->principal_px[1] - (double)tile->y_px));
+    t->base_x = (float)((double)slope_x * view->focal_px[0] +
+                        (view->principal_px[0] - ((double)tile->x_px - (double)tile->field_x_px)));
+    t->base_y = (float)((double)slope_y * view->focal_px[1] +
+                        (view->principal_px[1] - ((double)tile->y_px - (double)tile->field_y_px)));
     t->z = wf_fma(scale, offset[2], wf_set(places->depth[id]));
     if (view->orthographic) {
         t->inverse_z = one, t->x0 = zero, t->y0 = zero;
@@ -363,6 +365,15 @@ static void list_clipped(ewa_run *run, uint32_t clipped_bits, uint32_t alive_bit
     }
 }
 
+/// A centre, rounded to a step of 2^-16 pixels or, far outside of the field, a coarser one: its distances
+/// from pixels of the field have no more digits than a float.
+static ALWAYS_INLINE wf whole_place(wf center_px) {
+    const wf size = wf_max(wf_mul(wf_abs(center_px), wf_set(4)), wf_set(EWA_FIELD_PX));
+    const wf power = wf_of_bits(wi_and(wi_of_bits(size), wi_set(0x7f800000)));
+    const wf bias = wf_mul(power, wf_set(1.5f));
+    return wf_sub(wf_add(center_px, bias), bias);
+}
+
 /// A tangent replaces the key of z + eps where the key changes by less than this part of it: it is then too
 /// near by at most eps / TANGENT_PARTS^2.
 enum { TANGENT_PARTS = 16 };
@@ -404,14 +415,17 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_sour
     const wf grazing = wf_min(wf_mul(wf_set(view->grazing), reach_depth),
                               wf_mul(wf_set((float)EWA_GRAZING_TOLERANCE), support));
     const wf tolerance = wf_fma(wf_set(view->tolerance), t->sigma, grazing);
-    const wf cx = wf_add(wf_fma(t->dx, fx, wf_set(t->base_x)), c1_px);
-    const wf cy = wf_add(wf_fma(t->dy, fy, wf_set(t->base_y)), c2_px);
-    const wf first_x = wf_max(wf_add(wf_floor(wf_sub(wf_sub(cx, t->half_x), half)), one), zero);
-    const wf first_y = wf_max(wf_add(wf_floor(wf_sub(wf_sub(cy, t->half_y), half)), one), zero);
-    const wf last_x =
-        wf_min(wf_floor(wf_sub(wf_add(cx, t->half_x), half)), wf_set((float)(tile->width_px - 1)));
-    const wf last_y =
-        wf_min(wf_floor(wf_sub(wf_add(cy, t->half_y), half)), wf_set((float)(tile->height_px - 1)));
+    const wf cx = whole_place(wf_add(wf_fma(t->dx, fx, wf_set(t->base_x)), c1_px));
+    const wf cy = whole_place(wf_add(wf_fma(t->dy, fy, wf_set(t->base_y)), c2_px));
+    const float left = tile->field_x_px, top = tile->field_y_px;
+    const wf whole_first_x = wf_add(wf_floor(wf_sub(wf_sub(cx, t->half_x), half)), one);
+    const wf whole_last_x = wf_floor(wf_sub(wf_add(cx, t->half_x), half));
+    const wf first_x = wf_sub(wf_max(whole_first_x, wf_set(left)), wf_set(left));
+    const wf first_y =
+        wf_sub(wf_max(wf_add(wf_floor(wf_sub(wf_sub(cy, t->half_y), half)), one), wf_set(top)), wf_set(top));
+    const wf last_x = wf_min(wf_sub(whole_last_x, wf_set(left)), wf_set((float)(tile->width_px - 1)));
+    const wf last_y = wf_min(wf_sub(wf_floor(wf_sub(wf_add(cy, t->half_y), half)), wf_set(top)),
+                             wf_set((float)(tile->height_px - 1)));
     const wm alive = wm_and(t->alive, wm_and(wf_le(first_x, last_x), wf_le(first_y, last_y)));
     const uint32_t alive_bits = wm_bits(alive);
     if (!alive_bits) return;
@@ -420,10 +434,13 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_sour
     const wi columns = wi_add(wi_sub(wi_sar(wi_from_f(wf_keep(alive, last_x)), 2), column), wi_set(1));
     const wi rows = wi_add(wi_sub(wi_sar(wi_from_f(wf_keep(alive, last_y)), 2), row), wi_set(1));
     // Wide splats are wide also where only a narrow part of them is in the tile: its pixels are far from the
-    // centre.
-    const wf half_end_px = wf_set(EWA_COLUMN_CLASSES * EWA_BLOCK_PX / 2);
+    // centre, and how the picture is cut into tiles has no say.
+    const wf half_end_px = wf_set(EWA_COLUMN_CLASSES * EWA_BLOCK_PX / 2),
+             per_block = wf_set(1.0f / EWA_BLOCK_PX);
+    const wf whole_columns =
+        wf_sub(wf_floor(wf_mul(whole_last_x, per_block)), wf_floor(wf_mul(whole_first_x, per_block)));
     wm wide = wm_or(wf_lt(half_end_px, wf_max(t->half_x, t->half_y)),
-                    wf_lt(wf_set(EWA_COLUMN_CLASSES), wf_from_i(columns)));
+                    wf_le(wf_set(EWA_COLUMN_CLASSES), whole_columns));
     // The key of z + eps has a tangent that serves where the key hardly changes.
     const wf least_key = wf_fnma(wf_abs(t->key_x), t->half_x, wf_fnma(wf_abs(t->key_y), t->half_y, key));
     wf lowest = wf_sub(key_low, margin);
@@ -455,9 +472,10 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_sour
     wf opacity = t->peak;                     // times the peak
     if (opacities_u16)
         opacity = wf_mul(t->peak, wf_mul(wf_from_i(wi_load_u16(opacities_u16)), wf_set(1.0f / 65535.0f)));
+    const wf color_units = wf_mul(opacity, wf_set(view->color_scale));
     wf lanes[16] = {
-        wf_sub(wf_from_i(wi_shl(column, 2)), cx),
-        wf_sub(wf_from_i(wi_shl(row, 2)), cy),
+        wf_sub(wf_fma(wf_from_i(column), wf_set(EWA_BLOCK_PX), wf_set(left)), cx),
+        wf_sub(wf_fma(wf_from_i(row), wf_set(EWA_BLOCK_PX), wf_set(top)), cy),
         t->xx,
         t->xy,
         t->yy,
@@ -468,22 +486,23 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_sour
         wf_select(steep, bound_offset, wf_mul(bound_scale, t->key_x)),
         wf_select(steep, wf_add(key_high, margin), wf_mul(bound_scale, t->key_y)),
         low,
-        wf_mul(opacity, decode_color(&form, packet->red)),
-        wf_mul(opacity, decode_color(&form, packet->green)),
-        wf_mul(opacity, decode_color(&form, packet->blue)),
+        wf_odd(wf_mul(color_units, decode_color(&form, packet->red))),
+        wf_odd(wf_mul(color_units, decode_color(&form, packet->green))),
+        wf_odd(wf_mul(color_units, decode_color(&form, packet->blue))),
         wf_of_bits(wi_or(box, wi_or(select_int(clipped, EWA_CLIP_BIT, wi_set(0)),
                                     select_int(turned, EWA_TURNED_BIT, wi_set(0))))),
     };
     w_transpose(lanes);
-    const wf facing_peak = wf_select(turned, wf_negate(t->peak), t->peak);
+    const wf peak_units = wf_mul(t->peak, wf_set(view->sum_scale));
+    const wf facing_peak = wf_select(turned, wf_negate(peak_units), peak_units);
     float loads[64];
-    w_store4(loads, wf_mul(facing_peak, t->n[0]), wf_mul(facing_peak, t->n[1]), wf_mul(facing_peak, t->n[2]),
-             t->peak);
+    w_store4(loads, wf_odd(wf_mul(facing_peak, t->n[0])), wf_odd(wf_mul(facing_peak, t->n[1])),
+             wf_odd(wf_mul(facing_peak, t->n[2])), wf_odd(peak_units));
     uint8_t classes[16];
     wi_store_u8(classes, select_int(clipped, EWA_CLIP_CLASS, box_classes(columns, rows, steep, wide)));
     if (wm_bits(wm_and(alive, clipped))) list_clipped(run, wm_bits(wm_and(alive, clipped)), alive_bits, id);
     float opacities[16];
-    wf_store(opacities, opacity);
+    wf_store(opacities, wf_odd(wf_mul(opacity, wf_set(view->sum_scale))));
     emit(run, alive_bits, lanes, loads, opacities, materials, classes);
 }
 

@@ -5,7 +5,7 @@
 #ifndef EWA_SRC_KERNELS_ROAD_RASTER_H
 #define EWA_SRC_KERNELS_ROAD_RASTER_H
 
-#include "kernels/road_apart.h"
+#include "kernels/road_payload.h"
 #include "kernels/road_raycast.h"
 
 /// exp(-s) for s in [0, EWA_EXPONENT_END] within 3.0e-05 relative, squared `doublings` >= 2 times.
@@ -165,15 +165,15 @@ static ALWAYS_INLINE const ewa_clip *clip_of(const ewa_clip *clips, uint32_t rec
 }
 
 /// A raycast splat at a block of its box; `at_lines` is set for one that has clip lines.
-static ALWAYS_INLINE ray_sample ray_block(const ewa_view *view, const ewa_record *r, const ray_splat *ray,
-                                          const ewa_clip *clip, uint32_t row, uint32_t column,
-                                          clip_sample *at_lines) {
+static ALWAYS_INLINE ray_sample ray_block(const ewa_view *view, const ewa_tile *tile, const ewa_record *r,
+                                          const ray_splat *ray, const ewa_clip *clip, uint32_t row,
+                                          uint32_t column, clip_sample *at_lines) {
     const float x_px = (float)EWA_BLOCK_PX * ((float)column - (float)box_column(r->box)) + r->offset_x;
     const float y_px = (float)EWA_BLOCK_PX * ((float)row - (float)box_row(r->box)) + r->offset_y;
     ray_sample sample =
         ray_evaluate(view, r, ray, wf_add(lanes_x(), wf_set(x_px)), wf_add(lanes_y(), wf_set(y_px)));
     if (box_clipped(r->box)) {
-        *at_lines = clip_block(clip, row, column);
+        *at_lines = clip_block(tile, clip, row, column);
         sample.exponent =
             wf_select(wf_lt(wf_set(0), at_lines->share), sample.exponent, wf_set(__builtin_inff()));
     }
@@ -204,8 +204,8 @@ static void ray_visibility(const pass *p) {
             for (uint32_t k = 0; k < box_columns(r->box); k++) {
                 const uint32_t column = box_column(r->box) + k;
                 clip_sample left;
-                const ray_sample sample =
-                    ray_block(p->view, r, &ray, clip_of(p->run->clips, p->run->order[i]), row, column, &left);
+                const ray_sample sample = ray_block(
+                    p->view, p->tile, r, &ray, clip_of(p->run->clips, p->run->order[i]), row, column, &left);
                 const wm counts = ray_counts(p, &sample, (first + column) * EWA_BLOCK_LANES);
                 ray_raise(r, &sample, counts, p->tile->nearest + (first + column) * EWA_BLOCK_LANES);
             }
@@ -246,7 +246,7 @@ static void clipped_raise(const pass *p, uint32_t splat, uint32_t row, uint32_t 
     const ewa_record *r = &p->run->records[splat];
     const size_t at = ((size_t)row * p->tile->blocks_per_row + column) * EWA_BLOCK_LANES;
     const block_sample sample = sample_block(r, row, column);
-    const wf share = clip_block(&p->run->clips[splat], row, column).share;
+    const wf share = clip_block(p->tile, &p->run->clips[splat], row, column).share;
     const wf old = wf_load(p->tile->nearest + at), bound = block_bound(p->view, r, &sample, column);
     wf_store(p->tile->nearest + at,
              wf_select(clipped_counts(p, &sample, share, at), wf_max(bound, old), old));
@@ -263,92 +263,40 @@ static void visibility(const ewa_view *view, const ewa_tile *tile, const ewa_sor
     if (!view->raycast) for_each_clipped(&p, clipped_raise, 0);
 }
 
-static void clear(const ewa_tile *tile) {
+static void clear_nearest(const ewa_tile *tile) {
+    const size_t floats = (size_t)tile->blocks_per_row * tile->block_rows * EWA_BLOCK_LANES;
+    for (size_t i = 0; i < floats; i += EWA_BLOCK_LANES)
+        wf_store(tile->nearest + i, wf_set(-__builtin_inff()));
+}
+
+static void clear_sums(const ewa_tile *tile) {
     const size_t blocks = (size_t)tile->blocks_per_row * tile->block_rows;
-    const wf far = wf_set(-__builtin_inff()), zero = wf_set(0);
-    memset(tile->apart.turned_rows, 0, tile->block_rows * sizeof *tile->apart.turned_rows);
-    if (tile->apart.cut_rows)
-        memset(tile->apart.cut_rows, 0, tile->block_rows * sizeof *tile->apart.cut_rows);
-    for (size_t i = 0; i < blocks * EWA_BLOCK_LANES; i += EWA_BLOCK_LANES) wf_store(tile->nearest + i, far);
+    const ewa_apart *apart = &tile->apart;
+    memset(apart->turned_rows, 0, tile->block_rows * sizeof *apart->turned_rows);
+    if (apart->cut_rows) memset(apart->cut_rows, 0, tile->block_rows * sizeof *apart->cut_rows);
     const size_t floats = blocks * tile->channel_count * EWA_BLOCK_LANES;
-    for (size_t i = 0; i < floats; i += EWA_BLOCK_LANES) wf_store(tile->sums + i, zero);
-}
-
-/// Which channels a pass adds, and what is particular to it.
-enum {
-    ADD_NORMAL = 1,
-    ADD_DEPTH = 2,
-    ADD_OPACITY = 4,
-    ORTHOGRAPHIC = 8, ///< depths are -key
-    LONG = 16,        ///< cutoffs beyond 3, which need more than two doublings
-    BEYOND = 32,      ///< only beyond tile->passed; the depth, if there is one, is not added
-    ADD_MATERIAL = 64,
-};
-
-/// Where the material's channels begin.
-enum { MATERIAL_AT = 8 };
-
-/// The channels of a tile but for the depth.
-static ALWAYS_INLINE int channels_of(const ewa_tile *tile) {
-    return (tile->with_normals ? ADD_NORMAL : 0) | (tile->with_opacity ? ADD_OPACITY : 0) |
-           (tile->with_materials ? ADD_MATERIAL : 0);
-}
-
-/// What a record adds where its kernel is at its peak.
-typedef struct payload {
-    wf peak, color[3], normal[3], opacity, material[EWA_MATERIAL_CHANNELS];
-} payload;
-
-/// Of splat `index` of a list.
-static ALWAYS_INLINE payload payload_load(const ewa_view *view, const ewa_record *r, const ewa_load *load,
-                                          const float *opacities, const uint8_t *materials, uint32_t index,
-                                          int what) {
-    payload p = {.peak = wf_set(load->peak), .color = {wf_set(r->red), wf_set(r->green), wf_set(r->blue)}};
-    if (what & ADD_NORMAL)
-        for (int i = 0; i < 3; i++) p.normal[i] = wf_set(load->normal[i]);
-    if (what & ADD_OPACITY) p.opacity = wf_set(opacities[index]);
-    if (what & ADD_MATERIAL)
-        for (int i = 0; i < EWA_MATERIAL_CHANNELS; i++)
-            p.material[i] = wf_set(view->materials[materials[index]][i] * load->peak);
-    return p;
-}
-
-/// `weight` is relative to the kernel's peak; the opacity is the last of `channels`.
-static ALWAYS_INLINE void add_channels(float *sums, uint32_t channels, wf weight, const payload *p, wf key,
-                                       int what) {
-    enum { LANES = EWA_BLOCK_LANES };
-    wf_store(sums, wf_fma(weight, p->peak, wf_load(sums)));
-    for (int i = 0; i < 3; i++)
-        wf_store(sums + (1 + i) * LANES, wf_fma(weight, p->color[i], wf_load(sums + (1 + i) * LANES)));
-    if (what & ADD_NORMAL)
-        for (int i = 0; i < 3; i++)
-            wf_store(sums + (4 + i) * LANES, wf_fma(weight, p->normal[i], wf_load(sums + (4 + i) * LANES)));
-    if (what & ADD_DEPTH) {
-        const int at = what & ADD_NORMAL ? 7 : 4;
-        const wf z = what & ORTHOGRAPHIC ? wf_negate(key) : wf_div(wf_set(1), key);
-        wf_store(sums + at * LANES, wf_fma(wf_mul(weight, p->peak), z, wf_load(sums + at * LANES)));
-    }
-    if (what & ADD_MATERIAL)
-        for (int i = MATERIAL_AT; i < MATERIAL_AT + EWA_MATERIAL_CHANNELS; i++)
-            wf_store(sums + i * LANES,
-                     wf_fma(weight, p->material[i - MATERIAL_AT], wf_load(sums + i * LANES)));
-    if (what & ADD_OPACITY) {
-        float *last = sums + (size_t)(channels - 1) * LANES;
-        wf_store(last, wf_fma(weight, p->opacity, wf_load(last)));
-    }
+    for (size_t i = 0; i < floats; i += EWA_BLOCK_LANES) wf_store(tile->sums.planes + i, wf_set(BIAS));
+    for (size_t i = 0; i < floats && tile->sums.fine; i += EWA_BLOCK_LANES)
+        wf_store(tile->sums.planes + tile->sums.fine + i, wf_set(BIAS));
+    memset(tile->sums.visits, 0, blocks * sizeof *tile->sums.visits);
+    memset(tile->sums.high_rows, 0, tile->block_rows * sizeof *tile->sums.high_rows);
 }
 
 /// Adds a splat to what a block has gathered: `weight` is relative to the kernel's peak, without the clip
 /// lines; `left` is looked at when it has some.
 static ALWAYS_INLINE void add_splat(const ewa_tile *tile, const ewa_record *r, const ewa_clip *clip,
                                     const clip_sample *left, uint32_t row, uint32_t column, wf weight,
-                                    const payload *p, wf key, int what) {
-    if (box_clipped(r->box)) {
+                                    const payload *p, wf depth, int what) {
+    const bool turned = box_turned(r->box), clipped = box_clipped(r->box);
+    if (clipped) {
         add_cut(tile, row, column, clip, left, wf_mul(weight, p->peak));
         weight = wf_mul(weight, left->share);
     }
-    add_channels(block_sums(tile, box_turned(r->box), row, column), tile->channel_count, weight, p, key,
-                 what);
+    float *sums = visit_sums(tile, turned, row, column);
+    if (clipped) // little may be left of it, and be all that the pixel has
+        add_channels(sums, sums_for(tile, turned), tile->channel_count, weight, p, depth, what | ADD_FINE);
+    else
+        add_channels(sums, sums_for(tile, turned), tile->channel_count, weight, p, depth, what);
 }
 
 static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_t first_column,
@@ -372,21 +320,28 @@ static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_
     const size_t first_block = box_row(r->box) * row_blocks + box_column(r->box) + first_column;
     const float *nearest = tile->nearest + first_block * EWA_BLOCK_LANES;
     const float *passed = what & BEYOND ? tile->passed + first_block * EWA_BLOCK_LANES : NULL;
-    float *sums = tile->sums + first_block * channels * EWA_BLOCK_LANES;
+    float *sums = tile->sums.planes + first_block * channels * EWA_BLOCK_LANES;
     wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
     for (uint32_t row = 0; row < rows; row++) {
         UNROLL_COLUMNS
         for (uint32_t i = 0; i < columns; i++) {
-            const wf s = block_exponent(r, &c[i], dy);
+            const wf s = block_exponent(r, &c[i], dy), bound = wf_load(nearest + (size_t)i * EWA_BLOCK_LANES);
             wf key = wf_fma(wf_set(r->key_y), dy, c[i].key);
             if (test != PLAIN) key = clamped_key(r, key);
-            wm counts = wm_and(wf_lt(s, end), wf_le(wf_load(nearest + (size_t)i * EWA_BLOCK_LANES), key));
+            wm counts = wm_and(wf_lt(s, end), wf_le(bound, key));
             if (what & BEYOND) {
                 counts = wm_and(counts, wf_lt(key, wf_load(passed + (size_t)i * EWA_BLOCK_LANES)));
                 if (!wm_bits(counts)) continue; // most splats are of other surfaces
             }
             const wf weight = wf_keep(counts, exponential(s, doublings));
-            add_channels(sums + (size_t)i * channels * EWA_BLOCK_LANES, channels, weight, &add, key, what);
+            const wf depth = what & ADD_DEPTH ? depth_share(view, key, bound, what) : wf_set(0);
+            float *block = sums + (size_t)i * channels * EWA_BLOCK_LANES;
+            if (what & BEYOND)
+                block = visit_block(tile, &tile->sums, box_row(r->box) + row,
+                                    box_column(r->box) + first_column + i, channels);
+            else if (what & ADD_DEPTH)
+                tile->sums.visits[first_block + row * row_blocks + i]++;
+            add_channels(block, &tile->sums, channels, weight, &add, depth, what);
         }
         nearest += row_blocks * EWA_BLOCK_LANES;
         if (what & BEYOND) passed += row_blocks * EWA_BLOCK_LANES;
@@ -395,9 +350,10 @@ static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_
     }
 }
 
-/// accumulate_rows() for a splat that faces away, with the same numbers: most of them are hidden.
-static ALWAYS_INLINE void accumulate_turned(const pass *p, uint32_t splat, uint32_t first_column,
-                                            uint32_t columns, uint32_t rows, depth_test test, int what) {
+/// accumulate_rows() for splats that face away, most of which are hidden, and for all where sums are gathered
+/// with care; with the same numbers.
+static ALWAYS_INLINE void accumulate_few(const pass *p, uint32_t splat, uint32_t first_column,
+                                         uint32_t columns, uint32_t rows, depth_test test, int what) {
     const ewa_tile *tile = p->tile;
     const ewa_record *r = &p->run->records[splat];
     const payload add =
@@ -409,14 +365,16 @@ static ALWAYS_INLINE void accumulate_turned(const pass *p, uint32_t splat, uint3
         for (uint32_t k = 0; k < rows; k++, dy = wf_add(dy, wf_set(EWA_BLOCK_PX))) {
             const uint32_t row = box_row(r->box) + k, column = box_column(r->box) + i;
             const size_t at = ((size_t)row * tile->blocks_per_row + column) * EWA_BLOCK_LANES;
-            const wf s = block_exponent(r, &c, dy);
+            const wf s = block_exponent(r, &c, dy), bound = wf_load(tile->nearest + at);
             wf key = wf_fma(wf_set(r->key_y), dy, c.key);
             if (test != PLAIN) key = clamped_key(r, key);
-            wm counts = wm_and(wf_lt(s, end), wf_le(wf_load(tile->nearest + at), key));
+            wm counts = wm_and(wf_lt(s, end), wf_le(bound, key));
             if (what & BEYOND) counts = wm_and(counts, wf_lt(key, wf_load(tile->passed + at)));
             if (!wm_bits(counts)) continue;
-            add_channels(block_sums(tile, true, row, column), tile->channel_count,
-                         wf_keep(counts, exponential(s, p->view->doublings)), &add, key, what);
+            const bool turned = box_turned(r->box);
+            add_channels(visit_sums(tile, turned, row, column), sums_for(tile, turned), tile->channel_count,
+                         wf_keep(counts, exponential(s, p->view->doublings)), &add,
+                         what & ADD_DEPTH ? depth_share(p->view, key, bound, what) : wf_set(0), what);
         }
     }
 }
@@ -426,7 +384,7 @@ static ALWAYS_INLINE void accumulate_turned(const pass *p, uint32_t splat, uint3
     static                                                                                                   \
         __attribute__((noinline)) void name##_turned(const pass *p, uint32_t splat, uint32_t first_column,   \
                                                      uint32_t columns, uint32_t rows, depth_test test) {     \
-        accumulate_turned(p, splat, first_column, columns, rows, test, what);                                \
+        accumulate_few(p, splat, first_column, columns, rows, test, what);                                   \
     }                                                                                                        \
     static ALWAYS_INLINE void name##_rows(const pass *p, uint32_t splat, uint32_t first_column,              \
                                           uint32_t columns, uint32_t rows, depth_test test) {                \
@@ -484,13 +442,15 @@ static void ray_accumulate(const pass *p) {
                 const size_t block = (size_t)row * tile->blocks_per_row + column;
                 const ewa_clip *clip = clip_of(p->run->clips, p->run->order[i]);
                 clip_sample left;
-                const ray_sample sample = ray_block(view, r, &ray, clip, row, column, &left);
-                const wm counts = wm_and(ray_counts(p, &sample, block * EWA_BLOCK_LANES),
-                                         wf_le(wf_load(tile->nearest + block * EWA_BLOCK_LANES), sample.key));
+                const ray_sample sample = ray_block(view, tile, r, &ray, clip, row, column, &left);
+                const wf bound = wf_load(tile->nearest + block * EWA_BLOCK_LANES);
+                const wm counts =
+                    wm_and(ray_counts(p, &sample, block * EWA_BLOCK_LANES), wf_le(bound, sample.key));
                 if (!wm_bits(counts)) continue;
+                const payload gained = payload_times(&add, wf_keep(counts, sample.gain), what);
                 const wf bell = exponential(wf_keep(counts, sample.exponent), view->doublings);
-                add_splat(tile, r, clip, &left, row, column, wf_keep(counts, wf_mul(bell, sample.gain)), &add,
-                          sample.key, what);
+                add_splat(tile, r, clip, &left, row, column, wf_keep(counts, bell), &gained,
+                          depth_share(view, wf_select(counts, sample.key, wf_set(1)), bound, what), what);
             }
         }
     }
@@ -502,15 +462,30 @@ static void clipped_add(const pass *p, uint32_t splat, uint32_t row, uint32_t co
     const size_t block = (size_t)row * tile->blocks_per_row + column, at = block * EWA_BLOCK_LANES;
     const block_sample sample = sample_block(r, row, column);
     const ewa_clip *clip = &p->run->clips[splat];
-    const clip_sample left = clip_block(clip, row, column);
-    const wm counts =
-        wm_and(clipped_counts(p, &sample, left.share, at), wf_le(wf_load(tile->nearest + at), sample.key));
+    const clip_sample left = clip_block(tile, clip, row, column);
+    const wf bound = wf_load(tile->nearest + at);
+    const wm counts = wm_and(clipped_counts(p, &sample, left.share, at), wf_le(bound, sample.key));
     if (!wm_bits(counts)) return;
     const payload add =
         payload_load(p->view, r, &p->run->loads[splat], p->run->opacities, p->run->materials, splat, what);
     add_splat(tile, r, clip, &left, row, column,
-              wf_keep(counts, exponential(sample.exponent, p->view->doublings)), &add, sample.key, what);
+              wf_keep(counts, exponential(sample.exponent, p->view->doublings)), &add,
+              depth_share(p->view, sample.key, bound, what), what);
 }
+
+/// Fine and crowded sums are rare: one body for all that goes with them.
+static __attribute__((noinline)) void add_careful_rows(const pass *p, uint32_t splat, uint32_t first_column,
+                                                       uint32_t columns, uint32_t rows, depth_test test) {
+    const ewa_tile *tile = p->tile;
+    accumulate_few(p, splat, first_column, columns, rows, test,
+                   channels_of(tile) |
+                       (tile->passed       ? BEYOND
+                        : tile->with_depth ? ADD_DEPTH
+                                           : 0) |
+                       (p->view->orthographic ? ORTHOGRAPHIC : 0));
+}
+
+static void add_carefully(const pass *p) { for_each_splat(p, add_careful_rows); }
 
 static void accumulate(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run) {
     typedef void add_run(const pass *p);
@@ -531,7 +506,10 @@ static void accumulate(const ewa_view *view, const ewa_tile *tile, const ewa_sor
                          : tile->with_normals ? 1
                                               : 0;
     const int kind = tile->passed ? 3 : !tile->with_depth ? 0 : view->orthographic ? 2 : 1;
-    sets[channels][kind](&p);
+    if (tile->with_fine || (tile->sums.careful && !tile->passed))
+        add_carefully(&p);
+    else
+        sets[channels][kind](&p);
     for_each_clipped(&p, clipped_add,
                      channels_of(tile) | (tile->with_depth && !tile->passed ? ADD_DEPTH : 0) |
                          (view->orthographic ? ORTHOGRAPHIC : 0));

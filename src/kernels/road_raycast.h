@@ -6,7 +6,7 @@
 //
 // A ray meets the surfel's plane at u = (x - c) J^-1 / w, with the Jacobian J at the projected centre c and w
 // = pz / z(x), pz times the key: the kernel at a pixel is the affine one with w^2 V for V. So records serve:
-// xx, xy and yy hold V, the offset is from the projected centre, the load's peak is sqrt|V| / 2 pi.
+// xx, xy and yy hold V, the offset is from the projected centre, the load's peak is sqrt|V| / 2 pi, in units.
 #ifndef EWA_SRC_KERNELS_ROAD_RAYCAST_H
 #define EWA_SRC_KERNELS_ROAD_RAYCAST_H
 
@@ -34,7 +34,7 @@ static ALWAYS_INLINE ray_splat ray_start(const ewa_view *view, const ewa_record 
     const float variance = x * x * r->xx + 2 * x * y * r->xy + y * y * r->yy;
     const float slope2 = view->cutoff2 * (variance > 0 ? variance : 0), limit = 1 / (float)EWA_NEAR_RATIO;
     const float slope = sqrtf(slope2 < limit * limit ? slope2 : limit * limit);
-    const float area = peak * (float)(1 / EWA_INVERSE_TWO_PI);
+    const float area = peak * (float)(1 / EWA_INVERSE_TWO_PI) / view->sum_scale;
     return (ray_splat){depth, 1 / (1 + slope), 1 / (1 - slope), area * area};
 }
 

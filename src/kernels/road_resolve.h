@@ -37,27 +37,27 @@ typedef struct surface {
 } surface;
 
 /// Covered share times opacity; `cover`: of cut_cover().
-static ALWAYS_INLINE wf surface_alpha(const ewa_tile *tile, const ewa_resolve *to, const float *sums,
+static ALWAYS_INLINE wf surface_alpha(const ewa_tile *tile, const ewa_resolve *to, const block_sums *sums,
                                       const float *cover) {
-    const wf weight = wf_load(sums), one = wf_set(1);
+    const wf weight = sum_of(sums, 0), one = wf_set(1);
     wf coverage = wf_keep(wf_lt(wf_set(0), weight), one);
     if (to->edge_antialiasing)
         coverage = cover ? wf_load(cover) : wf_min(one, wf_mul(weight, wf_set(to->alpha_scale)));
     if (!to->transparent) return coverage;
     wf opacity = wf_set(to->opacity);
     if (tile->with_opacity)
-        opacity = wf_mul(opacity, wf_mul(wf_load(sums + (size_t)(tile->channel_count - 1) * EWA_BLOCK_LANES),
-                                         inverse_weight(weight)));
+        opacity = wf_mul(opacity, wf_mul(sum_of(sums, tile->channel_count - 1), inverse_weight(weight)));
     return wf_mul(coverage, opacity);
 }
 
 /// `shade` is that of shade_block(), `cover` that of cut_cover().
-static ALWAYS_INLINE surface gathered_surface(const ewa_tile *tile, const ewa_resolve *to, const float *sums,
-                                              const float *shade, const float *cover) {
+static ALWAYS_INLINE surface gathered_surface(const ewa_tile *tile, const ewa_resolve *to,
+                                              const block_sums *sums, const float *shade,
+                                              const float *cover) {
     surface s = {.alpha = surface_alpha(tile, to, sums, cover)};
     if (shades_by_factor(to)) {
         const wf factor = wf_load(shade);
-        for (int i = 0; i < 3; i++) s.color[i] = wf_mul(wf_load(sums + (1 + i) * EWA_BLOCK_LANES), factor);
+        for (int i = 0; i < 3; i++) s.color[i] = wf_mul(sum_of(sums, 1 + (uint32_t)i), factor);
     } else {
         for (int i = 0; i < 3; i++) s.color[i] = wf_load(shade + i * EWA_BLOCK_LANES);
     }
@@ -109,18 +109,18 @@ static ALWAYS_INLINE void store_codes(const ewa_resolve *to, const block_place *
 }
 
 /// Writes the planes other than 8-bit colour.
-static void store_planes(const ewa_tile *tile, const ewa_resolve *to, const float *sums, const wf color[4],
-                         const block_place *at) {
+static void store_planes(const ewa_tile *tile, const ewa_resolve *to, const block_sums *sums,
+                         const wf color[4], const block_place *at) {
     float lanes[64];
     if (to->rgba) {
         w_store4(lanes, color[0], color[1], color[2], color[3]);
         store_block(to->rgba, 4, to, at, lanes);
     }
-    const wf weight = wf_load(sums), zero = wf_set(0);
+    const wf weight = sum_of(sums, 0), zero = wf_set(0);
     const wm covered = wf_lt(zero, weight);
     if (to->depth) {
-        const float *depth = sums + (tile->with_normals ? 7 : 4) * EWA_BLOCK_LANES;
-        const wf z = wf_mul(wf_mul(wf_load(depth), inverse_weight(weight)), wf_set(to->depth_unit));
+        const wf depths = sum_of(sums, depth_channel(tile));
+        const wf z = wf_mul(wf_mul(depths, inverse_weight(weight)), wf_set(to->depth_unit));
         wf_store(lanes, wf_select(covered, z, wf_set(__builtin_inff())));
         store_block(to->depth, 1, to, at, lanes);
     }
@@ -131,7 +131,7 @@ static void store_planes(const ewa_tile *tile, const ewa_resolve *to, const floa
     }
     if (to->normal) {
         wf unit[3], world[3];
-        for (int i = 0; i < 3; i++) unit[i] = wf_load(sums + (4 + i) * EWA_BLOCK_LANES);
+        for (int i = 0; i < 3; i++) unit[i] = sum_of(sums, 4 + (uint32_t)i);
         const wf length2 = dot3(unit, unit);
         scale3(unit, wf_keep(wf_lt(zero, length2), wf_inverse_root(length2)));
         rotate(to->to_world, unit[0], unit[1], unit[2], world);
@@ -167,31 +167,31 @@ static uint32_t resolve(const ewa_tile *tile, const ewa_resolve *to, const ewa_e
     wf empty[4];
     for (int i = 0; i < 4; i++) empty[i] = wf_set(to->background[i]);
     const wi empty_codes = color_codes(empty);
-    const float *sums = tile->sums, *behind = edges ? edges->behind : NULL;
-    const size_t block_floats = (size_t)tile->channel_count * EWA_BLOCK_LANES;
+    const float *behind = edges ? edges->behind : NULL;
     float shades[EWA_MAX_TILE_BLOCKS * EWA_SHADE_FLOATS];
     uint32_t broken_count = 0;
     for (uint32_t row = 0; row < in_tile.block_rows; row++) {
         // Long chains of operations: a row's worth of each at a time keeps the processor busy.
         for (uint32_t column = 0; column < in_tile.blocks_per_row; column++) {
             const block_place at = place_of(&in_tile, row, column);
-            shade_block(&in_tile, &at_hand, sums + column * block_floats, at.x, at.y,
-                        shades + (size_t)column * EWA_SHADE_FLOATS);
+            const block_sums sums = tile_block(&in_tile, &at_hand, row, column);
+            shade_block(&in_tile, &at_hand, &sums, at.x, at.y, shades + (size_t)column * EWA_SHADE_FLOATS);
         }
         const uint32_t marked = edges ? edge_rows[row] : 0;
-        for (uint32_t column = 0; column < in_tile.blocks_per_row; column++, sums += block_floats) {
+        for (uint32_t column = 0; column < in_tile.blocks_per_row; column++) {
             const block_place at = place_of(&in_tile, row, column);
-            if (!planes && !wm_bits(wf_lt(wf_set(0), wf_load(sums)))) {
+            const block_sums sums = tile_block(&in_tile, &at_hand, row, column);
+            if (!planes && !wm_bits(wf_lt(wf_set(0), sum_of(&sums, 0)))) {
                 store_codes(&at_hand, &at, empty_codes);
             } else {
                 const surface s =
-                    gathered_surface(&in_tile, &at_hand, sums, shades + (size_t)column * EWA_SHADE_FLOATS,
+                    gathered_surface(&in_tile, &at_hand, &sums, shades + (size_t)column * EWA_SHADE_FLOATS,
                                      cut_cover(&in_tile, row, column));
                 wf color[4];
                 composite(&at_hand, &s, marked >> column & 1 ? behind : NULL, color);
                 broken_count += count_broken(&at, color);
                 if (at_hand.rgba8) store_codes(&at_hand, &at, color_codes(color));
-                if (planes) store_planes(tile, to, sums, color, &at);
+                if (planes) store_planes(tile, to, &sums, color, &at);
             }
             if (edges) behind += 4 * EWA_BLOCK_LANES;
         }

@@ -184,25 +184,25 @@ static void reflect(const ewa_resolve *to, const wf normal[3], const wf view[3],
 }
 
 /// Shades with any lights, highlights and the environment; straight colours.
-static void shade_surface(const ewa_tile *tile, const ewa_resolve *to, const float *sums, uint32_t x,
+static void shade_surface(const ewa_tile *tile, const ewa_resolve *to, const block_sums *sums, uint32_t x,
                           uint32_t y, float *shade) {
     enum { LANES = EWA_BLOCK_LANES };
-    const wf weight = wf_load(sums), zero = wf_set(0);
+    const wf weight = sum_of(sums, 0), zero = wf_set(0);
     const uint32_t bits = wm_bits(wf_lt(zero, weight));
     if (!bits) {
         for (int i = 0; i < 3; i++) wf_store(shade + i * LANES, zero);
         return;
     }
     const wf inverse = inverse_weight(weight);
-    const wf inverse_color = inverse_weight(wf_load(sums + color_weight(tile) * LANES));
+    const wf inverse_color = inverse_weight(sum_of(sums, color_weight(tile)));
     wf normal[3], view[3], material[EWA_MATERIAL_CHANNELS];
-    for (int i = 0; i < 3; i++) normal[i] = wf_load(sums + (4 + i) * LANES);
+    for (int i = 0; i < 3; i++) normal[i] = sum_of(sums, 4 + (uint32_t)i);
     const wf length2 = shaded_length2(normal, weight);
     scale3(normal, wf_keep(wf_lt(zero, length2), wf_inverse_root(length2)));
     toward_eye(to, x, y, view);
     if (!to->orthographic) scale3(view, wf_inverse_root(dot3(view, view)));
     for (int i = 0; i < EWA_MATERIAL_CHANNELS; i++)
-        material[i] = tile->with_materials ? wf_mul(wf_load(sums + (MATERIAL_AT + i) * LANES), inverse)
+        material[i] = tile->with_materials ? wf_mul(sum_of(sums, MATERIAL_AT + (uint32_t)i), inverse)
                                            : wf_set(to->material[i]);
     const block_light light = gather_light(to, normal, view, material[3]);
     wf mirrored[3] = {zero, zero, zero};
@@ -210,7 +210,7 @@ static void shade_surface(const ewa_tile *tile, const ewa_resolve *to, const flo
         to->shading == EWA_ROAD_PHONG && to->environment && wm_bits(wf_lt(zero, material[4])) & bits;
     if (mirrors) reflect(to, normal, view, bits, mirrored);
     for (int i = 0; i < 3; i++) {
-        const wf color = wf_mul(wf_load(sums + (1 + i) * LANES), inverse_color);
+        const wf color = wf_mul(sum_of(sums, 1 + (uint32_t)i), inverse_color);
         wf seen = wf_mul(color, wf_fma(material[1], light.diffuse[i], material[0]));
         if (to->shading == EWA_ROAD_PHONG) seen = wf_fma(material[2], light.specular[i], seen);
         if (mirrors) seen = wf_fma(material[4], mirrored[i], seen);
@@ -220,17 +220,17 @@ static void shade_surface(const ewa_tile *tile, const ewa_resolve *to, const flo
 
 /// Shades the surface that `sums` hold of the block at (x, y): writes what its weighted colours are to be
 /// multiplied by, one number per pixel, or straight colours, three planes; see shades_by_factor().
-static ALWAYS_INLINE void shade_block(const ewa_tile *tile, const ewa_resolve *to, const float *sums,
+static ALWAYS_INLINE void shade_block(const ewa_tile *tile, const ewa_resolve *to, const block_sums *sums,
                                       uint32_t x, uint32_t y, float *shade) {
     if (!shades_by_factor(to)) {
         shade_surface(tile, to, sums, x, y, shade);
         return;
     }
-    wf factor = inverse_weight(wf_load(sums + color_weight(tile) * EWA_BLOCK_LANES));
+    wf factor = inverse_weight(sum_of(sums, color_weight(tile)));
     if (to->shading == EWA_ROAD_LAMBERT) {
         wf normal[3];
-        for (int i = 0; i < 3; i++) normal[i] = wf_load(sums + (4 + i) * EWA_BLOCK_LANES);
-        factor = wf_mul(factor, lambert(to, normal, wf_load(sums), x, y));
+        for (int i = 0; i < 3; i++) normal[i] = sum_of(sums, 4 + (uint32_t)i);
+        factor = wf_mul(factor, lambert(to, normal, sum_of(sums, 0), x, y));
     }
     wf_store(shade, factor);
 }

@@ -10,6 +10,11 @@
 
 #include "math/wide.h"
 
+/// a with an odd last digit, for a far above 2^-40 or 0, of which it makes about 2^-40: no denormal number.
+static ALWAYS_INLINE wf wf_odd(wf a) {
+    return wf_of_bits(wi_or(wi_of_bits(wf_add(a, wf_set(0x1p-40f))), wi_set(1)));
+}
+
 /// 1 / x for normal x > 0 within 1.2e-7 relative: a guess from the bits, two cubic steps. Cheaper than a
 /// division, and the same on every machine.
 static ALWAYS_INLINE wf wf_reciprocal(wf x) {

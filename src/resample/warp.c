@@ -428,6 +428,7 @@ ewa_status ewa_warp_take(ewa_warp *warp, const ewa_depth_image *images, uint32_t
     surfels->count = (uint32_t)all.sample_count;
     surfels->left_out_count = all.pixel_count - all.sample_count;
     surfels->unit_coverage = unit_coverage(&chosen);
+    ewa_packets_sum_up(surfels);
     all.take_s = ewa_now_s() - started_s;
     if (facts) *facts = all;
     return EWA_OK;

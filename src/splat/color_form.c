@@ -38,6 +38,12 @@ double ewa_color_decode_code(uint16_t form, uint16_t code) {
     return is_signed(form) && code & EWA_COLOR_SIGN ? -value : value;
 }
 
+double ewa_color_form_limit(uint16_t form) {
+    return is_even(form) ? unit_of(form) : unit_of(form) * ldexp(1, 1 << exponent_bits(form));
+}
+
+bool ewa_color_form_is_even(uint16_t form) { return is_even(form); }
+
 /// A form with the smallest unit whose largest code reaches `high` > 0.
 static uint16_t form_for(double high, uint32_t bits, bool with_sign) {
     const uint16_t plain = (uint16_t)(bits << 8 | (with_sign ? EWA_COLOR_SIGN : 0) | EWA_COLOR_FORM_UNIT);

@@ -28,6 +28,12 @@ uint16_t ewa_color_form_choose(const double (*colors_linear)[3], uint32_t count)
 void ewa_color_encode(uint16_t form, const double (*colors_linear)[3], uint32_t count,
                       uint16_t *const channels[3]);
 
+/// A power of two that no number in the form is beyond; up to that of the largest there is.
+double ewa_color_form_limit(uint16_t form);
+
+/// Whether codes of the form are even steps from 0 on.
+bool ewa_color_form_is_even(uint16_t form);
+
 /// The number that a code stands for, as the kernels have it but in double precision.
 double ewa_color_decode_code(uint16_t form, uint16_t code);
 

@@ -388,6 +388,7 @@ static ewa_status build_surfels(build *b, ewa_context *context) {
     status = encode(b, context);
     if (status != EWA_OK) return status;
     s->unit_coverage = ewa_packets_unit_coverage(s);
+    ewa_packets_sum_up(s);
     return ewa_extras_make(context, s, &b->reader, b->order.points);
 }
 
@@ -436,6 +437,39 @@ void ewa_surfels_destroy(ewa_surfels **surfels) {
     free_packets(old);
     ewa_release(context, old, 1, sizeof *old);
     *surfels = NULL;
+}
+
+/// Colours up to so much keep enough digits in one word of a sum (kernels/road_sums.h), as do those of which
+/// none is much smaller than the largest.
+static const double PLAIN_COLORS = 16;
+
+void ewa_packets_sum_up(ewa_surfels *surfels) {
+    const ewa_packet_bounds *bounds = &surfels->bounds;
+    double smallest = INFINITY, most = 0; // limits of packets' colours
+    bool even = true;
+    uint32_t reach_code = 0;
+    for (uint32_t i = 0; i < surfels->packet_count; i++) {
+        if (!bounds->radius[i]) continue;
+        const double limit = ewa_color_form_limit(bounds->colors[i]);
+        if (bounds->radius[i] > reach_code) reach_code = bounds->radius[i];
+        smallest = fmin(smallest, limit), most = fmax(most, limit);
+        even = even && ewa_color_form_is_even(bounds->colors[i]);
+    }
+    surfels->largest_color = most > 0 ? most : 1;
+    surfels->fine_colors = most > PLAIN_COLORS && (!even || most > PLAIN_COLORS * smallest);
+    const uint32_t bits = reach_code << EWA_RADIUS_SHIFT;
+    float reach;
+    memcpy(&reach, &bits, sizeof reach);
+    surfels->reach_world = (double)reach * surfels->unit;
+    double largest[2] = {0, 0};
+    for (uint32_t i = 0; i < surfels->packet_count; i++)
+        for (int lane = 0; lane < LANES; lane++) {
+            const double root = surfels->packets[i].ratio[lane] / 65535.0,
+                         major = (double)surfels->packets[i].sigma[lane];
+            const double minor = surfels->ellipses ? major * root * root * root * root : major;
+            largest[0] = fmax(largest[0], major), largest[1] = fmax(largest[1], minor);
+        }
+    for (int i = 0; i < 2; i++) surfels->largest_sigmas_world[i] = largest[i] * surfels->unit;
 }
 
 void ewa_surfels_describe(const ewa_surfels *surfels, ewa_surfels_info *info) {

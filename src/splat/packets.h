@@ -34,6 +34,10 @@ struct ewa_surfels {
     double origin_world[3]; ///< of the packets' centres
     double unit;            ///< of all lengths in packets, world units; a power of two near their sigmas
     ewa_bounds extent;      ///< of the surfels' centres, from the origin, in world units
+    double reach_world;     ///< no surfel reaches farther from its packet's centre
+    double largest_sigmas_world[2]; ///< no major or minor axis is larger
+    double largest_color;           ///< a power of two that no number of a colour is beyond
+    bool fine_colors;               ///< some are large, and others far smaller
     double cutoff;
     bool ellipses; ///< some kernel is not a circle
     double unit_coverage;
@@ -43,6 +47,10 @@ enum { EWA_BOUNDS_BYTES = 3 * sizeof(double) + 2 * sizeof(uint16_t) + sizeof(uin
 
 /// Sets the views of `bounds` into `bounds_memory`.
 void ewa_packets_view_bounds(ewa_surfels *surfels);
+
+/// Sets what is known of all packets together: reach_world, largest_sigmas_world, largest_color,
+/// fine_colors.
+void ewa_packets_sum_up(ewa_surfels *surfels);
 
 /// One surfel of a packet; lengths in the surfels' unit, axes of length sigma.
 typedef struct ewa_packet_surfel {

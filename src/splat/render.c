@@ -2,15 +2,17 @@
 // SPDX-License-Identifier: MIT
 //
 // The renderer: an object whose memory survives, and the order of a frame's stages. Reference: reference.c.
+#include "splat/render.h"
 #include "base/base.h"
 #include "splat/eye_dome.h"
 #include "splat/options.h"
 #include "splat/tile.h"
 
+#include <math.h>
 #include <string.h>
 
 /// Large tiles share fewer packets; small ones spread a small picture over the threads, and keep the records
-/// of crowded ones in the cache. The threads have no say: tiles round differently.
+/// of crowded ones in the cache.
 static uint32_t tile_side_px(const ewa_camera *camera, const ewa_surfels *surfels) {
     enum { LARGE_PX = 1 << 20, CROWD = 12000000 };
     return (uint64_t)camera->width_px * camera->height_px >= LARGE_PX && surfels->count <= CROWD ? 128 : 64;
@@ -21,6 +23,7 @@ struct ewa_renderer {
     const ewa_road_kernels *kernels;
     ewa_bins bins;
     ewa_dome_pass dome;
+    uint32_t tile_px; ///< 0: chosen
     uint32_t worker_count;
     ewa_tile_scratch *scratch[]; ///< one per worker
 };
@@ -62,6 +65,8 @@ void ewa_renderer_destroy(ewa_renderer **renderer) {
     ewa_release(context, old, 1, renderer_bytes(old->worker_count));
     *renderer = NULL;
 }
+
+void ewa_renderer_set_tile(ewa_renderer *renderer, uint32_t tile_px) { renderer->tile_px = tile_px; }
 
 static void gather_stats(const ewa_renderer *renderer, const ewa_surfels *surfels, double start_s,
                          double binned_s, ewa_render_stats *stats) {
@@ -118,6 +123,34 @@ static void set_materials(ewa_tile_job *job, const ewa_shading_setup *shading) {
     for (uint32_t i = 0; i < shading->material_count; i++)
         ewa_material_numbers(&shading->materials[i], job->materials[i]);
     job->view.materials = (const float(*)[EWA_MATERIAL_CHANNELS])job->materials;
+    for (int c = 0; c < EWA_MATERIAL_CHANNELS; c++) { // sums of all have the same units
+        float largest = 0;
+        for (uint32_t i = 0; i < shading->material_count; i++)
+            largest = fmaxf(largest, fabsf(job->materials[i][c]));
+        int exponent = 0;
+        frexpf(largest, &exponent);
+        for (uint32_t i = 0; i < shading->material_count; i++)
+            job->materials[i][c] = ldexpf(job->materials[i][c], -exponent);
+        job->material_units[c] = ldexpf(1, exponent);
+    }
+}
+
+/// What a unit of each channel's sums stands for.
+static void set_units(ewa_tile_job *job, const ewa_surfels *surfels) {
+    const float weight = 1 / job->view.sum_scale;
+    float *unit = job->resolve.units[EWA_IN_UNITS];
+    *unit++ = weight;
+    for (int i = 0; i < 3; i++) *unit++ = weight * (float)surfels->largest_color;
+    for (int i = 0; i < 3 && job->with_normals; i++) *unit++ = weight;
+    if (job->with_depth) *unit++ = weight;
+    for (int i = 0; i < EWA_MATERIAL_CHANNELS && job->with_materials; i++)
+        *unit++ = weight * job->material_units[i];
+    if (job->with_opacity) *unit = weight;
+    job->resolve.depth_per_share = 1 / job->view.depth_scale;
+    for (uint32_t c = 0; c < EWA_MAX_CHANNELS; c++) {
+        job->resolve.offsets[EWA_IN_UNITS][c] = -(float)EWA_SUM_ORIGIN * job->resolve.units[EWA_IN_UNITS][c];
+        job->resolve.units[EWA_SETTLED][c] = 1;
+    }
 }
 
 ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const ewa_camera *camera,
@@ -150,13 +183,17 @@ ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const 
                         .scratch = renderer->scratch};
     const ewa_placement placement =
         ewa_placement_make(camera, surfels->origin_world, &surfels->extent, surfels->unit);
-    status = ewa_view_set(&job.view, surfels, camera, &placement, &chosen, tile_side_px(camera, surfels));
+    const uint32_t tile_px = renderer->tile_px ? renderer->tile_px : tile_side_px(camera, surfels);
+    status = ewa_view_set(&job.view, surfels, camera, &placement, &chosen, tile_px);
     if (status != EWA_OK) return status;
     ewa_resolve_set(&job.resolve, surfels, camera, &placement, &chosen, &shading, &drawn);
     set_layers(&job, &chosen);
     set_materials(&job, &shading);
     job.channel_count = 4 + (job.with_normals ? 3 : 0) + (job.with_depth ? 1 : 0) +
                         (job.with_materials ? EWA_MATERIAL_CHANNELS : 0) + (job.with_opacity ? 1 : 0);
+    // Without antialiasing, pixels show splats whose weight is next to nothing.
+    job.fine_sums = surfels->fine_colors || !job.resolve.edge_antialiasing;
+    set_units(&job, surfels);
 
     status = ewa_bins_fill(context, &renderer->bins, renderer->kernels, &job.view, surfels);
     if (status != EWA_OK) return status;

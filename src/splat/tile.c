@@ -8,6 +8,7 @@
 // its runs up again for the second pass instead: the same records in the same order, so the same bytes.
 #include "splat/tile.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -18,12 +19,15 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     uint64_t records = largest_bin * EWA_PACKET_LANES;
     if (records > EWA_KEPT_RECORDS) records = EWA_KEPT_RECORDS;
     if (records < EWA_RUN_RECORDS) records = EWA_RUN_RECORDS;
-    // Per pixel: nearest and sums twice, the edges' `passed`, and four channels of what lies behind; sums of
-    // turned splats, and twice what is noted of clip lines; per block `reach`.
+    // Per pixel: `nearest` twice, the edges' `passed`, and four channels of what lies behind; per block
+    // `reach`; sums of both surfaces and of turned splats, and what is noted of clip lines by both, each in
+    // two words.
     const size_t tile_floats = (size_t)job->view.tile_px * job->view.tile_px;
-    const size_t cut_floats = job->source.clip_masks ? tile_floats * EWA_CUT_CHANNELS : 0;
-    const size_t pixel_floats = tile_floats * (2 * (1 + EWA_MAX_CHANNELS) + 1 + 4 + EWA_MAX_CHANNELS) +
-                                2 * cut_floats + tile_floats / EWA_BLOCK_LANES;
+    const bool two_words = job->fine_sums || job->with_depth || job->source.clip_masks;
+    const size_t sum_floats = tile_floats * job->channel_count * (two_words ? 2 : 1),
+                 cut_floats = job->source.clip_masks ? tile_floats * EWA_CUT_CHANNELS : 0;
+    const size_t pixel_floats =
+        tile_floats * (2 + 1 + 4) + tile_floats / EWA_BLOCK_LANES + 2 * (3 * sum_floats + 2 * cut_floats);
     const uint64_t packet_count = largest_bin + EWA_PACKET_LANES;
     const size_t box_counts[EWA_BOX_LEVELS] = {
         records + EWA_BLOCK_LANES, records / EWA_GROUP_RECORDS + EWA_BLOCK_LANES,
@@ -69,17 +73,25 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     s->materials = job->with_materials ? s->material_buffer.data : NULL;
     s->kept = s->kept_buffer.data;
     s->nearest = s->pixel_buffer.data;
-    s->sums = s->nearest + tile_floats;
     s->edges.rows = s->edge_rows_left;
-    s->edges.nearest = s->sums + tile_floats * EWA_MAX_CHANNELS;
-    s->edges.sums = s->edges.nearest + tile_floats;
-    s->edges.passed = s->edges.sums + tile_floats * EWA_MAX_CHANNELS;
+    s->edges.nearest = s->nearest + tile_floats;
+    s->edges.passed = s->edges.nearest + tile_floats;
     s->edges.behind = s->edges.passed + tile_floats;
     s->edges.reach = s->edges.behind + 4 * tile_floats;
-    s->apart.turned = s->edges.reach + tile_floats / EWA_BLOCK_LANES;
-    s->edges.apart = s->apart;
-    s->apart.cut = s->apart.turned + tile_floats * EWA_MAX_CHANNELS;
-    s->edges.apart.cut = s->apart.cut + cut_floats;
+    ewa_sums *const sums[5] = {&s->sums, &s->edges.sums, &s->apart.turned, &s->apart.cut,
+                               &s->edges.apart.cut};
+    float *next = s->edges.reach + tile_floats / EWA_BLOCK_LANES;
+    for (int i = 0; i < 5; i++) {
+        const size_t floats = i < 3 ? sum_floats : cut_floats;
+        *sums[i] = (ewa_sums){.planes = next,
+                              .high = next + floats,
+                              .fine = i < 3 && two_words ? floats / 2 : 0,
+                              .careful = i > 0,
+                              .visits = s->visits[i],
+                              .high_rows = s->high_rows[i]};
+        next += 2 * floats;
+    }
+    s->edges.apart.turned = s->apart.turned;
     s->apart.turned_rows = s->turned_rows[0], s->edges.apart.turned_rows = s->turned_rows[1];
     s->apart.cut_rows = cut_floats ? s->cut_rows[0] : NULL;
     s->edges.apart.cut_rows = cut_floats ? s->cut_rows[1] : NULL;
@@ -337,14 +349,19 @@ void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
                      .with_normals = job->with_normals,
                      .with_depth = job->with_depth,
                      .with_opacity = job->with_opacity,
-                     .with_materials = job->with_materials};
+                     .with_materials = job->with_materials,
+                     .with_fine = job->fine_sums,
+                     .settled_rows = s->settled_rows};
+    static_assert(EWA_FIELD_PX == EWA_MAX_TILE_BLOCKS * EWA_BLOCK_PX, "no tile is in two fields");
+    tile.field_x_px = (float)(tile.x_px % EWA_FIELD_PX - EWA_FIELD_PX / 2);
+    tile.field_y_px = (float)(tile.y_px % EWA_FIELD_PX - EWA_FIELD_PX / 2);
     const int32_t side = (int32_t)view->tile_px;
     tile.width_px = (int32_t)view->width_px - tile.x_px < side ? (int32_t)view->width_px - tile.x_px : side;
     tile.height_px =
         (int32_t)view->height_px - tile.y_px < side ? (int32_t)view->height_px - tile.y_px : side;
     tile.blocks_per_row = ((uint32_t)tile.width_px + EWA_BLOCK_PX - 1) / EWA_BLOCK_PX;
     tile.block_rows = ((uint32_t)tile.height_px + EWA_BLOCK_PX - 1) / EWA_BLOCK_PX;
-    job->kernels->clear(&tile);
+    job->kernels->clear_nearest(&tile);
     const uint64_t first = job->bins->tile_first[index], count = job->bins->tile_first[index + 1] - first;
     const bool kept = count * EWA_PACKET_LANES <= s->record_capacity;
     const uint32_t *ids = job->bins->entries + first;
@@ -352,11 +369,14 @@ void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
                  kept);
     const ewa_tile_packets shown = {s->shown, s->shown_count};
     const double accumulating = ewa_now_s();
-    if (kept)
-        walk_kept(job, &tile, s);
-    else
-        walk_again(job, &tile, s, &shown, 0, ewa_run_count(&shown), EWA_PASS_ACCUMULATE);
-    job->kernels->settle(&tile, &job->resolve);
+    for (bool settled = false; !settled; tile.sums.careful = true) {
+        job->kernels->clear_sums(&tile);
+        if (kept)
+            walk_kept(job, &tile, s);
+        else
+            walk_again(job, &tile, s, &shown, 0, ewa_run_count(&shown), EWA_PASS_ACCUMULATE);
+        settled = job->kernels->settle(&tile, &job->resolve);
+    }
     const double accumulated = ewa_now_s();
     if (kept) s->accumulate_s += accumulated - accumulating;
     const bool edges = ewa_tile_draw_edges(job, &tile, s, kept);

@@ -56,13 +56,18 @@ typedef struct ewa_tile_scratch {
     float least_key; ///< of all splats that are shown
     bool has_near;   ///< some of them are near surfels
     float cells[EWA_TILE_CELLS * EWA_TILE_CELLS];
-    float *nearest, *sums;
+    float *nearest;
+    ewa_sums sums;
     ewa_edges edges;
     ewa_buffer record_buffer, load_buffer, order_buffer, list_buffer, box_buffer, near_buffer, opacity_buffer,
         material_buffer, clip_buffer, kept_buffer, pixel_buffer, packet_buffer;
     uint32_t edge_rows[EWA_MAX_TILE_BLOCKS], edge_rows_left[EWA_MAX_TILE_BLOCKS];
     ewa_apart apart; ///< of the first surface; its planes for turned splats serve those behind it, too
     uint32_t turned_rows[2][EWA_MAX_TILE_BLOCKS], cut_rows[2][EWA_MAX_TILE_BLOCKS];
+    uint32_t settled_rows[EWA_MAX_TILE_BLOCKS];
+    uint32_t visits[5][EWA_MAX_TILE_BLOCKS * EWA_MAX_TILE_BLOCKS];
+    uint32_t high_rows[5]
+                      [EWA_MAX_TILE_BLOCKS]; ///< of the sums of both surfaces, of turned splats, of both cuts
     uint64_t drawn_count, fragment_count, hidden_splat_count, broken_pixel_count;
     double setup_s, visibility_s, accumulate_s, edge_s, resolve_s;
 } ewa_tile_scratch;
@@ -75,11 +80,11 @@ typedef struct ewa_tile_job {
     const ewa_bins *bins;
     ewa_view view;
     ewa_resolve resolve;
-    float materials[EWA_MAX_MATERIALS][EWA_MATERIAL_CHANNELS];
+    float materials[EWA_MAX_MATERIALS][EWA_MATERIAL_CHANNELS], material_units[EWA_MATERIAL_CHANNELS];
     uint32_t channel_count;
     uint32_t layers; ///< surfaces that are composited at most
     bool merge_last; ///< the last of them is all that is left
-    bool with_normals, with_depth, with_opacity, with_materials, count_fragments;
+    bool with_normals, with_depth, with_opacity, with_materials, fine_sums, count_fragments;
     ewa_tile_scratch *const *scratch; ///< [worker]
 } ewa_tile_job;
 

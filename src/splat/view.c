@@ -59,6 +59,69 @@ static void set_places(ewa_view *view, const ewa_surfels *surfels, const ewa_cam
     vec3_store(placement->offset, view->offset);
 }
 
+/// The power of two that is no less than `size`.
+static double power_above(double size) {
+    int exponent = 0;
+    const double part = frexp(size, &exponent);
+    return ldexp(1, part == 0.5 ? exponent - 1 : exponent);
+}
+
+/// One over a power of two that no depth of the surfels is beyond.
+static float depth_scale(const ewa_surfels *surfels, const ewa_placement *placement) {
+    if (!surfels->extent.finite_count) return 1;
+    const ewa_vec3 low = vec3_load(surfels->extent.low_world), high = vec3_load(surfels->extent.high_world);
+    const ewa_vec3 middle = vec3_scale(vec3_add(low, high), 0.5);
+    const double reach_world = vec3_length(vec3_sub(high, middle)) + surfels->reach_world;
+    const double largest = fabs(ewa_placement_apply(placement, middle).z) +
+                           vec3_length(mat3_row(&placement->linear, 2)) * reach_world;
+    return (float)(1 / power_above(largest));
+}
+
+/// The largest sigmas of a surfel on the screen, for those that are far from the eye; else infinite.
+static double largest_sigma_px(const ewa_surfels *surfels, const ewa_camera *camera,
+                               const ewa_placement *placement, double sigma_world) {
+    enum { FAR_REACHES = 4 };
+    const double scale = vec3_length(mat3_row(&placement->linear, 2)); // camera units per world unit
+    const double focal_px = fmax(camera->fx_px, camera->fy_px);
+    if (camera->projection == EWA_ORTHOGRAPHIC) return focal_px * placement->unit * scale * sigma_world;
+    const ewa_vec3 low = vec3_load(surfels->extent.low_world), high = vec3_load(surfels->extent.high_world);
+    const ewa_vec3 middle = vec3_scale(vec3_add(low, high), 0.5), to = ewa_placement_apply(placement, middle);
+    const double around = scale * (vec3_length(vec3_sub(high, middle)) + surfels->reach_world);
+    const double nearest_z = to.z - around, reach = scale * surfels->reach_world;
+    if (!(nearest_z > FAR_REACHES * reach)) return INFINITY;
+    // What is seen off the axis is larger on the screen.
+    const double slope = (fabs(to.x) + fabs(to.y) + 2 * around) / nearest_z;
+    return 2 * (1 + slope * slope) * focal_px * scale * sigma_world / nearest_z;
+}
+
+/// Units of sums per weight, a power of two: a few surfaces like that of q0 have room. More where splats are
+/// so small that very many make a surface: their terms would be next to nothing, and sums are gathered with
+/// care anyway.
+static double sum_scale(const ewa_surfels *surfels, const ewa_camera *camera, const ewa_placement *placement,
+                        const ewa_render_options *options, double unit_coverage) {
+    enum { SURFACES = 3, PLAIN_STEPS = 10, MOST_STEPS = 40 };
+    const double room = 1 / power_above(fmin(fmax(SURFACES * unit_coverage, 1), 64));
+    if (options->point_size_px > 0 || !(options->prefilter_px > 0) || !surfels->extent.finite_count)
+        return EWA_SUM_UNITS * room;
+    // sqrt(|V| / |V'|) is at most the product of both axes over what the prefilter makes of them.
+    double share = 1;
+    for (int i = 0; i < 2; i++) {
+        const double sigma_px =
+            largest_sigma_px(surfels, camera, placement, surfels->largest_sigmas_world[i]);
+        share *= fmin(1, sigma_px / options->prefilter_px);
+    }
+    int exponent = 0;
+    frexp(share, &exponent); // share < 2^exponent
+    const int steps = -exponent - PLAIN_STEPS;
+    return ldexp(EWA_SUM_UNITS * room, steps < 0 ? 0 : steps > MOST_STEPS ? MOST_STEPS : steps);
+}
+
+/// q0 of the splats that are drawn.
+static double unit_coverage_of(const ewa_surfels *surfels, const ewa_render_options *options) {
+    return options->point_size_px > 0 ? ewa_point_profile_make(options).unit_coverage
+                                      : surfels->unit_coverage;
+}
+
 ewa_status ewa_view_set(ewa_view *view, const ewa_surfels *surfels, const ewa_camera *camera,
                         const ewa_placement *placement, const ewa_render_options *options, uint32_t tile_px) {
     memset(view, 0, sizeof *view);
@@ -101,6 +164,10 @@ ewa_status ewa_view_set(ewa_view *view, const ewa_surfels *surfels, const ewa_ca
     view->raycast = options->kernel == EWA_KERNEL_RAYCAST && !view->orthographic;
     view->cull_back = options->cull == EWA_CULL_BACK;
     view->ellipses = surfels->ellipses && options->point_size_px == 0;
+    view->sum_scale =
+        (float)sum_scale(surfels, camera, placement, options, unit_coverage_of(surfels, options));
+    view->color_scale = (float)((double)view->sum_scale / surfels->largest_color);
+    view->depth_scale = depth_scale(surfels, placement);
     return view->orthographic ? EWA_OK : set_sides(surfels->context, view, camera, reach_px + 1);
 }
 
@@ -150,8 +217,7 @@ void ewa_resolve_set(ewa_resolve *resolve, const ewa_surfels *surfels, const ewa
     ewa_mat3 rotation;
     memset(resolve, 0, sizeof *resolve);
     split_scale(camera, &rotation);
-    const double unit_coverage =
-        options->point_size_px > 0 ? ewa_point_profile_make(options).unit_coverage : surfels->unit_coverage;
+    const double unit_coverage = unit_coverage_of(surfels, options);
     resolve->unit_coverage_inverse = (float)(1 / unit_coverage);
     resolve->alpha_scale = (float)(1 / (options->edge_threshold * unit_coverage));
     resolve->covering = (float)(options->edge_threshold * unit_coverage);
@@ -186,10 +252,13 @@ static ewa_vec3 turn(const ewa_view *view, ewa_vec3 v, double scale) {
     return vec3_load(out);
 }
 
-/// Sets `terms` to the linear function of tile pixels that a vector's product with pixel rays (x, y, 1) is.
+/// Sets `terms` to the linear function of pixels of the field that a vector's product with pixel rays (x, y,
+/// 1) is.
 static void set_linear(float terms[3], ewa_vec3 n, const ewa_view *view, const ewa_tile *tile) {
     const double fx = view->focal_px[0], fy = view->focal_px[1];
-    const double x = (tile->x_px - view->principal_px[0]) / fx, y = (tile->y_px - view->principal_px[1]) / fy;
+    const double left_px = tile->x_px - (double)tile->field_x_px,
+                 top_px = tile->y_px - (double)tile->field_y_px;
+    const double x = (left_px - view->principal_px[0]) / fx, y = (top_px - view->principal_px[1]) / fy;
     terms[0] = (float)(n.x * x + n.y * y + n.z);
     terms[1] = (float)(n.x / fx);
     terms[2] = (float)(n.y / fy);
@@ -322,7 +391,8 @@ bool ewa_near_record_set(ewa_near_record *record, const ewa_surfels *surfels, ui
     const double normal[3] = {toward.x, toward.y, toward.z},
                  opacity = tile->with_opacity ? s.coded.opacity : 1;
     for (int i = 0; i < 3; i++) {
-        record->color[i] = (float)(s.coded.color[i] * opacity);
+        record->color[i] =
+            (float)(s.coded.color[i] * opacity * (double)view->color_scale / (double)view->sum_scale);
         record->normal[i] = (float)normal[i];
     }
     record->opacity = (float)opacity;

@@ -29,6 +29,7 @@ static ewa_resolve plain_resolve(uint8_t *rgba8, uint32_t width_px) {
     return (ewa_resolve){.unit_coverage_inverse = 1,
                          .alpha_scale = 1,
                          .edge_antialiasing = true,
+                         .units = {[EWA_SETTLED] = {1, 1, 1, 1}},
                          .material = {1},
                          .width_px = width_px,
                          .rgba8 = rgba8};
@@ -43,12 +44,15 @@ static void set_sums(float *sums, uint32_t pixel, const float values[CHANNELS]) 
 }
 
 static ewa_tile whole_tile(float *sums) {
+    static uint32_t settled_rows[SIDE_PX / EWA_BLOCK_PX];
+    memset(settled_rows, 0xff, sizeof settled_rows);
     return (ewa_tile){.width_px = SIDE_PX,
                       .height_px = SIDE_PX,
                       .blocks_per_row = SIDE_PX / EWA_BLOCK_PX,
                       .block_rows = SIDE_PX / EWA_BLOCK_PX,
-                      .sums = sums,
-                      .channel_count = CHANNELS};
+                      .sums = {.planes = sums},
+                      .channel_count = CHANNELS,
+                      .settled_rows = settled_rows};
 }
 
 static void assert_code(uint32_t value, uint8_t code) {
@@ -119,7 +123,7 @@ static void test_partial_tile_over_background(void **state) {
     narrow.width_px = WIDTH_PX, narrow.height_px = HEIGHT_PX;
     narrow.blocks_per_row = (WIDTH_PX + 3) / 4, narrow.block_rows = (HEIGHT_PX + 3) / 4;
     float packed[(WIDTH_PX + 3) / 4 * ((HEIGHT_PX + 3) / 4) * CHANNELS * EWA_BLOCK_LANES];
-    narrow.sums = packed;
+    narrow.sums.planes = packed;
     const size_t row_floats = (size_t)narrow.blocks_per_row * CHANNELS * EWA_BLOCK_LANES;
     for (uint32_t row = 0; row < narrow.block_rows; row++)
         memcpy(packed + row * row_floats,

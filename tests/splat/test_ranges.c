@@ -306,6 +306,7 @@ static void test_broken_pixels_are_told(void **state) {
     assert_int_equal(log.count, 0);
     // No cloud makes such a form: 5 exponent bits and the largest unit.
     for (uint32_t p = 0; p < surfels->packet_count; p++) surfels->bounds.colors[p] = 5 << 8 | 255;
+    ewa_packets_sum_up(surfels);
     assert_int_equal(ewa_render(renderer, surfels, &of.camera, NULL, &made.frame, NULL), EWA_OK);
     size_t broken = 0;
     for (size_t i = 0; i < (size_t)SIDE_PX * SIDE_PX; i++) {

@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What a pixel gets does not depend on the order of the surfels, on how the picture is cut into tiles, or on
+// the threads: the same bytes, over random scenes of all kinds of cameras, kernels, lights, layers and clip
+// lines.
+#include "base/base.h"
+#include "splat/packets.h"
+#include "splat/render.h"
+#include "tests/check.h"
+#include "tests/independent/random_scene.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { PLANES = 5 };
+
+/// Memory of a frame, plane by plane.
+typedef struct planes {
+    ewa_frame frame;
+    void *data[PLANES];
+    size_t bytes[PLANES];
+} planes;
+
+static void planes_make(planes *made, const ewa_camera *camera) {
+    static const size_t sizes[PLANES] = {4, 4 * sizeof(float), sizeof(float), 3 * sizeof(float),
+                                         sizeof(float)};
+    for (int i = 0; i < PLANES; i++) {
+        made->bytes[i] = sizes[i] * camera->width_px * camera->height_px;
+        made->data[i] = calloc(1, made->bytes[i]);
+        assert_non_null(made->data[i]);
+    }
+    made->frame = (ewa_frame){.rgba8 = made->data[0],
+                              .rgba = made->data[1],
+                              .depth = made->data[2],
+                              .normal = made->data[3],
+                              .coverage = made->data[4]};
+}
+
+static void planes_free(planes *made) {
+    for (int i = 0; i < PLANES; i++) free(made->data[i]);
+}
+
+static void hold_same(const planes *a, const planes *b, const char *what, uint64_t seed, const char *words) {
+    static const char *const names[PLANES] = {"rgba8", "rgba", "depth", "normal", "coverage"};
+    for (int i = 0; i < PLANES; i++)
+        if (memcmp(a->data[i], b->data[i], a->bytes[i]) != 0)
+            fail_msg("scene %llu, %s: other bytes of %s: %s", (unsigned long long)seed, what, names[i],
+                     words);
+}
+
+/// Moves entry order[i] of an array of packets to entry i.
+static void permute(void *array, size_t size_bytes, const uint32_t *order, uint32_t count) {
+    if (!array) return;
+    char *copy = malloc(size_bytes * count);
+    assert_non_null(copy);
+    memcpy(copy, array, size_bytes * count);
+    for (uint32_t i = 0; i < count; i++)
+        memcpy((char *)array + size_bytes * i, copy + size_bytes * order[i], size_bytes);
+    free(copy);
+}
+
+static void shuffle_packets(ewa_surfels *s, check_random *random) {
+    uint32_t *order = malloc(s->packet_count * sizeof *order);
+    assert_non_null(order);
+    for (uint32_t i = 0; i < s->packet_count; i++) {
+        const uint32_t j = (uint32_t)(check_random_u64(random) % (i + 1));
+        order[i] = order[j];
+        order[j] = i;
+    }
+    const struct {
+        void *array;
+        size_t size_bytes;
+    } arrays[] = {{s->packets, sizeof *s->packets},
+                  {s->materials, EWA_PACKET_LANES * sizeof *s->materials},
+                  {s->opacities, EWA_PACKET_LANES * sizeof *s->opacities},
+                  {s->clip_masks, sizeof *s->clip_masks},
+                  {s->clip_first, sizeof *s->clip_first},
+                  {s->bounds.center_x, sizeof *s->bounds.center_x},
+                  {s->bounds.center_y, sizeof *s->bounds.center_y},
+                  {s->bounds.center_z, sizeof *s->bounds.center_z},
+                  {s->bounds.radius, sizeof *s->bounds.radius},
+                  {s->bounds.colors, sizeof *s->bounds.colors},
+                  {s->bounds.cone, sizeof *s->bounds.cone}};
+    for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
+        permute(arrays[i].array, arrays[i].size_bytes, order, s->packet_count);
+    free(order);
+}
+
+static void hold_scene(ewa_context *context, uint64_t seed, random_scene *made) {
+    static const uint32_t tiles_px[] = {128, 64, 32, 16};
+    check_random random = {seed + 1};
+    ewa_surfels *surfels = NULL;
+    ewa_renderer *renderer = NULL;
+    planes first, other;
+    planes_make(&first, &made->scene.camera);
+    planes_make(&other, &made->scene.camera);
+    assert_int_equal(ewa_surfels_create(made->cloud, &made->surfels_options, &surfels), EWA_OK);
+    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    const ewa_camera *camera = &made->scene.camera;
+    const ewa_render_options *options = &made->scene.options;
+    assert_int_equal(ewa_render(renderer, surfels, camera, options, &first.frame, NULL), EWA_OK);
+    for (size_t i = 0; i < sizeof tiles_px / sizeof tiles_px[0]; i++) {
+        char what[64];
+        ewa_renderer_set_tile(renderer, tiles_px[i]);
+        if (i == 2) shuffle_packets(surfels, &random);
+        assert_int_equal(ewa_render(renderer, surfels, camera, options, &other.frame, NULL), EWA_OK);
+        snprintf(what, sizeof what, "tiles of %u pixels%s", tiles_px[i], i >= 2 ? ", shuffled packets" : "");
+        hold_same(&first, &other, what, seed, made->words);
+    }
+    ewa_renderer_destroy(&renderer);
+    ewa_surfels_destroy(&surfels);
+    planes_free(&first);
+    planes_free(&other);
+}
+
+static void test_random(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    for (uint64_t seed = 0; seed < EWA_RANDOM_SCENES; seed++) {
+        random_scene made;
+        random_scene_make(context, seed, &made);
+        hold_scene(context, seed, &made);
+        random_scene_free(&made);
+    }
+    ewa_context_destroy(&context);
+}
+
+static void test_named(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    random_scene made;
+    for (uint32_t i = 0; named_scene_make(context, i, &made); i++) {
+        hold_scene(context, i, &made);
+        random_scene_free(&made);
+    }
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_random), cmocka_unit_test(test_named)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
