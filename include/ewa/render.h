@@ -166,6 +166,24 @@ EWA_API ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels
                               const ewa_render_options *options, const ewa_frame *frame,
                               ewa_render_stats *stats);
 
+/// A frame in parts, of which ewa_render() is the short form: begin, add any number of sources, finish. Several
+/// sources make one picture, whose surfaces meet and blend as those of one cloud do: the same bytes in any
+/// order of the sources; weights are brought to one unit coverage (q0 of docs/math.md section 7), the smallest.
+/// Begins a frame; one that was begun before is dropped. `camera`, `options` and `frame` are copied; what they
+/// point to is borrowed until the frame is finished. Errors: EWA_ERROR_ARGUMENT (camera, options).
+EWA_API ewa_status ewa_render_begin(ewa_renderer *renderer, const ewa_camera *camera,
+                                    const ewa_render_options *options, const ewa_frame *frame);
+
+/// Adds a source to the frame that was begun, borrowed until it is finished; the same surfels twice are twice
+/// as many surfels. Errors: EWA_ERROR_ARGUMENT (no frame; another cutoff than the sources before; a material
+/// that the table does not have), EWA_ERROR_MEMORY; the frame stays as it was.
+EWA_API ewa_status ewa_render_add(ewa_renderer *renderer, const ewa_surfels *surfels);
+
+/// Draws the frame and ends it, whatever comes of it; without sources, the background. `stats` may be NULL.
+/// Errors: EWA_ERROR_ARGUMENT (no frame), EWA_ERROR_MEMORY; EWA_CANCELLED, between two tiles: some of the
+/// frame's pixels are drawn then.
+EWA_API ewa_status ewa_render_finish(ewa_renderer *renderer, ewa_render_stats *stats);
+
 /// The same picture in double precision, one splat after another, straight from the cloud: slow, plain, and
 /// the definition of what ewa_render() draws. `unit_coverage` is q0, as ewa_surfels_describe() gives it.
 EWA_API ewa_status ewa_render_reference(const ewa_cloud *cloud, const ewa_surfels_options *surfels_options,

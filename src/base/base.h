@@ -28,6 +28,10 @@ typedef struct ewa_buffer {
 
 /// Makes room for count * size bytes; what was in the buffer is lost when it has to grow.
 ewa_status ewa_buffer_reserve(ewa_context *context, ewa_buffer *buffer, size_t count, size_t size_bytes);
+/// The same, with the first `kept` of `count` items kept; more room than wanted, so that growing by ones is
+/// cheap.
+ewa_status ewa_buffer_grow(ewa_context *context, ewa_buffer *buffer, size_t kept, size_t count,
+                           size_t size_bytes);
 void ewa_buffer_free(ewa_context *context, ewa_buffer *buffer);
 
 /// Reports "<formatted text>" at EWA_SEVERITY_ERROR and returns `status`, so that `return ewa_fail(...)`
@@ -44,6 +48,11 @@ void ewa_report(ewa_context *context, ewa_severity severity, const char *format,
 
 /// Calls `task(data, i, worker)` for every i in [0, count) and waits. Not from inside a task.
 void ewa_parallel(ewa_context *context, ewa_task *task, void *data, uint32_t count);
+
+/// The same, told to the progress callback, which may stop it between two tasks: then EWA_CANCELLED, and only
+/// some have run.
+ewa_status ewa_parallel_stoppable(ewa_context *context, const char *stage, ewa_task *task, void *data,
+                                  uint32_t count);
 
 /// Tells the progress callback; returns EWA_CANCELLED when it wants to stop, else EWA_OK.
 ewa_status ewa_progress(ewa_context *context, const char *stage, double fraction);

@@ -7,6 +7,7 @@
 #include "base/pool.h"
 
 #include <stdarg.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -183,6 +184,21 @@ ewa_status ewa_buffer_reserve(ewa_context *context, ewa_buffer *buffer, size_t c
     return EWA_OK;
 }
 
+ewa_status ewa_buffer_grow(ewa_context *context, ewa_buffer *buffer, size_t kept, size_t count,
+                           size_t size_bytes) {
+    size_t wanted;
+    if (!__builtin_mul_overflow(count, size_bytes, &wanted) && wanted <= buffer->capacity_bytes)
+        return EWA_OK;
+    ewa_buffer larger = {0};
+    const ewa_status status =
+        ewa_buffer_reserve(context, &larger, count < SIZE_MAX / 2 ? count + count / 2 : count, size_bytes);
+    if (status != EWA_OK) return status;
+    if (kept) memcpy(larger.data, buffer->data, kept * size_bytes);
+    ewa_buffer_free(context, buffer);
+    *buffer = larger;
+    return EWA_OK;
+}
+
 void ewa_buffer_free(ewa_context *context, ewa_buffer *buffer) {
     ewa_release(context, buffer->data, buffer->capacity_bytes, 1);
     *buffer = (ewa_buffer){0};
@@ -226,6 +242,45 @@ void ewa_parallel(ewa_context *context, ewa_task *task, void *data, uint32_t cou
         const ewa_executor *executor = &context->options.executor;
         executor->run(executor->user, task, data, count);
     }
+}
+
+/// A run that the progress callback may stop.
+typedef struct stoppable_run {
+    ewa_context *context;
+    const char *stage;
+    ewa_task *task;
+    void *data;
+    uint32_t first, count;
+    atomic_uint_fast32_t done;
+    atomic_bool stopped;
+} stoppable_run;
+
+static void run_one(void *data, uint32_t index, uint32_t worker) {
+    stoppable_run *run = data;
+    if (atomic_load_explicit(&run->stopped, memory_order_relaxed)) return;
+    run->task(run->data, run->first + index, worker);
+    const uint32_t done = (uint32_t)atomic_fetch_add_explicit(&run->done, 1, memory_order_relaxed) + 1;
+    // Worker 0 of the built-in pool is the thread that called the library, on which the callback comes.
+    if (run->context->pool && worker == 0 &&
+        ewa_progress(run->context, run->stage, (double)done / run->count) != EWA_OK)
+        atomic_store_explicit(&run->stopped, true, memory_order_relaxed);
+}
+
+ewa_status ewa_parallel_stoppable(ewa_context *context, const char *stage, ewa_task *task, void *data,
+                                  uint32_t count) {
+    enum { PARTS = 16 };
+    stoppable_run run = {context, stage, task, data, .count = count};
+    // Threads of others' executors may all be other ones: their runs are stopped between parts.
+    const uint32_t step = context->pool || !context->options.progress ? count : count / PARTS + 1;
+    ewa_status status = ewa_progress(context, stage, 0);
+    for (; run.first < count && status == EWA_OK; run.first += step) {
+        const uint32_t left = count - run.first;
+        ewa_parallel(context, run_one, &run, left < step ? left : step);
+        status = atomic_load(&run.stopped)
+                     ? EWA_CANCELLED
+                     : ewa_progress(context, stage, (double)atomic_load(&run.done) / count);
+    }
+    return status;
 }
 
 double ewa_now_s(void) {

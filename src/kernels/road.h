@@ -36,6 +36,8 @@ enum {
     EWA_SUM_UNITS =
         1 << 22, ///< the range of sums, and at most of a weight of 1; splats have up to 1 / (2 pi)
     EWA_MOST_TERM_UNITS = 667600, ///< no less than EWA_SUM_UNITS / (2 pi)
+    EWA_TERMS_PER_CARRY = 6,      ///< of EWA_MOST_TERM_UNITS
+    EWA_MOST_ROOM = 64,           ///< surfaces' worth of weight that sums have room for at most
     EWA_CUT_CHANNELS = 4,         ///< of splats that clip lines cut: kept weight, whole weight, direction
     EWA_CELL_BLOCKS = 4, ///< along a side of a cell, for which one depth decides whether packets are hidden
     EWA_TILE_CELLS = 8,  ///< cells along a side of the largest tile
@@ -46,9 +48,6 @@ enum {
     EWA_DOME_REACH = 4,       ///< pixels that eye-dome lighting looks away
     EWA_MAX_TILE_BLOCKS = 32, ///< along a side, so that a row of blocks is a word of bits
 };
-
-/// Where sums begin: in the middle of the floats that are whole numbers.
-#define EWA_SUM_ORIGIN 0x1.8p23f
 
 /// Largest s that the kernels' exponential takes before it doubles: cutoffs up to 3 need two doublings.
 #define EWA_EXPONENT_END 1.13
@@ -179,7 +178,8 @@ typedef struct ewa_packet_source {
     ewa_packet_places places;
     const uint16_t *opacities;  ///< [packet][lane], times 65535; NULL: all are opaque
     const uint16_t *clip_masks; ///< [packet]: lanes with clip lines; NULL: none
-    const uint8_t *materials;   ///< [packet][lane]: codes; NULL: all have the same
+    const uint8_t *materials;   ///< [packet][lane]: codes; NULL: all have `material`
+    uint8_t material;
 } ewa_packet_source;
 
 /// A run of packets as splats of a tile. `records` and `loads` have room for EWA_PACKET_LANES more than are
@@ -207,14 +207,15 @@ typedef struct ewa_sorted_run {
     uint16_t class_first[EWA_CLASS_COUNT + 1];
 } ewa_sorted_run;
 
-/// Sums of a tile's pixels, in units until they are settled (road_sums.h), then floats.
+/// Sums of a tile's pixels, in units (road_sums.h).
 typedef struct ewa_sums {
-    float *planes;       ///< [block][channel][16]
-    float *high;         ///< the same: bits of integers, what has been carried, of blocks that have some
-    size_t fine;         ///< numbers from either to what the units of terms leave; 0: that is lost
-    bool careful;        ///< terms are counted, so that sums have no bounds
-    uint32_t *visits;    ///< [block]: terms since something was carried (road_sums.h)
-    uint32_t *high_rows; ///< [block row]: bit per block column of which something has been carried
+    float *planes;        ///< [block][channel][16]
+    float *high;          ///< the same: bits of integers, what has been carried, of blocks that have some
+    size_t fine;          ///< numbers from either to what the units of terms leave; 0: that is lost
+    bool careful;         ///< terms are counted, so that sums have no bounds
+    uint32_t most_visits; ///< between two carries
+    uint32_t *visits;     ///< [block]: terms since something was carried (road_sums.h)
+    uint32_t *high_rows;  ///< [block row]: bit per block column of which something has been carried
 } ewa_sums;
 
 /// What is gathered beside a surface's sums, in the blocks that have some: of a block that is not marked,
@@ -238,10 +239,10 @@ typedef struct ewa_tile {
     uint32_t channel_count;
     bool with_normals, with_depth;
     bool with_opacity;   ///< with_normals then too
-    bool with_materials; ///< with_normals and with_depth then too
+    bool with_materials; ///< with_normals then too, and a channel for the depth with or without one
     bool with_fine;      ///< what the units of terms leave is summed of all channels, not only for depths
     const float *passed; ///< [block][16]: only keys below count, for surfaces behind the first; NULL: all do
-    uint32_t *settled_rows; ///< [block row]: bit per block column whose sums are floats
+    uint32_t *settled_rows; ///< [block row]: bit per block column whose sums begin at 0
 } ewa_tile;
 
 /// The blocks of a tile whose edges show what lies behind, and what that is.
@@ -292,17 +293,14 @@ typedef enum ewa_road_shading {
     EWA_ROAD_PHONG,   ///< everything
 } ewa_road_shading;
 
-/// The forms of sums: `units[form] sum + offsets[form]` is what they stand for.
-enum { EWA_IN_UNITS, EWA_SETTLED };
-
 /// How pixels become colours, and where they go. Planes as in ewa_frame, of the whole picture.
 typedef struct ewa_resolve {
-    float unit_coverage_inverse;                                    ///< 1 / q0
-    float alpha_scale;                                              ///< 1 / (tau q0)
-    float covering;                                                 ///< tau q0
-    float front_scale;                                              ///< 1 / (EWA_FRONT q0)
-    float units[2][EWA_MAX_CHANNELS], offsets[2][EWA_MAX_CHANNELS]; ///< of sums in either form, by channel
-    float opacity; ///< of all surfaces, beside the surfels' own
+    float unit_coverage_inverse; ///< 1 / q0, for weights in units of sums, as are the next
+    float alpha_scale;           ///< 1 / (tau q0)
+    float covering;              ///< tau q0
+    float front_scale;           ///< 1 / (EWA_FRONT q0)
+    float color_unit, material_units[EWA_MATERIAL_CHANNELS]; ///< of their sums, over that of weights
+    float opacity;                                           ///< of all surfaces, beside the surfels' own
     bool edge_antialiasing, transparent, one_pass, orthographic;
     ewa_road_shading shading;
     uint32_t light_count;

@@ -53,7 +53,7 @@ static ALWAYS_INLINE void add_cut(const ewa_tile *tile, uint32_t row, uint32_t c
                                         [CUT_X] = wf_mul(scaled, x),
                                         [CUT_Y] = wf_mul(scaled, y)};
     for (int c = 0; c < EWA_CUT_CHANNELS; c++)
-        add_product(sums + (size_t)c * EWA_BLOCK_LANES, one, wf_odd(wf_mul(cut, parts[c])));
+        add_product(sums + (size_t)c * EWA_BLOCK_LANES, one, wf_odd_product(cut, parts[c]));
 }
 
 /// Joins a block's sums, those of the splats that face the viewer, with those of the splats that face away.
@@ -103,16 +103,16 @@ static ALWAYS_INLINE wf read_finely(const ewa_sums *of, size_t first, uint32_t c
     return wf_fma(left, wf_set(FINE_UNIT), units);
 }
 
-/// Turns a block's units into floats; `unit` is what one of each channel stands for.
+/// Turns a block's sums into floats that begin at 0.
 static ALWAYS_INLINE void settle_planes(const ewa_tile *tile, const ewa_sums *of, uint32_t row,
-                                        uint32_t column, uint32_t channels, const float *unit, bool finely) {
+                                        uint32_t column, uint32_t channels, bool finely) {
     const size_t first = first_number(tile, row, column, channels);
     const bool has_high = of->high_rows[row] >> column & 1;
     for (uint32_t c = 0; c < channels; c++) {
         const size_t at = first + c * EWA_BLOCK_LANES;
         const wf units = finely ? read_finely(of, first, c, has_high)
                                 : read_units(of->planes + at, of->high + at, has_high);
-        wf_store(of->planes + at, wf_mul(units, wf_set(unit[c])));
+        wf_store(of->planes + at, units);
     }
 }
 
@@ -138,7 +138,7 @@ static ALWAYS_INLINE void settle_sums(const ewa_tile *tile, const ewa_sums *of, 
                                       uint32_t row, uint32_t column, bool finely) {
     const uint32_t channels = tile->channel_count;
     const wf depth = tile->with_depth ? mean_depth(tile, of, to, row, column) : wf_set(0);
-    settle_planes(tile, of, row, column, channels, to->units[EWA_IN_UNITS], finely);
+    settle_planes(tile, of, row, column, channels, finely);
     if (!tile->with_depth) return;
     float *planes = of->planes + first_number(tile, row, column, channels);
     wf_store(planes + depth_channel(tile) * EWA_BLOCK_LANES, wf_mul(depth, wf_load(planes)));
@@ -156,25 +156,27 @@ static ALWAYS_INLINE void settle_block(const ewa_tile *tile, const ewa_resolve *
         join_turned(tile, to, apart->turned.planes + first, tile->sums.planes + first, merged);
     }
     if (cut) {
-        const float unit = to->units[EWA_IN_UNITS][0], cut_units[EWA_CUT_CHANNELS] = {unit, unit, unit, unit};
-        settle_planes(tile, &apart->cut, row, column, EWA_CUT_CHANNELS, cut_units, false);
+        settle_planes(tile, &apart->cut, row, column, EWA_CUT_CHANNELS, false);
         if (!merged)
             cover_cut(to, tile->sums.planes + first,
                       apart->cut.planes + first_number(tile, row, column, EWA_CUT_CHANNELS));
     }
 }
 
-static bool settle(const ewa_tile *tile, const ewa_resolve *to) {
+/// The blocks of a row whose sums are not all there is to them; others stay as they are.
+static ALWAYS_INLINE uint32_t rows_to_settle(const ewa_tile *tile, uint32_t row) {
     const ewa_apart *apart = &tile->apart;
+    if (tile->with_fine || tile->with_depth) return ~0u;
+    return apart->turned_rows[row] | (apart->cut_rows ? apart->cut_rows[row] : 0) | tile->sums.high_rows[row];
+}
+
+static bool settle(const ewa_tile *tile, const ewa_resolve *to) {
     const uint32_t whole_row = ~0u >> (32 - tile->blocks_per_row);
     for (uint32_t row = 0; row < tile->block_rows && !tile->sums.careful; row++)
         for (uint32_t column = 0; column < tile->blocks_per_row; column++)
             if (is_beyond(tile, &tile->sums, row, column, tile->channel_count)) return false;
-    // What is nothing but sums in units stays as it is: it is read once.
-    const bool all = tile->sums.careful || tile->with_fine || tile->with_depth;
     for (uint32_t row = 0; row < tile->block_rows; row++) {
-        tile->settled_rows[row] =
-            all ? whole_row : apart->turned_rows[row] | (apart->cut_rows ? apart->cut_rows[row] : 0);
+        tile->settled_rows[row] = rows_to_settle(tile, row) & whole_row;
         for (uint32_t left = tile->settled_rows[row]; left; left &= left - 1)
             settle_block(tile, to, row, (uint32_t)__builtin_ctz(left), false);
     }

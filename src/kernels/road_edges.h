@@ -44,7 +44,7 @@ static uint32_t find_edges(const ewa_tile *tile, const ewa_resolve *to, const ew
         edges->rows[row] = 0;
         for (uint32_t column = 0; column < tile->blocks_per_row; column++) {
             const size_t block = block_at(tile, row, column);
-            const block_sums sums = tile_block(tile, to, row, column);
+            const block_sums sums = tile_block(tile, row, column);
             const wf alpha = surface_alpha(tile, to, &sums, cut_cover(tile, row, column));
             // What is in front may be too small for its weight to be told from none.
             const wm open = wm_and(wf_lt(never, wf_load(tile->nearest + block * LANES)), wf_lt(alpha, one));
@@ -313,6 +313,8 @@ static ALWAYS_INLINE void edge_sum(const ewa_view *view, const ewa_tile *tile, c
     const float least_key =
         -largest_lane(wf_sub(wf_set(0), wf_select(wf_lt(never, nearest), nearest, behind_all)));
     const ewa_tile behind = tile_behind(tile, edges);
+    float *sums = edges->sums.planes + block * tile->channel_count * EWA_BLOCK_LANES;
+    uint32_t *visits = edges->sums.visits + block;
     for (uint32_t first = 0; first < splats->count; first += EWA_BLOCK_LANES) {
         const uint32_t left = splats->count - first;
         uint32_t near_enough = wm_bits(wf_le(wf_set(least_key), wf_load(splats->largest_keys + first)));
@@ -332,8 +334,15 @@ static ALWAYS_INLINE void edge_sum(const ewa_view *view, const ewa_tile *tile, c
             if (!wm_bits(counts)) continue;
             const payload add = payload_load(view, r, &splats->loads[index], splats->opacities,
                                              splats->materials, index, what);
-            add_splat(&behind, r, clip, &kept, row, column,
-                      wf_keep(counts, exponential(sample.exponent, view->doublings)), &add, wf_set(0), what);
+            const wf weight = wf_keep(counts, exponential(sample.exponent, view->doublings));
+            if (box_clipped(r->box) || box_turned(r->box)) {
+                add_splat(&behind, r, clip, &kept, row, column, weight, &add, wf_set(0), what);
+                continue;
+            }
+            if (*visits == edges->sums.most_visits)
+                carry_block(tile, &edges->sums, row, column, tile->channel_count);
+            ++*visits;
+            add_channels(sums, &edges->sums, tile->channel_count, weight, &add, wf_set(0), what);
         }
     }
 }
@@ -473,9 +482,10 @@ static wm compose_block(const ewa_tile *tile, const ewa_resolve *to, const ewa_e
     enum { LANES = EWA_BLOCK_LANES };
     const size_t block = block_at(tile, row, column);
     const ewa_tile gathered = tile_behind(tile, edges);
-    settle_block(&gathered, to, row, column, merged);
-    const block_sums sums =
-        settled_block(to, edges->sums.planes + first_number(tile, row, column, tile->channel_count));
+    const bool settles = rows_to_settle(&gathered, row) >> column & 1;
+    if (settles) settle_block(&gathered, to, row, column, merged);
+    const block_sums sums = {edges->sums.planes + first_number(tile, row, column, tile->channel_count),
+                             settles ? 0 : BIAS};
     float shade[EWA_SHADE_FLOATS];
     shade_block(tile, to, &sums, (uint32_t)tile->x_px + column * EWA_BLOCK_PX,
                 (uint32_t)tile->y_px + row * EWA_BLOCK_PX, shade);
@@ -483,7 +493,7 @@ static wm compose_block(const ewa_tile *tile, const ewa_resolve *to, const ewa_e
     const float *first_cut = cut_cover(tile, row, column);
     surface found = gathered_surface(tile, to, &sums, shade, cut);
     if (cut && first_cut && !to->transparent) {
-        const block_sums in_front = tile_block(tile, to, row, column);
+        const block_sums in_front = tile_block(tile, row, column);
         const wf first = surface_alpha(tile, to, &in_front, first_cut);
         const wf whole = surface_alpha(&gathered, to, &sums, NULL);
         found.alpha = cover_behind_cut(first, first_cut, whole, cut);

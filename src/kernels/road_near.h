@@ -73,12 +73,12 @@ static ALWAYS_INLINE void near_add(const ewa_view *view, const ewa_tile *tile, c
     const wf peak = wf_mul(wf_keep(counts, sample->weight), wf_set(view->sum_scale));
     payload add = {.peak = wf_odd(peak)};
     for (int k = 0; k < 3; k++) {
-        add.color[k] = wf_odd(wf_mul(peak, wf_set(r->color[k])));
-        add.normal[k] = wf_odd(wf_mul(peak, wf_set(r->normal[k])));
+        add.color[k] = wf_odd_product(peak, wf_set(r->color[k]));
+        add.normal[k] = wf_odd_product(peak, wf_set(r->normal[k]));
     }
-    add.opacity = wf_odd(wf_mul(peak, wf_set(r->opacity)));
+    add.opacity = wf_odd_product(peak, wf_set(r->opacity));
     for (int k = 0; k < EWA_MATERIAL_CHANNELS; k++)
-        add.material[k] = wf_odd(wf_mul(peak, wf_set(r->material[k])));
+        add.material[k] = wf_odd_product(peak, wf_set(r->material[k]));
     wf weight = wf_keep(counts, exponential(wf_keep(counts, sample->exponent), view->doublings));
     if (r->clipped) {
         add_cut(tile, row, column, &r->clip, &sample->left, wf_mul(weight, peak));

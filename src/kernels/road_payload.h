@@ -49,12 +49,12 @@ static ALWAYS_INLINE payload payload_load(const ewa_view *view, const ewa_record
 
 /// A payload whose peak is larger pixel by pixel.
 static ALWAYS_INLINE payload payload_times(const payload *p, wf gain, int what) {
-    payload made = {.peak = wf_odd(wf_mul(p->peak, gain))};
-    for (int i = 0; i < 3; i++) made.color[i] = wf_odd(wf_mul(p->color[i], gain));
-    for (int i = 0; i < 3 && what & ADD_NORMAL; i++) made.normal[i] = wf_odd(wf_mul(p->normal[i], gain));
-    if (what & ADD_OPACITY) made.opacity = wf_odd(wf_mul(p->opacity, gain));
+    payload made = {.peak = wf_odd_product(p->peak, gain)};
+    for (int i = 0; i < 3; i++) made.color[i] = wf_odd_product(p->color[i], gain);
+    for (int i = 0; i < 3 && what & ADD_NORMAL; i++) made.normal[i] = wf_odd_product(p->normal[i], gain);
+    if (what & ADD_OPACITY) made.opacity = wf_odd_product(p->opacity, gain);
     for (int i = 0; i < EWA_MATERIAL_CHANNELS && what & ADD_MATERIAL; i++)
-        made.material[i] = wf_odd(wf_mul(p->material[i], gain));
+        made.material[i] = wf_odd_product(p->material[i], gain);
     return made;
 }
 

@@ -365,12 +365,11 @@ static void list_clipped(ewa_run *run, uint32_t clipped_bits, uint32_t alive_bit
     }
 }
 
-/// A centre, rounded to a step of 2^-16 pixels or, far outside of the field, a coarser one: its distances
-/// from pixels of the field have no more digits than a float.
+/// A centre, rounded to a step of 2^-16 pixels or, outside of the field, a coarser one: its distances from
+/// pixels of the field have no more digits than a float.
 static ALWAYS_INLINE wf whole_place(wf center_px) {
-    const wf size = wf_max(wf_mul(wf_abs(center_px), wf_set(4)), wf_set(EWA_FIELD_PX));
-    const wf power = wf_of_bits(wi_and(wi_of_bits(size), wi_set(0x7f800000)));
-    const wf bias = wf_mul(power, wf_set(1.5f));
+    const wf power = wf_of_bits(wi_and(wi_of_bits(center_px), wi_set(0x7f800000)));
+    const wf bias = wf_mul(wf_max(power, wf_set(EWA_FIELD_PX / 4)), wf_set(6));
     return wf_sub(wf_add(center_px, bias), bias);
 }
 
@@ -386,7 +385,9 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_sour
     const ewa_packet *packet = &source->packets[id];
     const size_t first_lane = (size_t)id * EWA_PACKET_LANES;
     const uint16_t *opacities_u16 = source->opacities ? source->opacities + first_lane : NULL;
-    const uint8_t *materials = source->materials ? source->materials + first_lane : NULL;
+    uint8_t same[EWA_PACKET_LANES];
+    const uint8_t *materials = source->materials ? source->materials + first_lane : same;
+    if (run->materials && !source->materials) memset(same, source->material, sizeof same);
     const wm clipped = wm_of_bits(source->clip_masks ? source->clip_masks[id] : 0);
     const wf c1_px = wf_mul(t->c1, wf_set(view->fx_zoomed)), c2_px = wf_mul(t->c2, wf_set(view->fy_zoomed));
     const wf slope = wf_sqrt(wf_fma(t->key_x, t->key_x, wf_mul(t->key_y, t->key_y)));
@@ -435,12 +436,14 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_sour
     const wi rows = wi_add(wi_sub(wi_sar(wi_from_f(wf_keep(alive, last_y)), 2), row), wi_set(1));
     // Wide splats are wide also where only a narrow part of them is in the tile: its pixels are far from the
     // centre, and how the picture is cut into tiles has no say.
-    const wf half_end_px = wf_set(EWA_COLUMN_CLASSES * EWA_BLOCK_PX / 2),
-             per_block = wf_set(1.0f / EWA_BLOCK_PX);
-    const wf whole_columns =
-        wf_sub(wf_floor(wf_mul(whole_last_x, per_block)), wf_floor(wf_mul(whole_first_x, per_block)));
-    wm wide = wm_or(wf_lt(half_end_px, wf_max(t->half_x, t->half_y)),
-                    wf_le(wf_set(EWA_COLUMN_CLASSES), whole_columns));
+    enum { WIDE_PX = EWA_COLUMN_CLASSES * EWA_BLOCK_PX };
+    wm wide = wf_lt(wf_set(WIDE_PX / 2), wf_max(t->half_x, t->half_y));
+    if (wm_bits(wf_lt(wf_set((WIDE_PX - EWA_BLOCK_PX) / 2), t->half_x))) { // some have a column too many
+        const wf per_block = wf_set(1.0f / EWA_BLOCK_PX);
+        const wf whole_columns =
+            wf_sub(wf_floor(wf_mul(whole_last_x, per_block)), wf_floor(wf_mul(whole_first_x, per_block)));
+        wide = wm_or(wide, wf_le(wf_set(EWA_COLUMN_CLASSES), whole_columns));
+    }
     // The key of z + eps has a tangent that serves where the key hardly changes.
     const wf least_key = wf_fnma(wf_abs(t->key_x), t->half_x, wf_fnma(wf_abs(t->key_y), t->half_y, key));
     wf lowest = wf_sub(key_low, margin);
@@ -486,9 +489,9 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_sour
         wf_select(steep, bound_offset, wf_mul(bound_scale, t->key_x)),
         wf_select(steep, wf_add(key_high, margin), wf_mul(bound_scale, t->key_y)),
         low,
-        wf_odd(wf_mul(color_units, decode_color(&form, packet->red))),
-        wf_odd(wf_mul(color_units, decode_color(&form, packet->green))),
-        wf_odd(wf_mul(color_units, decode_color(&form, packet->blue))),
+        wf_odd_product(color_units, decode_color(&form, packet->red)),
+        wf_odd_product(color_units, decode_color(&form, packet->green)),
+        wf_odd_product(color_units, decode_color(&form, packet->blue)),
         wf_of_bits(wi_or(box, wi_or(select_int(clipped, EWA_CLIP_BIT, wi_set(0)),
                                     select_int(turned, EWA_TURNED_BIT, wi_set(0))))),
     };
@@ -496,13 +499,13 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_sour
     const wf peak_units = wf_mul(t->peak, wf_set(view->sum_scale));
     const wf facing_peak = wf_select(turned, wf_negate(peak_units), peak_units);
     float loads[64];
-    w_store4(loads, wf_odd(wf_mul(facing_peak, t->n[0])), wf_odd(wf_mul(facing_peak, t->n[1])),
-             wf_odd(wf_mul(facing_peak, t->n[2])), wf_odd(peak_units));
+    w_store4(loads, wf_odd_product(facing_peak, t->n[0]), wf_odd_product(facing_peak, t->n[1]),
+             wf_odd_product(facing_peak, t->n[2]), wf_odd(peak_units));
     uint8_t classes[16];
     wi_store_u8(classes, select_int(clipped, EWA_CLIP_CLASS, box_classes(columns, rows, steep, wide)));
     if (wm_bits(wm_and(alive, clipped))) list_clipped(run, wm_bits(wm_and(alive, clipped)), alive_bits, id);
     float opacities[16];
-    wf_store(opacities, wf_odd(wf_mul(opacity, wf_set(view->sum_scale))));
+    if (run->opacities) wf_store(opacities, wf_odd_product(opacity, wf_set(view->sum_scale)));
     emit(run, alive_bits, lanes, loads, opacities, materials, classes);
 }
 

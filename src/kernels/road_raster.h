@@ -304,10 +304,11 @@ static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_
     const ewa_view *view = p->view;
     const ewa_tile *tile = p->tile;
     const ewa_record *r = &p->run->records[splat];
-    const uint32_t channels = what & BEYOND ? tile->channel_count
-                                            : 4 + (what & ADD_NORMAL ? 3u : 0) + (what & ADD_DEPTH ? 1u : 0) +
-                                                  (what & ADD_MATERIAL ? EWA_MATERIAL_CHANNELS + 0u : 0) +
-                                                  (what & ADD_OPACITY ? 1u : 0);
+    const uint32_t channels =
+        what & BEYOND
+            ? tile->channel_count
+            : 4 + (what & ADD_NORMAL ? 3u : 0) + (what & (ADD_DEPTH | ADD_MATERIAL) ? 1u : 0) +
+                  (what & ADD_MATERIAL ? EWA_MATERIAL_CHANNELS + 0u : 0) + (what & ADD_OPACITY ? 1u : 0);
     const uint32_t doublings = what & LONG ? view->doublings : 2;
     column_terms c[EWA_COLUMN_CLASSES];
     UNROLL_COLUMNS
@@ -419,9 +420,11 @@ ACCUMULATE(add_opacity_height, ADD_NORMAL | ADD_OPACITY | ADD_DEPTH | ORTHOGRAPH
 ACCUMULATE(add_color_beyond, BEYOND)
 ACCUMULATE(add_normal_beyond, ADD_NORMAL | BEYOND)
 ACCUMULATE(add_opacity_beyond, ADD_NORMAL | ADD_OPACITY | BEYOND)
+ACCUMULATE(add_material, ADD_NORMAL | ADD_MATERIAL)
 ACCUMULATE(add_material_depth, ADD_NORMAL | ADD_MATERIAL | ADD_DEPTH)
 ACCUMULATE(add_material_height, ADD_NORMAL | ADD_MATERIAL | ADD_DEPTH | ORTHOGRAPHIC)
 ACCUMULATE(add_material_beyond, ADD_NORMAL | ADD_MATERIAL | BEYOND)
+ACCUMULATE(add_all, ADD_NORMAL | ADD_MATERIAL | ADD_OPACITY)
 ACCUMULATE(add_all_depth, ADD_NORMAL | ADD_MATERIAL | ADD_OPACITY | ADD_DEPTH)
 ACCUMULATE(add_all_height, ADD_NORMAL | ADD_MATERIAL | ADD_OPACITY | ADD_DEPTH | ORTHOGRAPHIC)
 ACCUMULATE(add_all_beyond, ADD_NORMAL | ADD_MATERIAL | ADD_OPACITY | BEYOND)
@@ -493,8 +496,8 @@ static void accumulate(const ewa_view *view, const ewa_tile *tile, const ewa_sor
         {add_color, add_color_depth, add_color_height, add_color_beyond},
         {add_normal, add_normal_depth, add_normal_height, add_normal_beyond},
         {add_opacity, add_opacity_depth, add_opacity_height, add_opacity_beyond},
-        {NULL, add_material_depth, add_material_height, add_material_beyond}, // never without a depth
-        {NULL, add_all_depth, add_all_height, add_all_beyond},
+        {add_material, add_material_depth, add_material_height, add_material_beyond},
+        {add_all, add_all_depth, add_all_height, add_all_beyond},
     };
     const pass p = {view, tile, run};
     if (view->raycast) {

@@ -174,13 +174,13 @@ static uint32_t resolve(const ewa_tile *tile, const ewa_resolve *to, const ewa_e
         // Long chains of operations: a row's worth of each at a time keeps the processor busy.
         for (uint32_t column = 0; column < in_tile.blocks_per_row; column++) {
             const block_place at = place_of(&in_tile, row, column);
-            const block_sums sums = tile_block(&in_tile, &at_hand, row, column);
+            const block_sums sums = tile_block(&in_tile, row, column);
             shade_block(&in_tile, &at_hand, &sums, at.x, at.y, shades + (size_t)column * EWA_SHADE_FLOATS);
         }
         const uint32_t marked = edges ? edge_rows[row] : 0;
         for (uint32_t column = 0; column < in_tile.blocks_per_row; column++) {
             const block_place at = place_of(&in_tile, row, column);
-            const block_sums sums = tile_block(&in_tile, &at_hand, row, column);
+            const block_sums sums = tile_block(&in_tile, row, column);
             if (!planes && !wm_bits(wf_lt(wf_set(0), sum_of(&sums, 0)))) {
                 store_codes(&at_hand, &at, empty_codes);
             } else {

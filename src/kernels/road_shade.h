@@ -194,7 +194,7 @@ static void shade_surface(const ewa_tile *tile, const ewa_resolve *to, const blo
         return;
     }
     const wf inverse = inverse_weight(weight);
-    const wf inverse_color = inverse_weight(sum_of(sums, color_weight(tile)));
+    const wf inverse_color = wf_mul(inverse_weight(sum_of(sums, color_weight(tile))), wf_set(to->color_unit));
     wf normal[3], view[3], material[EWA_MATERIAL_CHANNELS];
     for (int i = 0; i < 3; i++) normal[i] = sum_of(sums, 4 + (uint32_t)i);
     const wf length2 = shaded_length2(normal, weight);
@@ -202,7 +202,8 @@ static void shade_surface(const ewa_tile *tile, const ewa_resolve *to, const blo
     toward_eye(to, x, y, view);
     if (!to->orthographic) scale3(view, wf_inverse_root(dot3(view, view)));
     for (int i = 0; i < EWA_MATERIAL_CHANNELS; i++)
-        material[i] = tile->with_materials ? wf_mul(sum_of(sums, MATERIAL_AT + (uint32_t)i), inverse)
+        material[i] = tile->with_materials ? wf_mul(wf_mul(sum_of(sums, MATERIAL_AT + (uint32_t)i), inverse),
+                                                    wf_set(to->material_units[i]))
                                            : wf_set(to->material[i]);
     const block_light light = gather_light(to, normal, view, material[3]);
     wf mirrored[3] = {zero, zero, zero};
@@ -226,7 +227,7 @@ static ALWAYS_INLINE void shade_block(const ewa_tile *tile, const ewa_resolve *t
         shade_surface(tile, to, sums, x, y, shade);
         return;
     }
-    wf factor = inverse_weight(sum_of(sums, color_weight(tile)));
+    wf factor = wf_mul(inverse_weight(sum_of(sums, color_weight(tile))), wf_set(to->color_unit));
     if (to->shading == EWA_ROAD_LAMBERT) {
         wf normal[3];
         for (int i = 0; i < 3; i++) normal[i] = sum_of(sums, 4 + (uint32_t)i);

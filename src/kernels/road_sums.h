@@ -20,13 +20,12 @@
 
 #include <assert.h>
 
-static const float BIAS = EWA_SUM_ORIGIN;
+static const float BIAS = 0x1.8p23f;
 enum {
     BIAS_BITS = 0x4b400000,
     CARRY_SHIFT = 16,
     CARRY_MASK = (1 << CARRY_SHIFT) - 1,
     MOST_UNITS = EWA_SUM_UNITS - (1 << 16),
-    MOST_VISITS = 6,                             ///< between two carries
     FINE_SHIFT = 12,                             ///< what a term's unit leaves has up to half of so many bits
     MOST_FINE_VISITS = MOST_UNITS >> FINE_SHIFT, ///< where nothing is carried
 };
@@ -77,11 +76,10 @@ static __attribute__((noinline)) void carry_block(const ewa_tile *tile, const ew
 /// A block's sums, for a term in each, which is counted if terms are.
 static ALWAYS_INLINE float *visit_block(const ewa_tile *tile, const ewa_sums *of, uint32_t row,
                                         uint32_t column, uint32_t channels) {
-    static_assert(MOST_VISITS * EWA_MOST_TERM_UNITS + CARRY_MASK < MOST_UNITS, "sums stay in range");
-    static_assert(MOST_FINE_VISITS * (1 << (FINE_SHIFT - 1)) + CARRY_MASK < MOST_UNITS,
-                  "and what units leave");
+    static_assert(EWA_TERMS_PER_CARRY * EWA_MOST_TERM_UNITS + CARRY_MASK < MOST_UNITS, "sums stay in range");
+    static_assert(MOST_FINE_VISITS >= EWA_TERMS_PER_CARRY * EWA_MOST_ROOM, "and what units leave");
     uint32_t *visits = of->visits + row * tile->blocks_per_row + column;
-    if (of->careful && *visits == MOST_VISITS) carry_block(tile, of, row, column, channels);
+    if (of->careful && *visits == of->most_visits) carry_block(tile, of, row, column, channels);
     if (of->careful || of->fine) ++*visits;
     return of->planes + first_number(tile, row, column, channels);
 }
@@ -114,27 +112,21 @@ static ALWAYS_INLINE wf read_units(const float *low, const float *high, bool has
     return wf_fma(wf_from_i(upper), wf_set(1 << CARRY_SHIFT), wf_from_i(wi_and(units, wi_set(CARRY_MASK))));
 }
 
-/// The sums of a block: as floats, or in units, which the reader turns into the same floats.
+/// The sums of a block, in units: settled ones begin at 0, others still at BIAS.
 typedef struct block_sums {
-    const float *planes, *unit, *offset; ///< the last two by channel
+    const float *planes;
+    float origin;
 } block_sums;
 
-static ALWAYS_INLINE block_sums settled_block(const ewa_resolve *to, const float *planes) {
-    return (block_sums){planes, to->units[EWA_SETTLED], to->offsets[EWA_SETTLED]};
-}
-
 /// The sums of a tile's block.
-static ALWAYS_INLINE block_sums tile_block(const ewa_tile *tile, const ewa_resolve *to, uint32_t row,
-                                           uint32_t column) {
-    const int form = tile->settled_rows[row] >> column & 1 ? EWA_SETTLED : EWA_IN_UNITS;
+static ALWAYS_INLINE block_sums tile_block(const ewa_tile *tile, uint32_t row, uint32_t column) {
+    const bool settled = tile->settled_rows[row] >> column & 1;
     return (block_sums){tile->sums.planes + first_number(tile, row, column, tile->channel_count),
-                        to->units[form], to->offsets[form]};
+                        settled ? 0 : BIAS};
 }
 
-/// Units are powers of two, so that this is exact.
 static ALWAYS_INLINE wf sum_of(const block_sums *sums, uint32_t channel) {
-    return wf_fma(wf_load(sums->planes + (size_t)channel * EWA_BLOCK_LANES), wf_set(sums->unit[channel]),
-                  wf_set(sums->offset[channel]));
+    return wf_sub(wf_load(sums->planes + (size_t)channel * EWA_BLOCK_LANES), wf_set(sums->origin));
 }
 
 #endif

@@ -64,12 +64,15 @@
 // lies within the tolerance.
 // One pass: the surfel of smallest z wins, with weight 1 and full coverage.
 //
-// Sums are exact: a term, the kernel over its peak times the payload there, is rounded once to a whole number of
-// units, and whole numbers are added (road_sums.h). So neither the order of the splats nor how the picture is cut
-// into tiles changes a byte. 2^22 units are a weight of 1 (less, by a power of two, where q0 is large; more where no
-// splat can have a weight near 1 / (2 pi)), as many a colour, material or opacity as large as any there is; z is summed over B(x),
-// orthographic: over the scene's depth. Without edge antialiasing, where a pixel shows splats of next to no weight,
-// and where colours beyond 16 meet far smaller ones, what the rounding leaves is summed too, to 2^-20 of a unit.
+// Sums are exact: a term, the kernel over its peak times the payload there, is rounded once to a whole number
+// of units, and whole numbers are added (road_sums.h). So neither the order of the splats nor how they are
+// spread over sources or the picture is cut into tiles changes a byte. 2^22 units are a weight of 1 (less, by
+// a power of two, where q0 is large; more where no splat can have a weight near 1 / (2 pi)), as many a
+// colour, material or opacity as large as any there is; z is summed over B(x), orthographic: over the scene's
+// depth. What the rounding leaves is summed too, to 2^-12 of a unit: of depths and the weights that they are
+// divided by; of splats that clip lines cut; of all without edge antialiasing, where a pixel shows splats of
+// next to no weight, and where colours beyond 16 meet far smaller ones. Weights of several sources are those
+// of the one with the smallest q0: the others' times that over their own.
 //
 // Facing: turned splats hide others and cover the pixel as all do, but are seen only where nothing faces the
 // viewer. With S_f the sums of weight, colour, normal, depth, material and opacity over the splats that are

@@ -66,7 +66,6 @@ static void fill_part(void *data, uint32_t part, uint32_t worker) {
 static uint64_t place(const bin_job *job) {
     ewa_bins *bins = job->bins;
     uint64_t sum = 0;
-    bins->largest_bin = 0;
     for (uint32_t tile = 0; tile < job->tiles; tile++) {
         bins->tile_first[tile] = sum;
         for (uint32_t part = 0; part < job->parts; part++) {
@@ -75,8 +74,6 @@ static uint64_t place(const bin_job *job) {
             *count = sum;
             sum += here;
         }
-        const uint64_t size = sum - bins->tile_first[tile];
-        if (size > bins->largest_bin) bins->largest_bin = size;
     }
     bins->tile_first[job->tiles] = sum;
     return sum;

@@ -16,7 +16,6 @@ typedef struct ewa_bins {
         *tile_first;   ///< [tile + 1]: a tile's packets are entries[tile_first[tile] .. tile_first[tile + 1])
     uint32_t *entries; ///< packet numbers, ascending within a tile
     ewa_packet_places places; ///< of the packets that some tile has
-    uint64_t largest_bin;     ///< entries of the fullest tile
     uint64_t culled_packet_count;
     ewa_buffer tile_first_buffer, entries_buffer, kept_buffer, counts, places_buffer;
 } ewa_bins;

@@ -439,10 +439,6 @@ void ewa_surfels_destroy(ewa_surfels **surfels) {
     *surfels = NULL;
 }
 
-/// Colours up to so much keep enough digits in one word of a sum (kernels/road_sums.h), as do those of which
-/// none is much smaller than the largest.
-static const double PLAIN_COLORS = 16;
-
 void ewa_packets_sum_up(ewa_surfels *surfels) {
     const ewa_packet_bounds *bounds = &surfels->bounds;
     double smallest = INFINITY, most = 0; // limits of packets' colours
@@ -456,7 +452,7 @@ void ewa_packets_sum_up(ewa_surfels *surfels) {
         even = even && ewa_color_form_is_even(bounds->colors[i]);
     }
     surfels->largest_color = most > 0 ? most : 1;
-    surfels->fine_colors = most > PLAIN_COLORS && (!even || most > PLAIN_COLORS * smallest);
+    surfels->fine_colors = most > EWA_PLAIN_COLORS && (!even || most > EWA_PLAIN_COLORS * smallest);
     const uint32_t bits = reach_code << EWA_RADIUS_SHIFT;
     float reach;
     memcpy(&reach, &bits, sizeof reach);

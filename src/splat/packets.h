@@ -43,6 +43,10 @@ struct ewa_surfels {
     double unit_coverage;
 };
 
+/// Colours up to so much keep enough digits in one word of a sum (kernels/road_sums.h), as do those of which
+/// none is much smaller than the largest.
+#define EWA_PLAIN_COLORS 16.0
+
 enum { EWA_BOUNDS_BYTES = 3 * sizeof(double) + 2 * sizeof(uint16_t) + sizeof(uint32_t) }; ///< of a packet
 
 /// Sets the views of `bounds` into `bounds_memory`.

@@ -1,52 +1,34 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The renderer: an object whose memory survives, and the order of a frame's stages. Reference: reference.c.
+// The renderer before its back end: a frame is begun, gets its sources, and is finished.
 #include "splat/render.h"
 #include "base/base.h"
-#include "splat/eye_dome.h"
+#include "splat/backend.h"
 #include "splat/options.h"
-#include "splat/tile.h"
-
-#include <math.h>
-#include <string.h>
-
-/// Large tiles share fewer packets; small ones spread a small picture over the threads, and keep the records
-/// of crowded ones in the cache.
-static uint32_t tile_side_px(const ewa_camera *camera, const ewa_surfels *surfels) {
-    enum { LARGE_PX = 1 << 20, CROWD = 12000000 };
-    return (uint64_t)camera->width_px * camera->height_px >= LARGE_PX && surfels->count <= CROWD ? 128 : 64;
-}
+#include "splat/packets.h"
 
 struct ewa_renderer {
     ewa_context *context;
-    const ewa_road_kernels *kernels;
-    ewa_bins bins;
-    ewa_dome_pass dome;
+    const ewa_backend *backend;
+    void *state; ///< the back end's
+    bool begun;
+    ewa_render_job job;
+    ewa_buffer sources;
     uint32_t tile_px; ///< 0: chosen
-    uint32_t worker_count;
-    ewa_tile_scratch *scratch[]; ///< one per worker
 };
-
-static size_t renderer_bytes(uint32_t worker_count) {
-    return sizeof(ewa_renderer) + worker_count * sizeof(ewa_tile_scratch *);
-}
 
 ewa_status ewa_renderer_create(ewa_context *context, ewa_renderer **renderer) {
     if (!context || !renderer) return EWA_ERROR_ARGUMENT;
     *renderer = NULL;
-    const uint32_t worker_count = ewa_context_worker_count(context);
-    ewa_renderer *made = ewa_allocate_zeroed(context, 1, renderer_bytes(worker_count));
+    ewa_renderer *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
-    made->kernels = made->dome.kernels = ewa_road_kernels_choose(ewa_context_cpu_features(context));
-    made->worker_count = worker_count;
-    for (uint32_t i = 0; i < worker_count; i++) {
-        made->scratch[i] = ewa_allocate_zeroed(context, 1, sizeof *made->scratch[i]);
-        if (!made->scratch[i]) {
-            ewa_renderer_destroy(&made);
-            return EWA_ERROR_MEMORY;
-        }
+    made->backend = &ewa_backend_cpu;
+    const ewa_status status = made->backend->create(context, &made->state);
+    if (status != EWA_OK) {
+        ewa_release(context, made, 1, sizeof *made);
+        return status;
     }
     *renderer = made;
     return EWA_OK;
@@ -56,155 +38,68 @@ void ewa_renderer_destroy(ewa_renderer **renderer) {
     if (!renderer || !*renderer) return;
     ewa_renderer *old = *renderer;
     ewa_context *context = old->context;
-    for (uint32_t i = 0; i < old->worker_count; i++) {
-        if (old->scratch[i]) ewa_tile_scratch_free(context, old->scratch[i]);
-        ewa_release(context, old->scratch[i], 1, sizeof *old->scratch[i]);
-    }
-    ewa_bins_free(context, &old->bins);
-    ewa_dome_pass_free(context, &old->dome);
-    ewa_release(context, old, 1, renderer_bytes(old->worker_count));
+    old->backend->destroy(context, old->state);
+    ewa_buffer_free(context, &old->sources);
+    ewa_release(context, old, 1, sizeof *old);
     *renderer = NULL;
 }
 
 void ewa_renderer_set_tile(ewa_renderer *renderer, uint32_t tile_px) { renderer->tile_px = tile_px; }
 
-static void gather_stats(const ewa_renderer *renderer, const ewa_surfels *surfels, double start_s,
-                         double binned_s, ewa_render_stats *stats) {
-    const uint64_t culled = renderer->bins.culled_packet_count * EWA_PACKET_LANES;
-    *stats = (ewa_render_stats){.splat_count = surfels->count,
-                                .culled_count = culled < surfels->count ? culled : surfels->count,
-                                .bin_s = (binned_s - start_s) * renderer->worker_count};
-    for (uint32_t i = 0; i < renderer->worker_count; i++) {
-        const ewa_tile_scratch *s = renderer->scratch[i];
-        stats->hidden_count += s->hidden_splat_count;
-        stats->drawn_count += s->drawn_count;
-        stats->fragment_count += s->fragment_count;
-        stats->setup_s += s->setup_s;
-        stats->visibility_s += s->visibility_s;
-        stats->accumulate_s += s->accumulate_s;
-        stats->edge_s += s->edge_s;
-        stats->resolve_s += s->resolve_s;
-    }
-    stats->total_s = ewa_now_s() - start_s;
+ewa_status ewa_render_begin(ewa_renderer *renderer, const ewa_camera *camera,
+                            const ewa_render_options *options, const ewa_frame *frame) {
+    if (!renderer || !camera || !frame) return EWA_ERROR_ARGUMENT;
+    ewa_render_job *job = &renderer->job;
+    renderer->begun = false;
+    *job = (ewa_render_job){.camera = *camera, .frame = *frame, .tile_px = renderer->tile_px};
+    ewa_status status = ewa_render_options_choose(renderer->context, options, &job->options);
+    if (status == EWA_OK) status = ewa_camera_check(renderer->context, camera);
+    if (status != EWA_OK) return status;
+    ewa_shading_setup_make(&job->options, &job->shading);
+    renderer->begun = true;
+    return EWA_OK;
 }
 
-/// Tells of colours that cannot be shown: 8-bit pixels hide them.
-static void report_broken(const ewa_renderer *renderer, ewa_context *context, const ewa_camera *camera) {
-    uint64_t broken = 0;
-    for (uint32_t i = 0; i < renderer->worker_count; i++) broken += renderer->scratch[i]->broken_pixel_count;
-    if (broken)
-        ewa_report(context, EWA_SEVERITY_WARNING,
-                   "%llu of %llu pixels have a colour that is infinite or not a number",
-                   (unsigned long long)broken, (unsigned long long)camera->width_px * camera->height_px);
+/// What all sources of a frame have in common.
+static ewa_status check_source(const ewa_renderer *renderer, const ewa_surfels *surfels) {
+    const ewa_render_job *job = &renderer->job;
+    if (job->source_count && surfels->cutoff != job->sources[0]->cutoff)
+        return ewa_fail(renderer->context, EWA_ERROR_ARGUMENT,
+                        "render: surfels with a cutoff of %g beside others with %g", surfels->cutoff,
+                        job->sources[0]->cutoff);
+    if (job->source_count == UINT32_MAX)
+        return ewa_fail(renderer->context, EWA_ERROR_LIMIT, "render: more than %u sources", UINT32_MAX);
+    return ewa_shading_check_materials(renderer->context, &job->shading, surfels->most_material);
 }
 
-/// How many surfaces are composited, and whether they are transparent.
-static void set_layers(ewa_tile_job *job, const ewa_render_options *options) {
-    const bool see_through = options->opacity < 1 || job->surfels->opacities;
-    job->resolve.transparent = see_through && options->layers != 1 && options->passes == 3;
-    if (job->resolve.transparent) {
-        job->layers =
-            options->layers == 0 || options->layers > EWA_MAX_LAYERS ? EWA_MAX_LAYERS : options->layers;
-        job->merge_last = job->layers == options->layers;
-        job->with_opacity = job->surfels->opacities != NULL;
-        job->with_normals |= job->with_opacity;
-        job->source.opacities = job->surfels->opacities;
-    } else {
-        job->layers = options->edge_antialiasing && options->passes == 3 ? options->edge_layers : 1;
-    }
+ewa_status ewa_render_add(ewa_renderer *renderer, const ewa_surfels *surfels) {
+    if (!renderer || !surfels) return EWA_ERROR_ARGUMENT;
+    if (!renderer->begun)
+        return ewa_fail(renderer->context, EWA_ERROR_ARGUMENT, "render: no frame has been begun");
+    ewa_render_job *job = &renderer->job;
+    ewa_status status = check_source(renderer, surfels);
+    if (status == EWA_OK)
+        status = ewa_buffer_grow(renderer->context, &renderer->sources, job->source_count,
+                                 (size_t)job->source_count + 1, sizeof(const ewa_surfels *));
+    if (status != EWA_OK) return status;
+    const ewa_surfels **sources = renderer->sources.data;
+    sources[job->source_count++] = surfels;
+    job->sources = sources;
+    return EWA_OK;
 }
 
-/// Materials that differ from surfel to surfel are summed per pixel.
-static void set_materials(ewa_tile_job *job, const ewa_shading_setup *shading) {
-    job->with_materials = shading->has_table && job->surfels->materials;
-    if (!job->with_materials) return;
-    job->with_depth = true;
-    job->source.materials = job->surfels->materials;
-    for (uint32_t i = 0; i < shading->material_count; i++)
-        ewa_material_numbers(&shading->materials[i], job->materials[i]);
-    job->view.materials = (const float(*)[EWA_MATERIAL_CHANNELS])job->materials;
-    for (int c = 0; c < EWA_MATERIAL_CHANNELS; c++) { // sums of all have the same units
-        float largest = 0;
-        for (uint32_t i = 0; i < shading->material_count; i++)
-            largest = fmaxf(largest, fabsf(job->materials[i][c]));
-        int exponent = 0;
-        frexpf(largest, &exponent);
-        for (uint32_t i = 0; i < shading->material_count; i++)
-            job->materials[i][c] = ldexpf(job->materials[i][c], -exponent);
-        job->material_units[c] = ldexpf(1, exponent);
-    }
-}
-
-/// What a unit of each channel's sums stands for.
-static void set_units(ewa_tile_job *job, const ewa_surfels *surfels) {
-    const float weight = 1 / job->view.sum_scale;
-    float *unit = job->resolve.units[EWA_IN_UNITS];
-    *unit++ = weight;
-    for (int i = 0; i < 3; i++) *unit++ = weight * (float)surfels->largest_color;
-    for (int i = 0; i < 3 && job->with_normals; i++) *unit++ = weight;
-    if (job->with_depth) *unit++ = weight;
-    for (int i = 0; i < EWA_MATERIAL_CHANNELS && job->with_materials; i++)
-        *unit++ = weight * job->material_units[i];
-    if (job->with_opacity) *unit = weight;
-    job->resolve.depth_per_share = 1 / job->view.depth_scale;
-    for (uint32_t c = 0; c < EWA_MAX_CHANNELS; c++) {
-        job->resolve.offsets[EWA_IN_UNITS][c] = -(float)EWA_SUM_ORIGIN * job->resolve.units[EWA_IN_UNITS][c];
-        job->resolve.units[EWA_SETTLED][c] = 1;
-    }
+ewa_status ewa_render_finish(ewa_renderer *renderer, ewa_render_stats *stats) {
+    if (!renderer) return EWA_ERROR_ARGUMENT;
+    if (!renderer->begun)
+        return ewa_fail(renderer->context, EWA_ERROR_ARGUMENT, "render: no frame has been begun");
+    renderer->begun = false;
+    return renderer->backend->draw(renderer->state, &renderer->job, stats);
 }
 
 ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const ewa_camera *camera,
                       const ewa_render_options *options, const ewa_frame *frame, ewa_render_stats *stats) {
-    if (!renderer || !surfels || !camera || !frame) return EWA_ERROR_ARGUMENT;
-    ewa_context *context = renderer->context;
-    const double start_s = ewa_now_s();
-    ewa_render_options chosen;
-    ewa_status status = ewa_render_options_choose(context, options, &chosen);
-    if (status == EWA_OK) status = ewa_camera_check(context, camera);
-    if (status != EWA_OK) return status;
-    ewa_shading_setup shading;
-    ewa_shading_setup_make(&chosen, &shading);
-    status = ewa_shading_check_materials(context, &shading, surfels->most_material);
-    const bool with_dome = chosen.eye_dome > 0 && (frame->rgba8 || frame->rgba);
-    ewa_frame drawn = *frame;
-    if (status == EWA_OK && with_dome)
-        status = ewa_dome_pass_start(context, &renderer->dome, camera, frame, &chosen, &drawn);
-    if (status != EWA_OK) return status;
-
-    ewa_tile_job job = {.kernels = renderer->kernels,
-                        .surfels = surfels,
-                        .source = {.packets = surfels->packets,
-                                   .colors = surfels->bounds.colors,
-                                   .clip_masks = chosen.point_size_px > 0 ? NULL : surfels->clip_masks},
-                        .bins = &renderer->bins,
-                        .with_normals = shading.lit || drawn.normal,
-                        .with_depth = drawn.depth != NULL,
-                        .count_fragments = stats != NULL,
-                        .scratch = renderer->scratch};
-    const ewa_placement placement =
-        ewa_placement_make(camera, surfels->origin_world, &surfels->extent, surfels->unit);
-    const uint32_t tile_px = renderer->tile_px ? renderer->tile_px : tile_side_px(camera, surfels);
-    status = ewa_view_set(&job.view, surfels, camera, &placement, &chosen, tile_px);
-    if (status != EWA_OK) return status;
-    ewa_resolve_set(&job.resolve, surfels, camera, &placement, &chosen, &shading, &drawn);
-    set_layers(&job, &chosen);
-    set_materials(&job, &shading);
-    job.channel_count = 4 + (job.with_normals ? 3 : 0) + (job.with_depth ? 1 : 0) +
-                        (job.with_materials ? EWA_MATERIAL_CHANNELS : 0) + (job.with_opacity ? 1 : 0);
-    // Without antialiasing, pixels show splats whose weight is next to nothing.
-    job.fine_sums = surfels->fine_colors || !job.resolve.edge_antialiasing;
-    set_units(&job, surfels);
-
-    status = ewa_bins_fill(context, &renderer->bins, renderer->kernels, &job.view, surfels);
-    if (status != EWA_OK) return status;
-    job.source.places = renderer->bins.places;
-    const double binned_s = ewa_now_s();
-    for (uint32_t i = 0; i < renderer->worker_count && status == EWA_OK; i++)
-        status = ewa_tile_scratch_reserve(context, renderer->scratch[i], &job, renderer->bins.largest_bin);
-    if (status != EWA_OK) return status;
-    ewa_parallel(context, ewa_tile_draw, &job, renderer->bins.tiles_x * renderer->bins.tiles_y);
-    if (with_dome) ewa_dome_pass_finish(context, &renderer->dome);
-    report_broken(renderer, context, camera);
-    if (stats) gather_stats(renderer, surfels, start_s, binned_s, stats);
-    return EWA_OK;
+    if (!surfels) return EWA_ERROR_ARGUMENT;
+    ewa_status status = ewa_render_begin(renderer, camera, options, frame);
+    if (status == EWA_OK) status = ewa_render_add(renderer, surfels);
+    return status == EWA_OK ? ewa_render_finish(renderer, stats) : status;
 }

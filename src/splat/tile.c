@@ -14,21 +14,21 @@
 
 enum { NEAR_CHUNK = 64 };
 
-ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, const ewa_tile_job *job,
-                                    uint64_t largest_bin) {
-    uint64_t records = largest_bin * EWA_PACKET_LANES;
+ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, const ewa_tile_job *job) {
+    uint64_t records = job->largest_bin * EWA_PACKET_LANES;
     if (records > EWA_KEPT_RECORDS) records = EWA_KEPT_RECORDS;
     if (records < EWA_RUN_RECORDS) records = EWA_RUN_RECORDS;
     // Per pixel: `nearest` twice, the edges' `passed`, and four channels of what lies behind; per block
     // `reach`; sums of both surfaces and of turned splats, and what is noted of clip lines by both, each in
     // two words.
-    const size_t tile_floats = (size_t)job->view.tile_px * job->view.tile_px;
-    const bool two_words = job->fine_sums || job->with_depth || job->source.clip_masks;
+    const size_t tile_floats = (size_t)job->tile_px * job->tile_px;
+    const bool two_words = job->fine_sums || job->with_depth || job->with_clips;
     const size_t sum_floats = tile_floats * job->channel_count * (two_words ? 2 : 1),
-                 cut_floats = job->source.clip_masks ? tile_floats * EWA_CUT_CHANNELS : 0;
+                 cut_floats = job->with_clips ? tile_floats * EWA_CUT_CHANNELS : 0;
     const size_t pixel_floats =
         tile_floats * (2 + 1 + 4) + tile_floats / EWA_BLOCK_LANES + 2 * (3 * sum_floats + 2 * cut_floats);
-    const uint64_t packet_count = largest_bin + EWA_PACKET_LANES;
+    const uint64_t packet_count = job->largest_bin + (uint64_t)EWA_PACKET_LANES * (job->source_count + 1),
+                   run_count = records / EWA_RUN_RECORDS + 2 * ((uint64_t)job->source_count + 1);
     const size_t box_counts[EWA_BOX_LEVELS] = {
         records + EWA_BLOCK_LANES, records / EWA_GROUP_RECORDS + EWA_BLOCK_LANES,
         records / EWA_GROUP_RECORDS / EWA_BLOCK_LANES + EWA_BLOCK_LANES};
@@ -44,12 +44,13 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
         {&s->list_buffer, 2 * (EWA_LISTS * records + EWA_BLOCK_LANES), sizeof *s->listed},
         {&s->box_buffer, 3 * box_count, sizeof(float)},
         {&s->near_buffer, records, sizeof *s->near_surfels},
-        {&s->clip_buffer, job->source.clip_masks ? records : 0, sizeof *s->clips},
+        {&s->clip_buffer, job->with_clips ? records : 0, sizeof *s->clips},
         {&s->opacity_buffer, job->with_opacity ? records + EWA_PACKET_LANES : 0, sizeof *s->opacities},
         {&s->material_buffer, job->with_materials ? records + EWA_PACKET_LANES : 0, sizeof *s->materials},
-        {&s->kept_buffer, records / EWA_RUN_RECORDS + 2, sizeof *s->kept},
+        {&s->kept_buffer, run_count, sizeof *s->kept},
         {&s->pixel_buffer, pixel_floats, sizeof(float)},
-        {&s->packet_buffer, 4 * packet_count, sizeof *s->shown},
+        {&s->packet_buffer, 4 * packet_count, sizeof *s->ordered},
+        {&s->split_buffer, job->source_count, sizeof *s->split},
     };
     for (size_t i = 0; i < sizeof needs / sizeof needs[0]; i++) {
         const ewa_status status =
@@ -68,7 +69,7 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
         s->boxes[i].key_low = (float *)(box_numbers + 2 * box_count);
     }
     s->near_surfels = s->near_buffer.data;
-    s->clips = job->source.clip_masks ? s->clip_buffer.data : NULL;
+    s->clips = job->with_clips ? s->clip_buffer.data : NULL;
     s->opacities = job->with_opacity ? s->opacity_buffer.data : NULL;
     s->materials = job->with_materials ? s->material_buffer.data : NULL;
     s->kept = s->kept_buffer.data;
@@ -87,6 +88,7 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
                               .high = next + floats,
                               .fine = i < 3 && two_words ? floats / 2 : 0,
                               .careful = i > 0,
+                              .most_visits = job->terms_per_carry,
                               .visits = s->visits[i],
                               .high_rows = s->high_rows[i]};
         next += 2 * floats;
@@ -96,21 +98,21 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     s->apart.cut_rows = cut_floats ? s->cut_rows[0] : NULL;
     s->edges.apart.cut_rows = cut_floats ? s->cut_rows[1] : NULL;
     s->record_capacity = records;
-    s->kept_capacity = records / EWA_RUN_RECORDS + 2;
-    s->shown = s->packet_buffer.data;
-    s->hidden = s->shown + packet_count;
-    s->ordered = s->hidden + packet_count;
-    s->depths_world = (float *)(s->ordered + packet_count);
+    s->kept_capacity = run_count;
+    s->split = s->split_buffer.data;
+    s->ordered = s->packet_buffer.data;
+    s->depths = (float *)(s->ordered + packet_count);
+    s->packets = s->ordered + 2 * packet_count;
     s->drawn_count = s->fragment_count = s->hidden_splat_count = s->broken_pixel_count = 0;
     s->setup_s = s->visibility_s = s->accumulate_s = s->edge_s = s->resolve_s = 0;
     return EWA_OK;
 }
 
 void ewa_tile_scratch_free(ewa_context *context, ewa_tile_scratch *s) {
-    ewa_buffer *const buffers[] = {&s->record_buffer,  &s->load_buffer,  &s->order_buffer,
-                                   &s->list_buffer,    &s->box_buffer,   &s->near_buffer,
-                                   &s->kept_buffer,    &s->pixel_buffer, &s->packet_buffer,
-                                   &s->opacity_buffer, &s->clip_buffer,  &s->material_buffer};
+    ewa_buffer *const buffers[] = {
+        &s->record_buffer, &s->load_buffer,     &s->order_buffer, &s->list_buffer,   &s->box_buffer,
+        &s->near_buffer,   &s->kept_buffer,     &s->pixel_buffer, &s->packet_buffer, &s->opacity_buffer,
+        &s->clip_buffer,   &s->material_buffer, &s->split_buffer};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) ewa_buffer_free(context, buffers[i]);
 }
 
@@ -133,21 +135,21 @@ static void sort_run(const ewa_run *run, uint16_t *order, ewa_sorted_run *sorted
     sorted->order = order;
 }
 
-void ewa_tile_draw_near(const ewa_tile_job *job, const ewa_tile *tile, const ewa_edges *edges,
-                        const uint32_t *surfels, uint32_t count, ewa_tile_pass what) {
+void ewa_tile_draw_near(const ewa_tile_job *job, const ewa_tile_source *source, const ewa_tile *tile,
+                        const ewa_edges *edges, const uint32_t *surfels, uint32_t count, ewa_tile_pass what) {
     const ewa_road_kernels *kernels = job->kernels;
+    const ewa_view *view = &source->view;
     ewa_near_record records[NEAR_CHUNK];
     for (uint32_t done = 0; done < count;) {
         uint32_t filled = 0;
         for (; done < count && filled < NEAR_CHUNK; done++)
-            filled += ewa_near_record_set(&records[filled], job->surfels, surfels[done], &job->view, tile);
+            filled += ewa_near_record_set(&records[filled], source->surfels, surfels[done], view, tile);
         if (what == EWA_PASS_VISIBILITY)
-            kernels->near_visibility(&job->view, tile, records, filled);
+            kernels->near_visibility(view, tile, records, filled);
         else if (what == EWA_PASS_ACCUMULATE)
-            kernels->near_accumulate(&job->view, tile, records, filled);
+            kernels->near_accumulate(view, tile, records, filled);
         else
-            kernels->edge_near_pass(&job->view, tile, edges, records, filled,
-                                    what == EWA_PASS_EDGE_ACCUMULATE);
+            kernels->edge_near_pass(view, tile, edges, records, filled, what == EWA_PASS_EDGE_ACCUMULATE);
     }
 }
 
@@ -179,32 +181,33 @@ static void prepare_run(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_
     s->run.opacities = s->opacities ? s->opacities + at : NULL;
     s->run.materials = s->materials ? s->materials + at : NULL;
     const uint32_t announced = left < 2 * EWA_RUN_PACKETS ? (uint32_t)left : 2 * EWA_RUN_PACKETS;
-    job->kernels->setup(&job->view, &job->source, packets->ids + first,
+    const ewa_tile_source *source = packets->source;
+    job->kernels->setup(&source->view, &source->packets, packets->ids + first,
                         announced < EWA_RUN_PACKETS ? announced : EWA_RUN_PACKETS, announced, tile, &s->run);
     s->least_key = fminf(s->least_key, s->run.least_key);
     s->has_near |= s->run.near_count > 0;
     sort_run(&s->run, s->order + at, sorted);
     sorted->clips = s->clips ? s->clips + at : NULL;
     for (uint32_t i = 0; i < s->run.clipped_count; i++)
-        ewa_clip_set(&s->clips[at + s->run.clipped[i].record], job->surfels, s->run.clipped[i].surfel,
-                     &job->view, tile);
+        ewa_clip_set(&s->clips[at + s->run.clipped[i].record], source->surfels, s->run.clipped[i].surfel,
+                     &source->view, tile);
 }
 
-static void visit_run(const ewa_tile_job *job, const ewa_tile *tile, const ewa_sorted_run *run,
-                      ewa_tile_pass what) {
+static void visit_run(const ewa_tile_job *job, const ewa_tile_source *source, const ewa_tile *tile,
+                      const ewa_sorted_run *run, ewa_tile_pass what) {
     if (what == EWA_PASS_VISIBILITY)
-        job->kernels->visibility(&job->view, tile, run);
+        job->kernels->visibility(&source->view, tile, run);
     else
-        job->kernels->accumulate(&job->view, tile, run);
+        job->kernels->accumulate(&source->view, tile, run);
 }
 
 /// Second pass over the runs that the first pass has kept.
 static void walk_kept(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s) {
     for (uint32_t i = 0; i < s->kept_count; i++) {
         const ewa_kept_run *kept = &s->kept[i];
-        visit_run(job, tile, &kept->sorted, EWA_PASS_ACCUMULATE);
-        ewa_tile_draw_near(job, tile, NULL, s->near_surfels + kept->near_first, kept->near_count,
-                           EWA_PASS_ACCUMULATE);
+        visit_run(job, kept->source, tile, &kept->sorted, EWA_PASS_ACCUMULATE);
+        ewa_tile_draw_near(job, kept->source, tile, NULL, s->near_surfels + kept->near_first,
+                           kept->near_count, EWA_PASS_ACCUMULATE);
     }
 }
 
@@ -217,8 +220,8 @@ static void walk_again(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_s
         prepare_run(job, tile, s, packets, i, 0, &sorted);
         const double middle = ewa_now_s();
         s->setup_s += middle - before;
-        visit_run(job, tile, &sorted, what);
-        ewa_tile_draw_near(job, tile, NULL, s->run.near_surfels, s->run.near_count, what);
+        visit_run(job, packets->source, tile, &sorted, what);
+        ewa_tile_draw_near(job, packets->source, tile, NULL, s->run.near_surfels, s->run.near_count, what);
         if (what == EWA_PASS_VISIBILITY) count_splats(job, s, &sorted);
         *(what == EWA_PASS_VISIBILITY ? &s->visibility_s : &s->accumulate_s) += ewa_now_s() - middle;
     }
@@ -238,6 +241,7 @@ uint64_t ewa_tile_keep_runs(const ewa_tile_job *job, const ewa_tile *tile, ewa_t
         if (s->kept_count >= s->kept_capacity) break;
         ewa_kept_run *kept = &s->kept[s->kept_count++];
         prepare_run(job, tile, s, packets, i, s->boxes[0].count, &kept->sorted);
+        kept->source = packets->source;
         kept->near_first = s->near_count;
         kept->near_count = s->run.near_count;
         for (uint32_t k = 0; k < kept->near_count; k++)
@@ -248,8 +252,9 @@ uint64_t ewa_tile_keep_runs(const ewa_tile_job *job, const ewa_tile *tile, ewa_t
         s->setup_s += middle - before;
         before = middle;
         if (!draw) continue;
-        visit_run(job, tile, &kept->sorted, EWA_PASS_VISIBILITY);
-        ewa_tile_draw_near(job, tile, NULL, s->run.near_surfels, kept->near_count, EWA_PASS_VISIBILITY);
+        visit_run(job, kept->source, tile, &kept->sorted, EWA_PASS_VISIBILITY);
+        ewa_tile_draw_near(job, kept->source, tile, NULL, s->run.near_surfels, kept->near_count,
+                           EWA_PASS_VISIBILITY);
         count_splats(job, s, &kept->sorted);
         before = ewa_now_s();
         s->visibility_s += before - middle;
@@ -267,12 +272,12 @@ static int depth_bucket(float depth, float nearest, float per_depth) {
 
 /// The tile's packets with nearer runs first: what lies behind them need not be set up. By a counting sort,
 /// which leaves runs of about one depth in their order along the curve.
-static const uint32_t *front_to_back(const ewa_tile_job *job, ewa_tile_scratch *s, const uint32_t *ids,
-                                     uint64_t count) {
+static const uint32_t *front_to_back(const ewa_tile_job *job, const ewa_tile_source *source,
+                                     ewa_tile_scratch *s, const uint32_t *ids, uint64_t count) {
     const uint64_t run_count = count / EWA_RUN_PACKETS; // the rest stays at the end
-    float *depths = s->depths_world, nearest = INFINITY, farthest = -INFINITY;
-    job->kernels->depths(&job->view, &job->surfels->bounds, &job->source.places, ids, (uint32_t)count,
-                         depths);
+    float *depths = s->depths, nearest = INFINITY, farthest = -INFINITY;
+    job->kernels->depths(&source->view, &source->surfels->bounds, &source->packets.places, ids,
+                         (uint32_t)count, depths);
     for (uint64_t run = 0; run < run_count; run++) {
         float begin = INFINITY;
         for (uint32_t i = 0; i < EWA_RUN_PACKETS; i++)
@@ -294,15 +299,13 @@ static const uint32_t *front_to_back(const ewa_tile_job *job, ewa_tile_scratch *
     return s->ordered;
 }
 
-/// First pass, some packets at a time: those that lie behind what is drawn by then are put aside. Where
-/// nothing is hidden, fewer and fewer packets are asked.
-static void draw_visible(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
-                         const uint32_t *ids, uint64_t count, bool kept) {
+/// First pass over one source, some packets at a time: those that lie behind what is drawn by then are put
+/// aside. Where nothing is hidden, fewer and fewer packets are asked.
+static void draw_visible(const ewa_tile_job *job, const ewa_tile_source *source, const ewa_tile *tile,
+                         ewa_tile_scratch *s, ewa_tile_split *split, const uint32_t *ids, uint64_t count,
+                         bool kept) {
     enum { CHUNK_PACKETS = 4 * EWA_RUN_PACKETS, MOST_PASSED = 6 };
-    s->shown_count = s->hidden_count = 0;
-    s->least_key = INFINITY;
-    s->has_near = false;
-    ewa_tile_drop_runs(s);
+    split->shown_count = split->hidden_count = 0;
     uint64_t drawn_runs = 0;
     uint32_t passed = 0; // chunks since the last that was asked, and until the next
     uint32_t to_pass = job->resolve.transparent ? UINT32_MAX : 1;
@@ -310,38 +313,73 @@ static void draw_visible(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile
         const uint32_t here = count - first < CHUNK_PACKETS ? (uint32_t)(count - first) : CHUNK_PACKETS;
         const double before = ewa_now_s();
         if (passed < to_pass) {
-            memcpy(s->shown + s->shown_count, ids + first, here * sizeof *ids);
-            s->shown_count += here;
+            memcpy(split->shown + split->shown_count, ids + first, here * sizeof *ids);
+            split->shown_count += here;
             passed++;
         } else {
             job->kernels->set_cells(tile, s->cells);
-            const uint32_t shown =
-                job->kernels->hide(&job->view, &job->surfels->bounds, &job->source.places, tile, s->cells,
-                                   ids + first, here, s->shown + s->shown_count, s->hidden + s->hidden_count);
-            s->shown_count += shown;
-            s->hidden_count += here - shown;
+            const uint32_t shown = job->kernels->hide(
+                &source->view, &source->surfels->bounds, &source->packets.places, tile, s->cells, ids + first,
+                here, split->shown + split->shown_count, split->hidden + split->hidden_count);
+            split->shown_count += shown;
+            split->hidden_count += here - shown;
             to_pass = shown < here ? 0 : to_pass < MOST_PASSED ? to_pass + 1 : MOST_PASSED;
             passed = 0;
         }
         s->setup_s += ewa_now_s() - before;
-        const ewa_tile_packets packets = {s->shown, s->shown_count};
+        const ewa_tile_packets packets = {source, split->shown, split->shown_count};
         const uint64_t end =
-            first + here == count ? ewa_run_count(&packets) : s->shown_count / EWA_RUN_PACKETS;
+            first + here == count ? ewa_run_count(&packets) : split->shown_count / EWA_RUN_PACKETS;
         if (kept)
             ewa_tile_keep_runs(job, tile, s, &packets, drawn_runs, end, true);
         else
             walk_again(job, tile, s, &packets, drawn_runs, end, EWA_PASS_VISIBILITY);
         drawn_runs = end;
     }
-    s->hidden_splat_count += s->hidden_count * EWA_PACKET_LANES;
+    s->hidden_splat_count += split->hidden_count * EWA_PACKET_LANES;
+}
+
+/// First pass over all sources; returns whether their runs are kept.
+static bool draw_sources(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, uint32_t index) {
+    uint64_t all = 0;
+    for (uint32_t i = 0; i < job->source_count; i++) {
+        const uint64_t *first = &job->sources[i].bins.tile_first[index];
+        all += first[1] - first[0];
+    }
+    const bool kept = all * EWA_PACKET_LANES <= s->record_capacity;
+    s->least_key = INFINITY;
+    s->has_near = false;
+    ewa_tile_drop_runs(s);
+    uint32_t *packets = s->packets;
+    for (uint32_t i = 0; i < job->source_count; i++) {
+        const ewa_tile_source *source = &job->sources[i];
+        const uint64_t first = source->bins.tile_first[index],
+                       count = source->bins.tile_first[index + 1] - first;
+        const uint32_t *ids = source->bins.entries + first;
+        s->split[i] = (ewa_tile_split){.shown = packets, .hidden = packets + count + 1};
+        packets += 2 * (count + 1);
+        if (!job->resolve.transparent) ids = front_to_back(job, source, s, ids, count);
+        draw_visible(job, source, tile, s, &s->split[i], ids, count, kept);
+    }
+    return kept;
+}
+
+/// Second pass.
+static void accumulate(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, bool kept) {
+    job->kernels->clear_sums(tile);
+    if (kept) walk_kept(job, tile, s);
+    for (uint32_t i = 0; i < job->source_count && !kept; i++) {
+        const ewa_tile_packets shown = {&job->sources[i], s->split[i].shown, s->split[i].shown_count};
+        walk_again(job, tile, s, &shown, 0, ewa_run_count(&shown), EWA_PASS_ACCUMULATE);
+    }
 }
 
 void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
     const ewa_tile_job *job = data;
     ewa_tile_scratch *s = job->scratch[worker];
     const ewa_view *view = &job->view;
-    ewa_tile tile = {.x_px = (int32_t)(index % job->bins->tiles_x * view->tile_px),
-                     .y_px = (int32_t)(index / job->bins->tiles_x * view->tile_px),
+    ewa_tile tile = {.x_px = (int32_t)(index % job->tiles_x * job->tile_px),
+                     .y_px = (int32_t)(index / job->tiles_x * job->tile_px),
                      .nearest = s->nearest,
                      .sums = s->sums,
                      .apart = s->apart,
@@ -355,26 +393,17 @@ void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
     static_assert(EWA_FIELD_PX == EWA_MAX_TILE_BLOCKS * EWA_BLOCK_PX, "no tile is in two fields");
     tile.field_x_px = (float)(tile.x_px % EWA_FIELD_PX - EWA_FIELD_PX / 2);
     tile.field_y_px = (float)(tile.y_px % EWA_FIELD_PX - EWA_FIELD_PX / 2);
-    const int32_t side = (int32_t)view->tile_px;
+    const int32_t side = (int32_t)job->tile_px;
     tile.width_px = (int32_t)view->width_px - tile.x_px < side ? (int32_t)view->width_px - tile.x_px : side;
     tile.height_px =
         (int32_t)view->height_px - tile.y_px < side ? (int32_t)view->height_px - tile.y_px : side;
     tile.blocks_per_row = ((uint32_t)tile.width_px + EWA_BLOCK_PX - 1) / EWA_BLOCK_PX;
     tile.block_rows = ((uint32_t)tile.height_px + EWA_BLOCK_PX - 1) / EWA_BLOCK_PX;
     job->kernels->clear_nearest(&tile);
-    const uint64_t first = job->bins->tile_first[index], count = job->bins->tile_first[index + 1] - first;
-    const bool kept = count * EWA_PACKET_LANES <= s->record_capacity;
-    const uint32_t *ids = job->bins->entries + first;
-    draw_visible(job, &tile, s, job->resolve.transparent ? ids : front_to_back(job, s, ids, count), count,
-                 kept);
-    const ewa_tile_packets shown = {s->shown, s->shown_count};
+    const bool kept = draw_sources(job, &tile, s, index);
     const double accumulating = ewa_now_s();
     for (bool settled = false; !settled; tile.sums.careful = true) {
-        job->kernels->clear_sums(&tile);
-        if (kept)
-            walk_kept(job, &tile, s);
-        else
-            walk_again(job, &tile, s, &shown, 0, ewa_run_count(&shown), EWA_PASS_ACCUMULATE);
+        accumulate(job, &tile, s, kept);
         settled = job->kernels->settle(&tile, &job->resolve);
     }
     const double accumulated = ewa_now_s();

@@ -66,15 +66,13 @@ static double power_above(double size) {
     return ldexp(1, part == 0.5 ? exponent - 1 : exponent);
 }
 
-/// One over a power of two that no depth of the surfels is beyond.
-static float depth_scale(const ewa_surfels *surfels, const ewa_placement *placement) {
-    if (!surfels->extent.finite_count) return 1;
+/// The largest depth of a source's surfels, in camera space.
+static double largest_depth(const ewa_surfels *surfels, const ewa_placement *placement) {
     const ewa_vec3 low = vec3_load(surfels->extent.low_world), high = vec3_load(surfels->extent.high_world);
     const ewa_vec3 middle = vec3_scale(vec3_add(low, high), 0.5);
     const double reach_world = vec3_length(vec3_sub(high, middle)) + surfels->reach_world;
-    const double largest = fabs(ewa_placement_apply(placement, middle).z) +
-                           vec3_length(mat3_row(&placement->linear, 2)) * reach_world;
-    return (float)(1 / power_above(largest));
+    return fabs(ewa_placement_apply(placement, middle).z) +
+           vec3_length(mat3_row(&placement->linear, 2)) * reach_world;
 }
 
 /// The largest sigmas of a surfel on the screen, for those that are far from the eye; else infinite.
@@ -94,13 +92,19 @@ static double largest_sigma_px(const ewa_surfels *surfels, const ewa_camera *cam
     return 2 * (1 + slope * slope) * focal_px * scale * sigma_world / nearest_z;
 }
 
-/// Units of sums per weight, a power of two: a few surfaces like that of q0 have room. More where splats are
+/// How many weights of 1 sums have room for: those of a few surfaces like that of q0.
+static double room_for(double unit_coverage) {
+    enum { SURFACES = 3 };
+    return power_above(fmin(fmax(SURFACES * unit_coverage, 1), EWA_MOST_ROOM));
+}
+
+/// Units of sums per weight, a power of two: there is room for room_for(). More where splats are
 /// so small that very many make a surface: their terms would be next to nothing, and sums are gathered with
 /// care anyway.
 static double sum_scale(const ewa_surfels *surfels, const ewa_camera *camera, const ewa_placement *placement,
                         const ewa_render_options *options, double unit_coverage) {
-    enum { SURFACES = 3, PLAIN_STEPS = 10, MOST_STEPS = 40 };
-    const double room = 1 / power_above(fmin(fmax(SURFACES * unit_coverage, 1), 64));
+    enum { PLAIN_STEPS = 10, MOST_STEPS = 32 };
+    const double room = 1 / room_for(unit_coverage);
     if (options->point_size_px > 0 || !(options->prefilter_px > 0) || !surfels->extent.finite_count)
         return EWA_SUM_UNITS * room;
     // sqrt(|V| / |V'|) is at most the product of both axes over what the prefilter makes of them.
@@ -122,17 +126,71 @@ static double unit_coverage_of(const ewa_surfels *surfels, const ewa_render_opti
                                       : surfels->unit_coverage;
 }
 
-ewa_status ewa_view_set(ewa_view *view, const ewa_surfels *surfels, const ewa_camera *camera,
-                        const ewa_placement *placement, const ewa_render_options *options, uint32_t tile_px) {
+/// Where the camera is before a source, in camera space of its own unit.
+static ewa_placement place(const ewa_surfels *surfels, const ewa_camera *camera) {
+    return ewa_placement_make(camera, surfels->origin_world, &surfels->extent, surfels->unit);
+}
+
+/// The same in a unit, a power of two, that is no smaller.
+static ewa_placement place_in(const ewa_surfels *surfels, const ewa_camera *camera, double unit) {
+    ewa_placement placement = place(surfels, camera);
+    const double part = placement.unit / unit;
+    placement.linear = mat3_scale(&placement.linear, part);
+    placement.offset = vec3_scale(placement.offset, part);
+    placement.unit = unit;
+    return placement;
+}
+
+ewa_scales ewa_scales_make(const ewa_surfels *const *sources, uint32_t source_count, const ewa_camera *camera,
+                           const ewa_render_options *options) {
+    ewa_scales made = {.cutoff = 1, .unit = 1, .unit_coverage = 1, .sum = 1, .depth = 1, .largest_color = 1};
+    if (!source_count) return made;
+    made.cutoff = sources[0]->cutoff;
+    made.unit = made.largest_color = 0;
+    made.unit_coverage = made.sum = INFINITY;
+    bool alike = true;
+    for (uint32_t i = 0; i < source_count; i++) {
+        made.unit = fmax(made.unit, place(sources[i], camera).unit);
+        made.unit_coverage = fmin(made.unit_coverage, unit_coverage_of(sources[i], options));
+        made.largest_color = fmax(made.largest_color, sources[i]->largest_color);
+        alike &= sources[i]->largest_color == sources[0]->largest_color;
+        made.fine_colors |= sources[i]->fine_colors;
+    }
+    made.fine_colors |= !alike && made.largest_color > EWA_PLAIN_COLORS;
+    double largest = 0;
+    for (uint32_t i = 0; i < source_count; i++) {
+        const ewa_placement placement = place_in(sources[i], camera, made.unit);
+        made.sum = fmin(made.sum, sum_scale(sources[i], camera, &placement, options, made.unit_coverage));
+        if (sources[i]->extent.finite_count) largest = fmax(largest, largest_depth(sources[i], &placement));
+    }
+    if (largest > 0) made.depth = power_above(largest);
+    made.terms_per_carry = EWA_TERMS_PER_CARRY * (uint32_t)room_for(made.unit_coverage);
+    return made;
+}
+
+/// What is a source's own.
+static void set_source(ewa_view *view, const ewa_surfels *surfels, const ewa_camera *camera,
+                       const ewa_render_options *options, const ewa_scales *scales) {
+    const ewa_placement placement = place_in(surfels, camera, scales->unit);
+    set_places(view, surfels, camera, &placement);
+    view->ellipses = surfels->ellipses && options->point_size_px == 0;
+    const double part = scales->unit_coverage / unit_coverage_of(surfels, options);
+    view->sum_scale = (float)(scales->sum * part);
+    view->color_scale = (float)(scales->sum * part / scales->largest_color);
+}
+
+ewa_status ewa_view_set(ewa_context *context, ewa_view *view, const ewa_surfels *surfels,
+                        const ewa_camera *camera, const ewa_render_options *options, const ewa_scales *scales,
+                        uint32_t tile_px) {
     memset(view, 0, sizeof *view);
     view->orthographic = camera->projection == EWA_ORTHOGRAPHIC;
-    set_places(view, surfels, camera, placement);
-    const double per_unit = view->orthographic ? placement->unit : 1; // of orthographic focal lengths
+    if (surfels) set_source(view, surfels, camera, options, scales);
+    const double per_unit = view->orthographic ? scales->unit : 1; // of orthographic focal lengths
     view->focal_px[0] = camera->fx_px * per_unit, view->focal_px[1] = camera->fy_px * per_unit;
     view->principal_px[0] = camera->cx_px, view->principal_px[1] = camera->cy_px;
     view->fx_px = (float)view->focal_px[0], view->fy_px = (float)view->focal_px[1];
     view->cx_px = (float)camera->cx_px, view->cy_px = (float)camera->cy_px;
-    double cutoff = surfels->cutoff, reach_px = cutoff * options->prefilter_px;
+    double cutoff = scales->cutoff, reach_px = cutoff * options->prefilter_px;
     if (options->point_size_px > 0) {
         const ewa_point_profile profile = ewa_point_profile_make(options);
         cutoff = profile.cutoff;
@@ -163,12 +221,8 @@ ewa_status ewa_view_set(ewa_view *view, const ewa_surfels *surfels, const ewa_ca
     view->circular = options->kernel == EWA_KERNEL_CIRCULAR;
     view->raycast = options->kernel == EWA_KERNEL_RAYCAST && !view->orthographic;
     view->cull_back = options->cull == EWA_CULL_BACK;
-    view->ellipses = surfels->ellipses && options->point_size_px == 0;
-    view->sum_scale =
-        (float)sum_scale(surfels, camera, placement, options, unit_coverage_of(surfels, options));
-    view->color_scale = (float)((double)view->sum_scale / surfels->largest_color);
-    view->depth_scale = depth_scale(surfels, placement);
-    return view->orthographic ? EWA_OK : set_sides(surfels->context, view, camera, reach_px + 1);
+    view->depth_scale = (float)(1 / scales->depth);
+    return view->orthographic ? EWA_OK : set_sides(context, view, camera, reach_px + 1);
 }
 
 void ewa_material_numbers(const ewa_material *material, float numbers[EWA_MATERIAL_CHANNELS]) {
@@ -182,7 +236,7 @@ static void store_matrix(const ewa_mat3 *from, float to[9]) {
 }
 
 /// Lights, the one material and the environment; `rotation` is camera from world.
-static void set_shading(ewa_resolve *resolve, const ewa_surfels *surfels, const ewa_render_options *options,
+static void set_shading(ewa_resolve *resolve, uint8_t material, const ewa_render_options *options,
                         const ewa_shading_setup *shading, const ewa_mat3 *rotation) {
     bool plain = shading->light_count == 1;
     resolve->light_count = shading->light_count;
@@ -199,7 +253,7 @@ static void set_shading(ewa_resolve *resolve, const ewa_surfels *surfels, const 
             plain &= from->color[c] == 1;
         }
     }
-    ewa_material_numbers(&shading->materials[shading->has_table ? surfels->material : 0], resolve->material);
+    ewa_material_numbers(&shading->materials[shading->has_table ? material : 0], resolve->material);
     resolve->shading = !shading->lit         ? EWA_ROAD_UNSHADED
                        : shading->highlights ? EWA_ROAD_PHONG
                        : plain               ? EWA_ROAD_LAMBERT
@@ -211,22 +265,23 @@ static void set_shading(ewa_resolve *resolve, const ewa_surfels *surfels, const 
     store_matrix(&world, resolve->to_world);
 }
 
-void ewa_resolve_set(ewa_resolve *resolve, const ewa_surfels *surfels, const ewa_camera *camera,
-                     const ewa_placement *placement, const ewa_render_options *options,
+void ewa_resolve_set(ewa_resolve *resolve, uint8_t material, const ewa_camera *camera,
+                     const ewa_render_options *options, const ewa_scales *scales,
                      const ewa_shading_setup *shading, const ewa_frame *frame) {
     ewa_mat3 rotation;
     memset(resolve, 0, sizeof *resolve);
     split_scale(camera, &rotation);
-    const double unit_coverage = unit_coverage_of(surfels, options);
+    const double unit_coverage = scales->unit_coverage * scales->sum; // in units of sums
     resolve->unit_coverage_inverse = (float)(1 / unit_coverage);
     resolve->alpha_scale = (float)(1 / (options->edge_threshold * unit_coverage));
     resolve->covering = (float)(options->edge_threshold * unit_coverage);
     resolve->front_scale = (float)(1 / (EWA_FRONT * unit_coverage));
+    resolve->color_unit = (float)scales->largest_color;
     resolve->opacity = (float)options->opacity;
     resolve->one_pass = options->passes == 1;
     resolve->edge_antialiasing = options->edge_antialiasing && !resolve->one_pass;
     resolve->orthographic = camera->projection == EWA_ORTHOGRAPHIC;
-    set_shading(resolve, surfels, options, shading, &rotation);
+    set_shading(resolve, material, options, shading, &rotation);
     for (int i = 0; i < 3; i++) resolve->background[i] = options->background[i] * options->background[3];
     resolve->background[3] = options->background[3];
     resolve->ray_x[0] = (float)(1 / camera->fx_px),
@@ -234,7 +289,7 @@ void ewa_resolve_set(ewa_resolve *resolve, const ewa_surfels *surfels, const ewa
     resolve->ray_y[0] = (float)(1 / camera->fy_px),
     resolve->ray_y[1] = (float)(-camera->cy_px / camera->fy_px);
     resolve->width_px = camera->width_px;
-    resolve->depth_unit = (float)placement->unit;
+    resolve->depth_unit = (float)scales->unit;
     resolve->rgba8 = frame->rgba8;
     resolve->rgba = frame->rgba;
     resolve->depth = frame->depth;
@@ -398,7 +453,9 @@ bool ewa_near_record_set(ewa_near_record *record, const ewa_surfels *surfels, ui
     record->opacity = (float)opacity;
     record->turned = facing > 0;
     if (tile->with_materials)
-        memcpy(record->material, view->materials[surfels->materials[surfel]], sizeof record->material);
+        memcpy(record->material,
+               view->materials[surfels->materials ? surfels->materials[surfel] : surfels->material],
+               sizeof record->material);
     else
         memset(record->material, 0, sizeof record->material);
     const uint32_t packet = surfel / EWA_PACKET_LANES, lane = surfel % EWA_PACKET_LANES;

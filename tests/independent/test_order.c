@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// What a pixel gets does not depend on the order of the surfels, on how the picture is cut into tiles, or on
-// the threads: the same bytes, over random scenes of all kinds of cameras, kernels, lights, layers and clip
-// lines.
+// What a pixel gets does not depend on the order of the surfels, on how they are spread over sources, or on
+// how the picture is cut into tiles: the same bytes, over random scenes of all kinds of cameras, kernels,
+// lights, layers and clip lines.
 #include "base/base.h"
 #include "splat/packets.h"
 #include "splat/render.h"
@@ -87,6 +87,43 @@ static void shuffle_packets(ewa_surfels *s, check_random *random) {
     free(order);
 }
 
+enum { MOST_PARTS = 7, VECTOR = 16 };
+
+/// Packets [first, first + count) of surfels as a set of their own; `first` is a multiple of VECTOR.
+static ewa_surfels part_of(const ewa_surfels *s, uint32_t first, uint32_t count) {
+    ewa_surfels part = *s;
+    part.packet_count = count;
+    part.count = count * EWA_PACKET_LANES;
+    part.packets += first;
+    if (part.materials) part.materials += (size_t)first * EWA_PACKET_LANES;
+    if (part.opacities) part.opacities += (size_t)first * EWA_PACKET_LANES;
+    if (part.clip_masks) part.clip_masks += first;
+    if (part.clip_first) part.clip_first += first;
+    part.bounds.center_x += first, part.bounds.center_y += first, part.bounds.center_z += first;
+    part.bounds.radius += first, part.bounds.colors += first, part.bounds.cone += first;
+    part.bounds_stride = (count + VECTOR - 1) / VECTOR * VECTOR;
+    return part;
+}
+
+/// Draws the surfels in `parts` parts, added in random order.
+static void draw_parts(ewa_renderer *renderer, const ewa_surfels *s, uint32_t parts, const random_scene *made,
+                       const ewa_frame *frame, check_random *random) {
+    ewa_surfels part[MOST_PARTS];
+    const uint32_t vectors = (s->packet_count + VECTOR - 1) / VECTOR;
+    for (uint32_t i = 0; i < parts; i++) {
+        const uint32_t first = vectors * i / parts * VECTOR, end = vectors * (i + 1) / parts * VECTOR;
+        part[i] = part_of(s, first, (end < s->packet_count ? end : s->packet_count) - first);
+    }
+    for (uint32_t i = parts; i-- > 1;) {
+        const uint32_t j = (uint32_t)(check_random_u64(random) % (i + 1));
+        const ewa_surfels other = part[i];
+        part[i] = part[j], part[j] = other;
+    }
+    assert_int_equal(ewa_render_begin(renderer, &made->scene.camera, &made->scene.options, frame), EWA_OK);
+    for (uint32_t i = 0; i < parts; i++) assert_int_equal(ewa_render_add(renderer, &part[i]), EWA_OK);
+    assert_int_equal(ewa_render_finish(renderer, NULL), EWA_OK);
+}
+
 static void hold_scene(ewa_context *context, uint64_t seed, random_scene *made) {
     static const uint32_t tiles_px[] = {128, 64, 32, 16};
     check_random random = {seed + 1};
@@ -106,6 +143,13 @@ static void hold_scene(ewa_context *context, uint64_t seed, random_scene *made) 
         if (i == 2) shuffle_packets(surfels, &random);
         assert_int_equal(ewa_render(renderer, surfels, camera, options, &other.frame, NULL), EWA_OK);
         snprintf(what, sizeof what, "tiles of %u pixels%s", tiles_px[i], i >= 2 ? ", shuffled packets" : "");
+        hold_same(&first, &other, what, seed, made->words);
+    }
+    for (uint32_t parts = 1; parts <= MOST_PARTS; parts += parts < 3 ? 1 : 4) {
+        char what[64];
+        ewa_renderer_set_tile(renderer, tiles_px[parts % 4]);
+        draw_parts(renderer, surfels, parts, made, &other.frame, &random);
+        snprintf(what, sizeof what, "%u sources", parts);
         hold_same(&first, &other, what, seed, made->words);
     }
     ewa_renderer_destroy(&renderer);

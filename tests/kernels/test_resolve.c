@@ -29,7 +29,7 @@ static ewa_resolve plain_resolve(uint8_t *rgba8, uint32_t width_px) {
     return (ewa_resolve){.unit_coverage_inverse = 1,
                          .alpha_scale = 1,
                          .edge_antialiasing = true,
-                         .units = {[EWA_SETTLED] = {1, 1, 1, 1}},
+                         .color_unit = 1,
                          .material = {1},
                          .width_px = width_px,
                          .rgba8 = rgba8};
