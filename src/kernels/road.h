@@ -11,6 +11,7 @@
 #ifndef EWA_SRC_KERNELS_ROAD_H
 #define EWA_SRC_KERNELS_ROAD_H
 
+#include "base/isa.h"
 #include "image/environment.h"
 #include "kernels/packet.h"
 
@@ -305,7 +306,6 @@ typedef struct ewa_eye_dome {
 
 /// The kernels of one instruction set.
 typedef struct ewa_road_kernels {
-    const char *name;
 
     /// Lists those of packets [first, first + count) that may touch some tile, from entry `first` of `kept`
     /// on, and writes their places; `first` and the room of `kept` and `places` are multiples of 16. Returns
@@ -385,7 +385,6 @@ typedef struct ewa_road_kernels {
     void (*dome_shade)(const ewa_eye_dome *dome, uint32_t row);
 } ewa_road_kernels;
 
-/// Chooses the widest of `cpu_features` (EWA_CPU_* bits); plain C when there is none.
-const ewa_road_kernels *ewa_road_kernels_choose(uint32_t cpu_features);
+EWA_DECLARE_VERSIONS(const ewa_road_kernels, ewa_road_kernels);
 
 #endif

@@ -35,21 +35,7 @@ typedef struct texture_job {
 
 static void choose_brush(const ewa_texture_plan *plan, ewa_texture_brush *brush) {
     const double h = plan->options.prefilter_px, f = plan->options.cutoff, sigma = plan->options.sigma_texels;
-    brush->points = ewa_texture_draw_points_portable;
-    brush->splats = ewa_texture_draw_splats_portable;
-    brush->resolve = ewa_texture_resolve_portable;
-#if defined(__x86_64__)
-    const uint32_t features = ewa_context_cpu_features(plan->context);
-    if (features & EWA_CPU_AVX512) {
-        brush->points = ewa_texture_draw_points_avx512;
-        brush->splats = ewa_texture_draw_splats_avx512;
-        brush->resolve = ewa_texture_resolve_avx512;
-    } else if (features & EWA_CPU_AVX2) {
-        brush->points = ewa_texture_draw_points_avx2;
-        brush->splats = ewa_texture_draw_splats_avx2;
-        brush->resolve = ewa_texture_resolve_avx2;
-    }
-#endif
+    brush->kernels = EWA_CHOOSE(ewa_context_cpu_features(plan->context), ewa_texture_kernels);
     brush->filter = (ewa_texel_filter){.cutoff2 = (float)(f * f),
                                        .prefilter2 = (float)(h * h),
                                        .reach_px = (float)(f * h),
@@ -91,8 +77,8 @@ static void write_tile(const ewa_texture_plan *plan, workspace *space, const ewa
         for (uint32_t column = 0; column < tile->width; column++)
             space->coverage[row * EWA_TEXTURE_TILE + column] =
                 (float)ewa_texture_coverage(plan, tile->x + column, tile->y + row);
-    space->brush.resolve(&plan->target, plan->options.background, tile, &space->brush.sums,
-                         inside ? NULL : space->coverage);
+    space->brush.kernels->resolve(&plan->target, plan->options.background, tile, &space->brush.sums,
+                                  inside ? NULL : space->coverage);
 }
 
 static void draw_tile(void *data, uint32_t index, uint32_t worker) {

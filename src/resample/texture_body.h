@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Body of the kernels that add texels to the sums of a tile, for the instruction set that the including file
-// chose (math/wide.h); POINTS, SPLATS and RESOLVE are their names. Sixteen texels are projected at once, and
+// chose (math/wide.h). Sixteen texels are projected at once, and
 // added one by one.
 //
 // Based on: Yuan et al., "Hybrid Forward Resampling and Volume Rendering", 2003, section 3; Zwicker et al.,
@@ -164,8 +164,8 @@ static ALWAYS_INLINE uint32_t add_small_points(const ewa_texel_filter *filter, c
     return hits;
 }
 
-uint32_t POINTS(const ewa_texel_filter *filter, const ewa_texture_block *block,
-                const ewa_texture_sums *sums) {
+static uint32_t points(const ewa_texel_filter *filter, const ewa_texture_block *block,
+                       const ewa_texture_sums *sums) {
     const bool small = filter->reach_px <= 1;
     const float conic = -HALF_LOG2_E / filter->prefilter2;
     uint32_t drawn = 0;
@@ -233,8 +233,8 @@ static ALWAYS_INLINE uint32_t splat_ellipses(const ewa_texel_filter *filter, con
                  wf_mul(cutoff, wf_sqrt(yy)));
 }
 
-uint32_t SPLATS(const ewa_texel_filter *filter, const ewa_texture_block *block,
-                const ewa_texture_sums *sums) {
+static uint32_t splats(const ewa_texel_filter *filter, const ewa_texture_block *block,
+                       const ewa_texture_sums *sums) {
     uint32_t drawn = 0;
     for (uint32_t row = 0; row < block->height; row++) {
         for (uint32_t first = 0; first < block->width; first += 16) {
@@ -248,3 +248,5 @@ uint32_t SPLATS(const ewa_texel_filter *filter, const ewa_texture_block *block,
     }
     return drawn;
 }
+
+const ewa_texture_kernels EWA_VERSION(ewa_texture_kernels) = {points, splats, resolve};

@@ -47,8 +47,8 @@ static ALWAYS_INLINE wi encode_pixels(const wf color[4], bool with_alpha) {
     return codes;
 }
 
-void RESOLVE(const ewa_texture_target *target, const float background[4], const ewa_texture_rectangle *tile,
-             const ewa_texture_sums *sums, const float *coverage) {
+static void resolve(const ewa_texture_target *target, const float background[4],
+                    const ewa_texture_rectangle *tile, const ewa_texture_sums *sums, const float *coverage) {
     const uint32_t channels = target->channel_count;
     const bool linear = target->format == EWA_PIXEL_LINEAR;
     const size_t pixel_bytes = channels * (linear ? sizeof(float) : 1);

@@ -36,7 +36,7 @@ ewa_status ewa_renderer_create(ewa_context *context, ewa_renderer **renderer) {
     ewa_renderer *made = ewa_allocate_zeroed(context, 1, renderer_bytes(worker_count));
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
-    made->kernels = made->dome.kernels = ewa_road_kernels_choose(ewa_context_cpu_features(context));
+    made->kernels = made->dome.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_road_kernels);
     made->worker_count = worker_count;
     for (uint32_t i = 0; i < worker_count; i++) {
         made->scratch[i] = ewa_allocate_zeroed(context, 1, sizeof *made->scratch[i]);

@@ -16,6 +16,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/isa.h"
 #include "ewa/shade.h"
 #include "volume/footprint.h"
 
@@ -144,7 +145,6 @@ typedef struct ewa_volume_target {
 } ewa_volume_target;
 
 typedef struct ewa_volume_kernels {
-    const char *name;
 
     /// Projects and shades the voxels of a block and adds those that touch the tile to its buckets; returns
     /// how many.
@@ -176,13 +176,6 @@ typedef struct ewa_volume_kernels {
     void (*resolve)(const ewa_volume_view *view, const ewa_volume_tile *tile, const ewa_volume_target *to);
 } ewa_volume_kernels;
 
-/// The best version that the features (EWA_CPU_*) allow.
-const ewa_volume_kernels *ewa_volume_kernels_choose(uint32_t cpu_features);
-
-extern const ewa_volume_kernels ewa_volume_kernels_portable;
-#if defined(__x86_64__)
-extern const ewa_volume_kernels ewa_volume_kernels_avx2;
-extern const ewa_volume_kernels ewa_volume_kernels_avx512;
-#endif
+EWA_DECLARE_VERSIONS(const ewa_volume_kernels, ewa_volume_kernels);
 
 #endif

@@ -29,7 +29,7 @@ ewa_status ewa_volume_renderer_create(ewa_context *context, ewa_volume_renderer 
     ewa_volume_renderer *made = ewa_allocate_zeroed(context, 1, renderer_bytes(worker_count));
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
-    made->kernels = ewa_volume_kernels_choose(ewa_context_cpu_features(context));
+    made->kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_volume_kernels);
     made->worker_count = worker_count;
     ewa_point_filters_make(made->filters);
     ewa_footprint_table_make(&made->table);
