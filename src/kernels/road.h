@@ -11,6 +11,7 @@
 #ifndef EWA_SRC_KERNELS_ROAD_H
 #define EWA_SRC_KERNELS_ROAD_H
 
+#include "base/bin.h"
 #include "base/isa.h"
 #include "image/environment.h"
 #include "kernels/packet.h"
@@ -87,12 +88,6 @@ typedef struct ewa_view {
 typedef struct ewa_packet_places {
     float *slope_x, *slope_y, *rest_x, *rest_y, *depth;
 } ewa_packet_places;
-
-/// Lists of the packets that may touch some tile, ascending, and of the rectangles of those tiles. Corners
-/// are x | y << 16; `tiles_end` is beyond the last column and row.
-typedef struct ewa_kept_packets {
-    int32_t *packets, *tiles_first, *tiles_end;
-} ewa_kept_packets;
 
 /// One splat in one tile. dx, dy below are measured from the splat's centre to a pixel's centre.
 ///
@@ -311,7 +306,7 @@ typedef struct ewa_road_kernels {
     /// on, and writes their places; `first` and the room of `kept` and `places` are multiples of 16. Returns
     /// how many there are.
     uint32_t (*cull)(const ewa_view *view, const ewa_packet_bounds *bounds, uint32_t first, uint32_t count,
-                     const ewa_packet_places *places, const ewa_kept_packets *kept);
+                     const ewa_packet_places *places, const ewa_bin_items *kept);
 
     /// Sets cells[row][column] (rows of EWA_TILE_CELLS) to the smallest tile->nearest in each cell.
     void (*set_cells)(const ewa_tile *tile, float *cells);

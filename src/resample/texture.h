@@ -8,6 +8,7 @@
 
 #include "base/base.h"
 #include "base/isa.h"
+#include "base/tiles.h"
 #include "ewa/resample.h"
 
 enum {
@@ -82,15 +83,10 @@ typedef struct ewa_texel_filter {
 typedef uint32_t ewa_texture_draw(const ewa_texel_filter *filter, const ewa_texture_block *block,
                                   const ewa_texture_sums *sums);
 
-/// A part of a picture, at most a tile.
-typedef struct ewa_texture_rectangle {
-    uint32_t x, y, width, height;
-} ewa_texture_rectangle;
-
 /// Writes the pixels of a tile from its sums. `coverage`, EWA_TEXTURE_TILE numbers per row, may be NULL:
 /// all 1.
 typedef void ewa_texture_resolve(const ewa_texture_target *target, const float background[4],
-                                 const ewa_texture_rectangle *tile, const ewa_texture_sums *sums,
+                                 const ewa_tile_rect *tile, const ewa_texture_sums *sums,
                                  const float *coverage);
 
 typedef struct ewa_texture_kernels {

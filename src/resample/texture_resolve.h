@@ -47,17 +47,17 @@ static ALWAYS_INLINE wi encode_pixels(const wf color[4], bool with_alpha) {
     return codes;
 }
 
-static void resolve(const ewa_texture_target *target, const float background[4],
-                    const ewa_texture_rectangle *tile, const ewa_texture_sums *sums, const float *coverage) {
+static void resolve(const ewa_texture_target *target, const float background[4], const ewa_tile_rect *tile,
+                    const ewa_texture_sums *sums, const float *coverage) {
     const uint32_t channels = target->channel_count;
     const bool linear = target->format == EWA_PIXEL_LINEAR;
     const size_t pixel_bytes = channels * (linear ? sizeof(float) : 1);
-    for (uint32_t row = 0; row < tile->height; row++) {
-        char *out =
-            (char *)target->pixels + (size_t)(tile->y + row) * target->stride_bytes + tile->x * pixel_bytes;
-        for (uint32_t column = 0; column < tile->width; column += 16, out += 16 * pixel_bytes) {
+    for (uint32_t row = 0; row < tile->height_px; row++) {
+        char *out = (char *)target->pixels + (size_t)(tile->y_px + row) * target->stride_bytes +
+                    tile->x_px * pixel_bytes;
+        for (uint32_t column = 0; column < tile->width_px; column += 16, out += 16 * pixel_bytes) {
             const size_t at = (size_t)(row + 1) * EWA_TEXTURE_PITCH + column + 1;
-            const uint32_t left = tile->width - column, count = left < 16 ? left : 16;
+            const uint32_t left = tile->width_px - column, count = left < 16 ? left : 16;
             wf color[4];
             resolve_pixels(sums, at, coverage ? coverage + (size_t)row * EWA_TEXTURE_TILE + column : NULL,
                            background, color);

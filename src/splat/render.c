@@ -22,28 +22,22 @@ struct ewa_renderer {
     ewa_bins bins;
     ewa_dome_pass dome;
     uint32_t worker_count;
-    ewa_tile_scratch *scratch[]; ///< one per worker
+    ewa_tile_scratch *scratch; ///< one per worker
 };
-
-static size_t renderer_bytes(uint32_t worker_count) {
-    return sizeof(ewa_renderer) + worker_count * sizeof(ewa_tile_scratch *);
-}
 
 ewa_status ewa_renderer_create(ewa_context *context, ewa_renderer **renderer) {
     if (!context || !renderer) return EWA_ERROR_ARGUMENT;
     *renderer = NULL;
     const uint32_t worker_count = ewa_context_worker_count(context);
-    ewa_renderer *made = ewa_allocate_zeroed(context, 1, renderer_bytes(worker_count));
+    ewa_renderer *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
     made->kernels = made->dome.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_road_kernels);
     made->worker_count = worker_count;
-    for (uint32_t i = 0; i < worker_count; i++) {
-        made->scratch[i] = ewa_allocate_zeroed(context, 1, sizeof *made->scratch[i]);
-        if (!made->scratch[i]) {
-            ewa_renderer_destroy(&made);
-            return EWA_ERROR_MEMORY;
-        }
+    made->scratch = ewa_allocate_zeroed(context, worker_count, sizeof *made->scratch);
+    if (!made->scratch) {
+        ewa_renderer_destroy(&made);
+        return EWA_ERROR_MEMORY;
     }
     *renderer = made;
     return EWA_OK;
@@ -53,13 +47,12 @@ void ewa_renderer_destroy(ewa_renderer **renderer) {
     if (!renderer || !*renderer) return;
     ewa_renderer *old = *renderer;
     ewa_context *context = old->context;
-    for (uint32_t i = 0; i < old->worker_count; i++) {
-        if (old->scratch[i]) ewa_tile_scratch_free(context, old->scratch[i]);
-        ewa_release(context, old->scratch[i], 1, sizeof *old->scratch[i]);
-    }
+    for (uint32_t i = 0; old->scratch && i < old->worker_count; i++)
+        ewa_tile_scratch_free(context, &old->scratch[i]);
+    ewa_release(context, old->scratch, old->worker_count, sizeof *old->scratch);
     ewa_bins_free(context, &old->bins);
     ewa_dome_pass_free(context, &old->dome);
-    ewa_release(context, old, 1, renderer_bytes(old->worker_count));
+    ewa_release(context, old, 1, sizeof *old);
     *renderer = NULL;
 }
 
@@ -70,7 +63,7 @@ static void gather_stats(const ewa_renderer *renderer, const ewa_surfels *surfel
                                 .culled_count = culled < surfels->count ? culled : surfels->count,
                                 .bin_s = (binned_s - start_s) * renderer->worker_count};
     for (uint32_t i = 0; i < renderer->worker_count; i++) {
-        const ewa_tile_scratch *s = renderer->scratch[i];
+        const ewa_tile_scratch *s = &renderer->scratch[i];
         stats->hidden_count += s->hidden_splat_count;
         stats->drawn_count += s->drawn_count;
         stats->fragment_count += s->fragment_count;
@@ -86,7 +79,7 @@ static void gather_stats(const ewa_renderer *renderer, const ewa_surfels *surfel
 /// Tells of colours that cannot be shown: 8-bit pixels hide them.
 static void report_broken(const ewa_renderer *renderer, ewa_context *context, const ewa_camera *camera) {
     uint64_t broken = 0;
-    for (uint32_t i = 0; i < renderer->worker_count; i++) broken += renderer->scratch[i]->broken_pixel_count;
+    for (uint32_t i = 0; i < renderer->worker_count; i++) broken += renderer->scratch[i].broken_pixel_count;
     if (broken)
         ewa_report(context, EWA_SEVERITY_WARNING,
                    "%llu of %llu pixels have a colour that is infinite or not a number",
@@ -163,9 +156,9 @@ ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const 
     job.source.places = renderer->bins.places;
     const double binned_s = ewa_now_s();
     for (uint32_t i = 0; i < renderer->worker_count && status == EWA_OK; i++)
-        status = ewa_tile_scratch_reserve(context, renderer->scratch[i], &job, renderer->bins.largest_bin);
+        status = ewa_tile_scratch_reserve(context, &renderer->scratch[i], &job, renderer->bins.lists.largest);
     if (status != EWA_OK) return status;
-    ewa_parallel(context, ewa_tile_draw, &job, renderer->bins.tiles_x * renderer->bins.tiles_y);
+    ewa_parallel(context, ewa_tile_draw, &job, ewa_tiles_count(&renderer->bins.tiles));
     if (with_dome) ewa_dome_pass_finish(context, &renderer->dome);
     report_broken(renderer, context, camera);
     if (stats) gather_stats(renderer, surfels, start_s, binned_s, stats);

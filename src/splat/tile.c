@@ -326,10 +326,12 @@ static void draw_visible(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile
 
 void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
     const ewa_tile_job *job = data;
-    ewa_tile_scratch *s = job->scratch[worker];
-    const ewa_view *view = &job->view;
-    ewa_tile tile = {.x_px = (int32_t)(index % job->bins->tiles_x * view->tile_px),
-                     .y_px = (int32_t)(index / job->bins->tiles_x * view->tile_px),
+    ewa_tile_scratch *s = &job->scratch[worker];
+    const ewa_tile_rect place = ewa_tiles_rect(&job->bins->tiles, index);
+    ewa_tile tile = {.x_px = (int32_t)place.x_px,
+                     .y_px = (int32_t)place.y_px,
+                     .width_px = (int32_t)place.width_px,
+                     .height_px = (int32_t)place.height_px,
                      .nearest = s->nearest,
                      .sums = s->sums,
                      .apart = s->apart,
@@ -338,16 +340,12 @@ void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
                      .with_depth = job->with_depth,
                      .with_opacity = job->with_opacity,
                      .with_materials = job->with_materials};
-    const int32_t side = (int32_t)view->tile_px;
-    tile.width_px = (int32_t)view->width_px - tile.x_px < side ? (int32_t)view->width_px - tile.x_px : side;
-    tile.height_px =
-        (int32_t)view->height_px - tile.y_px < side ? (int32_t)view->height_px - tile.y_px : side;
     tile.blocks_per_row = ((uint32_t)tile.width_px + EWA_BLOCK_PX - 1) / EWA_BLOCK_PX;
     tile.block_rows = ((uint32_t)tile.height_px + EWA_BLOCK_PX - 1) / EWA_BLOCK_PX;
     job->kernels->clear(&tile);
-    const uint64_t first = job->bins->tile_first[index], count = job->bins->tile_first[index + 1] - first;
+    const uint64_t first = job->bins->lists.starts[index], count = job->bins->lists.starts[index + 1] - first;
     const bool kept = count * EWA_PACKET_LANES <= s->record_capacity;
-    const uint32_t *ids = job->bins->entries + first;
+    const uint32_t *ids = job->bins->lists.ids + first;
     draw_visible(job, &tile, s, job->resolve.transparent ? ids : front_to_back(job, s, ids, count), count,
                  kept);
     const ewa_tile_packets shown = {s->shown, s->shown_count};

@@ -80,7 +80,7 @@ typedef struct ewa_tile_job {
     uint32_t layers; ///< surfaces that are composited at most
     bool merge_last; ///< the last of them is all that is left
     bool with_normals, with_depth, with_opacity, with_materials, count_fragments;
-    ewa_tile_scratch *const *scratch; ///< [worker]
+    ewa_tile_scratch *scratch; ///< [worker]
 } ewa_tile_job;
 
 /// Makes room for tiles of `largest_bin` packets; allocates nothing once warm.

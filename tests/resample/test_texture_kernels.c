@@ -216,7 +216,7 @@ static void test_pixels(void **state) {
             const uint32_t channels = channel_counts[variant % 3];
             const bool linear = variant / 3 % 2, with_weight = variant / 6 % 2, with_coverage = variant / 12;
             const float background[4] = {0.2f, 0.5f, 0.9f, channels < 4 ? 1 : variant % 2 ? 0.4f : 0};
-            const ewa_texture_rectangle tile = {7, 3, variant % 4 ? 64 : 37, 61};
+            const ewa_tile_rect tile = {7, 3, variant % 4 ? 64 : 37, 61};
             const size_t bytes = linear ? sizeof(float) : 1;
             const ewa_texture_target target = {made,     linear ? EWA_PIXEL_LINEAR : EWA_PIXEL_SRGB8,
                                                channels, WIDTH,
@@ -226,15 +226,15 @@ static void test_pixels(void **state) {
             sets[k]->resolve(&target, background, &tile, &sums, with_coverage ? coverage : NULL);
             for (uint32_t y = 0; y < HEIGHT; y++)
                 for (uint32_t x = 0; x < WIDTH; x++) {
-                    const bool inside =
-                        x >= tile.x && x < tile.x + tile.width && y >= tile.y && y < tile.y + tile.height;
+                    const bool inside = x >= tile.x_px && x < tile.x_px + tile.width_px && y >= tile.y_px &&
+                                        y < tile.y_px + tile.height_px;
                     const size_t to = (size_t)(y * WIDTH + x) * channels;
                     if (!inside) {
                         for (uint32_t c = 0; c < channels * bytes; c++)
                             assert_int_equal(((uint8_t *)made)[to * bytes + c], 0x55);
                         continue;
                     }
-                    const uint32_t row = y - tile.y, column = x - tile.x;
+                    const uint32_t row = y - tile.y_px, column = x - tile.x_px;
                     const size_t at = (size_t)(row + 1) * EWA_TEXTURE_PITCH + column + 1;
                     double wanted[4];
                     const double sum = with_weight ? (double)weight[at] : (double)color[4 * at + 3];
