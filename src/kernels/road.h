@@ -14,6 +14,7 @@
 #include "base/bin.h"
 #include "base/isa.h"
 #include "image/environment.h"
+#include "kernels/lights.h"
 #include "kernels/packet.h"
 
 #include <stdbool.h>
@@ -246,13 +247,6 @@ typedef struct ewa_edge_splats {
     uint32_t count;
 } ewa_edge_splats;
 
-/// A light in camera space.
-typedef struct ewa_road_light {
-    bool headlight;  ///< from the eye: no direction of its own but in orthographic views
-    float toward[3]; ///< unit
-    float color[3];
-} ewa_road_light;
-
 /// How surfaces are shaded.
 typedef enum ewa_road_shading {
     EWA_ROAD_UNSHADED,
@@ -271,7 +265,7 @@ typedef struct ewa_resolve {
     bool edge_antialiasing, transparent, one_pass, orthographic;
     ewa_road_shading shading;
     uint32_t light_count;
-    ewa_road_light lights[EWA_MAX_LIGHTS];
+    ewa_kernel_light lights[EWA_MAX_LIGHTS]; ///< in camera space
     float material[EWA_MATERIAL_CHANNELS]; ///< of all surfaces in tiles without materials
     const ewa_environment *environment;    ///< NULL: none
     float environment_from_camera[9];      ///< rotation, row-major

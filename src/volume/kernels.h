@@ -18,6 +18,7 @@
 
 #include "base/isa.h"
 #include "ewa/shade.h"
+#include "kernels/lights.h"
 #include "volume/footprint.h"
 
 enum {
@@ -79,12 +80,6 @@ typedef struct ewa_volume_pages {
     uint32_t free_count;
 } ewa_volume_pages;
 
-/// A light in world space.
-typedef struct ewa_volume_light {
-    bool headlight;
-    float toward[3], color[3];
-} ewa_volume_light;
-
 /// Camera, grid and options of a frame in single precision.
 typedef struct ewa_volume_view {
     bool orthographic, exact, lit, highlights, with_depth, with_surface, has_near;
@@ -107,7 +102,7 @@ typedef struct ewa_volume_view {
     float toward_viewer[3]; ///< orthographic, world space
     float ambient, diffuse, specular, shininess;
     uint32_t light_count;
-    ewa_volume_light lights[EWA_MAX_LIGHTS];
+    ewa_kernel_light lights[EWA_MAX_LIGHTS]; ///< in world space
     const ewa_footprint_table *table;
 } ewa_volume_view;
 
