@@ -37,7 +37,7 @@ GOAL = 0.95
 
 # Tables, files of one instruction set, and what only reports or allocates say nothing about the pictures.
 LEFT_OUT = re.compile(
-    r"_table\.c$|srgb_codes|colormap\.h|_presets\.c$|_avx2\.|_avx512\.|wide_portable\.h$|base/|_dispatch\.c$|_variants\.h$|options\.[ch]$")
+    r"_table\.c$|kernels/pixels|colormap\.h|_presets\.c$|_avx2\.|_avx512\.|wide_portable\.h$|base/|options\.[ch]$")
 QUIET_LINES = re.compile(
     r"ewa_fail|ewa_report|ewa_volume_fail|fail_|broken\(|ewa_progress|ewa_allocate|ewa_release|sizeof|snprintf|printf|"
     r"struct_size|static_assert|capacity|reserve|prefetch|stats|_s [+-]?=|^\s*#\s*(if|else|end|include)|"
@@ -284,7 +284,7 @@ class Tree:
         text = (SNAPSHOT / path).read_text()
         if path.endswith((".c", ".h")):
             return text.replace("defined(__x86_64__)", "0")
-        return text.replace("x86_64|AMD64", "none") if path.endswith("CMakeLists.txt") else text
+        return text.replace("x86_64|AMD64", "none") if path.endswith(".cmake") else text
 
     def prepare(self):
         for path in (str(file.relative_to(SNAPSHOT)) for file in SNAPSHOT.rglob("*") if file.is_file()):

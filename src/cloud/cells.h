@@ -6,6 +6,8 @@
 #ifndef EWA_SRC_CLOUD_CELLS_H
 #define EWA_SRC_CLOUD_CELLS_H
 
+#include "base/isa.h"
+
 #include <stdint.h>
 
 enum {
@@ -26,9 +28,6 @@ typedef struct ewa_grid {
 /// the cell along axis c. Points beside the grid are in its outermost cells.
 typedef void ewa_code_cells(const ewa_grid *grid, const double *points, uint32_t count, uint64_t *codes);
 
-ewa_code_cells ewa_code_cells_portable;
-#if defined(__x86_64__)
-ewa_code_cells ewa_code_cells_avx2, ewa_code_cells_avx512;
-#endif
+EWA_DECLARE_VERSIONS(ewa_code_cells, ewa_code_cells);
 
 #endif

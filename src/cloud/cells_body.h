@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Body of the kernels that code cells (KERNEL): plain loops that the compiler turns into vectors of whatever
+// Body of the kernels that code cells: plain loops that the compiler turns into vectors of whatever
 // instruction set the including file is compiled for. No section of docs/math.md is about them.
 //
 // Based on G. M. Morton, "A computer oriented geodetic data base and a new technique in file sequencing",
@@ -18,7 +18,8 @@ static inline uint64_t spread_bits(uint64_t v) {
     return v;
 }
 
-void KERNEL(const ewa_grid *grid, const double *points, uint32_t count, uint64_t *codes) {
+void EWA_VERSION(ewa_code_cells)(const ewa_grid *grid, const double *points, uint32_t count,
+                                 uint64_t *codes) {
     const double last = (1 << EWA_GRID_AXIS_BITS) - 1, scale = grid->cells_per_half_unit;
     double coordinates[3][EWA_CELL_BLOCK];
     for (uint32_t i = 0; i < count; i++)

@@ -405,17 +405,6 @@ static ewa_status sort_all(ewa_context *context, sorter *s, uint32_t count, rang
     return EWA_OK;
 }
 
-static ewa_code_cells *choose_kernel(uint32_t features) {
-    ewa_code_cells *kernel = ewa_code_cells_portable;
-#if defined(__x86_64__)
-    if (features & EWA_CPU_AVX2) kernel = ewa_code_cells_avx2;
-    if (features & EWA_CPU_AVX512) kernel = ewa_code_cells_avx512;
-#else
-    (void)features;
-#endif
-    return kernel;
-}
-
 /// Orders the points within a grid over `box`; `items` has room for all of them and their codes.
 static ewa_status order_in_box(ewa_context *context, const ewa_attribute *position, uint32_t count,
                                const ewa_bounds *box, item *items, uint32_t *order, uint16_t *split_level) {
@@ -435,7 +424,7 @@ static ewa_status order_in_box(ewa_context *context, const ewa_attribute *positi
                       .split_level = split_level,
                       .items = items,
                       .codes = (uint64_t *)(items + count),
-                      .code_cells = choose_kernel(ewa_context_cpu_features(context)),
+                      .code_cells = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_code_cells),
                       .histogram = histogram,
                       .scratch = scratch,
                       .small = small};

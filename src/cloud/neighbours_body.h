@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The hot loops of the search, written once. A file that includes this defines KERNELS, the name of the
-// table, and what math/wide.h asks for. One lane is one place that searches; lanes never mix, so every
+// The hot loops of the search, written once. One lane is one place that searches; lanes never mix, so every
 // machine gives the same bytes. No section of docs/math.md is about it.
 #include "cloud/neighbours_tree.h"
 #include "math/wide.h"
@@ -187,4 +186,4 @@ static void select_rank(ewa_block *block, float limit2, const float within[EWA_B
     drop_others(block, radius2);
 }
 
-const search_kernels KERNELS = {overlap, gather, measure, select_rank};
+const search_kernels EWA_VERSION(ewa_search_kernels) = {overlap, gather, measure, select_rank};

@@ -67,18 +67,6 @@ typedef struct node {
     double distance2;
 } node;
 
-static const search_kernels *best_kernels(const ewa_context *context) {
-    const search_kernels *best = &ewa_search_kernels_portable;
-#if defined(__x86_64__)
-    const uint32_t features = ewa_context_cpu_features(context);
-    if (features & EWA_CPU_AVX2) best = &ewa_search_kernels_avx2;
-    if (features & EWA_CPU_AVX512) best = &ewa_search_kernels_avx512;
-#else
-    (void)context;
-#endif
-    return best;
-}
-
 static void anchor_of(const ewa_neighbours *tree, uint32_t leaf, double anchor[3]) {
     const tree_group *group = &tree->groups[leaf / TREE_ARITY];
     for (int c = 0; c < 3; c++) anchor[c] = tree->anchored ? group->low[c][leaf % TREE_ARITY] : 0;
@@ -459,7 +447,7 @@ ewa_status ewa_neighbours_visit(const ewa_neighbours *neighbours, const ewa_visi
     if (neighbours->place_count == 0) return ewa_progress(context, choice->stage, 1);
     const uint32_t others = neighbours->place_count - 1, wanted = choice->neighbour_count;
     search_job job = {.tree = neighbours,
-                      .kernels = best_kernels(context),
+                      .kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_search_kernels),
                       .rank = 1 + (int32_t)(wanted < others ? wanted : others),
                       .choice = choice,
                       .visit = visit,

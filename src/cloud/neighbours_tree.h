@@ -5,6 +5,7 @@
 #ifndef EWA_SRC_CLOUD_NEIGHBOURS_TREE_H
 #define EWA_SRC_CLOUD_NEIGHBOURS_TREE_H
 
+#include "base/isa.h"
 #include "cloud/neighbours.h"
 
 enum {
@@ -57,9 +58,6 @@ typedef struct search_kernels {
     void (*select)(ewa_block *block, float limit2, const float within[EWA_BLOCK_LANES], int32_t rank);
 } search_kernels;
 
-extern const search_kernels ewa_search_kernels_portable;
-#if defined(__x86_64__)
-extern const search_kernels ewa_search_kernels_avx2, ewa_search_kernels_avx512;
-#endif
+EWA_DECLARE_VERSIONS(const search_kernels, ewa_search_kernels);
 
 #endif

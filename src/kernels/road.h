@@ -11,7 +11,10 @@
 #ifndef EWA_SRC_KERNELS_ROAD_H
 #define EWA_SRC_KERNELS_ROAD_H
 
+#include "base/bin.h"
+#include "base/isa.h"
 #include "image/environment.h"
+#include "kernels/lights.h"
 #include "kernels/packet.h"
 
 #include <stdbool.h>
@@ -96,12 +99,6 @@ typedef struct ewa_view {
 typedef struct ewa_packet_places {
     float *slope_x, *slope_y, *rest_x, *rest_y, *depth;
 } ewa_packet_places;
-
-/// Lists of the packets that may touch some tile, ascending, and of the rectangles of those tiles. Corners
-/// are x | y << 16; `tiles_end` is beyond the last column and row.
-typedef struct ewa_kept_packets {
-    int32_t *packets, *tiles_first, *tiles_end;
-} ewa_kept_packets;
 
 /// One splat in one tile. Places are measured from the middle of the field, of EWA_FIELD_PX pixels a side,
 /// that the tile lies in, and centres are rounded so that their distances from pixels there are exact: what a
@@ -278,13 +275,6 @@ typedef struct ewa_edge_splats {
     uint32_t count;
 } ewa_edge_splats;
 
-/// A light in camera space.
-typedef struct ewa_road_light {
-    bool headlight;  ///< from the eye: no direction of its own but in orthographic views
-    float toward[3]; ///< unit
-    float color[3];
-} ewa_road_light;
-
 /// How surfaces are shaded.
 typedef enum ewa_road_shading {
     EWA_ROAD_UNSHADED,
@@ -304,7 +294,7 @@ typedef struct ewa_resolve {
     bool edge_antialiasing, transparent, one_pass, orthographic;
     ewa_road_shading shading;
     uint32_t light_count;
-    ewa_road_light lights[EWA_MAX_LIGHTS];
+    ewa_kernel_light lights[EWA_MAX_LIGHTS]; ///< in camera space
     float material[EWA_MATERIAL_CHANNELS]; ///< of all surfaces in tiles without materials
     const ewa_environment *environment;    ///< NULL: none
     float environment_from_camera[9];      ///< rotation, row-major
@@ -335,13 +325,12 @@ typedef struct ewa_eye_dome {
 
 /// The kernels of one instruction set.
 typedef struct ewa_road_kernels {
-    const char *name;
 
     /// Lists those of packets [first, first + count) that may touch some tile, from entry `first` of `kept`
     /// on, and writes their places; `first` and the room of `kept` and `places` are multiples of 16. Returns
     /// how many there are.
     uint32_t (*cull)(const ewa_view *view, const ewa_packet_bounds *bounds, uint32_t first, uint32_t count,
-                     const ewa_packet_places *places, const ewa_kept_packets *kept);
+                     const ewa_packet_places *places, const ewa_bin_items *kept);
 
     /// Sets cells[row][column] (rows of EWA_TILE_CELLS) to the smallest tile->nearest in each cell.
     void (*set_cells)(const ewa_tile *tile, float *cells);
@@ -419,7 +408,6 @@ typedef struct ewa_road_kernels {
     void (*dome_shade)(const ewa_eye_dome *dome, uint32_t row);
 } ewa_road_kernels;
 
-/// Chooses the widest of `cpu_features` (EWA_CPU_* bits); plain C when there is none.
-const ewa_road_kernels *ewa_road_kernels_choose(uint32_t cpu_features);
+EWA_DECLARE_VERSIONS(const ewa_road_kernels, ewa_road_kernels);
 
 #endif

@@ -1,16 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The road's kernels over the wide type. The including file defines WIDE_AVX512, WIDE_AVX2 or WIDE_PORTABLE,
-// ROAD_NAME and ROAD_KERNELS; this file undefines them. Reference: src/splat/reference.c, docs/math.md
+// The road's kernels over the wide type. Reference: src/splat/reference.c, docs/math.md
 // sections 2 to 9; equality class of the versions among themselves: the same bytes.
 #include "kernels/road_cull.h"
 #include "kernels/road_edges.h"
 #include "kernels/road_eye_dome.h"
-#include "kernels/road_variants.h"
 
-const ewa_road_kernels ROAD_KERNELS = {
-    .name = ROAD_NAME,
+const ewa_road_kernels EWA_VERSION(ewa_road_kernels) = {
     .cull = cull,
     .set_cells = set_cells,
     .depths = depths,
@@ -34,6 +31,3 @@ const ewa_road_kernels ROAD_KERNELS = {
     .dome_keys = dome_keys,
     .dome_shade = dome_shade,
 };
-
-#undef ROAD_NAME
-#undef ROAD_KERNELS

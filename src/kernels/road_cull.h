@@ -150,13 +150,13 @@ static inline void store_places(const ewa_view *view, const wd center[3], const 
     }
 }
 
-/// Corners of rectangles in the form of ewa_kept_packets.
+/// Corners of rectangles in the form of ewa_bin_items.
 static inline wi tile_corners(wm alive, wf x, wf y) {
     return wi_or(wi_from_f(wf_keep(alive, x)), wi_shl(wi_from_f(wf_keep(alive, y)), 16));
 }
 
 static uint32_t cull(const ewa_view *view, const ewa_packet_bounds *bounds, uint32_t first, uint32_t count,
-                     const ewa_packet_places *places, const ewa_kept_packets *kept) {
+                     const ewa_packet_places *places, const ewa_bin_items *kept) {
     const float tile_px = (float)view->tile_px;
     const float tiles_x = tile_count(view->width_px, view->tile_px),
                 tiles_y = tile_count(view->height_px, view->tile_px);
@@ -182,9 +182,9 @@ static uint32_t cull(const ewa_view *view, const ewa_packet_bounds *bounds, uint
         alive = wm_and(alive, wm_and(wf_lt(x0, x1), wf_lt(y0, y1)));
         if (!wm_bits(alive)) continue;
         store_places(view, center, &o, places, p);
-        wi_pack(kept->packets + next, alive, wi_add(wi_set((int32_t)p), lanes));
-        wi_pack(kept->tiles_first + next, alive, tile_corners(alive, x0, y0));
-        wi_pack(kept->tiles_end + next, alive, tile_corners(alive, x1, y1));
+        wi_pack(kept->ids + next, alive, wi_add(wi_set((int32_t)p), lanes));
+        wi_pack(kept->first + next, alive, tile_corners(alive, x0, y0));
+        wi_pack(kept->end + next, alive, tile_corners(alive, x1, y1));
         next += (uint32_t)__builtin_popcount(wm_bits(alive));
     }
     return next - first;

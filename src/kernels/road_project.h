@@ -9,6 +9,7 @@
 #define EWA_SRC_KERNELS_ROAD_PROJECT_H
 
 #include "kernels/road_camera.h"
+#include "math/wide_ellipse.h"
 
 #include <string.h>
 
@@ -304,9 +305,9 @@ static ALWAYS_INLINE void stage_shape(const ewa_view *view, stage *t) {
     const wf inverse_root_det = wf_inverse_root(det_filtered);
     const wf scaled = wf_mul(wf_mul(inverse_root_det, inverse_root_det), wf_set(view->exponent_scale));
     t->peak = wf_mul(wf_mul(root_det, inverse_root_det), wf_set((float)EWA_INVERSE_TWO_PI));
-    t->xx = wf_mul(w22, scaled);
-    t->xy = wf_mul(wf_mul(v12, wf_set(-2)), scaled);
-    t->yy = wf_mul(w11, scaled);
+    wf conic[3];
+    wide_conic(w11, v12, w22, scaled, conic);
+    t->xx = conic[0], t->xy = conic[1], t->yy = conic[2];
     t->half_x = wf_mul(wf_set(view->cutoff), wf_sqrt(w11));
     t->half_y = wf_mul(wf_set(view->cutoff), wf_sqrt(w22));
 

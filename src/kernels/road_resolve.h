@@ -7,28 +7,14 @@
 #ifndef EWA_SRC_KERNELS_ROAD_RESOLVE_H
 #define EWA_SRC_KERNELS_ROAD_RESOLVE_H
 
+#include "kernels/pixels.h"
 #include "kernels/road_shade.h"
-#include "kernels/srgb_codes.h"
-
-/// Where a block's pixels go.
-typedef struct block_place {
-    uint32_t x, y, width, height;
-} block_place;
-
-/// Writes `values` (per lane `stride` floats) to the block's pixels of a plane.
-static void store_block(float *plane, uint32_t stride, const ewa_resolve *to, const block_place *at,
-                        const float *values) {
-    for (uint32_t row = 0; row < at->height; row++) {
-        float *out = plane + ((size_t)(at->y + row) * to->width_px + at->x) * stride;
-        memcpy(out, values + (size_t)row * EWA_BLOCK_PX * stride, at->width * stride * sizeof(float));
-    }
-}
 
 static void store_vectors(float *plane, const ewa_resolve *to, const block_place *at, const wf v[3]) {
     float lanes[64], packed[48];
     w_store4(lanes, v[0], v[1], v[2], wf_set(0));
     for (int i = 0; i < 16; i++) memcpy(&packed[3 * i], &lanes[4 * i], 3 * sizeof(float));
-    store_block(plane, 3, to, at, packed);
+    store_block(plane, 3, to->width_px, at, packed);
 }
 
 /// A block's gathered surface: straight colour, shaded.
@@ -80,54 +66,23 @@ static ALWAYS_INLINE void composite(const ewa_resolve *to, const surface *s, con
     for (int i = 0; i < 4; i++) out[i] = wf_fma(wf_set(to->background[i]), through, out[i]);
 }
 
-/// Pixels of 8-bit sRGB and straight alpha.
-static ALWAYS_INLINE wi color_codes(const wf color[4]) {
-    const wf one = wf_set(1);
-    const wm visible = wf_lt(wf_set(0), color[3]);
-    wf straight[3] = {color[0], color[1], color[2]};
-    wi codes = wi_set((int32_t)0xff000000u);
-    if (wm_bits(wf_lt(color[3], one))) {
-        const wf inverse = wf_keep(visible, wf_div(one, wf_select(visible, color[3], one)));
-        scale3(straight, inverse);
-        codes = wi_shl(wi_from_f(wf_fma(wf_clamp01(color[3]), wf_set(255), wf_set(0.5f))), 24);
-    }
-    for (int i = 0; i < 3; i++) codes = wi_or(codes, wi_shl(srgb_codes(wf_clamp01(straight[i])), 8 * i));
-    return codes;
-}
-
-static ALWAYS_INLINE void store_codes(const ewa_resolve *to, const block_place *at, wi codes) {
-    const size_t stride_bytes = (size_t)to->width_px * 4;
-    uint8_t *out = to->rgba8 + at->y * stride_bytes + (size_t)at->x * 4;
-    if (at->width == EWA_BLOCK_PX && at->height == EWA_BLOCK_PX) {
-        wi_store_rows(out, stride_bytes, codes);
-        return;
-    }
-    int32_t pixels[EWA_BLOCK_LANES];
-    wi_store(pixels, codes);
-    for (uint32_t row = 0; row < at->height; row++)
-        memcpy(out + row * stride_bytes, &pixels[row * EWA_BLOCK_PX], at->width * sizeof *pixels);
-}
-
 /// Writes the planes other than 8-bit colour.
 static void store_planes(const ewa_tile *tile, const ewa_resolve *to, const block_sums *sums,
                          const wf color[4], const block_place *at) {
-    float lanes[64];
-    if (to->rgba) {
-        w_store4(lanes, color[0], color[1], color[2], color[3]);
-        store_block(to->rgba, 4, to, at, lanes);
-    }
+    float lanes[16];
+    if (to->rgba) store_colors(to->rgba, to->width_px, at, color);
     const wf weight = sum_of(sums, 0), zero = wf_set(0);
     const wm covered = wf_lt(zero, weight);
     if (to->depth) {
         const wf depths = sum_of(sums, depth_channel(tile));
         const wf z = wf_mul(wf_mul(depths, inverse_weight(weight)), wf_set(to->depth_unit));
         wf_store(lanes, wf_select(covered, z, wf_set(__builtin_inff())));
-        store_block(to->depth, 1, to, at, lanes);
+        store_block(to->depth, 1, to->width_px, at, lanes);
     }
     if (to->coverage) {
         wf_store(lanes, to->one_pass ? wf_keep(covered, wf_set(1))
                                      : wf_mul(weight, wf_set(to->unit_coverage_inverse)));
-        store_block(to->coverage, 1, to, at, lanes);
+        store_block(to->coverage, 1, to->width_px, at, lanes);
     }
     if (to->normal) {
         wf unit[3], world[3];
@@ -140,11 +95,7 @@ static void store_planes(const ewa_tile *tile, const ewa_resolve *to, const bloc
 }
 
 static ALWAYS_INLINE block_place place_of(const ewa_tile *tile, uint32_t row, uint32_t column) {
-    const uint32_t x = column * EWA_BLOCK_PX, y = row * EWA_BLOCK_PX;
-    const uint32_t width = (uint32_t)tile->width_px - x, height = (uint32_t)tile->height_px - y;
-    return (block_place){(uint32_t)tile->x_px + x, (uint32_t)tile->y_px + y,
-                         width < EWA_BLOCK_PX ? width : EWA_BLOCK_PX,
-                         height < EWA_BLOCK_PX ? height : EWA_BLOCK_PX};
+    return place_block(tile->x_px, tile->y_px, tile->width_px, tile->height_px, row, column);
 }
 
 /// How many of a block's pixels have a colour that is infinite or no number.
@@ -182,7 +133,7 @@ static uint32_t resolve(const ewa_tile *tile, const ewa_resolve *to, const ewa_e
             const block_place at = place_of(&in_tile, row, column);
             const block_sums sums = tile_block(&in_tile, row, column);
             if (!planes && !wm_bits(wf_lt(wf_set(0), sum_of(&sums, 0)))) {
-                store_codes(&at_hand, &at, empty_codes);
+                store_codes(at_hand.rgba8, at_hand.width_px, &at, empty_codes);
             } else {
                 const surface s =
                     gathered_surface(&in_tile, &at_hand, &sums, shades + (size_t)column * EWA_SHADE_FLOATS,
@@ -190,7 +141,7 @@ static uint32_t resolve(const ewa_tile *tile, const ewa_resolve *to, const ewa_e
                 wf color[4];
                 composite(&at_hand, &s, marked >> column & 1 ? behind : NULL, color);
                 broken_count += count_broken(&at, color);
-                if (at_hand.rgba8) store_codes(&at_hand, &at, color_codes(color));
+                if (at_hand.rgba8) store_codes(at_hand.rgba8, at_hand.width_px, &at, color_codes(color));
                 if (planes) store_planes(tile, to, &sums, color, &at);
             }
             if (edges) behind += 4 * EWA_BLOCK_LANES;

@@ -5,21 +5,17 @@
 // colour and material (docs/math.md section 7; semantics.h, shading).
 //
 // Based on: Zwicker, Pfister, van Baar, Gross, "Surface Splatting", 2001, section 4 (deferred shading of
-// filtered attributes); J. Blinn, "Models of Light Reflection for Computer Synthesized Pictures", 1977 (the
-// highlight); L. Williams, "Pyramidal Parametrics", 1983 (the filtered lookup).
+// filtered attributes); L. Williams, "Pyramidal Parametrics", 1983 (the filtered lookup).
 #ifndef EWA_SRC_KERNELS_ROAD_SHADE_H
 #define EWA_SRC_KERNELS_ROAD_SHADE_H
 
 #include "kernels/road_raster.h"
+#include "kernels/shine.h"
 
 enum { EWA_SHADE_FLOATS = 3 * EWA_BLOCK_LANES };
 
 static inline void scale3(wf v[3], wf by) {
     for (int i = 0; i < 3; i++) v[i] = wf_mul(v[i], by);
-}
-
-static inline wf dot3(const wf a[3], const wf b[3]) {
-    return wf_fma(a[0], b[0], wf_fma(a[1], b[1], wf_mul(a[2], b[2])));
 }
 
 /// From the surface to the eye along the rays of a block's pixels: not of unit length in perspective.
@@ -44,7 +40,7 @@ static ALWAYS_INLINE wf shaded_length2(const wf normal[3], wf weight) {
 /// max(0, N.L).
 static ALWAYS_INLINE wf lambert(const ewa_resolve *to, const wf normal[3], wf weight, uint32_t x,
                                 uint32_t y) {
-    const ewa_road_light *from = &to->lights[0];
+    const ewa_kernel_light *from = &to->lights[0];
     wf light[3], length2 = shaded_length2(normal, weight);
     const wm defined = wf_lt(wf_set(0), length2);
     if (from->headlight && !to->orthographic) {
@@ -71,37 +67,6 @@ static ALWAYS_INLINE uint32_t color_weight(const ewa_tile *tile) {
 
 /// Whether a block's colours are their weighted sums times one factor.
 static ALWAYS_INLINE bool shades_by_factor(const ewa_resolve *to) { return to->shading <= EWA_ROAD_LAMBERT; }
-
-/// What shines on a block.
-typedef struct block_light {
-    wf diffuse[3], specular[3];
-} block_light;
-
-/// Gathers all lights; `normal` and `view` (towards the eye) are of unit length.
-static ALWAYS_INLINE block_light gather_light(const ewa_resolve *to, const wf normal[3], const wf view[3],
-                                              wf shininess) {
-    const wf zero = wf_set(0);
-    block_light sum = {{zero, zero, zero}, {zero, zero, zero}};
-    const wf sight = dot3(normal, view);
-    for (uint32_t k = 0; k < to->light_count; k++) {
-        const ewa_road_light *from = &to->lights[k];
-        wf toward[3];
-        for (int i = 0; i < 3; i++) toward[i] = from->headlight ? view[i] : wf_set(from->toward[i]);
-        const wf facing = wf_max(dot3(normal, toward), zero);
-        for (int i = 0; i < 3; i++) sum.diffuse[i] = wf_fma(wf_set(from->color[i]), facing, sum.diffuse[i]);
-        if (to->shading != EWA_ROAD_PHONG) continue;
-        wf cosine = facing; // the headlight's H is V
-        if (!from->headlight) {
-            // N.(L + V) / |L + V|, whose square is 2 + 2 L.V.
-            const wf two = wf_set(2), length2 = wf_max(wf_fma(two, dot3(toward, view), two), zero);
-            cosine = wf_mul(wf_add(facing, sight), wf_inverse_root(length2));
-        }
-        const wf highlight = wf_keep(wf_lt(zero, facing), wf_power(cosine, shininess));
-        for (int i = 0; i < 3; i++)
-            sum.specular[i] = wf_fma(wf_set(from->color[i]), highlight, sum.specular[i]);
-    }
-    return sum;
-}
 
 /// Where reflections look into the environment, lane by lane.
 typedef struct lookup {
@@ -205,7 +170,8 @@ static void shade_surface(const ewa_tile *tile, const ewa_resolve *to, const blo
         material[i] = tile->with_materials ? wf_mul(wf_mul(sum_of(sums, MATERIAL_AT + (uint32_t)i), inverse),
                                                     wf_set(to->material_units[i]))
                                            : wf_set(to->material[i]);
-    const block_light light = gather_light(to, normal, view, material[3]);
+    const lane_light light =
+        gather_light(to->lights, to->light_count, to->shading == EWA_ROAD_PHONG, normal, view, material[3]);
     wf mirrored[3] = {zero, zero, zero};
     const bool mirrors =
         to->shading == EWA_ROAD_PHONG && to->environment && wm_bits(wf_lt(zero, material[4])) & bits;

@@ -29,17 +29,6 @@ static void run_task(void *data, uint32_t index, uint32_t worker) {
     if (invalid) atomic_fetch_add(&j->invalid_count, invalid);
 }
 
-static clip_segments_kernel *choose_kernel(uint32_t features) {
-    clip_segments_kernel *kernel = ewa_clip_segments_portable;
-#if defined(__x86_64__)
-    if (features & EWA_CPU_AVX2) kernel = ewa_clip_segments_avx2;
-    if (features & EWA_CPU_AVX512) kernel = ewa_clip_segments_avx512;
-#else
-    (void)features;
-#endif
-    return kernel;
-}
-
 static bool arrays_are_there(const ewa_segment_batch *segments, const ewa_segment_clips *clips) {
     bool wants_ends = clips->end[0][0][0] != NULL;
     if (!clips->visible) return false;
@@ -62,7 +51,7 @@ ewa_status ewa_clip_segments(ewa_context *context, const ewa_segment_batch *segm
         return ewa_fail(context, EWA_ERROR_ARGUMENT,
                         "ewa_clip_segments: %llu segments are too many for one batch",
                         (unsigned long long)segments->count);
-    job j = {segments, clips, choose_kernel(ewa_context_cpu_features(context)), 0};
+    job j = {segments, clips, EWA_CHOOSE(ewa_context_cpu_features(context), ewa_clip_segments), 0};
     ewa_parallel(context, run_task, &j, (uint32_t)task_count);
     if (j.invalid_count == 0) return EWA_OK;
     uint64_t first = 0;

@@ -8,14 +8,13 @@
 #ifndef EWA_SRC_MATH_CLIP_BATCH_H
 #define EWA_SRC_MATH_CLIP_BATCH_H
 
+#include "base/isa.h"
 #include "ewa/math.h"
 
 /// Clips segments [first, first + count) of a batch.
 typedef void clip_segments_kernel(const ewa_segment_batch *segments, const ewa_segment_clips *clips,
                                   uint64_t first, uint64_t count);
 
-clip_segments_kernel ewa_clip_segments_portable;
-clip_segments_kernel ewa_clip_segments_avx2;
-clip_segments_kernel ewa_clip_segments_avx512;
+EWA_DECLARE_VERSIONS(clip_segments_kernel, ewa_clip_segments);
 
 #endif

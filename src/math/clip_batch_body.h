@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The batch clipper, written once over vectors of LANES floats; the file that includes it defines LANES and
-// KERNEL. Both cones in one go: alpha of each plane is computed where the segment crosses it and serves both.
-// Formulas: docs/math.md section 1, docs/homogeneous.md.
+// The batch clipper, written once over vectors of LANES floats. Both cones in one go: alpha of each plane is
+// computed where the segment crosses it and serves both. Formulas: docs/math.md section 1,
+// docs/homogeneous.md.
 #include <stdbool.h>
 #include <string.h>
 
@@ -12,6 +12,14 @@
 #endif
 
 #include "math/clip_batch.h"
+
+#if defined(WIDE_AVX512)
+#define LANES 16
+#elif defined(WIDE_AVX2)
+#define LANES 8
+#else
+#define LANES 4
+#endif
 
 typedef float wide __attribute__((vector_size(4 * LANES)));
 typedef int32_t mask __attribute__((vector_size(4 * LANES))); // -1 true, 0 false
@@ -194,8 +202,8 @@ static void clip_rest(const ewa_segment_batch *segments, const ewa_segment_clips
         }
 }
 
-void KERNEL(const ewa_segment_batch *segments, const ewa_segment_clips *clips, uint64_t first,
-            uint64_t count) {
+void EWA_VERSION(ewa_clip_segments)(const ewa_segment_batch *segments, const ewa_segment_clips *clips,
+                                    uint64_t first, uint64_t count) {
     bool wants_ends = clips->end[0][0][0] != NULL;
     uint64_t end = first + count, i = first;
     if (wants_ends)

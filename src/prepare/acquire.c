@@ -8,6 +8,7 @@
 #include "base/base.h"
 #include "cloud/morton.h"
 #include "image/srgb.h"
+#include "math/frame.h"
 
 #include <string.h>
 
@@ -149,9 +150,10 @@ static void read_shape(const acquire_job *job, uint64_t index, ewa_acquire_point
     if (!job->tangent[0]) {
         const double sigma = radius / job->options->cutoff;
         if (!(sigma > 0 && sigma < INFINITY)) return;
-        const double sign = copysign(1, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
-        tu = vec3_scale(vec3_make(1 + sign * n.x * n.x * a, sign * b, -sign * n.x), sigma);
-        tv = vec3_scale(vec3_make(b, sign + n.y * n.y * a, -n.y), sigma);
+        ewa_vec3 axis[2];
+        ewa_frame_of(n, axis);
+        tu = vec3_scale(axis[0], sigma);
+        tv = vec3_scale(axis[1], sigma);
     }
     const double rows[3][3] = {{n.x, n.y, n.z}, {tu.x, tu.y, tu.z}, {tv.x, tv.y, tv.z}};
     for (int c = 0; c < 3; c++) {

@@ -16,6 +16,7 @@
 // Based on M. Zwicker, H. Pfister, J. van Baar, M. Gross, "Surface Splatting", 2001, appendix A; the moments
 // of what is cut after N. L. Johnson, S. Kotz, "Continuous Univariate Distributions 1", 1970, chapter 13.
 #include "base/base.h"
+#include "math/frame.h"
 #include "math/gaussian.h"
 #include "prepare/acquire.h"
 
@@ -40,13 +41,6 @@ static ewa_vec3 load(const float v[3]) { return vec3_make((double)v[0], (double)
 static double major_sigma(const ewa_acquire_point *point) {
     const ewa_vec3 u = load(point->axis[0]), v = load(point->axis[1]);
     return sqrt(fmax(vec3_dot(u, u), vec3_dot(v, v)));
-}
-
-/// Orthonormal axes of the plane of a unit normal (Duff et al., 2017).
-static void frame_of(ewa_vec3 n, ewa_vec3 axis[2]) {
-    const double sign = copysign(1, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
-    axis[0] = vec3_make(1 + sign * n.x * n.x * a, sign * b, -sign * n.x);
-    axis[1] = vec3_make(b, sign + n.y * n.y * a, -n.y);
 }
 
 /// Covariance of a kernel, projected into a plane: xx, xy, yy.
@@ -117,7 +111,7 @@ void ewa_acquire_single(const ewa_acquire_point *point, ewa_acquire_pair *pair) 
     double covariance[3];
     const double origin[2] = {0, 0};
     *pair = (ewa_acquire_pair){0};
-    frame_of(load(point->normal), pair->axis);
+    ewa_frame_of(load(point->normal), pair->axis);
     project(point, pair->axis, covariance);
     const double determinant = fmax(covariance[0] * covariance[2] - covariance[1] * covariance[1], 0);
     cut(point, pair->axis, origin, pair->mean, covariance);
@@ -129,7 +123,7 @@ void ewa_acquire_multiply(const ewa_acquire_set *set, const ewa_acquire_point *a
                           ewa_acquire_pair *pair) {
     ewa_vec3 normal = vec3_add(load(a->normal), load(b->normal));
     vec3_normalize(&normal);
-    frame_of(normal, pair->axis);
+    ewa_frame_of(normal, pair->axis);
     const ewa_vec3 between = vec3_sub(vec3_load(b->place), vec3_load(a->place));
     const double d[2] = {vec3_dot(between, pair->axis[0]), vec3_dot(between, pair->axis[1])};
     double p[3], q[3];

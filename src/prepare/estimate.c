@@ -363,7 +363,8 @@ static ewa_status estimate(ewa_cloud *cloud, const ewa_estimate_options *options
     const bool sizes = !(options->keep_radii && (has_axes || has_components(cloud, EWA_RADIUS, 1)));
     if (!normals && !sizes) return EWA_OK;
     estimate_job job = {.options = options,
-                        .kernels = ewa_local_kernels(ewa_cloud_context(cloud)),
+                        .kernels =
+                            EWA_CHOOSE(ewa_context_cpu_features(ewa_cloud_context(cloud)), ewa_local_kernels),
                         .position = *ewa_cloud_find(cloud, EWA_POSITION)};
     ewa_cloud_origin(cloud, job.viewpoint);
     for (int c = 0; c < 3; c++) job.viewpoint[c] = options->viewpoint_world[c] - job.viewpoint[c];
@@ -421,18 +422,6 @@ static ewa_status check_options(ewa_context *context, const ewa_estimate_options
         if (!isfinite(options->viewpoint_world[c]))
             return ewa_fail(context, EWA_ERROR_ARGUMENT, "estimate: the viewpoint is not finite");
     return EWA_OK;
-}
-
-const local_kernels *ewa_local_kernels(const ewa_context *context) {
-    const local_kernels *best = &ewa_local_kernels_portable;
-#if defined(__x86_64__)
-    const uint32_t features = ewa_context_cpu_features(context);
-    if (features & EWA_CPU_AVX2) best = &ewa_local_kernels_avx2;
-    if (features & EWA_CPU_AVX512) best = &ewa_local_kernels_avx512;
-#else
-    (void)context;
-#endif
-    return best;
 }
 
 void ewa_estimate_options_init(ewa_estimate_options *options, size_t struct_size) {

@@ -3,6 +3,7 @@
 //
 // Surfels beside edges: plane, axes and clip lines from the model of their place.
 #include "base/base.h"
+#include "math/frame.h"
 #include "prepare/features.h"
 
 #include <math.h>
@@ -50,12 +51,12 @@ static double get(const edited *stream, uint64_t point, int component) {
     return stream->f32 ? (double)stream->f32[at] : stream->f64[at];
 }
 
-/// Two unit vectors with u x v = n. Based on T. Duff et al., "Building an orthonormal basis, revisited",
-/// 2017.
+/// Two unit vectors with u x v = n.
 static void make_frame(const double n[3], double u[3], double v[3]) {
-    const double sign = copysign(1, n[2]), a = -1 / (sign + n[2]), b = n[0] * n[1] * a;
-    u[0] = 1 + sign * n[0] * n[0] * a, u[1] = sign * b, u[2] = -sign * n[0];
-    v[0] = b, v[1] = sign + n[1] * n[1] * a, v[2] = -n[1];
+    ewa_vec3 axis[2];
+    ewa_frame_of(vec3_load(n), axis);
+    vec3_store(axis[0], u);
+    vec3_store(axis[1], v);
 }
 
 /// The standard deviation of a round kernel with the area of the surfel's.

@@ -420,7 +420,7 @@ ewa_status ewa_cloud_detect_features(ewa_cloud *cloud, const ewa_feature_options
     if (status != EWA_OK) return status;
     ewa_context *context = ewa_cloud_context(cloud);
     feature_job job = {.context = context,
-                       .kernels = ewa_local_kernels(context),
+                       .kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_local_kernels),
                        .normal = *ewa_cloud_find(cloud, EWA_NORMAL)};
     status = ewa_neighbours_create(context, ewa_cloud_find(cloud, EWA_POSITION),
                                    (uint32_t)ewa_cloud_point_count(cloud), &job.neighbours);

@@ -5,6 +5,7 @@
 #ifndef EWA_SRC_PREPARE_LOCAL_H
 #define EWA_SRC_PREPARE_LOCAL_H
 
+#include "base/isa.h"
 #include "cloud/neighbours.h"
 
 /// Share of the variance along the normal above which a neighbourhood may be no surface.
@@ -91,12 +92,6 @@ typedef struct local_kernels {
     void (*link)(const ewa_block *block, local_graph graph);
 } local_kernels;
 
-extern const local_kernels ewa_local_kernels_portable;
-#if defined(__x86_64__)
-extern const local_kernels ewa_local_kernels_avx2, ewa_local_kernels_avx512;
-#endif
-
-/// Returns the fastest ones that this machine and the context's mask allow.
-const local_kernels *ewa_local_kernels(const ewa_context *context);
+EWA_DECLARE_VERSIONS(const local_kernels, ewa_local_kernels);
 
 #endif

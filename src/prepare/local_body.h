@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Normal, spacing and shape from a neighbourhood, sixteen at a time. A file that includes this defines
-// KERNELS, the name of the table, and what math/wide.h asks for. No section of docs/math.md is about it; what
-// radii come to is in docs/quality.md.
+// Normal, spacing and shape from a neighbourhood, sixteen at a time. No section of docs/math.md is about it;
+// what radii come to is in docs/quality.md.
 //
 // Normal: the direction of least variance of the neighbourhood. Based on H. Hoppe, T. DeRose, T. Duchamp,
 // J. McDonald, W. Stuetzle, "Surface reconstruction from unorganized points", 1992, section 3.2.
@@ -545,4 +544,5 @@ static void link_nearest(const ewa_block *block, local_graph graph) {
 
 #include "prepare/local_crowd_body.h"
 
-const local_kernels KERNELS = {measure, size, collect, find_around, enclose, measure_distance, link_nearest};
+const local_kernels EWA_VERSION(ewa_local_kernels) = {
+    measure, size, collect, find_around, enclose, measure_distance, link_nearest};

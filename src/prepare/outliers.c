@@ -70,7 +70,7 @@ ewa_status ewa_remove_outliers(ewa_cloud **cloud, uint32_t neighbour_count, doub
                                               (uint32_t)point_count, &neighbours);
     if (status != EWA_OK) return status;
     const size_t place_count = ewa_neighbours_place_count(neighbours);
-    distance_job job = {.kernels = ewa_local_kernels(context)};
+    distance_job job = {.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_local_kernels)};
     job.mean_distance = ewa_allocate(context, place_count, sizeof *job.mean_distance);
     uint8_t *keep = ewa_allocate_zeroed(context, point_count, sizeof *keep);
     status = EWA_ERROR_MEMORY;

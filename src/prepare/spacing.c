@@ -82,7 +82,7 @@ static ewa_status measure(ewa_context *context, const ewa_neighbours *neighbours
     if (places < 2) return EWA_OK;
     const uint64_t wanted = sample_count && sample_count < places ? sample_count : places;
     const size_t entries = (size_t)1 << DIGIT_BITS;
-    spacing_job job = {.kernels = ewa_local_kernels(context)};
+    spacing_job job = {.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_local_kernels)};
     job.spacing = ewa_allocate(context, places, sizeof *job.spacing);
     uint32_t *histogram = ewa_allocate(context, entries, sizeof *histogram);
     ewa_status status = EWA_ERROR_MEMORY;

@@ -30,26 +30,12 @@ typedef struct workspace {
 typedef struct texture_job {
     const ewa_texture_plan *plan;
     workspace *workspaces; ///< one per worker
-    uint32_t tiles_across;
+    ewa_tiles tiles;
 } texture_job;
 
 static void choose_brush(const ewa_texture_plan *plan, ewa_texture_brush *brush) {
     const double h = plan->options.prefilter_px, f = plan->options.cutoff, sigma = plan->options.sigma_texels;
-    brush->points = ewa_texture_draw_points_portable;
-    brush->splats = ewa_texture_draw_splats_portable;
-    brush->resolve = ewa_texture_resolve_portable;
-#if defined(__x86_64__)
-    const uint32_t features = ewa_context_cpu_features(plan->context);
-    if (features & EWA_CPU_AVX512) {
-        brush->points = ewa_texture_draw_points_avx512;
-        brush->splats = ewa_texture_draw_splats_avx512;
-        brush->resolve = ewa_texture_resolve_avx512;
-    } else if (features & EWA_CPU_AVX2) {
-        brush->points = ewa_texture_draw_points_avx2;
-        brush->splats = ewa_texture_draw_splats_avx2;
-        brush->resolve = ewa_texture_resolve_avx2;
-    }
-#endif
+    brush->kernels = EWA_CHOOSE(ewa_context_cpu_features(plan->context), ewa_texture_kernels);
     brush->filter = (ewa_texel_filter){.cutoff2 = (float)(f * f),
                                        .prefilter2 = (float)(h * h),
                                        .reach_px = (float)(f * h),
@@ -57,65 +43,54 @@ static void choose_brush(const ewa_texture_plan *plan, ewa_texture_brush *brush)
                                        .determinant = (float)(sigma * sigma * plan->determinant)};
 }
 
-static void tile_place(const texture_job *job, uint32_t index, uint32_t *x, uint32_t *y) {
-    *x = index % job->tiles_across * EWA_TEXTURE_TILE;
-    *y = index / job->tiles_across * EWA_TEXTURE_TILE;
-}
-
 /// Finds the levels that a tile needs.
 static void survey_tile(void *data, uint32_t index, uint32_t worker) {
     const texture_job *job = data;
     workspace *space = &job->workspaces[worker];
-    uint32_t x, y;
-    tile_place(job, index, &x, &y);
+    const ewa_tile_rect tile = ewa_tiles_rect(&job->tiles, index);
     space->brush.wanted = space->wanted;
-    ewa_texture_walk(job->plan, &space->brush, x, y);
+    ewa_texture_walk(job->plan, &space->brush, tile.x_px, tile.y_px);
     space->brush.wanted = NULL;
 }
 
-static void interpolate_tile(const ewa_texture_plan *plan, workspace *space,
-                             const ewa_texture_rectangle *tile) {
-    for (uint32_t row = 0; row < tile->height; row++) {
-        for (uint32_t column = 0; column < tile->width; column++) {
+static void interpolate_tile(const ewa_texture_plan *plan, workspace *space, const ewa_tile_rect *tile) {
+    for (uint32_t row = 0; row < tile->height_px; row++) {
+        for (uint32_t column = 0; column < tile->width_px; column++) {
             const size_t at = (size_t)(row + 1) * EWA_TEXTURE_PITCH + column + 1;
-            if (!ewa_texture_interpolate(plan, tile->x + column, tile->y + row, space->color + 4 * at))
+            if (!ewa_texture_interpolate(plan, tile->x_px + column, tile->y_px + row, space->color + 4 * at))
                 continue;
             if (plan->with_alpha) space->weight[at] = 1;
         }
     }
 }
 
-static void write_tile(const ewa_texture_plan *plan, workspace *space, const ewa_texture_rectangle *tile) {
-    const bool inside = ewa_texture_covers(plan, tile->x, tile->y, tile->width, tile->height);
-    for (uint32_t row = 0; !inside && row < tile->height; row++)
-        for (uint32_t column = 0; column < tile->width; column++)
+static void write_tile(const ewa_texture_plan *plan, workspace *space, const ewa_tile_rect *tile) {
+    const bool inside = ewa_texture_covers(plan, tile->x_px, tile->y_px, tile->width_px, tile->height_px);
+    for (uint32_t row = 0; !inside && row < tile->height_px; row++)
+        for (uint32_t column = 0; column < tile->width_px; column++)
             space->coverage[row * EWA_TEXTURE_TILE + column] =
-                (float)ewa_texture_coverage(plan, tile->x + column, tile->y + row);
-    space->brush.resolve(&plan->target, plan->options.background, tile, &space->brush.sums,
-                         inside ? NULL : space->coverage);
+                (float)ewa_texture_coverage(plan, tile->x_px + column, tile->y_px + row);
+    space->brush.kernels->resolve(&plan->target, plan->options.background, tile, &space->brush.sums,
+                                  inside ? NULL : space->coverage);
 }
 
 static void draw_tile(void *data, uint32_t index, uint32_t worker) {
     const texture_job *job = data;
     const ewa_texture_plan *plan = job->plan;
-    uint32_t x, y;
-    tile_place(job, index, &x, &y);
-    const uint32_t left = plan->target.width_px - x, below = plan->target.height_px - y;
-    const ewa_texture_rectangle tile = {x, y, left < EWA_TEXTURE_TILE ? left : EWA_TEXTURE_TILE,
-                                        below < EWA_TEXTURE_TILE ? below : EWA_TEXTURE_TILE};
+    const ewa_tile_rect tile = ewa_tiles_rect(&job->tiles, index);
     workspace *space = &job->workspaces[worker];
     memset(space->color, 0, sizeof space->color);
     if (plan->with_alpha) memset(space->weight, 0, sizeof space->weight);
     if (plan->options.method == EWA_TEXTURE_BILINEAR)
         interpolate_tile(plan, space, &tile);
     else
-        ewa_texture_walk(plan, &space->brush, x, y);
+        ewa_texture_walk(plan, &space->brush, tile.x_px, tile.y_px);
     write_tile(plan, space, &tile);
 }
 
 /// Surveys, makes the levels, draws.
-static ewa_status draw_all(ewa_texture_plan *plan, texture_job *job, uint32_t tile_count,
-                           ewa_texture_stats *stats) {
+static ewa_status draw_all(ewa_texture_plan *plan, texture_job *job, ewa_texture_stats *stats) {
+    const uint32_t tile_count = ewa_tiles_count(&job->tiles);
     const uint32_t worker_count = ewa_context_worker_count(plan->context);
     const ewa_texture_method method = plan->options.method;
     ewa_status status = ewa_progress(plan->context, "texture", 0);
@@ -168,11 +143,10 @@ ewa_status ewa_texture_map(ewa_context *context, const ewa_texture_source *sourc
         space->brush.sums = (ewa_texture_sums){space->color, plan.with_alpha ? space->weight : NULL};
         space->brush.block = &space->block;
     }
-    const uint32_t tiles_across = (target->width_px + EWA_TEXTURE_TILE - 1) / EWA_TEXTURE_TILE;
-    const uint32_t tiles_down = (target->height_px + EWA_TEXTURE_TILE - 1) / EWA_TEXTURE_TILE;
-    texture_job job = {&plan, workspaces, tiles_across};
+    texture_job job = {&plan, workspaces,
+                       ewa_tiles_make(target->width_px, target->height_px, EWA_TEXTURE_TILE)};
     ewa_texture_stats counted = {0};
-    status = draw_all(&plan, &job, tiles_across * tiles_down, &counted);
+    status = draw_all(&plan, &job, &counted);
     ewa_texture_levels_free(&plan);
     ewa_release(context, workspaces, worker_count, sizeof *workspaces);
     counted.total_s = ewa_now_s() - started_s;

@@ -7,6 +7,8 @@
 #define EWA_SRC_RESAMPLE_TEXTURE_H
 
 #include "base/base.h"
+#include "base/isa.h"
+#include "base/tiles.h"
 #include "ewa/resample.h"
 
 enum {
@@ -80,26 +82,19 @@ typedef struct ewa_texel_filter {
 /// w > plan.tangent_w * EWA_TEXTURE_NEAR all over the block. Returns how many texels touch the tile.
 typedef uint32_t ewa_texture_draw(const ewa_texel_filter *filter, const ewa_texture_block *block,
                                   const ewa_texture_sums *sums);
-ewa_texture_draw ewa_texture_draw_points_portable, ewa_texture_draw_splats_portable;
-#if defined(__x86_64__)
-ewa_texture_draw ewa_texture_draw_points_avx2, ewa_texture_draw_splats_avx2;
-ewa_texture_draw ewa_texture_draw_points_avx512, ewa_texture_draw_splats_avx512;
-#endif
-
-/// A part of a picture, at most a tile.
-typedef struct ewa_texture_rectangle {
-    uint32_t x, y, width, height;
-} ewa_texture_rectangle;
 
 /// Writes the pixels of a tile from its sums. `coverage`, EWA_TEXTURE_TILE numbers per row, may be NULL:
 /// all 1.
 typedef void ewa_texture_resolve(const ewa_texture_target *target, const float background[4],
-                                 const ewa_texture_rectangle *tile, const ewa_texture_sums *sums,
+                                 const ewa_tile_rect *tile, const ewa_texture_sums *sums,
                                  const float *coverage);
-ewa_texture_resolve ewa_texture_resolve_portable;
-#if defined(__x86_64__)
-ewa_texture_resolve ewa_texture_resolve_avx2, ewa_texture_resolve_avx512;
-#endif
+
+typedef struct ewa_texture_kernels {
+    ewa_texture_draw *points, *splats;
+    ewa_texture_resolve *resolve;
+} ewa_texture_kernels;
+
+EWA_DECLARE_VERSIONS(const ewa_texture_kernels, ewa_texture_kernels);
 
 /// Distance to the eye plane, in supports of a texel, below which the projected kernel is evaluated along
 /// rays.
@@ -169,8 +164,7 @@ typedef struct ewa_texture_counts {
 
 /// What a worker draws with.
 typedef struct ewa_texture_brush {
-    ewa_texture_draw *points, *splats;
-    ewa_texture_resolve *resolve;
+    const ewa_texture_kernels *kernels;
     ewa_texel_filter filter;
     ewa_texture_sums sums;
     ewa_texture_block *block;

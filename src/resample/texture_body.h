@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: MIT
 //
 // Body of the kernels that add texels to the sums of a tile, for the instruction set that the including file
-// chose (math/wide.h); POINTS, SPLATS and RESOLVE are their names. Sixteen texels are projected at once, and
+// chose (math/wide.h). Sixteen texels are projected at once, and
 // added one by one.
 //
 // Based on: Yuan et al., "Hybrid Forward Resampling and Volume Rendering", 2003, section 3; Zwicker et al.,
 // "Perspective Accurate Splatting", 2004, section 4 (docs/math.md sections 3, 4, 11).
-#include "math/wide_functions.h"
+#include "math/wide_ellipse.h"
 #include "resample/texture.h"
 #include "resample/texture_resolve.h"
 
@@ -164,8 +164,8 @@ static ALWAYS_INLINE uint32_t add_small_points(const ewa_texel_filter *filter, c
     return hits;
 }
 
-uint32_t POINTS(const ewa_texel_filter *filter, const ewa_texture_block *block,
-                const ewa_texture_sums *sums) {
+static uint32_t points(const ewa_texel_filter *filter, const ewa_texture_block *block,
+                       const ewa_texture_sums *sums) {
     const bool small = filter->reach_px <= 1;
     const float conic = -HALF_LOG2_E / filter->prefilter2;
     uint32_t drawn = 0;
@@ -206,35 +206,33 @@ static ALWAYS_INLINE uint32_t splat_ellipses(const ewa_texel_filter *filter, con
         tangents[i][0] = wf_fnma(t->x, tangents[i][2], wf_mul(sigma, wf_set(steps[i][0])));
         tangents[i][1] = wf_fnma(t->y, tangents[i][2], wf_mul(sigma, wf_set(steps[i][1])));
     }
-    wf sums[6]; // xx, xy, yy, xw, yw, ww
-    static const int first[6] = {0, 0, 1, 0, 1, 2}, second[6] = {0, 1, 1, 2, 2, 2};
-    for (int k = 0; k < 6; k++)
-        sums[k] = wf_fma(tangents[0][first[k]], tangents[0][second[k]],
-                         wf_mul(tangents[1][first[k]], tangents[1][second[k]]));
-    const wf room = wf_fnma(cutoff2, sums[5], wf_mul(t->w, t->w)), zero = wf_set(0), one = wf_set(1);
+    wf s[5]; // xx, xy, yy, xw, yw
+    static const int first[5] = {0, 0, 1, 0, 1}, second[5] = {0, 1, 1, 2, 2};
+    for (int k = 0; k < 5; k++)
+        s[k] = wf_fma(tangents[0][first[k]], tangents[0][second[k]],
+                      wf_mul(tangents[1][first[k]], tangents[1][second[k]]));
+    const wf ww = wf_fma(tangents[0][2], tangents[0][2], wf_mul(tangents[1][2], tangents[1][2]));
+    const wf room = wf_fnma(cutoff2, ww, wf_mul(t->w, t->w)), zero = wf_set(0), one = wf_set(1);
     const wm ellipse = wm_and(t->seen, wf_lt(zero, room));
     const wf k = wf_div(one, wf_select(ellipse, room, one));
-    const wf shift_x = wf_mul(wf_sub(zero, wf_mul(k, cutoff2)), sums[3]);
-    const wf shift_y = wf_mul(wf_sub(zero, wf_mul(k, cutoff2)), sums[4]);
-    const wf inverse2 = wf_set(1 / filter->cutoff2);
-    const wf xx = wf_add(wf_fma(wf_mul(shift_x, inverse2), shift_x, wf_mul(k, sums[0])), h2);
-    const wf xy = wf_fma(wf_mul(shift_x, inverse2), shift_y, wf_mul(k, sums[1]));
-    const wf yy = wf_add(wf_fma(wf_mul(shift_y, inverse2), shift_y, wf_mul(k, sums[2])), h2);
+    wf variance[3], shift[2], conic[3];
+    wide_project(s, k, cutoff2, variance, shift);
+    const wf xx = wf_add(variance[0], h2), xy = variance[1], yy = wf_add(variance[2], h2);
     const wf filtered = wf_fnma(xy, xy, wf_mul(xx, yy));
     const wm sound = wm_and(ellipse, wf_lt(zero, filtered));
-    const wf inverse = wf_div(one, wf_select(sound, filtered, one)),
-             scale = wf_mul(inverse, wf_set(-HALF_LOG2_E));
-    wf_store(e->xx, wf_mul(scale, yy));
-    wf_store(e->xy, wf_mul(wf_mul(scale, wf_set(-2)), xy));
-    wf_store(e->yy, wf_mul(scale, xx));
+    const wf inverse = wf_div(one, wf_select(sound, filtered, one));
+    wide_conic(xx, xy, yy, wf_mul(inverse, wf_set(-HALF_LOG2_E)), conic);
+    wf_store(e->xx, conic[0]);
+    wf_store(e->xy, conic[1]);
+    wf_store(e->yy, conic[2]);
     wf_store(e->amplitude, wf_mul(wf_mul(wf_set(block->area_scale), k), wf_sqrt(wf_mul(k, inverse))));
     const wf cutoff = wf_sqrt(cutoff2);
-    return place(e, sound, wf_add(t->x, shift_x), wf_add(t->y, shift_y), wf_mul(cutoff, wf_sqrt(xx)),
+    return place(e, sound, wf_add(t->x, shift[0]), wf_add(t->y, shift[1]), wf_mul(cutoff, wf_sqrt(xx)),
                  wf_mul(cutoff, wf_sqrt(yy)));
 }
 
-uint32_t SPLATS(const ewa_texel_filter *filter, const ewa_texture_block *block,
-                const ewa_texture_sums *sums) {
+static uint32_t splats(const ewa_texel_filter *filter, const ewa_texture_block *block,
+                       const ewa_texture_sums *sums) {
     uint32_t drawn = 0;
     for (uint32_t row = 0; row < block->height; row++) {
         for (uint32_t first = 0; first < block->width; first += 16) {
@@ -248,3 +246,5 @@ uint32_t SPLATS(const ewa_texel_filter *filter, const ewa_texture_block *block,
     }
     return drawn;
 }
+
+const ewa_texture_kernels EWA_VERSION(ewa_texture_kernels) = {points, splats, resolve};

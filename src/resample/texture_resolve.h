@@ -6,10 +6,8 @@
 #ifndef EWA_SRC_RESAMPLE_TEXTURE_RESOLVE_H
 #define EWA_SRC_RESAMPLE_TEXTURE_RESOLVE_H
 
-#include "kernels/srgb_codes.h"
+#include "kernels/pixels.h"
 #include "resample/texture.h"
-
-#include <string.h>
 
 /// Colours of sixteen pixels over the background, premultiplied.
 static ALWAYS_INLINE void resolve_pixels(const ewa_texture_sums *sums, size_t at, const float *coverage,
@@ -27,37 +25,25 @@ static ALWAYS_INLINE void resolve_pixels(const ewa_texture_sums *sums, size_t at
     out[3] = wf_add(out[3], behind);
 }
 
-/// 8-bit numbers of sixteen pixels: the lowest byte is red.
+/// 8-bit numbers of sixteen pixels; with alpha, what rounds to none is black.
 static ALWAYS_INLINE wi encode_pixels(const wf color[4], bool with_alpha) {
-    const wf one = wf_set(1);
-    wi codes = wi_set(0);
-    wf straight = one;
-    wm shown = wf_le(one, one);
-    if (with_alpha) {
-        const wm translucent = wm_and(wf_lt(wf_set(0), color[3]), wf_lt(color[3], one));
-        straight = wf_div(one, wf_select(translucent, color[3], one));
-        const wf alpha = wf_fma(wf_clamp01(color[3]), wf_set(255), wf_set(0.5f));
-        shown = wf_le(one, alpha);
-        codes = wi_shl(wi_from_f(alpha), 24);
-    }
-    for (int c = 0; c < 3; c++) {
-        const wf linear = wf_keep(shown, wf_clamp01(wf_mul(color[c], straight)));
-        codes = wi_or(codes, wi_shl(srgb_codes(linear), 8 * c));
-    }
-    return codes;
+    const wf one = wf_set(1), opaque[4] = {color[0], color[1], color[2], one};
+    if (!with_alpha) return color_codes(opaque);
+    const wm shown = wf_le(one, wf_fma(wf_clamp01(color[3]), wf_set(255), wf_set(0.5f)));
+    return wi_of_bits(wf_keep(shown, wf_of_bits(color_codes(color))));
 }
 
-void RESOLVE(const ewa_texture_target *target, const float background[4], const ewa_texture_rectangle *tile,
-             const ewa_texture_sums *sums, const float *coverage) {
+static void resolve(const ewa_texture_target *target, const float background[4], const ewa_tile_rect *tile,
+                    const ewa_texture_sums *sums, const float *coverage) {
     const uint32_t channels = target->channel_count;
     const bool linear = target->format == EWA_PIXEL_LINEAR;
     const size_t pixel_bytes = channels * (linear ? sizeof(float) : 1);
-    for (uint32_t row = 0; row < tile->height; row++) {
-        char *out =
-            (char *)target->pixels + (size_t)(tile->y + row) * target->stride_bytes + tile->x * pixel_bytes;
-        for (uint32_t column = 0; column < tile->width; column += 16, out += 16 * pixel_bytes) {
+    for (uint32_t row = 0; row < tile->height_px; row++) {
+        char *out = (char *)target->pixels + (size_t)(tile->y_px + row) * target->stride_bytes +
+                    tile->x_px * pixel_bytes;
+        for (uint32_t column = 0; column < tile->width_px; column += 16, out += 16 * pixel_bytes) {
             const size_t at = (size_t)(row + 1) * EWA_TEXTURE_PITCH + column + 1;
-            const uint32_t left = tile->width - column, count = left < 16 ? left : 16;
+            const uint32_t left = tile->width_px - column, count = left < 16 ? left : 16;
             wf color[4];
             resolve_pixels(sums, at, coverage ? coverage + (size_t)row * EWA_TEXTURE_TILE + column : NULL,
                            background, color);

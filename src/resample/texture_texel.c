@@ -6,6 +6,7 @@
 // Based on: Yuan et al., "Hybrid Forward Resampling and Volume Rendering", 2003, section 3; Zwicker et al.,
 // "Perspective Accurate Splatting", 2004, section 4 (docs/math.md sections 3, 4, 11).
 #include "image/srgb.h"
+#include "math/ellipse.h"
 #include "resample/texture.h"
 
 #include <math.h>
@@ -51,16 +52,13 @@ bool ewa_texel_place(const ewa_texture_plan *plan, double u, double v, bool as_p
         kernel->along_rays = true;
         return w > -f * plan->tangent_w;
     }
-    // The dual conic F^2 (tu' tu + tv' tv) - p' p, sheared: centre and variance without cancellation.
     double t[2][3];
     shear_tangents(plan, center, t);
+    static const int first[5] = {0, 0, 1, 0, 1}, second[5] = {0, 1, 1, 2, 2}; // xx, xy, yy, xw, yw
+    double s[5], shift[2], variance[3];
+    for (int i = 0; i < 5; i++) s[i] = t[0][first[i]] * t[0][second[i]] + t[1][first[i]] * t[1][second[i]];
     const double sum_ww = t[0][2] * t[0][2] + t[1][2] * t[1][2], k = 1 / (w * w - f * f * sum_ww);
-    double shift[2], variance[3];
-    for (int c = 0; c < 2; c++) shift[c] = -k * f * f * (t[0][c] * t[0][2] + t[1][c] * t[1][2]);
-    for (int c = 0; c < 3; c++) {
-        const int i = c / 2, j = (c + 1) / 2; // xx, xy, yy
-        variance[c] = k * (t[0][i] * t[0][j] + t[1][i] * t[1][j]) + shift[i] * shift[j] / (f * f);
-    }
+    ewa_ellipse_project(s, k, f * f, variance, shift);
     const double xx = variance[0] + h2, xy = variance[1], yy = variance[2] + h2, filtered = xx * yy - xy * xy;
     for (int c = 0; c < 2; c++) kernel->center_px[c] = center[c] + shift[c];
     kernel->conic[0] = yy / filtered;

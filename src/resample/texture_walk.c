@@ -205,7 +205,8 @@ static void draw_node(const tile_bounds *tile, const node *at, bool as_points, b
         for (uint32_t j = 0; j < block->height; j++) block->row_start[j][c] = (float)(first + j * step_v);
     }
     block->area_scale = (float)((double)brush->filter.determinant * size_u * size_v);
-    const uint32_t drawn = (as_points ? brush->points : brush->splats)(&brush->filter, block, &brush->sums);
+    const uint32_t drawn =
+        (as_points ? brush->kernels->points : brush->kernels->splats)(&brush->filter, block, &brush->sums);
     const uint64_t texels = (uint64_t)(drawn * size_u * size_v);
     *(as_points ? &brush->counts.point_count : &brush->counts.splat_count) += drawn;
     brush->counts.texel_count += texels;

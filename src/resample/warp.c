@@ -45,17 +45,6 @@ typedef struct taking {
     size_t stride, floats_per_worker;
 } taking;
 
-static const ewa_warp_kernels *choose_kernels(uint32_t features) {
-    const ewa_warp_kernels *kernels = &ewa_warp_kernels_portable;
-#if defined(__x86_64__)
-    if (features & EWA_CPU_AVX2) kernels = &ewa_warp_kernels_avx2;
-    if (features & EWA_CPU_AVX512) kernels = &ewa_warp_kernels_avx512;
-#else
-    (void)features;
-#endif
-    return kernels;
-}
-
 /// Rotation and scale of camera to world, as floats; returns where the eye is.
 static ewa_vec3 set_pose(const ewa_camera *camera, float from_camera[9]) {
     const double *m = camera->world_to_camera;
@@ -405,7 +394,7 @@ ewa_status ewa_warp_take(ewa_warp *warp, const ewa_depth_image *images, uint32_t
     double origin_world[3];
     if (status == EWA_OK)
         status = lay_out(warp, images, count, &chosen, &group_count, &widest_px, origin_world);
-    taking t = {.warp = warp, .kernels = choose_kernels(ewa_context_cpu_features(context))};
+    taking t = {.warp = warp, .kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_warp_kernels)};
     if (status == EWA_OK) status = reserve(&t, group_count, widest_px, &chosen);
     if (status != EWA_OK) {
         warp->source_count = 0;

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The sampling kernels over the wide type: the file that includes it defines which one that is, and
-// WARP_KERNELS, the name of the table.
+// The sampling kernels over the wide type.
 //
 // Based on: Yuan et al., "Hybrid Forward Resampling and Volume Rendering", 2003, section 3 (splat sizes from
 // neighbours of the same surface, normals; docs/math.md section 11).
@@ -174,4 +173,4 @@ static uint32_t block(const ewa_warp_lens *lens, uint32_t x, uint32_t y, const e
     return mask;
 }
 
-const ewa_warp_kernels WARP_KERNELS = {smooth, slopes, block};
+const ewa_warp_kernels EWA_VERSION(ewa_warp_kernels) = {smooth, slopes, block};

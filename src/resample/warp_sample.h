@@ -10,6 +10,7 @@
 #ifndef EWA_SRC_WARP_SAMPLE_H
 #define EWA_SRC_WARP_SAMPLE_H
 
+#include "base/isa.h"
 #include "kernels/packet.h"
 
 #include <stddef.h>
@@ -60,9 +61,6 @@ typedef struct ewa_warp_kernels {
                       float axis_v[3][16]);
 } ewa_warp_kernels;
 
-extern const ewa_warp_kernels ewa_warp_kernels_portable;
-#if defined(__x86_64__)
-extern const ewa_warp_kernels ewa_warp_kernels_avx2, ewa_warp_kernels_avx512;
-#endif
+EWA_DECLARE_VERSIONS(const ewa_warp_kernels, ewa_warp_kernels);
 
 #endif

@@ -5,19 +5,17 @@
 #ifndef EWA_SRC_SPLAT_BIN_H
 #define EWA_SRC_SPLAT_BIN_H
 
-#include "base/base.h"
+#include "base/tiles.h"
 #include "kernels/road.h"
 #include "splat/packets.h"
 
 /// Bins of a frame; its memory survives from frame to frame. Zero-initialise.
 typedef struct ewa_bins {
-    uint32_t tiles_x, tiles_y;
-    uint64_t
-        *tile_first;   ///< [tile + 1]: a tile's packets are entries[tile_first[tile] .. tile_first[tile + 1])
-    uint32_t *entries; ///< packet numbers, ascending within a tile
+    ewa_tiles tiles;
+    ewa_bin_lists lists;      ///< packets of each tile, ascending
     ewa_packet_places places; ///< of the packets that some tile has
     uint64_t culled_packet_count;
-    ewa_buffer tile_first_buffer, entries_buffer, kept_buffer, counts, places_buffer;
+    ewa_buffer places_buffer;
 } ewa_bins;
 
 /// Fills the bins in parallel; the result does not depend on the number of workers.

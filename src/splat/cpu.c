@@ -25,39 +25,32 @@ typedef struct cpu_state {
     ewa_buffer sources; ///< ewa_tile_source, whose bins keep their memory
     uint32_t source_count;
     uint32_t worker_count;
-    ewa_tile_scratch *scratch[]; ///< one per worker
+    ewa_tile_scratch *scratch; ///< one per worker
 } cpu_state;
-
-static size_t state_bytes(uint32_t worker_count) {
-    return sizeof(cpu_state) + worker_count * sizeof(ewa_tile_scratch *);
-}
 
 static void destroy(ewa_context *context, void *state) {
     cpu_state *old = state;
     ewa_tile_source *sources = old->sources.data;
-    for (uint32_t i = 0; i < old->worker_count; i++) {
-        if (old->scratch[i]) ewa_tile_scratch_free(context, old->scratch[i]);
-        ewa_release(context, old->scratch[i], 1, sizeof *old->scratch[i]);
-    }
+    for (uint32_t i = 0; old->scratch && i < old->worker_count; i++)
+        ewa_tile_scratch_free(context, &old->scratch[i]);
+    ewa_release(context, old->scratch, old->worker_count, sizeof *old->scratch);
     for (uint32_t i = 0; i < old->source_count; i++) ewa_bins_free(context, &sources[i].bins);
     ewa_buffer_free(context, &old->sources);
     ewa_dome_pass_free(context, &old->dome);
-    ewa_release(context, old, 1, state_bytes(old->worker_count));
+    ewa_release(context, old, 1, sizeof *old);
 }
 
 static ewa_status create(ewa_context *context, void **state) {
     const uint32_t worker_count = ewa_context_worker_count(context);
-    cpu_state *made = ewa_allocate_zeroed(context, 1, state_bytes(worker_count));
+    cpu_state *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
-    made->kernels = made->dome.kernels = ewa_road_kernels_choose(ewa_context_cpu_features(context));
+    made->kernels = made->dome.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_road_kernels);
     made->worker_count = worker_count;
-    for (uint32_t i = 0; i < worker_count; i++) {
-        made->scratch[i] = ewa_allocate_zeroed(context, 1, sizeof *made->scratch[i]);
-        if (!made->scratch[i]) {
-            destroy(context, made);
-            return EWA_ERROR_MEMORY;
-        }
+    made->scratch = ewa_allocate_zeroed(context, worker_count, sizeof *made->scratch);
+    if (!made->scratch) {
+        destroy(context, made);
+        return EWA_ERROR_MEMORY;
     }
     *state = made;
     return EWA_OK;
@@ -86,7 +79,7 @@ static void gather_stats(const cpu_state *cpu, const ewa_tile_job *job, double s
         stats->culled_count += culled < source->surfels->count ? culled : source->surfels->count;
     }
     for (uint32_t i = 0; i < cpu->worker_count; i++) {
-        const ewa_tile_scratch *s = cpu->scratch[i];
+        const ewa_tile_scratch *s = &cpu->scratch[i];
         stats->hidden_count += s->hidden_splat_count;
         stats->drawn_count += s->drawn_count;
         stats->fragment_count += s->fragment_count;
@@ -102,7 +95,7 @@ static void gather_stats(const cpu_state *cpu, const ewa_tile_job *job, double s
 /// Tells of colours that cannot be shown: 8-bit pixels hide them.
 static void report_broken(const cpu_state *cpu, const ewa_camera *camera) {
     uint64_t broken = 0;
-    for (uint32_t i = 0; i < cpu->worker_count; i++) broken += cpu->scratch[i]->broken_pixel_count;
+    for (uint32_t i = 0; i < cpu->worker_count; i++) broken += cpu->scratch[i].broken_pixel_count;
     if (broken)
         ewa_report(cpu->context, EWA_SEVERITY_WARNING,
                    "%llu of %llu pixels have a colour that is infinite or not a number",
@@ -173,30 +166,27 @@ static ewa_status set_views(ewa_context *context, ewa_tile_job *job, const ewa_r
     const ewa_camera *camera = &frame->camera;
     *scales = ewa_scales_make(frame->sources, frame->source_count, camera, &frame->options);
     ewa_status status =
-        ewa_view_set(context, &job->view, NULL, camera, &frame->options, scales, job->tile_px);
+        ewa_view_set(context, &job->view, NULL, camera, &frame->options, scales, job->tiles.side_px);
     for (uint32_t i = 0; i < job->source_count && status == EWA_OK; i++) {
         sources[i].surfels = frame->sources[i];
         status = ewa_view_set(context, &sources[i].view, sources[i].surfels, camera, &frame->options, scales,
-                              job->tile_px);
+                              job->tiles.side_px);
     }
     return status;
 }
 
 /// Which tiles see what of each source.
 static ewa_status fill_bins(cpu_state *cpu, ewa_tile_job *job) {
-    const uint32_t side_px = job->tile_px;
-    job->tiles_x = (job->view.width_px + side_px - 1) / side_px;
-    job->tiles_y = (job->view.height_px + side_px - 1) / side_px;
     for (uint32_t i = 0; i < job->source_count; i++) {
         ewa_tile_source *source = &job->sources[i];
         const ewa_status status =
             ewa_bins_fill(cpu->context, &source->bins, cpu->kernels, &source->view, source->surfels);
         if (status != EWA_OK) return status;
     }
-    for (uint32_t tile = 0; tile < job->tiles_x * job->tiles_y; tile++) {
+    for (uint32_t tile = 0; tile < ewa_tiles_count(&job->tiles); tile++) {
         uint64_t count = 0;
         for (uint32_t i = 0; i < job->source_count; i++) {
-            const uint64_t *first = &job->sources[i].bins.tile_first[tile];
+            const uint64_t *first = &job->sources[i].bins.lists.starts[tile];
             count += first[1] - first[0];
         }
         if (count > job->largest_bin) job->largest_bin = count;
@@ -218,11 +208,11 @@ static ewa_status draw(void *state, const ewa_render_job *frame, ewa_render_stat
 
     uint64_t splat_count = 0;
     for (uint32_t i = 0; i < frame->source_count; i++) splat_count += frame->sources[i]->count;
+    const uint32_t side_px = frame->tile_px ? frame->tile_px : tile_side_px(&frame->camera, splat_count);
     ewa_tile_job job = {.kernels = cpu->kernels,
                         .sources = cpu->sources.data,
                         .source_count = frame->source_count,
-                        .tile_px =
-                            frame->tile_px ? frame->tile_px : tile_side_px(&frame->camera, splat_count),
+                        .tiles = ewa_tiles_make(frame->camera.width_px, frame->camera.height_px, side_px),
                         .with_normals = frame->shading.lit || drawn.normal,
                         .with_depth = drawn.depth != NULL,
                         .count_fragments = stats != NULL,
@@ -249,9 +239,9 @@ static ewa_status draw(void *state, const ewa_render_job *frame, ewa_render_stat
     }
     const double binned_s = ewa_now_s();
     for (uint32_t i = 0; i < cpu->worker_count && status == EWA_OK; i++)
-        status = ewa_tile_scratch_reserve(context, cpu->scratch[i], &job);
+        status = ewa_tile_scratch_reserve(context, &cpu->scratch[i], &job);
     if (status == EWA_OK)
-        status = ewa_parallel_stoppable(context, "render", ewa_tile_draw, &job, job.tiles_x * job.tiles_y);
+        status = ewa_parallel_stoppable(context, "render", ewa_tile_draw, &job, ewa_tiles_count(&job.tiles));
     if (status != EWA_OK) return status;
     if (with_dome) ewa_dome_pass_finish(context, &cpu->dome);
     report_broken(cpu, &frame->camera);

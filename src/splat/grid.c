@@ -20,7 +20,7 @@ ewa_status ewa_grid_reserve(ewa_context *context, ewa_grid *grid, uint64_t group
     if (status == EWA_OK)
         status = ewa_buffer_reserve(context, &grid->bounds_buffer, (size_t)packet_count, EWA_BOUNDS_BYTES);
     if (status != EWA_OK) return status;
-    grid->kernels = ewa_pack_kernels_choose(ewa_context_cpu_features(context));
+    grid->kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_pack_kernels);
     *s = (ewa_surfels){
         .context = context,
         .packet_count = (uint32_t)packet_count,

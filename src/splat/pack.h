@@ -6,6 +6,7 @@
 #ifndef EWA_SRC_SPLAT_PACK_H
 #define EWA_SRC_SPLAT_PACK_H
 
+#include "base/isa.h"
 #include "kernels/packet.h"
 
 enum { EWA_BOX_FLOATS = 3 * EWA_PACKET_LANES };
@@ -50,12 +51,6 @@ typedef struct ewa_pack_kernels {
                               float cutoff, float reach, const ewa_packet_bounds *bounds, uint64_t first);
 } ewa_pack_kernels;
 
-extern const ewa_pack_kernels ewa_pack_kernels_portable;
-#if defined(__x86_64__)
-extern const ewa_pack_kernels ewa_pack_kernels_avx2, ewa_pack_kernels_avx512;
-#endif
-
-/// The fastest kernels for EWA_CPU_* bits.
-const ewa_pack_kernels *ewa_pack_kernels_choose(uint32_t features);
+EWA_DECLARE_VERSIONS(const ewa_pack_kernels, ewa_pack_kernels);
 
 #endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The packing kernels over the wide type: the file that includes it defines which one that is, and
-// PACK_KERNELS, the name of the table. What a surfel is: docs/math.md section 2; what storing costs:
+// The packing kernels over the wide type. What a surfel is: docs/math.md section 2; what storing costs:
 // docs/conventions.md, precision.
 //
 // Octahedral normals: Meyer et al., "On Floating-Point Normal Vectors", 2010.
@@ -301,4 +300,4 @@ static uint32_t bound_packets(ewa_packet *packets, uint32_t count, const double 
     return wide;
 }
 
-const ewa_pack_kernels PACK_KERNELS = {survey, code_normals, code_ellipses, bound_packets};
+const ewa_pack_kernels EWA_VERSION(ewa_pack_kernels) = {survey, code_normals, code_ellipses, bound_packets};

@@ -284,17 +284,6 @@ static void encode_part(void *data, uint32_t part, uint32_t worker) {
     for (uint64_t g = ewa_split(groups, b->parts, part); g < end; g++) encode_group(b, g);
 }
 
-const ewa_pack_kernels *ewa_pack_kernels_choose(uint32_t features) {
-    const ewa_pack_kernels *kernels = &ewa_pack_kernels_portable;
-#if defined(__x86_64__)
-    if (features & EWA_CPU_AVX2) kernels = &ewa_pack_kernels_avx2;
-    if (features & EWA_CPU_AVX512) kernels = &ewa_pack_kernels_avx512;
-#else
-    (void)features;
-#endif
-    return kernels;
-}
-
 /// Makes codes of the numbers that colours of discs can have.
 static void set_color_codes(build *b) {
     b->grey_code = ewa_color_unit_code(EWA_DEFAULT_GREY);
@@ -370,7 +359,7 @@ static ewa_status encode(build *b, ewa_context *context) {
 static ewa_status build_surfels(build *b, ewa_context *context) {
     b->drawable = ewa_allocate(context, b->point_count, sizeof *b->drawable);
     if (!b->drawable) return EWA_ERROR_MEMORY;
-    b->kernels = ewa_pack_kernels_choose(ewa_context_cpu_features(context));
+    b->kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_pack_kernels);
     b->are_discs = ewa_discs_open(&b->reader, b->kernels, &b->discs);
     ewa_parallel(context, survey_part, b, b->parts);
     settle(b);

@@ -7,6 +7,7 @@
 // Gross, "Surface Splatting", 2001, sections 3 and 4 (affine kernel, visibility).
 #include "splat/reference_splat.h"
 #include "kernels/semantics.h"
+#include "math/ellipse.h"
 #include "splat/points.h"
 
 static const double TWO_PI = 6.283185307179586;
@@ -155,7 +156,6 @@ static bool filter_ellipse(const ewa_reference_view *view, double jacobian[2][2]
 /// the same with D33 = -pz^2, c = 0, what is left for F -> 0. Orthographic cameras project t by dropping z.
 static bool make_ellipse(const ewa_reference_view *view, ewa_reference_splat *splat) {
     const ewa_vec3 p = splat->center;
-    const double F = view->cutoff;
     const double x0 = view->orthographic ? 0 : p.x / p.z, y0 = view->orthographic ? 0 : p.y / p.z;
     const ewa_vec3 axes[2] = {splat->axis_u, splat->axis_v};
     double s11 = 0, s12 = 0, s22 = 0, s13 = 0, s23 = 0, s33 = 0; // Sigma', x and y in pixels
@@ -177,14 +177,13 @@ static bool make_ellipse(const ewa_reference_view *view, ewa_reference_splat *sp
         root = view->fx_px * view->fy_px * fabs(across.z);
     } else {
         const bool affine = view->kernel != EWA_KERNEL_PERSPECTIVE;
-        const double d33 = (affine ? 0 : F * F * s33) - p.z * p.z;
-        const double c1 = affine ? 0 : F * F * s13 / d33, c2 = affine ? 0 : F * F * s23 / d33;
-        center[0] = view->fx_px * x0 + view->cx_px + c1;
-        center[1] = view->fy_px * y0 + view->cy_px + c2;
-        variance[0] = c1 * c1 / (F * F) - s11 / d33;
-        variance[1] = c1 * c2 / (F * F) - s12 / d33;
-        variance[2] = c2 * c2 / (F * F) - s22 / d33;
-        root = view->fx_px * view->fy_px * fabs(vec3_dot(across, p)) / (-d33 * sqrt(-d33));
+        const double cutoff2 = affine ? 0 : view->cutoff * view->cutoff;
+        const double k = 1 / (p.z * p.z - cutoff2 * s33);
+        double shift[2];
+        ewa_ellipse_project((const double[5]){s11, s12, s22, s13, s23}, k, cutoff2, variance, shift);
+        center[0] = view->fx_px * x0 + view->cx_px + shift[0];
+        center[1] = view->fy_px * y0 + view->cy_px + shift[1];
+        root = view->fx_px * view->fy_px * fabs(vec3_dot(across, p)) * k * sqrt(k);
     }
     return filter_ellipse(view, jacobian, root, splat);
 }

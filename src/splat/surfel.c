@@ -8,7 +8,7 @@
 #include "splat/surfel.h"
 #include "base/base.h"
 #include "kernels/semantics.h"
-#include "math/vec.h"
+#include "math/frame.h"
 #include "prepare/color.h"
 
 #include <string.h>
@@ -29,10 +29,10 @@ static bool within_limit(ewa_vec3 v) {
 /// A disc of standard deviation `sigma` around the normal `n`.
 static bool make_disc(ewa_vec3 n, double sigma, ewa_surfel *surfel) {
     if (!(sigma >= 1 / EWA_SURFEL_LIMIT && sigma <= EWA_SURFEL_LIMIT) || !vec3_normalize(&n)) return false;
-    const double sign = copysign(1, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
-    vec3_store(vec3_scale(vec3_make(1 + sign * n.x * n.x * a, sign * b, -sign * n.x), sigma),
-               surfel->axis_u_world);
-    vec3_store(vec3_scale(vec3_make(b, sign + n.y * n.y * a, -n.y), sigma), surfel->axis_v_world);
+    ewa_vec3 axis[2];
+    ewa_frame_of(n, axis);
+    vec3_store(vec3_scale(axis[0], sigma), surfel->axis_u_world);
+    vec3_store(vec3_scale(axis[1], sigma), surfel->axis_v_world);
     vec3_store(n, surfel->normal_world);
     return true;
 }

@@ -21,7 +21,7 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     // Per pixel: `nearest` twice, the edges' `passed`, and four channels of what lies behind; per block
     // `reach`; sums of both surfaces and of turned splats, and what is noted of clip lines by both, each in
     // two words.
-    const size_t tile_floats = (size_t)job->tile_px * job->tile_px;
+    const size_t tile_floats = (size_t)job->tiles.side_px * job->tiles.side_px;
     const bool two_words = job->fine_sums || job->with_depth || job->with_clips;
     const size_t sum_floats = tile_floats * job->channel_count * (two_words ? 2 : 1),
                  cut_floats = job->with_clips ? tile_floats * EWA_CUT_CHANNELS : 0;
@@ -343,7 +343,7 @@ static void draw_visible(const ewa_tile_job *job, const ewa_tile_source *source,
 static bool draw_sources(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, uint32_t index) {
     uint64_t all = 0;
     for (uint32_t i = 0; i < job->source_count; i++) {
-        const uint64_t *first = &job->sources[i].bins.tile_first[index];
+        const uint64_t *first = &job->sources[i].bins.lists.starts[index];
         all += first[1] - first[0];
     }
     const bool kept = all * EWA_PACKET_LANES <= s->record_capacity;
@@ -353,9 +353,9 @@ static bool draw_sources(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile
     uint32_t *packets = s->packets;
     for (uint32_t i = 0; i < job->source_count; i++) {
         const ewa_tile_source *source = &job->sources[i];
-        const uint64_t first = source->bins.tile_first[index],
-                       count = source->bins.tile_first[index + 1] - first;
-        const uint32_t *ids = source->bins.entries + first;
+        const uint64_t first = source->bins.lists.starts[index],
+                       count = source->bins.lists.starts[index + 1] - first;
+        const uint32_t *ids = source->bins.lists.ids + first;
         s->split[i] = (ewa_tile_split){.shown = packets, .hidden = packets + count + 1};
         packets += 2 * (count + 1);
         if (!job->resolve.transparent) ids = front_to_back(job, source, s, ids, count);
@@ -376,10 +376,12 @@ static void accumulate(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_s
 
 void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
     const ewa_tile_job *job = data;
-    ewa_tile_scratch *s = job->scratch[worker];
-    const ewa_view *view = &job->view;
-    ewa_tile tile = {.x_px = (int32_t)(index % job->tiles_x * job->tile_px),
-                     .y_px = (int32_t)(index / job->tiles_x * job->tile_px),
+    ewa_tile_scratch *s = &job->scratch[worker];
+    const ewa_tile_rect place = ewa_tiles_rect(&job->tiles, index);
+    ewa_tile tile = {.x_px = (int32_t)place.x_px,
+                     .y_px = (int32_t)place.y_px,
+                     .width_px = (int32_t)place.width_px,
+                     .height_px = (int32_t)place.height_px,
                      .nearest = s->nearest,
                      .sums = s->sums,
                      .apart = s->apart,
@@ -393,10 +395,6 @@ void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
     static_assert(EWA_FIELD_PX == EWA_MAX_TILE_BLOCKS * EWA_BLOCK_PX, "no tile is in two fields");
     tile.field_x_px = (float)(tile.x_px % EWA_FIELD_PX - EWA_FIELD_PX / 2);
     tile.field_y_px = (float)(tile.y_px % EWA_FIELD_PX - EWA_FIELD_PX / 2);
-    const int32_t side = (int32_t)job->tile_px;
-    tile.width_px = (int32_t)view->width_px - tile.x_px < side ? (int32_t)view->width_px - tile.x_px : side;
-    tile.height_px =
-        (int32_t)view->height_px - tile.y_px < side ? (int32_t)view->height_px - tile.y_px : side;
     tile.blocks_per_row = ((uint32_t)tile.width_px + EWA_BLOCK_PX - 1) / EWA_BLOCK_PX;
     tile.block_rows = ((uint32_t)tile.height_px + EWA_BLOCK_PX - 1) / EWA_BLOCK_PX;
     job->kernels->clear_nearest(&tile);

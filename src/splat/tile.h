@@ -96,7 +96,7 @@ typedef struct ewa_tile_job {
     const ewa_road_kernels *kernels;
     ewa_tile_source *sources;
     uint32_t source_count;
-    uint32_t tile_px, tiles_x, tiles_y;
+    ewa_tiles tiles;
     uint64_t largest_bin; ///< packets of the fullest tile, of all sources
     ewa_view view;        ///< what those of the sources have in common
     ewa_resolve resolve;
@@ -106,7 +106,7 @@ typedef struct ewa_tile_job {
     uint32_t layers;          ///< surfaces that are composited at most
     bool merge_last;          ///< the last of them is all that is left
     bool with_normals, with_depth, with_opacity, with_materials, with_clips, fine_sums, count_fragments;
-    ewa_tile_scratch *const *scratch; ///< [worker]
+    ewa_tile_scratch *scratch; ///< [worker]
 } ewa_tile_job;
 
 /// Makes room for the tiles of a frame; allocates nothing once warm.

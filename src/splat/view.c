@@ -242,7 +242,7 @@ static void set_shading(ewa_resolve *resolve, uint8_t material, const ewa_render
     resolve->light_count = shading->light_count;
     for (uint32_t i = 0; i < shading->light_count; i++) {
         const ewa_shading_light *from = &shading->lights[i];
-        ewa_road_light *to = &resolve->lights[i];
+        ewa_kernel_light *to = &resolve->lights[i];
         to->headlight = from->headlight;
         const ewa_vec3 toward = from->headlight
                                     ? vec3_make(0, 0, -1) // against the orthographic view direction

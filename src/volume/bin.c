@@ -7,20 +7,28 @@
 #include <math.h>
 #include <string.h>
 
-enum { TASK_BLOCKS = 1024 };
-
 /// How far from the first slice single precision may put a voxel.
 static const double EDGE_UNITS = 0.01;
 
+/// Slices are bins in rows of so many.
+enum { MOST_COLUMNS = 1 << 15 };
+
+/// What a worker found out.
+typedef struct bin_facts {
+    uint64_t visible_voxel_count, most_in_flight;
+    uint32_t longest_span;
+} bin_facts;
+
 typedef struct bin_job {
-    ewa_volume_bins *bins;
     const ewa_voxel_level *level;
     const ewa_grid_view *grid;
     const ewa_volume_slices *slices;
     const ewa_camera *camera;
-    ewa_block_view *found; ///< [block]; right = 0: not to be seen
-    uint64_t *in_flight;   ///< [worker] the most so far
-    uint32_t *expiries;    ///< [worker][slice], all 0 between tiles
+    ewa_block_view *views; ///< [block]; right = 0: not to be seen
+    ewa_volume_bins *bins;
+    uint32_t slice_columns;
+    bin_facts *facts;   ///< [worker]
+    uint32_t *expiries; ///< [worker][slice], all 0 between tiles
 } bin_job;
 
 static int32_t clamp_px(double px, uint32_t side_px) {
@@ -95,62 +103,44 @@ static void find_box(const bin_job *job, const ewa_voxel_block *block, ewa_block
     if (view->left >= view->right || view->top >= view->bottom) view->right = 0;
 }
 
-static void find_blocks(void *data, uint32_t index, uint32_t worker) {
-    (void)worker;
+/// Blocks that are to be seen, at their first slices.
+static uint32_t find_blocks(const void *data, uint32_t worker, uint32_t first, uint32_t count,
+                            const ewa_bin_items *items) {
     const bin_job *job = data;
-    const uint64_t begin = (uint64_t)index * TASK_BLOCKS;
-    for (uint64_t b = begin; b < begin + TASK_BLOCKS && b < job->level->block_count; b++) {
-        ewa_block_view *view = &job->found[b];
-        view->block = (uint32_t)b;
+    bin_facts *facts = &job->facts[worker];
+    uint32_t next = first;
+    for (uint32_t b = first; b < first + count; b++) {
+        ewa_block_view *view = &job->views[b];
+        view->block = b;
         const bool ahead = find_slices(job, &job->level->blocks[b], view);
         find_box(job, &job->level->blocks[b], view);
         if (!ahead) view->right = 0;
-    }
-}
-
-/// Sorts what can be seen by first slice, in the order of the blocks' numbers.
-static void sort_blocks(const bin_job *job, ewa_block_view *sorted, uint64_t *starts) {
-    ewa_volume_bins *bins = job->bins;
-    memset(starts, 0, (job->slices->count + (size_t)1) * sizeof *starts);
-    bins->visible_count = bins->culled_voxel_count = bins->longest_span = 0;
-    for (uint64_t b = 0; b < job->level->block_count; b++) {
-        const ewa_block_view *view = &job->found[b];
-        if (view->right == 0) {
-            bins->culled_voxel_count += job->level->blocks[b].count;
-            continue;
-        }
+        if (view->right == 0) continue;
         const uint32_t span = (uint32_t)(view->slice_last - view->slice_first) + 1;
-        if (span > bins->longest_span) bins->longest_span = span;
-        bins->visible_count++;
-        starts[view->slice_first + 1]++;
+        if (span > facts->longest_span) facts->longest_span = span;
+        facts->visible_voxel_count += job->level->blocks[b].count;
+        const uint32_t slice = (uint32_t)view->slice_first;
+        items->ids[next] = (int32_t)b;
+        items->first[next] = (int32_t)(slice % job->slice_columns | slice / job->slice_columns << 16);
+        items->end[next] = items->first[next] + 0x10001;
+        next++;
     }
-    for (uint32_t s = 0; s < job->slices->count; s++) starts[s + 1] += starts[s];
-    for (uint64_t b = 0; b < job->level->block_count; b++)
-        if (job->found[b].right) sorted[starts[job->found[b].slice_first]++] = job->found[b];
-    bins->views = sorted;
+    return next - first;
 }
 
-typedef struct tile_range {
-    uint32_t left, top, right, bottom;
-} tile_range;
-
-static tile_range tiles_of(const ewa_block_view *view) {
-    return (tile_range){(uint32_t)view->left / EWA_VOLUME_TILE_PX, (uint32_t)view->top / EWA_VOLUME_TILE_PX,
-                        ((uint32_t)view->right - 1) / EWA_VOLUME_TILE_PX,
-                        ((uint32_t)view->bottom - 1) / EWA_VOLUME_TILE_PX};
-}
-
-/// Counts the blocks of tiles, or, with `list`, lists them.
-static void list_tiles(const ewa_volume_bins *bins, uint64_t *numbers, uint32_t *list) {
-    for (uint64_t v = 0; v < bins->visible_count; v++) {
-        const tile_range range = tiles_of(&bins->views[v]);
-        for (uint32_t y = range.top; y <= range.bottom; y++)
-            for (uint32_t x = range.left; x <= range.right; x++) {
-                uint64_t *number = &numbers[(size_t)y * bins->tiles_x + x];
-                if (list) list[*number] = (uint32_t)v;
-                (*number)++;
-            }
+/// The tiles of blocks, front to back.
+static uint32_t find_tiles(const void *data, uint32_t worker, uint32_t first, uint32_t count,
+                           const ewa_bin_items *items) {
+    (void)worker;
+    const bin_job *job = data;
+    const int32_t side = EWA_VOLUME_TILE_PX;
+    for (uint32_t i = first; i < first + count; i++) {
+        const ewa_block_view *view = &job->views[job->bins->by_slice.ids[i]];
+        items->ids[i] = (int32_t)view->block;
+        items->first[i] = view->left / side | view->top / side << 16;
+        items->end[i] = ((view->right - 1) / side + 1) | ((view->bottom - 1) / side + 1) << 16;
     }
+    return count;
 }
 
 /// How many voxels a tile holds at a time: those of blocks whose first slice has come and whose last has not
@@ -161,80 +151,60 @@ static void measure_tile(void *data, uint32_t index, uint32_t worker) {
     uint32_t *expiries = job->expiries + (size_t)worker * job->slices->count;
     uint64_t held = 0, most = 0;
     int32_t passed = 0;
-    const uint64_t end = bins->tile_first[index + 1];
-    for (uint64_t i = bins->tile_first[index]; i < end; i++) {
-        const ewa_block_view *view = &bins->views[bins->list[i]];
+    const uint64_t end = bins->by_tile.starts[index + 1];
+    for (uint64_t i = bins->by_tile.starts[index]; i < end; i++) {
+        const ewa_block_view *view = &bins->views[bins->by_tile.ids[i]];
         for (; passed < view->slice_first; passed++) held -= expiries[passed];
         held += job->level->blocks[view->block].count;
         expiries[view->slice_last] += job->level->blocks[view->block].count;
         if (held > most) most = held;
     }
-    for (uint64_t i = bins->tile_first[index]; i < end; i++)
-        expiries[bins->views[bins->list[i]].slice_last] = 0;
-    if (most > job->in_flight[worker]) job->in_flight[worker] = most;
-}
-
-static ewa_status fill_lists(ewa_context *context, bin_job *job) {
-    ewa_volume_bins *bins = job->bins;
-    const uint32_t tile_count = bins->tiles_x * bins->tiles_y;
-    const uint32_t worker_count = ewa_context_worker_count(context);
-    ewa_status status = ewa_buffer_reserve(context, &bins->tiles, tile_count + (size_t)1, sizeof(uint64_t));
-    const size_t expiry_bytes = (size_t)job->slices->count * sizeof(uint32_t) + sizeof(uint64_t);
-    if (status == EWA_OK) status = ewa_buffer_reserve(context, &bins->expiries, worker_count, expiry_bytes);
-    if (status != EWA_OK) return status;
-    // Counts, then ends, which listing from the first block on turns into beginnings of the next.
-    uint64_t *first = bins->tiles.data;
-    memset(first, 0, (tile_count + (size_t)1) * sizeof *first);
-    list_tiles(bins, first, NULL);
-    uint64_t total = 0;
-    for (uint32_t t = 0; t <= tile_count; t++) {
-        const uint64_t count = first[t];
-        first[t] = total;
-        total += count;
-    }
-    status = ewa_buffer_reserve(context, &bins->lists, total, sizeof(uint32_t));
-    if (status != EWA_OK) return status;
-    list_tiles(bins, first, bins->lists.data);
-    for (uint32_t t = tile_count; t > 0; t--) first[t] = first[t - 1];
-    first[0] = 0;
-    bins->tile_first = first;
-    bins->list = bins->lists.data;
-    memset(bins->expiries.data, 0, worker_count * expiry_bytes);
-    job->in_flight = bins->expiries.data;
-    job->expiries = (uint32_t *)(job->in_flight + worker_count);
-    ewa_parallel(context, measure_tile, job, tile_count);
-    bins->most_in_flight = 0;
-    for (uint32_t w = 0; w < worker_count; w++)
-        if (job->in_flight[w] > bins->most_in_flight) bins->most_in_flight = job->in_flight[w];
-    return EWA_OK;
+    for (uint64_t i = bins->by_tile.starts[index]; i < end; i++)
+        expiries[bins->views[bins->by_tile.ids[i]].slice_last] = 0;
+    if (most > job->facts[worker].most_in_flight) job->facts[worker].most_in_flight = most;
 }
 
 ewa_status ewa_volume_bins_fill(ewa_context *context, ewa_volume_bins *bins, const ewa_voxel_level *level,
                                 const ewa_grid_view *grid, const ewa_volume_slices *slices,
                                 const ewa_camera *camera) {
-    bins->tiles_x = (camera->width_px + EWA_VOLUME_TILE_PX - 1) / EWA_VOLUME_TILE_PX;
-    bins->tiles_y = (camera->height_px + EWA_VOLUME_TILE_PX - 1) / EWA_VOLUME_TILE_PX;
-    bin_job job = {.bins = bins, .level = level, .grid = grid, .slices = slices, .camera = camera};
+    const uint32_t worker_count = ewa_context_worker_count(context);
+    const size_t worker_bytes = sizeof(bin_facts) + slices->count * sizeof(uint32_t);
     ewa_status status = ewa_buffer_reserve(context, &bins->found, level->block_count, sizeof(ewa_block_view));
-    if (status == EWA_OK)
-        status = ewa_buffer_reserve(context, &bins->sorted, level->block_count, sizeof(ewa_block_view));
-    if (status == EWA_OK)
-        status =
-            ewa_buffer_reserve(context, &bins->slice_counts, slices->count + (size_t)1, sizeof(uint64_t));
+    if (status == EWA_OK) status = ewa_buffer_reserve(context, &bins->workers, worker_count, worker_bytes);
     if (status != EWA_OK) return status;
-    job.found = bins->found.data;
-    bins->all = job.found;
-    ewa_parallel(context, find_blocks, &job,
-                 (uint32_t)((level->block_count + TASK_BLOCKS - 1) / TASK_BLOCKS));
-    sort_blocks(&job, bins->sorted.data, bins->slice_counts.data);
-    return fill_lists(context, &job);
+    memset(bins->workers.data, 0, worker_count * worker_bytes);
+    bin_job job = {.level = level,
+                   .grid = grid,
+                   .slices = slices,
+                   .camera = camera,
+                   .views = bins->found.data,
+                   .bins = bins,
+                   .slice_columns = slices->count < MOST_COLUMNS ? slices->count : MOST_COLUMNS,
+                   .facts = bins->workers.data};
+    job.expiries = (uint32_t *)(job.facts + worker_count);
+    bins->views = job.views;
+    bins->tiles = ewa_tiles_make(camera->width_px, camera->height_px, EWA_VOLUME_TILE_PX);
+    status = ewa_bin_lists_fill(context, &bins->by_slice, job.slice_columns,
+                                (slices->count + job.slice_columns - 1) / job.slice_columns,
+                                (uint32_t)level->block_count, find_blocks, &job);
+    if (status == EWA_OK)
+        status = ewa_bin_lists_fill(context, &bins->by_tile, bins->tiles.columns, bins->tiles.rows,
+                                    (uint32_t)bins->by_slice.item_count, find_tiles, &job);
+    if (status != EWA_OK) return status;
+    ewa_parallel(context, measure_tile, &job, ewa_tiles_count(&bins->tiles));
+    bins->culled_voxel_count = level->voxel_count;
+    bins->longest_span = 0, bins->most_in_flight = 0;
+    for (const bin_facts *facts = job.facts; facts < job.facts + worker_count; facts++) {
+        bins->culled_voxel_count -= facts->visible_voxel_count;
+        if (facts->longest_span > bins->longest_span) bins->longest_span = facts->longest_span;
+        if (facts->most_in_flight > bins->most_in_flight) bins->most_in_flight = facts->most_in_flight;
+    }
+    return EWA_OK;
 }
 
 void ewa_volume_bins_free(ewa_context *context, ewa_volume_bins *bins) {
     ewa_buffer_free(context, &bins->found);
-    ewa_buffer_free(context, &bins->sorted);
-    ewa_buffer_free(context, &bins->slice_counts);
-    ewa_buffer_free(context, &bins->tiles);
-    ewa_buffer_free(context, &bins->lists);
-    ewa_buffer_free(context, &bins->expiries);
+    ewa_buffer_free(context, &bins->workers);
+    ewa_bin_lists_free(context, &bins->by_slice);
+    ewa_bin_lists_free(context, &bins->by_tile);
 }

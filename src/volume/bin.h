@@ -5,7 +5,8 @@
 #ifndef EWA_SRC_VOLUME_BIN_H
 #define EWA_SRC_VOLUME_BIN_H
 
-#include "base/base.h"
+#include "base/bin.h"
+#include "base/tiles.h"
 #include "volume/view.h"
 
 /// Where a block is on the screen.
@@ -18,15 +19,13 @@ typedef struct ewa_block_view {
 
 /// The blocks of every tile, by their first slices, ties by their numbers.
 typedef struct ewa_volume_bins {
-    uint32_t tiles_x, tiles_y;
-    uint64_t visible_count, culled_voxel_count;
+    ewa_tiles tiles;
+    ewa_bin_lists by_slice, by_tile;
+    uint64_t culled_voxel_count;
     uint32_t longest_span;       ///< slices of a block, at most
     uint64_t most_in_flight;     ///< voxels that a tile holds at a time, at most
-    const ewa_block_view *views; ///< [visible_count] front to back
-    const ewa_block_view *all;   ///< [block]
-    const uint64_t *tile_first;  ///< [tile] of `list`, and one more
-    const uint32_t *list;        ///< of `views`
-    ewa_buffer found, sorted, slice_counts, tiles, lists, expiries;
+    const ewa_block_view *views; ///< [block]
+    ewa_buffer found, workers;
 } ewa_volume_bins;
 
 /// Errors: EWA_ERROR_MEMORY.

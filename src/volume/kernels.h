@@ -16,7 +16,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/isa.h"
 #include "ewa/shade.h"
+#include "kernels/lights.h"
 #include "volume/footprint.h"
 
 enum {
@@ -78,12 +80,6 @@ typedef struct ewa_volume_pages {
     uint32_t free_count;
 } ewa_volume_pages;
 
-/// A light in world space.
-typedef struct ewa_volume_light {
-    bool headlight;
-    float toward[3], color[3];
-} ewa_volume_light;
-
 /// Camera, grid and options of a frame in single precision.
 typedef struct ewa_volume_view {
     bool orthographic, exact, lit, highlights, with_depth, with_surface, has_near;
@@ -106,7 +102,7 @@ typedef struct ewa_volume_view {
     float toward_viewer[3]; ///< orthographic, world space
     float ambient, diffuse, specular, shininess;
     uint32_t light_count;
-    ewa_volume_light lights[EWA_MAX_LIGHTS];
+    ewa_kernel_light lights[EWA_MAX_LIGHTS]; ///< in world space
     const ewa_footprint_table *table;
 } ewa_volume_view;
 
@@ -144,7 +140,6 @@ typedef struct ewa_volume_target {
 } ewa_volume_target;
 
 typedef struct ewa_volume_kernels {
-    const char *name;
 
     /// Projects and shades the voxels of a block and adds those that touch the tile to its buckets; returns
     /// how many.
@@ -176,13 +171,6 @@ typedef struct ewa_volume_kernels {
     void (*resolve)(const ewa_volume_view *view, const ewa_volume_tile *tile, const ewa_volume_target *to);
 } ewa_volume_kernels;
 
-/// The best version that the features (EWA_CPU_*) allow.
-const ewa_volume_kernels *ewa_volume_kernels_choose(uint32_t cpu_features);
-
-extern const ewa_volume_kernels ewa_volume_kernels_portable;
-#if defined(__x86_64__)
-extern const ewa_volume_kernels ewa_volume_kernels_avx2;
-extern const ewa_volume_kernels ewa_volume_kernels_avx512;
-#endif
+EWA_DECLARE_VERSIONS(const ewa_volume_kernels, ewa_volume_kernels);
 
 #endif

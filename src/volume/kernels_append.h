@@ -3,18 +3,13 @@
 //
 // Part of kernels_body.h: from the voxels of a block to records in the buckets of a tile
 // (docs/math.md sections 3 and 12).
-//
-// Based on: J. Blinn, "Models of Light Reflection for Computer Synthesized Pictures", 1977 (shading).
 #ifndef EWA_SRC_VOLUME_KERNELS_APPEND_H
 #define EWA_SRC_VOLUME_KERNELS_APPEND_H
 
-#include "math/wide_functions.h"
+#include "kernels/shine.h"
 #include "volume/kernels.h"
 
 #include <string.h>
-
-/// What is less than this is nothing.
-#define TINY 0x1p-90f
 
 /// Sixteen voxels in camera space.
 typedef struct voxel_lanes {
@@ -29,10 +24,6 @@ typedef struct voxel_lanes {
 
 static ALWAYS_INLINE wf row_dot(const float *m, int stride, wf x, wf y, wf z) {
     return wf_fma(wf_set(m[0]), x, wf_fma(wf_set(m[stride]), y, wf_mul(wf_set(m[2 * stride]), z)));
-}
-
-static ALWAYS_INLINE wf dot(const wf a[3], const wf b[3]) {
-    return wf_fma(a[0], b[0], wf_fma(a[1], b[1], wf_mul(a[2], b[2])));
 }
 
 static ALWAYS_INLINE voxel_lanes place_voxels(const ewa_volume_view *view, const ewa_volume_source *source,
@@ -57,41 +48,12 @@ static ALWAYS_INLINE voxel_lanes place_voxels(const ewa_volume_view *view, const
     return v;
 }
 
-/// Adds one light's answer: diffuse and specular factors.
-static ALWAYS_INLINE void add_light(const ewa_volume_view *view, const ewa_volume_light *light,
-                                    const wf normal[3], const wf toward[3], wf facing_viewer, wf diffuse[3],
-                                    wf specular[3]) {
-    const wf zero = wf_set(0);
-    wf facing = facing_viewer, half = facing_viewer;
-    if (!light->headlight) {
-        const wf l[3] = {wf_set(light->toward[0]), wf_set(light->toward[1]), wf_set(light->toward[2])};
-        facing = wf_max(dot(normal, l), zero);
-        wf between[3];
-        for (int c = 0; c < 3; c++) between[c] = wf_add(l[c], toward[c]);
-        const wf length2 = dot(between, between);
-        half = wf_keep(wf_lt(wf_set(1e-12f), length2),
-                       wf_mul(dot(normal, between), wf_inverse_root(wf_max(length2, wf_set(1e-12f)))));
-    }
-    wf highlight = zero;
-    if (view->highlights) {
-        const wf power = wf_power(half, wf_set(view->shininess));
-        // Nothing rather than less than any normal number, which would take a hundred times as long.
-        const wm shines = wm_and(wf_lt(zero, facing), wf_lt(wf_set(TINY), power));
-        highlight = wf_mul(wf_set(view->specular), wf_keep(shines, power));
-    }
-    for (int c = 0; c < 3; c++) {
-        const wf color = wf_set(light->color[c]);
-        diffuse[c] = wf_fma(wf_mul(color, wf_set(view->diffuse)), facing, diffuse[c]);
-        specular[c] = wf_fma(color, highlight, specular[c]);
-    }
-}
-
 /// Shades colours by the gradients, which are seen from both sides.
 static ALWAYS_INLINE void shade_voxels(const ewa_volume_view *view, const ewa_volume_source *source,
                                        uint32_t first, const voxel_lanes *v, wf color[3]) {
     const wi packed = wi_load(source->normals + first);
     const wf scale = wf_set(1.0f / 511), zero = wf_set(0);
-    wf normal[3], toward[3], diffuse[3], specular[3];
+    wf normal[3], toward[3];
     for (int c = 0; c < 3; c++) normal[c] = wf_mul(wf_from_i(wi_sar(wi_shl(packed, 22 - 10 * c), 22)), scale);
     if (view->orthographic) {
         for (int c = 0; c < 3; c++) toward[c] = wf_set(view->toward_viewer[c]);
@@ -100,19 +62,16 @@ static ALWAYS_INLINE void shade_voxels(const ewa_volume_view *view, const ewa_vo
         for (int c = 0; c < 3; c++)
             toward[c] = wf_mul(shrink, row_dot(view->to_world + 3 * c, 1, v->x, v->y, v->ahead));
     }
-    const wf side = dot(normal, toward);
+    const wf side = dot3(normal, toward);
     const wm behind = wf_lt(side, zero);
-    for (int c = 0; c < 3; c++) {
-        normal[c] = wf_select(behind, wf_sub(zero, normal[c]), normal[c]);
-        diffuse[c] = wf_set(view->ambient);
-        specular[c] = zero;
-    }
-    for (uint32_t i = 0; i < view->light_count; i++)
-        add_light(view, &view->lights[i], normal, toward, wf_abs(side), diffuse, specular);
+    for (int c = 0; c < 3; c++) normal[c] = wf_select(behind, wf_sub(zero, normal[c]), normal[c]);
+    const lane_light light = gather_light(view->lights, view->light_count, view->highlights, normal, toward,
+                                          wf_set(view->shininess));
     // Where nothing changes there is no surface: ambient and diffuse light from everywhere.
-    const wm flat = wf_le(dot(normal, normal), wf_set(0.25f));
+    const wm flat = wf_le(dot3(normal, normal), wf_set(0.25f));
     for (int c = 0; c < 3; c++) {
-        const wf lit = wf_fma(color[c], diffuse[c], specular[c]);
+        const wf share = wf_fma(wf_set(view->diffuse), light.diffuse[c], wf_set(view->ambient));
+        const wf lit = wf_fma(color[c], share, wf_mul(wf_set(view->specular), light.specular[c]));
         color[c] = wf_select(flat, wf_mul(color[c], wf_set(view->ambient + view->diffuse)), lit);
     }
 }

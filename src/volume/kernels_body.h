@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The kernels of volumes over the wide type. The including file defines WIDE_AVX512, WIDE_AVX2 or
-// WIDE_PORTABLE, VOLUME_NAME and VOLUME_KERNELS; this file undefines them. Reference: src/volume/reference.c,
+// The kernels of volumes over the wide type. Reference: src/volume/reference.c,
 // docs/math.md section 12; equality class of the versions among themselves: the same bytes.
 #include "volume/kernels_append.h"
 #include "volume/kernels_near.h"
@@ -10,8 +9,7 @@
 #include "volume/kernels_resolve.h"
 #include "volume/kernels_splats.h"
 
-const ewa_volume_kernels VOLUME_KERNELS = {
-    .name = VOLUME_NAME,
+const ewa_volume_kernels EWA_VERSION(ewa_volume_kernels) = {
     .append = append,
     .append_near = append_near,
     .draw_near = draw_near,
@@ -21,6 +19,3 @@ const ewa_volume_kernels VOLUME_KERNELS = {
     .clear = clear,
     .resolve = resolve,
 };
-
-#undef VOLUME_NAME
-#undef VOLUME_KERNELS

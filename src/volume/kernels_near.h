@@ -27,7 +27,7 @@ static uint32_t append_near(const ewa_volume_view *view, const ewa_volume_source
             wm_bits(wm_and(near, wf_lt(zero, density))) & (left < 16 ? (1u << left) - 1 : 0xffff);
         if (!bits) continue;
         // A voxel beside the eye has no slopes: its direction instead.
-        const wf distance = wf_sqrt(dot(v.place, v.place)), shrink = wf_max(distance, wf_set(1e-6f));
+        const wf distance = wf_sqrt(dot3(v.place, v.place)), shrink = wf_max(distance, wf_set(1e-6f));
         v.x = wf_div(v.place[0], shrink), v.y = wf_div(v.place[1], shrink);
         v.ahead = wf_div(v.place[2], shrink), v.length = wf_set(1);
         wf d[3], color[3];
@@ -39,7 +39,7 @@ static uint32_t append_near(const ewa_volume_view *view, const ewa_volume_source
             wf_store(fields[c], d[c]);
             wf_store(fields[4 + c], color[c]);
         }
-        wf_store(fields[3], dot(d, d));
+        wf_store(fields[3], dot3(d, d));
         wf_store(fields[7], wf_min(density, wf_set(1e18f)));
         wf_store(fields[8], v.z);
         wf_store(fields[9], distance);
@@ -81,7 +81,7 @@ static ALWAYS_INLINE void set_rays(const ewa_volume_view *view, const ewa_volume
     const wf x = wf_div(wf_add(left, steps_x), wf_set(view->fx_px));
     const wf y = wf_div(wf_add(top, steps_y), wf_set(view->fy_px)), one = wf_set(1);
     for (int c = 0; c < 3; c++) ray[c] = row_dot(&view->to_deviations[0][c], 3, x, y, one);
-    const wf length = wf_sqrt(wf_fma(x, x, wf_fma(y, y, one))), stretched = wf_sqrt(dot(ray, ray));
+    const wf length = wf_sqrt(wf_fma(x, x, wf_fma(y, y, one))), stretched = wf_sqrt(dot3(ray, ray));
     for (int c = 0; c < 3; c++) ray[c] = wf_div(ray[c], stretched);
     *peak = wf_mul(wf_set(view->splat_peak), wf_div(length, stretched));
 }

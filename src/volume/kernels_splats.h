@@ -15,6 +15,7 @@
 #ifndef EWA_SRC_VOLUME_KERNELS_SPLATS_H
 #define EWA_SRC_VOLUME_KERNELS_SPLATS_H
 
+#include "math/wide_ellipse.h"
 #include "volume/kernels_points.h"
 
 /// What a splat's pixels need, lane by lane.
@@ -67,13 +68,9 @@ static ALWAYS_INLINE void true_ellipse(const ewa_volume_view *view, wf x, wf y, 
     const wf s12 = wf_fnma(x, s23, wf_fnma(y, wf_set(s[2]), wf_set(s[1])));
     const wf s22 = wf_fnma(y, wf_add(s23, wf_set(s[4])), wf_set(s[3]));
     // -1 / D33 > 0
-    const wf inverse = wf_div(wf_set(1), wf_fnma(wf_set(view->cutoff2), s33, wf_mul(z, z)));
-    const wf far = wf_mul(wf_set(view->cutoff2), inverse);
-    shift[0] = wf_sub(wf_set(0), wf_mul(far, s13));
-    shift[1] = wf_sub(wf_set(0), wf_mul(far, s23));
-    v[0] = wf_mul(inverse, wf_fma(wf_mul(far, s13), s13, s11));
-    v[1] = wf_mul(inverse, wf_fma(wf_mul(far, s13), s23, s12));
-    v[2] = wf_mul(inverse, wf_fma(wf_mul(far, s23), s23, s22));
+    const wf cutoff2 = wf_set(view->cutoff2);
+    const wf inverse = wf_div(wf_set(1), wf_fnma(cutoff2, s33, wf_mul(z, z)));
+    wide_project((const wf[5]){s11, s12, s22, s13, s23}, inverse, cutoff2, v, shift);
 }
 
 /// Coefficients of rho over offsets in the filtered ellipse; `m` takes these to the true one, normalised.
@@ -135,14 +132,13 @@ static void set_splats(const ewa_volume_view *view, const ewa_volume_tile *tile,
     const wf attenuation = wf_sqrt(wf_div(area, filtered));
     const wf peak = wf_mul(wf_mul(wf_load(in[3]), wf_set(view->splat_peak)),
                            wf_mul(attenuation, wf_div(length, wf_sqrt(place2))));
-    const wf conic = wf_div(one, wf_mul(filtered, wf_set(view->cutoff2)));
     const wf cx = wf_fma(shift[0], fx, px), cy = wf_fma(shift[1], fy, py);
     const wf reach_x = wf_mul(wf_set(view->cutoff), m0), reach_y = wf_mul(wf_set(view->cutoff), wf_sqrt(w22));
     wf_store(out[SPLAT_X], cx);
     wf_store(out[SPLAT_Y], cy);
-    wf_store(out[SPLAT_XX], wf_mul(w22, conic));
-    wf_store(out[SPLAT_XY], wf_mul(wf_mul(wf_set(-2), v12), conic));
-    wf_store(out[SPLAT_YY], wf_mul(w11, conic));
+    wf conic[3];
+    wide_conic(w11, v12, w22, wf_div(one, wf_mul(filtered, wf_set(view->cutoff2))), conic);
+    for (int i = 0; i < 3; i++) wf_store(out[SPLAT_XX + i], conic[i]);
     for (int i = 0; i < 6; i++) wf_store(out[SPLAT_RHO + i], rho[i]);
     wf_store(out[SPLAT_PEAK], wf_min(peak, wf_set(1e12f)));
     for (int c = 0; c < 3; c++) wf_store(out[SPLAT_R + c], wf_load(in[c]));

@@ -98,7 +98,7 @@ ewa_status ewa_near_list_fill(ewa_context *context, ewa_near_list *list, const e
     ewa_ray_cone_make(&picture, grid, 0, 0, camera->width_px, camera->height_px);
     uint64_t room = 0;
     for (uint64_t b = 0; b < level->block_count; b++)
-        if (bins->all[b].near && meets_block(&picture, level, grid, &bins->all[b]))
+        if (bins->views[b].near && meets_block(&picture, level, grid, &bins->views[b]))
             room += level->blocks[b].count;
     if (room >= UINT32_MAX / 2)
         return ewa_fail(context, EWA_ERROR_MEMORY, "volume: %llu voxels at the eye",
@@ -111,8 +111,8 @@ ewa_status ewa_near_list_fill(ewa_context *context, ewa_near_list *list, const e
     ewa_near_voxel *voxels = list->found.data;
     const double reach = view->cutoff;
     for (uint64_t b = 0; b < level->block_count; b++) {
-        if (!bins->all[b].near || !meets_block(&picture, level, grid, &bins->all[b])) continue;
-        const ewa_volume_source source = ewa_block_source(level, grid, &bins->all[b]);
+        if (!bins->views[b].near || !meets_block(&picture, level, grid, &bins->views[b])) continue;
+        const ewa_volume_source source = ewa_block_source(level, grid, &bins->views[b]);
         const uint32_t added = kernels->append_near(view, &source, voxels + list->count);
         // Of a block at the eye few voxels are in the picture.
         for (uint32_t i = list->count, end = list->count + added; i < end; i++) {

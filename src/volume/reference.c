@@ -9,6 +9,7 @@
 // section 4; L. Westover, "Footprint Evaluation for Volume Rendering", 1990 (splats composited one by one).
 #include "base/base.h"
 #include "image/srgb.h"
+#include "math/ellipse.h"
 #include "splat/reference_shade.h"
 #include "volume/classify.h"
 #include "volume/footprint.h"
@@ -89,16 +90,15 @@ static void project(const ewa_grid_view *grid, ewa_vec3 p, double v[3], double c
         center_px[0] = fx * p.x + grid->cx_px, center_px[1] = fy * p.y + grid->cy_px;
         return;
     }
-    const double x = p.x / p.z, y = p.y / p.z, d33 = grid->cutoff2 * s->m[2][2] - p.z * p.z;
+    const double x = p.x / p.z, y = p.y / p.z, k = 1 / (p.z * p.z - grid->cutoff2 * s->m[2][2]);
     const double s13 = s->m[0][2] - x * s->m[2][2], s23 = s->m[1][2] - y * s->m[2][2];
     const double s11 = s->m[0][0] - 2 * x * s->m[0][2] + x * x * s->m[2][2];
     const double s12 = s->m[0][1] - x * s->m[1][2] - y * s->m[0][2] + x * y * s->m[2][2];
     const double s22 = s->m[1][1] - 2 * y * s->m[1][2] + y * y * s->m[2][2];
-    const double cx = grid->cutoff2 * s13 / d33, cy = grid->cutoff2 * s23 / d33;
-    v[0] = (cx * cx / grid->cutoff2 - s11 / d33) * fx * fx;
-    v[1] = (cx * cy / grid->cutoff2 - s12 / d33) * fx * fy;
-    v[2] = (cy * cy / grid->cutoff2 - s22 / d33) * fy * fy;
-    center_px[0] = fx * (x + cx) + grid->cx_px, center_px[1] = fy * (y + cy) + grid->cy_px;
+    double shift[2];
+    ewa_ellipse_project((const double[5]){s11, s12, s22, s13, s23}, k, grid->cutoff2, v, shift);
+    v[0] *= fx * fx, v[1] *= fx * fy, v[2] *= fy * fy;
+    center_px[0] = fx * (x + shift[0]) + grid->cx_px, center_px[1] = fy * (y + shift[1]) + grid->cy_px;
 }
 
 /// Lower triangle L with L L' = V.

@@ -15,30 +15,24 @@ struct ewa_volume_renderer {
     uint32_t worker_count;
     ewa_point_filter filters[EWA_FILTER_COUNT];
     ewa_footprint_table table;
-    ewa_volume_scratch *scratch[]; ///< one per worker
+    ewa_volume_scratch *scratch; ///< one per worker
 };
-
-static size_t renderer_bytes(uint32_t worker_count) {
-    return sizeof(ewa_volume_renderer) + worker_count * sizeof(ewa_volume_scratch *);
-}
 
 ewa_status ewa_volume_renderer_create(ewa_context *context, ewa_volume_renderer **renderer) {
     if (!context || !renderer) return EWA_ERROR_ARGUMENT;
     *renderer = NULL;
     const uint32_t worker_count = ewa_context_worker_count(context);
-    ewa_volume_renderer *made = ewa_allocate_zeroed(context, 1, renderer_bytes(worker_count));
+    ewa_volume_renderer *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
-    made->kernels = ewa_volume_kernels_choose(ewa_context_cpu_features(context));
+    made->kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_volume_kernels);
     made->worker_count = worker_count;
     ewa_point_filters_make(made->filters);
     ewa_footprint_table_make(&made->table);
-    for (uint32_t i = 0; i < worker_count; i++) {
-        made->scratch[i] = ewa_allocate_zeroed(context, 1, sizeof *made->scratch[i]);
-        if (!made->scratch[i]) {
-            ewa_volume_renderer_destroy(&made);
-            return EWA_ERROR_MEMORY;
-        }
+    made->scratch = ewa_allocate_zeroed(context, worker_count, sizeof *made->scratch);
+    if (!made->scratch) {
+        ewa_volume_renderer_destroy(&made);
+        return EWA_ERROR_MEMORY;
     }
     *renderer = made;
     return EWA_OK;
@@ -48,13 +42,12 @@ void ewa_volume_renderer_destroy(ewa_volume_renderer **renderer) {
     if (!renderer || !*renderer) return;
     ewa_volume_renderer *old = *renderer;
     ewa_context *context = old->context;
-    for (uint32_t i = 0; i < old->worker_count; i++) {
-        if (old->scratch[i]) ewa_volume_scratch_free(context, old->scratch[i]);
-        ewa_release(context, old->scratch[i], 1, sizeof *old->scratch[i]);
-    }
+    for (uint32_t i = 0; old->scratch && i < old->worker_count; i++)
+        ewa_volume_scratch_free(context, &old->scratch[i]);
+    ewa_release(context, old->scratch, old->worker_count, sizeof *old->scratch);
     ewa_volume_bins_free(context, &old->bins);
     ewa_near_list_free(context, &old->near);
-    ewa_release(context, old, 1, renderer_bytes(old->worker_count));
+    ewa_release(context, old, 1, sizeof *old);
     *renderer = NULL;
 }
 
@@ -65,7 +58,7 @@ static void gather_stats(const ewa_volume_renderer *renderer, const ewa_voxel_le
                                 .near_count = renderer->near.count,
                                 .bin_s = (binned_s - start_s) * renderer->worker_count};
     for (uint32_t i = 0; i < renderer->worker_count; i++) {
-        const ewa_volume_scratch *s = renderer->scratch[i];
+        const ewa_volume_scratch *s = &renderer->scratch[i];
         stats->hidden_count += s->hidden_count;
         stats->splat_count += s->splat_count;
         stats->point_count += s->point_count;
@@ -121,9 +114,9 @@ ewa_status ewa_volume_render(ewa_volume_renderer *renderer, const ewa_voxels *vo
                                     &renderer->bins, camera);
     const double binned_s = ewa_now_s();
     for (uint32_t i = 0; i < renderer->worker_count && status == EWA_OK; i++)
-        status = ewa_volume_scratch_reserve(context, renderer->scratch[i], &job);
+        status = ewa_volume_scratch_reserve(context, &renderer->scratch[i], &job);
     if (status != EWA_OK) return status;
-    ewa_parallel(context, ewa_volume_tile_draw, &job, renderer->bins.tiles_x * renderer->bins.tiles_y);
+    ewa_parallel(context, ewa_volume_tile_draw, &job, ewa_tiles_count(&renderer->bins.tiles));
     if (stats) gather_stats(renderer, level, start_s, binned_s, stats);
     return ewa_progress(context, "volume", 1);
 }

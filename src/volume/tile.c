@@ -78,14 +78,12 @@ static void copy_surface(const ewa_volume_job *job, ewa_volume_tile *tile) {
 
 static void start_tile(const ewa_volume_job *job, ewa_volume_scratch *scratch, uint32_t index,
                        ewa_volume_tile *tile) {
-    const uint32_t x = index % job->bins->tiles_x * EWA_VOLUME_TILE_PX;
-    const uint32_t y = index / job->bins->tiles_x * EWA_VOLUME_TILE_PX;
-    const uint32_t right = job->target.width_px - x, below = job->target.height_px - y;
+    const ewa_tile_rect place = ewa_tiles_rect(&job->bins->tiles, index);
     *tile = (ewa_volume_tile){
-        .x_px = (int32_t)x,
-        .y_px = (int32_t)y,
-        .width_px = (int32_t)(right < EWA_VOLUME_TILE_PX ? right : EWA_VOLUME_TILE_PX),
-        .height_px = (int32_t)(below < EWA_VOLUME_TILE_PX ? below : EWA_VOLUME_TILE_PX),
+        .x_px = (int32_t)place.x_px,
+        .y_px = (int32_t)place.y_px,
+        .width_px = (int32_t)place.width_px,
+        .height_px = (int32_t)place.height_px,
         .sums = scratch->sums.data,
         .pixels = scratch->pixels.data,
         .surface = scratch->surface.data,
@@ -203,12 +201,12 @@ static void take_time(const ewa_volume_job *job, double *last_s, double *stage_s
 void ewa_volume_tile_draw(void *data, uint32_t index, uint32_t worker) {
     const ewa_volume_job *job = data;
     const ewa_volume_bins *bins = job->bins;
-    ewa_volume_scratch *scratch = job->scratch[worker];
+    ewa_volume_scratch *scratch = &job->scratch[worker];
     ewa_volume_tile tile;
     double last_s = job->with_times ? ewa_now_s() : 0;
     start_tile(job, scratch, index, &tile);
-    uint64_t next = bins->tile_first[index];
-    const uint64_t end = bins->tile_first[index + 1];
+    uint64_t next = bins->by_tile.starts[index];
+    const uint64_t end = bins->by_tile.starts[index + 1];
     int32_t last_slice = -1;
     if (job->near->count) {
         take_time(job, &last_s, &scratch->setup_s);
@@ -218,10 +216,10 @@ void ewa_volume_tile_draw(void *data, uint32_t index, uint32_t worker) {
     for (int32_t slice = 0; slice < (int32_t)job->slices->count; slice++) {
         if (slice > last_slice) { // nothing in flight
             if (next == end) break;
-            slice = bins->views[bins->list[next]].slice_first;
+            slice = bins->views[bins->by_tile.ids[next]].slice_first;
         }
-        for (; next < end && bins->views[bins->list[next]].slice_first <= slice; next++) {
-            const ewa_block_view *view = &bins->views[bins->list[next]];
+        for (; next < end && bins->views[bins->by_tile.ids[next]].slice_first <= slice; next++) {
+            const ewa_block_view *view = &bins->views[bins->by_tile.ids[next]];
             if (view->slice_last > last_slice) last_slice = view->slice_last;
             if (is_hidden(&tile, view))
                 scratch->hidden_count += job->level->blocks[view->block].count;
@@ -244,7 +242,7 @@ void ewa_volume_tile_draw(void *data, uint32_t index, uint32_t worker) {
         if (all_hidden(&tile)) break;
     }
     for (; next < end; next++)
-        scratch->hidden_count += job->level->blocks[bins->views[bins->list[next]].block].count;
+        scratch->hidden_count += job->level->blocks[bins->views[bins->by_tile.ids[next]].block].count;
     job->kernels->resolve(&job->view, &tile, &job->target);
     take_time(job, &last_s, &scratch->resolve_s);
 }

@@ -27,7 +27,7 @@ typedef struct ewa_volume_job {
     ewa_volume_view view;
     ewa_volume_target target;
     bool with_times;
-    ewa_volume_scratch **scratch; ///< [worker]
+    ewa_volume_scratch *scratch; ///< [worker]
 } ewa_volume_job;
 
 /// Makes room for any tile of a frame and forgets the counts. Errors: EWA_ERROR_MEMORY.

@@ -97,7 +97,7 @@ static void set_shading(ewa_volume_view *view, const ewa_grid_view *grid, const 
     view->light_count = shading->light_count;
     for (uint32_t i = 0; i < shading->light_count; i++) {
         const ewa_shading_light *from = &shading->lights[i];
-        ewa_volume_light *to = &view->lights[i];
+        ewa_kernel_light *to = &view->lights[i];
         to->headlight = from->headlight;
         to->toward[0] = (float)from->toward_world.x, to->toward[1] = (float)from->toward_world.y;
         to->toward[2] = (float)from->toward_world.z;

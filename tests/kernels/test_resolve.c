@@ -19,10 +19,7 @@ enum { FEATURE_SETS = sizeof FEATURES / sizeof FEATURES[0] };
 
 /// The kernels of one of FEATURES as far as the processor has them.
 static const ewa_road_kernels *kernels_of(size_t set) {
-    ewa_context *context = check_context(0, NULL);
-    const uint32_t here = ewa_context_cpu_features(context);
-    ewa_context_destroy(&context);
-    return ewa_road_kernels_choose(FEATURES[set] & here);
+    return EWA_CHOOSE(FEATURES[set] & ewa_cpu_detect(), ewa_road_kernels);
 }
 
 static ewa_resolve plain_resolve(uint8_t *rgba8, uint32_t width_px) {

@@ -435,32 +435,25 @@ static void hold_distances(const local_kernels *kernels, const ewa_block *block)
 
 static void test_tables(void **state) {
     (void)state;
-    ewa_context *context = check_context(1, NULL);
-    const local_kernels *tables[3] = {&ewa_local_kernels_portable};
-    int table_count = 1;
-#if defined(__x86_64__)
-    const uint32_t features = ewa_context_cpu_features(context);
-    if (features & EWA_CPU_AVX2) tables[table_count++] = &ewa_local_kernels_avx2;
-    if (features & EWA_CPU_AVX512) tables[table_count++] = &ewa_local_kernels_avx512;
-#endif
+    static const uint32_t masks[] = {0, EWA_CPU_AVX2, EWA_CPU_ALL};
     static ewa_block block;
-    for (int k = 0; k < table_count; k++) {
+    for (int k = 0; k < 3; k++) {
+        const local_kernels *kernels = EWA_CHOOSE(masks[k] & ewa_cpu_detect(), ewa_local_kernels);
         tally t = {0};
         check_random random = {77};
         for (int i = 0; i < BLOCKS; i++) {
             make_block(i, &block);
-            hold_measure(tables[k], &block, &t);
-            hold_enclose(tables[k], &block, &t);
-            hold_median(tables[k], &block, &random);
-            hold_distances(tables[k], &block);
-            hold_size(tables[k], &random);
+            hold_measure(kernels, &block, &t);
+            hold_enclose(kernels, &block, &t);
+            hold_median(kernels, &block, &random);
+            hold_distances(kernels, &block);
+            hold_size(kernels, &random);
         }
         print_message("%d planes, %d thin, %d reaches, %d doubtful, %d certain, %d shapes, %d enclosed\n",
                       t.plane, t.thin, t.reach, t.doubtful, t.certain, t.shape, t.enclosed);
         assert_true(t.plane > 500 && t.thin > 20 && t.reach > 200 && t.shape > 150 && t.enclosed > 150 &&
                     t.doubtful > 100 && t.certain > 30);
     }
-    ewa_context_destroy(&context);
 }
 
 int main(void) {

@@ -18,19 +18,9 @@ enum {
     SETS = 3
 };
 
-static uint32_t kernel_sets(const ewa_warp_kernels *sets[SETS]) {
-    ewa_context *context = check_context(1, NULL);
-    const uint32_t features = ewa_context_cpu_features(context);
-    ewa_context_destroy(&context);
-    uint32_t count = 0;
-    sets[count++] = &ewa_warp_kernels_portable;
-#if defined(__x86_64__)
-    if (features & EWA_CPU_AVX2) sets[count++] = &ewa_warp_kernels_avx2;
-    if (features & EWA_CPU_AVX512) sets[count++] = &ewa_warp_kernels_avx512;
-#else
-    (void)features;
-#endif
-    return count;
+static void kernel_sets(const ewa_warp_kernels *sets[SETS]) {
+    static const uint32_t masks[SETS] = {0, EWA_CPU_AVX2, EWA_CPU_ALL};
+    for (int i = 0; i < SETS; i++) sets[i] = EWA_CHOOSE(masks[i] & ewa_cpu_detect(), ewa_warp_kernels);
 }
 
 static ewa_warp_lens make_lens(void) {
@@ -78,10 +68,10 @@ static void expect_slope(const sheet *of, int x, double slope, double distance) 
 static void test_planes(void **state) {
     (void)state;
     const ewa_warp_kernels *sets[SETS];
-    const uint32_t count = kernel_sets(sets);
+    kernel_sets(sets);
     const ewa_warp_lens lens = make_lens();
     static sheet made;
-    for (uint32_t k = 0; k < count; k++) {
+    for (uint32_t k = 0; k < SETS; k++) {
         clear(&made);
         for (int y = -2; y < 7; y++)
             for (int x = 0; x < WIDTH; x++)
@@ -101,10 +91,10 @@ static void test_planes(void **state) {
 static void test_creases(void **state) {
     (void)state;
     const ewa_warp_kernels *sets[SETS];
-    const uint32_t count = kernel_sets(sets);
+    kernel_sets(sets);
     ewa_warp_lens lens = make_lens();
     static sheet made;
-    for (uint32_t k = 0; k < count; k++)
+    for (uint32_t k = 0; k < SETS; k++)
         for (int turn = -1; turn <= 1; turn += 2) {
             clear(&made);
             // The ridge lies between columns 30 and 31, nearer to 30.
@@ -135,10 +125,10 @@ static void test_creases(void **state) {
 static void test_rims(void **state) {
     (void)state;
     const ewa_warp_kernels *sets[SETS];
-    const uint32_t count = kernel_sets(sets);
+    kernel_sets(sets);
     const ewa_warp_lens lens = make_lens();
     static sheet made;
-    for (uint32_t k = 0; k < count; k++)
+    for (uint32_t k = 0; k < SETS; k++)
         for (int nearer = 0; nearer < 2; nearer++) {
             clear(&made);
             for (int y = -2; y < 7; y++)
@@ -158,10 +148,10 @@ static void test_rims(void **state) {
 static void test_steep_planes(void **state) {
     (void)state;
     const ewa_warp_kernels *sets[SETS];
-    const uint32_t count = kernel_sets(sets);
+    kernel_sets(sets);
     const ewa_warp_lens lens = make_lens();
     static sheet made;
-    for (uint32_t k = 0; k < count; k++) {
+    for (uint32_t k = 0; k < SETS; k++) {
         clear(&made);
         for (int y = -2; y < 7; y++)
             for (int x = 0; x < 12; x++) *key_at(&made, x, y) = 0.5f + 0.05f * (float)x;
@@ -181,10 +171,10 @@ static void test_steep_planes(void **state) {
 static void test_gaps(void **state) {
     (void)state;
     const ewa_warp_kernels *sets[SETS];
-    const uint32_t count = kernel_sets(sets);
+    kernel_sets(sets);
     const ewa_warp_lens lens = make_lens();
     static sheet made;
-    for (uint32_t k = 0; k < count; k++) {
+    for (uint32_t k = 0; k < SETS; k++) {
         clear(&made);
         for (int y = -2; y < 7; y++)
             for (int x = 0; x < WIDTH; x++)
@@ -208,10 +198,10 @@ static void test_gaps(void **state) {
 static void test_flying(void **state) {
     (void)state;
     const ewa_warp_kernels *sets[SETS];
-    const uint32_t count = kernel_sets(sets);
+    kernel_sets(sets);
     ewa_warp_lens lens = make_lens();
     static sheet made;
-    for (uint32_t k = 0; k < count; k++)
+    for (uint32_t k = 0; k < SETS; k++)
         for (int drop = 0; drop < 2; drop++) {
             clear(&made);
             for (int y = -2; y < 7; y++)
@@ -270,7 +260,7 @@ static double slope_plainly(const ewa_warp_lens *lens, double crease, const doub
 static void test_random_rows(void **state) {
     (void)state;
     const ewa_warp_kernels *sets[SETS];
-    const uint32_t count = kernel_sets(sets);
+    kernel_sets(sets);
     const ewa_warp_lens lens = make_lens();
     static sheet made[SETS];
     check_random random = {7};
@@ -287,7 +277,7 @@ static void test_random_rows(void **state) {
                 if (what != 4) *key_at(&made[0], x, y) = (float)(ldexp(floor(ldexp(key, 20)), -20));
             }
         }
-        for (uint32_t k = 0; k < count; k++) {
+        for (uint32_t k = 0; k < SETS; k++) {
             if (k) memcpy(made[k].keys, made[0].keys, sizeof made[0].keys);
             measure(sets[k], &lens, &made[k]);
             assert_int_equal(made[k].dropped, made[0].dropped);
@@ -325,7 +315,7 @@ static void test_random_rows(void **state) {
 static void test_smoothing(void **state) {
     (void)state;
     const ewa_warp_kernels *sets[SETS];
-    const uint32_t count = kernel_sets(sets);
+    kernel_sets(sets);
     static sheet made;
     static float smoothed[SETS][STRIDE];
     check_random random = {17};
@@ -335,7 +325,7 @@ static void test_smoothing(void **state) {
         for (int x = 0; x < WIDTH; x++)
             if (check_random_u64(&random) % 9)
                 *key_at(&made, x, y) = (x < 30 ? 0.5f : 0.56f) + (float)check_uniform(&random, -0.02, 0.02);
-    for (uint32_t k = 0; k < count; k++) {
+    for (uint32_t k = 0; k < SETS; k++) {
         sets[k]->smooth(noise, key_at(&made, 0, 2), STRIDE, WIDTH, smoothed[k]);
         for (int x = 0; x < WIDTH; x++) // a NaN may have any bits
             assert_true(smoothed[k][x] == smoothed[0][x] || (isnan(smoothed[k][x]) && isnan(smoothed[0][x])));
@@ -369,7 +359,7 @@ static void place(const ewa_warp_lens *lens, double x, double y, double key, dou
 static void test_surfels(void **state) {
     (void)state;
     const ewa_warp_kernels *sets[SETS];
-    const uint32_t count = kernel_sets(sets);
+    kernel_sets(sets);
     enum { SIDE = 8, ROW = 64 };
     static float keys[SIDE * ROW], slope_x[SIDE * ROW], slope_y[SIDE * ROW], distance_x[SIDE * ROW],
         distance_y[SIDE * ROW];
@@ -384,7 +374,7 @@ static void test_surfels(void **state) {
         distance_x[i] = 1 + (float)(i % 2), distance_y[i] = i % 3 ? 1 : 0.7f;
     }
     const ewa_warp_rows rows = {keys, slope_x, slope_y, distance_x, distance_y, ROW};
-    for (uint32_t k = 0; k < count; k++)
+    for (uint32_t k = 0; k < SETS; k++)
         for (uint32_t from = 0; from < 20; from += 4) {
             static ewa_packet packet;
             float normal[3][16], axis_u[3][16], axis_v[3][16];

@@ -1,0 +1,27 @@
+# SPDX-FileCopyrightText: 2026 The ewa authors
+# SPDX-License-Identifier: MIT
+#
+# Kernels are written once (src/<room>/<name>_body.h) and compiled once per instruction set; only they get
+# machine flags, and all that they include is static, so that none lends code to files without.
+set(kernel_level -O3)
+if(EWA_SANITIZE OR EWA_BUILD_FUZZERS)
+  set(kernel_level -O1) # at -O3, the checks in the inlined bodies take minutes to compile
+endif()
+set(flags_portable -Wno-psabi)
+set(flags_avx2 ${kernel_level} -mavx2 -mfma)
+set(flags_avx512 ${kernel_level} -mavx512f -mavx512dq -mavx512bw -mavx512vl -mavx2 -mfma)
+set(instruction_sets portable)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  list(APPEND instruction_sets avx2 avx512)
+endif()
+
+foreach(body cloud/cells cloud/neighbours kernels/road math/clip_batch prepare/local resample/texture resample/warp
+    splat/pack volume/kernels)
+  foreach(set ${instruction_sets})
+    string(TOUPPER ${set} SET)
+    set(source ${PROJECT_BINARY_DIR}/kernels/${body}_${set}.c)
+    file(CONFIGURE OUTPUT ${source} CONTENT "#define WIDE_${SET}\n#include \"${body}_body.h\"\n")
+    target_sources(ewa_objects PRIVATE ${source})
+    set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS "${flags_${set}}")
+  endforeach()
+endforeach()
