@@ -27,54 +27,21 @@ typedef struct convert_arguments {
 enum { REFIT_OFF, REFIT_INTERPOLATE, REFIT_FIT };
 
 static const cli_option change_table[] = {
-    {.key = "crop",
-     .kind = OPTION_VECTOR,
-     .offset = AT(crop),
-     .value = "x0,y0,z0,x1,y1,z1",
-     .low = 6,
-     .high = 6,
-     .help = "keep the points inside a box"},
-    {.key = "subsample",
-     .kind = OPTION_NUMBER,
-     .offset = AT(subsample),
-     .value = "N",
-     .range = "(0, 1e15]",
-     .absent = "all",
+    {"crop", OPTION_VECTOR, AT(crop), "x0,y0,z0,x1,y1,z1", .help = "keep the points inside a box", .low = 6,
+     .high = 6},
+    {"subsample", OPTION_NUMBER, AT(subsample), "N", "(0, 1e15]",
      .help = "keep N points, or a share of them when N < 1: one at random of each run of equal length in the "
-             "file, the "
-             "same ones every time"},
-    {.key = "scale",
-     .kind = OPTION_VECTOR,
-     .offset = AT(scale),
-     .value = "s or x,y,z",
-     .low = 1,
-     .high = 3,
-     .help = "multiply coordinates"},
-    {.key = "transform",
-     .kind = OPTION_VECTOR,
-     .offset = AT(transform),
-     .value = "16 numbers",
-     .low = 16,
-     .high = 16,
-     .help = "map by a matrix, row by row, that acts on column vectors; the last row is 0,0,0,1"},
-    {.key = "translate",
-     .kind = OPTION_VECTOR,
-     .offset = AT(translate),
-     .value = "x,y,z",
-     .low = 3,
-     .high = 3,
-     .help = "add to coordinates"},
-    {.key = "refit-colors",
-     .kind = OPTION_CHOICE,
-     .offset = AT(refit),
-     .range = "off|interpolate|fit",
+             "file, the same ones every time",
+     .absent = "all"},
+    {"scale", OPTION_VECTOR, AT(scale), "s or x,y,z", .help = "multiply coordinates", .low = 1, .high = 3},
+    {"transform", OPTION_VECTOR, AT(transform), "16 numbers",
+     .help = "map by a matrix, row by row, that acts on column vectors; the last row is 0,0,0,1", .low = 16,
+     .high = 16},
+    {"translate", OPTION_VECTOR, AT(translate), "x,y,z", .help = "add to coordinates", .low = 3, .high = 3},
+    {"refit-colors", OPTION_CHOICE, AT(refit), NULL, "off|interpolate|fit",
      .help = "turn colours into coefficients, so that pictures of the surfels are sharper: they show each "
              "point's colour at the point, or nearly (fit: for noisy or aliased colours)"},
-    {.key = "cutoff",
-     .kind = OPTION_NUMBER,
-     .offset = AT(cutoff),
-     .value = "F",
-     .range = "(0, 4]",
+    {"cutoff", OPTION_NUMBER, AT(cutoff), "F", "(0, 4]",
      .help = "standard deviations at which kernels end, as for ewa render, where colours are made"},
 };
 
@@ -268,8 +235,7 @@ static int run(const void *data) {
     return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
 }
 
-static const option_group change_options = {"Changes, in this order", change_table,
-                                            sizeof change_table / sizeof change_table[0]};
+static const option_group change_options = OPTION_GROUP("Changes, in this order", change_table);
 static const option_group *const groups[] = {&cloud_output_options, &change_options, &procedure_options};
 
 const cli_command convert_command = {

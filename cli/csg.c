@@ -16,11 +16,7 @@ typedef struct csg_arguments {
 #define AT(member) offsetof(csg_arguments, member)
 
 static const cli_option option_table[] = {
-    {.key = "op",
-     .kind = OPTION_CHOICE,
-     .offset = AT(operation),
-     .value = "OP",
-     .range = "union|intersection|difference",
+    {"op", OPTION_CHOICE, AT(operation), "OP", "union|intersection|difference",
      .help = "what to keep; difference: A without B"},
 };
 
@@ -58,8 +54,7 @@ static ewa_cloud *make(cli_session *session, const void *data) {
 
 static int run(const void *data) { return cloud_output_run(data, make); }
 
-static const option_group csg_options = {"Combination", option_table,
-                                         sizeof option_table / sizeof option_table[0]};
+static const option_group csg_options = OPTION_GROUP("Combination", option_table);
 static const option_group *const groups[] = {&cloud_output_options, &csg_options};
 
 const cli_command csg_command = {

@@ -21,62 +21,29 @@ typedef struct features_arguments {
 #define AT(member) offsetof(features_arguments, member)
 
 static const cli_option detection_table[] = {
-    {.key = "angle",
-     .kind = OPTION_NUMBER,
-     .offset = AT(angle_deg),
-     .value = "DEGREES",
-     .range = "[10, 120]",
+    {"angle", OPTION_NUMBER, AT(angle_deg), "DEGREES", "[10, 120]",
      .help = "least angle between the normals of two planes that meet in an edge; less is a smooth surface"},
-    {.key = "neighbours",
-     .aliases = "neighbors",
-     .kind = OPTION_INTEGER,
-     .offset = AT(neighbours),
-     .value = "K",
-     .range = "[0, 64]",
+    {"neighbours", OPTION_INTEGER, AT(neighbours), "K", "[0, 64]",
      .help = "nearest neighbours that planes are fitted to, 16 or more; 0: 24 for exact points up to 64 for "
-             "noisy "
-             "ones"},
-    {.key = "noise",
-     .kind = OPTION_NUMBER,
-     .offset = AT(noise),
-     .value = "SIGMA",
-     .range = "(-inf, 1]",
+             "noisy ones",
+     .aliases = "neighbors"},
+    {"noise", OPTION_NUMBER, AT(noise), "SIGMA", "(-inf, 1]",
      .help = "standard deviation of the points from the surface in units of the spacing; negative: measured"},
-    {.key = "project",
-     .kind = OPTION_ON_OFF,
-     .offset = AT(project),
-     .help = "move the points beside an edge onto their plane"},
+    {"project", OPTION_ON_OFF, AT(project), .help = "move the points beside an edge onto their plane"},
 };
 
 static const cli_option surfel_table[] = {
-    {.key = "keep-normals",
-     .kind = OPTION_ON_OFF,
-     .offset = AT(keep_normals),
+    {"keep-normals", OPTION_ON_OFF, AT(keep_normals),
      .help = "start from the normals that the file has; else, and where it has none, they are estimated"},
-    {.key = "keep-radii",
-     .kind = OPTION_ON_OFF,
-     .offset = AT(keep_radii),
+    {"keep-radii", OPTION_ON_OFF, AT(keep_radii),
      .help =
          "start from the radii or axes that the file has; else, and where it has none, they are estimated"},
-    {.key = "viewpoint",
-     .kind = OPTION_VECTOR,
-     .offset = AT(viewpoint),
-     .value = "x,y,z",
-     .low = 3,
-     .high = 3,
-     .absent = "none",
-     .help = "place that estimated normals point to, such as the scanner's; none: outward"},
-    {.key = "radius-scale",
-     .kind = OPTION_NUMBER,
-     .offset = AT(radius_scale),
-     .value = "S",
-     .range = "(0, inf)",
+    {"viewpoint", OPTION_VECTOR, AT(viewpoint), "x,y,z",
+     .help = "place that estimated normals point to, such as the scanner's; none: outward", .low = 3,
+     .high = 3, .absent = "none"},
+    {"radius-scale", OPTION_NUMBER, AT(radius_scale), "S", "(0, inf)",
      .help = "estimated support radius in units of the local spacing"},
-    {.key = "cutoff",
-     .kind = OPTION_NUMBER,
-     .offset = AT(cutoff),
-     .value = "F",
-     .range = "(0, 4]",
+    {"cutoff", OPTION_NUMBER, AT(cutoff), "F", "(0, 4]",
      .help = "standard deviations at which kernels end: axes are support radius / F long"},
 };
 
@@ -152,10 +119,8 @@ static ewa_cloud *make(cli_session *session, const void *data) {
 
 static int run(const void *data) { return cloud_output_run(data, make); }
 
-static const option_group detection_options = {"Detection", detection_table,
-                                               sizeof detection_table / sizeof detection_table[0]};
-static const option_group surfel_options = {"Surfels", surfel_table,
-                                            sizeof surfel_table / sizeof surfel_table[0]};
+static const option_group detection_options = OPTION_GROUP("Detection", detection_table);
+static const option_group surfel_options = OPTION_GROUP("Surfels", surfel_table);
 static const option_group *const groups[] = {&cloud_output_options, &detection_options, &surfel_options};
 
 const cli_command features_command = {

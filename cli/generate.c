@@ -26,62 +26,25 @@ static const char *const objects[] = {"plane", "checker", "cube", "sphere", "tor
 static const char *const volumes[] = {"checkerbox", "blob", "ball", "vessels"};
 
 static const cli_option object_table[] = {
-    {.key = "points",
-     .letter = 'n',
-     .kind = OPTION_INTEGER,
-     .offset = AT(point_count),
-     .value = "N",
-     .range = "[1, 4294967279]",
-     .help = "about how many points; grids round"},
-    {.key = "seed",
-     .kind = OPTION_INTEGER,
-     .offset = AT(seed),
-     .value = "N",
-     .range = "[0, inf)",
-     .help = "same seed, same bytes, on every machine"},
-    {.key = "extent",
-     .kind = OPTION_NUMBER,
-     .offset = AT(size_world),
-     .value = "SIZE",
-     .range = "(0, inf)",
-     .help =
-         "edge of plane, cube and terrain, outer diameter of sphere and torus, length of csg, longest edge "
-         "of a volume, in world units"},
-    {.key = "jitter",
-     .kind = OPTION_NUMBER,
-     .offset = AT(jitter),
-     .value = "J",
-     .range = "[0, 1]",
+    {"points", OPTION_INTEGER, AT(point_count), "N", "[1, 4294967279]",
+     .help = "about how many points; grids round", .letter = 'n'},
+    {"seed", OPTION_INTEGER, AT(seed), "N", "[0, inf)", .help = "same seed, same bytes, on every machine"},
+    {"extent", OPTION_NUMBER, AT(size_world), "SIZE", "(0, inf)",
+     .help = "edge of plane, cube and terrain, outer diameter of sphere and torus, length of csg, longest "
+             "edge of a volume, in world units"},
+    {"jitter", OPTION_NUMBER, AT(jitter), "J", "[0, 1]",
      .help = "0: a regular grid, 1: anywhere in the cell"},
-    {.key = "checks",
-     .kind = OPTION_NUMBER,
-     .offset = AT(checks),
-     .value = "N",
-     .range = "(0, inf)",
+    {"checks", OPTION_NUMBER, AT(checks), "N", "(0, inf)",
      .help = "squares along an edge of the checkerboard and of the cube's faces, cubes of checkerbox"},
-    {.key = "radius-scale",
-     .kind = OPTION_NUMBER,
-     .offset = AT(radius_scale),
-     .value = "S",
-     .range = "(0, inf)",
-     .absent = "closed for the jitter",
-     .help = "support radius in units of the spacing"},
-    {.key = "positions-only",
-     .kind = OPTION_FLAG,
-     .offset = AT(positions_only),
+    {"radius-scale", OPTION_NUMBER, AT(radius_scale), "S", "(0, inf)",
+     .help = "support radius in units of the spacing", .absent = "closed for the jitter"},
+    {"positions-only", OPTION_FLAG, AT(positions_only),
      .help = "leave out normals and radii, as a scanner does"},
-    {.key = "sharp",
-     .kind = OPTION_FLAG,
-     .offset = AT(sharp),
+    {"sharp", OPTION_FLAG, AT(sharp),
      .help = "cube and csg: clip lines on every edge, and points on the edges"},
-    {.key = "dims",
-     .kind = OPTION_VECTOR,
-     .offset = AT(dims),
-     .value = "x,y,z",
-     .low = 1,
-     .high = 3,
-     .absent = "128,128,128",
-     .help = "volumes: voxels along each axis; one number: along all"},
+    {"dims", OPTION_VECTOR, AT(dims), "x,y,z",
+     .help = "volumes: voxels along each axis; one number: along all", .low = 1, .high = 3,
+     .absent = "128,128,128"},
 };
 
 static void set_defaults(void *data) {
@@ -246,8 +209,7 @@ static int run(const void *data) {
                                  : cloud_output_run(data, make);
 }
 
-static const option_group object_options = {"Object", object_table,
-                                            sizeof object_table / sizeof object_table[0]};
+static const option_group object_options = OPTION_GROUP("Object", object_table);
 static const option_group *const groups[] = {&cloud_output_options, &object_options, &procedure_options,
                                              &textured_options};
 

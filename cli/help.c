@@ -6,6 +6,7 @@
 
 #include <ctype.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -48,7 +49,11 @@ static void format_default(const cli_option *option, const void *defaults, char 
         snprintf(text, TEXT_BYTES, "%s", option->absent);
         return;
     }
+    const ewa_option *of = options_library(option);
     switch (option->kind) {
+    case OPTION_LIBRARY:
+        ewa_option_get(of, (const char *)member - of->offset, text);
+        break;
     case OPTION_FLAG:
     case OPTION_TOGGLE:
     case OPTION_BOUNDS:
@@ -106,16 +111,25 @@ static void format_default(const cli_option *option, const void *defaults, char 
     }
 }
 
+void help_name_value(const cli_option *option, char text[EWA_OPTION_TEXT_BYTES]) {
+    const ewa_option *of = options_library(option);
+    if (option->value || option->range)
+        snprintf(text, EWA_OPTION_TEXT_BYTES, "%s", option->value ? option->value : option->range);
+    else if (of && (of->words || of->type == EWA_OPTION_BOOL))
+        ewa_option_range(of, text);
+    else if (of)
+        for (size_t i = 0; i <= strlen(of->unit ? of->unit : "N"); i++)
+            text[i] = (char)toupper((unsigned char)(of->unit ? of->unit : "N")[i]);
+    else
+        snprintf(text, EWA_OPTION_TEXT_BYTES, "%s", option->kind == OPTION_ON_OFF ? "on|off" : "");
+}
+
 /// Writes "-o, --output FILE".
 static void format_names(const cli_option *option, char text[TEXT_BYTES]) {
-    const bool valued = option->kind != OPTION_FLAG && option->kind != OPTION_TOGGLE;
-    const char *value = option->value                   ? option->value
-                        : option->kind == OPTION_ON_OFF ? "on|off"
-                        : option->range                 ? option->range
-                                                        : "";
-    char letter[8] = "";
+    char letter[8] = "", value[EWA_OPTION_TEXT_BYTES];
+    help_name_value(option, value);
     if (option->letter) snprintf(letter, sizeof letter, "-%c, ", option->letter);
-    snprintf(text, TEXT_BYTES, "%s--%s%s%s%s", letter, option->key, valued ? " " : "", valued ? value : "",
+    snprintf(text, TEXT_BYTES, "%s--%s%s%s%s", letter, option->key, value[0] ? " " : "", value,
              option->kind == OPTION_TOGGLE ? ", --no-" : "");
     if (option->kind == OPTION_TOGGLE) strncat(text, option->key, TEXT_BYTES - strlen(text) - 1);
 }
@@ -132,14 +146,18 @@ static void append_keys(const char *lead, const char *keys, char text[2 * TEXT_B
 
 /// Writes what an option means with what it needs and excludes, its range, default and other names.
 static void format_meaning(const cli_option *option, const void *defaults, char text[2 * TEXT_BYTES]) {
-    char initial[TEXT_BYTES];
+    char initial[TEXT_BYTES], range[EWA_OPTION_TEXT_BYTES] = "";
     format_default(option, defaults, initial);
-    const bool ranged = option->range && option->kind != OPTION_CHOICE;
-    snprintf(text, 2 * TEXT_BYTES, "%s%s%s%s%s%s", option->help,
-             !ranged                      ? ""
+    const ewa_option *of = options_library(option);
+    if (of && !of->words && of->type != EWA_OPTION_BOOL && (isfinite(of->minimum) || isfinite(of->maximum)))
+        ewa_option_range(of, range);
+    else if (option->range && option->kind != OPTION_CHOICE)
+        snprintf(range, sizeof range, "%s", option->range);
+    snprintf(text, 2 * TEXT_BYTES, "%s%s%s%s%s%s", option->help ? option->help : of->help,
+             range[0] == 0                ? ""
              : option->kind == OPTION_SET ? "; of "
                                           : "; in ",
-             ranged ? option->range : "", initial[0] ? " (default: " : "", initial, initial[0] ? ")" : "");
+             range, initial[0] ? " (default: " : "", initial, initial[0] ? ")" : "");
     append_keys("; needs ", option->needs, text);
     append_keys("; not with ", option->excludes, text);
     append_keys("; also ", option->aliases, text);

@@ -19,52 +19,20 @@ typedef struct sample_arguments {
 #define AT(member) offsetof(sample_arguments, member)
 
 static const cli_option sample_table[] = {
-    {.key = "points",
-     .letter = 'n',
-     .kind = OPTION_INTEGER,
-     .offset = AT(point_count),
-     .value = "N",
-     .range = "[1, 4294967279]",
-     .help = "about how many points, within a few percent",
-     .excludes = "spacing"},
-    {.key = "spacing",
-     .kind = OPTION_NUMBER,
-     .offset = AT(spacing_world),
-     .value = "S",
-     .range = "[0, inf)",
-     .absent = "from --points",
-     .help = "square root of the area per point, in world units"},
-    {.key = "seed",
-     .kind = OPTION_INTEGER,
-     .offset = AT(seed),
-     .value = "N",
-     .range = "[0, inf)",
-     .help = "same seed, same points"},
-    {.key = "crease",
-     .kind = OPTION_NUMBER,
-     .offset = AT(crease_degrees),
-     .value = "DEGREES",
-     .range = "[0, 180]",
+    {"points", OPTION_INTEGER, AT(point_count), "N", "[1, 4294967279]",
+     .help = "about how many points, within a few percent", .letter = 'n', .excludes = "spacing"},
+    {"spacing", OPTION_NUMBER, AT(spacing_world), "S", "[0, inf)",
+     .help = "square root of the area per point, in world units", .absent = "from --points"},
+    {"seed", OPTION_INTEGER, AT(seed), "N", "[0, inf)", .help = "same seed, same points"},
+    {"crease", OPTION_NUMBER, AT(crease_degrees), "DEGREES", "[0, 180]",
      .help = "edges that bend by more are sharp"},
-    {.key = "clip-lines",
-     .kind = OPTION_ON_OFF,
-     .offset = AT(clip_lines),
+    {"clip-lines", OPTION_ON_OFF, AT(clip_lines),
      .help = "make sharp edges, corners and borders exact by clip lines"},
-    {.key = "smooth-normals",
-     .kind = OPTION_ON_OFF,
-     .offset = AT(smooth_normals),
+    {"smooth-normals", OPTION_ON_OFF, AT(smooth_normals),
      .help = "interpolate normals across edges that are not sharp; off: those of the triangles"},
-    {.key = "radius-scale",
-     .kind = OPTION_NUMBER,
-     .offset = AT(radius_scale),
-     .value = "S",
-     .range = "[0.5, 10]",
+    {"radius-scale", OPTION_NUMBER, AT(radius_scale), "S", "[0.5, 10]",
      .help = "support radius in units of the spacing"},
-    {.key = "cutoff",
-     .kind = OPTION_NUMBER,
-     .offset = AT(cutoff),
-     .value = "F",
-     .range = "(0, 4]",
+    {"cutoff", OPTION_NUMBER, AT(cutoff), "F", "(0, 4]",
      .help = "standard deviations at which kernels end: axes are support radius / F long"},
 };
 
@@ -148,8 +116,7 @@ static ewa_cloud *make(cli_session *session, const void *data) {
 
 static int run(const void *data) { return cloud_output_run(data, make); }
 
-static const option_group sample_options = {"Sampling", sample_table,
-                                            sizeof sample_table / sizeof sample_table[0]};
+static const option_group sample_options = OPTION_GROUP("Sampling", sample_table);
 static const option_group *const groups[] = {&cloud_output_options, &sample_options, &procedure_options,
                                              &textured_options};
 

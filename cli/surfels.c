@@ -22,62 +22,26 @@ typedef struct surfels_arguments {
 #define AT(member) offsetof(surfels_arguments, member)
 
 static const cli_option estimate_table[] = {
-    {.key = "neighbours",
-     .aliases = "neighbors",
-     .kind = OPTION_INTEGER,
-     .offset = AT(neighbours),
-     .value = "K",
-     .range = "[6, 64]",
-     .help = "nearest neighbours that a point is judged by"},
-    {.key = "orient",
-     .kind = OPTION_CHOICE,
-     .offset = AT(orientation),
-     .range = "propagate|viewpoint|none",
+    {"neighbours", OPTION_INTEGER, AT(neighbours), "K", "[6, 64]",
+     .help = "nearest neighbours that a point is judged by", .aliases = "neighbors"},
+    {"orient", OPTION_CHOICE, AT(orientation), NULL, "propagate|viewpoint|none",
      .help = "side that normals point to: consistent along the surface and outward, towards --viewpoint, or "
-             "as they "
-             "come"},
-    {.key = "viewpoint",
-     .kind = OPTION_VECTOR,
-     .offset = AT(viewpoint),
-     .value = "x,y,z",
-     .low = 3,
-     .high = 3,
-     .absent = "none",
-     .help = "place that normals point to, such as the scanner's; means --orient viewpoint"},
-    {.key = "shape",
-     .kind = OPTION_CHOICE,
-     .offset = AT(shape),
-     .range = "disc|ellipse",
+             "as they come"},
+    {"viewpoint", OPTION_VECTOR, AT(viewpoint), "x,y,z",
+     .help = "place that normals point to, such as the scanner's; means --orient viewpoint", .low = 3,
+     .high = 3, .absent = "none"},
+    {"shape", OPTION_CHOICE, AT(shape), NULL, "disc|ellipse",
      .help = "disc: a radius from the local density; ellipse: two axes from the local anisotropy of the "
              "sampling"},
-    {.key = "radius-scale",
-     .kind = OPTION_NUMBER,
-     .offset = AT(radius_scale),
-     .value = "S",
-     .range = "(0, inf)",
+    {"radius-scale", OPTION_NUMBER, AT(radius_scale), "S", "(0, inf)",
      .help = "support radius in units of the local spacing"},
-    {.key = "cutoff",
-     .kind = OPTION_NUMBER,
-     .offset = AT(cutoff),
-     .value = "F",
-     .range = "(0, 4]",
+    {"cutoff", OPTION_NUMBER, AT(cutoff), "F", "(0, 4]",
      .help = "standard deviations at which kernels end: axes are support radius / F long"},
-    {.key = "keep-normals",
-     .kind = OPTION_ON_OFF,
-     .offset = AT(keep_normals),
-     .help = "keep the normals that the file has"},
-    {.key = "keep-radii",
-     .kind = OPTION_ON_OFF,
-     .offset = AT(keep_radii),
-     .help = "keep the radii or axes that the file has"},
-    {.key = "outliers",
-     .kind = OPTION_NUMBER,
-     .offset = AT(outlier_factor),
-     .value = "FACTOR",
-     .range = "[0, inf)",
+    {"keep-normals", OPTION_ON_OFF, AT(keep_normals), .help = "keep the normals that the file has"},
+    {"keep-radii", OPTION_ON_OFF, AT(keep_radii), .help = "keep the radii or axes that the file has"},
+    {"outliers", OPTION_NUMBER, AT(outlier_factor), "FACTOR", "[0, inf)",
      .help = "remove points whose mean distance to their neighbours is over the mean + FACTOR standard "
-             "deviations of "
-             "all; 0: keep all"},
+             "deviations of all; 0: keep all"},
 };
 
 static void set_defaults(void *data) {
@@ -140,8 +104,7 @@ static ewa_cloud *make(cli_session *session, const void *data) {
 
 static int run(const void *data) { return cloud_output_run(data, make); }
 
-static const option_group estimate_options = {"Estimation", estimate_table,
-                                              sizeof estimate_table / sizeof estimate_table[0]};
+static const option_group estimate_options = OPTION_GROUP("Estimation", estimate_table);
 static const option_group *const groups[] = {&cloud_output_options, &estimate_options};
 
 const cli_command surfels_command = {

@@ -7,28 +7,17 @@
 #define AT(member) offsetof(textured_arguments, member)
 
 static const cli_option table[] = {
-    {.key = "texture",
-     .kind = OPTION_TEXT,
-     .offset = AT(picture),
-     .value = "IMAGE",
-     .absent = "the object's own colours",
+    {"texture", OPTION_TEXT, AT(picture), "IMAGE",
      .help = "picture to put onto the points (PNG, JPEG, OpenEXR, PFM, HDR)",
-     .excludes = "procedure"},
-    {.key = "texture-filter",
-     .kind = OPTION_CHOICE,
-     .offset = AT(filter),
-     .range = "nearest|ewa|optimal",
+     .absent = "the object's own colours", .excludes = "procedure"},
+    {"texture-filter", OPTION_CHOICE, AT(filter), NULL, "nearest|ewa|optimal",
      .help = "nearest: the pixel at the point; ewa: the mean under the surfel; optimal: the sharpest, by "
              "least squares, colours may leave [0, 1]"},
-    {.key = "pixel-sigma",
-     .kind = OPTION_NUMBER,
-     .offset = AT(pixel_sigma_px),
-     .value = "S",
-     .range = "[0.3, 8]",
+    {"pixel-sigma", OPTION_NUMBER, AT(pixel_sigma_px), "S", "[0.3, 8]",
      .help = "standard deviation of the Gaussian that stands for a pixel of the picture, in pixels"},
 };
 
-const option_group textured_options = {"Texture", table, sizeof table / sizeof table[0]};
+const option_group textured_options = OPTION_GROUP("Texture", table);
 
 void textured_set_defaults(textured_arguments *arguments) {
     procedure_set_defaults(&arguments->procedure);

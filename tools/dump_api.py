@@ -35,7 +35,7 @@ def read_header(path):
     macros.pop("EWA_API", None)  # how a symbol is exported, no part of the contract
     text = re.sub(r"^#.*$", "", text, flags=re.M)
     text = text.replace('extern "C" {', "").replace("EWA_API ", "")
-    api = {"constants": macros, "enums": {}, "structs": {}, "callbacks": {}, "functions": {}}
+    api = {"constants": macros, "enums": {}, "structs": {}, "callbacks": {}, "functions": {}, "tables": []}
 
     def take(pattern, store):
         nonlocal text
@@ -59,6 +59,7 @@ def read_header(path):
          lambda match: api["callbacks"].update({match.group(2): squeeze(match.group(1))}))
     take(r"([\w][\w \n*]*?\b(ewa_\w+)\([^;{}]*\));",
          lambda match: api["functions"].update({match.group(2): squeeze(match.group(1))}))
+    take(r"extern const ewa_option_table (\w+);", lambda match: api["tables"].append(match.group(1)))
     rest = text.replace("}", "").strip()
     if rest:
         sys.exit(f"{path.name}: not understood: {squeeze(rest)[:200]}")

@@ -7,6 +7,7 @@
 
 #include "ewa/base.h"
 #include "ewa/cloud.h"
+#include "ewa/options.h"
 #include "ewa/volume.h"
 
 #ifdef __cplusplus
@@ -48,6 +49,7 @@ typedef struct ewa_estimate_options {
                            ///< 0: keep all
 } ewa_estimate_options;
 
+EWA_API extern const ewa_option_table ewa_estimate_options_table;
 EWA_API void ewa_estimate_options_init(ewa_estimate_options *options, size_t struct_size);
 
 /// Adds what a surfel needs and the cloud lacks: "normal", and "radius" or tangent axes.
@@ -103,6 +105,7 @@ typedef struct ewa_csg_options {
                           ///< A", "... B"
 } ewa_csg_options;
 
+EWA_API extern const ewa_option_table ewa_csg_options_table;
 EWA_API void ewa_csg_options_init(ewa_csg_options *options, size_t struct_size);
 
 /// Combines two closed solids of surfels into one with sharp edges where their surfaces meet.
@@ -145,6 +148,7 @@ typedef struct ewa_feature_options {
     bool project;  ///< move the points of an edge onto their plane; default true
 } ewa_feature_options;
 
+EWA_API extern const ewa_option_table ewa_feature_options_table;
 EWA_API void ewa_feature_options_init(ewa_feature_options *options, size_t struct_size);
 
 /// What was found.
@@ -194,6 +198,7 @@ typedef struct ewa_refit_options {
     double cutoff;  ///< F with which the cloud will be drawn; (0, 4]; default 3
 } ewa_refit_options;
 
+EWA_API extern const ewa_option_table ewa_refit_options_table;
 EWA_API void ewa_refit_options_init(ewa_refit_options *options, size_t struct_size);
 
 /// What refitting did; colours are linear.
@@ -252,6 +257,7 @@ typedef struct ewa_generate_options {
     bool texcoords; ///< add "texcoord", "texcoord_s", "texcoord_t" (ewa/acquire.h); default false
 } ewa_generate_options;
 
+EWA_API extern const ewa_option_table ewa_generate_options_table;
 EWA_API void ewa_generate_options_init(ewa_generate_options *options, size_t struct_size);
 
 /// Makes a test object: "position" F32 3, "normal" F32 3 (unit, outward), "color" U8 3 (sRGB), "radius"
@@ -302,6 +308,7 @@ typedef struct ewa_volume_generate_options {
     uint64_t seed;     ///< of EWA_VOLUME_VESSELS; default 0
 } ewa_volume_generate_options;
 
+EWA_API extern const ewa_option_table ewa_volume_generate_options_table;
 EWA_API void ewa_volume_generate_options_init(ewa_volume_generate_options *options, size_t struct_size);
 
 /// Makes a test volume with its middle at the origin, the same bytes on every machine; s is along the longest

@@ -8,6 +8,7 @@
 #include "ewa/base.h"
 #include "ewa/camera.h"
 #include "ewa/cloud.h"
+#include "ewa/options.h"
 #include "ewa/shade.h"
 
 #ifdef __cplusplus
@@ -21,6 +22,7 @@ typedef struct ewa_surfels_options {
     double radius_scale; ///< multiplies every radius and tangent axis; > 0; default 1
 } ewa_surfels_options;
 
+EWA_API extern const ewa_option_table ewa_surfels_options_table;
 EWA_API void ewa_surfels_options_init(ewa_surfels_options *options, size_t struct_size);
 
 /// The resident form of a cloud: Morton order, packets of 16, at most 32 bytes per point, and one
@@ -126,6 +128,7 @@ typedef struct ewa_render_options {
     float background[4]; ///< linear, straight alpha; default transparent black
 } ewa_render_options;
 
+EWA_API extern const ewa_option_table ewa_render_options_table;
 EWA_API void ewa_render_options_init(ewa_render_options *options, size_t struct_size);
 
 /// Where a frame goes: planes of the camera's size, rows from the top, tightly packed; NULL planes are not

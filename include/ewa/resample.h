@@ -14,6 +14,7 @@
 #include "ewa/base.h"
 #include "ewa/camera.h"
 #include "ewa/math.h"
+#include "ewa/options.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -64,6 +65,7 @@ typedef struct ewa_texture_options {
     float background[4];  ///< linear, straight alpha; default transparent black
 } ewa_texture_options;
 
+EWA_API extern const ewa_option_table ewa_texture_options_table;
 EWA_API void ewa_texture_options_init(ewa_texture_options *options, size_t struct_size);
 
 /// What a mapping took.

@@ -8,6 +8,7 @@
 #include "ewa/base.h"
 #include "ewa/camera.h"
 #include "ewa/cloud.h"
+#include "ewa/options.h"
 #include "ewa/render.h"
 
 #ifdef __cplusplus
@@ -61,6 +62,7 @@ typedef struct ewa_warp_options {
     double nearest_world, farthest_world; ///< limits of z; 0 < nearest < farthest; default 1e-6, 1e9
 } ewa_warp_options;
 
+EWA_API extern const ewa_option_table ewa_warp_options_table;
 EWA_API void ewa_warp_options_init(ewa_warp_options *options, size_t struct_size);
 
 /// How a warped picture is made.
