@@ -16,9 +16,9 @@
 typedef struct convert_arguments {
     procedure_arguments procedure; // first
     option_vector crop, transform, scale, translate;
-    double subsample; ///< 0: all points; under 1: a share; else a count
-    int refit;        ///< REFIT_*
-    double cutoff;
+    double subsample;          ///< 0: all points; under 1: a share; else a count
+    int refit;                 ///< REFIT_*
+    ewa_refit_options options; ///< but for the goal
 } convert_arguments;
 
 #define AT(member) offsetof(convert_arguments, member)
@@ -41,16 +41,14 @@ static const cli_option change_table[] = {
     {"refit-colors", OPTION_CHOICE, AT(refit), NULL, "off|interpolate|fit",
      .help = "turn colours into coefficients, so that pictures of the surfels are sharper: they show each "
              "point's colour at the point, or nearly (fit: for noisy or aliased colours)"},
-    {"cutoff", OPTION_NUMBER, AT(cutoff), "F", "(0, 4]",
+    {"cutoff", OPTION_OF(ewa_refit_options, AT(options), cutoff),
      .help = "standard deviations at which kernels end, as for ewa render, where colours are made"},
 };
 
 static void set_defaults(void *data) {
     convert_arguments *arguments = data;
     procedure_set_defaults(&arguments->procedure);
-    ewa_refit_options refit;
-    ewa_refit_options_init(&refit, sizeof refit);
-    arguments->cutoff = refit.cutoff;
+    ewa_refit_options_init(&arguments->options, sizeof arguments->options);
 }
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
@@ -162,11 +160,11 @@ static bool move(cli_session *session, ewa_cloud *cloud, const convert_arguments
 /// Estimates normals and radii that the cloud lacks for new colours; returns false after reporting.
 static bool complete(cli_session *session, ewa_cloud **cloud, const convert_arguments *arguments) {
     const bool wanted = arguments->refit != REFIT_OFF ||
-                        (arguments->procedure.procedure && arguments->procedure.prefilter > 0);
+                        (arguments->procedure.procedure && arguments->procedure.options.prefilter > 0);
     if (!wanted || cloud_is_drawable(*cloud)) return true;
     ewa_estimate_options options;
     ewa_estimate_options_init(&options, sizeof options);
-    options.cutoff = arguments->cutoff;
+    options.cutoff = arguments->options.cutoff;
     const ewa_status status = ewa_cloud_estimate(cloud, &options);
     if (status != EWA_OK) session_failed(session, status);
     return status == EWA_OK;
@@ -175,10 +173,8 @@ static bool complete(cli_session *session, ewa_cloud **cloud, const convert_argu
 /// Turns colours into coefficients.
 static bool refit(cli_session *session, ewa_cloud *cloud, const convert_arguments *arguments) {
     const double started_s = clock_now_s();
-    ewa_refit_options options;
-    ewa_refit_options_init(&options, sizeof options);
+    ewa_refit_options options = arguments->options;
     options.goal = arguments->refit == REFIT_FIT ? EWA_REFIT_FIT : EWA_REFIT_INTERPOLATE;
-    options.cutoff = arguments->cutoff;
     ewa_refit_report report;
     const ewa_status status = ewa_cloud_refit_colors(cloud, &options, &report);
     if (status != EWA_OK)
@@ -214,7 +210,7 @@ static ewa_cloud *make(cli_session *session, const convert_arguments *arguments,
     const bool done = cloud && (!arguments->crop.count || crop(session, &cloud, arguments->crop.values)) &&
                       (arguments->subsample == 0 || subsample(session, &cloud, arguments->subsample)) &&
                       move(session, cloud, arguments) && complete(session, &cloud, arguments) &&
-                      procedure_apply(session, &arguments->procedure, arguments->cutoff, cloud) &&
+                      procedure_apply(session, &arguments->procedure, arguments->options.cutoff, cloud) &&
                       (arguments->refit == REFIT_OFF || refit(session, cloud, arguments));
     if (!done) ewa_cloud_destroy(&cloud);
     if (cloud && ewa_cloud_point_count(cloud) != loaded_count)

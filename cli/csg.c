@@ -10,15 +10,19 @@
 
 typedef struct csg_arguments {
     output_arguments output; // first
-    int operation;
+    ewa_csg_options options;
 } csg_arguments;
 
 #define AT(member) offsetof(csg_arguments, member)
 
 static const cli_option option_table[] = {
-    {"op", OPTION_CHOICE, AT(operation), "OP", "union|intersection|difference",
-     .help = "what to keep; difference: A without B"},
+    {"op", OPTION_OF(ewa_csg_options, AT(options), operation), .value = "OP"},
 };
+
+static void set_defaults(void *data) {
+    csg_arguments *arguments = data;
+    ewa_csg_options_init(&arguments->options, sizeof arguments->options);
+}
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const csg_arguments *arguments = data;
@@ -27,9 +31,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
 
 static ewa_cloud *make(cli_session *session, const void *data) {
     const csg_arguments *arguments = data;
-    ewa_csg_options options;
-    ewa_csg_options_init(&options, sizeof options);
-    options.operation = (ewa_csg_operation)arguments->operation;
+    ewa_csg_options options = arguments->options;
     ewa_cloud *operands[2] = {NULL, NULL}, *result = NULL;
     double estimate_s = 0;
     for (int k = 0; k < 2; k++) {
@@ -72,6 +74,7 @@ const cli_command csg_command = {
     .groups = groups,
     .group_count = sizeof groups / sizeof groups[0],
     .arguments_bytes = sizeof(csg_arguments),
+    .set_defaults = set_defaults,
     .check = check,
     .run = run,
 };

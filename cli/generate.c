@@ -11,13 +11,12 @@
 
 typedef struct generate_arguments {
     textured_arguments textured; // first
-    bool positions_only, sharp;
-    int64_t point_count, seed;
-    double size_world, jitter, checks, radius_scale;
+    ewa_generate_options options;
     option_vector dims;
 } generate_arguments;
 
-#define AT(member) offsetof(generate_arguments, member)
+#define AT(member)       offsetof(generate_arguments, member)
+#define GENERATE(member) OPTION_OF(ewa_generate_options, AT(options), member)
 
 /// In the order of ewa_object.
 static const char *const objects[] = {"plane", "checker", "cube", "sphere", "torus", "terrain", "csg"};
@@ -26,21 +25,19 @@ static const char *const objects[] = {"plane", "checker", "cube", "sphere", "tor
 static const char *const volumes[] = {"checkerbox", "blob", "ball", "vessels"};
 
 static const cli_option object_table[] = {
-    {"points", OPTION_INTEGER, AT(point_count), "N", "[1, 4294967279]",
+    {"points", OPTION_INTEGER, AT(options.point_count), "N", "[1, 4294967279]",
      .help = "about how many points; grids round", .letter = 'n'},
-    {"seed", OPTION_INTEGER, AT(seed), "N", "[0, inf)", .help = "same seed, same bytes, on every machine"},
-    {"extent", OPTION_NUMBER, AT(size_world), "SIZE", "(0, inf)",
+    {"seed", GENERATE(seed)},
+    {"extent", GENERATE(size_world), .value = "SIZE",
      .help = "edge of plane, cube and terrain, outer diameter of sphere and torus, length of csg, longest "
              "edge of a volume, in world units"},
-    {"jitter", OPTION_NUMBER, AT(jitter), "J", "[0, 1]",
-     .help = "0: a regular grid, 1: anywhere in the cell"},
-    {"checks", OPTION_NUMBER, AT(checks), "N", "(0, inf)",
+    {"jitter", GENERATE(jitter)},
+    {"checks", GENERATE(checks),
      .help = "squares along an edge of the checkerboard and of the cube's faces, cubes of checkerbox"},
-    {"radius-scale", OPTION_NUMBER, AT(radius_scale), "S", "(0, inf)",
-     .help = "support radius in units of the spacing", .absent = "closed for the jitter"},
-    {"positions-only", OPTION_FLAG, AT(positions_only),
+    {"radius-scale", GENERATE(radius_scale), .absent = "closed for the jitter"},
+    {"positions-only", OPTION_FLAG, AT(options.positions_only),
      .help = "leave out normals and radii, as a scanner does"},
-    {"sharp", OPTION_FLAG, AT(sharp),
+    {"sharp", OPTION_FLAG, AT(options.sharp),
      .help = "cube and csg: clip lines on every edge, and points on the edges"},
     {"dims", OPTION_VECTOR, AT(dims), "x,y,z",
      .help = "volumes: voxels along each axis; one number: along all", .low = 1, .high = 3,
@@ -49,15 +46,7 @@ static const cli_option object_table[] = {
 
 static void set_defaults(void *data) {
     generate_arguments *arguments = data;
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
-    arguments->point_count = (int64_t)options.point_count;
-    arguments->seed = (int64_t)options.seed;
-    arguments->size_world = options.size_world;
-    arguments->jitter = options.jitter;
-    arguments->checks = options.checks;
-    arguments->radius_scale = options.radius_scale;
-    arguments->positions_only = options.positions_only;
+    ewa_generate_options_init(&arguments->options, sizeof arguments->options);
     textured_set_defaults(&arguments->textured);
 }
 
@@ -76,15 +65,16 @@ static size_t find_word(const char *word, size_t count, const char *const *words
 /// What is wrong with the options for a volume; NULL: nothing.
 static const char *check_volume(const generate_arguments *arguments) {
     const output_arguments *output = &arguments->textured.procedure.output;
-    generate_arguments defaults = {.seed = 0};
-    set_defaults(&defaults);
+    const ewa_generate_options *options = &arguments->options;
+    ewa_generate_options defaults;
+    ewa_generate_options_init(&defaults, sizeof defaults);
     if (!output->path) return "no output; say -o FILE";
     if (!path_has_suffix(output->path, ".nrrd|-"))
         return "generate: this is a volume, which goes to a .nrrd file";
-    if (output->ascii || output->big_endian || arguments->positions_only || arguments->sharp ||
+    if (output->ascii || output->big_endian || options->positions_only || options->sharp ||
         arguments->textured.picture || arguments->textured.procedure.procedure ||
-        arguments->point_count != defaults.point_count || arguments->jitter != defaults.jitter ||
-        arguments->radius_scale != defaults.radius_scale)
+        options->point_count != defaults.point_count || options->jitter != defaults.jitter ||
+        options->radius_scale != defaults.radius_scale)
         return "generate: of a volume are --dims, --extent, --checks and --seed only";
     for (uint32_t k = 0; k < arguments->dims.count; k++) {
         const double side = arguments->dims.values[k];
@@ -117,7 +107,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     }
     if (volume) return true;
     const procedure_arguments *procedure = &arguments->textured.procedure;
-    if (arguments->positions_only && procedure->procedure && procedure->prefilter > 0) {
+    if (arguments->options.positions_only && procedure->procedure && procedure->options.prefilter > 0) {
         snprintf(message, OPTION_ERROR_BYTES, "--procedure with --positions-only needs --prefilter-scale 0");
         return false;
     }
@@ -127,10 +117,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
 /// Puts the picture onto a new object. It goes on where the object closes upon itself.
 static ewa_status add_picture(const textured_arguments *textured, ewa_object object, const ewa_image *picture,
                               ewa_cloud *cloud) {
-    ewa_acquire_options options;
-    ewa_acquire_options_init(&options, sizeof options);
-    options.filter = (ewa_texture_filter)textured->filter;
-    options.pixel_sigma_px = textured->pixel_sigma_px;
+    ewa_acquire_options options = textured->acquire;
     if (object != EWA_OBJECT_SPHERE && object != EWA_OBJECT_TORUS) options.wrap_s = EWA_TEXTURE_CLAMP;
     if (object != EWA_OBJECT_TORUS) options.wrap_t = EWA_TEXTURE_CLAMP;
     const ewa_status status = ewa_cloud_acquire(cloud, picture, 1, &options, NULL);
@@ -145,18 +132,9 @@ static const double GENERATED_CUTOFF = 3;
 
 static ewa_cloud *make(cli_session *session, const void *data) {
     const generate_arguments *arguments = data;
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
+    ewa_generate_options options = arguments->options;
     options.object =
         (ewa_object)find_word(arguments->textured.procedure.output.common.operands[0], OBJECT_COUNT, objects);
-    options.point_count = (uint64_t)arguments->point_count;
-    options.seed = (uint64_t)arguments->seed;
-    options.size_world = arguments->size_world;
-    options.jitter = arguments->jitter;
-    options.checks = arguments->checks;
-    options.radius_scale = arguments->radius_scale;
-    options.positions_only = arguments->positions_only;
-    options.sharp = arguments->sharp;
     ewa_image picture;
     if (!textured_load(session, &arguments->textured, &picture)) return NULL;
     options.texcoords = picture.pixels != NULL;
@@ -181,9 +159,9 @@ static int run_volume(const generate_arguments *arguments, ewa_volume_object obj
     ewa_volume_generate_options options;
     ewa_volume_generate_options_init(&options, sizeof options);
     options.object = object;
-    options.size_world = arguments->size_world;
-    options.checks = arguments->checks;
-    options.seed = (uint64_t)arguments->seed;
+    options.size_world = arguments->options.size_world;
+    options.checks = arguments->options.checks;
+    options.seed = arguments->options.seed;
     const option_vector *dims = &arguments->dims;
     for (uint32_t k = 0; dims->count && k < 3; k++)
         options.dims[k] = (uint32_t)dims->values[dims->count == 1 ? 0 : k];

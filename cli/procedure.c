@@ -6,7 +6,8 @@
 
 #include <stdio.h>
 
-#define AT(member) offsetof(procedure_arguments, member)
+#define AT(member)        offsetof(procedure_arguments, member)
+#define PROCEDURE(member) OPTION_OF(ewa_procedure_options, AT(options), member)
 
 static const cli_option procedure_table[] = {
     {"procedure", OPTION_CHOICE, AT(procedure), NULL, "off|checker|marble|wood|noise",
@@ -14,11 +15,8 @@ static const cli_option procedure_table[] = {
     {"frequency", OPTION_NUMBER, AT(frequency), "F", "(0, 1e9]",
      .help = "features per world unit: cubes, veins, rings, waves", .absent = "8 over the longest side",
      .needs = "procedure"},
-    {"prefilter-scale", OPTION_NUMBER, AT(prefilter), "S", "[0, 10]",
-     .help = "width of the filter in units of the surfel's kernel; 0: none, which aliases",
-     .needs = "procedure"},
-    {"procedure-seed", OPTION_INTEGER, AT(seed), "N", "[0, inf)", .help = "same seed, same noise",
-     .needs = "procedure"},
+    {"prefilter-scale", PROCEDURE(prefilter), .needs = "procedure"},
+    {"procedure-seed", PROCEDURE(seed), .needs = "procedure"},
     {"first-color", OPTION_VECTOR, AT(colors[0]), "r,g,b",
      .help = "linear colour in [0, 1] of one kind of cubes, the stone, early wood, the low", .low = 3,
      .high = 3, .absent = "by --procedure", .needs = "procedure"},
@@ -30,10 +28,7 @@ static const cli_option procedure_table[] = {
 const option_group procedure_options = OPTION_GROUP("Solid texture", procedure_table);
 
 void procedure_set_defaults(procedure_arguments *arguments) {
-    ewa_procedure_options options;
-    ewa_procedure_options_init(&options, EWA_PROCEDURE_CHECKER, sizeof options);
-    arguments->prefilter = options.prefilter;
-    arguments->seed = (int64_t)options.seed;
+    ewa_procedure_options_init(&arguments->options, EWA_PROCEDURE_CHECKER, sizeof arguments->options);
 }
 
 bool procedure_check(const procedure_arguments *arguments, char message[OPTION_ERROR_BYTES]) {
@@ -67,9 +62,9 @@ bool procedure_apply(cli_session *session, const procedure_arguments *arguments,
     ewa_procedure_options options;
     ewa_procedure_options_init(&options, (ewa_procedure)(arguments->procedure - 1), sizeof options);
     options.frequency = arguments->frequency > 0 ? arguments->frequency : fitting_frequency(cloud);
-    options.prefilter = arguments->prefilter;
+    options.prefilter = arguments->options.prefilter;
     options.cutoff = cutoff;
-    options.seed = (uint64_t)arguments->seed;
+    options.seed = arguments->options.seed;
     for (int i = 0; i < 2; i++)
         for (uint32_t c = 0; c < arguments->colors[i].count; c++)
             options.colors[i][c] = (float)arguments->colors[i].values[c];

@@ -11,43 +11,27 @@
 
 typedef struct sample_arguments {
     textured_arguments textured; // first
-    bool clip_lines, smooth_normals;
-    int64_t point_count, seed;
-    double spacing_world, crease_degrees, radius_scale, cutoff;
+    ewa_mesh_sample_options options;
 } sample_arguments;
 
-#define AT(member) offsetof(sample_arguments, member)
+#define AT(member)     offsetof(sample_arguments, member)
+#define SAMPLE(member) OPTION_OF(ewa_mesh_sample_options, AT(options), member)
 
 static const cli_option sample_table[] = {
-    {"points", OPTION_INTEGER, AT(point_count), "N", "[1, 4294967279]",
+    {"points", OPTION_INTEGER, AT(options.point_count), "N", "[1, 4294967279]",
      .help = "about how many points, within a few percent", .letter = 'n', .excludes = "spacing"},
-    {"spacing", OPTION_NUMBER, AT(spacing_world), "S", "[0, inf)",
-     .help = "square root of the area per point, in world units", .absent = "from --points"},
-    {"seed", OPTION_INTEGER, AT(seed), "N", "[0, inf)", .help = "same seed, same points"},
-    {"crease", OPTION_NUMBER, AT(crease_degrees), "DEGREES", "[0, 180]",
-     .help = "edges that bend by more are sharp"},
-    {"clip-lines", OPTION_ON_OFF, AT(clip_lines),
-     .help = "make sharp edges, corners and borders exact by clip lines"},
-    {"smooth-normals", OPTION_ON_OFF, AT(smooth_normals),
-     .help = "interpolate normals across edges that are not sharp; off: those of the triangles"},
-    {"radius-scale", OPTION_NUMBER, AT(radius_scale), "S", "[0.5, 10]",
-     .help = "support radius in units of the spacing"},
-    {"cutoff", OPTION_NUMBER, AT(cutoff), "F", "(0, 4]",
-     .help = "standard deviations at which kernels end: axes are support radius / F long"},
+    {"spacing", SAMPLE(spacing_world), .value = "S", .absent = "from --points"},
+    {"seed", SAMPLE(seed)},
+    {"crease", SAMPLE(crease_degrees)},
+    {"clip-lines", SAMPLE(clip_lines)},
+    {"smooth-normals", SAMPLE(smooth_normals)},
+    {"radius-scale", SAMPLE(radius_scale)},
+    {"cutoff", SAMPLE(cutoff)},
 };
 
 static void set_defaults(void *data) {
     sample_arguments *arguments = data;
-    ewa_mesh_sample_options options;
-    ewa_mesh_sample_options_init(&options, sizeof options);
-    arguments->point_count = (int64_t)options.point_count;
-    arguments->spacing_world = options.spacing_world;
-    arguments->seed = (int64_t)options.seed;
-    arguments->crease_degrees = options.crease_degrees;
-    arguments->clip_lines = options.clip_lines;
-    arguments->smooth_normals = options.smooth_normals;
-    arguments->radius_scale = options.radius_scale;
-    arguments->cutoff = options.cutoff;
+    ewa_mesh_sample_options_init(&arguments->options, sizeof arguments->options);
     textured_set_defaults(&arguments->textured);
 }
 
@@ -74,18 +58,9 @@ static bool load(cli_session *session, const char *path, ewa_model *model) {
 static ewa_cloud *make(cli_session *session, const void *data) {
     const sample_arguments *arguments = data;
     const char *path = arguments->textured.procedure.output.common.operands[0];
-    ewa_mesh_sample_options options;
-    ewa_mesh_sample_options_init(&options, sizeof options);
-    options.point_count = (uint64_t)arguments->point_count;
-    options.spacing_world = arguments->spacing_world;
-    options.seed = (uint64_t)arguments->seed;
-    options.crease_degrees = arguments->crease_degrees;
-    options.clip_lines = arguments->clip_lines;
-    options.smooth_normals = arguments->smooth_normals;
-    options.radius_scale = arguments->radius_scale;
-    options.cutoff = arguments->cutoff;
-    options.texture_filter = (ewa_texture_filter)arguments->textured.filter;
-    options.pixel_sigma_px = arguments->textured.pixel_sigma_px;
+    ewa_mesh_sample_options options = arguments->options;
+    options.texture_filter = arguments->textured.acquire.filter;
+    options.pixel_sigma_px = arguments->textured.acquire.pixel_sigma_px;
     ewa_image picture;
     if (!textured_load(session, &arguments->textured, &picture)) return NULL;
     ewa_model model;
@@ -109,7 +84,7 @@ static ewa_cloud *make(cli_session *session, const void *data) {
     }
     ewa_model_free(&model);
     ewa_image_free(&picture);
-    if (cloud && !procedure_apply(session, &arguments->textured.procedure, arguments->cutoff, cloud))
+    if (cloud && !procedure_apply(session, &arguments->textured.procedure, arguments->options.cutoff, cloud))
         ewa_cloud_destroy(&cloud);
     return cloud;
 }

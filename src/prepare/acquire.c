@@ -33,8 +33,8 @@ typedef struct acquire_job {
 
 static const ewa_option option_rows[] = {
     {"filter", EWA_OPTION_CHOICE, AT(filter), .words = "nearest|ewa|optimal", .initial = EWA_TEXTURE_OPTIMAL,
-     .help = "how pictures come onto the points: the pixel at the centre; the mean under the surfel's "
-             "kernel; what makes the drawn surface differ least from the picture"},
+     .help = "nearest: the pixel at the point; ewa: the mean under the surfel; optimal: the sharpest, by "
+             "least squares, colours may leave [0, 1]"},
     {"fit", EWA_OPTION_CHOICE, AT(fit), .words = "normalized|sum",
      .help = "what optimal colours minimise: the error of the surface as it is drawn, or the paper's sum"},
     {"wrap_s", EWA_OPTION_CHOICE, AT(wrap_s), .words = "repeat|clamp",
