@@ -17,15 +17,14 @@ typedef struct bench_arguments {
     view_arguments view; // first: it begins with the common arguments; only the size is an option here
     uint32_t scenes, cpus;
     option_vector splats, pixels, threads;
-    int64_t frames, edge_layers;
-    int kernel, passes, shading;
+    int64_t frames;
+    ewa_render_options render;
     bool stages;
     const char *json_path;
 } bench_arguments;
 
-enum { ONE_PASS = 0, THREE_PASSES = 1 };
-
-#define AT(member) offsetof(bench_arguments, member)
+#define AT(member)     offsetof(bench_arguments, member)
+#define RENDER(member) OPTION_OF(ewa_render_options, AT(render), member)
 
 static const cli_option work_table[] = {
     {"scene", OPTION_SET, AT(scenes), "NAME,...", BENCH_SCENES, .help = "scenes to make, without inputs",
@@ -37,12 +36,10 @@ static const cli_option work_table[] = {
      .low = 1, .high = OPTION_VECTOR_MAX, .absent = "each scene's own"},
     {"size", OPTION_SIZE, AT(view.size), "WxH", .help = "pixels of the picture", .aliases = "resolution",
      .absent = "each scene's own, mostly 1280x1024"},
-    {"kernel", OPTION_CHOICE, AT(kernel), NULL, "perspective|affine|source|circular|raycast",
-     .help = "as for render"},
-    {"passes", OPTION_CHOICE, AT(passes), NULL, "1|3", .help = "as for render"},
-    {"shading", OPTION_CHOICE, AT(shading), NULL, "none|lambert|phong",
-     .help = "lambert and phong need normals in each pixel, none does not"},
-    {"edge-layers", OPTION_INTEGER, AT(edge_layers), "N", "[1, 8]", .help = "as for render"},
+    {"kernel", RENDER(kernel), .help = "as for render"},
+    {"passes", RENDER(passes), .help = "as for render"},
+    {"shading", RENDER(shading), .help = "lambert and phong need normals in each pixel, none does not"},
+    {"edge-layers", RENDER(edge_layers), .help = "as for render"},
     {"stages", OPTION_ON_OFF, AT(stages),
      .help = "also time what comes before and after a frame, for the first scene: PLY, normals, surfels, "
              "PNG; and clipping"},
@@ -70,12 +67,7 @@ static void set_defaults(void *data) {
     arguments->scenes = (1u << BENCH_SCENE_COUNT) - 1;
     arguments->cpus = 1;
     arguments->frames = 9;
-    ewa_render_options render;
-    ewa_render_options_init(&render, sizeof render);
-    arguments->kernel = (int)render.kernel;
-    arguments->passes = render.passes == 1 ? ONE_PASS : THREE_PASSES;
-    arguments->shading = (int)render.shading;
-    arguments->edge_layers = render.edge_layers;
+    ewa_render_options_init(&arguments->render, sizeof arguments->render);
     arguments->stages = true;
 }
 
@@ -181,11 +173,7 @@ static int run(const void *data) {
     if (!session_start(&bench.session, &arguments->view.common))
         return session_end(&bench.session, EXIT_FAILED);
     make_plan(&bench);
-    ewa_render_options_init(&bench.render, sizeof bench.render);
-    bench.render.kernel = (ewa_kernel)arguments->kernel;
-    bench.render.passes = arguments->passes == ONE_PASS ? 1 : 3;
-    bench.render.shading = (ewa_shading)arguments->shading;
-    bench.render.edge_layers = (uint32_t)arguments->edge_layers;
+    bench.render = arguments->render;
     text_file text = {.file = NULL};
     json_writer json;
     const char *json_path = arguments->json_path;

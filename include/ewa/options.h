@@ -57,6 +57,9 @@ typedef struct ewa_option_table {
     size_t struct_size;
 } ewa_option_table;
 
+/// That of ewa_context_options; each other header has its own.
+EWA_API extern const ewa_option_table ewa_context_options_table;
+
 enum { EWA_OPTION_TEXT_BYTES = 256 };
 
 /// Returns the option of that name, NULL when the table has none. Any thread.
