@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Help and the page docs/cli.md, from the option tables.
+#include "json.h"
 #include "options.h"
 
 #include <ctype.h>
@@ -9,6 +10,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "ewa/ewa.h"
 
 enum { LEFT_COLUMNS = 30, ALL_COLUMNS = 100, TEXT_BYTES = 512 };
 
@@ -193,6 +196,47 @@ static void print_group_markdown(FILE *file, const option_group *group, const vo
     }
 }
 
+static const ewa_option_table *const tables[] = {
+    &ewa_acquire_options_table,     &ewa_cloud_save_options_table,
+    &ewa_context_options_table,     &ewa_csg_options_table,
+    &ewa_estimate_options_table,    &ewa_feature_options_table,
+    &ewa_generate_options_table,    &ewa_image_save_options_table,
+    &ewa_mesh_sample_options_table, &ewa_material_table,
+    &ewa_procedure_options_table,   &ewa_refit_options_table,
+    &ewa_render_options_table,      &ewa_surfels_options_table,
+    &ewa_texture_options_table,     &ewa_volume_generate_options_table,
+    &ewa_volume_load_options_table, &ewa_volume_options_table,
+    &ewa_volume_save_options_table, &ewa_voxels_options_table,
+    &ewa_warp_options_table};
+
+static void print_option_json(json_writer *json, const ewa_option *option) {
+    static const char *const types[] = {"bool", "choice", "u32", "u64", "f32", "f64"};
+    char range[EWA_OPTION_TEXT_BYTES];
+    ewa_option_range(option, range);
+    json_object(json, option->name);
+    json_text(json, "type", types[option->type]);
+    if (option->count) json_count(json, "count", option->count);
+    json_text(json, "range", range);
+    if (option->initials)
+        json_vector(json, "default", option->count, option->initials);
+    else
+        json_number(json, "default", option->initial);
+    if (option->unit) json_text(json, "unit", option->unit);
+    json_text(json, "help", option->help);
+    json_close(json, '}');
+}
+
+void help_print_json(FILE *file) {
+    json_writer json;
+    json_start(&json, file);
+    for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++) {
+        json_object(&json, tables[i]->name);
+        for (size_t k = 0; k < tables[i]->option_count; k++) print_option_json(&json, &tables[i]->options[k]);
+        json_close(&json, '}');
+    }
+    json_end(&json);
+}
+
 /// The defaults of a command, to be freed; NULL when memory is short.
 static void *make_defaults(const cli_command *command) {
     void *defaults = malloc(command->arguments_bytes);
@@ -231,7 +275,8 @@ void help_print_program(FILE *file, size_t count, const cli_command *const *comm
     fputs("\nOptions:\n"
           "  -h, --help        print this help; 'ewa COMMAND --help' prints a command's\n"
           "  --version         print the version\n"
-          "  --help-markdown   print the help of all commands as Markdown\n\n"
+          "  --help-markdown   print the help of all commands as Markdown\n"
+          "  --help-json       print the library's tables of options as JSON\n\n"
           "Exit status: 0 done, 1 the work failed, 2 wrong usage.\n",
           file);
 }

@@ -158,7 +158,8 @@ typedef struct ewa_volume_load_options {
     int type;                ///< ewa_type of raw numbers; default -1: from the file's name, or EWA_U8
     bool big_endian;         ///< of raw numbers; default false
     uint64_t header_bytes;   ///< in front of raw numbers; default 0
-    double spacing_world[3]; ///< distances of voxels, of every format; default zeros: as the file says, or 1
+    double spacing_world[3]; ///< distances of voxels, of every format; [0, inf); default zeros: as the file
+                             ///< says, or 1
 } ewa_volume_load_options;
 
 EWA_API extern const ewa_option_table ewa_volume_load_options_table;

@@ -38,15 +38,16 @@ typedef struct ewa_estimate_options {
     ewa_orientation orientation;
     double viewpoint_world[3]; ///< for EWA_ORIENT_VIEWPOINT
     ewa_surfel_shape shape;
-    double radius_scale; ///< support radius in units of the local spacing 1/sqrt(density); > 0; default 1.14
+    double radius_scale; ///< support radius in units of the local spacing 1/sqrt(density); (0, inf); default
+                         ///< 1.14
     /// Radii that close gaps are at most this many times the median spacing of the places around, a third
-    /// more where samples are on lines; gaps that need more stay open; >= 1; default 2.75
+    /// more where samples are on lines; gaps that need more stay open; [1, inf); default 2.75
     double radius_limit;
-    double cutoff;         ///< F: tangent axes are radius / F long; default 3
+    double cutoff;         ///< F: tangent axes are radius / F long; (0, 4]; default 3
     bool keep_normals;     ///< keep "normal" when the cloud has it; default true
     bool keep_radii;       ///< keep "radius" or tangent axes when the cloud has them; default true
     double outlier_factor; ///< remove points whose mean neighbour distance exceeds mean + factor * deviation;
-                           ///< 0: keep all
+                           ///< 0: keep all; [0, inf)
 } ewa_estimate_options;
 
 EWA_API extern const ewa_option_table ewa_estimate_options_table;
@@ -142,9 +143,9 @@ typedef struct ewa_feature_options {
                               ///< 64 for noisy ones; default 0
     double angle_deg; ///< least angle between the normals of two planes that meet in an edge; [10, 120];
                       ///< default 30
-    double noise;  ///< standard deviation of the points from the surface in units of the spacing; [0, 1], or
-                   ///< negative: measured; default -1
-    double cutoff; ///< F: axes made of "radius" are radius / F long; default 3
+    double noise;  ///< standard deviation of the points from the surface in units of the spacing; (-inf,
+                   ///< 1]; negative: measured; default -1
+    double cutoff; ///< F: axes made of "radius" are radius / F long; (0, 4]; default 3
     bool project;  ///< move the points of an edge onto their plane; default true
 } ewa_feature_options;
 
@@ -303,8 +304,9 @@ typedef struct ewa_volume_generate_options {
     size_t struct_size;
     ewa_volume_object object;
     uint32_t dims[3];  ///< default 128, 128, 128; each >= 2
-    double size_world; ///< distance of the outermost voxels along the longest axis; cubes; > 0; default 1
-    double checks;     ///< of EWA_VOLUME_CHECKERBOX; > 0; default 8
+    double size_world; ///< distance of the outermost voxels along the longest axis; cubes; (0, inf);
+                       ///< default 1
+    double checks;     ///< of EWA_VOLUME_CHECKERBOX; (0, 1e6]; default 8
     uint64_t seed;     ///< of EWA_VOLUME_VESSELS; default 0
 } ewa_volume_generate_options;
 

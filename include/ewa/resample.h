@@ -62,7 +62,7 @@ typedef struct ewa_texture_options {
     double
         point_spacing_px; ///< hybrid: texels not farther apart than this are points; [0.05, 1]; default 0.5
     bool repeat;          ///< the texture fills its whole plane; not for EWA_TEXTURE_SPLAT; default false
-    float background[4];  ///< linear, straight alpha; default transparent black
+    float background[4];  ///< linear, [0, 1e6], straight alpha; default transparent black
 } ewa_texture_options;
 
 EWA_API extern const ewa_option_table ewa_texture_options_table;

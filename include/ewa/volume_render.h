@@ -98,7 +98,7 @@ typedef struct ewa_volume_options {
     ewa_light lights[EWA_MAX_LIGHTS];
     uint32_t light_count;  ///< of `lights`; 0 (default): one white headlight
     ewa_material material; ///< reflection is not used; default ewa_material_init()
-    float background[4];   ///< linear, straight alpha; default transparent black
+    float background[4];   ///< linear, [0, 1e15], straight alpha; default transparent black
     /// Opaque surfaces within the volume, as ewa_render() gives them (frame.depth and frame.rgba): planes of
     /// the camera's size, borrowed during the call. What lies behind surface_depth (camera-space z) is not
     /// drawn, the rest over surface_rgba (linear, premultiplied), which then replaces the background. Both

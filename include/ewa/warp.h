@@ -56,10 +56,12 @@ typedef struct ewa_warp_options {
     double depth_jump;
     /// Steps of a sensor's depths at distance 1, which grow with the square of the distance, as those of
     /// cameras that find shifts do: keys 1/z that differ by little more are averaged over 5 x 5 pixels; in
-    /// 1 / world units, 0.0036 per metre for a first Kinect. 0 (default): depths are taken as they are.
+    /// 1 / world units, 0.0036 per metre for a first Kinect. [0, 1e6]; 0 (default): depths are taken as they
+    /// are.
     double depth_noise;
     bool drop_flying; ///< mask what hangs between two surfaces that it does not belong to; default true
-    double nearest_world, farthest_world; ///< limits of z; 0 < nearest < farthest; default 1e-6, 1e9
+    double nearest_world;  ///< least z; [1e-9, 1e12]; default 1e-6
+    double farthest_world; ///< largest z, above nearest_world; [1e-9, 1e12]; default 1e9
 } ewa_warp_options;
 
 EWA_API extern const ewa_option_table ewa_warp_options_table;
