@@ -202,8 +202,6 @@ static int run(const void *data) {
 
 static const option_group work_options = OPTION_GROUP("Work", work_table);
 static const option_group measure_options = OPTION_GROUP("Measurement", measure_table);
-static const option_group *const groups[] = {&work_options, &measure_options};
-
 const cli_command bench_command = {
     .name = "bench",
     .operands = "[IN...]",
@@ -228,8 +226,7 @@ const cli_command bench_command = {
                 "ewa bench --scene plane --splats 1e6 --pixels 9 --cpu all,avx2\n"
                 "ewa bench scan.ply --size 1920x1080\n",
     .high_operands = 64,
-    .groups = groups,
-    .group_count = sizeof groups / sizeof groups[0],
+    .groups = (const option_group *const[]){&work_options, &measure_options, NULL},
     .arguments_bytes = sizeof(bench_arguments),
     .set_defaults = set_defaults,
     .run = run,

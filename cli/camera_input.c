@@ -86,7 +86,7 @@ bool camera_input_load(cli_session *session, const char *path, uint32_t index, c
         return false;
     }
     session->subject = path;
-    ewa_camera_init(camera, sizeof *camera);
+    ewa_camera_init(camera);
     const ewa_status status = ewa_camera_load(session->context, path, index, camera);
     if (status != EWA_OK) session_failed(session, status);
     session->subject = NULL;

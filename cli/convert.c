@@ -232,8 +232,6 @@ static int run(const void *data) {
 }
 
 static const option_group change_options = OPTION_GROUP("Changes, in this order", change_table);
-static const option_group *const groups[] = {&cloud_output_options, &change_options, &procedure_options};
-
 const cli_command convert_command = {
     .name = "convert",
     .operands = "IN... -o OUT",
@@ -251,8 +249,7 @@ const cli_command convert_command = {
                 "ewa convert mm.ply -o m.ply --scale 0.001 --crop -1,-1,0,1,1,2\n",
     .low_operands = 1,
     .high_operands = 4096,
-    .groups = groups,
-    .group_count = sizeof groups / sizeof groups[0],
+    .groups = (const option_group *const[]){&cloud_output_options, &change_options, &procedure_options, NULL},
     .arguments_bytes = sizeof(convert_arguments),
     .set_defaults = set_defaults,
     .check = check,

@@ -57,8 +57,6 @@ static ewa_cloud *make(cli_session *session, const void *data) {
 static int run(const void *data) { return cloud_output_run(data, make); }
 
 static const option_group csg_options = OPTION_GROUP("Combination", option_table);
-static const option_group *const groups[] = {&cloud_output_options, &csg_options};
-
 const cli_command csg_command = {
     .name = "csg",
     .operands = "A B --op OP -o OUT",
@@ -71,8 +69,7 @@ const cli_command csg_command = {
                 "ewa render cut.ply -o cut.png --cull back\n",
     .low_operands = 2,
     .high_operands = 2,
-    .groups = groups,
-    .group_count = sizeof groups / sizeof groups[0],
+    .groups = (const option_group *const[]){&cloud_output_options, &csg_options, NULL},
     .arguments_bytes = sizeof(csg_arguments),
     .set_defaults = set_defaults,
     .check = check,

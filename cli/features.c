@@ -92,8 +92,6 @@ static int run(const void *data) { return cloud_output_run(data, make); }
 
 static const option_group detection_options = OPTION_GROUP("Detection", detection_table);
 static const option_group surfel_options = OPTION_GROUP("Surfels", surfel_table);
-static const option_group *const groups[] = {&cloud_output_options, &detection_options, &surfel_options};
-
 const cli_command features_command = {
     .name = "features",
     .operands = "IN -o OUT",
@@ -104,8 +102,7 @@ const cli_command features_command = {
                 "ewa features scan.ply -o sharp.ply --angle 45 --neighbours 48\n",
     .low_operands = 1,
     .high_operands = 1,
-    .groups = groups,
-    .group_count = sizeof groups / sizeof groups[0],
+    .groups = (const option_group *const[]){&cloud_output_options, &detection_options, &surfel_options, NULL},
     .arguments_bytes = sizeof(features_arguments),
     .set_defaults = set_defaults,
     .check = check,

@@ -188,9 +188,6 @@ static int run(const void *data) {
 }
 
 static const option_group object_options = OPTION_GROUP("Object", object_table);
-static const option_group *const groups[] = {&cloud_output_options, &object_options, &procedure_options,
-                                             &textured_options};
-
 const cli_command generate_command = {
     .name = "generate",
     .operands = "KIND -o OUT",
@@ -212,8 +209,8 @@ const cli_command generate_command = {
                 "ewa generate vessels -o vessels.nrrd --dims 256\n",
     .low_operands = 1,
     .high_operands = 1,
-    .groups = groups,
-    .group_count = sizeof groups / sizeof groups[0],
+    .groups = (const option_group *const[]){&cloud_output_options, &object_options, &procedure_options,
+                                            &textured_options, NULL},
     .arguments_bytes = sizeof(generate_arguments),
     .set_defaults = set_defaults,
     .check = check,

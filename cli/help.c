@@ -253,7 +253,8 @@ void help_print_command(FILE *file, const cli_command *command) {
         fputc('\n', file);
         print_wrapped(file, command->details, 0, 0);
     }
-    for (size_t i = 0; i < command->group_count; i++) print_group(file, command->groups[i], defaults);
+    for (const option_group *const *group = command->groups; *group; group++)
+        print_group(file, *group, defaults);
     print_group(file, &common_options, defaults);
     fprintf(file, "\nExamples:\n");
     for (const char *line = command->examples; *line;) {
@@ -299,8 +300,8 @@ void help_print_markdown(FILE *file, size_t count, const cli_command *const *com
                 command->operands, toupper((unsigned char)command->summary[0]), command->summary + 1);
         if (command->details) fprintf(file, "\n%s\n", command->details);
         fprintf(file, "\n```sh\n%s```\n", command->examples);
-        for (size_t j = 0; j < command->group_count; j++)
-            print_group_markdown(file, command->groups[j], defaults);
+        for (const option_group *const *group = command->groups; *group; group++)
+            print_group_markdown(file, *group, defaults);
         print_group_markdown(file, &common_options, defaults);
         free(defaults);
     }

@@ -394,8 +394,6 @@ static int run(const void *data) {
 
 static const option_group info_options = OPTION_GROUP("Output", table);
 static const option_group volume_options = OPTION_GROUP("Raw volumes", volume_table);
-static const option_group *const groups[] = {&info_options, &volume_options};
-
 static void set_defaults(void *data) { volume_input_set_defaults(&((info_arguments *)data)->volume); }
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
@@ -416,8 +414,7 @@ const cli_command info_command = {
                 "ewa info scan.nii.gz\n",
     .low_operands = 1,
     .high_operands = 4096,
-    .groups = groups,
-    .group_count = sizeof groups / sizeof groups[0],
+    .groups = (const option_group *const[]){&info_options, &volume_options, NULL},
     .arguments_bytes = sizeof(info_arguments),
     .set_defaults = set_defaults,
     .check = check,

@@ -269,12 +269,10 @@ static bool name_is(const char *names, const char *word, size_t length) {
 }
 
 const cli_option *options_at(const cli_command *command, size_t index) {
-    for (size_t i = 0; i <= command->group_count; i++) {
-        const option_group *group = i < command->group_count ? command->groups[i] : &common_options;
-        if (index < group->count) return &group->options[index];
-        index -= group->count;
-    }
-    return NULL;
+    const option_group *const *group = command->groups;
+    for (; *group && index >= (*group)->count; group++) index -= (*group)->count;
+    if (*group) return &(*group)->options[index];
+    return index < common_options.count ? &common_options.options[index] : NULL;
 }
 
 /// Index of the option whose long name has `length` bytes; `*negated` is set for the --no- form of a toggle.

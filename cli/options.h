@@ -118,8 +118,7 @@ typedef struct cli_command {
     const char *details;  ///< further paragraphs of the help
     const char *examples; ///< lines to type
     size_t low_operands, high_operands;
-    const option_group *const *groups; ///< without common_options
-    size_t group_count;
+    const option_group *const *groups; ///< without common_options; NULL after the last
     size_t arguments_bytes; ///< of the struct that begins with common_arguments
     /// Sets what is not zero by default.
     void (*set_defaults)(void *arguments);

@@ -298,14 +298,9 @@ static int run(const void *data) {
     return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
 }
 
-#define COUNT(table) (sizeof(table) / sizeof(table)[0])
-
 static const option_group output_options = OPTION_GROUP("Output", output_table);
 static const option_group splat_options = OPTION_GROUP("Splats", splat_table);
 static const option_group look_options = OPTION_GROUP("Look", look_table);
-static const option_group *const groups[] = {&output_options, &view_options,  &frames_options,
-                                             &splat_options,  &light_options, &look_options};
-
 const cli_command render_command = {
     .name = "render",
     .operands = "IN... -o OUT",
@@ -335,8 +330,8 @@ const cli_command render_command = {
         "ewa render scan.ply -o fly_%04d.png --path keys.json --frames 300\n",
     .low_operands = 1,
     .high_operands = 4096,
-    .groups = groups,
-    .group_count = COUNT(groups),
+    .groups = (const option_group *const[]){&output_options, &view_options, &frames_options, &splat_options,
+                                            &light_options, &look_options, NULL},
     .arguments_bytes = sizeof(render_arguments),
     .set_defaults = set_defaults,
     .check = check,

@@ -92,9 +92,6 @@ static ewa_cloud *make(cli_session *session, const void *data) {
 static int run(const void *data) { return cloud_output_run(data, make); }
 
 static const option_group sample_options = OPTION_GROUP("Sampling", sample_table);
-static const option_group *const groups[] = {&cloud_output_options, &sample_options, &procedure_options,
-                                             &textured_options};
-
 const cli_command sample_command = {
     .name = "sample",
     .operands = "MESH -o OUT",
@@ -109,8 +106,8 @@ const cli_command sample_command = {
                 "ewa sample model.glb -o - | ewa render - -o model.png\n",
     .low_operands = 1,
     .high_operands = 1,
-    .groups = groups,
-    .group_count = sizeof groups / sizeof groups[0],
+    .groups = (const option_group *const[]){&cloud_output_options, &sample_options, &procedure_options,
+                                            &textured_options, NULL},
     .arguments_bytes = sizeof(sample_arguments),
     .set_defaults = set_defaults,
     .check = check,

@@ -76,8 +76,6 @@ static ewa_cloud *make(cli_session *session, const void *data) {
 static int run(const void *data) { return cloud_output_run(data, make); }
 
 static const option_group estimate_options = OPTION_GROUP("Estimation", estimate_table);
-static const option_group *const groups[] = {&cloud_output_options, &estimate_options};
-
 const cli_command surfels_command = {
     .name = "surfels",
     .operands = "IN -o OUT",
@@ -89,8 +87,7 @@ const cli_command surfels_command = {
                 "ewa surfels lines.ply -o ellipses.ply --shape ellipse --keep-normals off\n",
     .low_operands = 1,
     .high_operands = 1,
-    .groups = groups,
-    .group_count = sizeof groups / sizeof groups[0],
+    .groups = (const option_group *const[]){&cloud_output_options, &estimate_options, NULL},
     .arguments_bytes = sizeof(surfels_arguments),
     .set_defaults = set_defaults,
     .check = check,

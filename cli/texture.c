@@ -114,7 +114,7 @@ static bool make_map(cli_session *session, const texture_arguments *arguments, c
                      ewa_mat3 *map, ewa_camera *camera) {
     const bool flat = arguments->homography.count || arguments->corners.count;
     ewa_status status = EWA_OK;
-    ewa_camera_init(camera, sizeof *camera);
+    ewa_camera_init(camera);
     if (flat) {
         const option_size *size = &arguments->view.size;
         camera->width_px = size->given ? size->width_px : image->width_px;
@@ -206,8 +206,6 @@ static int run(const void *data) {
 static const option_group output_options = OPTION_GROUP("Output", output_table);
 static const option_group map_options = OPTION_GROUP("Map", map_table);
 static const option_group filter_options = OPTION_GROUP("Filter", filter_table);
-static const option_group *const groups[] = {&output_options, &map_options, &view_options, &filter_options};
-
 const cli_command texture_command = {
     .name = "texture",
     .operands = "IMAGE -o OUT",
@@ -228,8 +226,8 @@ const cli_command texture_command = {
                 "ewa texture photo.png -o shifted.exr --homography 1,0,8,0,1,3,0,0,1 --method splat\n",
     .low_operands = 1,
     .high_operands = 1,
-    .groups = groups,
-    .group_count = sizeof groups / sizeof groups[0],
+    .groups =
+        (const option_group *const[]){&output_options, &map_options, &view_options, &filter_options, NULL},
     .arguments_bytes = sizeof(texture_arguments),
     .set_defaults = set_defaults,
     .check = check,

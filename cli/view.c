@@ -98,7 +98,7 @@ static void turn_direction(const view_arguments *arguments, const double axis_wo
                            double up_world[3]) {
     static const double origin[3] = {0, 0, 0};
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     ewa_camera_look_at(&camera, origin, direction, up_world);
     ewa_camera_orbit(&camera, origin, axis_world, arguments->azimuth_deg);
     const double *m = camera.world_to_camera, right[3] = {m[0], m[1], m[2]};
@@ -190,7 +190,7 @@ static ewa_status set_lens(const view_arguments *arguments, ewa_camera *camera) 
 bool view_load_lens(cli_session *session, const view_arguments *arguments, const char *path,
                     ewa_camera *lens) {
     session->subject = NULL;
-    ewa_camera_init(lens, sizeof *lens);
+    ewa_camera_init(lens);
     const ewa_status status = set_lens(arguments, lens);
     if (status != EWA_OK) session_failed(session, status);
     if (status != EWA_OK || !camera_input_is_poses(path)) return status == EWA_OK;
@@ -275,7 +275,7 @@ static ewa_status place_camera(cli_session *session, const view_arguments *argum
 
 bool view_make(cli_session *session, const view_arguments *arguments, const ewa_cloud *cloud,
                double radius_scale, ewa_camera *camera, view_turn *turn) {
-    ewa_camera_init(camera, sizeof *camera);
+    ewa_camera_init(camera);
     if (arguments->camera_path && !load_camera(session, arguments, camera)) return false;
     if (arguments->camera_path && !turn) return true;
     cloud_framing framing;

@@ -24,7 +24,6 @@ typedef struct volume_arguments {
 
 #define AT(member)     offsetof(volume_arguments, member)
 #define VOLUME(member) OPTION_OF(ewa_volume_options, AT(scene.options), member)
-#define COUNT(table)   (sizeof(table) / sizeof(table)[0])
 
 _Static_assert(offsetof(volume_arguments, light) == LIGHT_OFFSET, "light_check() and light_apply() say so");
 
@@ -161,7 +160,7 @@ static void fill_edges(volume_painter *painter) {
 static void free_planes(volume_painter *painter) {
     ewa_image *const planes[] = {&painter->surface, &painter->surface_depth, &painter->past, &painter->front,
                                  &painter->nothing};
-    for (size_t i = 0; i < COUNT(planes); i++) ewa_image_free(planes[i]);
+    for (size_t i = 0; i < sizeof planes / sizeof planes[0]; i++) ewa_image_free(planes[i]);
 }
 
 /// Makes the planes of the surfaces in the size of the camera's picture.
@@ -361,9 +360,6 @@ static const option_group output_options = OPTION_GROUP("Output", output_table);
 static const option_group input_options = OPTION_GROUP("Raw volumes", input_table);
 static const option_group voxel_options = OPTION_GROUP("Voxels", voxel_table);
 static const option_group look_options = OPTION_GROUP("Look", look_table);
-static const option_group *const groups[] = {&output_options, &input_options, &view_options,
-                                             &frames_options, &voxel_options, &look_options};
-
 const cli_command volume_command = {
     .name = "volume",
     .operands = "VOL -o OUT",
@@ -384,8 +380,8 @@ const cli_command volume_command = {
                 "ewa volume fog.nrrd -o foggy.png --transfer fog --surfels bunny.ply\n",
     .low_operands = 1,
     .high_operands = 1,
-    .groups = groups,
-    .group_count = COUNT(groups),
+    .groups = (const option_group *const[]){&output_options, &input_options, &view_options, &frames_options,
+                                            &voxel_options, &look_options, NULL},
     .arguments_bytes = sizeof(volume_arguments),
     .set_defaults = set_defaults,
     .check = check,

@@ -211,14 +211,9 @@ static int run(const void *data) {
     return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
 }
 
-#define COUNT(table) (sizeof(table) / sizeof(table)[0])
-
 static const option_group output_options = OPTION_GROUP("Output", output_table);
 static const option_group target_options = OPTION_GROUP("New camera", target_table);
 static const option_group warp_options = OPTION_GROUP("Warping", warp_table);
-static const option_group *const groups[] = {&output_options, &source_options, &target_options,
-                                             &warp_options};
-
 const cli_command warp_command = {
     .name = "warp",
     .operands = "COLOR DEPTH [COLOR DEPTH...] --camera FILE -o OUT",
@@ -239,8 +234,8 @@ const cli_command warp_command = {
         "--baseline 193.001 --disparity-offset 31.086 --shift 193,0,0 -o right.png\n",
     .low_operands = 2,
     .high_operands = 2 * WARP_MAX_SOURCES,
-    .groups = groups,
-    .group_count = COUNT(groups),
+    .groups =
+        (const option_group *const[]){&output_options, &source_options, &target_options, &warp_options, NULL},
     .arguments_bytes = sizeof(warp_arguments),
     .set_defaults = set_defaults,
     .check = check,

@@ -131,7 +131,7 @@ static bool load_camera(cli_session *session, const source_arguments *arguments,
 /// Sets a camera of the size of a depth image, with the lens of --intrinsics. Returns false after reporting.
 static bool load_lens(cli_session *session, const source_arguments *arguments, const char *depth_path,
                       const ewa_image *depth, ewa_camera *lens) {
-    ewa_camera_init(lens, sizeof *lens);
+    ewa_camera_init(lens);
     lens->width_px = depth->width_px;
     lens->height_px = depth->height_px;
     if (!arguments->intrinsics) return true;
@@ -174,7 +174,7 @@ static bool load_pair(cli_session *session, const source_arguments *arguments, u
         session_note(session, "%s: depths are taken as 1/%g units; --depth-scale says otherwise", depth_path,
                      standard);
     ewa_depth_image *image = &sources->images[pair];
-    ewa_depth_image_init(image, sizeof *image);
+    ewa_depth_image_init(image);
     image->depth = depth->pixels;
     image->depth_type = EWA_F32;
     image->kind = (ewa_depth_kind)arguments->depth_kind;

@@ -24,7 +24,6 @@ typedef enum ewa_depth_kind {
 
 /// A picture with depths, borrowed while it is taken; nothing is copied. Fill with ewa_depth_image_init().
 typedef struct ewa_depth_image {
-    size_t struct_size;
     /// That took it; perspective; focal lengths, principal point and scale within 1e-6 to 1e6; its size is
     /// that of both planes.
     ewa_camera camera;
@@ -41,7 +40,7 @@ typedef struct ewa_depth_image {
     size_t color_stride_bytes;    ///< between rows; 0: tightly packed
 } ewa_depth_image;
 
-EWA_API void ewa_depth_image_init(ewa_depth_image *image, size_t struct_size);
+EWA_API void ewa_depth_image_init(ewa_depth_image *image);
 
 /// How samples become surfels. Fill with ewa_warp_options_init().
 ///

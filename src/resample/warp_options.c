@@ -16,11 +16,10 @@
 /// Limit of focal lengths, principal points and scales, and the inverse of the least one.
 static const double MOST_CAMERA = 1e6;
 
-void ewa_depth_image_init(ewa_depth_image *image, size_t struct_size) {
-    if (!image || struct_size < sizeof *image) return;
-    memset(image, 0, struct_size);
-    image->struct_size = struct_size;
-    ewa_camera_init(&image->camera, sizeof image->camera);
+void ewa_depth_image_init(ewa_depth_image *image) {
+    if (!image) return;
+    memset(image, 0, sizeof *image);
+    ewa_camera_init(&image->camera);
     image->depth_scale = 1;
     image->color_channel_count = 3;
     image->color_type = EWA_U8;
@@ -133,8 +132,6 @@ static ewa_status check_color(ewa_context *context, uint32_t number, const ewa_d
 
 ewa_status ewa_depth_image_choose(ewa_context *context, uint32_t number, const ewa_depth_image *given,
                                   ewa_depth_image *chosen) {
-    if (given->struct_size != sizeof *chosen)
-        return fail_image(context, number, "struct_size is not that of ewa_depth_image_init()");
     *chosen = *given;
     ewa_status status = ewa_camera_check(context, &chosen->camera);
     if (status == EWA_OK) status = check_lens(context, number, &chosen->camera);

@@ -44,14 +44,12 @@ static const cli_option sample_table[] = {
 };
 
 static const option_group sample_group = OPTION_GROUP("Sample", sample_table);
-static const option_group *const sample_groups[] = {&sample_group};
 static const cli_command sample = {.name = "sample",
                                    .operands = "[IN...]",
                                    .summary = "s",
                                    .examples = "e\n",
                                    .high_operands = 3,
-                                   .groups = sample_groups,
-                                   .group_count = 1,
+                                   .groups = (const option_group *const[]){&sample_group, NULL},
                                    .arguments_bytes = sizeof(sample_arguments)};
 
 static sample_arguments arguments;
