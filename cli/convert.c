@@ -59,8 +59,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         problem = "--scale: two numbers are neither s nor x,y,z";
     else if (arguments->subsample > 1 && arguments->subsample != floor(arguments->subsample))
         problem = "--subsample: over 1, N has to be a whole number";
-    if (problem) snprintf(message, OPTION_ERROR_BYTES, "%s", problem);
-    return !problem;
+    return options_fine(problem, message);
 }
 
 /// Replaces a cloud by some of its points; false after reporting.

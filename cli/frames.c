@@ -62,8 +62,7 @@ bool frames_check(const frames_arguments *arguments, const char *output, bool op
     const char *wrong = check_output(arguments, output, opaque);
     if (!wrong && arguments->path_file && !poses && arguments->view.fov_deg > 0)
         wrong = "--path and --fov exclude each other, but for poses (.txt, .log, .tum): the file has lenses";
-    if (wrong) snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
-    return !wrong && view_check(&arguments->view, poses, message);
+    return options_fine(wrong, message) && view_check(&arguments->view, poses, message);
 }
 
 /// Makes room for cameras; false after reporting.

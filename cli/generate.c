@@ -101,10 +101,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const char *wrong = volume                  ? check_volume(arguments)
                         : arguments->dims.count ? "generate: --dims is of volumes"
                                                 : NULL;
-    if (wrong) {
-        snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
-        return false;
-    }
+    if (!options_fine(wrong, message)) return false;
     if (volume) return true;
     const procedure_arguments *procedure = &arguments->textured.procedure;
     if (arguments->options.positions_only && procedure->procedure && procedure->options.prefilter > 0) {

@@ -55,8 +55,7 @@ bool light_check(const light_arguments *arguments, char message[OPTION_ERROR_BYT
     if (objects && arguments->shading >= 0 && arguments->shading != EWA_SHADING_PHONG)
         wrong = "--materials and --env need --shading phong";
     if (is_zero(arguments->render.environment_up)) wrong = "--env-up: 0,0,0 has no direction";
-    if (wrong) snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
-    return !wrong;
+    return options_fine(wrong, message);
 }
 
 static ewa_status load_environment(cli_session *session, const char *path, ewa_environment **environment) {

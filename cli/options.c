@@ -40,6 +40,10 @@ __attribute__((format(printf, 2, 3))) static bool wrong(char message[OPTION_ERRO
     return false;
 }
 
+bool options_fine(const char *problem, char message[OPTION_ERROR_BYTES]) {
+    return !problem || wrong(message, "%s", problem);
+}
+
 /// Reads a finite number that ends at `*end`.
 static bool read_number(const char *text, double *number, const char **end) {
     if (isspace((unsigned char)text[0])) return false;

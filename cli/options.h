@@ -138,6 +138,9 @@ void options_default(const cli_command *command, void *arguments);
 bool options_parse(const cli_command *command, size_t count, const char *const *words, const char **operands,
                    void *arguments, char message[OPTION_ERROR_BYTES]);
 
+/// Writes a problem to `message`, unless it is NULL; returns whether there is none.
+bool options_fine(const char *problem, char message[OPTION_ERROR_BYTES]);
+
 /// Option `index` of a command, counted through its groups and the common one; NULL after the last.
 const cli_option *options_at(const cli_command *command, size_t index);
 

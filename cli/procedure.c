@@ -40,8 +40,7 @@ bool procedure_check(const procedure_arguments *arguments, char message[OPTION_E
                 problem = i ? "--second-color: numbers must be in [0, 1]"
                             : "--first-color: numbers must be in [0, 1]";
     }
-    if (problem) snprintf(message, OPTION_ERROR_BYTES, "%s", problem);
-    return !problem && cloud_output_check(&arguments->output, message);
+    return options_fine(problem, message) && cloud_output_check(&arguments->output, message);
 }
 
 /// Eight features along the longest side of the cloud's box.

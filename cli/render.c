@@ -134,10 +134,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         missing = "--layers needs --passes 3";
     else if (arguments->light.render.opacity < 1 && arguments->light.render.passes == 1)
         missing = "--opacity below 1 needs --passes 3";
-    if (missing) {
-        snprintf(message, OPTION_ERROR_BYTES, "%s", missing);
-        return false;
-    }
+    if (!options_fine(missing, message)) return false;
     return light_check(&arguments->light, message) &&
            frames_check(&arguments->frames, arguments->output, arguments->background.rgba[3] == 1, message) &&
            parse_paths(arguments, &paths, message);

@@ -46,8 +46,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         problem = "--orient viewpoint needs --viewpoint x,y,z";
     else if (arguments->options.orientation == EWA_ORIENT_NONE && arguments->viewpoint.count)
         problem = "--viewpoint and --orient none exclude each other";
-    if (problem) snprintf(message, OPTION_ERROR_BYTES, "%s", problem);
-    return !problem;
+    return options_fine(problem, message);
 }
 
 static ewa_cloud *make(cli_session *session, const void *data) {

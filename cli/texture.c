@@ -70,10 +70,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         wrong = "texture: no output; say -o FILE";
     else if (arguments->options.repeat && arguments->options.method == EWA_TEXTURE_SPLAT)
         wrong = "--repeat on needs another --method than splat, which would never end";
-    if (wrong) {
-        snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
-        return false;
-    }
+    if (!options_fine(wrong, message)) return false;
     const char *file = strcmp(arguments->output, "-") == 0 ? NULL : arguments->output;
     return view_check(&arguments->view, false, message) && picture_parse_paths(file, NULL, &paths, message);
 }

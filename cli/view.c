@@ -69,8 +69,7 @@ bool view_check(const view_arguments *arguments, bool poses, char message[OPTION
         clash = "--intrinsics is the lens of poses (.txt, .log, .tum)";
     else if (up->count && !up->values[0] && !up->values[1] && !up->values[2])
         clash = "--up: 0,0,0 has no direction";
-    if (clash) snprintf(message, OPTION_ERROR_BYTES, "%s", clash);
-    return !clash && camera_input_check_lens(arguments->intrinsics, message);
+    return options_fine(clash, message) && camera_input_check_lens(arguments->intrinsics, message);
 }
 
 bool view_is_placed(const view_arguments *arguments) {

@@ -115,10 +115,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         wrong = "volume: no output; say -o FILE";
     else if (gradient->count && !(gradient->values[0] >= 0 && gradient->values[1] >= gradient->values[0]))
         wrong = "--gradient: two numbers >= 0, the second not below the first";
-    if (wrong) {
-        snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
-        return false;
-    }
+    if (!options_fine(wrong, message)) return false;
     return volume_input_check(&arguments->input, message) && light_check(&arguments->light, message) &&
            frames_check(&arguments->frames, arguments->output, arguments->background.rgba[3] == 1, message) &&
            parse_paths(arguments, &paths, message);

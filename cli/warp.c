@@ -94,8 +94,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         wrong = "warp: no new camera; say --camera FILE or --shift x,y,z";
     else if (arguments->warp.nearest_world >= arguments->warp.farthest_world)
         wrong = "--near has to be less than --far";
-    if (wrong) snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
-    return !wrong && sources_check(&arguments->sources, message) &&
+    return options_fine(wrong, message) && sources_check(&arguments->sources, message) &&
            (!arguments->hole_path ||
             output_check_suffix("hole-mask", arguments->hole_path, ".png|-", message)) &&
            picture_parse_paths(arguments->output, arguments->aov, &paths, message);

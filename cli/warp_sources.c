@@ -106,8 +106,7 @@ bool sources_check(const source_arguments *arguments, char message[OPTION_ERROR_
         wrong = "--baseline and --disparity-offset need --depth-is disparity";
     else
         wrong = check_cameras(arguments);
-    if (wrong) snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
-    return !wrong && camera_input_check_lens(arguments->intrinsics, message);
+    return options_fine(wrong, message) && camera_input_check_lens(arguments->intrinsics, message);
 }
 
 /// Makes the camera of a pair. Returns false after reporting.

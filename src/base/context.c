@@ -98,7 +98,7 @@ const ewa_option_table ewa_context_options_table = EWA_OPTION_TABLE(ewa_context_
 
 void ewa_context_options_init(ewa_context_options *options, size_t struct_size) {
     ewa_options_init(&ewa_context_options_table, options, struct_size);
-    if (!options || struct_size < sizeof *options) return;
+    if (!options || struct_size < AT(limits) + sizeof options->limits) return;
     options->allocator.allocate = allocate_default;
     options->allocator.release = release_default;
     options->limits.max_points = ((uint64_t)1 << 32) - 17;

@@ -123,7 +123,7 @@ void ewa_options_init(const ewa_option_table *table, void *options, size_t struc
     if (table->options[0].offset) memcpy(options, &struct_size, sizeof struct_size);
     for (size_t i = 0; i < table->option_count; i++) {
         const ewa_option *option = &table->options[i];
-        if (option->offset + count_of(option) * bytes_of(option) > struct_size) break;
+        if (option->offset + count_of(option) * bytes_of(option) > struct_size) continue;
         for (uint32_t k = 0; k < count_of(option); k++)
             ewa_option_put(option, options, k, option->initials ? option->initials[k] : option->initial);
     }

@@ -107,7 +107,7 @@ void ewa_procedure_options_init(ewa_procedure_options *options, ewa_procedure pr
         {{0.02f, 0.06f, 0.16f}, {0.92f, 0.86f, 0.72f}},
     };
     ewa_options_init(&ewa_procedure_options_table, options, struct_size);
-    if (!options || struct_size < sizeof *options) return;
+    if (!options || struct_size < AT(colors) + sizeof options->colors) return;
     options->procedure = procedure;
     if ((unsigned)procedure < sizeof colors / sizeof *colors)
         memcpy(options->colors, colors[procedure], sizeof options->colors);

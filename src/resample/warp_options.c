@@ -54,8 +54,8 @@ void ewa_warp_options_init(ewa_warp_options *options, size_t struct_size) {
 }
 
 void ewa_warp_render_options_init(ewa_render_options *options, size_t struct_size) {
-    if (!options || struct_size < sizeof *options) return;
     ewa_render_options_init(options, struct_size);
+    if (!options || struct_size <= offsetof(ewa_render_options, shading)) return;
     options->shading = EWA_SHADING_NONE;
     options->prefilter_px = 0.25;
 }
