@@ -105,6 +105,7 @@ gallery: build
 
 docs: program
 	$(EWA) --help-markdown >docs/cli.md
+	$(EWA) --help-json >docs/options.json
 
 format:
 	git ls-files '*.c' '*.h' | xargs clang-format -i

@@ -17,99 +17,42 @@ typedef struct bench_arguments {
     view_arguments view; // first: it begins with the common arguments; only the size is an option here
     uint32_t scenes, cpus;
     option_vector splats, pixels, threads;
-    int64_t frames, edge_layers;
-    int kernel, passes, shading;
+    int64_t frames;
+    ewa_render_options render;
     bool stages;
     const char *json_path;
 } bench_arguments;
 
-enum { ONE_PASS = 0, THREE_PASSES = 1 };
-
-#define AT(member) offsetof(bench_arguments, member)
+#define AT(member)     offsetof(bench_arguments, member)
+#define RENDER(member) OPTION_OF(ewa_render_options, AT(render), member)
 
 static const cli_option work_table[] = {
-    {.key = "scene",
-     .kind = OPTION_SET,
-     .offset = AT(scenes),
-     .value = "NAME,...",
-     .range = BENCH_SCENES,
-     .absent = "all",
-     .help = "scenes to make, without inputs"},
-    {.key = "splats",
-     .kind = OPTION_VECTOR,
-     .offset = AT(splats),
-     .value = "N,...",
-     .range = "[1, 4e9]",
-     .low = 1,
-     .high = OPTION_VECTOR_MAX,
-     .absent = "each scene's own",
-     .help = "numbers of splats, without inputs"},
-    {.key = "pixels",
-     .kind = OPTION_VECTOR,
-     .offset = AT(pixels),
-     .value = "P,...",
-     .range = "[0, 1e6]",
-     .low = 1,
-     .high = OPTION_VECTOR_MAX,
-     .absent = "each scene's own",
-     .help = "pixels that a splat covers on average, without inputs; 0: as many as close the surface"},
-    {.key = "size",
-     .aliases = "resolution",
-     .kind = OPTION_SIZE,
-     .offset = AT(view.size),
-     .value = "WxH",
-     .absent = "each scene's own, mostly 1280x1024",
-     .help = "pixels of the picture"},
-    {.key = "kernel",
-     .kind = OPTION_CHOICE,
-     .offset = AT(kernel),
-     .range = "perspective|affine|source|circular|raycast",
-     .help = "as for render"},
-    {.key = "passes", .kind = OPTION_CHOICE, .offset = AT(passes), .range = "1|3", .help = "as for render"},
-    {.key = "shading",
-     .kind = OPTION_CHOICE,
-     .offset = AT(shading),
-     .range = "none|lambert|phong",
-     .help = "lambert and phong need normals in each pixel, none does not"},
-    {.key = "edge-layers",
-     .kind = OPTION_INTEGER,
-     .offset = AT(edge_layers),
-     .value = "N",
-     .range = "[1, 8]",
-     .help = "as for render"},
-    {.key = "stages",
-     .kind = OPTION_ON_OFF,
-     .offset = AT(stages),
+    {"scene", OPTION_SET, AT(scenes), "NAME,...", BENCH_SCENES, .help = "scenes to make, without inputs",
+     .absent = "all"},
+    {"splats", OPTION_VECTOR, AT(splats), "N,...", "[1, 4e9]", .help = "numbers of splats, without inputs",
+     .low = 1, .high = OPTION_VECTOR_MAX, .absent = "each scene's own"},
+    {"pixels", OPTION_VECTOR, AT(pixels), "P,...", "[0, 1e6]",
+     .help = "pixels that a splat covers on average, without inputs; 0: as many as close the surface",
+     .low = 1, .high = OPTION_VECTOR_MAX, .absent = "each scene's own"},
+    {"size", OPTION_SIZE, AT(view.size), "WxH", .help = "pixels of the picture", .aliases = "resolution",
+     .absent = "each scene's own, mostly 1280x1024"},
+    {"kernel", RENDER(kernel), .help = "as for render"},
+    {"passes", RENDER(passes), .help = "as for render"},
+    {"shading", RENDER(shading), .help = "lambert and phong need normals in each pixel, none does not"},
+    {"edge-layers", RENDER(edge_layers), .help = "as for render"},
+    {"stages", OPTION_ON_OFF, AT(stages),
      .help = "also time what comes before and after a frame, for the first scene: PLY, normals, surfels, "
              "PNG; and clipping"},
 };
 
 static const cli_option measure_table[] = {
-    {.key = "workers",
-     .kind = OPTION_VECTOR,
-     .offset = AT(threads),
-     .value = "N,...",
-     .range = "[1, 256]",
-     .low = 1,
-     .high = OPTION_VECTOR_MAX,
-     .absent = "1 and one per processor",
-     .help = "numbers of threads to compare"},
-    {.key = "frames",
-     .kind = OPTION_INTEGER,
-     .offset = AT(frames),
-     .value = "N",
-     .range = "[1, 1000]",
+    {"workers", OPTION_VECTOR, AT(threads), "N,...", "[1, 256]", .help = "numbers of threads to compare",
+     .low = 1, .high = OPTION_VECTOR_MAX, .absent = "1 and one per processor"},
+    {"frames", OPTION_INTEGER, AT(frames), "N", "[1, 1000]",
      .help = "frames per scene and context, after two that warm up; and runs of each other stage"},
-    {.key = "cpu",
-     .kind = OPTION_SET,
-     .offset = AT(cpus),
-     .value = "SET,...",
-     .range = "all|avx2|plain",
+    {"cpu", OPTION_SET, AT(cpus), "SET,...", "all|avx2|plain",
      .help = "instruction sets to compare, as far as the processor has them"},
-    {.key = "json",
-     .kind = OPTION_OUTPUT,
-     .offset = AT(json_path),
-     .value = "FILE",
+    {"json", OPTION_OUTPUT, AT(json_path), "FILE",
      .help = "also write all figures as JSON; -: only that, to standard output"},
 };
 
@@ -124,12 +67,7 @@ static void set_defaults(void *data) {
     arguments->scenes = (1u << BENCH_SCENE_COUNT) - 1;
     arguments->cpus = 1;
     arguments->frames = 9;
-    ewa_render_options render;
-    ewa_render_options_init(&render, sizeof render);
-    arguments->kernel = (int)render.kernel;
-    arguments->passes = render.passes == 1 ? ONE_PASS : THREE_PASSES;
-    arguments->shading = (int)render.shading;
-    arguments->edge_layers = render.edge_layers;
+    ewa_render_options_init(&arguments->render, sizeof arguments->render);
     arguments->stages = true;
 }
 
@@ -235,11 +173,7 @@ static int run(const void *data) {
     if (!session_start(&bench.session, &arguments->view.common))
         return session_end(&bench.session, EXIT_FAILED);
     make_plan(&bench);
-    ewa_render_options_init(&bench.render, sizeof bench.render);
-    bench.render.kernel = (ewa_kernel)arguments->kernel;
-    bench.render.passes = arguments->passes == ONE_PASS ? 1 : 3;
-    bench.render.shading = (ewa_shading)arguments->shading;
-    bench.render.edge_layers = (uint32_t)arguments->edge_layers;
+    bench.render = arguments->render;
     text_file text = {.file = NULL};
     json_writer json;
     const char *json_path = arguments->json_path;
@@ -266,11 +200,8 @@ static int run(const void *data) {
     return session_end(&bench.session, done ? EXIT_DONE : EXIT_FAILED);
 }
 
-static const option_group work_options = {"Work", work_table, sizeof work_table / sizeof work_table[0]};
-static const option_group measure_options = {"Measurement", measure_table,
-                                             sizeof measure_table / sizeof measure_table[0]};
-static const option_group *const groups[] = {&work_options, &measure_options};
-
+static const option_group work_options = OPTION_GROUP("Work", work_table);
+static const option_group measure_options = OPTION_GROUP("Measurement", measure_table);
 const cli_command bench_command = {
     .name = "bench",
     .operands = "[IN...]",
@@ -295,8 +226,7 @@ const cli_command bench_command = {
                 "ewa bench --scene plane --splats 1e6 --pixels 9 --cpu all,avx2\n"
                 "ewa bench scan.ply --size 1920x1080\n",
     .high_operands = 64,
-    .groups = groups,
-    .group_count = sizeof groups / sizeof groups[0],
+    .groups = (const option_group *const[]){&work_options, &measure_options, NULL},
     .arguments_bytes = sizeof(bench_arguments),
     .set_defaults = set_defaults,
     .run = run,

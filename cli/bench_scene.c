@@ -57,7 +57,7 @@ static ewa_status frame(const ewa_cloud *cloud, const option_size *size, double 
                         const double direction_world[3], const double up_world[3], ewa_camera *camera) {
     ewa_bounds bounds;
     ewa_status status = ewa_cloud_measure(cloud, &bounds);
-    ewa_camera_init(camera, sizeof *camera);
+    ewa_camera_init(camera);
     camera->width_px = size->width_px;
     camera->height_px = size->height_px;
     if (status == EWA_OK) status = ewa_camera_set_fov(camera, fov_deg);

@@ -35,8 +35,7 @@ bool camera_input_check_lens(const char *intrinsics, char message[OPTION_ERROR_B
     } else if (camera_input_is_poses(intrinsics)) {
         wrong = "--intrinsics: poses have no lens";
     }
-    if (wrong) snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
-    return !wrong;
+    return options_fine(wrong, message);
 }
 
 bool camera_input_load_lens(cli_session *session, const char *intrinsics, ewa_camera *camera) {
@@ -86,7 +85,7 @@ bool camera_input_load(cli_session *session, const char *path, uint32_t index, c
         return false;
     }
     session->subject = path;
-    ewa_camera_init(camera, sizeof *camera);
+    ewa_camera_init(camera);
     const ewa_status status = ewa_camera_load(session->context, path, index, camera);
     if (status != EWA_OK) session_failed(session, status);
     session->subject = NULL;

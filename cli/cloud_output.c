@@ -8,22 +8,14 @@
 #define AT(member) offsetof(output_arguments, member)
 
 static const cli_option output_table[] = {
-    {.key = "output",
-     .letter = 'o',
-     .kind = OPTION_OUTPUT,
-     .offset = AT(path),
-     .value = "FILE",
-     .help = "file to write (.ply); -: PLY to standard output"},
-    {.key = "ascii",
-     .kind = OPTION_FLAG,
-     .offset = AT(ascii),
-     .help = "write text instead of little-endian binary",
+    {"output", OPTION_OUTPUT, AT(path), "FILE", .help = "file to write (.ply); -: PLY to standard output",
+     .letter = 'o'},
+    {"ascii", OPTION_FLAG, AT(ascii), .help = "write text instead of little-endian binary",
      .excludes = "big-endian"},
-    {.key = "big-endian", .kind = OPTION_FLAG, .offset = AT(big_endian), .help = "write big-endian binary"},
+    {"big-endian", OPTION_FLAG, AT(big_endian), .help = "write big-endian binary"},
 };
 
-const option_group cloud_output_options = {"Output", output_table,
-                                           sizeof output_table / sizeof output_table[0]};
+const option_group cloud_output_options = OPTION_GROUP("Output", output_table);
 
 bool cloud_output_check(const output_arguments *output, char message[OPTION_ERROR_BYTES]) {
     if (output->path) return output_check_suffix("output", output->path, ".ply|-", message);

@@ -16,9 +16,9 @@
 typedef struct convert_arguments {
     procedure_arguments procedure; // first
     option_vector crop, transform, scale, translate;
-    double subsample; ///< 0: all points; under 1: a share; else a count
-    int refit;        ///< REFIT_*
-    double cutoff;
+    double subsample;          ///< 0: all points; under 1: a share; else a count
+    int refit;                 ///< REFIT_*
+    ewa_refit_options options; ///< but for the goal
 } convert_arguments;
 
 #define AT(member) offsetof(convert_arguments, member)
@@ -27,63 +27,28 @@ typedef struct convert_arguments {
 enum { REFIT_OFF, REFIT_INTERPOLATE, REFIT_FIT };
 
 static const cli_option change_table[] = {
-    {.key = "crop",
-     .kind = OPTION_VECTOR,
-     .offset = AT(crop),
-     .value = "x0,y0,z0,x1,y1,z1",
-     .low = 6,
-     .high = 6,
-     .help = "keep the points inside a box"},
-    {.key = "subsample",
-     .kind = OPTION_NUMBER,
-     .offset = AT(subsample),
-     .value = "N",
-     .range = "(0, 1e15]",
-     .absent = "all",
+    {"crop", OPTION_VECTOR, AT(crop), "x0,y0,z0,x1,y1,z1", .help = "keep the points inside a box", .low = 6,
+     .high = 6},
+    {"subsample", OPTION_NUMBER, AT(subsample), "N", "(0, 1e15]",
      .help = "keep N points, or a share of them when N < 1: one at random of each run of equal length in the "
-             "file, the "
-             "same ones every time"},
-    {.key = "scale",
-     .kind = OPTION_VECTOR,
-     .offset = AT(scale),
-     .value = "s or x,y,z",
-     .low = 1,
-     .high = 3,
-     .help = "multiply coordinates"},
-    {.key = "transform",
-     .kind = OPTION_VECTOR,
-     .offset = AT(transform),
-     .value = "16 numbers",
-     .low = 16,
-     .high = 16,
-     .help = "map by a matrix, row by row, that acts on column vectors; the last row is 0,0,0,1"},
-    {.key = "translate",
-     .kind = OPTION_VECTOR,
-     .offset = AT(translate),
-     .value = "x,y,z",
-     .low = 3,
-     .high = 3,
-     .help = "add to coordinates"},
-    {.key = "refit-colors",
-     .kind = OPTION_CHOICE,
-     .offset = AT(refit),
-     .range = "off|interpolate|fit",
+             "file, the same ones every time",
+     .absent = "all"},
+    {"scale", OPTION_VECTOR, AT(scale), "s or x,y,z", .help = "multiply coordinates", .low = 1, .high = 3},
+    {"transform", OPTION_VECTOR, AT(transform), "16 numbers",
+     .help = "map by a matrix, row by row, that acts on column vectors; the last row is 0,0,0,1", .low = 16,
+     .high = 16},
+    {"translate", OPTION_VECTOR, AT(translate), "x,y,z", .help = "add to coordinates", .low = 3, .high = 3},
+    {"refit-colors", OPTION_CHOICE, AT(refit), NULL, "off|interpolate|fit",
      .help = "turn colours into coefficients, so that pictures of the surfels are sharper: they show each "
              "point's colour at the point, or nearly (fit: for noisy or aliased colours)"},
-    {.key = "cutoff",
-     .kind = OPTION_NUMBER,
-     .offset = AT(cutoff),
-     .value = "F",
-     .range = "(0, 4]",
+    {"cutoff", OPTION_OF(ewa_refit_options, AT(options), cutoff),
      .help = "standard deviations at which kernels end, as for ewa render, where colours are made"},
 };
 
 static void set_defaults(void *data) {
     convert_arguments *arguments = data;
     procedure_set_defaults(&arguments->procedure);
-    ewa_refit_options refit;
-    ewa_refit_options_init(&refit, sizeof refit);
-    arguments->cutoff = refit.cutoff;
+    ewa_refit_options_init(&arguments->options, sizeof arguments->options);
 }
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
@@ -94,8 +59,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         problem = "--scale: two numbers are neither s nor x,y,z";
     else if (arguments->subsample > 1 && arguments->subsample != floor(arguments->subsample))
         problem = "--subsample: over 1, N has to be a whole number";
-    if (problem) snprintf(message, OPTION_ERROR_BYTES, "%s", problem);
-    return !problem;
+    return options_fine(problem, message);
 }
 
 /// Replaces a cloud by some of its points; false after reporting.
@@ -195,11 +159,11 @@ static bool move(cli_session *session, ewa_cloud *cloud, const convert_arguments
 /// Estimates normals and radii that the cloud lacks for new colours; returns false after reporting.
 static bool complete(cli_session *session, ewa_cloud **cloud, const convert_arguments *arguments) {
     const bool wanted = arguments->refit != REFIT_OFF ||
-                        (arguments->procedure.procedure && arguments->procedure.prefilter > 0);
+                        (arguments->procedure.procedure && arguments->procedure.options.prefilter > 0);
     if (!wanted || cloud_is_drawable(*cloud)) return true;
     ewa_estimate_options options;
     ewa_estimate_options_init(&options, sizeof options);
-    options.cutoff = arguments->cutoff;
+    options.cutoff = arguments->options.cutoff;
     const ewa_status status = ewa_cloud_estimate(cloud, &options);
     if (status != EWA_OK) session_failed(session, status);
     return status == EWA_OK;
@@ -208,10 +172,8 @@ static bool complete(cli_session *session, ewa_cloud **cloud, const convert_argu
 /// Turns colours into coefficients.
 static bool refit(cli_session *session, ewa_cloud *cloud, const convert_arguments *arguments) {
     const double started_s = clock_now_s();
-    ewa_refit_options options;
-    ewa_refit_options_init(&options, sizeof options);
+    ewa_refit_options options = arguments->options;
     options.goal = arguments->refit == REFIT_FIT ? EWA_REFIT_FIT : EWA_REFIT_INTERPOLATE;
-    options.cutoff = arguments->cutoff;
     ewa_refit_report report;
     const ewa_status status = ewa_cloud_refit_colors(cloud, &options, &report);
     if (status != EWA_OK)
@@ -247,7 +209,7 @@ static ewa_cloud *make(cli_session *session, const convert_arguments *arguments,
     const bool done = cloud && (!arguments->crop.count || crop(session, &cloud, arguments->crop.values)) &&
                       (arguments->subsample == 0 || subsample(session, &cloud, arguments->subsample)) &&
                       move(session, cloud, arguments) && complete(session, &cloud, arguments) &&
-                      procedure_apply(session, &arguments->procedure, arguments->cutoff, cloud) &&
+                      procedure_apply(session, &arguments->procedure, arguments->options.cutoff, cloud) &&
                       (arguments->refit == REFIT_OFF || refit(session, cloud, arguments));
     if (!done) ewa_cloud_destroy(&cloud);
     if (cloud && ewa_cloud_point_count(cloud) != loaded_count)
@@ -268,10 +230,7 @@ static int run(const void *data) {
     return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
 }
 
-static const option_group change_options = {"Changes, in this order", change_table,
-                                            sizeof change_table / sizeof change_table[0]};
-static const option_group *const groups[] = {&cloud_output_options, &change_options, &procedure_options};
-
+static const option_group change_options = OPTION_GROUP("Changes, in this order", change_table);
 const cli_command convert_command = {
     .name = "convert",
     .operands = "IN... -o OUT",
@@ -289,8 +248,7 @@ const cli_command convert_command = {
                 "ewa convert mm.ply -o m.ply --scale 0.001 --crop -1,-1,0,1,1,2\n",
     .low_operands = 1,
     .high_operands = 4096,
-    .groups = groups,
-    .group_count = sizeof groups / sizeof groups[0],
+    .groups = (const option_group *const[]){&cloud_output_options, &change_options, &procedure_options, NULL},
     .arguments_bytes = sizeof(convert_arguments),
     .set_defaults = set_defaults,
     .check = check,

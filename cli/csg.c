@@ -10,19 +10,19 @@
 
 typedef struct csg_arguments {
     output_arguments output; // first
-    int operation;
+    ewa_csg_options options;
 } csg_arguments;
 
 #define AT(member) offsetof(csg_arguments, member)
 
 static const cli_option option_table[] = {
-    {.key = "op",
-     .kind = OPTION_CHOICE,
-     .offset = AT(operation),
-     .value = "OP",
-     .range = "union|intersection|difference",
-     .help = "what to keep; difference: A without B"},
+    {"op", OPTION_OF(ewa_csg_options, AT(options), operation), .value = "OP"},
 };
+
+static void set_defaults(void *data) {
+    csg_arguments *arguments = data;
+    ewa_csg_options_init(&arguments->options, sizeof arguments->options);
+}
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const csg_arguments *arguments = data;
@@ -31,9 +31,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
 
 static ewa_cloud *make(cli_session *session, const void *data) {
     const csg_arguments *arguments = data;
-    ewa_csg_options options;
-    ewa_csg_options_init(&options, sizeof options);
-    options.operation = (ewa_csg_operation)arguments->operation;
+    ewa_csg_options options = arguments->options;
     ewa_cloud *operands[2] = {NULL, NULL}, *result = NULL;
     double estimate_s = 0;
     for (int k = 0; k < 2; k++) {
@@ -58,10 +56,7 @@ static ewa_cloud *make(cli_session *session, const void *data) {
 
 static int run(const void *data) { return cloud_output_run(data, make); }
 
-static const option_group csg_options = {"Combination", option_table,
-                                         sizeof option_table / sizeof option_table[0]};
-static const option_group *const groups[] = {&cloud_output_options, &csg_options};
-
+static const option_group csg_options = OPTION_GROUP("Combination", option_table);
 const cli_command csg_command = {
     .name = "csg",
     .operands = "A B --op OP -o OUT",
@@ -74,9 +69,9 @@ const cli_command csg_command = {
                 "ewa render cut.ply -o cut.png --cull back\n",
     .low_operands = 2,
     .high_operands = 2,
-    .groups = groups,
-    .group_count = sizeof groups / sizeof groups[0],
+    .groups = (const option_group *const[]){&cloud_output_options, &csg_options, NULL},
     .arguments_bytes = sizeof(csg_arguments),
+    .set_defaults = set_defaults,
     .check = check,
     .run = run,
 };

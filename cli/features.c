@@ -12,115 +12,53 @@
 
 typedef struct features_arguments {
     output_arguments output; // first
-    bool keep_normals, keep_radii, project;
-    int64_t neighbours;
+    ewa_feature_options options;
+    ewa_estimate_options estimate;
     option_vector viewpoint;
-    double angle_deg, noise, radius_scale, cutoff;
 } features_arguments;
 
-#define AT(member) offsetof(features_arguments, member)
+#define AT(member)       offsetof(features_arguments, member)
+#define FEATURE(member)  OPTION_OF(ewa_feature_options, AT(options), member)
+#define ESTIMATE(member) OPTION_OF(ewa_estimate_options, AT(estimate), member)
 
 static const cli_option detection_table[] = {
-    {.key = "angle",
-     .kind = OPTION_NUMBER,
-     .offset = AT(angle_deg),
-     .value = "DEGREES",
-     .range = "[10, 120]",
-     .help = "least angle between the normals of two planes that meet in an edge; less is a smooth surface"},
-    {.key = "neighbours",
-     .aliases = "neighbors",
-     .kind = OPTION_INTEGER,
-     .offset = AT(neighbours),
-     .value = "K",
-     .range = "[0, 64]",
-     .help = "nearest neighbours that planes are fitted to, 16 or more; 0: 24 for exact points up to 64 for "
-             "noisy "
-             "ones"},
-    {.key = "noise",
-     .kind = OPTION_NUMBER,
-     .offset = AT(noise),
-     .value = "SIGMA",
-     .range = "(-inf, 1]",
-     .help = "standard deviation of the points from the surface in units of the spacing; negative: measured"},
-    {.key = "project",
-     .kind = OPTION_ON_OFF,
-     .offset = AT(project),
-     .help = "move the points beside an edge onto their plane"},
+    {"angle", FEATURE(angle_deg)},
+    {"neighbours", FEATURE(neighbour_count), .aliases = "neighbors"},
+    {"noise", FEATURE(noise)},
+    {"project", FEATURE(project)},
 };
 
 static const cli_option surfel_table[] = {
-    {.key = "keep-normals",
-     .kind = OPTION_ON_OFF,
-     .offset = AT(keep_normals),
+    {"keep-normals", ESTIMATE(keep_normals),
      .help = "start from the normals that the file has; else, and where it has none, they are estimated"},
-    {.key = "keep-radii",
-     .kind = OPTION_ON_OFF,
-     .offset = AT(keep_radii),
+    {"keep-radii", ESTIMATE(keep_radii),
      .help =
          "start from the radii or axes that the file has; else, and where it has none, they are estimated"},
-    {.key = "viewpoint",
-     .kind = OPTION_VECTOR,
-     .offset = AT(viewpoint),
-     .value = "x,y,z",
-     .low = 3,
-     .high = 3,
-     .absent = "none",
-     .help = "place that estimated normals point to, such as the scanner's; none: outward"},
-    {.key = "radius-scale",
-     .kind = OPTION_NUMBER,
-     .offset = AT(radius_scale),
-     .value = "S",
-     .range = "(0, inf)",
+    {"viewpoint", OPTION_VECTOR, AT(viewpoint), "x,y,z",
+     .help = "place that estimated normals point to, such as the scanner's; none: outward", .low = 3,
+     .high = 3, .absent = "none"},
+    {"radius-scale", ESTIMATE(radius_scale),
      .help = "estimated support radius in units of the local spacing"},
-    {.key = "cutoff",
-     .kind = OPTION_NUMBER,
-     .offset = AT(cutoff),
-     .value = "F",
-     .range = "(0, 4]",
-     .help = "standard deviations at which kernels end: axes are support radius / F long"},
+    {"cutoff", ESTIMATE(cutoff)},
 };
 
 static void set_defaults(void *data) {
     features_arguments *arguments = data;
-    ewa_feature_options options;
-    ewa_feature_options_init(&options, sizeof options);
-    arguments->angle_deg = options.angle_deg;
-    arguments->neighbours = options.neighbour_count;
-    arguments->noise = options.noise;
-    arguments->project = options.project;
-    ewa_estimate_options estimate;
-    ewa_estimate_options_init(&estimate, sizeof estimate);
-    arguments->keep_normals = estimate.keep_normals;
-    arguments->keep_radii = estimate.keep_radii;
-    arguments->radius_scale = estimate.radius_scale;
-    arguments->cutoff = options.cutoff;
+    ewa_feature_options_init(&arguments->options, sizeof arguments->options);
+    ewa_estimate_options_init(&arguments->estimate, sizeof arguments->estimate);
 }
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const features_arguments *arguments = data;
-    if (!cloud_output_check(&arguments->output, message)) return false;
-    const char *problem = NULL;
-    if (arguments->neighbours > 0 && arguments->neighbours < 16) problem = "--neighbours is 0 or 16 to 64";
-    if (problem) snprintf(message, OPTION_ERROR_BYTES, "%s", problem);
-    return !problem;
+    return cloud_output_check(&arguments->output, message);
 }
 
 static ewa_status detect(cli_session *session, const features_arguments *arguments, ewa_cloud **cloud) {
-    ewa_estimate_options estimate;
-    ewa_estimate_options_init(&estimate, sizeof estimate);
-    estimate.keep_normals = arguments->keep_normals;
-    estimate.keep_radii = arguments->keep_radii;
-    estimate.radius_scale = arguments->radius_scale;
-    estimate.cutoff = arguments->cutoff;
+    ewa_estimate_options estimate = arguments->estimate;
     if (arguments->viewpoint.count) estimate.orientation = EWA_ORIENT_VIEWPOINT;
     memcpy(estimate.viewpoint_world, arguments->viewpoint.values, sizeof estimate.viewpoint_world);
-    ewa_feature_options options;
-    ewa_feature_options_init(&options, sizeof options);
-    options.angle_deg = arguments->angle_deg;
-    options.neighbour_count = (uint32_t)arguments->neighbours;
-    options.noise = arguments->noise;
-    options.project = arguments->project;
-    options.cutoff = arguments->cutoff;
+    ewa_feature_options options = arguments->options;
+    options.cutoff = estimate.cutoff;
     const double started_s = clock_now_s();
     ewa_status status = ewa_cloud_estimate(cloud, &estimate);
     const double estimated_s = clock_now_s();
@@ -140,7 +78,7 @@ static ewa_status detect(cli_session *session, const features_arguments *argumen
 static ewa_cloud *make(cli_session *session, const void *data) {
     const features_arguments *arguments = data;
     ewa_cloud *cloud = input_load(session, arguments->output.common.operands[0]);
-    if (cloud && arguments->keep_normals)
+    if (cloud && arguments->estimate.keep_normals)
         screening_drop_zero_normals(session, arguments->output.common.operands[0], cloud);
     const ewa_status status = cloud ? detect(session, arguments, &cloud) : EWA_OK;
     if (status != EWA_OK) {
@@ -152,12 +90,8 @@ static ewa_cloud *make(cli_session *session, const void *data) {
 
 static int run(const void *data) { return cloud_output_run(data, make); }
 
-static const option_group detection_options = {"Detection", detection_table,
-                                               sizeof detection_table / sizeof detection_table[0]};
-static const option_group surfel_options = {"Surfels", surfel_table,
-                                            sizeof surfel_table / sizeof surfel_table[0]};
-static const option_group *const groups[] = {&cloud_output_options, &detection_options, &surfel_options};
-
+static const option_group detection_options = OPTION_GROUP("Detection", detection_table);
+static const option_group surfel_options = OPTION_GROUP("Surfels", surfel_table);
 const cli_command features_command = {
     .name = "features",
     .operands = "IN -o OUT",
@@ -168,8 +102,7 @@ const cli_command features_command = {
                 "ewa features scan.ply -o sharp.ply --angle 45 --neighbours 48\n",
     .low_operands = 1,
     .high_operands = 1,
-    .groups = groups,
-    .group_count = sizeof groups / sizeof groups[0],
+    .groups = (const option_group *const[]){&cloud_output_options, &detection_options, &surfel_options, NULL},
     .arguments_bytes = sizeof(features_arguments),
     .set_defaults = set_defaults,
     .check = check,

@@ -12,52 +12,26 @@
 #include <string.h>
 
 static const cli_option frames_table[] = {
-    {.key = "turntable",
-     .kind = OPTION_INTEGER,
-     .offset = offsetof(frames_arguments, turntable),
-     .value = "N",
-     .range = "[1, 1000000]",
-     .absent = "one picture",
+    {"turntable", OPTION_INTEGER, offsetof(frames_arguments, turntable), "N", "[1, 1000000]",
      .help =
-         "N frames of one turn about the up axis through --target, starting at the view that the options "
-         "of the camera give. Without --eye and --camera, the distance is such that all is in every frame",
-     .excludes = "path"},
-    {.key = "path",
-     .kind = OPTION_TEXT,
-     .offset = offsetof(frames_arguments, path_file),
-     .value = "FILE",
+         "N frames of one turn about the up axis through --target, starting at the view that the options of "
+         "the camera give. Without --eye and --camera, the distance is such that all is in every frame",
+     .absent = "one picture", .excludes = "path"},
+    {"path", OPTION_TEXT, offsetof(frames_arguments, path_file), "FILE",
      .help = "one frame for each camera of a file, in its order; formats as --camera",
      .excludes = "camera camera-index eye target up ortho view azimuth elevation"},
-    {.key = "frames",
-     .kind = OPTION_INTEGER,
-     .offset = offsetof(frames_arguments, path_frames),
-     .value = "N",
-     .range = "[1, 1000000]",
-     .absent = "the cameras as they are",
+    {"frames", OPTION_INTEGER, offsetof(frames_arguments, path_frames), "N", "[1, 1000000]",
      .help = "N frames on a smooth way through the cameras of --path, which are evenly spaced in time",
-     .needs = "path"},
-    {.key = "loop",
-     .kind = OPTION_FLAG,
-     .offset = offsetof(frames_arguments, loop),
-     .help = "with --frames: the way goes on from the last camera to the first",
-     .needs = "frames"},
-    {.key = "fps",
-     .kind = OPTION_NUMBER,
-     .offset = offsetof(frames_arguments, frames_per_s),
-     .value = "F",
-     .range = "(0, 1000]",
-     .absent = "30",
-     .help = "frames per second of a film"},
-    {.key = "quality",
-     .kind = OPTION_INTEGER,
-     .offset = offsetof(frames_arguments, quality),
-     .value = "Q",
-     .range = "[0, 100]",
-     .absent = "75",
-     .help = "quality of a film, from 0 (small) to 100 (good)"},
+     .absent = "the cameras as they are", .needs = "path"},
+    {"loop", OPTION_FLAG, offsetof(frames_arguments, loop),
+     .help = "with --frames: the way goes on from the last camera to the first", .needs = "frames"},
+    {"fps", OPTION_NUMBER, offsetof(frames_arguments, frames_per_s), "F", "(0, 1000]",
+     .help = "frames per second of a film", .absent = "30"},
+    {"quality", OPTION_INTEGER, offsetof(frames_arguments, quality), "Q", "[0, 100]",
+     .help = "quality of a film, from 0 (small) to 100 (good)", .absent = "75"},
 };
 
-const option_group frames_options = {"Frames", frames_table, sizeof frames_table / sizeof frames_table[0]};
+const option_group frames_options = OPTION_GROUP("Frames", frames_table);
 
 void frames_set_defaults(frames_arguments *arguments) {
     view_set_defaults(&arguments->view);
@@ -88,8 +62,7 @@ bool frames_check(const frames_arguments *arguments, const char *output, bool op
     const char *wrong = check_output(arguments, output, opaque);
     if (!wrong && arguments->path_file && !poses && arguments->view.fov_deg > 0)
         wrong = "--path and --fov exclude each other, but for poses (.txt, .log, .tum): the file has lenses";
-    if (wrong) snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
-    return !wrong && view_check(&arguments->view, poses, message);
+    return options_fine(wrong, message) && view_check(&arguments->view, poses, message);
 }
 
 /// Makes room for cameras; false after reporting.

@@ -11,13 +11,12 @@
 
 typedef struct generate_arguments {
     textured_arguments textured; // first
-    bool positions_only, sharp;
-    int64_t point_count, seed;
-    double size_world, jitter, checks, radius_scale;
+    ewa_generate_options options;
     option_vector dims;
 } generate_arguments;
 
-#define AT(member) offsetof(generate_arguments, member)
+#define AT(member)       offsetof(generate_arguments, member)
+#define GENERATE(member) OPTION_OF(ewa_generate_options, AT(options), member)
 
 /// In the order of ewa_object.
 static const char *const objects[] = {"plane", "checker", "cube", "sphere", "torus", "terrain", "csg"};
@@ -26,75 +25,28 @@ static const char *const objects[] = {"plane", "checker", "cube", "sphere", "tor
 static const char *const volumes[] = {"checkerbox", "blob", "ball", "vessels"};
 
 static const cli_option object_table[] = {
-    {.key = "points",
-     .letter = 'n',
-     .kind = OPTION_INTEGER,
-     .offset = AT(point_count),
-     .value = "N",
-     .range = "[1, 4294967279]",
-     .help = "about how many points; grids round"},
-    {.key = "seed",
-     .kind = OPTION_INTEGER,
-     .offset = AT(seed),
-     .value = "N",
-     .range = "[0, inf)",
-     .help = "same seed, same bytes, on every machine"},
-    {.key = "extent",
-     .kind = OPTION_NUMBER,
-     .offset = AT(size_world),
-     .value = "SIZE",
-     .range = "(0, inf)",
-     .help =
-         "edge of plane, cube and terrain, outer diameter of sphere and torus, length of csg, longest edge "
-         "of a volume, in world units"},
-    {.key = "jitter",
-     .kind = OPTION_NUMBER,
-     .offset = AT(jitter),
-     .value = "J",
-     .range = "[0, 1]",
-     .help = "0: a regular grid, 1: anywhere in the cell"},
-    {.key = "checks",
-     .kind = OPTION_NUMBER,
-     .offset = AT(checks),
-     .value = "N",
-     .range = "(0, inf)",
+    {"points", OPTION_INTEGER, AT(options.point_count), "N", "[1, 4294967279]",
+     .help = "about how many points; grids round", .letter = 'n'},
+    {"seed", GENERATE(seed)},
+    {"extent", GENERATE(size_world), .value = "SIZE",
+     .help = "edge of plane, cube and terrain, outer diameter of sphere and torus, length of csg, longest "
+             "edge of a volume, in world units"},
+    {"jitter", GENERATE(jitter)},
+    {"checks", GENERATE(checks),
      .help = "squares along an edge of the checkerboard and of the cube's faces, cubes of checkerbox"},
-    {.key = "radius-scale",
-     .kind = OPTION_NUMBER,
-     .offset = AT(radius_scale),
-     .value = "S",
-     .range = "(0, inf)",
-     .absent = "closed for the jitter",
-     .help = "support radius in units of the spacing"},
-    {.key = "positions-only",
-     .kind = OPTION_FLAG,
-     .offset = AT(positions_only),
+    {"radius-scale", GENERATE(radius_scale), .absent = "closed for the jitter"},
+    {"positions-only", OPTION_FLAG, AT(options.positions_only),
      .help = "leave out normals and radii, as a scanner does"},
-    {.key = "sharp",
-     .kind = OPTION_FLAG,
-     .offset = AT(sharp),
+    {"sharp", OPTION_FLAG, AT(options.sharp),
      .help = "cube and csg: clip lines on every edge, and points on the edges"},
-    {.key = "dims",
-     .kind = OPTION_VECTOR,
-     .offset = AT(dims),
-     .value = "x,y,z",
-     .low = 1,
-     .high = 3,
-     .absent = "128,128,128",
-     .help = "volumes: voxels along each axis; one number: along all"},
+    {"dims", OPTION_VECTOR, AT(dims), "x,y,z",
+     .help = "volumes: voxels along each axis; one number: along all", .low = 1, .high = 3,
+     .absent = "128,128,128"},
 };
 
 static void set_defaults(void *data) {
     generate_arguments *arguments = data;
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
-    arguments->point_count = (int64_t)options.point_count;
-    arguments->seed = (int64_t)options.seed;
-    arguments->size_world = options.size_world;
-    arguments->jitter = options.jitter;
-    arguments->checks = options.checks;
-    arguments->radius_scale = options.radius_scale;
-    arguments->positions_only = options.positions_only;
+    ewa_generate_options_init(&arguments->options, sizeof arguments->options);
     textured_set_defaults(&arguments->textured);
 }
 
@@ -113,15 +65,16 @@ static size_t find_word(const char *word, size_t count, const char *const *words
 /// What is wrong with the options for a volume; NULL: nothing.
 static const char *check_volume(const generate_arguments *arguments) {
     const output_arguments *output = &arguments->textured.procedure.output;
-    generate_arguments defaults = {.seed = 0};
-    set_defaults(&defaults);
+    const ewa_generate_options *options = &arguments->options;
+    ewa_generate_options defaults;
+    ewa_generate_options_init(&defaults, sizeof defaults);
     if (!output->path) return "no output; say -o FILE";
     if (!path_has_suffix(output->path, ".nrrd|-"))
         return "generate: this is a volume, which goes to a .nrrd file";
-    if (output->ascii || output->big_endian || arguments->positions_only || arguments->sharp ||
+    if (output->ascii || output->big_endian || options->positions_only || options->sharp ||
         arguments->textured.picture || arguments->textured.procedure.procedure ||
-        arguments->point_count != defaults.point_count || arguments->jitter != defaults.jitter ||
-        arguments->radius_scale != defaults.radius_scale)
+        options->point_count != defaults.point_count || options->jitter != defaults.jitter ||
+        options->radius_scale != defaults.radius_scale)
         return "generate: of a volume are --dims, --extent, --checks and --seed only";
     for (uint32_t k = 0; k < arguments->dims.count; k++) {
         const double side = arguments->dims.values[k];
@@ -148,13 +101,10 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const char *wrong = volume                  ? check_volume(arguments)
                         : arguments->dims.count ? "generate: --dims is of volumes"
                                                 : NULL;
-    if (wrong) {
-        snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
-        return false;
-    }
+    if (!options_fine(wrong, message)) return false;
     if (volume) return true;
     const procedure_arguments *procedure = &arguments->textured.procedure;
-    if (arguments->positions_only && procedure->procedure && procedure->prefilter > 0) {
+    if (arguments->options.positions_only && procedure->procedure && procedure->options.prefilter > 0) {
         snprintf(message, OPTION_ERROR_BYTES, "--procedure with --positions-only needs --prefilter-scale 0");
         return false;
     }
@@ -164,10 +114,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
 /// Puts the picture onto a new object. It goes on where the object closes upon itself.
 static ewa_status add_picture(const textured_arguments *textured, ewa_object object, const ewa_image *picture,
                               ewa_cloud *cloud) {
-    ewa_acquire_options options;
-    ewa_acquire_options_init(&options, sizeof options);
-    options.filter = (ewa_texture_filter)textured->filter;
-    options.pixel_sigma_px = textured->pixel_sigma_px;
+    ewa_acquire_options options = textured->acquire;
     if (object != EWA_OBJECT_SPHERE && object != EWA_OBJECT_TORUS) options.wrap_s = EWA_TEXTURE_CLAMP;
     if (object != EWA_OBJECT_TORUS) options.wrap_t = EWA_TEXTURE_CLAMP;
     const ewa_status status = ewa_cloud_acquire(cloud, picture, 1, &options, NULL);
@@ -182,18 +129,9 @@ static const double GENERATED_CUTOFF = 3;
 
 static ewa_cloud *make(cli_session *session, const void *data) {
     const generate_arguments *arguments = data;
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
+    ewa_generate_options options = arguments->options;
     options.object =
         (ewa_object)find_word(arguments->textured.procedure.output.common.operands[0], OBJECT_COUNT, objects);
-    options.point_count = (uint64_t)arguments->point_count;
-    options.seed = (uint64_t)arguments->seed;
-    options.size_world = arguments->size_world;
-    options.jitter = arguments->jitter;
-    options.checks = arguments->checks;
-    options.radius_scale = arguments->radius_scale;
-    options.positions_only = arguments->positions_only;
-    options.sharp = arguments->sharp;
     ewa_image picture;
     if (!textured_load(session, &arguments->textured, &picture)) return NULL;
     options.texcoords = picture.pixels != NULL;
@@ -218,9 +156,9 @@ static int run_volume(const generate_arguments *arguments, ewa_volume_object obj
     ewa_volume_generate_options options;
     ewa_volume_generate_options_init(&options, sizeof options);
     options.object = object;
-    options.size_world = arguments->size_world;
-    options.checks = arguments->checks;
-    options.seed = (uint64_t)arguments->seed;
+    options.size_world = arguments->options.size_world;
+    options.checks = arguments->options.checks;
+    options.seed = arguments->options.seed;
     const option_vector *dims = &arguments->dims;
     for (uint32_t k = 0; dims->count && k < 3; k++)
         options.dims[k] = (uint32_t)dims->values[dims->count == 1 ? 0 : k];
@@ -246,11 +184,7 @@ static int run(const void *data) {
                                  : cloud_output_run(data, make);
 }
 
-static const option_group object_options = {"Object", object_table,
-                                            sizeof object_table / sizeof object_table[0]};
-static const option_group *const groups[] = {&cloud_output_options, &object_options, &procedure_options,
-                                             &textured_options};
-
+static const option_group object_options = OPTION_GROUP("Object", object_table);
 const cli_command generate_command = {
     .name = "generate",
     .operands = "KIND -o OUT",
@@ -272,8 +206,8 @@ const cli_command generate_command = {
                 "ewa generate vessels -o vessels.nrrd --dims 256\n",
     .low_operands = 1,
     .high_operands = 1,
-    .groups = groups,
-    .group_count = sizeof groups / sizeof groups[0],
+    .groups = (const option_group *const[]){&cloud_output_options, &object_options, &procedure_options,
+                                            &textured_options, NULL},
     .arguments_bytes = sizeof(generate_arguments),
     .set_defaults = set_defaults,
     .check = check,

@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: MIT
 //
 // Help and the page docs/cli.md, from the option tables.
+#include "json.h"
 #include "options.h"
 
 #include <ctype.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "ewa/ewa.h"
 
 enum { LEFT_COLUMNS = 30, ALL_COLUMNS = 100, TEXT_BYTES = 512 };
 
@@ -48,7 +52,11 @@ static void format_default(const cli_option *option, const void *defaults, char 
         snprintf(text, TEXT_BYTES, "%s", option->absent);
         return;
     }
+    const ewa_option *of = options_library(option);
     switch (option->kind) {
+    case OPTION_LIBRARY:
+        ewa_option_get(of, (const char *)member - of->offset, text);
+        break;
     case OPTION_FLAG:
     case OPTION_TOGGLE:
     case OPTION_BOUNDS:
@@ -106,16 +114,25 @@ static void format_default(const cli_option *option, const void *defaults, char 
     }
 }
 
+void help_name_value(const cli_option *option, char text[EWA_OPTION_TEXT_BYTES]) {
+    const ewa_option *of = options_library(option);
+    if (option->value || option->range)
+        snprintf(text, EWA_OPTION_TEXT_BYTES, "%s", option->value ? option->value : option->range);
+    else if (of && (of->words || of->type == EWA_OPTION_BOOL))
+        ewa_option_range(of, text);
+    else if (of)
+        for (size_t i = 0; i <= strlen(of->unit ? of->unit : "N"); i++)
+            text[i] = (char)toupper((unsigned char)(of->unit ? of->unit : "N")[i]);
+    else
+        snprintf(text, EWA_OPTION_TEXT_BYTES, "%s", option->kind == OPTION_ON_OFF ? "on|off" : "");
+}
+
 /// Writes "-o, --output FILE".
 static void format_names(const cli_option *option, char text[TEXT_BYTES]) {
-    const bool valued = option->kind != OPTION_FLAG && option->kind != OPTION_TOGGLE;
-    const char *value = option->value                   ? option->value
-                        : option->kind == OPTION_ON_OFF ? "on|off"
-                        : option->range                 ? option->range
-                                                        : "";
-    char letter[8] = "";
+    char letter[8] = "", value[EWA_OPTION_TEXT_BYTES];
+    help_name_value(option, value);
     if (option->letter) snprintf(letter, sizeof letter, "-%c, ", option->letter);
-    snprintf(text, TEXT_BYTES, "%s--%s%s%s%s", letter, option->key, valued ? " " : "", valued ? value : "",
+    snprintf(text, TEXT_BYTES, "%s--%s%s%s%s", letter, option->key, value[0] ? " " : "", value,
              option->kind == OPTION_TOGGLE ? ", --no-" : "");
     if (option->kind == OPTION_TOGGLE) strncat(text, option->key, TEXT_BYTES - strlen(text) - 1);
 }
@@ -132,14 +149,18 @@ static void append_keys(const char *lead, const char *keys, char text[2 * TEXT_B
 
 /// Writes what an option means with what it needs and excludes, its range, default and other names.
 static void format_meaning(const cli_option *option, const void *defaults, char text[2 * TEXT_BYTES]) {
-    char initial[TEXT_BYTES];
+    char initial[TEXT_BYTES], range[EWA_OPTION_TEXT_BYTES] = "";
     format_default(option, defaults, initial);
-    const bool ranged = option->range && option->kind != OPTION_CHOICE;
-    snprintf(text, 2 * TEXT_BYTES, "%s%s%s%s%s%s", option->help,
-             !ranged                      ? ""
+    const ewa_option *of = options_library(option);
+    if (of && !of->words && of->type != EWA_OPTION_BOOL && (isfinite(of->minimum) || isfinite(of->maximum)))
+        ewa_option_range(of, range);
+    else if (option->range && option->kind != OPTION_CHOICE)
+        snprintf(range, sizeof range, "%s", option->range);
+    snprintf(text, 2 * TEXT_BYTES, "%s%s%s%s%s%s", option->help ? option->help : of->help,
+             range[0] == 0                ? ""
              : option->kind == OPTION_SET ? "; of "
                                           : "; in ",
-             ranged ? option->range : "", initial[0] ? " (default: " : "", initial, initial[0] ? ")" : "");
+             range, initial[0] ? " (default: " : "", initial, initial[0] ? ")" : "");
     append_keys("; needs ", option->needs, text);
     append_keys("; not with ", option->excludes, text);
     append_keys("; also ", option->aliases, text);
@@ -175,6 +196,47 @@ static void print_group_markdown(FILE *file, const option_group *group, const vo
     }
 }
 
+static const ewa_option_table *const tables[] = {
+    &ewa_acquire_options_table,     &ewa_cloud_save_options_table,
+    &ewa_context_options_table,     &ewa_csg_options_table,
+    &ewa_estimate_options_table,    &ewa_feature_options_table,
+    &ewa_generate_options_table,    &ewa_image_save_options_table,
+    &ewa_mesh_sample_options_table, &ewa_material_table,
+    &ewa_procedure_options_table,   &ewa_refit_options_table,
+    &ewa_render_options_table,      &ewa_surfels_options_table,
+    &ewa_texture_options_table,     &ewa_volume_generate_options_table,
+    &ewa_volume_load_options_table, &ewa_volume_options_table,
+    &ewa_volume_save_options_table, &ewa_voxels_options_table,
+    &ewa_warp_options_table};
+
+static void print_option_json(json_writer *json, const ewa_option *option) {
+    static const char *const types[] = {"bool", "choice", "u32", "u64", "f32", "f64"};
+    char range[EWA_OPTION_TEXT_BYTES];
+    ewa_option_range(option, range);
+    json_object(json, option->name);
+    json_text(json, "type", types[option->type]);
+    if (option->count) json_count(json, "count", option->count);
+    json_text(json, "range", range);
+    if (option->initials)
+        json_vector(json, "default", option->count, option->initials);
+    else
+        json_number(json, "default", option->initial);
+    if (option->unit) json_text(json, "unit", option->unit);
+    json_text(json, "help", option->help);
+    json_close(json, '}');
+}
+
+void help_print_json(FILE *file) {
+    json_writer json;
+    json_start(&json, file);
+    for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++) {
+        json_object(&json, tables[i]->name);
+        for (size_t k = 0; k < tables[i]->option_count; k++) print_option_json(&json, &tables[i]->options[k]);
+        json_close(&json, '}');
+    }
+    json_end(&json);
+}
+
 /// The defaults of a command, to be freed; NULL when memory is short.
 static void *make_defaults(const cli_command *command) {
     void *defaults = malloc(command->arguments_bytes);
@@ -191,7 +253,8 @@ void help_print_command(FILE *file, const cli_command *command) {
         fputc('\n', file);
         print_wrapped(file, command->details, 0, 0);
     }
-    for (size_t i = 0; i < command->group_count; i++) print_group(file, command->groups[i], defaults);
+    for (const option_group *const *group = command->groups; *group; group++)
+        print_group(file, *group, defaults);
     print_group(file, &common_options, defaults);
     fprintf(file, "\nExamples:\n");
     for (const char *line = command->examples; *line;) {
@@ -213,7 +276,8 @@ void help_print_program(FILE *file, size_t count, const cli_command *const *comm
     fputs("\nOptions:\n"
           "  -h, --help        print this help; 'ewa COMMAND --help' prints a command's\n"
           "  --version         print the version\n"
-          "  --help-markdown   print the help of all commands as Markdown\n\n"
+          "  --help-markdown   print the help of all commands as Markdown\n"
+          "  --help-json       print the library's tables of options as JSON\n\n"
           "Exit status: 0 done, 1 the work failed, 2 wrong usage.\n",
           file);
 }
@@ -236,8 +300,8 @@ void help_print_markdown(FILE *file, size_t count, const cli_command *const *com
                 command->operands, toupper((unsigned char)command->summary[0]), command->summary + 1);
         if (command->details) fprintf(file, "\n%s\n", command->details);
         fprintf(file, "\n```sh\n%s```\n", command->examples);
-        for (size_t j = 0; j < command->group_count; j++)
-            print_group_markdown(file, command->groups[j], defaults);
+        for (const option_group *const *group = command->groups; *group; group++)
+            print_group_markdown(file, *group, defaults);
         print_group_markdown(file, &common_options, defaults);
         free(defaults);
     }

@@ -34,7 +34,7 @@ static const double FLAT_RATIO = 1e-6;
 static const cli_option volume_table[] = {VOLUME_INPUT_OPTIONS(offsetof(info_arguments, volume))};
 
 static const cli_option table[] = {
-    {.key = "json", .kind = OPTION_FLAG, .offset = offsetof(info_arguments, json), .help = "print JSON"},
+    {"json", OPTION_FLAG, offsetof(info_arguments, json), .help = "print JSON"},
 };
 
 /// Numbers of one component of an attribute.
@@ -392,11 +392,8 @@ static int run(const void *data) {
     return session_end(&session, exit_status);
 }
 
-static const option_group info_options = {"Output", table, sizeof table / sizeof table[0]};
-static const option_group volume_options = {"Raw volumes", volume_table,
-                                            sizeof volume_table / sizeof volume_table[0]};
-static const option_group *const groups[] = {&info_options, &volume_options};
-
+static const option_group info_options = OPTION_GROUP("Output", table);
+static const option_group volume_options = OPTION_GROUP("Raw volumes", volume_table);
 static void set_defaults(void *data) { volume_input_set_defaults(&((info_arguments *)data)->volume); }
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
@@ -417,8 +414,7 @@ const cli_command info_command = {
                 "ewa info scan.nii.gz\n",
     .low_operands = 1,
     .high_operands = 4096,
-    .groups = groups,
-    .group_count = sizeof groups / sizeof groups[0],
+    .groups = (const option_group *const[]){&info_options, &volume_options, NULL},
     .arguments_bytes = sizeof(info_arguments),
     .set_defaults = set_defaults,
     .check = check,

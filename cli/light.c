@@ -9,66 +9,32 @@
 
 _Static_assert(EWA_MAX_LIGHTS == 8 && OPTION_VECTORS_MAX == 8, "the help of --light says so");
 
-#define AT(member) (LIGHT_OFFSET + offsetof(light_arguments, member))
+#define AT(member)     (LIGHT_OFFSET + offsetof(light_arguments, member))
+#define RENDER(member) OPTION_OF(ewa_render_options, AT(render), member)
 
 static const cli_option light_table[] = {
-    {.key = "shading",
-     .kind = OPTION_CHOICE,
-     .offset = AT(shading),
-     .range = "none|lambert|phong",
-     .absent = "phong with --materials or --env, else lambert",
-     .help = "light: none gives the bare colours, lambert matt surfaces, phong materials with highlights"},
-    {.key = "light",
-     .kind = OPTION_VECTORS,
-     .offset = AT(lights),
-     .value = "x,y,z[,r,g,b]",
-     .low = 3,
-     .high = 6,
-     .absent = "headlight",
+    {"shading", OPTION_CHOICE, AT(shading), NULL, "none|lambert|phong",
+     .help = "light: none gives the bare colours, lambert matt surfaces, phong materials with highlights",
+     .absent = "phong with --materials or --env, else lambert"},
+    {"light", OPTION_VECTORS, AT(lights), "x,y,z[,r,g,b]",
      .help = "direction towards a light, and its linear colour (default 1,1,1); may be given up to 8 times; "
-             "0,0,0,r,g,b is a headlight of that colour"},
-    {.key = "ambient",
-     .kind = OPTION_NUMBER,
-     .offset = AT(ambient),
-     .value = "A",
-     .range = "[0, 1]",
-     .help = "share of the light that comes from everywhere, where --materials does not say"},
-    {.key = "materials",
-     .kind = OPTION_TEXT,
-     .offset = AT(materials_path),
-     .value = "FILE",
+             "0,0,0,r,g,b is a headlight of that colour",
+     .low = 3, .high = 6, .absent = "headlight"},
+    {"ambient", RENDER(ambient)},
+    {"materials", OPTION_TEXT, AT(materials_path), "FILE",
      .help = "JSON table of materials (ambient, diffuse, specular, shininess, reflection), by the points' "
              "property material"},
-    {.key = "env",
-     .kind = OPTION_TEXT,
-     .offset = AT(environment_path),
-     .value = "FILE",
+    {"env", OPTION_TEXT, AT(environment_path), "FILE",
      .help = "surroundings that surfaces mirror: equirectangular .exr, .hdr, .pfm, .png or .jpg"},
-    {.key = "env-up",
-     .kind = OPTION_VECTOR,
-     .offset = AT(environment_up),
-     .value = "x,y,z",
-     .low = 3,
-     .high = 3,
-     .help = "direction in the world of the surroundings' upper edge"},
-    {.key = "edl",
-     .kind = OPTION_NUMBER,
-     .offset = AT(eye_dome),
-     .value = "S",
-     .range = "[0, 100]",
-     .help = "eye-dome lighting: darken what lies behind its surroundings; 0: none, 1: strong"},
+    {"env-up", RENDER(environment_up), .value = "x,y,z"},
+    {"edl", RENDER(eye_dome)},
 };
 
-const option_group light_options = {"Light", light_table, sizeof light_table / sizeof light_table[0]};
+const option_group light_options = OPTION_GROUP("Light", light_table);
 
 void light_set_defaults(light_arguments *arguments) {
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    ewa_render_options_init(&arguments->render, sizeof arguments->render);
     arguments->shading = -1;
-    arguments->ambient = options.ambient;
-    arguments->eye_dome = options.eye_dome;
-    memcpy(arguments->environment_up.values, options.environment_up, sizeof options.environment_up);
-    arguments->environment_up.count = 3;
 }
 
 static bool is_zero(const double v[3]) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
@@ -88,9 +54,8 @@ bool light_check(const light_arguments *arguments, char message[OPTION_ERROR_BYT
     const bool objects = arguments->materials_path || arguments->environment_path;
     if (objects && arguments->shading >= 0 && arguments->shading != EWA_SHADING_PHONG)
         wrong = "--materials and --env need --shading phong";
-    if (is_zero(arguments->environment_up.values)) wrong = "--env-up: 0,0,0 has no direction";
-    if (wrong) snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
-    return !wrong;
+    if (is_zero(arguments->render.environment_up)) wrong = "--env-up: 0,0,0 has no direction";
+    return options_fine(wrong, message);
 }
 
 static ewa_status load_environment(cli_session *session, const char *path, ewa_environment **environment) {
@@ -119,24 +84,22 @@ bool light_load(cli_session *session, const light_arguments *arguments, light_ob
 
 void light_free(light_objects *objects) { ewa_environment_destroy(&objects->environment); }
 
-void light_apply(const light_arguments *arguments, const light_objects *objects,
-                 ewa_render_options *options) {
+ewa_render_options light_apply(const light_arguments *arguments, const light_objects *objects) {
+    ewa_render_options options = arguments->render;
     if (arguments->shading >= 0)
-        options->shading = (ewa_shading)arguments->shading;
+        options.shading = (ewa_shading)arguments->shading;
     else if (objects->material_count || objects->environment)
-        options->shading = EWA_SHADING_PHONG;
-    options->ambient = arguments->ambient;
-    options->eye_dome = arguments->eye_dome;
-    options->light_count = arguments->lights.count;
+        options.shading = EWA_SHADING_PHONG;
+    options.light_count = arguments->lights.count;
     for (uint32_t i = 0; i < arguments->lights.count; i++) {
         const option_vector *from = &arguments->lights.each[i];
-        ewa_light *to = &options->lights[i];
+        ewa_light *to = &options.lights[i];
         ewa_light_init(to);
         memcpy(to->direction_world, from->values, sizeof to->direction_world);
         for (uint32_t c = 3; c < from->count; c++) to->color[c - 3] = (float)from->values[c];
     }
-    options->materials = objects->material_count ? objects->materials : NULL;
-    options->material_count = objects->material_count;
-    options->environment = objects->environment;
-    memcpy(options->environment_up, arguments->environment_up.values, sizeof options->environment_up);
+    options.materials = objects->material_count ? objects->materials : NULL;
+    options.material_count = objects->material_count;
+    options.environment = objects->environment;
+    return options;
 }

@@ -9,11 +9,10 @@
 
 /// Options of shading.
 typedef struct light_arguments {
-    int shading; ///< ewa_shading; -1: not given
+    ewa_render_options render; ///< without what the other members say
+    int shading;               ///< ewa_shading; -1: not given
     option_vectors lights;
-    double ambient, eye_dome;
     const char *materials_path, *environment_path;
-    option_vector environment_up;
 } light_arguments;
 
 /// Where a command's arguments have them: right after the frames_arguments that they begin with.
@@ -37,7 +36,7 @@ bool light_check(const light_arguments *arguments, char message[OPTION_ERROR_BYT
 bool light_load(cli_session *session, const light_arguments *arguments, light_objects *objects);
 void light_free(light_objects *objects);
 
-/// Sets what the options say; `objects` must stay as long as `options` are used.
-void light_apply(const light_arguments *arguments, const light_objects *objects, ewa_render_options *options);
+/// Returns the options of the picture with light and objects, which must stay as long as they are used.
+ewa_render_options light_apply(const light_arguments *arguments, const light_objects *objects);
 
 #endif

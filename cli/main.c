@@ -71,6 +71,8 @@ static int run(size_t count, const char *const *words) {
         help_print_program(stdout, all_commands_count, all_commands);
     } else if (strcmp(word, "--version") == 0) {
         printf("ewa %s\n", ewa_version());
+    } else if (strcmp(word, "--help-json") == 0) {
+        help_print_json(stdout);
     } else if (strcmp(word, "--help-markdown") == 0) {
         help_print_markdown(stdout, all_commands_count, all_commands);
     } else {

@@ -12,40 +12,24 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ewa/image.h"
+
 enum { MAX_WORD = 64, MAX_SIDE_PX = 65536 };
 
 static const cli_option common_table[] = {
-    {.key = "threads",
-     .kind = OPTION_INTEGER,
-     .offset = offsetof(common_arguments, threads),
-     .value = "N",
-     .range = "[0, 256]",
-     .absent = "one per processor",
-     .help = "worker threads; 0: one per processor. The result does not depend on it"},
-    {.key = "progress",
-     .kind = OPTION_TOGGLE,
-     .offset = offsetof(common_arguments, progress),
-     .absent = "on a terminal",
-     .help = "draw a progress bar on standard error, or do not"},
-    {.key = "quiet",
-     .letter = 'q',
-     .kind = OPTION_FLAG,
-     .offset = offsetof(common_arguments, quiet),
-     .help = "print errors only",
+    {"threads", OPTION_INTEGER, offsetof(common_arguments, threads), "N", "[0, 256]",
+     .help = "worker threads; 0: one per processor. The result does not depend on it",
+     .absent = "one per processor"},
+    {"progress", OPTION_TOGGLE, offsetof(common_arguments, progress),
+     .help = "draw a progress bar on standard error, or do not", .absent = "on a terminal"},
+    {"quiet", OPTION_FLAG, offsetof(common_arguments, quiet), .help = "print errors only", .letter = 'q',
      .excludes = "verbose"},
-    {.key = "verbose",
-     .letter = 'v',
-     .kind = OPTION_FLAG,
-     .offset = offsetof(common_arguments, verbose),
-     .help = "say what is done and how long it takes"},
-    {.key = "help",
-     .letter = 'h',
-     .kind = OPTION_FLAG,
-     .offset = offsetof(common_arguments, help),
-     .help = "print this help"},
+    {"verbose", OPTION_FLAG, offsetof(common_arguments, verbose),
+     .help = "say what is done and how long it takes", .letter = 'v'},
+    {"help", OPTION_FLAG, offsetof(common_arguments, help), .help = "print this help", .letter = 'h'},
 };
 
-const option_group common_options = {"Running", common_table, sizeof common_table / sizeof common_table[0]};
+const option_group common_options = OPTION_GROUP("Running", common_table);
 
 __attribute__((format(printf, 2, 3))) static bool wrong(char message[OPTION_ERROR_BYTES], const char *format,
                                                         ...) {
@@ -54,6 +38,10 @@ __attribute__((format(printf, 2, 3))) static bool wrong(char message[OPTION_ERRO
     vsnprintf(message, OPTION_ERROR_BYTES, format, arguments);
     va_end(arguments);
     return false;
+}
+
+bool options_fine(const char *problem, char message[OPTION_ERROR_BYTES]) {
+    return !problem || wrong(message, "%s", problem);
 }
 
 /// Reads a finite number that ends at `*end`.
@@ -165,6 +153,11 @@ static bool parse_color(const cli_option *option, const char *text, option_color
     return true;
 }
 
+void option_color_linear(const option_color *color, float linear[4]) {
+    for (int c = 0; c < 3; c++) linear[c] = ewa_linear_from_srgb((float)color->rgba[c]);
+    linear[3] = (float)color->rgba[3];
+}
+
 static bool parse_size(const cli_option *option, const char *text, option_size *size,
                        char message[OPTION_ERROR_BYTES]) {
     char *end = NULL;
@@ -216,6 +209,18 @@ static bool parse_set(const cli_option *option, const char *text, uint32_t *set,
     return true;
 }
 
+const ewa_option *options_library(const cli_option *option) {
+    return ewa_option_find(option->table, option->member);
+}
+
+static bool parse_library(const cli_option *option, const char *text, void *member,
+                          char message[OPTION_ERROR_BYTES]) {
+    const ewa_option *of = options_library(option);
+    char problem[EWA_OPTION_TEXT_BYTES];
+    if (ewa_option_set(of, (char *)member - of->offset, text, problem) == EWA_OK) return true;
+    return wrong(message, "--%s: %s", option->key, problem);
+}
+
 static bool parse_value(const cli_option *option, const char *text, void *member,
                         char message[OPTION_ERROR_BYTES]) {
     int choice = 0;
@@ -238,6 +243,8 @@ static bool parse_value(const cli_option *option, const char *text, void *member
         return parse_choice(option, text, option->range, member, message);
     case OPTION_SET:
         return parse_set(option, text, member, message);
+    case OPTION_LIBRARY:
+        return parse_library(option, text, member, message);
     case OPTION_ON_OFF:
         if (!parse_choice(option, text, "off|on", &choice, message)) return false;
         *(bool *)member = choice == 1;
@@ -266,12 +273,10 @@ static bool name_is(const char *names, const char *word, size_t length) {
 }
 
 const cli_option *options_at(const cli_command *command, size_t index) {
-    for (size_t i = 0; i <= command->group_count; i++) {
-        const option_group *group = i < command->group_count ? command->groups[i] : &common_options;
-        if (index < group->count) return &group->options[index];
-        index -= group->count;
-    }
-    return NULL;
+    const option_group *const *group = command->groups;
+    for (; *group && index >= (*group)->count; group++) index -= (*group)->count;
+    if (*group) return &(*group)->options[index];
+    return index < common_options.count ? &common_options.options[index] : NULL;
 }
 
 /// Index of the option whose long name has `length` bytes; `*negated` is set for the --no- form of a toggle.
@@ -376,9 +381,11 @@ static bool take_option(const cli_command *command, size_t count, const char *co
         return true;
     }
     if (!value) {
-        if (*index + 1 == count)
-            return wrong(message, "--%s: its value (%s) is missing", option->key,
-                         option->value ? option->value : option->range);
+        if (*index + 1 == count) {
+            char name[EWA_OPTION_TEXT_BYTES];
+            help_name_value(option, name);
+            return wrong(message, "--%s: its value (%s) is missing", option->key, name);
+        }
         value = words[++*index];
     }
     return parse_value(option, value, member, message);

@@ -5,10 +5,9 @@
 #ifndef EWA_CLI_OPTIONS_H
 #define EWA_CLI_OPTIONS_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
+
+#include "ewa/options.h"
 
 /// What the value of an option is, and the type of the member that it fills.
 typedef enum option_kind {
@@ -27,6 +26,7 @@ typedef enum option_kind {
     OPTION_COLOR,   ///< option_color
     OPTION_SIZE,    ///< option_size
     OPTION_SET,     ///< uint32_t: bits of words in `range`, separated by commas
+    OPTION_LIBRARY, ///< a member of a struct of the library's options, as its table says: see OPTION_OF
 } option_kind;
 
 enum { OPTION_VECTOR_MAX = 16, OPTION_VECTORS_MAX = 8, OPTION_COUNT_MAX = 128 };
@@ -55,6 +55,9 @@ typedef struct option_color {
     double rgba[4];
 } option_color;
 
+/// Writes the colour as linear light with straight alpha, as backgrounds are.
+void option_color_linear(const option_color *color, float linear[4]);
+
 typedef struct option_size {
     uint32_t width_px, height_px;
     bool given; ///< false: the default
@@ -62,19 +65,26 @@ typedef struct option_size {
 
 /// One option. Zero and NULL members mean "none".
 typedef struct cli_option {
-    const char *key;     ///< long name without its dashes
-    char letter;         ///< short name
-    const char *aliases; ///< further long names, separated by blanks
+    const char *key; ///< long name without its dashes
     option_kind kind;
-    size_t offset;      ///< of the member in the arguments of the command
-    const char *value;  ///< what help calls the value
-    const char *range;  ///< numbers: an interval such as "(0, 4]"; choices, sets: "first|second"
-    uint32_t low, high; ///< vectors: fewest and most numbers
-    const char *absent; ///< help's words for a default that is worked out; else the member's value is shown
-    const char *help;
+    size_t offset;        ///< of the member in the arguments of the command
+    const char *value;    ///< what help calls the value
+    const char *range;    ///< numbers: an interval such as "(0, 4]"; choices, sets: "first|second"
+    const char *help;     ///< OPTION_LIBRARY: in place of the table's
+    char letter;          ///< short name
+    const char *aliases;  ///< further long names, separated by blanks
+    uint32_t low, high;   ///< vectors: fewest and most numbers
+    const char *absent;   ///< help's words for a default that is worked out; else the member's value is shown
     const char *excludes; ///< keys, separated by blanks, of options that may not be given beside this one
     const char *needs;    ///< keys, separated by blanks: one of these options has to be given too
+    const ewa_option_table *table; ///< OPTION_LIBRARY: the struct's
+    const char *member;            ///< OPTION_LIBRARY: of the struct
 } cli_option;
+
+/// Kind and place of an option that is `name` of a struct of the library's, which the arguments hold at
+/// `offset`: type, range, default and help are those of the library's table.
+#define OPTION_OF(type, offset, name)                                                                        \
+    OPTION_LIBRARY, (offset) + offsetof(type, name), .table = &type##_table, .member = #name
 
 /// Options under one heading.
 typedef struct option_group {
@@ -82,6 +92,9 @@ typedef struct option_group {
     const cli_option *options;
     size_t count;
 } option_group;
+
+#define OPTION_GROUP(title, table)                                                                           \
+    { title, table, sizeof(table) / sizeof(table)[0] }
 
 /// What every command's arguments begin with.
 typedef struct common_arguments {
@@ -105,8 +118,7 @@ typedef struct cli_command {
     const char *details;  ///< further paragraphs of the help
     const char *examples; ///< lines to type
     size_t low_operands, high_operands;
-    const option_group *const *groups; ///< without common_options
-    size_t group_count;
+    const option_group *const *groups; ///< without common_options; NULL after the last
     size_t arguments_bytes; ///< of the struct that begins with common_arguments
     /// Sets what is not zero by default.
     void (*set_defaults)(void *arguments);
@@ -126,16 +138,26 @@ void options_default(const cli_command *command, void *arguments);
 bool options_parse(const cli_command *command, size_t count, const char *const *words, const char **operands,
                    void *arguments, char message[OPTION_ERROR_BYTES]);
 
+/// Writes a problem to `message`, unless it is NULL; returns whether there is none.
+bool options_fine(const char *problem, char message[OPTION_ERROR_BYTES]);
+
 /// Option `index` of a command, counted through its groups and the common one; NULL after the last.
 const cli_option *options_at(const cli_command *command, size_t index);
+
+/// The library's option behind an option of kind OPTION_LIBRARY; NULL for another kind.
+const ewa_option *options_library(const cli_option *option);
 
 /// Returns the name nearest to `word` among `count` names, NULL when none is near.
 const char *options_nearest(const char *word, size_t count, const char *const *names);
 
+/// Writes what help calls the value of an option, such as "FILE" or "on|off".
+void help_name_value(const cli_option *option, char text[EWA_OPTION_TEXT_BYTES]);
 /// Prints the help of a command.
 void help_print_command(FILE *file, const cli_command *command);
 /// Prints what the program is and its commands.
 void help_print_program(FILE *file, size_t count, const cli_command *const *commands);
+/// Prints docs/options.json.
+void help_print_json(FILE *file);
 /// Prints docs/cli.md.
 void help_print_markdown(FILE *file, size_t count, const cli_command *const *commands);
 

@@ -6,64 +6,29 @@
 
 #include <stdio.h>
 
-#define AT(member) offsetof(procedure_arguments, member)
+#define AT(member)        offsetof(procedure_arguments, member)
+#define PROCEDURE(member) OPTION_OF(ewa_procedure_options, AT(options), member)
 
 static const cli_option procedure_table[] = {
-    {.key = "procedure",
-     .kind = OPTION_CHOICE,
-     .offset = AT(procedure),
-     .range = "off|checker|marble|wood|noise",
+    {"procedure", OPTION_CHOICE, AT(procedure), NULL, "off|checker|marble|wood|noise",
      .help = "colour the points by a solid texture, filtered by each surfel's own kernel"},
-    {.key = "frequency",
-     .kind = OPTION_NUMBER,
-     .offset = AT(frequency),
-     .value = "F",
-     .range = "(0, 1e9]",
-     .absent = "8 over the longest side",
-     .help = "features per world unit: cubes, veins, rings, waves",
+    {"frequency", OPTION_NUMBER, AT(frequency), "F", "(0, 1e9]",
+     .help = "features per world unit: cubes, veins, rings, waves", .absent = "8 over the longest side",
      .needs = "procedure"},
-    {.key = "prefilter-scale",
-     .kind = OPTION_NUMBER,
-     .offset = AT(prefilter),
-     .value = "S",
-     .range = "[0, 10]",
-     .help = "width of the filter in units of the surfel's kernel; 0: none, which aliases",
-     .needs = "procedure"},
-    {.key = "procedure-seed",
-     .kind = OPTION_INTEGER,
-     .offset = AT(seed),
-     .value = "N",
-     .range = "[0, inf)",
-     .help = "same seed, same noise",
-     .needs = "procedure"},
-    {.key = "first-color",
-     .kind = OPTION_VECTOR,
-     .offset = AT(colors[0]),
-     .value = "r,g,b",
-     .low = 3,
-     .high = 3,
-     .absent = "by --procedure",
-     .help = "linear colour in [0, 1] of one kind of cubes, the stone, early wood, the low",
-     .needs = "procedure"},
-    {.key = "second-color",
-     .kind = OPTION_VECTOR,
-     .offset = AT(colors[1]),
-     .value = "r,g,b",
-     .low = 3,
-     .high = 3,
-     .absent = "by --procedure",
-     .help = "linear colour in [0, 1] of the other cubes, the veins, late wood, the high",
-     .needs = "procedure"},
+    {"prefilter-scale", PROCEDURE(prefilter), .needs = "procedure"},
+    {"procedure-seed", PROCEDURE(seed), .needs = "procedure"},
+    {"first-color", OPTION_VECTOR, AT(colors[0]), "r,g,b",
+     .help = "linear colour in [0, 1] of one kind of cubes, the stone, early wood, the low", .low = 3,
+     .high = 3, .absent = "by --procedure", .needs = "procedure"},
+    {"second-color", OPTION_VECTOR, AT(colors[1]), "r,g,b",
+     .help = "linear colour in [0, 1] of the other cubes, the veins, late wood, the high", .low = 3,
+     .high = 3, .absent = "by --procedure", .needs = "procedure"},
 };
 
-const option_group procedure_options = {"Solid texture", procedure_table,
-                                        sizeof procedure_table / sizeof procedure_table[0]};
+const option_group procedure_options = OPTION_GROUP("Solid texture", procedure_table);
 
 void procedure_set_defaults(procedure_arguments *arguments) {
-    ewa_procedure_options options;
-    ewa_procedure_options_init(&options, EWA_PROCEDURE_CHECKER, sizeof options);
-    arguments->prefilter = options.prefilter;
-    arguments->seed = (int64_t)options.seed;
+    ewa_procedure_options_init(&arguments->options, EWA_PROCEDURE_CHECKER, sizeof arguments->options);
 }
 
 bool procedure_check(const procedure_arguments *arguments, char message[OPTION_ERROR_BYTES]) {
@@ -75,8 +40,7 @@ bool procedure_check(const procedure_arguments *arguments, char message[OPTION_E
                 problem = i ? "--second-color: numbers must be in [0, 1]"
                             : "--first-color: numbers must be in [0, 1]";
     }
-    if (problem) snprintf(message, OPTION_ERROR_BYTES, "%s", problem);
-    return !problem && cloud_output_check(&arguments->output, message);
+    return options_fine(problem, message) && cloud_output_check(&arguments->output, message);
 }
 
 /// Eight features along the longest side of the cloud's box.
@@ -97,9 +61,9 @@ bool procedure_apply(cli_session *session, const procedure_arguments *arguments,
     ewa_procedure_options options;
     ewa_procedure_options_init(&options, (ewa_procedure)(arguments->procedure - 1), sizeof options);
     options.frequency = arguments->frequency > 0 ? arguments->frequency : fitting_frequency(cloud);
-    options.prefilter = arguments->prefilter;
+    options.prefilter = arguments->options.prefilter;
     options.cutoff = cutoff;
-    options.seed = (uint64_t)arguments->seed;
+    options.seed = arguments->options.seed;
     for (int i = 0; i < 2; i++)
         for (uint32_t c = 0; c < arguments->colors[i].count; c++)
             options.colors[i][c] = (float)arguments->colors[i].values[c];

@@ -9,11 +9,11 @@
 
 /// What the arguments of such a command begin with.
 typedef struct procedure_arguments {
-    output_arguments output; // first
-    int procedure;           ///< 0: off; else 1 + ewa_procedure
-    double frequency, prefilter;
-    int64_t seed;
-    option_vector colors[2]; ///< linear
+    output_arguments output;       // first
+    int procedure;                 ///< 0: off; else 1 + ewa_procedure
+    ewa_procedure_options options; ///< but for the procedure and its colours
+    double frequency;              ///< 0: not given
+    option_vector colors[2];       ///< linear
 } procedure_arguments;
 
 /// The options of procedure_arguments but for the output's.

@@ -22,195 +22,83 @@ typedef struct render_arguments {
     frames_arguments frames; // first: it begins with the common arguments
     light_arguments light;   // second
     const char *output, *aov, *save_camera_path, *stats_path;
-    int kernel, passes, cull, colormap;
-    double cutoff, prefilter_px, radius_scale, point_size_px, tolerance, edge_threshold;
-    bool edge_antialiasing, close_gaps;
-    int64_t edge_layers;
-    const char *layers;
-    double opacity;
+    ewa_surfels_options surfels;
+    bool close_gaps;
+    const char *layers, *color_by;
+    int colormap;
     option_bounds range;
     option_color background;
-    const char *color_by;
 } render_arguments;
 
-enum { ONE_PASS = 0, THREE_PASSES = 1, GAP_POINTS = 1000 };
+enum { GAP_POINTS = 1000 };
 
 /// Support radius in units of the spacing under which irregular points leave gaps.
 static const double GAP_RADIUS = 1;
 
-#define AT(member) offsetof(render_arguments, member)
+#define AT(member)      offsetof(render_arguments, member)
+#define SURFELS(member) OPTION_OF(ewa_surfels_options, AT(surfels), member)
+#define RENDER(member)  OPTION_OF(ewa_render_options, AT(light.render), member)
 
 _Static_assert(offsetof(render_arguments, light) == LIGHT_OFFSET, "light_options says so");
-_Static_assert(EWA_MAX_EDGE_LAYERS == 8, "the range of --edge-layers says so");
 
 static const cli_option output_table[] = {
-    {.key = "output",
-     .letter = 'o',
-     .kind = OPTION_OUTPUT,
-     .offset = AT(output),
-     .value = "FILE",
+    {"output", OPTION_OUTPUT, AT(output), "FILE",
      .help = "the picture: .png (8-bit sRGB), .exr (linear floats, premultiplied: R G B A Z N.X N.Y N.Z "
-             "coverage), "
-             ".pfm (linear RGB); -: PNG to standard output. Frames: NAME_%04d.png and such, or a film: .mp4, "
-             ".mkv (H.264), .webm (VP9), .gif, by the program ffmpeg"},
-    {.key = "aov",
-     .kind = OPTION_OUTPUTS,
-     .offset = AT(aov),
-     .value = "NAME=FILE,...",
+             "coverage), .pfm (linear RGB); -: PNG to standard output. Frames: NAME_%04d.png and such, or a "
+             "film: .mp4, .mkv (H.264), .webm (VP9), .gif, by the program ffmpeg",
+     .letter = 'o'},
+    {"aov", OPTION_OUTPUTS, AT(aov), "NAME=FILE,...",
      .help = "further planes, .pfm or .exr: depth (camera z, infinite where nothing is), normal (world, "
-             "towards the "
-             "viewer), coverage (1: covered)"},
-    {.key = "save-camera",
-     .kind = OPTION_OUTPUT,
-     .offset = AT(save_camera_path),
-     .value = "FILE",
+             "towards the viewer), coverage (1: covered)"},
+    {"save-camera", OPTION_OUTPUT, AT(save_camera_path), "FILE",
      .help = "write the camera that was used, for --camera; of frames all cameras, for --path"},
-    {.key = "stats",
-     .kind = OPTION_OUTPUT,
-     .offset = AT(stats_path),
-     .value = "FILE",
+    {"stats", OPTION_OUTPUT, AT(stats_path), "FILE",
      .help = "write times per stage, counts and peak memory as JSON"},
 };
 
 static const cli_option splat_table[] = {
-    {.key = "kernel",
-     .kind = OPTION_CHOICE,
-     .offset = AT(kernel),
-     .range = "perspective|affine|source|circular|raycast",
-     .help =
-         "projected shape of a splat: its exact ellipse, the ellipse of the affine map at its centre, the "
-         "same evaluated in the surfel's plane, the circle around it, or the exact kernel at each pixel"},
-    {.key = "cutoff",
-     .kind = OPTION_NUMBER,
-     .offset = AT(cutoff),
-     .value = "F",
-     .range = "(0, 4]",
-     .help = "standard deviations at which a kernel ends"},
-    {.key = "prefilter",
-     .kind = OPTION_NUMBER,
-     .offset = AT(prefilter_px),
-     .value = "H",
-     .range = "[0, 4]",
-     .help = "standard deviation of the pixel filter in pixels; 0: none"},
-    {.key = "radius-scale",
-     .kind = OPTION_NUMBER,
-     .offset = AT(radius_scale),
-     .value = "S",
-     .range = "(0, inf)",
-     .help = "multiplies every radius and axis"},
-    {.key = "point-size",
-     .kind = OPTION_NUMBER,
-     .offset = AT(point_size_px),
-     .value = "PX",
-     .range = "[0, 256]",
-     .help = "draws every point as a disc of that diameter in pixels, at least 1, that faces the viewer: for "
-             "points "
-             "that are no surface; 0: surfels as they are"},
-    {.key = "close-gaps",
-     .kind = OPTION_ON_OFF,
-     .offset = AT(close_gaps),
+    {"kernel", RENDER(kernel)},
+    {"cutoff", SURFELS(cutoff)},
+    {"prefilter", RENDER(prefilter_px)},
+    {"radius-scale", SURFELS(radius_scale)},
+    {"point-size", RENDER(point_size_px)},
+    {"close-gaps", OPTION_ON_OFF, AT(close_gaps),
      .help = "measure the radii anew from the spacing where the file's leave gaps between the discs"},
-    {.key = "tolerance",
-     .kind = OPTION_NUMBER,
-     .offset = AT(tolerance),
-     .value = "K",
-     .range = "[0, inf)",
-     .help = "splats closer in depth than K support radii are blended as one surface"},
-    {.key = "passes",
-     .kind = OPTION_CHOICE,
-     .offset = AT(passes),
-     .range = "1|3",
-     .help = "3: splats of one surface are blended; 1: the nearest splat of each pixel wins"},
-    {.key = "edge-aa",
-     .kind = OPTION_ON_OFF,
-     .offset = AT(edge_antialiasing),
-     .help = "smooth silhouettes by coverage"},
-    {.key = "edge-layers",
-     .kind = OPTION_INTEGER,
-     .offset = AT(edge_layers),
-     .value = "N",
-     .range = "[1, 8]",
-     .help = "surfaces that show through each other at smoothed silhouettes; 1: the background shows through "
-             "instead"},
-    {.key = "layers",
-     .kind = OPTION_TEXT,
-     .offset = AT(layers),
-     .value = "auto|L|exact",
-     .absent = "auto",
-     .help =
-         "transparent surfaces of a pixel that are composited: 1: the nearest as if it were opaque; L: the "
-         "L - 1 nearest and all that lies behind as one more; exact: all; auto: all when --opacity or the "
-         "file's alpha is below 1"},
-    {.key = "opacity",
-     .kind = OPTION_NUMBER,
-     .offset = AT(opacity),
-     .value = "A",
-     .range = "[0, 1]",
-     .help = "of every surface, times the alpha of the file's colours"},
-    {.key = "tau",
-     .kind = OPTION_NUMBER,
-     .offset = AT(edge_threshold),
-     .value = "T",
-     .range = "(0, 4]",
-     .help = "coverage, as a share of a covered pixel's, from which a pixel is opaque"},
-    {.key = "cull",
-     .kind = OPTION_CHOICE,
-     .offset = AT(cull),
-     .range = "none|back",
-     .help = "leave out splats that face away"},
+    {"tolerance", RENDER(tolerance)},
+    {"passes", RENDER(passes)},
+    {"edge-aa", RENDER(edge_antialiasing)},
+    {"edge-layers", RENDER(edge_layers)},
+    {"layers", OPTION_TEXT, AT(layers), "auto|L|exact",
+     .help = "transparent surfaces of a pixel that are composited: 1: the nearest as if it were opaque; L: "
+             "the L - 1 nearest and all that lies behind as one more; exact: all; auto: all when --opacity "
+             "or the file's alpha is below 1",
+     .absent = "auto"},
+    {"opacity", RENDER(opacity)},
+    {"tau", RENDER(edge_threshold)},
+    {"cull", RENDER(cull)},
 };
 
 static const cli_option look_table[] = {
-    {.key = "background",
-     .aliases = "background-color",
-     .kind = OPTION_COLOR,
-     .offset = AT(background),
-     .value = "r,g,b[,a]",
-     .help = "sRGB numbers in [0, 1], or transparent"},
-    {.key = "color-by",
-     .kind = OPTION_TEXT,
-     .offset = AT(color_by),
-     .value = "ATTR",
-     .absent = "the file's colours, else grey",
-     .help = "colour by an attribute ('ewa info' lists them), one component of it (normal.x), or by x, y, z"},
-    {.key = "colormap",
-     .kind = OPTION_CHOICE,
-     .offset = AT(colormap),
-     .range = "viridis|turbo|gray|plasma|inferno|magma|cividis|coolwarm",
-     .absent = "viridis",
-     .help = "colours for --color-by",
-     .needs = "color-by"},
-    {.key = "range",
-     .aliases = "coloring-range",
-     .kind = OPTION_BOUNDS,
-     .offset = AT(range),
-     .value = "a,b",
-     .absent = "least to greatest",
+    {"background", OPTION_COLOR, AT(background), "r,g,b[,a]",
+     .help = "sRGB numbers in [0, 1], or transparent", .aliases = "background-color"},
+    {"color-by", OPTION_TEXT, AT(color_by), "ATTR",
+     .help = "colour by an attribute ('ewa info' lists them), one component of it (normal.x), or by x, y, z",
+     .absent = "the file's colours, else grey"},
+    {"colormap", OPTION_CHOICE, AT(colormap), NULL,
+     "viridis|turbo|gray|plasma|inferno|magma|cividis|coolwarm", .help = "colours for --color-by",
+     .absent = "viridis", .needs = "color-by"},
+    {"range", OPTION_BOUNDS, AT(range), "a,b",
      .help = "numbers that get the first and the last colour; with a percent sign, percentiles: 2%,98%",
-     .needs = "color-by"},
+     .aliases = "coloring-range", .absent = "least to greatest", .needs = "color-by"},
 };
 
 static void set_defaults(void *data) {
     render_arguments *arguments = data;
     frames_set_defaults(&arguments->frames);
-    ewa_surfels_options surfels;
-    ewa_surfels_options_init(&surfels, sizeof surfels);
-    arguments->cutoff = surfels.cutoff;
-    arguments->radius_scale = surfels.radius_scale;
-    ewa_render_options render;
-    ewa_render_options_init(&render, sizeof render);
-    arguments->kernel = (int)render.kernel;
-    arguments->passes = render.passes == 1 ? ONE_PASS : THREE_PASSES;
-    arguments->cull = (int)render.cull;
-    arguments->colormap = -1;
     light_set_defaults(&arguments->light);
-    arguments->prefilter_px = render.prefilter_px;
-    arguments->tolerance = render.tolerance;
-    arguments->edge_antialiasing = render.edge_antialiasing;
+    ewa_surfels_options_init(&arguments->surfels, sizeof arguments->surfels);
     arguments->close_gaps = true;
-    arguments->edge_layers = render.edge_layers;
-    arguments->opacity = render.opacity;
-    arguments->edge_threshold = render.edge_threshold;
+    arguments->colormap = -1;
     arguments->background = (option_color){{1, 1, 1, 1}};
 }
 
@@ -242,50 +130,27 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         missing = "render: no output; say -o FILE";
     else if (!read_layers(arguments, &layers))
         missing = "--layers: neither auto, nor exact, nor a number in [1, 255]";
-    else if (layers > 1 && arguments->passes == ONE_PASS)
+    else if (layers > 1 && arguments->light.render.passes == 1)
         missing = "--layers needs --passes 3";
-    else if (arguments->opacity < 1 && arguments->passes == ONE_PASS)
+    else if (arguments->light.render.opacity < 1 && arguments->light.render.passes == 1)
         missing = "--opacity below 1 needs --passes 3";
-    else if (arguments->point_size_px > 0 && arguments->point_size_px < 1)
-        missing = "--point-size: neither 0 nor in [1, 256]";
-    if (missing) {
-        snprintf(message, OPTION_ERROR_BYTES, "%s", missing);
-        return false;
-    }
+    if (!options_fine(missing, message)) return false;
     return light_check(&arguments->light, message) &&
            frames_check(&arguments->frames, arguments->output, arguments->background.rgba[3] == 1, message) &&
            parse_paths(arguments, &paths, message);
 }
 
 static ewa_render_options render_options(const render_arguments *arguments, const light_objects *lit_by) {
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
-    options.kernel = (ewa_kernel)arguments->kernel;
-    options.prefilter_px = arguments->prefilter_px;
-    options.point_size_px = arguments->point_size_px;
-    options.tolerance = arguments->tolerance;
-    options.passes = arguments->passes == ONE_PASS ? 1 : 3;
-    options.edge_antialiasing = arguments->edge_antialiasing;
-    options.edge_layers = (uint32_t)arguments->edge_layers;
+    ewa_render_options options = light_apply(&arguments->light, lit_by);
     read_layers(arguments, &options.layers);
-    options.opacity = arguments->opacity;
-    options.edge_threshold = arguments->edge_threshold;
-    options.cull = (ewa_cull)arguments->cull;
-    light_apply(&arguments->light, lit_by, &options);
-    for (int c = 0; c < 3; c++)
-        options.background[c] = ewa_linear_from_srgb((float)arguments->background.rgba[c]);
-    options.background[3] = (float)arguments->background.rgba[3];
+    option_color_linear(&arguments->background, options.background);
     return options;
 }
 
 static bool make_surfels(cli_session *session, const render_arguments *arguments, const ewa_cloud *cloud,
                          ewa_surfels **surfels, render_report *report) {
-    ewa_surfels_options options;
-    ewa_surfels_options_init(&options, sizeof options);
-    options.cutoff = arguments->cutoff;
-    options.radius_scale = arguments->radius_scale;
     const double started_s = clock_now_s();
-    const ewa_status status = ewa_surfels_create(cloud, &options, surfels);
+    const ewa_status status = ewa_surfels_create(cloud, &arguments->surfels, surfels);
     report->surfels_s += clock_now_s() - started_s;
     if (status != EWA_OK) {
         session_failed(session, status);
@@ -299,8 +164,8 @@ static bool make_surfels(cli_session *session, const render_arguments *arguments
 /// q = s^2 d (1 - exp(-F^2 / 2)) with s = radius / F. Before --radius-scale where that shrinks discs: whoever
 /// does so wants gaps.
 static double radius_in_spacings(const render_arguments *arguments, const ewa_surfels_info *surfels) {
-    const double f = arguments->cutoff, kernel = 1 - exp(-0.5 * f * f);
-    return f * sqrt(surfels->unit_coverage / kernel) / fmin(arguments->radius_scale, 1);
+    const double f = arguments->surfels.cutoff, kernel = 1 - exp(-0.5 * f * f);
+    return f * sqrt(surfels->unit_coverage / kernel) / fmin(arguments->surfels.radius_scale, 1);
 }
 
 /// Measures the radii anew where the file's are so small that there are gaps between the discs; says so.
@@ -319,7 +184,7 @@ static bool close_gaps(cli_session *session, const render_arguments *arguments, 
                  radius);
     ewa_estimate_options options;
     ewa_estimate_options_init(&options, sizeof options);
-    options.cutoff = arguments->cutoff;
+    options.cutoff = arguments->surfels.cutoff;
     options.keep_radii = false;
     const double started_s = clock_now_s();
     ewa_surfels_destroy(surfels);
@@ -338,7 +203,7 @@ static bool make_scene(cli_session *session, const render_arguments *arguments, 
     const common_arguments *common = &arguments->frames.view.common;
     const double started_s = clock_now_s();
     const char *by = arguments->color_by;
-    ewa_cloud *cloud = inputs_as_surfels(session, common, by, arguments->cutoff, &report->estimate_s);
+    ewa_cloud *cloud = inputs_as_surfels(session, common, by, arguments->surfels.cutoff, &report->estimate_s);
     if (!cloud) return false;
     report->load_s = clock_now_s() - started_s - report->estimate_s;
     report->point_count = ewa_cloud_point_count(cloud);
@@ -346,10 +211,11 @@ static bool make_scene(cli_session *session, const render_arguments *arguments, 
     const ewa_colormap colormap =
         arguments->colormap >= 0 ? (ewa_colormap)arguments->colormap : EWA_COLORMAP_VIRIDIS;
     bool done = (!by || color_by(session, cloud, by, colormap, &arguments->range)) &&
-                frames_make(session, &arguments->frames, cloud, arguments->radius_scale, frames);
+                frames_make(session, &arguments->frames, cloud, arguments->surfels.radius_scale, frames);
     session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
     done = done && make_surfels(session, arguments, cloud, surfels, report) &&
-           (arguments->point_size_px > 0 || close_gaps(session, arguments, &cloud, surfels, report)) &&
+           (arguments->light.render.point_size_px > 0 ||
+            close_gaps(session, arguments, &cloud, surfels, report)) &&
            faults_report(session, cloud, &report->surfels);
     ewa_cloud_destroy(&cloud);
     if (!done) ewa_surfels_destroy(surfels);
@@ -429,14 +295,9 @@ static int run(const void *data) {
     return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
 }
 
-#define COUNT(table) (sizeof(table) / sizeof(table)[0])
-
-static const option_group output_options = {"Output", output_table, COUNT(output_table)};
-static const option_group splat_options = {"Splats", splat_table, COUNT(splat_table)};
-static const option_group look_options = {"Look", look_table, COUNT(look_table)};
-static const option_group *const groups[] = {&output_options, &view_options,  &frames_options,
-                                             &splat_options,  &light_options, &look_options};
-
+static const option_group output_options = OPTION_GROUP("Output", output_table);
+static const option_group splat_options = OPTION_GROUP("Splats", splat_table);
+static const option_group look_options = OPTION_GROUP("Look", look_table);
 const cli_command render_command = {
     .name = "render",
     .operands = "IN... -o OUT",
@@ -466,8 +327,8 @@ const cli_command render_command = {
         "ewa render scan.ply -o fly_%04d.png --path keys.json --frames 300\n",
     .low_operands = 1,
     .high_operands = 4096,
-    .groups = groups,
-    .group_count = COUNT(groups),
+    .groups = (const option_group *const[]){&output_options, &view_options, &frames_options, &splat_options,
+                                            &light_options, &look_options, NULL},
     .arguments_bytes = sizeof(render_arguments),
     .set_defaults = set_defaults,
     .check = check,

@@ -11,75 +11,27 @@
 
 typedef struct sample_arguments {
     textured_arguments textured; // first
-    bool clip_lines, smooth_normals;
-    int64_t point_count, seed;
-    double spacing_world, crease_degrees, radius_scale, cutoff;
+    ewa_mesh_sample_options options;
 } sample_arguments;
 
-#define AT(member) offsetof(sample_arguments, member)
+#define AT(member)     offsetof(sample_arguments, member)
+#define SAMPLE(member) OPTION_OF(ewa_mesh_sample_options, AT(options), member)
 
 static const cli_option sample_table[] = {
-    {.key = "points",
-     .letter = 'n',
-     .kind = OPTION_INTEGER,
-     .offset = AT(point_count),
-     .value = "N",
-     .range = "[1, 4294967279]",
-     .help = "about how many points, within a few percent",
-     .excludes = "spacing"},
-    {.key = "spacing",
-     .kind = OPTION_NUMBER,
-     .offset = AT(spacing_world),
-     .value = "S",
-     .range = "[0, inf)",
-     .absent = "from --points",
-     .help = "square root of the area per point, in world units"},
-    {.key = "seed",
-     .kind = OPTION_INTEGER,
-     .offset = AT(seed),
-     .value = "N",
-     .range = "[0, inf)",
-     .help = "same seed, same points"},
-    {.key = "crease",
-     .kind = OPTION_NUMBER,
-     .offset = AT(crease_degrees),
-     .value = "DEGREES",
-     .range = "[0, 180]",
-     .help = "edges that bend by more are sharp"},
-    {.key = "clip-lines",
-     .kind = OPTION_ON_OFF,
-     .offset = AT(clip_lines),
-     .help = "make sharp edges, corners and borders exact by clip lines"},
-    {.key = "smooth-normals",
-     .kind = OPTION_ON_OFF,
-     .offset = AT(smooth_normals),
-     .help = "interpolate normals across edges that are not sharp; off: those of the triangles"},
-    {.key = "radius-scale",
-     .kind = OPTION_NUMBER,
-     .offset = AT(radius_scale),
-     .value = "S",
-     .range = "[0.5, 10]",
-     .help = "support radius in units of the spacing"},
-    {.key = "cutoff",
-     .kind = OPTION_NUMBER,
-     .offset = AT(cutoff),
-     .value = "F",
-     .range = "(0, 4]",
-     .help = "standard deviations at which kernels end: axes are support radius / F long"},
+    {"points", OPTION_INTEGER, AT(options.point_count), "N", "[1, 4294967279]",
+     .help = "about how many points, within a few percent", .letter = 'n', .excludes = "spacing"},
+    {"spacing", SAMPLE(spacing_world), .value = "S", .absent = "from --points"},
+    {"seed", SAMPLE(seed)},
+    {"crease", SAMPLE(crease_degrees)},
+    {"clip-lines", SAMPLE(clip_lines)},
+    {"smooth-normals", SAMPLE(smooth_normals)},
+    {"radius-scale", SAMPLE(radius_scale)},
+    {"cutoff", SAMPLE(cutoff)},
 };
 
 static void set_defaults(void *data) {
     sample_arguments *arguments = data;
-    ewa_mesh_sample_options options;
-    ewa_mesh_sample_options_init(&options, sizeof options);
-    arguments->point_count = (int64_t)options.point_count;
-    arguments->spacing_world = options.spacing_world;
-    arguments->seed = (int64_t)options.seed;
-    arguments->crease_degrees = options.crease_degrees;
-    arguments->clip_lines = options.clip_lines;
-    arguments->smooth_normals = options.smooth_normals;
-    arguments->radius_scale = options.radius_scale;
-    arguments->cutoff = options.cutoff;
+    ewa_mesh_sample_options_init(&arguments->options, sizeof arguments->options);
     textured_set_defaults(&arguments->textured);
 }
 
@@ -106,18 +58,9 @@ static bool load(cli_session *session, const char *path, ewa_model *model) {
 static ewa_cloud *make(cli_session *session, const void *data) {
     const sample_arguments *arguments = data;
     const char *path = arguments->textured.procedure.output.common.operands[0];
-    ewa_mesh_sample_options options;
-    ewa_mesh_sample_options_init(&options, sizeof options);
-    options.point_count = (uint64_t)arguments->point_count;
-    options.spacing_world = arguments->spacing_world;
-    options.seed = (uint64_t)arguments->seed;
-    options.crease_degrees = arguments->crease_degrees;
-    options.clip_lines = arguments->clip_lines;
-    options.smooth_normals = arguments->smooth_normals;
-    options.radius_scale = arguments->radius_scale;
-    options.cutoff = arguments->cutoff;
-    options.texture_filter = (ewa_texture_filter)arguments->textured.filter;
-    options.pixel_sigma_px = arguments->textured.pixel_sigma_px;
+    ewa_mesh_sample_options options = arguments->options;
+    options.texture_filter = arguments->textured.acquire.filter;
+    options.pixel_sigma_px = arguments->textured.acquire.pixel_sigma_px;
     ewa_image picture;
     if (!textured_load(session, &arguments->textured, &picture)) return NULL;
     ewa_model model;
@@ -141,18 +84,14 @@ static ewa_cloud *make(cli_session *session, const void *data) {
     }
     ewa_model_free(&model);
     ewa_image_free(&picture);
-    if (cloud && !procedure_apply(session, &arguments->textured.procedure, arguments->cutoff, cloud))
+    if (cloud && !procedure_apply(session, &arguments->textured.procedure, arguments->options.cutoff, cloud))
         ewa_cloud_destroy(&cloud);
     return cloud;
 }
 
 static int run(const void *data) { return cloud_output_run(data, make); }
 
-static const option_group sample_options = {"Sampling", sample_table,
-                                            sizeof sample_table / sizeof sample_table[0]};
-static const option_group *const groups[] = {&cloud_output_options, &sample_options, &procedure_options,
-                                             &textured_options};
-
+static const option_group sample_options = OPTION_GROUP("Sampling", sample_table);
 const cli_command sample_command = {
     .name = "sample",
     .operands = "MESH -o OUT",
@@ -167,8 +106,8 @@ const cli_command sample_command = {
                 "ewa sample model.glb -o - | ewa render - -o model.png\n",
     .low_operands = 1,
     .high_operands = 1,
-    .groups = groups,
-    .group_count = sizeof groups / sizeof groups[0],
+    .groups = (const option_group *const[]){&cloud_output_options, &sample_options, &procedure_options,
+                                            &textured_options, NULL},
     .arguments_bytes = sizeof(sample_arguments),
     .set_defaults = set_defaults,
     .check = check,

@@ -12,98 +12,41 @@
 
 typedef struct surfels_arguments {
     output_arguments output; // first
-    bool keep_normals, keep_radii;
-    int64_t neighbours;
-    int orientation, shape;
+    ewa_estimate_options options;
     option_vector viewpoint;
-    double radius_scale, cutoff, outlier_factor;
 } surfels_arguments;
 
-#define AT(member) offsetof(surfels_arguments, member)
+#define AT(member)       offsetof(surfels_arguments, member)
+#define ESTIMATE(member) OPTION_OF(ewa_estimate_options, AT(options), member)
 
 static const cli_option estimate_table[] = {
-    {.key = "neighbours",
-     .aliases = "neighbors",
-     .kind = OPTION_INTEGER,
-     .offset = AT(neighbours),
-     .value = "K",
-     .range = "[6, 64]",
-     .help = "nearest neighbours that a point is judged by"},
-    {.key = "orient",
-     .kind = OPTION_CHOICE,
-     .offset = AT(orientation),
-     .range = "propagate|viewpoint|none",
-     .help = "side that normals point to: consistent along the surface and outward, towards --viewpoint, or "
-             "as they "
-             "come"},
-    {.key = "viewpoint",
-     .kind = OPTION_VECTOR,
-     .offset = AT(viewpoint),
-     .value = "x,y,z",
-     .low = 3,
-     .high = 3,
-     .absent = "none",
-     .help = "place that normals point to, such as the scanner's; means --orient viewpoint"},
-    {.key = "shape",
-     .kind = OPTION_CHOICE,
-     .offset = AT(shape),
-     .range = "disc|ellipse",
-     .help = "disc: a radius from the local density; ellipse: two axes from the local anisotropy of the "
-             "sampling"},
-    {.key = "radius-scale",
-     .kind = OPTION_NUMBER,
-     .offset = AT(radius_scale),
-     .value = "S",
-     .range = "(0, inf)",
-     .help = "support radius in units of the local spacing"},
-    {.key = "cutoff",
-     .kind = OPTION_NUMBER,
-     .offset = AT(cutoff),
-     .value = "F",
-     .range = "(0, 4]",
-     .help = "standard deviations at which kernels end: axes are support radius / F long"},
-    {.key = "keep-normals",
-     .kind = OPTION_ON_OFF,
-     .offset = AT(keep_normals),
-     .help = "keep the normals that the file has"},
-    {.key = "keep-radii",
-     .kind = OPTION_ON_OFF,
-     .offset = AT(keep_radii),
-     .help = "keep the radii or axes that the file has"},
-    {.key = "outliers",
-     .kind = OPTION_NUMBER,
-     .offset = AT(outlier_factor),
-     .value = "FACTOR",
-     .range = "[0, inf)",
-     .help = "remove points whose mean distance to their neighbours is over the mean + FACTOR standard "
-             "deviations of "
-             "all; 0: keep all"},
+    {"neighbours", ESTIMATE(neighbour_count), .aliases = "neighbors"},
+    {"orient", ESTIMATE(orientation)},
+    {"viewpoint", OPTION_VECTOR, AT(viewpoint), "x,y,z",
+     .help = "place that normals point to, such as the scanner's; means --orient viewpoint", .low = 3,
+     .high = 3, .absent = "none"},
+    {"shape", ESTIMATE(shape)},
+    {"radius-scale", ESTIMATE(radius_scale)},
+    {"cutoff", ESTIMATE(cutoff)},
+    {"keep-normals", ESTIMATE(keep_normals)},
+    {"keep-radii", ESTIMATE(keep_radii)},
+    {"outliers", ESTIMATE(outlier_factor)},
 };
 
 static void set_defaults(void *data) {
     surfels_arguments *arguments = data;
-    ewa_estimate_options options;
-    ewa_estimate_options_init(&options, sizeof options);
-    arguments->neighbours = options.neighbour_count;
-    arguments->orientation = (int)options.orientation;
-    arguments->shape = (int)options.shape;
-    arguments->radius_scale = options.radius_scale;
-    arguments->cutoff = options.cutoff;
-    arguments->keep_normals = options.keep_normals;
-    arguments->keep_radii = options.keep_radii;
-    arguments->outlier_factor = options.outlier_factor;
+    ewa_estimate_options_init(&arguments->options, sizeof arguments->options);
 }
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const surfels_arguments *arguments = data;
     if (!cloud_output_check(&arguments->output, message)) return false;
     const char *problem = NULL;
-    if (arguments->orientation == EWA_ORIENT_VIEWPOINT && !arguments->viewpoint.count)
+    if (arguments->options.orientation == EWA_ORIENT_VIEWPOINT && !arguments->viewpoint.count)
         problem = "--orient viewpoint needs --viewpoint x,y,z";
-    else if (arguments->orientation == EWA_ORIENT_NONE && arguments->viewpoint.count)
+    else if (arguments->options.orientation == EWA_ORIENT_NONE && arguments->viewpoint.count)
         problem = "--viewpoint and --orient none exclude each other";
-    if (problem) snprintf(message, OPTION_ERROR_BYTES, "%s", problem);
-    return !problem;
+    return options_fine(problem, message);
 }
 
 static ewa_cloud *make(cli_session *session, const void *data) {
@@ -111,19 +54,10 @@ static ewa_cloud *make(cli_session *session, const void *data) {
     const char *path = arguments->output.common.operands[0];
     ewa_cloud *cloud = input_load(session, path);
     if (!cloud) return NULL;
-    if (arguments->keep_normals) screening_drop_zero_normals(session, path, cloud);
-    ewa_estimate_options options;
-    ewa_estimate_options_init(&options, sizeof options);
-    options.neighbour_count = (uint32_t)arguments->neighbours;
-    options.orientation =
-        arguments->viewpoint.count ? EWA_ORIENT_VIEWPOINT : (ewa_orientation)arguments->orientation;
+    if (arguments->options.keep_normals) screening_drop_zero_normals(session, path, cloud);
+    ewa_estimate_options options = arguments->options;
+    if (arguments->viewpoint.count) options.orientation = EWA_ORIENT_VIEWPOINT;
     memcpy(options.viewpoint_world, arguments->viewpoint.values, sizeof options.viewpoint_world);
-    options.shape = (ewa_surfel_shape)arguments->shape;
-    options.radius_scale = arguments->radius_scale;
-    options.cutoff = arguments->cutoff;
-    options.keep_normals = arguments->keep_normals;
-    options.keep_radii = arguments->keep_radii;
-    options.outlier_factor = arguments->outlier_factor;
     const uint64_t before = ewa_cloud_point_count(cloud);
     const double started_s = clock_now_s();
     const ewa_status status = ewa_cloud_estimate(&cloud, &options);
@@ -140,10 +74,7 @@ static ewa_cloud *make(cli_session *session, const void *data) {
 
 static int run(const void *data) { return cloud_output_run(data, make); }
 
-static const option_group estimate_options = {"Estimation", estimate_table,
-                                              sizeof estimate_table / sizeof estimate_table[0]};
-static const option_group *const groups[] = {&cloud_output_options, &estimate_options};
-
+static const option_group estimate_options = OPTION_GROUP("Estimation", estimate_table);
 const cli_command surfels_command = {
     .name = "surfels",
     .operands = "IN -o OUT",
@@ -155,8 +86,7 @@ const cli_command surfels_command = {
                 "ewa surfels lines.ply -o ellipses.ply --shape ellipse --keep-normals off\n",
     .low_operands = 1,
     .high_operands = 1,
-    .groups = groups,
-    .group_count = sizeof groups / sizeof groups[0],
+    .groups = (const option_group *const[]){&cloud_output_options, &estimate_options, NULL},
     .arguments_bytes = sizeof(surfels_arguments),
     .set_defaults = set_defaults,
     .check = check,

@@ -14,115 +14,52 @@ typedef struct texture_arguments {
     view_arguments view; // first: it begins with the common arguments
     const char *output;
     option_vector homography, corners, plane;
-    int method;
-    double prefilter_px, cutoff, sigma_texels, point_spacing_px;
-    bool repeat;
+    ewa_texture_options options;
     option_color background;
 } texture_arguments;
 
-#define AT(member) offsetof(texture_arguments, member)
+#define AT(member)      offsetof(texture_arguments, member)
+#define TEXTURE(member) OPTION_OF(ewa_texture_options, AT(options), member)
 
 static const cli_option output_table[] = {
-    {.key = "output",
-     .letter = 'o',
-     .kind = OPTION_OUTPUT,
-     .offset = AT(output),
-     .value = "FILE",
+    {"output", OPTION_OUTPUT, AT(output), "FILE",
      .help = "the picture: .png (8-bit sRGB, straight alpha), .exr (linear floats, premultiplied), .pfm "
-             "(linear RGB); "
-             "-: PNG to standard output"},
-    {.key = "background",
-     .aliases = "background-color",
-     .kind = OPTION_COLOR,
-     .offset = AT(background),
-     .value = "r,g,b[,a]",
-     .absent = "transparent",
-     .help = "sRGB numbers in [0, 1], or transparent"},
+             "(linear RGB); -: PNG to standard output",
+     .letter = 'o'},
+    {"background", OPTION_COLOR, AT(background), "r,g,b[,a]",
+     .help = "sRGB numbers in [0, 1], or transparent", .aliases = "background-color",
+     .absent = "transparent"},
 };
 
 static const cli_option map_table[] = {
-    {.key = "homography",
-     .kind = OPTION_VECTOR,
-     .offset = AT(homography),
-     .value = "9 numbers",
-     .low = 9,
-     .high = 9,
+    {"homography", OPTION_VECTOR, AT(homography), "9 numbers",
      .help = "matrix H, row by row, from pixels of the image to pixels of the picture, columns on its right: "
              "(x w, y w, w) = H (u, v, 1), as OpenCV writes it, but with pixel centres at half integers; the "
-             "side of "
-             "the horizon on which the middle of the image lies is seen",
-     .excludes = "corners plane " VIEW_PLACING_KEYS},
-    {.key = "corners",
-     .kind = OPTION_VECTOR,
-     .offset = AT(corners),
-     .value = "x1,y1,..,x4,y4",
-     .low = 8,
-     .high = 8,
+             "side of the horizon on which the middle of the image lies is seen",
+     .low = 9, .high = 9, .excludes = "corners plane " VIEW_PLACING_KEYS},
+    {"corners", OPTION_VECTOR, AT(corners), "x1,y1,..,x4,y4",
      .help = "where the upper left, upper right, lower right and lower left corners of the image go, in "
-             "pixels of the "
-             "picture",
-     .excludes = "plane " VIEW_PLACING_KEYS},
-    {.key = "plane",
-     .kind = OPTION_VECTOR,
-     .offset = AT(plane),
-     .value = "o,a,d",
-     .low = 9,
-     .high = 9,
-     .absent = "1 high, upright in the x-y plane, its middle at the origin",
+             "pixels of the picture",
+     .low = 8, .high = 8, .excludes = "plane " VIEW_PLACING_KEYS},
+    {"plane", OPTION_VECTOR, AT(plane), "o,a,d",
      .help = "for a camera: where the image is in the world, three times x,y,z: its upper left corner, the "
-             "way along "
-             "its upper edge, the way down its left edge"},
-    {.key = "repeat",
-     .kind = OPTION_ON_OFF,
-     .offset = AT(repeat),
-     .help = "fill the whole plane with copies of the image, up to the horizon"},
+             "way along its upper edge, the way down its left edge",
+     .low = 9, .high = 9, .absent = "1 high, upright in the x-y plane, its middle at the origin"},
+    {"repeat", TEXTURE(repeat)},
 };
 
 static const cli_option filter_table[] = {
-    {.key = "method",
-     .kind = OPTION_CHOICE,
-     .offset = AT(method),
-     .range = "hybrid|splat|point|bilinear",
-     .help = "hybrid: texels are points where they are minified along both axes, and splats elsewhere; all "
-             "splats; all "
-             "points, with holes where magnified; backward, by bilinear interpolation, which aliases"},
-    {.key = "prefilter",
-     .kind = OPTION_NUMBER,
-     .offset = AT(prefilter_px),
-     .value = "H",
-     .range = "[0.1, 4]",
-     .help = "standard deviation of the pixel filter in pixels"},
-    {.key = "cutoff",
-     .kind = OPTION_NUMBER,
-     .offset = AT(cutoff),
-     .value = "F",
-     .range = "[1, 4]",
-     .help = "standard deviations at which kernels end"},
-    {.key = "sigma",
-     .kind = OPTION_NUMBER,
-     .offset = AT(sigma_texels),
-     .value = "S",
-     .range = "[0.3, 2]",
-     .help = "standard deviation of a texel's disc, in texels: larger is softer where magnified"},
-    {.key = "point-spacing",
-     .kind = OPTION_NUMBER,
-     .offset = AT(point_spacing_px),
-     .value = "D",
-     .range = "[0.05, 1]",
-     .help = "hybrid: texels that are not farther apart than this, in pixels, are points"},
+    {"method", TEXTURE(method)},
+    {"prefilter", TEXTURE(prefilter_px)},
+    {"cutoff", TEXTURE(cutoff)},
+    {"sigma", TEXTURE(sigma_texels)},
+    {"point-spacing", TEXTURE(point_spacing_px)},
 };
 
 static void set_defaults(void *data) {
     texture_arguments *arguments = data;
-    ewa_texture_options options;
-    ewa_texture_options_init(&options, sizeof options);
     view_set_defaults(&arguments->view);
-    arguments->method = (int)options.method;
-    arguments->prefilter_px = options.prefilter_px;
-    arguments->cutoff = options.cutoff;
-    arguments->sigma_texels = options.sigma_texels;
-    arguments->point_spacing_px = options.point_spacing_px;
-    arguments->repeat = options.repeat;
+    ewa_texture_options_init(&arguments->options, sizeof arguments->options);
 }
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
@@ -131,12 +68,9 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const char *wrong = NULL;
     if (!arguments->output)
         wrong = "texture: no output; say -o FILE";
-    else if (arguments->repeat && arguments->method == EWA_TEXTURE_SPLAT)
+    else if (arguments->options.repeat && arguments->options.method == EWA_TEXTURE_SPLAT)
         wrong = "--repeat on needs another --method than splat, which would never end";
-    if (wrong) {
-        snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
-        return false;
-    }
+    if (!options_fine(wrong, message)) return false;
     const char *file = strcmp(arguments->output, "-") == 0 ? NULL : arguments->output;
     return view_check(&arguments->view, false, message) && picture_parse_paths(file, NULL, &paths, message);
 }
@@ -177,7 +111,7 @@ static bool make_map(cli_session *session, const texture_arguments *arguments, c
                      ewa_mat3 *map, ewa_camera *camera) {
     const bool flat = arguments->homography.count || arguments->corners.count;
     ewa_status status = EWA_OK;
-    ewa_camera_init(camera, sizeof *camera);
+    ewa_camera_init(camera);
     if (flat) {
         const option_size *size = &arguments->view.size;
         camera->width_px = size->given ? size->width_px : image->width_px;
@@ -205,21 +139,6 @@ static bool make_map(cli_session *session, const texture_arguments *arguments, c
     return status == EWA_OK;
 }
 
-static ewa_texture_options texture_options(const texture_arguments *arguments) {
-    ewa_texture_options options;
-    ewa_texture_options_init(&options, sizeof options);
-    options.method = (ewa_texture_method)arguments->method;
-    options.prefilter_px = arguments->prefilter_px;
-    options.cutoff = arguments->cutoff;
-    options.sigma_texels = arguments->sigma_texels;
-    options.point_spacing_px = arguments->point_spacing_px;
-    options.repeat = arguments->repeat;
-    for (int c = 0; c < 3; c++)
-        options.background[c] = ewa_linear_from_srgb((float)arguments->background.rgba[c]);
-    options.background[3] = (float)arguments->background.rgba[3];
-    return options;
-}
-
 /// Draws into a new picture, which the caller frees in any case. False after reporting.
 static bool draw(cli_session *session, const texture_arguments *arguments, const ewa_image *image,
                  const ewa_mat3 *map, const ewa_camera *camera, ewa_image *picture) {
@@ -230,14 +149,15 @@ static bool draw(cli_session *session, const texture_arguments *arguments, const
     const ewa_texture_target target = {
         picture->pixels,   EWA_PIXEL_LINEAR,   4,
         picture->width_px, picture->height_px, picture->width_px * 4 * sizeof(float)};
-    const ewa_texture_options options = texture_options(arguments);
+    ewa_texture_options options = arguments->options;
+    option_color_linear(&arguments->background, options.background);
     ewa_texture_stats stats;
     if (status == EWA_OK) status = ewa_texture_map(session->context, &source, map, &options, &target, &stats);
     if (status != EWA_OK) {
         session_failed(session, status);
         return false;
     }
-    if (arguments->method != EWA_TEXTURE_BILINEAR && stats.splat_count + stats.point_count == 0)
+    if (arguments->options.method != EWA_TEXTURE_BILINEAR && stats.splat_count + stats.point_count == 0)
         session_warn(session, "nothing of the image is in the picture");
     session_say(session,
                 "%llu splats, %llu points for %llu texels in %.1f ms, %.3g million pixels per second",
@@ -280,13 +200,9 @@ static int run(const void *data) {
     return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
 }
 
-static const option_group output_options = {"Output", output_table,
-                                            sizeof output_table / sizeof output_table[0]};
-static const option_group map_options = {"Map", map_table, sizeof map_table / sizeof map_table[0]};
-static const option_group filter_options = {"Filter", filter_table,
-                                            sizeof filter_table / sizeof filter_table[0]};
-static const option_group *const groups[] = {&output_options, &map_options, &view_options, &filter_options};
-
+static const option_group output_options = OPTION_GROUP("Output", output_table);
+static const option_group map_options = OPTION_GROUP("Map", map_table);
+static const option_group filter_options = OPTION_GROUP("Filter", filter_table);
 const cli_command texture_command = {
     .name = "texture",
     .operands = "IMAGE -o OUT",
@@ -307,8 +223,8 @@ const cli_command texture_command = {
                 "ewa texture photo.png -o shifted.exr --homography 1,0,8,0,1,3,0,0,1 --method splat\n",
     .low_operands = 1,
     .high_operands = 1,
-    .groups = groups,
-    .group_count = sizeof groups / sizeof groups[0],
+    .groups =
+        (const option_group *const[]){&output_options, &map_options, &view_options, &filter_options, NULL},
     .arguments_bytes = sizeof(texture_arguments),
     .set_defaults = set_defaults,
     .check = check,

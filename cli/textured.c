@@ -7,35 +7,18 @@
 #define AT(member) offsetof(textured_arguments, member)
 
 static const cli_option table[] = {
-    {.key = "texture",
-     .kind = OPTION_TEXT,
-     .offset = AT(picture),
-     .value = "IMAGE",
-     .absent = "the object's own colours",
+    {"texture", OPTION_TEXT, AT(picture), "IMAGE",
      .help = "picture to put onto the points (PNG, JPEG, OpenEXR, PFM, HDR)",
-     .excludes = "procedure"},
-    {.key = "texture-filter",
-     .kind = OPTION_CHOICE,
-     .offset = AT(filter),
-     .range = "nearest|ewa|optimal",
-     .help = "nearest: the pixel at the point; ewa: the mean under the surfel; optimal: the sharpest, by "
-             "least squares, colours may leave [0, 1]"},
-    {.key = "pixel-sigma",
-     .kind = OPTION_NUMBER,
-     .offset = AT(pixel_sigma_px),
-     .value = "S",
-     .range = "[0.3, 8]",
-     .help = "standard deviation of the Gaussian that stands for a pixel of the picture, in pixels"},
+     .absent = "the object's own colours", .excludes = "procedure"},
+    {"texture-filter", OPTION_OF(ewa_acquire_options, AT(acquire), filter)},
+    {"pixel-sigma", OPTION_OF(ewa_acquire_options, AT(acquire), pixel_sigma_px)},
 };
 
-const option_group textured_options = {"Texture", table, sizeof table / sizeof table[0]};
+const option_group textured_options = OPTION_GROUP("Texture", table);
 
 void textured_set_defaults(textured_arguments *arguments) {
     procedure_set_defaults(&arguments->procedure);
-    ewa_acquire_options options;
-    ewa_acquire_options_init(&options, sizeof options);
-    arguments->filter = (int)options.filter;
-    arguments->pixel_sigma_px = options.pixel_sigma_px;
+    ewa_acquire_options_init(&arguments->acquire, sizeof arguments->acquire);
 }
 
 bool textured_load(cli_session *session, const textured_arguments *arguments, ewa_image *picture) {

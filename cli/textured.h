@@ -11,8 +11,7 @@
 typedef struct textured_arguments {
     procedure_arguments procedure; // first
     const char *picture;           ///< NULL: none
-    int filter;                    ///< ewa_texture_filter
-    double pixel_sigma_px;
+    ewa_acquire_options acquire;
 } textured_arguments;
 
 /// The options of textured_arguments but for those of procedure_arguments.

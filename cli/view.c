@@ -12,105 +12,43 @@
 #include <string.h>
 
 static const cli_option view_table[] = {
-    {.key = "camera",
-     .kind = OPTION_TEXT,
-     .offset = offsetof(view_arguments, camera_path),
-     .value = "FILE",
-     .help =
-         "camera file: ours, Open3D, nerfstudio, INRIA (JSON), or the folder of a COLMAP model, whose "
-         "picture --size scales; or poses as text (.txt, .log, .tum: 4 x 4 matrices or TUM's lines, camera "
-         "to world), which get their lens from --intrinsics or --fov",
+    {"camera", OPTION_TEXT, offsetof(view_arguments, camera_path), "FILE",
+     .help = "camera file: ours, Open3D, nerfstudio, INRIA (JSON), or the folder of a COLMAP model, whose "
+             "picture --size scales; or poses as text (.txt, .log, .tum: 4 x 4 matrices or TUM's lines, "
+             "camera to world), which get their lens from --intrinsics or --fov",
      .excludes = "eye target up ortho view azimuth elevation"},
-    {.key = "camera-index",
-     .kind = OPTION_INTEGER,
-     .offset = offsetof(view_arguments, camera_index),
-     .value = "N",
-     .range = "[0, 4294967295]",
-     .help = "which camera of the file, counted from 0",
-     .needs = "camera"},
-    {.key = "intrinsics",
-     .kind = OPTION_TEXT,
-     .offset = offsetof(view_arguments, intrinsics),
-     .value = "fx,fy,cx,cy|FILE",
-     .absent = "from --fov",
-     .help =
-         "lens of poses: focal lengths and principal point in pixels of a picture of --size, pixel centres "
-         "at halves; or a file with a lens, such as Open3D's",
-     .excludes = "fov"},
-    {.key = "eye",
-     .aliases = "camera-position",
-     .kind = OPTION_VECTOR,
-     .offset = offsetof(view_arguments, eye),
-     .value = "x,y,z",
-     .low = 3,
-     .high = 3,
-     .absent = "so that all is in the picture",
-     .help = "position of the camera in the world",
-     .excludes = "view azimuth elevation"},
-    {.key = "target",
-     .aliases = "camera-focal-point",
-     .kind = OPTION_VECTOR,
-     .offset = offsetof(view_arguments, target),
-     .value = "x,y,z",
-     .low = 3,
-     .high = 3,
-     .absent = "middle of the cloud",
-     .help = "point that the camera looks at"},
-    {.key = "up",
-     .aliases = "camera-view-up",
-     .kind = OPTION_VECTOR,
-     .offset = offsetof(view_arguments, up),
-     .value = "x,y,z",
-     .low = 3,
-     .high = 3,
-     .absent = "0,1,0 or 0,0,1, see above",
-     .help = "direction that points up in the picture"},
-    {.key = "fov",
-     .aliases = "camera-view-angle",
-     .kind = OPTION_NUMBER,
-     .offset = offsetof(view_arguments, fov_deg),
-     .value = "DEG",
-     .range = "(0, 180)",
-     .absent = "30",
-     .help = "vertical field of view in degrees",
+    {"camera-index", OPTION_INTEGER, offsetof(view_arguments, camera_index), "N", "[0, 4294967295]",
+     .help = "which camera of the file, counted from 0", .needs = "camera"},
+    {"intrinsics", OPTION_TEXT, offsetof(view_arguments, intrinsics), "fx,fy,cx,cy|FILE",
+     .help = "lens of poses: focal lengths and principal point in pixels of a picture of --size, pixel "
+             "centres at halves; or a file with a lens, such as Open3D's",
+     .absent = "from --fov", .excludes = "fov"},
+    {"eye", OPTION_VECTOR, offsetof(view_arguments, eye), "x,y,z",
+     .help = "position of the camera in the world", .aliases = "camera-position", .low = 3, .high = 3,
+     .absent = "so that all is in the picture", .excludes = "view azimuth elevation"},
+    {"target", OPTION_VECTOR, offsetof(view_arguments, target), "x,y,z",
+     .help = "point that the camera looks at", .aliases = "camera-focal-point", .low = 3, .high = 3,
+     .absent = "middle of the cloud"},
+    {"up", OPTION_VECTOR, offsetof(view_arguments, up), "x,y,z",
+     .help = "direction that points up in the picture", .aliases = "camera-view-up", .low = 3, .high = 3,
+     .absent = "0,1,0 or 0,0,1, see above"},
+    {"fov", OPTION_NUMBER, offsetof(view_arguments, fov_deg), "DEG", "(0, 180)",
+     .help = "vertical field of view in degrees", .aliases = "camera-view-angle", .absent = "30",
      .excludes = "ortho"},
-    {.key = "ortho",
-     .kind = OPTION_NUMBER,
-     .offset = offsetof(view_arguments, ortho_height),
-     .value = "HEIGHT",
-     .range = "(0, inf)",
-     .absent = "perspective",
-     .help = "orthographic camera that shows HEIGHT world units from bottom to top"},
-    {.key = "view",
-     .kind = OPTION_CHOICE,
-     .offset = offsetof(view_arguments, view),
-     .range = "front|back|left|right|top|bottom|iso",
-     .absent = "see above",
-     .help = "side from which the cloud is seen, framed whole"},
-    {.key = "azimuth",
-     .aliases = "camera-azimuth-angle",
-     .kind = OPTION_NUMBER,
-     .offset = offsetof(view_arguments, azimuth_deg),
-     .value = "DEG",
-     .range = "[-360, 360]",
-     .help =
-         "carries the camera about the up axis from there, counter-clockwise seen from above, in degrees"},
-    {.key = "elevation",
-     .aliases = "camera-elevation-angle",
-     .kind = OPTION_NUMBER,
-     .offset = offsetof(view_arguments, elevation_deg),
-     .value = "DEG",
-     .range = "[-180, 180]",
-     .help = "then raises it by so many degrees"},
-    {.key = "size",
-     .aliases = "resolution",
-     .kind = OPTION_SIZE,
-     .offset = offsetof(view_arguments, size),
-     .value = "WxH",
-     .help = "pixels of the picture"},
+    {"ortho", OPTION_NUMBER, offsetof(view_arguments, ortho_height), "HEIGHT", "(0, inf)",
+     .help = "orthographic camera that shows HEIGHT world units from bottom to top", .absent = "perspective"},
+    {"view", OPTION_CHOICE, offsetof(view_arguments, view), NULL, "front|back|left|right|top|bottom|iso",
+     .help = "side from which the cloud is seen, framed whole", .absent = "see above"},
+    {"azimuth", OPTION_NUMBER, offsetof(view_arguments, azimuth_deg), "DEG", "[-360, 360]",
+     .help = "carries the camera about the up axis from there, counter-clockwise seen from above, in degrees",
+     .aliases = "camera-azimuth-angle"},
+    {"elevation", OPTION_NUMBER, offsetof(view_arguments, elevation_deg), "DEG", "[-180, 180]",
+     .help = "then raises it by so many degrees", .aliases = "camera-elevation-angle"},
+    {"size", OPTION_SIZE, offsetof(view_arguments, size), "WxH", .help = "pixels of the picture",
+     .aliases = "resolution"},
 };
 
-const option_group view_options = {"Camera", view_table, sizeof view_table / sizeof view_table[0]};
+const option_group view_options = OPTION_GROUP("Camera", view_table);
 
 /// Where neither --fov nor --ortho says.
 static const double DEFAULT_FOV_DEG = 30;
@@ -131,8 +69,7 @@ bool view_check(const view_arguments *arguments, bool poses, char message[OPTION
         clash = "--intrinsics is the lens of poses (.txt, .log, .tum)";
     else if (up->count && !up->values[0] && !up->values[1] && !up->values[2])
         clash = "--up: 0,0,0 has no direction";
-    if (clash) snprintf(message, OPTION_ERROR_BYTES, "%s", clash);
-    return !clash && camera_input_check_lens(arguments->intrinsics, message);
+    return options_fine(clash, message) && camera_input_check_lens(arguments->intrinsics, message);
 }
 
 bool view_is_placed(const view_arguments *arguments) {
@@ -160,7 +97,7 @@ static void turn_direction(const view_arguments *arguments, const double axis_wo
                            double up_world[3]) {
     static const double origin[3] = {0, 0, 0};
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     ewa_camera_look_at(&camera, origin, direction, up_world);
     ewa_camera_orbit(&camera, origin, axis_world, arguments->azimuth_deg);
     const double *m = camera.world_to_camera, right[3] = {m[0], m[1], m[2]};
@@ -252,7 +189,7 @@ static ewa_status set_lens(const view_arguments *arguments, ewa_camera *camera) 
 bool view_load_lens(cli_session *session, const view_arguments *arguments, const char *path,
                     ewa_camera *lens) {
     session->subject = NULL;
-    ewa_camera_init(lens, sizeof *lens);
+    ewa_camera_init(lens);
     const ewa_status status = set_lens(arguments, lens);
     if (status != EWA_OK) session_failed(session, status);
     if (status != EWA_OK || !camera_input_is_poses(path)) return status == EWA_OK;
@@ -337,7 +274,7 @@ static ewa_status place_camera(cli_session *session, const view_arguments *argum
 
 bool view_make(cli_session *session, const view_arguments *arguments, const ewa_cloud *cloud,
                double radius_scale, ewa_camera *camera, view_turn *turn) {
-    ewa_camera_init(camera, sizeof *camera);
+    ewa_camera_init(camera);
     if (arguments->camera_path && !load_camera(session, arguments, camera)) return false;
     if (arguments->camera_path && !turn) return true;
     cloud_framing framing;

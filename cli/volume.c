@@ -18,14 +18,12 @@ typedef struct volume_arguments {
     volume_input_arguments input;
     volume_scene_arguments scene;
     const char *output, *aov, *save_camera_path, *stats_path;
-    int method, index;
-    double prefilter_px, density_scale;
     bool progressive;
     option_color background;
 } volume_arguments;
 
-#define AT(member)   offsetof(volume_arguments, member)
-#define COUNT(table) (sizeof(table) / sizeof(table)[0])
+#define AT(member)     offsetof(volume_arguments, member)
+#define VOLUME(member) OPTION_OF(ewa_volume_options, AT(scene.options), member)
 
 _Static_assert(offsetof(volume_arguments, light) == LIGHT_OFFSET, "light_check() and light_apply() say so");
 
@@ -33,33 +31,19 @@ _Static_assert(offsetof(volume_arguments, light) == LIGHT_OFFSET, "light_check()
 static const float LEAST_THROUGH = 1e-3f;
 
 static const cli_option output_table[] = {
-    {.key = "output",
-     .letter = 'o',
-     .kind = OPTION_OUTPUT,
-     .offset = AT(output),
-     .value = "FILE",
+    {"output", OPTION_OUTPUT, AT(output), "FILE",
      .help = "the picture: .png (8-bit sRGB), .exr (linear floats, premultiplied: R G B A Z coverage), .pfm "
              "(linear RGB); -: PNG to standard output. Frames: NAME_%04d.png and such, or a film: .mp4, .mkv "
-             "(H.264), .webm (VP9), .gif, by the program ffmpeg"},
-    {.key = "aov",
-     .kind = OPTION_OUTPUTS,
-     .offset = AT(aov),
-     .value = "NAME=FILE,...",
+             "(H.264), .webm (VP9), .gif, by the program ffmpeg",
+     .letter = 'o'},
+    {"aov", OPTION_OUTPUTS, AT(aov), "NAME=FILE,...",
      .help = "further planes, .pfm or .exr: depth (camera z where half of the light is gone, infinite where "
              "that never is), coverage (alpha of the volume)"},
-    {.key = "save-camera",
-     .kind = OPTION_OUTPUT,
-     .offset = AT(save_camera_path),
-     .value = "FILE",
+    {"save-camera", OPTION_OUTPUT, AT(save_camera_path), "FILE",
      .help = "write the camera that was used, for --camera; of frames all cameras, for --path"},
-    {.key = "stats",
-     .kind = OPTION_OUTPUT,
-     .offset = AT(stats_path),
-     .value = "FILE",
+    {"stats", OPTION_OUTPUT, AT(stats_path), "FILE",
      .help = "write times per stage, counts and peak memory as JSON"},
-    {.key = "progressive",
-     .kind = OPTION_FLAG,
-     .offset = AT(progressive),
+    {"progressive", OPTION_FLAG, AT(progressive),
      .help = "write a first picture of every second voxel along each axis, then the whole in its place",
      .excludes = "turntable path"},
 };
@@ -67,98 +51,38 @@ static const cli_option output_table[] = {
 static const cli_option input_table[] = {VOLUME_INPUT_OPTIONS(AT(input))};
 
 static const cli_option voxel_table[] = {
-    {.key = "transfer",
-     .kind = OPTION_TEXT,
-     .offset = AT(scene) + offsetof(volume_scene_arguments, transfer),
-     .value = "FILE|PRESET",
-     .absent = "auto: by the surfaces between its materials",
-     .help =
-         "what values look like: a JSON file, or bone, soft, skin, vessels (CT, in Hounsfield units where "
-         "the volume has them), mri, gray, fog, auto"},
-    {.key = "save-transfer",
-     .kind = OPTION_OUTPUT,
-     .offset = AT(scene) + offsetof(volume_scene_arguments, save_transfer_path),
-     .value = "FILE",
+    {"transfer", OPTION_TEXT, AT(scene.transfer), "FILE|PRESET",
+     .help = "what values look like: a JSON file, or bone, soft, skin, vessels (CT, in Hounsfield units "
+             "where the volume has them), mri, gray, fog, auto",
+     .absent = "auto: by the surfaces between its materials"},
+    {"save-transfer", OPTION_OUTPUT, AT(scene.save_transfer_path), "FILE",
      .help = "write the transfer function that was used, to change it and come back with --transfer"},
-    {.key = "range",
-     .kind = OPTION_BOUNDS,
-     .offset = AT(scene) + offsetof(volume_scene_arguments, range),
-     .value = "a,b",
-     .absent = "as the transfer function says",
-     .help = "values to which its first and its last point go; with a percent sign, percentiles: 50%,99%"},
-    {.key = "gradient",
-     .kind = OPTION_VECTOR,
-     .offset = AT(scene) + offsetof(volume_scene_arguments, gradient),
-     .value = "low,high",
-     .low = 2,
-     .high = 2,
-     .absent = "as the transfer function says",
+    {"range", OPTION_BOUNDS, AT(scene.range), "a,b",
+     .help = "values to which its first and its last point go; with a percent sign, percentiles: 50%,99%",
+     .absent = "as the transfer function says"},
+    {"gradient", OPTION_VECTOR, AT(scene.gradient), "low,high",
      .help = "show boundaries: voxels whose value changes by less than low per world unit are empty, by high "
-             "or more as they are, a ramp between"},
-    {.key = "opacity-scale",
-     .kind = OPTION_NUMBER,
-     .offset = AT(density_scale),
-     .value = "S",
-     .range = "[0, 1e15]",
-     .help = "multiplies every extinction: 2 is twice as dense"},
-    {.key = "method",
-     .kind = OPTION_CHOICE,
-     .offset = AT(method),
-     .range = "hybrid|splats|points",
-     .help = "voxels as splats where they are magnified and as points where they are minified, or all as one "
-             "of these"},
-    {.key = "footprint",
-     .kind = OPTION_CHOICE,
-     .offset = AT(index),
-     .range = "exact|table",
-     .help = "how a pixel finds its place in a splat: how far its ray passes the voxel's centre, or the "
-             "paper's table"},
-    {.key = "sigma",
-     .kind = OPTION_NUMBER,
-     .offset = AT(scene) + offsetof(volume_scene_arguments, sigma),
-     .value = "S",
-     .range = "[0.3, 2]",
-     .help = "standard deviation of the kernel around each voxel, in voxels"},
-    {.key = "cutoff",
-     .kind = OPTION_NUMBER,
-     .offset = AT(scene) + offsetof(volume_scene_arguments, cutoff),
-     .value = "F",
-     .range = "[1, 4]",
-     .help = "standard deviations at which a kernel ends"},
-    {.key = "prefilter",
-     .kind = OPTION_NUMBER,
-     .offset = AT(prefilter_px),
-     .value = "H",
-     .range = "[0, 4]",
-     .help = "standard deviation of the pixel filter in pixels; 0: none"},
-    {.key = "surfels",
-     .kind = OPTION_TEXT,
-     .offset = AT(scene) + offsetof(volume_scene_arguments, surfels_path),
-     .value = "FILE",
+             "or more as they are, a ramp between",
+     .low = 2, .high = 2, .absent = "as the transfer function says"},
+    {"opacity-scale", VOLUME(density_scale)},
+    {"method", VOLUME(method)},
+    {"footprint", VOLUME(index)},
+    {"sigma", VOLUME(sigma)},
+    {"cutoff", VOLUME(cutoff)},
+    {"prefilter", VOLUME(prefilter_px)},
+    {"surfels", OPTION_TEXT, AT(scene.surfels_path), "FILE",
      .help = "a point cloud or mesh that stands in the volume, opaque, in the same world"},
 };
 
 static const cli_option look_table[] = {
-    {.key = "shading",
-     .kind = OPTION_CHOICE,
-     .offset = LIGHT_OFFSET + offsetof(light_arguments, shading),
-     .range = "none|lambert|phong",
-     .absent = "phong; none with the presets gray and fog",
-     .help = "light, by the gradient: none gives the bare colours, lambert matt matter, phong highlights"},
-    {.key = "light",
-     .kind = OPTION_VECTORS,
-     .offset = LIGHT_OFFSET + offsetof(light_arguments, lights),
-     .value = "x,y,z[,r,g,b]",
-     .low = 3,
-     .high = 6,
-     .absent = "headlight",
-     .help = "direction towards a light, and its linear colour (default 1,1,1); may be given up to 8 times"},
-    {.key = "background",
-     .aliases = "background-color",
-     .kind = OPTION_COLOR,
-     .offset = AT(background),
-     .value = "r,g,b[,a]",
-     .help = "sRGB numbers in [0, 1], or transparent"},
+    {"shading", OPTION_CHOICE, LIGHT_OFFSET + offsetof(light_arguments, shading), NULL, "none|lambert|phong",
+     .help = "light, by the gradient: none gives the bare colours, lambert matt matter, phong highlights",
+     .absent = "phong; none with the presets gray and fog"},
+    {"light", OPTION_VECTORS, LIGHT_OFFSET + offsetof(light_arguments, lights), "x,y,z[,r,g,b]",
+     .help = "direction towards a light, and its linear colour (default 1,1,1); may be given up to 8 times",
+     .low = 3, .high = 6, .absent = "headlight"},
+    {"background", OPTION_COLOR, AT(background), "r,g,b[,a]",
+     .help = "sRGB numbers in [0, 1], or transparent", .aliases = "background-color"},
 };
 
 static void set_defaults(void *data) {
@@ -166,14 +90,7 @@ static void set_defaults(void *data) {
     frames_set_defaults(&arguments->frames);
     light_set_defaults(&arguments->light);
     volume_input_set_defaults(&arguments->input);
-    ewa_volume_options options;
-    ewa_volume_options_init(&options, sizeof options);
-    arguments->method = (int)options.method;
-    arguments->index = (int)options.index;
-    arguments->scene.sigma = options.sigma;
-    arguments->scene.cutoff = options.cutoff;
-    arguments->prefilter_px = options.prefilter_px;
-    arguments->density_scale = options.density_scale;
+    ewa_volume_options_init(&arguments->scene.options, sizeof arguments->scene.options);
     arguments->background = (option_color){{0, 0, 0, 1}};
 }
 
@@ -198,10 +115,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         wrong = "volume: no output; say -o FILE";
     else if (gradient->count && !(gradient->values[0] >= 0 && gradient->values[1] >= gradient->values[0]))
         wrong = "--gradient: two numbers >= 0, the second not below the first";
-    if (wrong) {
-        snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
-        return false;
-    }
+    if (!options_fine(wrong, message)) return false;
     return volume_input_check(&arguments->input, message) && light_check(&arguments->light, message) &&
            frames_check(&arguments->frames, arguments->output, arguments->background.rgba[3] == 1, message) &&
            parse_paths(arguments, &paths, message);
@@ -243,7 +157,7 @@ static void fill_edges(volume_painter *painter) {
 static void free_planes(volume_painter *painter) {
     ewa_image *const planes[] = {&painter->surface, &painter->surface_depth, &painter->past, &painter->front,
                                  &painter->nothing};
-    for (size_t i = 0; i < COUNT(planes); i++) ewa_image_free(planes[i]);
+    for (size_t i = 0; i < sizeof planes / sizeof planes[0]; i++) ewa_image_free(planes[i]);
 }
 
 /// Makes the planes of the surfaces in the size of the camera's picture.
@@ -315,19 +229,9 @@ static bool prepare_painter(const volume_arguments *arguments, volume_painter *p
     const light_objects nothing = {.material_count = 0};
     ewa_render_options *surface = &painter->surface_options;
     ewa_volume_options *options = &painter->options;
-    ewa_render_options_init(surface, sizeof *surface);
-    ewa_volume_options_init(options, sizeof *options);
-    light_apply(&arguments->light, &nothing, surface);
-    for (int c = 0; c < 4; c++) surface->background[c] = 0;
-    for (int c = 0; c < 3; c++)
-        options->background[c] = ewa_linear_from_srgb((float)arguments->background.rgba[c]);
-    options->background[3] = (float)arguments->background.rgba[3];
-    options->method = (ewa_volume_method)arguments->method;
-    options->index = (ewa_volume_index)arguments->index;
-    options->sigma = arguments->scene.sigma;
-    options->cutoff = arguments->scene.cutoff;
-    options->prefilter_px = arguments->prefilter_px;
-    options->density_scale = arguments->density_scale;
+    *surface = light_apply(&arguments->light, &nothing);
+    *options = arguments->scene.options;
+    option_color_linear(&arguments->background, options->background);
     options->shading = arguments->light.shading >= 0 ? (ewa_shading)arguments->light.shading
                        : painter->scene->flat        ? EWA_SHADING_NONE
                                                      : EWA_SHADING_PHONG;
@@ -449,13 +353,10 @@ static int run(const void *data) {
     return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
 }
 
-static const option_group output_options = {"Output", output_table, COUNT(output_table)};
-static const option_group input_options = {"Raw volumes", input_table, COUNT(input_table)};
-static const option_group voxel_options = {"Voxels", voxel_table, COUNT(voxel_table)};
-static const option_group look_options = {"Look", look_table, COUNT(look_table)};
-static const option_group *const groups[] = {&output_options, &input_options, &view_options,
-                                             &frames_options, &voxel_options, &look_options};
-
+static const option_group output_options = OPTION_GROUP("Output", output_table);
+static const option_group input_options = OPTION_GROUP("Raw volumes", input_table);
+static const option_group voxel_options = OPTION_GROUP("Voxels", voxel_table);
+static const option_group look_options = OPTION_GROUP("Look", look_table);
 const cli_command volume_command = {
     .name = "volume",
     .operands = "VOL -o OUT",
@@ -476,8 +377,8 @@ const cli_command volume_command = {
                 "ewa volume fog.nrrd -o foggy.png --transfer fog --surfels bunny.ply\n",
     .low_operands = 1,
     .high_operands = 1,
-    .groups = groups,
-    .group_count = COUNT(groups),
+    .groups = (const option_group *const[]){&output_options, &input_options, &view_options, &frames_options,
+                                            &voxel_options, &look_options, NULL},
     .arguments_bytes = sizeof(volume_arguments),
     .set_defaults = set_defaults,
     .check = check,

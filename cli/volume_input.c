@@ -19,8 +19,7 @@ bool volume_input_check(const volume_input_arguments *arguments, char message[OP
     }
     for (uint32_t k = 0; k < arguments->spacing.count; k++)
         if (!(arguments->spacing.values[k] > 0)) wrong = "--spacing: three numbers > 0";
-    if (wrong) snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
-    return !wrong;
+    return options_fine(wrong, message);
 }
 
 bool volume_input_is_named(const char *path) {

@@ -17,37 +17,20 @@ typedef struct volume_input_arguments {
 
 /// Rows of an option table; `at` is the offset of the volume_input_arguments in the command's arguments.
 #define VOLUME_INPUT_OPTIONS(at)                                                                             \
-    {.key = "dims",                                                                                          \
-     .kind = OPTION_VECTOR,                                                                                  \
-     .offset = (at) + offsetof(volume_input_arguments, dims),                                                \
-     .value = "x,y,z",                                                                                       \
-     .low = 3,                                                                                               \
-     .high = 3,                                                                                              \
-     .absent = "as the file or its name says",                                                               \
-     .help = "the file is raw numbers, also in gzip, x fastest: how many along each axis"},                  \
-        {.key = "type",                                                                                      \
-         .kind = OPTION_CHOICE,                                                                              \
-         .offset = (at) + offsetof(volume_input_arguments, type),                                            \
-         .range = "float|double|char|uchar|short|ushort|int|uint",                                           \
-         .absent = "as the file's name says, else uchar",                                                    \
-         .help = "type of raw numbers",                                                                      \
-         .needs = "dims"},                                                                                   \
-        {.key = "big-endian",                                                                                \
-         .kind = OPTION_FLAG,                                                                                \
-         .offset = (at) + offsetof(volume_input_arguments, big_endian),                                      \
-         .help = "raw numbers have their highest byte first",                                                \
-         .needs = "dims"},                                                                                   \
-        {.key = "header-bytes",                                                                              \
-         .kind = OPTION_INTEGER,                                                                             \
-         .offset = (at) + offsetof(volume_input_arguments, header_bytes),                                    \
-         .value = "N",                                                                                       \
-         .range = "[0, inf)",                                                                                \
-         .help = "bytes in front of raw numbers",                                                            \
-         .needs = "dims"},                                                                                   \
+    {"dims", OPTION_VECTOR, (at) + offsetof(volume_input_arguments, dims), "x,y,z",                          \
+     .help = "the file is raw numbers, also in gzip, x fastest: how many along each axis", .low = 3,         \
+     .high = 3, .absent = "as the file or its name says"},                                                   \
+        {"type", OPTION_CHOICE, (at) + offsetof(volume_input_arguments, type), NULL,                         \
+         "float|double|char|uchar|short|ushort|int|uint", .help = "type of raw numbers",                     \
+         .absent = "as the file's name says, else uchar", .needs = "dims"},                                  \
+        {"big-endian", OPTION_FLAG, (at) + offsetof(volume_input_arguments, big_endian),                     \
+         .help = "raw numbers have their highest byte first", .needs = "dims"},                              \
+        {"header-bytes", OPTION_INTEGER, (at) + offsetof(volume_input_arguments, header_bytes), "N",         \
+         "[0, inf)", .help = "bytes in front of raw numbers", .needs = "dims"},                              \
     {                                                                                                        \
-        .key = "spacing", .kind = OPTION_VECTOR, .offset = (at) + offsetof(volume_input_arguments, spacing), \
-        .value = "x,y,z", .low = 3, .high = 3, .absent = "as the file says, else 1,1,1",                     \
-        .help = "distances of the voxels along each axis, in world units"                                    \
+        "spacing", OPTION_VECTOR, (at) + offsetof(volume_input_arguments, spacing), "x,y,z", .low = 3,       \
+            .high = 3, .absent = "as the file says, else 1,1,1",                                             \
+            .help = "distances of the voxels along each axis, in world units"                                \
     }
 
 void volume_input_set_defaults(volume_input_arguments *arguments);

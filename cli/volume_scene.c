@@ -173,7 +173,8 @@ bool volume_scene_load(cli_session *session, const volume_input_arguments *input
     bool done = volume_input_load(session, input, path, &volume);
     scene->load_s = clock_now_s() - started_s;
     done = done && choose_transfer(session, arguments, &volume, &transfer) &&
-           classify(session, &volume, &transfer, arguments->sigma * arguments->cutoff, level_count, scene);
+           classify(session, &volume, &transfer, arguments->options.sigma * arguments->options.cutoff,
+                    level_count, scene);
     if (done) scene->view = choose_view(&volume);
     ewa_volume_free(&volume);
     if (done && arguments->surfels_path) done = load_surfels(session, arguments->surfels_path, scene);

@@ -13,7 +13,7 @@ typedef struct volume_scene_arguments {
     const char *transfer, *save_transfer_path, *surfels_path;
     option_bounds range;
     option_vector gradient;
-    double sigma, cutoff; ///< of the voxels' kernels
+    ewa_volume_options options;
 } volume_scene_arguments;
 
 typedef struct volume_scene {

@@ -19,176 +19,67 @@ typedef struct warp_arguments {
     int64_t camera_index;
     option_vector shift;
     option_size size;
-    int method, cull;
-    double cutoff, radius_spacings, depth_jump, depth_noise, nearest_world, farthest_world;
-    double prefilter_px, tolerance, edge_threshold;
-    bool drop_flying, edge_antialiasing;
+    int method;
+    ewa_warp_options warp;
+    ewa_render_options render;
     option_color background;
 } warp_arguments;
 
-#define AT(member) offsetof(warp_arguments, member)
+#define AT(member)     offsetof(warp_arguments, member)
+#define WARP(member)   OPTION_OF(ewa_warp_options, AT(warp), member)
+#define RENDER(member) OPTION_OF(ewa_render_options, AT(render), member)
 
 static const cli_option output_table[] = {
-    {.key = "output",
-     .letter = 'o',
-     .kind = OPTION_OUTPUT,
-     .offset = AT(output),
-     .value = "FILE",
+    {"output", OPTION_OUTPUT, AT(output), "FILE",
      .help = "the picture: .png (8-bit sRGB), .exr (linear floats, premultiplied: R G B A Z N.X N.Y N.Z "
-             "coverage), .pfm (linear RGB); -: PNG to standard output"},
-    {.key = "aov",
-     .kind = OPTION_OUTPUTS,
-     .offset = AT(aov),
-     .value = "NAME=FILE,...",
+             "coverage), .pfm (linear RGB); -: PNG to standard output",
+     .letter = 'o'},
+    {"aov", OPTION_OUTPUTS, AT(aov), "NAME=FILE,...",
      .help = "further planes, .pfm or .exr: depth (camera z, infinite where nothing is), normal (world, "
              "towards the viewer), coverage (1: covered)"},
-    {.key = "hole-mask",
-     .kind = OPTION_OUTPUT,
-     .offset = AT(hole_path),
-     .value = "FILE",
+    {"hole-mask", OPTION_OUTPUT, AT(hole_path), "FILE",
      .help = "a grey .png: white where less than half of a pixel is covered"},
-    {.key = "save-camera",
-     .kind = OPTION_OUTPUT,
-     .offset = AT(save_camera_path),
-     .value = "FILE",
-     .help = "write the camera that was used"},
+    {"save-camera", OPTION_OUTPUT, AT(save_camera_path), "FILE", .help = "write the camera that was used"},
 };
 
 static const cli_option target_table[] = {
-    {.key = "camera",
-     .kind = OPTION_TEXT,
-     .offset = AT(camera_path),
-     .value = "FILE",
-     .absent = "that of the first pair",
-     .help = "the new camera; formats as --source-camera. Poses have the lens of the first pair"},
-    {.key = "camera-index",
-     .kind = OPTION_INTEGER,
-     .offset = AT(camera_index),
-     .value = "N",
-     .range = "[0, 4294967295]",
-     .help = "which camera of the file, counted from 0",
-     .needs = "camera"},
-    {.key = "shift",
-     .kind = OPTION_VECTOR,
-     .offset = AT(shift),
-     .value = "x,y,z",
-     .low = 3,
-     .high = 3,
-     .absent = "0,0,0",
-     .help = "moves the new camera so far to its right, down and ahead, in world units"},
-    {.key = "size",
-     .aliases = "resolution",
-     .kind = OPTION_SIZE,
-     .offset = AT(size),
-     .value = "WxH",
-     .absent = "the camera's",
-     .help = "scales the picture to so many pixels"},
+    {"camera", OPTION_TEXT, AT(camera_path), "FILE",
+     .help = "the new camera; formats as --source-camera. Poses have the lens of the first pair",
+     .absent = "that of the first pair"},
+    {"camera-index", OPTION_INTEGER, AT(camera_index), "N", "[0, 4294967295]",
+     .help = "which camera of the file, counted from 0", .needs = "camera"},
+    {"shift", OPTION_VECTOR, AT(shift), "x,y,z",
+     .help = "moves the new camera so far to its right, down and ahead, in world units", .low = 3, .high = 3,
+     .absent = "0,0,0"},
+    {"size", OPTION_SIZE, AT(size), "WxH", .help = "scales the picture to so many pixels",
+     .aliases = "resolution", .absent = "the camera's"},
 };
 
 static const cli_option warp_table[] = {
-    {.key = "method",
-     .kind = OPTION_CHOICE,
-     .offset = AT(method),
-     .range = "hybrid|mcmillan",
+    {"method", OPTION_CHOICE, AT(method), NULL, "hybrid|mcmillan",
      .help = "hybrid: splats of the size of their surroundings, filtered and blended; mcmillan: each sample "
              "to its nearest pixel"},
-    {.key = "radius",
-     .kind = OPTION_NUMBER,
-     .offset = AT(radius_spacings),
-     .value = "R",
-     .range = "[0.5, 10]",
-     .help = "support radius of a splat in units of the distance to its neighbours"},
-    {.key = "depth-jump",
-     .kind = OPTION_NUMBER,
-     .offset = AT(depth_jump),
-     .value = "J",
-     .range = "(0, 1]",
-     .help = "relative difference of depth from which neighbours are on different surfaces, unless they "
-             "continue a plane"},
-    {.key = "depth-noise",
-     .kind = OPTION_NUMBER,
-     .offset = AT(depth_noise),
-     .value = "N",
-     .range = "[0, 1000000]",
-     .help =
-         "steps of a sensor's depths at distance 1, growing with its square: depths that differ by little "
-         "more are averaged over 5 x 5 pixels. 0.0036 for a first Kinect in metres; 0: taken as they are"},
-    {.key = "drop-flying",
-     .kind = OPTION_ON_OFF,
-     .offset = AT(drop_flying),
-     .help = "leave out samples that hang between two surfaces"},
-    {.key = "near",
-     .kind = OPTION_NUMBER,
-     .offset = AT(nearest_world),
-     .value = "Z",
-     .range = "[0.000000001, 1000000000000]",
-     .help = "nearer depths are left out"},
-    {.key = "far",
-     .kind = OPTION_NUMBER,
-     .offset = AT(farthest_world),
-     .value = "Z",
-     .range = "[0.000000001, 1000000000000]",
-     .help = "farther depths are left out"},
-    {.key = "cull",
-     .kind = OPTION_CHOICE,
-     .offset = AT(cull),
-     .range = "none|back",
-     .help = "leave out samples that face away from the new camera"},
-    {.key = "cutoff",
-     .kind = OPTION_NUMBER,
-     .offset = AT(cutoff),
-     .value = "F",
-     .range = "(0, 4]",
-     .help = "standard deviations at which a kernel ends"},
-    {.key = "prefilter",
-     .kind = OPTION_NUMBER,
-     .offset = AT(prefilter_px),
-     .value = "H",
-     .range = "[0, 4]",
-     .help = "standard deviation of the pixel filter in pixels; 0: none"},
-    {.key = "tolerance",
-     .kind = OPTION_NUMBER,
-     .offset = AT(tolerance),
-     .value = "K",
-     .range = "[0, inf)",
-     .help = "splats closer in depth than K support radii are blended as one surface"},
-    {.key = "edge-aa",
-     .kind = OPTION_ON_OFF,
-     .offset = AT(edge_antialiasing),
-     .help = "smooth silhouettes by coverage"},
-    {.key = "tau",
-     .kind = OPTION_NUMBER,
-     .offset = AT(edge_threshold),
-     .value = "T",
-     .range = "(0, 4]",
-     .help = "coverage, as a share of a covered pixel's, from which a pixel is opaque"},
-    {.key = "background",
-     .aliases = "background-color",
-     .kind = OPTION_COLOR,
-     .offset = AT(background),
-     .value = "r,g,b[,a]",
-     .help = "sRGB numbers in [0, 1], or transparent"},
+    {"radius", WARP(radius_spacings)},
+    {"depth-jump", WARP(depth_jump)},
+    {"depth-noise", WARP(depth_noise)},
+    {"drop-flying", WARP(drop_flying)},
+    {"near", WARP(nearest_world), .value = "Z"},
+    {"far", WARP(farthest_world), .value = "Z"},
+    {"cull", RENDER(cull), .help = "leave out samples that face away from the new camera"},
+    {"cutoff", WARP(cutoff)},
+    {"prefilter", RENDER(prefilter_px)},
+    {"tolerance", RENDER(tolerance)},
+    {"edge-aa", RENDER(edge_antialiasing)},
+    {"tau", RENDER(edge_threshold)},
+    {"background", OPTION_COLOR, AT(background), "r,g,b[,a]",
+     .help = "sRGB numbers in [0, 1], or transparent", .aliases = "background-color"},
 };
 
 static void set_defaults(void *data) {
     warp_arguments *arguments = data;
     sources_set_defaults(&arguments->sources);
-    ewa_warp_options warp;
-    ewa_warp_options_init(&warp, sizeof warp);
-    arguments->cutoff = warp.cutoff;
-    arguments->radius_spacings = warp.radius_spacings;
-    arguments->depth_jump = warp.depth_jump;
-    arguments->depth_noise = warp.depth_noise;
-    arguments->drop_flying = warp.drop_flying;
-    arguments->nearest_world = warp.nearest_world;
-    arguments->farthest_world = warp.farthest_world;
-    ewa_render_options render;
-    ewa_warp_render_options_init(&render, sizeof render);
-    arguments->cull = (int)render.cull;
-    arguments->prefilter_px = render.prefilter_px;
-    arguments->tolerance = render.tolerance;
-    arguments->edge_antialiasing = render.edge_antialiasing;
-    arguments->edge_threshold = render.edge_threshold;
+    ewa_warp_options_init(&arguments->warp, sizeof arguments->warp);
+    ewa_warp_render_options_init(&arguments->render, sizeof arguments->render);
     arguments->method = EWA_WARP_HYBRID;
     arguments->background = (option_color){{0, 0, 0, 0}};
 }
@@ -201,10 +92,9 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         wrong = "warp: no output; say -o FILE";
     else if (!arguments->camera_path && !arguments->shift.count)
         wrong = "warp: no new camera; say --camera FILE or --shift x,y,z";
-    else if (arguments->nearest_world >= arguments->farthest_world)
+    else if (arguments->warp.nearest_world >= arguments->warp.farthest_world)
         wrong = "--near has to be less than --far";
-    if (wrong) snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
-    return !wrong && sources_check(&arguments->sources, message) &&
+    return options_fine(wrong, message) && sources_check(&arguments->sources, message) &&
            (!arguments->hole_path ||
             output_check_suffix("hole-mask", arguments->hole_path, ".png|-", message)) &&
            picture_parse_paths(arguments->output, arguments->aov, &paths, message);
@@ -226,41 +116,19 @@ static bool make_target(cli_session *session, const warp_arguments *arguments, c
     return status == EWA_OK;
 }
 
-static ewa_render_options render_options(const warp_arguments *arguments) {
-    ewa_render_options options;
-    ewa_warp_render_options_init(&options, sizeof options);
-    options.prefilter_px = arguments->prefilter_px;
-    options.tolerance = arguments->tolerance;
-    options.edge_antialiasing = arguments->edge_antialiasing;
-    options.edge_threshold = arguments->edge_threshold;
-    options.cull = (ewa_cull)arguments->cull;
-    for (int c = 0; c < 3; c++)
-        options.background[c] = ewa_linear_from_srgb((float)arguments->background.rgba[c]);
-    options.background[3] = (float)arguments->background.rgba[3];
-    return options;
-}
-
 /// Takes the samples; warns when there is none.
 static bool take(cli_session *session, const warp_arguments *arguments, const warp_sources *sources,
                  ewa_warp *warp) {
-    ewa_warp_options options;
-    ewa_warp_options_init(&options, sizeof options);
-    options.cutoff = arguments->cutoff;
-    options.radius_spacings = arguments->radius_spacings;
-    options.depth_jump = arguments->depth_jump;
-    options.depth_noise = arguments->depth_noise;
-    options.drop_flying = arguments->drop_flying;
-    options.nearest_world = arguments->nearest_world;
-    options.farthest_world = arguments->farthest_world;
     ewa_warp_facts facts;
-    const ewa_status status = ewa_warp_take(warp, sources->images, sources->count, &options, &facts);
+    const ewa_status status = ewa_warp_take(warp, sources->images, sources->count, &arguments->warp, &facts);
     if (status != EWA_OK) {
         session_failed(session, status);
         return false;
     }
     if (facts.sample_count == 0) {
         session_fail(session, "%s: no pixel has a depth between %g and %g",
-                     arguments->sources.common.operands[1], options.nearest_world, options.farthest_world);
+                     arguments->sources.common.operands[1], arguments->warp.nearest_world,
+                     arguments->warp.farthest_world);
         return false;
     }
     session_say(session, "%llu of %llu pixels have a depth, %llu were dropped between surfaces; %.1f ms",
@@ -282,7 +150,8 @@ static void report_holes(cli_session *session, const ewa_camera *target, const u
 
 static bool draw(cli_session *session, const warp_arguments *arguments, const picture_paths *paths,
                  const ewa_camera *target, ewa_warp *warp) {
-    const ewa_render_options options = render_options(arguments);
+    ewa_render_options options = arguments->render;
+    option_color_linear(&arguments->background, options.background);
     const size_t pixel_count = (size_t)target->width_px * target->height_px;
     cli_picture picture;
     uint8_t *holes = malloc(pixel_count);
@@ -341,14 +210,9 @@ static int run(const void *data) {
     return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
 }
 
-#define COUNT(table) (sizeof(table) / sizeof(table)[0])
-
-static const option_group output_options = {"Output", output_table, COUNT(output_table)};
-static const option_group target_options = {"New camera", target_table, COUNT(target_table)};
-static const option_group warp_options = {"Warping", warp_table, COUNT(warp_table)};
-static const option_group *const groups[] = {&output_options, &source_options, &target_options,
-                                             &warp_options};
-
+static const option_group output_options = OPTION_GROUP("Output", output_table);
+static const option_group target_options = OPTION_GROUP("New camera", target_table);
+static const option_group warp_options = OPTION_GROUP("Warping", warp_table);
 const cli_command warp_command = {
     .name = "warp",
     .operands = "COLOR DEPTH [COLOR DEPTH...] --camera FILE -o OUT",
@@ -369,8 +233,8 @@ const cli_command warp_command = {
         "--baseline 193.001 --disparity-offset 31.086 --shift 193,0,0 -o right.png\n",
     .low_operands = 2,
     .high_operands = 2 * WARP_MAX_SOURCES,
-    .groups = groups,
-    .group_count = COUNT(groups),
+    .groups =
+        (const option_group *const[]){&output_options, &source_options, &target_options, &warp_options, NULL},
     .arguments_bytes = sizeof(warp_arguments),
     .set_defaults = set_defaults,
     .check = check,

@@ -17,61 +17,32 @@ static const double PNG_DEPTH_SCALE = 1000;
 #define AT(member) offsetof(source_arguments, member)
 
 static const cli_option source_table[] = {
-    {.key = "source-camera",
-     .kind = OPTION_TEXT,
-     .offset = AT(camera_paths),
-     .value = "FILE[,FILE...]",
-     .absent = "at the origin, looking along +z",
-     .help =
-         "cameras of the pictures: one file for each pair, or one file with a camera for each; formats as "
-         "--camera of render, or poses as text (.txt, .log, .tum: 4 x 4 matrices or TUM's lines, camera "
-         "to world), which need --intrinsics"},
-    {.key = "source-index",
-     .kind = OPTION_VECTOR,
-     .offset = AT(camera_indices),
-     .value = "N[,N...]",
-     .range = "[0, 4294967295]",
-     .low = 1,
-     .high = OPTION_VECTOR_MAX,
-     .absent = "0,1,2,... of one file, 0 of each of several",
-     .help = "which camera of its file each pair has, counted from 0",
-     .needs = "source-camera"},
-    {.key = "intrinsics",
-     .kind = OPTION_TEXT,
-     .offset = AT(intrinsics),
-     .value = "fx,fy,cx,cy|FILE",
-     .absent = "those of --source-camera",
+    {"source-camera", OPTION_TEXT, AT(camera_paths), "FILE[,FILE...]",
+     .help = "cameras of the pictures: one file for each pair, or one file with a camera for each; formats "
+             "as --camera of render, or poses as text (.txt, .log, .tum: 4 x 4 matrices or TUM's lines, "
+             "camera to world), which need --intrinsics",
+     .absent = "at the origin, looking along +z"},
+    {"source-index", OPTION_VECTOR, AT(camera_indices), "N[,N...]", "[0, 4294967295]",
+     .help = "which camera of its file each pair has, counted from 0", .low = 1, .high = OPTION_VECTOR_MAX,
+     .absent = "0,1,2,... of one file, 0 of each of several", .needs = "source-camera"},
+    {"intrinsics", OPTION_TEXT, AT(intrinsics), "fx,fy,cx,cy|FILE",
      .help = "focal lengths and principal point in pixels, for poses, pixel centres at halves: where they "
              "count as whole numbers, as in OpenCV and TUM's files, add 0.5 to cx and cy; or a file with a "
-             "lens, such as Open3D's"},
-    {.key = "depth-is",
-     .kind = OPTION_CHOICE,
-     .offset = AT(depth_kind),
-     .range = "z|ray|disparity",
+             "lens, such as Open3D's",
+     .absent = "those of --source-camera"},
+    {"depth-is", OPTION_CHOICE, AT(depth_kind), NULL, "z|ray|disparity",
      .help = "what the numbers are: depth along the view, distance to the eye, or a shift in pixels"},
-    {.key = "depth-scale",
-     .kind = OPTION_NUMBER,
-     .offset = AT(depth_scale),
-     .value = "S",
-     .range = "[0, 1000000000]",
-     .absent = "1000 for PNG, else 1",
-     .help = "numbers per unit: 1000 for millimetres in metres, 5000 for TUM's files"},
-    {.key = "baseline",
-     .kind = OPTION_NUMBER,
-     .offset = AT(baseline_world),
-     .value = "B",
-     .range = "[0, 1000000000]",
-     .absent = "none",
-     .help = "with --depth-is disparity: distance of the two eyes; z = fx B / (disparity + offset)"},
-    {.key = "disparity-offset",
-     .kind = OPTION_NUMBER,
-     .offset = AT(disparity_offset_px),
-     .value = "PX",
-     .range = "[-1000000, 1000000]",
+    {"depth-scale", OPTION_NUMBER, AT(depth_scale), "S", "[0, 1000000000]",
+     .help = "numbers per unit: 1000 for millimetres in metres, 5000 for TUM's files",
+     .absent = "1000 for PNG, else 1"},
+    {"baseline", OPTION_NUMBER, AT(baseline_world), "B", "[0, 1000000000]",
+     .help = "with --depth-is disparity: distance of the two eyes; z = fx B / (disparity + offset)",
+     .absent = "none"},
+    {"disparity-offset", OPTION_NUMBER, AT(disparity_offset_px), "PX", "[-1000000, 1000000]",
      .help = "with --depth-is disparity: difference of the two principal points"},
 };
 
-const option_group source_options = {"Sources", source_table, sizeof source_table / sizeof source_table[0]};
+const option_group source_options = OPTION_GROUP("Sources", source_table);
 
 void sources_set_defaults(source_arguments *arguments) { arguments->depth_kind = EWA_DEPTH_Z; }
 
@@ -135,8 +106,7 @@ bool sources_check(const source_arguments *arguments, char message[OPTION_ERROR_
         wrong = "--baseline and --disparity-offset need --depth-is disparity";
     else
         wrong = check_cameras(arguments);
-    if (wrong) snprintf(message, OPTION_ERROR_BYTES, "%s", wrong);
-    return !wrong && camera_input_check_lens(arguments->intrinsics, message);
+    return options_fine(wrong, message) && camera_input_check_lens(arguments->intrinsics, message);
 }
 
 /// Makes the camera of a pair. Returns false after reporting.
@@ -160,7 +130,7 @@ static bool load_camera(cli_session *session, const source_arguments *arguments,
 /// Sets a camera of the size of a depth image, with the lens of --intrinsics. Returns false after reporting.
 static bool load_lens(cli_session *session, const source_arguments *arguments, const char *depth_path,
                       const ewa_image *depth, ewa_camera *lens) {
-    ewa_camera_init(lens, sizeof *lens);
+    ewa_camera_init(lens);
     lens->width_px = depth->width_px;
     lens->height_px = depth->height_px;
     if (!arguments->intrinsics) return true;
@@ -203,7 +173,7 @@ static bool load_pair(cli_session *session, const source_arguments *arguments, u
         session_note(session, "%s: depths are taken as 1/%g units; --depth-scale says otherwise", depth_path,
                      standard);
     ewa_depth_image *image = &sources->images[pair];
-    ewa_depth_image_init(image, sizeof *image);
+    ewa_depth_image_init(image);
     image->depth = depth->pixels;
     image->depth_type = EWA_F32;
     image->kind = (ewa_depth_kind)arguments->depth_kind;

@@ -84,7 +84,7 @@ int main(int count, char **arguments) {
     ewa_camera camera;
     if (count != 2) return fprintf(stderr, "usage: frustum OUT.png\n"), 2;
     ewa_status status = ewa_context_create(NULL, &context);
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     for (int i = 0; i < 2 && !status; i++) {
         status = ewa_camera_set_fov(&camera, fov_deg[i]);
         if (!status) status = ewa_camera_look_at(&camera, view[i][0], view[i][1], up);

@@ -27,7 +27,7 @@ static ewa_status make_scene(ewa_context *context, const char *path, ewa_surfels
     if (status == EWA_OK) status = ewa_surfels_create(cloud, NULL, surfels);
     ewa_bounds bounds;
     if (status == EWA_OK) status = ewa_cloud_measure(cloud, &bounds);
-    ewa_camera_init(camera, sizeof *camera);
+    ewa_camera_init(camera);
     camera->width_px = WIDTH_PX;
     camera->height_px = HEIGHT_PX;
     static const double ahead[3] = {0, 0, -1}, up[3] = {0, 1, 0};

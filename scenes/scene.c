@@ -168,7 +168,7 @@ const char *scene_name(scene_kind kind) {
 ewa_status scene_make(ewa_context *context, scene_kind kind, uint64_t point_count, uint32_t width_px,
                       uint32_t height_px, scene *made) {
     *made = (scene){.cloud = NULL};
-    ewa_camera_init(&made->camera, sizeof made->camera);
+    ewa_camera_init(&made->camera);
     made->camera.width_px = width_px;
     made->camera.height_px = height_px;
     ewa_status status = ewa_camera_set_fov(&made->camera, 50);

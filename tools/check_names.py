@@ -244,7 +244,7 @@ def check_links(tree, found):
 
 def read_options(tree):
     """The options of each command by docs/cli.md, under "" those of all."""
-    options = {"": {"version", "help-markdown", "key", "no-key", "no"}}  # of the program; what rows are told by
+    options = {"": {"version", "help-markdown", "help-json", "key", "no-key", "no"}}  # of the program; what rows are told by
     for part in re.split(r"(?m)^## ewa ", tree.pages.get("docs/cli.md", ""))[1:]:
         command = options.setdefault(part.split()[0], set())
         for first, rest in re.findall(r"(?m)^\| `([^`]*--[^`]*)` \|(.*)$", part):

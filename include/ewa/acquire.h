@@ -8,6 +8,7 @@
 #include "ewa/base.h"
 #include "ewa/cloud.h"
 #include "ewa/image.h"
+#include "ewa/options.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -54,12 +55,13 @@ typedef struct ewa_acquire_options {
     ewa_texture_wrap wrap_t;   ///< default EWA_TEXTURE_REPEAT
     double pixel_sigma_px; ///< standard deviation of the Gaussian that stands for one pixel of the picture,
                            ///< in pixels; [0.3, 8]; SS has 1; default 0.5
-    double cutoff;         ///< F: a "radius" is so many standard deviations; (0, 10]; default 3
+    double cutoff;         ///< F: a "radius" is so many standard deviations; (0, 4]; default 3
     double ridge;          ///< pull of the optimal colours towards the filtered ones, in units of a
                            ///< kernel's own square; [1e-6, 1]; default 5e-3
     bool modulate;         ///< multiply with the "color" that the cloud has; default false: replace it
 } ewa_acquire_options;
 
+EWA_API extern const ewa_option_table ewa_acquire_options_table;
 EWA_API void ewa_acquire_options_init(ewa_acquire_options *options, size_t struct_size);
 
 /// What was done.

@@ -23,7 +23,6 @@ typedef enum ewa_projection {
 /// Perspective: pixel = (fx px / pz + cx, fy py / pz + cy). Orthographic: pixel = (fx px + cx, fy py + cy).
 /// Pixel (i, j) covers [i, i+1) x [j, j+1) (docs/math.md section 0).
 typedef struct ewa_camera {
-    size_t struct_size;
     ewa_projection projection;
     uint32_t width_px, height_px;
     double fx_px, fy_px; ///< perspective: pixels per unit of slope; orthographic: pixels per world unit
@@ -33,7 +32,7 @@ typedef struct ewa_camera {
 } ewa_camera;
 
 /// Sets 1280x720, 50 degrees vertical field of view, at the origin looking along +z.
-EWA_API void ewa_camera_init(ewa_camera *camera, size_t struct_size);
+EWA_API void ewa_camera_init(ewa_camera *camera);
 
 /// Checks that every number is finite, the size within 1..65536, focal lengths positive, the last row 0 0 0 1
 /// and the upper left 3x3 a rotation times a positive scale (to 1e-4 relative). Errors: EWA_ERROR_ARGUMENT

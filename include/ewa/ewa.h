@@ -14,6 +14,7 @@
 #include "ewa/math.h"
 #include "ewa/mesh.h"
 #include "ewa/model.h"
+#include "ewa/options.h"
 #include "ewa/prepare.h"
 #include "ewa/procedure.h"
 #include "ewa/render.h"

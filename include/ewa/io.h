@@ -11,6 +11,7 @@
 #include "ewa/camera.h"
 #include "ewa/cloud.h"
 #include "ewa/image.h"
+#include "ewa/options.h"
 #include "ewa/shade.h"
 #include "ewa/volume.h"
 
@@ -73,6 +74,7 @@ typedef struct ewa_cloud_save_options {
     const ewa_elements *elements;
 } ewa_cloud_save_options;
 
+EWA_API extern const ewa_option_table ewa_cloud_save_options_table;
 EWA_API void ewa_cloud_save_options_init(ewa_cloud_save_options *options, size_t struct_size);
 
 /// Writes a point cloud; the suffix (.ply) chooses the format; "-" writes PLY to standard output. Attributes
@@ -98,6 +100,7 @@ typedef struct ewa_image_save_options {
     bool srgb_alpha_straight; ///< PNG: un-premultiply before encoding; default true
 } ewa_image_save_options;
 
+EWA_API extern const ewa_option_table ewa_image_save_options_table;
 EWA_API void ewa_image_save_options_init(ewa_image_save_options *options, size_t struct_size);
 
 /// Writes a float image by suffix: .png (8-bit sRGB from linear light; RGBA loses its alpha when that is 1
@@ -155,9 +158,11 @@ typedef struct ewa_volume_load_options {
     int type;                ///< ewa_type of raw numbers; default -1: from the file's name, or EWA_U8
     bool big_endian;         ///< of raw numbers; default false
     uint64_t header_bytes;   ///< in front of raw numbers; default 0
-    double spacing_world[3]; ///< distances of voxels, of every format; default zeros: as the file says, or 1
+    double spacing_world[3]; ///< distances of voxels, of every format; [0, inf); default zeros: as the file
+                             ///< says, or 1
 } ewa_volume_load_options;
 
+EWA_API extern const ewa_option_table ewa_volume_load_options_table;
 EWA_API void ewa_volume_load_options_init(ewa_volume_load_options *options, size_t struct_size);
 
 /// Reads a volume, the format by content; "-" reads standard input:
@@ -188,6 +193,7 @@ typedef struct ewa_volume_save_options {
     bool plain; ///< not compressed; default false: gzip
 } ewa_volume_save_options;
 
+EWA_API extern const ewa_option_table ewa_volume_save_options_table;
 EWA_API void ewa_volume_save_options_init(ewa_volume_save_options *options, size_t struct_size);
 
 /// Writes a volume as NRRD (.nrrd) with its place in left-posterior-superior; "-" is standard output. The

@@ -9,6 +9,7 @@
 #include "ewa/base.h"
 #include "ewa/cloud.h"
 #include "ewa/image.h"
+#include "ewa/options.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -72,19 +73,21 @@ EWA_API ewa_status ewa_mesh_is_closed(const ewa_mesh *mesh, bool *closed);
 typedef struct ewa_mesh_sample_options {
     size_t struct_size;
     uint64_t point_count;  ///< about how many points; default 100000; not used when spacing_world > 0
-    double spacing_world;  ///< square root of the area per point away from edges; 0: from point_count
+    double spacing_world;  ///< square root of the area per point away from edges; 0: from point_count;
+                           ///< [0, inf)
     uint64_t seed;         ///< same seed, same bytes; default 1
     double crease_degrees; ///< edges that bend by more are sharp; [0, 180]; default 35
     double radius_scale;   ///< support radius in units of the spacing; [0.5, 10]; default 1.6
-    double cutoff;         ///< F: tangent axes are radius / F long; [0.001, 10]; default 3
+    double cutoff;         ///< F: tangent axes are radius / F long; (0, 4]; default 3
     bool clip_lines;       ///< sharp edges and borders become clip lines; default true
     bool smooth_normals;   ///< interpolate normals between triangles that meet in no sharp edge; default true
     ewa_texture_filter texture_filter; ///< how pictures come onto the points; default EWA_TEXTURE_OPTIMAL
-    double pixel_sigma_px;             ///< see ewa_acquire_options; default 0.5
+    double pixel_sigma_px;             ///< see ewa_acquire_options; [0.3, 8]; default 0.5
     bool texcoords; ///< keep "texcoord", "texcoord_s", "texcoord_t", "texture_part" and with materials
                     ///< "texture" (their number), for ewa_cloud_acquire(); default false
 } ewa_mesh_sample_options;
 
+EWA_API extern const ewa_option_table ewa_mesh_sample_options_table;
 EWA_API void ewa_mesh_sample_options_init(ewa_mesh_sample_options *options, size_t struct_size);
 
 /// Makes surfels on the triangles of a mesh: a Poisson-disc sampling, even in area, in which no two points of

@@ -7,6 +7,7 @@
 
 #include "ewa/base.h"
 #include "ewa/cloud.h"
+#include "ewa/options.h"
 #include "ewa/volume.h"
 
 #ifdef __cplusplus
@@ -37,17 +38,19 @@ typedef struct ewa_estimate_options {
     ewa_orientation orientation;
     double viewpoint_world[3]; ///< for EWA_ORIENT_VIEWPOINT
     ewa_surfel_shape shape;
-    double radius_scale; ///< support radius in units of the local spacing 1/sqrt(density); > 0; default 1.14
+    double radius_scale; ///< support radius in units of the local spacing 1/sqrt(density); (0, inf); default
+                         ///< 1.14
     /// Radii that close gaps are at most this many times the median spacing of the places around, a third
-    /// more where samples are on lines; gaps that need more stay open; >= 1; default 2.75
+    /// more where samples are on lines; gaps that need more stay open; [1, inf); default 2.75
     double radius_limit;
-    double cutoff;         ///< F: tangent axes are radius / F long; default 3
+    double cutoff;         ///< F: tangent axes are radius / F long; (0, 4]; default 3
     bool keep_normals;     ///< keep "normal" when the cloud has it; default true
     bool keep_radii;       ///< keep "radius" or tangent axes when the cloud has them; default true
     double outlier_factor; ///< remove points whose mean neighbour distance exceeds mean + factor * deviation;
-                           ///< 0: keep all
+                           ///< 0: keep all; [0, inf)
 } ewa_estimate_options;
 
+EWA_API extern const ewa_option_table ewa_estimate_options_table;
 EWA_API void ewa_estimate_options_init(ewa_estimate_options *options, size_t struct_size);
 
 /// Adds what a surfel needs and the cloud lacks: "normal", and "radius" or tangent axes.
@@ -103,6 +106,7 @@ typedef struct ewa_csg_options {
                           ///< A", "... B"
 } ewa_csg_options;
 
+EWA_API extern const ewa_option_table ewa_csg_options_table;
 EWA_API void ewa_csg_options_init(ewa_csg_options *options, size_t struct_size);
 
 /// Combines two closed solids of surfels into one with sharp edges where their surfaces meet.
@@ -139,12 +143,13 @@ typedef struct ewa_feature_options {
                               ///< 64 for noisy ones; default 0
     double angle_deg; ///< least angle between the normals of two planes that meet in an edge; [10, 120];
                       ///< default 30
-    double noise;  ///< standard deviation of the points from the surface in units of the spacing; [0, 1], or
-                   ///< negative: measured; default -1
-    double cutoff; ///< F: axes made of "radius" are radius / F long; default 3
+    double noise;  ///< standard deviation of the points from the surface in units of the spacing; (-inf,
+                   ///< 1]; negative: measured; default -1
+    double cutoff; ///< F: axes made of "radius" are radius / F long; (0, 4]; default 3
     bool project;  ///< move the points of an edge onto their plane; default true
 } ewa_feature_options;
 
+EWA_API extern const ewa_option_table ewa_feature_options_table;
 EWA_API void ewa_feature_options_init(ewa_feature_options *options, size_t struct_size);
 
 /// What was found.
@@ -194,6 +199,7 @@ typedef struct ewa_refit_options {
     double cutoff;  ///< F with which the cloud will be drawn; (0, 4]; default 3
 } ewa_refit_options;
 
+EWA_API extern const ewa_option_table ewa_refit_options_table;
 EWA_API void ewa_refit_options_init(ewa_refit_options *options, size_t struct_size);
 
 /// What refitting did; colours are linear.
@@ -252,6 +258,7 @@ typedef struct ewa_generate_options {
     bool texcoords; ///< add "texcoord", "texcoord_s", "texcoord_t" (ewa/acquire.h); default false
 } ewa_generate_options;
 
+EWA_API extern const ewa_option_table ewa_generate_options_table;
 EWA_API void ewa_generate_options_init(ewa_generate_options *options, size_t struct_size);
 
 /// Makes a test object: "position" F32 3, "normal" F32 3 (unit, outward), "color" U8 3 (sRGB), "radius"
@@ -297,11 +304,13 @@ typedef struct ewa_volume_generate_options {
     size_t struct_size;
     ewa_volume_object object;
     uint32_t dims[3];  ///< default 128, 128, 128; each >= 2
-    double size_world; ///< distance of the outermost voxels along the longest axis; cubes; > 0; default 1
-    double checks;     ///< of EWA_VOLUME_CHECKERBOX; > 0; default 8
+    double size_world; ///< distance of the outermost voxels along the longest axis; cubes; (0, inf);
+                       ///< default 1
+    double checks;     ///< of EWA_VOLUME_CHECKERBOX; (0, 1e6]; default 8
     uint64_t seed;     ///< of EWA_VOLUME_VESSELS; default 0
 } ewa_volume_generate_options;
 
+EWA_API extern const ewa_option_table ewa_volume_generate_options_table;
 EWA_API void ewa_volume_generate_options_init(ewa_volume_generate_options *options, size_t struct_size);
 
 /// Makes a test volume with its middle at the origin, the same bytes on every machine; s is along the longest

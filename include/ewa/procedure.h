@@ -7,6 +7,7 @@
 
 #include "ewa/base.h"
 #include "ewa/cloud.h"
+#include "ewa/options.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -32,6 +33,7 @@ typedef struct ewa_procedure_options {
                         ///< wood: early, late wood; noise: low, high. Defaults depend on `procedure`
 } ewa_procedure_options;
 
+EWA_API extern const ewa_option_table ewa_procedure_options_table;
 /// Sets every member to its default, colours to those of `procedure`.
 EWA_API void ewa_procedure_options_init(ewa_procedure_options *options, ewa_procedure procedure,
                                         size_t struct_size);

@@ -8,6 +8,7 @@
 #include "ewa/base.h"
 #include "ewa/camera.h"
 #include "ewa/cloud.h"
+#include "ewa/options.h"
 #include "ewa/shade.h"
 
 #ifdef __cplusplus
@@ -18,9 +19,10 @@ extern "C" {
 typedef struct ewa_surfels_options {
     size_t struct_size;
     double cutoff;       ///< F, standard deviations at which kernels end; (0, 4]; default 3
-    double radius_scale; ///< multiplies every radius and tangent axis; > 0; default 1
+    double radius_scale; ///< multiplies every radius and tangent axis; (0, 1e15]; default 1
 } ewa_surfels_options;
 
+EWA_API extern const ewa_option_table ewa_surfels_options_table;
 EWA_API void ewa_surfels_options_init(ewa_surfels_options *options, size_t struct_size);
 
 /// The resident form of a cloud: Morton order, packets of 16, at most 32 bytes per point, and one
@@ -87,11 +89,11 @@ typedef struct ewa_render_options {
     /// edge antialiasing, and with one pass, it ends at the rim. For clouds that are no surface.
     double point_size_px;
     double tolerance; ///< kappa of docs/math.md section 6: depth tolerance in units of the support radius;
-                      ///< default 1
+                      ///< [0, 1e15]; default 1
     uint32_t
         passes; ///< 3: splats of one surface are blended; 1: the nearest splat of each pixel wins; default 3
     bool edge_antialiasing; ///< alpha from coverage; default true
-    double edge_threshold;  ///< tau of docs/math.md section 7; default 0.45
+    double edge_threshold;  ///< tau of docs/math.md section 7; (0, 4]; default 0.45
     /// Surfaces that may share an antialiased edge: what lies behind a silhouette shows through its partly
     /// covered pixels, front to back, up to this many surfaces; 1: the background shows through instead
     /// (docs/math.md section 7); [1, EWA_MAX_EDGE_LAYERS]; default EWA_MAX_EDGE_LAYERS
@@ -123,9 +125,10 @@ typedef struct ewa_render_options {
     /// Eye-dome lighting: darkens what lies behind its surroundings on the screen, whatever the shading;
     /// needs no normals. [0, 100]; 0 (default): none; 1: strong.
     double eye_dome;
-    float background[4]; ///< linear, straight alpha; default transparent black
+    float background[4]; ///< linear, [0, 1e15], straight alpha; default transparent black
 } ewa_render_options;
 
+EWA_API extern const ewa_option_table ewa_render_options_table;
 EWA_API void ewa_render_options_init(ewa_render_options *options, size_t struct_size);
 
 /// Where a frame goes: planes of the camera's size, rows from the top, tightly packed; NULL planes are not

@@ -14,6 +14,7 @@
 #include "ewa/base.h"
 #include "ewa/camera.h"
 #include "ewa/math.h"
+#include "ewa/options.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -61,9 +62,10 @@ typedef struct ewa_texture_options {
     double
         point_spacing_px; ///< hybrid: texels not farther apart than this are points; [0.05, 1]; default 0.5
     bool repeat;          ///< the texture fills its whole plane; not for EWA_TEXTURE_SPLAT; default false
-    float background[4];  ///< linear, straight alpha; default transparent black
+    float background[4];  ///< linear, [0, 1e6], straight alpha; default transparent black
 } ewa_texture_options;
 
+EWA_API extern const ewa_option_table ewa_texture_options_table;
 EWA_API void ewa_texture_options_init(ewa_texture_options *options, size_t struct_size);
 
 /// What a mapping took.

@@ -6,6 +6,7 @@
 #define EWA_SHADE_H
 
 #include "ewa/image.h"
+#include "ewa/options.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -29,6 +30,7 @@ typedef struct ewa_material {
     float reflection; ///< strength of the environment's mirror image; [0, 1000]; default 0.25
 } ewa_material;
 
+EWA_API extern const ewa_option_table ewa_material_table;
 /// Sets the defaults.
 EWA_API void ewa_material_init(ewa_material *material);
 

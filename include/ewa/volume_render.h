@@ -24,6 +24,7 @@ typedef struct ewa_voxels_options {
     uint32_t level_count;
 } ewa_voxels_options;
 
+EWA_API extern const ewa_option_table ewa_voxels_options_table;
 EWA_API void ewa_voxels_options_init(ewa_voxels_options *options, size_t struct_size);
 
 /// The resident form of a volume under a transfer function: those of its voxels that have an extinction, with
@@ -90,14 +91,14 @@ typedef struct ewa_volume_options {
     double depth_unit;      ///< in smallest spacings of the grid; [0.25, 16]; default 1
     uint32_t level;         ///< which of the voxels' levels; 0 (default): all voxels
     double density_scale;   ///< multiplies every extinction; [0, 1e15]; default 1
-    /// Where less than this of what is behind would show, nothing more is drawn; [0, 1); 0: everything is
-    /// drawn; default 1/512
+    /// Where less than this of what is behind would show, nothing more is drawn; [0, 0.999999]; 0: everything
+    /// is drawn; default 1/512
     double least_transmittance;
     ewa_shading shading; ///< by the gradient, seen from both sides; default EWA_SHADING_NONE
     ewa_light lights[EWA_MAX_LIGHTS];
     uint32_t light_count;  ///< of `lights`; 0 (default): one white headlight
     ewa_material material; ///< reflection is not used; default ewa_material_init()
-    float background[4];   ///< linear, straight alpha; default transparent black
+    float background[4];   ///< linear, [0, 1e15], straight alpha; default transparent black
     /// Opaque surfaces within the volume, as ewa_render() gives them (frame.depth and frame.rgba): planes of
     /// the camera's size, borrowed during the call. What lies behind surface_depth (camera-space z) is not
     /// drawn, the rest over surface_rgba (linear, premultiplied), which then replaces the background. Both
@@ -105,6 +106,7 @@ typedef struct ewa_volume_options {
     const float *surface_depth, *surface_rgba;
 } ewa_volume_options;
 
+EWA_API extern const ewa_option_table ewa_volume_options_table;
 EWA_API void ewa_volume_options_init(ewa_volume_options *options, size_t struct_size);
 
 /// What a frame took. Stage times are summed over workers, in seconds of thread time.

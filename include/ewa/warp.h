@@ -8,6 +8,7 @@
 #include "ewa/base.h"
 #include "ewa/camera.h"
 #include "ewa/cloud.h"
+#include "ewa/options.h"
 #include "ewa/render.h"
 
 #ifdef __cplusplus
@@ -23,7 +24,6 @@ typedef enum ewa_depth_kind {
 
 /// A picture with depths, borrowed while it is taken; nothing is copied. Fill with ewa_depth_image_init().
 typedef struct ewa_depth_image {
-    size_t struct_size;
     /// That took it; perspective; focal lengths, principal point and scale within 1e-6 to 1e6; its size is
     /// that of both planes.
     ewa_camera camera;
@@ -40,7 +40,7 @@ typedef struct ewa_depth_image {
     size_t color_stride_bytes;    ///< between rows; 0: tightly packed
 } ewa_depth_image;
 
-EWA_API void ewa_depth_image_init(ewa_depth_image *image, size_t struct_size);
+EWA_API void ewa_depth_image_init(ewa_depth_image *image);
 
 /// How samples become surfels. Fill with ewa_warp_options_init().
 ///
@@ -55,12 +55,15 @@ typedef struct ewa_warp_options {
     double depth_jump;
     /// Steps of a sensor's depths at distance 1, which grow with the square of the distance, as those of
     /// cameras that find shifts do: keys 1/z that differ by little more are averaged over 5 x 5 pixels; in
-    /// 1 / world units, 0.0036 per metre for a first Kinect. 0 (default): depths are taken as they are.
+    /// 1 / world units, 0.0036 per metre for a first Kinect. [0, 1e6]; 0 (default): depths are taken as they
+    /// are.
     double depth_noise;
     bool drop_flying; ///< mask what hangs between two surfaces that it does not belong to; default true
-    double nearest_world, farthest_world; ///< limits of z; 0 < nearest < farthest; default 1e-6, 1e9
+    double nearest_world;  ///< least z; [1e-9, 1e12]; default 1e-6
+    double farthest_world; ///< largest z, above nearest_world; [1e-9, 1e12]; default 1e9
 } ewa_warp_options;
 
+EWA_API extern const ewa_option_table ewa_warp_options_table;
 EWA_API void ewa_warp_options_init(ewa_warp_options *options, size_t struct_size);
 
 /// How a warped picture is made.

@@ -35,7 +35,7 @@ ewa_status ewa_buffer_grow(ewa_context *context, ewa_buffer *buffer, size_t kept
 void ewa_buffer_free(ewa_context *context, ewa_buffer *buffer);
 
 /// Reports "<formatted text>" at EWA_SEVERITY_ERROR and returns `status`, so that `return ewa_fail(...)`
-/// reads well.
+/// reads well. Without a context nobody is told.
 ewa_status ewa_fail(ewa_context *context, ewa_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

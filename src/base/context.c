@@ -4,6 +4,7 @@
 // The context: options with their defaults, allocation, messages, progress.
 #define _DEFAULT_SOURCE // madvise
 #include "base/base.h"
+#include "base/options.h"
 #include "base/pool.h"
 
 #include <stdarg.h>
@@ -83,14 +84,24 @@ static uint64_t physical_memory_bytes(void) {
     return pages > 0 && page_bytes > 0 ? (uint64_t)pages * (uint64_t)page_bytes : (uint64_t)1 << 34;
 }
 
+#define AT(member) offsetof(ewa_context_options, member)
+
+static const ewa_option option_rows[] = {
+    {"thread_count", EWA_OPTION_U32, AT(thread_count), 0, MAX_WORKERS,
+     .help = "workers of the built-in pool; 0: one per processor"},
+    {"cpu_mask", EWA_OPTION_U32, AT(cpu_mask), 0, UINT32_MAX, .initial = EWA_CPU_ALL,
+     .help = "bits of instruction sets that may be used"},
+    {"message_level", EWA_OPTION_CHOICE, AT(message_level), .words = "error|warning|info|debug",
+     .initial = EWA_SEVERITY_WARNING, .help = "most detailed messages to report"},
+};
+
+const ewa_option_table ewa_context_options_table = EWA_OPTION_TABLE(ewa_context_options, option_rows);
+
 void ewa_context_options_init(ewa_context_options *options, size_t struct_size) {
-    if (!options || struct_size < sizeof *options) return;
-    memset(options, 0, struct_size);
-    options->struct_size = struct_size;
+    ewa_options_init(&ewa_context_options_table, options, struct_size);
+    if (!options || struct_size < AT(limits) + sizeof options->limits) return;
     options->allocator.allocate = allocate_default;
     options->allocator.release = release_default;
-    options->cpu_mask = EWA_CPU_ALL;
-    options->message_level = EWA_SEVERITY_WARNING;
     options->limits.max_points = ((uint64_t)1 << 32) - 17;
     options->limits.max_memory_bytes = physical_memory_bytes();
     options->limits.max_image_side = 65536;
@@ -101,14 +112,12 @@ ewa_status ewa_context_create(const ewa_context_options *options, ewa_context **
     *context = NULL;
     ewa_context_options chosen;
     ewa_context_options_init(&chosen, sizeof chosen);
-    if (options) {
-        if (options->struct_size != sizeof chosen || !options->allocator.allocate ||
-            !options->allocator.release || options->thread_count > MAX_WORKERS ||
-            options->executor.worker_count > MAX_WORKERS ||
-            (options->executor.run && options->executor.worker_count == 0))
-            return EWA_ERROR_ARGUMENT;
-        chosen = *options;
-    }
+    const ewa_status taken = ewa_options_take(NULL, &ewa_context_options_table, options, &chosen);
+    if (taken != EWA_OK) return taken;
+    if (!chosen.allocator.allocate || !chosen.allocator.release ||
+        chosen.executor.worker_count > MAX_WORKERS ||
+        (chosen.executor.run && chosen.executor.worker_count == 0))
+        return EWA_ERROR_ARGUMENT;
     ewa_context *made = chosen.allocator.allocate(chosen.allocator.user, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
     *made = (ewa_context){.options = chosen, .cpu_features = ewa_cpu_detect() & chosen.cpu_mask};
@@ -215,7 +224,9 @@ static void report(ewa_context *context, ewa_severity severity, const char *form
 ewa_status ewa_fail(ewa_context *context, ewa_status status, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    report(context, context->soft_failures ? EWA_SEVERITY_WARNING : EWA_SEVERITY_ERROR, format, arguments);
+    if (context)
+        report(context, context->soft_failures ? EWA_SEVERITY_WARNING : EWA_SEVERITY_ERROR, format,
+               arguments);
     va_end(arguments);
     return status;
 }

@@ -123,7 +123,7 @@ static ewa_status add_image(loader *in, uint32_t image_id, const double pose[7],
     const double length = sqrt(pose[0] * pose[0] + pose[1] * pose[1] + pose[2] * pose[2] + pose[3] * pose[3]);
     const double w = pose[0] / length, x = pose[1] / length, y = pose[2] / length, z = pose[3] / length;
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = found->width_px;
     camera.height_px = found->height_px;
     camera.fx_px = found->fx_px;

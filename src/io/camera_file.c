@@ -73,7 +73,7 @@ ewa_status ewa_camera_file_count(ewa_context *context, const char *path, uint32_
 }
 
 ewa_status ewa_camera_load(ewa_context *context, const char *path, uint32_t index, ewa_camera *camera) {
-    if (!context || !path || !camera || camera->struct_size != sizeof *camera) return EWA_ERROR_ARGUMENT;
+    if (!context || !path || !camera) return EWA_ERROR_ARGUMENT;
     ewa_camera_list list = {.context = context, .name = path};
     ewa_status status = read_list(&list, path);
     if (status == EWA_OK && index >= list.count)
@@ -85,11 +85,11 @@ ewa_status ewa_camera_load(ewa_context *context, const char *path, uint32_t inde
 }
 
 ewa_status ewa_camera_load_lens(ewa_context *context, const char *path, ewa_camera *lens) {
-    if (!context || !path || !lens || lens->struct_size != sizeof *lens) return EWA_ERROR_ARGUMENT;
+    if (!context || !path || !lens) return EWA_ERROR_ARGUMENT;
     ewa_camera_list list = {.context = context, .name = path, .lens_suffices = true};
     const ewa_status status = read_list(&list, path);
     if (status == EWA_OK) {
-        ewa_camera_init(lens, sizeof *lens);
+        ewa_camera_init(lens);
         lens->projection = list.cameras->projection;
         lens->width_px = list.cameras->width_px;
         lens->height_px = list.cameras->height_px;
@@ -114,8 +114,7 @@ ewa_status ewa_camera_load_each(ewa_context *context, const char *path, ewa_came
 
 ewa_status ewa_camera_load_poses(ewa_context *context, const char *path, const ewa_camera *lens,
                                  ewa_camera_callback *receive, void *user) {
-    if (!context || !path || !lens || lens->struct_size != sizeof *lens || !receive)
-        return EWA_ERROR_ARGUMENT;
+    if (!context || !path || !lens || !receive) return EWA_ERROR_ARGUMENT;
     ewa_file file;
     ewa_status status = ewa_file_map(context, path, &file);
     if (status != EWA_OK) return status;

@@ -90,7 +90,7 @@ static ewa_status read_array(const source *in, const cJSON *item, const char *me
 
 static ewa_status read_native(const source *in, const cJSON *object) {
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     const cJSON *projection = find(object, "projection");
     if (projection) {
         const char *text = cJSON_GetStringValue(projection);
@@ -113,7 +113,7 @@ static ewa_status read_native(const source *in, const cJSON *object) {
 /// INRIA: `rotation` and `position` are camera to world, the principal point is in the middle.
 static ewa_status read_inria(const source *in, const cJSON *object) {
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     double rotation[9], position[3];
     ewa_status status = read_size(in, object, &camera);
     if (status == EWA_OK) status = read_number(in, object, "fx", &camera.fx_px);
@@ -149,7 +149,7 @@ static ewa_status read_open3d_lens(const source *in, const cJSON *intrinsic, ewa
 /// Open3D's PinholeCameraParameters; the extrinsic matrix is column-major too.
 static ewa_status read_open3d(const source *in, const cJSON *object) {
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     const cJSON *intrinsic = find(object, "intrinsic");
     if (!intrinsic) return fail_member(in, "intrinsic", "is missing");
     double extrinsic[16];
@@ -167,7 +167,7 @@ static ewa_status read_lens_alone(const source *in, const cJSON *intrinsic) {
         return ewa_fail(in->list->context, EWA_ERROR_FORMAT,
                         "%s: holds an intrinsic matrix only: member 'extrinsic' is missing", in->list->name);
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     const ewa_status status = read_open3d_lens(in, intrinsic, &camera);
     return status != EWA_OK ? status : ewa_camera_list_add(in->list, in->where, &camera);
 }
@@ -189,7 +189,7 @@ static ewa_status read_each(source *in, const cJSON *array, const char *member,
 /// gsplat: world-to-camera matrices and intrinsic matrices, row-major, one size for all.
 static ewa_status read_stacks(source *in, const cJSON *object, const cJSON *matrices) {
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     ewa_status status = read_size(in, object, &camera);
     if (status != EWA_OK) return status;
     const cJSON *intrinsics = find(object, "Ks");
@@ -320,7 +320,7 @@ static ewa_status read_transforms(source *in, const cJSON *root, const cJSON *fr
         if (status != EWA_OK) return status;
         snprintf(in->where, sizeof in->where, "frames[%zu]", index++);
         ewa_camera camera;
-        ewa_camera_init(&camera, sizeof camera);
+        ewa_camera_init(&camera);
         double matrix[16];
         status = read_array(in, find(frame, "transform_matrix"), "transform_matrix", 16, matrix);
         if (status == EWA_OK) status = read_frame_lens(in, root, frame, &camera);

@@ -3,6 +3,7 @@
 //
 // Point clouds in and out: finds the format and leads there.
 #include "base/base.h"
+#include "base/options.h"
 #include "io/file.h"
 #include "io/ply.h"
 
@@ -52,11 +53,17 @@ ewa_status ewa_ply_describe(ewa_context *context, const char *path, ewa_line_cal
     return status;
 }
 
+#define AT(member) offsetof(ewa_cloud_save_options, member)
+
+static const ewa_option option_rows[] = {
+    {"ply_encoding", EWA_OPTION_CHOICE, AT(ply_encoding), .words = "little-endian|big-endian|ascii",
+     .help = "how PLY files hold numbers"},
+};
+
+const ewa_option_table ewa_cloud_save_options_table = EWA_OPTION_TABLE(ewa_cloud_save_options, option_rows);
+
 void ewa_cloud_save_options_init(ewa_cloud_save_options *options, size_t struct_size) {
-    if (!options || struct_size < sizeof *options) return;
-    memset(options, 0, struct_size);
-    options->struct_size = struct_size;
-    options->ply_encoding = EWA_PLY_BINARY_LITTLE_ENDIAN;
+    ewa_options_init(&ewa_cloud_save_options_table, options, struct_size);
 }
 
 /// Streams and devices have no suffix to choose by.
@@ -71,16 +78,12 @@ ewa_status ewa_cloud_save(const ewa_cloud *cloud, const char *path, const ewa_cl
     ewa_context *context = ewa_cloud_context(cloud);
     ewa_cloud_save_options chosen;
     ewa_cloud_save_options_init(&chosen, sizeof chosen);
-    if (options) {
-        if (options->struct_size != sizeof chosen || (unsigned)options->ply_encoding > EWA_PLY_ASCII)
-            return ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: options of %zu bytes, encoding %d", path,
-                            options->struct_size, (int)options->ply_encoding);
-        chosen = *options;
-    }
+    ewa_status status = ewa_options_take(context, &ewa_cloud_save_options_table, options, &chosen);
+    if (status != EWA_OK) return status;
     if (!is_ply_path(path))
         return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: point clouds are written as .ply", path);
     ewa_writer *writer = NULL;
-    ewa_status status = ewa_writer_open(context, path, &writer);
+    status = ewa_writer_open(context, path, &writer);
     if (status != EWA_OK) return status;
     status = ewa_ply_write(cloud, chosen.elements, chosen.ply_encoding, path, writer);
     if (status == EWA_OK) return ewa_writer_commit(&writer);

@@ -4,6 +4,7 @@
 // Pictures: the format by content on input and by suffix on output; float pixels to 8-bit sRGB.
 #include "io/image_file.h"
 #include "base/base.h"
+#include "base/options.h"
 #include "ewa/io.h"
 #include "image/srgb.h"
 #include "io/exr.h"
@@ -80,19 +81,27 @@ static bool has_suffix(const char *path, const char *suffix) {
     return length > suffix_length && strcasecmp(path + length - suffix_length, suffix) == 0;
 }
 
+#define AT(member) offsetof(ewa_image_save_options, member)
+
+static const ewa_option option_rows[] = {
+    {"exr_half", EWA_OPTION_BOOL, AT(exr_half), .help = "EXR: store half floats"},
+    {"srgb_alpha_straight", EWA_OPTION_BOOL, AT(srgb_alpha_straight), .initial = true,
+     .help = "PNG: un-premultiply before encoding"},
+};
+
+const ewa_option_table ewa_image_save_options_table = EWA_OPTION_TABLE(ewa_image_save_options, option_rows);
+
 void ewa_image_save_options_init(ewa_image_save_options *options, size_t struct_size) {
-    if (!options || struct_size < sizeof *options) return;
-    memset(options, 0, struct_size);
-    options->struct_size = struct_size;
-    options->srgb_alpha_straight = true;
+    ewa_options_init(&ewa_image_save_options_table, options, struct_size);
 }
 
 ewa_status ewa_image_save(const ewa_image *image, const char *path, const ewa_image_save_options *options) {
-    if (!image || !image->pixels || !path || (options && options->struct_size != sizeof *options))
-        return EWA_ERROR_ARGUMENT;
+    if (!image || !image->pixels || !path) return EWA_ERROR_ARGUMENT;
     ewa_image_save_options chosen;
     ewa_image_save_options_init(&chosen, sizeof chosen);
-    if (options) chosen = *options;
+    const ewa_status status =
+        ewa_options_take(image->context, &ewa_image_save_options_table, options, &chosen);
+    if (status != EWA_OK) return status;
     if (has_suffix(path, ".png") || strcmp(path, "-") == 0) return save_png(image, path, &chosen);
     if (has_suffix(path, ".exr")) return ewa_exr_save(image, path, &chosen);
     if (has_suffix(path, ".pfm")) return ewa_pfm_save(image, path);

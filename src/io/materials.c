@@ -4,6 +4,7 @@
 // Material tables from JSON. Members are checked by name, so that a misspelt one is not taken for a default.
 #include "io/materials.h"
 #include "base/base.h"
+#include "base/options.h"
 #include "ewa/io.h"
 #include "image/material.h"
 #include "io/file.h"
@@ -14,14 +15,12 @@
 static ewa_status read_member(ewa_context *context, const char *name, uint32_t index, const cJSON *item,
                               ewa_material *material) {
     if (strcmp(item->string, "name") == 0) return EWA_OK;
-    for (int i = 0; i < EWA_MATERIAL_MEMBERS; i++) {
-        const ewa_material_member *member = &ewa_material_members[i];
-        if (strcmp(item->string, member->name) != 0) continue;
-        if (!cJSON_IsNumber(item))
-            return ewa_fail(context, EWA_ERROR_FORMAT, "%s: %s of material %u is not a number", name,
-                            member->name, index);
-        const float value = (float)item->valuedouble;
-        memcpy((char *)material + member->offset, &value, sizeof value);
+    const ewa_option *member = ewa_option_find(&ewa_material_table, item->string);
+    if (member && !cJSON_IsNumber(item))
+        return ewa_fail(context, EWA_ERROR_FORMAT, "%s: %s of material %u is not a number", name,
+                        member->name, index);
+    if (member) {
+        ewa_option_put(member, material, 0, item->valuedouble);
         return EWA_OK;
     }
     return ewa_fail(context, EWA_ERROR_FORMAT, "%s: material %u has an unknown member '%.40s'", name, index,

@@ -5,6 +5,7 @@
 #define _XOPEN_SOURCE 700 // stat
 #include "io/volume_file.h"
 #include "base/base.h"
+#include "base/options.h"
 #include "ewa/io.h"
 #include "io/number.h"
 
@@ -168,11 +169,23 @@ void ewa_volume_free_pieces(ewa_context *context, ewa_volume_pieces *pieces) {
     *pieces = (ewa_volume_pieces){0};
 }
 
+#define AT(member) offsetof(ewa_volume_load_options, member)
+
+static const ewa_option option_rows[] = {
+    {"dims", EWA_OPTION_U32, AT(dims), 0, UINT32_MAX, .count = 3,
+     .help = "of raw numbers: how many along each axis, x fastest; 0: as the file says"},
+    {"big_endian", EWA_OPTION_BOOL, AT(big_endian), .help = "raw numbers have their highest byte first"},
+    {"header_bytes", EWA_OPTION_U64, AT(header_bytes), 0, INFINITY, EWA_OPTION_BELOW,
+     .help = "bytes in front of raw numbers"},
+    {"spacing_world", EWA_OPTION_F64, AT(spacing_world), 0, INFINITY, EWA_OPTION_BELOW, 3, .unit = "world",
+     .help = "distances of the voxels along each axis; 0: as the file says, else 1"},
+};
+
+const ewa_option_table ewa_volume_load_options_table = EWA_OPTION_TABLE(ewa_volume_load_options, option_rows);
+
 void ewa_volume_load_options_init(ewa_volume_load_options *options, size_t struct_size) {
-    if (!options || struct_size < sizeof *options) return;
-    memset(options, 0, struct_size);
-    options->struct_size = struct_size;
-    options->type = -1;
+    ewa_options_init(&ewa_volume_load_options_table, options, struct_size);
+    if (options && struct_size >= AT(type) + sizeof options->type) options->type = -1;
 }
 
 static ewa_status parse(const ewa_volume_input *in, const ewa_volume_load_options *options,
@@ -194,15 +207,11 @@ static ewa_status load(const ewa_volume_input *in, const ewa_volume_load_options
                        ewa_volume *volume) {
     ewa_volume_load_options chosen;
     ewa_volume_load_options_init(&chosen, sizeof chosen);
-    if (options) chosen = *options;
-    for (int axis = 0; axis < 3; axis++) {
-        const double spacing = chosen.spacing_world[axis];
-        if (spacing < 0 || !isfinite(spacing))
-            return ewa_volume_fail(in, EWA_ERROR_ARGUMENT, "a spacing of %g", spacing);
-    }
+    ewa_status status = ewa_options_take(in->context, &ewa_volume_load_options_table, options, &chosen);
+    if (status != EWA_OK) return status;
     ewa_volume_header header;
     ewa_volume_header_init(&header);
-    ewa_status status = parse(in, &chosen, &header);
+    status = parse(in, &chosen, &header);
     if (status == EWA_OK) status = ewa_volume_decode(in, &header, chosen.spacing_world, volume);
     ewa_volume_free_pieces(in->context, &header.pieces);
     return status;
@@ -211,9 +220,7 @@ static ewa_status load(const ewa_volume_input *in, const ewa_volume_load_options
 ewa_status ewa_volume_load_memory(ewa_context *context, const void *bytes, size_t size_bytes,
                                   const char *name, const ewa_volume_load_options *options,
                                   ewa_volume *volume) {
-    if (!context || !name || !volume || (!bytes && size_bytes) ||
-        (options && options->struct_size != sizeof *options))
-        return EWA_ERROR_ARGUMENT;
+    if (!context || !name || !volume || (!bytes && size_bytes)) return EWA_ERROR_ARGUMENT;
     *volume = (ewa_volume){0};
     const ewa_volume_input in = {.context = context, .name = name, .bytes = bytes, .size_bytes = size_bytes};
     return load(&in, options, volume);
@@ -221,8 +228,7 @@ ewa_status ewa_volume_load_memory(ewa_context *context, const void *bytes, size_
 
 ewa_status ewa_volume_load(ewa_context *context, const char *path, const ewa_volume_load_options *options,
                            ewa_volume *volume) {
-    if (!context || !path || !volume || (options && options->struct_size != sizeof *options))
-        return EWA_ERROR_ARGUMENT;
+    if (!context || !path || !volume) return EWA_ERROR_ARGUMENT;
     *volume = (ewa_volume){0};
     ewa_file file;
     ewa_status status = ewa_file_map(context, path, &file);

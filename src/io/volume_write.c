@@ -3,6 +3,7 @@
 //
 // Volumes as NRRD.
 #include "base/base.h"
+#include "base/options.h"
 #include "ewa/io.h"
 #include "io/file.h"
 #include "io/number.h"
@@ -14,10 +15,16 @@
 
 enum { GZIP_LEVEL = 6, HEAD_BYTES = 1024, TRIPLE_BYTES = 3 * EWA_NUMBER_BYTES + 8 };
 
+#define AT(member) offsetof(ewa_volume_save_options, member)
+
+static const ewa_option option_rows[] = {
+    {"plain", EWA_OPTION_BOOL, AT(plain), .help = "not compressed"},
+};
+
+const ewa_option_table ewa_volume_save_options_table = EWA_OPTION_TABLE(ewa_volume_save_options, option_rows);
+
 void ewa_volume_save_options_init(ewa_volume_save_options *options, size_t struct_size) {
-    if (!options || struct_size < sizeof *options) return;
-    memset(options, 0, struct_size);
-    options->struct_size = struct_size;
+    ewa_options_init(&ewa_volume_save_options_table, options, struct_size);
 }
 
 /// "(a,b,c)" from every fourth number.
@@ -81,21 +88,23 @@ static ewa_status put_packed(const ewa_volume *volume, size_t size_bytes, ewa_wr
 
 ewa_status ewa_volume_save(const ewa_volume *volume, const char *path,
                            const ewa_volume_save_options *options) {
-    if (!volume || !volume->voxels || !path || (options && options->struct_size != sizeof *options))
-        return EWA_ERROR_ARGUMENT;
+    if (!volume || !volume->voxels || !path) return EWA_ERROR_ARGUMENT;
+    ewa_volume_save_options chosen;
+    ewa_volume_save_options_init(&chosen, sizeof chosen);
+    ewa_status status = ewa_options_take(volume->context, &ewa_volume_save_options_table, options, &chosen);
+    if (status != EWA_OK) return status;
     const size_t length = strlen(path);
     if (strcmp(path, "-") != 0 && (length < 6 || strcasecmp(path + length - 5, ".nrrd") != 0))
         return ewa_fail(volume->context, EWA_ERROR_UNSUPPORTED, "%s: the suffix of a volume is .nrrd", path);
-    const bool plain = options && options->plain;
     const size_t size_bytes =
         (size_t)volume->dims[0] * volume->dims[1] * volume->dims[2] * ewa_type_bytes(volume->type);
     ewa_writer *writer;
-    ewa_status status = ewa_writer_open(volume->context, path, &writer);
+    status = ewa_writer_open(volume->context, path, &writer);
     if (status != EWA_OK) return status;
-    status = put_header(volume, plain, writer);
+    status = put_header(volume, chosen.plain, writer);
     if (status == EWA_OK)
-        status = plain ? ewa_writer_put(writer, volume->voxels, size_bytes)
-                       : put_packed(volume, size_bytes, writer);
+        status = chosen.plain ? ewa_writer_put(writer, volume->voxels, size_bytes)
+                              : put_packed(volume, size_bytes, writer);
     if (status == EWA_OK) return ewa_writer_commit(&writer);
     ewa_writer_abort(&writer);
     return status;

@@ -120,10 +120,9 @@ static bool measure_box(const ewa_bounds *bounds, double middle_world[3], double
     return finite3(middle_world) && finite3(half_world);
 }
 
-void ewa_camera_init(ewa_camera *camera, size_t struct_size) {
-    if (!camera || struct_size < sizeof *camera) return;
-    memset(camera, 0, struct_size);
-    camera->struct_size = struct_size;
+void ewa_camera_init(ewa_camera *camera) {
+    if (!camera) return;
+    memset(camera, 0, sizeof *camera);
     camera->width_px = 1280;
     camera->height_px = 720;
     for (int i = 0; i < 4; i++) camera->world_to_camera[5 * i] = 1;
@@ -163,8 +162,6 @@ static bool find_matrix_problem(const double m[16], char text[EWA_CAMERA_PROBLEM
 }
 
 bool ewa_camera_find_problem(const ewa_camera *camera, char text[EWA_CAMERA_PROBLEM_BYTES]) {
-    if (camera->struct_size != sizeof *camera)
-        return complain(text, "struct_size is %zu, not %zu", camera->struct_size, sizeof *camera);
     if (camera->projection != EWA_PERSPECTIVE && camera->projection != EWA_ORTHOGRAPHIC)
         return complain(text, "projection is %d", (int)camera->projection);
     if (camera->width_px < 1 || camera->height_px < 1 || camera->width_px > MAX_SIDE_PX ||

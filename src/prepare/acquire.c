@@ -6,6 +6,7 @@
 // Based on M. Zwicker, H. Pfister, J. van Baar, M. Gross, "Surface Splatting", 2001, section 5.
 #include "prepare/acquire.h"
 #include "base/base.h"
+#include "base/options.h"
 #include "cloud/morton.h"
 #include "image/srgb.h"
 #include "math/frame.h"
@@ -29,42 +30,31 @@ typedef struct acquire_job {
     float *output;
 } acquire_job;
 
+#define AT(member) offsetof(ewa_acquire_options, member)
+
+static const ewa_option option_rows[] = {
+    {"filter", EWA_OPTION_CHOICE, AT(filter), .words = "nearest|ewa|optimal", .initial = EWA_TEXTURE_OPTIMAL,
+     .help = "nearest: the pixel at the point; ewa: the mean under the surfel; optimal: the sharpest, by "
+             "least squares, colours may leave [0, 1]"},
+    {"fit", EWA_OPTION_CHOICE, AT(fit), .words = "normalized|sum",
+     .help = "what optimal colours minimise: the error of the surface as it is drawn, or the paper's sum"},
+    {"wrap_s", EWA_OPTION_CHOICE, AT(wrap_s), .words = "repeat|clamp",
+     .help = "what lies beyond the left and right edges"},
+    {"wrap_t", EWA_OPTION_CHOICE, AT(wrap_t), .words = "repeat|clamp",
+     .help = "what lies beyond the lower and upper edges"},
+    {"pixel_sigma_px", EWA_OPTION_F64, AT(pixel_sigma_px), 0.3, 8, .initial = 0.5, .unit = "px",
+     .help = "standard deviation of the Gaussian that stands for one pixel of the picture, in pixels"},
+    {"cutoff", EWA_OPTION_F64, AT(cutoff), 0, 4, EWA_OPTION_ABOVE, .initial = 3,
+     .help = "standard deviations in a radius"},
+    {"ridge", EWA_OPTION_F64, AT(ridge), 1e-6, 1, .initial = 5e-3,
+     .help = "pull of the optimal colours towards the filtered ones"},
+    {"modulate", EWA_OPTION_BOOL, AT(modulate), .help = "multiply with the colours that the cloud has"},
+};
+
+const ewa_option_table ewa_acquire_options_table = EWA_OPTION_TABLE(ewa_acquire_options, option_rows);
+
 void ewa_acquire_options_init(ewa_acquire_options *options, size_t struct_size) {
-    if (!options || struct_size < sizeof *options) return;
-    memset(options, 0, struct_size);
-    options->struct_size = struct_size;
-    options->filter = EWA_TEXTURE_OPTIMAL;
-    options->pixel_sigma_px = 0.5;
-    options->cutoff = 3;
-    options->ridge = 5e-3;
-}
-
-static ewa_status check_range(ewa_context *context, const char *member, double value, double low,
-                              double high) {
-    if (value >= low && value <= high) return EWA_OK;
-    return ewa_fail(context, EWA_ERROR_ARGUMENT, "texture: %s is %g, must be in [%g, %g]", member, value, low,
-                    high);
-}
-
-static ewa_status check_options(ewa_context *context, const ewa_acquire_options *options) {
-    if (options->struct_size != sizeof *options)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "texture: struct_size is %zu, must be %zu",
-                        options->struct_size, sizeof *options);
-    const struct {
-        const char *name;
-        int value, last;
-    } choices[] = {{"filter", (int)options->filter, EWA_TEXTURE_OPTIMAL},
-                   {"fit", (int)options->fit, EWA_FIT_SUM},
-                   {"wrap_s", (int)options->wrap_s, EWA_TEXTURE_CLAMP},
-                   {"wrap_t", (int)options->wrap_t, EWA_TEXTURE_CLAMP}};
-    for (size_t i = 0; i < sizeof choices / sizeof choices[0]; i++)
-        if (choices[i].value < 0 || choices[i].value > choices[i].last)
-            return ewa_fail(context, EWA_ERROR_ARGUMENT, "texture: %s is %d, must be 0 to %d",
-                            choices[i].name, choices[i].value, choices[i].last);
-    ewa_status status = check_range(context, "pixel_sigma_px", options->pixel_sigma_px, 0.3, 8);
-    if (status == EWA_OK) status = check_range(context, "cutoff", options->cutoff, 1e-3, 10);
-    if (status == EWA_OK) status = check_range(context, "ridge", options->ridge, 1e-6, 1);
-    return status;
+    ewa_options_init(&ewa_acquire_options_table, options, struct_size);
 }
 
 static ewa_status find_streams(const ewa_cloud *cloud, acquire_job *job) {
@@ -373,16 +363,15 @@ static ewa_status run(ewa_cloud *cloud, acquire_job *job, ewa_acquire_report *re
 }
 
 ewa_status ewa_cloud_acquire(ewa_cloud *cloud, const ewa_image *textures, uint32_t texture_count,
-                             const ewa_acquire_options *options, ewa_acquire_report *report) {
+                             const ewa_acquire_options *given, ewa_acquire_report *report) {
     if (!cloud || (!textures && texture_count)) return EWA_ERROR_ARGUMENT;
     ewa_context *context = ewa_cloud_context(cloud);
-    ewa_acquire_options defaults;
-    ewa_acquire_options_init(&defaults, sizeof defaults);
-    if (!options) options = &defaults;
+    ewa_acquire_options chosen, *options = &chosen;
+    ewa_acquire_options_init(options, sizeof *options);
     ewa_acquire_report ignored;
     if (!report) report = &ignored;
     *report = (ewa_acquire_report){0};
-    ewa_status status = check_options(context, options);
+    ewa_status status = ewa_options_take(context, &ewa_acquire_options_table, given, options);
     if (status != EWA_OK) return status;
     if (ewa_cloud_point_count(cloud) >= UINT32_MAX)
         return ewa_fail(context, EWA_ERROR_LIMIT, "texture: more than 4294967294 points");

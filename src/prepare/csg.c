@@ -11,6 +11,7 @@
 // and 5: classification, resampling near the intersection), with the clip lines of M. Zwicker et al.,
 // "Perspective Accurate Splatting", 2004, section 5, in place of its many small surfels.
 #include "base/base.h"
+#include "base/options.h"
 #include "prepare/csg_lines.h"
 #include "prepare/solid.h"
 
@@ -460,32 +461,35 @@ static ewa_status combine(const ewa_cloud *const operands[2], const ewa_solid so
     return status == EWA_OK ? ewa_progress(context, "csg", 1) : status;
 }
 
+#define AT(member) offsetof(ewa_csg_options, member)
+
+static const ewa_option option_rows[] = {
+    {"operation", EWA_OPTION_CHOICE, AT(operation), .words = "union|intersection|difference",
+     .help = "what to keep; difference: A without B"},
+    {"cutoff", EWA_OPTION_F64, AT(cutoff), 0, 4, EWA_OPTION_ABOVE, .initial = 3,
+     .help = "standard deviations at which kernels end"},
+};
+
+const ewa_option_table ewa_csg_options_table = EWA_OPTION_TABLE(ewa_csg_options, option_rows);
+
 void ewa_csg_options_init(ewa_csg_options *options, size_t struct_size) {
-    if (!options || struct_size < sizeof *options) return;
-    memset(options, 0, struct_size);
-    options->struct_size = struct_size;
-    options->operation = EWA_CSG_UNION;
-    options->cutoff = 3;
+    ewa_options_init(&ewa_csg_options_table, options, struct_size);
 }
 
-ewa_status ewa_cloud_csg(const ewa_cloud *a, const ewa_cloud *b, const ewa_csg_options *options,
+ewa_status ewa_cloud_csg(const ewa_cloud *a, const ewa_cloud *b, const ewa_csg_options *given,
                          ewa_cloud **result) {
     if (!a || !b || !result) return EWA_ERROR_ARGUMENT;
     *result = NULL;
     ewa_context *context = ewa_cloud_context(a);
-    ewa_csg_options defaults;
-    ewa_csg_options_init(&defaults, sizeof defaults);
-    if (!options) options = &defaults;
-    if (options->struct_size != sizeof *options || (unsigned)options->operation > EWA_CSG_DIFFERENCE ||
-        !(options->cutoff > 0 && options->cutoff <= 4))
-        return ewa_fail(context, EWA_ERROR_ARGUMENT,
-                        "csg: operation is %d, must be 0 to 2; cutoff is %g, must be in (0, 4]",
-                        (int)options->operation, options->cutoff);
+    ewa_csg_options chosen, *options = &chosen;
+    ewa_csg_options_init(options, sizeof *options);
+    ewa_status status = ewa_options_take(context, &ewa_csg_options_table, given, options);
+    if (status != EWA_OK) return status;
     const ewa_cloud *const operands[2] = {a, b};
     double origin_world[3];
     ewa_cloud_origin(a, origin_world);
     ewa_solid solids[2] = {{.context = context}, {.context = context}};
-    ewa_status status = ewa_progress(context, "csg", 0);
+    status = ewa_progress(context, "csg", 0);
     for (int k = 0; k < 2 && status == EWA_OK; k++) {
         status =
             ewa_solid_open(operands[k], operand_name(options, k), origin_world, options->cutoff, &solids[k]);

@@ -3,6 +3,7 @@
 //
 // From positions to surfels: normals, radii or tangent axes from the neighbourhood of each place.
 #include "base/base.h"
+#include "base/options.h"
 #include "ewa/prepare.h"
 #include "prepare/local.h"
 #include "prepare/orient.h"
@@ -397,49 +398,47 @@ static ewa_status estimate(ewa_cloud *cloud, const ewa_estimate_options *options
     return EWA_OK;
 }
 
-static ewa_status check_options(ewa_context *context, const ewa_estimate_options *options) {
-    if (options->struct_size != sizeof *options)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "estimate: options of %zu bytes, not %zu",
-                        options->struct_size, sizeof *options);
-    if (options->neighbour_count < MIN_NEIGHBOURS || options->neighbour_count > EWA_NEIGHBOURS_MAX)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "estimate: neighbour_count is %u, not %d to %d",
-                        options->neighbour_count, MIN_NEIGHBOURS, EWA_NEIGHBOURS_MAX);
-    if ((unsigned)options->orientation > EWA_ORIENT_NONE || (unsigned)options->shape > EWA_SHAPE_ELLIPSE)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "estimate: orientation %d or shape %d unknown",
-                        (int)options->orientation, (int)options->shape);
-    if (!(options->radius_scale > 0) || !isfinite(options->radius_scale) || !(options->cutoff > 0) ||
-        !isfinite(options->cutoff))
-        return ewa_fail(context, EWA_ERROR_ARGUMENT,
-                        "estimate: radius_scale %g and cutoff %g have to be positive", options->radius_scale,
-                        options->cutoff);
-    if (!(options->radius_limit >= 1) || !isfinite(options->radius_limit))
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "estimate: radius_limit %g is below 1 or not finite",
-                        options->radius_limit);
-    if (!(options->outlier_factor >= 0) || !isfinite(options->outlier_factor))
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "estimate: outlier_factor %g is negative or not finite",
-                        options->outlier_factor);
-    for (int c = 0; c < 3; c++)
-        if (!isfinite(options->viewpoint_world[c]))
-            return ewa_fail(context, EWA_ERROR_ARGUMENT, "estimate: the viewpoint is not finite");
-    return EWA_OK;
-}
+#define AT(member) offsetof(ewa_estimate_options, member)
+
+static const ewa_option option_rows[] = {
+    {"neighbour_count", EWA_OPTION_U32, AT(neighbour_count), MIN_NEIGHBOURS, EWA_NEIGHBOURS_MAX,
+     .initial = 16, .help = "nearest neighbours that a point is judged by"},
+    {"orientation", EWA_OPTION_CHOICE, AT(orientation), .words = "propagate|viewpoint|none",
+     .help = "side that normals point to: consistent along the surface and outward, towards the viewpoint, "
+             "or as they come"},
+    {"viewpoint_world", EWA_OPTION_F64, AT(viewpoint_world), -INFINITY, INFINITY,
+     EWA_OPTION_ABOVE | EWA_OPTION_BELOW, 3, .help = "place that normals point to, such as the scanner's"},
+    {"shape", EWA_OPTION_CHOICE, AT(shape), .words = "disc|ellipse",
+     .help = "disc: a radius from the local density; ellipse: two axes from the local anisotropy of the "
+             "sampling"},
+    {"radius_scale", EWA_OPTION_F64, AT(radius_scale), 0, INFINITY, EWA_OPTION_ABOVE | EWA_OPTION_BELOW,
+     .initial = EWA_DEFAULT_RADIUS_SCALE, .help = "support radius in units of the local spacing"},
+    {"radius_limit", EWA_OPTION_F64, AT(radius_limit), 1, INFINITY, EWA_OPTION_BELOW,
+     .initial = EWA_DEFAULT_RADIUS_LIMIT,
+     .help = "largest radius that closes a gap, in median spacings of the places around"},
+    {"cutoff", EWA_OPTION_F64, AT(cutoff), 0, 4, EWA_OPTION_ABOVE, .initial = 3,
+     .help = "standard deviations at which kernels end: axes are the support radius over this"},
+    {"keep_normals", EWA_OPTION_BOOL, AT(keep_normals), .initial = true,
+     .help = "keep the normals that the file has"},
+    {"keep_radii", EWA_OPTION_BOOL, AT(keep_radii), .initial = true,
+     .help = "keep the radii or axes that the file has"},
+    {"outlier_factor", EWA_OPTION_F64, AT(outlier_factor), 0, INFINITY, EWA_OPTION_BELOW,
+     .help = "remove points whose mean distance to their neighbours is over the mean plus so many standard "
+             "deviations of all; 0: keep all"},
+};
+
+const ewa_option_table ewa_estimate_options_table = EWA_OPTION_TABLE(ewa_estimate_options, option_rows);
 
 void ewa_estimate_options_init(ewa_estimate_options *options, size_t struct_size) {
-    if (!options || struct_size < sizeof *options) return;
-    memset(options, 0, struct_size);
-    options->struct_size = struct_size;
-    options->neighbour_count = 16;
-    options->radius_scale = EWA_DEFAULT_RADIUS_SCALE;
-    options->radius_limit = EWA_DEFAULT_RADIUS_LIMIT;
-    options->cutoff = 3;
-    options->keep_normals = true;
-    options->keep_radii = true;
+    ewa_options_init(&ewa_estimate_options_table, options, struct_size);
 }
 
-ewa_status ewa_cloud_estimate(ewa_cloud **cloud, const ewa_estimate_options *options) {
-    if (!cloud || !*cloud || !options) return EWA_ERROR_ARGUMENT;
+ewa_status ewa_cloud_estimate(ewa_cloud **cloud, const ewa_estimate_options *given) {
+    if (!cloud || !*cloud || !given) return EWA_ERROR_ARGUMENT;
     ewa_context *context = ewa_cloud_context(*cloud);
-    ewa_status status = check_options(context, options);
+    ewa_estimate_options chosen, *options = &chosen;
+    ewa_estimate_options_init(options, sizeof *options);
+    ewa_status status = ewa_options_take(context, &ewa_estimate_options_table, given, options);
     if (status != EWA_OK) return status;
     if (!has_components(*cloud, EWA_POSITION, 3))
         return ewa_fail(context, EWA_ERROR_ARGUMENT,

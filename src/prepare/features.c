@@ -5,6 +5,7 @@
 // confirm.
 #include "prepare/features.h"
 #include "base/base.h"
+#include "base/options.h"
 #include "math/angle.h"
 #include "prepare/local.h"
 
@@ -338,23 +339,8 @@ static bool has_components(const ewa_cloud *cloud, const char *name, uint32_t co
     return attribute && attribute->component_count == components;
 }
 
-static ewa_status check(const ewa_cloud *cloud, const ewa_feature_options *options) {
+static ewa_status check(const ewa_cloud *cloud) {
     ewa_context *context = ewa_cloud_context(cloud);
-    if (options->struct_size != sizeof *options)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "features: options of %zu bytes, not %zu",
-                        options->struct_size, sizeof *options);
-    if (options->neighbour_count &&
-        (options->neighbour_count < MIN_NEIGHBOURS || options->neighbour_count > EWA_NEIGHBOURS_MAX))
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "features: neighbour_count is %u, not 0 or %d to %d",
-                        options->neighbour_count, MIN_NEIGHBOURS, EWA_NEIGHBOURS_MAX);
-    if (!(options->angle_deg >= 10) || !(options->angle_deg <= 120))
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "features: angle_deg is %g, not 10 to 120",
-                        options->angle_deg);
-    if (!(options->noise <= 1))
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "features: noise is %g, over 1", options->noise);
-    if (!(options->cutoff > 0) || !isfinite(options->cutoff))
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "features: cutoff %g has to be positive",
-                        options->cutoff);
     const bool has_axes = has_components(cloud, EWA_TANGENT_U, 3) && has_components(cloud, EWA_TANGENT_V, 3);
     if (!has_components(cloud, EWA_POSITION, 3) || !has_components(cloud, EWA_NORMAL, 3) ||
         !(has_axes || has_components(cloud, EWA_RADIUS, 1)))
@@ -401,24 +387,39 @@ uint32_t ewa_feature_lines(const feature_model *model, uint32_t active, const do
     return count;
 }
 
+#define AT(member) offsetof(ewa_feature_options, member)
+
+static const ewa_option option_rows[] = {
+    {"neighbour_count", EWA_OPTION_U32, AT(neighbour_count), MIN_NEIGHBOURS, EWA_NEIGHBOURS_MAX,
+     EWA_OPTION_OR_ZERO,
+     .help = "nearest neighbours that planes are fitted to; 0: 24 for exact points up to 64 for noisy ones"},
+    {"angle_deg", EWA_OPTION_F64, AT(angle_deg), 10, 120, .initial = 30, .unit = "deg",
+     .help = "least angle between the normals of two planes that meet in an edge; less is a smooth surface"},
+    {"noise", EWA_OPTION_F64, AT(noise), -INFINITY, 1, EWA_OPTION_ABOVE, .initial = -1,
+     .help = "standard deviation of the points from the surface in units of the spacing; negative: measured"},
+    {"cutoff", EWA_OPTION_F64, AT(cutoff), 0, 4, EWA_OPTION_ABOVE, .initial = 3,
+     .help = "standard deviations at which kernels end: axes are the support radius over this"},
+    {"project", EWA_OPTION_BOOL, AT(project), .initial = true,
+     .help = "move the points beside an edge onto their plane"},
+};
+
+const ewa_option_table ewa_feature_options_table = EWA_OPTION_TABLE(ewa_feature_options, option_rows);
+
 void ewa_feature_options_init(ewa_feature_options *options, size_t struct_size) {
-    if (!options || struct_size < sizeof *options) return;
-    memset(options, 0, struct_size);
-    options->struct_size = struct_size;
-    options->angle_deg = 30;
-    options->noise = -1;
-    options->cutoff = 3;
-    options->project = true;
+    ewa_options_init(&ewa_feature_options_table, options, struct_size);
 }
 
-ewa_status ewa_cloud_detect_features(ewa_cloud *cloud, const ewa_feature_options *options,
+ewa_status ewa_cloud_detect_features(ewa_cloud *cloud, const ewa_feature_options *given,
                                      ewa_feature_counts *counts) {
-    if (!cloud || !options) return EWA_ERROR_ARGUMENT;
+    if (!cloud || !given) return EWA_ERROR_ARGUMENT;
     ewa_feature_counts found = {0};
     if (counts) *counts = found;
-    ewa_status status = check(cloud, options);
-    if (status != EWA_OK) return status;
     ewa_context *context = ewa_cloud_context(cloud);
+    ewa_feature_options chosen, *options = &chosen;
+    ewa_feature_options_init(options, sizeof *options);
+    ewa_status status = ewa_options_take(context, &ewa_feature_options_table, given, options);
+    if (status == EWA_OK) status = check(cloud);
+    if (status != EWA_OK) return status;
     feature_job job = {.context = context,
                        .kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_local_kernels),
                        .normal = *ewa_cloud_find(cloud, EWA_NORMAL)};

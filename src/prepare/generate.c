@@ -10,6 +10,7 @@
 // point alone.
 #include "prepare/generate.h"
 #include "base/base.h"
+#include "base/options.h"
 #include "prepare/generate_solid.h"
 
 #include <math.h>
@@ -17,12 +18,6 @@
 
 /// Points that one progress report covers, and points of one parallel task.
 enum { STRETCH_POINTS = 1 << 22, TASK_POINTS = 1 << 14 };
-
-/// Bounds of lengths that keep every output a normal float.
-#define MIN_SIZE         1e-25
-#define MAX_SIZE         1e25
-#define MAX_RADIUS_SCALE 1e6
-#define MAX_CHECKS       1e6
 
 /// Jittered points need wider discs, so that the sum of their kernels nowhere falls under what edge
 /// antialiasing takes for an edge: 1.6 spacings for jitter 0.5, 2.1 for 1 (docs/quality.md).
@@ -40,16 +35,35 @@ typedef struct generate_job {
     uint8_t *color;
 } generate_job;
 
+#define AT(member) offsetof(ewa_generate_options, member)
+
+/// The bounds of lengths keep every output a normal float.
+static const ewa_option option_rows[] = {
+    {"object", EWA_OPTION_CHOICE, AT(object), .words = "plane|checker|cube|sphere|torus|terrain|csg",
+     .help = "which object is made"},
+    {"point_count", EWA_OPTION_U64, AT(point_count), 0, INFINITY, EWA_OPTION_BELOW, .initial = 100000,
+     .help = "how many points; with rows on edges at most so many"},
+    {"seed", EWA_OPTION_U64, AT(seed), 0, INFINITY, EWA_OPTION_BELOW, .initial = 1,
+     .help = "same seed, same bytes, on every machine"},
+    {"size_world", EWA_OPTION_F64, AT(size_world), 1e-25, 1e25, .initial = 2,
+     .help = "edge of plane, cube and terrain, outer diameter of sphere and torus, length of csg, in world "
+             "units"},
+    {"jitter", EWA_OPTION_F64, AT(jitter), 0, 1, .initial = 0.5,
+     .help = "0: a regular grid, 1: anywhere in the cell"},
+    {"checks", EWA_OPTION_F64, AT(checks), 1e-6, 1e6, .initial = 16,
+     .help = "squares along an edge of the checkerboard and of the cube's faces"},
+    {"radius_scale", EWA_OPTION_F64, AT(radius_scale), 1e-6, 1e6, EWA_OPTION_OR_ZERO,
+     .help = "support radius in units of the spacing; 0: closed for the jitter"},
+    {"positions_only", EWA_OPTION_BOOL, AT(positions_only), .help = "leave out normals and radii"},
+    {"sharp", EWA_OPTION_BOOL, AT(sharp),
+     .help = "cube and csg: rows of points on every edge, and clip lines"},
+    {"texcoords", EWA_OPTION_BOOL, AT(texcoords), .help = "add texture coordinates"},
+};
+
+const ewa_option_table ewa_generate_options_table = EWA_OPTION_TABLE(ewa_generate_options, option_rows);
+
 void ewa_generate_options_init(ewa_generate_options *options, size_t struct_size) {
-    if (!options || struct_size < sizeof *options) return;
-    memset(options, 0, struct_size);
-    options->struct_size = struct_size;
-    options->object = EWA_OBJECT_PLANE;
-    options->point_count = 100000;
-    options->seed = 1;
-    options->size_world = 2;
-    options->jitter = 0.5;
-    options->checks = 16;
+    ewa_options_init(&ewa_generate_options_table, options, struct_size);
 }
 
 /// Support radius in units of the spacing.
@@ -59,34 +73,14 @@ static double choose_radius_scale(const ewa_generate_options *options) {
     return EWA_DEFAULT_RADIUS_SCALE * (in_rows ? 1 : 1 + JITTER_SPREAD * options->jitter);
 }
 
-static ewa_status check_range(ewa_context *context, const char *member, double value, double low,
-                              double high) {
-    if (value >= low && value <= high) return EWA_OK;
-    return ewa_fail(context, EWA_ERROR_ARGUMENT, "generate: %s is %g, must be in [%g, %g]", member, value,
-                    low, high);
-}
-
-static ewa_status check_options(ewa_context *context, const ewa_generate_options *options) {
-    if (options->struct_size != sizeof *options)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "generate: struct_size is %zu, must be %zu",
-                        options->struct_size, sizeof *options);
-    if ((unsigned)options->object > EWA_OBJECT_CSG)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "generate: object is %d, must be 0 to %d",
-                        (int)options->object, EWA_OBJECT_CSG);
+static ewa_status check_together(ewa_context *context, const ewa_generate_options *options) {
     if (options->sharp && !ewa_solid_shape_of(options->object))
         return ewa_fail(context, EWA_ERROR_ARGUMENT,
                         "generate: sharp goes with the cube and the part only, object is %d",
                         (int)options->object);
     if (options->texcoords && options->positions_only)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "generate: texcoords need the normals");
-    ewa_status status = check_range(context, "size_world", options->size_world, MIN_SIZE, MAX_SIZE);
-    if (status == EWA_OK) status = check_range(context, "jitter", options->jitter, 0, 1);
-    if (status == EWA_OK)
-        status = check_range(context, "checks", options->checks, 1 / MAX_CHECKS, MAX_CHECKS);
-    if (status == EWA_OK && options->radius_scale != 0)
-        status = check_range(context, "radius_scale", options->radius_scale, 1 / MAX_RADIUS_SCALE,
-                             MAX_RADIUS_SCALE);
-    return status;
+    return EWA_OK;
 }
 
 /// Area of the object in units of size_world^2 (terrain: of its ground).
@@ -249,17 +243,15 @@ static ewa_status add_attributes(ewa_cloud *cloud, generate_job *job) {
     return status;
 }
 
-ewa_status ewa_cloud_generate(ewa_context *context, const ewa_generate_options *options, ewa_cloud **cloud) {
+ewa_status ewa_cloud_generate(ewa_context *context, const ewa_generate_options *given, ewa_cloud **cloud) {
     if (!context || !cloud) return EWA_ERROR_ARGUMENT;
     *cloud = NULL;
-    ewa_generate_options defaults;
-    ewa_generate_options_init(&defaults, sizeof defaults);
-    if (!options) options = &defaults;
-    ewa_status status = check_options(context, options);
+    ewa_generate_options chosen, *options = &chosen;
+    ewa_generate_options_init(options, sizeof *options);
+    ewa_status status = ewa_options_take(context, &ewa_generate_options_table, given, options);
+    if (status == EWA_OK) status = check_together(context, options);
     if (status != EWA_OK) return status;
-    ewa_generate_options chosen = *options;
-    chosen.radius_scale = choose_radius_scale(options);
-    options = &chosen;
+    options->radius_scale = choose_radius_scale(options);
     ewa_cloud *made = NULL;
     if (options->sharp || options->object == EWA_OBJECT_CSG) {
         status = ewa_generate_solid(context, options, &made);

@@ -3,6 +3,7 @@
 //
 // Test volumes. Plain IEEE arithmetic throughout, so that the bytes are the same on every machine.
 #include "base/base.h"
+#include "base/options.h"
 #include "ewa/prepare.h"
 #include "prepare/generate.h"
 
@@ -189,31 +190,35 @@ static ewa_status draw_tree(ewa_context *context, generator *job) {
     return status;
 }
 
+#define AT(member) offsetof(ewa_volume_generate_options, member)
+
+static const ewa_option option_rows[] = {
+    {"object", EWA_OPTION_CHOICE, AT(object), .words = "checkerbox|blob|ball|vessels",
+     .help = "which volume is made"},
+    {"dims", EWA_OPTION_U32, AT(dims), 2, UINT32_MAX, .count = 3, .initial = 128,
+     .help = "voxels along each axis"},
+    {"size_world", EWA_OPTION_F64, AT(size_world), 0, INFINITY, EWA_OPTION_ABOVE | EWA_OPTION_BELOW,
+     .initial = 1, .help = "distance of the outermost voxels along the longest axis, in world units"},
+    {"checks", EWA_OPTION_F64, AT(checks), 0, 1e6, EWA_OPTION_ABOVE, .initial = 8,
+     .help = "cubes along an edge of checkerbox"},
+    {"seed", EWA_OPTION_U64, AT(seed), 0, INFINITY, EWA_OPTION_BELOW,
+     .help = "of the vessels: same seed, same bytes, on every machine"},
+};
+
+const ewa_option_table ewa_volume_generate_options_table =
+    EWA_OPTION_TABLE(ewa_volume_generate_options, option_rows);
+
 void ewa_volume_generate_options_init(ewa_volume_generate_options *options, size_t struct_size) {
-    if (!options || struct_size < sizeof *options) return;
-    memset(options, 0, struct_size);
-    options->struct_size = struct_size;
-    for (int axis = 0; axis < 3; axis++) options->dims[axis] = 128;
-    options->size_world = 1;
-    options->checks = 8;
+    ewa_options_init(&ewa_volume_generate_options_table, options, struct_size);
 }
 
-static ewa_status check_options(ewa_context *context, const ewa_volume_generate_options *options) {
-    bool good = options->size_world > 0 && isfinite(options->size_world) && options->checks > 0 &&
-                options->checks <= 1e6 && (unsigned)options->object <= EWA_VOLUME_VESSELS;
-    for (int axis = 0; axis < 3; axis++) good &= options->dims[axis] >= 2;
-    return good ? EWA_OK
-                : ewa_fail(context, EWA_ERROR_ARGUMENT,
-                           "generate: object %d of %u x %u x %u voxels, size %g, %g checks",
-                           (int)options->object, options->dims[0], options->dims[1], options->dims[2],
-                           options->size_world, options->checks);
-}
-
-ewa_status ewa_volume_generate(ewa_context *context, const ewa_volume_generate_options *options,
+ewa_status ewa_volume_generate(ewa_context *context, const ewa_volume_generate_options *given,
                                ewa_volume *volume) {
-    if (!context || !options || !volume || options->struct_size != sizeof *options) return EWA_ERROR_ARGUMENT;
+    if (!context || !given || !volume) return EWA_ERROR_ARGUMENT;
     *volume = (ewa_volume){0};
-    ewa_status status = check_options(context, options);
+    ewa_volume_generate_options chosen, *options = &chosen;
+    ewa_volume_generate_options_init(options, sizeof *options);
+    ewa_status status = ewa_options_take(context, &ewa_volume_generate_options_table, given, options);
     if (status != EWA_OK) return status;
     const bool floats = options->object == EWA_VOLUME_BLOB || options->object == EWA_VOLUME_BALL;
     status = ewa_volume_create(context, options->dims, floats ? EWA_F32 : EWA_U8, volume);

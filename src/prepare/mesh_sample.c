@@ -3,6 +3,7 @@
 //
 // From a mesh to surfels: options, and what every point gets once the places are chosen.
 #include "base/base.h"
+#include "base/options.h"
 #include "ewa/acquire.h"
 #include "math/vec.h"
 #include "prepare/mesh_clip.h"
@@ -35,46 +36,45 @@ typedef struct sample_job {
     uint32_t *texture, *part;
 } sample_job;
 
+#define AT(member) offsetof(ewa_mesh_sample_options, member)
+
+static const ewa_option option_rows[] = {
+    {"point_count", EWA_OPTION_U64, AT(point_count), 0, INFINITY, EWA_OPTION_BELOW, .initial = 100000,
+     .help = "about how many points"},
+    {"spacing_world", EWA_OPTION_F64, AT(spacing_world), 0, INFINITY, EWA_OPTION_BELOW, .unit = "world",
+     .help = "square root of the area per point away from edges, in world units; 0: by the count"},
+    {"seed", EWA_OPTION_U64, AT(seed), 0, INFINITY, EWA_OPTION_BELOW, .initial = 1,
+     .help = "same seed, same bytes, on every machine"},
+    {"crease_degrees", EWA_OPTION_F64, AT(crease_degrees), 0, 180, .initial = 35, .unit = "deg",
+     .help = "edges that bend by more are sharp"},
+    {"radius_scale", EWA_OPTION_F64, AT(radius_scale), 0.5, 10, .initial = 1.6,
+     .help = "support radius in units of the spacing"},
+    {"cutoff", EWA_OPTION_F64, AT(cutoff), 0, 4, EWA_OPTION_ABOVE, .initial = 3,
+     .help = "standard deviations at which kernels end: axes are the support radius over this"},
+    {"clip_lines", EWA_OPTION_BOOL, AT(clip_lines), .initial = true,
+     .help = "make sharp edges, corners and borders exact by clip lines"},
+    {"smooth_normals", EWA_OPTION_BOOL, AT(smooth_normals), .initial = true,
+     .help = "interpolate normals across edges that are not sharp; off: those of the triangles"},
+    {"texture_filter", EWA_OPTION_CHOICE, AT(texture_filter), .words = "nearest|ewa|optimal",
+     .initial = EWA_TEXTURE_OPTIMAL, .help = "how pictures come onto the points"},
+    {"pixel_sigma_px", EWA_OPTION_F64, AT(pixel_sigma_px), 0.3, 8, .initial = 0.5, .unit = "px",
+     .help = "standard deviation of the Gaussian that stands for one pixel of a picture, in pixels"},
+    {"texcoords", EWA_OPTION_BOOL, AT(texcoords), .help = "keep texture coordinates"},
+};
+
+const ewa_option_table ewa_mesh_sample_options_table = EWA_OPTION_TABLE(ewa_mesh_sample_options, option_rows);
+
 void ewa_mesh_sample_options_init(ewa_mesh_sample_options *options, size_t struct_size) {
-    if (!options || struct_size < sizeof *options) return;
-    memset(options, 0, struct_size);
-    options->struct_size = struct_size;
-    options->point_count = 100000;
-    options->seed = 1;
-    options->crease_degrees = 35;
-    options->radius_scale = 1.6;
-    options->cutoff = 3;
-    options->clip_lines = true;
-    options->smooth_normals = true;
-    ewa_acquire_options acquire;
-    ewa_acquire_options_init(&acquire, sizeof acquire);
-    options->texture_filter = acquire.filter;
-    options->pixel_sigma_px = acquire.pixel_sigma_px;
+    ewa_options_init(&ewa_mesh_sample_options_table, options, struct_size);
 }
 
-static ewa_status check_range(ewa_context *context, const char *member, double value, double low,
-                              double high) {
-    if (value >= low && value <= high) return EWA_OK;
-    return ewa_fail(context, EWA_ERROR_ARGUMENT, "sample: %s is %g, must be in [%g, %g]", member, value, low,
-                    high);
-}
-
-static ewa_status check_options(ewa_context *context, const ewa_mesh_sample_options *options) {
-    if (options->struct_size != sizeof *options)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "sample: struct_size is %zu, must be %zu",
-                        options->struct_size, sizeof *options);
-    if (!(options->spacing_world >= 0 && options->spacing_world < INFINITY))
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "sample: spacing_world is %g, must be in [0, inf)",
-                        options->spacing_world);
+static ewa_status check_count(ewa_context *context, const ewa_mesh_sample_options *options) {
     const uint64_t limit = ewa_context_limits(context)->max_points;
-    if (options->spacing_world == 0 && (options->point_count == 0 || options->point_count > limit))
-        return ewa_fail(context, options->point_count ? EWA_ERROR_LIMIT : EWA_ERROR_ARGUMENT,
-                        "sample: point_count is %llu, must be in [1, %llu]",
-                        (unsigned long long)options->point_count, (unsigned long long)limit);
-    ewa_status status = check_range(context, "crease_degrees", options->crease_degrees, 0, 180);
-    if (status == EWA_OK) status = check_range(context, "radius_scale", options->radius_scale, 0.5, 10);
-    if (status == EWA_OK) status = check_range(context, "cutoff", options->cutoff, 1e-3, 10);
-    return status;
+    if (options->spacing_world > 0 || (options->point_count > 0 && options->point_count <= limit))
+        return EWA_OK;
+    return ewa_fail(context, options->point_count ? EWA_ERROR_LIMIT : EWA_ERROR_ARGUMENT,
+                    "sample: point_count is %llu, must be in [1, %llu]",
+                    (unsigned long long)options->point_count, (unsigned long long)limit);
 }
 
 static ewa_vec3 load_normal(const float n[3]) { return vec3_make((double)n[0], (double)n[1], (double)n[2]); }
@@ -333,13 +333,13 @@ static ewa_status check_mesh(const ewa_mesh *mesh, const ewa_mesh_sample_options
     return EWA_OK;
 }
 
-ewa_status ewa_mesh_sample(const ewa_mesh *mesh, const ewa_mesh_sample_options *options, ewa_cloud **cloud) {
+ewa_status ewa_mesh_sample(const ewa_mesh *mesh, const ewa_mesh_sample_options *given, ewa_cloud **cloud) {
     if (!mesh || !mesh->context || !cloud) return EWA_ERROR_ARGUMENT;
     *cloud = NULL;
-    ewa_mesh_sample_options defaults;
-    ewa_mesh_sample_options_init(&defaults, sizeof defaults);
-    if (!options) options = &defaults;
-    ewa_status status = check_options(mesh->context, options);
+    ewa_mesh_sample_options chosen, *options = &chosen;
+    ewa_mesh_sample_options_init(options, sizeof *options);
+    ewa_status status = ewa_options_take(mesh->context, &ewa_mesh_sample_options_table, given, options);
+    if (status == EWA_OK) status = check_count(mesh->context, options);
     if (status == EWA_OK) status = check_mesh(mesh, options);
     mesh_surface surface;
     if (status == EWA_OK) status = ewa_mesh_surface_make(mesh, options, &surface);

@@ -4,6 +4,7 @@
 // Solid textures onto the points of a cloud.
 #include "ewa/procedure.h"
 #include "base/base.h"
+#include "base/options.h"
 #include "prepare/color.h"
 #include "prepare/pattern.h"
 
@@ -79,6 +80,25 @@ static void color_points(void *data, uint32_t index, uint32_t worker) {
     }
 }
 
+#define AT(member) offsetof(ewa_procedure_options, member)
+
+static const ewa_option option_rows[] = {
+    {"procedure", EWA_OPTION_CHOICE, AT(procedure), .words = "checker|marble|wood|noise",
+     .help = "which solid texture"},
+    {"frequency", EWA_OPTION_F64, AT(frequency), 0, 1e9, EWA_OPTION_ABOVE, .initial = 8,
+     .help = "features per world unit: cubes, veins, rings, waves"},
+    {"prefilter", EWA_OPTION_F64, AT(prefilter), 0, 10, .initial = 1,
+     .help = "width of the filter in units of the surfel's kernel; 0: none, which aliases"},
+    {"cutoff", EWA_OPTION_F64, AT(cutoff), 0, 4, EWA_OPTION_ABOVE, .initial = 3,
+     .help = "standard deviations at which kernels end"},
+    {"seed", EWA_OPTION_U64, AT(seed), 0, INFINITY, EWA_OPTION_BELOW, .initial = 1,
+     .help = "same seed, same noise"},
+    {"colors", EWA_OPTION_F32, AT(colors), 0, 1, .count = 6,
+     .help = "two linear colours, whose defaults go with the procedure"},
+};
+
+const ewa_option_table ewa_procedure_options_table = EWA_OPTION_TABLE(ewa_procedure_options, option_rows);
+
 void ewa_procedure_options_init(ewa_procedure_options *options, ewa_procedure procedure, size_t struct_size) {
     static const float colors[][2][3] = {
         {{0.82f, 0.80f, 0.76f}, {0.035f, 0.04f, 0.06f}},
@@ -86,42 +106,11 @@ void ewa_procedure_options_init(ewa_procedure_options *options, ewa_procedure pr
         {{0.62f, 0.33f, 0.13f}, {0.17f, 0.06f, 0.02f}},
         {{0.02f, 0.06f, 0.16f}, {0.92f, 0.86f, 0.72f}},
     };
-    if (!options || struct_size < sizeof *options) return;
-    memset(options, 0, struct_size);
-    options->struct_size = struct_size;
+    ewa_options_init(&ewa_procedure_options_table, options, struct_size);
+    if (!options || struct_size < AT(colors) + sizeof options->colors) return;
     options->procedure = procedure;
-    options->frequency = 8;
-    options->prefilter = 1;
-    options->cutoff = 3;
-    options->seed = 1;
     if ((unsigned)procedure < sizeof colors / sizeof *colors)
         memcpy(options->colors, colors[procedure], sizeof options->colors);
-}
-
-static ewa_status check(ewa_context *context, const ewa_procedure_options *options) {
-    if (options->struct_size != sizeof *options)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "procedure: struct_size is %zu, must be %zu",
-                        options->struct_size, sizeof *options);
-    if ((unsigned)options->procedure > EWA_PROCEDURE_NOISE)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "procedure: procedure is %d, must be in [0, 3]",
-                        (int)options->procedure);
-    if (!(options->frequency > 0 && options->frequency <= 1e9))
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "procedure: frequency is %g, must be in (0, 1e9]",
-                        options->frequency);
-    if (!(options->prefilter >= 0 && options->prefilter <= 10))
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "procedure: prefilter is %g, must be in [0, 10]",
-                        options->prefilter);
-    if (!(options->cutoff > 0 && options->cutoff <= 4))
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "procedure: cutoff is %g, must be in (0, 4]",
-                        options->cutoff);
-    for (int i = 0; i < 6; i++) {
-        const float number = options->colors[i / 3][i % 3];
-        if (!(number >= 0 && number <= 1))
-            return ewa_fail(context, EWA_ERROR_ARGUMENT,
-                            "procedure: number %d of colour %d is %g, must be in [0, 1]", i % 3, i / 3,
-                            (double)number);
-    }
-    return EWA_OK;
 }
 
 /// A stream of so many components, NULL when there is none such.
@@ -148,11 +137,13 @@ static ewa_status find_streams(const ewa_cloud *cloud, color_job *job) {
     return EWA_OK;
 }
 
-ewa_status ewa_cloud_color_by_procedure(ewa_cloud *cloud, const ewa_procedure_options *options) {
-    if (!cloud || !options) return EWA_ERROR_ARGUMENT;
+ewa_status ewa_cloud_color_by_procedure(ewa_cloud *cloud, const ewa_procedure_options *given) {
+    if (!cloud || !given) return EWA_ERROR_ARGUMENT;
     ewa_context *context = ewa_cloud_context(cloud);
+    ewa_procedure_options chosen, *options = &chosen;
+    ewa_procedure_options_init(options, EWA_PROCEDURE_CHECKER, sizeof *options);
     color_job job = {.options = options, .point_count = ewa_cloud_point_count(cloud)};
-    ewa_status status = check(context, options);
+    ewa_status status = ewa_options_take(context, &ewa_procedure_options_table, given, options);
     if (status == EWA_OK) status = find_streams(cloud, &job);
     if (status != EWA_OK) return status;
     job.component_count = job.color ? 4 : 3;

@@ -9,6 +9,7 @@
 // problems", 1996, section 7.4 (CGLS). B'B is never formed; B is well conditioned (docs/colors.md), and where
 // points almost coincide the damping keeps their coefficients near their colours.
 #include "base/base.h"
+#include "base/options.h"
 #include "math/vec.h"
 #include "prepare/color.h"
 #include "prepare/refit_kernels.h"
@@ -250,27 +251,26 @@ static ewa_status write_colors(ewa_cloud *cloud, const refit_job *job, ewa_refit
     return status;
 }
 
+#define AT(member) offsetof(ewa_refit_options, member)
+
+static const ewa_option option_rows[] = {
+    {"goal", EWA_OPTION_CHOICE, AT(goal), .words = "interpolate|fit",
+     .help = "the picture has each point's colour at the point, or nearly, for noisy or aliased colours"},
+    {"cutoff", EWA_OPTION_F64, AT(cutoff), 0, 4, EWA_OPTION_ABOVE, .initial = 3,
+     .help = "standard deviations at which kernels will end where the cloud is drawn"},
+};
+
+const ewa_option_table ewa_refit_options_table = EWA_OPTION_TABLE(ewa_refit_options, option_rows);
+
 void ewa_refit_options_init(ewa_refit_options *options, size_t struct_size) {
-    if (!options || struct_size < sizeof *options) return;
-    memset(options, 0, struct_size);
-    options->struct_size = struct_size;
-    options->cutoff = 3;
+    ewa_options_init(&ewa_refit_options_table, options, struct_size);
 }
 
-static ewa_status check(const ewa_cloud *cloud, const ewa_refit_options *options) {
-    ewa_context *context = ewa_cloud_context(cloud);
-    if (options->struct_size != sizeof *options)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "refit: struct_size is %zu, must be %zu",
-                        options->struct_size, sizeof *options);
-    if (options->goal != EWA_REFIT_INTERPOLATE && options->goal != EWA_REFIT_FIT)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "refit: goal is %d, must be 0 or 1", (int)options->goal);
-    if (!(options->cutoff > 0 && options->cutoff <= 4))
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "refit: cutoff is %g, must be in (0, 4]",
-                        options->cutoff);
+static ewa_status check_colors(const ewa_cloud *cloud) {
     const ewa_attribute *color = ewa_cloud_find(cloud, EWA_COLOR);
-    if (!color || color->component_count < 3)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "refit: the cloud has no 'color' of 3 or 4 components");
-    return EWA_OK;
+    if (color && color->component_count >= 3) return EWA_OK;
+    return ewa_fail(ewa_cloud_context(cloud), EWA_ERROR_ARGUMENT,
+                    "refit: the cloud has no 'color' of 3 or 4 components");
 }
 
 ewa_status ewa_cloud_refit_colors(ewa_cloud *cloud, const ewa_refit_options *options,
@@ -278,8 +278,9 @@ ewa_status ewa_cloud_refit_colors(ewa_cloud *cloud, const ewa_refit_options *opt
     if (!cloud) return EWA_ERROR_ARGUMENT;
     ewa_refit_options chosen;
     ewa_refit_options_init(&chosen, sizeof chosen);
-    if (options) chosen = *options;
-    ewa_status status = check(cloud, &chosen);
+    ewa_status status =
+        ewa_options_take(ewa_cloud_context(cloud), &ewa_refit_options_table, options, &chosen);
+    if (status == EWA_OK) status = check_colors(cloud);
     if (status != EWA_OK) return status;
     ewa_refit_report made = {.low = INFINITY, .high = -INFINITY};
     refit_job job = {.context = ewa_cloud_context(cloud),

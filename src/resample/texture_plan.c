@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Forward texture mapping: arguments, and the maps that corners and cameras give.
+#include "base/options.h"
 #include "resample/texture.h"
 
 #include <math.h>
@@ -13,41 +14,31 @@ static const double HORIZON_PX = 0.125;
 /// A map that is singular to within this, of unit squares, cannot be drawn.
 static const double SINGULAR = 1e-13;
 
+#define AT(member) offsetof(ewa_texture_options, member)
+
+static const ewa_option option_rows[] = {
+    {"method", EWA_OPTION_CHOICE, AT(method), .words = "hybrid|splat|point|bilinear",
+     .help = "hybrid: texels are points where they are minified along both axes, and splats elsewhere; all "
+             "splats; all points, with holes where magnified; backward, by bilinear interpolation, which "
+             "aliases"},
+    {"prefilter_px", EWA_OPTION_F64, AT(prefilter_px), 0.1, 4, .initial = 0.3, .unit = "px",
+     .help = "standard deviation of the pixel filter in pixels"},
+    {"cutoff", EWA_OPTION_F64, AT(cutoff), 1, 4, .initial = 3.3,
+     .help = "standard deviations at which kernels end"},
+    {"sigma_texels", EWA_OPTION_F64, AT(sigma_texels), 0.3, 2, .initial = 0.4,
+     .help = "standard deviation of a texel's disc, in texels: larger is softer where magnified"},
+    {"point_spacing_px", EWA_OPTION_F64, AT(point_spacing_px), 0.05, 1, .initial = 0.5, .unit = "px",
+     .help = "hybrid: texels that are not farther apart than this, in pixels, are points"},
+    {"repeat", EWA_OPTION_BOOL, AT(repeat),
+     .help = "fill the whole plane with copies of the image, up to the horizon"},
+    {"background", EWA_OPTION_F32, AT(background), 0, 1e6, .count = 4,
+     .help = "linear light, straight alpha, which is at most 1"},
+};
+
+const ewa_option_table ewa_texture_options_table = EWA_OPTION_TABLE(ewa_texture_options, option_rows);
+
 void ewa_texture_options_init(ewa_texture_options *options, size_t struct_size) {
-    if (!options || struct_size < sizeof *options) return;
-    memset(options, 0, struct_size);
-    options->struct_size = struct_size;
-    options->method = EWA_TEXTURE_HYBRID;
-    options->prefilter_px = 0.3;
-    options->cutoff = 3.3;
-    options->sigma_texels = 0.4;
-    options->point_spacing_px = 0.5;
-}
-
-static ewa_status check_number(ewa_context *context, const char *member, double value, double low,
-                               double high) {
-    if (value >= low && value <= high) return EWA_OK;
-    return ewa_fail(context, EWA_ERROR_ARGUMENT, "texture: %s is %g, allowed is [%g, %g]", member, value, low,
-                    high);
-}
-
-static ewa_status check_options(ewa_context *context, const ewa_texture_options *options) {
-    if (options->struct_size != sizeof *options)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "texture: struct_size is %zu, must be %zu",
-                        options->struct_size, sizeof *options);
-    if (options->repeat && options->method == EWA_TEXTURE_SPLAT)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT,
-                        "texture: splats alone cannot repeat a texture without end; hybrid can");
-    ewa_status status =
-        check_number(context, "method", options->method, EWA_TEXTURE_HYBRID, EWA_TEXTURE_BILINEAR);
-    if (status == EWA_OK) status = check_number(context, "prefilter_px", options->prefilter_px, 0.1, 4);
-    if (status == EWA_OK) status = check_number(context, "cutoff", options->cutoff, 1, 4);
-    if (status == EWA_OK) status = check_number(context, "sigma_texels", options->sigma_texels, 0.3, 2);
-    if (status == EWA_OK)
-        status = check_number(context, "point_spacing_px", options->point_spacing_px, 0.05, 1);
-    for (int c = 0; c < 4 && status == EWA_OK; c++)
-        status = check_number(context, "background", (double)options->background[c], 0, c < 3 ? 1e6 : 1);
-    return status;
+    ewa_options_init(&ewa_texture_options_table, options, struct_size);
 }
 
 /// Checks what sources and targets have in common.
@@ -205,8 +196,13 @@ ewa_status ewa_texture_plan_make(ewa_context *context, const ewa_texture_source 
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "texture: an argument is NULL");
     ewa_texture_options chosen;
     ewa_texture_options_init(&chosen, sizeof chosen);
-    if (options) chosen = *options;
-    ewa_status status = check_options(context, &chosen);
+    ewa_status status = ewa_options_take(context, &ewa_texture_options_table, options, &chosen);
+    if (status == EWA_OK && chosen.repeat && chosen.method == EWA_TEXTURE_SPLAT)
+        return ewa_fail(context, EWA_ERROR_ARGUMENT,
+                        "texture: splats alone cannot repeat a texture without end; hybrid can");
+    if (status == EWA_OK && chosen.background[3] > 1)
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "texture: background[3] is %g, allowed is [0, 1]",
+                        (double)chosen.background[3]);
     if (status == EWA_OK) status = check_rasters(context, source, target);
     if (status != EWA_OK) return status;
     memset(plan, 0, sizeof *plan);

@@ -4,72 +4,69 @@
 // Checked options and images of warping.
 #include "resample/warp_options.h"
 #include "base/base.h"
+#include "base/options.h"
 
 #include <math.h>
 #include <string.h>
 
 /// Limits of z: squares and cubes of what is within are floats.
-static const double LEAST_DEPTH = 1e-9, MOST_DEPTH = 1e12;
+#define LEAST_DEPTH 1e-9
+#define MOST_DEPTH  1e12
 
 /// Limit of focal lengths, principal points and scales, and the inverse of the least one.
 static const double MOST_CAMERA = 1e6;
 
-void ewa_depth_image_init(ewa_depth_image *image, size_t struct_size) {
-    if (!image || struct_size < sizeof *image) return;
-    memset(image, 0, struct_size);
-    image->struct_size = struct_size;
-    ewa_camera_init(&image->camera, sizeof image->camera);
+void ewa_depth_image_init(ewa_depth_image *image) {
+    if (!image) return;
+    memset(image, 0, sizeof *image);
+    ewa_camera_init(&image->camera);
     image->depth_scale = 1;
     image->color_channel_count = 3;
     image->color_type = EWA_U8;
 }
 
+#define AT(member) offsetof(ewa_warp_options, member)
+
+static const ewa_option option_rows[] = {
+    {"cutoff", EWA_OPTION_F64, AT(cutoff), 0, 4, EWA_OPTION_ABOVE, .initial = 3,
+     .help = "standard deviations at which a kernel ends"},
+    {"radius_spacings", EWA_OPTION_F64, AT(radius_spacings), 0.5, 10, .initial = 1.14,
+     .help = "support radius of a splat in units of the distance to its neighbours"},
+    {"depth_jump", EWA_OPTION_F64, AT(depth_jump), 0, 1, EWA_OPTION_ABOVE, .initial = 0.02,
+     .help = "depths of neighbours that differ by more than this share are on different surfaces, unless "
+             "they continue a plane"},
+    {"depth_noise", EWA_OPTION_F64, AT(depth_noise), 0, 1e6,
+     .help =
+         "steps of a sensor's depths at distance 1, growing with its square: depths that differ by little "
+         "more are averaged over 5 x 5 pixels. 0.0036 for a first Kinect in metres; 0: taken as they are"},
+    {"drop_flying", EWA_OPTION_BOOL, AT(drop_flying), .initial = true,
+     .help = "leave out samples that hang between two surfaces"},
+    {"nearest_world", EWA_OPTION_F64, AT(nearest_world), LEAST_DEPTH, MOST_DEPTH, .initial = 1e-6,
+     .unit = "world", .help = "nearer depths are left out"},
+    {"farthest_world", EWA_OPTION_F64, AT(farthest_world), LEAST_DEPTH, MOST_DEPTH, .initial = 1e9,
+     .unit = "world", .help = "farther depths are left out"},
+};
+
+const ewa_option_table ewa_warp_options_table = EWA_OPTION_TABLE(ewa_warp_options, option_rows);
+
 void ewa_warp_options_init(ewa_warp_options *options, size_t struct_size) {
-    if (!options || struct_size < sizeof *options) return;
-    memset(options, 0, struct_size);
-    options->struct_size = struct_size;
-    options->cutoff = 3;
-    options->radius_spacings = 1.14;
-    options->depth_jump = 0.02;
-    options->drop_flying = true;
-    options->nearest_world = 1e-6;
-    options->farthest_world = 1e9;
+    ewa_options_init(&ewa_warp_options_table, options, struct_size);
 }
 
 void ewa_warp_render_options_init(ewa_render_options *options, size_t struct_size) {
-    if (!options || struct_size < sizeof *options) return;
     ewa_render_options_init(options, struct_size);
+    if (!options || struct_size <= offsetof(ewa_render_options, shading)) return;
     options->shading = EWA_SHADING_NONE;
     options->prefilter_px = 0.25;
-}
-
-static ewa_status check_range(ewa_context *context, const char *name, double value, double low, bool low_open,
-                              double high) {
-    if (low_open ? value > low && value <= high : value >= low && value <= high) return EWA_OK;
-    return ewa_fail(context, EWA_ERROR_ARGUMENT, "warp options: %s is %g, allowed is %s%g, %g]", name, value,
-                    low_open ? "(" : "[", low, high);
 }
 
 ewa_status ewa_warp_options_choose(ewa_context *context, const ewa_warp_options *given,
                                    ewa_warp_options *chosen) {
     ewa_warp_options_init(chosen, sizeof *chosen);
-    if (!given) return EWA_OK;
-    if (given->struct_size != sizeof *chosen)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT,
-                        "warp options: struct_size is %zu instead of %zu; ewa_warp_options_init() sets it",
-                        given->struct_size, sizeof *chosen);
-    *chosen = *given;
-    ewa_status status = check_range(context, "cutoff", chosen->cutoff, 0, true, 4);
-    if (status == EWA_OK)
-        status = check_range(context, "radius_spacings", chosen->radius_spacings, 0.5, false, 10);
-    if (status == EWA_OK) status = check_range(context, "depth_jump", chosen->depth_jump, 0, true, 1);
-    if (status == EWA_OK)
-        status = check_range(context, "depth_noise", chosen->depth_noise, 0, false, MOST_DEPTH);
-    if (status == EWA_OK)
-        status = check_range(context, "nearest_world", chosen->nearest_world, LEAST_DEPTH, false, MOST_DEPTH);
-    if (status == EWA_OK)
-        status = check_range(context, "farthest_world", chosen->farthest_world, chosen->nearest_world, true,
-                             MOST_DEPTH);
+    const ewa_status status = ewa_options_take(context, &ewa_warp_options_table, given, chosen);
+    if (status == EWA_OK && !(chosen->nearest_world < chosen->farthest_world))
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "ewa_warp_options: farthest_world is %g, not above %g",
+                        chosen->farthest_world, chosen->nearest_world);
     return status;
 }
 
@@ -135,8 +132,6 @@ static ewa_status check_color(ewa_context *context, uint32_t number, const ewa_d
 
 ewa_status ewa_depth_image_choose(ewa_context *context, uint32_t number, const ewa_depth_image *given,
                                   ewa_depth_image *chosen) {
-    if (given->struct_size != sizeof *chosen)
-        return fail_image(context, number, "struct_size is not that of ewa_depth_image_init()");
     *chosen = *given;
     ewa_status status = ewa_camera_check(context, &chosen->camera);
     if (status == EWA_OK) status = check_lens(context, number, &chosen->camera);

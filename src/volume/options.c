@@ -4,87 +4,82 @@
 // Defaults and checks of the options of volumes.
 #include "volume/options.h"
 #include "base/base.h"
+#include "base/options.h"
 #include "image/material.h"
 #include "splat/options.h"
 
 #include <string.h>
 
+#define OF_VOXELS(member) offsetof(ewa_voxels_options, member)
+#define OF_VOLUME(member) offsetof(ewa_volume_options, member)
+
+static const ewa_option voxels_rows[] = {
+    {"level_count", EWA_OPTION_U32, OF_VOXELS(level_count), 1, EWA_MAX_VOLUME_LEVELS, .initial = 2,
+     .help = "levels of means of 2x2x2 voxels, for a first picture that is fast"},
+};
+
+const ewa_option_table ewa_voxels_options_table = EWA_OPTION_TABLE(ewa_voxels_options, voxels_rows);
+
+static const ewa_option volume_rows[] = {
+    {"method", EWA_OPTION_CHOICE, OF_VOLUME(method), .words = "hybrid|splats|points",
+     .help = "voxels as splats where they are magnified and as points where they are minified, or all as one "
+             "of these"},
+    {"index", EWA_OPTION_CHOICE, OF_VOLUME(index), .words = "exact|table",
+     .help = "how a pixel finds its place in a splat: how far its ray passes the voxel's centre, or the "
+             "paper's table"},
+    {"sigma", EWA_OPTION_F64, OF_VOLUME(sigma), 0.3, 2, .initial = 0.6,
+     .help = "standard deviation of the kernel around each voxel, in voxels"},
+    {"cutoff", EWA_OPTION_F64, OF_VOLUME(cutoff), 1, 4, .initial = 3,
+     .help = "standard deviations at which a kernel ends"},
+    {"prefilter_px", EWA_OPTION_F64, OF_VOLUME(prefilter_px), 0, 4, .initial = 0.35, .unit = "px",
+     .help = "standard deviation of the pixel filter in pixels; 0: none"},
+    {"point_threshold_px", EWA_OPTION_F64, OF_VOLUME(point_threshold_px), 0, 1.5, .initial = 1.2,
+     .unit = "px", .help = "spacing on the screen up to which voxels are points"},
+    {"depth_unit", EWA_OPTION_F64, OF_VOLUME(depth_unit), 0.25, 16, .initial = 1,
+     .help = "depth that is composited at once, in smallest spacings of the grid"},
+    {"level", EWA_OPTION_U32, OF_VOLUME(level), 0, EWA_MAX_VOLUME_LEVELS - 1,
+     .help = "which of the voxels' levels; 0: all voxels"},
+    {"density_scale", EWA_OPTION_F64, OF_VOLUME(density_scale), 0, 1e15, .initial = 1,
+     .help = "multiplies every extinction: 2 is twice as dense"},
+    {"least_transmittance", EWA_OPTION_F64, OF_VOLUME(least_transmittance), 0, 0.999999, .initial = 1.0 / 512,
+     .help = "where less of what is behind would show, nothing more is drawn; 0: everything is"},
+    {"shading", EWA_OPTION_CHOICE, OF_VOLUME(shading), .words = "none|lambert|phong",
+     .help = "light, by the gradient: none gives the bare colours, lambert matt matter, phong highlights"},
+    {"light_count", EWA_OPTION_U32, OF_VOLUME(light_count), 0, EWA_MAX_LIGHTS,
+     .help = "how many lights there are; 0: a headlight"},
+    {"background", EWA_OPTION_F32, OF_VOLUME(background), 0, 1e15, .count = 4,
+     .help = "linear light, straight alpha, which is at most 1"},
+};
+
+const ewa_option_table ewa_volume_options_table = EWA_OPTION_TABLE(ewa_volume_options, volume_rows);
+
 void ewa_voxels_options_init(ewa_voxels_options *options, size_t struct_size) {
-    if (!options || struct_size < sizeof *options) return;
-    memset(options, 0, struct_size);
-    options->struct_size = struct_size;
-    options->level_count = 2;
+    ewa_options_init(&ewa_voxels_options_table, options, struct_size);
 }
 
 void ewa_volume_options_init(ewa_volume_options *options, size_t struct_size) {
-    if (!options || struct_size < sizeof *options) return;
-    memset(options, 0, struct_size);
-    options->struct_size = struct_size;
-    options->sigma = 0.6;
-    options->cutoff = 3;
-    options->prefilter_px = 0.35;
-    options->point_threshold_px = 1.2;
-    options->depth_unit = 1;
-    options->density_scale = 1;
-    options->least_transmittance = 1.0 / 512;
-    ewa_material_init(&options->material);
+    ewa_options_init(&ewa_volume_options_table, options, struct_size);
+    if (options && struct_size >= OF_VOLUME(material) + sizeof options->material)
+        ewa_material_init(&options->material);
 }
 
 ewa_status ewa_voxels_options_choose(ewa_context *context, const ewa_voxels_options *given,
                                      ewa_voxels_options *chosen) {
     ewa_voxels_options_init(chosen, sizeof *chosen);
-    if (!given) return EWA_OK;
-    ewa_status status =
-        ewa_option_check_size(context, "ewa_voxels_options", given->struct_size, sizeof *chosen);
-    if (status == EWA_OK)
-        status = ewa_option_check_range(context, "level_count", given->level_count, 1, false,
-                                        EWA_MAX_VOLUME_LEVELS);
-    if (status == EWA_OK) *chosen = *given;
-    return status;
-}
-
-static ewa_status check_numbers(ewa_context *context, const ewa_volume_options *options) {
-    const struct {
-        const char *name;
-        double value, low, high;
-    } ranges[] = {
-        {"sigma", options->sigma, 0.3, 2},
-        {"cutoff", options->cutoff, 1, 4},
-        {"prefilter_px", options->prefilter_px, 0, 4},
-        {"point_threshold_px", options->point_threshold_px, 0, 1.5},
-        {"depth_unit", options->depth_unit, 0.25, 16},
-        {"level", options->level, 0, EWA_MAX_VOLUME_LEVELS - 1},
-        {"density_scale", options->density_scale, 0, 1e15},
-        {"least_transmittance", options->least_transmittance, 0, 0.999999},
-    };
-    ewa_status status = EWA_OK;
-    for (size_t i = 0; i < sizeof ranges / sizeof *ranges && status == EWA_OK; i++)
-        status = ewa_option_check_range(context, ranges[i].name, ranges[i].value, ranges[i].low, false,
-                                        ranges[i].high);
-    return status;
+    return ewa_options_take(context, &ewa_voxels_options_table, given, chosen);
 }
 
 ewa_status ewa_volume_options_choose(ewa_context *context, const ewa_volume_options *given,
                                      ewa_volume_options *chosen) {
     ewa_volume_options_init(chosen, sizeof *chosen);
-    if (!given) return EWA_OK;
-    ewa_status status =
-        ewa_option_check_size(context, "ewa_volume_options", given->struct_size, sizeof *chosen);
-    if (status == EWA_OK)
-        status = ewa_option_check_choice(context, "method", (int)given->method, EWA_VOLUME_POINTS);
-    if (status == EWA_OK)
-        status = ewa_option_check_choice(context, "index", (int)given->index, EWA_INDEX_TABLE);
-    if (status == EWA_OK)
-        status = ewa_option_check_choice(context, "shading", (int)given->shading, EWA_SHADING_PHONG);
-    if (status == EWA_OK) status = check_numbers(context, given);
-    if (status == EWA_OK) status = ewa_option_check_lights(context, given->lights, given->light_count);
-    if (status == EWA_OK) status = ewa_material_check(context, "options", 0, &given->material);
-    if (status == EWA_OK) status = ewa_option_check_background(context, given->background);
-    if (status == EWA_OK && !given->surface_depth != !given->surface_rgba)
+    ewa_status status = ewa_options_take(context, &ewa_volume_options_table, given, chosen);
+    if (status == EWA_OK) status = ewa_option_check_lights(context, chosen->lights, chosen->light_count);
+    if (status == EWA_OK) status = ewa_material_check(context, "options", 0, &chosen->material);
+    if (status == EWA_OK) status = ewa_option_check_background(context, chosen->background);
+    if (status == EWA_OK && !chosen->surface_depth != !chosen->surface_rgba)
         status = ewa_fail(context, EWA_ERROR_ARGUMENT, "options: %s without %s",
-                          given->surface_depth ? "surface_depth" : "surface_rgba",
-                          given->surface_depth ? "surface_rgba" : "surface_depth");
-    if (status == EWA_OK) *chosen = *given;
+                          chosen->surface_depth ? "surface_depth" : "surface_rgba",
+                          chosen->surface_depth ? "surface_rgba" : "surface_depth");
     return status;
 }
 

@@ -50,16 +50,19 @@ static void test_command_help(void **state) {
 
 static void test_page(void **state) {
     (void)state;
-    run_done("ewa --help-markdown");
-    char path[1024];
-    snprintf(path, sizeof path, "%s/docs/cli.md", getenv("EWA_SOURCE_DIR"));
-    FILE *file = fopen(path, "rb");
-    assert_non_null(file);
-    static char page[sizeof last_run.out];
-    page[fread(page, 1, sizeof page - 1, file)] = 0;
-    fclose(file);
-    // When this fails: make docs
-    assert_string_equal(page, last_run.out);
+    static const char *const rows[][2] = {{"--help-markdown", "cli.md"}, {"--help-json", "options.json"}};
+    for (int i = 0; i < 2; i++) {
+        run_done("ewa %s", rows[i][0]);
+        char path[1024];
+        snprintf(path, sizeof path, "%s/docs/%s", getenv("EWA_SOURCE_DIR"), rows[i][1]);
+        FILE *file = fopen(path, "rb");
+        assert_non_null(file);
+        static char page[sizeof last_run.out];
+        page[fread(page, 1, sizeof page - 1, file)] = 0;
+        fclose(file);
+        // When this fails: make docs
+        assert_string_equal(page, last_run.out);
+    }
 }
 
 static void test_wrong_usage(void **state) {

@@ -277,7 +277,7 @@ static void test_planes(void **state) {
 static ewa_camera saved_camera(const char *name) {
     ewa_context *context = check_context(1, NULL);
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     assert_int_equal(ewa_camera_load(context, scratch_path(name), 0, &camera), EWA_OK);
     ewa_context_destroy(&context);
     return camera;

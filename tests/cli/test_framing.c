@@ -33,7 +33,7 @@ static ewa_cloud *make_cloud(const disc *discs, uint32_t count) {
 
 static ewa_camera make_lens(void) {
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = 800;
     camera.height_px = 600;
     assert_int_equal(ewa_camera_set_fov(&camera, 30), EWA_OK);

@@ -29,59 +29,27 @@ typedef struct sample_arguments {
 #define AT(member) offsetof(sample_arguments, member)
 
 static const cli_option sample_table[] = {
-    {.key = "flag", .letter = 'f', .kind = OPTION_FLAG, .offset = AT(flag), .help = "h"},
-    {.key = "antialias", .kind = OPTION_ON_OFF, .offset = AT(antialias), .help = "h"},
-    {.key = "number",
-     .aliases = "figure value",
-     .kind = OPTION_NUMBER,
-     .offset = AT(number),
-     .value = "N",
-     .range = "(0, 4]",
-     .help = "h"},
-    {.key = "integer",
-     .letter = 'n',
-     .kind = OPTION_INTEGER,
-     .offset = AT(integer),
-     .value = "N",
-     .range = "[-5, 5]",
-     .help = "h"},
-    {.key = "text", .kind = OPTION_TEXT, .offset = AT(text), .value = "T", .help = "h"},
-    {.key = "choice", .kind = OPTION_CHOICE, .offset = AT(choice), .range = "one|two|three", .help = "h"},
-    {.key = "vector",
-     .kind = OPTION_VECTOR,
-     .offset = AT(vector),
-     .value = "x,y[,z]",
-     .low = 2,
-     .high = 3,
-     .help = "h"},
-    {.key = "vectors",
-     .kind = OPTION_VECTORS,
-     .offset = AT(vectors),
-     .value = "x,y",
-     .low = 2,
-     .high = 2,
-     .help = "h"},
-    {.key = "color", .kind = OPTION_COLOR, .offset = AT(color), .value = "r,g,b[,a]", .help = "h"},
-    {.key = "size", .kind = OPTION_SIZE, .offset = AT(size), .value = "WxH", .help = "h"},
-    {.key = "bounds", .kind = OPTION_BOUNDS, .offset = AT(bounds), .value = "a,b", .help = "h"},
-    {.key = "set",
-     .kind = OPTION_SET,
-     .offset = AT(set),
-     .value = "WORD,...",
-     .range = "one|two|three",
-     .help = "h"},
+    {"flag", OPTION_FLAG, AT(flag), .help = "h", .letter = 'f'},
+    {"antialias", OPTION_ON_OFF, AT(antialias), .help = "h"},
+    {"number", OPTION_NUMBER, AT(number), "N", "(0, 4]", .help = "h", .aliases = "figure value"},
+    {"integer", OPTION_INTEGER, AT(integer), "N", "[-5, 5]", .help = "h", .letter = 'n'},
+    {"text", OPTION_TEXT, AT(text), "T", .help = "h"},
+    {"choice", OPTION_CHOICE, AT(choice), NULL, "one|two|three", .help = "h"},
+    {"vector", OPTION_VECTOR, AT(vector), "x,y[,z]", .help = "h", .low = 2, .high = 3},
+    {"vectors", OPTION_VECTORS, AT(vectors), "x,y", .help = "h", .low = 2, .high = 2},
+    {"color", OPTION_COLOR, AT(color), "r,g,b[,a]", .help = "h"},
+    {"size", OPTION_SIZE, AT(size), "WxH", .help = "h"},
+    {"bounds", OPTION_BOUNDS, AT(bounds), "a,b", .help = "h"},
+    {"set", OPTION_SET, AT(set), "WORD,...", "one|two|three", .help = "h"},
 };
 
-static const option_group sample_group = {"Sample", sample_table,
-                                          sizeof sample_table / sizeof sample_table[0]};
-static const option_group *const sample_groups[] = {&sample_group};
+static const option_group sample_group = OPTION_GROUP("Sample", sample_table);
 static const cli_command sample = {.name = "sample",
                                    .operands = "[IN...]",
                                    .summary = "s",
                                    .examples = "e\n",
                                    .high_operands = 3,
-                                   .groups = sample_groups,
-                                   .group_count = 1,
+                                   .groups = (const option_group *const[]){&sample_group, NULL},
                                    .arguments_bytes = sizeof(sample_arguments)};
 
 static sample_arguments arguments;
@@ -217,10 +185,14 @@ static void test_tables(void **state) {
         const cli_option *option;
         for (size_t i = 0; (option = options_at(command, i)); i++) {
             assert_true(option->offset < command->arguments_bytes);
-            assert_non_null(option->help);
-            assert_int_not_equal(option->help[strlen(option->help) - 1], '.');
+            const ewa_option *of = options_library(option);
+            assert_true((option->kind == OPTION_LIBRARY) == (of != NULL));
+            const char *help = option->help ? option->help : of->help;
+            assert_int_not_equal(help[strlen(help) - 1], '.');
+            char value[EWA_OPTION_TEXT_BYTES];
+            help_name_value(option, value);
             const bool bare = option->kind == OPTION_FLAG || option->kind == OPTION_TOGGLE;
-            assert_true(bare || option->kind == OPTION_ON_OFF || option->value || option->range);
+            assert_true(bare ? !value[0] : value[0]);
             const cli_option *other;
             for (size_t k = 0; k < i && (other = options_at(command, k)); k++) {
                 assert_string_not_equal(option->key, other->key);
@@ -240,10 +212,14 @@ static void test_defaults_in_range(void **state) {
         options_default(command, defaults);
         const cli_option *option;
         for (size_t i = 0; (option = options_at(command, i)); i++) {
-            if (option->absent || (option->kind != OPTION_NUMBER && option->kind != OPTION_INTEGER)) continue;
-            char words[2][64];
+            const ewa_option *of = options_library(option);
+            if (option->absent || (!of && option->kind != OPTION_NUMBER && option->kind != OPTION_INTEGER))
+                continue;
+            char words[2][EWA_OPTION_TEXT_BYTES];
             snprintf(words[0], sizeof words[0], "--%s", option->key);
-            if (option->kind == OPTION_NUMBER)
+            if (of)
+                ewa_option_get(of, defaults + option->offset - of->offset, words[1]);
+            else if (option->kind == OPTION_NUMBER)
                 snprintf(words[1], sizeof words[1], "%.17g", *(double *)(void *)(defaults + option->offset));
             else
                 snprintf(words[1], sizeof words[1], "%lld",
@@ -304,6 +280,17 @@ static size_t add_option(const cli_option *option, const char **words, size_t co
     case OPTION_INTEGER:
         snprintf(text[1], sizeof text[1], "%s", number);
         break;
+    case OPTION_LIBRARY: {
+        const ewa_option *of = options_library(option);
+        char allowed[EWA_OPTION_TEXT_BYTES];
+        ewa_option_range(of, allowed);
+        if (of->words || of->type == EWA_OPTION_BOOL)
+            snprintf(text[1], sizeof text[1], "%.*s", (int)strcspn(allowed, "|"), allowed);
+        else
+            snprintf(text[1], sizeof text[1], "%.17g", of->initial);
+        for (uint32_t i = 1; i < of->count; i++) strcat(text[1], ",1");
+        break;
+    }
     case OPTION_TEXT:
     case OPTION_OUTPUT:
     case OPTION_OUTPUTS:

@@ -13,7 +13,7 @@ static void warp(ewa_context *context, const ewa_image *depth) {
     const size_t pixel_count = (size_t)depth->width_px * depth->height_px;
     if (pixel_count > MOST_PIXELS) return;
     ewa_depth_image image;
-    ewa_depth_image_init(&image, sizeof image);
+    ewa_depth_image_init(&image);
     image.camera.width_px = depth->width_px;
     image.camera.height_px = depth->height_px;
     image.depth = depth->pixels;

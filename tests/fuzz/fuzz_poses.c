@@ -14,7 +14,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
     ewa_context *context = NULL;
     if (ewa_context_create(&options, &context) != EWA_OK) return 0;
     ewa_camera lens;
-    ewa_camera_init(&lens, sizeof lens);
+    ewa_camera_init(&lens);
     ewa_camera_list list = {.context = context, .name = "fuzz"};
     const ewa_status status = ewa_camera_list_read_poses(&list, &lens, bytes, size_bytes);
     for (size_t i = 0; status == EWA_OK && i < list.count; i++)

@@ -161,7 +161,7 @@ bool named_scene_make(ewa_context *context, uint32_t index, random_scene *made) 
     *made = (random_scene){.surfels = calloc(ROOM, sizeof *made->surfels)};
     if (!made->surfels) abort();
     ewa_camera *camera = &made->scene.camera;
-    ewa_camera_init(camera, sizeof *camera);
+    ewa_camera_init(camera);
     camera->width_px = camera->height_px = 96;
     camera->cx_px = camera->cy_px = 48;
     for (int i = 0; i < 16; i++) camera->world_to_camera[i] = i % 5 == 0;

@@ -302,7 +302,7 @@ static void rotation(stream *numbers, double r[3][3]) {
 static void make_camera(maker *m) {
     stream *numbers = &m->numbers;
     ewa_camera *camera = &m->made->scene.camera;
-    ewa_camera_init(camera, sizeof *camera);
+    ewa_camera_init(camera);
     camera->width_px = 60 + below(numbers, 70);
     camera->height_px = 60 + below(numbers, 70);
     if (chance(numbers, 0.2)) camera->projection = EWA_ORTHOGRAPHIC;

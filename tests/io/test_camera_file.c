@@ -39,7 +39,7 @@ static const char STACKS[] =
 static ewa_status load_text(ewa_context *context, const char *text, uint32_t index, ewa_camera *camera) {
     char path[512];
     scratch_write(scratch_path("camera.json", path), text, strlen(text));
-    ewa_camera_init(camera, sizeof *camera);
+    ewa_camera_init(camera);
     return ewa_camera_load(context, path, index, camera);
 }
 
@@ -83,8 +83,8 @@ static void test_lens(void **state) {
     char path[512];
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
         ewa_camera lens, at_origin;
-        ewa_camera_init(&lens, sizeof lens);
-        ewa_camera_init(&at_origin, sizeof at_origin);
+        ewa_camera_init(&lens);
+        ewa_camera_init(&at_origin);
         scratch_write(scratch_path("lens.json", path), texts[i], strlen(texts[i]));
         assert_int_equal(ewa_camera_load_lens(context, path, &lens), EWA_OK);
         assert_true(lens.width_px == 640 && lens.height_px == 480 && lens.fx_px == 500 && lens.fy_px == 510);
@@ -100,8 +100,8 @@ static void test_lens(void **state) {
         "{\"width\":6,\"height\":4,\"intrinsic_matrix\":[1,0,0,9,1,0,0,0,1]}"};
     for (size_t i = 0; i < sizeof broken / sizeof broken[0]; i++) {
         ewa_camera lens, before;
-        ewa_camera_init(&lens, sizeof lens);
-        ewa_camera_init(&before, sizeof before);
+        ewa_camera_init(&lens);
+        ewa_camera_init(&before);
         scratch_write(scratch_path("lens.json", path), broken[i], strlen(broken[i]));
         assert_int_equal(ewa_camera_load_lens(context, path, &lens), EWA_ERROR_FORMAT);
         assert_int_equal(log.count, i + 1);
@@ -142,7 +142,7 @@ static void test_round_trip_is_exact(void **state) {
     check_random random = {5};
     for (int round = 0; round < 200; round++) {
         ewa_camera camera, back;
-        ewa_camera_init(&camera, sizeof camera);
+        ewa_camera_init(&camera);
         double eye[3], target[3], up[3];
         for (int i = 0; i < 3; i++) {
             eye[i] = 5e6 + check_uniform(&random, -1e3, 1e3);
@@ -154,7 +154,7 @@ static void test_round_trip_is_exact(void **state) {
         camera.cx_px = check_uniform(&random, -1e4, 1e4);
         camera.fy_px *= 1.01;
         assert_int_equal(ewa_camera_save(context, &camera, path), EWA_OK);
-        ewa_camera_init(&back, sizeof back);
+        ewa_camera_init(&back);
         assert_int_equal(ewa_camera_load(context, path, 0, &back), EWA_OK);
         assert_memory_equal(&camera, &back, sizeof camera);
     }
@@ -262,7 +262,7 @@ static void test_messages_name_the_member(void **state) {
     ewa_context *context = check_context(1, &log);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         ewa_camera camera, before;
-        ewa_camera_init(&before, sizeof before);
+        ewa_camera_init(&before);
         log = (check_log){0};
         assert_int_equal(load_text(context, cases[i].text, 0, &camera), EWA_ERROR_FORMAT);
         if (!strstr(log.text, cases[i].said))
@@ -272,7 +272,7 @@ static void test_messages_name_the_member(void **state) {
         assert_memory_equal(&camera, &before, sizeof camera);
     }
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     assert_int_equal(ewa_camera_load(context, "/nowhere/camera.json", 0, &camera), EWA_ERROR_IO);
     ewa_context_destroy(&context);
 }
@@ -319,7 +319,7 @@ static void test_list(void **state) {
     ewa_camera cameras[3];
     for (int i = 0; i < 3; i++) {
         const double eye[3] = {i + 0.1, 2, 3}, target[3] = {0, 0, 0}, up[3] = {0, 0, 1};
-        ewa_camera_init(&cameras[i], sizeof cameras[i]);
+        ewa_camera_init(&cameras[i]);
         assert_int_equal(ewa_camera_look_at(&cameras[i], eye, target, up), EWA_OK);
     }
     cameras[1].projection = EWA_ORTHOGRAPHIC;
@@ -348,7 +348,7 @@ static void test_refuses_to_write_nonsense(void **state) {
     char path[512];
     remove(scratch_path("never.json", path));
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     assert_int_equal(ewa_camera_save(context, &camera, "/nowhere/camera.json"), EWA_ERROR_IO);
     camera.cx_px = NAN;
     assert_int_equal(ewa_camera_save(context, &camera, path), EWA_ERROR_ARGUMENT);
@@ -404,7 +404,7 @@ static void make_binary(packer *lenses, packer *images) {
 
 static void check_colmap(ewa_context *context, check_log *log, const char *folder) {
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     assert_int_equal(ewa_camera_load(context, folder, 0, &camera), EWA_OK);
     assert_expected(&camera, 320.125, -7.5);
     assert_non_null(strstr(log->text, "lens distortion of camera 2 (SIMPLE_RADIAL)"));
@@ -430,7 +430,7 @@ static void test_colmap(void **state) {
         remove(path);
     }
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     assert_int_equal(ewa_camera_load(context, folder, 0, &camera), EWA_ERROR_FORMAT);
     assert_non_null(strstr(log.text, "without a COLMAP model"));
     packer lenses, images;
@@ -518,7 +518,7 @@ static void test_real_files(void **state) {
     ewa_context *context = check_context(1, &log);
     char path[512];
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     uint32_t count;
     if (check_data("gaussians/garden_cameras.json", path, sizeof path)) {
         assert_int_equal(ewa_camera_file_count(context, path, &count), EWA_OK);
@@ -548,7 +548,7 @@ static void test_real_files(void **state) {
 
 static ewa_status save_and_load_work(ewa_context *context, void *user) {
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     ewa_status status = ewa_camera_save(context, &camera, user);
     if (status == EWA_OK) status = ewa_camera_load(context, user, 0, &camera);
     return status;

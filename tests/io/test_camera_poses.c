@@ -10,7 +10,7 @@
 
 static ewa_camera lens(void) {
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     return camera;
 }
 

@@ -110,7 +110,7 @@ static void test_camera_attribute(void **state) {
     char path[512];
     scratch_path("camera.exr", path);
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     const double eye[3] = {1, 2, 3}, target[3] = {0, 0, 0}, up[3] = {0, 0, 1};
     ewa_camera_look_at(&camera, eye, target, up);
     ewa_image image = make_image(context, 4, 4, 3);

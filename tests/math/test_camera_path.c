@@ -30,7 +30,7 @@ static void assert_near(double value, double expected, double tolerance) {
 
 static ewa_camera look(double x, double y, double z, double target_x, double target_y, double target_z) {
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     const double eye[3] = {x, y, z}, target[3] = {target_x, target_y, target_z}, up[3] = {0, 0, 1};
     assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
     return camera;

@@ -296,7 +296,7 @@ static void test_camera_and_planes(void **state) {
     check_random random = {8};
     for (int i = 0; i < 400; i++) {
         ewa_camera camera;
-        ewa_camera_init(&camera, sizeof camera);
+        ewa_camera_init(&camera);
         const double eye[3] = {check_uniform(&random, -9, 9), check_uniform(&random, -9, 9), 12},
                      target[3] = {0};
         const double up[3] = {0, 1, 0};
@@ -343,7 +343,7 @@ static void test_camera_and_planes(void **state) {
             }
     }
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     ewa_mat4 map;
     camera.world_to_camera[3] = NAN;
     assert_int_equal(ewa_camera_clip_map(&camera, 0.5, 40, &map), EWA_ERROR_NUMERIC);

@@ -235,7 +235,7 @@ static void test_arguments(void **state) {
     } rows[] = {
         {"procedure is 4", 1, 1, 3, 0, 4},     {"frequency is 0", 0, 1, 3, 0, 1},
         {"frequency is nan", NAN, 1, 3, 0, 1}, {"prefilter is -1", 1, -1, 3, 0, 1},
-        {"cutoff is 5", 1, 1, 5, 0, 1},        {"colour 0 is 2", 1, 1, 3, 2, 1},
+        {"cutoff is 5", 1, 1, 5, 0, 1},        {"colors[1] is 2", 1, 1, 3, 2, 1},
     };
     ewa_procedure_options options;
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {

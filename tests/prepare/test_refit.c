@@ -293,7 +293,7 @@ static void test_drawn(void **state) {
     float *color = random_colors(cloud, 3), lowest = 0;
     for (uint64_t i = 0; i < 3 * ewa_cloud_point_count(cloud); i++) color[i] = 6 * color[i] - 3;
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = camera.height_px = SIDE;
     ewa_camera_look_at(&camera, (double[3]){0, 0, 5}, (double[3]){0, 0, 0}, (double[3]){0, 1, 0});
     ewa_camera_set_ortho(&camera, 1.5);

@@ -117,7 +117,7 @@ void probe_frame_put(probe *to, const char *name, const ewa_camera *camera, cons
 
 ewa_camera probe_view(const ewa_bounds *bounds, double x, double y, double z, bool orthographic) {
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = 64, camera.height_px = 64;
     const double direction[3] = {x, y, z}, up[3] = {0, 0, 1};
     if (orthographic)

@@ -65,7 +65,7 @@ static void put_cameras(probe *to, const char *name, const char *path) {
 
 static void put_poses(probe *to, const char *name, const char *path) {
     ewa_camera lens;
-    ewa_camera_init(&lens, sizeof lens);
+    ewa_camera_init(&lens);
     probe_status(to, name, ewa_camera_load_poses(to->context, path, &lens, put_camera_cb, to));
 }
 
@@ -259,7 +259,7 @@ static void put_cameras_written(probe *to) {
     ewa_camera cameras[2];
     for (int i = 0; i < 2; i++) {
         const double eye[3] = {1 + i, 2, 3}, target[3] = {0, 0.5, 0}, up[3] = {0, 0, 1};
-        ewa_camera_init(&cameras[i], sizeof cameras[i]);
+        ewa_camera_init(&cameras[i]);
         ewa_camera_look_at(&cameras[i], eye, target, up);
         if (i) ewa_camera_set_ortho(&cameras[i], 3.5);
     }

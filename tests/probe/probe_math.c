@@ -200,7 +200,7 @@ static void probe_cameras(probe *to) {
     const ewa_bounds bounds = {{-1, -2, -0.5}, {2, 1, 0.7}, 10};
     double eye[3];
     for (int i = 0; i < 4; i++) {
-        ewa_camera_init(&keys[i], sizeof keys[i]);
+        ewa_camera_init(&keys[i]);
         const double from[3] = {3 + i, 2 - 2.0 * i, 1 + 0.5 * i};
         CALL("fov", ewa_camera_set_fov(&keys[i], 40 + 15 * i));
         CALL("look", ewa_camera_look_at(&keys[i], from, target, up));

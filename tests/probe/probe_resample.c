@@ -58,7 +58,7 @@ static void put_textures(probe *to) {
         probe_floats(to, "reference", PROBE_PICTURE, target, 96 * 64 * 4);
     }
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     const double origin[3] = {-1, 0.5, 3}, across[3] = {2, 0.1, 0.4}, down[3] = {0, 0.3, -1.5};
     ewa_mat3 map = ewa_mat3_identity();
     probe_status(to, "camera",
@@ -90,9 +90,9 @@ static void put_warps(probe *to) {
     for (int k = 0; k < 9; k++) {
         make_depths(depth, color, k == 1 || k == 5);
         ewa_depth_image image;
-        ewa_depth_image_init(&image, sizeof image);
+        ewa_depth_image_init(&image);
         ewa_camera *camera = &image.camera;
-        ewa_camera_init(camera, sizeof *camera);
+        ewa_camera_init(camera);
         camera->width_px = camera->height_px = SIDE;
         camera->fx_px = camera->fy_px = 70, camera->cx_px = camera->cy_px = 40;
         image.kind = (ewa_depth_kind)(k % 3);

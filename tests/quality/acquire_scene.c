@@ -96,7 +96,7 @@ ewa_status acquire_points(const acquire_scene *scene, ewa_cloud **cloud) {
 ewa_status acquire_draw(const acquire_scene *scene, const ewa_cloud *cloud, ewa_image *picture) {
     const double eye[3] = {0, 0, ACQUIRE_ROW}, target[3] = {0, 0, 0}, up[3] = {0, 1, 0};
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.projection = EWA_ORTHOGRAPHIC;
     camera.width_px = camera.height_px = ACQUIRE_SIDE;
     camera.fx_px = camera.fy_px = scene->view_px_per_cell;

@@ -112,7 +112,7 @@ static void trace_row(void *data, uint32_t index, uint32_t worker) {
 
 void checker_trace(ewa_context *context, double zoom, checker_truth *truth) {
     const double eye[3] = {0, -1, EYE_HEIGHT}, target[3] = {0, 0, EYE_HEIGHT}, up[3] = {0, 0, 1};
-    ewa_camera_init(&truth->camera, sizeof truth->camera);
+    ewa_camera_init(&truth->camera);
     truth->camera.width_px = truth->camera.height_px = SIDE;
     ewa_camera_set_fov(&truth->camera, 60);
     truth->camera.fx_px *= zoom, truth->camera.fy_px *= zoom;

@@ -74,7 +74,7 @@ ewa_status layers_sphere_make(ewa_context *context, uint64_t point_count, ewa_cl
 ewa_status layers_camera_make(const ewa_cloud *cloud, uint32_t side_px, ewa_camera *camera) {
     static const double ahead[3] = {-0.5, -0.62, -0.6}, up[3] = {0, 0, 1};
     ewa_bounds bounds;
-    ewa_camera_init(camera, sizeof *camera);
+    ewa_camera_init(camera);
     camera->width_px = camera->height_px = side_px;
     ewa_status status = ewa_cloud_measure(cloud, &bounds);
     if (status == EWA_OK) status = ewa_camera_set_fov(camera, 30);

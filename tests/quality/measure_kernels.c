@@ -103,7 +103,7 @@ static void draw_floor(const floor_scene *of, int view) {
                            sin(PI / 6)};
     const double up[3] = {0, 0, 1};
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = camera.height_px = SIDE;
     ewa_camera_set_fov(&camera, 40);
     ewa_camera_look_at(&camera, eye, target, up);

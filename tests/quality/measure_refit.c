@@ -46,7 +46,7 @@ static int compare_clouds(ewa_context *context, const char *fine_path, const cha
     float *truth = malloc(sizeof(float[4]) * SIDE * SIDE), *shown = malloc(sizeof(float[4]) * SIDE * SIDE);
     ewa_bounds bounds;
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = camera.height_px = SIDE;
     ewa_camera_set_fov(&camera, 30);
     const double forward[3] = {0, 0, -1}, up[3] = {0, 1, 0};

@@ -65,7 +65,7 @@ static void frame_mesh(const ewa_mesh *mesh, double azimuth_deg, ewa_camera *cam
     const double angle = azimuth_deg * 0.017453292519943295, up[3] = {0, 1, 0};
     const double eye[3] = {target[0] + 2 * size * sin(angle), target[1] + 0.4 * size,
                            target[2] + 2 * size * cos(angle)};
-    ewa_camera_init(camera, sizeof *camera);
+    ewa_camera_init(camera);
     camera->width_px = camera->height_px = SIDE_PX;
     ewa_camera_set_fov(camera, 40);
     ewa_camera_look_at(camera, eye, target, up);

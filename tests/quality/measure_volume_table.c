@@ -38,7 +38,7 @@ static ewa_camera view_at(const ewa_bounds *bounds, double share, double pixels)
     const double distance = 3 * radius;
     for (int axis = 0; axis < 3; axis++) eye[axis] = middle[axis] + direction[axis] / length * distance;
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = camera.height_px = SIDE_PX;
     camera.cx_px = camera.cy_px = SIDE_PX / 2;
     camera.fx_px = camera.fy_px = pixels * (distance + (2 * share - 1) * radius);

@@ -75,7 +75,7 @@ static void release(warped *w) {
 
 static ewa_depth_image image_of(const ewa_camera *camera, const float *depth, const uint8_t *rgb8) {
     ewa_depth_image image;
-    ewa_depth_image_init(&image, sizeof image);
+    ewa_depth_image_init(&image);
     image.camera = *camera;
     image.depth = depth;
     image.depth_type = EWA_F32;
@@ -205,7 +205,7 @@ static view load_view(ewa_context *context, const char *folder, const char *colo
         snprintf(path, sizeof path, "%s/%s", folder, depth_name);
         check(ewa_depth_load(context, path, &v.depth));
     }
-    ewa_camera_init(&v.camera, sizeof v.camera);
+    ewa_camera_init(&v.camera);
     v.camera.width_px = v.color.width_px;
     v.camera.height_px = v.color.height_px;
     v.camera.fx_px = intrinsics[0], v.camera.fy_px = intrinsics[1];
@@ -272,7 +272,7 @@ static void real(const char *data) {
     char folder[1024];
     ewa_context *context = make_context(0);
     ewa_depth_image common;
-    ewa_depth_image_init(&common, sizeof common);
+    ewa_depth_image_init(&common);
     common.depth_scale = 1000;
     puts("| pair | method | holes | PSNR dB where either draws | SSIM there | PSNR dB where both draw |\n"
          "|---|---|---|---|---|---|");

@@ -311,7 +311,7 @@ static void add_camera(hole_scene *scene, const ewa_camera *camera, radii_holes 
 /// A camera that sees `extent` around `target` from an elevation and an azimuth.
 static ewa_camera look_at(const double target[3], double extent, double elevation_deg, double azimuth_deg) {
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = camera.height_px = SIDE;
     assert_int_equal(ewa_camera_set_fov(&camera, 40), EWA_OK);
     const double e = elevation_deg * PI / 180, a = azimuth_deg * PI / 180;

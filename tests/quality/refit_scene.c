@@ -61,7 +61,7 @@ static double measure(ewa_context *context, const ewa_cloud *cloud, const patter
                       const ewa_procedure_options *options) {
     const double eye[3] = {0, 0, 5}, target[3] = {0, 0, 0}, up[3] = {0, 1, 0};
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = camera.height_px = SIDE;
     ewa_camera_look_at(&camera, eye, target, up);
     ewa_camera_set_ortho(&camera, SHOWN_WORLD);

@@ -69,7 +69,7 @@ static void test_ray_caster(void **state) {
     assert_int_equal(acquire_checker(context, 64, 32, &board), EWA_OK); // upper left white
     assert_int_equal(ewa_mesh_set_picture(&mesh, &board), EWA_OK);
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = camera.height_px = 100;
     ewa_camera_set_fov(&camera, 60);
     ewa_camera_look_at(&camera, eye, target, up);

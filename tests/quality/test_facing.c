@@ -206,7 +206,7 @@ static void count_rims(ewa_renderer *renderer, const ewa_cloud *cloud, const tru
     assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
     for (size_t view = 0; view < sizeof eyes / sizeof eyes[0]; view++) {
         ewa_camera camera;
-        ewa_camera_init(&camera, sizeof camera);
+        ewa_camera_init(&camera);
         camera.width_px = camera.height_px = SIDE;
         assert_int_equal(ewa_camera_set_fov(&camera, 45), EWA_OK);
         assert_int_equal(ewa_camera_look_at(&camera, eyes[view], target, up), EWA_OK);
@@ -314,7 +314,7 @@ static void draw_sheet(ewa_renderer *renderer, const ewa_cloud *cloud, const dou
     ewa_render_options_init(&options, sizeof options);
     options.opacity = opacity;
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = camera.height_px = SIDE;
     assert_int_equal(ewa_camera_set_fov(&camera, 45), EWA_OK);
     assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);

@@ -64,7 +64,7 @@ static void edge_camera(check_random *random, ewa_camera *camera) {
         eye[c] = target[c] * check_uniform(random, 1.1, 2.5);
     }
     const double up[3] = {0.3, 0.2, 1};
-    ewa_camera_init(camera, sizeof *camera);
+    ewa_camera_init(camera);
     camera->width_px = camera->height_px = SIDE;
     assert_int_equal(ewa_camera_set_fov(camera, 50), EWA_OK);
     assert_int_equal(ewa_camera_look_at(camera, eye, target, up), EWA_OK);

@@ -35,7 +35,7 @@ static void random_camera(check_random *random, ewa_camera *camera) {
     const double eye[3] = {target[0] + distance * cos(elevation) * cos(azimuth),
                            target[1] + distance * cos(elevation) * sin(azimuth), distance * sin(elevation)};
     const double roll = check_uniform(random, 0, 2 * PI), up[3] = {cos(roll), sin(roll), 0.5};
-    ewa_camera_init(camera, sizeof *camera);
+    ewa_camera_init(camera);
     camera->width_px = camera->height_px = SIDE;
     assert_int_equal(ewa_camera_set_fov(camera, check_uniform(random, 20, 90)), EWA_OK);
     assert_int_equal(ewa_camera_look_at(camera, eye, target, up), EWA_OK);
@@ -150,7 +150,7 @@ static void test_generated_discs_close(void **state) {
         assert_int_equal(ewa_cloud_generate(context, &ball, &cloud), EWA_OK);
         assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
         ewa_camera camera;
-        ewa_camera_init(&camera, sizeof camera);
+        ewa_camera_init(&camera);
         camera.width_px = camera.height_px = VIEW_PX;
         assert_int_equal(ewa_camera_set_fov(&camera, 40), EWA_OK);
         static const double eye[3] = {2, 1.5, 2.2}, target[3] = {0, 0, 0}, up[3] = {0, 0, 1};

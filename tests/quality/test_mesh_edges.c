@@ -64,7 +64,7 @@ static void random_camera(check_random *random, ewa_camera *camera, double eye[3
         if (fabs(eye[c]) > fabs(eye[farthest])) farthest = c;
     if (fabs(eye[farthest]) < 1.05) eye[farthest] = eye[farthest] < 0 ? -1.05 : 1.05;
     const double up[3] = {check_uniform(random, -1, 1), 0.3, check_uniform(random, -1, 1)};
-    ewa_camera_init(camera, sizeof *camera);
+    ewa_camera_init(camera);
     camera->width_px = camera->height_px = SIDE;
     assert_int_equal(ewa_camera_set_fov(camera, check_uniform(random, 20, 80)), EWA_OK);
     assert_int_equal(ewa_camera_look_at(camera, eye, target, up), EWA_OK);

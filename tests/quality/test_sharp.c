@@ -24,7 +24,7 @@ static uint32_t camera_count(void) {
 static ewa_camera camera_at(const double eye[3], const double target[3], double fov_deg) {
     static const double up[3] = {0.1, 0.05, 1};
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = camera.height_px = SIDE;
     assert_int_equal(ewa_camera_set_fov(&camera, fov_deg), EWA_OK);
     assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);

@@ -104,7 +104,7 @@ static void test_silhouettes(void **state) {
     scene *s = calloc(1, sizeof *s);
     assert_non_null(s);
     const double eye[3] = {1.2, -2.6, 1.7}, target[3] = {0, 0, 0.05}, up[3] = {0, 0, 1};
-    ewa_camera_init(&s->camera, sizeof s->camera);
+    ewa_camera_init(&s->camera);
     s->camera.width_px = s->camera.height_px = SIDE;
     assert_int_equal(ewa_camera_set_fov(&s->camera, 42), EWA_OK);
     assert_int_equal(ewa_camera_look_at(&s->camera, eye, target, up), EWA_OK);

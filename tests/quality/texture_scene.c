@@ -62,7 +62,7 @@ static ewa_status halve(ewa_context *context, const ewa_image *fine, ewa_image *
 /// The floor: two units wide, the eye half a unit above and before its near edge.
 static ewa_status make_map(ewa_context *context, const ewa_image *texture, ewa_mat3 *map) {
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = camera.height_px = TEXTURE_SIDE;
     ewa_status status = ewa_camera_set_fov(&camera, 60);
     const double eye[3] = {0.13, -0.5, 0.5}, target[3] = {0, 1, 0.05}, up[3] = {0.06, 0, 1};

@@ -71,7 +71,7 @@ warp_hit warp_scene_hit(const ewa_camera *camera, double x, double y) {
 ewa_camera warp_scene_camera(uint32_t width_px, uint32_t height_px, double shift_x, double shift_y,
                              double shift_z) {
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = width_px;
     camera.height_px = height_px;
     ewa_camera_set_fov(&camera, 50);

@@ -58,7 +58,7 @@ static void test_camera(void **state) {
     static const double origin[3] = {-2, 1, 0.5}, across[3] = {3, 0.5, 0}, down[3] = {0.2, -2, 1};
     for (int projection = 0; projection < 2; projection++) {
         ewa_camera camera;
-        ewa_camera_init(&camera, sizeof camera);
+        ewa_camera_init(&camera);
         assert_int_equal(ewa_camera_look_at(&camera, (const double[3]){1, -4, 3}, (const double[3]){0, 0, 0},
                                             (const double[3]){0, 0, 1}),
                          EWA_OK);

@@ -16,7 +16,7 @@ static void test_identity(void **state) {
     ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     ewa_depth_image image;
-    ewa_depth_image_init(&image, sizeof image);
+    ewa_depth_image_init(&image);
     image.camera = warp_scene_camera(WIDTH, HEIGHT, 0, 0, 0);
     warp_scene_picture(&image.camera, color, depth);
     image.depth = depth;

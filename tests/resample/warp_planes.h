@@ -28,7 +28,7 @@ typedef struct plane_frame {
 /// A camera at the origin that looks along +z, 80 pixels per unit of slope.
 static inline ewa_camera plane_camera(void) {
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = PLANE_WIDTH;
     camera.height_px = PLANE_HEIGHT;
     camera.fx_px = camera.fy_px = 80;
@@ -48,7 +48,7 @@ static inline ewa_camera plane_camera_at(double x, double y, double z) {
 
 /// A plane at depth `z_world` with a smooth picture on it.
 static inline void plane_set(plane_image *plane, double z_world) {
-    ewa_depth_image_init(&plane->image, sizeof plane->image);
+    ewa_depth_image_init(&plane->image);
     plane->image.camera = plane_camera();
     plane->image.depth = plane->depth;
     plane->image.depth_type = EWA_F32;

@@ -34,7 +34,7 @@ void shade_set_material(ewa_cloud *cloud, int (*of)(const float position[3])) {
 ewa_camera shade_camera(uint32_t side_px, const double eye_world[3], double fov_deg, double ortho_height) {
     static const double origin[3] = {0, 0, 0}, y[3] = {0, 1, 0}, z[3] = {0, 0, 1};
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = camera.height_px = side_px;
     const ewa_status status =
         ortho_height > 0 ? ewa_camera_set_ortho(&camera, ortho_height) : ewa_camera_set_fov(&camera, fov_deg);

@@ -13,7 +13,7 @@ static const double PI = 3.14159265358979323846;
 /// A camera of 400x300 pixels that is not centred, with pixels that are not square.
 static inline ewa_camera odd_camera(void) {
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = 400;
     camera.height_px = 300;
     camera.fx_px = 310;

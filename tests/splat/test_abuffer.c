@@ -38,7 +38,7 @@ static ewa_cloud *make_discs(ewa_context *context, const disc *discs, uint64_t c
 
 static ewa_camera disc_camera(void) {
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = camera.height_px = SIDE;
     camera.cx_px = camera.cy_px = SIDE / 2;
     camera.fx_px = camera.fy_px = 1000;

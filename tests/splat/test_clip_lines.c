@@ -101,7 +101,7 @@ static void test_known_answers(void **state) {
     };
     ewa_context *context = check_context(0, NULL);
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = camera.height_px = SIDE;
     camera.fx_px = camera.fy_px = SIDE;
     camera.cx_px = camera.cy_px = SIDE / 2;
@@ -137,7 +137,7 @@ static void test_line_stays(void **state) {
                                       {0, 0, 0}}; // v > -0.25: x < 0.25, 8 pixels right of the middle
     ewa_context *context = check_context(0, NULL);
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = camera.height_px = SIDE;
     camera.fx_px = camera.fy_px = SIDE;
     camera.cx_px = camera.cy_px = SIDE / 2;

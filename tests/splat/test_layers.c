@@ -98,7 +98,7 @@ static ewa_cloud *make_sheets(ewa_context *context, uint32_t sheet_count, const 
 
 static ewa_camera sheet_camera(void) {
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = camera.height_px = SIDE;
     assert_int_equal(ewa_camera_set_fov(&camera, 40), EWA_OK);
     return camera;

@@ -40,7 +40,7 @@ static void draw(ewa_context *context, const ewa_cloud *cloud, const ewa_camera 
 /// pixel.
 static ewa_camera make_camera(bool orthographic, double zoom) {
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = camera.height_px = SIDE;
     camera.projection = orthographic ? EWA_ORTHOGRAPHIC : EWA_PERSPECTIVE;
     camera.fx_px = 150 * zoom, camera.fy_px = 230 * zoom;

@@ -50,7 +50,7 @@ static void put_sphere(const points *to, uint64_t first, uint64_t count, const d
 static ewa_camera camera_to(const double eye[3], const double target[3], double fov_deg) {
     ewa_camera camera;
     const double up[3] = {0.1, 0.2, 1};
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = camera.height_px = SIDE_PX;
     assert_int_equal(ewa_camera_set_fov(&camera, fov_deg), EWA_OK);
     assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
@@ -224,7 +224,7 @@ static picture draw_torus(ewa_context *context, const double shift[3], double sc
     const double rows[16] = {1, 0, 0, -eye[0] * scale, 0, 0, -1, eye[2] * scale,
                              0, 1, 0, -eye[1] * scale, 0, 0, 0,  1};
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = camera.height_px = SIDE_PX;
     assert_int_equal(
         orthographic ? ewa_camera_set_ortho(&camera, 2.5 * scale) : ewa_camera_set_fov(&camera, 45), EWA_OK);

@@ -151,7 +151,7 @@ static void test_floor_through_the_eye(void **state) {
     assert_int_equal(ewa_cloud_borrow(made.cloud, EWA_POSITION, EWA_F32, 3, position, 0), EWA_OK);
     assert_int_equal(ewa_cloud_borrow(made.cloud, EWA_NORMAL, EWA_F32, 3, normal, 0), EWA_OK);
     assert_int_equal(ewa_cloud_borrow(made.cloud, EWA_RADIUS, EWA_F32, 1, radius, 0), EWA_OK);
-    ewa_camera_init(&made.camera, sizeof made.camera);
+    ewa_camera_init(&made.camera);
     made.camera.width_px = made.camera.height_px = SIZE;
     made.camera.fx_px = made.camera.fy_px = 50;
     made.camera.cx_px = SIZE / 2;
@@ -199,7 +199,7 @@ static void test_resolve(void **state) {
     assert_int_equal(ewa_cloud_borrow(made.cloud, EWA_NORMAL, EWA_F32, 3, normal, 0), EWA_OK);
     assert_int_equal(ewa_cloud_borrow(made.cloud, EWA_RADIUS, EWA_F32, 1, &radius, 0), EWA_OK);
     assert_int_equal(ewa_cloud_borrow(made.cloud, EWA_COLOR, EWA_F32, 4, color, 0), EWA_OK);
-    ewa_camera_init(&made.camera, sizeof made.camera);
+    ewa_camera_init(&made.camera);
     made.camera.width_px = made.camera.height_px = 1;
     made.camera.cx_px = made.camera.cy_px = 0.5;
     made.camera.fx_px = made.camera.fy_px = 1000;
@@ -278,7 +278,7 @@ static void test_visibility(void **state) {
         assert_int_equal(ewa_cloud_borrow(made.cloud, EWA_NORMAL, EWA_F32, 3, normal, 0), EWA_OK);
         assert_int_equal(ewa_cloud_borrow(made.cloud, EWA_RADIUS, EWA_F32, 1, radius, 0), EWA_OK);
         assert_int_equal(ewa_cloud_borrow(made.cloud, EWA_COLOR, EWA_F32, 3, color, 0), EWA_OK);
-        ewa_camera_init(&made.camera, sizeof made.camera);
+        ewa_camera_init(&made.camera);
         made.camera.width_px = made.camera.height_px = 1;
         made.camera.cx_px = made.camera.cy_px = 0.5;
         ewa_render_options options = default_options();

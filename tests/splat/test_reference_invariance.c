@@ -262,7 +262,7 @@ static void test_coincident_points(void **state) {
         assert_int_equal(ewa_cloud_borrow(made.cloud, EWA_NORMAL, EWA_F32, 3, normal, 0), EWA_OK);
         assert_int_equal(ewa_cloud_borrow(made.cloud, EWA_RADIUS, EWA_F32, 1, radius, 0), EWA_OK);
         assert_int_equal(ewa_cloud_borrow(made.cloud, EWA_COLOR, EWA_F32, 3, color, 0), EWA_OK);
-        ewa_camera_init(&made.camera, sizeof made.camera);
+        ewa_camera_init(&made.camera);
         made.camera.width_px = made.camera.height_px = 8;
         made.camera.cx_px = made.camera.cy_px = 4;
         ewa_render_options options = default_options();

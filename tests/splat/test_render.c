@@ -316,7 +316,7 @@ static void test_empty_and_lonely(void **state) {
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_NORMAL, EWA_F32, 3, normal, 0), EWA_OK);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_RADIUS, EWA_F32, 1, &radius, 0), EWA_OK);
         ewa_camera camera;
-        ewa_camera_init(&camera, sizeof camera);
+        ewa_camera_init(&camera);
         camera.width_px = 65, camera.height_px = 63;
         assert_int_equal(ewa_camera_set_fov(&camera, 40), EWA_OK);
         picture made = picture_draw(context, cloud, &camera, NULL, NULL);
@@ -357,7 +357,7 @@ static void test_scales_beyond_floats(void **state) {
     assert_int_equal(ewa_cloud_generate(context, &generate, &cloud), EWA_OK);
     for (size_t i = 0; i < 2 * sizeof scales / sizeof scales[0]; i++) {
         ewa_camera camera;
-        ewa_camera_init(&camera, sizeof camera);
+        ewa_camera_init(&camera);
         camera.width_px = 200, camera.height_px = 150;
         camera.fx_px = camera.fy_px = 200, camera.cx_px = 100, camera.cy_px = 75;
         const double s = scales[i / 2], away = i % 2 ? 3 * s : 0; // from the middle, and from afar

@@ -38,7 +38,7 @@ static void draw(ewa_context *context, ewa_kernel kernel, uint64_t count, const 
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_RADIUS, EWA_F32, 1, radius, 0), EWA_OK);
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_COLOR, EWA_F32, 3, color, 0), EWA_OK);
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = camera.height_px = SIDE_PX;
     assert_int_equal(ewa_camera_set_fov(&camera, 2 * atan(SIDE_PX / 2 / FOCAL) * 180 / acos(-1)), EWA_OK);
     // Without a prefilter the tolerance is the radius.

@@ -46,7 +46,7 @@ static ewa_camera make_camera(int view) {
     static const double eyes[3][3] = {{7, 5, 11}, {0.7, -0.4, 1.1}, {-9, 6, 8}};
     static const double targets[3][3] = {{0.5, -0.3, 0}, {2, -1.5, -3}, {0, 0, 0}}, up[3] = {0.1, 1, 0.2};
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = WIDTH, camera.height_px = HEIGHT;
     assert_int_equal(ewa_camera_set_fov(&camera, view == 1 ? 95 : 75), EWA_OK);
     if (view == 2) assert_int_equal(ewa_camera_set_ortho(&camera, 14), EWA_OK);

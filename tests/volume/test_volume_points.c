@@ -49,7 +49,7 @@ static void expect(const char *what, double value, double wanted, double toleran
 /// is moved.
 static ewa_camera look(double distance, double focal_px, double shift_px) {
     ewa_camera camera;
-    ewa_camera_init(&camera, sizeof camera);
+    ewa_camera_init(&camera);
     camera.width_px = camera.height_px = SIDE;
     camera.world_to_camera[11] = distance;
     camera.fx_px = camera.fy_px = focal_px;

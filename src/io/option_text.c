@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Options from text and as text.
+#include "base/options.h"
+#include "io/number.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { MOST_NUMBERS = 16 };
+
+__attribute__((format(printf, 2, 3))) static ewa_status wrong(char problem[EWA_OPTION_TEXT_BYTES],
+                                                              const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    if (problem) vsnprintf(problem, EWA_OPTION_TEXT_BYTES, format, arguments);
+    va_end(arguments);
+    return EWA_ERROR_ARGUMENT;
+}
+
+/// A value in both forms: doubles do not have every integer.
+typedef struct option_value {
+    double number;
+    int64_t integer;
+} option_value;
+
+/// Reads one of the option's words, or a number, which ends at a comma or at the end of the text.
+static ewa_status read_value(const ewa_option *option, const char **text, option_value *value,
+                             char problem[EWA_OPTION_TEXT_BYTES]) {
+    const char *end = *text + strlen(*text), *word, *after;
+    const size_t length = strcspn(*text, ",");
+    size_t word_length;
+    char range[EWA_OPTION_TEXT_BYTES];
+    for (uint32_t i = 0; ewa_option_word(option, i, &value->number, &word, &word_length); i++) {
+        if (word_length != length || memcmp(word, *text, length) != 0) continue;
+        value->integer = (int64_t)value->number;
+        *text += length;
+        return EWA_OK;
+    }
+    ewa_option_range(option, range);
+    if (option->words || option->type == EWA_OPTION_BOOL)
+        return wrong(problem, "'%.80s' is not one of %s", *text, option->words ? option->words : "off|on");
+    const bool whole = option->type == EWA_OPTION_U32 || option->type == EWA_OPTION_U64;
+    if (whole) {
+        after = ewa_number_read_i64(*text, end, &value->integer);
+        value->number = after ? (double)value->integer : NAN;
+    } else {
+        after = ewa_number_read_f64(*text, end, &value->number);
+    }
+    if (!after || !isfinite(value->number) || (*after && !(option->count && *after == ',')))
+        return wrong(problem, "'%.80s' is not a%s number", *text, whole ? " whole" : "");
+    if (!ewa_option_allows(option, value->number))
+        return whole ? wrong(problem, "%" PRId64 " is outside %s", value->integer, range)
+                     : wrong(problem, "%g is outside %s", value->number, range);
+    *text = after;
+    return EWA_OK;
+}
+
+ewa_status ewa_option_set(const ewa_option *option, void *options, const char *text,
+                          char problem[EWA_OPTION_TEXT_BYTES]) {
+    if (!option || !options || !text) return EWA_ERROR_ARGUMENT;
+    option_value values[MOST_NUMBERS];
+    const uint32_t count = option->count ? option->count : 1;
+    const char *next = text;
+    for (uint32_t i = 0; i < count; i++) {
+        const ewa_status status = read_value(option, &next, &values[i], problem);
+        if (status != EWA_OK) return status;
+        if (*next != (i + 1 < count ? ',' : 0))
+            return wrong(problem, "'%.80s' is not %u numbers separated by commas", text, count);
+        next += i + 1 < count;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        const uint64_t integer = (uint64_t)values[i].integer;
+        if (option->type == EWA_OPTION_U64)
+            memcpy((char *)options + option->offset + i * sizeof integer, &integer, sizeof integer);
+        else
+            ewa_option_put(option, options, i, values[i].number);
+    }
+    return EWA_OK;
+}
+
+void ewa_option_get(const ewa_option *option, const void *options, char text[EWA_OPTION_TEXT_BYTES]) {
+    const uint32_t count = option->count ? option->count : 1;
+    size_t used = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        char number[EWA_NUMBER_BYTES];
+        const double value = ewa_option_number(option, options, i);
+        const char *from = number, *word;
+        size_t length;
+        double word_value;
+        if (option->type == EWA_OPTION_U64) {
+            uint64_t integer;
+            memcpy(&integer, (const char *)options + option->offset + i * sizeof integer, sizeof integer);
+            length = (size_t)snprintf(number, sizeof number, "%" PRIu64, integer);
+        } else if (option->type <= EWA_OPTION_CHOICE &&
+                   ewa_option_word(option, (uint32_t)value, &word_value, &word, &length)) {
+            from = word;
+        } else {
+            length = option->type == EWA_OPTION_F32 ? ewa_number_write_f32((float)value, number)
+                                                    : ewa_number_write_f64(value, number);
+        }
+        used += (size_t)snprintf(text + used, EWA_OPTION_TEXT_BYTES - used, "%s%.*s", i ? "," : "",
+                                 (int)length, from);
+    }
+}
