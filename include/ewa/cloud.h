@@ -30,17 +30,19 @@ EWA_API const char *ewa_type_name(ewa_type type);
 
 /// The attributes that the library gives a meaning to. Every other name is kept and passed through.
 ///
-/// | name        | components | meaning                                                                     |
-/// |-------------|-----------:|-----------------------------------------------------------------------------|
-/// | position    | 3 | world units, relative to the cloud's origin; F32 or F64                              |
-/// | normal      | 3 | outward; any length but zero                                                         |
-/// | color       | 3, 4 | red green blue [alpha]; integer types are sRGB over their whole range, floats
-/// linear | | radius      | 1 | support radius of the disc, world units: sigma = radius / cutoff | |
-/// tangent_u   | 3 | first axis of the kernel, length = one standard deviation, world units               |
-/// | tangent_v   | 3 | second axis; they win over radius; the normal is u x v unless given                  |
-/// | material    | 1 | index into a material table                                                          |
-/// | clip0, clip1| 3 | clip line (a, b, c): keep a u + b v + c >= 0 at position + u tangent_u + v tangent_v |
-/// | clip_mode   | 1 | 0: both lines hold, 1: either holds                                                  |
+/// | name         | components | meaning                                                                   |
+/// |--------------|-----------:|---------------------------------------------------------------------------|
+/// | position     |          3 | world units, relative to the cloud's origin; F32 or F64                   |
+/// | normal       |          3 | outward; any length but zero                                              |
+/// | color        |       3, 4 | red green blue [alpha]; integer types are sRGB over their whole range,    |
+/// |              |            | floats linear                                                             |
+/// | radius       |          1 | support radius of the disc, world units: sigma = radius / cutoff          |
+/// | tangent_u    |          3 | first axis of the kernel, length = one standard deviation, world units    |
+/// | tangent_v    |          3 | second axis; they win over radius; the normal is u x v unless given       |
+/// | material     |          1 | index into a material table                                               |
+/// | clip0, clip1 |          3 | clip line (a, b, c): keep a u + b v + c >= 0 at                           |
+/// |              |            | position + u tangent_u + v tangent_v                                      |
+/// | clip_mode    |          1 | 0: both lines hold, 1: either holds                                       |
 #define EWA_POSITION  "position"
 #define EWA_NORMAL    "normal"
 #define EWA_COLOR     "color"
@@ -73,7 +75,6 @@ EWA_API ewa_status ewa_cloud_create(ewa_context *context, uint64_t point_count, 
 /// Frees the cloud and the attributes it owns; sets `*cloud` to NULL; accepts NULL and a pointer to NULL.
 EWA_API void ewa_cloud_destroy(ewa_cloud **cloud);
 
-EWA_API ewa_context *ewa_cloud_context(const ewa_cloud *cloud);
 EWA_API uint64_t ewa_cloud_point_count(const ewa_cloud *cloud);
 
 /// Adds a stream that the cloud owns, uninitialised, replacing one of the same name; `*data` (may be NULL)

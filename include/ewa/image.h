@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Float images, sRGB, comparison.
+// Float images, sRGB, colour maps.
 #ifndef EWA_IMAGE_H
 #define EWA_IMAGE_H
 
@@ -30,22 +30,6 @@ EWA_API void ewa_image_free(ewa_image *image);
 /// Linear light to sRGB and back, the exact piecewise curve of IEC 61966-2-1; input is clamped to [0, 1].
 EWA_API float ewa_srgb_from_linear(float linear);
 EWA_API float ewa_linear_from_srgb(float srgb);
-
-/// How far two images are from each other.
-typedef struct ewa_difference {
-    double mean_absolute; ///< over all numbers of both images
-    double rms;
-    double maximum;
-    double psnr_db;                ///< 10 log10(peak^2 / rms^2); infinite for equal images
-    uint64_t over_threshold_count; ///< pixels in which any channel differs by more than the threshold
-} ewa_difference;
-
-/// Compares two images of the same size and channel count; a NaN on one side only counts as infinitely far.
-/// `peak` > 0 is the full scale for the PSNR (1 for colour); `threshold` >= 0; `heat` (may be NULL) receives
-/// a new one-channel image of the largest absolute channel difference per pixel, owned by the caller. Errors:
-/// EWA_ERROR_ARGUMENT when the shapes differ, EWA_ERROR_MEMORY.
-EWA_API ewa_status ewa_image_compare(const ewa_image *a, const ewa_image *b, double peak, double threshold,
-                                     ewa_difference *difference, ewa_image *heat);
 
 typedef enum ewa_colormap {
     EWA_COLORMAP_VIRIDIS = 0,  ///< dark blue to yellow, even in lightness

@@ -62,16 +62,6 @@ static ewa_status read_list(ewa_camera_list *list, const char *path) {
     return status;
 }
 
-ewa_status ewa_camera_file_count(ewa_context *context, const char *path, uint32_t *count) {
-    if (!context || !path || !count) return EWA_ERROR_ARGUMENT;
-    *count = 0;
-    ewa_camera_list list = {.context = context, .name = path};
-    const ewa_status status = read_list(&list, path);
-    if (status == EWA_OK) *count = (uint32_t)list.count;
-    ewa_camera_list_free(&list);
-    return status;
-}
-
 ewa_status ewa_camera_load(ewa_context *context, const char *path, uint32_t index, ewa_camera *camera) {
     if (!context || !path || !camera || camera->struct_size != sizeof *camera) return EWA_ERROR_ARGUMENT;
     ewa_camera_list list = {.context = context, .name = path};

@@ -5,6 +5,7 @@
 // parallel by tasks of a fixed number of points and written in their order, so that the bytes do not depend
 // on the threads.
 #include "base/base.h"
+#include "cloud/cloud.h"
 #include "io/file.h"
 #include "io/number.h"
 #include "io/ply.h"

@@ -6,6 +6,7 @@
 // Based on M. Zwicker, H. Pfister, J. van Baar, M. Gross, "Surface Splatting", 2001, section 5.
 #include "prepare/acquire.h"
 #include "base/base.h"
+#include "cloud/cloud.h"
 #include "cloud/morton.h"
 #include "image/srgb.h"
 

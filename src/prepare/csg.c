@@ -11,6 +11,7 @@
 // and 5: classification, resampling near the intersection), with the clip lines of M. Zwicker et al.,
 // "Perspective Accurate Splatting", 2004, section 5, in place of its many small surfels.
 #include "base/base.h"
+#include "cloud/cloud.h"
 #include "prepare/csg_lines.h"
 #include "prepare/solid.h"
 

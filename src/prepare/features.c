@@ -5,6 +5,7 @@
 // confirm.
 #include "prepare/features.h"
 #include "base/base.h"
+#include "cloud/cloud.h"
 #include "math/angle.h"
 #include "prepare/local.h"
 

@@ -4,6 +4,7 @@
 // Solid textures onto the points of a cloud.
 #include "ewa/procedure.h"
 #include "base/base.h"
+#include "cloud/cloud.h"
 #include "prepare/color.h"
 #include "prepare/pattern.h"
 

@@ -9,6 +9,7 @@
 // problems", 1996, section 7.4 (CGLS). B'B is never formed; B is well conditioned (docs/colors.md), and where
 // points almost coincide the damping keeps their coefficients near their colours.
 #include "base/base.h"
+#include "cloud/cloud.h"
 #include "math/vec.h"
 #include "prepare/color.h"
 #include "prepare/refit_kernels.h"

@@ -3,6 +3,7 @@
 //
 // The sampling of a whole cloud in a few numbers.
 #include "base/base.h"
+#include "cloud/cloud.h"
 #include "ewa/prepare.h"
 #include "prepare/local.h"
 

@@ -7,6 +7,7 @@
 // "Building an Orthonormal Basis, Revisited", 2017.
 #include "splat/packets.h"
 #include "base/base.h"
+#include "cloud/cloud.h"
 #include "cloud/morton.h"
 #include "kernels/semantics.h"
 #include "splat/color_form.h"
