@@ -11,23 +11,6 @@
 extern "C" {
 #endif
 
-typedef enum ewa_type {
-    EWA_F32 = 0,
-    EWA_F64,
-    EWA_I8,
-    EWA_U8,
-    EWA_I16,
-    EWA_U16,
-    EWA_I32,
-    EWA_U32,
-} ewa_type;
-
-/// Returns the size of one number of a type, in bytes.
-EWA_API size_t ewa_type_bytes(ewa_type type);
-
-/// Returns "float", "double", "char", "uchar", "short", "ushort", "int", "uint" (the words of PLY).
-EWA_API const char *ewa_type_name(ewa_type type);
-
 /// The attributes that the library gives a meaning to. Every other name is kept and passed through.
 ///
 /// | name         | components | meaning                                                                   |
@@ -111,12 +94,6 @@ EWA_API void ewa_attribute_read_f32(const ewa_attribute *attribute, uint64_t fir
 /// The same in double precision.
 EWA_API void ewa_attribute_read_f64(const ewa_attribute *attribute, uint64_t first, uint64_t count,
                                     double *values);
-
-/// An axis-aligned box, world units; empty when low > high.
-typedef struct ewa_bounds {
-    double low_world[3], high_world[3];
-    uint64_t finite_count; ///< points whose three coordinates are finite; only they count
-} ewa_bounds;
 
 /// Measures the box of all finite positions, origin included. Does not depend on the order of the points.
 /// Errors: EWA_ERROR_ARGUMENT when there is no "position" of three components.

@@ -31,6 +31,19 @@ EWA_API void ewa_image_free(ewa_image *image);
 EWA_API float ewa_srgb_from_linear(float linear);
 EWA_API float ewa_linear_from_srgb(float srgb);
 
+/// How the colours of points are made from a texture.
+typedef enum ewa_texture_filter {
+    EWA_TEXTURE_NEAREST = 0, ///< the pixel that the centre is in: sharp and noisy
+    EWA_TEXTURE_EWA = 1,     ///< mean of the texture under the surfel's kernel (SS section 5)
+    EWA_TEXTURE_OPTIMAL = 2, ///< what makes the drawn surface differ least from the texture (SS appendix A)
+} ewa_texture_filter;
+
+/// What lies beyond the edge of a picture.
+typedef enum ewa_texture_wrap {
+    EWA_TEXTURE_REPEAT = 0, ///< the picture again
+    EWA_TEXTURE_CLAMP = 1,  ///< its outermost pixels
+} ewa_texture_wrap;
+
 typedef enum ewa_colormap {
     EWA_COLORMAP_VIRIDIS = 0,  ///< dark blue to yellow, even in lightness
     EWA_COLORMAP_TURBO = 1,    ///< rainbow, even in hue

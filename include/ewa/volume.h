@@ -6,7 +6,6 @@
 #define EWA_VOLUME_H
 
 #include "ewa/base.h"
-#include "ewa/cloud.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -81,15 +81,14 @@ typedef struct ewa_volume_options {
     size_t struct_size;
     ewa_volume_method method;
     ewa_volume_index index;
-    double sigma;        ///< in voxels; [0.3, 2]; default 0.6
-    double cutoff;       ///< F, standard deviations at which splats end; [1, 4]; default 3
-    double prefilter_px; ///< h, standard deviation of the pixel filter; [0, 4]; 0: none; default 0.35
-    double
-        point_threshold_px; ///< spacing on the screen up to which voxels are points, while the filter with
-                            ///< which these are as good as splats holds them (0.8 px); [0, 1.5]; default 1.2
-    double depth_unit;      ///< in smallest spacings of the grid; [0.25, 16]; default 1
-    uint32_t level;         ///< which of the voxels' levels; 0 (default): all voxels
-    double density_scale;   ///< multiplies every extinction; [0, 1e15]; default 1
+    double sigma;              ///< in voxels; [0.3, 2]; default 0.6
+    double cutoff;             ///< F, standard deviations at which splats end; [1, 4]; default 3
+    double prefilter_px;       ///< h, standard deviation of the pixel filter; [0, 4]; 0: none; default 0.35
+    double point_threshold_px; ///< spacing on the screen up to which voxels are points, while the filter with
+        ///< which these are as good as splats holds them (0.8 px); [0, 1.5]; default 1.2
+    double depth_unit;    ///< in smallest spacings of the grid; [0.25, 16]; default 1
+    uint32_t level;       ///< which of the voxels' levels; 0 (default): all voxels
+    double density_scale; ///< multiplies every extinction; [0, 1e15]; default 1
     /// Where less than this of what is behind would show, nothing more is drawn; [0, 1); 0: everything is
     /// drawn; default 1/512
     double least_transmittance;

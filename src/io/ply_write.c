@@ -76,18 +76,6 @@ static void make_records(const write_job *job, uint64_t first, uint64_t count, u
     }
 }
 
-size_t ewa_ply_write_number(ewa_type type, const uint8_t *from, char *text) {
-    if (type == EWA_F32) {
-        float value;
-        memcpy(&value, from, sizeof value);
-        return ewa_number_write_f32(value, text);
-    }
-    double value;
-    const ewa_move move = {.from_type = type, .to_type = EWA_F64, .component_count = 1};
-    ewa_move_numbers(&move, (uint8_t *)&value, 0, from, 0, 1);
-    return type == EWA_F64 ? ewa_number_write_f64(value, text) : ewa_number_write_i64((int64_t)value, text);
-}
-
 static size_t write_lines(const write_job *job, const uint8_t *records, uint64_t count, char *text) {
     const char *start = text;
     for (; count; count--, records += job->record_bytes) {

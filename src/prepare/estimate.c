@@ -424,18 +424,6 @@ static ewa_status check_options(ewa_context *context, const ewa_estimate_options
     return EWA_OK;
 }
 
-const local_kernels *ewa_local_kernels(const ewa_context *context) {
-    const local_kernels *best = &ewa_local_kernels_portable;
-#if defined(__x86_64__)
-    const uint32_t features = ewa_context_cpu_features(context);
-    if (features & EWA_CPU_AVX2) best = &ewa_local_kernels_avx2;
-    if (features & EWA_CPU_AVX512) best = &ewa_local_kernels_avx512;
-#else
-    (void)context;
-#endif
-    return best;
-}
-
 void ewa_estimate_options_init(ewa_estimate_options *options, size_t struct_size) {
     if (!options || struct_size < sizeof *options) return;
     memset(options, 0, struct_size);

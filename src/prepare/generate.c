@@ -10,6 +10,7 @@
 // point alone.
 #include "prepare/generate.h"
 #include "base/base.h"
+#include "prepare/generate_number.h"
 #include "prepare/generate_solid.h"
 
 #include <math.h>

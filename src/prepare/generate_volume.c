@@ -4,7 +4,7 @@
 // Test volumes. Plain IEEE arithmetic throughout, so that the bytes are the same on every machine.
 #include "base/base.h"
 #include "ewa/prepare.h"
-#include "prepare/generate.h"
+#include "prepare/generate_number.h"
 
 #include <math.h>
 #include <string.h>
