@@ -26,19 +26,6 @@ extern "C" {
 #define EWA_TEXTURE      "texture"
 #define EWA_TEXTURE_PART "texture_part"
 
-/// How the colours of points are made from a texture.
-typedef enum ewa_texture_filter {
-    EWA_TEXTURE_NEAREST = 0, ///< the pixel that the centre is in: sharp and noisy
-    EWA_TEXTURE_EWA = 1,     ///< mean of the texture under the surfel's kernel (SS section 5)
-    EWA_TEXTURE_OPTIMAL = 2, ///< what makes the drawn surface differ least from the texture (SS appendix A)
-} ewa_texture_filter;
-
-/// What lies beyond the edge of a picture.
-typedef enum ewa_texture_wrap {
-    EWA_TEXTURE_REPEAT = 0, ///< the picture again
-    EWA_TEXTURE_CLAMP = 1,  ///< its outermost pixels
-} ewa_texture_wrap;
-
 /// What EWA_TEXTURE_OPTIMAL minimises. r_k are the kernels, S their sum, f the texture on the surface.
 typedef enum ewa_texture_fit {
     EWA_FIT_NORMALIZED = 0, ///< |S f - sum w_k r_k|^2: the error of the drawn, normalised surface, weighted

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Status codes, limits, the context: allocator, messages, progress, threads.
+// Status codes, types of numbers, limits, the context: allocator, messages, progress, threads.
 #ifndef EWA_BASE_H
 #define EWA_BASE_H
 
@@ -55,6 +55,30 @@ enum {
     EWA_CPU_AVX512 = 1u << 1, ///< AVX-512 F, DQ, BW, VL
     EWA_CPU_ALL = 0x7fffffff,
 };
+
+/// Types of numbers in memory that the caller describes.
+typedef enum ewa_type {
+    EWA_F32 = 0,
+    EWA_F64,
+    EWA_I8,
+    EWA_U8,
+    EWA_I16,
+    EWA_U16,
+    EWA_I32,
+    EWA_U32,
+} ewa_type;
+
+/// Returns the size of one number of a type, in bytes.
+EWA_API size_t ewa_type_bytes(ewa_type type);
+
+/// Returns "float", "double", "char", "uchar", "short", "ushort", "int", "uint" (the words of PLY).
+EWA_API const char *ewa_type_name(ewa_type type);
+
+/// An axis-aligned box, world units; empty when low > high.
+typedef struct ewa_bounds {
+    double low_world[3], high_world[3];
+    uint64_t finite_count; ///< points whose three coordinates are finite; only they count
+} ewa_bounds;
 
 /// Memory from the caller. `size_bytes` at release is the one given at allocation.
 typedef struct ewa_allocator {

@@ -6,7 +6,6 @@
 #define EWA_CAMERA_H
 
 #include "ewa/base.h"
-#include "ewa/cloud.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -11,36 +11,21 @@
 extern "C" {
 #endif
 
-typedef enum ewa_type {
-    EWA_F32 = 0,
-    EWA_F64,
-    EWA_I8,
-    EWA_U8,
-    EWA_I16,
-    EWA_U16,
-    EWA_I32,
-    EWA_U32,
-} ewa_type;
-
-/// Returns the size of one number of a type, in bytes.
-EWA_API size_t ewa_type_bytes(ewa_type type);
-
-/// Returns "float", "double", "char", "uchar", "short", "ushort", "int", "uint" (the words of PLY).
-EWA_API const char *ewa_type_name(ewa_type type);
-
 /// The attributes that the library gives a meaning to. Every other name is kept and passed through.
 ///
-/// | name        | components | meaning                                                                     |
-/// |-------------|-----------:|-----------------------------------------------------------------------------|
-/// | position    | 3 | world units, relative to the cloud's origin; F32 or F64                              |
-/// | normal      | 3 | outward; any length but zero                                                         |
-/// | color       | 3, 4 | red green blue [alpha]; integer types are sRGB over their whole range, floats
-/// linear | | radius      | 1 | support radius of the disc, world units: sigma = radius / cutoff | |
-/// tangent_u   | 3 | first axis of the kernel, length = one standard deviation, world units               |
-/// | tangent_v   | 3 | second axis; they win over radius; the normal is u x v unless given                  |
-/// | material    | 1 | index into a material table                                                          |
-/// | clip0, clip1| 3 | clip line (a, b, c): keep a u + b v + c >= 0 at position + u tangent_u + v tangent_v |
-/// | clip_mode   | 1 | 0: both lines hold, 1: either holds                                                  |
+/// | name         | components | meaning                                                                   |
+/// |--------------|-----------:|---------------------------------------------------------------------------|
+/// | position     |          3 | world units, relative to the cloud's origin; F32 or F64                   |
+/// | normal       |          3 | outward; any length but zero                                              |
+/// | color        |       3, 4 | red green blue [alpha]; integer types are sRGB over their whole range,    |
+/// |              |            | floats linear                                                             |
+/// | radius       |          1 | support radius of the disc, world units: sigma = radius / cutoff          |
+/// | tangent_u    |          3 | first axis of the kernel, length = one standard deviation, world units    |
+/// | tangent_v    |          3 | second axis; they win over radius; the normal is u x v unless given       |
+/// | material     |          1 | index into a material table                                               |
+/// | clip0, clip1 |          3 | clip line (a, b, c): keep a u + b v + c >= 0 at                           |
+/// |              |            | position + u tangent_u + v tangent_v                                      |
+/// | clip_mode    |          1 | 0: both lines hold, 1: either holds                                       |
 #define EWA_POSITION  "position"
 #define EWA_NORMAL    "normal"
 #define EWA_COLOR     "color"
@@ -73,7 +58,6 @@ EWA_API ewa_status ewa_cloud_create(ewa_context *context, uint64_t point_count, 
 /// Frees the cloud and the attributes it owns; sets `*cloud` to NULL; accepts NULL and a pointer to NULL.
 EWA_API void ewa_cloud_destroy(ewa_cloud **cloud);
 
-EWA_API ewa_context *ewa_cloud_context(const ewa_cloud *cloud);
 EWA_API uint64_t ewa_cloud_point_count(const ewa_cloud *cloud);
 
 /// Adds a stream that the cloud owns, uninitialised, replacing one of the same name; `*data` (may be NULL)
@@ -110,12 +94,6 @@ EWA_API void ewa_attribute_read_f32(const ewa_attribute *attribute, uint64_t fir
 /// The same in double precision.
 EWA_API void ewa_attribute_read_f64(const ewa_attribute *attribute, uint64_t first, uint64_t count,
                                     double *values);
-
-/// An axis-aligned box, world units; empty when low > high.
-typedef struct ewa_bounds {
-    double low_world[3], high_world[3];
-    uint64_t finite_count; ///< points whose three coordinates are finite; only they count
-} ewa_bounds;
 
 /// Measures the box of all finite positions, origin included. Does not depend on the order of the points.
 /// Errors: EWA_ERROR_ARGUMENT when there is no "position" of three components.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Float images, sRGB, comparison.
+// Float images, sRGB, colour maps.
 #ifndef EWA_IMAGE_H
 #define EWA_IMAGE_H
 
@@ -31,21 +31,18 @@ EWA_API void ewa_image_free(ewa_image *image);
 EWA_API float ewa_srgb_from_linear(float linear);
 EWA_API float ewa_linear_from_srgb(float srgb);
 
-/// How far two images are from each other.
-typedef struct ewa_difference {
-    double mean_absolute; ///< over all numbers of both images
-    double rms;
-    double maximum;
-    double psnr_db;                ///< 10 log10(peak^2 / rms^2); infinite for equal images
-    uint64_t over_threshold_count; ///< pixels in which any channel differs by more than the threshold
-} ewa_difference;
+/// How the colours of points are made from a texture.
+typedef enum ewa_texture_filter {
+    EWA_TEXTURE_NEAREST = 0, ///< the pixel that the centre is in: sharp and noisy
+    EWA_TEXTURE_EWA = 1,     ///< mean of the texture under the surfel's kernel (SS section 5)
+    EWA_TEXTURE_OPTIMAL = 2, ///< what makes the drawn surface differ least from the texture (SS appendix A)
+} ewa_texture_filter;
 
-/// Compares two images of the same size and channel count; a NaN on one side only counts as infinitely far.
-/// `peak` > 0 is the full scale for the PSNR (1 for colour); `threshold` >= 0; `heat` (may be NULL) receives
-/// a new one-channel image of the largest absolute channel difference per pixel, owned by the caller. Errors:
-/// EWA_ERROR_ARGUMENT when the shapes differ, EWA_ERROR_MEMORY.
-EWA_API ewa_status ewa_image_compare(const ewa_image *a, const ewa_image *b, double peak, double threshold,
-                                     ewa_difference *difference, ewa_image *heat);
+/// What lies beyond the edge of a picture.
+typedef enum ewa_texture_wrap {
+    EWA_TEXTURE_REPEAT = 0, ///< the picture again
+    EWA_TEXTURE_CLAMP = 1,  ///< its outermost pixels
+} ewa_texture_wrap;
 
 typedef enum ewa_colormap {
     EWA_COLORMAP_VIRIDIS = 0,  ///< dark blue to yellow, even in lightness

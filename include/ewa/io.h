@@ -22,14 +22,14 @@ extern "C" {
 /// Reads a point cloud: PLY (ascii, binary of both byte orders), whose element "vertex" holds the points;
 /// other elements and lists are skipped. Properties become the attributes of ewa/cloud.h by their names:
 ///   - x y z: "position", F64 when one of them is a double or a 32-bit integer, so that it is exact, else
-///   F32;
+///     F32;
 ///   - nx ny nz or normal_x normal_y normal_z: "normal", F32;
-///   - red green blue [alpha], or diffuse_red ..., or r g b [a]: "color"; U16 from ushort, F32 from float and
-///   double,
-///     U8 from every other integer type, clamped to [0, 255];
+///   - red green blue [alpha], or diffuse_red ..., or r g b [a]: "color"; U16 from ushort, F32 from float
+///     and double, U8 from every other integer type, clamped to [0, 255];
 ///   - radius, tu_x tu_y tu_z, tv_x tv_y tv_z, clip0_a clip0_b clip0_c, clip1_a clip1_b clip1_c: "radius",
 ///     "tangent_u", "tangent_v", "clip0", "clip1", F32;
 ///   - every other scalar: an attribute of that name and type.
+///
 /// "-" reads standard input. The caller owns `*cloud`, which is NULL after a failure. A file that another
 /// program cuts short while it is read ends the process by SIGBUS, as every mapped file does. Errors:
 /// EWA_ERROR_IO, EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_CANCELLED.
@@ -167,7 +167,7 @@ EWA_API void ewa_volume_load_options_init(ewa_volume_load_options *options, size
 
 /// Reads a volume, the format by content; "-" reads standard input:
 /// - NRRD, attached and detached (.nhdr): encodings raw, gzip, bzip2, ascii, hex; lists and patterns of
-/// files;
+///   files;
 /// - NIfTI-1 and -2 and Analyze: .nii, .nii.gz, pairs .hdr and .img; sform before qform; slope and intercept;
 /// - MetaImage: .mha, .mhd; zlib; lists and patterns of files;
 /// - VTK: legacy structured points, and .vti with appended raw data, plain or zlib;
@@ -209,23 +209,20 @@ EWA_API ewa_status ewa_volume_save(const ewa_volume *volume, const char *path,
 EWA_API ewa_status ewa_transfer_load(ewa_context *context, const char *path, ewa_transfer *transfer);
 
 /// Writes a transfer function so that ewa_transfer_load() gives the same numbers. Errors: EWA_ERROR_ARGUMENT
-/// (as ewa_transfer_check()), EWA_ERROR_IO, EWA_ERROR_MEMORY.
+/// (a member that is not what ewa_transfer says), EWA_ERROR_IO, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_transfer_save(ewa_context *context, const ewa_transfer *transfer, const char *path);
-
-/// Counts the cameras of a file, to go through them with ewa_camera_load(). Errors as there.
-EWA_API ewa_status ewa_camera_file_count(ewa_context *context, const char *path, uint32_t *count);
 
 /// Reads camera `index`, counted from 0 in the file's order, into an initialised `*camera`. The format goes
 /// by content:
 /// - ours: {"width", "height", "fx", "fy", "cx", "cy", "world_to_camera": 16 numbers, row-major} in pixels,
-/// with
-///   "projection": "orthographic" for such; or an array of these;
+///   with "projection": "orthographic" for such; or an array of these;
 /// - Open3D PinholeCameraParameters and PinholeCameraTrajectory;
 /// - transforms.json of nerfstudio and instant-ngp; without "w", "h" the size is that of the frame's PNG
-/// picture;
+///   picture;
 /// - cameras.json of INRIA's Gaussian splatting;
 /// - stacks of matrices: {"width", "height", "viewmats" or "viewmats_world_to_camera", "Ks"};
 /// - a folder with a COLMAP model: cameras and images, .bin or else .txt.
+///
 /// Principal points are those of pixel centres at halves; Open3D's, which has them at whole numbers, move by
 /// half a pixel. Lens distortion is left out with a warning. "-" reads standard input. Errors (camera
 /// unchanged), with the member that is missing or wrong: EWA_ERROR_IO, EWA_ERROR_FORMAT,

@@ -5,7 +5,6 @@
 #ifndef EWA_MESH_H
 #define EWA_MESH_H
 
-#include "ewa/acquire.h"
 #include "ewa/base.h"
 #include "ewa/cloud.h"
 #include "ewa/image.h"

@@ -47,19 +47,16 @@ typedef struct ewa_model {
 /// "-" reads standard input.
 ///
 /// - Faces: polygons become triangles, also concave ones; strips and fans too; nodes are put into place.
-/// Faces
-///   with a vertex that is not there are counted, said in a warning, and left out; lines and points beside
-///   faces as well. Coordinates keep every digit. Where triangles have a coordinate that is not finite, that
-///   is said.
+///   Faces with a vertex that is not there are counted, said in a warning, and left out; lines and points
+///   beside faces as well. Coordinates keep every digit. Where triangles have a coordinate that is not
+///   finite, that is said.
 /// - Colours: of vertices, else of faces; integers and the text of OBJ and OFF are sRGB, floats of PLY and
-/// glTF
-///   linear. Materials are their diffuse or base colour and its picture. In OBJ the picture stands for the
-///   colour.
+///   glTF linear. Materials are their diffuse or base colour and its picture. In OBJ the picture stands for
+///   the colour.
 /// - Pictures are of every format that ewa_image_load() reads, in the file or in files that it names. These,
-/// and
-///   material libraries and buffers, must be regular files below the file's folder when links are resolved;
-///   of names that are absolute or lead elsewhere, the last part is tried beside the file. A picture or
-///   library that is missing or broken is left out with a warning that names it.
+///   and material libraries and buffers, must be regular files below the file's folder when links are
+///   resolved; of names that are absolute or lead elsewhere, the last part is tried beside the file. A
+///   picture or library that is missing or broken is left out with a warning that names it.
 ///
 /// `*model` is zeroed after a failure. Errors: EWA_ERROR_IO, EWA_ERROR_FORMAT (with the place; no face can be
 /// used), EWA_ERROR_UNSUPPORTED (format, required extensions of glTF), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY,

@@ -56,8 +56,7 @@ EWA_API void ewa_estimate_options_init(ewa_estimate_options *options, size_t str
 /// Adds what a surfel needs and the cloud lacks: "normal", and "radius" or tangent axes.
 ///
 /// - Neighbours are the k nearest other places, duplicates being one place, with all that are as far as the
-/// k-th.
-///   Where they lie almost on a line (a scanner's lines far apart) 64 are asked instead.
+///   k-th. Where they lie almost on a line (a scanner's lines far apart) 64 are asked instead.
 /// - Normals are the direction of least variance, turned as `orientation` says; (0, 0, 1) for a lone point.
 /// - Radii are radius_scale times the spacing, and never so small that irregular sampling leaves a hole, but
 ///   for `radius_limit`. Points that are no part of what is around them get no more than radius_scale times
@@ -65,8 +64,7 @@ EWA_API void ewa_estimate_options_init(ewa_estimate_options *options, size_t str
 ///   at most 4 : 1, with u x v along the normal. What the old sizes meant goes: "radius" beside new axes,
 ///   axes and clip lines beside new radii.
 /// - Points with coordinates that are not finite get zeros. Coplanar, collinear and identical points get
-/// finite
-///   results; an info message says how many have no plane.
+///   finite results; an info message says how many have no plane.
 /// - Outlier removal replaces the cloud by a smaller one, which also lacks the points that are not finite.
 ///
 /// The result depends on the places only: not on threads, instruction sets, nor the order of the points, but
@@ -165,19 +163,16 @@ typedef struct ewa_feature_counts {
 /// "clip_mode".
 ///
 /// - Neighbourhoods that are not flat are explained by two or three planes, and by a quadric; planes win
-/// where
-///   they leave clearly less of the points. Neighbours vote: lines that half of the points along them do not
-///   confirm are dropped, planes of neighbours that agree are averaged.
+///   where they leave clearly less of the points. Neighbours vote: lines that half of the points along them
+///   do not confirm are dropped, planes of neighbours that agree are averaged.
 /// - A point beside an edge gets the normal of its own plane, is moved onto it (`project`), and gets axes of
-/// the
-///   size that it had: along the line and across, longer across, because behind the line nothing adds to the
-///   coverage. The line is where the planes meet; two lines, for a corner, hold both or either.
+///   the size that it had: along the line and across, longer across, because behind the line nothing adds to
+///   the coverage. The line is where the planes meet; two lines, for a corner, hold both or either.
 /// - All other points keep the bytes of their positions, normals and colours. "radius" becomes axes of the
-/// same
-///   size, because clip lines belong to axes. Without edges the cloud stays as it was, but for older clip
-///   lines.
+///   same size, because clip lines belong to axes. Without edges the cloud stays as it was, but for older
+///   clip lines.
 /// - Points with coordinates that are not finite stay as they are. Positions and normals of integers become
-/// floats.
+///   floats.
 ///
 /// The cloud needs "position", "normal", and "radius" or tangent axes (ewa_cloud_estimate()); normals have to
 /// agree along the surface. `counts` may be NULL. The result does not depend on threads or instruction sets.
@@ -276,11 +271,10 @@ EWA_API void ewa_generate_options_init(ewa_generate_options *options, size_t str
 /// (by the largest component of the normal), the sphere has longitude and latitude, the torus the turns
 /// around the ring and around the tube.
 ///
-/// `options` may be NULL for the defaults; the caller owns `*cloud`, which is NULL after a
-/// failure. Every number depends on the options alone, not on the machine or the number of threads. Progress
-/// stage: "generate". Errors: EWA_ERROR_ARGUMENT (message names the member; too few points for rows on every
-/// edge), EWA_ERROR_LIMIT,
-/// EWA_ERROR_MEMORY, EWA_CANCELLED.
+/// `options` may be NULL for the defaults; the caller owns `*cloud`, which is NULL after a failure. Every
+/// number depends on the options alone, not on the machine or the number of threads. Progress stage:
+/// "generate". Errors: EWA_ERROR_ARGUMENT (message names the member; too few points for rows on every edge),
+/// EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_CANCELLED.
 EWA_API ewa_status ewa_cloud_generate(ewa_context *context, const ewa_generate_options *options,
                                       ewa_cloud **cloud);
 
@@ -288,13 +282,12 @@ EWA_API ewa_status ewa_cloud_generate(ewa_context *context, const ewa_generate_o
 typedef enum ewa_volume_object {
     /// U8: a box of 3/4 s of solid cubes, 96 and 255 in turns, empty around; `checks` along its edge
     EWA_VOLUME_CHECKERBOX = 0,
-    /// F32: exp(-r^2 / (2 q^2)), q = s / 10. A line at distance d from the middle: q sqrt(2 pi) exp(-d^2 / (2
-    /// q^2))
+    /// F32: exp(-r^2 / (2 q^2)), q = s / 10. A line at distance d from the middle:
+    /// q sqrt(2 pi) exp(-d^2 / (2 q^2))
     EWA_VOLUME_BLOB = 1,
     /// F32: (1 - r^2 / R^2)^2 within R = 0.4 s. A line at distance d < R: 16/15 (R^2 - d^2)^(5/2) / R^4
     EWA_VOLUME_BALL = 2,
-    /// U8: a tree of thin tubes of radii from s / 40 down to s / 250, 255 in their middles; those thinner
-    /// than
+    /// U8: a tree of thin tubes of radii from s / 40 down to s / 250, 255 in their middles; those thinner than
     /// 0.9 voxels are that wide and as much fainter
     EWA_VOLUME_VESSELS = 3,
 } ewa_volume_object;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Pictures of surfels: the resident form of a cloud, the renderer, and its double-precision reference.
+// Pictures of surfels: the resident form of a cloud, and the renderer.
 #ifndef EWA_RENDER_H
 #define EWA_RENDER_H
 
@@ -25,9 +25,8 @@ typedef struct ewa_surfels_options {
 EWA_API extern const ewa_option_table ewa_surfels_options_table;
 EWA_API void ewa_surfels_options_init(ewa_surfels_options *options, size_t struct_size);
 
-/// The resident form of a cloud: Morton order, packets of 16, at most 32 bytes per point, and one
-/// more where there are several materials. Immutable once
-/// made; any number of renderers of the same context may draw it.
+/// The resident form of a cloud: Morton order, packets of 16, at most 32 bytes per point, and one more where
+/// there are several materials. Immutable once made; any number of renderers of the same context may draw it.
 typedef struct ewa_surfels ewa_surfels;
 
 /// Makes surfels from a cloud that has "position", "normal" and "radius", or "position", "tangent_u" and
@@ -138,8 +137,8 @@ typedef struct ewa_frame {
     float *rgba;    ///< 4 per pixel: linear, premultiplied, over the background
     float *depth;   ///< 1 per pixel: camera-space z, world units; +infinity where nothing is
     float *normal;  ///< 3 per pixel: unit, world space, towards the viewer; 0 where nothing is
-    float
-        *coverage; ///< 1 per pixel: sum of kernels over its expectation q0 (1: covered), before the threshold
+    /// 1 per pixel: sum of kernels over its expectation q0 (1: covered), before the threshold
+    float *coverage;
 } ewa_frame;
 
 /// What a frame took. Stage times are summed over workers, in seconds of thread time.
@@ -160,11 +159,10 @@ EWA_API ewa_status ewa_renderer_create(ewa_context *context, ewa_renderer **rend
 EWA_API void ewa_renderer_destroy(ewa_renderer **renderer);
 
 /// Draws surfels. The same bytes for every number of threads, every instruction set and every order of the
-/// points. `options` and `stats` may be NULL. Implements docs/math.md sections 3 to 7; held to
-/// ewa_render_reference() by tests. A warning says how many pixels have a colour that is infinite or not a
-/// number. Errors: EWA_ERROR_ARGUMENT (camera, options, a surfel's material that the
-/// table does not have), EWA_ERROR_MEMORY,
-/// EWA_CANCELLED.
+/// points. `options` and `stats` may be NULL. Implements docs/math.md sections 3 to 7; held by tests to a
+/// renderer in plain double precision. A warning says how many pixels have a colour that is infinite or not a
+/// number. Errors: EWA_ERROR_ARGUMENT (camera, options, a surfel's material that the table does not have),
+/// EWA_ERROR_MEMORY, EWA_CANCELLED.
 EWA_API ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const ewa_camera *camera,
                               const ewa_render_options *options, const ewa_frame *frame,
                               ewa_render_stats *stats);
@@ -186,12 +184,6 @@ EWA_API ewa_status ewa_render_add(ewa_renderer *renderer, const ewa_surfels *sur
 /// Errors: EWA_ERROR_ARGUMENT (no frame), EWA_ERROR_MEMORY; EWA_CANCELLED, between two tiles: some of the
 /// frame's pixels are drawn then.
 EWA_API ewa_status ewa_render_finish(ewa_renderer *renderer, ewa_render_stats *stats);
-
-/// The same picture in double precision, one splat after another, straight from the cloud: slow, plain, and
-/// the definition of what ewa_render() draws. `unit_coverage` is q0, as ewa_surfels_describe() gives it.
-EWA_API ewa_status ewa_render_reference(const ewa_cloud *cloud, const ewa_surfels_options *surfels_options,
-                                        double unit_coverage, const ewa_camera *camera,
-                                        const ewa_render_options *options, const ewa_frame *frame);
 
 #ifdef __cplusplus
 }

@@ -13,7 +13,7 @@
 
 #include "ewa/base.h"
 #include "ewa/camera.h"
-#include "ewa/math.h"
+#include "ewa/homogeneous.h"
 #include "ewa/options.h"
 
 #ifdef __cplusplus
@@ -83,19 +83,12 @@ typedef struct ewa_texture_stats {
 /// not in front (w <= 0) are left out. Texels closer than half of `point_spacing_px` are drawn from
 /// pre-summed levels (averages over 2x1, 1x2, 2x2, ... texels) with the same sum of weights, so that the work
 /// per pixel is bounded at horizons. The same bytes for every number of threads and every instruction set;
-/// held to ewa_texture_map_reference() by tests. `options` and `stats` may be NULL. Errors:
-/// EWA_ERROR_ARGUMENT (shapes, options, a map that is not finite), EWA_ERROR_NUMERIC (a singular map),
-/// EWA_ERROR_LIMIT (a side over ewa_limits.max_image_side), EWA_ERROR_MEMORY, EWA_CANCELLED; then the picture
-/// is undefined.
+/// held by tests to plain double precision. `options` and `stats` may be NULL. Errors: EWA_ERROR_ARGUMENT
+/// (shapes, options, a map that is not finite), EWA_ERROR_NUMERIC (a singular map), EWA_ERROR_LIMIT (a side
+/// over ewa_limits.max_image_side), EWA_ERROR_MEMORY, EWA_CANCELLED; then the picture is undefined.
 EWA_API ewa_status ewa_texture_map(ewa_context *context, const ewa_texture_source *source,
                                    const ewa_mat3 *map, const ewa_texture_options *options,
                                    const ewa_texture_target *target, ewa_texture_stats *stats);
-
-/// The same picture in double precision, one texel after another and without levels: slow, plain, and the
-/// definition of what ewa_texture_map() draws. Not with `repeat`.
-EWA_API ewa_status ewa_texture_map_reference(ewa_context *context, const ewa_texture_source *source,
-                                             const ewa_mat3 *map, const ewa_texture_options *options,
-                                             const ewa_texture_target *target);
 
 /// Makes the map that takes the corners (0, 0), (width, 0), (width, height), (0, height) of a texture to four
 /// points of the picture, in pixels. Errors: EWA_ERROR_NUMERIC (map unchanged) when three of them are on a

@@ -6,7 +6,6 @@
 #define EWA_VOLUME_H
 
 #include "ewa/base.h"
-#include "ewa/cloud.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -82,9 +81,6 @@ EWA_API const char *ewa_transfer_preset_name(uint32_t index, const char **what);
 /// EWA_ERROR_ARGUMENT (no such name), EWA_ERROR_NUMERIC (no finite voxel, or all are equal).
 EWA_API ewa_status ewa_transfer_preset(const ewa_volume *volume, const ewa_volume_facts *facts,
                                        const char *name, ewa_transfer *transfer);
-
-/// Checks what ewa_transfer says of its members; `name` is for the message. Errors: EWA_ERROR_ARGUMENT.
-EWA_API ewa_status ewa_transfer_check(ewa_context *context, const char *name, const ewa_transfer *transfer);
 
 #ifdef __cplusplus
 }

@@ -82,15 +82,14 @@ typedef struct ewa_volume_options {
     size_t struct_size;
     ewa_volume_method method;
     ewa_volume_index index;
-    double sigma;        ///< in voxels; [0.3, 2]; default 0.6
-    double cutoff;       ///< F, standard deviations at which splats end; [1, 4]; default 3
-    double prefilter_px; ///< h, standard deviation of the pixel filter; [0, 4]; 0: none; default 0.35
-    double
-        point_threshold_px; ///< spacing on the screen up to which voxels are points, while the filter with
-                            ///< which these are as good as splats holds them (0.8 px); [0, 1.5]; default 1.2
-    double depth_unit;      ///< in smallest spacings of the grid; [0.25, 16]; default 1
-    uint32_t level;         ///< which of the voxels' levels; 0 (default): all voxels
-    double density_scale;   ///< multiplies every extinction; [0, 1e15]; default 1
+    double sigma;              ///< in voxels; [0.3, 2]; default 0.6
+    double cutoff;             ///< F, standard deviations at which splats end; [1, 4]; default 3
+    double prefilter_px;       ///< h, standard deviation of the pixel filter; [0, 4]; 0: none; default 0.35
+    double point_threshold_px; ///< spacing on the screen up to which voxels are points, while the filter with
+        ///< which these are as good as splats holds them (0.8 px); [0, 1.5]; default 1.2
+    double depth_unit;    ///< in smallest spacings of the grid; [0.25, 16]; default 1
+    uint32_t level;       ///< which of the voxels' levels; 0 (default): all voxels
+    double density_scale; ///< multiplies every extinction; [0, 1e15]; default 1
     /// Where less than this of what is behind would show, nothing more is drawn; [0, 0.999999]; 0: everything
     /// is drawn; default 1/512
     double least_transmittance;
@@ -135,19 +134,12 @@ EWA_API void ewa_volume_renderer_destroy(ewa_volume_renderer **renderer);
 /// +infinity where that never happens) and coverage (alpha of the volume alone) are written; normal must be
 /// NULL. The same bytes for every number of threads and every instruction set. Voxels whose kernels reach a
 /// perspective camera's eye plane are drawn ray by ray, before all others.
-/// `options` and `stats` may be NULL. Implements HFR section 4 and docs/math.md section 12; held to
-/// ewa_volume_render_reference() by tests. Errors: EWA_ERROR_ARGUMENT (camera, options, a level that the
-/// voxels do not have, frame.normal), EWA_ERROR_MEMORY, EWA_CANCELLED.
+/// `options` and `stats` may be NULL. Implements HFR section 4 and docs/math.md section 12; held by tests to a
+/// renderer in plain double precision. Errors: EWA_ERROR_ARGUMENT (camera, options, a level that the voxels do
+/// not have, frame.normal), EWA_ERROR_MEMORY, EWA_CANCELLED.
 EWA_API ewa_status ewa_volume_render(ewa_volume_renderer *renderer, const ewa_voxels *voxels,
                                      const ewa_camera *camera, const ewa_volume_options *options,
                                      const ewa_frame *frame, ewa_volume_stats *stats);
-
-/// All voxels as splats in double precision, one after another, straight from the volume: slow, plain, and
-/// the definition of what ewa_volume_render() draws. Method, level and least_transmittance of the options
-/// are not looked at. Errors: as ewa_voxels_create() and ewa_volume_render().
-EWA_API ewa_status ewa_volume_render_reference(const ewa_volume *volume, const ewa_transfer *transfer,
-                                               const ewa_camera *camera, const ewa_volume_options *options,
-                                               const ewa_frame *frame);
 
 #ifdef __cplusplus
 }

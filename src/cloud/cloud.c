@@ -19,16 +19,6 @@ struct ewa_cloud {
 
 enum { BLOCK_POINTS = 1 << 14 };
 
-size_t ewa_type_bytes(ewa_type type) {
-    static const uint8_t bytes[] = {4, 8, 1, 1, 2, 2, 4, 4};
-    return (unsigned)type < sizeof bytes ? bytes[type] : 0;
-}
-
-const char *ewa_type_name(ewa_type type) {
-    static const char *const names[] = {"float", "double", "char", "uchar", "short", "ushort", "int", "uint"};
-    return (unsigned)type < sizeof names / sizeof names[0] ? names[type] : "unknown";
-}
-
 ewa_status ewa_cloud_create(ewa_context *context, uint64_t point_count, ewa_cloud **cloud) {
     if (!context || !cloud) return EWA_ERROR_ARGUMENT;
     *cloud = NULL;

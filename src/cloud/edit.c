@@ -6,6 +6,7 @@
 // Based on: Bloomenthal and Rokne, "Homogeneous Coordinates", 1994: points go by M, planes (normals) by the
 // inverse transpose.
 #include "base/base.h"
+#include "cloud/cloud.h"
 #include "ewa/cloud.h"
 
 #include <math.h>

@@ -25,9 +25,8 @@ enum {
 /// - count: points; < 2^32
 /// - order: `count` indices
 /// - split_level: NULL, or `count` numbers: entry i > 0 is the depth of the smallest cell that holds the
-/// points at
-///   places i - 1 and i of the order, coarsest 0. Cutting a run where the level is lowest cuts it at the
-///   cell's middle.
+///   points at places i - 1 and i of the order, coarsest 0. Cutting a run where the level is lowest cuts it at
+///   the cell's middle.
 /// - finite_count: NULL, or receives the number of points with finite coordinates
 ///
 /// The result does not depend on the number of threads. Errors: EWA_ERROR_MEMORY. Needs 24 bytes per point

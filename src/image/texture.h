@@ -5,7 +5,7 @@
 #ifndef EWA_SRC_IMAGE_TEXTURE_H
 #define EWA_SRC_IMAGE_TEXTURE_H
 
-#include "ewa/acquire.h"
+#include "ewa/image.h"
 
 enum { EWA_TEXTURE_LEVELS = 17 };
 

@@ -20,4 +20,7 @@ double ewa_transfer_unit(const ewa_volume_facts *facts);
 /// EWA_ERROR_NUMERIC when a volume has no range of values that colours could be spread over.
 ewa_status ewa_transfer_check_facts(const ewa_volume *volume, const ewa_volume_facts *facts);
 
+/// Checks what ewa_transfer says of its members; `name` is for the message. Errors: EWA_ERROR_ARGUMENT.
+ewa_status ewa_transfer_check(ewa_context *context, const char *name, const ewa_transfer *transfer);
+
 #endif

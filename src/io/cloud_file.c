@@ -4,6 +4,7 @@
 // Point clouds in and out: finds the format and leads there.
 #include "base/base.h"
 #include "base/options.h"
+#include "cloud/cloud.h"
 #include "io/file.h"
 #include "io/ply.h"
 

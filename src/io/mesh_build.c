@@ -160,18 +160,3 @@ ewa_status ewa_mesh_add_triangle(ewa_mesh_build *build, const ewa_mesh_corner *a
     }
     return status;
 }
-
-ewa_status ewa_mesh_add_polygon(ewa_mesh_build *build, const ewa_mesh_corner *corners, uint64_t count) {
-    build->face_count++;
-    if (count < 3) {
-        build->short_count++;
-        return EWA_OK;
-    }
-    for (uint64_t i = 0; i < count; i++)
-        if (corners[i].position >= build->positions.count) {
-            build->beyond_count++;
-            return EWA_OK;
-        }
-    return count == 3 ? ewa_mesh_add_triangle(build, &corners[0], &corners[1], &corners[2])
-                      : ewa_mesh_cut_polygon(build, corners, count);
-}

@@ -119,15 +119,12 @@ void ewa_mesh_map_texcoord(const ewa_mesh_look *look, float uv[2]);
 
 /// Adds a polygon with the look and the colour of the build, cut into triangles. Polygons of fewer than three
 /// corners, and with a corner that is not there, are counted and left out; texture coordinates and normals
-/// that are not there become none.
+/// that are not there become none (mesh_polygon.c).
 ewa_status ewa_mesh_add_polygon(ewa_mesh_build *build, const ewa_mesh_corner *corners, uint64_t count);
 
 /// Adds a triangle whose places are there; for ewa_mesh_add_polygon() and what it calls.
 ewa_status ewa_mesh_add_triangle(ewa_mesh_build *build, const ewa_mesh_corner *a, const ewa_mesh_corner *b,
                                  const ewa_mesh_corner *c);
-
-/// Adds the triangles of a polygon of more than three corners whose places are there (mesh_polygon.c).
-ewa_status ewa_mesh_cut_polygon(ewa_mesh_build *build, const ewa_mesh_corner *corners, uint64_t count);
 
 /// Notes a number that is none, in a line of the file or at 0.
 static inline void ewa_mesh_note_unread(ewa_mesh_build *build, uint64_t line) {

@@ -216,7 +216,8 @@ static ewa_status add_fan(ewa_mesh_build *build, const ewa_mesh_corner *corners,
     return status;
 }
 
-ewa_status ewa_mesh_cut_polygon(ewa_mesh_build *build, const ewa_mesh_corner *corners, uint64_t count) {
+/// Adds the triangles of a polygon of more than three corners whose places are there.
+static ewa_status cut_polygon(ewa_mesh_build *build, const ewa_mesh_corner *corners, uint64_t count) {
     if (count >= EWA_MESH_NONE)
         return ewa_fail(build->context, EWA_ERROR_LIMIT, "%s: a polygon of %llu corners", build->source->name,
                         (unsigned long long)count);
@@ -238,4 +239,19 @@ ewa_status ewa_mesh_cut_polygon(ewa_mesh_build *build, const ewa_mesh_corner *co
     build->cut_tests_left += TESTS_PER_CORNER * count;
     fill_grid(&p);
     return clip_ears(&p);
+}
+
+ewa_status ewa_mesh_add_polygon(ewa_mesh_build *build, const ewa_mesh_corner *corners, uint64_t count) {
+    build->face_count++;
+    if (count < 3) {
+        build->short_count++;
+        return EWA_OK;
+    }
+    for (uint64_t i = 0; i < count; i++)
+        if (corners[i].position >= build->positions.count) {
+            build->beyond_count++;
+            return EWA_OK;
+        }
+    return count == 3 ? ewa_mesh_add_triangle(build, &corners[0], &corners[1], &corners[2])
+                      : cut_polygon(build, corners, count);
 }

@@ -69,8 +69,7 @@ static const double powers_of_10[MAX_EXACT_POWER + 1] = {1e0,  1e1,  1e2,  1e3, 
 
 static const uint64_t small_powers_of_10[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
 
-// ---- long integers
-// ------------------------------------------------------------------------------------------------
+// ---- long integers ---------------------------------------------------------------------------------------
 
 /// A natural number, least limb first, without leading zero limbs.
 typedef struct natural {
@@ -179,8 +178,7 @@ static scaled scale_natural(natural *n, int power) {
     return normalise(quotient, exponent, more);
 }
 
-// ---- w * 10^power in binary
-// -----------------------------------------------------------------------------------------
+// ---- w * 10^power in binary ------------------------------------------------------------------------------
 
 static scaled scale(uint64_t w, int power) {
     if (power >= 0 && power <= MAX_SMALL_POWER)
@@ -216,8 +214,7 @@ static uint64_t assemble(const scaled *s, const format *f) {
     return bits < f->infinity_bits ? bits : f->infinity_bits;
 }
 
-// ---- reading
-// --------------------------------------------------------------------------------------------------------
+// ---- reading ---------------------------------------------------------------------------------------------
 
 static bool is_digit(char c) { return (unsigned char)(c - '0') < 10; }
 
@@ -474,8 +471,7 @@ const char *ewa_number_read_i64(const char *text, const char *end, int64_t *valu
     return after;
 }
 
-// ---- writing
-// --------------------------------------------------------------------------------------------------------
+// ---- writing ---------------------------------------------------------------------------------------------
 
 /// Rounds significand * 2^exponent to `count` significant decimal digits: returned digits * 10^*power.
 static uint64_t to_decimal(uint64_t significand, int exponent, int count, int *power) {

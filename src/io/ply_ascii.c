@@ -229,8 +229,7 @@ ewa_status ewa_ply_ascii_skip(const ewa_ply_source *source, const ewa_ply_header
     return EWA_OK;
 }
 
-// ---- one record per line
-// --------------------------------------------------------------------------------------------
+// ---- one record per line ---------------------------------------------------------------------------------
 
 typedef struct line_job {
     const ewa_ply_element *element;
@@ -336,8 +335,7 @@ static ewa_status read_by_line(const ewa_ply_source *source, const ewa_ply_heade
     return EWA_OK;
 }
 
-// ---- number by number
-// -----------------------------------------------------------------------------------------------
+// ---- number by number ------------------------------------------------------------------------------------
 
 /// Reads records as a stream of numbers. Warns once when lines and records differ by more than blank lines.
 static ewa_status read_by_number(const ewa_ply_source *source, const ewa_ply_header *header,

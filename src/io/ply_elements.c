@@ -10,6 +10,18 @@
 
 #include <stdio.h>
 
+size_t ewa_ply_write_number(ewa_type type, const uint8_t *from, char *text) {
+    if (type == EWA_F32) {
+        float value;
+        memcpy(&value, from, sizeof value);
+        return ewa_number_write_f32(value, text);
+    }
+    double value;
+    const ewa_move move = {.from_type = type, .to_type = EWA_F64, .component_count = 1};
+    ewa_move_numbers(&move, (uint8_t *)&value, 0, from, 0, 1);
+    return type == EWA_F64 ? ewa_number_write_f64(value, text) : ewa_number_write_i64((int64_t)value, text);
+}
+
 static ewa_status put_text(ewa_writer *writer, ewa_text text) {
     return ewa_writer_put(writer, text.chars, text.length);
 }

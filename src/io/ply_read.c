@@ -8,15 +8,6 @@
 
 #include <string.h>
 
-void ewa_ply_sink_put(const ewa_ply_sink *sink, uint64_t first, const uint8_t *records, uint32_t record_bytes,
-                      uint64_t count) {
-    for (uint32_t i = 0; i < sink->stream_count; i++) {
-        const ewa_ply_stream *stream = &sink->streams[i];
-        ewa_move_numbers(&stream->move, stream->to + first * stream->to_stride_bytes, stream->to_stride_bytes,
-                         records + stream->from_offset_bytes, record_bytes, (size_t)count);
-    }
-}
-
 const ewa_ply_element *ewa_ply_vertices(const ewa_ply_header *header) {
     for (uint32_t i = 0; i < header->element_count; i++)
         if (header->elements[i].name.length == 6 && memcmp(header->elements[i].name.chars, "vertex", 6) == 0)

@@ -9,36 +9,6 @@
 
 #include <string.h>
 
-enum { FIRST_NUMBERS = 64 };
-
-uint8_t *ewa_ply_list_add(const ewa_ply_source *source, ewa_ply_list *list, uint64_t more,
-                          size_t number_bytes, ewa_status *status) {
-    uint64_t wanted = 0;
-    const uint64_t limit = ewa_context_limits(source->context)->max_memory_bytes / number_bytes;
-    if (__builtin_add_overflow(list->count, more, &wanted) || wanted > limit) {
-        *status =
-            ewa_fail(source->context, EWA_ERROR_LIMIT, "%s: a list of %llu numbers is over max_memory_bytes",
-                     source->name, (unsigned long long)wanted);
-        return NULL;
-    }
-    if (wanted > list->capacity || !list->numbers) {
-        uint64_t capacity = list->capacity ? 2 * list->capacity : FIRST_NUMBERS;
-        if (capacity < wanted) capacity = wanted;
-        uint8_t *numbers = ewa_allocate(source->context, capacity, number_bytes);
-        if (!numbers) {
-            *status = EWA_ERROR_MEMORY;
-            return NULL;
-        }
-        if (list->count) memcpy(numbers, list->numbers, list->count * number_bytes);
-        ewa_release(source->context, list->numbers, list->capacity, number_bytes);
-        list->numbers = numbers;
-        list->capacity = capacity;
-    }
-    uint8_t *added = list->numbers + list->count * number_bytes;
-    list->count = wanted;
-    return added;
-}
-
 bool ewa_ply_find_property(const ewa_ply_header *header, const ewa_ply_element *element, const char *name,
                            uint32_t *property) {
     for (uint32_t i = 0; i < element->property_count; i++)

@@ -5,6 +5,7 @@
 // parallel by tasks of a fixed number of points and written in their order, so that the bytes do not depend
 // on the threads.
 #include "base/base.h"
+#include "cloud/cloud.h"
 #include "io/file.h"
 #include "io/number.h"
 #include "io/ply.h"
@@ -73,18 +74,6 @@ static void make_records(const write_job *job, uint64_t first, uint64_t count, u
         const uint8_t *from = (const uint8_t *)attribute->data + first * attribute->stride_bytes;
         ewa_move_numbers(&move, to, job->record_bytes, from, attribute->stride_bytes, (size_t)count);
     }
-}
-
-size_t ewa_ply_write_number(ewa_type type, const uint8_t *from, char *text) {
-    if (type == EWA_F32) {
-        float value;
-        memcpy(&value, from, sizeof value);
-        return ewa_number_write_f32(value, text);
-    }
-    double value;
-    const ewa_move move = {.from_type = type, .to_type = EWA_F64, .component_count = 1};
-    ewa_move_numbers(&move, (uint8_t *)&value, 0, from, 0, 1);
-    return type == EWA_F64 ? ewa_number_write_f64(value, text) : ewa_number_write_i64((int64_t)value, text);
 }
 
 static size_t write_lines(const write_job *job, const uint8_t *records, uint64_t count, char *text) {

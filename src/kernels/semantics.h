@@ -112,10 +112,10 @@
 // within its aligned 2x2 pixels, the larger one of those that have the surface too.
 //
 // Eye-dome lighting: the premultiplied colour, before the background, times exp(-EWA_DOME_GAIN strength
-// mean), mean over EWA_DOME_PAIRS pairs of opposite pixels at x +- d of max(0, (key(x + d) + key(x - d)) / 2
-// - key(x)) / key(x), 0 where one of the three shows nothing. d: (r, 0), (0, r), (r, r), (r, -r) for r of 1,
-// 2 and 4 pixels. Orthographic: divided by the height of the view in world units instead. Keys being linear
-// on planes, planes stay as they are.
+// mean), mean over EWA_DOME_PAIRS pairs of opposite pixels at x +- d of
+// max(0, (key(x + d) + key(x - d)) / 2 - key(x)) / key(x), 0 where one of the three shows nothing. d: (r, 0),
+// (0, r), (r, r), (r, -r) for r of 1, 2 and 4 pixels. Orthographic: divided by the height of the view in world
+// units instead. Keys being linear on planes, planes stay as they are.
 //
 // ---- Section 8: opacity, layers
 //

@@ -9,7 +9,7 @@
 #define EWA_SRC_MATH_CLIP_BATCH_H
 
 #include "base/isa.h"
-#include "ewa/math.h"
+#include "ewa/homogeneous.h"
 
 /// Clips segments [first, first + count) of a batch.
 typedef void clip_segments_kernel(const ewa_segment_batch *segments, const ewa_segment_clips *clips,

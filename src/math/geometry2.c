@@ -45,8 +45,6 @@ ewa_status ewa_line2_distance(ewa_vec3 line, ewa_vec3 point, double *distance) {
     return EWA_OK;
 }
 
-ewa_vec3 ewa_line2_at_infinity(void) { return vec3_make(0, 0, 1); }
-
 /// A triangle made ready: corners with w = 1 relative to the first, which keeps small triangles far from the
 /// origin exact, and the lines opposite to them, scaled so that their incidence product with their own corner
 /// is 1.

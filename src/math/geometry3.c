@@ -112,8 +112,6 @@ ewa_status ewa_plane_distance(ewa_vec4 plane, ewa_vec4 point, double *distance) 
     return EWA_OK;
 }
 
-ewa_vec4 ewa_plane_at_infinity(void) { return vec4_make(0, 0, 0, 1); }
-
 ewa_status ewa_line3_join(ewa_vec4 p, ewa_vec4 q, ewa_line3 *line) { return two(p, q, line); }
 
 ewa_status ewa_line3_meet(ewa_vec4 a, ewa_vec4 b, ewa_line3 *line) {

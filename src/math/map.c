@@ -1,75 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Affine and projective maps, and what they do to points, lines, planes and conics.
+// Products and inverses of maps, and what maps do to points, lines and planes.
 //
-// Based on: Bloomenthal and Rokne, Homogeneous Coordinates, sections Transformations and Sequences. The
-// rotation there is printed with the sign of column vectors; here it is counter-clockwise for row vectors, as
-// its text says.
+// Based on: Bloomenthal and Rokne, Homogeneous Coordinates, sections Transformations and Sequences.
 #include "math/noise.h"
-
-ewa_mat3 ewa_mat3_identity(void) { return mat3_identity(); }
-
-ewa_mat3 ewa_mat3_translation(double x, double y) { return (ewa_mat3){{{1, 0, 0}, {0, 1, 0}, {x, y, 1}}}; }
-
-ewa_mat3 ewa_mat3_scaling(double x, double y) { return (ewa_mat3){{{x, 0, 0}, {0, y, 0}, {0, 0, 1}}}; }
-
-ewa_mat3 ewa_mat3_rotation(double angle_rad) {
-    double c = cos(angle_rad), s = sin(angle_rad);
-    return (ewa_mat3){{{c, s, 0}, {-s, c, 0}, {0, 0, 1}}};
-}
-
-ewa_mat3 ewa_mat3_bordered(const double a[2][2], const double c[2]) {
-    return (ewa_mat3){{{a[0][0], a[0][1], 0}, {a[1][0], a[1][1], 0}, {c[0], c[1], 1}}};
-}
 
 ewa_mat3 ewa_mat3_concatenate(const ewa_mat3 *first, const ewa_mat3 *second) {
     return mat3_multiply(first, second);
-}
-
-ewa_mat3 ewa_mat3_transpose(const ewa_mat3 *map) { return mat3_transpose(map); }
-
-ewa_mat4 ewa_mat4_identity(void) {
-    return (ewa_mat4){{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
-}
-
-ewa_mat4 ewa_mat4_translation(double x, double y, double z) {
-    return (ewa_mat4){{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {x, y, z, 1}}};
-}
-
-ewa_mat4 ewa_mat4_scaling(double x, double y, double z) {
-    return (ewa_mat4){{{x, 0, 0, 0}, {0, y, 0, 0}, {0, 0, z, 0}, {0, 0, 0, 1}}};
-}
-
-ewa_status ewa_mat4_rotation(ewa_vec3 axis, double angle_rad, ewa_mat4 *map) {
-    if (!vec3_is_finite(axis) || !isfinite(angle_rad)) return EWA_ERROR_NUMERIC;
-    axis = vec3_balance(axis);
-    double length = vec3_length(axis);
-    if (length == 0) return EWA_ERROR_NUMERIC;
-    // Rodrigues: p' = c p + s (n x p) + (1 - c)(n.p) n, row i being the image of axis i.
-    ewa_vec3 n = vec3_scale(axis, 1 / length);
-    double c = cos(angle_rad), s = sin(angle_rad);
-    ewa_mat3 turn = {{{c, s * n.z, -s * n.y}, {-s * n.z, c, s * n.x}, {s * n.y, -s * n.x, c}}};
-    ewa_mat3 along = mat3_outer(n, vec3_scale(n, 1 - c));
-    turn = mat3_add(&turn, &along);
-    *map = ewa_mat4_bordered(&turn, vec3_make(0, 0, 0));
-    return EWA_OK;
-}
-
-ewa_mat4 ewa_mat4_bordered(const ewa_mat3 *a, ewa_vec3 c) {
-    return mat4_from_rows(vec4_from_vec3(mat3_row(a, 0), 0), vec4_from_vec3(mat3_row(a, 1), 0),
-                          vec4_from_vec3(mat3_row(a, 2), 0), vec4_from_vec3(c, 1));
-}
-
-ewa_mat4 ewa_mat4_transpose(const ewa_mat4 *map) {
-    return mat4_from_rows(mat4_column(map, 0), mat4_column(map, 1), mat4_column(map, 2), mat4_column(map, 3));
-}
-
-ewa_mat4 ewa_mat4_from_column_form(const double column_form[16]) {
-    ewa_mat4 map;
-    for (int row = 0; row < 4; row++)
-        for (int column = 0; column < 4; column++) map.m[row][column] = column_form[4 * column + row];
-    return map;
 }
 
 ewa_mat4 ewa_mat4_concatenate(const ewa_mat4 *first, const ewa_mat4 *second) {
@@ -146,7 +84,8 @@ ewa_status ewa_mat4_invert(const ewa_mat4 *map, ewa_mat4 *inverse) {
 }
 
 ewa_status ewa_mat3_invert(const ewa_mat3 *map, ewa_mat3 *inverse) {
-    ewa_mat4 wide = ewa_mat4_bordered(map, vec3_make(0, 0, 0));
+    ewa_mat4 wide = mat4_from_rows(vec4_from_vec3(mat3_row(map, 0), 0), vec4_from_vec3(mat3_row(map, 1), 0),
+                                   vec4_from_vec3(mat3_row(map, 2), 0), vec4_make(0, 0, 0, 1));
     ewa_status status = ewa_mat4_invert(&wide, &wide);
     if (!status)
         *inverse = mat3_from_rows(vec3_from_vec4(mat4_row(&wide, 0)), vec3_from_vec4(mat4_row(&wide, 1)),

@@ -10,7 +10,7 @@
 #define EWA_SRC_MATH_PLACEMENT_H
 
 #include "ewa/camera.h"
-#include "ewa/math.h"
+#include "ewa/homogeneous.h"
 
 /// p = linear (w - anchor) + offset, for points w from an origin of their own, in camera space whose unit is
 /// `unit` of the camera's: a power of two, so that nothing is rounded by it.

@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-#include "ewa/math.h"
+#include "ewa/homogeneous.h"
 
 static inline ewa_vec3 vec3_make(double x, double y, double z) { return (ewa_vec3){x, y, z}; }
 static inline ewa_vec3 vec3_load(const double v[3]) { return (ewa_vec3){v[0], v[1], v[2]}; }

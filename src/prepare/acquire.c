@@ -7,13 +7,13 @@
 #include "prepare/acquire.h"
 #include "base/base.h"
 #include "base/options.h"
+#include "cloud/cloud.h"
 #include "cloud/morton.h"
 #include "image/srgb.h"
 #include "math/frame.h"
+#include "prepare/acquire_stretch.h"
 
 #include <string.h>
-
-enum { STRETCH_POINTS = 1 << 16 };
 
 /// What is darker than this share of opaque has no colour of its own to divide out.
 #define LEAST_ALPHA (1.0 / 512)
@@ -257,20 +257,6 @@ static void write_points(void *data, uint32_t part, uint32_t worker) {
         for (int c = 0; c < 3; c++) to[c] = (float)(divides ? color[c] / color[3] : color[c]);
         if (job->channel_count == 4) to[3] = (float)fmin(fmax(color[3], 0), 1);
     }
-}
-
-ewa_status ewa_acquire_run(const ewa_acquire_set *set, ewa_task *task, ewa_acquire_stretch *stretch,
-                           double begin, double end) {
-    for (stretch->first = 0; stretch->first < set->count; stretch->first = stretch->end) {
-        const double share = (double)stretch->first / set->count;
-        const ewa_status status = ewa_progress(set->context, "texture", begin + share * (end - begin));
-        if (status != EWA_OK) return status;
-        const uint32_t left = set->count - stretch->first;
-        stretch->end = left < STRETCH_POINTS ? set->count : stretch->first + STRETCH_POINTS;
-        ewa_parallel(set->context, task, stretch,
-                     (stretch->end - stretch->first + EWA_ACQUIRE_TASK_POINTS - 1) / EWA_ACQUIRE_TASK_POINTS);
-    }
-    return EWA_OK;
 }
 
 static ewa_status make_textures(acquire_job *job) {

@@ -6,6 +6,7 @@
 #ifndef EWA_SRC_PREPARE_ACQUIRE_H
 #define EWA_SRC_PREPARE_ACQUIRE_H
 
+#include "ewa/acquire.h"
 #include "image/texture.h"
 #include "math/vec.h"
 
@@ -34,26 +35,6 @@ typedef struct ewa_acquire_set {
     double cutoff, pixel_variance_px2;
     double usual_sigma_world; ///< of the longer axes; also the thickness of all kernels
 } ewa_acquire_set;
-
-/// Points that are worked on at the same time; a loop over them all tells its progress in between. First
-/// member of the data of its tasks.
-typedef struct ewa_acquire_stretch {
-    uint32_t first, end;
-} ewa_acquire_stretch;
-
-enum { EWA_ACQUIRE_TASK_POINTS = 256 };
-
-/// Calls `task` for all points, with progress of the stage "texture" from `begin` to `end`; each gets the
-/// points that ewa_acquire_range() gives. Errors: EWA_CANCELLED.
-ewa_status ewa_acquire_run(const ewa_acquire_set *set, ewa_task *task, ewa_acquire_stretch *stretch,
-                           double begin, double end);
-
-/// The points of one call of a task.
-static inline ewa_acquire_stretch ewa_acquire_range(const ewa_acquire_stretch *stretch, uint32_t part) {
-    const uint32_t first = stretch->first + part * EWA_ACQUIRE_TASK_POINTS, left = stretch->end - first;
-    return (ewa_acquire_stretch){first, left < EWA_ACQUIRE_TASK_POINTS ? stretch->end
-                                                                       : first + EWA_ACQUIRE_TASK_POINTS};
-}
 
 /// A plane through two kernels, and their product in it: a Gaussian of its own.
 typedef struct ewa_acquire_pair {

@@ -14,7 +14,7 @@
 // Pfister, J. van Baar, M. Gross, "Surface Splatting", 2001, section 5 and appendix A.
 #include "base/base.h"
 #include "math/gaussian.h"
-#include "prepare/acquire.h"
+#include "prepare/acquire_stretch.h"
 #include "prepare/sparse.h"
 
 #include <string.h>

@@ -12,6 +12,7 @@
 // "Perspective Accurate Splatting", 2004, section 5, in place of its many small surfels.
 #include "base/base.h"
 #include "base/options.h"
+#include "cloud/cloud.h"
 #include "prepare/csg_lines.h"
 #include "prepare/solid.h"
 

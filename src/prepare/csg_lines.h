@@ -5,7 +5,7 @@
 #ifndef EWA_SRC_PREPARE_CSG_LINES_H
 #define EWA_SRC_PREPARE_CSG_LINES_H
 
-#include "ewa/math.h"
+#include "ewa/homogeneous.h"
 
 /// Up to two lines a u + b v + c >= 0, u and v in standard deviations, which have to hold both, or either.
 typedef struct ewa_line_set {

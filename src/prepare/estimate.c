@@ -4,6 +4,7 @@
 // From positions to surfels: normals, radii or tangent axes from the neighbourhood of each place.
 #include "base/base.h"
 #include "base/options.h"
+#include "cloud/cloud.h"
 #include "ewa/prepare.h"
 #include "prepare/local.h"
 #include "prepare/orient.h"

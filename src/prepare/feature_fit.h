@@ -58,4 +58,16 @@ double ewa_feature_quadric_residual(const feature_points *points);
 /// random numbers: the same points in the same order give the same bytes.
 void ewa_feature_fit(const feature_points *points, const feature_scale *scale, feature_model *model);
 
+/// A clip line of the active plane in world units: keep across . (x - place) + distance >= 0 for x on the
+/// plane.
+typedef struct feature_line {
+    double across[3]; ///< unit, in the plane, towards what is kept
+    double distance;  ///< from the place's foot on the plane; negative beyond the line
+} feature_line;
+
+/// Finds the lines that bound plane `active` of a model within `reach` of the foot of a place; returns how
+/// many, the nearest first. `either`: one of two lines holds, not both.
+uint32_t ewa_feature_lines(const feature_model *model, uint32_t active, const double place[3], double reach,
+                           feature_line lines[2], bool *either);
+
 #endif

@@ -3,6 +3,7 @@
 //
 // Surfels beside edges: plane, axes and clip lines from the model of their place.
 #include "base/base.h"
+#include "cloud/cloud.h"
 #include "math/frame.h"
 #include "prepare/features.h"
 

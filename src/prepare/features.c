@@ -6,6 +6,7 @@
 #include "prepare/features.h"
 #include "base/base.h"
 #include "base/options.h"
+#include "cloud/cloud.h"
 #include "math/angle.h"
 #include "prepare/local.h"
 
@@ -352,39 +353,6 @@ static ewa_status check(const ewa_cloud *cloud) {
         return ewa_fail(context, EWA_ERROR_LIMIT, "features: %llu points are over the limit of 2^32 - 2",
                         (unsigned long long)ewa_cloud_point_count(cloud));
     return EWA_OK;
-}
-
-uint32_t ewa_feature_lines(const feature_model *model, uint32_t active, const double place[3], double reach,
-                           feature_line lines[2], bool *either) {
-    const double above = feature_height(model, active, place), *n = model->normal[active];
-    uint32_t count = 0;
-    *either = model->plane_count == 3 && active == 0 && model->outer_max != model->inner_max;
-    for (uint32_t q = 0; q < model->plane_count; q++) {
-        if (q == active) continue;
-        const double *m = model->normal[q];
-        const double cosine = n[0] * m[0] + n[1] * m[1] + n[2] * m[2];
-        const double sine = sqrt(fmax(1 - cosine * cosine, 0));
-        if (!(sine > 0)) continue;
-        // Planes of the inner pair bound each other by its own operation.
-        const bool larger = active && q ? model->inner_max : model->outer_max;
-        const double sign = larger ? -1 : 1;
-        feature_line line;
-        for (int c = 0; c < 3; c++) line.across[c] = sign * (m[c] - cosine * n[c]) / sine;
-        line.distance = sign * (feature_height(model, q, place) - cosine * above) / sine;
-        if (fabs(line.distance) >= reach) {
-            // A line that holds all over the disc is enough where either has to.
-            if (*either && line.distance > 0) return 0;
-            continue;
-        }
-        if (count && fabs(line.distance) < fabs(lines[0].distance)) {
-            lines[1] = lines[0];
-            lines[0] = line;
-        } else {
-            lines[count] = line;
-        }
-        count++;
-    }
-    return count;
 }
 
 #define AT(member) offsetof(ewa_feature_options, member)

@@ -9,18 +9,6 @@
 #include "ewa/prepare.h"
 #include "prepare/feature_fit.h"
 
-/// A clip line of the active plane in world units: keep across . (x - place) + distance >= 0 for x on the
-/// plane.
-typedef struct feature_line {
-    double across[3]; ///< unit, in the plane, towards what is kept
-    double distance;  ///< from the place's foot on the plane; negative beyond the line
-} feature_line;
-
-/// Finds the lines that bound plane `active` of a model within `reach` of the foot of a place; returns how
-/// many, the nearest first. `either`: one of two lines holds, not both.
-uint32_t ewa_feature_lines(const feature_model *model, uint32_t active, const double place[3], double reach,
-                           feature_line lines[2], bool *either);
-
 /// What was detected, by place.
 typedef struct feature_result {
     const ewa_neighbours *neighbours;

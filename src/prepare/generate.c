@@ -11,6 +11,7 @@
 #include "prepare/generate.h"
 #include "base/base.h"
 #include "base/options.h"
+#include "prepare/generate_number.h"
 #include "prepare/generate_solid.h"
 
 #include <math.h>

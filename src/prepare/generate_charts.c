@@ -3,6 +3,7 @@
 //
 // Test objects: where their points are on a picture, and how fast that changes along the surface.
 #include "base/base.h"
+#include "cloud/cloud.h"
 #include "ewa/acquire.h"
 #include "math/angle.h"
 #include "math/vec.h"

@@ -6,6 +6,7 @@
 // The sphere's rows are those of Archimedes: area is height, z = 1 - 2 v. The torus's rows need the angle t
 // (turns) whose share of the area is v = t + (r/R) sin(2 pi t) / (2 pi), which Newton's method finds.
 #include "prepare/generate.h"
+#include "prepare/generate_number.h"
 
 #include <math.h>
 

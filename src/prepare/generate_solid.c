@@ -15,6 +15,7 @@
 #include "prepare/generate_solid.h"
 #include "base/base.h"
 #include "prepare/generate.h"
+#include "prepare/generate_number.h"
 
 #include <math.h>
 #include <string.h>

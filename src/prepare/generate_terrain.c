@@ -9,6 +9,7 @@
 // "Texturing and Modeling: A Procedural Approach", 3rd ed. 2003, chapter 16 (ridged multifractal); here with
 // smooth crests.
 #include "prepare/generate.h"
+#include "prepare/generate_number.h"
 
 #include <math.h>
 #include <string.h>

@@ -5,7 +5,7 @@
 #include "base/base.h"
 #include "base/options.h"
 #include "ewa/prepare.h"
-#include "prepare/generate.h"
+#include "prepare/generate_number.h"
 
 #include <math.h>
 #include <string.h>

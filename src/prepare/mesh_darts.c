@@ -9,7 +9,7 @@
 #include "prepare/mesh_darts.h"
 #include "base/base.h"
 #include "math/vec.h"
-#include "prepare/generate.h"
+#include "prepare/generate_number.h"
 
 #include <string.h>
 

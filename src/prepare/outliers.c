@@ -7,6 +7,7 @@
 // for household environments", 2008, section 5.1. Duplicates count as one neighbour.
 #include "prepare/outliers.h"
 #include "base/base.h"
+#include "cloud/cloud.h"
 #include "prepare/local.h"
 
 #include <math.h>

@@ -5,6 +5,7 @@
 #include "ewa/procedure.h"
 #include "base/base.h"
 #include "base/options.h"
+#include "cloud/cloud.h"
 #include "prepare/color.h"
 #include "prepare/pattern.h"
 

@@ -5,13 +5,15 @@
 // that it shows at a point a mean of the colours around. What is solved here is B w = c with B the weights of
 // that mean (refit_kernels.c) and c the colours, in the sense of
 //     min |B w - c|^2 + damping |w - c|^2,
-// by conjugate gradients on the normal equations for w - c: A. Bjorck, "Numerical methods for least squares
-// problems", 1996, section 7.4 (CGLS). B'B is never formed; B is well conditioned (docs/colors.md), and where
-// points almost coincide the damping keeps their coefficients near their colours.
+// by conjugate gradients on the normal equations for x = w - c, (B'B + damping) x = B'(c - B c). B'B is never
+// formed; B is well conditioned (docs/colors.md), and where points almost coincide the damping keeps their
+// coefficients near their colours.
 #include "base/base.h"
 #include "base/options.h"
+#include "cloud/cloud.h"
 #include "math/vec.h"
 #include "prepare/color.h"
+#include "prepare/gradient.h"
 #include "prepare/refit_kernels.h"
 
 #include <math.h>
@@ -19,7 +21,7 @@
 
 enum {
     CHANNELS = 3,
-    BLOCK_ROWS = 2048, // one task; sums are made per block and added up in order
+    BLOCK_ROWS = EWA_GRADIENT_BLOCK_ROWS,
     MOST_STEPS = 400,
 };
 
@@ -37,16 +39,16 @@ typedef struct refit_job {
     ewa_solid solid;
     refit_matrix matrix;
     double damping;
-    double *color;                                   // [count][CHANNELS]: c
-    double *change, *rest, *gradient, *step, *image; // w - c, c - B w, B'rest - damping change, p, B p
-    double *partial;                                 // [block_count][2 * CHANNELS]
-    double alpha[CHANNELS], beta[CHANNELS];
+    double *color;             // [count][CHANNELS]: c
+    double *change, *gradient; // x = w - c, in the end w; and what is left of the normal equations
+    double *image;             // B times a vector
+    double *partial;           // [block_count]
+    const double *from;        // what is multiplied
     uint32_t block_count;
 } refit_job;
 
 static uint32_t block_end(const refit_job *job, uint32_t block) {
-    const uint64_t end = ((uint64_t)block + 1) * BLOCK_ROWS;
-    return end < job->matrix.count ? (uint32_t)end : job->matrix.count;
+    return ewa_gradient_block_end(job->matrix.count, block);
 }
 
 /// Row `row` of a matrix times a vector.
@@ -59,129 +61,85 @@ static inline void multiply_row(const refit_rows *rows, uint32_t row, const doub
     }
 }
 
-/// Adds up the partial sums of all blocks in order.
-static void add_up(const refit_job *job, double sum[2 * CHANNELS]) {
-    memset(sum, 0, 2 * CHANNELS * sizeof *sum);
-    for (uint32_t block = 0; block < job->block_count; block++)
-        for (int c = 0; c < 2 * CHANNELS; c++)
-            sum[c] += job->partial[(size_t)block * 2 * CHANNELS + (size_t)c];
-}
-
-/// rest = c - B c where there is an equation; sums of its squares.
-static void start_block(void *data, uint32_t block, uint32_t worker) {
+/// image = c - B from where there is an equation; sums of its squares.
+static void rest_block(void *data, uint32_t block, uint32_t worker) {
     (void)worker;
     refit_job *job = data;
-    double *partial = job->partial + (size_t)block * 2 * CHANNELS, sum[CHANNELS];
-    memset(partial, 0, 2 * CHANNELS * sizeof *partial);
+    double sum[CHANNELS];
+    job->partial[block] = 0;
     for (uint32_t row = block * BLOCK_ROWS; row < block_end(job, block); row++) {
         const bool given = job->matrix.forward.starts[row] < job->matrix.forward.starts[row + 1];
-        multiply_row(&job->matrix.forward, row, job->color, sum);
+        multiply_row(&job->matrix.forward, row, job->from, sum);
         for (int c = 0; c < CHANNELS; c++) {
             const size_t i = (size_t)row * CHANNELS + (size_t)c;
-            job->rest[i] = given ? job->color[i] - sum[c] : 0;
-            partial[c] += job->rest[i] * job->rest[i];
+            job->image[i] = given ? job->color[i] - sum[c] : 0;
+            job->partial[block] += job->image[i] * job->image[i];
         }
     }
 }
 
-/// gradient = B'rest - damping change; sums of its squares.
-static void gradient_block(void *data, uint32_t block, uint32_t worker) {
-    (void)worker;
-    refit_job *job = data;
-    double *partial = job->partial + (size_t)block * 2 * CHANNELS, sum[CHANNELS];
-    memset(partial, 0, 2 * CHANNELS * sizeof *partial);
-    for (uint32_t row = block * BLOCK_ROWS; row < block_end(job, block); row++) {
-        multiply_row(&job->matrix.backward, row, job->rest, sum);
-        for (int c = 0; c < CHANNELS; c++) {
-            const size_t i = (size_t)row * CHANNELS + (size_t)c;
-            job->gradient[i] = sum[c] - job->damping * job->change[i];
-            partial[c] += job->gradient[i] * job->gradient[i];
-        }
-    }
-}
-
-/// step = gradient + beta step.
-static void turn_block(void *data, uint32_t block, uint32_t worker) {
-    (void)worker;
-    refit_job *job = data;
-    const size_t first = (size_t)block * BLOCK_ROWS * CHANNELS,
-                 end = (size_t)block_end(job, block) * CHANNELS;
-    for (size_t i = first; i < end; i++)
-        job->step[i] = job->gradient[i] + job->beta[i % CHANNELS] * job->step[i];
-}
-
-/// image = B step; sums of its squares, and of the step's.
+/// image = B from.
 static void image_block(void *data, uint32_t block, uint32_t worker) {
     (void)worker;
     refit_job *job = data;
-    double *partial = job->partial + (size_t)block * 2 * CHANNELS;
-    memset(partial, 0, 2 * CHANNELS * sizeof *partial);
+    for (uint32_t row = block * BLOCK_ROWS; row < block_end(job, block); row++)
+        multiply_row(&job->matrix.forward, row, job->from, job->image + (size_t)row * CHANNELS);
+}
+
+/// The rows of a block: product = B' image + damping direction, `direction` NULL for 0.
+static void back_rows(const void *system, uint32_t block, const double *direction, double *product) {
+    const refit_job *job = system;
     for (uint32_t row = block * BLOCK_ROWS; row < block_end(job, block); row++) {
         const size_t first = (size_t)row * CHANNELS;
-        multiply_row(&job->matrix.forward, row, job->step, job->image + first);
-        for (int c = 0; c < CHANNELS; c++) {
-            partial[c] += job->image[first + (size_t)c] * job->image[first + (size_t)c];
-            partial[CHANNELS + c] += job->step[first + (size_t)c] * job->step[first + (size_t)c];
-        }
+        multiply_row(&job->matrix.backward, row, job->image, product + first);
+        for (size_t i = first; direction && i < first + CHANNELS; i++)
+            product[i] += job->damping * direction[i];
     }
 }
 
-/// change += alpha step, rest -= alpha image; sums of the squares of the rest.
-static void advance_block(void *data, uint32_t block, uint32_t worker) {
+static void start_block(void *data, uint32_t block, uint32_t worker) {
     (void)worker;
     refit_job *job = data;
-    double *partial = job->partial + (size_t)block * 2 * CHANNELS;
-    memset(partial, 0, 2 * CHANNELS * sizeof *partial);
-    const size_t first = (size_t)block * BLOCK_ROWS * CHANNELS,
-                 end = (size_t)block_end(job, block) * CHANNELS;
-    for (size_t i = first; i < end; i++) {
-        job->change[i] += job->alpha[i % CHANNELS] * job->step[i];
-        job->rest[i] -= job->alpha[i % CHANNELS] * job->image[i];
-        partial[i % CHANNELS] += job->rest[i] * job->rest[i];
-    }
+    back_rows(job, block, NULL, job->gradient);
 }
 
-static void run_blocks(refit_job *job, ewa_task *task, double sum[2 * CHANNELS]) {
-    ewa_parallel(job->context, task, job, job->block_count);
-    add_up(job, sum);
+static void make_image(void *system, const double *direction) {
+    refit_job *job = system;
+    job->from = direction;
+    ewa_parallel(job->context, image_block, job, job->block_count);
 }
 
-/// Root of the mean square over the rows with an equation.
-static double rms(const refit_job *job, const double sum[2 * CHANNELS]) {
+/// Leaves c - B w in `image`; returns the root of its mean square over the rows with an equation.
+static double find_rest(refit_job *job, const double *coefficients) {
+    job->from = coefficients;
+    ewa_parallel(job->context, rest_block, job, job->block_count);
+    double sum = 0;
+    for (uint32_t block = 0; block < job->block_count; block++) sum += job->partial[block];
     const uint64_t rows = job->matrix.count - job->matrix.empty_count;
-    return rows ? sqrt((sum[0] + sum[1] + sum[2]) / (CHANNELS * (double)rows)) : 0;
+    return rows ? sqrt(sum / (CHANNELS * (double)rows)) : 0;
 }
 
 static ewa_status solve(refit_job *job, ewa_refit_report *report) {
-    double sum[2 * CHANNELS], old[CHANNELS] = {0}, goal[CHANNELS] = {0}, most_start = 1, share = 0;
-    run_blocks(job, start_block, sum);
-    report->before_rms = report->after_rms = rms(job, sum);
-    for (uint32_t step = 0;; step++) {
-        run_blocks(job, gradient_block, sum);
-        double most = 0; // of the squared gradients over their goals
-        for (int c = 0; c < CHANNELS; c++) {
-            if (step == 0) goal[c] = TOLERANCE * TOLERANCE * sum[c];
-            const bool done = sum[c] <= goal[c];
-            job->beta[c] = !done && old[c] > 0 ? sum[c] / old[c] : 0;
-            old[c] = done ? 0 : sum[c];
-            if (!done) most = fmax(most, sum[c] / goal[c]);
-        }
-        if (step == 0) most_start = most;
-        report->iteration_count = step;
-        if (most == 0 || step == MOST_STEPS) return ewa_progress(job->context, "refit", 1);
-        // The gradient does not shrink in every step.
-        if (most < most_start) share = fmax(share, log(most_start / most) / log(most_start));
-        const ewa_status status = ewa_progress(job->context, "refit", 0.3 + 0.7 * share);
-        if (status != EWA_OK) return status;
-        ewa_parallel(job->context, turn_block, job, job->block_count);
-        run_blocks(job, image_block, sum);
-        for (int c = 0; c < CHANNELS; c++) {
-            const double length2 = sum[c] + job->damping * sum[CHANNELS + c];
-            job->alpha[c] = old[c] > 0 && length2 > 0 ? old[c] / length2 : 0;
-        }
-        run_blocks(job, advance_block, sum);
-        report->after_rms = rms(job, sum);
-    }
+    report->before_rms = find_rest(job, job->color);
+    ewa_parallel(job->context, start_block, job, job->block_count);
+    const ewa_gradient system = {.context = job->context,
+                                 .size = job->matrix.count,
+                                 .count = CHANNELS,
+                                 .solution = job->change,
+                                 .residual = job->gradient,
+                                 .system = job,
+                                 .prepare = make_image,
+                                 .multiply = back_rows,
+                                 .tolerance = TOLERANCE,
+                                 .max_iterations = MOST_STEPS,
+                                 .stage = "refit",
+                                 .begin = 0.3,
+                                 .end = 1};
+    const ewa_status status = ewa_gradient_run(&system, &report->iteration_count);
+    if (status != EWA_OK) return status;
+    for (size_t i = 0; i < (size_t)job->matrix.count * CHANNELS; i++) job->change[i] += job->color[i];
+    report->after_rms = find_rest(job, job->change);
+    return ewa_progress(job->context, "refit", 1);
 }
 
 static void read_block(void *data, uint32_t block, uint32_t worker) {
@@ -200,13 +158,12 @@ static void read_block(void *data, uint32_t block, uint32_t worker) {
 /// Allocates and fills the vectors of the solver; two more are changed in place.
 static ewa_status open_vectors(refit_job *job) {
     const size_t count = (size_t)job->matrix.count * CHANNELS;
-    job->block_count = (uint32_t)(((uint64_t)job->matrix.count + BLOCK_ROWS - 1) / BLOCK_ROWS);
-    double **const vectors[] = {&job->color,    &job->change, &job->rest,
-                                &job->gradient, &job->step,   &job->image};
+    job->block_count = ewa_gradient_blocks(job->matrix.count);
+    double **const vectors[] = {&job->color, &job->change, &job->gradient, &job->image};
     for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++)
         if (!(*vectors[k] = ewa_allocate_zeroed(job->context, count, sizeof(double))))
             return EWA_ERROR_MEMORY;
-    job->partial = ewa_allocate(job->context, (size_t)job->block_count * 2 * CHANNELS, sizeof *job->partial);
+    job->partial = ewa_allocate(job->context, job->block_count, sizeof *job->partial);
     if (!job->partial) return EWA_ERROR_MEMORY;
     ewa_parallel(job->context, read_block, job, job->block_count);
     return EWA_OK;
@@ -214,10 +171,10 @@ static ewa_status open_vectors(refit_job *job) {
 
 static void close_vectors(refit_job *job) {
     const size_t count = (size_t)job->matrix.count * CHANNELS;
-    double *const vectors[] = {job->color, job->change, job->rest, job->gradient, job->step, job->image};
+    double *const vectors[] = {job->color, job->change, job->gradient, job->image};
     for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++)
         ewa_release(job->context, vectors[k], count, sizeof(double));
-    ewa_release(job->context, job->partial, (size_t)job->block_count * 2 * CHANNELS, sizeof *job->partial);
+    ewa_release(job->context, job->partial, job->block_count, sizeof *job->partial);
 }
 
 /// Replaces the colours: all points get their linear colour, surfels their coefficients.
@@ -240,7 +197,7 @@ static ewa_status write_colors(ewa_cloud *cloud, const refit_job *job, ewa_refit
         float *to = linear + (size_t)job->solid.surfels[row].point * components;
         for (int c = 0; c < CHANNELS; c++) {
             const size_t i = (size_t)row * CHANNELS + (size_t)c;
-            to[c] = (float)(job->color[i] + job->change[i]);
+            to[c] = (float)job->change[i];
             report->low = to[c] < report->low ? to[c] : report->low;
             report->high = to[c] > report->high ? to[c] : report->high;
         }

@@ -13,6 +13,7 @@
 // with point-sampled geometry", 2003, section 4.
 #include "prepare/solid.h"
 #include "base/base.h"
+#include "cloud/cloud.h"
 #include "cloud/morton.h"
 
 #include <math.h>

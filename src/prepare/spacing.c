@@ -3,6 +3,7 @@
 //
 // The sampling of a whole cloud in a few numbers.
 #include "base/base.h"
+#include "cloud/cloud.h"
 #include "ewa/prepare.h"
 #include "prepare/local.h"
 
@@ -69,6 +70,18 @@ static void summarise(const float *values, uint32_t count, uint32_t *histogram, 
     spacing->median_world = (double)value_of_rank(values, count, last / 2, histogram);
     spacing->low_world = (double)value_of_rank(values, count, (uint32_t)(0.05 * last), histogram);
     spacing->high_world = (double)value_of_rank(values, count, (uint32_t)(0.95 * last), histogram);
+}
+
+const local_kernels *ewa_local_kernels(const ewa_context *context) {
+    const local_kernels *best = &ewa_local_kernels_portable;
+#if defined(__x86_64__)
+    const uint32_t features = ewa_context_cpu_features(context);
+    if (features & EWA_CPU_AVX2) best = &ewa_local_kernels_avx2;
+    if (features & EWA_CPU_AVX512) best = &ewa_local_kernels_avx512;
+#else
+    (void)context;
+#endif
+    return best;
 }
 
 static ewa_status measure(ewa_context *context, const ewa_neighbours *neighbours, uint64_t sample_count,

@@ -10,6 +10,7 @@
 static const uint64_t DEFAULT_FACTOR_BYTES = (uint64_t)1 << 30;
 static const double DEFAULT_TOLERANCE = 1e-10;
 enum {
+    SIDES = EWA_GRADIENT_SIDES,
     DEFAULT_ITERATIONS = 5000,
     // AUTO, measured (docs/colors.md): up to so many rows a factor takes milliseconds and is exact; above,
     // the gradient is many times the faster unless it needs more steps than this.
@@ -47,18 +48,18 @@ static void check_block(void *data, uint32_t block, uint32_t worker) {
     (void)worker;
     const check_job *job = data;
     int worst = 0;
-    for (uint32_t row = block * SPARSE_BLOCK_ROWS; row < sparse_block_end(job->matrix, block) && !worst;
-         row++)
+    for (uint32_t row = block * EWA_GRADIENT_BLOCK_ROWS;
+         row < ewa_gradient_block_end(job->matrix->size, block) && !worst; row++)
         worst = check_row(job, row);
     job->bad[block] = (uint8_t)worst;
 }
 
 static ewa_status check(ewa_context *context, ewa_severity severity, const check_job *job) {
-    const uint32_t blocks = sparse_block_count(job->matrix);
+    const uint32_t blocks = ewa_gradient_blocks(job->matrix->size);
     ewa_parallel(context, check_block, (void *)job, blocks);
     for (uint32_t block = 0; block < blocks; block++) {
         if (!job->bad[block]) continue;
-        uint32_t row = block * SPARSE_BLOCK_ROWS;
+        uint32_t row = block * EWA_GRADIENT_BLOCK_ROWS;
         int what;
         while (!(what = check_row(job, row))) row++;
         if (what == BAD_ORDER)
@@ -85,11 +86,12 @@ static void residual_block(void *data, uint32_t block, uint32_t worker) {
     (void)worker;
     const residual_job *job = data;
     const ewa_sparse *matrix = job->matrix;
-    double *partial = job->partial + (size_t)block * 2 * SPARSE_SIDES;
-    memset(partial, 0, 2 * SPARSE_SIDES * sizeof *partial);
-    for (uint32_t row = block * SPARSE_BLOCK_ROWS; row < sparse_block_end(matrix, block); row++) {
+    double *partial = job->partial + (size_t)block * 2 * SIDES;
+    memset(partial, 0, 2 * SIDES * sizeof *partial);
+    for (uint32_t row = block * EWA_GRADIENT_BLOCK_ROWS; row < ewa_gradient_block_end(matrix->size, block);
+         row++) {
         const double *b = job->sides + (size_t)row * job->count;
-        double rest[SPARSE_SIDES] = {0};
+        double rest[SIDES] = {0};
         for (uint32_t s = 0; s < job->count; s++) rest[s] = b[s];
         for (uint64_t k = matrix->row_starts[row]; k < matrix->row_starts[row + 1]; k++)
             for (uint32_t s = 0; s < job->count; s++)
@@ -97,29 +99,25 @@ static void residual_block(void *data, uint32_t block, uint32_t worker) {
         for (uint32_t s = 0; s < job->count; s++) {
             job->residual[(size_t)row * job->count + s] = rest[s];
             partial[s] += rest[s] * rest[s];
-            partial[SPARSE_SIDES + s] += b[s] * b[s];
+            partial[SIDES + s] += b[s] * b[s];
         }
     }
 }
 
-void ewa_sparse_sum(const double *partial, uint32_t block_count, double sum[SPARSE_SIDES]) {
-    memset(sum, 0, SPARSE_SIDES * sizeof *sum);
-    for (uint32_t block = 0; block < block_count; block++)
-        for (int s = 0; s < SPARSE_SIDES; s++) sum[s] += partial[(size_t)block * SPARSE_SIDES + (size_t)s];
-}
-
-void ewa_sparse_residual(ewa_context *context, const ewa_sparse *matrix, uint32_t count, const double *sides,
-                         const double *solution, double *residual, double *partial,
-                         double residual2[SPARSE_SIDES], double side2[SPARSE_SIDES]) {
-    const uint32_t blocks = sparse_block_count(matrix);
+/// Writes b - A x for `count` tightly interleaved sides, and the squares of its and b's lengths. `partial`
+/// holds 2 * SIDES numbers per block.
+static void find_residual(ewa_context *context, const ewa_sparse *matrix, uint32_t count, const double *sides,
+                          const double *solution, double *residual, double *partial, double residual2[SIDES],
+                          double side2[SIDES]) {
+    const uint32_t blocks = ewa_gradient_blocks(matrix->size);
     residual_job job = {matrix, count, sides, solution, residual, partial};
     ewa_parallel(context, residual_block, &job, blocks);
-    memset(residual2, 0, SPARSE_SIDES * sizeof *residual2);
-    memset(side2, 0, SPARSE_SIDES * sizeof *side2);
+    memset(residual2, 0, SIDES * sizeof *residual2);
+    memset(side2, 0, SIDES * sizeof *side2);
     for (uint32_t block = 0; block < blocks; block++)
-        for (int s = 0; s < SPARSE_SIDES; s++) {
-            residual2[s] += partial[(size_t)block * 2 * SPARSE_SIDES + (size_t)s];
-            side2[s] += partial[((size_t)block * 2 + 1) * SPARSE_SIDES + (size_t)s];
+        for (int s = 0; s < SIDES; s++) {
+            residual2[s] += partial[(size_t)block * 2 * SIDES + (size_t)s];
+            side2[s] += partial[((size_t)block * 2 + 1) * SIDES + (size_t)s];
         }
 }
 
@@ -131,11 +129,10 @@ typedef struct solve_job {
     sparse_factor *factor;               // NULL: gradient
     bool unfit;                          // a factor would be over its limit
     double *sides, *solution, *residual; // of one group, tightly interleaved
-    double *partial;                     // [block_count][2 * SPARSE_SIDES]
+    double *partial;                     // [block_count][2 * SIDES]
 } solve_job;
 
-static double largest_residual(const double residual2[SPARSE_SIDES], const double side2[SPARSE_SIDES],
-                               uint32_t count) {
+static double largest_residual(const double residual2[SIDES], const double side2[SIDES], uint32_t count) {
     double most = 0;
     for (uint32_t s = 0; s < count; s++) {
         if (!isfinite(residual2[s])) return INFINITY;
@@ -145,11 +142,11 @@ static double largest_residual(const double residual2[SPARSE_SIDES], const doubl
 }
 
 static ewa_status apply_factor(solve_job *job, uint32_t count) {
-    double residual2[SPARSE_SIDES], side2[SPARSE_SIDES];
+    double residual2[SIDES], side2[SIDES];
     ewa_status status = ewa_sparse_factor_apply(job->factor, count, job->sides, job->solution);
     if (status != EWA_OK) return status;
-    ewa_sparse_residual(job->context, job->matrix, count, job->sides, job->solution, job->residual,
-                        job->partial, residual2, side2);
+    find_residual(job->context, job->matrix, count, job->sides, job->solution, job->residual, job->partial,
+                  residual2, side2);
     status = ewa_sparse_factor_apply(job->factor, count, job->residual, job->residual);
     for (size_t i = 0; status == EWA_OK && i < (size_t)job->matrix->size * count; i++)
         job->solution[i] += job->residual[i];
@@ -175,12 +172,12 @@ static ewa_status make_factor(solve_job *job) {
 /// Solves for what is in job->sides by the factor, else by gradients; where those take long, AUTO makes a
 /// factor after all.
 static ewa_status find_solution(solve_job *job, uint32_t count, uint32_t *iterations) {
-    sparse_gradient gradient = {.matrix = job->matrix,
+    sparse_gradient gradient = {.context = job->context,
+                                .matrix = job->matrix,
                                 .count = count,
                                 .sides = job->sides,
                                 .solution = job->solution,
                                 .residual = job->residual,
-                                .partial = job->partial,
                                 .tolerance = job->options.tolerance,
                                 .max_iterations = job->options.max_iterations,
                                 .unsolved_severity = job->options.unsolved_severity};
@@ -192,7 +189,7 @@ static ewa_status find_solution(solve_job *job, uint32_t count, uint32_t *iterat
                             job->matrix->row_starts[job->matrix->size] <= INT32_MAX &&
                             gradient.max_iterations > PATIENT_ITERATIONS;
     if (may_change) gradient.max_iterations = PATIENT_ITERATIONS;
-    ewa_status status = ewa_sparse_gradient_run(job->context, &gradient, iterations);
+    ewa_status status = ewa_sparse_gradient_run(&gradient, iterations);
     if (status != EWA_OK || !may_change || *iterations < PATIENT_ITERATIONS) return status;
     status = make_factor(job);
     job->unfit = !job->factor;
@@ -200,12 +197,12 @@ static ewa_status find_solution(solve_job *job, uint32_t count, uint32_t *iterat
 }
 
 static ewa_status solve_group(solve_job *job, uint32_t count) {
-    double residual2[SPARSE_SIDES], side2[SPARSE_SIDES];
+    double residual2[SIDES], side2[SIDES];
     uint32_t iterations = 0;
     const ewa_status status = find_solution(job, count, &iterations);
     if (status != EWA_OK) return status;
-    ewa_sparse_residual(job->context, job->matrix, count, job->sides, job->solution, job->residual,
-                        job->partial, residual2, side2);
+    find_residual(job->context, job->matrix, count, job->sides, job->solution, job->residual, job->partial,
+                  residual2, side2);
     const double residual = largest_residual(residual2, side2, count);
     // What a recurrence calls converged may, recomputed, be a little off.
     if (!(residual <= 2 * job->options.tolerance))
@@ -222,8 +219,8 @@ static ewa_status solve_group(solve_job *job, uint32_t count) {
 
 static ewa_status solve_groups(solve_job *job, uint32_t side_count, const double *sides, double *solution) {
     const uint32_t size = job->matrix->size;
-    for (uint32_t first = 0; first < side_count; first += SPARSE_SIDES) {
-        const uint32_t count = side_count - first < SPARSE_SIDES ? side_count - first : SPARSE_SIDES;
+    for (uint32_t first = 0; first < side_count; first += SIDES) {
+        const uint32_t count = side_count - first < SIDES ? side_count - first : SIDES;
         for (size_t i = 0; i < size; i++)
             for (uint32_t s = 0; s < count; s++)
                 job->sides[i * count + s] = sides[i * side_count + first + s];
@@ -244,8 +241,8 @@ ewa_status ewa_sparse_solve(ewa_context *context, const ewa_sparse *matrix, uint
     if (!(job.options.tolerance > 0)) job.options.tolerance = DEFAULT_TOLERANCE;
     if (!job.options.max_iterations) job.options.max_iterations = DEFAULT_ITERATIONS;
     if (!job.options.max_factor_bytes) job.options.max_factor_bytes = DEFAULT_FACTOR_BYTES;
-    const uint32_t size = matrix->size, blocks = sparse_block_count(matrix);
-    const uint32_t group = side_count < SPARSE_SIDES ? side_count : SPARSE_SIDES;
+    const uint32_t size = matrix->size, blocks = ewa_gradient_blocks(matrix->size);
+    const uint32_t group = side_count < SIDES ? side_count : SIDES;
     if (report) *report = (ewa_sparse_report){.method = EWA_SPARSE_GRADIENT};
     if (size == 0 || side_count == 0) return EWA_OK;
 
@@ -253,7 +250,7 @@ ewa_status ewa_sparse_solve(ewa_context *context, const ewa_sparse *matrix, uint
     job.sides = ewa_allocate(context, (size_t)size * group, sizeof(double));
     job.solution = ewa_allocate(context, (size_t)size * group, sizeof(double));
     job.residual = ewa_allocate(context, (size_t)size * group, sizeof(double));
-    job.partial = ewa_allocate(context, (size_t)blocks * 2 * SPARSE_SIDES, sizeof(double));
+    job.partial = ewa_allocate(context, (size_t)blocks * 2 * SIDES, sizeof(double));
     ewa_status status = EWA_ERROR_MEMORY;
     if (bad && job.sides && job.solution && job.residual && job.partial)
         status = check(context, job.options.unsolved_severity, &(check_job){matrix, sides, side_count, bad});
@@ -268,7 +265,7 @@ ewa_status ewa_sparse_solve(ewa_context *context, const ewa_sparse *matrix, uint
     job.report.method = job.factor ? EWA_SPARSE_FACTOR : EWA_SPARSE_GRADIENT;
     if (report && status == EWA_OK) *report = job.report;
     ewa_sparse_factor_destroy(&job.factor);
-    ewa_release(context, job.partial, (size_t)blocks * 2 * SPARSE_SIDES, sizeof(double));
+    ewa_release(context, job.partial, (size_t)blocks * 2 * SIDES, sizeof(double));
     ewa_release(context, job.residual, (size_t)size * group, sizeof(double));
     ewa_release(context, job.solution, (size_t)size * group, sizeof(double));
     ewa_release(context, job.sides, (size_t)size * group, sizeof(double));

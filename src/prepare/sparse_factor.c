@@ -18,7 +18,7 @@ struct sparse_factor {
     int *row_starts;       // [size + 1]
     cholmod_factor *factor;
     cholmod_dense *solution, *work[2]; // kept between right sides
-    double *columns;                   // [SPARSE_SIDES][size]
+    double *columns;                   // [EWA_GRADIENT_SIDES][size]
 };
 
 enum { STEPS = 256 }; // of the factor, between which one may cancel
@@ -66,7 +66,7 @@ ewa_status ewa_sparse_factor_analyse(ewa_context *context, const ewa_sparse *mat
                                     .sorted = 1,
                                     .packed = 1};
     self->row_starts = ewa_allocate(context, size + 1, sizeof *self->row_starts);
-    self->columns = ewa_allocate(context, size * SPARSE_SIDES, sizeof *self->columns);
+    self->columns = ewa_allocate(context, size * EWA_GRADIENT_SIDES, sizeof *self->columns);
     ewa_status status = self->row_starts && self->columns ? EWA_OK : EWA_ERROR_MEMORY;
     if (status == EWA_OK) {
         for (size_t i = 0; i <= size; i++) self->row_starts[i] = (int)matrix->row_starts[i];
@@ -139,7 +139,7 @@ void ewa_sparse_factor_destroy(sparse_factor **factor) {
     for (int k = 0; k < 2; k++) cholmod_free_dense(&self->work[k], &self->common);
     cholmod_free_factor(&self->factor, &self->common);
     cholmod_finish(&self->common);
-    ewa_release(self->context, self->columns, self->matrix.nrow * SPARSE_SIDES, sizeof *self->columns);
+    ewa_release(self->context, self->columns, self->matrix.nrow * EWA_GRADIENT_SIDES, sizeof *self->columns);
     ewa_release(self->context, self->row_starts, self->matrix.nrow + 1, sizeof *self->row_starts);
     ewa_release(self->context, self, 1, sizeof *self);
     *factor = NULL;

@@ -4,6 +4,7 @@
 // Where what can be seen of a volume is.
 #include "base/base.h"
 #include "ewa/prepare.h"
+#include "image/transfer.h"
 #include "image/volume.h"
 #include "math/vec.h"
 #include <string.h>

@@ -179,4 +179,10 @@ void ewa_texture_walk(const ewa_texture_plan *plan, ewa_texture_brush *brush, ui
 /// Interpolates between the four texels around a pixel's centre; false where that is not in front.
 bool ewa_texture_interpolate(const ewa_texture_plan *plan, uint32_t x, uint32_t y, float color[4]);
 
+/// The same picture in double precision, one texel after another and without levels: slow, plain, and the
+/// definition of what ewa_texture_map() draws. Not with `repeat`.
+ewa_status ewa_texture_map_reference(ewa_context *context, const ewa_texture_source *source,
+                                     const ewa_mat3 *map, const ewa_texture_options *options,
+                                     const ewa_texture_target *target);
+
 #endif

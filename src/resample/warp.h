@@ -41,19 +41,6 @@ struct ewa_warp {
     ewa_warp_nearest nearest;
 };
 
-/// Packet of the sample at column x, row y of a source.
-static inline uint64_t ewa_warp_packet(const ewa_warp_source *source, uint32_t x, uint32_t y) {
-    const uint64_t cell = (uint64_t)(y / EWA_WARP_CELL_PX) * source->cells_x + x / EWA_WARP_CELL_PX;
-    const uint32_t row = y % EWA_WARP_CELL_PX / EWA_WARP_BLOCK_PX,
-                   column = x % EWA_WARP_CELL_PX / EWA_WARP_BLOCK_PX;
-    return (source->first_group + cell) * EWA_GRID_GROUP + row * EWA_WARP_BLOCK_PX + column;
-}
-
-/// Lane of it there.
-static inline uint32_t ewa_warp_lane(uint32_t x, uint32_t y) {
-    return y % EWA_WARP_BLOCK_PX * EWA_WARP_BLOCK_PX + x % EWA_WARP_BLOCK_PX;
-}
-
 /// EWA_WARP_MCMILLAN; `options` are checked ones.
 ewa_status ewa_warp_draw_nearest(ewa_warp *warp, const ewa_camera *target, const ewa_render_options *options,
                                  const ewa_frame *frame, uint8_t *holes);

@@ -11,7 +11,7 @@
 // up to four sheets that it separates.
 #include "image/srgb.h"
 #include "math/placement.h"
-#include "resample/warp.h"
+#include "resample/warp_place.h"
 #include "splat/color_form.h"
 
 #include <math.h>

@@ -4,7 +4,7 @@
 // The surfaces behind a tile's antialiased edges (docs/math.md section 8; semantics.h, layers). Few blocks
 // have edges, and few splats lie behind them: these are listed block by block, so that a block's sums are
 // gathered in one go.
-#include "splat/tile.h"
+#include "splat/tile_runs.h"
 
 #include <math.h>
 #include <string.h>

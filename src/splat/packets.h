@@ -66,6 +66,10 @@ typedef struct ewa_packet_surfel {
 /// Decodes lane `lane` of packet `packet`, as the kernels do but in double precision.
 void ewa_packet_decode(const ewa_surfels *surfels, uint32_t packet, uint32_t lane, ewa_packet_surfel *surfel);
 
+/// Codes the direction of an axis, without its sign, as the diamond angle in [0, 2) in the frame of the lane's
+/// normal, which is coded by then: 1 - c / (|c| + t).
+uint16_t ewa_packet_code_angle(const ewa_packet *packet, uint32_t lane, ewa_vec3 axis);
+
 /// Returns a packet's centre, from the origin in the surfels' unit.
 ewa_vec3 ewa_packet_center(const ewa_surfels *surfels, uint32_t packet);
 

@@ -6,6 +6,7 @@
 // specification. Based on: M. Zwicker, H. Pfister, J. van Baar, M. Gross, "Surface Splatting", 2001, sections
 // 4 and 7; M. Zwicker, J. Rasanen, M. Botsch, C. Dachsbacher, M. Pauly, "Perspective Accurate Splatting",
 // 2004, section 6.
+#include "splat/reference.h"
 #include "base/base.h"
 #include "cloud/cloud.h"
 #include "image/srgb.h"

@@ -7,6 +7,7 @@
 // Basis, Revisited", 2017.
 #include "splat/surfel.h"
 #include "base/base.h"
+#include "cloud/cloud.h"
 #include "kernels/semantics.h"
 #include "math/frame.h"
 #include "prepare/color.h"

@@ -113,22 +113,6 @@ typedef struct ewa_tile_job {
 ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *scratch, const ewa_tile_job *job);
 void ewa_tile_scratch_free(ewa_context *context, ewa_tile_scratch *scratch);
 
-static inline uint64_t ewa_run_count(const ewa_tile_packets *packets) {
-    return (packets->count + EWA_RUN_PACKETS - 1) / EWA_RUN_PACKETS;
-}
-
-/// Forgets the runs that are kept.
-void ewa_tile_drop_runs(ewa_tile_scratch *scratch);
-
-/// Sets up runs [first, end) and keeps them behind those that are kept, as many as there is room for; with
-/// `draw`, for the first pass. Returns where it stopped.
-uint64_t ewa_tile_keep_runs(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *scratch,
-                            const ewa_tile_packets *packets, uint64_t first, uint64_t end, bool draw);
-
-/// One pass for near surfels.
-void ewa_tile_draw_near(const ewa_tile_job *job, const ewa_tile_source *source, const ewa_tile *tile,
-                        const ewa_edges *edges, const uint32_t *surfels, uint32_t count, ewa_tile_pass what);
-
 /// Gathers the surfaces behind the first one where it covers pixels partly, hidden packets included; `kept`
 /// when all runs of those that are shown are kept. Returns whether there are such pixels; scratch->edge_rows
 /// marks them.

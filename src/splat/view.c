@@ -5,6 +5,7 @@
 #include "splat/view.h"
 #include "base/base.h"
 #include "kernels/semantics.h"
+#include "math/perspective.h"
 #include "splat/points.h"
 
 #include <math.h>

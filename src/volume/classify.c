@@ -9,6 +9,7 @@
 // averaged across their direction).
 #include "volume/classify.h"
 #include "base/base.h"
+#include "image/transfer.h"
 
 #include <math.h>
 

@@ -7,6 +7,7 @@
 //
 // Based on: X. Yuan, M. Nguyen, H. Xu, B. Chen, "Hybrid Forward Resampling and Volume Rendering", 2003,
 // section 4; L. Westover, "Footprint Evaluation for Volume Rendering", 1990 (splats composited one by one).
+#include "volume/reference.h"
 #include "base/base.h"
 #include "image/srgb.h"
 #include "math/ellipse.h"

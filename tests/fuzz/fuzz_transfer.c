@@ -4,6 +4,7 @@
 // Fuzz target: any bytes as a transfer function. What is read can be drawn with.
 #include "ewa/volume.h"
 #include "fuzz.h"
+#include "image/transfer.h"
 #include "io/transfer.h"
 
 #include <stdlib.h>

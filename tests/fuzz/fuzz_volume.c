@@ -5,6 +5,7 @@
 // a size that the first byte says. What is read can be measured, and a look be made for it.
 #include "ewa/io.h"
 #include "fuzz.h"
+#include "image/transfer.h"
 
 #include <stdlib.h>
 

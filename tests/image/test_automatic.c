@@ -4,6 +4,7 @@
 // Transfer functions from volumes alone: what of scans is seen.
 #include "check.h"
 #include "image/standins.h"
+#include "image/transfer.h"
 #include "image/volume_surfaces.h"
 
 #include <math.h>

@@ -11,6 +11,17 @@
 /// The camera of most tests: from (10, 0, 2) towards -x, +z up, so camera axes x = +y, y = -z, z = -x.
 static const double EXPECTED[16] = {0, 1, 0, 0, 0, 0, -1, 2, -1, 0, 0, 10, 0, 0, 0, 1};
 
+static void count_camera(void *user, uint32_t index, const ewa_camera *camera) {
+    (void)camera;
+    *(uint32_t *)user = index + 1;
+}
+
+static uint32_t count_cameras(ewa_context *context, const char *path) {
+    uint32_t count = 0;
+    assert_int_equal(ewa_camera_load_each(context, path, count_camera, &count), EWA_OK);
+    return count;
+}
+
 static void assert_expected(const ewa_camera *camera, double cx, double cy) {
     assert_int_equal(camera->projection, EWA_PERSPECTIVE);
     assert_int_equal(camera->width_px, 640);
@@ -124,9 +135,7 @@ static void test_many_cameras(void **state) {
     assert_int_equal(camera.width_px, 740);
     assert_int_equal(load_text(context, text, 2, &camera), EWA_ERROR_ARGUMENT);
     assert_non_null(strstr(log.text, "camera 2 wanted, 2 there"));
-    uint32_t count = 0;
-    assert_int_equal(ewa_camera_file_count(context, scratch_path("camera.json", path), &count), EWA_OK);
-    assert_int_equal(count, 2);
+    assert_int_equal(count_cameras(context, scratch_path("camera.json", path)), 2);
     snprintf(text, sizeof text, "{\"class_name\":\"PinholeCameraTrajectory\",\"parameters\":[%s,%s]}", OPEN3D,
              OPEN3D);
     assert_int_equal(load_text(context, text, 1, &camera), EWA_OK);
@@ -412,9 +421,7 @@ static void check_colmap(ewa_context *context, check_log *log, const char *folde
     assert_true(camera.width_px == 64 && camera.fx_px == 50 && camera.fy_px == 50 && camera.cy_px == 24);
     assert_true(camera.world_to_camera[3] == 1 && camera.world_to_camera[7] == 2 &&
                 camera.world_to_camera[11] == 3);
-    uint32_t count;
-    assert_int_equal(ewa_camera_file_count(context, folder, &count), EWA_OK);
-    assert_int_equal(count, 2);
+    assert_int_equal(count_cameras(context, folder), 2);
 }
 
 static void test_colmap(void **state) {
@@ -519,17 +526,14 @@ static void test_real_files(void **state) {
     char path[512];
     ewa_camera camera;
     ewa_camera_init(&camera);
-    uint32_t count;
     if (check_data("gaussians/garden_cameras.json", path, sizeof path)) {
-        assert_int_equal(ewa_camera_file_count(context, path, &count), EWA_OK);
-        assert_int_equal(count, 3);
+        assert_int_equal(count_cameras(context, path), 3);
         assert_int_equal(ewa_camera_load(context, path, 1, &camera), EWA_OK);
         assert_true(camera.width_px == 648 && camera.height_px == 420 && camera.cx_px == 324.1875);
         assert_true(camera.world_to_camera[0] == 0.6966662406921387 && camera.world_to_camera[15] == 1);
     }
     if (check_data("rgbd/posed_lego/transforms_train.json", path, sizeof path)) {
-        assert_int_equal(ewa_camera_file_count(context, path, &count), EWA_OK);
-        assert_int_equal(count, 5);
+        assert_int_equal(count_cameras(context, path), 5);
         assert_int_equal(ewa_camera_load(context, path, 4, &camera), EWA_OK);
         assert_true(camera.width_px == 800 && camera.height_px == 800); // of the pictures beside it
         assert_true(fabs(camera.fx_px - 400 / tan(0.6911112070083618 / 2)) < 1e-9);

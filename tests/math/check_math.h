@@ -56,6 +56,26 @@ static inline void check_vec4(ewa_vec4 a, double x, double y, double z, double w
             check_near(((const double *)(a))[check_i], ((const double *)(b))[check_i], tolerance);           \
     } while (0)
 
+/// The map of a camera at the origin that looks along z and sees `window` (x low, x high, y low, y high) on the
+/// plane z = near_z, or in a box, of any range of depths.
+static inline ewa_status check_window_map(const double window[4], double near_z, double far_z, bool box,
+                                          ewa_mat4 *map) {
+    ewa_camera camera;
+    ewa_camera_init(&camera);
+    const double reach = box ? 1 : near_z;
+    camera.projection = box ? EWA_ORTHOGRAPHIC : EWA_PERSPECTIVE;
+    camera.width_px = camera.height_px = 1024;
+    camera.fx_px = 1024 / (window[1] - window[0]) * reach, camera.cx_px = -window[0] / reach * camera.fx_px;
+    camera.fy_px = 1024 / (window[3] - window[2]) * reach, camera.cy_px = -window[2] / reach * camera.fy_px;
+    for (int i = 0; i < 16; i++) camera.world_to_camera[i] = i % 5 == 0;
+    return ewa_camera_clip_map(&camera, near_z, far_z, map);
+}
+
+static inline ewa_mat3 check_turn(double angle_rad) {
+    const double c = cos(angle_rad), s = sin(angle_rad);
+    return (ewa_mat3){{{c, s, 0}, {-s, c, 0}, {0, 0, 1}}};
+}
+
 static inline ewa_vec3 check_random_vec3(check_random *random) {
     double v[3];
     check_uniform3(random, -1, 1, v);

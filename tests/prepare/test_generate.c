@@ -5,6 +5,7 @@
 // sampling, the same bytes for every thread count and machine, refused options, failing allocations.
 #include "check.h"
 #include "prepare/generate.h"
+#include "prepare/generate_number.h"
 
 #include <float.h>
 #include <math.h>

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Pictures of random scenes and of a mirror, and the image room's curves.
+#include "splat/reference.h"
 #include "tests/independent/random_scene.h"
 #include "tests/probe/probe.h"
 
@@ -25,23 +26,6 @@ static void put_curves(probe *to) {
         }
         probe_doubles(to, "colours", PROBE_NUMBERS, codes, 120);
     }
-    ewa_image a, b, heat;
-    if (ewa_image_create(to->context, 9, 7, 3, &a) != EWA_OK ||
-        ewa_image_create(to->context, 9, 7, 3, &b) != EWA_OK)
-        abort();
-    uint64_t state = 3;
-    for (int i = 0; i < 189; i++) {
-        a.pixels[i] = (float)probe_random(&state),
-        b.pixels[i] = a.pixels[i] + 0.1f * (float)probe_random(&state);
-    }
-    ewa_difference difference;
-    memset(&difference, 0, sizeof difference);
-    probe_status(to, "compare", ewa_image_compare(&a, &b, 2, 0.06, &difference, &heat));
-    const double numbers[5] = {difference.mean_absolute, difference.rms, difference.maximum,
-                               difference.psnr_db, (double)difference.over_threshold_count};
-    probe_doubles(to, "difference", PROBE_NUMBERS, numbers, 5);
-    probe_image(to, "heat", &heat);
-    ewa_image_free(&a), ewa_image_free(&b), ewa_image_free(&heat);
 }
 
 /// A sphere that mirrors a picture of all directions.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Textures through maps, and depth images to other cameras.
+#include "math/vec.h"
+#include "resample/texture.h"
 #include "tests/probe/probe.h"
 
 #include <math.h>
@@ -45,7 +47,7 @@ static void put_textures(probe *to) {
         options.repeat = k % 4 == 1 && options.method != EWA_TEXTURE_SPLAT;
         if (k % 3 == 0) options.background[1] = 0.3f, options.background[3] = 0.6f;
         if (k % 5 == 0) options.prefilter_px = 0.8, options.sigma_texels = 0.6;
-        ewa_mat3 map = ewa_mat3_identity();
+        ewa_mat3 map = mat3_identity();
         probe_status(to, "corners",
                      ewa_texture_map_from_corners(to->context, SIDE, SIDE, corners[k % 4], &map));
         probe_doubles(to, "map", PROBE_NUMBERS, &map.m[0][0], 9);
@@ -60,7 +62,7 @@ static void put_textures(probe *to) {
     ewa_camera camera;
     ewa_camera_init(&camera);
     const double origin[3] = {-1, 0.5, 3}, across[3] = {2, 0.1, 0.4}, down[3] = {0, 0.3, -1.5};
-    ewa_mat3 map = ewa_mat3_identity();
+    ewa_mat3 map = mat3_identity();
     probe_status(to, "camera",
                  ewa_texture_map_from_camera(to->context, 20, 30, &camera, origin, across, down, &map));
     probe_doubles(to, "map of a camera", PROBE_NUMBERS, &map.m[0][0], 9);

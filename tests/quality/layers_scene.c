@@ -3,6 +3,7 @@
 //
 // Transparent surfaces that cross, and what others do with them.
 #include "quality/layers_scene.h"
+#include "cloud/cloud.h"
 
 #include "base/base.h"
 #include "splat/options.h"

@@ -22,7 +22,7 @@ ewa_status layers_camera_make(const ewa_cloud *cloud, uint32_t side_px, ewa_came
 ewa_status layers_shuffle(const ewa_cloud *cloud, ewa_cloud **shuffled);
 
 /// What renderers of splats do that know no surfaces: splats in the order of their centres, far ones first,
-/// each blended over what is there with alpha = opacity exp(-r^2 / 2). `rgba` as for ewa_render_abuffer().
+/// each blended over what is there with alpha = opacity exp(-r^2 / 2). `rgba` as for abuffer_render().
 ewa_status layers_blend_splats(const ewa_cloud *cloud, const ewa_camera *camera, double opacity, float *rgba);
 
 /// Alpha in the middle of a square picture of a sphere, out to a fifth of its side.

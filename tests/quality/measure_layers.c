@@ -3,8 +3,10 @@
 //
 // Prints the tables of docs/layers.md: surfaces that cross, by layers and by the paper's A-buffer; a
 // transparent sphere, by layers and splat by splat. With an argument, also writes pictures into that folder.
+#include "image_difference.h"
 #include "quality/layers_scene.h"
-#include "splat/reference_abuffer.h"
+#include "splat/abuffer.h"
+#include "splat/reference.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -39,8 +41,7 @@ static ewa_image over_white(ewa_context *context, const float *rgba) {
 
 static double psnr_db(ewa_context *context, const float *a, const float *b) {
     ewa_image left = over_white(context, a), right = over_white(context, b);
-    ewa_difference difference;
-    check(ewa_image_compare(&left, &right, 1, 1, &difference, NULL));
+    const image_difference difference = image_compare(&left, &right, 1);
     ewa_image_free(&left);
     ewa_image_free(&right);
     return difference.psnr_db;
@@ -108,8 +109,8 @@ static void draw(const subject *of, uint32_t layers, float *rgba) {
 }
 
 static void draw_greedy(const subject *of, const ewa_cloud *cloud, uint32_t fragments, float *rgba) {
-    check(ewa_render_abuffer(cloud, of->info.unit_coverage, &of->camera, &of->options, fragments, NULL, NULL,
-                             rgba));
+    check(abuffer_render(cloud, of->info.unit_coverage, &of->camera, &of->options, fragments, NULL, NULL,
+                         rgba));
 }
 
 static void measure_crossing(ewa_context *context, const char *folder) {

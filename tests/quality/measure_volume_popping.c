@@ -5,6 +5,7 @@
 // from the one before; the summary goes to standard error. tools/volume_popping.gnuplot plots it.
 //
 // measure_volume_popping [FOLDER]: with a folder, also writes the pictures at 44.5 and 45.5 degrees there.
+#include "image_difference.h"
 #include "volume/scene.h"
 
 #include <math.h>
@@ -26,9 +27,8 @@ static void save(const ewa_image *image, const char *folder, double degrees) {
 }
 
 /// How far two pictures are from each other, in % of full scale.
-static ewa_difference change(const ewa_image *a, const ewa_image *b) {
-    ewa_difference difference;
-    check(ewa_image_compare(a, b, 1, 0, &difference, NULL));
+static image_difference change(const ewa_image *a, const ewa_image *b) {
+    const image_difference difference = image_compare(a, b, 0);
     return difference;
 }
 
@@ -55,7 +55,7 @@ int main(int argc, char **argv) {
     for (int step = 0; step <= STEPS; step++) {
         const double degrees = FIRST_DEG + step / 4.0, angle = degrees * 3.14159265358979323846 / 180;
         const double direction[3] = {sin(angle), 0, -cos(angle)};
-        ewa_difference differences[2];
+        image_difference differences[2];
         for (int far = 0; far < 2; far++) {
             // Splats of 3 px from near, points of 0.8 px from afar.
             ewa_camera camera = scene_camera(SIDE_PX, SIDE_PX, direction, far ? 690 : 183);

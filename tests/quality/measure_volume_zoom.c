@@ -5,6 +5,7 @@
 // 256 samples in each pixel. The table of docs/volume.md.
 //
 // measure_volume_zoom [FOLDER]: with a folder, also writes pictures there.
+#include "image_difference.h"
 #include "volume/scene.h"
 
 #include <math.h>
@@ -72,8 +73,7 @@ static void zoom(ewa_context *context, const ewa_volume *volume, float extinctio
             if (m == 2) options.prefilter_px = 0;
             drawn[m] = scene_draw(context, voxels, &camera, &options);
             if (m == 0) share = scene_point_share(context, voxels, &camera, &options);
-            ewa_difference difference;
-            check(ewa_image_compare(&drawn[m], &truth, 1, 0, &difference, NULL));
+            const image_difference difference = image_compare(&drawn[m], &truth, 0);
             psnr_db[m] = difference.psnr_db;
         }
         printf("| %g | %.2f | %.1f | %.1f | %.1f | %.1f | %.0f %% |\n", (double)extinction, pixels,

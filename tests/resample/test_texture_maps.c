@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Tests of src/resample/texture_plan.c: maps from corners and cameras, and what is refused.
+#include "math/vec.h"
+#include "resample/texture.h"
 #include "resample/texture_fixture.h"
 
 #include <float.h>
@@ -103,7 +105,7 @@ static void refuse(const raster *source, const ewa_mat3 *map, const ewa_texture_
 static void test_refused(void **state) {
     (void)state;
     raster source = raster_make(EWA_PIXEL_LINEAR, 3, 8, 6), target = raster_make(EWA_PIXEL_LINEAR, 4, 10, 9);
-    const ewa_mat3 good = ewa_mat3_identity();
+    const ewa_mat3 good = mat3_identity();
     static const double singular[][9] = {
         {0},                                   //
         {1, 2, 3, 2, 4, 6, 0, 0, 1},           // to a line
@@ -203,7 +205,7 @@ static void test_wild_maps(void **state) {
     raster_set(&floats, 3, 3, 0, INFINITY);
     raster_set(&floats, 5, 5, 3, (double)-FLT_MAX);
     raster coded = raster_make(EWA_PIXEL_SRGB8, 4, 70, 66);
-    const ewa_mat3 map = ewa_mat3_identity();
+    const ewa_mat3 map = mat3_identity();
     for (int method = 0; method < 4; method++) {
         const ewa_texture_options options = texture_options((ewa_texture_method)method);
         texture_draw(context, &floats, &map, &options, &coded);
@@ -258,7 +260,7 @@ static void test_cancelled(void **state) {
     (void)state;
     static const double ends[] = {0, 0.2, 0.9};
     raster source = raster_make(EWA_PIXEL_SRGB8, 3, 64, 64), target = raster_make(EWA_PIXEL_SRGB8, 3, 64, 64);
-    const ewa_mat3 map = ewa_mat3_identity();
+    const ewa_mat3 map = mat3_identity();
     for (int k = 0; k < 3; k++) {
         ewa_context_options options;
         ewa_context_options_init(&options, sizeof options);

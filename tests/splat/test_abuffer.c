@@ -3,7 +3,7 @@
 //
 // The paper's A-buffer: known answers, what the order of the points does to it, and that it agrees with the
 // exact layers where it has room.
-#include "splat/reference_abuffer.h"
+#include "splat/abuffer.h"
 #include "tests/splat/picture.h"
 
 #include <math.h>
@@ -46,7 +46,7 @@ static ewa_camera disc_camera(void) {
 }
 
 /// The middle pixel of discs of opacity 0.5 whose coverage is whole.
-static void draw_discs(const disc *discs, uint64_t count, uint32_t limit, ewa_abuffer_shader *shader,
+static void draw_discs(const disc *discs, uint64_t count, uint32_t limit, abuffer_shader *shader,
                        void *shader_data, double rgba[4]) {
     ewa_context *context = check_context(1, NULL);
     ewa_cloud *cloud = make_discs(context, discs, count);
@@ -56,8 +56,7 @@ static void draw_discs(const disc *discs, uint64_t count, uint32_t limit, ewa_ab
     options.opacity = 0.5;
     options.edge_antialiasing = false;
     float plane[4 * SIDE * SIDE];
-    assert_int_equal(ewa_render_abuffer(cloud, 1, &camera, &options, limit, shader, shader_data, plane),
-                     EWA_OK);
+    assert_int_equal(abuffer_render(cloud, 1, &camera, &options, limit, shader, shader_data, plane), EWA_OK);
     for (int c = 0; c < 4; c++) rgba[c] = (double)plane[MIDDLE + c];
     ewa_cloud_destroy(&cloud);
     ewa_context_destroy(&context);
@@ -133,7 +132,7 @@ static void test_exact_on_separate_surfaces(void **state) {
     float *greedy = malloc((size_t)PICTURE_SIDE_PX * PICTURE_SIDE_PX * 4 * sizeof *greedy);
     assert_non_null(greedy);
     assert_int_equal(
-        ewa_render_abuffer(of.cloud, of.unit_coverage, &of.camera, &options, FRAGMENTS, NULL, NULL, greedy),
+        abuffer_render(of.cloud, of.unit_coverage, &of.camera, &options, FRAGMENTS, NULL, NULL, greedy),
         EWA_OK);
     uint64_t different = 0, compared = 0;
     for (int y = 0; y < PICTURE_SIDE_PX; y++)
@@ -161,12 +160,10 @@ static void test_arguments(void **state) {
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
     float plane[4 * SIDE * SIDE];
-    assert_int_equal(ewa_render_abuffer(cloud, 1, &camera, &options, 0, NULL, NULL, plane),
-                     EWA_ERROR_ARGUMENT);
-    assert_int_equal(ewa_render_abuffer(cloud, 1, NULL, &options, 1, NULL, NULL, plane), EWA_ERROR_ARGUMENT);
+    assert_int_equal(abuffer_render(cloud, 1, &camera, &options, 0, NULL, NULL, plane), EWA_ERROR_ARGUMENT);
+    assert_int_equal(abuffer_render(cloud, 1, NULL, &options, 1, NULL, NULL, plane), EWA_ERROR_ARGUMENT);
     camera.fx_px = 0;
-    assert_int_equal(ewa_render_abuffer(cloud, 1, &camera, &options, 1, NULL, NULL, plane),
-                     EWA_ERROR_ARGUMENT);
+    assert_int_equal(abuffer_render(cloud, 1, &camera, &options, 1, NULL, NULL, plane), EWA_ERROR_ARGUMENT);
     ewa_cloud_destroy(&cloud);
     ewa_context_destroy(&context);
 }

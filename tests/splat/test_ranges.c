@@ -3,6 +3,7 @@
 //
 // What packets promise whatever the range of the numbers: places far from the origin, from each other and
 // from the eye, sizes, colours and shapes of surfels far apart from each other (docs/conventions.md).
+#include "cloud/cloud.h"
 #include "image/srgb.h"
 #include "splat/packets.h"
 #include "tests/splat/picture.h"

@@ -3,6 +3,7 @@
 //
 // Tests of src/splat/reference.c: what a picture must show, known answers, failures.
 #include "math/vec.h"
+#include "splat/reference.h"
 #include "splat/surfel.h"
 #include "tests/splat/picture.h"
 

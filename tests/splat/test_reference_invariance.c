@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Tests of src/splat/reference.c: what must not change a picture.
+#include "cloud/cloud.h"
 #include "math/vec.h"
 #include "splat/surfel.h"
 #include "tests/splat/picture.h"

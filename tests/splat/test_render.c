@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The fast road against the reference, and against itself: threads, instruction sets, order of the points.
+#include "cloud/cloud.h"
 #include "image/srgb.h"
 #include "kernels/semantics.h"
 #include "tests/splat/picture.h"

@@ -3,6 +3,7 @@
 //
 // Volumes from within: voxels at the eye, scales of the world and of the camera.
 #include "check.h"
+#include "image_difference.h"
 #include "volume/march.h"
 #include "volume/near.h"
 #include "volume/scene.h"
@@ -98,8 +99,7 @@ static double error_of(const double spacing[3], ewa_volume_options options, doub
         const ewa_camera camera = camera_at(WIDTH, HEIGHT, eye, aheads[view % 3], fov_deg);
         ewa_image fast = scene_draw(context, voxels, &camera, &options);
         ewa_image slow = scene_draw_reference(&volume, &transfer, &camera, &options);
-        ewa_difference difference;
-        assert_int_equal(ewa_image_compare(&fast, &slow, 1, 0, &difference, NULL), EWA_OK);
+        const image_difference difference = image_compare(&fast, &slow, 0);
         most = fmax(most, difference.maximum);
         for (int i = 3; i < 4 * WIDTH * HEIGHT; i += 4) sum += (double)slow.pixels[i];
         ewa_image_free(&fast);
@@ -154,8 +154,7 @@ static void test_moving(void **state) {
         const ewa_camera camera = camera_at(SIDE, SIDE, eye, ahead, 70);
         ewa_image image = scene_draw(context, voxels, &camera, NULL);
         if (before.pixels) {
-            ewa_difference difference;
-            assert_int_equal(ewa_image_compare(&image, &before, 1, 0, &difference, NULL), EWA_OK);
+            const image_difference difference = image_compare(&image, &before, 0);
             most = fmax(most, difference.rms);
             mean += difference.rms / (STEPS - 1);
             ewa_image_free(&before);
@@ -280,8 +279,7 @@ static void test_scales(void **state) {
             // And the reference, in doubles, sees the same.
             ewa_image fast = {.context = context, WIDTH, HEIGHT, 4, pixels};
             ewa_image slow = scene_draw_reference(&volume, &transfer, &camera, &options);
-            ewa_difference difference;
-            assert_int_equal(ewa_image_compare(&fast, &slow, 1, 0, &difference, NULL), EWA_OK);
+            const image_difference difference = image_compare(&fast, &slow, 0);
             assert_true(difference.psnr_db > 40);
             ewa_image_free(&slow);
         }

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Never compiled: tools/check_layers.cmake must refuse this include.
+// Never compiled: tools/check_layers.cmake must refuse these includes.
 #include "cloud/roof.h"
+#include "ewa/roof.h"

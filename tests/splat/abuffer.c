@@ -15,9 +15,10 @@
 //   weight goes on counting.
 // - Equation 12 takes straight colours and gives a premultiplied one. Merged again as printed, that would be
 //   multiplied by its alpha twice; shaded fragments are premultiplied here.
-#include "splat/reference_abuffer.h"
+#include "splat/abuffer.h"
 
 #include "base/base.h"
+#include "cloud/cloud.h"
 #include "splat/options.h"
 #include "splat/reference_splat.h"
 
@@ -34,7 +35,7 @@ typedef struct abuffer {
     ewa_reference_view view;
     ewa_render_options options;
     double unit_coverage;
-    ewa_abuffer_shader *shader;
+    abuffer_shader *shader;
     const void *shader_data;
     uint32_t limit;
     fragment *fragments; ///< [pixel][limit + 1]: the last place is for the temporary one
@@ -189,9 +190,9 @@ static void draw(const abuffer *buffer, const ewa_surfel_reader *reader, uint64_
     for (size_t i = 0; i < pixel_count; i++) blend(buffer, i, rgba + 4 * i);
 }
 
-ewa_status ewa_render_abuffer(const ewa_cloud *cloud, double unit_coverage, const ewa_camera *camera,
-                              const ewa_render_options *options, uint32_t fragment_limit,
-                              ewa_abuffer_shader *shader, const void *shader_data, float *rgba) {
+ewa_status abuffer_render(const ewa_cloud *cloud, double unit_coverage, const ewa_camera *camera,
+                          const ewa_render_options *options, uint32_t fragment_limit, abuffer_shader *shader,
+                          const void *shader_data, float *rgba) {
     if (!cloud || !camera || !options || !rgba || fragment_limit == 0) return EWA_ERROR_ARGUMENT;
     ewa_context *context = ewa_cloud_context(cloud);
     abuffer buffer = {.unit_coverage = unit_coverage,

@@ -4,16 +4,16 @@
 // Homogeneous coordinates: points, lines, planes, conics, maps, perspective, clipping (docs/homogeneous.md).
 //
 // Row vectors: x' = x M; the map A followed by B is A B. w = 0 is a direction and never an error by itself.
-// Angles are in radians. Functions that return a value are sums of products: total, without divisions; NaN
-// passes through. Functions that return ewa_status give EWA_ERROR_NUMERIC, and leave their outputs alone,
-// when a number that comes in is not finite or what they are asked for does not exist (a result that is zero
-// to within rounding counts as zero). Outputs may alias inputs. Any thread may call anything here.
+// Functions that return a value are sums of products: total, without divisions; NaN passes through. Functions
+// that return ewa_status give EWA_ERROR_NUMERIC, and leave their outputs alone, when a number that comes in is
+// not finite or what they are asked for does not exist (a result that is zero to within rounding counts as
+// zero). Outputs may alias inputs. Any thread may call anything here.
 //
 // Based on: Bloomenthal and Rokne, Homogeneous Coordinates (HC below); Blinn, A Homogeneous Formulation for
 // Lines in 3 Space, 1977; Blinn and Newell, Clipping Using Homogeneous Coordinates, 1978; Blinn, Hyperbolic
 // Interpolation, 1992.
-#ifndef EWA_MATH_H
-#define EWA_MATH_H
+#ifndef EWA_HOMOGENEOUS_H
+#define EWA_HOMOGENEOUS_H
 
 #include "ewa/base.h"
 #include "ewa/camera.h"
@@ -50,14 +50,13 @@ typedef struct ewa_line3 {
 } ewa_line3;
 
 /// A symmetric 3x3 matrix. As a conic Q it holds the points x Q x' = 0, that is
-/// xx x^2 + 2 xy x y + yy y^2 + 2 xw x w + 2 yw y w + ww w^2 = 0; as a dual conic D the tangent lines l D l'
-/// = 0.
+/// xx x^2 + 2 xy x y + yy y^2 + 2 xw x w + 2 yw y w + ww w^2 = 0; as a dual conic D the tangent
+/// lines l D l' = 0.
 typedef struct ewa_conic {
     double xx, xy, xw, yy, yw, ww;
 } ewa_conic;
 
-// ---- Points, lines, planes (HC, Homogeneous Lines)
-// ----------------------------------------------------------------
+// ---- Points, lines, planes (HC, Homogeneous Lines) -------------------------------------------------------
 
 /// Divides a point of the plane by its w: xy = (x/w, y/w).
 /// Errors: EWA_ERROR_NUMERIC for a direction (w = 0) and when the quotient overflows.
@@ -97,14 +96,7 @@ EWA_API ewa_status ewa_plane_meet(ewa_vec4 a, ewa_vec4 b, ewa_vec4 c, ewa_vec4 *
 /// Errors: EWA_ERROR_NUMERIC for a direction and for the plane at infinity.
 EWA_API ewa_status ewa_plane_distance(ewa_vec4 plane, ewa_vec4 point, double *distance);
 
-/// Returns the line that holds all directions of the plane, (0, 0, 1).
-EWA_API ewa_vec3 ewa_line2_at_infinity(void);
-
-/// Returns the plane that holds all directions of space, (0, 0, 0, 1).
-EWA_API ewa_vec4 ewa_plane_at_infinity(void);
-
-// ---- Coordinates in a triangle (HC, Introduction, figure 1)
-// -------------------------------------------------------
+// ---- Coordinates in a triangle (HC, Introduction, figure 1) ----------------------------------------------
 
 /// Gives the weights (Möbius) of a point at the vertices of a triangle: point = sum of weight times vertex
 /// with w = 1. They sum to the point's w: 1 for [x y 1], 0 for a direction. Errors: EWA_ERROR_NUMERIC when a
@@ -124,8 +116,7 @@ EWA_API ewa_status ewa_triangle_distances(const ewa_vec3 triangle[3], ewa_vec3 p
 EWA_API ewa_status ewa_triangle_point_from_distances(const ewa_vec3 triangle[3], const double distances[3],
                                                      ewa_vec3 *point);
 
-// ---- Lines of space (Blinn 1977)
-// ----------------------------------------------------------------------------------
+// ---- Lines of space (Blinn 1977) -------------------------------------------------------------------------
 
 /// Joins two points by a line. Errors: EWA_ERROR_NUMERIC when both are the same point.
 EWA_API ewa_status ewa_line3_join(ewa_vec4 p, ewa_vec4 q, ewa_line3 *line);
@@ -148,57 +139,24 @@ EWA_API double ewa_line3_incidence(ewa_line3 k, ewa_line3 l);
 /// Returns the line through the mapped points of a line: A' = M' A M for A = p'q - q'p.
 EWA_API ewa_line3 ewa_line3_transform(ewa_line3 line, const ewa_mat4 *map);
 
-// ---- Maps (HC, Transformations, Sequences)
-// ------------------------------------------------------------------------
-
-EWA_API ewa_mat3 ewa_mat3_identity(void);
-EWA_API ewa_mat3 ewa_mat3_translation(double x, double y);
-EWA_API ewa_mat3 ewa_mat3_scaling(double x, double y);
-
-/// Returns the rotation about the origin that turns the x axis towards the y axis (HC prints its inverse).
-EWA_API ewa_mat3 ewa_mat3_rotation(double angle_rad);
-
-/// Returns the affine map p' = p A + c in bordered form, [A 0; c 1].
-EWA_API ewa_mat3 ewa_mat3_bordered(const double a[2][2], const double c[2]);
+// ---- Maps (HC, Transformations, Sequences) ---------------------------------------------------------------
 
 /// Returns A B: first `first`, then `second`.
 EWA_API ewa_mat3 ewa_mat3_concatenate(const ewa_mat3 *first, const ewa_mat3 *second);
-EWA_API ewa_mat3 ewa_mat3_transpose(const ewa_mat3 *map);
+EWA_API ewa_mat4 ewa_mat4_concatenate(const ewa_mat4 *first, const ewa_mat4 *second);
 
 /// Inverts a map. Errors: EWA_ERROR_NUMERIC when it is singular to within rounding.
 EWA_API ewa_status ewa_mat3_invert(const ewa_mat3 *map, ewa_mat3 *inverse);
-
-EWA_API ewa_mat4 ewa_mat4_identity(void);
-EWA_API ewa_mat4 ewa_mat4_translation(double x, double y, double z);
-EWA_API ewa_mat4 ewa_mat4_scaling(double x, double y, double z);
-
-/// Makes the right-handed rotation about an axis through the origin. Errors: EWA_ERROR_NUMERIC for a zero
-/// axis.
-EWA_API ewa_status ewa_mat4_rotation(ewa_vec3 axis, double angle_rad, ewa_mat4 *map);
-
-/// Returns the affine map p' = p A + c in bordered form, [A 0; c 1].
-EWA_API ewa_mat4 ewa_mat4_bordered(const ewa_mat3 *a, ewa_vec3 c);
-
-/// Returns the map of a row-major matrix that acts on column vectors, such as ewa_camera's world_to_camera:
-/// its transpose.
-EWA_API ewa_mat4 ewa_mat4_from_column_form(const double column_form[16]);
-
-/// Returns A B: first `first`, then `second`.
-EWA_API ewa_mat4 ewa_mat4_concatenate(const ewa_mat4 *first, const ewa_mat4 *second);
-EWA_API ewa_mat4 ewa_mat4_transpose(const ewa_mat4 *map);
-
-/// Inverts a map. Errors: EWA_ERROR_NUMERIC when it is singular to within rounding.
 EWA_API ewa_status ewa_mat4_invert(const ewa_mat4 *map, ewa_mat4 *inverse);
 
-// ---- What a map does (docs/math.md section 1). "Pull" goes from the image back to the source and needs no
-// inverse; to send many things forward, invert the map once and pull by the inverse.
-// --------------------------------------------
+// ---- What a map does -------------------------------------------------------------------------------------
+// docs/math.md section 1. "Pull" goes from the image back to the source and needs no inverse; to send many
+// things forward, invert the map once and pull by the inverse.
 
 EWA_API ewa_vec3 ewa_point2_transform(ewa_vec3 point, const ewa_mat3 *map); ///< p M
 EWA_API ewa_vec4 ewa_point3_transform(ewa_vec4 point, const ewa_mat4 *map); ///< p M
 EWA_API ewa_vec3 ewa_line2_pull(ewa_vec3 image_line, const ewa_mat3 *map); ///< l M': the line that maps to it
-EWA_API ewa_vec4 ewa_plane_pull(ewa_vec4 image_plane,
-                                const ewa_mat4 *map); ///< l M': the plane that maps to it
+EWA_API ewa_vec4 ewa_plane_pull(ewa_vec4 image_plane, const ewa_mat4 *map); ///< l M': the same of space
 
 /// Maps a line, l M^-T (row vector), keeping incidence products. Errors: EWA_ERROR_NUMERIC for a singular
 /// map.
@@ -217,70 +175,25 @@ EWA_API ewa_conic ewa_dual_conic_transform(const ewa_conic *dual, const ewa_mat3
 /// Maps a conic, M^-1 Q M^-T. Errors: EWA_ERROR_NUMERIC for a singular map.
 EWA_API ewa_status ewa_conic_transform(const ewa_conic *conic, const ewa_mat3 *map, ewa_conic *image_conic);
 
-/// Reads an ellipse off its dual conic: centre c and shape S = (xx, xy, yy) with the boundary (x - c) S^-1 (x
-/// - c)' = 1, so that sqrt(xx) and sqrt(yy) are the half sides of its tight box (docs/math.md section 3).
+/// Reads an ellipse off its dual conic: centre c and shape S = (xx, xy, yy) with the boundary
+/// (x - c) S^-1 (x - c)' = 1, so that sqrt(xx) and sqrt(yy) are the half sides of its tight box
+/// (docs/math.md section 3).
 /// Errors: EWA_ERROR_NUMERIC when it is no real ellipse.
 EWA_API ewa_status ewa_dual_conic_ellipse(const ewa_conic *dual, double center[2], double shape[3]);
 
-// ---- Perspective (HC, Perspective Space)
-// --------------------------------------------------------------------------
-
-/// What a camera sees: the box of directions through a window on the near plane (perspective), or the box
-/// itself (orthographic). Camera space: z forward.
-typedef struct ewa_frustum {
-    double x_low, x_high; ///< window on the plane z = near_z; need not be symmetric (off-axis)
-    double y_low, y_high;
-    double near_z; ///< perspective: > 0
-    double far_z;  ///< > near_z; perspective: may be INFINITY
-    bool reversed; ///< false: near -> 0, far -> 1; true: near -> 1, far -> 0
-} ewa_frustum;
-
-/// Makes the symmetric frustum of a vertical field of view in (0, pi): Sy = D tan(fov / 2), Sx = aspect Sy.
-/// Errors: EWA_ERROR_NUMERIC for an angle, aspect (width / height), near or far that makes none.
-EWA_API ewa_status ewa_frustum_from_fov(double vertical_fov_rad, double aspect, double near_z, double far_z,
-                                        ewa_frustum *frustum);
-
-/// Makes the perspective map [P] of a frustum: the window goes to [-1, 1]^2, depth to [0, 1], w' = z / near.
-/// Errors: EWA_ERROR_NUMERIC for a frustum that is empty or not in front of the eye.
-EWA_API ewa_status ewa_frustum_perspective(const ewa_frustum *frustum, ewa_mat4 *map);
-
-/// Makes the affine map of a frustum taken as a box. Errors: EWA_ERROR_NUMERIC for an empty or infinite box.
-EWA_API ewa_status ewa_frustum_orthographic(const ewa_frustum *frustum, ewa_mat4 *map);
+// ---- Perspective (HC, Perspective Space) -----------------------------------------------------------------
 
 /// Makes the map from the world to clip space of a camera: its picture's edges go to x', y' = -1 (left, top)
-/// and 1. Errors: EWA_ERROR_NUMERIC for a camera or a range of depths that makes none.
+/// and 1, `near_z` and `far_z` to 0 and 1; in perspective far_z may be INFINITY, and w' = z / near_z. Errors:
+/// EWA_ERROR_NUMERIC for a camera or a range of depths that makes none.
 EWA_API ewa_status ewa_camera_clip_map(const ewa_camera *camera, double near_z, double far_z,
                                        ewa_mat4 *world_to_clip);
 
-/// Makes HC's perspective, (x, y, z) -> (x D/z, y D/z, D - D/z); D = INFINITY is allowed, D = 0 an
-/// EWA_ERROR_NUMERIC.
-EWA_API ewa_status ewa_mat4_perspective(double image_z, ewa_mat4 *map);
-
-/// Makes HC's pure projection to the plane z = D, (x, y, z) -> (x, y, D); singular. D is finite.
-EWA_API ewa_status ewa_mat4_projection(double image_z, ewa_mat4 *map);
-
-/// Makes HC's perspective projection, (x, y, z) -> (x D/z, y D/z, D), the product of the two; singular.
-EWA_API ewa_status ewa_mat4_perspective_projection(double image_z, ewa_mat4 *map);
-
-/// Returns where parallel lines of a direction meet after a map, [d 0] M: a direction again where they stay
-/// parallel.
-EWA_API ewa_vec4 ewa_vanishing_point(ewa_vec3 direction, const ewa_mat4 *map);
-
-/// Gives the planes of the view volume in the space that `map` takes to clip space, in the order of
-/// ewa_clip_plane: the clip planes pulled back, sums and differences of the map's columns. (a, b, c) has
-/// length 1 and points inwards, so that the incidence product with [x y z 1] is the signed distance; a plane
-/// at infinity is (0, 0, 0, 1 or -1). Errors: EWA_ERROR_NUMERIC when a plane vanishes.
-EWA_API ewa_status ewa_frustum_planes(const ewa_mat4 *map, ewa_vec4 planes[6]);
-
-/// Returns the smallest signed distance of a point to the planes of ewa_frustum_planes(): a sphere around it
-/// is inside when this is >= its radius, and invisible when this is < -radius.
-EWA_API double ewa_frustum_distance(const ewa_vec4 planes[6], ewa_vec3 center);
-
-// ---- Clipping (HC, Homogeneous Clipping)
-// -------------------------------------------------------------------------- Visible is -1 <= x/w, y/w <= 1,
-// 0 <= z/w <= 1: for positive w  -w <= x, y <= w, 0 <= z <= w, for negative w the reverse. What joins a point
-// of positive w to one of negative w passes through infinity (an external segment) and can have a visible
-// part on either side. Numbers carried along (attributes) are linear in alpha.
+// ---- Clipping (HC, Homogeneous Clipping) -----------------------------------------------------------------
+// Visible is -1 <= x/w, y/w <= 1, 0 <= z/w <= 1: for positive w  -w <= x, y <= w, 0 <= z <= w, for negative w
+// the reverse. What joins a point of positive w to one of negative w passes through infinity (an external
+// segment) and can have a visible part on either side. Numbers carried along (attributes) are linear in
+// alpha.
 
 typedef enum ewa_clip_plane {
     EWA_CLIP_LEFT = 0, ///< x + w = 0
@@ -332,10 +245,10 @@ typedef struct ewa_segment_batch {
 
 /// What ewa_clip_segments() writes, arrays of `count` elements; part 0 has positive, part 1 negative w.
 typedef struct ewa_segment_clips {
-    uint8_t *visible;    ///< EWA_VISIBLE_* bits, or EWA_VISIBLE_INVALID
-    float *alpha[2][2];  ///< [part][end]; 1 and 0 where the part does not exist
-    float *end[2][2][4]; ///< [part][end][coordinate]: the clipped ends, 0 where there are none; all NULL: not
-                         ///< wanted
+    uint8_t *visible;   ///< EWA_VISIBLE_* bits, or EWA_VISIBLE_INVALID
+    float *alpha[2][2]; ///< [part][end]; 1 and 0 where the part does not exist
+    /// [part][end][coordinate]: the clipped ends, 0 where there are none; all NULL: not wanted
+    float *end[2][2][4];
 } ewa_segment_clips;
 
 /// Clips many segments in single precision, on the context's threads: like ewa_clip_segment() but for
@@ -346,8 +259,7 @@ typedef struct ewa_segment_clips {
 EWA_API ewa_status ewa_clip_segments(ewa_context *context, const ewa_segment_batch *segments,
                                      const ewa_segment_clips *clips);
 
-// ---- Hyperbolic interpolation (HC, Associated Vertex Transformations; Blinn 1992; Heckbert 1989)
-// ------------------
+// ---- Hyperbolic interpolation (HC, Associated Vertex Transformations; Blinn 1992; Heckbert 1989) ---------
 
 /// Fits value = (a sx + b sy + c) / (d sx + e sy + f) to numbers at three corners of a projected polygon:
 /// corners are homogeneous, of either sign of w, sx = x/w, sy = y/w; `values` holds `count` numbers per
