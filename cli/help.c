@@ -114,23 +114,10 @@ static void format_default(const cli_option *option, const void *defaults, char 
     }
 }
 
-void help_name_value(const cli_option *option, char text[EWA_OPTION_TEXT_BYTES]) {
-    const ewa_option *of = options_library(option);
-    if (option->value || option->range)
-        snprintf(text, EWA_OPTION_TEXT_BYTES, "%s", option->value ? option->value : option->range);
-    else if (of && (of->words || of->type == EWA_OPTION_BOOL))
-        ewa_option_range(of, text);
-    else if (of)
-        for (size_t i = 0; i <= strlen(of->unit ? of->unit : "N"); i++)
-            text[i] = (char)toupper((unsigned char)(of->unit ? of->unit : "N")[i]);
-    else
-        snprintf(text, EWA_OPTION_TEXT_BYTES, "%s", option->kind == OPTION_ON_OFF ? "on|off" : "");
-}
-
 /// Writes "-o, --output FILE".
 static void format_names(const cli_option *option, char text[TEXT_BYTES]) {
     char letter[8] = "", value[EWA_OPTION_TEXT_BYTES];
-    help_name_value(option, value);
+    options_name_value(option, value);
     if (option->letter) snprintf(letter, sizeof letter, "-%c, ", option->letter);
     snprintf(text, TEXT_BYTES, "%s--%s%s%s%s", letter, option->key, value[0] ? " " : "", value,
              option->kind == OPTION_TOGGLE ? ", --no-" : "");

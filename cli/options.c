@@ -213,6 +213,19 @@ const ewa_option *options_library(const cli_option *option) {
     return ewa_option_find(option->table, option->member);
 }
 
+void options_name_value(const cli_option *option, char text[EWA_OPTION_TEXT_BYTES]) {
+    const ewa_option *of = options_library(option);
+    if (option->value || option->range)
+        snprintf(text, EWA_OPTION_TEXT_BYTES, "%s", option->value ? option->value : option->range);
+    else if (of && (of->words || of->type == EWA_OPTION_BOOL))
+        ewa_option_range(of, text);
+    else if (of)
+        for (size_t i = 0; i <= strlen(of->unit ? of->unit : "N"); i++)
+            text[i] = (char)toupper((unsigned char)(of->unit ? of->unit : "N")[i]);
+    else
+        snprintf(text, EWA_OPTION_TEXT_BYTES, "%s", option->kind == OPTION_ON_OFF ? "on|off" : "");
+}
+
 static bool parse_library(const cli_option *option, const char *text, void *member,
                           char message[OPTION_ERROR_BYTES]) {
     const ewa_option *of = options_library(option);
@@ -383,7 +396,7 @@ static bool take_option(const cli_command *command, size_t count, const char *co
     if (!value) {
         if (*index + 1 == count) {
             char name[EWA_OPTION_TEXT_BYTES];
-            help_name_value(option, name);
+            options_name_value(option, name);
             return wrong(message, "--%s: its value (%s) is missing", option->key, name);
         }
         value = words[++*index];

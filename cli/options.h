@@ -151,7 +151,7 @@ const ewa_option *options_library(const cli_option *option);
 const char *options_nearest(const char *word, size_t count, const char *const *names);
 
 /// Writes what help calls the value of an option, such as "FILE" or "on|off".
-void help_name_value(const cli_option *option, char text[EWA_OPTION_TEXT_BYTES]);
+void options_name_value(const cli_option *option, char text[EWA_OPTION_TEXT_BYTES]);
 /// Prints the help of a command.
 void help_print_command(FILE *file, const cli_command *command);
 /// Prints what the program is and its commands.

@@ -15,8 +15,8 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   list(APPEND instruction_sets avx2 avx512)
 endif()
 
-foreach(body cloud/cells cloud/neighbours kernels/road math/clip_batch prepare/local resample/texture resample/warp
-    splat/pack volume/kernels)
+foreach(body cloud/cells cloud/neighbours estimate/local homogeneous/clip_batch surface/pack surface/road texture/texture
+    volume/kernels warp/warp)
   foreach(set ${instruction_sets})
     string(TOUPPER ${set} SET)
     set(source ${PROJECT_BINARY_DIR}/kernels/${body}_${set}.c)

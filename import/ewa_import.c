@@ -9,7 +9,7 @@
 //   ewa-import MEMORY_BYTES CPU_SECONDS FILE
 #define _DEFAULT_SOURCE // RLIMIT_NPROC
 #include "import_scene.h"
-#include "io/beside.h"
+#include "io/mesh/beside.h"
 
 #include <assimp/cfileio.h>
 #include <assimp/cimport.h>

@@ -1,30 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The context: options with their defaults, allocation, messages, progress.
+// A context from its options to its end.
 #define _DEFAULT_SOURCE // madvise
-#include "base/base.h"
+#include "base/context.h"
 #include "base/options.h"
-#include "base/pool.h"
 
-#include <stdarg.h>
-#include <stdatomic.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <sys/mman.h>
-#include <time.h>
 #include <unistd.h>
 
-struct ewa_context {
-    ewa_context_options options;
-    ewa_pool *pool;
-    uint32_t cpu_features;
-    bool soft_failures;
-};
-
 enum {
-    MESSAGE_BYTES = 1024,
     MAX_WORKERS = 256,
     HUGE_PAGE_BYTES = 1 << 21,
 };
@@ -144,158 +130,4 @@ void ewa_context_destroy(ewa_context **context) {
     ewa_pool_destroy(&allocator, old->pool);
     allocator.release(allocator.user, old, sizeof *old);
     *context = NULL;
-}
-
-uint32_t ewa_context_worker_count(const ewa_context *context) {
-    return context->pool ? ewa_pool_worker_count(context->pool) : context->options.executor.worker_count;
-}
-
-uint32_t ewa_context_cpu_features(const ewa_context *context) { return context->cpu_features; }
-
-const ewa_limits *ewa_context_limits(const ewa_context *context) { return &context->options.limits; }
-
-void *ewa_allocate(ewa_context *context, size_t count, size_t size_bytes) {
-    size_t total;
-    if (__builtin_mul_overflow(count, size_bytes, &total)) {
-        ewa_fail(context, EWA_ERROR_MEMORY, "%zu items of %zu bytes do not fit the address space", count,
-                 size_bytes);
-        return NULL;
-    }
-    const ewa_allocator *allocator = &context->options.allocator;
-    void *memory = allocator->allocate(allocator->user, total ? total : 1);
-    if (!memory) ewa_fail(context, EWA_ERROR_MEMORY, "out of memory: %zu bytes wanted", total);
-    return memory;
-}
-
-void *ewa_allocate_zeroed(ewa_context *context, size_t count, size_t size_bytes) {
-    void *memory = ewa_allocate(context, count, size_bytes);
-    if (memory) memset(memory, 0, count * size_bytes);
-    return memory;
-}
-
-void ewa_release(ewa_context *context, void *memory, size_t count, size_t size_bytes) {
-    if (!memory) return;
-    const size_t total = count * size_bytes;
-    const ewa_allocator *allocator = &context->options.allocator;
-    allocator->release(allocator->user, memory, total ? total : 1);
-}
-
-ewa_status ewa_buffer_reserve(ewa_context *context, ewa_buffer *buffer, size_t count, size_t size_bytes) {
-    size_t wanted;
-    if (__builtin_mul_overflow(count, size_bytes, &wanted))
-        return ewa_fail(context, EWA_ERROR_MEMORY, "%zu items of %zu bytes do not fit the address space",
-                        count, size_bytes);
-    if (wanted <= buffer->capacity_bytes) return EWA_OK;
-    ewa_buffer_free(context, buffer);
-    buffer->data = ewa_allocate(context, wanted, 1);
-    if (!buffer->data) return EWA_ERROR_MEMORY;
-    buffer->capacity_bytes = wanted;
-    return EWA_OK;
-}
-
-ewa_status ewa_buffer_grow(ewa_context *context, ewa_buffer *buffer, size_t kept, size_t count,
-                           size_t size_bytes) {
-    size_t wanted;
-    if (!__builtin_mul_overflow(count, size_bytes, &wanted) && wanted <= buffer->capacity_bytes)
-        return EWA_OK;
-    ewa_buffer larger = {0};
-    const ewa_status status =
-        ewa_buffer_reserve(context, &larger, count < SIZE_MAX / 2 ? count + count / 2 : count, size_bytes);
-    if (status != EWA_OK) return status;
-    if (kept) memcpy(larger.data, buffer->data, kept * size_bytes);
-    ewa_buffer_free(context, buffer);
-    *buffer = larger;
-    return EWA_OK;
-}
-
-void ewa_buffer_free(ewa_context *context, ewa_buffer *buffer) {
-    ewa_release(context, buffer->data, buffer->capacity_bytes, 1);
-    *buffer = (ewa_buffer){0};
-}
-
-static void report(ewa_context *context, ewa_severity severity, const char *format, va_list arguments) {
-    const ewa_context_options *options = &context->options;
-    if (!options->message || severity > options->message_level) return;
-    char text[MESSAGE_BYTES];
-    vsnprintf(text, sizeof text, format, arguments);
-    options->message(options->message_user, severity, text);
-}
-
-ewa_status ewa_fail(ewa_context *context, ewa_status status, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    if (context)
-        report(context, context->soft_failures ? EWA_SEVERITY_WARNING : EWA_SEVERITY_ERROR, format,
-               arguments);
-    va_end(arguments);
-    return status;
-}
-
-void ewa_failures_soften(ewa_context *context, bool soft) { context->soft_failures = soft; }
-
-void ewa_report(ewa_context *context, ewa_severity severity, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    report(context, severity, format, arguments);
-    va_end(arguments);
-}
-
-ewa_status ewa_progress(ewa_context *context, const char *stage, double fraction) {
-    const ewa_context_options *options = &context->options;
-    return !options->progress || options->progress(options->progress_user, stage, fraction) ? EWA_OK
-                                                                                            : EWA_CANCELLED;
-}
-
-void ewa_parallel(ewa_context *context, ewa_task *task, void *data, uint32_t count) {
-    if (context->pool) {
-        ewa_pool_run(context->pool, task, data, count);
-    } else {
-        const ewa_executor *executor = &context->options.executor;
-        executor->run(executor->user, task, data, count);
-    }
-}
-
-/// A run that the progress callback may stop.
-typedef struct stoppable_run {
-    ewa_context *context;
-    const char *stage;
-    ewa_task *task;
-    void *data;
-    uint32_t first, count;
-    atomic_uint_fast32_t done;
-    atomic_bool stopped;
-} stoppable_run;
-
-static void run_one(void *data, uint32_t index, uint32_t worker) {
-    stoppable_run *run = data;
-    if (atomic_load_explicit(&run->stopped, memory_order_relaxed)) return;
-    run->task(run->data, run->first + index, worker);
-    const uint32_t done = (uint32_t)atomic_fetch_add_explicit(&run->done, 1, memory_order_relaxed) + 1;
-    // Worker 0 of the built-in pool is the thread that called the library, on which the callback comes.
-    if (run->context->pool && worker == 0 &&
-        ewa_progress(run->context, run->stage, (double)done / run->count) != EWA_OK)
-        atomic_store_explicit(&run->stopped, true, memory_order_relaxed);
-}
-
-ewa_status ewa_parallel_stoppable(ewa_context *context, const char *stage, ewa_task *task, void *data,
-                                  uint32_t count) {
-    enum { PARTS = 16 };
-    stoppable_run run = {context, stage, task, data, .count = count};
-    // Threads of others' executors may all be other ones: their runs are stopped between parts.
-    const uint32_t step = context->pool || !context->options.progress ? count : count / PARTS + 1;
-    ewa_status status = ewa_progress(context, stage, 0);
-    for (; run.first < count && status == EWA_OK; run.first += step) {
-        const uint32_t left = count - run.first;
-        ewa_parallel(context, run_one, &run, left < step ? left : step);
-        status = atomic_load(&run.stopped)
-                     ? EWA_CANCELLED
-                     : ewa_progress(context, stage, (double)atomic_load(&run.done) / count);
-    }
-    return status;
-}
-
-double ewa_now_s(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }

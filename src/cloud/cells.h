@@ -6,7 +6,7 @@
 #ifndef EWA_SRC_CLOUD_CELLS_H
 #define EWA_SRC_CLOUD_CELLS_H
 
-#include "base/isa.h"
+#include "wide/isa.h"
 
 #include <stdint.h>
 

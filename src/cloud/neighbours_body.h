@@ -4,7 +4,7 @@
 // The hot loops of the search, written once. One lane is one place that searches; lanes never mix, so every
 // machine gives the same bytes. No section of docs/math.md is about it.
 #include "cloud/neighbours_tree.h"
-#include "math/wide.h"
+#include "wide/wide.h"
 
 #include <math.h>
 

@@ -5,7 +5,7 @@
 #ifndef EWA_SRC_CLOUD_NEIGHBOURS_TREE_H
 #define EWA_SRC_CLOUD_NEIGHBOURS_TREE_H
 
-#include "base/isa.h"
+#include "wide/isa.h"
 #include "cloud/neighbours.h"
 
 enum {

@@ -5,8 +5,8 @@
 #ifndef EWA_SRC_VOLUME_BIN_H
 #define EWA_SRC_VOLUME_BIN_H
 
-#include "base/bin.h"
-#include "base/tiles.h"
+#include "road/bin.h"
+#include "road/tiles.h"
 #include "volume/view.h"
 
 /// Where a block is on the screen.

@@ -6,7 +6,7 @@
 #define EWA_SRC_VOLUME_CLASSIFY_H
 
 #include "ewa/volume.h"
-#include "math/vec.h"
+#include "homogeneous/vec.h"
 
 /// A voxel that can be seen.
 typedef struct ewa_voxel {

@@ -6,7 +6,7 @@
 #define EWA_SRC_VOLUME_GEOMETRY_H
 
 #include "ewa/volume_render.h"
-#include "math/vec.h"
+#include "homogeneous/vec.h"
 
 /// Beyond so many units a voxel is not drawn: it is far below any pixel, and squares stay within floats.
 #define EWA_FARTHEST 1e17

@@ -16,9 +16,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "base/isa.h"
+#include "wide/isa.h"
 #include "ewa/shade.h"
-#include "kernels/lights.h"
+#include "wide/lights.h"
 #include "volume/footprint.h"
 
 enum {

@@ -6,7 +6,7 @@
 #ifndef EWA_SRC_VOLUME_KERNELS_APPEND_H
 #define EWA_SRC_VOLUME_KERNELS_APPEND_H
 
-#include "kernels/shine.h"
+#include "wide/shine.h"
 #include "volume/kernels.h"
 
 #include <string.h>

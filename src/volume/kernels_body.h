@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The kernels of volumes over the wide type. Reference: src/volume/reference.c,
+// The kernels of volumes over the wide type. Reference: src/reference/volume.c,
 // docs/math.md section 12; equality class of the versions among themselves: the same bytes.
 #include "volume/kernels_append.h"
 #include "volume/kernels_near.h"

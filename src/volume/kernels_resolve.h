@@ -6,7 +6,7 @@
 #ifndef EWA_SRC_VOLUME_KERNELS_RESOLVE_H
 #define EWA_SRC_VOLUME_KERNELS_RESOLVE_H
 
-#include "kernels/pixels.h"
+#include "wide/pixels.h"
 #include "volume/kernels.h"
 
 static void clear(ewa_volume_tile *tile) {

@@ -15,7 +15,7 @@
 #ifndef EWA_SRC_VOLUME_KERNELS_SPLATS_H
 #define EWA_SRC_VOLUME_KERNELS_SPLATS_H
 
-#include "math/wide_ellipse.h"
+#include "wide/wide_ellipse.h"
 #include "volume/kernels_points.h"
 
 /// What a splat's pixels need, lane by lane.

@@ -6,7 +6,7 @@
 #include "base/base.h"
 #include "base/options.h"
 #include "image/material.h"
-#include "splat/options.h"
+#include "surface/options.h"
 
 #include <string.h>
 

@@ -6,7 +6,7 @@
 #define EWA_SRC_VOLUME_OPTIONS_H
 
 #include "ewa/volume_render.h"
-#include "splat/shading.h"
+#include "surface/shading.h"
 
 /// Copies `given` (NULL: the defaults) to `chosen` after checking every member.
 /// Errors: EWA_ERROR_ARGUMENT with a message that names the member, its value and its range.

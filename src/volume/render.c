@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The renderer of volumes: an object whose memory survives, and the order of a frame's stages. Reference:
-// reference.c.
+// src/reference/volume.c.
 #include "base/base.h"
 #include "volume/options.h"
 #include "volume/tile.h"

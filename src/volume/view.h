@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-#include "splat/shading.h"
+#include "surface/shading.h"
 #include "volume/geometry.h"
 #include "volume/kernels.h"
 #include "volume/voxels.h"

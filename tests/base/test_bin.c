@@ -5,8 +5,8 @@
 // bin, more bins than candidates, nothing at all; and tiles that cover each pixel once.
 #include "tests/check.h"
 
-#include "base/bin.h"
-#include "base/tiles.h"
+#include "road/bin.h"
+#include "road/tiles.h"
 
 enum { MOST = 3000 };
 

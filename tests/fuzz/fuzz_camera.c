@@ -4,7 +4,7 @@
 // Fuzz target: any bytes as a camera file: JSON, or, by the first byte, the two files of a COLMAP model (text
 // 't', binary 'b') one after the other, the length of the first in the second byte.
 #include "fuzz.h"
-#include "io/camera_file.h"
+#include "io/camera/file.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
     ewa_context_options options;

@@ -4,7 +4,7 @@
 // Fuzz target: any bytes as a material table. What is read can be drawn with.
 #include "fuzz.h"
 #include "image/material.h"
-#include "io/materials.h"
+#include "io/mesh/materials.h"
 
 #include <stdlib.h>
 

@@ -8,7 +8,7 @@
 
 #include "ewa/ewa.h"
 #include "fuzz.h"
-#include "io/mesh_formats.h"
+#include "io/mesh/formats.h"
 
 #include <math.h>
 #include <stdio.h>

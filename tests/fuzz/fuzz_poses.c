@@ -3,7 +3,7 @@
 //
 // Fuzz target: any bytes as poses; what can be read are cameras.
 #include "fuzz.h"
-#include "io/camera_file.h"
+#include "io/camera/file.h"
 
 #include <stdlib.h>
 

@@ -5,7 +5,7 @@
 #include "ewa/volume.h"
 #include "fuzz.h"
 #include "image/transfer.h"
-#include "io/transfer.h"
+#include "io/volume/transfer.h"
 
 #include <stdlib.h>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A scene drawn three times, and how far the pictures are from each other.
-#include "splat/reference.h"
+#include "reference/surface.h"
 #include "tests/independent/random_scene.h"
 
 #include <math.h>

@@ -5,8 +5,8 @@
 // how the picture is cut into tiles: the same bytes, over random scenes of all kinds of cameras, kernels,
 // lights, layers and clip lines.
 #include "base/base.h"
-#include "splat/packets.h"
-#include "splat/render.h"
+#include "surface/packets.h"
+#include "surface/render.h"
 #include "tests/check.h"
 #include "tests/independent/random_scene.h"
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Files that another file names: which are opened, and which are not, whatever the name.
-#include "io/base64.h"
-#include "io/beside.h"
+#include "io/mesh/base64.h"
+#include "io/mesh/beside.h"
 #include "io/scratch.h"
 
 static char mesh[512];

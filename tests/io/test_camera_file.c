@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Tests of src/io/camera_*.c: the same camera through every format, exact round trips, messages for broken
+// Tests of src/io/camera/*.c: the same camera through every format, exact round trips, messages for broken
 // files.
-#include "io/camera_file.h"
+#include "io/camera/file.h"
 #include "scratch.h"
 
 #include <math.h>

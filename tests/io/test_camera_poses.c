@@ -3,7 +3,7 @@
 //
 // Poses as text, and the numbers of depth images.
 #include "ewa/io.h"
-#include "io/camera_file.h"
+#include "io/camera/file.h"
 #include "scratch.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Tests of src/io/exr_*.c: exact round trips, channels by name, the camera attribute, broken files.
+// Tests of src/io/image/exr_*.c: exact round trips, channels by name, the camera attribute, broken files.
 #include "base/base.h"
 #include "scratch.h"
 

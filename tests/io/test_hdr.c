@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Tests of src/io/hdr.c: known pixels in every kind of row, exposure, every truncation, broken heads.
+// Tests of src/io/image/hdr.c: known pixels in every kind of row, exposure, every truncation, broken heads.
 #include "scratch.h"
 
 #include <math.h>

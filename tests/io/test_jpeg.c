@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Tests of src/io/jpeg_read.c: known pixels, every truncation, broken bytes, too many scans, limits.
+// Tests of src/io/image/jpeg_read.c: known pixels, every truncation, broken bytes, too many scans, limits.
 #include "image/srgb.h"
 #include "scratch.h"
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Tests of src/io/materials.c.
+// Tests of src/io/mesh/materials.c.
 #include "ewa/io.h"
-#include "io/materials.h"
+#include "io/mesh/materials.h"
 #include "scratch.h"
 
 static ewa_status read_text(ewa_context *context, const char *text, ewa_material *materials,

@@ -3,7 +3,7 @@
 //
 // Polygons to triangles: areas are kept, no two triangles overlap, whatever the outline; what meets itself,
 // is large or lies far away costs no more than its share.
-#include "io/mesh_build.h"
+#include "io/mesh/build.h"
 #include "io/mesh_check.h"
 
 static mesh_messages messages;

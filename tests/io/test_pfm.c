@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Tests of src/io/pfm.c: known bytes, exact round trips, both byte orders, broken heads.
+// Tests of src/io/image/pfm.c: known bytes, exact round trips, both byte orders, broken heads.
 #include "scratch.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Tests of src/io/png_*.c: what is written is read back by libspng, known values, broken files.
+// Tests of src/io/image/png_*.c: what is written is read back by libspng, known values, broken files.
 #include "base/base.h"
 #include "image/srgb.h"
 #include "image_difference.h"

@@ -3,7 +3,7 @@
 //
 // Tests of transfer functions: the JSON files, opacity, presets, what is made from a histogram.
 #include "image/transfer.h"
-#include "io/transfer.h"
+#include "io/volume/transfer.h"
 #include "scratch.h"
 
 #include <math.h>

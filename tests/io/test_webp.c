@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Tests of src/io/webp_read.c: known pixels, alpha, every truncation, broken bytes, animations, limits.
-#include "io/image_file.h"
+// Tests of src/io/image/webp_read.c: known pixels, alpha, every truncation, broken bytes, animations, limits.
+#include "io/image/image_file.h"
 #include "io/mesh_check.h"
 
 /// 3 x 2 pixels of (188, 64, 0), lossless.

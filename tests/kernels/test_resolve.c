@@ -7,7 +7,7 @@
 
 #include "base/base.h"
 #include "image/srgb.h"
-#include "kernels/road.h"
+#include "surface/road.h"
 
 #include <math.h>
 #include <string.h>

@@ -6,7 +6,7 @@
 #define EWA_TESTS_CHECK_MATH_H
 
 #include "check.h"
-#include "math/vec.h"
+#include "homogeneous/vec.h"
 
 /// Fails unless |a - b| <= tolerance, with both values.
 #define check_near(a, b, tolerance) check_near_at(a, b, tolerance, __FILE__, __LINE__)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Tests of src/math/camera.c: placement, intrinsics, framing, checks.
+// Tests of src/homogeneous/camera.c: placement, intrinsics, framing, checks.
 #include "check.h"
 #include "math/angle.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Tests of src/math/camera_path.c: orbits and paths through keys.
+// Tests of src/homogeneous/camera_path.c: orbits and paths through keys.
 #include "check.h"
 #include "math/angle.h"
 

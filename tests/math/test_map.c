@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "math/check_math.h"
-#include "math/perspective.h"
+#include "homogeneous/perspective.h"
 
 enum { ROUNDS = 2000 };
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The stated errors of src/math/wide_functions.h, in plain C; that every instruction set gives the same bytes
+// The stated errors of src/wide/wide_functions.h, in plain C; that every instruction set gives the same bytes
 // is tested on pictures.
 #define WIDE_PORTABLE
-#include "math/wide_functions.h"
+#include "wide/wide_functions.h"
 #include "tests/check.h"
 
 #include <math.h>

@@ -6,7 +6,7 @@
 #define EWA_TESTS_GRAM_H
 
 #include "check.h"
-#include "prepare/sparse.h"
+#include "colors/sparse.h"
 
 #include <math.h>
 

@@ -4,7 +4,7 @@
 // Textures on surfels: what the filters keep, that optimal is optimal, and that failures leave nothing
 // behind.
 #include "check_prepare.h"
-#include "prepare/acquire.h"
+#include "colors/acquire.h"
 
 #include <math.h>
 #include <string.h>

@@ -5,7 +5,7 @@
 // space, and pictures whose mean under a Gaussian is known.
 #include "check.h"
 #include "math/gaussian.h"
-#include "prepare/acquire.h"
+#include "colors/acquire.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Tests of src/prepare/estimate.c and local_body.h: normals, spacing, radii and axes against known samplings.
+// Tests of src/estimate/estimate.c and local_body.h: normals, spacing, radii and axes against known samplings.
 #include "prepare/check_prepare.h"
 
 typedef enum sampling { REGULAR, JITTERED, SCATTERED, HEXAGONAL, POISSON, STRETCHED, SAMPLINGS } sampling;

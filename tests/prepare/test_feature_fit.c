@@ -4,7 +4,7 @@
 // Where the fit of edges and corners begins to find them: pairs of neighbourhoods on either side of each
 // limit.
 #include "check.h"
-#include "prepare/feature_fit.h"
+#include "edges/feature_fit.h"
 
 #include <math.h>
 #include <stdbool.h>

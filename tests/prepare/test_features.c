@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Tests of src/prepare/feature*.c: creases and corners whose lines are known, smooth surfaces that have none,
+// Tests of src/edges/feature*.c: creases and corners whose lines are known, smooth surfaces that have none,
 // what stays as it was, odd input.
 #include "io/scratch.h"
 #include "prepare/check_prepare.h"

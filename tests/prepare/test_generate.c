@@ -4,8 +4,8 @@
 // Tests of ewa_cloud_generate(): the objects' geometry against closed forms, evenness and cover of the
 // sampling, the same bytes for every thread count and machine, refused options, failing allocations.
 #include "check.h"
-#include "prepare/generate.h"
-#include "prepare/generate_number.h"
+#include "generate/generate.h"
+#include "math/generate_number.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Every entry of the tables of src/prepare/local_body.h against its definition in double precision, written
+// Every entry of the tables of src/estimate/local_body.h against its definition in double precision, written
 // here a second time: the estimators' constants are held by this test alone.
 #include "base/base.h"
 #include "prepare/check_prepare.h"
-#include "prepare/local.h"
+#include "estimate/local.h"
 
 #define PI 3.141592653589793
 

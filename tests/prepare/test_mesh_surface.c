@@ -3,8 +3,8 @@
 //
 // Inner functions of sampling: which way vertices face where triangles meet, which edges cut a disc.
 #include "mesh_shapes.h"
-#include "prepare/mesh_clip.h"
-#include "prepare/mesh_surface.h"
+#include "mesh/clip.h"
+#include "mesh/surface.h"
 
 #define RADIANS (3.141592653589793 / 180)
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Tests of src/prepare/orient.c and outliers.c: signs of normals against the truth, what outlier removal
+// Tests of src/estimate/orient.c and outliers.c: signs of normals against the truth, what outlier removal
 // leaves.
 #include "prepare/check_prepare.h"
 

@@ -5,7 +5,7 @@
 // colours of clouds.
 #include "check_prepare.h"
 #include "io/scratch.h"
-#include "prepare/pattern.h"
+#include "colors/pattern.h"
 
 static double checker_at(ewa_vec3 p) {
     const double cells = floor(p.x) + floor(p.y) + floor(p.z);

@@ -6,7 +6,7 @@
 #include "check_prepare.h"
 #include "io/scratch.h"
 #include "quality/refit_scene.h"
-#include "splat/reference.h"
+#include "reference/surface.h"
 
 static ewa_refit_options options_of(ewa_refit goal) {
     ewa_refit_options options;

@@ -4,7 +4,7 @@
 // A surface of surfels as a solid, near its edges: roofs of two planes are told from bent surfaces by the
 // angle between their normals.
 #include "check_prepare.h"
-#include "prepare/solid.h"
+#include "edges/solid.h"
 
 #include <math.h>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Homogeneous coordinates, clipping, cameras.
-#include "math/perspective.h"
+#include "homogeneous/perspective.h"
 #include "tests/probe/probe.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Pictures of random scenes and of a mirror, and the image room's curves.
-#include "splat/reference.h"
+#include "reference/surface.h"
 #include "tests/independent/random_scene.h"
 #include "tests/probe/probe.h"
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Textures through maps, and depth images to other cameras.
-#include "math/vec.h"
-#include "resample/texture.h"
+#include "homogeneous/vec.h"
+#include "texture/texture.h"
 #include "tests/probe/probe.h"
 
 #include <math.h>

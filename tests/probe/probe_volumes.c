@@ -3,7 +3,7 @@
 //
 // Volumes: voxels of every kind of light, from far, from near and from inside.
 #include "tests/probe/probe.h"
-#include "volume/reference.h"
+#include "reference/volume.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -6,7 +6,7 @@
 #include "image_difference.h"
 #include "quality/layers_scene.h"
 #include "splat/abuffer.h"
-#include "splat/reference.h"
+#include "reference/surface.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 // The magnified plane and the texture under its pixels.
 #include "quality/refit_scene.h"
 #include "check.h"
-#include "prepare/pattern.h"
+#include "colors/pattern.h"
 
 enum { SIDE = 400 };
 

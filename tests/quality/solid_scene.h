@@ -9,7 +9,7 @@
 
 #include <stdbool.h>
 
-#include "prepare/generate_solid.h"
+#include "generate/solid.h"
 
 /// Where a ray first meets the solid of edge (length) 2.
 typedef struct solid_hit {

@@ -4,7 +4,7 @@
 // A small ray caster: triangles are projected, and the rays of their boxes' samples are met with them.
 // Intersection after T. Moeller, B. Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997.
 #include "quality/textured_scene.h"
-#include "math/vec.h"
+#include "homogeneous/vec.h"
 
 #include <stdlib.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Tests of src/resample/texture*.c: the fast way against the reference, the same bytes from every machine,
+// Tests of src/texture/texture*.c: the fast way against the reference, the same bytes from every machine,
 // known answers.
 #include "resample/texture_fixture.h"
 

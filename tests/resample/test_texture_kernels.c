@@ -7,7 +7,7 @@
 #include "tests/check.h"
 
 #include "base/base.h"
-#include "resample/texture.h"
+#include "texture/texture.h"
 
 #include <math.h>
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Tests of src/resample/texture_plan.c: maps from corners and cameras, and what is refused.
-#include "math/vec.h"
-#include "resample/texture.h"
+// Tests of src/texture/texture_plan.c: maps from corners and cameras, and what is refused.
+#include "homogeneous/vec.h"
+#include "texture/texture.h"
 #include "resample/texture_fixture.h"
 
 #include <float.h>

@@ -3,8 +3,8 @@
 //
 // Depth images to surfels: which pixels count, kinds of depth, memory layouts, options, failures.
 #include "io/scratch.h"
-#include "prepare/color.h"
-#include "resample/warp_place.h"
+#include "cloud/color.h"
+#include "warp/warp_place.h"
 #include "warp_planes.h"
 
 static plane_image plane;

@@ -7,7 +7,7 @@
 #include "tests/check.h"
 
 #include "base/base.h"
-#include "resample/warp_sample.h"
+#include "warp/warp_sample.h"
 
 #include <math.h>
 

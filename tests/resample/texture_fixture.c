@@ -3,7 +3,7 @@
 //
 // Textures and pictures for tests of forward texture mapping.
 #include "resample/texture_fixture.h"
-#include "resample/texture.h"
+#include "texture/texture.h"
 
 #include <math.h>
 #include <string.h>

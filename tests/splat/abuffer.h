@@ -6,7 +6,7 @@
 #ifndef EWA_TESTS_SPLAT_ABUFFER_H
 #define EWA_TESTS_SPLAT_ABUFFER_H
 
-#include "math/vec.h"
+#include "homogeneous/vec.h"
 
 #include "ewa/render.h"
 

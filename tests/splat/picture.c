@@ -4,9 +4,9 @@
 // Pictures in tests.
 #include "tests/splat/picture.h"
 #include "cloud/cloud.h"
-#include "splat/options.h"
-#include "splat/reference.h"
-#include "splat/reference_splat.h"
+#include "surface/options.h"
+#include "reference/surface.h"
+#include "reference/splat.h"
 
 #include <string.h>
 

@@ -3,7 +3,7 @@
 //
 // Scenes for tests of shading.
 #include "tests/splat/shade_scene.h"
-#include "splat/reference.h"
+#include "reference/surface.h"
 
 #include <math.h>
 

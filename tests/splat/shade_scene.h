@@ -5,7 +5,7 @@
 #ifndef EWA_TESTS_SPLAT_SHADE_SCENE_H
 #define EWA_TESTS_SPLAT_SHADE_SCENE_H
 
-#include "math/vec.h"
+#include "homogeneous/vec.h"
 #include "tests/splat/picture.h"
 
 /// A sphere of radius 1 about the origin with one linear colour.

@@ -6,7 +6,7 @@
 #define EWA_TESTS_SPLAT_SURFELS_H
 
 #include "check.h"
-#include "splat/reference_splat.h"
+#include "reference/splat.h"
 
 static const double PI = 3.14159265358979323846;
 

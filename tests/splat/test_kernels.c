@@ -3,7 +3,7 @@
 //
 // Tests of the reference's kernels beside the perspective one: source against affine, circles against
 // ellipses, the exact projective kernel against points of the disc and against its limits.
-#include "kernels/semantics.h"
+#include "surface/semantics.h"
 #include "tests/splat/surfels.h"
 
 static const ewa_kernel all_kernels[] = {EWA_KERNEL_PERSPECTIVE, EWA_KERNEL_AFFINE, EWA_KERNEL_SOURCE,

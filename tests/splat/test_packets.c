@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Tests of src/splat/packets.c, discs.c and the packing kernels: every road from a cloud to packets gives the
+// Tests of src/surface/packets.c, discs.c and the packing kernels: every road from a cloud to packets gives the
 // same surfels, and bounds hold what they are around.
 #include "check.h"
-#include "splat/packets.h"
-#include "splat/surfel.h"
+#include "surface/packets.h"
+#include "surface/surfel.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 //
 // Tests of ewa_render_options.point_size_px: discs of one size on the screen, wherever the points are.
 #include "check.h"
-#include "splat/reference.h"
+#include "reference/surface.h"
 
 #include <math.h>
 

@@ -5,7 +5,7 @@
 // from the eye, sizes, colours and shapes of surfels far apart from each other (docs/conventions.md).
 #include "cloud/cloud.h"
 #include "image/srgb.h"
-#include "splat/packets.h"
+#include "surface/packets.h"
 #include "tests/splat/picture.h"
 
 #include <math.h>

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Tests of src/splat/reference.c: what a picture must show, known answers, failures.
-#include "math/vec.h"
-#include "splat/reference.h"
-#include "splat/surfel.h"
+// Tests of src/reference/surface.c: what a picture must show, known answers, failures.
+#include "homogeneous/vec.h"
+#include "reference/surface.h"
+#include "surface/surfel.h"
 #include "tests/splat/picture.h"
 
 #include <string.h>

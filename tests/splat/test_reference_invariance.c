@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Tests of src/splat/reference.c: what must not change a picture.
+// Tests of src/reference/surface.c: what must not change a picture.
 #include "cloud/cloud.h"
-#include "math/vec.h"
-#include "splat/surfel.h"
+#include "homogeneous/vec.h"
+#include "surface/surfel.h"
 #include "tests/splat/picture.h"
 
 #include <string.h>

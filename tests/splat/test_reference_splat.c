@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Tests of src/splat/reference_splat.c: one splat against other derivations of the same thing, sampled
+// Tests of src/reference/splat.c: one splat against other derivations of the same thing, sampled
 // outlines, closed forms and limits.
-#include "kernels/semantics.h"
+#include "surface/semantics.h"
 #include "tests/splat/surfels.h"
 
 /// PAS equations 4 and 7 to 11: the conic Q' = M^-1 Q M^-T, its centre and its central form.

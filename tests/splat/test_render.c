@@ -4,7 +4,7 @@
 // The fast road against the reference, and against itself: threads, instruction sets, order of the points.
 #include "cloud/cloud.h"
 #include "image/srgb.h"
-#include "kernels/semantics.h"
+#include "surface/semantics.h"
 #include "tests/splat/picture.h"
 
 #include <math.h>

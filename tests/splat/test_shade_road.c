@@ -4,7 +4,7 @@
 // Shading by the fast road against the reference, and against itself: threads, instruction sets, order of the
 // points, memory; materials that differ from surfel to surfel.
 #include "cloud/cloud.h"
-#include "splat/reference.h"
+#include "reference/surface.h"
 #include "tests/splat/shade_scene.h"
 
 #include <math.h>

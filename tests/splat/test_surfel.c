@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Tests of src/splat/surfel.c and options.c: what streams become, what is left out, what is refused.
+// Tests of src/surface/surfel.c and options.c: what streams become, what is left out, what is refused.
 #include "check.h"
-#include "kernels/semantics.h"
-#include "splat/options.h"
-#include "splat/surfel.h"
+#include "surface/semantics.h"
+#include "surface/options.h"
+#include "surface/surfel.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 //
 // Volumes with known contents, cameras around them, pictures of them.
 #include "volume/scene.h"
-#include "volume/reference.h"
+#include "reference/volume.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -5,7 +5,7 @@
 // grids, wide cameras off the axis, coloured lights, gradient ramps, filters.
 #include "check.h"
 #include "volume/plain.h"
-#include "volume/reference.h"
+#include "reference/volume.h"
 #include "volume/scene.h"
 
 #include <math.h>

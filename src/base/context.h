@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What a context is made of; src/base/services.c is what it does for others.
+#ifndef EWA_SRC_BASE_CONTEXT_H
+#define EWA_SRC_BASE_CONTEXT_H
+
+#include "base/base.h"
+#include "base/pool.h"
+
+struct ewa_context {
+    ewa_context_options options;
+    ewa_pool *pool;
+    uint32_t cpu_features;
+    bool soft_failures;
+};
+
+#endif

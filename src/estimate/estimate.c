@@ -1,0 +1,453 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// From positions to surfels: normals, radii or tangent axes from the neighbourhood of each place.
+#include "base/base.h"
+#include "base/options.h"
+#include "cloud/cloud.h"
+#include "ewa/prepare.h"
+#include "estimate/local.h"
+#include "estimate/orient.h"
+#include "estimate/outliers.h"
+#include "estimate/radii.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+enum {
+    MIN_NEIGHBOURS = 6,
+    TASK_PLACES = 1 << 14,
+    COUNTER_STRIDE = 64, // bytes between the counters of workers
+};
+
+// Over the limit of radii: how far apart lines of samples may be, between which there is surface.
+static const double LINE_LIMIT = 4.0 / 3;
+
+/// What one worker has seen.
+typedef struct counter {
+    _Alignas(COUNTER_STRIDE) uint32_t thin;
+    uint32_t degenerate;
+} counter;
+
+typedef struct estimate_job {
+    const ewa_estimate_options *options;
+    const local_kernels *kernels;
+    ewa_neighbours *neighbours;
+    uint32_t place_count;
+    uint32_t wanted; // LOCAL_*
+    local_sizing sizing;
+    // by place; NULL when not wanted
+    float *normals;
+    float *spacing;
+    uint32_t (*links)[LOCAL_GRAPH_DEGREE];
+    uint8_t *notes; // RADIUS_*
+    // by point; NULL when not wanted
+    float *radius_out, *tangent_u_out, *tangent_v_out, *normal_out;
+    ewa_attribute position;
+    double viewpoint[3]; // relative to the cloud's origin
+    counter *counters;   // per worker
+    local_crowd *crowds; // per worker: places that wait to be settled together
+} estimate_job;
+
+static void set_points(const estimate_job *job, uint32_t place, float *out, const float *values,
+                       uint32_t components) {
+    uint32_t count;
+    const uint32_t *points = ewa_neighbours_points(job->neighbours, place, &count);
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t c = 0; c < components; c++) out[(size_t)components * points[i] + c] = values[c];
+}
+
+static void set_axes(const estimate_job *job, uint32_t place, const local_surface *s, uint32_t lane,
+                     double radius_world) {
+    const double sigma = radius_world / job->options->cutoff, stretch = sqrt((double)s->aspect[lane]);
+    float u[3], v[3];
+    for (int c = 0; c < 3; c++) {
+        // v = n x u
+        const int next = (c + 1) % 3, last = (c + 2) % 3;
+        const double across = (double)s->normal[next][lane] * (double)s->major[last][lane] -
+                              (double)s->normal[last][lane] * (double)s->major[next][lane];
+        u[c] = (float)(sigma * stretch * (double)s->major[c][lane]);
+        v[c] = (float)(sigma / stretch * across);
+    }
+    set_points(job, place, job->tangent_u_out, u, 3);
+    set_points(job, place, job->tangent_v_out, v, 3);
+}
+
+/// A length in single precision; none where that overflows.
+static float length_or_none(double length) { return length <= (double)FLT_MAX ? (float)length : 0; }
+
+static void set_size(const estimate_job *job, uint32_t place, const local_surface *s, uint32_t lane,
+                     double radius_world) {
+    const float radius = length_or_none(radius_world);
+    if (job->radius_out) set_points(job, place, job->radius_out, &radius, 1);
+    if (job->tangent_u_out) set_axes(job, place, s, lane, (double)radius);
+}
+
+/// Gives a place that is so far off that single precision overflows around it no plane and no size.
+static void drop_overflow(uint32_t wanted, local_surface *s, uint32_t lane) {
+    float sum = s->spacing[lane];
+    for (int c = 0; c < 3; c++) sum += s->normal[c][lane];
+    for (int c = 0; c < 3 && wanted & LOCAL_SHAPE; c++) sum += s->major[c][lane];
+    if (isfinite(sum)) return;
+    for (int c = 0; c < 3; c++) s->normal[c][lane] = c == 2, s->major[c][lane] = c == 0;
+    s->spacing[lane] = s->reach[lane] = s->ellipse_reach[lane] = s->variation[lane] = 0;
+    s->aspect[lane] = 1;
+}
+
+static void set_lane(const estimate_job *job, uint32_t wanted, uint32_t place, local_surface *s,
+                     uint32_t lane, double unit) {
+    drop_overflow(wanted, s, lane);
+    if (job->spacing) job->spacing[place] = length_or_none((double)s->spacing[lane] * unit);
+    if (job->normals)
+        for (int c = 0; c < 3; c++) job->normals[3 * (size_t)place + (size_t)c] = s->normal[c][lane];
+}
+
+/// What is noted about a lane whose neighbours do not tell its size.
+static uint8_t note_again(const local_surface *s, uint32_t lane, uint32_t why) {
+    const double scatter = ewa_radius_scatter((double)s->variation[lane]);
+    return (uint8_t)(why | (uint32_t)(scatter * RADIUS_NOTE_MOST) << RADIUS_NOTE_SHIFT);
+}
+
+static void visit(void *user, const ewa_block *block, uint32_t worker) {
+    const estimate_job *job = user;
+    local_surface s;
+    job->kernels->measure(block, job->wanted, &s);
+    if (job->links) job->kernels->link(block, &job->links[block->first_place]);
+    for (uint32_t lane = 0; lane < block->lane_count; lane++)
+        set_lane(job, job->wanted, block->first_place + lane, &s, lane, block->unit_world);
+    if (job->wanted) job->kernels->size(job->wanted, &job->sizing, &s);
+    for (uint32_t lane = 0; lane < block->lane_count; lane++) {
+        const uint32_t place = block->first_place + lane;
+        const bool thin = s.thin >> lane & 1, doubtful = s.doubtful >> lane & 1;
+        job->counters[worker].thin += thin;
+        if (thin || doubtful) {
+            job->notes[place] = note_again(&s, lane, thin ? RADIUS_THIN : RADIUS_DOUBTFUL);
+        } else if (job->wanted) {
+            job->notes[place] = (uint8_t)(s.ratio[lane] << RADIUS_NOTE_SHIFT);
+            set_size(job, place, &s, lane, (double)s.radius[lane] * block->unit_world);
+        } else {
+            job->notes[place] = 0;
+        }
+    }
+}
+
+/// Links a place to neighbours at even steps of their list: the nearest ones would all be on its own line.
+static void link_evenly(const ewa_block *block, uint32_t lane, uint32_t links[LOCAL_GRAPH_DEGREE]) {
+    uint32_t inside = 0, seen = 0, linked = 0;
+    for (uint32_t i = 0; i < block->candidate_count; i++)
+        inside += block->distance2[i][lane] <= block->radius2[lane];
+    for (uint32_t i = 0; i < block->candidate_count && linked < LOCAL_GRAPH_DEGREE; i++) {
+        if (!(block->distance2[i][lane] <= block->radius2[lane])) continue;
+        if (seen++ * LOCAL_GRAPH_DEGREE < linked * inside) continue;
+        if (block->place[i] != block->first_place + lane) links[linked++] = block->place[i];
+    }
+    while (linked < LOCAL_GRAPH_DEGREE) links[linked++] = UINT32_MAX;
+}
+
+/// The second visit: to places whose neighbours were almost on a line, as where a scanner's lines are far
+/// apart.
+static void visit_thin(void *user, const ewa_block *block, uint32_t worker) {
+    const estimate_job *job = user;
+    local_surface s;
+    job->kernels->measure(block, 0, &s);
+    for (uint32_t lane = 0; lane < block->lane_count; lane++) {
+        const uint32_t place = block->first_place + lane;
+        if (!(job->notes[place] & RADIUS_THIN)) continue;
+        if (job->links) link_evenly(block, lane, job->links[place]);
+        // Still on a line: a curve in space.
+        const bool curve = s.thin >> lane & 1;
+        if (curve) s.spacing[lane] = s.line_spacing[lane];
+        set_lane(job, 0, place, &s, lane, block->unit_world);
+        job->notes[place] = note_again(&s, lane, curve ? RADIUS_DOUBTFUL : RADIUS_THIN);
+        job->counters[worker].degenerate += s.degenerate >> lane & 1;
+    }
+}
+
+/// Gives a place its size by many neighbours.
+static void settle_lane(const estimate_job *job, const local_crowd *crowd, uint32_t lane, double around,
+                        double limit, local_surface *s) {
+    const uint32_t place = crowd->place[lane];
+    drop_overflow(job->wanted, s, lane);
+    const double spacing = (double)job->spacing[place] / crowd->unit_world[lane];
+    const double few = (double)(job->notes[place] >> RADIUS_NOTE_SHIFT) / RADIUS_NOTE_MOST;
+    const double many = ewa_radius_scatter((double)s->variation[lane]);
+    const double scatter = few < many ? few : many, lone = ewa_radius_lone(spacing, around);
+    const radius_place at = {.spacing = spacing < around ? spacing : around,
+                             .reach = (double)(job->tangent_u_out ? s->ellipse_reach[lane] : s->reach[lane]),
+                             .limit = limit,
+                             .scatter = scatter > lone ? scatter : lone};
+    const double radius = ewa_radius(&at, job->options->radius_scale, job->options->cutoff);
+    set_size(job, place, s, lane, radius * crowd->unit_world[lane]);
+}
+
+/// Settles the places that wait, and empties their list.
+static void settle(const estimate_job *job, local_crowd *crowd) {
+    const uint32_t count = crowd->lane_count;
+    local_surface s;
+    float around[EWA_BLOCK_LANES], limit[EWA_BLOCK_LANES], normal[3][EWA_BLOCK_LANES];
+    job->kernels->median(crowd, around);
+    for (uint32_t lane = 0; lane < EWA_BLOCK_LANES; lane++) {
+        const uint32_t from = lane < count ? lane : 0, place = crowd->place[from];
+        for (int c = 0; c < 3 && job->normals; c++)
+            normal[c][lane] = job->normals[3 * (size_t)place + (size_t)c];
+        around[lane] = (float)((double)around[from] / crowd->unit_world[from]);
+        limit[lane] = (float)(job->options->radius_limit *
+                              (job->notes[place] & RADIUS_THIN ? LINE_LIMIT : 1) * (double)around[lane]);
+    }
+    job->kernels->enclose(crowd, job->wanted, job->normals ? (const float(*)[EWA_BLOCK_LANES])normal : NULL,
+                          limit, &s);
+    for (uint32_t lane = 0; lane < count; lane++)
+        settle_lane(job, crowd, lane, (double)around[lane], (double)limit[lane], &s);
+    crowd->lane_count = 0;
+}
+
+/// The third visit: to places whose cells are open, as at borders and beside holes, that are on lines or on
+/// no surface, or sparser than others nearby. All spacings are known then.
+static void visit_again(void *user, const ewa_block *block, uint32_t worker) {
+    const estimate_job *job = user;
+    local_crowd *crowd = &job->crowds[worker];
+    uint32_t lanes = 0;
+    for (uint32_t lane = 0; lane < block->lane_count; lane++)
+        if (job->notes[block->first_place + lane] & RADIUS_AGAIN) lanes |= 1u << lane;
+    while (lanes) {
+        lanes = job->kernels->collect(block, lanes, job->spacing, crowd);
+        if (crowd->lane_count == EWA_BLOCK_LANES) settle(job, crowd);
+    }
+}
+
+/// Measures again what is noted so.
+static ewa_status measure_again(ewa_context *context, estimate_job *job, const ewa_visit_choice *choice) {
+    const uint32_t workers = ewa_context_worker_count(context);
+    job->crowds = ewa_allocate(context, workers, sizeof *job->crowds);
+    if (!job->crowds) return EWA_ERROR_MEMORY;
+    for (uint32_t w = 0; w < workers; w++) job->crowds[w].lane_count = 0;
+    const ewa_status status = ewa_neighbours_visit(job->neighbours, choice, visit_again, job);
+    for (uint32_t w = 0; w < workers && status == EWA_OK; w++)
+        if (job->crowds[w].lane_count) settle(job, &job->crowds[w]);
+    ewa_release(context, job->crowds, workers, sizeof *job->crowds);
+    return status;
+}
+
+/// Turns v so that u x v is along the normal.
+static void match_axes(const float *normal, const float *u, float *v) {
+    float volume = 0;
+    for (int c = 0; c < 3; c++)
+        volume += normal[c] * (u[(c + 1) % 3] * v[(c + 2) % 3] - u[(c + 2) % 3] * v[(c + 1) % 3]);
+    if (volume < 0)
+        for (int c = 0; c < 3; c++) v[c] = -v[c];
+}
+
+/// Hands the normals of places to their points, towards the viewpoint if that is wanted.
+static void finish_task(void *data, uint32_t task, uint32_t worker) {
+    (void)worker;
+    const estimate_job *job = data;
+    const uint32_t begin = task * TASK_PLACES;
+    const uint32_t end = job->place_count - begin < TASK_PLACES ? job->place_count : begin + TASK_PLACES;
+    for (uint32_t place = begin; place < end; place++) {
+        float *normal = &job->normals[3 * (size_t)place];
+        uint32_t count;
+        const uint32_t *points = ewa_neighbours_points(job->neighbours, place, &count);
+        if (job->options->orientation == EWA_ORIENT_VIEWPOINT) {
+            double p[3], towards = 0;
+            ewa_attribute_read_f64(&job->position, points[0], 1, p);
+            for (int c = 0; c < 3; c++) towards += (job->viewpoint[c] - p[c]) * (double)normal[c];
+            if (towards < 0)
+                for (int c = 0; c < 3; c++) normal[c] = -normal[c];
+        }
+        set_points(job, place, job->normal_out, normal, 3);
+        for (uint32_t i = 0; i < count && job->tangent_v_out; i++)
+            match_axes(normal, &job->tangent_u_out[3 * (size_t)points[i]],
+                       &job->tangent_v_out[3 * (size_t)points[i]]);
+    }
+}
+
+static ewa_status add_output(ewa_cloud *cloud, const char *name, uint32_t components, bool has_gaps,
+                             float **out) {
+    void *data = NULL;
+    const ewa_status status = ewa_cloud_add(cloud, name, EWA_F32, components, &data);
+    if (status != EWA_OK) return status;
+    if (has_gaps) memset(data, 0, components * sizeof **out * ewa_cloud_point_count(cloud));
+    *out = data;
+    return EWA_OK;
+}
+
+/// Measures all places.
+static ewa_status measure(ewa_context *context, estimate_job *job) {
+    ewa_visit_choice choice = {job->options->neighbour_count, 1, NULL, "estimate", 0, NULL};
+    ewa_status status = ewa_neighbours_visit(job->neighbours, &choice, visit, job);
+    uint64_t thin = 0;
+    for (uint32_t w = 0; w < ewa_context_worker_count(context); w++) thin += job->counters[w].thin;
+    choice.neighbour_count = EWA_NEIGHBOURS_MAX;
+    choice.chosen = job->notes;
+    choice.chosen_bits = RADIUS_THIN;
+    if (status == EWA_OK && thin) status = ewa_neighbours_visit(job->neighbours, &choice, visit_thin, job);
+    if (status != EWA_OK || !job->wanted) return status;
+    ewa_radius_doubt_sparse(context, job->spacing, job->place_count, job->options->radius_limit, job->notes);
+    choice.chosen_bits = RADIUS_AGAIN;
+    choice.spacing = job->spacing;
+    return measure_again(context, job, &choice);
+}
+
+static void report_degenerate(ewa_context *context, const estimate_job *job) {
+    uint64_t degenerate = 0;
+    for (uint32_t w = 0; w < ewa_context_worker_count(context); w++)
+        degenerate += job->counters[w].degenerate;
+    if (degenerate)
+        ewa_report(context, EWA_SEVERITY_INFO,
+                   "%llu of %u places are on no plane: less than three neighbours, or all on one line",
+                   (unsigned long long)degenerate, job->place_count);
+}
+
+/// Adds and fills the stream of normals.
+static ewa_status finish_normals(ewa_cloud *cloud, estimate_job *job, bool has_gaps) {
+    ewa_context *context = ewa_cloud_context(cloud);
+    ewa_status status = EWA_OK;
+    if (job->links) {
+        const orient_input input = {job->neighbours, (const uint32_t(*)[LOCAL_GRAPH_DEGREE])job->links,
+                                    job->spacing};
+        status = ewa_orient_propagate(context, &input, job->normals);
+    }
+    ewa_neighbours_end_visits(job->neighbours);
+    if (status == EWA_OK) status = add_output(cloud, EWA_NORMAL, 3, has_gaps, &job->normal_out);
+    if (status == EWA_OK)
+        ewa_parallel(context, finish_task, job, (job->place_count + TASK_PLACES - 1) / TASK_PLACES);
+    return status;
+}
+
+/// Adds the streams that are wanted, with a tree over the positions at hand.
+static ewa_status estimate_with(ewa_cloud *cloud, estimate_job *job, bool normals, bool sizes) {
+    ewa_context *context = ewa_cloud_context(cloud);
+    const bool propagate = normals && job->options->orientation == EWA_ORIENT_PROPAGATE;
+    const bool has_gaps = ewa_neighbours_finite_count(job->neighbours) < ewa_cloud_point_count(cloud);
+    const bool ellipse = job->options->shape == EWA_SHAPE_ELLIPSE;
+    const size_t places = job->place_count, workers = ewa_context_worker_count(context);
+    job->wanted = !sizes ? 0 : ellipse ? LOCAL_SHAPE : LOCAL_REACH;
+    job->sizing =
+        ewa_radius_sizing(job->options->radius_limit, job->options->radius_scale, job->options->cutoff);
+    ewa_status status = EWA_OK;
+    if (sizes && !ellipse) status = add_output(cloud, EWA_RADIUS, 1, has_gaps, &job->radius_out);
+    if (sizes && ellipse) status = add_output(cloud, EWA_TANGENT_U, 3, has_gaps, &job->tangent_u_out);
+    if (sizes && ellipse && status == EWA_OK)
+        status = add_output(cloud, EWA_TANGENT_V, 3, has_gaps, &job->tangent_v_out);
+    if (status == EWA_OK) {
+        job->counters = ewa_allocate_zeroed(context, workers, sizeof *job->counters);
+        job->notes = ewa_allocate(context, places, sizeof *job->notes);
+        bool complete = job->counters && job->notes;
+        if (normals)
+            complete = (job->normals = ewa_allocate(context, places, 3 * sizeof *job->normals)) && complete;
+        if (propagate)
+            complete = (job->links = ewa_allocate(context, places, sizeof *job->links)) && complete;
+        if (propagate || sizes)
+            complete = (job->spacing = ewa_allocate(context, places, sizeof *job->spacing)) && complete;
+        status = complete ? measure(context, job) : EWA_ERROR_MEMORY;
+    }
+    if (status == EWA_OK) {
+        report_degenerate(context, job);
+        if (normals) status = finish_normals(cloud, job, has_gaps);
+    }
+    ewa_release(context, job->spacing, places, sizeof *job->spacing);
+    ewa_release(context, job->links, places, sizeof *job->links);
+    ewa_release(context, job->normals, places, 3 * sizeof *job->normals);
+    ewa_release(context, job->notes, places, sizeof *job->notes);
+    ewa_release(context, job->counters, workers, sizeof *job->counters);
+    return status;
+}
+
+static bool has_components(const ewa_cloud *cloud, const char *name, uint32_t components) {
+    const ewa_attribute *attribute = ewa_cloud_find(cloud, name);
+    return attribute && attribute->component_count == components;
+}
+
+static ewa_status estimate(ewa_cloud *cloud, const ewa_estimate_options *options) {
+    const bool has_axes = has_components(cloud, EWA_TANGENT_U, 3) && has_components(cloud, EWA_TANGENT_V, 3);
+    const bool normals = !(options->keep_normals && has_components(cloud, EWA_NORMAL, 3));
+    const bool sizes = !(options->keep_radii && (has_axes || has_components(cloud, EWA_RADIUS, 1)));
+    if (!normals && !sizes) return EWA_OK;
+    estimate_job job = {.options = options,
+                        .kernels =
+                            EWA_CHOOSE(ewa_context_cpu_features(ewa_cloud_context(cloud)), ewa_local_kernels),
+                        .position = *ewa_cloud_find(cloud, EWA_POSITION)};
+    ewa_cloud_origin(cloud, job.viewpoint);
+    for (int c = 0; c < 3; c++) job.viewpoint[c] = options->viewpoint_world[c] - job.viewpoint[c];
+    ewa_neighbours *neighbours = NULL;
+    ewa_status status = ewa_neighbours_create(ewa_cloud_context(cloud), &job.position,
+                                              (uint32_t)ewa_cloud_point_count(cloud), &neighbours);
+    if (status != EWA_OK) return status;
+    job.neighbours = neighbours;
+    job.place_count = ewa_neighbours_place_count(neighbours);
+    status = estimate_with(cloud, &job, normals, sizes);
+    ewa_neighbours_destroy(&neighbours);
+    if (status != EWA_OK) {
+        // Streams that are not filled must not stay.
+        if (job.normal_out) ewa_cloud_remove(cloud, EWA_NORMAL);
+        if (job.radius_out) ewa_cloud_remove(cloud, EWA_RADIUS);
+        if (job.tangent_u_out) ewa_cloud_remove(cloud, EWA_TANGENT_U);
+        if (job.tangent_v_out) ewa_cloud_remove(cloud, EWA_TANGENT_V);
+        return status;
+    }
+    // What described the old sizes would contradict the new ones.
+    if (job.tangent_u_out) ewa_cloud_remove(cloud, EWA_RADIUS);
+    if (sizes) {
+        static const char *const clip_lines[] = {EWA_CLIP0, EWA_CLIP1, EWA_CLIP_MODE};
+        for (int i = 0; i < 3; i++) ewa_cloud_remove(cloud, clip_lines[i]);
+    }
+    if (job.radius_out) {
+        ewa_cloud_remove(cloud, EWA_TANGENT_U);
+        ewa_cloud_remove(cloud, EWA_TANGENT_V);
+    }
+    return EWA_OK;
+}
+
+#define AT(member) offsetof(ewa_estimate_options, member)
+
+static const ewa_option option_rows[] = {
+    {"neighbour_count", EWA_OPTION_U32, AT(neighbour_count), MIN_NEIGHBOURS, EWA_NEIGHBOURS_MAX,
+     .initial = 16, .help = "nearest neighbours that a point is judged by"},
+    {"orientation", EWA_OPTION_CHOICE, AT(orientation), .words = "propagate|viewpoint|none",
+     .help = "side that normals point to: consistent along the surface and outward, towards the viewpoint, "
+             "or as they come"},
+    {"viewpoint_world", EWA_OPTION_F64, AT(viewpoint_world), -INFINITY, INFINITY,
+     EWA_OPTION_ABOVE | EWA_OPTION_BELOW, 3, .help = "place that normals point to, such as the scanner's"},
+    {"shape", EWA_OPTION_CHOICE, AT(shape), .words = "disc|ellipse",
+     .help = "disc: a radius from the local density; ellipse: two axes from the local anisotropy of the "
+             "sampling"},
+    {"radius_scale", EWA_OPTION_F64, AT(radius_scale), 0, INFINITY, EWA_OPTION_ABOVE | EWA_OPTION_BELOW,
+     .initial = EWA_DEFAULT_RADIUS_SCALE, .help = "support radius in units of the local spacing"},
+    {"radius_limit", EWA_OPTION_F64, AT(radius_limit), 1, INFINITY, EWA_OPTION_BELOW,
+     .initial = EWA_DEFAULT_RADIUS_LIMIT,
+     .help = "largest radius that closes a gap, in median spacings of the places around"},
+    {"cutoff", EWA_OPTION_F64, AT(cutoff), 0, 4, EWA_OPTION_ABOVE, .initial = 3,
+     .help = "standard deviations at which kernels end: axes are the support radius over this"},
+    {"keep_normals", EWA_OPTION_BOOL, AT(keep_normals), .initial = true,
+     .help = "keep the normals that the file has"},
+    {"keep_radii", EWA_OPTION_BOOL, AT(keep_radii), .initial = true,
+     .help = "keep the radii or axes that the file has"},
+    {"outlier_factor", EWA_OPTION_F64, AT(outlier_factor), 0, INFINITY, EWA_OPTION_BELOW,
+     .help = "remove points whose mean distance to their neighbours is over the mean plus so many standard "
+             "deviations of all; 0: keep all"},
+};
+
+const ewa_option_table ewa_estimate_options_table = EWA_OPTION_TABLE(ewa_estimate_options, option_rows);
+
+void ewa_estimate_options_init(ewa_estimate_options *options, size_t struct_size) {
+    ewa_options_init(&ewa_estimate_options_table, options, struct_size);
+}
+
+ewa_status ewa_cloud_estimate(ewa_cloud **cloud, const ewa_estimate_options *given) {
+    if (!cloud || !*cloud || !given) return EWA_ERROR_ARGUMENT;
+    ewa_context *context = ewa_cloud_context(*cloud);
+    ewa_estimate_options chosen, *options = &chosen;
+    ewa_estimate_options_init(options, sizeof *options);
+    ewa_status status = ewa_options_take(context, &ewa_estimate_options_table, given, options);
+    if (status != EWA_OK) return status;
+    if (!has_components(*cloud, EWA_POSITION, 3))
+        return ewa_fail(context, EWA_ERROR_ARGUMENT,
+                        "estimate: the cloud has no positions of three components");
+    if (ewa_cloud_point_count(*cloud) >= UINT32_MAX)
+        return ewa_fail(context, EWA_ERROR_LIMIT, "estimate: %llu points are over the limit of 2^32 - 2",
+                        (unsigned long long)ewa_cloud_point_count(*cloud));
+    if (options->outlier_factor > 0)
+        status = ewa_remove_outliers(cloud, options->neighbour_count, options->outlier_factor);
+    return status == EWA_OK ? estimate(*cloud, options) : status;
+}

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Camera files: which format it is, one camera of many, and our own format out.
+#include "io/camera/file.h"
+#include "base/base.h"
+#include "ewa/io.h"
+#include "io/file.h"
+#include "io/number.h"
+#include "homogeneous/camera.h"
+
+#include <string.h>
+#include <sys/stat.h>
+
+static bool is_folder(const char *path) {
+    struct stat facts;
+    return stat(path, &facts) == 0 && S_ISDIR(facts.st_mode);
+}
+
+static ewa_status read_list(ewa_camera_list *list, const char *path) {
+    if (is_folder(path)) return ewa_camera_list_read_colmap(list, path);
+    ewa_file file;
+    ewa_status status = ewa_file_map(list->context, path, &file);
+    if (status != EWA_OK) return status;
+    status = ewa_camera_list_read_json(list, path, file.bytes, file.size_bytes);
+    ewa_file_unmap(list->context, &file);
+    return status;
+}
+
+ewa_status ewa_camera_load(ewa_context *context, const char *path, uint32_t index, ewa_camera *camera) {
+    if (!context || !path || !camera) return EWA_ERROR_ARGUMENT;
+    ewa_camera_list list = {.context = context, .name = path};
+    ewa_status status = read_list(&list, path);
+    if (status == EWA_OK && index >= list.count)
+        status = ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: camera %u wanted, %zu there (counted from 0)",
+                          path, index, list.count);
+    if (status == EWA_OK) *camera = list.cameras[index];
+    ewa_camera_list_free(&list);
+    return status;
+}
+
+ewa_status ewa_camera_load_lens(ewa_context *context, const char *path, ewa_camera *lens) {
+    if (!context || !path || !lens) return EWA_ERROR_ARGUMENT;
+    ewa_camera_list list = {.context = context, .name = path, .lens_suffices = true};
+    const ewa_status status = read_list(&list, path);
+    if (status == EWA_OK) {
+        ewa_camera_init(lens);
+        lens->projection = list.cameras->projection;
+        lens->width_px = list.cameras->width_px;
+        lens->height_px = list.cameras->height_px;
+        lens->fx_px = list.cameras->fx_px;
+        lens->fy_px = list.cameras->fy_px;
+        lens->cx_px = list.cameras->cx_px;
+        lens->cy_px = list.cameras->cy_px;
+    }
+    ewa_camera_list_free(&list);
+    return status;
+}
+
+ewa_status ewa_camera_load_each(ewa_context *context, const char *path, ewa_camera_callback *receive,
+                                void *user) {
+    if (!context || !path || !receive) return EWA_ERROR_ARGUMENT;
+    ewa_camera_list list = {.context = context, .name = path};
+    const ewa_status status = read_list(&list, path);
+    for (size_t i = 0; status == EWA_OK && i < list.count; i++) receive(user, (uint32_t)i, &list.cameras[i]);
+    ewa_camera_list_free(&list);
+    return status;
+}
+
+ewa_status ewa_camera_load_poses(ewa_context *context, const char *path, const ewa_camera *lens,
+                                 ewa_camera_callback *receive, void *user) {
+    if (!context || !path || !lens || !receive) return EWA_ERROR_ARGUMENT;
+    ewa_file file;
+    ewa_status status = ewa_file_map(context, path, &file);
+    if (status != EWA_OK) return status;
+    ewa_camera_list list = {.context = context, .name = path};
+    status = ewa_camera_list_read_poses(&list, lens, file.bytes, file.size_bytes);
+    ewa_file_unmap(context, &file);
+    for (size_t i = 0; status == EWA_OK && i < list.count; i++) receive(user, (uint32_t)i, &list.cameras[i]);
+    ewa_camera_list_free(&list);
+    return status;
+}
+
+static void put_text(ewa_writer *writer, const char *text) { ewa_writer_put(writer, text, strlen(text)); }
+
+static void put_number(ewa_writer *writer, double value) {
+    char text[EWA_NUMBER_BYTES];
+    ewa_writer_put(writer, text, ewa_number_write_f64(value, text));
+}
+
+static void put_member(ewa_writer *writer, const char *name, double value) {
+    put_text(writer, "  \"");
+    put_text(writer, name);
+    put_text(writer, "\": ");
+    put_number(writer, value);
+    put_text(writer, ",\n");
+}
+
+/// Writes one camera as an object.
+static void put_camera(ewa_writer *writer, const ewa_camera *camera) {
+    put_text(writer, "{\n");
+    if (camera->projection == EWA_ORTHOGRAPHIC) put_text(writer, "  \"projection\": \"orthographic\",\n");
+    put_member(writer, "width", camera->width_px);
+    put_member(writer, "height", camera->height_px);
+    put_member(writer, "fx", camera->fx_px);
+    put_member(writer, "fy", camera->fy_px);
+    put_member(writer, "cx", camera->cx_px);
+    put_member(writer, "cy", camera->cy_px);
+    put_text(writer, "  \"world_to_camera\": [");
+    for (int i = 0; i < 16; i++) {
+        put_text(writer, i == 0 ? "\n    " : i % 4 ? ", " : ",\n    ");
+        put_number(writer, camera->world_to_camera[i]);
+    }
+    put_text(writer, "\n  ]\n}");
+}
+
+ewa_status ewa_camera_save(ewa_context *context, const ewa_camera *camera, const char *path) {
+    if (!context || !camera || !path) return EWA_ERROR_ARGUMENT;
+    ewa_status status = ewa_camera_check(context, camera);
+    ewa_writer *writer = NULL;
+    if (status == EWA_OK) status = ewa_writer_open(context, path, &writer);
+    if (status != EWA_OK) return status;
+    put_camera(writer, camera);
+    put_text(writer, "\n");
+    return ewa_writer_commit(&writer);
+}
+
+ewa_status ewa_camera_save_list(ewa_context *context, const ewa_camera *cameras, size_t count,
+                                const char *path) {
+    if (!context || !cameras || count == 0 || !path) return EWA_ERROR_ARGUMENT;
+    ewa_status status = EWA_OK;
+    for (size_t i = 0; i < count && status == EWA_OK; i++) status = ewa_camera_check(context, &cameras[i]);
+    ewa_writer *writer = NULL;
+    if (status == EWA_OK) status = ewa_writer_open(context, path, &writer);
+    if (status != EWA_OK) return status;
+    for (size_t i = 0; i < count; i++) {
+        put_text(writer, i ? ",\n" : "[\n");
+        put_camera(writer, &cameras[i]);
+    }
+    put_text(writer, "\n]\n");
+    return ewa_writer_commit(&writer);
+}

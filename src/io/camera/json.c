@@ -1,0 +1,368 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Camera files in JSON, told apart by their members: ours, Open3D's PinholeCameraParameters and
+// PinholeCameraTrajectory, transforms.json of nerfstudio and instant-ngp, cameras.json of INRIA's Gaussian
+// splatting, and stacks of matrices as gsplat takes them (viewmats, Ks).
+#include "base/base.h"
+#include "io/camera/file.h"
+#include "io/file.h"
+#include "io/json_text.h"
+#include "io/image/png.h"
+#include "math/angle.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { WHERE_BYTES = 64 };
+
+typedef struct source {
+    ewa_camera_list *list;
+    const char *path;        // of the file, or NULL
+    char where[WHERE_BYTES]; // of the object that is read: "", or such as "frames[3]"
+} source;
+
+static ewa_status fail_member(const source *in, const char *member, const char *what) {
+    return ewa_fail(in->list->context, EWA_ERROR_FORMAT, "%s: %s%smember '%s' %s", in->list->name, in->where,
+                    in->where[0] ? ": " : "", member, what);
+}
+
+static const cJSON *find(const cJSON *object, const char *member) {
+    return cJSON_GetObjectItemCaseSensitive(object, member);
+}
+
+static ewa_status read_number(const source *in, const cJSON *object, const char *member, double *value) {
+    const cJSON *item = find(object, member);
+    if (!item) return fail_member(in, member, "is missing");
+    if (!cJSON_IsNumber(item)) return fail_member(in, member, "is not a number");
+    *value = item->valuedouble;
+    return EWA_OK;
+}
+
+/// Leaves `value` alone when there is no such member.
+static ewa_status read_optional(const source *in, const cJSON *object, const char *member, double *value) {
+    return find(object, member) ? read_number(in, object, member, value) : EWA_OK;
+}
+
+static ewa_status read_side(const source *in, const cJSON *object, const char *member, uint32_t *side_px) {
+    double value = 0;
+    const ewa_status status = read_number(in, object, member, &value);
+    if (status != EWA_OK) return status;
+    if (!(value >= 1 && value <= UINT32_MAX) || value != (double)(uint32_t)value)
+        return fail_member(in, member, "is not a positive whole number");
+    *side_px = (uint32_t)value;
+    return EWA_OK;
+}
+
+static ewa_status read_size(const source *in, const cJSON *object, ewa_camera *camera) {
+    const ewa_status status = read_side(in, object, "width", &camera->width_px);
+    return status != EWA_OK ? status : read_side(in, object, "height", &camera->height_px);
+}
+
+/// Appends the numbers of an array, nested or not, while there is room; false when anything else is in it or
+/// there are more.
+static bool flatten(const cJSON *array, double *values, int *count, int most) {
+    if (!cJSON_IsArray(array)) return false;
+    const cJSON *item;
+    cJSON_ArrayForEach(item, array) {
+        if (cJSON_IsArray(item)) {
+            if (!flatten(item, values, count, most)) return false;
+        } else {
+            if (!cJSON_IsNumber(item) || *count == most) return false;
+            values[(*count)++] = item->valuedouble;
+        }
+    }
+    return true;
+}
+
+/// Reads an array of exactly `wanted` numbers, flat or in rows.
+static ewa_status read_array(const source *in, const cJSON *item, const char *member, int wanted,
+                             double *values) {
+    if (!item) return fail_member(in, member, "is missing");
+    int count = 0;
+    if (flatten(item, values, &count, wanted) && count == wanted) return EWA_OK;
+    char what[64];
+    snprintf(what, sizeof what, "is not an array of %d numbers", wanted);
+    return fail_member(in, member, what);
+}
+
+static ewa_status read_native(const source *in, const cJSON *object) {
+    ewa_camera camera;
+    ewa_camera_init(&camera);
+    const cJSON *projection = find(object, "projection");
+    if (projection) {
+        const char *text = cJSON_GetStringValue(projection);
+        if (text && strcmp(text, "orthographic") == 0)
+            camera.projection = EWA_ORTHOGRAPHIC;
+        else if (!text || strcmp(text, "perspective") != 0)
+            return fail_member(in, "projection", "is neither \"perspective\" nor \"orthographic\"");
+    }
+    ewa_status status = read_size(in, object, &camera);
+    if (status == EWA_OK) status = read_number(in, object, "fx", &camera.fx_px);
+    if (status == EWA_OK) status = read_number(in, object, "fy", &camera.fy_px);
+    if (status == EWA_OK) status = read_number(in, object, "cx", &camera.cx_px);
+    if (status == EWA_OK) status = read_number(in, object, "cy", &camera.cy_px);
+    if (status == EWA_OK)
+        status =
+            read_array(in, find(object, "world_to_camera"), "world_to_camera", 16, camera.world_to_camera);
+    return status != EWA_OK ? status : ewa_camera_list_add(in->list, in->where, &camera);
+}
+
+/// INRIA: `rotation` and `position` are camera to world, the principal point is in the middle.
+static ewa_status read_inria(const source *in, const cJSON *object) {
+    ewa_camera camera;
+    ewa_camera_init(&camera);
+    double rotation[9], position[3];
+    ewa_status status = read_size(in, object, &camera);
+    if (status == EWA_OK) status = read_number(in, object, "fx", &camera.fx_px);
+    if (status == EWA_OK) status = read_number(in, object, "fy", &camera.fy_px);
+    if (status == EWA_OK) status = read_array(in, find(object, "rotation"), "rotation", 9, rotation);
+    if (status == EWA_OK) status = read_array(in, find(object, "position"), "position", 3, position);
+    if (status != EWA_OK) return status;
+    camera.cx_px = 0.5 * camera.width_px;
+    camera.cy_px = 0.5 * camera.height_px;
+    ewa_camera_set_inverse(&camera, rotation, position);
+    return ewa_camera_list_add(in->list, in->where, &camera);
+}
+
+/// Where Open3D has pixel centres at whole numbers, ours are at halves: the middle of 640 pixels is its
+/// 319.5.
+static const double OPEN3D_SHIFT_PX = 0.5;
+
+/// Open3D's PinholeCameraIntrinsic; the matrix is column-major.
+static ewa_status read_open3d_lens(const source *in, const cJSON *intrinsic, ewa_camera *camera) {
+    double k[9];
+    ewa_status status = read_size(in, intrinsic, camera);
+    if (status == EWA_OK)
+        status = read_array(in, find(intrinsic, "intrinsic_matrix"), "intrinsic_matrix", 9, k);
+    if (status != EWA_OK) return status;
+    if (k[3] != 0) return fail_member(in, "intrinsic_matrix", "is skewed");
+    camera->fx_px = k[0];
+    camera->fy_px = k[4];
+    camera->cx_px = k[6] + OPEN3D_SHIFT_PX;
+    camera->cy_px = k[7] + OPEN3D_SHIFT_PX;
+    return EWA_OK;
+}
+
+/// Open3D's PinholeCameraParameters; the extrinsic matrix is column-major too.
+static ewa_status read_open3d(const source *in, const cJSON *object) {
+    ewa_camera camera;
+    ewa_camera_init(&camera);
+    const cJSON *intrinsic = find(object, "intrinsic");
+    if (!intrinsic) return fail_member(in, "intrinsic", "is missing");
+    double extrinsic[16];
+    ewa_status status = read_open3d_lens(in, intrinsic, &camera);
+    if (status == EWA_OK) status = read_array(in, find(object, "extrinsic"), "extrinsic", 16, extrinsic);
+    if (status != EWA_OK) return status;
+    for (int r = 0; r < 4; r++)
+        for (int c = 0; c < 4; c++) camera.world_to_camera[4 * r + c] = extrinsic[4 * c + r];
+    return ewa_camera_list_add(in->list, in->where, &camera);
+}
+
+/// A lens alone: a camera at the origin where that will do.
+static ewa_status read_lens_alone(const source *in, const cJSON *intrinsic) {
+    if (!in->list->lens_suffices)
+        return ewa_fail(in->list->context, EWA_ERROR_FORMAT,
+                        "%s: holds an intrinsic matrix only: member 'extrinsic' is missing", in->list->name);
+    ewa_camera camera;
+    ewa_camera_init(&camera);
+    const ewa_status status = read_open3d_lens(in, intrinsic, &camera);
+    return status != EWA_OK ? status : ewa_camera_list_add(in->list, in->where, &camera);
+}
+
+/// Calls `read` for each object of an array.
+static ewa_status read_each(source *in, const cJSON *array, const char *member,
+                            ewa_status (*read)(const source *in, const cJSON *object)) {
+    if (!cJSON_IsArray(array) || !array->child) return fail_member(in, member, "is not an array of cameras");
+    size_t index = 0;
+    const cJSON *item;
+    cJSON_ArrayForEach(item, array) {
+        snprintf(in->where, sizeof in->where, "%s[%zu]", member, index++);
+        const ewa_status status = read(in, item);
+        if (status != EWA_OK) return status;
+    }
+    return EWA_OK;
+}
+
+/// gsplat: world-to-camera matrices and intrinsic matrices, row-major, one size for all.
+static ewa_status read_stacks(source *in, const cJSON *object, const cJSON *matrices) {
+    ewa_camera camera;
+    ewa_camera_init(&camera);
+    ewa_status status = read_size(in, object, &camera);
+    if (status != EWA_OK) return status;
+    const cJSON *intrinsics = find(object, "Ks");
+    if (!cJSON_IsArray(intrinsics)) return fail_member(in, "Ks", "is missing or not an array");
+    const cJSON *matrix = matrices->child, *intrinsic = intrinsics->child;
+    for (size_t index = 0; matrix; matrix = matrix->next, intrinsic = intrinsic->next, index++) {
+        snprintf(in->where, sizeof in->where, "camera %zu", index);
+        double k[9];
+        status = read_array(in, matrix, matrices->string, 16, camera.world_to_camera);
+        if (status == EWA_OK) status = read_array(in, intrinsic, "Ks", 9, k);
+        if (status != EWA_OK) return status;
+        if (k[1] != 0) return fail_member(in, "Ks", "is skewed");
+        camera.fx_px = k[0];
+        camera.fy_px = k[4];
+        camera.cx_px = k[2];
+        camera.cy_px = k[5];
+        status = ewa_camera_list_add(in->list, in->where, &camera);
+        if (status != EWA_OK) return status;
+    }
+    return EWA_OK;
+}
+
+static bool is_regular_file(const char *path) {
+    struct stat facts;
+    return stat(path, &facts) == 0 && S_ISREG(facts.st_mode);
+}
+
+/// Takes the size from the PNG picture of a frame, as the synthetic NeRF scenes want it: "file_path" beside
+/// the JSON file, with or without ".png".
+static ewa_status read_picture_size(const source *in, const cJSON *frame, ewa_camera *camera) {
+    const char *picture = cJSON_GetStringValue(find(frame, "file_path"));
+    char path[PATH_MAX];
+    const char *slash = in->path ? strrchr(in->path, '/') : NULL;
+    const int folder_bytes = slash ? (int)(slash - in->path) + 1 : 0;
+    bool found = false;
+    for (int attempt = 0; picture && in->path && attempt < 2 && !found; attempt++) {
+        const int length =
+            snprintf(path, sizeof path, "%.*s%s%s", folder_bytes, in->path, picture, attempt ? ".png" : "");
+        found = length > 0 && (size_t)length < sizeof path && is_regular_file(path);
+    }
+    if (!found) return fail_member(in, "w", "is missing, and so is the frame's picture");
+    ewa_file file;
+    ewa_status status = ewa_file_map(in->list->context, path, &file);
+    if (status != EWA_OK) return status;
+    status = ewa_png_recognise(file.bytes, file.size_bytes)
+                 ? ewa_png_size(in->list->context, path, file.bytes, file.size_bytes, &camera->width_px,
+                                &camera->height_px)
+                 : fail_member(in, "w", "is missing, and the frame's picture is not PNG");
+    ewa_file_unmap(in->list->context, &file);
+    return status;
+}
+
+/// The lens of one frame: members of the frame win over those of the file.
+static ewa_status read_frame_lens(const source *in, const cJSON *root, const cJSON *frame,
+                                  ewa_camera *camera) {
+    const cJSON *levels[2] = {root, frame};
+    double width = 0, height = 0, fx = 0, fy = 0, cx = -1, cy = -1, angle_x = 0, angle_y = 0;
+    bool has_centre_x = false, has_centre_y = false;
+    for (int level = 0; level < 2; level++) {
+        const cJSON *object = levels[level];
+        const struct {
+            const char *member;
+            double *value;
+        } optional[] = {{"w", &width},
+                        {"h", &height},
+                        {"fl_x", &fx},
+                        {"fl_y", &fy},
+                        {"cx", &cx},
+                        {"cy", &cy},
+                        {"camera_angle_x", &angle_x},
+                        {"camera_angle_y", &angle_y}};
+        for (size_t i = 0; i < sizeof optional / sizeof optional[0]; i++) {
+            const ewa_status status = read_optional(in, object, optional[i].member, optional[i].value);
+            if (status != EWA_OK) return status;
+        }
+        has_centre_x |= find(object, "cx") != NULL;
+        has_centre_y |= find(object, "cy") != NULL;
+    }
+    if (width == 0 && height == 0) {
+        const ewa_status status = read_picture_size(in, frame, camera);
+        if (status != EWA_OK) return status;
+    } else {
+        if (!(width >= 1 && width <= UINT32_MAX && height >= 1 && height <= UINT32_MAX) ||
+            width != (double)(uint32_t)width || height != (double)(uint32_t)height)
+            return fail_member(in, "w or h", "is not a positive whole number");
+        camera->width_px = (uint32_t)width;
+        camera->height_px = (uint32_t)height;
+    }
+    if (fx == 0 && angle_x > 0 && angle_x < EWA_PI) fx = 0.5 * camera->width_px / ewa_tan(0.5 * angle_x);
+    if (fy == 0 && angle_y > 0 && angle_y < EWA_PI) fy = 0.5 * camera->height_px / ewa_tan(0.5 * angle_y);
+    if (fx == 0) fx = fy;
+    if (fx == 0) return fail_member(in, "fl_x or camera_angle_x", "is missing or out of range");
+    camera->fx_px = fx;
+    camera->fy_px = fy == 0 ? fx : fy;
+    camera->cx_px = has_centre_x ? cx : 0.5 * camera->width_px;
+    camera->cy_px = has_centre_y ? cy : 0.5 * camera->height_px;
+    return EWA_OK;
+}
+
+/// Pinhole models only; a lens distortion that the file tells is left out, with a warning.
+static ewa_status check_lens_model(const source *in, const cJSON *root) {
+    const char *model = cJSON_GetStringValue(find(root, "camera_model"));
+    if (model && strcmp(model, "OPENCV") != 0 && strcmp(model, "PINHOLE") != 0 &&
+        strcmp(model, "SIMPLE_PINHOLE") != 0)
+        return ewa_fail(in->list->context, EWA_ERROR_UNSUPPORTED,
+                        "%s: member 'camera_model' is %s, not a pinhole", in->list->name, model);
+    static const char *const distortions[] = {"k1", "k2", "k3", "k4", "p1", "p2"};
+    for (size_t i = 0; i < sizeof distortions / sizeof distortions[0]; i++) {
+        double value = 0;
+        const ewa_status status = read_optional(in, root, distortions[i], &value);
+        if (status != EWA_OK) return status;
+        if (value == 0) continue;
+        ewa_report(in->list->context, EWA_SEVERITY_WARNING, "%s: lens distortion (%s = %g) is left out",
+                   in->list->name, distortions[i], value);
+        break;
+    }
+    return EWA_OK;
+}
+
+/// nerfstudio, instant-ngp: camera to world, camera axes as in OpenGL (x right, y up, z backward).
+static ewa_status read_transforms(source *in, const cJSON *root, const cJSON *frames) {
+    if (!cJSON_IsArray(frames) || !frames->child)
+        return fail_member(in, "frames", "is not an array of frames");
+    ewa_status status = check_lens_model(in, root);
+    size_t index = 0;
+    const cJSON *frame;
+    cJSON_ArrayForEach(frame, frames) {
+        if (status != EWA_OK) return status;
+        snprintf(in->where, sizeof in->where, "frames[%zu]", index++);
+        ewa_camera camera;
+        ewa_camera_init(&camera);
+        double matrix[16];
+        status = read_array(in, find(frame, "transform_matrix"), "transform_matrix", 16, matrix);
+        if (status == EWA_OK) status = read_frame_lens(in, root, frame, &camera);
+        if (status != EWA_OK) return status;
+        double rotation[9], centre[3];
+        for (int r = 0; r < 3; r++) {
+            for (int c = 0; c < 3; c++) rotation[3 * r + c] = c == 0 ? matrix[4 * r] : -matrix[4 * r + c];
+            centre[r] = matrix[4 * r + 3];
+        }
+        ewa_camera_set_inverse(&camera, rotation, centre);
+        status = ewa_camera_list_add(in->list, in->where, &camera);
+    }
+    return status;
+}
+
+/// One camera of an array at the top: ours or INRIA's.
+static ewa_status read_element(const source *in, const cJSON *object) {
+    return find(object, "rotation") || find(object, "position") ? read_inria(in, object)
+                                                                : read_native(in, object);
+}
+
+static ewa_status read_root(source *in, const cJSON *root) {
+    if (cJSON_IsArray(root)) return read_each(in, root, "cameras", read_element);
+    const cJSON *item;
+    if ((item = find(root, "frames"))) return read_transforms(in, root, item);
+    if ((item = find(root, "parameters"))) return read_each(in, item, "parameters", read_open3d);
+    if (find(root, "extrinsic") || find(root, "intrinsic")) return read_open3d(in, root);
+    if (find(root, "intrinsic_matrix")) return read_lens_alone(in, root);
+    for (int i = 0; i < 2; i++) {
+        item = find(root, i ? "viewmats" : "viewmats_world_to_camera");
+        if (cJSON_IsArray(item)) return read_stacks(in, root, item);
+    }
+    return read_native(in, root);
+}
+
+ewa_status ewa_camera_list_read_json(ewa_camera_list *list, const char *path, const uint8_t *bytes,
+                                     size_t size_bytes) {
+    cJSON *root;
+    ewa_status status = ewa_json_parse(list->context, list->name, "a camera file", bytes, size_bytes, &root);
+    if (status != EWA_OK) return status;
+    source in = {.list = list, .path = path};
+    status = read_root(&in, root);
+    cJSON_Delete(root);
+    return status;
+}

@@ -1,0 +1,236 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// From a cloud to a PLY file: the header names every component of every attribute, the body is made in
+// parallel by tasks of a fixed number of points and written in their order, so that the bytes do not depend
+// on the threads.
+#include "base/base.h"
+#include "cloud/cloud.h"
+#include "io/file.h"
+#include "io/number.h"
+#include "io/cloud/ply.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum {
+    TASK_BYTES = 1 << 17, // output per task, small enough that a wave stays in cache until it is written
+    ASCII_NUMBER_BYTES = EWA_NUMBER_BYTES + 1, // with the blank
+    WAVE_TASKS_PER_WORKER = 4,
+};
+
+/// One attribute in the records of the file.
+typedef struct field {
+    const ewa_attribute *attribute;
+    ewa_type type;         // in the file
+    uint32_t offset_bytes; // of the first component
+} field;
+
+typedef struct write_job {
+    const ewa_cloud *cloud;
+    field *fields;
+    uint32_t field_count, property_count;
+    uint32_t record_bytes;
+    bool ascii, swap;
+    bool shifted; // the origin is added to positions
+    double origin_world[3];
+    uint64_t point_count, first, end; // all, and those of this wave
+    uint64_t task_points;
+    size_t task_capacity_bytes;
+    uint8_t *output;      // task_capacity_bytes per task
+    size_t *output_bytes; // made by each task
+} write_job;
+
+static void shift_positions(const write_job *job, const ewa_attribute *attribute, uint64_t first,
+                            uint64_t count, uint8_t *to) {
+    enum { BLOCK = 256 };
+    double values[3 * BLOCK];
+    const ewa_move move = {.from_type = EWA_F64, .to_type = EWA_F64, .component_count = 3, .swap = job->swap};
+    while (count) {
+        const uint64_t block = count < BLOCK ? count : BLOCK;
+        ewa_attribute_read_f64(attribute, first, block, values);
+        for (uint64_t i = 0; i < 3 * block; i++) values[i] += job->origin_world[i % 3];
+        ewa_move_numbers(&move, to, job->record_bytes, (const uint8_t *)values, 3 * sizeof *values,
+                         (size_t)block);
+        to += block * job->record_bytes;
+        first += block;
+        count -= block;
+    }
+}
+
+static void make_records(const write_job *job, uint64_t first, uint64_t count, uint8_t *records) {
+    for (uint32_t i = 0; i < job->field_count; i++) {
+        const field *f = &job->fields[i];
+        const ewa_attribute *attribute = f->attribute;
+        uint8_t *to = records + f->offset_bytes;
+        if (job->shifted && strcmp(attribute->name, EWA_POSITION) == 0) {
+            shift_positions(job, attribute, first, count, to);
+            continue;
+        }
+        const ewa_move move = {.from_type = attribute->type,
+                               .to_type = f->type,
+                               .component_count = attribute->component_count,
+                               .swap = job->swap};
+        const uint8_t *from = (const uint8_t *)attribute->data + first * attribute->stride_bytes;
+        ewa_move_numbers(&move, to, job->record_bytes, from, attribute->stride_bytes, (size_t)count);
+    }
+}
+
+static size_t write_lines(const write_job *job, const uint8_t *records, uint64_t count, char *text) {
+    const char *start = text;
+    for (; count; count--, records += job->record_bytes) {
+        for (uint32_t i = 0; i < job->field_count; i++) {
+            const field *f = &job->fields[i];
+            const size_t number_bytes = ewa_type_bytes(f->type);
+            for (uint32_t c = 0; c < f->attribute->component_count; c++) {
+                text += ewa_ply_write_number(f->type, records + f->offset_bytes + c * number_bytes, text);
+                *text++ = ' ';
+            }
+        }
+        text[-1] = '\n';
+    }
+    return (size_t)(text - start);
+}
+
+static void make_output(void *data, uint32_t index, uint32_t worker) {
+    (void)worker;
+    const write_job *job = data;
+    uint8_t *output = job->output + index * job->task_capacity_bytes;
+    uint64_t first = job->first + index * job->task_points;
+    const uint64_t end = first + job->task_points < job->end ? first + job->task_points : job->end;
+    const uint64_t block = ewa_ply_block_records(job->record_bytes);
+    size_t size_bytes = 0;
+    while (first < end) {
+        const uint64_t count = end - first < block ? end - first : block;
+        if (job->ascii) {
+            uint8_t records[EWA_PLY_BLOCK_BYTES];
+            make_records(job, first, count, records);
+            size_bytes += write_lines(job, records, count, (char *)output + size_bytes);
+        } else {
+            make_records(job, first, count, output + size_bytes);
+            size_bytes += count * job->record_bytes;
+        }
+        first += count;
+    }
+    job->output_bytes[index] = size_bytes;
+}
+
+static ewa_status write_body(write_job *job, ewa_writer *writer) {
+    ewa_context *context = ewa_cloud_context(job->cloud);
+    const size_t point_bytes =
+        job->ascii ? (size_t)job->property_count * ASCII_NUMBER_BYTES : job->record_bytes;
+    job->task_points = TASK_BYTES / point_bytes > 1 ? TASK_BYTES / point_bytes : 1;
+    job->task_capacity_bytes = job->task_points * point_bytes;
+    const uint32_t wave = WAVE_TASKS_PER_WORKER * ewa_context_worker_count(context);
+    job->output = ewa_allocate(context, wave, job->task_capacity_bytes);
+    job->output_bytes = ewa_allocate(context, wave, sizeof *job->output_bytes);
+    ewa_status status = job->output && job->output_bytes ? EWA_OK : EWA_ERROR_MEMORY;
+    while (status == EWA_OK && job->first < job->point_count) {
+        const uint64_t left = job->point_count - job->first, most = wave * job->task_points;
+        const uint64_t count = left < most ? left : most;
+        const uint32_t tasks = (uint32_t)((count + job->task_points - 1) / job->task_points);
+        job->end = job->first + count;
+        ewa_parallel(context, make_output, job, tasks);
+        for (uint32_t i = 0; i < tasks && status == EWA_OK; i++)
+            status = ewa_writer_put(writer, job->output + i * job->task_capacity_bytes, job->output_bytes[i]);
+        job->first = job->end;
+        if (status == EWA_OK)
+            status = ewa_progress(context, "write", (double)job->end / (double)job->point_count);
+    }
+    ewa_release(context, job->output_bytes, wave, sizeof *job->output_bytes);
+    ewa_release(context, job->output, wave, job->task_capacity_bytes);
+    return status;
+}
+
+/// Lays the attributes out in records and checks that every property has a name of its own.
+static ewa_status lay_out(write_job *job, const char *file_name) {
+    ewa_context *context = ewa_cloud_context(job->cloud);
+    char(*names)[EWA_PLY_NAME_BYTES] = ewa_allocate(context, EWA_PLY_MAX_PROPERTIES, sizeof *names);
+    if (!names) return EWA_ERROR_MEMORY;
+    ewa_status status = EWA_OK;
+    for (uint32_t i = 0; i < job->field_count && status == EWA_OK; i++) {
+        const ewa_attribute *attribute = ewa_cloud_attribute_at(job->cloud, i);
+        const bool shifted = job->shifted && strcmp(attribute->name, EWA_POSITION) == 0;
+        field *f = &job->fields[i];
+        *f = (field){attribute, shifted ? EWA_F64 : attribute->type, job->record_bytes};
+        job->record_bytes += attribute->component_count * (uint32_t)ewa_type_bytes(f->type);
+        for (uint32_t c = 0; c < attribute->component_count && status == EWA_OK; c++) {
+            if (job->property_count == EWA_PLY_MAX_PROPERTIES) {
+                status = ewa_fail(context, EWA_ERROR_LIMIT, "%s: more than %d properties", file_name,
+                                  EWA_PLY_MAX_PROPERTIES);
+                break;
+            }
+            char *name = names[job->property_count++];
+            ewa_ply_property_name(attribute, c, name);
+            for (uint32_t k = 0; k + 1 < job->property_count; k++)
+                if (strcmp(names[k], name) == 0)
+                    status = ewa_fail(context, EWA_ERROR_ARGUMENT,
+                                      "%s: two attributes would become property '%s'", file_name, name);
+        }
+    }
+    ewa_release(context, names, EWA_PLY_MAX_PROPERTIES, sizeof *names);
+    return status;
+}
+
+static ewa_status write_vertex_header(const write_job *job, ewa_writer *writer) {
+    char line[256];
+    int length = snprintf(line, sizeof line, "element vertex %llu\n", (unsigned long long)job->point_count);
+    ewa_status status = ewa_writer_put(writer, line, (size_t)length);
+    for (uint32_t i = 0; i < job->field_count; i++) {
+        const field *f = &job->fields[i];
+        for (uint32_t c = 0; c < f->attribute->component_count && status == EWA_OK; c++) {
+            char name[EWA_PLY_NAME_BYTES];
+            ewa_ply_property_name(f->attribute, c, name);
+            length = snprintf(line, sizeof line, "property %s %s\n", ewa_type_name(f->type), name);
+            status = ewa_writer_put(writer, line, (size_t)length);
+        }
+    }
+    return status;
+}
+
+/// Writes the header: the vertices where they are among the other elements, which may be NULL.
+static ewa_status write_header(const write_job *job, const ewa_elements *elements, ewa_ply_encoding encoding,
+                               ewa_writer *writer) {
+    static const char *const formats[] = {"binary_little_endian", "binary_big_endian", "ascii"};
+    char line[64];
+    const int length = snprintf(line, sizeof line, "ply\nformat %s 1.0\n", formats[encoding]);
+    ewa_status status = ewa_writer_put(writer, line, (size_t)length);
+    if (status == EWA_OK && elements) status = ewa_ply_write_comments(elements, writer);
+    const uint32_t count = elements ? elements->table_count : 1;
+    for (uint32_t i = 0; i < count && status == EWA_OK; i++)
+        status = elements && elements->tables[i].element != ewa_ply_vertices(elements->header)
+                     ? ewa_ply_write_element_header(elements, i, writer)
+                     : write_vertex_header(job, writer);
+    return status == EWA_OK ? ewa_writer_put(writer, "end_header\n", 11) : status;
+}
+
+ewa_status ewa_ply_write(const ewa_cloud *cloud, const ewa_elements *elements, ewa_ply_encoding encoding,
+                         const char *name, ewa_writer *writer) {
+    ewa_context *context = ewa_cloud_context(cloud);
+    const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
+    if (!position || position->component_count != 3)
+        return ewa_fail(context, EWA_ERROR_ARGUMENT,
+                        "%s: a cloud without positions of three components cannot be "
+                        "written",
+                        name);
+    const uint32_t field_count = ewa_cloud_attribute_count(cloud);
+    write_job job = {.cloud = cloud,
+                     .field_count = field_count,
+                     .ascii = encoding == EWA_PLY_ASCII,
+                     .swap = encoding != EWA_PLY_ASCII && (encoding == EWA_PLY_BINARY_BIG_ENDIAN) !=
+                                                              (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__),
+                     .point_count = ewa_cloud_point_count(cloud)};
+    ewa_cloud_origin(cloud, job.origin_world);
+    job.shifted = job.origin_world[0] != 0 || job.origin_world[1] != 0 || job.origin_world[2] != 0;
+    job.fields = ewa_allocate(context, field_count, sizeof *job.fields);
+    if (!job.fields) return EWA_ERROR_MEMORY;
+    ewa_status status = lay_out(&job, name);
+    if (status == EWA_OK) status = write_header(&job, elements, encoding, writer);
+    const uint32_t count = elements ? elements->table_count : 1;
+    for (uint32_t i = 0; i < count && status == EWA_OK; i++)
+        status = elements && elements->tables[i].element != ewa_ply_vertices(elements->header)
+                     ? ewa_ply_write_element(elements, i, encoding, writer)
+                     : write_body(&job, writer);
+    ewa_release(context, job.fields, field_count, sizeof *job.fields);
+    return status;
+}

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The readers of meshes, one per format: each fills a build from the bytes of a file. All errors are those of
+// parsers: EWA_ERROR_FORMAT with the place, EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY,
+// EWA_CANCELLED.
+#ifndef EWA_SRC_MESH_FORMATS_H
+#define EWA_SRC_MESH_FORMATS_H
+
+#include "ewa/model.h"
+#include "io/mesh/build.h"
+
+/// Finds the format by content; the suffix of `name` decides where content does not.
+ewa_model_format ewa_mesh_probe(const char *name, const uint8_t *bytes, size_t size_bytes);
+
+/// Makes places and faces of what a PLY file holds.
+ewa_status ewa_mesh_read_ply(ewa_mesh_build *build, const ewa_cloud *vertices, const ewa_elements *elements);
+
+ewa_status ewa_mesh_read_obj(ewa_mesh_build *build);
+ewa_status ewa_mesh_read_stl(ewa_mesh_build *build);
+ewa_status ewa_mesh_read_off(ewa_mesh_build *build);
+ewa_status ewa_mesh_read_gltf(ewa_mesh_build *build);
+
+/// Materials by name, of OBJ files.
+typedef struct ewa_mtl ewa_mtl;
+
+/// Reads the material libraries that one `mtllib` line names and adds what they hold to `*materials`, which
+/// is NULL at first. A library that cannot be had is a warning. Free with ewa_mtl_free().
+ewa_status ewa_mtl_read(ewa_mesh_build *build, ewa_text names, ewa_mtl **materials);
+
+/// The look of a material, made when it is asked for first; `*look` is EWA_MESH_NONE when no library has it.
+ewa_status ewa_mtl_look(ewa_mesh_build *build, ewa_mtl *materials, ewa_text name, uint32_t *look);
+void ewa_mtl_free(ewa_mesh_build *build, ewa_mtl **materials);
+
+#endif

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Material tables from JSON. Members are checked by name, so that a misspelt one is not taken for a default.
+#include "io/mesh/materials.h"
+#include "base/base.h"
+#include "base/options.h"
+#include "ewa/io.h"
+#include "image/material.h"
+#include "io/file.h"
+#include "io/json_text.h"
+
+#include <string.h>
+
+static ewa_status read_member(ewa_context *context, const char *name, uint32_t index, const cJSON *item,
+                              ewa_material *material) {
+    if (strcmp(item->string, "name") == 0) return EWA_OK;
+    const ewa_option *member = ewa_option_find(&ewa_material_table, item->string);
+    if (member && !cJSON_IsNumber(item))
+        return ewa_fail(context, EWA_ERROR_FORMAT, "%s: %s of material %u is not a number", name,
+                        member->name, index);
+    if (member) {
+        ewa_option_put(member, material, 0, item->valuedouble);
+        return EWA_OK;
+    }
+    return ewa_fail(context, EWA_ERROR_FORMAT, "%s: material %u has an unknown member '%.40s'", name, index,
+                    item->string);
+}
+
+static ewa_status read_material(ewa_context *context, const char *name, uint32_t index, const cJSON *object,
+                                ewa_material *material) {
+    ewa_material_init(material);
+    if (!cJSON_IsObject(object))
+        return ewa_fail(context, EWA_ERROR_FORMAT, "%s: material %u is not an object", name, index);
+    const cJSON *item;
+    cJSON_ArrayForEach(item, object) {
+        const ewa_status status = read_member(context, name, index, item, material);
+        if (status != EWA_OK) return status;
+    }
+    return ewa_material_check(context, name, index, material) == EWA_OK ? EWA_OK : EWA_ERROR_FORMAT;
+}
+
+ewa_status ewa_materials_read(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
+                              ewa_material materials[EWA_MAX_MATERIALS], uint32_t *count) {
+    *count = 0;
+    cJSON *root;
+    ewa_status status = ewa_json_parse(context, name, "a material table", bytes, size_bytes, &root);
+    if (status != EWA_OK) return status;
+    const cJSON *list = cJSON_IsObject(root) ? cJSON_GetObjectItemCaseSensitive(root, "materials") : root;
+    if (!cJSON_IsArray(list) || !list->child)
+        status = ewa_fail(context, EWA_ERROR_FORMAT,
+                          "%s: neither an array of materials nor an object with one, 'materials'", name);
+    uint32_t read = 0;
+    for (const cJSON *item = list ? list->child : NULL; status == EWA_OK && item; item = item->next) {
+        if (read == EWA_MAX_MATERIALS)
+            status =
+                ewa_fail(context, EWA_ERROR_LIMIT, "%s: more than %d materials", name, EWA_MAX_MATERIALS);
+        else
+            status = read_material(context, name, read, item, &materials[read]);
+        read++;
+    }
+    cJSON_Delete(root);
+    if (status == EWA_OK) *count = read;
+    return status;
+}
+
+ewa_status ewa_materials_load(ewa_context *context, const char *path,
+                              ewa_material materials[EWA_MAX_MATERIALS], uint32_t *count) {
+    if (!context || !path || !materials || !count) return EWA_ERROR_ARGUMENT;
+    *count = 0;
+    ewa_file file;
+    ewa_status status = ewa_file_map(context, path, &file);
+    if (status != EWA_OK) return status;
+    status = ewa_materials_read(context, path, file.bytes, file.size_bytes, materials, count);
+    ewa_file_unmap(context, &file);
+    return status;
+}

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Files of points or triangles: the one place that decides which of them a file holds.
+#include "base/base.h"
+#include "io/file.h"
+#include "io/mesh/formats.h"
+#include "io/cloud/ply.h"
+
+typedef ewa_status read_format(ewa_mesh_build *build);
+
+/// Makes what is wanted of a build.
+static ewa_status take_build(ewa_mesh_build *build, uint32_t wanted, ewa_model *model) {
+    ewa_status status = EWA_OK;
+    const bool faces = build->face_count > 0;
+    model->face_count = build->face_count;
+    if (!faces || wanted & EWA_MODEL_POINTS) status = ewa_mesh_build_points(build, &model->points);
+    if (status == EWA_OK && faces && wanted & EWA_MODEL_ELEMENTS)
+        status = ewa_mesh_build_elements(build, &model->elements);
+    if (status == EWA_OK && faces && wanted & EWA_MODEL_MESH)
+        status = ewa_mesh_build_mesh(build, &model->mesh);
+    return status;
+}
+
+/// Reads a format other than PLY.
+static ewa_status read_other(const ewa_mesh_source *source, read_format *read, uint32_t wanted,
+                             ewa_model *model) {
+    ewa_mesh_build build;
+    ewa_mesh_build_open(source, &build);
+    ewa_status status = read(&build);
+    if (status == EWA_OK) status = take_build(&build, wanted, model);
+    ewa_mesh_build_close(&build);
+    return status;
+}
+
+/// Makes a mesh of what a PLY file holds.
+static ewa_status make_ply_mesh(const ewa_mesh_source *source, ewa_model *model) {
+    ewa_mesh_build build;
+    ewa_mesh_build_open(source, &build);
+    ewa_status status = ewa_mesh_read_ply(&build, model->points, model->elements);
+    if (status == EWA_OK) status = ewa_mesh_build_mesh(&build, &model->mesh);
+    ewa_mesh_build_close(&build);
+    return status;
+}
+
+static ewa_status count_ply_faces(const ewa_ply_source *source, uint64_t *count) {
+    ewa_ply_header *header = ewa_allocate(source->context, 1, sizeof *header);
+    if (!header) return EWA_ERROR_MEMORY;
+    const ewa_status status = ewa_ply_header_read(source, header);
+    *count = status == EWA_OK ? ewa_ply_count_faces(header) : 0;
+    ewa_release(source->context, header, 1, sizeof *header);
+    return status;
+}
+
+static ewa_status read_ply(const ewa_mesh_source *source, uint32_t wanted, ewa_model *model) {
+    const ewa_ply_source ply = {source->context, source->name, source->bytes, source->size_bytes};
+    ewa_status status = count_ply_faces(&ply, &model->face_count);
+    if (status != EWA_OK) return status;
+    const bool faces = model->face_count > 0;
+    // Faces that nobody asks for need not be whole.
+    if (!(wanted & (EWA_MODEL_ELEMENTS | (faces ? EWA_MODEL_MESH : 0u)))) {
+        status = ewa_ply_read(&ply, &model->points);
+    } else {
+        status = ewa_ply_read_all(&ply, &model->points, &model->elements);
+        if (status == EWA_OK && faces && wanted & EWA_MODEL_MESH) status = make_ply_mesh(source, model);
+    }
+    if (faces && !(wanted & EWA_MODEL_POINTS)) ewa_cloud_destroy(&model->points);
+    if (!(wanted & EWA_MODEL_ELEMENTS)) ewa_elements_free(&model->elements);
+    return status;
+}
+
+static ewa_status load(const ewa_mesh_source *source, uint32_t wanted, ewa_model *model) {
+    if (source->size_bytes == 0)
+        return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: the file is empty", source->name);
+    model->format = ewa_mesh_probe(source->name, source->bytes, source->size_bytes);
+    switch (model->format) {
+    case EWA_MODEL_PLY:
+        return read_ply(source, wanted, model);
+    case EWA_MODEL_OBJ:
+        return read_other(source, ewa_mesh_read_obj, wanted, model);
+    case EWA_MODEL_STL:
+        return read_other(source, ewa_mesh_read_stl, wanted, model);
+    case EWA_MODEL_OFF:
+        return read_other(source, ewa_mesh_read_off, wanted, model);
+    case EWA_MODEL_GLTF:
+        return read_other(source, ewa_mesh_read_gltf, wanted, model);
+    default:
+        return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED,
+                        "%s: no file of points or triangles of a known format (PLY, OBJ, STL, OFF, glTF)",
+                        source->name);
+    }
+}
+
+ewa_status ewa_model_load_memory(ewa_context *context, const void *bytes, size_t size_bytes, const char *name,
+                                 const char *path, uint32_t wanted, ewa_model *model) {
+    if (!context || !model || !name || (!bytes && size_bytes)) return EWA_ERROR_ARGUMENT;
+    *model = (ewa_model){0};
+    const ewa_mesh_source source = {context, name, path, bytes, size_bytes};
+    const ewa_status status = load(&source, wanted, model);
+    if (status != EWA_OK) ewa_model_free(model);
+    return status;
+}
+
+ewa_status ewa_model_load(ewa_context *context, const char *path, uint32_t wanted, ewa_model *model) {
+    if (!context || !path || !model) return EWA_ERROR_ARGUMENT;
+    *model = (ewa_model){0};
+    const bool stream = strcmp(path, "-") == 0;
+    ewa_file file;
+    ewa_status status = ewa_file_map(context, path, &file);
+    if (status != EWA_OK) return status;
+    status = ewa_model_load_memory(context, file.bytes, file.size_bytes, stream ? "standard input" : path,
+                                   stream ? NULL : path, wanted, model);
+    ewa_file_unmap(context, &file);
+    return status;
+}
+
+void ewa_model_free(ewa_model *model) {
+    if (!model) return;
+    ewa_mesh_free(&model->mesh);
+    ewa_cloud_destroy(&model->points);
+    ewa_elements_free(&model->elements);
+    *model = (ewa_model){0};
+}
+
+ewa_status ewa_mesh_load(ewa_context *context, const char *path, ewa_mesh *mesh) {
+    if (!context || !path || !mesh) return EWA_ERROR_ARGUMENT;
+    *mesh = (ewa_mesh){0};
+    ewa_model model;
+    ewa_status status = ewa_model_load(context, path, EWA_MODEL_MESH, &model);
+    if (status != EWA_OK) return status;
+    if (model.mesh.triangle_count) {
+        *mesh = model.mesh;
+        model.mesh = (ewa_mesh){0};
+    } else {
+        status = ewa_fail(context, EWA_ERROR_FORMAT, "%s: there are no faces", path);
+    }
+    ewa_model_free(&model);
+    return status;
+}

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Binning: count per contiguous part of the candidates, prefix sums over parts, fill. Parts come in order, so
+// a bin's items stay in order however many parts there are.
+#include "road/bin.h"
+
+typedef struct bin_job {
+    ewa_bin_lists *lists;
+    ewa_bin_find *find;
+    const void *data;
+    ewa_bin_items items; // each part's from its first candidate on
+    uint32_t *ids;
+    uint64_t *counts;     // [part][bin]: first the number of items, then where the next one goes
+    uint64_t *item_count; // [part]
+    uint64_t bin_count;
+    uint32_t candidate_count, parts;
+} bin_job;
+
+static uint32_t part_first(const bin_job *job, uint32_t part) {
+    const uint64_t groups = ((uint64_t)job->candidate_count + EWA_BIN_ALIGNMENT - 1) / EWA_BIN_ALIGNMENT;
+    const uint64_t first = ewa_split(groups, job->parts, part) * EWA_BIN_ALIGNMENT;
+    return first < job->candidate_count ? (uint32_t)first : job->candidate_count;
+}
+
+/// Bins [x0, x1) x [y0, y1).
+typedef struct bin_rect {
+    uint32_t x0, y0, x1, y1;
+} bin_rect;
+
+static bin_rect rect_of(const bin_job *job, size_t k) {
+    const uint32_t first = (uint32_t)job->items.first[k], end = (uint32_t)job->items.end[k];
+    return (bin_rect){first & 0xffff, first >> 16, end & 0xffff, end >> 16};
+}
+
+static void count_part(void *data, uint32_t part, uint32_t worker) {
+    const bin_job *job = data;
+    uint64_t *counts = job->counts + part * job->bin_count;
+    for (uint64_t bin = 0; bin < job->bin_count; bin++) counts[bin] = 0;
+    const uint32_t first = part_first(job, part), count = part_first(job, part + 1) - first;
+    job->item_count[part] = job->find(job->data, worker, first, count, &job->items);
+    for (size_t k = first; k < first + job->item_count[part]; k++) {
+        const bin_rect r = rect_of(job, k);
+        for (uint32_t y = r.y0; y < r.y1; y++)
+            for (uint32_t x = r.x0; x < r.x1; x++) counts[(size_t)y * job->lists->columns + x]++;
+    }
+}
+
+static void fill_part(void *data, uint32_t part, uint32_t worker) {
+    (void)worker;
+    const bin_job *job = data;
+    uint64_t *next = job->counts + part * job->bin_count;
+    const uint32_t first = part_first(job, part);
+    for (size_t k = first; k < first + job->item_count[part]; k++) {
+        const bin_rect r = rect_of(job, k);
+        for (uint32_t y = r.y0; y < r.y1; y++)
+            for (uint32_t x = r.x0; x < r.x1; x++)
+                job->ids[next[(size_t)y * job->lists->columns + x]++] = (uint32_t)job->items.ids[k];
+    }
+}
+
+/// Turns counts into first places, bin by bin and part by part; returns the number of ids.
+static uint64_t place(const bin_job *job, uint64_t *starts) {
+    ewa_bin_lists *lists = job->lists;
+    uint64_t sum = 0;
+    lists->largest = lists->item_count = 0;
+    for (uint64_t bin = 0; bin < job->bin_count; bin++) {
+        starts[bin] = sum;
+        for (uint32_t part = 0; part < job->parts; part++) {
+            uint64_t *count = &job->counts[part * job->bin_count + bin];
+            const uint64_t here = *count;
+            *count = sum;
+            sum += here;
+        }
+        if (sum - starts[bin] > lists->largest) lists->largest = sum - starts[bin];
+    }
+    starts[job->bin_count] = sum;
+    for (uint32_t part = 0; part < job->parts; part++) lists->item_count += job->item_count[part];
+    return sum;
+}
+
+/// More parts than these would spend more on their counts than on the items.
+static uint32_t part_count(uint32_t candidate_count, uint64_t bin_count, uint32_t worker_count) {
+    const uint64_t worthwhile = 1 + candidate_count / bin_count;
+    return worthwhile < worker_count ? (uint32_t)worthwhile : worker_count;
+}
+
+ewa_status ewa_bin_lists_fill(ewa_context *context, ewa_bin_lists *lists, uint32_t columns, uint32_t rows,
+                              uint32_t candidate_count, ewa_bin_find *find, const void *data) {
+    const uint64_t bin_count = (uint64_t)columns * rows;
+    const size_t stride =
+        ((size_t)candidate_count + EWA_BIN_ALIGNMENT - 1) / EWA_BIN_ALIGNMENT * EWA_BIN_ALIGNMENT;
+    const uint32_t parts = part_count(candidate_count, bin_count, ewa_context_worker_count(context));
+    ewa_status status = ewa_buffer_reserve(context, &lists->item_buffer, 3 * stride, sizeof(int32_t));
+    if (status == EWA_OK)
+        status = ewa_buffer_reserve(context, &lists->count_buffer, (bin_count + 1) * parts, sizeof(uint64_t));
+    if (status == EWA_OK)
+        status = ewa_buffer_reserve(context, &lists->start_buffer, bin_count + 1, sizeof(uint64_t));
+    if (status != EWA_OK) return status;
+    int32_t *items = lists->item_buffer.data;
+    uint64_t *counts = lists->count_buffer.data;
+    bin_job job = {.lists = lists,
+                   .find = find,
+                   .data = data,
+                   .items = {items, items + stride, items + 2 * stride},
+                   .counts = counts,
+                   .item_count = counts + parts * bin_count,
+                   .bin_count = bin_count,
+                   .candidate_count = candidate_count,
+                   .parts = parts};
+    lists->columns = columns;
+    ewa_parallel(context, count_part, &job, parts);
+    const uint64_t id_count = place(&job, lists->start_buffer.data);
+    status = ewa_buffer_reserve(context, &lists->id_buffer, id_count, sizeof *job.ids);
+    if (status != EWA_OK) return status;
+    lists->starts = lists->start_buffer.data;
+    lists->ids = job.ids = lists->id_buffer.data;
+    ewa_parallel(context, fill_part, &job, parts);
+    return EWA_OK;
+}
+
+void ewa_bin_lists_free(ewa_context *context, ewa_bin_lists *lists) {
+    ewa_buffer_free(context, &lists->item_buffer);
+    ewa_buffer_free(context, &lists->count_buffer);
+    ewa_buffer_free(context, &lists->start_buffer);
+    ewa_buffer_free(context, &lists->id_buffer);
+}

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What draws frames behind ewa_renderer: one table per kind of machine, all held to the same bytes.
+#ifndef EWA_SRC_SURFACE_BACKEND_H
+#define EWA_SRC_SURFACE_BACKEND_H
+
+#include "ewa/render.h"
+#include "surface/shading.h"
+
+/// A frame whose arguments are checked, with all of its sources.
+typedef struct ewa_render_job {
+    ewa_camera camera;
+    ewa_render_options options; ///< what it points to is borrowed from the caller
+    ewa_shading_setup shading;
+    ewa_frame frame;
+    const ewa_surfels *const *sources; ///< of one cutoff
+    uint32_t source_count;
+    uint32_t tile_px; ///< side of a tile, a power of two of at most EWA_FIELD_PX; 0: the back end chooses
+} ewa_render_job;
+
+/// A back end. Its state belongs to one renderer, and is used by one thread at a time.
+typedef struct ewa_backend {
+    const char *name;
+    ewa_status (*create)(ewa_context *context, void **state);
+    void (*destroy)(ewa_context *context, void *state);
+    /// Draws a frame; neither the order of its sources nor how surfels are spread over them changes a byte,
+    /// as long as their packets and their unit coverages are the same. `stats` may be NULL.
+    ewa_status (*draw)(void *state, const ewa_render_job *job, ewa_render_stats *stats);
+} ewa_backend;
+
+/// Threads and vectors of the processor; what others are compared with.
+extern const ewa_backend ewa_backend_cpu;
+
+#endif

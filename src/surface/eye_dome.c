@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Eye-dome lighting as a pass over the finished picture: where it comes from, and its memory.
+#include "surface/eye_dome.h"
+#include "surface/semantics.h"
+
+#include <string.h>
+
+ewa_status ewa_dome_pass_start(ewa_context *context, ewa_dome_pass *pass, const ewa_camera *camera,
+                               const ewa_frame *frame, ewa_render_options *options, ewa_frame *drawn) {
+    static const double LOG2_E = 1.44269504088896341;
+    const size_t width = camera->width_px, height = camera->height_px, pixel_count = width * height;
+    const size_t key_stride =
+        (width + 2 * EWA_DOME_REACH + 2 * (EWA_BLOCK_LANES - 1)) / EWA_BLOCK_LANES * EWA_BLOCK_LANES;
+    ewa_status status =
+        ewa_buffer_reserve(context, &pass->keys, (height + 2 * EWA_DOME_REACH) * key_stride, sizeof(float));
+    if (status == EWA_OK && !frame->depth)
+        status = ewa_buffer_reserve(context, &pass->depth, pixel_count, sizeof(float));
+    if (status == EWA_OK && !frame->rgba)
+        status = ewa_buffer_reserve(context, &pass->surfaces, 4 * pixel_count, sizeof(float));
+    if (status != EWA_OK) return status;
+    *drawn = *frame;
+    drawn->rgba8 = NULL;
+    if (!drawn->depth) drawn->depth = pass->depth.data;
+    if (!drawn->rgba) drawn->rgba = pass->surfaces.data;
+    pass->dome = (ewa_eye_dome){
+        .width_px = camera->width_px,
+        .height_px = camera->height_px,
+        .orthographic = camera->projection == EWA_ORTHOGRAPHIC,
+        .inverse_height = (float)(camera->fy_px / camera->height_px),
+        .exponent = (float)(-LOG2_E * EWA_DOME_GAIN * options->eye_dome / EWA_DOME_PAIRS),
+        .depth = drawn->depth,
+        .surfaces = drawn->rgba,
+        .keys = pass->keys.data,
+        .key_stride = key_stride,
+        .rgba8 = frame->rgba8,
+        .rgba = frame->rgba,
+    };
+    for (int c = 0; c < 4; c++) {
+        const float alpha = options->background[3];
+        pass->dome.background[c] = c < 3 ? options->background[c] * alpha : alpha;
+    }
+    memset(options->background, 0, sizeof options->background);
+    return EWA_OK;
+}
+
+static void fill_keys(void *data, uint32_t row, uint32_t worker) {
+    (void)worker;
+    const ewa_dome_pass *pass = data;
+    pass->kernels->dome_keys(&pass->dome, row);
+}
+
+static void shade_row(void *data, uint32_t row, uint32_t worker) {
+    (void)worker;
+    const ewa_dome_pass *pass = data;
+    pass->kernels->dome_shade(&pass->dome, row);
+}
+
+void ewa_dome_pass_finish(ewa_context *context, ewa_dome_pass *pass) {
+    ewa_parallel(context, fill_keys, pass, pass->dome.height_px + 2 * EWA_DOME_REACH);
+    ewa_parallel(context, shade_row, pass, pass->dome.height_px);
+}
+
+void ewa_dome_pass_free(ewa_context *context, ewa_dome_pass *pass) {
+    ewa_buffer_free(context, &pass->keys);
+    ewa_buffer_free(context, &pass->depth);
+    ewa_buffer_free(context, &pass->surfaces);
+}

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The resident form of a cloud, and one surfel of it back in double precision.
+#ifndef EWA_SRC_SURFACE_PACKETS_H
+#define EWA_SRC_SURFACE_PACKETS_H
+
+#include "ewa/render.h"
+#include "surface/packet.h"
+#include "homogeneous/vec.h"
+
+/// The clip lines of a surfel: keep toward.(q - center) + offset >= 0 for q in its plane, in the surfels'
+/// unit; toward is a unit vector of the plane, or 0 and offset 1 where there is no line.
+typedef struct ewa_surfel_clip {
+    float toward[2][3], offset[2];
+    bool either;
+} ewa_surfel_clip;
+
+struct ewa_surfels {
+    ewa_context *context;
+    uint32_t count, packet_count;
+    uint64_t left_out_count;
+    ewa_packet *packets;
+    uint8_t *materials; ///< [packet][lane]; NULL: all are `material`
+    uint8_t material, most_material;
+    uint16_t *opacities;    ///< [packet][lane], times 65535; NULL: all are opaque
+    uint16_t *clip_masks;   ///< [packet]: bit per lane that has a clip line; NULL: none has
+    uint32_t *clip_first;   ///< [packet]: of its lanes' in `clips`
+    ewa_surfel_clip *clips; ///< `clip_count` of them, in the order of packets and lanes
+    uint64_t clip_count;
+    ewa_packet_bounds bounds; ///< views into `bounds_memory`
+    void *bounds_memory;
+    size_t bounds_stride;   ///< packet_count rounded up to a full vector
+    double origin_world[3]; ///< of the packets' centres
+    double unit;            ///< of all lengths in packets, world units; a power of two near their sigmas
+    ewa_bounds extent;      ///< of the surfels' centres, from the origin, in world units
+    double reach_world;     ///< no surfel reaches farther from its packet's centre
+    double largest_sigmas_world[2]; ///< no major or minor axis is larger
+    double largest_color;           ///< a power of two that no number of a colour is beyond
+    bool fine_colors;               ///< some are large, and others far smaller
+    double cutoff;
+    bool ellipses; ///< some kernel is not a circle
+    double unit_coverage;
+};
+
+/// Colours up to so much keep enough digits in one word of a sum (surface/road_sums.h), as do those of which
+/// none is much smaller than the largest.
+#define EWA_PLAIN_COLORS 16.0
+
+enum { EWA_BOUNDS_BYTES = 3 * sizeof(double) + 2 * sizeof(uint16_t) + sizeof(uint32_t) }; ///< of a packet
+
+/// Sets the views of `bounds` into `bounds_memory`.
+void ewa_packets_view_bounds(ewa_surfels *surfels);
+
+/// Sets what is known of all packets together: reach_world, largest_sigmas_world, largest_color,
+/// fine_colors.
+void ewa_packets_sum_up(ewa_surfels *surfels);
+
+/// One surfel of a packet; lengths in the surfels' unit, axes of length sigma.
+typedef struct ewa_packet_surfel {
+    ewa_vec3 offset; ///< from the packet's centre
+    ewa_vec3 axis_u, axis_v, normal;
+    double color[3], opacity;
+} ewa_packet_surfel;
+
+/// Decodes lane `lane` of packet `packet`, as the kernels do but in double precision.
+void ewa_packet_decode(const ewa_surfels *surfels, uint32_t packet, uint32_t lane, ewa_packet_surfel *surfel);
+
+/// Codes the direction of an axis, without its sign, as the diamond angle in [0, 2) in the frame of the lane's
+/// normal, which is coded by then: 1 - c / (|c| + t).
+uint16_t ewa_packet_code_angle(const ewa_packet *packet, uint32_t lane, ewa_vec3 axis);
+
+/// Returns a packet's centre, from the origin in the surfels' unit.
+ewa_vec3 ewa_packet_center(const ewa_surfels *surfels, uint32_t packet);
+
+/// Estimates q0 (docs/math.md section 7): the median over a sample of surfels of sigma_u sigma_v density
+/// (1 - exp(-F^2 / 2)), each surfel counting at least itself within its own support.
+double ewa_packets_unit_coverage(const ewa_surfels *surfels);
+
+#endif

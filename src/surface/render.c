@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The renderer before its back end: a frame is begun, gets its sources, and is finished.
+#include "surface/render.h"
+#include "base/base.h"
+#include "surface/backend.h"
+#include "surface/options.h"
+#include "surface/packets.h"
+
+struct ewa_renderer {
+    ewa_context *context;
+    const ewa_backend *backend;
+    void *state; ///< the back end's
+    bool begun;
+    ewa_render_job job;
+    ewa_buffer sources;
+    uint32_t tile_px; ///< 0: chosen
+};
+
+ewa_status ewa_renderer_create(ewa_context *context, ewa_renderer **renderer) {
+    if (!context || !renderer) return EWA_ERROR_ARGUMENT;
+    *renderer = NULL;
+    ewa_renderer *made = ewa_allocate_zeroed(context, 1, sizeof *made);
+    if (!made) return EWA_ERROR_MEMORY;
+    made->context = context;
+    made->backend = &ewa_backend_cpu;
+    const ewa_status status = made->backend->create(context, &made->state);
+    if (status != EWA_OK) {
+        ewa_release(context, made, 1, sizeof *made);
+        return status;
+    }
+    *renderer = made;
+    return EWA_OK;
+}
+
+void ewa_renderer_destroy(ewa_renderer **renderer) {
+    if (!renderer || !*renderer) return;
+    ewa_renderer *old = *renderer;
+    ewa_context *context = old->context;
+    old->backend->destroy(context, old->state);
+    ewa_buffer_free(context, &old->sources);
+    ewa_release(context, old, 1, sizeof *old);
+    *renderer = NULL;
+}
+
+void ewa_renderer_set_tile(ewa_renderer *renderer, uint32_t tile_px) { renderer->tile_px = tile_px; }
+
+ewa_status ewa_render_begin(ewa_renderer *renderer, const ewa_camera *camera,
+                            const ewa_render_options *options, const ewa_frame *frame) {
+    if (!renderer || !camera || !frame) return EWA_ERROR_ARGUMENT;
+    ewa_render_job *job = &renderer->job;
+    renderer->begun = false;
+    *job = (ewa_render_job){.camera = *camera, .frame = *frame, .tile_px = renderer->tile_px};
+    ewa_status status = ewa_render_options_choose(renderer->context, options, &job->options);
+    if (status == EWA_OK) status = ewa_camera_check(renderer->context, camera);
+    if (status != EWA_OK) return status;
+    ewa_shading_setup_make(&job->options, &job->shading);
+    renderer->begun = true;
+    return EWA_OK;
+}
+
+/// What all sources of a frame have in common.
+static ewa_status check_source(const ewa_renderer *renderer, const ewa_surfels *surfels) {
+    const ewa_render_job *job = &renderer->job;
+    if (job->source_count && surfels->cutoff != job->sources[0]->cutoff)
+        return ewa_fail(renderer->context, EWA_ERROR_ARGUMENT,
+                        "render: surfels with a cutoff of %g beside others with %g", surfels->cutoff,
+                        job->sources[0]->cutoff);
+    if (job->source_count == UINT32_MAX)
+        return ewa_fail(renderer->context, EWA_ERROR_LIMIT, "render: more than %u sources", UINT32_MAX);
+    return ewa_shading_check_materials(renderer->context, &job->shading, surfels->most_material);
+}
+
+ewa_status ewa_render_add(ewa_renderer *renderer, const ewa_surfels *surfels) {
+    if (!renderer || !surfels) return EWA_ERROR_ARGUMENT;
+    if (!renderer->begun)
+        return ewa_fail(renderer->context, EWA_ERROR_ARGUMENT, "render: no frame has been begun");
+    ewa_render_job *job = &renderer->job;
+    ewa_status status = check_source(renderer, surfels);
+    if (status == EWA_OK)
+        status = ewa_buffer_grow(renderer->context, &renderer->sources, job->source_count,
+                                 (size_t)job->source_count + 1, sizeof(const ewa_surfels *));
+    if (status != EWA_OK) return status;
+    const ewa_surfels **sources = renderer->sources.data;
+    sources[job->source_count++] = surfels;
+    job->sources = sources;
+    return EWA_OK;
+}
+
+ewa_status ewa_render_finish(ewa_renderer *renderer, ewa_render_stats *stats) {
+    if (!renderer) return EWA_ERROR_ARGUMENT;
+    if (!renderer->begun)
+        return ewa_fail(renderer->context, EWA_ERROR_ARGUMENT, "render: no frame has been begun");
+    renderer->begun = false;
+    return renderer->backend->draw(renderer->state, &renderer->job, stats);
+}
+
+ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const ewa_camera *camera,
+                      const ewa_render_options *options, const ewa_frame *frame, ewa_render_stats *stats) {
+    if (!surfels) return EWA_ERROR_ARGUMENT;
+    ewa_status status = ewa_render_begin(renderer, camera, options, frame);
+    if (status == EWA_OK) status = ewa_render_add(renderer, surfels);
+    return status == EWA_OK ? ewa_render_finish(renderer, stats) : status;
+}

@@ -1,0 +1,268 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// One tile from its packets to its pixels: runs of packets are set up, sorted and raise the depth bound; then
+// all records that reach the bound are summed, and the sums resolved (docs/math.md sections 6 and 7).
+//
+// Records are kept from the first pass to the second. A tile that would need more than EWA_KEPT_RECORDS sets
+// its runs up again for the second pass instead: the same records in the same order, so the same bytes.
+#include "surface/tile.h"
+#include "surface/tile_runs.h"
+
+#include <assert.h>
+#include <math.h>
+#include <string.h>
+
+ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, const ewa_tile_job *job) {
+    uint64_t records = job->largest_bin * EWA_PACKET_LANES;
+    if (records > EWA_KEPT_RECORDS) records = EWA_KEPT_RECORDS;
+    if (records < EWA_RUN_RECORDS) records = EWA_RUN_RECORDS;
+    // Per pixel: `nearest` twice, the edges' `passed`, and four channels of what lies behind; per block
+    // `reach`; sums of both surfaces and of turned splats, and what is noted of clip lines by both, each in
+    // two words.
+    const size_t tile_floats = (size_t)job->tiles.side_px * job->tiles.side_px;
+    const bool two_words = job->fine_sums || job->with_depth || job->with_clips;
+    const size_t sum_floats = tile_floats * job->channel_count * (two_words ? 2 : 1),
+                 cut_floats = job->with_clips ? tile_floats * EWA_CUT_CHANNELS : 0;
+    const size_t pixel_floats =
+        tile_floats * (2 + 1 + 4) + tile_floats / EWA_BLOCK_LANES + 2 * (3 * sum_floats + 2 * cut_floats);
+    const uint64_t packet_count = job->largest_bin + (uint64_t)EWA_PACKET_LANES * (job->source_count + 1),
+                   run_count = records / EWA_RUN_RECORDS + 2 * ((uint64_t)job->source_count + 1);
+    const size_t box_counts[EWA_BOX_LEVELS] = {
+        records + EWA_BLOCK_LANES, records / EWA_GROUP_RECORDS + EWA_BLOCK_LANES,
+        records / EWA_GROUP_RECORDS / EWA_BLOCK_LANES + EWA_BLOCK_LANES};
+    size_t box_count = 0;
+    for (int i = 0; i < EWA_BOX_LEVELS; i++) box_count += box_counts[i];
+    const struct {
+        ewa_buffer *buffer;
+        size_t count, size_bytes;
+    } needs[] = {
+        {&s->record_buffer, records + EWA_PACKET_LANES, sizeof *s->records},
+        {&s->load_buffer, records + EWA_PACKET_LANES, sizeof *s->loads},
+        {&s->order_buffer, records, sizeof *s->order},
+        {&s->list_buffer, 2 * (EWA_LISTS * records + EWA_BLOCK_LANES), sizeof *s->listed},
+        {&s->box_buffer, 3 * box_count, sizeof(float)},
+        {&s->near_buffer, records, sizeof *s->near_surfels},
+        {&s->clip_buffer, job->with_clips ? records : 0, sizeof *s->clips},
+        {&s->opacity_buffer, job->with_opacity ? records + EWA_PACKET_LANES : 0, sizeof *s->opacities},
+        {&s->material_buffer, job->with_materials ? records + EWA_PACKET_LANES : 0, sizeof *s->materials},
+        {&s->kept_buffer, run_count, sizeof *s->kept},
+        {&s->pixel_buffer, pixel_floats, sizeof(float)},
+        {&s->packet_buffer, 4 * packet_count, sizeof *s->ordered},
+        {&s->split_buffer, job->source_count, sizeof *s->split},
+    };
+    for (size_t i = 0; i < sizeof needs / sizeof needs[0]; i++) {
+        const ewa_status status =
+            ewa_buffer_reserve(context, needs[i].buffer, needs[i].count, needs[i].size_bytes);
+        if (status != EWA_OK) return status;
+    }
+    s->records = s->record_buffer.data;
+    s->loads = s->load_buffer.data;
+    s->order = s->order_buffer.data;
+    s->listed = s->list_buffer.data;
+    s->listed_keys = (float *)(s->listed + EWA_LISTS * records + EWA_BLOCK_LANES);
+    int32_t *box_numbers = s->box_buffer.data;
+    for (int i = 0; i < EWA_BOX_LEVELS; i++, box_numbers += box_counts[i - 1]) {
+        s->boxes[i].first = box_numbers;
+        s->boxes[i].last = box_numbers + box_count;
+        s->boxes[i].key_low = (float *)(box_numbers + 2 * box_count);
+    }
+    s->near_surfels = s->near_buffer.data;
+    s->clips = job->with_clips ? s->clip_buffer.data : NULL;
+    s->opacities = job->with_opacity ? s->opacity_buffer.data : NULL;
+    s->materials = job->with_materials ? s->material_buffer.data : NULL;
+    s->kept = s->kept_buffer.data;
+    s->nearest = s->pixel_buffer.data;
+    s->edges.rows = s->edge_rows_left;
+    s->edges.nearest = s->nearest + tile_floats;
+    s->edges.passed = s->edges.nearest + tile_floats;
+    s->edges.behind = s->edges.passed + tile_floats;
+    s->edges.reach = s->edges.behind + 4 * tile_floats;
+    ewa_sums *const sums[5] = {&s->sums, &s->edges.sums, &s->apart.turned, &s->apart.cut,
+                               &s->edges.apart.cut};
+    float *next = s->edges.reach + tile_floats / EWA_BLOCK_LANES;
+    for (int i = 0; i < 5; i++) {
+        const size_t floats = i < 3 ? sum_floats : cut_floats;
+        *sums[i] = (ewa_sums){.planes = next,
+                              .high = next + floats,
+                              .fine = i < 3 && two_words ? floats / 2 : 0,
+                              .careful = i > 0,
+                              .most_visits = job->terms_per_carry,
+                              .visits = s->visits[i],
+                              .high_rows = s->high_rows[i]};
+        next += 2 * floats;
+    }
+    s->edges.apart.turned = s->apart.turned;
+    s->apart.turned_rows = s->turned_rows[0], s->edges.apart.turned_rows = s->turned_rows[1];
+    s->apart.cut_rows = cut_floats ? s->cut_rows[0] : NULL;
+    s->edges.apart.cut_rows = cut_floats ? s->cut_rows[1] : NULL;
+    s->record_capacity = records;
+    s->kept_capacity = run_count;
+    s->split = s->split_buffer.data;
+    s->ordered = s->packet_buffer.data;
+    s->depths = (float *)(s->ordered + packet_count);
+    s->packets = s->ordered + 2 * packet_count;
+    s->drawn_count = s->fragment_count = s->hidden_splat_count = s->broken_pixel_count = 0;
+    s->setup_s = s->visibility_s = s->accumulate_s = s->edge_s = s->resolve_s = 0;
+    return EWA_OK;
+}
+
+void ewa_tile_scratch_free(ewa_context *context, ewa_tile_scratch *s) {
+    ewa_buffer *const buffers[] = {
+        &s->record_buffer, &s->load_buffer,     &s->order_buffer, &s->list_buffer,   &s->box_buffer,
+        &s->near_buffer,   &s->kept_buffer,     &s->pixel_buffer, &s->packet_buffer, &s->opacity_buffer,
+        &s->clip_buffer,   &s->material_buffer, &s->split_buffer};
+    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) ewa_buffer_free(context, buffers[i]);
+}
+
+enum { DEPTH_BUCKETS = 64 };
+
+/// The first or the last bucket for depths beyond the range of floats, of which differences say nothing.
+static int depth_bucket(float depth, float nearest, float per_depth) {
+    const float place = (depth - nearest) * per_depth;
+    return place > 0 ? (place < DEPTH_BUCKETS - 1 ? (int)place : DEPTH_BUCKETS - 1) : 0;
+}
+
+/// The tile's packets with nearer runs first: what lies behind them need not be set up. By a counting sort,
+/// which leaves runs of about one depth in their order along the curve.
+static const uint32_t *front_to_back(const ewa_tile_job *job, const ewa_tile_source *source,
+                                     ewa_tile_scratch *s, const uint32_t *ids, uint64_t count) {
+    const uint64_t run_count = count / EWA_RUN_PACKETS; // the rest stays at the end
+    float *depths = s->depths, nearest = INFINITY, farthest = -INFINITY;
+    job->kernels->depths(&source->view, &source->surfels->bounds, &source->packets.places, ids,
+                         (uint32_t)count, depths);
+    for (uint64_t run = 0; run < run_count; run++) {
+        float begin = INFINITY;
+        for (uint32_t i = 0; i < EWA_RUN_PACKETS; i++)
+            begin = fminf(begin, depths[run * EWA_RUN_PACKETS + i]);
+        depths[run] = begin;
+        nearest = fminf(nearest, begin), farthest = fmaxf(farthest, begin);
+    }
+    if (!(nearest < farthest)) return ids;
+    const float per_depth = (DEPTH_BUCKETS - 1) / (farthest - nearest);
+    uint64_t next[DEPTH_BUCKETS + 1] = {0};
+    for (uint64_t run = 0; run < run_count; run++) next[depth_bucket(depths[run], nearest, per_depth) + 1]++;
+    for (int i = 0; i < DEPTH_BUCKETS; i++) next[i + 1] += next[i];
+    for (uint64_t run = 0; run < run_count; run++) {
+        const uint64_t at = next[depth_bucket(depths[run], nearest, per_depth)]++;
+        memcpy(s->ordered + at * EWA_RUN_PACKETS, ids + run * EWA_RUN_PACKETS, EWA_RUN_PACKETS * sizeof *ids);
+    }
+    const uint64_t done = run_count * EWA_RUN_PACKETS;
+    memcpy(s->ordered + done, ids + done, (count - done) * sizeof *ids);
+    return s->ordered;
+}
+
+/// First pass over one source, some packets at a time: those that lie behind what is drawn by then are put
+/// aside. Where nothing is hidden, fewer and fewer packets are asked.
+static void draw_visible(const ewa_tile_job *job, const ewa_tile_source *source, const ewa_tile *tile,
+                         ewa_tile_scratch *s, ewa_tile_split *split, const uint32_t *ids, uint64_t count,
+                         bool kept) {
+    enum { CHUNK_PACKETS = 4 * EWA_RUN_PACKETS, MOST_PASSED = 6 };
+    split->shown_count = split->hidden_count = 0;
+    uint64_t drawn_runs = 0;
+    uint32_t passed = 0; // chunks since the last that was asked, and until the next
+    uint32_t to_pass = job->resolve.transparent ? UINT32_MAX : 1;
+    for (uint64_t first = 0; first < count; first += CHUNK_PACKETS) {
+        const uint32_t here = count - first < CHUNK_PACKETS ? (uint32_t)(count - first) : CHUNK_PACKETS;
+        const double before = ewa_now_s();
+        if (passed < to_pass) {
+            memcpy(split->shown + split->shown_count, ids + first, here * sizeof *ids);
+            split->shown_count += here;
+            passed++;
+        } else {
+            job->kernels->set_cells(tile, s->cells);
+            const uint32_t shown = job->kernels->hide(
+                &source->view, &source->surfels->bounds, &source->packets.places, tile, s->cells, ids + first,
+                here, split->shown + split->shown_count, split->hidden + split->hidden_count);
+            split->shown_count += shown;
+            split->hidden_count += here - shown;
+            to_pass = shown < here ? 0 : to_pass < MOST_PASSED ? to_pass + 1 : MOST_PASSED;
+            passed = 0;
+        }
+        s->setup_s += ewa_now_s() - before;
+        const ewa_tile_packets packets = {source, split->shown, split->shown_count};
+        const uint64_t end =
+            first + here == count ? ewa_run_count(&packets) : split->shown_count / EWA_RUN_PACKETS;
+        if (kept)
+            ewa_tile_keep_runs(job, tile, s, &packets, drawn_runs, end, true);
+        else
+            ewa_tile_walk_again(job, tile, s, &packets, drawn_runs, end, EWA_PASS_VISIBILITY);
+        drawn_runs = end;
+    }
+    s->hidden_splat_count += split->hidden_count * EWA_PACKET_LANES;
+}
+
+/// First pass over all sources; returns whether their runs are kept.
+static bool draw_sources(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, uint32_t index) {
+    uint64_t all = 0;
+    for (uint32_t i = 0; i < job->source_count; i++) {
+        const uint64_t *first = &job->sources[i].bins.lists.starts[index];
+        all += first[1] - first[0];
+    }
+    const bool kept = all * EWA_PACKET_LANES <= s->record_capacity;
+    s->least_key = INFINITY;
+    s->has_near = false;
+    ewa_tile_drop_runs(s);
+    uint32_t *packets = s->packets;
+    for (uint32_t i = 0; i < job->source_count; i++) {
+        const ewa_tile_source *source = &job->sources[i];
+        const uint64_t first = source->bins.lists.starts[index],
+                       count = source->bins.lists.starts[index + 1] - first;
+        const uint32_t *ids = source->bins.lists.ids + first;
+        s->split[i] = (ewa_tile_split){.shown = packets, .hidden = packets + count + 1};
+        packets += 2 * (count + 1);
+        if (!job->resolve.transparent) ids = front_to_back(job, source, s, ids, count);
+        draw_visible(job, source, tile, s, &s->split[i], ids, count, kept);
+    }
+    return kept;
+}
+
+/// Second pass.
+static void accumulate(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, bool kept) {
+    job->kernels->clear_sums(tile);
+    if (kept) ewa_tile_walk_kept(job, tile, s);
+    for (uint32_t i = 0; i < job->source_count && !kept; i++) {
+        const ewa_tile_packets shown = {&job->sources[i], s->split[i].shown, s->split[i].shown_count};
+        ewa_tile_walk_again(job, tile, s, &shown, 0, ewa_run_count(&shown), EWA_PASS_ACCUMULATE);
+    }
+}
+
+void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
+    const ewa_tile_job *job = data;
+    ewa_tile_scratch *s = &job->scratch[worker];
+    const ewa_tile_rect place = ewa_tiles_rect(&job->tiles, index);
+    ewa_tile tile = {.x_px = (int32_t)place.x_px,
+                     .y_px = (int32_t)place.y_px,
+                     .width_px = (int32_t)place.width_px,
+                     .height_px = (int32_t)place.height_px,
+                     .nearest = s->nearest,
+                     .sums = s->sums,
+                     .apart = s->apart,
+                     .channel_count = job->channel_count,
+                     .with_normals = job->with_normals,
+                     .with_depth = job->with_depth,
+                     .with_opacity = job->with_opacity,
+                     .with_materials = job->with_materials,
+                     .with_fine = job->fine_sums,
+                     .settled_rows = s->settled_rows};
+    static_assert(EWA_FIELD_PX == EWA_MAX_TILE_BLOCKS * EWA_BLOCK_PX, "no tile is in two fields");
+    tile.field_x_px = (float)(tile.x_px % EWA_FIELD_PX - EWA_FIELD_PX / 2);
+    tile.field_y_px = (float)(tile.y_px % EWA_FIELD_PX - EWA_FIELD_PX / 2);
+    tile.blocks_per_row = ((uint32_t)tile.width_px + EWA_BLOCK_PX - 1) / EWA_BLOCK_PX;
+    tile.block_rows = ((uint32_t)tile.height_px + EWA_BLOCK_PX - 1) / EWA_BLOCK_PX;
+    job->kernels->clear_nearest(&tile);
+    const bool kept = draw_sources(job, &tile, s, index);
+    const double accumulating = ewa_now_s();
+    for (bool settled = false; !settled; tile.sums.careful = true) {
+        accumulate(job, &tile, s, kept);
+        settled = job->kernels->settle(&tile, &job->resolve);
+    }
+    const double accumulated = ewa_now_s();
+    if (kept) s->accumulate_s += accumulated - accumulating;
+    const bool edges = ewa_tile_draw_edges(job, &tile, s, kept);
+    const double before = ewa_now_s();
+    s->edge_s += before - accumulated;
+    s->broken_pixel_count +=
+        job->kernels->resolve(&tile, &job->resolve, edges ? &s->edges : NULL, s->edge_rows);
+    s->resolve_s += ewa_now_s() - before;
+}

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// One tile from its packets to its pixels.
+#ifndef EWA_SRC_SURFACE_TILE_H
+#define EWA_SRC_SURFACE_TILE_H
+
+#include "surface/bin.h"
+#include "surface/view.h"
+
+enum {
+    EWA_KEPT_RECORDS = 1 << 18, ///< 20 MiB per worker
+    EWA_LISTS = 2,              ///< entries of lists per kept record
+    EWA_MAX_LAYERS = 255,       ///< surfaces of a pixel that are looked for
+};
+
+/// What a walk over a tile's splats is for.
+typedef enum ewa_tile_pass {
+    EWA_PASS_VISIBILITY,
+    EWA_PASS_ACCUMULATE,
+    EWA_PASS_EDGE_VISIBILITY,
+    EWA_PASS_EDGE_ACCUMULATE
+} ewa_tile_pass;
+
+typedef struct ewa_tile_source ewa_tile_source;
+
+/// Packets of a tile, of one source, in runs; the last may be short.
+typedef struct ewa_tile_packets {
+    const ewa_tile_source *source;
+    const uint32_t *ids;
+    uint64_t count;
+} ewa_tile_packets;
+
+/// Of one source, those of a tile that may be seen, and those that others hide; room for all in either.
+typedef struct ewa_tile_split {
+    uint32_t *shown, *hidden;
+    uint64_t shown_count, hidden_count;
+} ewa_tile_split;
+
+/// A run of a tile whose splats are kept for the second pass.
+typedef struct ewa_kept_run {
+    const ewa_tile_source *source;
+    ewa_sorted_run sorted;
+    uint32_t near_first, near_count;
+} ewa_kept_run;
+
+/// What one worker needs for its tiles; sized once per frame by ewa_tile_scratch_reserve().
+typedef struct ewa_tile_scratch {
+    ewa_run run;
+    ewa_record *records;
+    ewa_load *loads;
+    float *opacities;   ///< NULL: all are opaque
+    uint8_t *materials; ///< NULL: all have the same
+    ewa_clip *clips;    ///< of the records that have some; NULL: none has
+    uint16_t *order;
+    uint32_t *listed;   ///< splats behind marked blocks, block by block
+    float *listed_keys; ///< ewa_edge_splats.largest_keys of them
+    ewa_edge_boxes boxes[EWA_BOX_LEVELS];
+    uint32_t *near_surfels;
+    ewa_kept_run *kept;
+    size_t record_capacity, kept_capacity;
+    uint32_t kept_count, near_count; ///< of the kept runs; boxes[0].count is how many records they have
+    ewa_tile_split *split;           ///< [source]
+    uint32_t *packets;               ///< their memory
+    uint32_t *ordered;               ///< packets of a tile and a source
+    float *depths;                   ///< by packet, then by run
+    float least_key;                 ///< of all splats that are shown
+    bool has_near;                   ///< some of them are near surfels
+    float cells[EWA_TILE_CELLS * EWA_TILE_CELLS];
+    float *nearest;
+    ewa_sums sums;
+    ewa_edges edges;
+    ewa_buffer record_buffer, load_buffer, order_buffer, list_buffer, box_buffer, near_buffer, opacity_buffer,
+        material_buffer, clip_buffer, kept_buffer, pixel_buffer, packet_buffer, split_buffer;
+    uint32_t edge_rows[EWA_MAX_TILE_BLOCKS], edge_rows_left[EWA_MAX_TILE_BLOCKS];
+    ewa_apart apart; ///< of the first surface; its planes for turned splats serve those behind it, too
+    uint32_t turned_rows[2][EWA_MAX_TILE_BLOCKS], cut_rows[2][EWA_MAX_TILE_BLOCKS];
+    uint32_t settled_rows[EWA_MAX_TILE_BLOCKS];
+    uint32_t visits[5][EWA_MAX_TILE_BLOCKS * EWA_MAX_TILE_BLOCKS];
+    uint32_t high_rows[5]
+                      [EWA_MAX_TILE_BLOCKS]; ///< of the sums of both surfaces, of turned splats, of both cuts
+    uint64_t drawn_count, fragment_count, hidden_splat_count, broken_pixel_count;
+    double setup_s, visibility_s, accumulate_s, edge_s, resolve_s;
+} ewa_tile_scratch;
+
+/// A source of a frame, as its tiles see it.
+typedef struct ewa_tile_source {
+    const ewa_surfels *surfels;
+    ewa_packet_source packets;
+    ewa_view view;
+    ewa_bins bins;
+} ewa_tile_source;
+
+/// What all tiles of a frame share.
+typedef struct ewa_tile_job {
+    const ewa_road_kernels *kernels;
+    ewa_tile_source *sources;
+    uint32_t source_count;
+    ewa_tiles tiles;
+    uint64_t largest_bin; ///< packets of the fullest tile, of all sources
+    ewa_view view;        ///< what those of the sources have in common
+    ewa_resolve resolve;
+    float materials[EWA_MAX_MATERIALS][EWA_MATERIAL_CHANNELS];
+    uint32_t channel_count;
+    uint32_t terms_per_carry; ///< of sums that are gathered with care
+    uint32_t layers;          ///< surfaces that are composited at most
+    bool merge_last;          ///< the last of them is all that is left
+    bool with_normals, with_depth, with_opacity, with_materials, with_clips, fine_sums, count_fragments;
+    ewa_tile_scratch *scratch; ///< [worker]
+} ewa_tile_job;
+
+/// Makes room for the tiles of a frame; allocates nothing once warm.
+ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *scratch, const ewa_tile_job *job);
+void ewa_tile_scratch_free(ewa_context *context, ewa_tile_scratch *scratch);
+
+/// Gathers the surfaces behind the first one where it covers pixels partly, hidden packets included; `kept`
+/// when all runs of those that are shown are kept. Returns whether there are such pixels; scratch->edge_rows
+/// marks them.
+bool ewa_tile_draw_edges(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *scratch, bool kept);
+
+/// Draws tile `tile`; an ewa_task.
+void ewa_tile_draw(void *job, uint32_t tile, uint32_t worker);
+
+#endif

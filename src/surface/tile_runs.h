@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Runs of a tile's packets.
+#ifndef EWA_SRC_SURFACE_TILE_RUNS_H
+#define EWA_SRC_SURFACE_TILE_RUNS_H
+
+#include "surface/tile.h"
+
+static inline uint64_t ewa_run_count(const ewa_tile_packets *packets) {
+    return (packets->count + EWA_RUN_PACKETS - 1) / EWA_RUN_PACKETS;
+}
+
+/// Forgets the runs that are kept.
+void ewa_tile_drop_runs(ewa_tile_scratch *scratch);
+
+/// Sets up runs [first, end) and keeps them behind those that are kept, as many as there is room for; with
+/// `draw`, for the first pass. Returns where it stopped.
+uint64_t ewa_tile_keep_runs(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *scratch,
+                            const ewa_tile_packets *packets, uint64_t first, uint64_t end, bool draw);
+
+/// Second pass over the runs that the first pass has kept.
+void ewa_tile_walk_kept(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *scratch);
+
+/// One pass over runs [first, end), set up for it and forgotten.
+void ewa_tile_walk_again(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *scratch,
+                         const ewa_tile_packets *packets, uint64_t first, uint64_t end, ewa_tile_pass what);
+
+/// One pass for near surfels.
+void ewa_tile_draw_near(const ewa_tile_job *job, const ewa_tile_source *source, const ewa_tile *tile,
+                        const ewa_edges *edges, const uint32_t *surfels, uint32_t count, ewa_tile_pass what);
+
+#endif

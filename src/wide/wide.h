@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The wide type: sixteen lanes, written three times, so that a kernel's body is written once.
+//
+// A file that includes this defines WIDE_AVX512, WIDE_AVX2 or WIDE_PORTABLE first. Every operation is exact
+// or correctly rounded, so that each version gives the same bytes: fma(a, b, c) = a b + c and fnma = c - a b
+// round once; min(a, b) is a < b ? a : b and max is a > b ? a : b, so that a NaN on either side gives b;
+// comparisons with a NaN are false; wi_from_f truncates and is only for values within int32, wi_store_u8 for
+// values in [0, 255]; sar is an
+// arithmetic shift. Masks: select(m, a, b) takes a where m is set; keep(m, a) is a where set, else 0. Only
+// `static inline` in here: a file compiled for one instruction set must not lend code to the others.
+#ifndef EWA_SRC_WIDE_H
+#define EWA_SRC_WIDE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(WIDE_AVX512)
+#include "wide/wide_avx512.h"
+#elif defined(WIDE_AVX2)
+#include "wide/wide_avx2.h"
+#elif defined(WIDE_PORTABLE)
+#include "wide/wide_portable.h"
+#else
+#error "define WIDE_AVX512, WIDE_AVX2 or WIDE_PORTABLE"
+#endif
+
+#endif
