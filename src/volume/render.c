@@ -116,7 +116,8 @@ ewa_status ewa_volume_render(ewa_volume_renderer *renderer, const ewa_voxels *vo
     for (uint32_t i = 0; i < renderer->worker_count && status == EWA_OK; i++)
         status = ewa_volume_scratch_reserve(context, &renderer->scratch[i], &job);
     if (status != EWA_OK) return status;
-    ewa_parallel(context, ewa_volume_tile_draw, &job, ewa_tiles_count(&renderer->bins.tiles));
-    if (stats) gather_stats(renderer, level, start_s, binned_s, stats);
-    return ewa_progress(context, "volume", 1);
+    status = ewa_parallel_stoppable(context, "volume", ewa_volume_tile_draw, &job,
+                                    ewa_tiles_count(&renderer->bins.tiles));
+    if (status == EWA_OK && stats) gather_stats(renderer, level, start_s, binned_s, stats);
+    return status;
 }

@@ -124,6 +124,28 @@ static void draw_parts(ewa_renderer *renderer, const ewa_surfels *s, uint32_t pa
     assert_int_equal(ewa_render_finish(renderer, NULL), EWA_OK);
 }
 
+/// The same by other instruction sets and numbers of threads.
+static void hold_machines(const ewa_surfels *surfels, const random_scene *made, uint64_t seed,
+                          const planes *first, const planes *other, check_random *random) {
+    static const struct {
+        uint32_t cpu_mask, threads, parts;
+    } machines[] = {{0, 1, 1}, {EWA_CPU_AVX2, 3, 2}, {EWA_CPU_ALL, 5, 3}};
+    for (size_t i = 0; i < sizeof machines / sizeof machines[0]; i++) {
+        ewa_context_options options;
+        ewa_context_options_init(&options, sizeof options);
+        options.cpu_mask = machines[i].cpu_mask;
+        options.thread_count = machines[i].threads;
+        ewa_context *context = NULL;
+        ewa_renderer *renderer = NULL;
+        assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+        assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+        draw_parts(renderer, surfels, machines[i].parts, made, &other->frame, random);
+        hold_same(first, other, "another machine", seed, made->words);
+        ewa_renderer_destroy(&renderer);
+        ewa_context_destroy(&context);
+    }
+}
+
 static void hold_scene(ewa_context *context, uint64_t seed, random_scene *made) {
     static const uint32_t tiles_px[] = {128, 64, 32, 16};
     check_random random = {seed + 1};
@@ -145,7 +167,7 @@ static void hold_scene(ewa_context *context, uint64_t seed, random_scene *made) 
         snprintf(what, sizeof what, "tiles of %u pixels%s", tiles_px[i], i >= 2 ? ", shuffled packets" : "");
         hold_same(&first, &other, what, seed, made->words);
     }
-    for (uint32_t parts = 1; parts <= MOST_PARTS; parts += parts < 3 ? 1 : 4) {
+    for (uint32_t parts = 1; parts <= MOST_PARTS; parts++) {
         char what[64];
         ewa_renderer_set_tile(renderer, tiles_px[parts % 4]);
         draw_parts(renderer, surfels, parts, made, &other.frame, &random);
@@ -153,6 +175,7 @@ static void hold_scene(ewa_context *context, uint64_t seed, random_scene *made) 
         hold_same(&first, &other, what, seed, made->words);
     }
     ewa_renderer_destroy(&renderer);
+    hold_machines(surfels, made, seed, &first, &other, &random);
     ewa_surfels_destroy(&surfels);
     planes_free(&first);
     planes_free(&other);

@@ -189,6 +189,51 @@ static void test_culling_changes_nothing(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Reports of progress, and the one that says stop (0: none).
+typedef struct stopper {
+    int reports, stop_at;
+} stopper;
+
+static bool on_progress(void *user, const char *stage, double fraction) {
+    stopper *self = user;
+    assert_true(fraction >= 0 && fraction <= 1);
+    return strcmp(stage, "volume") != 0 || ++self->reports != self->stop_at;
+}
+
+static void test_stops_between_tiles(void **state) {
+    (void)state;
+    static const uint32_t dims[3] = {32, 32, 32};
+    static const double direction[3] = {0.3, 0.2, -1};
+    const double radius = 12;
+    stopper self = {0};
+    ewa_context_options context_options;
+    ewa_context_options_init(&context_options, sizeof context_options);
+    context_options.progress = on_progress;
+    context_options.progress_user = &self;
+    context_options.thread_count = 2;
+    ewa_context *context = NULL;
+    assert_int_equal(ewa_context_create(&context_options, &context), EWA_OK);
+    ewa_volume volume = scene_volume(context, dims, UNIT, scene_ball, &radius);
+    const ewa_transfer transfer = scene_linear(0.2f, 0.5f, 0.9f, 3);
+    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    const ewa_camera camera = scene_camera(300, 300, direction, 60);
+    ewa_volume_renderer *renderer;
+    assert_int_equal(ewa_volume_renderer_create(context, &renderer), EWA_OK);
+    float *pixels = malloc(4 * 300 * 300 * sizeof *pixels);
+    const ewa_frame frame = {.rgba = pixels};
+    const ewa_volume_options options = defaults();
+    for (self.stop_at = 1; self.stop_at <= 3; self.stop_at++, self.reports = 0)
+        assert_int_equal(ewa_volume_render(renderer, voxels, &camera, &options, &frame, NULL), EWA_CANCELLED);
+    self.stop_at = 0;
+    assert_int_equal(ewa_volume_render(renderer, voxels, &camera, &options, &frame, NULL), EWA_OK);
+    assert_true(self.reports > 3);
+    free(pixels);
+    ewa_volume_renderer_destroy(&renderer);
+    ewa_voxels_destroy(&voxels);
+    ewa_volume_free(&volume);
+    ewa_context_destroy(&context);
+}
+
 /// A plane in homogeneous fog: exp(-kappa d) of it is seen through d of fog.
 static void test_surface_in_fog(void **state) {
     (void)state;
@@ -262,6 +307,7 @@ int main(void) {
         cmocka_unit_test(test_slab),
         cmocka_unit_test(test_same_bytes),
         cmocka_unit_test(test_culling_changes_nothing),
+        cmocka_unit_test(test_stops_between_tiles),
         cmocka_unit_test(test_surface_in_fog),
         cmocka_unit_test(test_levels),
     };
