@@ -14,7 +14,6 @@ enum {
     ADD_OPACITY = 4,
     ORTHOGRAPHIC = 8, ///< depths are -key
     ADD_FINE = 128,   ///< what the units of sums leave
-    LONG = 16,        ///< cutoffs beyond 3, which need more than two doublings
     BEYOND = 32,      ///< only beyond tile->passed; the depth, if there is one, is not added
     ADD_MATERIAL = 64,
 };

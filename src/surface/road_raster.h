@@ -309,7 +309,6 @@ static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_
             ? tile->channel_count
             : 4 + (what & ADD_NORMAL ? 3u : 0) + (what & (ADD_DEPTH | ADD_MATERIAL) ? 1u : 0) +
                   (what & ADD_MATERIAL ? EWA_MATERIAL_CHANNELS + 0u : 0) + (what & ADD_OPACITY ? 1u : 0);
-    const uint32_t doublings = what & LONG ? view->doublings : 2;
     column_terms c[EWA_COLUMN_CLASSES];
     UNROLL_COLUMNS
     for (uint32_t i = 0; i < columns; i++)
@@ -334,7 +333,7 @@ static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_
                 counts = wm_and(counts, wf_lt(key, wf_load(passed + (size_t)i * EWA_BLOCK_LANES)));
                 if (!wm_bits(counts)) continue; // most splats are of other surfaces
             }
-            const wf weight = wf_keep(counts, exponential(s, doublings));
+            const wf weight = wf_keep(counts, exponential(s, 2));
             const wf depth = what & ADD_DEPTH ? depth_share(view, key, bound, what) : wf_set(0);
             float *block = sums + (size_t)i * channels * EWA_BLOCK_LANES;
             if (what & BEYOND)
@@ -394,19 +393,7 @@ static ALWAYS_INLINE void accumulate_few(const pass *p, uint32_t splat, uint32_t
         else                                                                                                 \
             accumulate_rows(p, splat, first_column, columns, rows, test, what);                              \
     }                                                                                                        \
-    static ALWAYS_INLINE void name##_long_rows(const pass *p, uint32_t splat, uint32_t first_column,         \
-                                               uint32_t columns, uint32_t rows, depth_test test) {           \
-        if (box_turned(p->run->records[splat].box))                                                          \
-            name##_turned(p, splat, first_column, columns, rows, test);                                      \
-        else                                                                                                 \
-            accumulate_rows(p, splat, first_column, columns, rows, test, (what) | LONG);                     \
-    }                                                                                                        \
-    static void name(const pass *p) {                                                                        \
-        if (p->view->doublings == 2)                                                                         \
-            for_each_splat(p, name##_rows);                                                                  \
-        else                                                                                                 \
-            for_each_splat(p, name##_long_rows);                                                             \
-    }
+    static void name(const pass *p) { for_each_splat(p, name##_rows); }
 
 ACCUMULATE(add_color, 0)
 ACCUMULATE(add_color_depth, ADD_DEPTH)
@@ -476,7 +463,8 @@ static void clipped_add(const pass *p, uint32_t splat, uint32_t row, uint32_t co
               depth_share(p->view, sample.key, bound, what), what);
 }
 
-/// Fine and crowded sums are rare: one body for all that goes with them.
+/// Fine and crowded sums are rare, and so are cutoffs beyond 3, which need more than two doublings: one body for
+/// all that goes with them.
 static __attribute__((noinline)) void add_careful_rows(const pass *p, uint32_t splat, uint32_t first_column,
                                                        uint32_t columns, uint32_t rows, depth_test test) {
     const ewa_tile *tile = p->tile;
@@ -509,7 +497,7 @@ static void accumulate(const ewa_view *view, const ewa_tile *tile, const ewa_sor
                          : tile->with_normals ? 1
                                               : 0;
     const int kind = tile->passed ? 3 : !tile->with_depth ? 0 : view->orthographic ? 2 : 1;
-    if (tile->with_fine || (tile->sums.careful && !tile->passed))
+    if (tile->with_fine || view->doublings > 2 || (tile->sums.careful && !tile->passed))
         add_carefully(&p);
     else
         sets[channels][kind](&p);

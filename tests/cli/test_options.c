@@ -190,7 +190,7 @@ static void test_tables(void **state) {
             const char *help = option->help ? option->help : of->help;
             assert_int_not_equal(help[strlen(help) - 1], '.');
             char value[EWA_OPTION_TEXT_BYTES];
-            help_name_value(option, value);
+            options_name_value(option, value);
             const bool bare = option->kind == OPTION_FLAG || option->kind == OPTION_TOGGLE;
             assert_true(bare ? !value[0] : value[0]);
             const cli_option *other;
