@@ -394,6 +394,21 @@ static void test_probe(void **state) {
         mesh_says(&messages,
                   "a.txt: no file of points or triangles of a known format (PLY, OBJ, STL, OFF, glTF)");
     }
+    // Formats of others are called by their names.
+    static const char *const others[][2] = {{"LASF\x01\x02", "a LAS or LAZ cloud"},
+                                            {"ASTM-E57\x01", "an E57 scan"},
+                                            {"# .PCD v0.7 - Point Cloud Data\n", "a PCD cloud"},
+                                            {"VERSION 0.7\nFIELDS x y z\n", "a PCD cloud"}};
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
+        ewa_model model;
+        messages = (mesh_messages){.errors = 0};
+        char said[128];
+        snprintf(said, sizeof said, "scan.bin: %s, which is not read; convert it to PLY", others[i][1]);
+        assert_int_equal(ewa_model_load_memory(context, others[i][0], strlen(others[i][0]), "scan.bin", NULL,
+                                               EWA_MODEL_POINTS, &model),
+                         EWA_ERROR_UNSUPPORTED);
+        mesh_says(&messages, said);
+    }
     ewa_model model;
     assert_int_equal(ewa_model_load_memory(context, "", 0, "a.obj", NULL, EWA_MODEL_MESH, &model),
                      EWA_ERROR_FORMAT);

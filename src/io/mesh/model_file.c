@@ -3,9 +3,9 @@
 //
 // Files of points or triangles: the one place that decides which of them a file holds.
 #include "base/base.h"
+#include "io/cloud/ply.h"
 #include "io/file.h"
 #include "io/mesh/formats.h"
-#include "io/cloud/ply.h"
 
 typedef ewa_status read_format(ewa_mesh_build *build);
 
@@ -69,6 +69,25 @@ static ewa_status read_ply(const ewa_mesh_source *source, uint32_t wanted, ewa_m
     return status;
 }
 
+/// Says that a file is of no format that is read, and which it is where that can be told.
+static ewa_status refuse(const ewa_mesh_source *source) {
+    static const struct {
+        const char *begins, *name;
+    } known[] = {{"LASF", "a LAS or LAZ cloud"},
+                 {"ASTM-E57", "an E57 scan"},
+                 {"# .PCD", "a PCD cloud"},
+                 {"VERSION 0.", "a PCD cloud"}};
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        const size_t length = strlen(known[i].begins);
+        if (source->size_bytes >= length && memcmp(source->bytes, known[i].begins, length) == 0)
+            return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED,
+                            "%s: %s, which is not read; convert it to PLY", source->name, known[i].name);
+    }
+    return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED,
+                    "%s: no file of points or triangles of a known format (PLY, OBJ, STL, OFF, glTF)",
+                    source->name);
+}
+
 static ewa_status load(const ewa_mesh_source *source, uint32_t wanted, ewa_model *model) {
     if (source->size_bytes == 0)
         return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: the file is empty", source->name);
@@ -85,9 +104,7 @@ static ewa_status load(const ewa_mesh_source *source, uint32_t wanted, ewa_model
     case EWA_MODEL_GLTF:
         return read_other(source, ewa_mesh_read_gltf, wanted, model);
     default:
-        return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED,
-                        "%s: no file of points or triangles of a known format (PLY, OBJ, STL, OFF, glTF)",
-                        source->name);
+        return refuse(source);
     }
 }
 
