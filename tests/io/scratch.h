@@ -13,12 +13,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/// Path of a file in the build folder (by hand, without ctest: in /tmp); the buffer is the caller's.
+/// Path of a file in a folder of the test's own, beside others that run, in the build folder (by hand, without
+/// ctest: in /tmp); the buffer is the caller's.
 static inline const char *scratch_path(const char *name, char path[512]) {
-    const char *folder = getenv("EWA_BINARY_DIR");
-    snprintf(path, 512, "%s/scratch", folder ? folder : "/tmp");
+    const char *folder = getenv("EWA_BINARY_DIR"), *test = getenv("EWA_TEST");
+    const int shared = snprintf(path, 512, "%s/scratch", folder ? folder : "/tmp");
     mkdir(path, 0777);
-    snprintf(path, 512, "%s/scratch/%s", folder ? folder : "/tmp", name);
+    const int own = snprintf(path + shared, 512 - (size_t)shared, "/%s", test ? test : "by_hand");
+    mkdir(path, 0777);
+    snprintf(path + shared + own, 512 - (size_t)(shared + own), "/%s", name);
     return path;
 }
 
