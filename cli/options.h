@@ -119,7 +119,7 @@ typedef struct cli_command {
     const char *examples; ///< lines to type
     size_t low_operands, high_operands;
     const option_group *const *groups; ///< without common_options; NULL after the last
-    size_t arguments_bytes; ///< of the struct that begins with common_arguments
+    size_t arguments_bytes;            ///< of the struct that begins with common_arguments
     /// Sets what is not zero by default.
     void (*set_defaults)(void *arguments);
     /// Says in `message` what is wrong with the options together; NULL when nothing can be. Returns false

@@ -15,6 +15,7 @@ typedef struct volume_input_arguments {
     int64_t header_bytes;
 } volume_input_arguments;
 
+// clang-format off
 /// Rows of an option table; `at` is the offset of the volume_input_arguments in the command's arguments.
 #define VOLUME_INPUT_OPTIONS(at)                                                                             \
     {"dims", OPTION_VECTOR, (at) + offsetof(volume_input_arguments, dims), "x,y,z",                          \
@@ -32,6 +33,7 @@ typedef struct volume_input_arguments {
             .high = 3, .absent = "as the file says, else 1,1,1",                                             \
             .help = "distances of the voxels along each axis, in world units"                                \
     }
+// clang-format on
 
 void volume_input_set_defaults(volume_input_arguments *arguments);
 

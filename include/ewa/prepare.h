@@ -141,10 +141,10 @@ typedef struct ewa_feature_options {
                               ///< 64 for noisy ones; default 0
     double angle_deg; ///< least angle between the normals of two planes that meet in an edge; [10, 120];
                       ///< default 30
-    double noise;  ///< standard deviation of the points from the surface in units of the spacing; (-inf,
-                   ///< 1]; negative: measured; default -1
-    double cutoff; ///< F: axes made of "radius" are radius / F long; (0, 4]; default 3
-    bool project;  ///< move the points of an edge onto their plane; default true
+    double noise;     ///< standard deviation of the points from the surface in units of the spacing; (-inf,
+                      ///< 1]; negative: measured; default -1
+    double cutoff;    ///< F: axes made of "radius" are radius / F long; (0, 4]; default 3
+    bool project;     ///< move the points of an edge onto their plane; default true
 } ewa_feature_options;
 
 EWA_API extern const ewa_option_table ewa_feature_options_table;

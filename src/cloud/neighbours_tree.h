@@ -5,8 +5,8 @@
 #ifndef EWA_SRC_CLOUD_NEIGHBOURS_TREE_H
 #define EWA_SRC_CLOUD_NEIGHBOURS_TREE_H
 
-#include "wide/isa.h"
 #include "cloud/neighbours.h"
+#include "wide/isa.h"
 
 enum {
     TREE_ARITY = 16,

@@ -9,9 +9,9 @@
 #include "base/options.h"
 #include "cloud/cloud.h"
 #include "cloud/morton.h"
-#include "image/srgb.h"
-#include "homogeneous/frame.h"
 #include "colors/acquire_stretch.h"
+#include "homogeneous/frame.h"
+#include "image/srgb.h"
 
 #include <string.h>
 

@@ -7,8 +7,8 @@
 #define EWA_SRC_COLORS_ACQUIRE_H
 
 #include "ewa/acquire.h"
-#include "image/texture.h"
 #include "homogeneous/vec.h"
+#include "image/texture.h"
 
 enum { EWA_ACQUIRE_NO_TEXTURE = UINT32_MAX };
 

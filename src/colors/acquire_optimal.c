@@ -13,9 +13,9 @@
 // bounds what kernels that are nearly the same, and pairs that were left out, can do. Based on M. Zwicker, H.
 // Pfister, J. van Baar, M. Gross, "Surface Splatting", 2001, section 5 and appendix A.
 #include "base/base.h"
-#include "math/gaussian.h"
 #include "colors/acquire_stretch.h"
 #include "colors/sparse.h"
+#include "math/gaussian.h"
 
 #include <string.h>
 

@@ -16,9 +16,9 @@
 // Based on M. Zwicker, H. Pfister, J. van Baar, M. Gross, "Surface Splatting", 2001, appendix A; the moments
 // of what is cut after N. L. Johnson, S. Kotz, "Continuous Univariate Distributions 1", 1970, chapter 13.
 #include "base/base.h"
+#include "colors/acquire.h"
 #include "homogeneous/frame.h"
 #include "math/gaussian.h"
-#include "colors/acquire.h"
 
 /// Least cosine between the normals of kernels that interact.
 #define MIN_FACING (-0.5)

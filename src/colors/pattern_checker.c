@@ -12,9 +12,9 @@
 // Wider ones: the Fourier series of the pattern, of which the Gaussian leaves only wave vectors near the
 // normal of the plane.
 #include "base/base.h"
+#include "colors/pattern.h"
 #include "math/gaussian.h"
 #include "math/wave.h"
-#include "colors/pattern.h"
 
 #include <math.h>
 

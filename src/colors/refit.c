@@ -11,10 +11,10 @@
 #include "base/base.h"
 #include "base/options.h"
 #include "cloud/cloud.h"
-#include "homogeneous/vec.h"
 #include "cloud/color.h"
 #include "colors/gradient.h"
 #include "colors/refit_kernels.h"
+#include "homogeneous/vec.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,8 +4,8 @@
 // Surfels beside edges: plane, axes and clip lines from the model of their place.
 #include "base/base.h"
 #include "cloud/cloud.h"
-#include "homogeneous/frame.h"
 #include "edges/features.h"
+#include "homogeneous/frame.h"
 
 #include <math.h>
 #include <string.h>

@@ -7,8 +7,8 @@
 #include "base/base.h"
 #include "base/options.h"
 #include "cloud/cloud.h"
-#include "math/angle.h"
 #include "estimate/local.h"
+#include "math/angle.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -6,8 +6,8 @@
 #define EWA_SRC_EDGES_FEATURES_H
 
 #include "cloud/neighbours.h"
-#include "ewa/prepare.h"
 #include "edges/feature_fit.h"
+#include "ewa/prepare.h"
 
 /// What was detected, by place.
 typedef struct feature_result {

@@ -5,11 +5,11 @@
 #include "base/base.h"
 #include "base/options.h"
 #include "cloud/cloud.h"
-#include "ewa/prepare.h"
 #include "estimate/local.h"
 #include "estimate/orient.h"
 #include "estimate/outliers.h"
 #include "estimate/radii.h"
+#include "ewa/prepare.h"
 
 #include <float.h>
 #include <math.h>

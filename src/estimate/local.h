@@ -5,8 +5,8 @@
 #ifndef EWA_SRC_ESTIMATE_LOCAL_H
 #define EWA_SRC_ESTIMATE_LOCAL_H
 
-#include "wide/isa.h"
 #include "cloud/neighbours.h"
+#include "wide/isa.h"
 
 /// Share of the variance along the normal above which a neighbourhood may be no surface.
 #define LOCAL_SURFACE_VARIATION 0.11

@@ -16,8 +16,8 @@
 // Shape: the place's cell in the Voronoi diagram, cut by the tangent plane. Seen in direction u it ends at
 // t(u) = 1 / (2 max_j u.p_j / |p_j|^2). A ball that holds an anisotropic lattice shows no anisotropy in its
 // variance, but the cell has the lattice's own proportions.
-#include "wide/wide.h"
 #include "estimate/local.h"
+#include "wide/wide.h"
 
 enum {
     JACOBI_SWEEPS = 3, // quadratic convergence: normals are then exact to 1e-5 degrees over the gap

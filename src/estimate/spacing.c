@@ -4,8 +4,8 @@
 // The sampling of a whole cloud in a few numbers.
 #include "base/base.h"
 #include "cloud/cloud.h"
-#include "ewa/prepare.h"
 #include "estimate/local.h"
+#include "ewa/prepare.h"
 
 #include <math.h>
 #include <string.h>

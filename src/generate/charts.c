@@ -5,9 +5,9 @@
 #include "base/base.h"
 #include "cloud/cloud.h"
 #include "ewa/acquire.h"
-#include "math/angle.h"
-#include "homogeneous/vec.h"
 #include "generate/generate.h"
+#include "homogeneous/vec.h"
+#include "math/angle.h"
 
 enum { TASK_POINTS = 1 << 13 };
 

@@ -11,8 +11,8 @@
 #include "generate/generate.h"
 #include "base/base.h"
 #include "base/options.h"
-#include "math/generate_number.h"
 #include "generate/solid.h"
+#include "math/generate_number.h"
 
 #include <math.h>
 #include <string.h>

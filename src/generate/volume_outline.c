@@ -4,9 +4,9 @@
 // Where what can be seen of a volume is.
 #include "base/base.h"
 #include "ewa/prepare.h"
+#include "homogeneous/vec.h"
 #include "image/transfer.h"
 #include "image/volume.h"
-#include "homogeneous/vec.h"
 #include <string.h>
 
 enum { STEPS = 1024, ROW = 1024, GROUPS = 64, CORNERS = 8, SLICES = 5, FEW = 3 };

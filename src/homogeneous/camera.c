@@ -5,8 +5,8 @@
 // that every machine computes the same camera.
 #include "homogeneous/camera.h"
 #include "base/base.h"
-#include "math/angle.h"
 #include "homogeneous/vec.h"
+#include "math/angle.h"
 
 #include <float.h>
 #include <math.h>

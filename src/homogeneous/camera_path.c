@@ -8,9 +8,9 @@
 // (slerp), and "Quaternion Calculus and Fast Animation", SIGGRAPH 1987 course 10 (squad).
 #include "base/base.h"
 #include "ewa/camera.h"
-#include "math/angle.h"
 #include "homogeneous/camera.h"
 #include "homogeneous/vec.h"
+#include "math/angle.h"
 
 #include <math.h>
 #include <string.h>

@@ -8,8 +8,8 @@
 #ifndef EWA_SRC_HOMOGENEOUS_CLIP_BATCH_H
 #define EWA_SRC_HOMOGENEOUS_CLIP_BATCH_H
 
-#include "wide/isa.h"
 #include "ewa/homogeneous.h"
+#include "wide/isa.h"
 
 /// Clips segments [first, first + count) of a batch.
 typedef void clip_segments_kernel(const ewa_segment_batch *segments, const ewa_segment_clips *clips,

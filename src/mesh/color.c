@@ -4,8 +4,8 @@
 // Colours of places on a mesh but for its pictures, and where places are on those.
 #include "mesh/color.h"
 #include "base/base.h"
-#include "image/srgb.h"
 #include "homogeneous/vec.h"
+#include "image/srgb.h"
 
 #include <string.h>
 

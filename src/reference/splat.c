@@ -6,9 +6,9 @@
 // 2004, section 4, by way of the dual conic (docs/math.md section 3); M. Zwicker, H. Pfister, J. van Baar, M.
 // Gross, "Surface Splatting", 2001, sections 3 and 4 (affine kernel, visibility).
 #include "reference/splat.h"
-#include "surface/semantics.h"
 #include "math/ellipse.h"
 #include "surface/points.h"
+#include "surface/semantics.h"
 
 static const double TWO_PI = 6.283185307179586;
 

@@ -10,11 +10,11 @@
 #include "base/base.h"
 #include "cloud/cloud.h"
 #include "image/srgb.h"
-#include "surface/semantics.h"
-#include "surface/options.h"
-#include "surface/points.h"
 #include "reference/shade.h"
 #include "reference/sums.h"
+#include "surface/options.h"
+#include "surface/points.h"
+#include "surface/semantics.h"
 
 #include <string.h>
 

@@ -6,8 +6,8 @@
 #define EWA_SRC_SURFACE_BIN_H
 
 #include "road/tiles.h"
-#include "surface/road.h"
 #include "surface/packets.h"
+#include "surface/road.h"
 
 /// Bins of a frame; its memory survives from frame to frame. Zero-initialise.
 typedef struct ewa_bins {

@@ -6,8 +6,8 @@
 #ifndef EWA_SRC_SURFACE_PACK_H
 #define EWA_SRC_SURFACE_PACK_H
 
-#include "wide/isa.h"
 #include "surface/packet.h"
+#include "wide/isa.h"
 
 enum { EWA_BOX_FLOATS = 3 * EWA_PACKET_LANES };
 

@@ -5,9 +5,9 @@
 // docs/conventions.md, precision.
 //
 // Octahedral normals: Meyer et al., "On Floating-Point Normal Vectors", 2010.
+#include "surface/pack.h"
 #include "wide/wide_double.h"
 #include "wide/wide_functions.h"
-#include "surface/pack.h"
 
 enum { LANES = EWA_PACKET_LANES };
 

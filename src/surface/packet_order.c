@@ -5,8 +5,8 @@
 #include "surface/packet_order.h"
 #include "base/base.h"
 #include "cloud/morton.h"
-#include "surface/packet.h"
 #include "homogeneous/vec.h"
+#include "surface/packet.h"
 
 #include <math.h>
 #include <stdlib.h>

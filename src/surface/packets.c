@@ -9,13 +9,13 @@
 #include "base/base.h"
 #include "cloud/cloud.h"
 #include "cloud/morton.h"
-#include "surface/semantics.h"
 #include "surface/color_form.h"
 #include "surface/discs.h"
 #include "surface/extras.h"
 #include "surface/options.h"
 #include "surface/pack.h"
 #include "surface/packet_order.h"
+#include "surface/semantics.h"
 
 #include <math.h>
 #include <string.h>

@@ -6,8 +6,8 @@
 #define EWA_SRC_SURFACE_PACKETS_H
 
 #include "ewa/render.h"
-#include "surface/packet.h"
 #include "homogeneous/vec.h"
+#include "surface/packet.h"
 
 /// The clip lines of a surfel: keep toward.(q - center) + offset >= 0 for q in its plane, in the surfels'
 /// unit; toward is a unit vector of the plane, or 0 and offset 1 where there is no line.

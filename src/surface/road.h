@@ -11,11 +11,11 @@
 #ifndef EWA_SRC_SURFACE_ROAD_H
 #define EWA_SRC_SURFACE_ROAD_H
 
-#include "road/bin.h"
-#include "wide/isa.h"
 #include "image/environment.h"
-#include "wide/lights.h"
+#include "road/bin.h"
 #include "surface/packet.h"
+#include "wide/isa.h"
+#include "wide/lights.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -295,12 +295,12 @@ typedef struct ewa_resolve {
     ewa_road_shading shading;
     uint32_t light_count;
     ewa_kernel_light lights[EWA_MAX_LIGHTS]; ///< in camera space
-    float material[EWA_MATERIAL_CHANNELS]; ///< of all surfaces in tiles without materials
-    const ewa_environment *environment;    ///< NULL: none
-    float environment_from_camera[9];      ///< rotation, row-major
-    float background[4];                   ///< linear, premultiplied
-    float ray_x[2], ray_y[2];              ///< slope = ray[0] pixel + ray[1]
-    float to_world[9];                     ///< world from camera, row-major, without scale
+    float material[EWA_MATERIAL_CHANNELS];   ///< of all surfaces in tiles without materials
+    const ewa_environment *environment;      ///< NULL: none
+    float environment_from_camera[9];        ///< rotation, row-major
+    float background[4];                     ///< linear, premultiplied
+    float ray_x[2], ray_y[2];                ///< slope = ray[0] pixel + ray[1]
+    float to_world[9];                       ///< world from camera, row-major, without scale
     uint32_t width_px;
     float depth_unit;      ///< world units of 1 in camera space
     float depth_per_share; ///< orthographic: camera space of 1 in sums of depths

@@ -7,8 +7,8 @@
 #ifndef EWA_SRC_SURFACE_ROAD_RESOLVE_H
 #define EWA_SRC_SURFACE_ROAD_RESOLVE_H
 
-#include "wide/pixels.h"
 #include "surface/road_shade.h"
+#include "wide/pixels.h"
 
 static void store_vectors(float *plane, const ewa_resolve *to, const block_place *at, const wf v[3]) {
     float lanes[64], packed[48];

@@ -8,9 +8,9 @@
 #include "surface/surfel.h"
 #include "base/base.h"
 #include "cloud/cloud.h"
-#include "surface/semantics.h"
-#include "homogeneous/frame.h"
 #include "cloud/color.h"
+#include "homogeneous/frame.h"
+#include "surface/semantics.h"
 
 #include <string.h>
 

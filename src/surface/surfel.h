@@ -5,8 +5,8 @@
 #ifndef EWA_SRC_SURFACE_SURFEL_H
 #define EWA_SRC_SURFACE_SURFEL_H
 
-#include "ewa/render.h"
 #include "cloud/color.h"
+#include "ewa/render.h"
 
 /// One surfel in world space. Its covariance is axis_u' axis_u + axis_v' axis_v (docs/math.md section 2).
 typedef struct ewa_surfel {

@@ -4,9 +4,9 @@
 // Camera and options in the single-precision form that the kernels read.
 #include "surface/view.h"
 #include "base/base.h"
-#include "surface/semantics.h"
 #include "homogeneous/perspective.h"
 #include "surface/points.h"
+#include "surface/semantics.h"
 
 #include <math.h>
 #include <string.h>

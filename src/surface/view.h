@@ -5,9 +5,9 @@
 #ifndef EWA_SRC_SURFACE_VIEW_H
 #define EWA_SRC_SURFACE_VIEW_H
 
-#include "surface/road.h"
 #include "homogeneous/placement.h"
 #include "surface/packets.h"
+#include "surface/road.h"
 #include "surface/shading.h"
 
 /// What the sources of a frame share, so that what one adds to a pixel means what another does. None of it

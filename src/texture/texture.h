@@ -7,9 +7,9 @@
 #define EWA_SRC_TEXTURE_TEXTURE_H
 
 #include "base/base.h"
-#include "wide/isa.h"
-#include "road/tiles.h"
 #include "ewa/resample.h"
+#include "road/tiles.h"
+#include "wide/isa.h"
 
 enum {
     EWA_TEXTURE_TILE = 64,   ///< pixels along a side of a tile

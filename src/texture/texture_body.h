@@ -7,9 +7,9 @@
 //
 // Based on: Yuan et al., "Hybrid Forward Resampling and Volume Rendering", 2003, section 3; Zwicker et al.,
 // "Perspective Accurate Splatting", 2004, section 4 (docs/math.md sections 3, 4, 11).
-#include "wide/wide_ellipse.h"
 #include "texture/texture.h"
 #include "texture/texture_resolve.h"
+#include "wide/wide_ellipse.h"
 
 #include <string.h>
 

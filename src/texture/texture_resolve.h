@@ -6,8 +6,8 @@
 #ifndef EWA_SRC_TEXTURE_TEXTURE_RESOLVE_H
 #define EWA_SRC_TEXTURE_TEXTURE_RESOLVE_H
 
-#include "wide/pixels.h"
 #include "texture/texture.h"
+#include "wide/pixels.h"
 
 /// Colours of sixteen pixels over the background, premultiplied.
 static ALWAYS_INLINE void resolve_pixels(const ewa_texture_sums *sums, size_t at, const float *coverage,

@@ -16,10 +16,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "wide/isa.h"
 #include "ewa/shade.h"
-#include "wide/lights.h"
 #include "volume/footprint.h"
+#include "wide/isa.h"
+#include "wide/lights.h"
 
 enum {
     EWA_VOLUME_TILE_PX = 64,

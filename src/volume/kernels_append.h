@@ -6,8 +6,8 @@
 #ifndef EWA_SRC_VOLUME_KERNELS_APPEND_H
 #define EWA_SRC_VOLUME_KERNELS_APPEND_H
 
-#include "wide/shine.h"
 #include "volume/kernels.h"
+#include "wide/shine.h"
 
 #include <string.h>
 

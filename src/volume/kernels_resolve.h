@@ -6,8 +6,8 @@
 #ifndef EWA_SRC_VOLUME_KERNELS_RESOLVE_H
 #define EWA_SRC_VOLUME_KERNELS_RESOLVE_H
 
-#include "wide/pixels.h"
 #include "volume/kernels.h"
+#include "wide/pixels.h"
 
 static void clear(ewa_volume_tile *tile) {
     const wf zero = wf_set(0), one = wf_set(1), nowhere = wf_set(__builtin_inff());

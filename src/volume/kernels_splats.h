@@ -15,8 +15,8 @@
 #ifndef EWA_SRC_VOLUME_KERNELS_SPLATS_H
 #define EWA_SRC_VOLUME_KERNELS_SPLATS_H
 
-#include "wide/wide_ellipse.h"
 #include "volume/kernels_points.h"
+#include "wide/wide_ellipse.h"
 
 /// What a splat's pixels need, lane by lane.
 enum {

@@ -7,11 +7,11 @@
 // Based on: Yuan et al., "Hybrid Forward Resampling and Volume Rendering", 2003, section 3. The points of
 // that paper are what the road makes of surfels much smaller than its filter (docs/math.md section 4).
 #include "warp/warp.h"
-#include "image/srgb.h"
 #include "cloud/color.h"
-#include "warp/warp_options.h"
+#include "image/srgb.h"
 #include "surface/color_form.h"
 #include "surface/options.h"
+#include "warp/warp_options.h"
 
 #include <math.h>
 #include <string.h>

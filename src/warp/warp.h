@@ -6,8 +6,8 @@
 #define EWA_SRC_WARP_H
 
 #include "ewa/warp.h"
-#include "warp/warp_sample.h"
 #include "surface/grid.h"
+#include "warp/warp_sample.h"
 
 enum {
     EWA_WARP_STRIP_PX = 16, ///< rows that are sampled together

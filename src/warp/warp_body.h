@@ -5,8 +5,8 @@
 //
 // Based on: Yuan et al., "Hybrid Forward Resampling and Volume Rendering", 2003, section 3 (splat sizes from
 // neighbours of the same surface, normals; docs/math.md section 11).
-#include "wide/wide.h"
 #include "warp/warp_sample.h"
+#include "wide/wide.h"
 
 #include <string.h>
 

@@ -9,10 +9,10 @@
 // new eye's place in it. Where the new eye is before the old one the nearer sample is nearer to the epipole,
 // where it is behind, farther. Rows and columns are therefore walked towards the epipole or away from it, in
 // up to four sheets that it separates.
-#include "image/srgb.h"
 #include "homogeneous/placement.h"
-#include "warp/warp_place.h"
+#include "image/srgb.h"
 #include "surface/color_form.h"
+#include "warp/warp_place.h"
 
 #include <math.h>
 #include <string.h>

@@ -10,8 +10,8 @@
 #ifndef EWA_SRC_WARP_SAMPLE_H
 #define EWA_SRC_WARP_SAMPLE_H
 
-#include "wide/isa.h"
 #include "surface/packet.h"
+#include "wide/isa.h"
 
 #include <stddef.h>
 

@@ -482,8 +482,8 @@ static void test_real_models(void **state) {
         for (int c = 0; c < 3; c++)
             if (fabs(bounds.low_world[c] - model_facts[i].low[c]) > 1e-5 * fabs(model_facts[i].low[c]) ||
                 fabs(bounds.high_world[c] - model_facts[i].high[c]) > 1e-5 * fabs(model_facts[i].high[c]))
-                fail_msg("%s: %g to %g on axis %d", model_facts[i].path, bounds.low_world[c], bounds.high_world[c],
-                         c);
+                fail_msg("%s: %g to %g on axis %d", model_facts[i].path, bounds.low_world[c],
+                         bounds.high_world[c], c);
         ewa_cloud_destroy(&cloud);
     }
     assert_int_equal(messages.count, 0);

@@ -5,8 +5,8 @@
 #include <fenv.h>
 #include <string.h>
 
-#include "math/check_math.h"
 #include "homogeneous/perspective.h"
+#include "math/check_math.h"
 
 enum { ROUNDS = 2000 };
 

@@ -4,8 +4,8 @@
 // The stated errors of src/wide/wide_functions.h, in plain C; that every instruction set gives the same bytes
 // is tested on pictures.
 #define WIDE_PORTABLE
-#include "wide/wide_functions.h"
 #include "tests/check.h"
+#include "wide/wide_functions.h"
 
 #include <math.h>
 #include <string.h>

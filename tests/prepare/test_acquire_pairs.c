@@ -4,8 +4,8 @@
 // Products of two kernels and the pictures under them: closed forms against quadrature, in the plane and in
 // space, and pictures whose mean under a Gaussian is known.
 #include "check.h"
-#include "math/gaussian.h"
 #include "colors/acquire.h"
+#include "math/gaussian.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,8 +4,8 @@
 // Every entry of the tables of src/estimate/local_body.h against its definition in double precision, written
 // here a second time: the estimators' constants are held by this test alone.
 #include "base/base.h"
-#include "prepare/check_prepare.h"
 #include "estimate/local.h"
+#include "prepare/check_prepare.h"
 
 #define PI 3.141592653589793
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Inner functions of sampling: which way vertices face where triangles meet, which edges cut a disc.
-#include "mesh_shapes.h"
 #include "mesh/clip.h"
 #include "mesh/surface.h"
+#include "mesh_shapes.h"
 
 #define RADIANS (3.141592653589793 / 180)
 

@@ -4,8 +4,8 @@
 // Solid textures: means under footprints against numerical quadrature, what is left of high frequencies, the
 // colours of clouds.
 #include "check_prepare.h"
-#include "io/scratch.h"
 #include "colors/pattern.h"
+#include "io/scratch.h"
 
 static double checker_at(ewa_vec3 p) {
     const double cells = floor(p.x) + floor(p.y) + floor(p.z);

@@ -3,8 +3,8 @@
 //
 // Textures through maps, and depth images to other cameras.
 #include "homogeneous/vec.h"
-#include "texture/texture.h"
 #include "tests/probe/probe.h"
+#include "texture/texture.h"
 
 #include <math.h>
 #include <stdlib.h>

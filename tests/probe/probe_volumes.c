@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Volumes: voxels of every kind of light, from far, from near and from inside.
-#include "tests/probe/probe.h"
 #include "reference/volume.h"
+#include "tests/probe/probe.h"
 
 #include <math.h>
 #include <stdlib.h>

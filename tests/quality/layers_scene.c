@@ -6,8 +6,8 @@
 #include "cloud/cloud.h"
 
 #include "base/base.h"
-#include "surface/options.h"
 #include "reference/splat.h"
+#include "surface/options.h"
 
 #include <stdlib.h>
 #include <string.h>

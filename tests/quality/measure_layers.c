@@ -5,8 +5,8 @@
 // transparent sphere, by layers and splat by splat. With an argument, also writes pictures into that folder.
 #include "image_difference.h"
 #include "quality/layers_scene.h"
-#include "splat/abuffer.h"
 #include "reference/surface.h"
+#include "splat/abuffer.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -3,8 +3,8 @@
 //
 // Tests of src/texture/texture_plan.c: maps from corners and cameras, and what is refused.
 #include "homogeneous/vec.h"
-#include "texture/texture.h"
 #include "resample/texture_fixture.h"
+#include "texture/texture.h"
 
 #include <float.h>
 #include <math.h>

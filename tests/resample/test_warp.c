@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Depth images to surfels: which pixels count, kinds of depth, memory layouts, options, failures.
-#include "io/scratch.h"
 #include "cloud/color.h"
+#include "io/scratch.h"
 #include "warp/warp_place.h"
 #include "warp_planes.h"
 

@@ -19,8 +19,8 @@
 
 #include "base/base.h"
 #include "cloud/cloud.h"
-#include "surface/options.h"
 #include "reference/splat.h"
+#include "surface/options.h"
 
 /// SS table 1. Sums are weighted; colours by alpha too.
 typedef struct fragment {

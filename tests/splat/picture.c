@@ -4,9 +4,9 @@
 // Pictures in tests.
 #include "tests/splat/picture.h"
 #include "cloud/cloud.h"
-#include "surface/options.h"
-#include "reference/surface.h"
 #include "reference/splat.h"
+#include "reference/surface.h"
+#include "surface/options.h"
 
 #include <string.h>
 

@@ -3,8 +3,8 @@
 //
 // Tests of src/surface/surfel.c and options.c: what streams become, what is left out, what is refused.
 #include "check.h"
-#include "surface/semantics.h"
 #include "surface/options.h"
+#include "surface/semantics.h"
 #include "surface/surfel.h"
 
 #include <math.h>

@@ -4,8 +4,8 @@
 // The renderer of volumes and its reference against pictures that share nothing with them (plain.c): slanted
 // grids, wide cameras off the axis, coloured lights, gradient ramps, filters.
 #include "check.h"
-#include "volume/plain.h"
 #include "reference/volume.h"
+#include "volume/plain.h"
 #include "volume/scene.h"
 
 #include <math.h>

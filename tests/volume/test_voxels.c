@@ -3,8 +3,8 @@
 //
 // The resident form of volumes, and what both it and the renderer refuse or survive.
 #include "check.h"
-#include "volume/classify.h"
 #include "reference/volume.h"
+#include "volume/classify.h"
 #include "volume/scene.h"
 
 #include <math.h>

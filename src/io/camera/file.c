@@ -5,9 +5,9 @@
 #include "io/camera/file.h"
 #include "base/base.h"
 #include "ewa/io.h"
+#include "homogeneous/camera.h"
 #include "io/file.h"
 #include "io/number.h"
-#include "homogeneous/camera.h"
 
 #include <string.h>
 #include <sys/stat.h>

@@ -7,8 +7,8 @@
 #include "base/base.h"
 #include "io/camera/file.h"
 #include "io/file.h"
-#include "io/json_text.h"
 #include "io/image/png.h"
+#include "io/json_text.h"
 #include "math/angle.h"
 
 #include <limits.h>

@@ -3,8 +3,8 @@
 //
 // Cameras read from one file, and what all formats do with a pose.
 #include "base/base.h"
-#include "io/camera/file.h"
 #include "homogeneous/camera.h"
+#include "io/camera/file.h"
 
 #include <string.h>
 

@@ -5,8 +5,8 @@
 #include "base/base.h"
 #include "base/options.h"
 #include "cloud/cloud.h"
-#include "io/file.h"
 #include "io/cloud/ply.h"
+#include "io/file.h"
 
 #include <string.h>
 #include <strings.h>

@@ -5,8 +5,8 @@
 // decoded in parallel. When any line differs (blank, broken in two, too long) the numbers are read one after
 // the other instead, whatever the lines; that road also finds the place and the words for every error.
 #include "base/base.h"
-#include "io/number.h"
 #include "io/cloud/ply.h"
+#include "io/number.h"
 
 #include <string.h>
 

@@ -4,9 +4,9 @@
 // Writing elements beside the vertices as they were read: their comments, properties, numbers and lists, in
 // any encoding.
 #include "base/base.h"
+#include "io/cloud/ply.h"
 #include "io/file.h"
 #include "io/number.h"
-#include "io/cloud/ply.h"
 
 #include <stdio.h>
 

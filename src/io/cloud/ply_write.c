@@ -6,9 +6,9 @@
 // on the threads.
 #include "base/base.h"
 #include "cloud/cloud.h"
+#include "io/cloud/ply.h"
 #include "io/file.h"
 #include "io/number.h"
-#include "io/cloud/ply.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -3,8 +3,8 @@
 //
 // OpenEXR out: scan lines, ZIP. Chunks are compressed side by side and written in order.
 #include "base/base.h"
-#include "io/image/exr.h"
 #include "io/file.h"
+#include "io/image/exr.h"
 
 #include <openexr.h>
 #include <stdlib.h>

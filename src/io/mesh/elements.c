@@ -5,8 +5,8 @@
 // corner, numbers and names of pictures, colours.
 #include "base/base.h"
 #include "image/srgb.h"
-#include "io/mesh/formats.h"
 #include "io/cloud/ply.h"
+#include "io/mesh/formats.h"
 
 #include <stdio.h>
 

@@ -4,8 +4,8 @@
 // Pictures of meshes: each is read once, whatever number of materials has it; one that is missing or broken
 // is a warning, and the mesh comes without.
 #include "base/base.h"
-#include "io/mesh/beside.h"
 #include "io/image/image_file.h"
+#include "io/mesh/beside.h"
 #include "io/mesh/build.h"
 
 #include <stdio.h>

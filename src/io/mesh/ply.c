@@ -6,10 +6,10 @@
 //
 // Based on: G. Turk, "The PLY Polygon File Format", Stanford University 1994, and on what MeshLab (texcoord,
 // texnumber, "comment TextureFile"), Blender (s, t) and Artec Studio (multi_texture_vertex) write.
+#include "io/cloud/ply.h"
 #include "base/base.h"
 #include "image/srgb.h"
 #include "io/mesh/formats.h"
-#include "io/cloud/ply.h"
 
 #include <math.h>
 #include <stdio.h>
