@@ -229,6 +229,8 @@ static ewa_status draw(void *state, const ewa_render_job *frame, ewa_render_stat
     // Without antialiasing, pixels show splats whose weight is next to nothing.
     job.fine_sums = scales.fine_colors || !job.resolve.edge_antialiasing;
     job.terms_per_carry = scales.terms_per_carry;
+    job.with_small = !job.with_depth && !job.with_materials && !job.fine_sums && !job.resolve.transparent &&
+                     !job.view.raycast && job.view.doublings == 2;
     job.resolve.depth_per_share = (float)scales.depth;
     status = fill_bins(cpu, &job);
     if (status != EWA_OK) return status;

@@ -25,7 +25,7 @@ static void start_batch(const ewa_tile_job *job, ewa_tile_scratch *s, bool keep_
     made->keep_lists = keep_lists;
     made->used = 0;
     memset(made->list_count, 0xff, sizeof made->list_count); // NOT_LISTED
-    job->kernels->edge_boxes(s->records, s->boxes);
+    job->kernels->edge_boxes(s->boxes);
 }
 
 static void draw_block(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, batch *from,
@@ -146,18 +146,36 @@ static void draw_again(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_s
     }
 }
 
+/// Unmarks the blocks that no splat reaches behind the first surface; returns how many stay marked.
+static uint32_t keep_beyond(const ewa_tile *tile, ewa_tile_scratch *s) {
+    uint32_t marked = 0;
+    for (uint32_t row = 0; row < tile->block_rows; row++) {
+        for (uint32_t left = s->edges.rows[row] & ~s->beyond_rows[row]; left; left &= left - 1)
+            s->edges.reach[row * tile->blocks_per_row + (uint32_t)__builtin_ctz(left)] = -INFINITY;
+        s->edges.rows[row] &= s->beyond_rows[row];
+        marked += (uint32_t)__builtin_popcount(s->edges.rows[row]);
+    }
+    memcpy(s->edge_rows, s->edges.rows, sizeof s->edge_rows);
+    return marked;
+}
+
 bool ewa_tile_draw_edges(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, bool kept) {
     if (job->layers < 2) return false;
     uint32_t marked = job->kernels->find_edges(tile, &job->resolve, &s->edges);
     if (!marked || !something_behind(job, tile, s)) return false;
-    memcpy(s->edge_rows, s->edges.rows, sizeof s->edge_rows);
     for (uint32_t i = 0; i < job->source_count; i++) {
         ewa_tile_split *split = &s->split[i];
         const uint32_t behind = show_behind_edges(job, &job->sources[i], tile, s, split);
         const ewa_tile_packets more = {&job->sources[i], split->shown + split->shown_count, behind};
+        const uint32_t records = s->boxes[0].count, near = s->near_count;
         if (kept) ewa_tile_keep_runs(job, tile, s, &more, 0, ewa_run_count(&more), false);
+        for (uint32_t k = records; k < s->boxes[0].count; k++)
+            ewa_mark_box(s->beyond_rows, s->records[k].box);
+        if (s->near_count > near || (behind && !kept)) memset(s->beyond_rows, 0xff, sizeof s->beyond_rows);
         split->shown_count += behind;
     }
+    marked = keep_beyond(tile, s);
+    if (!marked) return false;
     batch current;
     bool listed = false; // `current` holds what is kept
     for (uint32_t layer = 1; layer < job->layers && marked; layer++) {

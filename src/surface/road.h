@@ -30,7 +30,12 @@ enum {
     EWA_STEEP_CLASS = EWA_ROW_CLASSES * EWA_COLUMN_CLASSES, ///< first class of steep splats
     EWA_WIDE_CLASS = 2 * EWA_STEEP_CLASS,                   ///< wider boxes, parts of large splats
     EWA_CLIP_CLASS = EWA_WIDE_CLASS + 1,                    ///< splats with clip lines
-    EWA_CLASS_COUNT = EWA_CLIP_CLASS + 1,
+    EWA_SMALL_CLASS = EWA_CLIP_CLASS + 1,                   ///< boxes of 1 to 3 columns and rows of pixels
+    EWA_SMALL_PX = 3,
+    EWA_CLASS_COUNT = EWA_SMALL_CLASS + EWA_SMALL_PX * EWA_SMALL_PX,
+    EWA_SMALL_X_SHIFT = 22, ///< in ewa_record.box: the box's first pixel in its block
+    EWA_SMALL_Y_SHIFT = 30,
+    EWA_PIXEL_FLOATS = 8,      ///< of ewa_tile.pixels
     EWA_TURNED_BIT = 1 << 6,   ///< in ewa_record.box: faces away from the viewer
     EWA_STEEP_BIT = 1 << 7,    ///< in ewa_record.box: steep or wide
     EWA_CLIP_BIT = 1 << 15,    ///< in ewa_record.box: clipped
@@ -125,8 +130,18 @@ typedef struct ewa_record {
     float key_low;          ///< the key is nowhere below, plain or not
     float red, green, blue; ///< times the resampling kernel's peak and the surfel's opacity, in units of sums
     uint32_t box; ///< first column | EWA_TURNED_BIT | EWA_STEEP_BIT | first row << 8 | EWA_CLIP_BIT | columns
-                  ///< << 16 | rows << 24, in blocks
+                  ///< << 16 | rows << 24, in blocks; first pixel in its block << EWA_SMALL_X_SHIFT, _Y_SHIFT
 } ewa_record;
+
+static inline uint32_t ewa_box_columns(uint32_t box) { return box >> 16 & 0x3f; }
+static inline uint32_t ewa_box_rows(uint32_t box) { return box >> 24 & 0x3f; }
+
+/// Marks the blocks of a record's box.
+static inline void ewa_mark_box(uint32_t *rows, uint32_t box) {
+    const uint32_t columns = (uint32_t)(((1ull << ewa_box_columns(box)) - 1) << (box & 0x3f));
+    const uint32_t first = box >> 8 & 0x7f, end = first + ewa_box_rows(box);
+    for (uint32_t row = first; row < end; row++) rows[row] |= columns;
+}
 
 /// A clip line on the screen: the pixel whose centre is x, y in the field is x_inward x + y_inward y + offset
 /// pixels inside. A line that is not there keeps everything: 0, 0, 1, and 0.
@@ -186,11 +201,14 @@ typedef struct ewa_run {
     ewa_load *loads;
     float *opacities;   ///< times the kernel's peak; NULL: all are opaque
     uint8_t *materials; ///< NULL: all have the same
+    int32_t *boxes;     ///< ewa_record.box, beside each other for ewa_edge_boxes, likewise
+    float *key_lows;    ///< ewa_record.key_low
     uint8_t classes[EWA_RUN_RECORDS + EWA_PACKET_LANES];
     uint32_t near_surfels[EWA_RUN_RECORDS]; ///< packet * 16 + lane
     ewa_clipped clipped[EWA_RUN_RECORDS];
     uint32_t count, near_count, clipped_count;
-    float least_key; ///< the smallest ewa_record.key_low
+    uint32_t small_count; ///< that are of few pixels, as small splats or not
+    float least_key;      ///< the smallest ewa_record.key_low
 } ewa_run;
 
 /// A run's splats in the order of their classes: class c is order[class_first[c] .. class_first[c + 1]).
@@ -239,6 +257,11 @@ typedef struct ewa_tile {
     bool with_materials; ///< with_normals then too, and a channel for the depth with or without one
     bool with_fine;      ///< what the units of terms leave is summed of all channels, not only for depths
     const float *passed; ///< [block][16]: only keys below count, for surfaces behind the first; NULL: all do
+    float
+        *pixels; ///< [row][column][EWA_PIXEL_FLOATS]: sums of small splats: normal, weight, r, g, b, nothing;
+                 ///< NULL: no splat is small
+    bool only_small;        ///< all splats are: other sums have nothing
+    uint32_t *beyond_rows;  ///< [block row]: bit per block column that a splat may reach behind `nearest`
     uint32_t *settled_rows; ///< [block row]: bit per block column whose sums begin at 0
 } ewa_tile;
 
@@ -359,12 +382,13 @@ typedef struct ewa_road_kernels {
     /// Sets nearest to -infinity.
     void (*clear_nearest)(const ewa_tile *tile);
 
-    /// Adds a run's splats to tile->sums where their key reaches tile->nearest.
+    /// Adds a run's splats to tile->sums, small ones to tile->pixels, where their key reaches tile->nearest;
+    /// marks in tile->beyond_rows where some may not.
     void (*accumulate)(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run);
     void (*near_accumulate)(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *records,
                             uint32_t count);
 
-    /// Makes of what a surface has gathered what it shows (semantics.h: facing, clip lines). False: some sum
+    /// Adds tile->pixels to the sums and makes of these what shows (semantics.h: facing, clip lines). False: some sum
     /// was too large; start the sums over and accumulate with care.
     bool (*settle)(const ewa_tile *tile, const ewa_resolve *resolve);
 
@@ -374,8 +398,8 @@ typedef struct ewa_road_kernels {
     /// Marks in edges->rows the blocks with a partly covered pixel and starts their planes; returns how many.
     uint32_t (*find_edges)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges);
 
-    /// Fills levels[0] from its count of records, and the other levels.
-    void (*edge_boxes)(const ewa_record *records, ewa_edge_boxes levels[EWA_BOX_LEVELS]);
+    /// Fills levels[0], which setup() has begun, and the other levels; once for all that is set up.
+    void (*edge_boxes)(ewa_edge_boxes levels[EWA_BOX_LEVELS]);
 
     /// Lists the records that may lie behind a marked block, in order; returns how many, and may write 16
     /// more.

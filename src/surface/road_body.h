@@ -6,6 +6,7 @@
 #include "surface/road_cull.h"
 #include "surface/road_edges.h"
 #include "surface/road_eye_dome.h"
+#include "surface/road_passes.h"
 
 const ewa_road_kernels EWA_VERSION(ewa_road_kernels) = {
     .cull = cull,
@@ -19,7 +20,7 @@ const ewa_road_kernels EWA_VERSION(ewa_road_kernels) = {
     .clear_sums = clear_sums,
     .accumulate = accumulate,
     .near_accumulate = near_accumulate,
-    .settle = settle,
+    .settle = settle_all,
     .find_edges = find_edges,
     .edge_boxes = edge_boxes,
     .edge_list = edge_list,

@@ -69,18 +69,16 @@ static ALWAYS_INLINE wi largest_of_each(const wi v[EWA_BLOCK_LANES]) {
     return largest;
 }
 
-/// Fills the boxes of sixteen records from `at` on, of which `count` are there.
-static ALWAYS_INLINE void set_boxes(const ewa_record *records, uint32_t at, uint32_t count,
-                                    ewa_edge_boxes *boxes) {
+/// Fills sixteen boxes from `at` on, of which `count` are there, from the records' words.
+static ALWAYS_INLINE void set_boxes(uint32_t at, uint32_t count, ewa_edge_boxes *boxes) {
     const wm there = wm_of_bits(count < EWA_BLOCK_LANES ? (1u << count) - 1 : 0xffff);
-    const wi some = wi_set((int32_t)records[at].box);
-    const wi box = wi_of_bits(
-        wf_select(there, wf_load_column((const float *)(const void *)&records[at].box), wf_of_bits(some)));
+    const wi some = wi_set(boxes->first[at]);
+    const wi box = wi_of_bits(wf_select(there, wf_of_bits(wi_load(boxes->first + at)), wf_of_bits(some)));
     const wi first = wi_and(box, wi_set(0xffff & ~(EWA_TURNED_BIT | EWA_STEEP_BIT | EWA_CLIP_BIT)));
+    const wi size = wi_and(wi_sar(box, 16), wi_set(0x3f3f));
     wi_store(boxes->first + at, first);
-    wi_store(boxes->last + at, wi_add(wi_add(first, wi_sar(box, 16)), wi_set(EWA_BOX_GUARD - 0x0101)));
-    wf_store(boxes->key_low + at,
-             wf_select(there, wf_load_column(&records[at].key_low), wf_set(__builtin_inff())));
+    wi_store(boxes->last + at, wi_add(wi_add(first, size), wi_set(EWA_BOX_GUARD - 0x0101)));
+    wf_store(boxes->key_low + at, wf_select(there, wf_load(boxes->key_low + at), wf_set(__builtin_inff())));
 }
 
 /// What boxes span, by extremes that only grow: columns and rows, those of the first counted from 127 down,
@@ -131,9 +129,9 @@ static ALWAYS_INLINE void set_level(const ewa_edge_boxes *from, uint32_t each, e
     }
 }
 
-static void edge_boxes(const ewa_record *records, ewa_edge_boxes levels[EWA_BOX_LEVELS]) {
+static void edge_boxes(ewa_edge_boxes levels[EWA_BOX_LEVELS]) {
     const uint32_t count = levels[0].count;
-    for (uint32_t i = 0; i < count; i += EWA_BLOCK_LANES) set_boxes(records, i, count - i, &levels[0]);
+    for (uint32_t i = 0; i < count; i += EWA_BLOCK_LANES) set_boxes(i, count - i, &levels[0]);
     set_level(&levels[0], EWA_GROUP_RECORDS, &levels[1]);
     set_level(&levels[1], EWA_BLOCK_LANES, &levels[2]);
 }

@@ -91,6 +91,13 @@ static inline wi box_classes(wi columns, wi rows, wm steep, wm wide) {
     return select_int(wide, EWA_WIDE_CLASS, wi_add(plain, select_int(steep, EWA_STEEP_CLASS, wi_set(0))));
 }
 
+/// Class of a splat whose box is of few pixels.
+static inline wi small_classes(wm small, wf first_x, wf first_y, wf last_x, wf last_y) {
+    const wf columns = wf_sub(last_x, first_x), rows = wf_sub(last_y, first_y); // but for one
+    const wf place = wf_fma(columns, wf_set(EWA_SMALL_PX), rows);
+    return wi_add(wi_from_f(wf_keep(small, place)), wi_set(EWA_SMALL_CLASS));
+}
+
 /// Sixteen surfels between the steps of the setup. The steps are short loops over a few packets, so that the
 /// processor overlaps one packet's long chains of divisions and roots with the next one's.
 ///
@@ -347,9 +354,11 @@ static ALWAYS_INLINE void stage_shape(const ewa_view *view, stage *t) {
 
 /// Appends the records of the lanes in `alive_bits`. May write EWA_PACKET_LANES entries whatever they are.
 static ALWAYS_INLINE void emit(ewa_run *run, uint32_t alive_bits, const wf records[16], const float loads[64],
-                               const float opacities[16], const uint8_t *materials,
-                               const uint8_t classes[16]) {
+                               const float opacities[16], const uint8_t *materials, const uint8_t classes[16],
+                               wi boxes, wf key_lows) {
     uint32_t at = run->count;
+    wi_pack(run->boxes + at, wm_of_bits(alive_bits), boxes);
+    wf_pack(run->key_lows + at, wm_of_bits(alive_bits), key_lows);
     for (uint32_t lane = 0, to = at; run->materials && lane < 16; lane++) {
         run->materials[to] = materials[lane];
         to += alive_bits >> lane & 1;
@@ -447,8 +456,8 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_sour
     const wm alive = wm_and(t->alive, wm_and(wf_le(first_x, last_x), wf_le(first_y, last_y)));
     const uint32_t alive_bits = wm_bits(alive);
     if (!alive_bits) return;
-    const wi column = wi_sar(wi_from_f(wf_keep(alive, first_x)), 2);
-    const wi row = wi_sar(wi_from_f(wf_keep(alive, first_y)), 2);
+    const wi pixel_x = wi_from_f(wf_keep(alive, first_x)), column = wi_sar(pixel_x, 2);
+    const wi pixel_y = wi_from_f(wf_keep(alive, first_y)), row = wi_sar(pixel_y, 2);
     const wi columns = wi_add(wi_sub(wi_sar(wi_from_f(wf_keep(alive, last_x)), 2), column), wi_set(1));
     const wi rows = wi_add(wi_sub(wi_sar(wi_from_f(wf_keep(alive, last_y)), 2), row), wi_set(1));
     // Wide splats are wide also where only a narrow part of them is in the tile: its pixels are far from the
@@ -474,8 +483,10 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_sour
     // Affine ellipses reach beyond what discs cover, so that their planes may end anywhere.
     const wm steep = wm_or(wide, view->affine ? wm_of_bits(0xffff) : wf_lt(margin, reach));
     const wi steep_bit = wi_of_bits(wf_keep(steep, wf_of_bits(wi_set(EWA_STEEP_BIT))));
-    const wi box =
-        wi_or(wi_or(wi_or(column, steep_bit), wi_shl(row, 8)), wi_or(wi_shl(columns, 16), wi_shl(rows, 24)));
+    const wi in_block = wi_or(wi_shl(wi_and(pixel_x, wi_set(EWA_BLOCK_PX - 1)), EWA_SMALL_X_SHIFT),
+                              wi_shl(wi_and(pixel_y, wi_set(EWA_BLOCK_PX - 1)), EWA_SMALL_Y_SHIFT));
+    const wi box = wi_or(wi_or(wi_or(column, steep_bit), wi_shl(row, 8)),
+                         wi_or(wi_or(wi_shl(columns, 16), wi_shl(rows, 24)), in_block));
 
     // The key of z + eps; perspective: the tangent at the centre of 1 / (1 / key + eps).
     wf bound_scale = one, bound_offset = wf_negate(tolerance);
@@ -489,7 +500,12 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_sour
 
     const color_form form = read_color_form(source->colors[id]);
     const wm turned = wf_lt(zero, t->facing); // normals are turned towards the viewer
-    wf opacity = t->peak;                     // times the peak
+    const wf most_px = wf_set(EWA_SMALL_PX - 1);
+    wm small = wm_and(wf_le(wf_sub(last_x, first_x), most_px), wf_le(wf_sub(last_y, first_y), most_px));
+    small = wm_and(wm_and(alive, small), wm_not(wm_or(turned, clipped)));
+    run->small_count += (uint32_t)__builtin_popcount(wm_bits(small));
+    if (!tile->pixels) small = wm_of_bits(0);
+    wf opacity = t->peak; // times the peak
     if (opacities_u16)
         opacity = wf_mul(t->peak, wf_mul(wf_from_i(wi_load_u16(opacities_u16)), wf_set(1.0f / 65535.0f)));
     const wf color_units = wf_mul(opacity, wf_set(view->color_scale));
@@ -512,18 +528,22 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_sour
         wf_of_bits(wi_or(box, wi_or(select_int(clipped, EWA_CLIP_BIT, wi_set(0)),
                                     select_int(turned, EWA_TURNED_BIT, wi_set(0))))),
     };
+    const wi boxes = wi_of_bits(lanes[15]);
     w_transpose(lanes);
     const wf peak_units = wf_mul(t->peak, wf_set(view->sum_scale));
     const wf facing_peak = wf_select(turned, wf_negate(peak_units), peak_units);
     float loads[64];
     w_store4(loads, wf_odd_product(facing_peak, t->n[0]), wf_odd_product(facing_peak, t->n[1]),
              wf_odd_product(facing_peak, t->n[2]), wf_odd(peak_units));
+    wi class_of = select_int(clipped, EWA_CLIP_CLASS, box_classes(columns, rows, steep, wide));
+    class_of = wi_of_bits(wf_select(small, wf_of_bits(small_classes(small, first_x, first_y, last_x, last_y)),
+                                    wf_of_bits(class_of)));
     uint8_t classes[16];
-    wi_store_u8(classes, select_int(clipped, EWA_CLIP_CLASS, box_classes(columns, rows, steep, wide)));
+    wi_store_u8(classes, class_of);
     if (wm_bits(wm_and(alive, clipped))) list_clipped(run, wm_bits(wm_and(alive, clipped)), alive_bits, id);
     float opacities[16];
     if (run->opacities) wf_store(opacities, wf_odd_product(opacity, wf_set(view->sum_scale)));
-    emit(run, alive_bits, lanes, loads, opacities, materials, classes);
+    emit(run, alive_bits, lanes, loads, opacities, materials, classes, boxes, low);
 }
 
 static ALWAYS_INLINE void setup_run(const ewa_view *view, const ewa_packet_source *source,
@@ -533,7 +553,7 @@ static ALWAYS_INLINE void setup_run(const ewa_view *view, const ewa_packet_sourc
     const ewa_packet *packets = source->packets;
     stage stages[TOGETHER];
     run->count = 0;
-    run->near_count = run->clipped_count = 0;
+    run->near_count = run->clipped_count = run->small_count = 0;
     wf least = wf_set(__builtin_inff());
     for (uint32_t first = 0; first < count; first += TOGETHER) {
         const uint32_t here = count - first < TOGETHER ? count - first : TOGETHER;

@@ -25,8 +25,6 @@ static ALWAYS_INLINE bool box_turned(uint32_t box) { return box & EWA_TURNED_BIT
 static ALWAYS_INLINE bool box_steep(uint32_t box) { return box & EWA_STEEP_BIT; }
 static ALWAYS_INLINE uint32_t box_row(uint32_t box) { return box >> 8 & 0x7f; }
 static ALWAYS_INLINE bool box_clipped(uint32_t box) { return box & EWA_CLIP_BIT; }
-static ALWAYS_INLINE uint32_t box_columns(uint32_t box) { return box >> 16 & 0xff; }
-static ALWAYS_INLINE uint32_t box_rows(uint32_t box) { return box >> 24; }
 
 /// What the blocks of one column of a record's box share: the terms without dy of s and of a key's plane.
 typedef struct column_terms {
@@ -131,27 +129,27 @@ typedef void splat_rows(const pass *p, uint32_t splat, uint32_t first_column, ui
 /// Calls `body` with the column count and the test constants in each class and the row count the same along
 /// a class, so that its loops are unrolled or predicted.
 static ALWAYS_INLINE void for_each_splat(const pass *p, splat_rows *body) {
-    enum { UNROLLED = 2 }; // rows and columns
     const uint16_t *first = p->run->class_first, *order = p->run->order;
     const ewa_record *r = p->run->records;
     UNROLL_COLUMNS
     for (uint32_t columns = 1; columns <= EWA_COLUMN_CLASSES; columns++) {
         const uint16_t *of_rows = first + (columns - 1) * EWA_ROW_CLASSES;
         uint32_t i = of_rows[0];
-        UNROLL_COLUMNS
-        for (uint32_t rows = 1; rows <= (columns <= UNROLLED ? UNROLLED : 0); rows++)
-            for (; i < of_rows[rows]; i++) body(p, order[i], 0, columns, rows, PLAIN);
+        if (columns <= 2) { // and rows, unrolled
+            for (; i < of_rows[1]; i++) body(p, order[i], 0, columns, 1, PLAIN);
+            for (; i < of_rows[2]; i++) body(p, order[i], 0, columns, 2, PLAIN);
+        }
         for (; i < of_rows[EWA_ROW_CLASSES]; i++)
-            body(p, order[i], 0, columns, box_rows(r[order[i]].box), PLAIN);
+            body(p, order[i], 0, columns, ewa_box_rows(r[order[i]].box), PLAIN);
     }
     first += EWA_STEEP_CLASS;
     UNROLL_COLUMNS
     for (uint32_t columns = 1; columns <= EWA_COLUMN_CLASSES; columns++)
         for (uint32_t i = first[(columns - 1) * EWA_ROW_CLASSES]; i < first[columns * EWA_ROW_CLASSES]; i++)
-            body(p, order[i], 0, columns, box_rows(r[order[i]].box), STEEP);
+            body(p, order[i], 0, columns, ewa_box_rows(r[order[i]].box), STEEP);
     first += EWA_STEEP_CLASS;
     for (uint32_t i = first[0]; i < first[1]; i++) {
-        const uint32_t columns = box_columns(r[order[i]].box), rows = box_rows(r[order[i]].box);
+        const uint32_t columns = ewa_box_columns(r[order[i]].box), rows = ewa_box_rows(r[order[i]].box);
         uint32_t column = 0;
         for (; column + 4 <= columns; column += 4) body(p, order[i], column, 4, rows, WIDE);
         for (; column < columns; column++) body(p, order[i], column, 1, rows, WIDE);
@@ -207,9 +205,9 @@ static void ray_visibility(const pass *p) {
     for (uint32_t i = 0; i < p->run->class_first[EWA_CLASS_COUNT]; i++) {
         const ewa_record *r = &p->run->records[p->run->order[i]];
         const ray_splat ray = ray_start(p->view, r, p->run->loads[p->run->order[i]].peak);
-        for (uint32_t row = box_row(r->box); row < box_row(r->box) + box_rows(r->box); row++) {
+        for (uint32_t row = box_row(r->box); row < box_row(r->box) + ewa_box_rows(r->box); row++) {
             const size_t first = (size_t)row * p->tile->blocks_per_row;
-            for (uint32_t k = 0; k < box_columns(r->box); k++) {
+            for (uint32_t k = 0; k < ewa_box_columns(r->box); k++) {
                 const uint32_t column = box_column(r->box) + k;
                 clip_sample left;
                 const ray_sample sample = ray_block(
@@ -228,8 +226,8 @@ static ALWAYS_INLINE void for_each_clipped(const pass *p, clipped_block *body, i
     const uint16_t *first = p->run->class_first + EWA_CLIP_CLASS;
     for (uint32_t i = first[0]; i < first[1]; i++) {
         const uint32_t splat = p->run->order[i], box = p->run->records[splat].box;
-        for (uint32_t row = box_row(box); row < box_row(box) + box_rows(box); row++)
-            for (uint32_t column = box_column(box); column < box_column(box) + box_columns(box); column++)
+        for (uint32_t row = box_row(box); row < box_row(box) + ewa_box_rows(box); row++)
+            for (uint32_t column = box_column(box); column < box_column(box) + ewa_box_columns(box); column++)
                 body(p, splat, row, column, what);
     }
 }
@@ -258,36 +256,6 @@ static void clipped_raise(const pass *p, uint32_t splat, uint32_t row, uint32_t 
     const wf old = wf_load(p->tile->nearest + at), bound = block_bound(p->view, r, &sample, column);
     wf_store(p->tile->nearest + at,
              wf_select(clipped_counts(p, &sample, share, at), wf_max(bound, old), old));
-}
-
-static void visibility(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run) {
-    const pass p = {view, tile, run};
-    if (view->raycast)
-        ray_visibility(&p);
-    else if (tile->passed)
-        for_each_splat(&p, raise_rows_beyond);
-    else
-        for_each_splat(&p, raise_rows);
-    if (!view->raycast) for_each_clipped(&p, clipped_raise, 0);
-}
-
-static void clear_nearest(const ewa_tile *tile) {
-    const size_t floats = (size_t)tile->blocks_per_row * tile->block_rows * EWA_BLOCK_LANES;
-    for (size_t i = 0; i < floats; i += EWA_BLOCK_LANES)
-        wf_store(tile->nearest + i, wf_set(-__builtin_inff()));
-}
-
-static void clear_sums(const ewa_tile *tile) {
-    const size_t blocks = (size_t)tile->blocks_per_row * tile->block_rows;
-    const ewa_apart *apart = &tile->apart;
-    memset(apart->turned_rows, 0, tile->block_rows * sizeof *apart->turned_rows);
-    if (apart->cut_rows) memset(apart->cut_rows, 0, tile->block_rows * sizeof *apart->cut_rows);
-    const size_t floats = blocks * tile->channel_count * EWA_BLOCK_LANES;
-    for (size_t i = 0; i < floats; i += EWA_BLOCK_LANES) wf_store(tile->sums.planes + i, wf_set(BIAS));
-    for (size_t i = 0; i < floats && tile->sums.fine; i += EWA_BLOCK_LANES)
-        wf_store(tile->sums.planes + tile->sums.fine + i, wf_set(BIAS));
-    memset(tile->sums.visits, 0, blocks * sizeof *tile->sums.visits);
-    memset(tile->sums.high_rows, 0, tile->block_rows * sizeof *tile->sums.high_rows);
 }
 
 /// Adds a splat to what a block has gathered: `weight` is relative to the kernel's peak, without the clip
@@ -348,7 +316,7 @@ static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_
             if (what & BEYOND)
                 block = visit_block(tile, &tile->sums, box_row(r->box) + row,
                                     box_column(r->box) + first_column + i, channels);
-            else if (what & ADD_DEPTH)
+            else if (what & (ADD_DEPTH | ADD_FINE))
                 tile->sums.visits[first_block + row * row_blocks + i]++;
             add_channels(block, &tile->sums, channels, weight, &add, depth, what);
         }
@@ -405,9 +373,11 @@ static ALWAYS_INLINE void accumulate_few(const pass *p, uint32_t splat, uint32_t
     static void name(const pass *p) { for_each_splat(p, name##_rows); }
 
 ACCUMULATE(add_color, 0)
+ACCUMULATE(add_color_fine, ADD_FINE)
 ACCUMULATE(add_color_depth, ADD_DEPTH)
 ACCUMULATE(add_color_height, ADD_DEPTH | ORTHOGRAPHIC)
 ACCUMULATE(add_normal, ADD_NORMAL)
+ACCUMULATE(add_normal_fine, ADD_NORMAL | ADD_FINE)
 ACCUMULATE(add_normal_depth, ADD_NORMAL | ADD_DEPTH)
 ACCUMULATE(add_normal_height, ADD_NORMAL | ADD_DEPTH | ORTHOGRAPHIC)
 ACCUMULATE(add_opacity, ADD_NORMAL | ADD_OPACITY)
@@ -435,8 +405,8 @@ static void ray_accumulate(const pass *p) {
         const ray_splat ray = ray_start(view, r, load->peak);
         const payload add =
             payload_load(view, r, load, p->run->opacities, p->run->materials, p->run->order[i], what);
-        for (uint32_t row = box_row(r->box); row < box_row(r->box) + box_rows(r->box); row++) {
-            for (uint32_t k = 0; k < box_columns(r->box); k++) {
+        for (uint32_t row = box_row(r->box); row < box_row(r->box) + ewa_box_rows(r->box); row++) {
+            for (uint32_t k = 0; k < ewa_box_columns(r->box); k++) {
                 const uint32_t column = box_column(r->box) + k;
                 const size_t block = (size_t)row * tile->blocks_per_row + column;
                 const ewa_clip *clip = clip_of(p->run->clips, p->run->order[i]);
@@ -472,8 +442,8 @@ static void clipped_add(const pass *p, uint32_t splat, uint32_t row, uint32_t co
               depth_share(p->view, sample.key, bound, what), what);
 }
 
-/// Fine and crowded sums are rare, and so are cutoffs beyond 3, which need more than two doublings: one body for
-/// all that goes with them.
+/// Crowded sums are rare, so are most fine ones, and cutoffs beyond 3, which need more than two doublings: one body
+/// for all that goes with them.
 static __attribute__((noinline)) void add_careful_rows(const pass *p, uint32_t splat, uint32_t first_column,
                                                        uint32_t columns, uint32_t rows, depth_test test) {
     const ewa_tile *tile = p->tile;
@@ -486,33 +456,5 @@ static __attribute__((noinline)) void add_careful_rows(const pass *p, uint32_t s
 }
 
 static void add_carefully(const pass *p) { for_each_splat(p, add_careful_rows); }
-
-static void accumulate(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run) {
-    typedef void add_run(const pass *p);
-    static add_run *const sets[5][4] = {
-        {add_color, add_color_depth, add_color_height, add_color_beyond},
-        {add_normal, add_normal_depth, add_normal_height, add_normal_beyond},
-        {add_opacity, add_opacity_depth, add_opacity_height, add_opacity_beyond},
-        {add_material, add_material_depth, add_material_height, add_material_beyond},
-        {add_all, add_all_depth, add_all_height, add_all_beyond},
-    };
-    const pass p = {view, tile, run};
-    if (view->raycast) {
-        ray_accumulate(&p);
-        return;
-    }
-    const int channels = tile->with_materials ? (tile->with_opacity ? 4 : 3)
-                         : tile->with_opacity ? 2
-                         : tile->with_normals ? 1
-                                              : 0;
-    const int kind = tile->passed ? 3 : !tile->with_depth ? 0 : view->orthographic ? 2 : 1;
-    if (tile->with_fine || view->doublings > 2 || (tile->sums.careful && !tile->passed))
-        add_carefully(&p);
-    else
-        sets[channels][kind](&p);
-    for_each_clipped(&p, clipped_add,
-                     channels_of(tile) | (tile->with_depth && !tile->passed ? ADD_DEPTH : 0) |
-                         (view->orthographic ? ORTHOGRAPHIC : 0));
-}
 
 #endif

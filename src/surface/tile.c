@@ -24,7 +24,7 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     const bool two_words = job->fine_sums || job->with_depth || job->with_clips;
     const size_t sum_floats = tile_floats * job->channel_count * (two_words ? 2 : 1),
                  cut_floats = job->with_clips ? tile_floats * EWA_CUT_CHANNELS : 0;
-    const size_t pixel_floats =
+    const size_t plane_floats =
         tile_floats * (2 + 1 + 4) + tile_floats / EWA_BLOCK_LANES + 2 * (3 * sum_floats + 2 * cut_floats);
     const uint64_t packet_count = job->largest_bin + (uint64_t)EWA_PACKET_LANES * (job->source_count + 1),
                    run_count = records / EWA_RUN_RECORDS + 2 * ((uint64_t)job->source_count + 1);
@@ -39,7 +39,7 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     } needs[] = {
         {&s->record_buffer, records + EWA_PACKET_LANES, sizeof *s->records},
         {&s->load_buffer, records + EWA_PACKET_LANES, sizeof *s->loads},
-        {&s->order_buffer, records, sizeof *s->order},
+        {&s->order_buffer, records + EWA_BLOCK_LANES, sizeof *s->order},
         {&s->list_buffer, 2 * (EWA_LISTS * records + EWA_BLOCK_LANES), sizeof *s->listed},
         {&s->box_buffer, 3 * box_count, sizeof(float)},
         {&s->near_buffer, records, sizeof *s->near_surfels},
@@ -47,7 +47,9 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
         {&s->opacity_buffer, job->with_opacity ? records + EWA_PACKET_LANES : 0, sizeof *s->opacities},
         {&s->material_buffer, job->with_materials ? records + EWA_PACKET_LANES : 0, sizeof *s->materials},
         {&s->kept_buffer, run_count, sizeof *s->kept},
-        {&s->pixel_buffer, pixel_floats, sizeof(float)},
+        {&s->plane_buffer, plane_floats, sizeof(float)},
+        {&s->pixel_buffer, job->with_small ? tile_floats * EWA_PIXEL_FLOATS + EWA_BLOCK_LANES : 0,
+         sizeof(float)},
         {&s->packet_buffer, 4 * packet_count, sizeof *s->ordered},
         {&s->split_buffer, job->source_count, sizeof *s->split},
     };
@@ -72,7 +74,8 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     s->opacities = job->with_opacity ? s->opacity_buffer.data : NULL;
     s->materials = job->with_materials ? s->material_buffer.data : NULL;
     s->kept = s->kept_buffer.data;
-    s->nearest = s->pixel_buffer.data;
+    s->nearest = s->plane_buffer.data;
+    s->pixels = job->with_small ? s->pixel_buffer.data : NULL;
     s->edges.rows = s->edge_rows_left;
     s->edges.nearest = s->nearest + tile_floats;
     s->edges.passed = s->edges.nearest + tile_floats;
@@ -109,9 +112,9 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
 
 void ewa_tile_scratch_free(ewa_context *context, ewa_tile_scratch *s) {
     ewa_buffer *const buffers[] = {
-        &s->record_buffer, &s->load_buffer,     &s->order_buffer, &s->list_buffer,   &s->box_buffer,
-        &s->near_buffer,   &s->kept_buffer,     &s->pixel_buffer, &s->packet_buffer, &s->opacity_buffer,
-        &s->clip_buffer,   &s->material_buffer, &s->split_buffer};
+        &s->record_buffer,  &s->load_buffer, &s->order_buffer,    &s->list_buffer,  &s->box_buffer,
+        &s->near_buffer,    &s->kept_buffer, &s->plane_buffer,    &s->pixel_buffer, &s->packet_buffer,
+        &s->opacity_buffer, &s->clip_buffer, &s->material_buffer, &s->split_buffer};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) ewa_buffer_free(context, buffers[i]);
 }
 
@@ -202,6 +205,7 @@ static bool draw_sources(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile
     const bool kept = all * EWA_PACKET_LANES <= s->record_capacity;
     s->least_key = INFINITY;
     s->has_near = false;
+    s->record_count = s->small_count = 0;
     ewa_tile_drop_runs(s);
     uint32_t *packets = s->packets;
     for (uint32_t i = 0; i < job->source_count; i++) {
@@ -244,14 +248,19 @@ void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
                      .with_opacity = job->with_opacity,
                      .with_materials = job->with_materials,
                      .with_fine = job->fine_sums,
+                     .pixels = s->pixels,
+                     .beyond_rows = s->beyond_rows,
                      .settled_rows = s->settled_rows};
     static_assert(EWA_FIELD_PX == EWA_MAX_TILE_BLOCKS * EWA_BLOCK_PX, "no tile is in two fields");
     tile.field_x_px = (float)(tile.x_px % EWA_FIELD_PX - EWA_FIELD_PX / 2);
     tile.field_y_px = (float)(tile.y_px % EWA_FIELD_PX - EWA_FIELD_PX / 2);
     tile.blocks_per_row = ((uint32_t)tile.width_px + EWA_BLOCK_PX - 1) / EWA_BLOCK_PX;
     tile.block_rows = ((uint32_t)tile.height_px + EWA_BLOCK_PX - 1) / EWA_BLOCK_PX;
+    if (!s->mostly_small) tile.pixels = NULL;
     job->kernels->clear_nearest(&tile);
     const bool kept = draw_sources(job, &tile, s, index);
+    tile.only_small = tile.pixels && s->small_count == s->record_count && !s->has_near;
+    if (s->record_count) s->mostly_small = 16 * s->small_count >= 15 * s->record_count;
     const double accumulating = ewa_now_s();
     for (bool settled = false; !settled; tile.sums.careful = true) {
         accumulate(job, &tile, s, kept);

@@ -59,20 +59,23 @@ typedef struct ewa_tile_scratch {
     uint32_t *near_surfels;
     ewa_kept_run *kept;
     size_t record_capacity, kept_capacity;
-    uint32_t kept_count, near_count; ///< of the kept runs; boxes[0].count is how many records they have
-    ewa_tile_split *split;           ///< [source]
-    uint32_t *packets;               ///< their memory
-    uint32_t *ordered;               ///< packets of a tile and a source
-    float *depths;                   ///< by packet, then by run
-    float least_key;                 ///< of all splats that are shown
-    bool has_near;                   ///< some of them are near surfels
+    uint32_t kept_count, near_count;    ///< of the kept runs; boxes[0].count is how many records they have
+    ewa_tile_split *split;              ///< [source]
+    uint32_t *packets;                  ///< their memory
+    uint32_t *ordered;                  ///< packets of a tile and a source
+    float *depths;                      ///< by packet, then by run
+    float least_key;                    ///< of all splats that are shown
+    bool has_near;                      ///< some of them are near surfels
+    uint64_t record_count, small_count; ///< of a tile, and how many of them are of few pixels
     float cells[EWA_TILE_CELLS * EWA_TILE_CELLS];
-    float *nearest;
+    float *nearest, *pixels;
+    bool mostly_small; ///< most splats of the worker's last tile were of few pixels: how the next is drawn
     ewa_sums sums;
     ewa_edges edges;
     ewa_buffer record_buffer, load_buffer, order_buffer, list_buffer, box_buffer, near_buffer, opacity_buffer,
-        material_buffer, clip_buffer, kept_buffer, pixel_buffer, packet_buffer, split_buffer;
-    uint32_t edge_rows[EWA_MAX_TILE_BLOCKS], edge_rows_left[EWA_MAX_TILE_BLOCKS];
+        material_buffer, clip_buffer, kept_buffer, plane_buffer, pixel_buffer, packet_buffer, split_buffer;
+    uint32_t edge_rows[EWA_MAX_TILE_BLOCKS], edge_rows_left[EWA_MAX_TILE_BLOCKS],
+        beyond_rows[EWA_MAX_TILE_BLOCKS];
     ewa_apart apart; ///< of the first surface; its planes for turned splats serve those behind it, too
     uint32_t turned_rows[2][EWA_MAX_TILE_BLOCKS], cut_rows[2][EWA_MAX_TILE_BLOCKS];
     uint32_t settled_rows[EWA_MAX_TILE_BLOCKS];
@@ -106,6 +109,7 @@ typedef struct ewa_tile_job {
     uint32_t layers;          ///< surfaces that are composited at most
     bool merge_last;          ///< the last of them is all that is left
     bool with_normals, with_depth, with_opacity, with_materials, with_clips, fine_sums, count_fragments;
+    bool with_small;           ///< splats of few pixels have sums of their own
     ewa_tile_scratch *scratch; ///< [worker]
 } ewa_tile_job;
 

@@ -19,6 +19,7 @@ static void sort_run(const ewa_run *run, uint16_t *order, ewa_sorted_run *sorted
         next[c] = sorted->class_first[c];
     }
     sorted->class_first[EWA_CLASS_COUNT] = sum;
+    for (uint32_t i = 0; i < EWA_BLOCK_LANES; i++) order[sum + i] = 0; // small splats are read by sixteens
     for (uint32_t i = 0; i < run->count; i++) order[next[run->classes[i]]++] = (uint16_t)i;
     sorted->records = run->records;
     sorted->loads = run->loads;
@@ -57,7 +58,7 @@ static void count_splats(const ewa_tile_job *job, ewa_tile_scratch *s, const ewa
         }
         for (uint32_t i = run->class_first[c]; i < run->class_first[c + 1]; i++) {
             const uint32_t box = run->records[run->order[i]].box;
-            blocks += (box >> 16 & 0xff) * (box >> 24);
+            blocks += ewa_box_columns(box) * ewa_box_rows(box);
         }
     }
     s->fragment_count += blocks;
@@ -70,6 +71,8 @@ static void prepare_run(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_
     const uint64_t first = index * EWA_RUN_PACKETS, left = packets->count - first;
     s->run.records = s->records + at;
     s->run.loads = s->loads + at;
+    s->run.boxes = s->boxes[0].first + at;
+    s->run.key_lows = s->boxes[0].key_low + at;
     s->run.opacities = s->opacities ? s->opacities + at : NULL;
     s->run.materials = s->materials ? s->materials + at : NULL;
     const uint32_t announced = left < 2 * EWA_RUN_PACKETS ? (uint32_t)left : 2 * EWA_RUN_PACKETS;
@@ -78,6 +81,7 @@ static void prepare_run(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_
                         announced < EWA_RUN_PACKETS ? announced : EWA_RUN_PACKETS, announced, tile, &s->run);
     s->least_key = fminf(s->least_key, s->run.least_key);
     s->has_near |= s->run.near_count > 0;
+    s->record_count += s->run.count, s->small_count += s->run.small_count;
     sort_run(&s->run, s->order + at, sorted);
     sorted->clips = s->clips ? s->clips + at : NULL;
     for (uint32_t i = 0; i < s->run.clipped_count; i++)

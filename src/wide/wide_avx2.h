@@ -119,10 +119,9 @@ static inline wm wm_of_bits(uint32_t bits) {
                 _mm256_castsi256_ps(_mm256_cmpeq_epi32(h, lane)));
 }
 
-/// p[0], p[16], p[32] ...
-static inline wf wf_load_column(const float *p) {
-    const __m256i at = _mm256_setr_epi32(0, 16, 32, 48, 64, 80, 96, 112);
-    return PAIR(wf, _mm256_i32gather_ps(p, at, 4), _mm256_i32gather_ps(p + 128, at, 4));
+/// p[at] per lane.
+static inline wf wf_gather(const float *p, wi at) {
+    return PAIR(wf, _mm256_i32gather_ps(p, at.l, 4), _mm256_i32gather_ps(p, at.h, 4));
 }
 
 static inline __m256 lookup_half(const float table[16], __m256i index) {
@@ -249,3 +248,17 @@ static inline void w_load4(const float *p, size_t stride, wf out[4]) {
 #undef PAIR
 #undef UNARY
 #undef BINARY
+
+/// Eight lanes, for the numbers of one pixel.
+typedef __m256 w8;
+
+static inline w8 w8_set(float a) { return _mm256_set1_ps(a); }
+static inline w8 w8_load(const float *p) { return _mm256_loadu_ps(p); }
+static inline void w8_store(float *p, w8 a) { _mm256_storeu_ps(p, a); }
+static inline w8 w8_fma(w8 a, w8 b, w8 c) { return _mm256_fmadd_ps(a, b, c); }
+
+/// p[0..3], q[0..2], 0; reads q[3].
+static inline w8 w8_join(const float *p, const float *q) {
+    const __m256 both = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(p)), _mm_loadu_ps(q), 1);
+    return _mm256_blend_ps(both, _mm256_setzero_ps(), 0x80);
+}

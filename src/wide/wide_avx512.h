@@ -67,12 +67,8 @@ static inline wm wm_not(wm a) { return (wm)~a; }
 static inline uint32_t wm_bits(wm a) { return a; }
 static inline wm wm_of_bits(uint32_t bits) { return (wm)bits; }
 
-/// p[0], p[16], p[32] ...
-static inline wf wf_load_column(const float *p) {
-    const __m512i at =
-        _mm512_setr_epi32(0, 16, 32, 48, 64, 80, 96, 112, 128, 144, 160, 176, 192, 208, 224, 240);
-    return _mm512_i32gather_ps(at, p, 4);
-}
+/// p[at] per lane.
+static inline wf wf_gather(const float *p, wi at) { return _mm512_i32gather_ps(at, p, 4); }
 
 /// table[index mod 16] per lane.
 static inline wf wf_lookup(const float table[16], wi index) {
@@ -167,4 +163,18 @@ static inline void w_load4(const float *p, size_t stride, wf out[4]) {
     out[1] = _mm512_shuffle_f32x4(ab_l, cd_l, 0xee);
     out[2] = _mm512_shuffle_f32x4(ab_h, cd_h, 0x44);
     out[3] = _mm512_shuffle_f32x4(ab_h, cd_h, 0xee);
+}
+
+/// Eight lanes, for the numbers of one pixel.
+typedef __m256 w8;
+
+static inline w8 w8_set(float a) { return _mm256_set1_ps(a); }
+static inline w8 w8_load(const float *p) { return _mm256_loadu_ps(p); }
+static inline void w8_store(float *p, w8 a) { _mm256_storeu_ps(p, a); }
+static inline w8 w8_fma(w8 a, w8 b, w8 c) { return _mm256_fmadd_ps(a, b, c); }
+
+/// p[0..3], q[0..2], 0; reads q[3].
+static inline w8 w8_join(const float *p, const float *q) {
+    const __m256 both = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(p)), _mm_loadu_ps(q), 1);
+    return _mm256_blend_ps(both, _mm256_setzero_ps(), 0x80);
 }

@@ -87,8 +87,8 @@ FUSED uint32_t wm_bits(wm a) {
 FUSED wm wm_of_bits(uint32_t bits) { EACH(wm, -(int32_t)(bits >> i & 1)); }
 FUSED wf wf_sqrt(wf a) { EACH(wf, sqrtf(a[i])); }
 
-/// p[0], p[16], p[32] ...
-FUSED wf wf_load_column(const float *p) { EACH(wf, p[16 * i]); }
+/// p[at] per lane.
+FUSED wf wf_gather(const float *p, wi at) { EACH(wf, p[at[i]]); }
 
 /// table[index mod 16] per lane.
 FUSED wf wf_lookup(const float table[16], wi index) { EACH(wf, table[index[i] & 15]); }
@@ -150,6 +150,27 @@ FUSED wf wf_spread4(const float *p) { EACH(wf, p[i >> 2]); }
 FUSED void w_load4(const float *p, size_t stride, wf out[4]) {
     for (size_t c = 0; c < 4; c++)
         for (size_t i = 0; i < 16; i++) out[c][i] = p[(i >> 2) * stride + 4 * (i & 3) + c];
+}
+
+/// Eight lanes, for the numbers of one pixel.
+typedef float w8 __attribute__((vector_size(32)));
+
+static inline w8 w8_set(float a) { return (w8){a, a, a, a, a, a, a, a}; }
+static inline w8 w8_load(const float *p) {
+    w8 result;
+    memcpy(&result, p, sizeof result);
+    return result;
+}
+static inline void w8_store(float *p, w8 a) { memcpy(p, &a, sizeof a); }
+FUSED w8 w8_fma(w8 a, w8 b, w8 c) {
+    w8 result;
+    for (int i = 0; i < 8; i++) result[i] = fmaf(a[i], b[i], c[i]);
+    return result;
+}
+
+/// p[0..3], q[0..2], 0; reads q[3].
+static inline w8 w8_join(const float *p, const float *q) {
+    return (w8){p[0], p[1], p[2], p[3], q[0], q[1], q[2], 0};
 }
 
 #undef EACH
