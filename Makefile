@@ -11,7 +11,8 @@
 #   make asan tsan clang fuzz   other builds and their tests
 #   make mutate                 breaks the library on purpose and says what the tests notice (hours)
 #   make bench sweep            figures of docs/performance.md: build/bench.json and tables; docs/sweep.png and slopes;
-#                               BENCH_PREFIX="chrt -f 50" keeps other work out of them
+#                               BENCH_PREFIX="chrt -f 50" keeps other work out of them; Embree is measured
+#                               beside, where `make` has found it
 #   make gallery docs           pictures and pages that the program makes
 #   make install                to PREFIX (default /usr/local)
 
@@ -20,6 +21,7 @@ OUT ?= out
 PREFIX ?= /usr/local
 FUZZ_SECONDS ?= 60
 BENCH_PREFIX ?=
+BENCH_AGAINST ?= $(wildcard build/release/tests/quality/measure_embree)
 JOBS ?= $(shell nproc)
 EWA = build/release/cli/ewa
 
@@ -92,7 +94,7 @@ fuzz:
 
 bench: program
 	@sh tools/setup.sh python3
-	python3 tools/bench.py $(EWA) build/bench.json --prefix "$(BENCH_PREFIX)"
+	python3 tools/bench.py $(EWA) build/bench.json --prefix "$(BENCH_PREFIX)" --against "$(BENCH_AGAINST)"
 	python3 tools/bench_tables.py build/bench.json
 
 sweep: program

@@ -20,7 +20,7 @@ typedef struct bench_arguments {
     int64_t frames;
     ewa_render_options render;
     bool stages;
-    const char *json_path;
+    const char *against, *json_path;
 } bench_arguments;
 
 #define AT(member)     offsetof(bench_arguments, member)
@@ -52,6 +52,8 @@ static const cli_option measure_table[] = {
      .help = "frames per scene and context, after two that warm up; and runs of each other stage"},
     {"cpu", OPTION_SET, AT(cpus), "SET,...", "all|avx2|plain",
      .help = "instruction sets to compare, as far as the processor has them"},
+    {"against", OPTION_TEXT, AT(against), "PROGRAM",
+     .help = "also have another program draw each scene, frame by frame in turns"},
     {"json", OPTION_OUTPUT, AT(json_path), "FILE",
      .help = "also write all figures as JSON; -: only that, to standard output"},
 };
@@ -155,6 +157,7 @@ static void make_plan(bench_run *bench) {
     const bench_arguments *arguments = bench->arguments;
     bench_plan *plan = &bench->plan;
     plan->frame_count = (size_t)arguments->frames;
+    plan->against = arguments->against;
     for (; plan->thread_counts < arguments->threads.count; plan->thread_counts++)
         plan->threads[plan->thread_counts] = (uint32_t)arguments->threads.values[plan->thread_counts];
     if (plan->thread_counts == 0) {
@@ -206,24 +209,30 @@ const cli_command bench_command = {
     .name = "bench",
     .operands = "[IN...]",
     .summary = "measure the throughput of each stage, with the scaling over sizes and threads",
-    .details = "With inputs: these, framed whole. Without: scenes whose discs are so large that their "
-               "filtered ellipses cover --pixels pixels on average. plane: seen from above, fills the "
-               "picture, all visible. color: the same without normals in the pixels. large: the same with "
-               "10 million splats. hidden: three wavy sheets with 40, 30 and 30 % of the splats, in front, "
-               "seen from behind, and hidden. points: a plane of discs of a quarter of a pixel. culled: one "
-               "sheet shows its back, another lies beside the picture. closed: three spheres one inside "
-               "another, so that half of the splats show their backs and a third are hidden. seen: as many, "
-               "all on the side that is seen. phong: the plane with materials and a light from the side. "
-               "peer: sphere and torus, closed. layers: the same without "
-               "culling, opaque, in 3 "
-               "transparent layers, in all, with 1 edge layer, without edges, without light; beside each "
-               "what it is of the first. Back faces are culled in "
-               "hidden, culled, closed, seen and peer. ratio: how many times faster than one thread, by "
-               "lower quartiles. B/pt: resident bytes per point. Goals and the times of the best other "
-               "program stand beside the figures that have them.",
+    .details =
+        "With inputs: these, framed whole. Without: scenes whose discs are so large that their "
+        "filtered ellipses cover --pixels pixels on average. plane: seen from above, fills the "
+        "picture, all visible. color: the same without normals in the pixels. large: the same with "
+        "10 million splats. hidden: three wavy sheets with 40, 30 and 30 % of the splats, in front, "
+        "seen from behind, and hidden. points: a plane of discs of a quarter of a pixel. culled: one "
+        "sheet shows its back, another lies beside the picture. closed: three spheres one inside "
+        "another, so that half of the splats show their backs and a third are hidden. seen: as many, "
+        "all on the side that is seen. phong: the plane with materials and a light from the side. "
+        "peer: sphere and torus, closed. layers: the same without "
+        "culling, opaque, in 3 "
+        "transparent layers, in all, with 1 edge layer, without edges, without light; beside each "
+        "what it is of the first. Back faces are culled in "
+        "hidden, culled, closed, seen and peer. ratio: how many times faster than one thread, by "
+        "lower quartiles. B/pt: resident bytes per point. Goals and the times of the best other "
+        "program stand beside the figures that have them.\n\n"
+        "--against starts PROGRAM CLOUD.ply CAMERA.json THREADS for each scene and number of threads. It "
+        "loads both, then prints a line with its name. For each line that it reads it draws a frame and "
+        "prints a line, which ends the time that bench measures; at the end of its input it ends. "
+        "measure_embree, which is built where Embree is found, is such a program.",
     .examples = "ewa bench\n"
                 "ewa bench --scene plane,hidden --workers 1,2 --frames 31 --json bench.json\n"
                 "ewa bench --scene plane --splats 1e6 --pixels 9 --cpu all,avx2\n"
+                "ewa bench --scene peer --stages off --against build/release/tests/quality/measure_embree\n"
                 "ewa bench scan.ply --size 1920x1080\n",
     .high_operands = 64,
     .groups = (const option_group *const[]){&work_options, &measure_options, NULL},

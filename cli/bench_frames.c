@@ -7,6 +7,8 @@
 // are of.
 #include "bench_frames.h"
 
+#include "bench_rival.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -40,6 +42,8 @@ typedef struct bench_lane {
     double total_s[BENCH_MAX_FRAMES];
     double stage_s[BENCH_FRAME_STAGES][BENCH_MAX_FRAMES]; // thread time
     ewa_render_stats last;
+    bench_rival rival; ///< where it draws the same
+    double rival_s[BENCH_MAX_FRAMES];
 } bench_lane;
 
 ewa_status bench_borrow(ewa_context *context, const ewa_cloud *cloud, ewa_cloud **borrowed) {
@@ -69,6 +73,7 @@ static bool open_lane(cli_session *session, bench_lane *lane, const bench_sets *
 }
 
 static void close_lane(bench_lane *lane) {
+    bench_rival_drop(&lane->rival);
     ewa_renderer_destroy(&lane->renderer);
     ewa_surfels_destroy(&lane->surfels);
     ewa_context_destroy(&lane->context);
@@ -94,8 +99,11 @@ static bool draw_frame(cli_session *session, bench_lane *lane, const ewa_camera 
         session_failed(session, status);
         return false;
     }
+    double rival_s = 0;
+    if (lane->rival.program && !bench_rival_draw(session, &lane->rival, &rival_s)) return false;
     if (frame < 0) return true;
     lane->total_s[frame] = took_s;
+    lane->rival_s[frame] = rival_s;
     const double stages[BENCH_FRAME_STAGES] = {last->bin_s,        last->setup_s, last->visibility_s,
                                                last->accumulate_s, last->edge_s,  last->resolve_s};
     for (int k = 0; k < BENCH_FRAME_STAGES; k++) lane->stage_s[k][frame] = stages[k];
@@ -119,6 +127,10 @@ static void report(const bench_plan *plan, const bench_scene *scene, bench_lane 
         for (int k = 0; k < BENCH_FRAME_STAGES; k++)
             row->stage_s[k] = bench_summarise(lane->stage_s[k], plan->frame_count).median;
         ewa_surfels_describe(lane->surfels, &row->info);
+        if (lane->rival.program) {
+            row->rival = lane->rival.name;
+            row->rival_total = bench_summarise(lane->rival_s, plan->frame_count);
+        }
     }
     for (size_t i = 0; i < lane_count; i++) {
         for (size_t k = 0; k < lane_count; k++) {
@@ -150,6 +162,8 @@ bool bench_frames(cli_session *session, const bench_plan *plan, const bench_scen
         if (scene->in_all_ways) lanes[i].way = &all_ways[i % way_count];
         done = open_lane(session, &lanes[i], &plan->sets[count / plan->thread_counts],
                          plan->threads[count % plan->thread_counts], scene->cloud);
+        if (done && plan->against && count < plan->thread_counts && i % way_count == 0)
+            done = bench_rival_start(session, plan->against, scene, plan->threads[count], &lanes[i].rival);
     }
     ewa_render_options options = *render;
     options.cull = scene->cull;
@@ -164,6 +178,8 @@ bool bench_frames(cli_session *session, const bench_plan *plan, const bench_scen
     for (int64_t frame = -WARM_FRAMES; done && frame < (int64_t)plan->frame_count; frame++)
         for (size_t i = 0; done && i < lane_count; i++)
             done = draw_frame(session, &lanes[i], &scene->camera, &options, rgba8, frame);
+    for (size_t i = 0; done && i < lane_count; i++)
+        if (lanes[i].rival.program) done = bench_rival_end(session, &lanes[i].rival);
     if (done) report(plan, scene, lanes, lane_count, sink);
     for (size_t i = 0; lanes && i < lane_count; i++) close_lane(&lanes[i]);
     free(lanes);

@@ -142,6 +142,17 @@ void bench_report_frames(const bench_sink *sink, const bench_frame_row *row) {
             json_number(sink->json, "times_faster_than_peer", ratio);
         }
     }
+    if (row->rival) {
+        const double ratio = row->rival_total.quartile / row->total.quartile;
+        fprintf(sink->text, "  %s %.2f ms: %.1f times faster", row->rival, 1e3 * row->rival_total.median,
+                ratio);
+        if (sink->json) {
+            json_text(sink->json, "against", row->rival);
+            json_number(sink->json, "against_median_ms", 1e3 * row->rival_total.median);
+            json_number(sink->json, "against_lower_quartile_ms", 1e3 * row->rival_total.quartile);
+            json_number(sink->json, "times_faster_than_against", ratio);
+        }
+    }
     if (row->first_way_s > 0)
         fprintf(sink->text, "  %.3f of the first", row->total.quartile / row->first_way_s);
     bench_goal goals[BENCH_MAX_GOALS];

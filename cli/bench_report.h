@@ -42,6 +42,8 @@ typedef struct bench_frame_row {
     double one_thread_s; ///< lower quartile of the same scene and instruction sets with one thread; 0: none
     double all_sets_s;   ///< the same with all instruction sets and as many threads; 0: none
     double first_way_s;  ///< the same drawn in the first of several ways; 0: none
+    const char *rival;   ///< another program that drew the same in turns; NULL: none
+    bench_sample rival_total;
 } bench_frame_row;
 
 /// Prints the heads of the columns.

@@ -12,7 +12,7 @@
 
 /// Files that the stages write and read, in a folder of their own.
 typedef struct scratch_folder {
-    char folder[256], ply[288], ascii[288], again[288], png[288];
+    char folder[SESSION_FOLDER_BYTES], ply[288], ascii[288], again[288], png[288];
 } scratch_folder;
 
 typedef enum stage_kind {
@@ -56,13 +56,7 @@ typedef struct stage_input {
 } stage_input;
 
 static bool scratch_open(cli_session *session, scratch_folder *scratch) {
-    const char *parent = getenv("TMPDIR");
-    snprintf(scratch->folder, sizeof scratch->folder, "%.200s/ewa-bench-XXXXXX",
-             parent && *parent ? parent : "/tmp");
-    if (!mkdtemp(scratch->folder)) {
-        session_fail(session, "%s: cannot create a folder for the stages' files", scratch->folder);
-        return false;
-    }
+    if (!session_make_folder(session, scratch->folder)) return false;
     snprintf(scratch->ply, sizeof scratch->ply, "%s/cloud.ply", scratch->folder);
     snprintf(scratch->ascii, sizeof scratch->ascii, "%s/ascii.ply", scratch->folder);
     snprintf(scratch->again, sizeof scratch->again, "%s/again.ply", scratch->folder);

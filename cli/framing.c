@@ -84,7 +84,8 @@ static void read_rims(const ewa_cloud *cloud, const point_sample *sample, double
         if (rims_world[i] > 0) numbers[count++] = rims_world[i];
     }
     const double most = count ? RIM_RATIO * rank_select(numbers, count, count / 2) : 0;
-    for (size_t i = 0; i < sample->count; i++) rims_world[i] = fmin(rims_world[i], most);
+    for (size_t i = 0; i < sample->count; i++)
+        if (rims_world[i] > most) rims_world[i] = most;
 }
 
 /// Reads the sampled points, in the world.
@@ -172,8 +173,8 @@ static double fit_axis(const cloud_framing *framing, const double *rotation, int
         const double x = side[0] * p[0] + side[1] * p[1] + side[2] * p[2];
         const double z = ahead[0] * p[0] + ahead[1] * p[1] + ahead[2] * p[2];
         const double rim = slanted * framing->rims_world[i];
-        above = fmax(above, x - slope * z + rim);
-        below = fmax(below, -x - slope * z + rim);
+        if (x - slope * z + rim > above) above = x - slope * z + rim;
+        if (-x - slope * z + rim > below) below = -x - slope * z + rim;
     }
     // Between the planes: x - c <= slope (z - d) and c - x <= slope (z - d) for a camera at side c and depth
     // d.
@@ -185,9 +186,8 @@ ewa_status framing_fit(const cloud_framing *framing, const double direction_worl
                        const double up_world[3], ewa_camera *camera) {
     const ewa_status status = ewa_camera_frame(camera, &framing->box, direction_world, up_world, MARGIN);
     // Without extent there is nothing to fit; the library's framing of a box of size 1 stays.
-    double largest = 0;
-    for (size_t i = 0; i < framing->count; i++) largest = fmax(largest, framing->rims_world[i]);
-    const bool flat = diagonal(&framing->box) == 0 && largest == 0;
+    bool flat = diagonal(&framing->box) == 0;
+    for (size_t i = 0; flat && i < framing->count; i++) flat = framing->rims_world[i] == 0;
     if (status != EWA_OK || framing->count == 0 || flat || camera->projection != EWA_PERSPECTIVE)
         return status;
     double *m = camera->world_to_camera;
@@ -302,8 +302,7 @@ bool framing_revolve(cli_session *session, const cloud_framing *framing, const d
     }
     for (size_t i = 0; i < framing->count; i++) {
         const double height = dot(axis, framing->offsets[i]) + dot(axis, shift);
-        low = fmin(low, height);
-        high = fmax(high, height);
+        rank_widen(&low, &high, height);
     }
     solid->offsets = malloc(2 * SLICES * CORNERS * sizeof *solid->offsets);
     solid->rims_world = malloc(2 * SLICES * CORNERS * sizeof *solid->rims_world);
@@ -326,8 +325,7 @@ bool framing_revolve(cli_session *session, const cloud_framing *framing, const d
             double *p = solid->offsets[solid->count++];
             for (int c = 0; c < 3; c++) {
                 p[c] = height * axis[c] + x * ahead[c] + y * side[c];
-                box->low_world[c] = fmin(box->low_world[c], pivot_world[c] + p[c]);
-                box->high_world[c] = fmax(box->high_world[c], pivot_world[c] + p[c]);
+                rank_widen(&box->low_world[c], &box->high_world[c], pivot_world[c] + p[c]);
             }
             const double turned = STEP_COSINE * x - STEP_SINE * y;
             y = STEP_SINE * x + STEP_COSINE * y;

@@ -8,6 +8,7 @@
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <time.h>
@@ -172,4 +173,12 @@ void session_say(cli_session *session, const char *format, ...) {
     va_start(arguments, format);
     print_formatted(session, "", format, arguments);
     va_end(arguments);
+}
+
+bool session_make_folder(cli_session *session, char folder[SESSION_FOLDER_BYTES]) {
+    const char *parent = getenv("TMPDIR");
+    snprintf(folder, SESSION_FOLDER_BYTES, "%.200s/ewa-XXXXXX", parent && *parent ? parent : "/tmp");
+    if (mkdtemp(folder)) return true;
+    session_fail(session, "%s: cannot create a folder for a while", folder);
+    return false;
 }

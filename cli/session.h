@@ -53,6 +53,11 @@ bool session_interrupted(void);
 /// Shows that `done` of `count` steps are done ("WHAT 3/60"); false when a signal asks to stop.
 bool session_step(cli_session *session, const char *what, uint64_t done, uint64_t count);
 
+enum { SESSION_FOLDER_BYTES = 256 };
+
+/// Makes a folder of its own in TMPDIR for files that are soon removed again, with it. False after reporting.
+bool session_make_folder(cli_session *session, char folder[SESSION_FOLDER_BYTES]);
+
 /// Monotonic time in seconds.
 double clock_now_s(void);
 

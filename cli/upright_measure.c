@@ -5,6 +5,8 @@
 // so that the order of the points does not matter.
 #include "upright_measure.h"
 
+#include "rank.h"
+
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -40,10 +42,7 @@ void measure_extent(point_cloud_sample *points) {
         points->high[c] = -INFINITY;
     }
     for (size_t i = 0; i < points->count; i++) {
-        for (int c = 0; c < 3; c++) {
-            points->low[c] = fmin(points->low[c], points->offsets[i][c]);
-            points->high[c] = fmax(points->high[c], points->offsets[i][c]);
-        }
+        for (int c = 0; c < 3; c++) rank_widen(&points->low[c], &points->high[c], points->offsets[i][c]);
     }
     for (int c = 0; c < 3; c++) points->extent[c] = points->count ? points->high[c] - points->low[c] : 0;
 }
@@ -79,8 +78,7 @@ static size_t cell_of(const depth_grid *grid, int axis, double place) {
 
 static void put_in_grid(depth_grid *grid, double x, double y, double depth) {
     const size_t column = cell_of(grid, 0, x), row = cell_of(grid, 1, y);
-    grid->nearest[row][column] = fmin(grid->nearest[row][column], depth);
-    grid->farthest[row][column] = fmax(grid->farthest[row][column], depth);
+    rank_widen(&grid->nearest[row][column], &grid->farthest[row][column], depth);
     grid->counts[row][column]++;
 }
 
@@ -151,10 +149,7 @@ bool measure_range(const point_cloud_sample *points, double sign, double most_sl
         if (!slopes_of(points, i, sign, slopes, &depth) || fabs(slopes[0]) > most_slope ||
             fabs(slopes[1]) > most_slope)
             return false;
-        for (int c = 0; c < 2; c++) {
-            low[c] = fmin(low[c], slopes[c]);
-            high[c] = fmax(high[c], slopes[c]);
-        }
+        for (int c = 0; c < 2; c++) rank_widen(&low[c], &high[c], slopes[c]);
     }
     if (!(low[0] < high[0] && low[1] < high[1])) return false;
     depth_grid grid;

@@ -6,19 +6,13 @@
 #include "video.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <signal.h>
-#include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-extern char **environ;
-
-enum { MAX_WORDS = 64, PATH_BYTES = 4096, COMPLAINT_BYTES = 400 };
+enum { MAX_WORDS = 64, PATH_BYTES = 4096 };
 
 struct video_format {
     const char *suffix, *muxer, *codec;
@@ -127,36 +121,8 @@ static void make_command_line(const cli_video *video, const video_format *format
     ADD(line, "-f", format->muxer, line->target);
 }
 
-/// Starts the program with the pipe's reading end as standard input; returns an error number.
-static int spawn(const char *program, command_line *line, int input, int complaints, pid_t *process) {
-    posix_spawn_file_actions_t actions;
-    posix_spawnattr_t attributes;
-    int error = posix_spawn_file_actions_init(&actions);
-    if (error) return error;
-    error = posix_spawnattr_init(&attributes);
-    if (error) {
-        posix_spawn_file_actions_destroy(&actions);
-        return error;
-    }
-    sigset_t defaults;
-    sigemptyset(&defaults);
-    sigaddset(&defaults, SIGPIPE);
-    sigaddset(&defaults, SIGXFSZ);
-    error = posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-    if (!error) error = posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    if (!error) error = posix_spawn_file_actions_adddup2(&actions, complaints, STDERR_FILENO);
-    if (!error) error = posix_spawnattr_setsigdefault(&attributes, &defaults);
-    if (!error) error = posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-    if (!error)
-        error = posix_spawn(process, program, &actions, &attributes, (char *const *)(uintptr_t)line->words,
-                            environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
-    return error;
-}
-
 bool video_start(cli_session *session, const char *path, const video_settings *settings, cli_video *video) {
-    *video = (cli_video){.path = path, .descriptor = -1};
+    *video = (cli_video){.path = path};
     char program[PATH_BYTES];
     if (!find_program(program)) {
         session_fail(session, "%s: ffmpeg is gone", path);
@@ -167,74 +133,25 @@ bool video_start(cli_session *session, const char *path, const video_settings *s
         session_fail(session, "%s: the path is too long", path);
         return false;
     }
-    // Whoever started us to ignore the ends of children is not obeyed: ffmpeg's matters.
-    signal(SIGCHLD, SIG_DFL);
-    int ends[2];
-    video->complaints = tmpfile();
-    if (!video->complaints || pipe(ends) != 0) {
-        session_fail(session, "%s: cannot start ffmpeg: %s", path, strerror(errno));
-        video_drop(video);
-        return false;
-    }
-    fcntl(ends[0], F_SETFD, FD_CLOEXEC);
-    fcntl(ends[1], F_SETFD, FD_CLOEXEC);
     command_line line;
     make_command_line(video, video_find_format(path), settings, &line);
-    const int error = spawn(program, &line, ends[0], fileno(video->complaints), &video->process);
-    close(ends[0]);
-    video->descriptor = ends[1];
+    const int error = child_start(program, line.words, false, &video->ffmpeg);
     video->frame_bytes = (size_t)settings->width_px * settings->height_px * 4;
     if (!error) return true;
-    video->process = 0;
     session_fail(session, "%s: cannot start %s: %s", path, program, strerror(error));
-    video_drop(video);
     return false;
-}
-
-/// Closes the pipe and waits; returns what waitpid() says of the end, -1 when it does not know.
-static int await_end(cli_video *video) {
-    if (video->descriptor >= 0) close(video->descriptor);
-    video->descriptor = -1;
-    int ended = -1;
-    bool told = false;
-    while (video->process > 0 && waitpid(video->process, &ended, 0) < 0) {
-        if (errno != EINTR) {
-            ended = -1;
-            break;
-        }
-        if (session_interrupted() && !told) told = kill(video->process, SIGTERM) == 0;
-    }
-    video->process = 0;
-    return ended;
-}
-
-/// Reports how ffmpeg ended, with the last line of what it said.
-static void report_end(cli_session *session, const cli_video *video, int ended) {
-    if (session_interrupted()) return;
-    char said[COMPLAINT_BYTES] = "", last[COMPLAINT_BYTES] = "";
-    rewind(video->complaints);
-    while (fgets(said, sizeof said, video->complaints)) {
-        said[strcspn(said, "\r\n")] = 0;
-        if (said[0]) memcpy(last, said, sizeof last);
-    }
-    char how[64] = "ended early";
-    if (ended > 0 && WIFEXITED(ended))
-        snprintf(how, sizeof how, "failed with status %d", WEXITSTATUS(ended));
-    else if (ended > 0 && WIFSIGNALED(ended))
-        snprintf(how, sizeof how, "was ended by signal %d", WTERMSIG(ended));
-    session_fail(session, "%s: ffmpeg %s%s%s", video->path, how, last[0] ? ": " : "", last);
 }
 
 bool video_put(cli_session *session, cli_video *video, const uint8_t *rgba8) {
     for (size_t put = 0; put < video->frame_bytes;) {
-        const ssize_t written = write(video->descriptor, rgba8 + put, video->frame_bytes - put);
+        const ssize_t written = write(video->ffmpeg.input, rgba8 + put, video->frame_bytes - put);
         if (written > 0) {
             put += (size_t)written;
         } else if (session_interrupted()) {
             return false;
         } else if (errno != EINTR) {
             // A closed pipe: ffmpeg knows why.
-            report_end(session, video, await_end(video));
+            child_wait(session, &video->ffmpeg, video->path, "ffmpeg", true);
             return false;
         }
     }
@@ -242,11 +159,8 @@ bool video_put(cli_session *session, cli_video *video, const uint8_t *rgba8) {
 }
 
 bool video_finish(cli_session *session, cli_video *video) {
-    const int ended = await_end(video);
-    bool done = ended == 0 && !session_interrupted();
-    if (!done) {
-        report_end(session, video, ended);
-    } else if (rename(video->aside, video->path) != 0) {
+    bool done = child_wait(session, &video->ffmpeg, video->path, "ffmpeg", false);
+    if (done && rename(video->aside, video->path) != 0) {
         session_fail(session, "%s: cannot write: %s", video->path, strerror(errno));
         done = false;
     }
@@ -256,9 +170,7 @@ bool video_finish(cli_session *session, cli_video *video) {
 }
 
 void video_drop(cli_video *video) {
-    if (video->process > 0) kill(video->process, SIGTERM);
-    if (video->path) await_end(video);
+    child_drop(&video->ffmpeg);
     if (video->aside[0]) unlink(video->aside);
-    if (video->complaints) fclose(video->complaints);
-    *video = (cli_video){.descriptor = -1};
+    *video = (cli_video){.path = NULL};
 }

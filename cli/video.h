@@ -5,9 +5,7 @@
 #ifndef EWA_CLI_VIDEO_H
 #define EWA_CLI_VIDEO_H
 
-#include "session.h"
-
-#include <sys/types.h>
+#include "child.h"
 
 typedef struct video_format video_format;
 
@@ -25,9 +23,7 @@ bool video_is_possible(void);
 typedef struct cli_video {
     const char *path;
     char aside[4096];
-    FILE *complaints; ///< what ffmpeg says
-    pid_t process;    ///< of ffmpeg; 0: none
-    int descriptor;   ///< its standard input; -1: none
+    child_process ffmpeg;
     size_t frame_bytes;
 } cli_video;
 

@@ -6,7 +6,8 @@
     tools/bench.py build/release/cli/ewa build/bench.json [--prefix "chrt -f 50"]
 
 The scenes and stages come from `ewa bench`; the whole job is timed here, from the start of a process that reads PLY
-to its end with a picture written. --prefix goes before each command, to raise its priority on a busy machine.
+to its end with a picture written. --prefix goes before each command, to raise its priority on a busy machine. --against
+names a program that draws the scene `peer` in turns with ewa, where there is one.
 """
 import argparse
 import json
@@ -69,6 +70,7 @@ def main():
     parser.add_argument("program")
     parser.add_argument("output")
     parser.add_argument("--prefix", default="")
+    parser.add_argument("--against", default="")
     parser.add_argument("--frames", type=int, default=15)
     parser.add_argument("--rounds", type=int, default=3, help="runs of each scene; the quietest counts")
     arguments = parser.parse_args()
@@ -77,8 +79,9 @@ def main():
     for scene in SCENES:
         # What is compared with each other is measured in one run, in turns.
         sets = "all,avx2" if scene == "plane" else "all"
+        rival = ["--against", arguments.against] if scene == "peer" and arguments.against else []
         whole = run_bench(prefix, program, arguments.rounds, "--scene", scene, "--stages", "off", "--cpu", sets,
-                          "--frames", frames)
+                          "--frames", frames, *rival)
         rows += whole["results"]
     last = run_bench(prefix, program, arguments.rounds, "--scene", "plane", "--pixels", "9", "--frames", frames)
     whole["results"] = rows + [row for row in last["results"] if "stage" in row]

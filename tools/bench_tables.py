@@ -98,6 +98,16 @@ def peer(data):
     return table(["sphere and torus", "best peer, ms", "this, ms", "times faster"], rows)
 
 
+def against(data):
+    rows = []
+    for row in frames_of(data):
+        if "against" in row:
+            rows.append([f"{row['splats'] / 1e6:.3g} M, {row['width']}x{row['height']}", row["against"],
+                         figure(row["against_median_ms"]), figure(row["median_ms"]),
+                         figure(row["times_faster_than_against"])])
+    return table(["sphere and torus", "against", "it, ms", "this, ms", "times faster"], rows)
+
+
 def closed(data):
     rows = []
     by_name = {row["scene"]: row for row in frames_of(data)}
@@ -147,7 +157,8 @@ def avx2(data):
     return table(["2 threads", "AVX-512, ms", "AVX2, ms", "ratio"], rows)
 
 
-TABLES = {"clock": clock, "goals": goals, "frames": frames, "cycles": cycles, "peer": peer, "closed": closed,
+TABLES = {"clock": clock, "goals": goals, "frames": frames, "cycles": cycles, "peer": peer,
+          "against": against, "closed": closed,
           "stages": stages, "jobs": jobs, "avx2": avx2}
 
 

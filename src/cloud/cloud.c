@@ -153,7 +153,13 @@ void ewa_cloud_origin(const ewa_cloud *cloud, double origin_world[3]) {
     memcpy(origin_world, cloud->origin_world, sizeof cloud->origin_world);
 }
 
+/// Packed numbers are one run, of which the compiler makes vectors.
 #define READ_AS(source_type, target)                                                                         \
+    if (stride == components * sizeof(source_type)) {                                                        \
+        const source_type *from = (const source_type *)(const void *)bytes;                                  \
+        for (uint64_t i = 0; i < count * components; i++) values[i] = (target)from[i];                       \
+        break;                                                                                               \
+    }                                                                                                        \
     for (uint64_t i = 0; i < count; i++, bytes += stride) {                                                  \
         const source_type *from = (const source_type *)(const void *)bytes;                                  \
         for (uint32_t c = 0; c < components; c++) *values++ = (target)from[c];                               \

@@ -47,6 +47,7 @@ typedef struct feature_job {
     uint8_t *chosen;     // by place
     uint32_t *slot;      // by place: index of its model
     feature_model *models, *averaged;
+    local_crowd *crowds; // per worker
     ewa_attribute normal;
 } feature_job;
 
@@ -65,10 +66,9 @@ static void gather(const feature_job *job, const ewa_block *block, uint32_t lane
 
 /// Measures the noise around the first place of a block.
 static void visit_noise(void *user, const ewa_block *block, uint32_t worker) {
-    (void)worker;
     const feature_job *job = user;
     local_surface s;
-    job->kernels->measure(block, 0, &s);
+    job->kernels->measure(block, 0, &job->crowds[worker], &s);
     feature_points points;
     gather(job, block, 0, &points);
     const double spacing = (double)s.spacing[0];
@@ -78,10 +78,9 @@ static void visit_noise(void *user, const ewa_block *block, uint32_t worker) {
 
 /// Chooses the places whose neighbourhoods are not flat.
 static void visit_choose(void *user, const ewa_block *block, uint32_t worker) {
-    (void)worker;
     const feature_job *job = user;
     local_surface s;
-    job->kernels->measure(block, 0, &s);
+    job->kernels->measure(block, 0, &job->crowds[worker], &s);
     for (uint32_t lane = 0; lane < block->lane_count; lane++) {
         const uint32_t place = block->first_place + lane;
         job->spacing[place] = (float)((double)s.spacing[lane] * block->unit_world);
@@ -315,8 +314,10 @@ static ewa_status detect_with(ewa_cloud *cloud, const ewa_feature_options *optio
     job->noise_of = ewa_allocate(context, places, sizeof *job->noise_of);
     job->chosen = ewa_allocate(context, places, sizeof *job->chosen);
     job->slot = ewa_allocate(context, places, sizeof *job->slot);
+    const size_t workers = ewa_context_worker_count(context);
+    job->crowds = ewa_allocate(context, workers, sizeof *job->crowds);
     ewa_status status = EWA_ERROR_MEMORY;
-    if (job->normals && job->spacing && job->noise_of && job->chosen && job->slot)
+    if (job->normals && job->spacing && job->noise_of && job->chosen && job->slot && job->crowds)
         status = detect(job, options);
     if (status == EWA_OK) {
         counts->noise = job->noise;
@@ -327,6 +328,7 @@ static ewa_status detect_with(ewa_cloud *cloud, const ewa_feature_options *optio
     }
     ewa_release(context, job->averaged, job->model_count, sizeof *job->averaged);
     ewa_release(context, job->models, job->model_count, sizeof *job->models);
+    ewa_release(context, job->crowds, workers, sizeof *job->crowds);
     ewa_release(context, job->slot, places, sizeof *job->slot);
     ewa_release(context, job->chosen, places, sizeof *job->chosen);
     ewa_release(context, job->noise_of, places, sizeof *job->noise_of);

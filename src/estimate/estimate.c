@@ -47,7 +47,7 @@ typedef struct estimate_job {
     ewa_attribute position;
     double viewpoint[3]; // relative to the cloud's origin
     counter *counters;   // per worker
-    local_crowd *crowds; // per worker: places that wait to be settled together
+    local_crowd *crowds; // per worker: neighbours of a block; later places that wait to be settled together
 } estimate_job;
 
 static void set_points(const estimate_job *job, uint32_t place, float *out, const float *values,
@@ -112,8 +112,9 @@ static uint8_t note_again(const local_surface *s, uint32_t lane, uint32_t why) {
 static void visit(void *user, const ewa_block *block, uint32_t worker) {
     const estimate_job *job = user;
     local_surface s;
-    job->kernels->measure(block, job->wanted, &s);
-    if (job->links) job->kernels->link(block, &job->links[block->first_place]);
+    local_crowd *crowd = &job->crowds[worker];
+    job->kernels->measure(block, job->wanted, crowd, &s);
+    if (job->links) job->kernels->link(block, crowd, &job->links[block->first_place]);
     for (uint32_t lane = 0; lane < block->lane_count; lane++)
         set_lane(job, job->wanted, block->first_place + lane, &s, lane, block->unit_world);
     if (job->wanted) job->kernels->size(job->wanted, &job->sizing, &s);
@@ -150,7 +151,7 @@ static void link_evenly(const ewa_block *block, uint32_t lane, uint32_t links[LO
 static void visit_thin(void *user, const ewa_block *block, uint32_t worker) {
     const estimate_job *job = user;
     local_surface s;
-    job->kernels->measure(block, 0, &s);
+    job->kernels->measure(block, 0, &job->crowds[worker], &s);
     for (uint32_t lane = 0; lane < block->lane_count; lane++) {
         const uint32_t place = block->first_place + lane;
         if (!(job->notes[place] & RADIUS_THIN)) continue;
@@ -219,13 +220,10 @@ static void visit_again(void *user, const ewa_block *block, uint32_t worker) {
 /// Measures again what is noted so.
 static ewa_status measure_again(ewa_context *context, estimate_job *job, const ewa_visit_choice *choice) {
     const uint32_t workers = ewa_context_worker_count(context);
-    job->crowds = ewa_allocate(context, workers, sizeof *job->crowds);
-    if (!job->crowds) return EWA_ERROR_MEMORY;
     for (uint32_t w = 0; w < workers; w++) job->crowds[w].lane_count = 0;
     const ewa_status status = ewa_neighbours_visit(job->neighbours, choice, visit_again, job);
     for (uint32_t w = 0; w < workers && status == EWA_OK; w++)
         if (job->crowds[w].lane_count) settle(job, &job->crowds[w]);
-    ewa_release(context, job->crowds, workers, sizeof *job->crowds);
     return status;
 }
 
@@ -333,7 +331,8 @@ static ewa_status estimate_with(ewa_cloud *cloud, estimate_job *job, bool normal
     if (status == EWA_OK) {
         job->counters = ewa_allocate_zeroed(context, workers, sizeof *job->counters);
         job->notes = ewa_allocate(context, places, sizeof *job->notes);
-        bool complete = job->counters && job->notes;
+        job->crowds = ewa_allocate(context, workers, sizeof *job->crowds);
+        bool complete = job->counters && job->notes && job->crowds;
         if (normals)
             complete = (job->normals = ewa_allocate(context, places, 3 * sizeof *job->normals)) && complete;
         if (propagate)
@@ -349,6 +348,7 @@ static ewa_status estimate_with(ewa_cloud *cloud, estimate_job *job, bool normal
     ewa_release(context, job->spacing, places, sizeof *job->spacing);
     ewa_release(context, job->links, places, sizeof *job->links);
     ewa_release(context, job->normals, places, 3 * sizeof *job->normals);
+    ewa_release(context, job->crowds, workers, sizeof *job->crowds);
     ewa_release(context, job->notes, places, sizeof *job->notes);
     ewa_release(context, job->counters, workers, sizeof *job->counters);
     return status;

@@ -68,12 +68,14 @@ typedef struct local_crowd {
     uint32_t place[EWA_BLOCK_LANES];
     uint32_t count[EWA_BLOCK_LANES]; ///< of rows
     uint32_t lane_count;
+    uint32_t row_count; ///< that measure() has left
 } local_crowd;
 
 /// The hot loops, compiled once per instruction set, all with the same results.
 typedef struct local_kernels {
-    /// All but mean_distance; `reach` up to 2 spacings.
-    void (*measure)(const ewa_block *block, uint32_t wanted, local_surface *surface);
+    /// All but mean_distance; `reach` up to 2 spacings. Leaves the neighbours of all lanes in the rows of `crowd`,
+    /// of which nothing else counts.
+    void (*measure)(const ewa_block *block, uint32_t wanted, local_crowd *crowd, local_surface *surface);
     /// Radii after measure() with the same `wanted`; what is at the limit is not doubtful any more if it is a
     /// surface.
     void (*size)(uint32_t wanted, const local_sizing *sizing, local_surface *surface);
@@ -89,7 +91,8 @@ typedef struct local_kernels {
     void (*enclose)(local_crowd *crowd, uint32_t wanted, const float normal[3][EWA_BLOCK_LANES],
                     const float limit[EWA_BLOCK_LANES], local_surface *surface);
     void (*measure_distance)(const ewa_block *block, local_surface *surface); ///< mean_distance only
-    void (*link)(const ewa_block *block, local_graph graph);
+    /// After measure() of the same block.
+    void (*link)(const ewa_block *block, const local_crowd *crowd, local_graph graph);
 } local_kernels;
 
 EWA_DECLARE_VERSIONS(const local_kernels, ewa_local_kernels);

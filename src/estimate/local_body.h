@@ -81,10 +81,6 @@ typedef struct moments {
     symmetric second;
 } moments;
 
-static inline vec offset_of(const ewa_block *block, uint32_t i, vec at) {
-    return v_sub((vec){wf_set(block->x[i]), wf_set(block->y[i]), wf_set(block->z[i])}, at);
-}
-
 static inline vec lanes_of(const ewa_block *block) {
     return (vec){wf_load(block->lane_x), wf_load(block->lane_y), wf_load(block->lane_z)};
 }
@@ -104,19 +100,7 @@ static inline void add_offset(moments *m, vec d) {
     m->second.zz = wf_add(m->second.zz, wf_mul(d.z, d.z));
 }
 
-static moments sum_moments(const ewa_block *block) {
-    const vec at = lanes_of(block);
-    const wf radius2 = wf_load(block->radius2), one = wf_set(1);
-    moments m = no_moments();
-    for (uint32_t i = 0; i < block->candidate_count; i++) {
-        const wm inside = wf_le(wf_load(block->distance2[i]), radius2);
-        vec d = offset_of(block, i, at);
-        d = (vec){wf_keep(inside, d.x), wf_keep(inside, d.y), wf_keep(inside, d.z)};
-        m.count = wf_add(m.count, wf_keep(inside, one));
-        add_offset(&m, d);
-    }
-    return m;
-}
+#include "estimate/local_rows_body.h"
 
 /// Turns rows and columns p and q of a symmetric matrix so that (p, q) becomes 0; r is the third. Columns of
 /// the eigenvectors turn along. (Jacobi 1846, in the form that divides by nothing small.)
@@ -266,10 +250,9 @@ static inline void invert_offset(vec d, wf distance2, wm other, const frame *f, 
     *v = wf_mul(v_dot(d, f->v), inverse);
 }
 
-static inline void invert(const ewa_block *block, uint32_t i, const frame *f, vec at, wf *u, wf *v) {
-    const wf distance2 = wf_load(block->distance2[i]), radius2 = wf_load(block->radius2);
-    const wm other = wm_and(wf_le(distance2, radius2), wf_lt(wf_set(0), distance2));
-    invert_offset(offset_of(block, i, at), distance2, other, f, u, v);
+static inline void invert_row(const local_row *row, const frame *f, wf *u, wf *v) {
+    const wf distance2 = wf_load(row->distance2);
+    invert_offset(row_offset(row), distance2, wf_lt(wf_set(0), distance2), f, u, v);
 }
 
 /// Writes the unit eigenvector of the larger eigenvalue of (xx xy; xy yy), (1, 0) when they are equal;
@@ -302,12 +285,11 @@ static void turn_to(frame *f, wf uu, wf uv, wf vv) {
     f->v = v_sub(v_scale(f->v, turn_u), v_scale(old, turn_v));
 }
 
-static void align_frame(const ewa_block *block, frame *f) {
-    const vec at = lanes_of(block);
+static void align_frame(const local_crowd *crowd, uint32_t rows, frame *f) {
     wf uu = wf_set(0), uv = uu, vv = uu;
-    for (uint32_t i = 0; i < block->candidate_count; i++) {
+    for (uint32_t i = 0; i < rows; i++) {
         wf u, v;
-        invert(block, i, f, at, &u, &v);
+        invert_row(&crowd->row[i], f, &u, &v);
         uu = wf_add(uu, wf_mul(u, u));
         uv = wf_add(uv, wf_mul(u, v));
         vv = wf_add(vv, wf_mul(v, v));
@@ -366,12 +348,11 @@ static inline void set_extents(cell *made, const range *inverted, wf limit) {
     for (int i = 0; i < 2 * DIRECTIONS; i++) made->open[i] = wf_lt(limit, made->extent[i]);
 }
 
-static void find_cell(const ewa_block *block, const frame *f, wf limit, cell *made) {
-    const vec at = lanes_of(block);
+static void find_cell(const local_crowd *crowd, uint32_t rows, const frame *f, wf limit, cell *made) {
     range inverted = empty_range();
-    for (uint32_t c = 0; c < block->candidate_count; c++) {
+    for (uint32_t i = 0; i < rows; i++) {
         wf u, v;
-        invert(block, c, f, at, &u, &v);
+        invert_row(&crowd->row[i], f, &u, &v);
         widen(&inverted, u, v);
     }
     set_extents(made, &inverted, limit);
@@ -466,14 +447,16 @@ static wf measure_plane(const moments *m, const frame *f, local_surface *surface
     return spacing;
 }
 
-static void measure(const ewa_block *block, uint32_t wanted, local_surface *surface) {
-    const moments m = sum_moments(block);
+static void measure(const ewa_block *block, uint32_t wanted, local_crowd *crowd, local_surface *surface) {
+    moments m = no_moments();
+    const uint32_t rows = arrange(block, crowd, &m.count);
+    sum_moments(crowd, rows, &m);
     frame f = find_frame(&m);
     const wf spacing = measure_plane(&m, &f, surface);
     if (!wanted) return;
-    if (wanted & LOCAL_SHAPE) align_frame(block, &f);
+    if (wanted & LOCAL_SHAPE) align_frame(crowd, rows, &f);
     cell c;
-    find_cell(block, &f, wf_mul(spacing, wf_set(MAX_REACH)), &c);
+    find_cell(crowd, rows, &f, wf_mul(spacing, wf_set(MAX_REACH)), &c);
     measure_cell(wanted, &c, &f, spacing, surface);
     surface->median_spacing = find_median(surface->spacing, block->lane_count);
     const wm scattered = wf_lt(wf_set((float)LOCAL_SURFACE_VARIATION), f.variation);
@@ -507,20 +490,14 @@ static void measure_distance(const ewa_block *block, local_surface *surface) {
     wf_store(surface->mean_distance, wf_div(sum, wf_max(count, one)));
 }
 
-/// Sorts keys whose upper bits are the squared distance and whose lower ones are the candidate, by insertion
-/// into the few smallest of each lane. Distances are told apart to 1 part in 8192, ties go to the lower
-/// candidate.
-static void link_nearest(const ewa_block *block, local_graph graph) {
-    enum { KEPT = LOCAL_GRAPH_DEGREE + 1, INDEX_BITS = 10 }; // the place itself is kept too
-    _Static_assert(EWA_BLOCK_CANDIDATES <= 1 << INDEX_BITS, "the candidate fits its bits");
-    const wf radius2 = wf_load(block->radius2), none = wf_set(3e38f);
+/// Sorts the keys of the rows by insertion into the few smallest of each lane.
+static void link_nearest(const ewa_block *block, const local_crowd *crowd, local_graph graph) {
+    enum { KEPT = LOCAL_GRAPH_DEGREE + 1 }; // the place itself is kept too
+    const wf none = wf_set(NO_KEY);
     wf smallest[KEPT];
     for (int i = 0; i < KEPT; i++) smallest[i] = none;
-    for (uint32_t c = 0; c < block->candidate_count; c++) {
-        const wf distance2 = wf_load(block->distance2[c]);
-        const wm inside = wf_le(distance2, radius2);
-        const wi upper = wi_shl(wi_sar(wi_of_bits(distance2), INDEX_BITS), INDEX_BITS);
-        wf key = wf_select(inside, wf_of_bits(wi_or(upper, wi_set((int32_t)c))), none);
+    for (uint32_t r = 0; r < crowd->row_count; r++) {
+        wf key = wf_load(crowd->row[r].value);
         for (int i = 0; i < KEPT; i++) {
             const wf smaller = wf_min(smallest[i], key);
             key = wf_max(smallest[i], key);
@@ -533,7 +510,7 @@ static void link_nearest(const ewa_block *block, local_graph graph) {
         wi_store(bits, wi_of_bits(smallest[i]));
         const uint32_t found = wm_bits(wf_lt(smallest[i], none));
         for (uint32_t lane = 0; lane < block->lane_count; lane++) {
-            const uint32_t place = block->place[bits[lane] & ((1 << INDEX_BITS) - 1)];
+            const uint32_t place = block->place[bits[lane] & ((1 << KEY_INDEX_BITS) - 1)];
             const bool other = (found >> lane & 1) && place != block->first_place + lane;
             if (other && count[lane] < LOCAL_GRAPH_DEGREE) graph[lane][count[lane]++] = place;
         }

@@ -22,22 +22,6 @@ static uint32_t fill_rows(local_crowd *crowd) {
     return most;
 }
 
-enum { WORD_BITS = 32, WORDS = EWA_BLOCK_CANDIDATES / WORD_BITS };
-
-/// Sets bit k of word w of each lane where candidate 32 w + k is its neighbour.
-static void find_inside(const ewa_block *block, int32_t inside[WORDS][EWA_BLOCK_LANES]) {
-    const wf radius2 = wf_load(block->radius2);
-    for (uint32_t begin = 0; begin < block->candidate_count; begin += WORD_BITS) {
-        const uint32_t left = block->candidate_count - begin, count = left < WORD_BITS ? left : WORD_BITS;
-        wi word = wi_set(0);
-        for (uint32_t k = 0; k < count; k++) {
-            const wm in = wf_le(wf_load(block->distance2[begin + k]), radius2);
-            word = wi_or(word, wi_of_bits(wf_keep(in, wf_of_bits(wi_set((int32_t)(1u << k))))));
-        }
-        wi_store(inside[begin / WORD_BITS], word);
-    }
-}
-
 static void collect_lane(const ewa_block *block, uint32_t from, int32_t inside[WORDS][EWA_BLOCK_LANES],
                          const float *values, local_crowd *crowd) {
     const uint32_t lane = crowd->lane_count++;
@@ -61,7 +45,8 @@ static void collect_lane(const ewa_block *block, uint32_t from, int32_t inside[W
 
 static uint32_t collect(const ewa_block *block, uint32_t lanes, const float *values, local_crowd *crowd) {
     int32_t inside[WORDS][EWA_BLOCK_LANES];
-    find_inside(block, inside);
+    for (uint32_t begin = 0; begin < block->candidate_count; begin += WORD_BITS)
+        wi_store(inside[begin / WORD_BITS], find_inside(block, begin));
     for (; lanes && crowd->lane_count < EWA_BLOCK_LANES; lanes &= lanes - 1)
         collect_lane(block, (uint32_t)__builtin_ctz(lanes), inside, values, crowd);
     return lanes;
@@ -100,15 +85,6 @@ static void find_around(local_crowd *crowd, float around[EWA_BLOCK_LANES]) {
     wf_store(around, high);
 }
 
-static inline vec crowd_offset(const local_crowd *crowd, uint32_t i) {
-    return (vec){wf_load(crowd->row[i].x), wf_load(crowd->row[i].y), wf_load(crowd->row[i].z)};
-}
-
-static inline void invert_row(const local_crowd *crowd, uint32_t i, const frame *f, wf *u, wf *v) {
-    const wf distance2 = wf_load(crowd->row[i].distance2);
-    invert_offset(crowd_offset(crowd, i), distance2, wf_lt(wf_set(0), distance2), f, u, v);
-}
-
 /// The cell as find_cell() has it, open, too, where no neighbour stands: beyond the border. Both ranges at
 /// once would be more than there are registers, so a few neighbours at a time go into one, then into the
 /// other.
@@ -121,7 +97,7 @@ static void find_enclosed_cell(const local_crowd *crowd, uint32_t rows, const fr
         const uint32_t left = rows - begin, count = left < FEW ? left : FEW;
         wf u[FEW], v[FEW];
         for (uint32_t i = 0; i < count; i++) {
-            invert_row(crowd, begin + i, f, &u[i], &v[i]);
+            invert_row(&crowd->row[begin + i], f, &u[i], &v[i]);
             widen(&inverted, u[i], v[i]);
         }
         for (uint32_t i = 0; i < count; i++) {
@@ -146,28 +122,16 @@ static void turn_frame(frame *f, const float normal[3][EWA_BLOCK_LANES]) {
     f->u = v_cross(f->v, f->normal);
 }
 
-static void align_to_crowd(const local_crowd *crowd, uint32_t rows, frame *f) {
-    wf uu = wf_set(0), uv = uu, vv = uu;
-    for (uint32_t i = 0; i < rows; i++) {
-        wf u, v;
-        invert_row(crowd, i, f, &u, &v);
-        uu = wf_add(uu, wf_mul(u, u));
-        uv = wf_add(uv, wf_mul(u, v));
-        vv = wf_add(vv, wf_mul(v, v));
-    }
-    turn_to(f, uu, uv, vv);
-}
-
 static void enclose(local_crowd *crowd, uint32_t wanted, const float normal[3][EWA_BLOCK_LANES],
                     const float limit[EWA_BLOCK_LANES], local_surface *surface) {
     const uint32_t rows = fill_rows(crowd);
     moments m = no_moments();
     m.count = count_of(crowd);
-    for (uint32_t i = 0; i < rows; i++) add_offset(&m, crowd_offset(crowd, i));
+    sum_moments(crowd, rows, &m);
     frame f = find_frame(&m);
     if (normal) turn_frame(&f, normal);
     const wf spacing = measure_plane(&m, &f, surface);
-    if (wanted & LOCAL_SHAPE) align_to_crowd(crowd, rows, &f);
+    if (wanted & LOCAL_SHAPE) align_frame(crowd, rows, &f);
     cell c;
     find_enclosed_cell(crowd, rows, &f, wf_load(limit), &c);
     measure_cell(wanted, &c, &f, spacing, surface);

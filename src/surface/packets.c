@@ -377,33 +377,60 @@ void ewa_surfels_destroy(ewa_surfels **surfels) {
     *surfels = NULL;
 }
 
+/// The largest major and minor sigmas, in units of the set: of each part, then of all.
+typedef struct sigma_job {
+    const ewa_surfels *surfels;
+    double largest[MAX_PARTS][2];
+} sigma_job;
+
+static void find_largest_sigmas(void *data, uint32_t part, uint32_t worker) {
+    (void)worker;
+    sigma_job *job = data;
+    const ewa_surfels *surfels = job->surfels;
+    double major[LANES] = {0}, minor[LANES] = {0};
+    const uint64_t end = ewa_split(surfels->packet_count, MAX_PARTS, part + 1);
+    for (uint64_t i = ewa_split(surfels->packet_count, MAX_PARTS, part); i < end; i++) {
+        const ewa_packet *packet = &surfels->packets[i];
+        for (int lane = 0; lane < LANES; lane++) major[lane] = most(major[lane], (double)packet->sigma[lane]);
+        for (int lane = 0; lane < LANES && surfels->ellipses; lane++) {
+            const double root = packet->ratio[lane] / 65535.0;
+            minor[lane] = most(minor[lane], (double)packet->sigma[lane] * root * root * root * root);
+        }
+    }
+    double *largest = job->largest[part];
+    largest[0] = largest[1] = 0;
+    for (int lane = 0; lane < LANES; lane++) {
+        largest[0] = most(largest[0], major[lane]);
+        largest[1] = most(largest[1], surfels->ellipses ? minor[lane] : major[lane]);
+    }
+}
+
 void ewa_packets_sum_up(ewa_surfels *surfels) {
     const ewa_packet_bounds *bounds = &surfels->bounds;
-    double smallest = INFINITY, most = 0; // limits of packets' colours
+    double smallest = INFINITY, largest_limit = 0; // limits of packets' colours
     bool even = true;
     uint32_t reach_code = 0;
     for (uint32_t i = 0; i < surfels->packet_count; i++) {
         if (!bounds->radius[i]) continue;
         const double limit = ewa_color_form_limit(bounds->colors[i]);
         if (bounds->radius[i] > reach_code) reach_code = bounds->radius[i];
-        smallest = fmin(smallest, limit), most = fmax(most, limit);
+        smallest = least(smallest, limit), largest_limit = most(largest_limit, limit);
         even = even && ewa_color_form_is_even(bounds->colors[i]);
     }
-    surfels->largest_color = most > 0 ? most : 1;
-    surfels->fine_colors = most > EWA_PLAIN_COLORS && (!even || most > EWA_PLAIN_COLORS * smallest);
+    surfels->largest_color = largest_limit > 0 ? largest_limit : 1;
+    surfels->fine_colors =
+        largest_limit > EWA_PLAIN_COLORS && (!even || largest_limit > EWA_PLAIN_COLORS * smallest);
     const uint32_t bits = reach_code << EWA_RADIUS_SHIFT;
     float reach;
     memcpy(&reach, &bits, sizeof reach);
     surfels->reach_world = (double)reach * surfels->unit;
-    double largest[2] = {0, 0};
-    for (uint32_t i = 0; i < surfels->packet_count; i++)
-        for (int lane = 0; lane < LANES; lane++) {
-            const double root = surfels->packets[i].ratio[lane] / 65535.0,
-                         major = (double)surfels->packets[i].sigma[lane];
-            const double minor = surfels->ellipses ? major * root * root * root * root : major;
-            largest[0] = fmax(largest[0], major), largest[1] = fmax(largest[1], minor);
-        }
-    for (int i = 0; i < 2; i++) surfels->largest_sigmas_world[i] = largest[i] * surfels->unit;
+    sigma_job job = {.surfels = surfels};
+    ewa_parallel(surfels->context, find_largest_sigmas, &job, MAX_PARTS);
+    for (int i = 0; i < 2; i++) {
+        double largest = 0;
+        for (int part = 0; part < MAX_PARTS; part++) largest = most(largest, job.largest[part][i]);
+        surfels->largest_sigmas_world[i] = largest * surfels->unit;
+    }
 }
 
 void ewa_surfels_describe(const ewa_surfels *surfels, ewa_surfels_info *info) {

@@ -135,6 +135,16 @@ static inline wf wf_lookup(const float table[16], wi index) {
     return PAIR(wf, lookup_half(table, index.l), lookup_half(table, index.h));
 }
 
+static inline __m256 lookup32_half(const float table[32], __m256i index) {
+    const __m256 low = lookup_half(table, index), high = lookup_half(table + 16, index);
+    return _mm256_blendv_ps(low, high, _mm256_castsi256_ps(_mm256_slli_epi32(index, 27)));
+}
+
+/// table[index mod 32] per lane.
+static inline wf wf_lookup32(const float table[32], wi index) {
+    return PAIR(wf, lookup32_half(table, index.l), lookup32_half(table, index.h));
+}
+
 /// Lanes 4 i .. 4 i + 3 from p + i stride numbers.
 static inline wf wf_load_rows(const float *p, size_t stride) {
     wf result;

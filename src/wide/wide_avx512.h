@@ -75,6 +75,11 @@ static inline wf wf_lookup(const float table[16], wi index) {
     return _mm512_permutexvar_ps(index, _mm512_loadu_ps(table));
 }
 
+/// table[index mod 32] per lane.
+static inline wf wf_lookup32(const float table[32], wi index) {
+    return _mm512_permutex2var_ps(_mm512_loadu_ps(table), index, _mm512_loadu_ps(table + 16));
+}
+
 /// Lanes 4 i .. 4 i + 3 from p + i stride numbers.
 static inline wf wf_load_rows(const float *p, size_t stride) {
     const __m256 low =

@@ -93,6 +93,9 @@ FUSED wf wf_gather(const float *p, wi at) { EACH(wf, p[at[i]]); }
 /// table[index mod 16] per lane.
 FUSED wf wf_lookup(const float table[16], wi index) { EACH(wf, table[index[i] & 15]); }
 
+/// table[index mod 32] per lane.
+FUSED wf wf_lookup32(const float table[32], wi index) { EACH(wf, table[index[i] & 31]); }
+
 /// Lanes 4 i .. 4 i + 3 from p + i stride numbers.
 static inline wf wf_load_rows(const float *p, size_t stride) {
     wf result;

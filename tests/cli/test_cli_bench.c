@@ -3,8 +3,10 @@
 //
 // ewa bench: the scenes are what they are called, and every figure is there. Times are nobody's to check
 // here.
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "run_ewa.h"
 
@@ -111,10 +113,75 @@ static void test_ways(void **state) {
     }
 }
 
+/// Writes a program of shell lines that draws nothing.
+static void make_rival(const char *lines) {
+    char text[1024];
+    snprintf(text, sizeof text, "#!/bin/sh\n%s\n", lines);
+    scratch_text("rival", text);
+    assert_int_equal(chmod(scratch_path("rival"), 0755), 0);
+}
+
+#define BENCH_AGAINST                                                                                        \
+    "TMPDIR=. ewa bench --scene peer --splats 2000 --size 96x64 --frames 3 --workers 2 --stages off "        \
+    "--against ./rival"
+
+/// Another program gets the scene as files that it can read, and is asked for every frame in turn.
+static void test_against(void **state) {
+    (void)state;
+    run_done("rm -rf *");
+    make_rival("cp \"$1\" got.ply; cp \"$2\" got.json; echo \"a \\\"rival\\\" with $3 threads\"\n"
+               "while read -r ask; do echo >>asked; sleep 0.02; echo; done; echo >>ended");
+    run_done(BENCH_AGAINST " --json - 2>tables");
+    static const char *const label = "peer 0.002 M 96x64";
+    const char *name = strstr(last_run.out, "\"against\": \"a \\\"rival\\\" with 2 threads\"");
+    assert_non_null(name);
+    const char *ratio = strstr(name, "\"times_faster_than_against\": "),
+               *median = strstr(name, "\"against_median_ms\": ");
+    assert_true(ratio && median);
+    assert_true(atof(median + strlen("\"against_median_ms\": ")) >= 20);
+    const double wanted = atof(strstr(name, "_quartile_ms\": ") + strlen("_quartile_ms\": ")) /
+                          member(label, 2, "lower_quartile_ms");
+    assert_true(fabs(atof(ratio + strlen("\"times_faster_than_against\": ")) / wanted - 1) < 1e-9);
+    run_done("wc -l <asked; wc -l <ended; ewa info got.ply; "
+             "ewa render got.ply --camera got.json -o got.png");
+    assert_int_equal(atoi(last_run.out), 5); // two warm up
+    assert_non_null(strstr(last_run.out, "\n1\n"));
+    assert_non_null(strstr(last_run.out, "element vertex 2000\n"));
+    run_done("rm -f got.* asked ended tables");
+    assert_int_equal(scratch_count(), 1); // no folder is left, but the rival
+}
+
+static void test_bad_rivals(void **state) {
+    (void)state;
+    static const struct {
+        const char *lines, *said;
+    } cases[] = {
+        {"echo no discs >&2; exit 3", "--against: ./rival failed with status 3: no discs"},
+        {"exit 0", "--against: ./rival ended early"},
+        {"echo name; read -r ask; kill -9 $$", "--against: ./rival was ended by signal 9"},
+        {"echo name; exec <&-; exit 4", "--against: ./rival failed with status 4"},
+        {"echo name; exec cat", NULL},
+        {"echo name; while read -r ask; do echo; done; echo too late >&2; exit 1",
+         "--against: ./rival failed with status 1: too late"},
+        {"echo name; while read -r ask; do printf 'a\\nb\\n'; done",
+         "--against: ./rival says more than one line at a time"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        make_rival(cases[i].lines);
+        if (cases[i].said)
+            run_fails(1, cases[i].said, BENCH_AGAINST);
+        else
+            run_done(BENCH_AGAINST " --json - 2>tables");
+    }
+    run_fails(1, "--against: ./nobody cannot be started: No such file",
+              "ewa bench --scene peer --splats 2000 --size 96x64 --frames 1 --stages off --against ./nobody");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_stages),  cmocka_unit_test(test_files), cmocka_unit_test(test_unseen),
-        cmocka_unit_test(test_recipes), cmocka_unit_test(test_ways),  cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_stages),  cmocka_unit_test(test_files),      cmocka_unit_test(test_unseen),
+        cmocka_unit_test(test_recipes), cmocka_unit_test(test_ways),       cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_against), cmocka_unit_test(test_bad_rivals),
     };
     return cmocka_run_group_tests(tests, enter, NULL);
 }

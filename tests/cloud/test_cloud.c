@@ -54,6 +54,33 @@ static void test_borrowed_stride_and_bounds(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Packed numbers and those with others between them read the same, whatever their type.
+static void test_packed_and_strided(void **state) {
+    (void)state;
+    enum { COUNT = 37, MOST_BYTES = 8 };
+    ewa_context *context = check_context(0, NULL);
+    for (int type = EWA_F32; type <= EWA_U32; type++) {
+        _Alignas(8) static uint8_t packed[COUNT * 3 * MOST_BYTES], strided[COUNT * 4 * MOST_BYTES];
+        const size_t bytes = ewa_type_bytes((ewa_type)type);
+        for (size_t i = 0; i < sizeof packed; i++) packed[i] = (uint8_t)(61 * i % 127); // no NaN
+        for (size_t i = 0; i < COUNT; i++) memcpy(strided + 4 * bytes * i, packed + 3 * bytes * i, 3 * bytes);
+        ewa_cloud *cloud = NULL;
+        assert_int_equal(ewa_cloud_create(context, COUNT, &cloud), EWA_OK);
+        assert_int_equal(ewa_cloud_borrow(cloud, "packed", (ewa_type)type, 3, packed, 0), EWA_OK);
+        assert_int_equal(ewa_cloud_borrow(cloud, "strided", (ewa_type)type, 3, strided, 4 * bytes), EWA_OK);
+        double a[3 * COUNT], b[3 * COUNT];
+        float c[3 * COUNT], d[3 * COUNT];
+        ewa_attribute_read_f64(ewa_cloud_find(cloud, "packed"), 5, COUNT - 6, a);
+        ewa_attribute_read_f64(ewa_cloud_find(cloud, "strided"), 5, COUNT - 6, b);
+        ewa_attribute_read_f32(ewa_cloud_find(cloud, "packed"), 5, COUNT - 6, c);
+        ewa_attribute_read_f32(ewa_cloud_find(cloud, "strided"), 5, COUNT - 6, d);
+        assert_memory_equal(a, b, 3 * (COUNT - 6) * sizeof *a);
+        assert_memory_equal(c, d, 3 * (COUNT - 6) * sizeof *c);
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
 static void test_too_many_points(void **state) {
     (void)state;
     check_log log = {0};
@@ -68,6 +95,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_streams),
         cmocka_unit_test(test_borrowed_stride_and_bounds),
+        cmocka_unit_test(test_packed_and_strided),
         cmocka_unit_test(test_too_many_points),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

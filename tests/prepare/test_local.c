@@ -269,9 +269,11 @@ static void hold_shape(const local_surface *got, const plain *s, uint32_t lane) 
 }
 
 static void hold_measure(const local_kernels *kernels, const ewa_block *block, tally *t) {
+    static local_crowd crowd;
     local_surface round, oval;
-    kernels->measure(block, LOCAL_REACH, &round);
-    kernels->measure(block, LOCAL_SHAPE, &oval);
+    memset(&crowd, 0x7f, sizeof crowd);
+    kernels->measure(block, LOCAL_REACH, &crowd, &round);
+    kernels->measure(block, LOCAL_SHAPE, &crowd, &oval);
     double spacings[EWA_BLOCK_LANES];
     for (uint32_t lane = 0; lane < block->lane_count; lane++) {
         double frame[2][3];
@@ -409,10 +411,12 @@ static void hold_median(const local_kernels *kernels, const ewa_block *block, ch
 }
 
 static void hold_distances(const local_kernels *kernels, const ewa_block *block) {
+    static local_crowd crowd;
     local_surface s;
     local_graph graph;
+    kernels->measure(block, 0, &crowd, &s);
+    kernels->link(block, &crowd, graph);
     kernels->measure_distance(block, &s);
-    kernels->link(block, graph);
     for (uint32_t lane = 0; lane < block->lane_count; lane++) {
         double sum = 0, sorted[PLACES];
         uint32_t count = 0;

@@ -263,6 +263,45 @@ static void test_bounds_hold(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// The largest sigmas are those of some surfel, of discs and of ellipses, wherever in the set it is.
+static void test_largest_sigmas(void **state) {
+    (void)state;
+    static float position[POINTS][3], axis_u[POINTS][3], axis_v[POINTS][3];
+    static const uint32_t counts[] = {1, 17, 16 * 64 - 1, POINTS};
+    check_random random = {11};
+    ewa_context *context = context_of(2, EWA_CPU_ALL);
+    for (int turn = 0; turn < 16; turn++) {
+        const uint32_t count = counts[turn / 4];
+        const double most_aspect = turn % 2 ? 5 : 1;
+        for (uint32_t i = 0; i < count; i++) {
+            for (int c = 0; c < 3; c++) position[i][c] = (float)check_uniform(&random, -3, 5);
+            const double sigma = check_uniform(&random, 0.01, 0.02);
+            memcpy(axis_u[i], (float[3]){(float)(sigma * check_uniform(&random, 1, most_aspect)), 0, 0}, 12);
+            memcpy(axis_v[i], (float[3]){0, 0, (float)sigma}, 12);
+            if (most_aspect == 1) axis_u[i][0] = axis_v[i][2];
+        }
+        ewa_cloud *cloud = NULL;
+        assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+        borrow(cloud, EWA_POSITION, EWA_F32, 3, position, 0);
+        borrow(cloud, EWA_TANGENT_U, EWA_F32, 3, axis_u, 0);
+        borrow(cloud, EWA_TANGENT_V, EWA_F32, 3, axis_v, 0);
+        ewa_surfels *surfels = make_surfels(cloud);
+        assert_int_equal(surfels->ellipses, most_aspect > 1);
+        double largest[2] = {0, 0};
+        for (uint32_t i = 0; i < count; i++) {
+            ewa_packet_surfel surfel;
+            ewa_packet_decode(surfels, i / 16, i % 16, &surfel);
+            largest[0] = fmax(largest[0], vec3_length(surfel.axis_u) * surfels->unit);
+            largest[1] = fmax(largest[1], vec3_length(surfel.axis_v) * surfels->unit);
+        }
+        for (int k = 0; k < 2; k++)
+            assert_true(fabs(surfels->largest_sigmas_world[k] - largest[k]) <= 1e-6 * largest[k]);
+        ewa_surfels_destroy(&surfels);
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_same_bytes_from_all_kernels),
@@ -270,6 +309,7 @@ int main(void) {
         cmocka_unit_test(test_discs_equal_surfels),
         cmocka_unit_test(test_normals_are_kept),
         cmocka_unit_test(test_bounds_hold),
+        cmocka_unit_test(test_largest_sigmas),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

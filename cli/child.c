@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// A program of somebody else that runs beside this one.
+#include "child.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char **environ;
+
+enum { COMPLAINT_BYTES = 400 };
+
+/// Starts the program with these as its standard streams; `output` -1: nowhere. Returns an error number.
+static int spawn(const char *program, const char *const *words, int input, int output, int complaints,
+                 pid_t *process) {
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    int error = posix_spawn_file_actions_init(&actions);
+    if (error) return error;
+    error = posix_spawnattr_init(&attributes);
+    if (error) {
+        posix_spawn_file_actions_destroy(&actions);
+        return error;
+    }
+    sigset_t defaults;
+    sigemptyset(&defaults);
+    sigaddset(&defaults, SIGPIPE);
+    sigaddset(&defaults, SIGXFSZ);
+    error = posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+    if (!error)
+        error = output < 0
+                    ? posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0)
+                    : posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+    if (!error) error = posix_spawn_file_actions_adddup2(&actions, complaints, STDERR_FILENO);
+    if (!error) error = posix_spawnattr_setsigdefault(&attributes, &defaults);
+    if (!error) error = posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+    if (!error)
+        error =
+            posix_spawnp(process, program, &actions, &attributes, (char *const *)(uintptr_t)words, environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    return error;
+}
+
+/// A pipe that no other child inherits; false with errno.
+static bool make_pipe(int ends[2]) {
+    if (pipe(ends) != 0) return false;
+    fcntl(ends[0], F_SETFD, FD_CLOEXEC);
+    fcntl(ends[1], F_SETFD, FD_CLOEXEC);
+    return true;
+}
+
+static void close_end(int *end) {
+    if (*end >= 0) close(*end);
+    *end = -1;
+}
+
+int child_start(const char *program, const char *const *words, bool listens, child_process *child) {
+    *child = (child_process){.input = -1, .output = -1};
+    // Whoever started us to ignore the ends of children is not obeyed: this one's matters.
+    signal(SIGCHLD, SIG_DFL);
+    int input[2] = {-1, -1}, output[2] = {-1, -1};
+    child->complaints = tmpfile();
+    int error = child->complaints && make_pipe(input) && (!listens || make_pipe(output)) ? 0 : errno;
+    if (!error) {
+        fcntl(fileno(child->complaints), F_SETFD, FD_CLOEXEC);
+        error = spawn(program, words, input[0], output[1], fileno(child->complaints), &child->process);
+    }
+    close_end(&input[0]);
+    close_end(&output[1]);
+    child->input = input[1];
+    child->output = output[0];
+    if (!error) return 0;
+    child->process = 0;
+    child_drop(child);
+    return error;
+}
+
+/// Closes its standard input and waits; returns what waitpid() says of the end, -1 when it does not know.
+static int await_end(child_process *child) {
+    close_end(&child->input);
+    int ended = -1;
+    bool told = false;
+    while (child->process > 0 && waitpid(child->process, &ended, 0) < 0) {
+        if (errno != EINTR) {
+            ended = -1;
+            break;
+        }
+        if (session_interrupted() && !told) told = kill(child->process, SIGTERM) == 0;
+    }
+    child->process = 0;
+    return ended;
+}
+
+bool child_wait(cli_session *session, child_process *child, const char *subject, const char *name,
+                bool is_early) {
+    const int ended = await_end(child);
+    if (session_interrupted()) return false;
+    if (ended == 0 && !is_early) return true;
+    char said[COMPLAINT_BYTES] = "", last[COMPLAINT_BYTES] = "", how[64] = "ended early";
+    rewind(child->complaints);
+    while (fgets(said, sizeof said, child->complaints)) {
+        said[strcspn(said, "\r\n")] = 0;
+        if (said[0]) memcpy(last, said, sizeof last);
+    }
+    if (ended > 0 && WIFEXITED(ended))
+        snprintf(how, sizeof how, "failed with status %d", WEXITSTATUS(ended));
+    else if (ended > 0 && WIFSIGNALED(ended))
+        snprintf(how, sizeof how, "was ended by signal %d", WTERMSIG(ended));
+    session_fail(session, "%s: %s %s%s%s", subject, name, how, last[0] ? ": " : "", last);
+    return false;
+}
+
+void child_drop(child_process *child) {
+    if (child->process > 0) {
+        kill(child->process, SIGTERM);
+        await_end(child);
+    }
+    // A child that was never started has no ends either: zero would be standard input.
+    if (child->complaints) {
+        close_end(&child->input);
+        close_end(&child->output);
+        fclose(child->complaints);
+    }
+    *child = (child_process){.input = -1, .output = -1};
+}

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// A program of somebody else that runs beside this one: started without a shell, fed, listened to, waited for.
+#ifndef EWA_CLI_CHILD_H
+#define EWA_CLI_CHILD_H
+
+#include "session.h"
+
+#include <sys/types.h>
+
+/// Zero-initialised and ended there is none.
+typedef struct child_process {
+    pid_t process;    ///< 0: none runs
+    int input;        ///< its standard input; -1: closed
+    int output;       ///< its standard output; -1: nobody listens
+    FILE *complaints; ///< its standard error
+} child_process;
+
+/// Starts a program, found as a shell finds it, with the words of its command line, ended by NULL. Without
+/// `listens`, what it prints is dropped. Returns an error number; then there is nothing to end.
+int child_start(const char *program, const char *const *words, bool listens, child_process *child);
+
+/// Closes its standard input and waits; an interrupt of this program ends it. Returns whether it succeeded and
+/// was to end now; else reports "SUBJECT: NAME failed with status 1: the last line of its standard error".
+bool child_wait(cli_session *session, child_process *child, const char *subject, const char *name,
+                bool is_early);
+
+/// Ends it and frees what is left of it, whether it was waited for or not.
+void child_drop(child_process *child);
+
+#endif
