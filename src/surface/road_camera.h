@@ -53,15 +53,24 @@ static inline void rotate(const float m[9], wf x, wf y, wf z, wf out[3]) {
             wf_fma(wf_set(m[3 * i]), x, wf_fma(wf_set(m[3 * i + 1]), y, wf_mul(wf_set(m[3 * i + 2]), z)));
 }
 
+/// Vectors of octahedral coordinates, on the octahedron.
+static ALWAYS_INLINE void unfold_flat(wf u, wf v, wf n[3]) {
+    n[2] = wf_sub(wf_sub(wf_set(1), wf_abs(u)), wf_abs(v));
+    const wf fold = wf_max(wf_negate(n[2]), wf_set(0));
+    n[0] = wf_sub(u, wf_select(wf_lt(u, wf_set(0)), wf_negate(fold), fold));
+    n[1] = wf_sub(v, wf_select(wf_lt(v, wf_set(0)), wf_negate(fold), fold));
+}
+
+/// Makes vectors unit vectors.
+static ALWAYS_INLINE void make_unit(wf n[3]) {
+    const wf inverse = wf_inverse_root(wf_fma(n[0], n[0], wf_fma(n[1], n[1], wf_mul(n[2], n[2]))));
+    for (int i = 0; i < 3; i++) n[i] = wf_mul(n[i], inverse);
+}
+
 /// Unit vectors of octahedral coordinates.
 static inline void unfold(wf u, wf v, wf n[3]) {
-    const wf z = wf_sub(wf_sub(wf_set(1), wf_abs(u)), wf_abs(v));
-    const wf fold = wf_max(wf_negate(z), wf_set(0));
-    const wf x = wf_sub(u, wf_select(wf_lt(u, wf_set(0)), wf_negate(fold), fold));
-    const wf y = wf_sub(v, wf_select(wf_lt(v, wf_set(0)), wf_negate(fold), fold));
-    const wf length2 = wf_fma(x, x, wf_fma(y, y, wf_mul(z, z)));
-    const wf inverse = wf_inverse_root(length2);
-    n[0] = wf_mul(x, inverse), n[1] = wf_mul(y, inverse), n[2] = wf_mul(z, inverse);
+    unfold_flat(u, v, n);
+    make_unit(n);
 }
 
 #endif

@@ -13,10 +13,11 @@
 
 #include <string.h>
 
-static inline void decode_normals(const ewa_packet *packet, wf n[3]) {
+/// Normals, not yet of unit length.
+static ALWAYS_INLINE void decode_normals(const ewa_packet *packet, wf n[3]) {
     const wf unit = wf_set(1.0f / 32767.0f);
-    unfold(wf_mul(wf_from_i(wi_load_i16(packet->oct_x)), unit),
-           wf_mul(wf_from_i(wi_load_i16(packet->oct_y)), unit), n);
+    unfold_flat(wf_mul(wf_from_i(wi_load_i16(packet->oct_x)), unit),
+                wf_mul(wf_from_i(wi_load_i16(packet->oct_y)), unit), n);
 }
 
 /// Unit major axes: the frame of packet_frame() (packets.c) turned by the diamond angle.
@@ -98,7 +99,7 @@ static inline wi box_classes(wi columns, wi rows, wm steep, wm wide) {
 /// pixels: squares neither overflow nor vanish.
 typedef struct stage {
     wm alive;
-    wf z, n[3];
+    wf z, n[3], axis[3], ratio;   ///< the last two of ellipses
     float base_x, base_y;         ///< of the packet's centre, from the middle of the field
     wf dx, dy;                    ///< from there to the projected centre, slopes (orthographic: camera space)
     wf sigma, range;              ///< camera space: major axis, depth half range R
@@ -159,33 +160,42 @@ static ALWAYS_INLINE void place_point(const ewa_view *view, stage *t) {
     t->alive = wm_and(t->alive, wf_lt(zero, t->z));
 }
 
-/// First step: into camera space, near and broad surfels aside, covariance.
+/// First step: into camera space.
 static ALWAYS_INLINE void stage_place(const ewa_view *view, const ewa_packet_source *source, uint32_t id,
-                                      bool ellipses, const ewa_tile *tile, stage *t, ewa_run *run) {
-    const wf one = wf_set(1), zero = wf_set(0);
+                                      const ewa_tile *tile, stage *t) {
     const ewa_packet *packet = &source->packets[id];
-    wf n_world[3], axis[3] = {zero, zero, zero};
     place_surfels(view, source, id, tile, t);
     t->sigma = wf_mul(wf_load(packet->sigma), wf_set(view->scale));
-    t->alive = wf_lt(zero, t->sigma);
-    if (view->point_sigma_px > 0) {
+    t->alive = wf_lt(wf_set(0), t->sigma);
+    if (view->point_sigma_px > 0)
         place_point(view, t);
-        return;
-    }
-    decode_normals(packet, n_world);
-    rotate(view->rotation, n_world[0], n_world[1], n_world[2], t->n);
-    const wf *n = t->n;
+    else
+        decode_normals(packet, t->n);
+}
 
+/// Second step: normals and axes.
+static ALWAYS_INLINE void stage_turn(const ewa_view *view, const ewa_packet_source *source, uint32_t id,
+                                     bool ellipses, stage *t) {
+    wf n_world[3] = {t->n[0], t->n[1], t->n[2]};
+    make_unit(n_world);
+    rotate(view->rotation, n_world[0], n_world[1], n_world[2], t->n);
+    if (!ellipses) return;
+    wf axis_world[3];
+    decode_axes(&source->packets[id], n_world, axis_world);
+    rotate(view->rotation, axis_world[0], axis_world[1], axis_world[2], t->axis);
+    t->ratio = decode_ratios(&source->packets[id]);
+}
+
+/// Third step: near and broad surfels aside, the range of depths.
+static ALWAYS_INLINE void stage_range(const ewa_view *view, uint32_t id, bool ellipses, stage *t,
+                                      ewa_run *run) {
+    const wf one = wf_set(1), zero = wf_set(0);
+    const wf *n = t->n;
     // Sigma = minor^2 (I - n'n) + extra axis'axis; first in units of the major axis.
-    wf ratio2 = one, part33 = wf_fma(n[0], n[0], wf_mul(n[1], n[1])); // of Sigma33
-    wf ratio = one;
+    wf part33 = wf_fma(n[0], n[0], wf_mul(n[1], n[1])); // of Sigma33
     if (ellipses) {
-        wf axis_world[3];
-        decode_axes(packet, n_world, axis_world);
-        rotate(view->rotation, axis_world[0], axis_world[1], axis_world[2], axis);
-        ratio = decode_ratios(packet);
-        ratio2 = wf_mul(ratio, ratio);
-        part33 = wf_fma(wf_sub(one, ratio2), wf_mul(axis[2], axis[2]), wf_mul(ratio2, part33));
+        const wf ratio2 = wf_mul(t->ratio, t->ratio);
+        part33 = wf_fma(wf_sub(one, ratio2), wf_mul(t->axis[2], t->axis[2]), wf_mul(ratio2, part33));
     }
     t->range = wf_mul(t->sigma, wf_sqrt(wf_mul(wf_set(view->cutoff2), part33)));
     wm by_rays;
@@ -206,10 +216,15 @@ static ALWAYS_INLINE void stage_place(const ewa_view *view, const ewa_packet_sou
     if (view->cull_back) t->alive = wm_and(t->alive, wf_lt(t->facing, zero));
     t->part = view->orthographic ? zero : wf_mul(t->range, t->inverse_z);
     t->root_k = view->orthographic ? one : wf_inverse_root(wf_fnma(t->part, t->part, one));
+}
 
-    // G Sigma G' (docs/math.md section 3), with m = n_xy - x0 nz and b = axis_xy - x0 axis_z.
+/// Fourth step: the covariance, G Sigma G' (docs/math.md section 3), with m = n_xy - x0 nz and b = axis_xy -
+/// x0 axis_z.
+static ALWAYS_INLINE void stage_covariance(const ewa_view *view, bool ellipses, stage *t) {
+    const wf one = wf_set(1);
+    const wf *n = t->n, *axis = t->axis;
     t->major = wf_mul(wf_mul(t->sigma, t->inverse_z), wf_set(view->zoom));
-    t->minor = ellipses ? wf_mul(t->major, ratio) : t->major;
+    t->minor = ellipses ? wf_mul(t->major, t->ratio) : t->major;
     const wf minor2 = wf_mul(t->minor, t->minor);
     const wf m1 = wf_fnma(t->x0, n[2], n[0]), m2 = wf_fnma(t->y0, n[2], n[1]);
     t->s11 = wf_mul(minor2, wf_fnma(m1, m1, wf_fma(t->x0, t->x0, one)));
@@ -218,6 +233,7 @@ static ALWAYS_INLINE void stage_place(const ewa_view *view, const ewa_packet_sou
     t->s13 = wf_mul(wf_negate(minor2), wf_fma(m1, n[2], t->x0));
     t->s23 = wf_mul(wf_negate(minor2), wf_fma(m2, n[2], t->y0));
     if (ellipses) {
+        const wf ratio2 = wf_mul(t->ratio, t->ratio);
         const wf extra = wf_mul(wf_mul(t->major, t->major), wf_sub(one, ratio2));
         const wf b1 = wf_fnma(t->x0, axis[2], axis[0]), b2 = wf_fnma(t->y0, axis[2], axis[1]);
         const wf e1 = wf_mul(extra, b1), e2 = wf_mul(extra, b2);
@@ -528,7 +544,12 @@ static ALWAYS_INLINE void setup_run(const ewa_view *view, const ewa_packet_sourc
                 for (size_t line = 0; line < sizeof(ewa_packet) + LINE_BYTES - 1; line += LINE_BYTES)
                     __builtin_prefetch(later + line);
             }
-            stage_place(view, source, ids[i], ellipses, tile, &stages[i], run);
+            stage_place(view, source, ids[i], tile, &stages[i]);
+        }
+        if (!(view->point_sigma_px > 0)) {
+            for (uint32_t i = 0; i < here; i++) stage_turn(view, source, ids[i], ellipses, &stages[i]);
+            for (uint32_t i = 0; i < here; i++) stage_range(view, ids[i], ellipses, &stages[i], run);
+            for (uint32_t i = 0; i < here; i++) stage_covariance(view, ellipses, &stages[i]);
         }
         for (uint32_t i = 0; i < here; i++) stage_shape(view, &stages[i]);
         for (uint32_t i = 0; i < here; i++)

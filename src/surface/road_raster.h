@@ -97,6 +97,7 @@ static ALWAYS_INLINE void visibility_rows(const ewa_view *view, const ewa_tile *
     float *nearest = tile->nearest + first_float;
     const float *passed = beyond ? tile->passed + first_float : NULL;
     wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
+    UNROLL_COLUMNS
     for (uint32_t row = 0; row < rows; row++, nearest += row_floats, dy = wf_add(dy, wf_set(EWA_BLOCK_PX))) {
         UNROLL_COLUMNS
         for (uint32_t i = 0; i < columns; i++) {
@@ -130,12 +131,19 @@ typedef void splat_rows(const pass *p, uint32_t splat, uint32_t first_column, ui
 /// Calls `body` with the column count and the test constants in each class and the row count the same along
 /// a class, so that its loops are unrolled or predicted.
 static ALWAYS_INLINE void for_each_splat(const pass *p, splat_rows *body) {
+    enum { UNROLLED = 2 }; // rows and columns
     const uint16_t *first = p->run->class_first, *order = p->run->order;
     const ewa_record *r = p->run->records;
     UNROLL_COLUMNS
-    for (uint32_t columns = 1; columns <= EWA_COLUMN_CLASSES; columns++)
-        for (uint32_t i = first[(columns - 1) * EWA_ROW_CLASSES]; i < first[columns * EWA_ROW_CLASSES]; i++)
+    for (uint32_t columns = 1; columns <= EWA_COLUMN_CLASSES; columns++) {
+        const uint16_t *of_rows = first + (columns - 1) * EWA_ROW_CLASSES;
+        uint32_t i = of_rows[0];
+        UNROLL_COLUMNS
+        for (uint32_t rows = 1; rows <= (columns <= UNROLLED ? UNROLLED : 0); rows++)
+            for (; i < of_rows[rows]; i++) body(p, order[i], 0, columns, rows, PLAIN);
+        for (; i < of_rows[EWA_ROW_CLASSES]; i++)
             body(p, order[i], 0, columns, box_rows(r[order[i]].box), PLAIN);
+    }
     first += EWA_STEEP_CLASS;
     UNROLL_COLUMNS
     for (uint32_t columns = 1; columns <= EWA_COLUMN_CLASSES; columns++)
@@ -322,6 +330,7 @@ static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_
     const float *passed = what & BEYOND ? tile->passed + first_block * EWA_BLOCK_LANES : NULL;
     float *sums = tile->sums.planes + first_block * channels * EWA_BLOCK_LANES;
     wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
+    UNROLL_COLUMNS
     for (uint32_t row = 0; row < rows; row++) {
         UNROLL_COLUMNS
         for (uint32_t i = 0; i < columns; i++) {
