@@ -31,75 +31,91 @@ typedef struct bin_job {
     uint32_t *expiries; ///< [worker][slice], all 0 between tiles
 } bin_job;
 
-static int32_t clamp_px(double px, uint32_t side_px) {
-    return !(px > 0) ? 0 : px >= side_px ? (int32_t)side_px : (int32_t)px;
+static double lesser(double a, double b) { return a < b ? a : b; }
+
+static double greater(double a, double b) { return a > b ? a : b; }
+
+/// The whole part of a number within [0, most].
+static int32_t clamp_whole(double a, double most) { return !(a > 0) ? 0 : (int32_t)lesser(a, most); }
+
+/// A block's voxels as a box in camera space.
+typedef struct block_corners {
+    ewa_vec3 low, ways[3]; ///< from the low to the high side along i, j, k
+} block_corners;
+
+/// The box whose sides are `steps` outside of the voxels' centres.
+static block_corners find_corners(const ewa_grid_view *grid, const ewa_voxel_block *block, double steps) {
+    double low[3];
+    block_corners corners;
+    for (int axis = 0; axis < 3; axis++) {
+        low[axis] = EWA_BLOCK_SIDE * (double)block->place[axis] + block->low[axis] - steps;
+        const double way = block->high[axis] - block->low[axis] + 2 * steps;
+        corners.ways[axis] = vec3_scale(mat3_row(&grid->axes, axis), way);
+    }
+    corners.low = ewa_grid_place(grid, low[0], low[1], low[2]);
+    return corners;
 }
 
 /// The slices of a block's voxels; false where none is to be seen in these.
-static bool find_slices(const bin_job *job, const ewa_voxel_block *block, ewa_block_view *view) {
-    double low = INFINITY, high = -INFINITY;
-    for (int corner = 0; corner < 8; corner++) {
-        double at[3];
-        for (int axis = 0; axis < 3; axis++)
-            at[axis] = EWA_BLOCK_SIDE * (double)block->place[axis] +
-                       (corner >> axis & 1 ? block->high[axis] : block->low[axis]);
-        const double z = ewa_grid_place(job->grid, at[0], at[1], at[2]).z;
-        low = fmin(low, z), high = fmax(high, z);
+static bool find_slices(const bin_job *job, const block_corners *corners, ewa_block_view *view) {
+    double low = corners->low.z, high = low;
+    for (int axis = 0; axis < 3; axis++) {
+        low += lesser(corners->ways[axis].z, 0);
+        high += greater(corners->ways[axis].z, 0);
     }
     const double last = job->slices->count - 1.0;
-    const double first_slice = floor((low - job->slices->start) / job->slices->unit);
-    const double last_slice = floor((high - job->slices->start) / job->slices->unit);
-    view->slice_first = (int32_t)fmin(fmax(first_slice, 0), last);
-    view->slice_last = (int32_t)fmin(fmax(last_slice, 0), last);
+    view->slice_first = clamp_whole((low - job->slices->start) / job->slices->unit, last);
+    view->slice_last = clamp_whole((high - job->slices->start) / job->slices->unit, last);
     // The kernels place voxels in single precision: those at the edge are looked at by both.
     const double edge = job->slices->start + (job->slices->has_near ? EDGE_UNITS * job->slices->unit : 0);
     view->near = job->slices->has_near && low < edge && high > -job->grid->near;
     return low < EWA_FARTHEST && (job->grid->orthographic || high >= 2 * job->slices->start - edge);
 }
 
-/// Widens a box by the projections of a block's corners, all `steps` outside of its voxels' centres; false
-/// where one reaches the eye.
-static bool add_corners(const bin_job *job, const ewa_voxel_block *block, double steps, double box[4]) {
-    const ewa_grid_view *grid = job->grid;
+/// The box of the projections of a block's corners; false where one reaches the eye.
+static bool project_corners(const ewa_grid_view *grid, const block_corners *corners, double box[4]) {
     bool in_front = true;
+    box[0] = box[1] = INFINITY, box[2] = box[3] = -INFINITY;
     for (int corner = 0; corner < 8; corner++) {
-        double at[3];
+        ewa_vec3 p = corners->low;
         for (int axis = 0; axis < 3; axis++)
-            at[axis] = EWA_BLOCK_SIDE * (double)block->place[axis] +
-                       (corner >> axis & 1 ? block->high[axis] + steps : block->low[axis] - steps);
-        const ewa_vec3 p = ewa_grid_place(grid, at[0], at[1], at[2]);
+            if (corner >> axis & 1) p = vec3_add(p, corners->ways[axis]);
         in_front &= grid->orthographic || p.z > 0;
         const double inverse = grid->orthographic ? 1 : 1 / p.z;
         const double x = grid->fx_px * p.x * inverse + grid->cx_px;
         const double y = grid->fy_px * p.y * inverse + grid->cy_px;
-        box[0] = fmin(box[0], x), box[1] = fmin(box[1], y);
-        box[2] = fmax(box[2], x), box[3] = fmax(box[3], y);
+        box[0] = lesser(box[0], x), box[1] = lesser(box[1], y);
+        box[2] = greater(box[2], x), box[3] = greater(box[3], y);
     }
     return in_front;
 }
 
 /// The box on the screen of a block's voxels with their kernels; the whole picture where they reach the eye.
-static void find_box(const bin_job *job, const ewa_voxel_block *block, ewa_block_view *view) {
+static void find_box(const bin_job *job, const ewa_voxel_block *block, const block_corners *corners,
+                     ewa_block_view *view) {
     enum { POINT_WINDOW_PX = 2, SAFETY_PX = 1 };
     const ewa_grid_view *grid = job->grid;
     const ewa_camera *camera = job->camera;
-    double box[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY}, wide[4];
-    memcpy(wide, box, sizeof wide);
-    bool in_front = add_corners(job, block, 0, box);
+    double box[4];
+    bool in_front = project_corners(grid, corners, box);
     if (view->slice_first >= job->slices->point_slice) {
         for (int side = 0; side < 4; side++) box[side] += (side < 2 ? -1 : 1) * (POINT_WINDOW_PX + 0.01);
     } else {
-        in_front &= add_corners(job, block, grid->cutoff * grid->kernel_steps, wide);
+        double wide[4];
+        const block_corners around = find_corners(grid, block, grid->cutoff * grid->kernel_steps);
+        in_front &= project_corners(grid, &around, wide);
+        const double filter2_px2 = grid->cutoff2 * grid->prefilter2_px2;
         for (int side = 0; side < 4; side++) {
-            const double reach = hypot(wide[side] - box[side], grid->cutoff * sqrt(grid->prefilter2_px2));
-            box[side] += (side < 2 ? -1 : 1) * fmax(reach + SAFETY_PX, POINT_WINDOW_PX + 0.01);
+            const double kernel_px = wide[side] - box[side];
+            const double reach = sqrt(kernel_px * kernel_px + filter2_px2);
+            box[side] += (side < 2 ? -1 : 1) * greater(reach + SAFETY_PX, POINT_WINDOW_PX + 0.01);
         }
     }
     const double width = camera->width_px, height = camera->height_px;
-    view->left = in_front ? clamp_px(floor(box[0]), camera->width_px) : 0;
-    view->top = in_front ? clamp_px(floor(box[1]), camera->height_px) : 0;
-    view->right = clamp_px(in_front ? ceil(box[2]) : width, camera->width_px);
-    view->bottom = clamp_px(in_front ? ceil(box[3]) : height, camera->height_px);
+    view->left = in_front ? clamp_whole(box[0], width) : 0;
+    view->top = in_front ? clamp_whole(box[1], height) : 0;
+    view->right = in_front ? clamp_whole(box[2] + 1, width) : (int32_t)camera->width_px;
+    view->bottom = in_front ? clamp_whole(box[3] + 1, height) : (int32_t)camera->height_px;
     if (view->left >= view->right || view->top >= view->bottom) view->right = 0;
 }
 
@@ -112,13 +128,15 @@ static uint32_t find_blocks(const void *data, uint32_t worker, uint32_t first, u
     for (uint32_t b = first; b < first + count; b++) {
         ewa_block_view *view = &job->views[b];
         view->block = b;
-        const bool ahead = find_slices(job, &job->level->blocks[b], view);
-        find_box(job, &job->level->blocks[b], view);
+        const ewa_voxel_block *block = &job->level->blocks[b];
+        const block_corners corners = find_corners(job->grid, block, 0);
+        const bool ahead = find_slices(job, &corners, view);
+        find_box(job, block, &corners, view);
         if (!ahead) view->right = 0;
         if (view->right == 0) continue;
         const uint32_t span = (uint32_t)(view->slice_last - view->slice_first) + 1;
         if (span > facts->longest_span) facts->longest_span = span;
-        facts->visible_voxel_count += job->level->blocks[b].count;
+        facts->visible_voxel_count += block->count;
         const uint32_t slice = (uint32_t)view->slice_first;
         items->ids[next] = (int32_t)b;
         items->first[next] = (int32_t)(slice % job->slice_columns | slice / job->slice_columns << 16);

@@ -27,8 +27,10 @@ enum {
     EWA_VOLUME_TILE_BLOCKS = EWA_VOLUME_ROW_BLOCKS * EWA_VOLUME_ROW_BLOCKS,
     EWA_SUMS_MARGIN_PX = 4, ///< around a tile's sums
     EWA_SUMS_SIDE_PX = EWA_VOLUME_TILE_PX + 2 * EWA_SUMS_MARGIN_PX,
-    EWA_SUMS_STRIDE = 4 * EWA_SUMS_SIDE_PX, ///< floats
     EWA_SUMS_ROW_BLOCKS = EWA_SUMS_SIDE_PX / 4,
+    EWA_SUMS_STRIP = EWA_SUMS_SIDE_PX * 16,                     ///< floats of a strip, four pixels wide
+    EWA_SUMS_CELLS = EWA_SUMS_ROW_BLOCKS * EWA_SUMS_ROW_BLOCKS, ///< blocks of 4x4 pixels, with the margin
+    EWA_SUMS_CELL_ROOM = (EWA_SUMS_CELLS + 7) / 8 * 8,          ///< whole words of them
     EWA_FILTER_PHASES = 32,
     EWA_FILTER_COUNT = 256,
     EWA_PAGE_RECORDS = 64,
@@ -39,24 +41,25 @@ enum {
 /// The widest filter of points, px: what four taps hold.
 #define EWA_FILTER_MOST_PX 0.9f
 
-/// The circular filter along one axis: taps of the four pixels from floor(x - 1/2) - 1 on, which add up to 1.
-typedef float ewa_point_filter[EWA_FILTER_PHASES][4];
+/// The circular filter along one axis: taps of the four pixels from floor(x - 1/2) - 1 on, which add up to 1,
+/// between four zeros on either side.
+typedef float ewa_point_filter[EWA_FILTER_PHASES][12];
 
-/// A voxel on its way. Points: r, g, b, 1, all times the mass; where the window begins in the sums; phases
-/// and blocks touched; depth. Splats: r, g, b; extinction; x, y in the tile; depth; distance.
-typedef struct ewa_volume_record {
-    float color[4];
-    union {
-        struct {
-            int32_t offset, info;
-        } point;
-        float place_px[2];
-    };
+/// Where a splat is.
+typedef struct ewa_splat_place {
+    float x_px, y_px; ///< in the tile
     float z, distance;
-} ewa_volume_record;
+} ewa_splat_place;
 
+/// Voxels on their way, all points or all splats. Colours of points: r, g, b, 1, all times the mass; of
+/// splats: r, g, b; extinction. Windows of points: where in the filter the taps across begin, from the
+/// strip's edge on (9 bits), and those down (9 bits); in which row of all strips of the sums it begins.
 typedef struct ewa_volume_page {
-    ewa_volume_record records[EWA_PAGE_RECORDS];
+    float colors[EWA_PAGE_RECORDS][4];
+    union {
+        int32_t windows[EWA_PAGE_RECORDS];
+        ewa_splat_place splats[EWA_PAGE_RECORDS];
+    };
 } ewa_volume_page;
 
 /// The voxels of one depth unit: pages, in the order in which they came.
@@ -120,15 +123,26 @@ typedef struct ewa_volume_source {
 /// A tile of the picture while it is drawn.
 typedef struct ewa_volume_tile {
     int32_t x_px, y_px, width_px, height_px;
-    float *sums;    ///< [EWA_SUMS_SIDE_PX][EWA_SUMS_SIDE_PX][4] of a slice: r, g, b, optical depth
+    float *sums;    ///< of a slice, in strips: [column / 4][row][column % 4]: r, g, b, optical depth
     float *pixels;  ///< [block][EWA_VOLUME_CHANNELS][16]
     float *surface; ///< [block][16] depths of opaque surfaces
-    uint32_t touched[EWA_SUMS_ROW_BLOCKS];     ///< bits: blocks of the sums with something in them
-    uint32_t saturated[EWA_VOLUME_ROW_BLOCKS]; ///< bits: blocks where nothing more would show
-    ewa_volume_bucket *ring;                   ///< [slice & ring_mask]
+    uint8_t touched[EWA_SUMS_CELL_ROOM]; ///< [ewa_sums_cell()]: 1 where the sums may have something in them
+    uint8_t hidden[EWA_SUMS_CELL_ROOM];  ///< 1 where nothing more would show, as in the margin
+    uint32_t cell_count, visible_count;  ///< of cells within the picture; of those that are not hidden
+    ewa_volume_bucket *ring;             ///< [slice & ring_mask]
     uint32_t ring_mask;
     ewa_volume_pages pages;
 } ewa_volume_tile;
+
+/// The cell of a tile's block of 4x4 pixels. Cells go down the strips of the sums.
+static inline uint32_t ewa_sums_cell(uint32_t row, uint32_t column) {
+    return (column + 1) * EWA_SUMS_ROW_BLOCKS + row + 1; // the margin is one block
+}
+
+static inline void ewa_hide_cell(ewa_volume_tile *tile, uint32_t cell) {
+    tile->visible_count -= !tile->hidden[cell];
+    tile->hidden[cell] = 1;
+}
 
 /// Where pixels go.
 typedef struct ewa_volume_target {

@@ -97,9 +97,8 @@ static ALWAYS_INLINE wf splat_reach(const ewa_volume_view *view, const voxel_lan
     return wf_fma(wf_min(reach, wf_set(1e6f)), wf_set(focal_px), margin);
 }
 
-/// What the records of points are made of but for colour and depth.
-static ALWAYS_INLINE void point_places(const ewa_volume_tile *tile, wf x, wf y, wi *offset, wi *info,
-                                       wm *touches) {
+/// The windows of points (ewa_volume_page), and which of them touch the tile.
+static ALWAYS_INLINE wi point_windows(const ewa_volume_tile *tile, wf x, wf y, wm *touches) {
     const wf half = wf_set(0.5f), limit = wf_set(1e6f);
     const wf u = wf_max(wf_min(wf_sub(x, half), limit), wf_set(-1e6f));
     const wf v = wf_max(wf_min(wf_sub(y, half), limit), wf_set(-1e6f));
@@ -112,16 +111,17 @@ static ALWAYS_INLINE void point_places(const ewa_volume_tile *tile, wf x, wf y, 
                       wm_and(wf_le(wf_set(-3), top), wf_lt(top, wf_set((float)tile->height_px))));
     const wi column = wi_add(wi_from_f(left), wi_set(EWA_SUMS_MARGIN_PX));
     const wi row = wi_add(wi_from_f(top), wi_set(EWA_SUMS_MARGIN_PX));
-    // row * EWA_SUMS_STRIDE = row * (256 + 32), column * 4
-    *offset = wi_add(wi_add(wi_shl(row, 8), wi_shl(row, 5)), wi_shl(column, 2));
-    const wi three = wi_set(3);
-    *info = wi_or(wi_or(phase_u, wi_shl(phase_v, 5)),
-                  wi_or(wi_or(wi_shl(wi_sar(column, 2), 10), wi_shl(wi_sar(wi_add(column, three), 2), 15)),
-                        wi_or(wi_shl(wi_sar(row, 2), 20), wi_shl(wi_sar(wi_add(row, three), 2), 25))));
+    const wi strip = wi_sar(column, 2), one = wi_set(1);
+    // Rows of strips: strip * EWA_SUMS_SIDE_PX = strip * (64 + 8). Taps: phase * 12 + 4, from up to 3 before.
+    const wi begin = wi_add(wi_add(wi_shl(strip, 6), wi_shl(strip, 3)), row);
+    const wi middle_u = wi_add(wi_shl(phase_u, 3), wi_shl(wi_add(phase_u, one), 2));
+    const wi across = wi_sub(middle_u, wi_and(column, wi_set(3)));
+    const wi down = wi_add(wi_shl(phase_v, 3), wi_shl(wi_add(phase_v, one), 2));
+    return wi_or(across, wi_or(wi_shl(down, 9), wi_shl(begin, 18)));
 }
 
-/// Makes a record the last of a bucket.
-static ALWAYS_INLINE ewa_volume_record *next_record(ewa_volume_pages *pages, ewa_volume_bucket *bucket) {
+/// Room for one more record in a bucket: its number, EWA_PAGE_RECORDS to a page.
+static ALWAYS_INLINE uint32_t next_record(ewa_volume_pages *pages, ewa_volume_bucket *bucket) {
     const uint32_t slot = bucket->count++ % EWA_PAGE_RECORDS;
     if (slot == 0) {
         const uint32_t page = pages->free[--pages->free_count];
@@ -131,7 +131,7 @@ static ALWAYS_INLINE ewa_volume_record *next_record(ewa_volume_pages *pages, ewa
             pages->next[bucket->last_page] = page;
         bucket->last_page = page;
     }
-    return &pages->pages[bucket->last_page].records[slot];
+    return bucket->last_page * EWA_PAGE_RECORDS + slot;
 }
 
 static uint32_t append(const ewa_volume_view *frame_view, const ewa_volume_source *block,
@@ -151,10 +151,8 @@ static uint32_t append(const ewa_volume_view *frame_view, const ewa_volume_sourc
         const wi slice = wi_max(wi_min(wi_from_f(wf_max(wf_min(v.unit, wf_set(1e9f)), wf_set(-1e9f))),
                                        wi_set(source->slice_last)),
                                 wi_set(source->slice_first));
-        wi offset, info;
         wm touches;
-        point_places(tile, x, y, &offset, &info, &touches);
-        wf place_x = wf_of_bits(offset), place_y = wf_of_bits(info);
+        const wi window = point_windows(tile, x, y, &touches);
         const wf density = wf_mul(wf_load(source->extinctions + first), wf_set(view->density));
         // Mass on the screen: Jacobian of the projection, |p| / z^3.
         wf mass = wf_mul(density, wf_set(view->point_mass));
@@ -167,7 +165,6 @@ static uint32_t append(const ewa_volume_view *frame_view, const ewa_volume_sourc
             const wm near_x = wm_and(wf_lt(wf_sub(zero, reach), x), wf_lt(wf_sub(x, reach), width));
             const wm near_y = wm_and(wf_lt(wf_sub(zero, reach), y), wf_lt(wf_sub(y, reach), height));
             touches = wm_or(wm_and(points, touches), wm_and(wm_not(points), wm_and(near_x, near_y)));
-            place_x = wf_select(points, place_x, x), place_y = wf_select(points, place_y, y);
             factor = wf_select(points, mass, wf_set(1));
             last = wf_select(points, mass, wf_min(density, wf_set(1e18f)));
         }
@@ -178,20 +175,28 @@ static uint32_t append(const ewa_volume_view *frame_view, const ewa_volume_sourc
         wf color[3];
         color_voxels(view, source, first, &v, color);
         float colors[64], places[64];
-        int32_t slices[16];
+        int32_t slices[16], windows[16];
         w_store4(colors, wf_mul(color[0], factor), wf_mul(color[1], factor), wf_mul(color[2], factor), last);
-        const wf distance = view->orthographic
-                                ? wf_fma(wf_fma(v.x, v.x, wf_mul(v.y, v.y)), wf_set(view->bend), v.z)
-                                : wf_mul(v.z, v.length);
-        w_store4(places, place_x, place_y, v.z, distance);
         wi_store(slices, slice);
+        wi_store(windows, window);
+        if (has_splats) {
+            const wf distance = view->orthographic
+                                    ? wf_fma(wf_fma(v.x, v.x, wf_mul(v.y, v.y)), wf_set(view->bend), v.z)
+                                    : wf_mul(v.z, v.length);
+            w_store4(places, x, y, v.z, distance);
+        }
         added += (uint32_t)__builtin_popcount(bits);
         for (; bits; bits &= bits - 1) {
             const int lane = __builtin_ctz(bits);
-            ewa_volume_record *record =
+            const uint32_t number =
                 next_record(&tile->pages, &tile->ring[(uint32_t)slices[lane] & tile->ring_mask]);
-            memcpy(record, &colors[4 * lane], 16);
-            memcpy((char *)record + 16, &places[4 * lane], 16);
+            ewa_volume_page *page = &tile->pages.pages[number / EWA_PAGE_RECORDS];
+            const uint32_t slot = number % EWA_PAGE_RECORDS;
+            memcpy(page->colors[slot], &colors[4 * lane], 16);
+            if (has_splats && slices[lane] < view->point_slice)
+                memcpy(&page->splats[slot], &places[4 * lane], 16);
+            else
+                page->windows[slot] = windows[lane];
         }
     }
     return added;

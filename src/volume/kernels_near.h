@@ -91,7 +91,8 @@ static void draw_near(const ewa_volume_view *view, ewa_volume_tile *tile, const 
     const wf zero = wf_set(0), exponent = wf_set(-0.721347520f); // -log2(e) / 2
     for (uint32_t row = 0; row < EWA_VOLUME_ROW_BLOCKS; row++)
         for (uint32_t column = 0; column < EWA_VOLUME_ROW_BLOCKS; column++) {
-            if (tile->saturated[row] >> column & 1) continue;
+            const uint32_t cell = ewa_sums_cell(row, column);
+            if (tile->hidden[cell]) continue;
             const size_t block = (size_t)row * EWA_VOLUME_ROW_BLOCKS + column;
             float *pixels = tile->pixels + block * EWA_VOLUME_CHANNELS * 16;
             wf ray[3], peak;
@@ -111,8 +112,8 @@ static void draw_near(const ewa_volume_view *view, ewa_volume_tile *tile, const 
                     depth = wf_mul(depth, share_in_front(view, tile->surface + 16 * block, wf_set(at->z)));
                 const wf color[3] = {wf_set(at->color[0]), wf_set(at->color[1]), wf_set(at->color[2])};
                 absorb(view, pixels, wf_mul(wf_load(pixels + 48), absorbed(depth)), color, z);
-                mark_saturated(view, tile, row, column, pixels);
-                if (tile->saturated[row] >> column & 1) break;
+                hide_saturated(view, tile, cell, pixels);
+                if (tile->hidden[cell]) break;
             }
         }
 }

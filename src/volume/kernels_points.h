@@ -48,66 +48,90 @@ static ALWAYS_INLINE void absorb(const ewa_volume_view *view, float *pixels, wf 
     }
 }
 
-/// Marks a block in which nothing more would show.
-static ALWAYS_INLINE void mark_saturated(const ewa_volume_view *view, ewa_volume_tile *tile, uint32_t row,
-                                         uint32_t column, const float *pixels) {
-    if (!wm_bits(wf_lt(wf_set(view->least_transmittance), wf_load(pixels + 48))))
-        tile->saturated[row] |= 1u << column;
+/// Hides a cell in which nothing more would show.
+static ALWAYS_INLINE void hide_saturated(const ewa_volume_view *view, ewa_volume_tile *tile, uint32_t cell,
+                                         const float *pixels) {
+    if (!wm_bits(wf_lt(wf_set(view->least_transmittance), wf_load(pixels + 48)))) ewa_hide_cell(tile, cell);
 }
 
-static void sum_points(ewa_volume_tile *tile, const ewa_volume_bucket *bucket,
-                       const ewa_point_filter *filter) {
-    const float(*phases)[4] = *filter;
+/// Whether all four cells that a window may touch, from the upper left one on, are hidden.
+static ALWAYS_INLINE bool is_window_hidden(const uint8_t *hidden) {
+    uint16_t left, right;
+    memcpy(&left, hidden, sizeof left);
+    memcpy(&right, hidden + EWA_SUMS_ROW_BLOCKS, sizeof right);
+    return (left & right) == 0x0101;
+}
+
+static ALWAYS_INLINE void sum_bucket(ewa_volume_tile *tile, const ewa_volume_bucket *bucket,
+                                     const ewa_point_filter *filter, bool some_hidden) {
+    const float *taps = (*filter)[0];
     float *sums = tile->sums;
-    uint32_t touched[32] = {0};
     uint32_t page = bucket->first_page;
     for (uint32_t left = bucket->count; left;) {
-        const ewa_volume_record *record = tile->pages.pages[page].records;
+        const ewa_volume_page *from = &tile->pages.pages[page];
         const uint32_t here = left < EWA_PAGE_RECORDS ? left : EWA_PAGE_RECORDS;
-        for (const ewa_volume_record *end = record + here; record < end; record++) {
-            const uint32_t info = (uint32_t)record->point.info;
-            const float *down = phases[info >> 5 & 31];
-            const wf across = wf_mul(wf_repeat4(record->color), wf_spread4(phases[info & 31]));
-            float *to = sums + record->point.offset;
-            for (int row = 0; row < 4; row++, to += EWA_SUMS_STRIDE)
-                wf_store(to, wf_fma(across, wf_set(down[row]), wf_load(to)));
-            const uint32_t columns = 1u << (info >> 10 & 31) | 1u << (info >> 15 & 31);
-            touched[info >> 20 & 31] |= columns;
-            touched[info >> 25] |= columns;
+        for (uint32_t slot = 0; slot < here; slot++) {
+            const uint32_t window = (uint32_t)from->windows[slot], begin = window >> 18, cell = begin / 4;
+            if (some_hidden && is_window_hidden(tile->hidden + cell)) continue;
+            // The window lies in two strips of the sums, or in one, and the other gets nothing. Rows of
+            // strips never lie across lines of the cache, and what was stored can be read again at once.
+            const float *across = taps + (window & 511), *down = taps + (window >> 9 & 511);
+            const wf color = wf_repeat4(from->colors[slot]);
+            const wf left_part = wf_mul(color, wf_spread4(across));
+            const wf right_part = wf_mul(color, wf_spread4(across + 4));
+            float *to = sums + (size_t)begin * 16;
+            for (int row = 0; row < 4; row++, to += 16) {
+                const wf share = wf_set(down[row]);
+                wf_store(to, wf_fma(left_part, share, wf_load(to)));
+                wf_store(to + EWA_SUMS_STRIP, wf_fma(right_part, share, wf_load(to + EWA_SUMS_STRIP)));
+            }
+            memset(tile->touched + cell, 1, 2);
+            memset(tile->touched + cell + EWA_SUMS_ROW_BLOCKS, 1, 2);
         }
         left -= here;
         page = tile->pages.next[page];
     }
-    for (uint32_t row = 0; row < EWA_SUMS_ROW_BLOCKS; row++) tile->touched[row] |= touched[row];
+}
+
+static void sum_points(ewa_volume_tile *tile, const ewa_volume_bucket *bucket,
+                       const ewa_point_filter *filter) {
+    if (tile->visible_count < tile->cell_count)
+        sum_bucket(tile, bucket, filter, true);
+    else
+        sum_bucket(tile, bucket, filter, false);
+}
+
+/// Composites the sums of a cell.
+static ALWAYS_INLINE void composite_cell(const ewa_volume_view *view, ewa_volume_tile *tile, uint32_t cell,
+                                         const float *sums, wf depth) {
+    const uint32_t row = cell % EWA_SUMS_ROW_BLOCKS - 1, column = cell / EWA_SUMS_ROW_BLOCKS - 1;
+    const size_t block = row * EWA_VOLUME_ROW_BLOCKS + column;
+    float *pixels = tile->pixels + block * EWA_VOLUME_CHANNELS * 16;
+    wf sum[4];
+    w_load4(sums, 16, sum);
+    wf t = sum[3];
+    if (view->with_surface) t = wf_mul(t, share_in_front(view, tile->surface + 16 * block, depth));
+    const wf weight = wf_mul(wf_load(pixels + 48), absorbed(t));
+    const wm some = wf_lt(wf_set(1e-30f), sum[3]);
+    // The weight goes to the mean colour of what was summed.
+    const wf mean = wf_keep(some, wf_div(wf_set(1), wf_select(some, sum[3], wf_set(1))));
+    for (int c = 0; c < 3; c++) sum[c] = wf_mul(sum[c], mean);
+    absorb(view, pixels, weight, sum, depth);
+    hide_saturated(view, tile, cell, pixels);
 }
 
 static void composite(const ewa_volume_view *view, ewa_volume_tile *tile, float z) {
     const wf depth = wf_set(z), zero = wf_set(0);
-    for (uint32_t row = 0; row < EWA_SUMS_ROW_BLOCKS; row++) {
-        uint32_t bits = tile->touched[row];
-        tile->touched[row] = 0;
-        for (; bits; bits &= bits - 1) {
-            const uint32_t column = (uint32_t)__builtin_ctz(bits);
-            float *sums = tile->sums + (size_t)row * 4 * EWA_SUMS_STRIDE + column * 16;
-            const uint32_t block_row = row - 1, block_column = column - 1; // the margin is one block
-            if (block_row < EWA_VOLUME_ROW_BLOCKS && block_column < EWA_VOLUME_ROW_BLOCKS &&
-                !(tile->saturated[block_row] >> block_column & 1)) {
-                const size_t block = block_row * EWA_VOLUME_ROW_BLOCKS + block_column;
-                float *pixels = tile->pixels + block * EWA_VOLUME_CHANNELS * 16;
-                wf sum[4];
-                w_load4(sums, EWA_SUMS_STRIDE, sum);
-                wf t = sum[3];
-                if (view->with_surface)
-                    t = wf_mul(t, share_in_front(view, tile->surface + 16 * block, depth));
-                const wf weight = wf_mul(wf_load(pixels + 48), absorbed(t));
-                const wm some = wf_lt(wf_set(1e-30f), sum[3]);
-                // The weight goes to the mean colour of what was summed.
-                const wf mean = wf_keep(some, wf_div(wf_set(1), wf_select(some, sum[3], wf_set(1))));
-                for (int c = 0; c < 3; c++) sum[c] = wf_mul(sum[c], mean);
-                absorb(view, pixels, weight, sum, depth);
-                mark_saturated(view, tile, block_row, block_column, pixels);
-            }
-            for (int i = 0; i < 4; i++) wf_store(sums + i * EWA_SUMS_STRIDE, zero);
+    for (uint32_t first = 0; first < EWA_SUMS_CELL_ROOM; first += 8) {
+        uint64_t touched;
+        memcpy(&touched, tile->touched + first, sizeof touched);
+        if (!touched) continue;
+        memset(tile->touched + first, 0, sizeof touched);
+        for (; touched; touched &= touched - 1) {
+            const uint32_t cell = first + (uint32_t)__builtin_ctzll(touched) / 8;
+            float *sums = tile->sums + (size_t)cell * 64;
+            if (!tile->hidden[cell]) composite_cell(view, tile, cell, sums, depth);
+            for (int i = 0; i < 4; i++) wf_store(sums + 16 * i, zero);
         }
     }
 }

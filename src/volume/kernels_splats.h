@@ -44,12 +44,12 @@ static void load_records(const ewa_volume_pages *pages, const uint32_t *order, u
                          float fields[8][16]) {
     for (uint32_t lane = 0; lane < 16; lane++) {
         const uint32_t number = order[lane < count ? lane : 0];
-        const ewa_volume_record *record =
-            &pages->pages[number / EWA_PAGE_RECORDS].records[number % EWA_PAGE_RECORDS];
-        for (int c = 0; c < 4; c++) fields[c][lane] = record->color[c];
-        fields[4][lane] = record->place_px[0];
-        fields[5][lane] = record->place_px[1];
-        fields[6][lane] = record->z;
+        const ewa_volume_page *page = &pages->pages[number / EWA_PAGE_RECORDS];
+        const uint32_t slot = number % EWA_PAGE_RECORDS;
+        for (int c = 0; c < 4; c++) fields[c][lane] = page->colors[slot][c];
+        fields[4][lane] = page->splats[slot].x_px;
+        fields[5][lane] = page->splats[slot].y_px;
+        fields[6][lane] = page->splats[slot].z;
     }
 }
 
@@ -189,7 +189,8 @@ static ALWAYS_INLINE void draw_splat(const ewa_volume_view *view, ewa_volume_til
     const wf color[3] = {wf_set(s[SPLAT_R * 16]), wf_set(s[SPLAT_G * 16]), wf_set(s[SPLAT_B * 16])};
     for (uint32_t row = top_block; row <= bottom_block; row++)
         for (uint32_t column = left_block; column <= right_block; column++) {
-            if (tile->saturated[row] >> column & 1) continue;
+            const uint32_t cell = ewa_sums_cell(row, column);
+            if (tile->hidden[cell]) continue;
             const wf dx = wf_add(dx0, wf_set((float)(4 * column))),
                      dy = wf_add(dy0, wf_set((float)(4 * row)));
             const wf i2 = wf_fma(dx, wf_fma(xx, dx, wf_mul(xy, dy)), wf_mul(wf_mul(yy, dy), dy));
@@ -215,7 +216,7 @@ static ALWAYS_INLINE void draw_splat(const ewa_volume_view *view, ewa_volume_til
             if (view->with_surface) t = wf_mul(t, share_in_front(view, tile->surface + 16 * block, z));
             float *pixels = tile->pixels + block * EWA_VOLUME_CHANNELS * 16;
             absorb(view, pixels, wf_mul(wf_load(pixels + 48), absorbed(t)), color, z);
-            mark_saturated(view, tile, row, column, pixels);
+            hide_saturated(view, tile, cell, pixels);
         }
 }
 

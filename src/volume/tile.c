@@ -32,7 +32,7 @@ ewa_status ewa_volume_scratch_reserve(ewa_context *context, ewa_volume_scratch *
         ewa_buffer *buffer;
         size_t count, size_bytes;
     } wanted[] = {
-        {&scratch->sums, (size_t)EWA_SUMS_SIDE_PX * EWA_SUMS_STRIDE, sizeof(float)},
+        {&scratch->sums, (size_t)EWA_SUMS_ROW_BLOCKS * EWA_SUMS_STRIP, sizeof(float)},
         {&scratch->pixels, block_floats * EWA_VOLUME_CHANNELS, sizeof(float)},
         {&scratch->surface, job->surface_depth ? block_floats : 0, sizeof(float)},
         {&scratch->ring, ring_size(job->bins), sizeof(ewa_volume_bucket)},
@@ -91,7 +91,7 @@ static void start_tile(const ewa_volume_job *job, ewa_volume_scratch *scratch, u
         .ring_mask = ring_size(job->bins) - 1,
         .pages = {.pages = scratch->pages.data, .next = scratch->next.data, .free = scratch->free.data},
     };
-    memset(tile->sums, 0, (size_t)EWA_SUMS_SIDE_PX * EWA_SUMS_STRIDE * sizeof(float));
+    memset(tile->sums, 0, (size_t)EWA_SUMS_ROW_BLOCKS * EWA_SUMS_STRIP * sizeof(float));
     memset(tile->ring, 0, ring_size(job->bins) * sizeof *tile->ring);
     tile->pages.free_count = (uint32_t)page_count(job->bins);
     for (uint32_t i = 0; i < tile->pages.free_count; i++)
@@ -99,39 +99,38 @@ static void start_tile(const ewa_volume_job *job, ewa_volume_scratch *scratch, u
     job->kernels->clear(tile);
     if (job->surface_depth) copy_surface(job, tile);
     // What lies outside of the picture needs nothing more.
-    for (int32_t row = 0; row < EWA_VOLUME_ROW_BLOCKS; row++)
-        for (int32_t column = 0; column < EWA_VOLUME_ROW_BLOCKS; column++)
-            if (4 * row >= tile->height_px || 4 * column >= tile->width_px)
-                tile->saturated[row] |= 1u << column;
+    memset(tile->hidden, 1, sizeof tile->hidden);
+    for (uint32_t row = 0; 4 * row < place.height_px; row++)
+        for (uint32_t column = 0; 4 * column < place.width_px; column++) {
+            tile->hidden[ewa_sums_cell(row, column)] = 0;
+            tile->cell_count++;
+        }
+    tile->visible_count = tile->cell_count;
 }
 
-/// Whether nothing more would show in any of the blocks that a box in the picture touches.
+/// The row or column of cells of a place in the tile, or the nearest one.
+static uint32_t cell_of(int32_t px) {
+    const int32_t last = EWA_VOLUME_TILE_PX - 1;
+    return (uint32_t)(px < 0 ? 0 : px > last ? last : px) / 4;
+}
+
+/// Whether nothing more would show in any of the cells that a block touches.
 static bool is_hidden(const ewa_volume_tile *tile, const ewa_block_view *view) {
-    enum { LAST = EWA_VOLUME_TILE_PX - 1 };
-    const int32_t left = view->left - tile->x_px, top = view->top - tile->y_px;
-    const int32_t right = view->right - 1 - tile->x_px, bottom = view->bottom - 1 - tile->y_px;
-    const uint32_t first = (uint32_t)(left < 0 ? 0 : left) / 4,
-                   last = (uint32_t)(right > LAST ? LAST : right) / 4;
-    const uint32_t columns = ((2u << last) - 1) & ~((1u << first) - 1);
-    const int32_t last_row = (bottom > LAST ? LAST : bottom) / 4;
-    for (int32_t row = (top < 0 ? 0 : top) / 4; row <= last_row; row++)
-        if (columns & ~tile->saturated[row]) return false;
+    const uint32_t top = cell_of(view->top - tile->y_px), bottom = cell_of(view->bottom - 1 - tile->y_px);
+    const uint32_t right = cell_of(view->right - 1 - tile->x_px);
+    for (uint32_t column = cell_of(view->left - tile->x_px); column <= right; column++)
+        if (memchr(&tile->hidden[ewa_sums_cell(top, column)], 0, bottom - top + 1)) return false;
     return true;
 }
 
-static bool all_hidden(const ewa_volume_tile *tile) {
-    for (int row = 0; row < EWA_VOLUME_ROW_BLOCKS; row++)
-        if (tile->saturated[row] != (1u << EWA_VOLUME_ROW_BLOCKS) - 1) return false;
-    return true;
-}
-
-/// Marks blocks whose surfaces lie wholly in front of a depth.
+/// Hides cells whose surfaces lie wholly in front of a depth.
 static void hide_behind_surface(const ewa_volume_job *job, ewa_volume_tile *tile, float z) {
     const float passed = z - job->view.surface_reach;
     for (uint32_t block = 0; block < EWA_VOLUME_TILE_BLOCKS; block++) {
         bool hidden = true;
         for (int i = 0; i < 16; i++) hidden &= tile->surface[16 * block + i] < passed;
-        if (hidden) tile->saturated[block / EWA_VOLUME_ROW_BLOCKS] |= 1u << block % EWA_VOLUME_ROW_BLOCKS;
+        if (hidden)
+            ewa_hide_cell(tile, ewa_sums_cell(block / EWA_VOLUME_ROW_BLOCKS, block % EWA_VOLUME_ROW_BLOCKS));
     }
 }
 
@@ -149,7 +148,7 @@ static void draw_splats(const ewa_volume_job *job, ewa_volume_scratch *scratch, 
     while (count < bucket->count) {
         for (uint32_t slot = 0; slot < EWA_PAGE_RECORDS && count < bucket->count; slot++, count++) {
             numbers[count] = page * EWA_PAGE_RECORDS + slot;
-            keys[count] = ewa_sort_key(tile->pages.pages[page].records[slot].distance);
+            keys[count] = ewa_sort_key(tile->pages.pages[page].splats[slot].distance);
         }
         page = tile->pages.next[page];
     }
@@ -239,7 +238,7 @@ void ewa_volume_tile_draw(void *data, uint32_t index, uint32_t worker) {
             take_time(job, &last_s, &scratch->points_s);
         }
         empty_bucket(&tile, bucket);
-        if (all_hidden(&tile)) break;
+        if (tile.visible_count == 0) break;
     }
     for (; next < end; next++)
         scratch->hidden_count += job->level->blocks[bins->views[bins->by_tile.ids[next]].block].count;

@@ -171,7 +171,9 @@ void ewa_point_filters_make(ewa_point_filter filters[EWA_FILTER_COUNT]) {
                 if (taps[i] < 1e-9) taps[i] = 0; // far from where floats get slow
                 sum += taps[i];
             }
-            for (int i = 0; i < 4; i++) filters[f][phase][i] = (float)(taps[i] / sum);
+            float *to = filters[f][phase];
+            memset(to, 0, sizeof filters[f][phase]);
+            for (int i = 0; i < 4; i++) to[4 + i] = (float)(taps[i] / sum);
         }
     }
 }
