@@ -120,6 +120,8 @@ void ewa_tile_scratch_free(ewa_context *context, ewa_tile_scratch *s) {
 
 enum { DEPTH_BUCKETS = 64 };
 
+static float lesser(float a, float b) { return a < b ? a : b; }
+
 /// The first or the last bucket for depths beyond the range of floats, of which differences say nothing.
 static int depth_bucket(float depth, float nearest, float per_depth) {
     const float place = (depth - nearest) * per_depth;
@@ -137,9 +139,9 @@ static const uint32_t *front_to_back(const ewa_tile_job *job, const ewa_tile_sou
     for (uint64_t run = 0; run < run_count; run++) {
         float begin = INFINITY;
         for (uint32_t i = 0; i < EWA_RUN_PACKETS; i++)
-            begin = fminf(begin, depths[run * EWA_RUN_PACKETS + i]);
+            begin = lesser(depths[run * EWA_RUN_PACKETS + i], begin);
         depths[run] = begin;
-        nearest = fminf(nearest, begin), farthest = fmaxf(farthest, begin);
+        nearest = lesser(begin, nearest), farthest = begin > farthest ? begin : farthest;
     }
     if (!(nearest < farthest)) return ids;
     const float per_depth = (DEPTH_BUCKETS - 1) / (farthest - nearest);
