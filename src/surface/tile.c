@@ -128,31 +128,33 @@ static int depth_bucket(float depth, float nearest, float per_depth) {
     return place > 0 ? (place < DEPTH_BUCKETS - 1 ? (int)place : DEPTH_BUCKETS - 1) : 0;
 }
 
-/// The tile's packets with nearer runs first: what lies behind them need not be set up. By a counting sort,
-/// which leaves runs of about one depth in their order along the curve.
+/// The tile's packets with nearer groups first: what lies behind them need not be set up. By a counting sort,
+/// which leaves groups of about one depth in their order along the curve. Groups are as many packets as the
+/// kernels look at in one step.
 static const uint32_t *front_to_back(const ewa_tile_job *job, const ewa_tile_source *source,
                                      ewa_tile_scratch *s, const uint32_t *ids, uint64_t count) {
-    const uint64_t run_count = count / EWA_RUN_PACKETS; // the rest stays at the end
+    enum { GROUP = EWA_PACKET_LANES };
+    const uint64_t group_count = count / GROUP; // the rest stays at the end
     float *depths = s->depths, nearest = INFINITY, farthest = -INFINITY;
     job->kernels->depths(&source->view, &source->surfels->bounds, &source->packets.places, ids,
                          (uint32_t)count, depths);
-    for (uint64_t run = 0; run < run_count; run++) {
+    for (uint64_t group = 0; group < group_count; group++) {
         float begin = INFINITY;
-        for (uint32_t i = 0; i < EWA_RUN_PACKETS; i++)
-            begin = lesser(depths[run * EWA_RUN_PACKETS + i], begin);
-        depths[run] = begin;
+        for (uint32_t i = 0; i < GROUP; i++) begin = lesser(depths[group * GROUP + i], begin);
+        depths[group] = begin;
         nearest = lesser(begin, nearest), farthest = begin > farthest ? begin : farthest;
     }
     if (!(nearest < farthest)) return ids;
     const float per_depth = (DEPTH_BUCKETS - 1) / (farthest - nearest);
     uint64_t next[DEPTH_BUCKETS + 1] = {0};
-    for (uint64_t run = 0; run < run_count; run++) next[depth_bucket(depths[run], nearest, per_depth) + 1]++;
+    for (uint64_t group = 0; group < group_count; group++)
+        next[depth_bucket(depths[group], nearest, per_depth) + 1]++;
     for (int i = 0; i < DEPTH_BUCKETS; i++) next[i + 1] += next[i];
-    for (uint64_t run = 0; run < run_count; run++) {
-        const uint64_t at = next[depth_bucket(depths[run], nearest, per_depth)]++;
-        memcpy(s->ordered + at * EWA_RUN_PACKETS, ids + run * EWA_RUN_PACKETS, EWA_RUN_PACKETS * sizeof *ids);
+    for (uint64_t group = 0; group < group_count; group++) {
+        const uint64_t at = next[depth_bucket(depths[group], nearest, per_depth)]++;
+        memcpy(s->ordered + at * GROUP, ids + group * GROUP, GROUP * sizeof *ids);
     }
-    const uint64_t done = run_count * EWA_RUN_PACKETS;
+    const uint64_t done = group_count * GROUP;
     memcpy(s->ordered + done, ids + done, (count - done) * sizeof *ids);
     return s->ordered;
 }

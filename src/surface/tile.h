@@ -63,7 +63,7 @@ typedef struct ewa_tile_scratch {
     ewa_tile_split *split;              ///< [source]
     uint32_t *packets;                  ///< their memory
     uint32_t *ordered;                  ///< packets of a tile and a source
-    float *depths;                      ///< by packet, then by run
+    float *depths;                      ///< by packet, then by group of packets
     float least_key;                    ///< of all splats that are shown
     bool has_near;                      ///< some of them are near surfels
     uint64_t record_count, small_count; ///< of a tile, and how many of them are of few pixels
