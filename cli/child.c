@@ -16,9 +16,8 @@ extern char **environ;
 
 enum { COMPLAINT_BYTES = 400 };
 
-/// Starts the program with these as its standard streams; `output` -1: nowhere. Returns an error number.
-static int spawn(const char *program, const char *const *words, int input, int output, int complaints,
-                 pid_t *process) {
+int child_spawn(const char *program, const char *const *words, const int streams[3], bool own_group,
+                pid_t *process) {
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
     int error = posix_spawn_file_actions_init(&actions);
@@ -32,14 +31,18 @@ static int spawn(const char *program, const char *const *words, int input, int o
     sigemptyset(&defaults);
     sigaddset(&defaults, SIGPIPE);
     sigaddset(&defaults, SIGXFSZ);
-    error = posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+    error = posix_spawn_file_actions_adddup2(&actions, streams[0], STDIN_FILENO);
     if (!error)
-        error = output < 0
+        error = streams[1] < 0
                     ? posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0)
-                    : posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
-    if (!error) error = posix_spawn_file_actions_adddup2(&actions, complaints, STDERR_FILENO);
+                    : posix_spawn_file_actions_adddup2(&actions, streams[1], STDOUT_FILENO);
+    if (!error) error = posix_spawn_file_actions_adddup2(&actions, streams[2], STDERR_FILENO);
     if (!error) error = posix_spawnattr_setsigdefault(&attributes, &defaults);
-    if (!error) error = posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+    if (!error) error = posix_spawnattr_setpgroup(&attributes, 0);
+    const short own_signals = POSIX_SPAWN_SETSIGDEF;
+    if (!error)
+        error = posix_spawnattr_setflags(&attributes, own_group ? (short)(own_signals | POSIX_SPAWN_SETPGROUP)
+                                                                : own_signals);
     if (!error)
         error =
             posix_spawnp(process, program, &actions, &attributes, (char *const *)(uintptr_t)words, environ);
@@ -48,8 +51,7 @@ static int spawn(const char *program, const char *const *words, int input, int o
     return error;
 }
 
-/// A pipe that no other child inherits; false with errno.
-static bool make_pipe(int ends[2]) {
+bool child_pipe(int ends[2]) {
     if (pipe(ends) != 0) return false;
     fcntl(ends[0], F_SETFD, FD_CLOEXEC);
     fcntl(ends[1], F_SETFD, FD_CLOEXEC);
@@ -67,10 +69,11 @@ int child_start(const char *program, const char *const *words, bool listens, chi
     signal(SIGCHLD, SIG_DFL);
     int input[2] = {-1, -1}, output[2] = {-1, -1};
     child->complaints = tmpfile();
-    int error = child->complaints && make_pipe(input) && (!listens || make_pipe(output)) ? 0 : errno;
+    int error = child->complaints && child_pipe(input) && (!listens || child_pipe(output)) ? 0 : errno;
     if (!error) {
         fcntl(fileno(child->complaints), F_SETFD, FD_CLOEXEC);
-        error = spawn(program, words, input[0], output[1], fileno(child->complaints), &child->process);
+        error = child_spawn(program, words, (const int[3]){input[0], output[1], fileno(child->complaints)},
+                            false, &child->process);
     }
     close_end(&input[0]);
     close_end(&output[1]);

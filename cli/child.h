@@ -17,6 +17,15 @@ typedef struct child_process {
     FILE *complaints; ///< its standard error
 } child_process;
 
+/// A pipe that no child inherits but by `child_spawn`; false with errno.
+bool child_pipe(int ends[2]);
+
+/// Starts a program, found as a shell finds it, with three standard streams (the second -1: what it prints is
+/// dropped), for who waits in a way of his own. With `own_group` it heads a process group, so that all of it can
+/// be ended. Returns an error number.
+int child_spawn(const char *program, const char *const *words, const int streams[3], bool own_group,
+                pid_t *process);
+
 /// Starts a program, found as a shell finds it, with the words of its command line, ended by NULL. Without
 /// `listens`, what it prints is dropped. Returns an error number; then there is nothing to end.
 int child_start(const char *program, const char *const *words, bool listens, child_process *child);

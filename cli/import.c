@@ -4,12 +4,12 @@
 // Rare formats of meshes, by a helper program: started, watched, ended.
 #include "import.h"
 
+#include "child.h"
+
 #include <errno.h>
-#include <fcntl.h>
 #include <limits.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,8 +21,6 @@ enum { ERROR_BYTES = 512, STEP_BYTES = 1 << 16, POLL_MS = 100 };
 
 static const import_limits usual_limits = {
     .wall_s = 120, .cpu_s = 60, .memory_bytes = (uint64_t)4 << 30, .output_bytes = (uint64_t)4 << 30};
-
-extern char **environ;
 
 bool import_is_named(const char *path) {
     static const char *const suffixes[] = {".fbx", ".dae", ".3ds", ".3mf",  ".amf", ".ase", ".blend",
@@ -62,38 +60,28 @@ typedef struct import_child {
 
 /// Starts the helper with nothing to read, and pipes for what it says. False with errno.
 static bool start(const char *helper, const char *path, const import_limits *limits, import_child *child) {
-    int output[2], errors[2];
-    if (pipe(output) != 0) return false;
-    if (pipe(errors) != 0) {
-        close(output[0]), close(output[1]);
-        return false;
-    }
-    for (int i = 0; i < 2; i++) {
-        fcntl(output[i], F_SETFD, FD_CLOEXEC);
-        fcntl(errors[i], F_SETFD, FD_CLOEXEC);
-    }
-    char memory[32], seconds[32];
-    snprintf(memory, sizeof memory, "%llu", (unsigned long long)limits->memory_bytes);
-    snprintf(seconds, sizeof seconds, "%u", limits->cpu_s);
-    char *words[] = {(char *)(uintptr_t)helper, memory, seconds, (char *)(uintptr_t)path, NULL};
-    posix_spawn_file_actions_t actions;
-    int error = posix_spawn_file_actions_init(&actions);
+    int input[2] = {-1, -1}, output[2] = {-1, -1}, errors[2] = {-1, -1};
+    int error = child_pipe(input) && child_pipe(output) && child_pipe(errors) ? 0 : errno;
     if (!error) {
-        error = posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-        if (!error) error = posix_spawn_file_actions_adddup2(&actions, output[1], STDOUT_FILENO);
-        if (!error) error = posix_spawn_file_actions_adddup2(&actions, errors[1], STDERR_FILENO);
-        if (!error) error = posix_spawn(&child->pid, helper, &actions, NULL, words, environ);
-        posix_spawn_file_actions_destroy(&actions);
+        // An input that is at its end: not /dev/null, which some containers do not have or have as a file.
+        close(input[1]);
+        input[1] = -1;
+        char memory[32], seconds[32];
+        snprintf(memory, sizeof memory, "%llu", (unsigned long long)limits->memory_bytes);
+        snprintf(seconds, sizeof seconds, "%u", limits->cpu_s);
+        const char *const words[] = {helper, memory, seconds, path, NULL};
+        error = child_spawn(helper, words, (const int[3]){input[0], output[1], errors[1]}, true, &child->pid);
     }
-    close(output[1]);
-    close(errors[1]);
-    child->output = output[0];
-    child->errors = errors[0];
-    if (!error) return true;
-    close(output[0]);
-    close(errors[0]);
+    if (!error) {
+        child->output = output[0];
+        child->errors = errors[0];
+        output[0] = errors[0] = -1;
+    }
+    const int ends[] = {input[0], input[1], output[0], output[1], errors[0], errors[1]};
+    for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++)
+        if (ends[i] >= 0) close(ends[i]);
     errno = error;
-    return false;
+    return !error;
 }
 
 /// Takes what has come on one of the pipes; 0 at its end, -1 when there is too much or no memory.
@@ -163,7 +151,7 @@ bool import_run(cli_session *session, const char *helper, const char *path, cons
         return false;
     }
     const char *given_up = collect(&child, limits);
-    if (given_up) kill(child.pid, SIGKILL);
+    if (given_up) kill(-child.pid, SIGKILL);
     int state = 0;
     // A helper that has closed its pipes may still go on.
     const double deadline_s = clock_now_s() + limits->wall_s;
@@ -171,7 +159,7 @@ bool import_run(cli_session *session, const char *helper, const char *path, cons
         if (ended < 0 && errno != EINTR) break;
         if (!given_up && (clock_now_s() > deadline_s || session_interrupted())) {
             given_up = "it takes too long";
-            kill(child.pid, SIGKILL);
+            kill(-child.pid, SIGKILL);
         }
         if (!given_up) poll(NULL, 0, 1);
     }

@@ -9,7 +9,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 static void print_quoted(FILE *file, const char *text) {
     fputc('"', file);
@@ -110,18 +109,14 @@ void json_vector(json_writer *json, const char *key, uint32_t count, const doubl
 
 bool text_file_open(cli_session *session, text_file *text, const char *path) {
     *text = (text_file){.path = path};
-    if (strcmp(path, "-") == 0) {
+    if (strcmp(path, "-") == 0 || strcmp(path, "/dev/stdout") == 0) {
         text->file = stdout;
         return true;
     }
-    const int length = snprintf(text->aside, sizeof text->aside, "%s.%ld.part", path, (long)getpid());
-    if (length < 0 || (size_t)length >= sizeof text->aside) {
-        session_fail(session, "%s: the path is too long", path);
-        return false;
-    }
-    text->file = fopen(text->aside, "wx");
+    const int error = aside_choose(path, &text->aside);
+    if (!error) text->file = fopen(text->aside.written, text->aside.temporary ? "wx" : "w");
     if (text->file) return true;
-    session_fail(session, "%s: cannot create: %s", path, strerror(errno));
+    session_fail(session, "%s: cannot create: %s", path, strerror(error ? error : errno));
     return false;
 }
 
@@ -129,16 +124,17 @@ bool text_file_close(cli_session *session, text_file *text) {
     if (text->file == stdout) return output_flush(session, EXIT_DONE) == EXIT_DONE;
     errno = 0;
     const bool failed = ferror(text->file), closed = fclose(text->file) == 0;
-    if (!failed && closed && rename(text->aside, text->path) == 0) return true;
-    session_fail(session, "%s: cannot write: %s", text->path, errno ? strerror(errno) : "a write failed");
-    remove(text->aside);
+    const int error = failed || !closed ? errno : aside_keep(&text->aside);
+    if (!failed && closed && !error) return true;
+    session_fail(session, "%s: cannot write: %s", text->path, error ? strerror(error) : "a write failed");
+    aside_drop(&text->aside);
     return false;
 }
 
 void text_file_drop(text_file *text) {
     if (text->file == stdout) return;
     fclose(text->file);
-    remove(text->aside);
+    aside_drop(&text->aside);
 }
 
 int output_flush(cli_session *session, int exit_status) {

@@ -5,6 +5,7 @@
 #ifndef EWA_CLI_JSON_H
 #define EWA_CLI_JSON_H
 
+#include "aside.h"
 #include "session.h"
 
 enum { JSON_MAX_DEPTH = 16 };
@@ -32,11 +33,11 @@ void json_flag(json_writer *json, const char *key, bool flag);
 /// An array of numbers.
 void json_vector(json_writer *json, const char *key, uint32_t count, const double *numbers);
 
-/// A text file that is written aside and renamed; "-" is standard output.
+/// A text file that is written aside; "-" is standard output.
 typedef struct text_file {
     FILE *file;
     const char *path;
-    char aside[4096];
+    aside_file aside;
 } text_file;
 
 /// Returns false after reporting.

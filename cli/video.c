@@ -106,7 +106,7 @@ static void make_command_line(const cli_video *video, const video_format *format
     snprintf(line->crf, sizeof line->crf, "%.0f",
              format->crf_worst + (format->crf_best - format->crf_worst) * settings->quality / 100);
     // The protocol is named so that a colon in the path does not name another.
-    snprintf(line->target, sizeof line->target, "file:%s", video->aside);
+    snprintf(line->target, sizeof line->target, "file:%s", video->aside.written);
     ADD(line, "ffmpeg", "-hide_banner", "-loglevel", "error", "-nostdin", "-y", "-f", "rawvideo",
         "-pixel_format", settings->opaque ? "rgb0" : "rgba", "-video_size", line->size, "-framerate",
         line->rate, "-i", "pipe:0", "-an");
@@ -128,9 +128,9 @@ bool video_start(cli_session *session, const char *path, const video_settings *s
         session_fail(session, "%s: ffmpeg is gone", path);
         return false;
     }
-    const int length = snprintf(video->aside, sizeof video->aside, "%s.%ld.part", path, (long)getpid());
-    if (length < 0 || (size_t)length >= sizeof video->aside) {
-        session_fail(session, "%s: the path is too long", path);
+    const int refused = aside_choose(path, &video->aside);
+    if (refused) {
+        session_fail(session, "%s: cannot create: %s", path, strerror(refused));
         return false;
     }
     command_line line;
@@ -159,18 +159,15 @@ bool video_put(cli_session *session, cli_video *video, const uint8_t *rgba8) {
 }
 
 bool video_finish(cli_session *session, cli_video *video) {
-    bool done = child_wait(session, &video->ffmpeg, video->path, "ffmpeg", false);
-    if (done && rename(video->aside, video->path) != 0) {
-        session_fail(session, "%s: cannot write: %s", video->path, strerror(errno));
-        done = false;
-    }
-    if (done) video->aside[0] = 0;
+    const bool done = child_wait(session, &video->ffmpeg, video->path, "ffmpeg", false);
+    const int error = done ? aside_keep(&video->aside) : 0;
+    if (error) session_fail(session, "%s: cannot write: %s", video->path, strerror(error));
     video_drop(video);
-    return done;
+    return done && !error;
 }
 
 void video_drop(cli_video *video) {
     child_drop(&video->ffmpeg);
-    if (video->aside[0]) unlink(video->aside);
+    aside_drop(&video->aside);
     *video = (cli_video){.path = NULL};
 }

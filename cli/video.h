@@ -5,6 +5,7 @@
 #ifndef EWA_CLI_VIDEO_H
 #define EWA_CLI_VIDEO_H
 
+#include "aside.h"
 #include "child.h"
 
 typedef struct video_format video_format;
@@ -19,10 +20,10 @@ bool video_has_quality(const video_format *format);
 /// Whether ffmpeg is there.
 bool video_is_possible(void);
 
-/// A film that is being written: aside first, renamed at the end.
+/// A film that is being written, aside.
 typedef struct cli_video {
     const char *path;
-    char aside[4096];
+    aside_file aside;
     child_process ffmpeg;
     size_t frame_bytes;
 } cli_video;

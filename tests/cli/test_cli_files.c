@@ -211,6 +211,13 @@ static void test_failures_leave_nothing(void **state) {
         run_fails(1, "No space left", "ewa generate sphere -o - >/dev/full");
         run_fails(1, "standard output: cannot write: No space left", "ewa render --help >/dev/full");
     }
+    // What is no regular file takes the bytes and stays what it is; a link stays one; a mode stays.
+    run_done("mkfifo pipe && (cat pipe >got &) && ewa generate sphere -n 50 -o s.ply && "
+             "ewa render s.ply -o s.png --size 9x9 --stats pipe && sleep 0.1 && test -p pipe && grep -q "
+             "splats got");
+    run_done("touch there && chmod 640 there && ln -s there link && ewa render s.ply -o s.png --size 9x9 "
+             "--stats link && "
+             "test -L link && grep -q splats there && test $(stat -c %%a there) = 640");
     // A reader that goes away is no reason to speak, nor to succeed.
     assert_int_equal(
         run("ewa generate sphere -n 1000000 -o - 2>said | head -c 10 >head; test $(wc -c <head) = 10"), 0);

@@ -8,6 +8,7 @@
 #include "check_session.h"
 #include "io/scratch.h"
 
+#include <fcntl.h>
 #include <math.h>
 
 static char said[4096];
@@ -28,7 +29,7 @@ static bool run_helper(const char *helper, const char *path, double wall_s, uint
     char errors[512];
     const import_limits limits = {
         .wall_s = wall_s, .cpu_s = 5, .memory_bytes = (uint64_t)1 << 30, .output_bytes = output_bytes};
-    const int kept = dup(2);
+    const int kept = fcntl(2, F_DUPFD_CLOEXEC, 0);
     scratch_path("helper.err", errors);
     assert_non_null(freopen(errors, "w", stderr));
     const bool done = import_run(&session, helper, path, &limits, bytes, size_bytes);
@@ -69,7 +70,8 @@ static void test_helpers(void **state) {
         const double before_s = clock_now_s();
         const bool done = run_helper(make_helper(cases[i].script), path, 1.5, 1 << 20, &bytes, &size);
         assert_true(clock_now_s() - before_s < 30);
-        assert_int_equal(done, cases[i].said == NULL);
+        if (done != (cases[i].said == NULL))
+            fail_msg("'%s' %s: %s", cases[i].script, done ? "is well" : "fails", said);
         if (done) {
             assert_string_equal(said, "");
             assert_int_equal(size, i < 2 ? 3 : 0);
