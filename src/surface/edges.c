@@ -159,8 +159,18 @@ static uint32_t keep_beyond(const ewa_tile *tile, ewa_tile_scratch *s) {
     return marked;
 }
 
+/// Marks the blocks where something may lie behind the first surface: where splats were seen to, unless there
+/// are others that were not looked at.
+static void mark_beyond(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s) {
+    bool others = s->has_near;
+    for (uint32_t i = 0; i < job->source_count; i++) others |= s->split[i].hidden_count > 0;
+    for (uint32_t row = 0; row < tile->block_rows; row++)
+        s->edges.rows[row] = others ? UINT32_MAX : s->beyond_rows[row];
+}
+
 bool ewa_tile_draw_edges(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, bool kept) {
     if (job->layers < 2) return false;
+    mark_beyond(job, tile, s);
     uint32_t marked = job->kernels->find_edges(tile, &job->resolve, &s->edges);
     if (!marked || !something_behind(job, tile, s)) return false;
     for (uint32_t i = 0; i < job->source_count; i++) {

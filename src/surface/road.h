@@ -395,7 +395,8 @@ typedef struct ewa_road_kernels {
     /// Sets the sums to zero; nothing is apart.
     void (*clear_sums)(const ewa_tile *tile);
 
-    /// Marks in edges->rows the blocks with a partly covered pixel and starts their planes; returns how many.
+    /// Leaves marked, of the blocks that edges->rows marks, those with a partly covered pixel, and starts their
+    /// planes; returns how many. Columns beyond the tile may be marked.
     uint32_t (*find_edges)(const ewa_tile *tile, const ewa_resolve *resolve, const ewa_edges *edges);
 
     /// Fills levels[0], which setup() has begun, and the other levels; once for all that is set up.

@@ -41,14 +41,16 @@ static uint32_t find_edges(const ewa_tile *tile, const ewa_resolve *to, const ew
     uint32_t count = 0;
     const wf one = wf_set(1), zero = wf_set(0), never = wf_set(-__builtin_inff());
     for (uint32_t row = 0; row < tile->block_rows; row++) {
+        const uint32_t candidates = edges->rows[row];
         edges->rows[row] = 0;
         for (uint32_t column = 0; column < tile->blocks_per_row; column++) {
             const size_t block = block_at(tile, row, column);
+            edges->reach[block] = -__builtin_inff();
+            if (!(candidates >> column & 1)) continue;
             const block_sums sums = tile_block(tile, row, column);
             const wf alpha = surface_alpha(tile, to, &sums, cut_cover(tile, row, column));
             // What is in front may be too small for its weight to be told from none.
             const wm open = wm_and(wf_lt(never, wf_load(tile->nearest + block * LANES)), wf_lt(alpha, one));
-            edges->reach[block] = -__builtin_inff();
             if (!wm_bits(open)) continue;
             edges->rows[row] |= 1u << column;
             count++;

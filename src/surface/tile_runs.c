@@ -8,19 +8,31 @@
 
 enum { NEAR_CHUNK = 64 };
 
-/// Orders a run's splats by class, stably.
+/// Orders a run's splats by class, stably: in parts, which count beside each other, since counting up a number
+/// again and again waits each time.
 static void sort_run(const ewa_run *run, uint16_t *order, ewa_sorted_run *sorted) {
-    uint16_t next[EWA_CLASS_COUNT] = {0};
-    for (uint32_t i = 0; i < run->count; i++) next[run->classes[i]]++;
+    enum { PARTS = 4 };
+    uint16_t next[EWA_CLASS_COUNT][PARTS] = {{0}};
+    const uint32_t part = run->count / PARTS, rest = PARTS * part;
+    const uint8_t *classes = run->classes;
+    for (uint32_t i = 0; i < part; i++)
+        for (uint32_t k = 0; k < PARTS; k++) next[classes[k * part + i]][k]++;
+    for (uint32_t i = rest; i < run->count; i++) next[classes[i]][PARTS - 1]++;
     uint16_t sum = 0;
     for (int c = 0; c < EWA_CLASS_COUNT; c++) {
         sorted->class_first[c] = sum;
-        sum = (uint16_t)(sum + next[c]);
-        next[c] = sorted->class_first[c];
+        for (uint32_t k = 0; k < PARTS; k++) {
+            const uint16_t here = next[c][k];
+            next[c][k] = sum;
+            sum = (uint16_t)(sum + here);
+        }
     }
     sorted->class_first[EWA_CLASS_COUNT] = sum;
     for (uint32_t i = 0; i < EWA_BLOCK_LANES; i++) order[sum + i] = 0; // small splats are read by sixteens
-    for (uint32_t i = 0; i < run->count; i++) order[next[run->classes[i]]++] = (uint16_t)i;
+    for (uint32_t i = 0; i < part; i++)
+        for (uint32_t k = 0; k < PARTS; k++)
+            order[next[classes[k * part + i]][k]++] = (uint16_t)(k * part + i);
+    for (uint32_t i = rest; i < run->count; i++) order[next[classes[i]][PARTS - 1]++] = (uint16_t)i;
     sorted->records = run->records;
     sorted->loads = run->loads;
     sorted->opacities = run->opacities;
@@ -57,7 +69,7 @@ static void count_splats(const ewa_tile_job *job, ewa_tile_scratch *s, const ewa
             continue;
         }
         for (uint32_t i = run->class_first[c]; i < run->class_first[c + 1]; i++) {
-            const uint32_t box = run->records[run->order[i]].box;
+            const uint32_t box = (uint32_t)s->run.boxes[run->order[i]];
             blocks += ewa_box_columns(box) * ewa_box_rows(box);
         }
     }

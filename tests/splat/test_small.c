@@ -120,6 +120,7 @@ static void test_planes_do_not_depend_on_depths(void **state) {
         double times;
     } clouds[] = {{"sparse points", 40000, 0.1, 0.3, 0, 1},
                   {"dense points", 300000, 0.05, 0.4, 0, 1},
+                  {"thin sheets that hide packets", 700000, 0.05, 0.2, 0, 1},
                   {"closed sheets", 150000, 0.5, 0.9, 0, 1},
                   {"some large discs", 60000, 0.2, 0.5, 60, 12},
                   {"all sizes", 60000, 0.1, 4, 0, 1}};
