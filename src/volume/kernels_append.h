@@ -27,7 +27,7 @@ static ALWAYS_INLINE wf splat_reach(const ewa_volume_view *view, const voxel_lan
     return wf_fma(wf_min(reach, wf_set(1e6f)), wf_set(focal_px), margin);
 }
 
-/// The windows of points (ewa_volume_page), and which of them touch the tile.
+/// The windows of points (ewa_volume_pages), and which of them touch the tile.
 static ALWAYS_INLINE wi point_windows(const ewa_volume_tile *tile, wf x, wf y, wm *touches) {
     const wf half = wf_set(0.5f), limit = wf_set(1e6f);
     const wf u = wf_max(wf_min(wf_sub(x, half), limit), wf_set(-1e6f));
