@@ -113,7 +113,7 @@ typedef struct ewa_volume_stats {
     uint64_t voxel_count;  ///< resident, of the level drawn
     uint64_t culled_count; ///< of those: in blocks outside of the picture
     uint64_t near_count;   ///< of those: at the eye, drawn ray by ray
-    uint64_t hidden_count; ///< over all tiles: voxels in blocks behind saturated pixels
+    uint64_t hidden_count; ///< over all tiles: voxels behind saturated pixels
     uint64_t splat_count;  ///< drawn, over all tiles: a voxel in two tiles counts twice
     uint64_t point_count;  ///< likewise
     double point_share;    ///< of what was drawn

@@ -170,8 +170,9 @@ static void shade_surface(const ewa_tile *tile, const ewa_resolve *to, const blo
         material[i] = tile->with_materials ? wf_mul(wf_mul(sum_of(sums, MATERIAL_AT + (uint32_t)i), inverse),
                                                     wf_set(to->material_units[i]))
                                            : wf_set(to->material[i]);
-    const lane_light light =
-        gather_light(to->lights, to->light_count, to->shading == EWA_ROAD_PHONG, normal, view, material[3]);
+    lane_light light;
+    gather_light_each(to->lights, to->light_count, to->shading == EWA_ROAD_PHONG, &normal, &view, material[3],
+                      &light, 1);
     wf mirrored[3] = {zero, zero, zero};
     const bool mirrors =
         to->shading == EWA_ROAD_PHONG && to->environment && wm_bits(wf_lt(zero, material[4])) & bits;

@@ -5,10 +5,11 @@
 // set, the same bytes from each. Formulas: docs/math.md section 12.
 //
 // Voxels at the eye, which have no ellipse on the screen, come first: `append_near` lists them for all tiles,
-// `draw_near` draws them ray by ray. Then, front to back, one tile at a time: `append` projects and shades
-// the voxels of a block into buckets, one for each depth unit. A bucket of points is summed with the circular
-// filter (`sum_points`), then composited once (`composite`); a bucket of splats is sorted, then composited
-// one by one (`draw_splats`).
+// `draw_near` draws them ray by ray. Then, front to back, one tile at a time: `append` projects the voxels
+// of a block and queues those that would show; as the queue fills, and when it is flushed (`flush`), they are
+// shaded into buckets, one for each depth unit. A bucket of points is summed with the circular filter
+// (`sum_points`), then composited once (`composite`); a bucket of splats is sorted, then composited one by
+// one (`draw_splats`).
 #ifndef EWA_SRC_VOLUME_KERNELS_H
 #define EWA_SRC_VOLUME_KERNELS_H
 
@@ -34,6 +35,8 @@ enum {
     EWA_FILTER_PHASES = 32,
     EWA_FILTER_COUNT = 256,
     EWA_PAGE_RECORDS = 64,
+    EWA_QUEUE_VOXELS = 64,                  ///< voxels that are shaded at once
+    EWA_QUEUE_ROOM = EWA_QUEUE_VOXELS + 16, ///< of them, and of sixteen lanes more
     EWA_NO_PAGE = UINT32_MAX,
     EWA_VOLUME_CHANNELS = 5, ///< of a block's pixels: premultiplied r, g, b, transmittance, depth
 };
@@ -51,21 +54,16 @@ typedef struct ewa_splat_place {
     float z, distance;
 } ewa_splat_place;
 
-/// Voxels on their way, all points or all splats. Colours of points: r, g, b, 1, all times the mass; of
-/// splats: r, g, b; extinction. Windows of points: where in the filter the taps across begin, from the
-/// strip's edge on (9 bits), and those down (9 bits); in which row of all strips of the sums it begins.
-typedef struct ewa_volume_page {
-    float colors[EWA_PAGE_RECORDS][4];
-    union {
-        int32_t windows[EWA_PAGE_RECORDS];
-        ewa_splat_place splats[EWA_PAGE_RECORDS];
-    };
-} ewa_volume_page;
-
-/// The voxels of one depth unit: pages, in the order in which they came.
+/// The voxels of one depth unit, all points or all splats: records in pages, in the order in which they came.
 typedef struct ewa_volume_bucket {
-    uint32_t count, first_page, last_page;
+    _Alignas(16) uint32_t page_count; // 16 bytes, so that a bucket is found by a shift
+    uint32_t first_page;
+    uint32_t next; ///< record to come; the first one of a page: that page is still to be taken
 } ewa_volume_bucket;
+
+static inline uint32_t ewa_bucket_count(const ewa_volume_bucket *bucket) {
+    return bucket->page_count * EWA_PAGE_RECORDS - (0u - bucket->next) % EWA_PAGE_RECORDS;
+}
 
 /// A voxel at the eye.
 typedef struct ewa_near_voxel {
@@ -76,12 +74,37 @@ typedef struct ewa_near_voxel {
     int32_t slice; ///< < 0
 } ewa_near_voxel;
 
-/// Pages and what follows each; `free_count` of `free` are to be had.
+/// Records of voxels on their way, EWA_PAGE_RECORDS to a page, and what page follows each; `free_count` of
+/// `free` are to be had. Colours of points: r, g, b, 1, all times the mass; of splats: r, g, b; extinction.
+/// Windows of points: where in the filter the taps across begin, from the strip's edge on (9 bits), and those
+/// down (9 bits); in which row of all strips of the sums it begins.
 typedef struct ewa_volume_pages {
-    ewa_volume_page *pages;
-    uint32_t *next, *free;
+    float (*colors)[4];      ///< [record]
+    int32_t *windows;        ///< [record], of points
+    ewa_splat_place *splats; ///< [record]; NULL where all are points
+    uint32_t *next, *free;   ///< [page]
     uint32_t free_count;
 } ewa_volume_pages;
+
+/// What voxels in the queue are known by.
+enum {
+    QUEUE_SLICE, ///< integers
+    QUEUE_WINDOW,
+    QUEUE_NORMAL,
+    QUEUE_COLOR,                    ///< r, g, b before light
+    QUEUE_FACTOR = QUEUE_COLOR + 3, ///< of the colour
+    QUEUE_LAST,                     ///< the fourth number of the record's colour
+    QUEUE_SLOPE,                    ///< x and y
+    QUEUE_LENGTH = QUEUE_SLOPE + 2, ///< of the slopes and 1
+    QUEUE_PLACE,                    ///< of a splat: as ewa_splat_place
+    QUEUE_FIELDS = QUEUE_PLACE + 4,
+};
+
+/// Voxels that touch the tile and are not shaded yet, over the blocks that they come from.
+typedef struct ewa_volume_queue {
+    uint32_t count;
+    _Alignas(64) float fields[QUEUE_FIELDS][EWA_QUEUE_ROOM];
+} ewa_volume_queue;
 
 /// Camera, grid and options of a frame in single precision.
 typedef struct ewa_volume_view {
@@ -118,6 +141,7 @@ typedef struct ewa_volume_source {
     float origin[3];                 ///< its first place in camera space
     float from_eye[3];               ///< the same from the eye in steps along i, j, k; for `append_near`
     int32_t slice_first, slice_last; ///< where its voxels may be
+    bool some_hidden;                ///< some of the tile's cells that it touches are hidden; for `append`
 } ewa_volume_source;
 
 /// A tile of the picture while it is drawn.
@@ -132,6 +156,7 @@ typedef struct ewa_volume_tile {
     ewa_volume_bucket *ring;             ///< [slice & ring_mask]
     uint32_t ring_mask;
     ewa_volume_pages pages;
+    ewa_volume_queue *queue;
 } ewa_volume_tile;
 
 /// The cell of a tile's block of 4x4 pixels. Cells go down the strips of the sums.
@@ -155,9 +180,12 @@ typedef struct ewa_volume_target {
 
 typedef struct ewa_volume_kernels {
 
-    /// Projects and shades the voxels of a block and adds those that touch the tile to its buckets; returns
-    /// how many.
+    /// Projects the voxels of a block and queues those that would show in the tile; a full queue is shaded,
+    /// and its voxels added to the tile's buckets. Returns how many voxels touch the tile, but hidden cells only.
     uint32_t (*append)(const ewa_volume_view *view, const ewa_volume_source *source, ewa_volume_tile *tile);
+
+    /// Shades what is left in the queue and adds it to the tile's buckets.
+    void (*flush)(const ewa_volume_view *view, ewa_volume_tile *tile);
 
     /// Lists the voxels of a block that lie at the eye, in front of slice 0; returns how many, at most all.
     uint32_t (*append_near)(const ewa_volume_view *view, const ewa_volume_source *source,

@@ -3,85 +3,15 @@
 //
 // Part of kernels_body.h: from the voxels of a block to records in the buckets of a tile
 // (docs/math.md sections 3 and 12).
+//
+// Voxels wait in a queue, so that those beside the tile and those behind saturated pixels are not shaded, and
+// so that light is found for several sixteens at a time, for the steps for one wait for each other.
 #ifndef EWA_SRC_VOLUME_KERNELS_APPEND_H
 #define EWA_SRC_VOLUME_KERNELS_APPEND_H
 
-#include "volume/kernels.h"
-#include "wide/shine.h"
+#include "volume/kernels_shade.h"
 
 #include <string.h>
-
-/// Sixteen voxels in camera space.
-typedef struct voxel_lanes {
-    wf steps[3]; ///< along i, j, k within the block
-    wf place[3];
-    wf x, y, z; ///< perspective: x and y are slopes
-    wf ahead;   ///< the third number that goes with these slopes: 1
-    wf length;  ///< perspective: of (x, y, ahead)
-    wf inverse; ///< 1 / z
-    wf unit;    ///< depth unit, whole: the slice, before it is clamped
-} voxel_lanes;
-
-static ALWAYS_INLINE wf row_dot(const float *m, int stride, wf x, wf y, wf z) {
-    return wf_fma(wf_set(m[0]), x, wf_fma(wf_set(m[stride]), y, wf_mul(wf_set(m[2 * stride]), z)));
-}
-
-static ALWAYS_INLINE voxel_lanes place_voxels(const ewa_volume_view *view, const ewa_volume_source *source,
-                                              uint32_t first) {
-    const wi place = wi_load_u16(source->places + first);
-    const wf i = wf_from_i(wi_and(place, wi_set(7)));
-    const wf j = wf_from_i(wi_and(wi_sar(place, 3), wi_set(7))), k = wf_from_i(wi_sar(place, 6));
-    wf p[3];
-    for (int c = 0; c < 3; c++)
-        p[c] = wf_fma(i, wf_set(view->axes[0][c]),
-                      wf_fma(j, wf_set(view->axes[1][c]),
-                             wf_fma(k, wf_set(view->axes[2][c]), wf_set(source->origin[c]))));
-    const wf one = wf_set(1);
-    voxel_lanes v = {{i, j, k}, {p[0], p[1], p[2]}, p[0], p[1], p[2], one, one, one, one};
-    v.unit = wf_floor(wf_fma(v.z, wf_set(view->unit_inverse), wf_set(view->unit_offset)));
-    if (!view->orthographic) {
-        v.inverse = wf_div(wf_set(1), p[2]);
-        v.x = wf_mul(p[0], v.inverse);
-        v.y = wf_mul(p[1], v.inverse);
-        v.length = wf_sqrt(wf_fma(v.x, v.x, wf_fma(v.y, v.y, wf_set(1))));
-    }
-    return v;
-}
-
-/// Shades colours by the gradients, which are seen from both sides.
-static ALWAYS_INLINE void shade_voxels(const ewa_volume_view *view, const ewa_volume_source *source,
-                                       uint32_t first, const voxel_lanes *v, wf color[3]) {
-    const wi packed = wi_load(source->normals + first);
-    const wf scale = wf_set(1.0f / 511), zero = wf_set(0);
-    wf normal[3], toward[3];
-    for (int c = 0; c < 3; c++) normal[c] = wf_mul(wf_from_i(wi_sar(wi_shl(packed, 22 - 10 * c), 22)), scale);
-    if (view->orthographic) {
-        for (int c = 0; c < 3; c++) toward[c] = wf_set(view->toward_viewer[c]);
-    } else {
-        const wf shrink = wf_div(wf_set(-1), v->length);
-        for (int c = 0; c < 3; c++)
-            toward[c] = wf_mul(shrink, row_dot(view->to_world + 3 * c, 1, v->x, v->y, v->ahead));
-    }
-    const wf side = dot3(normal, toward);
-    const wm behind = wf_lt(side, zero);
-    for (int c = 0; c < 3; c++) normal[c] = wf_select(behind, wf_sub(zero, normal[c]), normal[c]);
-    const lane_light light = gather_light(view->lights, view->light_count, view->highlights, normal, toward,
-                                          wf_set(view->shininess));
-    // Where nothing changes there is no surface: ambient and diffuse light from everywhere.
-    const wm flat = wf_le(dot3(normal, normal), wf_set(0.25f));
-    for (int c = 0; c < 3; c++) {
-        const wf share = wf_fma(wf_set(view->diffuse), light.diffuse[c], wf_set(view->ambient));
-        const wf lit = wf_fma(color[c], share, wf_mul(wf_set(view->specular), light.specular[c]));
-        color[c] = wf_select(flat, wf_mul(color[c], wf_set(view->ambient + view->diffuse)), lit);
-    }
-}
-
-static ALWAYS_INLINE void color_voxels(const ewa_volume_view *view, const ewa_volume_source *source,
-                                       uint32_t first, const voxel_lanes *v, wf color[3]) {
-    for (int c = 0; c < 3; c++)
-        color[c] = wf_mul(wf_from_i(wi_load_u16(source->colors[c] + first)), wf_set(view->color_scale));
-    if (view->lit) shade_voxels(view, source, first, v, color);
-}
 
 /// How far from its centre the ellipse of a splat may reach, px: a cone around the largest axis' sphere.
 static ALWAYS_INLINE wf splat_reach(const ewa_volume_view *view, const voxel_lanes *v) {
@@ -97,7 +27,7 @@ static ALWAYS_INLINE wf splat_reach(const ewa_volume_view *view, const voxel_lan
     return wf_fma(wf_min(reach, wf_set(1e6f)), wf_set(focal_px), margin);
 }
 
-/// The windows of points (ewa_volume_page), and which of them touch the tile.
+/// The windows of points (ewa_volume_pages), and which of them touch the tile.
 static ALWAYS_INLINE wi point_windows(const ewa_volume_tile *tile, wf x, wf y, wm *touches) {
     const wf half = wf_set(0.5f), limit = wf_set(1e6f);
     const wf u = wf_max(wf_min(wf_sub(x, half), limit), wf_set(-1e6f));
@@ -120,18 +50,137 @@ static ALWAYS_INLINE wi point_windows(const ewa_volume_tile *tile, wf x, wf y, w
     return wi_or(across, wi_or(wi_shl(down, 9), wi_shl(begin, 18)));
 }
 
-/// Room for one more record in a bucket: its number, EWA_PAGE_RECORDS to a page.
-static ALWAYS_INLINE uint32_t next_record(ewa_volume_pages *pages, ewa_volume_bucket *bucket) {
-    const uint32_t slot = bucket->count++ % EWA_PAGE_RECORDS;
-    if (slot == 0) {
-        const uint32_t page = pages->free[--pages->free_count];
-        if (bucket->count == 1)
-            bucket->first_page = page;
+/// Takes a page for a bucket whose last one is full.
+static ALWAYS_INLINE void take_page(ewa_volume_pages *pages, ewa_volume_bucket *bucket) {
+    const uint32_t page = pages->free[--pages->free_count];
+    if (bucket->page_count++ == 0)
+        bucket->first_page = page;
+    else
+        pages->next[(bucket->next - 1) / EWA_PAGE_RECORDS] = page;
+    bucket->next = page * EWA_PAGE_RECORDS;
+}
+
+/// Adds the first `count` voxels of the queue to their buckets.
+static ALWAYS_INLINE void hand_over(ewa_volume_tile *tile, const float colors[][4], const float places[][4],
+                                    int32_t point_slice, uint32_t count, bool has_splats) {
+    const ewa_volume_queue *queue = tile->queue;
+    ewa_volume_bucket *ring = tile->ring;
+    const ewa_volume_pages pages = tile->pages;
+    const uint32_t ring_mask = tile->ring_mask;
+    for (uint32_t lane = 0; lane < count; lane++) {
+        int32_t slice;
+        memcpy(&slice, &queue->fields[QUEUE_SLICE][lane], sizeof slice);
+        ewa_volume_bucket *bucket = &ring[(uint32_t)slice & ring_mask];
+        if (bucket->next % EWA_PAGE_RECORDS == 0) take_page(&tile->pages, bucket);
+        const uint32_t number = bucket->next++;
+        memcpy(pages.colors[number], colors[lane], 16);
+        if (has_splats && slice < point_slice)
+            memcpy(&pages.splats[number], places[lane], 16);
         else
-            pages->next[bucket->last_page] = page;
-        bucket->last_page = page;
+            memcpy(&pages.windows[number], &queue->fields[QUEUE_WINDOW][lane], 4);
     }
-    return bucket->last_page * EWA_PAGE_RECORDS + slot;
+}
+
+/// Shades sixteens of the queue, and adds its first `count` voxels to their buckets.
+static ALWAYS_INLINE void empty_queue(const ewa_volume_view *view, ewa_volume_tile *tile, uint32_t count) {
+    enum { SIXTEENS = EWA_QUEUE_VOXELS / 16 };
+    float(*fields)[EWA_QUEUE_ROOM] = tile->queue->fields;
+    float colors[EWA_QUEUE_VOXELS][4], places[EWA_QUEUE_VOXELS][4];
+    lit_lanes v[SIXTEENS];
+    for (int n = 0; n < SIXTEENS; n++) {
+        v[n].normal = wi_of_bits(wf_load(fields[QUEUE_NORMAL] + 16 * n));
+        v[n].x = wf_load(fields[QUEUE_SLOPE] + 16 * n), v[n].y = wf_load(fields[QUEUE_SLOPE + 1] + 16 * n);
+        v[n].ahead = wf_set(1), v[n].length = wf_load(fields[QUEUE_LENGTH] + 16 * n);
+        for (int c = 0; c < 3; c++) v[n].color[c] = wf_load(fields[QUEUE_COLOR + c] + 16 * n);
+    }
+    for (int n = 0; view->lit && n < SIXTEENS; n += WIDE_TOGETHER) shade_each(view, v + n, WIDE_TOGETHER);
+    for (int n = 0; n < SIXTEENS; n++) {
+        const wf factor = wf_load(fields[QUEUE_FACTOR] + 16 * n);
+        w_store4(colors[16 * n], wf_mul(v[n].color[0], factor), wf_mul(v[n].color[1], factor),
+                 wf_mul(v[n].color[2], factor), wf_load(fields[QUEUE_LAST] + 16 * n));
+    }
+    if (!tile->pages.splats) {
+        hand_over(tile, colors, places, 0, count, false);
+        return;
+    }
+    for (int n = 0; n < SIXTEENS; n++)
+        w_store4(places[16 * n], wf_load(fields[QUEUE_PLACE] + 16 * n),
+                 wf_load(fields[QUEUE_PLACE + 1] + 16 * n), wf_load(fields[QUEUE_PLACE + 2] + 16 * n),
+                 wf_load(fields[QUEUE_PLACE + 3] + 16 * n));
+    hand_over(tile, colors, places, view->point_slice, count, true);
+}
+
+static void flush(const ewa_volume_view *view, ewa_volume_tile *tile) {
+    if (tile->queue->count) empty_queue(view, tile, tile->queue->count);
+    tile->queue->count = 0;
+}
+
+/// Shades a full queue; what is more than full comes first next time.
+static void empty_full_queue(const ewa_volume_view *view, ewa_volume_tile *tile) {
+    ewa_volume_queue *queue = tile->queue;
+    empty_queue(view, tile, EWA_QUEUE_VOXELS);
+    queue->count -= EWA_QUEUE_VOXELS;
+    if (queue->count == 0) return;
+    for (int field = 0; field < QUEUE_FIELDS; field++)
+        wf_store(queue->fields[field], wf_load(queue->fields[field] + EWA_QUEUE_VOXELS));
+}
+
+/// Whether all four cells that a window may touch, from the upper left one on, are hidden.
+static ALWAYS_INLINE bool is_window_hidden(const uint8_t *hidden) {
+    uint16_t left, right;
+    memcpy(&left, hidden, sizeof left);
+    memcpy(&right, hidden + EWA_SUMS_ROW_BLOCKS, sizeof right);
+    return (left & right) == 0x0101;
+}
+
+/// The row or column of cells that holds a place in the tile, or the nearest one.
+static ALWAYS_INLINE uint32_t cell_at(float px) {
+    return px > 0 ? (uint32_t)(px < EWA_VOLUME_TILE_PX - 1 ? px : EWA_VOLUME_TILE_PX - 1) / 4 : 0;
+}
+
+/// Whether all cells that a splat may touch are hidden.
+static inline bool is_splat_hidden(const uint8_t *hidden, float x_px, float y_px, float reach_px) {
+    const uint32_t top = cell_at(y_px - reach_px), bottom = cell_at(y_px + reach_px);
+    const uint32_t right = cell_at(x_px + reach_px);
+    for (uint32_t column = cell_at(x_px - reach_px); column <= right; column++)
+        if (memchr(&hidden[ewa_sums_cell(top, column)], 0, bottom - top + 1)) return false;
+    return true;
+}
+
+/// Which of those voxels whose bits are set would show.
+static uint32_t find_open(const ewa_volume_tile *tile, uint32_t bits, wi window, uint32_t splats, wf x, wf y,
+                          wf reach) {
+    int32_t windows[16];
+    float xs[16], ys[16], reaches[16];
+    wi_store(windows, window);
+    wf_store(xs, x), wf_store(ys, y), wf_store(reaches, reach);
+    uint32_t open = bits;
+    for (uint32_t rest = bits; rest; rest &= rest - 1) {
+        const int lane = __builtin_ctz(rest);
+        const bool hidden = splats >> lane & 1
+                                ? is_splat_hidden(tile->hidden, xs[lane], ys[lane], reaches[lane])
+                                : is_window_hidden(tile->hidden + ((uint32_t)windows[lane] >> 20));
+        open &= ~((uint32_t)hidden << lane);
+    }
+    return open;
+}
+
+/// Adds the lanes of the queue's fields whose bits are set.
+static ALWAYS_INLINE void queue_lanes(ewa_volume_queue *queue, const wf *values, uint32_t bits,
+                                      int field_count) {
+    if (bits == 0xffff) {
+        for (int field = 0; field < field_count; field++)
+            wf_store(queue->fields[field] + queue->count, values[field]);
+    } else {
+        const wi numbers = wi_load((const int32_t[16]){0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15});
+        int32_t order[16] = {0};
+        wi_pack(order, wm_of_bits(bits), numbers);
+        for (int field = 0; field < field_count; field++) {
+            float lanes[16];
+            wf_store(lanes, values[field]);
+            wf_store(queue->fields[field] + queue->count, wf_lookup(lanes, wi_load(order)));
+        }
+    }
 }
 
 static uint32_t append(const ewa_volume_view *frame_view, const ewa_volume_source *block,
@@ -139,11 +188,12 @@ static uint32_t append(const ewa_volume_view *frame_view, const ewa_volume_sourc
     // Records that are written cannot change these.
     const ewa_volume_view view_here = *frame_view, *view = &view_here;
     const ewa_volume_source source_here = *block, *source = &source_here;
+    ewa_volume_queue *queue = tile->queue;
     const wf tile_x = wf_set(view->cx_px - (float)tile->x_px),
              tile_y = wf_set(view->cy_px - (float)tile->y_px);
     const wf width = wf_set((float)tile->width_px), height = wf_set((float)tile->height_px), zero = wf_set(0);
     const bool has_splats = source->slice_first < view->point_slice;
-    uint32_t added = 0;
+    uint32_t hidden = 0;
     for (uint32_t first = 0; first < source->count; first += 16) {
         const uint32_t left = source->count - first;
         const voxel_lanes v = place_voxels(view, source, first);
@@ -158,48 +208,49 @@ static uint32_t append(const ewa_volume_view *frame_view, const ewa_volume_sourc
         wf mass = wf_mul(density, wf_set(view->point_mass));
         if (!view->orthographic) mass = wf_mul(mass, wf_mul(v.length, wf_mul(v.inverse, v.inverse)));
         mass = wf_min(mass, wf_set(1e12f));
-        wf factor = mass, last = mass;
+        wf factor = mass, last = mass, reach = zero;
+        uint32_t splats = 0;
         if (has_splats) {
             const wm points = wf_le(wf_set((float)view->point_slice), wf_from_i(slice));
-            const wf reach = splat_reach(view, &v);
+            reach = splat_reach(view, &v);
             const wm near_x = wm_and(wf_lt(wf_sub(zero, reach), x), wf_lt(wf_sub(x, reach), width));
             const wm near_y = wm_and(wf_lt(wf_sub(zero, reach), y), wf_lt(wf_sub(y, reach), height));
             touches = wm_or(wm_and(points, touches), wm_and(wm_not(points), wm_and(near_x, near_y)));
             factor = wf_select(points, mass, wf_set(1));
             last = wf_select(points, mass, wf_min(density, wf_set(1e18f)));
+            splats = wm_bits(wm_not(points));
         }
         touches = wm_and(touches, wf_lt(zero, last));
         if (view->has_near) touches = wm_and(touches, wf_le(zero, v.unit));
         uint32_t bits = wm_bits(touches) & (left < 16 ? (1u << left) - 1 : 0xffff);
+        if (source->some_hidden && bits) {
+            const uint32_t open = find_open(tile, bits, window, splats, x, y, reach);
+            hidden += (uint32_t)__builtin_popcount(bits & ~open);
+            bits = open;
+        }
         if (!bits) continue;
-        wf color[3];
-        color_voxels(view, source, first, &v, color);
-        float colors[64], places[64];
-        int32_t slices[16], windows[16];
-        w_store4(colors, wf_mul(color[0], factor), wf_mul(color[1], factor), wf_mul(color[2], factor), last);
-        wi_store(slices, slice);
-        wi_store(windows, window);
+        wf values[QUEUE_FIELDS] = {[QUEUE_SLICE] = wf_of_bits(slice),
+                                   [QUEUE_WINDOW] = wf_of_bits(window),
+                                   [QUEUE_NORMAL] = wf_of_bits(wi_load(source->normals + first)),
+                                   [QUEUE_FACTOR] = factor,
+                                   [QUEUE_LAST] = last,
+                                   [QUEUE_SLOPE] = v.x,
+                                   [QUEUE_SLOPE + 1] = v.y,
+                                   [QUEUE_LENGTH] = v.length};
+        load_colors(view, source, first, values + QUEUE_COLOR);
         if (has_splats) {
-            const wf distance = view->orthographic
-                                    ? wf_fma(wf_fma(v.x, v.x, wf_mul(v.y, v.y)), wf_set(view->bend), v.z)
-                                    : wf_mul(v.z, v.length);
-            w_store4(places, x, y, v.z, distance);
+            values[QUEUE_PLACE] = x, values[QUEUE_PLACE + 1] = y, values[QUEUE_PLACE + 2] = v.z;
+            values[QUEUE_PLACE + 3] =
+                view->orthographic ? wf_fma(wf_fma(v.x, v.x, wf_mul(v.y, v.y)), wf_set(view->bend), v.z)
+                                   : wf_mul(v.z, v.length);
+            queue_lanes(queue, values, bits, QUEUE_FIELDS);
+        } else {
+            queue_lanes(queue, values, bits, QUEUE_PLACE);
         }
-        added += (uint32_t)__builtin_popcount(bits);
-        for (; bits; bits &= bits - 1) {
-            const int lane = __builtin_ctz(bits);
-            const uint32_t number =
-                next_record(&tile->pages, &tile->ring[(uint32_t)slices[lane] & tile->ring_mask]);
-            ewa_volume_page *page = &tile->pages.pages[number / EWA_PAGE_RECORDS];
-            const uint32_t slot = number % EWA_PAGE_RECORDS;
-            memcpy(page->colors[slot], &colors[4 * lane], 16);
-            if (has_splats && slices[lane] < view->point_slice)
-                memcpy(&page->splats[slot], &places[4 * lane], 16);
-            else
-                page->windows[slot] = windows[lane];
-        }
+        queue->count += (uint32_t)__builtin_popcount(bits);
+        if (queue->count >= EWA_QUEUE_VOXELS) empty_full_queue(view, tile);
     }
-    return added;
+    return hidden;
 }
 
 #endif

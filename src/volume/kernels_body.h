@@ -11,6 +11,7 @@
 
 const ewa_volume_kernels EWA_VERSION(ewa_volume_kernels) = {
     .append = append,
+    .flush = flush,
     .append_near = append_near,
     .draw_near = draw_near,
     .sum_points = sum_points,

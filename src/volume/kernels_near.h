@@ -30,14 +30,16 @@ static uint32_t append_near(const ewa_volume_view *view, const ewa_volume_source
         const wf distance = wf_sqrt(dot3(v.place, v.place)), shrink = wf_max(distance, wf_set(1e-6f));
         v.x = wf_div(v.place[0], shrink), v.y = wf_div(v.place[1], shrink);
         v.ahead = wf_div(v.place[2], shrink), v.length = wf_set(1);
-        wf d[3], color[3];
-        color_voxels(view, source, first, &v, color);
+        lit_lanes lit = {wi_load(source->normals + first), v.x, v.y, v.ahead, v.length, {zero, zero, zero}};
+        load_colors(view, source, first, lit.color);
+        if (view->lit) shade_each(view, &lit, 1);
+        wf d[3];
         const wf deviation = wf_set(view->deviations_per_step);
         for (int c = 0; c < 3; c++) d[c] = wf_mul(wf_add(v.steps[c], wf_set(source->from_eye[c])), deviation);
         float fields[10][16], units[16];
         for (int c = 0; c < 3; c++) {
             wf_store(fields[c], d[c]);
-            wf_store(fields[4 + c], color[c]);
+            wf_store(fields[4 + c], lit.color[c]);
         }
         wf_store(fields[3], dot3(d, d));
         wf_store(fields[7], wf_min(density, wf_set(1e18f)));

@@ -54,29 +54,22 @@ static ALWAYS_INLINE void hide_saturated(const ewa_volume_view *view, ewa_volume
     if (!wm_bits(wf_lt(wf_set(view->least_transmittance), wf_load(pixels + 48)))) ewa_hide_cell(tile, cell);
 }
 
-/// Whether all four cells that a window may touch, from the upper left one on, are hidden.
-static ALWAYS_INLINE bool is_window_hidden(const uint8_t *hidden) {
-    uint16_t left, right;
-    memcpy(&left, hidden, sizeof left);
-    memcpy(&right, hidden + EWA_SUMS_ROW_BLOCKS, sizeof right);
-    return (left & right) == 0x0101;
-}
-
 static ALWAYS_INLINE void sum_bucket(ewa_volume_tile *tile, const ewa_volume_bucket *bucket,
                                      const ewa_point_filter *filter, bool some_hidden) {
     const float *taps = (*filter)[0];
     float *sums = tile->sums;
+    const ewa_volume_pages pages = tile->pages;
     uint32_t page = bucket->first_page;
-    for (uint32_t left = bucket->count; left;) {
-        const ewa_volume_page *from = &tile->pages.pages[page];
+    for (uint32_t left = ewa_bucket_count(bucket); left;) {
+        const uint32_t first = page * EWA_PAGE_RECORDS;
         const uint32_t here = left < EWA_PAGE_RECORDS ? left : EWA_PAGE_RECORDS;
-        for (uint32_t slot = 0; slot < here; slot++) {
-            const uint32_t window = (uint32_t)from->windows[slot], begin = window >> 18, cell = begin / 4;
+        for (uint32_t number = first; number < first + here; number++) {
+            const uint32_t window = (uint32_t)pages.windows[number], begin = window >> 18, cell = begin / 4;
             if (some_hidden && is_window_hidden(tile->hidden + cell)) continue;
             // The window lies in two strips of the sums, or in one, and the other gets nothing. Rows of
             // strips never lie across lines of the cache, and what was stored can be read again at once.
             const float *across = taps + (window & 511), *down = taps + (window >> 9 & 511);
-            const wf color = wf_repeat4(from->colors[slot]);
+            const wf color = wf_repeat4(pages.colors[number]);
             const wf left_part = wf_mul(color, wf_spread4(across));
             const wf right_part = wf_mul(color, wf_spread4(across + 4));
             float *to = sums + (size_t)begin * 16;
@@ -89,7 +82,7 @@ static ALWAYS_INLINE void sum_bucket(ewa_volume_tile *tile, const ewa_volume_buc
             memset(tile->touched + cell + EWA_SUMS_ROW_BLOCKS, 1, 2);
         }
         left -= here;
-        page = tile->pages.next[page];
+        page = pages.next[page];
     }
 }
 

@@ -44,12 +44,10 @@ static void load_records(const ewa_volume_pages *pages, const uint32_t *order, u
                          float fields[8][16]) {
     for (uint32_t lane = 0; lane < 16; lane++) {
         const uint32_t number = order[lane < count ? lane : 0];
-        const ewa_volume_page *page = &pages->pages[number / EWA_PAGE_RECORDS];
-        const uint32_t slot = number % EWA_PAGE_RECORDS;
-        for (int c = 0; c < 4; c++) fields[c][lane] = page->colors[slot][c];
-        fields[4][lane] = page->splats[slot].x_px;
-        fields[5][lane] = page->splats[slot].y_px;
-        fields[6][lane] = page->splats[slot].z;
+        for (int c = 0; c < 4; c++) fields[c][lane] = pages->colors[number][c];
+        fields[4][lane] = pages->splats[number].x_px;
+        fields[5][lane] = pages->splats[number].y_px;
+        fields[6][lane] = pages->splats[number].z;
     }
 }
 

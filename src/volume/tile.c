@@ -36,12 +36,15 @@ ewa_status ewa_volume_scratch_reserve(ewa_context *context, ewa_volume_scratch *
         {&scratch->pixels, block_floats * EWA_VOLUME_CHANNELS, sizeof(float)},
         {&scratch->surface, job->surface_depth ? block_floats : 0, sizeof(float)},
         {&scratch->ring, ring_size(job->bins), sizeof(ewa_volume_bucket)},
-        {&scratch->pages, pages, sizeof(ewa_volume_page)},
+        {&scratch->colors, pages, EWA_PAGE_RECORDS * sizeof(float[4])},
+        {&scratch->windows, pages, EWA_PAGE_RECORDS * sizeof(int32_t)},
+        {&scratch->splats, has_splats ? pages : 0, EWA_PAGE_RECORDS * sizeof(ewa_splat_place)},
         {&scratch->next, pages, sizeof(uint32_t)},
         {&scratch->free, pages, sizeof(uint32_t)},
         {&scratch->order, sorted, sizeof(uint32_t)},
         {&scratch->keys, sorted, sizeof(uint32_t)},
         {&scratch->near, job->near->count, sizeof(ewa_near_voxel)},
+        {&scratch->queue, 1, sizeof(ewa_volume_queue)},
     };
     if (pages >= EWA_NO_PAGE / EWA_PAGE_RECORDS)
         return ewa_fail(context, EWA_ERROR_MEMORY, "volume: %llu voxels in one tile at a time",
@@ -57,9 +60,10 @@ ewa_status ewa_volume_scratch_reserve(ewa_context *context, ewa_volume_scratch *
 }
 
 void ewa_volume_scratch_free(ewa_context *context, ewa_volume_scratch *scratch) {
-    ewa_buffer *const buffers[] = {&scratch->sums,  &scratch->pixels, &scratch->surface, &scratch->ring,
-                                   &scratch->pages, &scratch->next,   &scratch->free,    &scratch->order,
-                                   &scratch->keys,  &scratch->near};
+    ewa_buffer *const buffers[] = {&scratch->sums,   &scratch->pixels,  &scratch->surface, &scratch->ring,
+                                   &scratch->colors, &scratch->windows, &scratch->splats,  &scratch->next,
+                                   &scratch->free,   &scratch->order,   &scratch->keys,    &scratch->near,
+                                   &scratch->queue};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++) ewa_buffer_free(context, buffers[i]);
 }
 
@@ -89,8 +93,14 @@ static void start_tile(const ewa_volume_job *job, ewa_volume_scratch *scratch, u
         .surface = scratch->surface.data,
         .ring = scratch->ring.data,
         .ring_mask = ring_size(job->bins) - 1,
-        .pages = {.pages = scratch->pages.data, .next = scratch->next.data, .free = scratch->free.data},
+        .pages = {.colors = scratch->colors.data,
+                  .windows = scratch->windows.data,
+                  .splats = job->slices->point_slice > 0 ? scratch->splats.data : NULL,
+                  .next = scratch->next.data,
+                  .free = scratch->free.data},
+        .queue = scratch->queue.data,
     };
+    memset(tile->queue, 0, sizeof *tile->queue); // lanes that hold no voxel are shaded, too
     memset(tile->sums, 0, (size_t)EWA_SUMS_ROW_BLOCKS * EWA_SUMS_STRIP * sizeof(float));
     memset(tile->ring, 0, ring_size(job->bins) * sizeof *tile->ring);
     tile->pages.free_count = (uint32_t)page_count(job->bins);
@@ -114,13 +124,17 @@ static uint32_t cell_of(int32_t px) {
     return (uint32_t)(px < 0 ? 0 : px > last ? last : px) / 4;
 }
 
-/// Whether nothing more would show in any of the cells that a block touches.
-static bool is_hidden(const ewa_volume_tile *tile, const ewa_block_view *view) {
+/// Of the cells that a block touches: whether something more would show in any, and in all.
+static void look_behind(const ewa_volume_tile *tile, const ewa_block_view *view, bool *some_open,
+                        bool *all_open) {
     const uint32_t top = cell_of(view->top - tile->y_px), bottom = cell_of(view->bottom - 1 - tile->y_px);
     const uint32_t right = cell_of(view->right - 1 - tile->x_px);
-    for (uint32_t column = cell_of(view->left - tile->x_px); column <= right; column++)
-        if (memchr(&tile->hidden[ewa_sums_cell(top, column)], 0, bottom - top + 1)) return false;
-    return true;
+    *some_open = false, *all_open = true;
+    for (uint32_t column = cell_of(view->left - tile->x_px); column <= right; column++) {
+        const uint8_t *hidden = &tile->hidden[ewa_sums_cell(top, column)];
+        *some_open |= memchr(hidden, 0, bottom - top + 1) != NULL;
+        *all_open &= !memchr(hidden, 1, bottom - top + 1);
+    }
 }
 
 /// Hides cells whose surfaces lie wholly in front of a depth.
@@ -134,21 +148,26 @@ static void hide_behind_surface(const ewa_volume_job *job, ewa_volume_tile *tile
     }
 }
 
-/// Projects a block's voxels into the tile's buckets.
-static void add_block(const ewa_volume_job *job, ewa_volume_tile *tile, const ewa_block_view *view) {
-    const ewa_volume_source source = ewa_block_source(job->level, job->grid, view);
-    job->kernels->append(&job->view, &source, tile);
+/// Projects a block's voxels into the tile's buckets, those that would show; returns how many would not.
+static uint32_t add_block(const ewa_volume_job *job, ewa_volume_tile *tile, const ewa_block_view *view) {
+    bool some_open, all_open;
+    look_behind(tile, view, &some_open, &all_open);
+    if (!some_open) return job->level->blocks[view->block].count;
+    ewa_volume_source source = ewa_block_source(job->level, job->grid, view);
+    source.some_hidden = !all_open;
+    return job->kernels->append(&job->view, &source, tile);
 }
 
 /// Splats of one depth unit, by their distances (ewa_grid_distance()).
 static void draw_splats(const ewa_volume_job *job, ewa_volume_scratch *scratch, ewa_volume_tile *tile,
                         const ewa_volume_bucket *bucket) {
+    const uint32_t end = ewa_bucket_count(bucket);
     uint32_t *numbers = scratch->order.data, *keys = scratch->keys.data, count = 0;
     uint32_t page = bucket->first_page;
-    while (count < bucket->count) {
-        for (uint32_t slot = 0; slot < EWA_PAGE_RECORDS && count < bucket->count; slot++, count++) {
+    while (count < end) {
+        for (uint32_t slot = 0; slot < EWA_PAGE_RECORDS && count < end; slot++, count++) {
             numbers[count] = page * EWA_PAGE_RECORDS + slot;
-            keys[count] = ewa_sort_key(tile->pages.pages[page].splats[slot].distance);
+            keys[count] = ewa_sort_key(tile->pages.splats[numbers[count]].distance);
         }
         page = tile->pages.next[page];
     }
@@ -162,7 +181,7 @@ static void draw_points(const ewa_volume_job *job, ewa_volume_scratch *scratch, 
     const uint32_t filter = ewa_point_filter_choose(job->grid, z);
     job->kernels->sum_points(tile, bucket, &job->filters[filter]);
     job->kernels->composite(&job->view, tile, (float)z);
-    scratch->point_count += bucket->count;
+    scratch->point_count += ewa_bucket_count(bucket);
 }
 
 /// The voxels at the eye that rays of the tile meet.
@@ -182,11 +201,11 @@ static void draw_near(const ewa_volume_job *job, ewa_volume_scratch *scratch, ew
 
 static void empty_bucket(ewa_volume_tile *tile, ewa_volume_bucket *bucket) {
     uint32_t page = bucket->first_page;
-    for (uint32_t left = (bucket->count + EWA_PAGE_RECORDS - 1) / EWA_PAGE_RECORDS; left; left--) {
+    for (; bucket->page_count; bucket->page_count--) {
         tile->pages.free[tile->pages.free_count++] = page;
         page = tile->pages.next[page];
     }
-    bucket->count = 0;
+    bucket->next = 0;
 }
 
 /// Adds to a stage's time what went by since `*last_s`.
@@ -220,14 +239,12 @@ void ewa_volume_tile_draw(void *data, uint32_t index, uint32_t worker) {
         for (; next < end && bins->views[bins->by_tile.ids[next]].slice_first <= slice; next++) {
             const ewa_block_view *view = &bins->views[bins->by_tile.ids[next]];
             if (view->slice_last > last_slice) last_slice = view->slice_last;
-            if (is_hidden(&tile, view))
-                scratch->hidden_count += job->level->blocks[view->block].count;
-            else
-                add_block(job, &tile, view);
+            scratch->hidden_count += add_block(job, &tile, view);
         }
+        job->kernels->flush(&job->view, &tile);
         take_time(job, &last_s, &scratch->setup_s);
         ewa_volume_bucket *bucket = &tile.ring[(uint32_t)slice & tile.ring_mask];
-        if (bucket->count == 0) continue;
+        if (bucket->page_count == 0) continue;
         const double z = ewa_slice_middle(job->slices, (uint32_t)slice);
         if (job->surface_depth) hide_behind_surface(job, &tile, (float)(z - job->slices->unit));
         if (slice < job->view.point_slice) {

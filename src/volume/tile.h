@@ -9,7 +9,7 @@
 
 /// What a worker needs; survives from frame to frame. Zero-initialise.
 typedef struct ewa_volume_scratch {
-    ewa_buffer sums, pixels, surface, ring, pages, next, free, order, keys, near;
+    ewa_buffer sums, pixels, surface, ring, colors, windows, splats, next, free, order, keys, near, queue;
     uint64_t hidden_count, splat_count, point_count;
     double setup_s, points_s, splats_s, resolve_s;
 } ewa_volume_scratch;

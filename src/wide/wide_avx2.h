@@ -23,6 +23,9 @@ typedef struct wm {
     __m256 l, h;
 } wm;
 
+/// Sixteens that go through a long chain of steps at once: the registers hold one.
+enum { WIDE_TOGETHER = 1 };
+
 #define PAIR(type, low, high) ((type){(low), (high)})
 #define UNARY(type, f, a)     PAIR(type, f((a).l), f((a).h))
 #define BINARY(type, f, a, b) PAIR(type, f((a).l, (b).l), f((a).h, (b).h))

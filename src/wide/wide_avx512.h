@@ -17,6 +17,9 @@ typedef __m512 wf;
 typedef __m512i wi;
 typedef __mmask16 wm;
 
+/// Sixteens that go through a long chain of steps at once: a step takes four cycles, two may begin in each.
+enum { WIDE_TOGETHER = 4 };
+
 static inline wf wf_set(float a) { return _mm512_set1_ps(a); }
 static inline wf wf_load(const float *p) { return _mm512_loadu_ps(p); }
 static inline void wf_store(float *p, wf a) { _mm512_storeu_ps(p, a); }

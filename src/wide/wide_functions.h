@@ -4,6 +4,9 @@
 // Reciprocals, logarithm, power and arc tangent over the wide type, of exact and correctly rounded operations
 // only: the same bytes from every instruction set and every C library. The errors are tested.
 //
+// A function that ends in `_each` takes up to WIDE_TOGETHER sixteens through each of its steps: those for one
+// wait for each other.
+//
 // Arc tangent based on: S. Moshier, Cephes Mathematical Library, atanf.c, 1989 (the polynomial).
 #ifndef EWA_SRC_WIDE_WIDE_FUNCTIONS_H
 #define EWA_SRC_WIDE_WIDE_FUNCTIONS_H
@@ -22,12 +25,19 @@ static ALWAYS_INLINE wf wf_odd_product(wf a, wf b) {
 
 /// 1 / x for normal x > 0 within 1.2e-7 relative: a guess from the bits, two cubic steps. Cheaper than a
 /// division, and the same on every machine.
-static ALWAYS_INLINE wf wf_reciprocal(wf x) {
-    wf y = wf_of_bits(wi_sub(wi_set(0x7ef311c3), wi_of_bits(x)));
+static ALWAYS_INLINE void wf_reciprocal_each(const wf *x, wf *y, const int count) {
+    wf e[WIDE_TOGETHER];
+    for (int n = 0; n < count; n++) y[n] = wf_of_bits(wi_sub(wi_set(0x7ef311c3), wi_of_bits(x[n])));
     for (int i = 0; i < 2; i++) {
-        const wf e = wf_fnma(x, y, wf_set(1));
-        y = wf_fma(y, wf_fma(e, e, e), y);
+        for (int n = 0; n < count; n++) e[n] = wf_fnma(x[n], y[n], wf_set(1));
+        for (int n = 0; n < count; n++) e[n] = wf_fma(e[n], e[n], e[n]);
+        for (int n = 0; n < count; n++) y[n] = wf_fma(y[n], e[n], y[n]);
     }
+}
+
+static ALWAYS_INLINE wf wf_reciprocal(wf x) {
+    wf y;
+    wf_reciprocal_each(&x, &y, 1);
     return y;
 }
 
@@ -41,35 +51,62 @@ static ALWAYS_INLINE wf wf_inverse_root(wf x) {
     return y;
 }
 
-/// log2(x) for normal x > 0 within 2e-7 of max(1, |log2 x|), and within 3e-7 relative near x = 1.
-static ALWAYS_INLINE wf wf_log2(wf x) {
+/// log2(x) for normal x > 0 within 2e-7 of max(1, |log2 x|), and within 3e-7 relative near x = 1; in place.
+static ALWAYS_INLINE void wf_log2_each(wf *x, const int count) {
     // x = 2^e m with m in [sqrt(1/2), sqrt(2)); log m = 2 artanh((m - 1) / (m + 1)).
-    const wi bits = wi_of_bits(x), e = wi_sar(wi_sub(bits, wi_set(0x3f3504f3)), 23);
-    const wf m = wf_of_bits(wi_sub(bits, wi_shl(e, 23))), one = wf_set(1);
-    const wf s = wf_mul(wf_sub(m, one), wf_reciprocal(wf_add(m, one))), s2 = wf_mul(s, s);
-    wf series = wf_fma(s2, wf_set(0.412198583f), wf_set(0.577078016f)); // 2 / (7 ln 2), 2 / (5 ln 2), ...
-    series = wf_fma(s2, series, wf_set(0.961796694f));
-    series = wf_fma(s2, series, wf_set(2.88539008f));
-    return wf_fma(s, series, wf_from_i(e));
+    wf e[WIDE_TOGETHER], s[WIDE_TOGETHER], s2[WIDE_TOGETHER], above[WIDE_TOGETHER], inverse[WIDE_TOGETHER],
+        series[WIDE_TOGETHER];
+    const wf one = wf_set(1);
+    for (int n = 0; n < count; n++) {
+        const wi bits = wi_of_bits(x[n]), exponent = wi_sar(wi_sub(bits, wi_set(0x3f3504f3)), 23);
+        const wf m = wf_of_bits(wi_sub(bits, wi_shl(exponent, 23)));
+        e[n] = wf_from_i(exponent), s[n] = wf_sub(m, one), above[n] = wf_add(m, one);
+    }
+    wf_reciprocal_each(above, inverse, count);
+    for (int n = 0; n < count; n++) s[n] = wf_mul(s[n], inverse[n]), s2[n] = wf_mul(s[n], s[n]);
+    // 2 / (7 ln 2), 2 / (5 ln 2), ...
+    for (int n = 0; n < count; n++) series[n] = wf_fma(s2[n], wf_set(0.412198583f), wf_set(0.577078016f));
+    for (int n = 0; n < count; n++) series[n] = wf_fma(s2[n], series[n], wf_set(0.961796694f));
+    for (int n = 0; n < count; n++) series[n] = wf_fma(s2[n], series[n], wf_set(2.88539008f));
+    for (int n = 0; n < count; n++) x[n] = wf_fma(s[n], series[n], e[n]);
 }
 
-/// 2^x within 3e-7 relative for x in [-126, 127]; x is clamped to that.
+static ALWAYS_INLINE wf wf_log2(wf x) {
+    wf_log2_each(&x, 1);
+    return x;
+}
+
+/// 2^x within 3e-7 relative for x in [-126, 127]; x is clamped to that; in place.
+static ALWAYS_INLINE void wf_exp2_each(wf *x, const int count) {
+    wf f[WIDE_TOGETHER], scale[WIDE_TOGETHER], series[WIDE_TOGETHER];
+    for (int n = 0; n < count; n++) {
+        const wf clamped = wf_min(wf_max(x[n], wf_set(-126)), wf_set(127));
+        const wf whole = wf_floor(wf_add(clamped, wf_set(0.5f)));
+        f[n] = wf_sub(clamped, whole);
+        scale[n] = wf_of_bits(wi_shl(wi_add(wi_from_f(whole), wi_set(127)), 23));
+    }
+    // ln(2)^k / k!
+    for (int n = 0; n < count; n++) series[n] = wf_fma(f[n], wf_set(1.54035304e-4f), wf_set(1.33335581e-3f));
+    for (int n = 0; n < count; n++) series[n] = wf_fma(f[n], series[n], wf_set(9.61812911e-3f));
+    for (int n = 0; n < count; n++) series[n] = wf_fma(f[n], series[n], wf_set(5.55041087e-2f));
+    for (int n = 0; n < count; n++) series[n] = wf_fma(f[n], series[n], wf_set(2.40226507e-1f));
+    for (int n = 0; n < count; n++) series[n] = wf_fma(f[n], series[n], wf_set(6.93147181e-1f));
+    for (int n = 0; n < count; n++) series[n] = wf_fma(f[n], series[n], wf_set(1));
+    for (int n = 0; n < count; n++) x[n] = wf_mul(series[n], scale[n]);
+}
+
 static ALWAYS_INLINE wf wf_exp2(wf x) {
-    x = wf_min(wf_max(x, wf_set(-126)), wf_set(127));
-    const wf whole = wf_floor(wf_add(x, wf_set(0.5f))), f = wf_sub(x, whole);
-    wf series = wf_fma(f, wf_set(1.54035304e-4f), wf_set(1.33335581e-3f)); // ln(2)^k / k!
-    series = wf_fma(f, series, wf_set(9.61812911e-3f));
-    series = wf_fma(f, series, wf_set(5.55041087e-2f));
-    series = wf_fma(f, series, wf_set(2.40226507e-1f));
-    series = wf_fma(f, series, wf_set(6.93147181e-1f));
-    series = wf_fma(f, series, wf_set(1));
-    return wf_mul(series, wf_of_bits(wi_shl(wi_add(wi_from_f(whole), wi_set(127)), 23)));
+    wf_exp2_each(&x, 1);
+    return x;
 }
 
 /// x^exponent for x clamped to [0, 1] and exponent in [1, 65536]: within 1e-5 relative where it is above
-/// 1e-6.
-static ALWAYS_INLINE wf wf_power(wf x, wf exponent) {
-    return wf_exp2(wf_mul(exponent, wf_log2(wf_min(wf_max(x, wf_set(0x1p-126f)), wf_set(1)))));
+/// 1e-6; in place.
+static ALWAYS_INLINE void wf_power_each(wf *x, wf exponent, const int count) {
+    for (int n = 0; n < count; n++) x[n] = wf_min(wf_max(x[n], wf_set(0x1p-126f)), wf_set(1));
+    wf_log2_each(x, count);
+    for (int n = 0; n < count; n++) x[n] = wf_mul(exponent, x[n]);
+    wf_exp2_each(x, count);
 }
 
 /// The angle of (x, y) in [-pi, pi], within 3e-7; 0 for (0, 0).

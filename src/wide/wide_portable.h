@@ -18,6 +18,9 @@ typedef int32_t wi __attribute__((vector_size(64)));
 typedef int32_t wm __attribute__((vector_size(64)));  // -1 or 0
 typedef uint32_t wu __attribute__((vector_size(64))); // for what wraps
 
+/// Sixteens that go through a long chain of steps at once: the registers hold one.
+enum { WIDE_TOGETHER = 1 };
+
 #if defined(__FP_FAST_FMAF)
 #define FUSED static inline __attribute__((unused))
 #else
