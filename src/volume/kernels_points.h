@@ -119,13 +119,13 @@ static void composite(const ewa_volume_view *view, ewa_volume_tile *tile, float 
         uint64_t touched;
         memcpy(&touched, tile->touched + first, sizeof touched);
         if (!touched) continue;
-        memset(tile->touched + first, 0, sizeof touched);
-        for (; touched; touched &= touched - 1) {
-            const uint32_t cell = first + (uint32_t)__builtin_ctzll(touched) / 8;
+        for (uint32_t cell = first; cell < first + sizeof touched; cell++) {
+            if (!tile->touched[cell]) continue;
             float *sums = tile->sums + (size_t)cell * 64;
             if (!tile->hidden[cell]) composite_cell(view, tile, cell, sums, depth);
             for (int i = 0; i < 4; i++) wf_store(sums + 16 * i, zero);
         }
+        memset(tile->touched + first, 0, sizeof touched);
     }
 }
 
