@@ -10,10 +10,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 enum { MAX_COMMANDS = 32 };
 
 static int unknown_command(const char *word) {
+    struct stat facts;
+    if (stat(word, &facts) == 0 && S_ISREG(facts.st_mode)) {
+        fprintf(stderr, "ewa: '%s': a file, no command; to draw it: ewa render '%s' -o picture.png\n", word,
+                word);
+        return EXIT_USAGE;
+    }
     const char *names[MAX_COMMANDS + 2];
     size_t count = 0;
     for (; count < all_commands_count && count < MAX_COMMANDS; count++)

@@ -18,8 +18,10 @@
 
 #if defined(WIDE_AVX512)
 #include "wide/wide_avx512.h"
+#include "wide/wide_eight.h"
 #elif defined(WIDE_AVX2)
 #include "wide/wide_avx2.h"
+#include "wide/wide_eight.h"
 #elif defined(WIDE_PORTABLE)
 #include "wide/wide_portable.h"
 #else
