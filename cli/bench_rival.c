@@ -52,7 +52,6 @@ bool bench_rival_start(cli_session *session, const char *program, const bench_sc
     done = done && read_line(session, rival, rival->name, sizeof rival->name);
     remove(cloud);
     remove(camera);
-
     rmdir(folder);
     return done;
 }

@@ -257,10 +257,9 @@ typedef struct ewa_tile {
     bool with_materials; ///< with_normals then too, and a channel for the depth with or without one
     bool with_fine;      ///< what the units of terms leave is summed of all channels, not only for depths
     const float *passed; ///< [block][16]: only keys below count, for surfaces behind the first; NULL: all do
-    float
-        *pixels; ///< [row][column][EWA_PIXEL_FLOATS]: sums of small splats: normal, weight, r, g, b, nothing;
-                 ///< NULL: no splat is small
-    bool only_small;        ///< all splats are: other sums have nothing
+    float *pixels;       ///< [row][column][EWA_PIXEL_FLOATS]: sums of small splats: normal, weight, r, g, b,
+                         ///< nothing; NULL: no splat is small
+    bool only_small;     ///< all splats are: other sums have nothing
     uint32_t *beyond_rows;  ///< [block row]: bit per block column that a splat may reach behind `nearest`
     uint32_t *settled_rows; ///< [block row]: bit per block column whose sums begin at 0
 } ewa_tile;

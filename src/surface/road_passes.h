@@ -21,11 +21,6 @@ static void each_small(const pass *p, splat_rows *body) {
     }
 }
 
-static void small_raise(const pass *p, uint32_t splat, uint32_t first_column, uint32_t columns, uint32_t rows,
-                        depth_test test) {
-    raise_rows_beyond(p, splat, first_column, columns, rows, test);
-}
-
 static void visibility(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run) {
     const pass p = {view, tile, run};
     if (view->raycast)
@@ -37,7 +32,7 @@ static void visibility(const ewa_view *view, const ewa_tile *tile, const ewa_sor
     if (view->raycast) return;
     for_each_clipped(&p, clipped_raise, 0);
     if (tile->passed)
-        each_small(&p, small_raise);
+        each_small(&p, raise_rows_beyond);
     else
         for_each_small(&p, small_visibility);
 }
