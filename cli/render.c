@@ -4,17 +4,16 @@
 // ewa render: clouds to a picture.
 #include "color_by.h"
 #include "commands.h"
-#include "faults.h"
 #include "frames.h"
 #include "inputs.h"
 #include "json.h"
 #include "light.h"
 #include "picture.h"
 #include "render_report.h"
+#include "resident.h"
 #include "sequence.h"
 #include "video.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -29,11 +28,6 @@ typedef struct render_arguments {
     option_bounds range;
     option_color background;
 } render_arguments;
-
-enum { GAP_POINTS = 1000 };
-
-/// Support radius in units of the spacing under which irregular points leave gaps.
-static const double GAP_RADIUS = 1;
 
 #define AT(member)      offsetof(render_arguments, member)
 #define SURFELS(member) OPTION_OF(ewa_surfels_options, AT(surfels), member)
@@ -147,56 +141,6 @@ static ewa_render_options render_options(const render_arguments *arguments, cons
     return options;
 }
 
-static bool make_surfels(cli_session *session, const render_arguments *arguments, const ewa_cloud *cloud,
-                         ewa_surfels **surfels, render_report *report) {
-    const double started_s = clock_now_s();
-    const ewa_status status = ewa_surfels_create(cloud, &arguments->surfels, surfels);
-    report->surfels_s += clock_now_s() - started_s;
-    if (status != EWA_OK) {
-        session_failed(session, status);
-        return false;
-    }
-    ewa_surfels_describe(*surfels, &report->surfels);
-    return true;
-}
-
-/// The discs' median support radius in units of the spacing 1 / sqrt(d) (d: density): from the unit coverage
-/// q = s^2 d (1 - exp(-F^2 / 2)) with s = radius / F. Before --radius-scale where that shrinks discs: whoever
-/// does so wants gaps.
-static double radius_in_spacings(const render_arguments *arguments, const ewa_surfels_info *surfels) {
-    const double f = arguments->surfels.cutoff, kernel = 1 - exp(-0.5 * f * f);
-    return f * sqrt(surfels->unit_coverage / kernel) / fmin(arguments->surfels.radius_scale, 1);
-}
-
-/// Measures the radii anew where the file's are so small that there are gaps between the discs; says so.
-static bool close_gaps(cli_session *session, const render_arguments *arguments, ewa_cloud **cloud,
-                       ewa_surfels **surfels, render_report *report) {
-    const double radius = radius_in_spacings(arguments, &report->surfels);
-    const bool gaps = report->surfels.point_count >= GAP_POINTS && radius < GAP_RADIUS;
-    if (!gaps || !ewa_cloud_find(*cloud, EWA_RADIUS) || ewa_cloud_find(*cloud, EWA_TANGENT_U)) return true;
-    if (!arguments->close_gaps) {
-        session_note(session, "the radii are %.2f of the points' spacing, which leaves gaps", radius);
-        return true;
-    }
-    session_note(session,
-                 "the radii are %.2f of the points' spacing, which leaves gaps: larger ones are used "
-                 "(--close-gaps off keeps the file's)",
-                 radius);
-    ewa_estimate_options options;
-    ewa_estimate_options_init(&options, sizeof options);
-    options.cutoff = arguments->surfels.cutoff;
-    options.keep_radii = false;
-    const double started_s = clock_now_s();
-    ewa_surfels_destroy(surfels);
-    const ewa_status status = ewa_cloud_estimate(cloud, &options);
-    report->estimate_s += clock_now_s() - started_s;
-    if (status != EWA_OK) {
-        session_failed(session, status);
-        return false;
-    }
-    return make_surfels(session, arguments, *cloud, surfels, report);
-}
-
 /// Loads, colours, and makes surfels and the cameras; the clouds are gone afterwards. False after reporting.
 static bool make_scene(cli_session *session, const render_arguments *arguments, frame_cameras *frames,
                        ewa_surfels **surfels, render_report *report) {
@@ -213,10 +157,9 @@ static bool make_scene(cli_session *session, const render_arguments *arguments, 
     bool done = (!by || color_by(session, cloud, by, colormap, &arguments->range)) &&
                 frames_make(session, &arguments->frames, cloud, arguments->surfels.radius_scale, frames);
     session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
-    done = done && make_surfels(session, arguments, cloud, surfels, report) &&
-           (arguments->light.render.point_size_px > 0 ||
-            close_gaps(session, arguments, &cloud, surfels, report)) &&
-           faults_report(session, cloud, &report->surfels);
+    const resident_options options = {arguments->surfels, arguments->close_gaps,
+                                      arguments->light.render.point_size_px > 0};
+    done = done && resident_make(session, &options, &cloud, surfels, report);
     ewa_cloud_destroy(&cloud);
     if (!done) ewa_surfels_destroy(surfels);
     return done;

@@ -24,16 +24,16 @@ enum {
 
 typedef struct viewer viewer;
 
-/// What a file gave. A cloud comes with its surfels, a volume with its voxels; all belong to `context`, which
-/// the receiver destroys last.
+/// What a file gave. A cloud comes with its surfels, a volume with its voxels; all belong to `context`.
 typedef struct viewer_content {
     ewa_context *context;
-    ewa_cloud *cloud;     ///< NULL: a volume
-    ewa_surfels *surfels; ///< of the cloud, with levels
-    ewa_voxels *voxels;   ///< NULL: a cloud
-    ewa_cloud *outline;   ///< of a volume: points where something can be seen
-    bool mesh;            ///< the cloud was sampled from faces
-    double spacing_world; ///< of a volume's voxels
+    ewa_cloud *cloud;                             ///< NULL: a volume
+    ewa_surfels *surfels;                         ///< of the cloud, with levels
+    ewa_voxels *voxels;                           ///< NULL: a cloud
+    ewa_cloud *outline;                           ///< of a volume: points where something can be seen
+    bool mesh;                                    ///< the cloud was sampled from faces
+    void *keeper;                                 ///< the loader's own
+    void (*free)(struct viewer_content *content); ///< frees all of it
 } viewer_content;
 
 /// Where the news of a load goes; any of its calls may come on any thread.
@@ -47,13 +47,19 @@ typedef struct viewer_news {
     void (*preview)(void *user, viewer_content *content);
 } viewer_news;
 
-/// How a cloud is coloured.
+/// What is chosen of a cloud's surfels. Fill with viewer_coloring_init().
 typedef struct viewer_coloring {
     char attribute[EWA_NAME_BYTES + 4]; ///< "name" or "name.x"; empty: the file's colours
     int colormap;                       ///< ewa_colormap
-    bool ranged;                        ///< `range` is given; else it is filled with the 2nd and 98th percentile
-    double range[2];
+    bool ranged;         ///< `range` is given; else it is filled with the 2nd and 98th percentile
+    double range[2];     ///< numbers of the first and the last colour
+    bool tinted;         ///< all points have the one colour `tint`, when no attribute is chosen
+    double tint[3];      ///< sRGB, [0, 1]
+    double alpha;        ///< of all points, times their own; [0, 1]; default 1
+    double radius_scale; ///< multiplies radii; (0, 100]; default 1
 } viewer_coloring;
+
+void viewer_coloring_init(viewer_coloring *coloring);
 
 /// What the program does for the viewer, on the threads that are named. Calls may be NULL where it says so.
 typedef struct viewer_services {
@@ -69,6 +75,8 @@ typedef struct viewer_services {
                   const char *view, ewa_camera *camera, double up_world[3]);
     /// Says a line to standard output (picks, measures) or, for messages, to standard error.
     void (*say)(void *user, bool message, const char *text);
+    /// Whether the program was asked to end, by a signal. May be NULL.
+    bool (*interrupted)(void *user);
     /// The clipboard; both may be NULL: the viewer keeps a text of its own then.
     void (*clipboard_set)(void *user, const char *text);
     bool (*clipboard_get)(void *user, char *text, size_t text_bytes);
@@ -77,11 +85,11 @@ typedef struct viewer_services {
 /// How a viewer is made.
 typedef struct viewer_options {
     viewer_services services;
-    uint32_t thread_count; ///< that draw; 0: one per processor
-    uint32_t cpu_mask;     ///< EWA_CPU_*
-    uint32_t width, height; ///< of the window, points
-    double scale;           ///< pixels per point, > 0
-    bool waits; ///< drawing and loading are waited for: no picture depends on time (scripts)
+    uint32_t thread_count;    ///< that draw; 0: one per processor
+    uint32_t cpu_mask;        ///< EWA_CPU_*
+    uint32_t width, height;   ///< of the window, points
+    double scale;             ///< pixels per point, > 0
+    bool waits;               ///< drawing and loading are waited for: no picture depends on time (scripts)
     const ewa_camera *camera; ///< the first look; NULL: as the program frames it
 } viewer_options;
 
@@ -120,8 +128,8 @@ enum {
 
 typedef struct viewer_event {
     viewer_event_kind kind;
-    double time_s;      ///< any clock that never runs backwards
-    double x, y;        ///< points
+    double time_s; ///< any clock that never runs backwards
+    double x, y;   ///< points
     int button, clicks;
     uint32_t modifiers; ///< VIEWER_SHIFT ...
     int key;
@@ -137,10 +145,10 @@ typedef struct viewer_picture {
     const uint8_t *rgba8;
     uint32_t width_px, height_px; ///< half of the window's while something moves in large windows
     uint64_t number;              ///< another one for another picture; 0: none yet
-    bool still;  ///< all there is at full size: nothing will change until something is done
-    uint32_t level;  ///< of the surfels drawn
-    double drawn_s;  ///< what the drawing took
-    double spare_s;  ///< when to ask again: 0: soon, for something moves or is under way
+    bool still;                   ///< all there is at full size: nothing will change until something is done
+    uint32_t level;               ///< of the surfels drawn
+    double drawn_s;               ///< what the drawing took
+    double spare_s;               ///< when to ask again: 0: soon, for something moves or is under way
 } viewer_picture;
 
 /// Advances to a time and gives the newest picture.
@@ -149,6 +157,12 @@ void viewer_frame(viewer *viewer, double time_s, viewer_picture *picture);
 /// Does what a line of the command language says (docs/viewer.md), such as "set kernel affine" or "view front".
 /// Returns false after saying what is wrong.
 bool viewer_do(viewer *viewer, const char *command);
+
+/// Opens a file, as "open" does; it may still be loading afterwards.
+bool viewer_open(viewer *viewer, const char *path);
+
+/// The last line of results, such as a pick; empty: none.
+const char *viewer_said(const viewer *viewer);
 
 /// Whether nothing is loading, moving or waiting to be drawn.
 bool viewer_is_still(const viewer *viewer);
@@ -167,9 +181,7 @@ typedef struct viewer_item {
     const char *path;
     bool visible, volume, mesh;
     uint64_t count; ///< of points or voxels
-    float tint[3];  ///< sRGB of a plain colour; NaN: none
     viewer_coloring coloring;
-    double alpha;
 } viewer_item;
 
 size_t viewer_item_count(const viewer *viewer);
@@ -185,7 +197,7 @@ typedef struct viewer_state {
     char loading[VIEWER_NAME_BYTES]; ///< name of what loads; empty: nothing
     char stage[64];
     double fraction;
-    uint32_t queued; ///< loads that wait
+    uint32_t queued;                 ///< loads that wait
     char message[VIEWER_TEXT_BYTES]; ///< the last thing that went wrong or is worth knowing; empty: none
     double message_s;                ///< when
     char picked[VIEWER_TEXT_BYTES];  ///< the last pick or measure, several lines
