@@ -11,6 +11,7 @@
 #include "picture.h"
 #include "render_report.h"
 #include "resident.h"
+#include "section.h"
 #include "sequence.h"
 #include "video.h"
 
@@ -22,6 +23,7 @@ typedef struct render_arguments {
     light_arguments light;   // second
     const char *output, *aov, *save_camera_path, *stats_path;
     ewa_surfels_options surfels;
+    section_arguments section;
     bool close_gaps;
     const char *layers, *color_by;
     int colormap;
@@ -70,6 +72,16 @@ static const cli_option splat_table[] = {
     {"opacity", RENDER(opacity)},
     {"tau", RENDER(edge_threshold)},
     {"cull", RENDER(cull)},
+};
+
+static const cli_option section_table[] = {
+    {"clip-box", OPTION_VECTOR, AT(section.box), "x0,y0,z0,x1,y1,z1",
+     .help = "draw only what lies inside a box: its lower, then its upper corner, in the file's coordinates",
+     .low = 6, .high = 6},
+    {"clip-plane", OPTION_VECTORS, AT(section.planes), "a,b,c,d",
+     .help = "draw only what fulfils a x + b y + c z + d >= 0; may be given up to 8 times, beside --clip-box "
+             "twice",
+     .low = 4, .high = 4},
 };
 
 static const cli_option look_table[] = {
@@ -129,7 +141,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     else if (arguments->light.render.opacity < 1 && arguments->light.render.passes == 1)
         missing = "--opacity below 1 needs --passes 3";
     if (!options_fine(missing, message)) return false;
-    return light_check(&arguments->light, message) &&
+    return light_check(&arguments->light, message) && section_check(&arguments->section, message) &&
            frames_check(&arguments->frames, arguments->output, arguments->background.rgba[3] == 1, message) &&
            parse_paths(arguments, &paths, message);
 }
@@ -137,6 +149,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
 static ewa_render_options render_options(const render_arguments *arguments, const light_objects *lit_by) {
     ewa_render_options options = light_apply(&arguments->light, lit_by);
     read_layers(arguments, &options.layers);
+    section_apply(&arguments->section, &options);
     option_color_linear(&arguments->background, options.background);
     return options;
 }
@@ -240,6 +253,7 @@ static int run(const void *data) {
 
 static const option_group output_options = OPTION_GROUP("Output", output_table);
 static const option_group splat_options = OPTION_GROUP("Splats", splat_table);
+static const option_group section_options = OPTION_GROUP("Section", section_table);
 static const option_group look_options = OPTION_GROUP("Look", look_table);
 const cli_command render_command = {
     .name = "render",
@@ -267,11 +281,12 @@ const cli_command render_command = {
         "ewa render tile1.ply tile2.ply -o height.png --color-by z --colormap turbo --shading lambert\n"
         "ewa render scan.ply -o scan.exr --camera camera.json --aov depth=depth.pfm,normal=normal.exr\n"
         "ewa render scan.ply -o turn.mp4 --turntable 120 --elevation 20\n"
-        "ewa render scan.ply -o fly_%04d.png --path keys.json --frames 300\n",
+        "ewa render scan.ply -o fly_%04d.png --path keys.json --frames 300\n"
+        "ewa render scan.ply -o floor.png --view top --clip-plane 0,0,-1,1.5\n",
     .low_operands = 1,
     .high_operands = 4096,
     .groups = (const option_group *const[]){&output_options, &view_options, &frames_options, &splat_options,
-                                            &light_options, &look_options, NULL},
+                                            &section_options, &light_options, &look_options, NULL},
     .arguments_bytes = sizeof(render_arguments),
     .set_defaults = set_defaults,
     .check = check,

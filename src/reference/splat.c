@@ -10,11 +10,19 @@
 #include "surface/points.h"
 #include "surface/semantics.h"
 
+#include <string.h>
+
 static const double TWO_PI = 6.283185307179586;
 
 /// v A': a direction from world to camera space.
 static ewa_vec3 to_camera(const ewa_reference_view *view, ewa_vec3 v) {
     return mat3_mul_vec3(&view->placement.linear, v);
+}
+
+/// Takes the section planes to where points are measured from.
+static void place_sections(const double origin_world[3], ewa_reference_view *view) {
+    for (uint32_t k = 0; k < view->section_count; k++)
+        ewa_placement_plane(view->sections_world[k], origin_world, view->sections[k]);
 }
 
 void ewa_reference_view_make(const ewa_camera *camera, double cutoff, const ewa_render_options *options,
@@ -32,7 +40,9 @@ void ewa_reference_view_make(const ewa_camera *camera, double cutoff, const ewa_
         .cutoff = cutoff,
         .prefilter_px = options->prefilter_px,
         .tolerance = options->tolerance,
+        .section_count = options->section_count,
     };
+    memcpy(view->sections_world, options->section_planes, sizeof view->sections_world);
     if (options->point_size_px > 0) {
         const ewa_point_profile profile = ewa_point_profile_make(options);
         view->cutoff = profile.cutoff;
@@ -45,11 +55,13 @@ void ewa_reference_view_make(const ewa_camera *camera, double cutoff, const ewa_
     }
     const double origin_world[3] = {0, 0, 0};
     view->placement = ewa_placement_make(camera, origin_world, NULL, 0);
+    place_sections(origin_world, view);
 }
 
 void ewa_reference_view_place(const ewa_camera *camera, const double origin_world[3], const ewa_bounds *box,
                               ewa_reference_view *view) {
     view->placement = ewa_placement_make(camera, origin_world, box, 0);
+    place_sections(origin_world, view);
     if (!view->orthographic) return;
     view->fx_px = camera->fx_px * view->placement.unit;
     view->fy_px = camera->fy_px * view->placement.unit;
@@ -319,9 +331,16 @@ static void clip_sample(const ewa_reference_splat *splat, double x_px, double y_
             sum > 0 ? (decides[0] * splat->clip[0][c] + decides[1] * splat->clip[1][c]) / sum : 0;
 }
 
+/// How far a surfel's centre lies inside of a section plane.
+static double section_distance(const double plane[4], const ewa_surfel *surfel) {
+    return vec3_dot(vec3_load(plane), vec3_load(surfel->center)) + plane[3];
+}
+
 void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *surfel,
                            ewa_reference_splat *splat) {
     splat->drawn = false;
+    for (uint32_t k = 0; k < view->section_count; k++)
+        if (section_distance(view->sections[k], surfel) < 0) return;
     const ewa_vec3 p = ewa_placement_apply(&view->placement, vec3_load(surfel->center));
     ewa_vec3 u = to_camera(view, vec3_load(surfel->axis_u_world));
     ewa_vec3 v = to_camera(view, vec3_load(surfel->axis_v_world));

@@ -19,10 +19,13 @@ typedef struct ewa_reference_view {
     double farthest_slope; ///< length of the longest ray (x, y, 1) to the picture
     ewa_kernel kernel;
     ewa_cull cull;
-    double cutoff;         ///< F
-    double prefilter_px;   ///< h
-    double tolerance;      ///< kappa
-    double point_sigma_px; ///< of points (semantics.h); 0: surfels as they are
+    double cutoff;                                    ///< F
+    double prefilter_px;                              ///< h
+    double tolerance;                                 ///< kappa
+    double point_sigma_px;                            ///< of points (semantics.h); 0: surfels as they are
+    double sections_world[EWA_MAX_SECTION_PLANES][4]; ///< as the options have them
+    double sections[EWA_MAX_SECTION_PLANES][4]; ///< for points from the surfels' origin, with unit normals
+    uint32_t section_count;
 } ewa_reference_view;
 
 /// A surfel in camera space and its picture.

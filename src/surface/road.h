@@ -11,6 +11,7 @@
 #ifndef EWA_SRC_SURFACE_ROAD_H
 #define EWA_SRC_SURFACE_ROAD_H
 
+#include "ewa/render.h"
 #include "image/environment.h"
 #include "road/bin.h"
 #include "surface/packet.h"
@@ -93,6 +94,8 @@ typedef struct ewa_view {
         *materials)[EWA_MATERIAL_CHANNELS]; ///< [code], over the largest; NULL: surfels have no codes
     float side_planes[4][3]; ///< inward unit normals of the frustum's sides through the eye, widened by
                              ///< reach_px and a pixel
+    double sections[EWA_MAX_SECTION_PLANES][4]; ///< unit normal inward, distance from where packets' centres
+    uint32_t section_count;                     ///< are measured from, in their unit
 } ewa_view;
 
 /// Packets' centres in camera space, one entry each, written by `cull` for those that it keeps. Surfels are
@@ -103,6 +106,7 @@ typedef struct ewa_view {
 /// likewise y. Orthographic: x = slope_x + rest_x.
 typedef struct ewa_packet_places {
     float *slope_x, *slope_y, *rest_x, *rest_y, *depth;
+    uint16_t *lanes; ///< a bit per surfel that the section planes leave; NULL: no planes
 } ewa_packet_places;
 
 /// One splat in one tile. Places are measured from the middle of the field, of EWA_FIELD_PX pixels a side,
@@ -351,8 +355,9 @@ typedef struct ewa_road_kernels {
     /// Lists those of packets [first, first + count) that may touch some tile, from entry `first` of `kept`
     /// on, and writes their places; `first` and the room of `kept` and `places` are multiples of 16. Returns
     /// how many there are.
-    uint32_t (*cull)(const ewa_view *view, const ewa_packet_bounds *bounds, uint32_t first, uint32_t count,
-                     const ewa_packet_places *places, const ewa_bin_items *kept);
+    uint32_t (*cull)(const ewa_view *view, const ewa_packet *packets, const ewa_packet_bounds *bounds,
+                     uint32_t first, uint32_t count, const ewa_packet_places *places,
+                     const ewa_bin_items *kept);
 
     /// Sets cells[row][column] (rows of EWA_TILE_CELLS) to the smallest tile->nearest in each cell.
     void (*set_cells)(const ewa_tile *tile, float *cells);

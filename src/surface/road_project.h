@@ -174,6 +174,7 @@ static ALWAYS_INLINE void stage_place(const ewa_view *view, const ewa_packet_sou
     place_surfels(view, source, id, tile, t);
     t->sigma = wf_mul(wf_load(packet->sigma), wf_set(view->scale));
     t->alive = wf_lt(wf_set(0), t->sigma);
+    if (source->places.lanes) t->alive = wm_and(t->alive, wm_of_bits(source->places.lanes[id]));
     if (view->point_sigma_px > 0)
         place_point(view, t);
     else

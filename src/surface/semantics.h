@@ -10,6 +10,8 @@
 // all in camera space (p = A w + t; axes and normal by A). Sigma = tu'tu + tv'tv, R = F sqrt(Sigma33) the
 // depth half range of its disc, F the cutoff.
 //
+// Section planes: a surfel is dropped whose centre lies outside of one, n.c + d < 0 (in the world).
+//
 // Dropped before anything else: perspective, pz + R <= 0 (wholly behind the eye plane); orthographic, pz <=
 // 0; with EWA_CULL_BACK, n.p >= 0 (orthographic: nz >= 0). Without culling, n is turned towards the viewer
 // per surfel: where n.p > 0 (orthographic nz > 0) it is negated; the splat is then called turned.

@@ -169,11 +169,21 @@ ewa_scales ewa_scales_make(const ewa_surfels *const *sources, uint32_t source_co
     return made;
 }
 
+/// The section planes as the packets' centres see them.
+static void set_sections(ewa_view *view, const ewa_surfels *surfels, const ewa_render_options *options) {
+    view->section_count = options->section_count;
+    for (uint32_t k = 0; k < options->section_count; k++) {
+        ewa_placement_plane(options->section_planes[k], surfels->origin_world, view->sections[k]);
+        view->sections[k][3] /= surfels->unit;
+    }
+}
+
 /// What is a source's own.
 static void set_source(ewa_view *view, const ewa_surfels *surfels, const ewa_camera *camera,
                        const ewa_render_options *options, const ewa_scales *scales) {
     const ewa_placement placement = place_in(surfels, camera, scales->unit);
     set_places(view, surfels, camera, &placement);
+    set_sections(view, surfels, options);
     view->ellipses = surfels->ellipses && options->point_size_px == 0;
     const double part = scales->unit_coverage / unit_coverage_of(surfels, options);
     view->sum_scale = (float)(scales->sum * part);
