@@ -104,7 +104,7 @@ typedef enum viewer_event_kind {
     VIEWER_WHEEL,   ///< by `amount` notches, away from the user is positive; `across`: sideways
     VIEWER_PINCH,   ///< two fingers: distances grow by the factor `amount`
     VIEWER_KEY,     ///< `key` went down
-    VIEWER_KEY_UP,  ///< `key` went up
+    VIEWER_KEY_RELEASE, ///< `key` went up
     VIEWER_DROP,    ///< of the file `text`
     VIEWER_RESIZE,  ///< the window has width x, height y points and `amount` pixels per point
     VIEWER_LEAVE,   ///< the pointer or the keyboard is elsewhere: nothing is held
@@ -147,6 +147,7 @@ typedef struct viewer_picture {
     uint64_t number;              ///< another one for another picture; 0: none yet
     bool still;                   ///< all there is at full size: nothing will change until something is done
     uint32_t level;               ///< of the surfels drawn
+    uint64_t splat_count; ///< of what was drawn
     double drawn_s;               ///< what the drawing took
     double spare_s;               ///< when to ask again: 0: soon, for something moves or is under way
 } viewer_picture;
