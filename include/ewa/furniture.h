@@ -97,7 +97,7 @@ typedef struct ewa_furniture_options {
     const char *color_unit;         ///< behind it, in brackets; NULL: none
     const ewa_category *categories; ///< borrowed; in place of the continuous bar; NULL: none
     uint32_t category_count; ///< those that have no room are counted in a last row; [0, 65536]; default 0
-    /// Pixels per point: text has 12 points, a title 16; [0, 100]; 0 (default): a 720th of the picture's
+    /// Pixels per point: text has 12 points, a title 18; [0, 100]; 0 (default): a 720th of the picture's
     /// smaller side, at least 0.84, which is text of 10 pixels.
     double pixel_scale;
     ewa_ink ink; ///< default EWA_INK_AUTO
