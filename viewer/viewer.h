@@ -47,10 +47,21 @@ typedef struct viewer_news {
     void (*preview)(void *user, viewer_content *content);
 } viewer_news;
 
+enum { VIEWER_MAX_CLASSES = 64, VIEWER_COLORMAP_AUTO = -1 };
+
+/// A row of a legend.
+typedef struct viewer_class {
+    double value;
+    uint8_t srgb[3];
+    char name[EWA_CLASS_NAME_BYTES];
+} viewer_class;
+
 /// What is chosen of a cloud's surfels. Fill with viewer_coloring_init().
 typedef struct viewer_coloring {
     char attribute[EWA_NAME_BYTES + 4]; ///< "name" or "name.x"; empty: the file's colours
-    int colormap;                       ///< ewa_colormap
+    int colormap; ///< ewa_colormap, or automatic (default): classes for classes, else viridis
+    uint32_t class_count; ///< filled in: of `classes`; 0: colours go from the first number to the last
+    viewer_class classes[VIEWER_MAX_CLASSES];
     bool ranged;         ///< `range` is given; else it is filled with the 2nd and 98th percentile
     double range[2];     ///< numbers of the first and the last colour
     bool tinted;         ///< all points have the one colour `tint`, when no attribute is chosen
