@@ -319,11 +319,8 @@ const cli_command render_command = {
     .low_operands = 1,
     .high_operands = 4096,
     .groups = (const option_group *const[]){&output_options, &view_options, &frames_options, &splat_options,
-<<<<<<< HEAD
-                                            &section_options, &light_options, &look_options, NULL},
-=======
-                                            &light_options, &look_options, &furniture_options, NULL},
->>>>>>> furn
+                                            &section_options, &light_options, &look_options,
+                                            &furniture_options, NULL},
     .arguments_bytes = sizeof(render_arguments),
     .set_defaults = set_defaults,
     .check = check,
