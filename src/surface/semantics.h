@@ -186,8 +186,8 @@
 /// How much larger the first coarser level's surfels are than what keeps the area of those that they stand
 /// for, and how far from the middle of these one of them may be, in sigmas, before that makes the surfel
 /// larger. Without both, grids show holes; with them, no sampling of docs/levels.md does.
-#define EWA_LEVEL_GROWTH 1.2
-#define EWA_LEVEL_SPREAD 1.3
+#define EWA_LEVEL_GROWTH 1.3
+#define EWA_LEVEL_SPREAD 1.7
 
 // ---- Section 5
 
