@@ -199,9 +199,9 @@ typedef struct group_members {
 } group_members;
 
 static void read_members(const ewa_surfels *fine, const ewa_window *window, const uint8_t *lanes,
-                         uint32_t count, group_members *members) {
+                         group_members *members) {
+    const uint32_t count = members->count;
     double sum = 0;
-    *members = (group_members){.count = count};
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t at = lanes[i], packet = window->first + at / LANES, lane = at % LANES;
         const double root = fine->packets[packet].ratio[lane] / 65535.0;
@@ -283,8 +283,8 @@ static void move_clip(const ewa_surfels *fine, uint32_t index, uint32_t lane, ew
 static void make_stand_in(const level_job *job, const ewa_window *window, const uint8_t *lanes,
                           uint32_t count, stand_in *made) {
     const ewa_surfels *fine = job->fine;
-    group_members members;
-    read_members(fine, window, lanes, count, &members);
+    group_members members = {.count = count};
+    read_members(fine, window, lanes, &members);
     ewa_vec3 middle = vec3_make(0, 0, 0);
     for (uint32_t i = 0; i < count; i++)
         middle = vec3_add(middle, vec3_scale(members.place[i], members.share[i]));
@@ -480,11 +480,11 @@ static ewa_status make_level(ewa_surfels *fine, double growth) {
     job.windows = ewa_allocate(context, fine->packet_count, sizeof *job.windows);
     job.parts = ewa_allocate(context, parts, sizeof *job.parts);
     job.coarse = ewa_allocate_zeroed(context, 1, sizeof *job.coarse);
+    if (job.coarse) job.coarse->context = context;
     const bool room = job.order && job.starts && job.windows && job.parts && job.coarse;
     ewa_status status = room ? EWA_OK : EWA_ERROR_MEMORY;
     if (status == EWA_OK) {
         ewa_surfels *coarse = job.coarse;
-        coarse->context = context;
         coarse->material = fine->material, coarse->most_material = fine->most_material;
         coarse->unit = fine->unit, coarse->cutoff = fine->cutoff, coarse->ellipses = fine->ellipses;
         coarse->extent = fine->extent;
