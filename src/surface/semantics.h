@@ -187,11 +187,13 @@
 
 #define EWA_INVERSE_TWO_PI 0.15915494309189535
 
-// ---- Levels of detail
+// ---- Levels of detail (docs/levels.md)
 
 /// How much larger the first coarser level's surfels are than what keeps the area of those that they stand
-/// for.
-#define EWA_LEVEL_GROWTH 1.0
+/// for, and how far from the middle of these one of them may be, in sigmas, before that makes the surfel
+/// larger. Without both, grids show holes; with them, no sampling of docs/levels.md does.
+#define EWA_LEVEL_GROWTH 1.3
+#define EWA_LEVEL_SPREAD 1.7
 
 // ---- Section 5
 
