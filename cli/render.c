@@ -352,9 +352,7 @@ const cli_command render_command = {
         "ewa render scan.ply -o scan.png\n"
         "ewa render scan.ply -o side.png --view right --size 1920x1080 --background transparent\n"
         "ewa render tile1.ply tile2.ply -o height.png --color-by z --colormap turbo --shading lambert\n"
-        "ewa render tile.ply -o map.png --view top --ortho 500 --color-by classification --color-bar "
-        "--scale-bar "
-        "--unit m\n"
+        "ewa render tile.ply -o map.png --view top --color-by classification --color-bar --axes\n"
         "ewa render scan.ply -o scan.exr --camera camera.json --aov depth=depth.pfm,normal=normal.exr\n"
         "ewa render scan.ply -o turn.mp4 --turntable 120 --elevation 20\n"
         "ewa render scan.ply -o fly_%04d.png --path keys.json --frames 300\n",
