@@ -275,7 +275,7 @@ static void test_hostile(void **state) {
 /// Pixels do not depend on where the canvas lies in memory, nor on how it is cut off.
 static void test_same(void **state) {
     (void)state;
-    ewa_text_style style = {22.5, {250, 240, 20, 230}, 2.5, {10, 20, 90, 160}, EWA_TEXT_LEFT};
+    ewa_text_style style = {22.5, {250, 240, 20, 230}, 7, {10, 20, 90, 160}, EWA_TEXT_LEFT};
     enum { WIDE = 211, HIGH = 60 };
     ewa_canvas whole = painting_make(WIDE, HIGH, (const uint8_t[4]){40, 90, 60, 255});
     ewa_draw_text(&whole, "Quick 0.5 m² & so", 7, 40, &style);
