@@ -51,6 +51,24 @@ int child_spawn(const char *program, const char *const *words, const int streams
     return error;
 }
 
+bool child_find_helper(const char *folder, const char *name, char helper[PATH_MAX]) {
+    const char *const places[][2] = {{"", name}, {folder, name}, {"libexec/ewa", name}};
+    char own[PATH_MAX];
+    const ssize_t length = readlink("/proc/self/exe", own, sizeof own - 1);
+    if (length <= 0) return false;
+    own[length] = 0;
+    char *slash = strrchr(own, '/');
+    if (!slash) return false;
+    slash[1] = 0;
+    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
+        const bool beside = !places[i][0][0];
+        const int made = snprintf(helper, PATH_MAX, "%s%s%s%s%s", own, beside ? "" : "../", places[i][0],
+                                  beside ? "" : "/", places[i][1]);
+        if (made > 0 && made < PATH_MAX && access(helper, X_OK) == 0) return true;
+    }
+    return false;
+}
+
 bool child_pipe(int ends[2]) {
     if (pipe(ends) != 0) return false;
     fcntl(ends[0], F_SETFD, FD_CLOEXEC);

@@ -7,6 +7,7 @@
 
 #include "session.h"
 
+#include <limits.h>
 #include <sys/types.h>
 
 /// Zero-initialised and ended there is none.
@@ -16,6 +17,10 @@ typedef struct child_process {
     int output;       ///< its standard output; -1: nobody listens
     FILE *complaints; ///< its standard error
 } child_process;
+
+/// Finds a helper of this program beside it, in the folder of the build's tree where it is built, or where it is
+/// installed.
+bool child_find_helper(const char *folder, const char *name, char helper[PATH_MAX]);
 
 /// A pipe that no child inherits but by `child_spawn`; false with errno.
 bool child_pipe(int ends[2]);

@@ -31,23 +31,6 @@ bool import_is_named(const char *path) {
     return false;
 }
 
-/// Finds the helper beside the program, as it is built, or where it is installed.
-static bool find_helper(char helper[PATH_MAX]) {
-    static const char *const places[] = {"ewa-import", "../import/ewa-import", "../libexec/ewa/ewa-import"};
-    char own[PATH_MAX];
-    const ssize_t length = readlink("/proc/self/exe", own, sizeof own - 1);
-    if (length <= 0) return false;
-    own[length] = 0;
-    char *slash = strrchr(own, '/');
-    if (!slash) return false;
-    slash[1] = 0;
-    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
-        const int made = snprintf(helper, PATH_MAX, "%s%s", own, places[i]);
-        if (made > 0 && made < PATH_MAX && access(helper, X_OK) == 0) return true;
-    }
-    return false;
-}
-
 /// A helper that runs.
 typedef struct import_child {
     pid_t pid;
@@ -186,7 +169,7 @@ bool import_run(cli_session *session, const char *helper, const char *path, cons
 bool import_load(cli_session *session, const char *path, uint32_t wanted, ewa_model *model) {
     char helper[PATH_MAX];
     *model = (ewa_model){.points = NULL};
-    if (!find_helper(helper)) {
+    if (!child_find_helper("import", "ewa-import", helper)) {
         session_fail(session,
                      "%s: this format is read by the helper program ewa-import, which is not installed (it "
                      "is built where Assimp is found)",

@@ -58,13 +58,13 @@ ewa_cloud *input_load_elements(cli_session *session, const char *path, ewa_eleme
     return cloud;
 }
 
-/// Loads one file; triangles are sampled. NULL after reporting.
-static ewa_cloud *load_or_sample(cli_session *session, const char *path, double cutoff) {
+ewa_cloud *input_points(cli_session *session, const char *path, double cutoff, bool *sampled) {
     ewa_model model;
     ewa_cloud *cloud = NULL;
     if (model_input_load(session, path, EWA_MODEL_MESH, &model)) {
         cloud = model.points;
         model.points = NULL;
+        *sampled = !cloud;
         if (!cloud) cloud = model_input_sample(session, path, &model.mesh, cutoff);
     }
     ewa_model_free(&model);
@@ -110,8 +110,7 @@ static ewa_status discs_to_axes(ewa_cloud *cloud, double cutoff) {
     return EWA_OK;
 }
 
-/// Replaces the colours, or their absence, by linear floats with alpha, which all colours can become.
-static ewa_status colors_to_linear(ewa_cloud *cloud) {
+ewa_status colors_to_linear(ewa_cloud *cloud) {
     const uint64_t count = ewa_cloud_point_count(cloud);
     const ewa_attribute *found = ewa_cloud_find(cloud, EWA_COLOR);
     const ewa_attribute color = found ? *found : (ewa_attribute){.component_count = 0};
@@ -256,29 +255,31 @@ ewa_cloud *inputs_merge(cli_session *session, const common_arguments *common) {
     return merge_owned(session, clouds, common->operand_count);
 }
 
-ewa_cloud *input_as_surfels(cli_session *session, const char *path, double cutoff, double *estimate_s) {
-    ewa_cloud *cloud = load_or_sample(session, path, cutoff);
-    if (!cloud || cloud_is_drawable(cloud)) return cloud;
-    if (!screening_admit(session, path, cloud)) {
-        ewa_cloud_destroy(&cloud);
-        return NULL;
-    }
-    screening_drop_zero_normals(session, path, cloud);
-    const bool has_normals = ewa_cloud_find(cloud, EWA_NORMAL) != NULL;
+bool input_complete(cli_session *session, const char *path, ewa_cloud **cloud, double *estimate_s) {
+    if (cloud_is_drawable(*cloud)) return true;
+    if (!screening_admit(session, path, *cloud)) return false;
+    screening_drop_zero_normals(session, path, *cloud);
+    const bool has_normals = ewa_cloud_find(*cloud, EWA_NORMAL) != NULL;
     ewa_estimate_options options;
     ewa_estimate_options_init(&options, sizeof options);
     const double started_s = clock_now_s();
-    const ewa_status status = ewa_cloud_estimate(&cloud, &options);
+    const ewa_status status = ewa_cloud_estimate(cloud, &options);
     if (status != EWA_OK) {
         session_failed(session, status);
-        ewa_cloud_destroy(&cloud);
-        return NULL;
+        return false;
     }
     const double took_s = clock_now_s() - started_s;
     *estimate_s += took_s;
     session_say(session, "%s: %s from %u neighbours in %.3f s", path,
                 has_normals ? "radii estimated" : "normals and radii estimated", options.neighbour_count,
                 took_s);
+    return true;
+}
+
+ewa_cloud *input_as_surfels(cli_session *session, const char *path, double cutoff, double *estimate_s) {
+    bool sampled;
+    ewa_cloud *cloud = input_points(session, path, cutoff, &sampled);
+    if (cloud && !input_complete(session, path, &cloud, estimate_s)) ewa_cloud_destroy(&cloud);
     return cloud;
 }
 

@@ -15,6 +15,14 @@ ewa_cloud *input_load(cli_session *session, const char *path);
 /// caller frees, are NULL for other formats.
 ewa_cloud *input_load_elements(cli_session *session, const char *path, ewa_elements **elements);
 
+/// Loads the points of one file; `*sampled`: they were made on the faces of a mesh, for kernels that end at
+/// `cutoff` standard deviations. NULL after reporting.
+ewa_cloud *input_points(cli_session *session, const char *path, double cutoff, bool *sampled);
+
+/// Estimates what a surfel needs and the points of a file lack. False after reporting; free the cloud in any
+/// case. `*estimate_s` grows by the time that it took.
+bool input_complete(cli_session *session, const char *path, ewa_cloud **cloud, double *estimate_s);
+
 /// Loads one file and estimates what a surfel needs and it lacks; a mesh is sampled; NULL after reporting.
 /// Axes that are made of a mesh are for kernels that end at `cutoff` standard deviations. `*estimate_s` grows
 /// by the time that the estimation took.
@@ -31,6 +39,9 @@ ewa_cloud *inputs_merge(cli_session *session, const common_arguments *common);
 /// the time that the estimation took.
 ewa_cloud *inputs_as_surfels(cli_session *session, const common_arguments *common, const char *wanted,
                              double cutoff, double *estimate_s);
+
+/// Replaces a cloud's colours, or their absence, by linear floats with alpha, which all colours can become.
+ewa_status colors_to_linear(ewa_cloud *cloud);
 
 /// Whether a cloud has all that a surfel needs.
 bool cloud_is_drawable(const ewa_cloud *cloud);

@@ -453,6 +453,8 @@ bool options_parse(const cli_command *command, size_t count, const char *const *
                    void *arguments, char message[OPTION_ERROR_BYTES]) {
     common_arguments *common = arguments;
     common->operands = operands;
+    common->words = words;
+    common->word_count = count;
     bool only_operands = false, given[OPTION_COUNT_MAX] = {false};
     for (size_t i = 0; i < count; i++) {
         const char *word = words[i];

@@ -100,6 +100,8 @@ typedef struct option_group {
 typedef struct common_arguments {
     const char *const *operands; ///< the words that are no options
     size_t operand_count;
+    const char *const *words; ///< all, as they were given
+    size_t word_count;
     int64_t threads;
     bool quiet, verbose, help;
     int progress; ///< 1 or 0 when asked for, -1: where standard error is a terminal

@@ -4,7 +4,6 @@
 // ewa render: clouds to a picture.
 #include "color_by.h"
 #include "commands.h"
-#include "faults.h"
 #include "frames.h"
 #include "furnish.h"
 #include "inputs.h"
@@ -12,10 +11,11 @@
 #include "light.h"
 #include "picture.h"
 #include "render_report.h"
+#include "resident.h"
+#include "section.h"
 #include "sequence.h"
 #include "video.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -24,6 +24,7 @@ typedef struct render_arguments {
     light_arguments light;   // second
     const char *output, *aov, *save_camera_path, *stats_path;
     ewa_surfels_options surfels;
+    section_arguments section;
     bool close_gaps;
     const char *layers, *color_by;
     int colormap;
@@ -31,11 +32,6 @@ typedef struct render_arguments {
     option_color background;
     furnish_arguments furniture;
 } render_arguments;
-
-enum { GAP_POINTS = 1000 };
-
-/// Support radius in units of the spacing under which irregular points leave gaps.
-static const double GAP_RADIUS = 1;
 
 #define AT(member)      offsetof(render_arguments, member)
 #define SURFELS(member) OPTION_OF(ewa_surfels_options, AT(surfels), member)
@@ -78,6 +74,16 @@ static const cli_option splat_table[] = {
     {"opacity", RENDER(opacity)},
     {"tau", RENDER(edge_threshold)},
     {"cull", RENDER(cull)},
+};
+
+static const cli_option section_table[] = {
+    {"clip-box", OPTION_VECTOR, AT(section.box), "x0,y0,z0,x1,y1,z1",
+     .help = "draw only what lies inside a box: its lower, then its upper corner, in the file's coordinates",
+     .low = 6, .high = 6},
+    {"clip-plane", OPTION_VECTORS, AT(section.planes), "a,b,c,d",
+     .help = "draw only what fulfils a x + b y + c z + d >= 0; may be given up to 8 times, beside --clip-box "
+             "twice",
+     .low = 4, .high = 4},
 };
 
 static const cli_option look_table[] = {
@@ -148,7 +154,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     else if (arguments->colormap == COLOR_BY_CLASSES && arguments->range.given)
         missing = "--colormap classes takes no --range: each class has its own colour";
     if (!options_fine(missing, message)) return false;
-    return light_check(&arguments->light, message) &&
+    return light_check(&arguments->light, message) && section_check(&arguments->section, message) &&
            frames_check(&arguments->frames, arguments->output, arguments->background.rgba[3] == 1, message) &&
            parse_paths(arguments, &paths, message) &&
            furnish_check(&arguments->furniture, arguments->output, message);
@@ -157,58 +163,9 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
 static ewa_render_options render_options(const render_arguments *arguments, const light_objects *lit_by) {
     ewa_render_options options = light_apply(&arguments->light, lit_by);
     read_layers(arguments, &options.layers);
+    section_apply(&arguments->section, &options);
     option_color_linear(&arguments->background, options.background);
     return options;
-}
-
-static bool make_surfels(cli_session *session, const render_arguments *arguments, const ewa_cloud *cloud,
-                         ewa_surfels **surfels, render_report *report) {
-    const double started_s = clock_now_s();
-    const ewa_status status = ewa_surfels_create(cloud, &arguments->surfels, surfels);
-    report->surfels_s += clock_now_s() - started_s;
-    if (status != EWA_OK) {
-        session_failed(session, status);
-        return false;
-    }
-    ewa_surfels_describe(*surfels, &report->surfels);
-    return true;
-}
-
-/// The discs' median support radius in units of the spacing 1 / sqrt(d) (d: density): from the unit coverage
-/// q = s^2 d (1 - exp(-F^2 / 2)) with s = radius / F. Before --radius-scale where that shrinks discs: whoever
-/// does so wants gaps.
-static double radius_in_spacings(const render_arguments *arguments, const ewa_surfels_info *surfels) {
-    const double f = arguments->surfels.cutoff, kernel = 1 - exp(-0.5 * f * f);
-    return f * sqrt(surfels->unit_coverage / kernel) / fmin(arguments->surfels.radius_scale, 1);
-}
-
-/// Measures the radii anew where the file's are so small that there are gaps between the discs; says so.
-static bool close_gaps(cli_session *session, const render_arguments *arguments, ewa_cloud **cloud,
-                       ewa_surfels **surfels, render_report *report) {
-    const double radius = radius_in_spacings(arguments, &report->surfels);
-    const bool gaps = report->surfels.point_count >= GAP_POINTS && radius < GAP_RADIUS;
-    if (!gaps || !ewa_cloud_find(*cloud, EWA_RADIUS) || ewa_cloud_find(*cloud, EWA_TANGENT_U)) return true;
-    if (!arguments->close_gaps) {
-        session_note(session, "the radii are %.2f of the points' spacing, which leaves gaps", radius);
-        return true;
-    }
-    session_note(session,
-                 "the radii are %.2f of the points' spacing, which leaves gaps: larger ones are used "
-                 "(--close-gaps off keeps the file's)",
-                 radius);
-    ewa_estimate_options options;
-    ewa_estimate_options_init(&options, sizeof options);
-    options.cutoff = arguments->surfels.cutoff;
-    options.keep_radii = false;
-    const double started_s = clock_now_s();
-    ewa_surfels_destroy(surfels);
-    const ewa_status status = ewa_cloud_estimate(cloud, &options);
-    report->estimate_s += clock_now_s() - started_s;
-    if (status != EWA_OK) {
-        session_failed(session, status);
-        return false;
-    }
-    return make_surfels(session, arguments, *cloud, surfels, report);
 }
 
 /// What all frames share.
@@ -237,10 +194,9 @@ static bool make_scene(cli_session *session, const render_arguments *arguments, 
         furnish_make(session, &arguments->furniture, &arguments->frames, &arguments->background, cloud, by,
                      &scene->scale, &scene->furniture);
     session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
-    done = done && make_surfels(session, arguments, cloud, surfels, report) &&
-           (arguments->light.render.point_size_px > 0 ||
-            close_gaps(session, arguments, &cloud, surfels, report)) &&
-           faults_report(session, cloud, &report->surfels);
+    const resident_options options = {arguments->surfels, arguments->close_gaps,
+                                      arguments->light.render.point_size_px > 0};
+    done = done && resident_make(session, &options, &cloud, surfels, report);
     ewa_cloud_destroy(&cloud);
     if (!done) ewa_surfels_destroy(surfels);
     return done;
@@ -326,6 +282,7 @@ static int run(const void *data) {
 
 static const option_group output_options = OPTION_GROUP("Output", output_table);
 static const option_group splat_options = OPTION_GROUP("Splats", splat_table);
+static const option_group section_options = OPTION_GROUP("Section", section_table);
 static const option_group look_options = OPTION_GROUP("Look", look_table);
 static const option_group furniture_options = OPTION_GROUP("Over the picture", furniture_table);
 const cli_command render_command = {
@@ -355,11 +312,13 @@ const cli_command render_command = {
         "ewa render tile.ply -o map.png --view top --color-by classification --color-bar --axes\n"
         "ewa render scan.ply -o scan.exr --camera camera.json --aov depth=depth.pfm,normal=normal.exr\n"
         "ewa render scan.ply -o turn.mp4 --turntable 120 --elevation 20\n"
-        "ewa render scan.ply -o fly_%04d.png --path keys.json --frames 300\n",
+        "ewa render scan.ply -o fly_%04d.png --path keys.json --frames 300\n"
+        "ewa render scan.ply -o floor.png --view top --clip-plane 0,0,-1,1.5\n",
     .low_operands = 1,
     .high_operands = 4096,
     .groups = (const option_group *const[]){&output_options, &view_options, &frames_options, &splat_options,
-                                            &light_options, &look_options, &furniture_options, NULL},
+                                            &section_options, &light_options, &look_options,
+                                            &furniture_options, NULL},
     .arguments_bytes = sizeof(render_arguments),
     .set_defaults = set_defaults,
     .check = check,

@@ -14,7 +14,7 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { BAR_COLUMNS = 40 };
+enum { BAR_COLUMNS = 40, LINE_BYTES = 2048 };
 
 /// The bar appears after this time, so that short runs stay silent, and is redrawn in these steps.
 static const double BAR_DELAY_S = 0.4, BAR_STEP_S = 0.05;
@@ -58,6 +58,8 @@ static void draw_bar(cli_session *session, const char *label, double fraction) {
 
 static bool on_progress(void *user, const char *stage, double fraction) {
     cli_session *session = user;
+    const session_listener *listener = session->listener;
+    if (listener) return listener->progress(listener->user, stage, fraction) && caught_signal == 0;
     if (!session->stepping) draw_bar(session, stage, fraction);
     return caught_signal == 0;
 }
@@ -73,23 +75,31 @@ bool session_step(cli_session *session, const char *what, uint64_t done, uint64_
 }
 
 /// Prints one line: program, then the file unless the text begins with it, then the text.
-static void print_line(cli_session *session, const char *kind, const char *text) {
+static void print_line(cli_session *session, ewa_severity severity, const char *text) {
     wipe_bar(session);
     const char *subject = session->subject;
     const bool named = !subject || strncmp(text, subject, strlen(subject)) == 0;
-    fprintf(stderr, "ewa: %s%s%s%s\n", kind, named ? "" : subject, named ? "" : ": ", text);
+    if (session->listener) {
+        char line[LINE_BYTES];
+        snprintf(line, sizeof line, "%s%s%s", named ? "" : subject, named ? "" : ": ", text);
+        session->listener->message(session->listener->user, severity, line);
+        return;
+    }
+    fprintf(stderr, "ewa: %s%s%s%s\n", severity == EWA_SEVERITY_WARNING ? "warning: " : "",
+            named ? "" : subject, named ? "" : ": ", text);
 }
 
 static void on_message(void *user, ewa_severity severity, const char *text) {
     cli_session *session = user;
     if (severity == EWA_SEVERITY_ERROR) session->reported = true;
-    print_line(session, severity == EWA_SEVERITY_WARNING ? "warning: " : "", text);
+    print_line(session, severity, text);
 }
 
-static void print_formatted(cli_session *session, const char *kind, const char *format, va_list arguments) {
+static void print_formatted(cli_session *session, ewa_severity severity, const char *format,
+                            va_list arguments) {
     char text[1024];
     vsnprintf(text, sizeof text, format, arguments);
-    print_line(session, kind, text);
+    print_line(session, severity, text);
 }
 
 ewa_context *session_context(cli_session *session, uint32_t thread_count, uint32_t cpu_mask) {
@@ -139,7 +149,7 @@ int session_end(cli_session *session, int exit_status) {
 int session_fail(cli_session *session, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    print_formatted(session, "", format, arguments);
+    print_formatted(session, EWA_SEVERITY_ERROR, format, arguments);
     va_end(arguments);
     session->reported = true;
     return EXIT_FAILED;
@@ -147,15 +157,15 @@ int session_fail(cli_session *session, const char *format, ...) {
 
 int session_failed(cli_session *session, ewa_status status) {
     if (caught_signal) return EXIT_FAILED;
-    if (!session->reported) return session_fail(session, "%s", ewa_status_name(status));
-    return EXIT_FAILED;
+    if (session->reported) return EXIT_FAILED;
+    return session_fail(session, "%s", status == EWA_CANCELLED ? "given up" : ewa_status_name(status));
 }
 
 void session_warn(cli_session *session, const char *format, ...) {
     if (session->quiet) return;
     va_list arguments;
     va_start(arguments, format);
-    print_formatted(session, "warning: ", format, arguments);
+    print_formatted(session, EWA_SEVERITY_WARNING, format, arguments);
     va_end(arguments);
 }
 
@@ -163,7 +173,7 @@ void session_note(cli_session *session, const char *format, ...) {
     if (session->quiet) return;
     va_list arguments;
     va_start(arguments, format);
-    print_formatted(session, "", format, arguments);
+    print_formatted(session, EWA_SEVERITY_INFO, format, arguments);
     va_end(arguments);
 }
 
@@ -171,7 +181,7 @@ void session_say(cli_session *session, const char *format, ...) {
     if (!session->verbose) return;
     va_list arguments;
     va_start(arguments, format);
-    print_formatted(session, "", format, arguments);
+    print_formatted(session, EWA_SEVERITY_INFO, format, arguments);
     va_end(arguments);
 }
 

@@ -10,9 +10,17 @@
 
 enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2 };
 
+/// Who gets messages and progress in place of the terminal.
+typedef struct session_listener {
+    void *user;
+    void (*message)(void *user, ewa_severity severity, const char *text);
+    bool (*progress)(void *user, const char *stage, double fraction); ///< false: the run is to stop
+} session_listener;
+
 typedef struct cli_session {
     ewa_context *context;
-    const char *subject; ///< the file that messages are about, or NULL
+    const session_listener *listener; ///< NULL: the terminal
+    const char *subject;              ///< the file that messages are about, or NULL
     bool quiet, verbose;
     bool reported;     ///< an error was printed
     bool progress;     ///< a bar may be drawn

@@ -56,6 +56,17 @@ static double unit_of(double size) { return size > 0 && isfinite(size) ? ldexp(1
 
 static double largest_of(ewa_vec3 v) { return fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z))); }
 
+void ewa_placement_plane(const double plane_world[4], const double origin_world[3], double plane[4]) {
+    int exponent = 0;
+    frexp(largest_of(vec3_load(plane_world)), &exponent);
+    for (int i = 0; i < 4; i++) plane[i] = ldexp(plane_world[i], -exponent); // rounds nothing
+    const double factors[4] = {plane[0], plane[1], plane[2], plane[3]};
+    const double terms[4] = {origin_world[0], origin_world[1], origin_world[2], 1};
+    const double distance = sum_products(factors, terms, 4), length = vec3_length(vec3_load(plane));
+    if (isfinite(distance)) plane[3] = distance; // else d is beyond all points
+    for (int i = 0; i < 4; i++) plane[i] /= length;
+}
+
 ewa_vec3 ewa_placement_apply(const ewa_placement *placement, ewa_vec3 point) {
     return vec3_add(mat3_mul_vec3(&placement->linear, vec3_sub(point, placement->anchor)), placement->offset);
 }

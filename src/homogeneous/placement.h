@@ -30,4 +30,9 @@ ewa_placement ewa_placement_make(const ewa_camera *camera, const double origin_w
 /// Returns where a point is in camera space.
 ewa_vec3 ewa_placement_apply(const ewa_placement *placement, ewa_vec3 point);
 
+/// Writes a plane a x + b y + c z + d of the world, finite and with a normal, as it is for points from
+/// `origin_world`: its normal of unit length, and its distance from the origin, computed with twice the
+/// digits. Total; any thread.
+void ewa_placement_plane(const double plane_world[4], const double origin_world[3], double plane[4]);
+
 #endif

@@ -15,7 +15,7 @@ typedef struct ewa_bins {
     ewa_bin_lists lists;      ///< packets of each tile, ascending
     ewa_packet_places places; ///< of the packets that some tile has
     uint64_t culled_packet_count;
-    ewa_buffer places_buffer;
+    ewa_buffer places_buffer, lanes_buffer;
 } ewa_bins;
 
 /// Fills the bins in parallel; the result does not depend on the number of workers.

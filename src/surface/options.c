@@ -17,6 +17,8 @@ static const ewa_option surfels_rows[] = {
      .help = "standard deviations at which a kernel ends"},
     {"radius_scale", EWA_OPTION_F64, OF_SURFELS(radius_scale), 0, 1e15, EWA_OPTION_ABOVE, .initial = 1,
      .help = "multiplies every radius and axis"},
+    {"level_count", EWA_OPTION_U32, OF_SURFELS(level_count), 1, EWA_MAX_LEVELS, .initial = 1,
+     .help = "levels of detail, each of a quarter of the surfels of the one before; 1: all surfels only"},
 };
 
 const ewa_option_table ewa_surfels_options_table = EWA_OPTION_TABLE(ewa_surfels_options, surfels_rows);
@@ -67,6 +69,13 @@ static const ewa_option render_rows[] = {
      .help = "eye-dome lighting: darken what lies behind its surroundings; 0: none, 1: strong"},
     {"background", EWA_OPTION_F32, OF_RENDER(background), 0, 1e15, .count = 4,
      .help = "linear light, straight alpha, which is at most 1"},
+    {"section_count", EWA_OPTION_U32, OF_RENDER(section_count), 0, EWA_MAX_SECTION_PLANES,
+     .help = "how many section planes there are"},
+    {"level", EWA_OPTION_U32, OF_RENDER(level), 0, EWA_MAX_LEVELS - 1,
+     .help = "level of detail, if the surfels have levels; 0: all surfels"},
+    {"budget_s", EWA_OPTION_F64, OF_RENDER(budget_s), 0, 1e15, .unit = "s",
+     .help = "time for a frame: of the levels of detail from `level` on, the finest that is expected to be "
+             "drawn in that time; 0: `level`"},
 };
 
 const ewa_option_table ewa_render_options_table = EWA_OPTION_TABLE(ewa_render_options, render_rows);
@@ -104,10 +113,24 @@ static ewa_status check_materials(ewa_context *context, const ewa_render_options
     return status;
 }
 
+static ewa_status check_sections(ewa_context *context, const ewa_render_options *options) {
+    for (uint32_t i = 0; i < options->section_count; i++) {
+        const double *p = options->section_planes[i];
+        const char *wrong = p[0] == 0 && p[1] == 0 && p[2] == 0 ? "no normal" : NULL;
+        for (int k = 0; k < 4; k++)
+            if (!isfinite(p[k])) wrong = "not finite";
+        if (wrong)
+            return ewa_fail(context, EWA_ERROR_ARGUMENT, "options: section_planes[%u] is %g, %g, %g, %g: %s",
+                            i, p[0], p[1], p[2], p[3], wrong);
+    }
+    return EWA_OK;
+}
+
 static ewa_status check_together(ewa_context *context, const ewa_render_options *options) {
     ewa_status status = ewa_option_check_lights(context, options->lights, options->light_count);
     if (status == EWA_OK) status = check_materials(context, options);
     if (status == EWA_OK) status = ewa_option_check_background(context, options->background);
+    if (status == EWA_OK) status = check_sections(context, options);
     const double *up = options->environment_up;
     if (status == EWA_OK && up[0] == 0 && up[1] == 0 && up[2] == 0)
         status = ewa_fail(context, EWA_ERROR_ARGUMENT, "options: environment_up is 0, 0, 0: no direction");

@@ -11,9 +11,11 @@
 #ifndef EWA_SRC_SURFACE_ROAD_H
 #define EWA_SRC_SURFACE_ROAD_H
 
+#include "ewa/render.h"
 #include "image/environment.h"
 #include "road/bin.h"
 #include "surface/packet.h"
+#include "surface/semantics.h"
 #include "wide/isa.h"
 #include "wide/lights.h"
 
@@ -93,6 +95,9 @@ typedef struct ewa_view {
         *materials)[EWA_MATERIAL_CHANNELS]; ///< [code], over the largest; NULL: surfels have no codes
     float side_planes[4][3]; ///< inward unit normals of the frustum's sides through the eye, widened by
                              ///< reach_px and a pixel
+    double sections[EWA_MAX_SECTION_PLANES][4]; ///< unit normal inward, distance from where packets' centres
+    uint32_t section_count;                     ///< are measured from, in their unit
+    float section_reach;                        ///< F; 0 for points
 } ewa_view;
 
 /// Packets' centres in camera space, one entry each, written by `cull` for those that it keeps. Surfels are
@@ -103,6 +108,8 @@ typedef struct ewa_view {
 /// likewise y. Orthographic: x = slope_x + rest_x.
 typedef struct ewa_packet_places {
     float *slope_x, *slope_y, *rest_x, *rest_y, *depth;
+    uint16_t *lanes; ///< a bit per surfel that the section planes leave; NULL: no planes
+    uint16_t *cuts;  ///< a bit per surfel that one of them cuts; NULL: none is
 } ewa_packet_places;
 
 /// One splat in one tile. Places are measured from the middle of the field, of EWA_FIELD_PX pixels a side,
@@ -152,10 +159,11 @@ typedef struct ewa_clip_line {
     float per_narrow, per_widths; ///< 1 / narrow (0 for 0), 1 / twice the larger
 } ewa_clip_line;
 
-/// The clip lines of a splat.
+/// The clip lines of a splat. What all keep is kept.
 typedef struct ewa_clip {
-    ewa_clip_line line[2];
-    bool either; ///< what one line keeps is kept, else what both keep
+    ewa_clip_line line[EWA_CLIP_LINES];
+    uint32_t count; ///< of `line`, at least 2
+    bool either;    ///< of the first two lines: what one of them keeps is kept
 } ewa_clip;
 
 /// A splat of a run that has clip lines.
@@ -351,8 +359,9 @@ typedef struct ewa_road_kernels {
     /// Lists those of packets [first, first + count) that may touch some tile, from entry `first` of `kept`
     /// on, and writes their places; `first` and the room of `kept` and `places` are multiples of 16. Returns
     /// how many there are.
-    uint32_t (*cull)(const ewa_view *view, const ewa_packet_bounds *bounds, uint32_t first, uint32_t count,
-                     const ewa_packet_places *places, const ewa_bin_items *kept);
+    uint32_t (*cull)(const ewa_view *view, const ewa_packet *packets, const ewa_packet_bounds *bounds,
+                     uint32_t first, uint32_t count, const ewa_packet_places *places,
+                     const ewa_bin_items *kept);
 
     /// Sets cells[row][column] (rows of EWA_TILE_CELLS) to the smallest tile->nearest in each cell.
     void (*set_cells)(const ewa_tile *tile, float *cells);

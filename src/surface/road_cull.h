@@ -6,8 +6,7 @@
 #ifndef EWA_SRC_SURFACE_ROAD_CULL_H
 #define EWA_SRC_SURFACE_ROAD_CULL_H
 
-#include "surface/road_camera.h"
-#include "wide/wide_double.h"
+#include "surface/road_section.h"
 
 static inline float tile_count(uint32_t side_px, uint32_t tile_px) {
     return (float)((side_px + tile_px - 1) / tile_px);
@@ -155,8 +154,9 @@ static inline wi tile_corners(wm alive, wf x, wf y) {
     return wi_or(wi_from_f(wf_keep(alive, x)), wi_shl(wi_from_f(wf_keep(alive, y)), 16));
 }
 
-static uint32_t cull(const ewa_view *view, const ewa_packet_bounds *bounds, uint32_t first, uint32_t count,
-                     const ewa_packet_places *places, const ewa_bin_items *kept) {
+static uint32_t cull(const ewa_view *view, const ewa_packet *packets, const ewa_packet_bounds *bounds,
+                     uint32_t first, uint32_t count, const ewa_packet_places *places,
+                     const ewa_bin_items *kept) {
     const float tile_px = (float)view->tile_px;
     const float tiles_x = tile_count(view->width_px, view->tile_px),
                 tiles_y = tile_count(view->height_px, view->tile_px);
@@ -170,6 +170,8 @@ static uint32_t cull(const ewa_view *view, const ewa_packet_bounds *bounds, uint
         wm alive = wm_and(within_sides(view, &o), wf_lt(wf_set(0), o.radius));
         const uint32_t left = first + count - p;
         if (left < 16) alive = wm_and(alive, wm_of_bits((1u << left) - 1));
+        if (!wm_bits(alive)) continue;
+        if (view->section_count) alive = keep_sections(view, packets, bounds, p, alive, places);
         if (!wm_bits(alive)) continue;
         if (view->cull_back) alive = wm_and(alive, wm_not(back_facing(view, bounds, p, &o)));
         if (!wm_bits(alive)) continue;

@@ -354,6 +354,35 @@ static void test_clip_lines_of_one_file(void **state) {
     ewa_image_free(&both);
 }
 
+/// A box and planes leave their part of a square, seen from above with the view of the whole; of the far side
+/// nothing is drawn.
+static void test_sections(void **state) {
+    (void)state;
+    static const struct {
+        const char *options;
+        double part;
+    } rows[] = {{"--clip-box=-2,-2,-1,0,2,1", 0.5},
+                {"--clip-box 0,0,-1,1,1,1", 0.25},
+                {"--clip-plane 3,0,0,0 --clip-plane 0,-1,0,0.5", 0.375},
+                {"--clip-box=-9,-9,-9,9,9,9 --clip-plane=-1,-1,0,0", 0.5},
+                {"--clip-plane 0,0,1,0.001", 1}};
+    run_done("ewa render plane.ply -o whole.exr --view top --size 120x120 --background transparent");
+    ewa_image image = load("whole.exr");
+    const double whole = share_over(&image, 3, 0.5f);
+    ewa_image_free(&image);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        run_done("ewa render plane.ply -o a.exr --view top --size 120x120 --background transparent %s",
+                 rows[i].options);
+        image = load("a.exr");
+        const double share = share_over(&image, 3, 0.5f);
+        if (fabs(share / whole - rows[i].part) > 0.02)
+            fail_msg("%s: %g of the square", rows[i].options, share / whole);
+        ewa_image_free(&image);
+    }
+    assert_int_equal(run("ewa render plane.ply -o a.exr --clip-box 5,5,5,6,6,6"), 0);
+    assert_non_null(strstr(last_run.err, "the picture shows nothing"));
+}
+
 static void test_streams(void **state) {
     (void)state;
     run_done("ewa render torus.ply -o a.png --size 96x64 && cat torus.ply | ewa render - -o - --size 96x64 "
@@ -390,6 +419,7 @@ int main(void) {
         cmocka_unit_test(test_several_inputs),
         cmocka_unit_test(test_mesh),
         cmocka_unit_test(test_clip_lines_of_one_file),
+        cmocka_unit_test(test_sections),
         cmocka_unit_test(test_streams),
     };
     return cmocka_run_group_tests(tests, enter, leave);

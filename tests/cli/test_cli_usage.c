@@ -70,7 +70,10 @@ static void test_wrong_usage(void **state) {
     run_fails(2, "'rendr': no such command; did you mean 'render'?", "ewa rendr");
     run_fails(2, "'--vresion': no such option; did you mean '--version'?", "ewa --vresion");
     run_fails(2, "'xyzzy': no such command; see 'ewa --help'", "ewa help xyzzy");
-    run_fails(2, "'a scan.ply': a file, no command; to draw it: ewa render 'a scan.ply' -o picture.png",
+    run_fails(2,
+              "'a scan.ply': a file, no command; to look at it: ewa view 'a scan.ply'; to draw it: ewa "
+              "render 'a scan.ply' -o "
+              "picture.png",
               "touch 'a scan.ply' && ewa 'a scan.ply'");
     run_done("rm 'a scan.ply'");
     run_fails(2, "an input is missing; usage: ewa render IN... -o OUT", "ewa render -o a.png");
@@ -92,6 +95,16 @@ static void test_wrong_usage(void **state) {
     run_fails(2, "--light: given more than 8 times",
               "ewa render a.ply -o a.png $(for i in 1 2 3 4 5 6 7 8 9; do echo --light 1,2,$i; done)");
     run_fails(2, "--materials and --env need", "ewa render a.ply -o a.png --shading lambert --env e.exr");
+    run_fails(2, "--clip-box: '1,2,3' is not x0,y0,z0,x1,y1,z1",
+              "ewa render a.ply -o a.png --clip-box 1,2,3");
+    run_fails(2, "--clip-box: the first corner is not the lower one",
+              "ewa render a.ply -o a.png --clip-box 0,0,1,1,1,0.5");
+    run_fails(2, "--clip-plane: '1,0,0' is not a,b,c,d", "ewa render a.ply -o a.png --clip-plane 1,0,0");
+    run_fails(2, "--clip-plane: 'nan,0,0,0' is not", "ewa render a.ply -o a.png --clip-plane nan,0,0,0");
+    run_fails(2, "--clip-plane: 0,0,0,d has no normal", "ewa render a.ply -o a.png --clip-plane 0,0,0,1");
+    run_fails(2, "--clip-plane: given more than twice beside --clip-box",
+              "ewa render a.ply -o a.png --clip-box 0,0,0,1,1,1 --clip-plane 1,0,0,0 --clip-plane 0,1,0,0 "
+              "--clip-plane 0,0,1,0");
     run_fails(2, "--env-up: 0,0,0", "ewa render a.ply -o a.png --env-up 0,0,0");
     run_fails(2, "--camera and --view exclude", "ewa render a.ply -o a.png --camera c.json --view top");
     run_fails(2, "--camera and --fov exclude|poses", "ewa render a.ply -o a.png --camera c.json --fov 60");

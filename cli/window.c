@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// ewa view: the viewer, in a window by the program ewa-view beside this one, or run by a script without any.
+#include "window.h"
+#include "child.h"
+#include "commands.h"
+#include "window_services.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+typedef struct window_arguments {
+    view_arguments view; // first
+    const char *script_path;
+    bool timings, window;
+    double scale;
+} window_arguments;
+
+static const cli_option window_table[] = {
+    {"script", OPTION_TEXT, offsetof(window_arguments, script_path), "FILE",
+     .help = "do what the lines of a file say, in place of a person (docs/viewer.md), without a window; -: "
+             "standard input"},
+    {"timings", OPTION_FLAG, offsetof(window_arguments, timings),
+     .help = "keep the times of the script, and print what the pictures took", .needs = "script"},
+    {"window", OPTION_FLAG, offsetof(window_arguments, window), .help = "run the script in a window",
+     .needs = "script"},
+    {"scale", OPTION_NUMBER, offsetof(window_arguments, scale), "N", "[0.25, 8]",
+     .help = "pixels per point of the script's screen", .needs = "script"},
+};
+
+static void set_defaults(void *data) {
+    window_arguments *arguments = data;
+    view_set_defaults(&arguments->view);
+    arguments->view.size = (option_size){1280, 800, false};
+    arguments->scale = 1;
+}
+
+static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
+    const window_arguments *arguments = data;
+    return view_check(&arguments->view, false, message);
+}
+
+int window_run(const void *data, int (*front)(const front_job *job)) {
+    const window_arguments *arguments = data;
+    const common_arguments *common = &arguments->view.common;
+    window_services services;
+    front_job job = {.paths = common->operands,
+                     .path_count = common->operand_count,
+                     .script_path = arguments->script_path,
+                     .timings = arguments->timings,
+                     .started_s = clock_now_s(),
+                     .options = {.thread_count = (uint32_t)common->threads,
+                                 .cpu_mask = EWA_CPU_ALL,
+                                 .width = arguments->view.size.width_px,
+                                 .height = arguments->view.size.height_px,
+                                 .scale = arguments->scale,
+                                 .waits = arguments->script_path && !arguments->timings}};
+    if (!window_services_make(&services, &arguments->view, &job.options.services)) return EXIT_FAILED;
+    const int exit_status = front(&job);
+    window_services_free(&services);
+    return exit_status;
+}
+
+/// Becomes the program that has windows. Returns only when it cannot.
+static int start_window(const common_arguments *common) {
+    char helper[PATH_MAX];
+    cli_session session = {.quiet = false};
+    if (!child_find_helper("viewer/sdl", "ewa-view", helper))
+        return session_fail(&session,
+                            "view: the program ewa-view, which has the window, is not installed (it is "
+                            "built where SDL2 and Dear ImGui are found); 'ewa render' draws without");
+    char **words = calloc(common->word_count + 2, sizeof *words);
+    if (!words) return session_fail(&session, "out of memory");
+    words[0] = helper;
+    for (size_t i = 0; i < common->word_count; i++) {
+        words[i + 1] = strdup(common->words[i]);
+        if (!words[i + 1]) return session_fail(&session, "out of memory");
+    }
+    execv(helper, words);
+    return session_fail(&session, "%s: %s", helper, strerror(errno));
+}
+
+static int run(const void *data) {
+    const window_arguments *arguments = data;
+    const bool headless = arguments->script_path && !arguments->window;
+    return headless ? window_run(data, front_script_run) : start_window(&arguments->view.common);
+}
+
+static const option_group window_options = OPTION_GROUP("Window", window_table);
+const cli_command view_command = {
+    .name = "view",
+    .operands = "[IN...]",
+    .summary = "show clouds, meshes and volumes in a window",
+    .details =
+        "Drag to turn about what is under the pointer, drag with the right button to move, turn the wheel to "
+        "come nearer; click to pick a point, Shift-click a second one to measure; h shows all keys. Files "
+        "can "
+        "be dropped onto the window. While something moves, fewer and larger surfels are drawn, so that "
+        "the picture keeps up; when all is still it is the one that 'ewa render' draws with the camera that "
+        "Ctrl-C copies. No graphics card is needed.",
+    .examples = "ewa view scan.ply\n"
+                "ewa view scan.ply volume.nrrd --view iso\n"
+                "ewa view scan.ply --script session.txt --timings\n",
+    .high_operands = VIEWER_MAX_ITEMS,
+    .groups = (const option_group *const[]){&window_options, &view_options, NULL},
+    .arguments_bytes = sizeof(window_arguments),
+    .set_defaults = set_defaults,
+    .check = check,
+    .run = run,
+};

@@ -1,0 +1,328 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The language of commands, which keys, panels and scripts speak.
+#include "inner.h"
+#include "navigate.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WORD_BYTES = 128 };
+
+/// Of a perspective camera that was orthographic before.
+static const double DEFAULT_FOV_DEG = 30;
+
+/// The picture's numbers of keys.
+static const double NOTCH = 0.85, FIRST_DOME = 1, FIRST_POINT_PX = 3;
+
+/// Takes the first word off a text; empty at its end.
+static const char *take_word(const char *text, char word[WORD_BYTES]) {
+    size_t used = 0;
+    while (*text == ' ') text++;
+    for (; *text && *text != ' '; text++)
+        if (used + 1 < WORD_BYTES) word[used++] = *text;
+    word[used] = 0;
+    while (*text == ' ') text++;
+    return text;
+}
+
+static bool refuse(viewer *v, const char *command, const char *text, const char *wanted) {
+    viewer_tell(v, "%s: '%s' is not %s", command, text, wanted);
+    return false;
+}
+
+/// Reads "on", "off" or "next".
+static bool read_switch(viewer *v, const char *command, const char *text, bool now, bool *value) {
+    if (strcmp(text, "on") == 0)
+        *value = true;
+    else if (strcmp(text, "off") == 0)
+        *value = false;
+    else if (strcmp(text, "next") == 0)
+        *value = !now;
+    else
+        return refuse(v, command, text, "on, off or next");
+    return true;
+}
+
+/// Reads the number of an item.
+static bool read_item(viewer *v, const char *command, const char *word, size_t *index) {
+    char *end;
+    errno = 0;
+    const unsigned long number = strtoul(word, &end, 10);
+    if (!word[0] || *end || errno || word[0] == '-' || number >= v->item_count)
+        return refuse(v, command, word, "the number of something that is open");
+    *index = number;
+    return true;
+}
+
+static bool do_open(viewer *v, const char *rest) { return items_open(v, rest); }
+
+static bool do_close(viewer *v, const char *rest) {
+    size_t index;
+    return read_item(v, "close", rest, &index) && items_close(v, index);
+}
+
+static bool do_show(viewer *v, const char *rest) {
+    char word[WORD_BYTES];
+    size_t index;
+    rest = take_word(rest, word);
+    if (!read_item(v, "show", word, &index) ||
+        !read_switch(v, "show", rest, v->items[index].visible, &v->items[index].visible))
+        return false;
+    viewer_change(v);
+    return true;
+}
+
+static bool do_name(viewer *v, const char *rest) {
+    char word[WORD_BYTES];
+    size_t index;
+    rest = take_word(rest, word);
+    if (!read_item(v, "name", word, &index)) return false;
+    snprintf(v->items[index].name, sizeof v->items[index].name, "%s", rest);
+    viewer_mark(v);
+    return true;
+}
+
+static bool do_tint(viewer *v, const char *rest) {
+    char word[WORD_BYTES], end;
+    size_t index;
+    double n[3];
+    rest = take_word(rest, word);
+    if (!read_item(v, "tint", word, &index)) return false;
+    viewer_coloring *wish = &v->items[index].wish;
+    const bool none = strcmp(rest, "none") == 0;
+    bool fine = none || sscanf(rest, "%lf,%lf,%lf%c", &n[0], &n[1], &n[2], &end) == 3;
+    for (int c = 0; c < 3; c++) fine = fine && (none || (n[c] >= 0 && n[c] <= 1));
+    if (!fine) return refuse(v, "tint", rest, "r,g,b in [0, 1] or none");
+    wish->tinted = !none;
+    if (!none) memcpy(wish->tint, n, sizeof n);
+    items_recolor(v, index);
+    return true;
+}
+
+static bool do_alpha(viewer *v, const char *rest) {
+    char word[WORD_BYTES], end;
+    size_t index;
+    double alpha;
+    rest = take_word(rest, word);
+    if (!read_item(v, "alpha", word, &index)) return false;
+    if (sscanf(rest, "%lf%c", &alpha, &end) != 1 || !(alpha >= 0 && alpha <= 1))
+        return refuse(v, "alpha", rest, "a number in [0, 1]");
+    v->items[index].wish.alpha = alpha;
+    items_recolor(v, index);
+    return true;
+}
+
+/// The name of a colour map by its number; NULL beyond the last.
+static const char *colormap_name(int index) {
+    static const char *const names[] = {"viridis", "turbo", "gray",    "plasma",
+                                        "inferno", "magma", "cividis", "coolwarm"};
+    return index >= 0 && index < (int)(sizeof names / sizeof names[0]) ? names[index] : NULL;
+}
+
+static bool do_color(viewer *v, const char *rest) {
+    char word[WORD_BYTES], map[WORD_BYTES], end;
+    size_t index;
+    if (strcmp(rest, "next") == 0) {
+        items_cycle_color(v);
+        return true;
+    }
+    rest = take_word(rest, word);
+    if (!read_item(v, "color", word, &index)) return false;
+    viewer_coloring wish = v->items[index].wish;
+    rest = take_word(rest, word);
+    if (!word[0]) return refuse(v, "color", word, "the name of an attribute or none");
+    if (strlen(word) >= sizeof wish.attribute) return refuse(v, "color", word, "an attribute");
+    snprintf(wish.attribute, sizeof wish.attribute, "%.60s", strcmp(word, "none") == 0 ? "" : word);
+    wish.ranged = false;
+    rest = take_word(rest, map);
+    for (int i = 0; map[0] && colormap_name(i); i++)
+        if (strcmp(map, colormap_name(i)) == 0) wish.colormap = i, map[0] = 0;
+    if (map[0]) return refuse(v, "color", map, "a colour map");
+    if (rest[0]) {
+        wish.ranged = sscanf(rest, "%lf,%lf%c", &wish.range[0], &wish.range[1], &end) == 2 &&
+                      isfinite(wish.range[0]) && isfinite(wish.range[1]);
+        if (!wish.ranged) return refuse(v, "color", rest, "a range LOW,HIGH");
+    }
+    v->items[index].wish = wish;
+    items_recolor(v, index);
+    return true;
+}
+
+static bool do_colormap(viewer *v, const char *rest) {
+    for (size_t i = 0; i < v->item_count; i++) {
+        viewer_coloring *wish = &v->items[i].wish;
+        int map = 0;
+        if (strcmp(rest, "next") == 0)
+            map = colormap_name(wish->colormap + 1) ? wish->colormap + 1 : 0; // from automatic to the first
+        else
+            while (colormap_name(map) && strcmp(colormap_name(map), rest) != 0) map++;
+        if (!colormap_name(map)) return refuse(v, "colormap", rest, "a colour map or next");
+        wish->colormap = map;
+        if (wish->attribute[0]) items_recolor(v, i);
+    }
+    return true;
+}
+
+static bool do_radius(viewer *v, const char *rest) {
+    double factor;
+    char end;
+    if (sscanf(rest, "%lf%c", &factor, &end) != 1 || !(factor > 0.01 && factor < 100))
+        return refuse(v, "radius", rest, "a factor");
+    for (size_t i = 0; i < v->item_count; i++) {
+        double *scale = &v->items[i].wish.radius_scale;
+        *scale = fmin(fmax(*scale * factor, 1e-3), 100);
+        items_recolor(v, i);
+    }
+    return true;
+}
+
+static bool do_set(viewer *v, const char *rest) {
+    char name[WORD_BYTES];
+    rest = take_word(rest, name);
+    return settings_set(v, name, rest);
+}
+
+/// Steps to the next word of a choice, or turns a switch.
+static bool do_next(viewer *v, const char *rest) {
+    char now[EWA_OPTION_TEXT_BYTES];
+    if (!viewer_setting_get(v, rest, now)) return refuse(v, "next", rest, "a setting");
+    if (strcmp(now, "on") == 0) return settings_set(v, rest, "off");
+    if (strcmp(now, "off") == 0) return settings_set(v, rest, "on");
+    const char *group;
+    const ewa_option *option = NULL;
+    for (uint32_t i = 0; (option = viewer_setting_at(v, i, &group)); i++)
+        if (strcmp(option->name, rest) == 0) break;
+    if (!option || option->type != EWA_OPTION_CHOICE) return refuse(v, "next", rest, "a choice");
+    const char *at = option->words;
+    const size_t length = strlen(now);
+    while (!(strncmp(at, now, length) == 0 && (at[length] == '|' || !at[length]))) at = strchr(at, '|') + 1;
+    at = at[length] ? at + length + 1 : option->words;
+    snprintf(now, sizeof now, "%.*s", (int)strcspn(at, "|"), at);
+    return settings_set(v, rest, now);
+}
+
+static bool set_number(viewer *v, const char *name, double number) {
+    char text[64];
+    snprintf(text, sizeof text, "%.17g", number);
+    return settings_set(v, name, text);
+}
+
+static bool do_dome(viewer *v, const char *rest) {
+    bool on = v->render.eye_dome > 0;
+    return read_switch(v, "dome", rest, on, &on) && set_number(v, "eye_dome", on ? FIRST_DOME : 0);
+}
+
+static bool do_points(viewer *v, const char *rest) {
+    bool on = v->render.point_size_px > 0;
+    return read_switch(v, "points", rest, on, &on) &&
+           set_number(v, "point_size_px", on ? FIRST_POINT_PX * v->scale : 0);
+}
+
+static bool do_view(viewer *v, const char *rest) {
+    static const char *const names[] = {"front", "back", "left", "right", "top", "bottom", "iso", "reset"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        if (strcmp(rest, names[i]) == 0) {
+            items_place(v, strcmp(rest, "reset") == 0 ? NULL : rest, true);
+            return true;
+        }
+    return refuse(v, "view", rest, "front, back, left, right, top, bottom, iso or reset");
+}
+
+static bool do_mode(viewer *v, const char *rest) { return settings_set(v, "navigation", rest); }
+
+static bool do_ortho(viewer *v, const char *rest) {
+    bool ortho = v->camera.projection == EWA_ORTHOGRAPHIC;
+    if (!read_switch(v, "ortho", rest, ortho, &ortho)) return false;
+    v->animated = false;
+    v->placed = true;
+    navigate_set_ortho(&v->camera, ortho, v->pivot_world, DEFAULT_FOV_DEG);
+    viewer_change(v);
+    return true;
+}
+
+static bool do_focus(viewer *v, const char *rest) {
+    (void)rest;
+    double place_world[3];
+    if (!pick_surface(v, v->x, v->y, 24, place_world)) return true;
+    memcpy(v->pivot_world, place_world, sizeof place_world);
+    ewa_camera to = v->camera;
+    navigate_center(&to, place_world);
+    v->placed = true;
+    viewer_go(v, &to);
+    return true;
+}
+
+static bool do_zoom(viewer *v, const char *rest) {
+    double notches;
+    char end;
+    if (sscanf(rest, "%lf%c", &notches, &end) != 1 || !(fabs(notches) <= 100))
+        return refuse(v, "zoom", rest, "a number of notches");
+    v->placed = true;
+    v->animated = false;
+    navigate_zoom(&v->camera, v->pivot_world, pow(NOTCH, notches));
+    viewer_change(v);
+    return true;
+}
+
+static bool do_section(viewer *v, const char *what, const char *rest) {
+    const bool on = strcmp(what, "box") == 0 ? v->cutaway.box : v->cutaway.slab;
+    return cutaway_set(v, what, strcmp(rest, "next") == 0 ? (on ? "off" : "on") : rest);
+}
+
+static bool do_box(viewer *v, const char *rest) { return do_section(v, "box", rest); }
+static bool do_slab(viewer *v, const char *rest) { return do_section(v, "slab", rest); }
+
+static bool do_cancel(viewer *v, const char *rest) {
+    (void)rest;
+    loader_cancel(v->loader);
+    pick_clear(v);
+    v->state.message[0] = 0;
+    return true;
+}
+
+static bool do_clear(viewer *v, const char *rest) {
+    (void)rest;
+    pick_clear(v);
+    return true;
+}
+
+static bool do_help(viewer *v, const char *rest) {
+    return read_switch(v, "help", rest, v->state.help, &v->state.help);
+}
+
+static bool do_panels(viewer *v, const char *rest) {
+    return read_switch(v, "panels", rest, v->state.panels, &v->state.panels);
+}
+
+static bool do_quit(viewer *v, const char *rest) {
+    (void)rest;
+    v->state.quit = true;
+    return true;
+}
+
+static const struct {
+    const char *name;
+    bool (*run)(viewer *v, const char *rest);
+} commands[] = {
+    {"open", do_open},       {"close", do_close},    {"show", do_show},     {"name", do_name},
+    {"tint", do_tint},       {"alpha", do_alpha},    {"color", do_color},   {"colormap", do_colormap},
+    {"radius", do_radius},   {"set", do_set},        {"next", do_next},     {"dome", do_dome},
+    {"points", do_points},   {"view", do_view},      {"mode", do_mode},     {"ortho", do_ortho},
+    {"focus", do_focus},     {"zoom", do_zoom},      {"box", do_box},       {"slab", do_slab},
+    {"camera", shot_camera}, {"shot", shot_command}, {"cancel", do_cancel}, {"clear", do_clear},
+    {"help", do_help},       {"panels", do_panels},  {"quit", do_quit},
+};
+
+bool viewer_do(viewer *v, const char *command) {
+    char word[WORD_BYTES];
+    const char *rest = take_word(command, word);
+    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++)
+        if (strcmp(word, commands[i].name) == 0) return commands[i].run(v, rest);
+    viewer_tell(v, "there is no command '%s'", word);
+    return false;
+}

@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The viewer's state, which its files share.
+#ifndef EWA_VIEWER_INNER_H
+#define EWA_VIEWER_INNER_H
+
+#include "loader.h"
+#include "painter.h"
+#include "viewer.h"
+
+/// Something that was opened.
+typedef struct scene_item {
+    uint64_t id;
+    char path[VIEWER_PATH_BYTES], name[VIEWER_NAME_BYTES];
+    viewer_content content; ///< empty until it is loaded or has a preview
+    bool loaded, preview, visible;
+    viewer_coloring wish, coloring; ///< what is asked for, and what is shown
+    ewa_surfels *made;              ///< in place of the content's; NULL: none
+} scene_item;
+
+typedef enum navigation { NAVIGATION_TURNTABLE, NAVIGATION_TRACKBALL, NAVIGATION_FLY } navigation;
+
+/// The viewer's own settings; the renderer's and the furniture's are in their structs.
+typedef struct viewer_settings {
+    size_t struct_size;
+    navigation navigation;
+    double budget_ms;
+    bool half_size;
+    double volume_density;
+} viewer_settings;
+
+extern const ewa_option_table viewer_settings_table;
+
+/// What the left button does while it is held.
+typedef enum drag_kind { DRAG_NONE, DRAG_ORBIT, DRAG_PAN, DRAG_ZOOM, DRAG_LOOK, DRAG_HANDLE } drag_kind;
+
+/// A point that was picked.
+typedef struct viewer_pick {
+    bool given;
+    size_t item;
+    uint64_t point;
+    double place_world[3];
+} viewer_pick;
+
+/// What is cut away.
+typedef struct viewer_cutaway {
+    bool box, slab;
+    double low_world[3], high_world[3];
+    double slab_direction[3];   ///< unit, away from the eye when it was set
+    double slab_near, slab_far; ///< along it, world units from the world's origin
+} viewer_cutaway;
+
+struct viewer {
+    viewer_services services;
+    bool waits;
+    loader *loader;
+    painter *painter;
+    paint_tools probe; ///< the calling thread's own
+    char clipboard[VIEWER_TEXT_BYTES];
+
+    scene_item items[VIEWER_MAX_ITEMS];
+    size_t item_count;
+    uint64_t next_id;
+
+    viewer_settings settings;
+    ewa_render_options render;
+    ewa_furniture_options furniture;
+    char title[VIEWER_NAME_BYTES];
+
+    double width, height, scale; ///< of the window: points, pixels per point
+    ewa_camera camera;           ///< of the window's full size
+    double up_world[3], pivot_world[3];
+    double reach_world; ///< size of all that is shown
+    bool placed;        ///< the camera is where the user or a file put it: loading does not move it
+
+    double now_s, changed_s; ///< the last frame's or event's time; when the picture last changed
+    bool animated;
+    double animation_s; ///< when it began
+    ewa_camera animation_from, animation_to;
+
+    // The hand.
+    double x, y, press_x, press_y;
+    int button;
+    drag_kind drag;
+    bool moved; ///< since the button was pressed
+    double drag_depth;
+    int handle; ///< of the box: axis and 3 for its high side
+    double wheel_s, wheel_world[3];
+    bool wheel_held;   ///< `wheel_world` is what the wheel turns about
+    uint32_t fly_keys; ///< bits of the keys that are held, in the order of keys.c
+    double fly_speed;  ///< sizes of the scene a second
+
+    viewer_pick picks[2];
+    viewer_cutaway cutaway;
+
+    uint64_t revision, posted; ///< of what is to be drawn; the last one handed to the painter
+    bool posted_whole;
+    uint64_t marks, composed_marks, composed_ticket; ///< of what is drawn over the picture
+    uint8_t *composed;
+    size_t composed_bytes;
+    uint64_t number; ///< of composed pictures
+
+    viewer_state state;
+    char said[VIEWER_TEXT_BYTES]; ///< the last line for standard output
+};
+
+/// Something that is drawn has changed.
+void viewer_change(viewer *v);
+/// Something that is drawn over the picture has changed.
+void viewer_mark(viewer *v);
+/// Says a message, or a line of results.
+void viewer_tell(viewer *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void viewer_say(viewer *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+// items.c
+bool items_open(viewer *v, const char *path);
+bool items_close(viewer *v, size_t index);
+/// Takes in what the loader has to report.
+void items_update(viewer *v);
+/// Orders surfels as the item's wish says.
+void items_recolor(viewer *v, size_t index);
+/// Fills in what is to be drawn; the camera and what goes with it are the caller's.
+void items_gather(const viewer *v, paint_scene *scene);
+/// Measures the box of all that is visible; false: there is nothing.
+bool items_bounds(const viewer *v, double low_world[3], double high_world[3]);
+/// Surfels of an item as they are shown; NULL: it is a volume, or not there yet.
+const ewa_surfels *item_surfels(const scene_item *item);
+/// Places the camera: a named view, or NULL for the best. `animate`: on the way there.
+bool items_place(viewer *v, const char *view, bool animate);
+/// Colours that item 0 can have, one after another.
+void items_cycle_color(viewer *v);
+
+// camera moves
+void viewer_go(viewer *v, const ewa_camera *to);
+
+// pick.c
+/// Finds the surface behind a place of the window (points); false: there is nothing.
+bool pick_surface(viewer *v, double x, double y, double reach, double place_world[3]);
+/// Picks the point there and says what it is; `second`: measures from the first.
+bool pick_point(viewer *v, double x, double y, bool second);
+void pick_clear(viewer *v);
+
+// cutaway.c
+/// Sets the planes of the renderer.
+void cutaway_apply(const viewer *v, ewa_render_options *render);
+bool cutaway_set(viewer *v, const char *what, const char *rest);
+void cutaway_move_slab(viewer *v, double notches, bool thickness);
+/// Middle of a side of the box.
+void cutaway_handle(const viewer *v, int handle, double place_world[3]);
+/// The side under a place of the window; -1: none.
+int cutaway_find_handle(const viewer *v, double x, double y);
+void cutaway_drag(viewer *v, double x_px, double y_px);
+
+// settings.c
+void settings_init(viewer *v);
+bool settings_set(viewer *v, const char *name, const char *text);
+
+// pointer.c, keys.c
+void pointer_handle(viewer *v, const viewer_event *event);
+void keys_handle(viewer *v, const viewer_event *event);
+void keys_fly(viewer *v, double seconds);
+
+// shot.c: the commands "shot" and "camera"
+bool shot_command(viewer *v, const char *rest);
+bool shot_camera(viewer *v, const char *rest);
+/// Fills in the scene of the window at full size.
+void viewer_scene(const viewer *v, paint_scene *scene);
+
+// overlay.c
+/// Draws furniture and marks over a picture of a camera.
+void overlay_draw(viewer *v, const ewa_camera *camera, uint8_t *rgba8);
+
+#endif

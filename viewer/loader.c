@@ -1,0 +1,277 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The thread that loads files and makes surfels anew, one order after another.
+#include "loader.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct loader {
+    viewer_services services;
+    pthread_t thread;
+    bool started;
+    pthread_mutex_t lock;
+    pthread_cond_t changed;
+    atomic_bool give_up;
+    // Under the lock:
+    bool quits;
+    loader_note *orders, *reports; ///< the oldest first
+    loader_note *current;          ///< the thread's own while it works
+    char stage[64];
+    double fraction;
+};
+
+void viewer_content_free(viewer_content *content) {
+    if (content->free) content->free(content);
+    *content = (viewer_content){.context = NULL};
+}
+
+void loader_note_free(loader_note *note) {
+    if (!note) return;
+    const bool owned = note->kind == LOADER_LOAD || note->kind == LOADER_PREVIEW;
+    if (owned) viewer_content_free(&note->content);
+    ewa_surfels_destroy(&note->surfels);
+    free(note);
+}
+
+static void free_list(loader_note **list) {
+    while (*list) {
+        loader_note *first = *list;
+        *list = first->next;
+        loader_note_free(first);
+    }
+}
+
+static void append(loader_note **list, loader_note *note) {
+    while (*list) list = &(*list)->next;
+    note->next = NULL;
+    *list = note;
+}
+
+/// Hands over a report. Without memory for it, nothing is said.
+static void report(loader *l, loader_note *note) {
+    if (!note) return;
+    pthread_mutex_lock(&l->lock);
+    append(&l->reports, note);
+    pthread_cond_broadcast(&l->changed);
+    pthread_mutex_unlock(&l->lock);
+}
+
+static bool on_progress(void *user, const char *stage, double fraction) {
+    loader *l = user;
+    pthread_mutex_lock(&l->lock);
+    snprintf(l->stage, sizeof l->stage, "%s", stage);
+    l->fraction = fraction;
+    pthread_mutex_unlock(&l->lock);
+    return !atomic_load(&l->give_up);
+}
+
+static void on_message(void *user, ewa_severity severity, const char *text) {
+    loader *l = user;
+    loader_note *note = calloc(1, sizeof *note);
+    if (!note) return;
+    note->kind = LOADER_MESSAGE;
+    note->severity = severity;
+    note->item = l->current->item;
+    snprintf(note->text, sizeof note->text, "%s", text);
+    report(l, note);
+}
+
+static void on_preview(void *user, viewer_content *content) {
+    loader *l = user;
+    loader_note *note = calloc(1, sizeof *note);
+    if (!note) {
+        viewer_content_free(content);
+        return;
+    }
+    note->kind = LOADER_PREVIEW;
+    note->item = l->current->item;
+    memcpy(note->path, l->current->path, sizeof note->path);
+    note->content = *content;
+    *content = (viewer_content){.context = NULL};
+    report(l, note);
+}
+
+/// Carries out an order, which becomes its report.
+static void carry_out(loader *l, loader_note *order) {
+    const viewer_news news = {l, on_progress, on_message, on_preview};
+    const viewer_services *s = &l->services;
+    bool done;
+    if (order->kind == LOADER_LOAD) {
+        viewer_content content = {.context = NULL};
+        done = s->load(s->user, order->path, &news, &content);
+        if (done)
+            order->content = content;
+        else
+            viewer_content_free(&content);
+    } else {
+        done = s->color(s->user, &order->content, &news, &order->coloring, &order->surfels);
+    }
+    if (!done) order->kind = LOADER_FAILED;
+}
+
+static void *run(void *data) {
+    loader *l = data;
+    pthread_mutex_lock(&l->lock);
+    while (!l->quits) {
+        if (!l->orders) {
+            pthread_cond_wait(&l->changed, &l->lock);
+            continue;
+        }
+        loader_note *order = l->orders;
+        l->orders = order->next;
+        order->next = NULL;
+        l->current = order;
+        l->fraction = 0;
+        l->stage[0] = 0;
+        atomic_store(&l->give_up, false);
+        pthread_mutex_unlock(&l->lock);
+        carry_out(l, order);
+        pthread_mutex_lock(&l->lock);
+        l->current = NULL;
+        append(&l->reports, order);
+        pthread_cond_broadcast(&l->changed);
+    }
+    pthread_mutex_unlock(&l->lock);
+    return NULL;
+}
+
+ewa_status loader_create(const viewer_services *services, loader **made) {
+    *made = NULL;
+    loader *l = calloc(1, sizeof *l);
+    if (!l) return EWA_ERROR_MEMORY;
+    l->services = *services;
+    pthread_mutex_init(&l->lock, NULL);
+    pthread_cond_init(&l->changed, NULL);
+    l->started = pthread_create(&l->thread, NULL, run, l) == 0;
+    *made = l;
+    if (!l->started) loader_destroy(made);
+    return *made ? EWA_OK : EWA_ERROR_MEMORY;
+}
+
+void loader_destroy(loader **made) {
+    loader *l = *made;
+    if (!l) return;
+    if (l->started) {
+        pthread_mutex_lock(&l->lock);
+        l->quits = true;
+        atomic_store(&l->give_up, true);
+        pthread_cond_broadcast(&l->changed);
+        pthread_mutex_unlock(&l->lock);
+        pthread_join(l->thread, NULL);
+    }
+    // Orders own nothing yet.
+    while (l->orders) {
+        loader_note *order = l->orders;
+        l->orders = order->next;
+        free(order);
+    }
+    free_list(&l->reports);
+    pthread_cond_destroy(&l->changed);
+    pthread_mutex_destroy(&l->lock);
+    free(l);
+    *made = NULL;
+}
+
+static void post(loader *l, loader_note *order) {
+    pthread_mutex_lock(&l->lock);
+    append(&l->orders, order);
+    pthread_cond_broadcast(&l->changed);
+    pthread_mutex_unlock(&l->lock);
+}
+
+bool loader_load(loader *l, uint64_t item, const char *path) {
+    loader_note *order = calloc(1, sizeof *order);
+    if (!order) return false;
+    order->kind = LOADER_LOAD;
+    order->item = item;
+    snprintf(order->path, sizeof order->path, "%s", path);
+    post(l, order);
+    return true;
+}
+
+/// Takes the orders of an item out of the queue; with the lock.
+static void drop_orders(loader *l, uint64_t item) {
+    for (loader_note **at = &l->orders; *at;) {
+        loader_note *order = *at;
+        if (order->item != item) {
+            at = &order->next;
+            continue;
+        }
+        *at = order->next;
+        free(order);
+    }
+}
+
+bool loader_color(loader *l, uint64_t item, const viewer_content *content, const viewer_coloring *coloring) {
+    loader_note *order = calloc(1, sizeof *order);
+    if (!order) return false;
+    order->kind = LOADER_COLOR;
+    order->item = item;
+    order->content = *content;
+    order->coloring = *coloring;
+    pthread_mutex_lock(&l->lock);
+    drop_orders(l, item);
+    pthread_mutex_unlock(&l->lock);
+    post(l, order);
+    return true;
+}
+
+void loader_cancel(loader *l) {
+    pthread_mutex_lock(&l->lock);
+    // Each order that waits reports that it came to nothing.
+    for (loader_note *order; (order = l->orders);) {
+        l->orders = order->next;
+        order->kind = LOADER_FAILED;
+        append(&l->reports, order);
+    }
+    if (l->current) atomic_store(&l->give_up, true);
+    pthread_mutex_unlock(&l->lock);
+}
+
+void loader_forget(loader *l, uint64_t item) {
+    pthread_mutex_lock(&l->lock);
+    drop_orders(l, item);
+    while (l->current && l->current->item == item) {
+        atomic_store(&l->give_up, true);
+        pthread_cond_wait(&l->changed, &l->lock);
+    }
+    pthread_mutex_unlock(&l->lock);
+}
+
+void loader_wait(loader *l) {
+    pthread_mutex_lock(&l->lock);
+    while (l->orders || l->current) pthread_cond_wait(&l->changed, &l->lock);
+    pthread_mutex_unlock(&l->lock);
+}
+
+bool loader_is_busy(loader *l) {
+    pthread_mutex_lock(&l->lock);
+    const bool busy = l->orders || l->current || l->reports;
+    pthread_mutex_unlock(&l->lock);
+    return busy;
+}
+
+loader_note *loader_take(loader *l) {
+    pthread_mutex_lock(&l->lock);
+    loader_note *note = l->reports;
+    if (note) l->reports = note->next;
+    pthread_mutex_unlock(&l->lock);
+    return note;
+}
+
+void loader_tell(loader *l, char path[VIEWER_PATH_BYTES], char stage[64], double *fraction,
+                 uint32_t *waiting) {
+    pthread_mutex_lock(&l->lock);
+    snprintf(path, VIEWER_PATH_BYTES, "%s", l->current ? l->current->path : "");
+    memcpy(stage, l->stage, sizeof l->stage);
+    *fraction = l->fraction;
+    *waiting = 0;
+    for (const loader_note *order = l->orders; order; order = order->next)
+        *waiting += order->kind == LOADER_LOAD;
+    pthread_mutex_unlock(&l->lock);
+}

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What stands over the picture: furniture, the box with its handles, picks and measures.
+#include "inner.h"
+#include "navigate.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const uint8_t DARK[4] = {20, 22, 26, 255}, MARK[4] = {255, 196, 0, 255}, EDGE[4] = {80, 160, 255, 255},
+                     FAR_EDGE[4] = {80, 160, 255, 110};
+
+/// A picture that is drawn over.
+typedef struct overlay {
+    ewa_canvas canvas;
+    const ewa_camera *camera;
+    double scale; ///< pixels per point of this picture
+} overlay;
+
+static bool place(const overlay *o, const double place_world[3], double place_px[2]) {
+    double depth;
+    return navigate_project(o->camera, place_world, place_px, &depth);
+}
+
+/// A line of some points of width, with a dark rim so that it shows on any ground. What crosses the eye's
+/// plane is left out.
+static void draw_edge(const overlay *o, const double a_world[3], const double b_world[3], double width,
+                      const uint8_t rgba[4]) {
+    double a[2], b[2];
+    if (!place(o, a_world, a) || !place(o, b_world, b)) return;
+    const uint8_t rim[4] = {DARK[0], DARK[1], DARK[2], (uint8_t)(rgba[3] * 3 / 5)};
+    ewa_draw_line(&o->canvas, a[0], a[1], b[0], b[1], (width + 1.5) * o->scale, rim);
+    ewa_draw_line(&o->canvas, a[0], a[1], b[0], b[1], width * o->scale, rgba);
+}
+
+static void draw_dot(const overlay *o, const double place_world[3], double size, const uint8_t rgba[4]) {
+    double p[2];
+    if (!place(o, place_world, p)) return;
+    ewa_draw_line(&o->canvas, p[0], p[1], p[0], p[1], (size + 3) * o->scale, DARK);
+    ewa_draw_line(&o->canvas, p[0], p[1], p[0], p[1], size * o->scale, rgba);
+}
+
+static void draw_label(const overlay *o, const double place_world[3], const char *text) {
+    double p[2];
+    if (!place(o, place_world, p)) return;
+    const ewa_text_style style = {.height_px = fmin(fmax(14 * o->scale, 8), 1000),
+                                  .rgba = {255, 255, 255, 255},
+                                  .halo_px = 2 * o->scale,
+                                  .halo_rgba = {DARK[0], DARK[1], DARK[2], 230},
+                                  .anchor = EWA_TEXT_LEFT_MIDDLE};
+    ewa_draw_text(&o->canvas, text, p[0] + 10 * o->scale, p[1] - 10 * o->scale, &style);
+}
+
+static void draw_box(const overlay *o, const viewer *v) {
+    const viewer_cutaway *s = &v->cutaway;
+    for (int axis = 0; axis < 3; axis++)
+        for (int k = 0; k < 4; k++) { // the four edges along each axis
+            const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+            double from[3], to[3];
+            from[axis] = s->low_world[axis], to[axis] = s->high_world[axis];
+            from[b] = to[b] = k & 1 ? s->high_world[b] : s->low_world[b];
+            from[c] = to[c] = k & 2 ? s->high_world[c] : s->low_world[c];
+            draw_edge(o, from, to, 1.5, FAR_EDGE);
+        }
+    for (int handle = 0; handle < 6; handle++) {
+        double middle[3];
+        cutaway_handle(v, handle, middle);
+        draw_dot(o, middle, 9, EDGE);
+    }
+}
+
+static void draw_picks(const overlay *o, const viewer *v) {
+    const viewer_pick *a = &v->picks[0], *b = &v->picks[1];
+    char text[64];
+    if (a->given && b->given) {
+        double middle[3], distance2 = 0;
+        for (int c = 0; c < 3; c++) {
+            const double d = b->place_world[c] - a->place_world[c];
+            middle[c] = a->place_world[c] + 0.5 * d;
+            distance2 += d * d;
+        }
+        draw_edge(o, a->place_world, b->place_world, 2, MARK);
+        snprintf(text, sizeof text, "%.6g", sqrt(distance2));
+        draw_label(o, middle, text);
+    }
+    if (a->given) draw_dot(o, a->place_world, 7, MARK);
+    if (b->given) draw_dot(o, b->place_world, 7, MARK);
+    if (a->given && !b->given && a->item != SIZE_MAX) {
+        snprintf(text, sizeof text, "%llu", (unsigned long long)a->point);
+        draw_label(o, a->place_world, text);
+    }
+}
+
+/// The colour bar is that of the first visible cloud that is coloured by an attribute.
+static void set_color_bar(const viewer *v, ewa_category categories[VIEWER_MAX_CLASSES],
+                          ewa_furniture_options *furniture) {
+    furniture->color_bar = false;
+    for (size_t i = 0; i < v->item_count; i++) {
+        const scene_item *item = &v->items[i];
+        if (!item->visible || !item->coloring.attribute[0]) continue;
+        furniture->color_bar = true;
+        const viewer_coloring *coloring = &item->coloring;
+        furniture->colormap =
+            coloring->colormap >= 0 ? (ewa_colormap)coloring->colormap : EWA_COLORMAP_VIRIDIS;
+        memcpy(furniture->range, coloring->range, sizeof furniture->range);
+        furniture->color_label = coloring->attribute;
+        for (uint32_t k = 0; k < coloring->class_count; k++) {
+            const viewer_class *from = &coloring->classes[k];
+            categories[k] = (ewa_category){.value = from->value, .name = from->name};
+            memcpy(categories[k].srgb, from->srgb, sizeof from->srgb);
+        }
+        furniture->categories = coloring->class_count ? categories : NULL;
+        furniture->category_count = coloring->class_count;
+        return;
+    }
+}
+
+void overlay_draw(viewer *v, const ewa_camera *camera, uint8_t *rgba8) {
+    const overlay o = {{rgba8, camera->width_px, camera->height_px},
+                       camera,
+                       v->scale * camera->height_px / v->camera.height_px};
+    if (v->cutaway.box) draw_box(&o, v);
+    draw_picks(&o, v);
+    ewa_furniture_options furniture = v->furniture;
+    ewa_category categories[VIEWER_MAX_CLASSES];
+    if (furniture.color_bar) set_color_bar(v, categories, &furniture);
+    const double depth = navigate_depth(camera, v->pivot_world);
+    furniture.scale_depth_world = depth > 0 && depth < 1e30 ? depth : 0;
+    furniture.pixel_scale = fmin(o.scale, 100);
+    ewa_furniture_draw(v->probe.context, camera, &furniture, &o.canvas);
+}

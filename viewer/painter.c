@@ -1,0 +1,277 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The thread that draws.
+#include "painter.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct painter {
+    paint_tools tools;
+    pthread_t thread;
+    bool started;
+    pthread_mutex_t lock;
+    pthread_cond_t changed; ///< something was posted, or became idle
+    atomic_bool give_up;
+    // Under the lock:
+    bool quits, waits, draws;
+    bool whole; ///< of what is drawn
+    bool next_whole;
+    uint64_t next_ticket;
+    paint_scene next, now; ///< `now` is the thread's own while it draws
+    paint_result results[3];
+    int drawing, newest, shown; ///< indices of `results`; newest -1: none yet
+    ewa_status failure;
+    char failure_text[PAINT_TEXT_BYTES], told[PAINT_TEXT_BYTES]; ///< `told` is the caller's
+};
+
+static bool on_progress(void *user, const char *stage, double fraction) {
+    (void)stage, (void)fraction;
+    painter *p = user;
+    return !atomic_load_explicit(&p->give_up, memory_order_relaxed);
+}
+
+static void on_message(void *user, ewa_severity severity, const char *text) {
+    (void)severity;
+    paint_tools *tools = user;
+    snprintf(tools->message, sizeof tools->message, "%s", text);
+}
+
+ewa_status paint_tools_make(uint32_t thread_count, uint32_t cpu_mask, ewa_progress_callback *progress,
+                            void *user, paint_tools *tools) {
+    *tools = (paint_tools){.context = NULL};
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.thread_count = thread_count;
+    options.cpu_mask = cpu_mask;
+    options.progress = progress;
+    options.progress_user = user;
+    options.message = on_message;
+    options.message_user = tools;
+    options.message_level = EWA_SEVERITY_ERROR;
+    ewa_status status = ewa_context_create(&options, &tools->context);
+    if (status == EWA_OK) status = ewa_renderer_create(tools->context, &tools->renderer);
+    if (status == EWA_OK) status = ewa_volume_renderer_create(tools->context, &tools->volume_renderer);
+    if (status != EWA_OK) paint_tools_free(tools);
+    return status;
+}
+
+void paint_tools_free(paint_tools *tools) {
+    ewa_renderer_destroy(&tools->renderer);
+    ewa_volume_renderer_destroy(&tools->volume_renderer);
+    free(tools->rgba[0]);
+    free(tools->rgba[1]);
+    free(tools->depth);
+    ewa_context_destroy(&tools->context);
+    *tools = (paint_tools){.context = NULL};
+}
+
+/// Room for the planes between surfaces and volumes.
+static ewa_status reserve(paint_tools *tools, const ewa_camera *camera) {
+    const size_t count = (size_t)camera->width_px * camera->height_px;
+    if (count <= tools->capacity_px) return EWA_OK;
+    for (int k = 0; k < 2; k++) free(tools->rgba[k]);
+    free(tools->depth);
+    for (int k = 0; k < 2; k++) tools->rgba[k] = malloc(4 * count * sizeof(float));
+    tools->depth = malloc(count * sizeof(float));
+    const bool done = tools->rgba[0] && tools->rgba[1] && tools->depth;
+    tools->capacity_px = done ? count : 0;
+    return done ? EWA_OK : EWA_ERROR_MEMORY;
+}
+
+static ewa_status draw_surfels(paint_tools *tools, const paint_scene *scene, const ewa_frame *frame,
+                               ewa_render_stats *stats) {
+    ewa_status status = ewa_render_begin(tools->renderer, &scene->camera, &scene->render, frame);
+    for (uint32_t i = 0; i < scene->surfels_count && status == EWA_OK; i++)
+        status = ewa_render_add(tools->renderer, scene->surfels[i]);
+    return status == EWA_OK ? ewa_render_finish(tools->renderer, stats) : status;
+}
+
+/// The finest level that voxels have and that is wanted.
+static uint32_t voxels_level(const paint_scene *scene, const ewa_voxels *voxels) {
+    ewa_voxels_info info;
+    ewa_voxels_describe(voxels, &info);
+    return scene->voxels_level < info.level_count ? scene->voxels_level : info.level_count - 1;
+}
+
+ewa_status paint_scene_draw(paint_tools *tools, const paint_scene *scene, uint8_t *rgba8,
+                            ewa_render_stats *stats) {
+    if (!scene->voxels_count) return draw_surfels(tools, scene, &(ewa_frame){.rgba8 = rgba8}, stats);
+    ewa_status status = reserve(tools, &scene->camera);
+    if (status == EWA_OK)
+        status =
+            draw_surfels(tools, scene, &(ewa_frame){.rgba = tools->rgba[0], .depth = tools->depth}, stats);
+    for (uint32_t i = 0; i < scene->voxels_count && status == EWA_OK; i++) {
+        const bool last = i + 1 == scene->voxels_count;
+        ewa_volume_options options = scene->volume;
+        options.surface_depth = tools->depth;
+        options.surface_rgba = tools->rgba[i % 2];
+        options.level = voxels_level(scene, scene->voxels[i]);
+        const ewa_frame frame = {.rgba8 = last ? rgba8 : NULL,
+                                 .rgba = last ? NULL : tools->rgba[(i + 1) % 2]};
+        status = ewa_volume_render(tools->volume_renderer, scene->voxels[i], &scene->camera, &options, &frame,
+                                   NULL);
+    }
+    return status;
+}
+
+ewa_status paint_scene_depth(paint_tools *tools, const paint_scene *scene, float *depth) {
+    ewa_status status = draw_surfels(tools, scene, &(ewa_frame){.depth = depth}, NULL);
+    if (scene->voxels_count && status == EWA_OK) status = reserve(tools, &scene->camera);
+    const size_t count = (size_t)scene->camera.width_px * scene->camera.height_px;
+    for (uint32_t i = 0; i < scene->voxels_count && status == EWA_OK; i++) {
+        ewa_volume_options options = scene->volume;
+        options.level = voxels_level(scene, scene->voxels[i]);
+        status = ewa_volume_render(tools->volume_renderer, scene->voxels[i], &scene->camera, &options,
+                                   &(ewa_frame){.depth = tools->depth}, NULL);
+        for (size_t k = 0; k < count && status == EWA_OK; k++)
+            if (tools->depth[k] < depth[k]) depth[k] = tools->depth[k];
+    }
+    return status;
+}
+
+/// Draws what `now` says into the result that is neither shown nor the newest. Without the lock.
+static ewa_status draw_now(painter *p, paint_result *result) {
+    const ewa_camera *camera = &p->now.camera;
+    const size_t wanted = 4 * (size_t)camera->width_px * camera->height_px;
+    if (wanted > result->capacity_bytes) {
+        free(result->rgba8);
+        result->rgba8 = malloc(wanted);
+        result->capacity_bytes = result->rgba8 ? wanted : 0;
+        if (!result->rgba8) return EWA_ERROR_MEMORY;
+    }
+    ewa_render_stats stats = {.level = 0};
+    const ewa_status status = paint_scene_draw(&p->tools, &p->now, result->rgba8, &stats);
+    result->width_px = camera->width_px;
+    result->height_px = camera->height_px;
+    result->level = stats.level;
+    result->splat_count = stats.splat_count;
+    result->drawn_s = stats.total_s;
+    return status;
+}
+
+static void *run(void *data) {
+    painter *p = data;
+    pthread_mutex_lock(&p->lock);
+    while (!p->quits) {
+        if (!p->waits) {
+            pthread_cond_wait(&p->changed, &p->lock);
+            continue;
+        }
+        p->now = p->next;
+        p->whole = p->next_whole;
+        const uint64_t ticket = p->next_ticket;
+        p->waits = false;
+        p->draws = true;
+        atomic_store(&p->give_up, false);
+        p->drawing = 0;
+        while (p->drawing == p->newest || p->drawing == p->shown) p->drawing++;
+        paint_result *result = &p->results[p->drawing];
+        pthread_mutex_unlock(&p->lock);
+        const ewa_status status = draw_now(p, result);
+        pthread_mutex_lock(&p->lock);
+        p->draws = false;
+        if (status == EWA_OK) {
+            result->ticket = ticket;
+            result->whole = p->whole || (!p->now.reduced && !result->level && !p->now.voxels_level);
+            result->camera = p->now.camera;
+            p->newest = p->drawing;
+        }
+        if (status != EWA_CANCELLED) p->failure = status;
+        if (p->failure != EWA_OK) memcpy(p->failure_text, p->tools.message, sizeof p->failure_text);
+        pthread_cond_broadcast(&p->changed);
+    }
+    pthread_mutex_unlock(&p->lock);
+    return NULL;
+}
+
+ewa_status painter_create(uint32_t thread_count, uint32_t cpu_mask, painter **made) {
+    *made = NULL;
+    painter *p = calloc(1, sizeof *p);
+    if (!p) return EWA_ERROR_MEMORY;
+    p->newest = p->shown = -1;
+    pthread_mutex_init(&p->lock, NULL);
+    pthread_cond_init(&p->changed, NULL);
+    ewa_status status = paint_tools_make(thread_count, cpu_mask, on_progress, p, &p->tools);
+    if (status == EWA_OK && pthread_create(&p->thread, NULL, run, p) != 0) status = EWA_ERROR_MEMORY;
+    p->started = status == EWA_OK;
+    if (status != EWA_OK) painter_destroy(&p);
+    *made = p;
+    return status;
+}
+
+void painter_destroy(painter **made) {
+    painter *p = *made;
+    if (!p) return;
+    if (p->started) {
+        pthread_mutex_lock(&p->lock);
+        p->quits = true;
+        atomic_store(&p->give_up, true);
+        pthread_cond_broadcast(&p->changed);
+        pthread_mutex_unlock(&p->lock);
+        pthread_join(p->thread, NULL);
+    }
+    for (int k = 0; k < 3; k++) free(p->results[k].rgba8);
+    paint_tools_free(&p->tools);
+    pthread_cond_destroy(&p->changed);
+    pthread_mutex_destroy(&p->lock);
+    free(p);
+    *made = NULL;
+}
+
+void painter_post(painter *p, const paint_scene *scene, uint64_t ticket, bool whole) {
+    pthread_mutex_lock(&p->lock);
+    p->next = *scene;
+    p->next_ticket = ticket;
+    p->next_whole = whole;
+    p->waits = true;
+    pthread_cond_broadcast(&p->changed);
+    pthread_mutex_unlock(&p->lock);
+}
+
+bool painter_is_busy(painter *p) {
+    pthread_mutex_lock(&p->lock);
+    const bool busy = p->waits || p->draws;
+    pthread_mutex_unlock(&p->lock);
+    return busy;
+}
+
+void painter_hurry(painter *p) {
+    pthread_mutex_lock(&p->lock);
+    if (p->draws && p->whole) atomic_store(&p->give_up, true);
+    p->waits = false;
+    pthread_mutex_unlock(&p->lock);
+}
+
+void painter_rest(painter *p) {
+    pthread_mutex_lock(&p->lock);
+    p->waits = false;
+    if (p->draws) atomic_store(&p->give_up, true);
+    while (p->draws) pthread_cond_wait(&p->changed, &p->lock);
+    pthread_mutex_unlock(&p->lock);
+}
+
+void painter_wait(painter *p) {
+    pthread_mutex_lock(&p->lock);
+    while (p->draws || p->waits) pthread_cond_wait(&p->changed, &p->lock);
+    pthread_mutex_unlock(&p->lock);
+}
+
+const paint_result *painter_newest(painter *p, const char **failure) {
+    pthread_mutex_lock(&p->lock);
+    p->shown = p->newest;
+    *failure = NULL;
+    if (p->failure != EWA_OK) {
+        snprintf(p->told, sizeof p->told, "%s",
+                 p->failure_text[0] ? p->failure_text : ewa_status_name(p->failure));
+        *failure = p->told;
+    }
+    p->failure = EWA_OK;
+    const paint_result *result = p->shown >= 0 ? &p->results[p->shown] : NULL;
+    pthread_mutex_unlock(&p->lock);
+    return result;
+}

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The thread that draws: one picture at a time, given up between two tiles when a better one is wanted.
+#ifndef EWA_VIEWER_PAINTER_H
+#define EWA_VIEWER_PAINTER_H
+
+#include "viewer.h"
+
+enum { PAINT_TEXT_BYTES = 512 };
+
+/// What a picture shows. What it points to is borrowed until the painter is at rest.
+typedef struct paint_scene {
+    ewa_camera camera;
+    ewa_render_options render;
+    uint32_t surfels_count, voxels_count;
+    const ewa_surfels *surfels[VIEWER_MAX_ITEMS];
+    const ewa_voxels *voxels[VIEWER_MAX_ITEMS]; ///< the farthest first
+    ewa_volume_options volume;
+    uint32_t voxels_level; ///< of volumes
+    bool reduced;          ///< the picture is smaller than the window's
+} paint_scene;
+
+/// A picture that was drawn.
+typedef struct paint_result {
+    uint8_t *rgba8;
+    size_t capacity_bytes;
+    uint32_t width_px, height_px;
+    uint64_t ticket; ///< of its scene
+    bool whole;      ///< at full size with all there is
+    ewa_camera camera;
+    uint32_t level;
+    double drawn_s;
+    uint64_t splat_count;
+} paint_result;
+
+/// What draws, of one thread.
+typedef struct paint_tools {
+    ewa_context *context;
+    ewa_renderer *renderer;
+    ewa_volume_renderer *volume_renderer;
+    float *rgba[2], *depth;
+    size_t capacity_px;
+    char message[PAINT_TEXT_BYTES]; ///< the last error's
+} paint_tools;
+
+ewa_status paint_tools_make(uint32_t thread_count, uint32_t cpu_mask, ewa_progress_callback *progress,
+                            void *user, paint_tools *tools);
+void paint_tools_free(paint_tools *tools);
+/// Draws a scene here and now into the camera's picture; volumes over the surfaces, each up to their depth.
+/// `stats` may be NULL.
+ewa_status paint_scene_draw(paint_tools *tools, const paint_scene *scene, uint8_t *rgba8,
+                            ewa_render_stats *stats);
+/// The depths (camera-space z) of what is seen, volumes included; +infinity where nothing is.
+ewa_status paint_scene_depth(paint_tools *tools, const paint_scene *scene, float *depth);
+
+typedef struct painter painter;
+
+ewa_status painter_create(uint32_t thread_count, uint32_t cpu_mask, painter **made);
+void painter_destroy(painter **painter);
+
+/// Hands over a scene, which replaces one that waits. `whole`: it is given up for the next one.
+void painter_post(painter *painter, const paint_scene *scene, uint64_t ticket, bool whole);
+/// Whether a scene is drawn now or waits.
+bool painter_is_busy(painter *painter);
+/// Gives up a whole picture that is being drawn, and one that waits; a quick one is finished.
+void painter_hurry(painter *painter);
+/// Gives up everything and waits until nothing that was handed over is used any more.
+void painter_rest(painter *painter);
+/// Waits until nothing is drawn.
+void painter_wait(painter *painter);
+/// Gives the newest picture: valid until the next call; NULL: none yet. `*failure` says why the last one was not
+/// drawn, once; NULL: it was.
+const paint_result *painter_newest(painter *painter, const char **failure);
+
+#endif

@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What leaves the viewer: pictures of any size, cameras.
+#include "inner.h"
+#include "navigate.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static bool save_picture(viewer *v, const char *path, uint32_t width_px, uint32_t height_px,
+                         bool transparent) {
+    paint_scene scene;
+    viewer_scene(v, &scene);
+    const double larger = (double)height_px / scene.camera.height_px;
+    navigate_resize(&scene.camera, width_px, height_px);
+    if (scene.render.point_size_px > 0) // the same look
+        scene.render.point_size_px = larger * scene.render.point_size_px < 1 ? 1
+                                     : larger * scene.render.point_size_px > 256
+                                         ? 256
+                                         : larger * scene.render.point_size_px;
+    for (int c = 0; c < 4 && transparent; c++) scene.render.background[c] = scene.volume.background[c] = 0;
+    uint8_t *rgba8 = malloc(4 * (size_t)width_px * height_px);
+    ewa_status status = rgba8 ? paint_scene_draw(&v->probe, &scene, rgba8, NULL) : EWA_ERROR_MEMORY;
+    if (status == EWA_OK) {
+        overlay_draw(v, &scene.camera, rgba8);
+        status = ewa_png_save(v->probe.context, path, width_px, height_px, 4, rgba8, 4 * (size_t)width_px);
+    }
+    free(rgba8);
+    if (status != EWA_OK)
+        viewer_tell(v, "%s: the picture cannot be saved: %s", path,
+                    v->probe.message[0] ? v->probe.message : ewa_status_name(status));
+    else
+        viewer_say(v, "shot %s %ux%u", path, width_px, height_px);
+    return status == EWA_OK;
+}
+
+/// A name that is not taken yet.
+static bool choose_name(char path[VIEWER_PATH_BYTES]) {
+    for (int i = 1; i < 10000; i++) {
+        snprintf(path, VIEWER_PATH_BYTES, "ewa-%04d.png", i);
+        if (access(path, F_OK) != 0) return true;
+    }
+    return false;
+}
+
+bool shot_command(viewer *v, const char *rest) {
+    char path[VIEWER_PATH_BYTES], word[VIEWER_PATH_BYTES];
+    uint32_t width_px = v->camera.width_px, height_px = v->camera.height_px;
+    bool transparent = false, named = false;
+    path[0] = 0;
+    for (int used = 0; sscanf(rest, "%4095s%n", word, &used) == 1; rest += used) {
+        unsigned wide, high;
+        char end;
+        if (strcmp(word, "transparent") == 0) {
+            transparent = true;
+        } else if (sscanf(word, "%ux%u%c", &wide, &high, &end) == 2) {
+            if (!wide || !high || wide > 65536 || high > 65536) {
+                viewer_tell(v, "shot: %s is not a size from 1x1 to 65536x65536", word);
+                return false;
+            }
+            width_px = wide, height_px = high;
+        } else {
+            snprintf(path, sizeof path, "%s", word);
+            named = true;
+        }
+    }
+    if (!named && !choose_name(path)) {
+        viewer_tell(v, "shot: there are pictures ewa-0001.png to ewa-9999.png already");
+        return false;
+    }
+    return save_picture(v, path, width_px, height_px, transparent);
+}
+
+/// Reads a whole file of text that fits.
+static bool read_text(const char *path, char *text, size_t text_bytes) {
+    FILE *file = fopen(path, "r");
+    if (!file) return false;
+    const size_t got = fread(text, 1, text_bytes - 1, file);
+    text[got] = 0;
+    return fclose(file) == 0 && got > 0;
+}
+
+/// Writes or reads the camera's file through the library, whose format it is.
+static bool save_camera(viewer *v, const char *path) {
+    const ewa_status status = ewa_camera_save(v->probe.context, &v->camera, path);
+    if (status != EWA_OK)
+        viewer_tell(v, "%s: the camera cannot be saved: %s", path,
+                    v->probe.message[0] ? v->probe.message : ewa_status_name(status));
+    return status == EWA_OK;
+}
+
+static bool load_camera(viewer *v, const char *path, const char *name) {
+    ewa_camera camera;
+    const ewa_status status = ewa_camera_load(v->probe.context, path, 0, &camera);
+    if (status != EWA_OK) {
+        viewer_tell(v, "%s: no camera can be read: %s", name,
+                    v->probe.message[0] ? v->probe.message : ewa_status_name(status));
+        return false;
+    }
+    navigate_resize(&camera, v->camera.width_px, v->camera.height_px);
+    v->placed = true;
+    v->animated = false;
+    v->camera = camera;
+    viewer_change(v);
+    return true;
+}
+
+/// A file of our own for a moment: the text of a camera is the library's business.
+static bool make_aside(char path[64]) {
+    snprintf(path, 64, "/tmp/ewa-camera-XXXXXX");
+    const int file = mkstemp(path);
+    if (file >= 0) close(file);
+    return file >= 0;
+}
+
+static bool copy_camera(viewer *v) {
+    char path[64];
+    if (!make_aside(path)) {
+        viewer_tell(v, "camera: no file can be made in /tmp");
+        return false;
+    }
+    const bool done = save_camera(v, path) && read_text(path, v->clipboard, sizeof v->clipboard);
+    unlink(path);
+    if (done && v->services.clipboard_set) v->services.clipboard_set(v->services.user, v->clipboard);
+    return done;
+}
+
+static bool paste_camera(viewer *v) {
+    char path[64], text[4 * VIEWER_TEXT_BYTES];
+    snprintf(text, sizeof text, "%s", v->clipboard);
+    if (v->services.clipboard_get && !v->services.clipboard_get(v->services.user, text, sizeof text))
+        text[0] = 0;
+    if (!text[0]) {
+        viewer_tell(v, "camera: there is no text to paste");
+        return false;
+    }
+    if (!make_aside(path)) {
+        viewer_tell(v, "camera: no file can be made in /tmp");
+        return false;
+    }
+    FILE *file = fopen(path, "w");
+    bool done = file && fputs(text, file) >= 0;
+    if (file) done = fclose(file) == 0 && done;
+    done = done && load_camera(v, path, "the text that was copied");
+    unlink(path);
+    return done;
+}
+
+bool shot_camera(viewer *v, const char *rest) {
+    if (strcmp(rest, "copy") == 0) return copy_camera(v);
+    if (strcmp(rest, "paste") == 0) return paste_camera(v);
+    if (strncmp(rest, "save ", 5) == 0) return save_camera(v, rest + 5);
+    if (strncmp(rest, "load ", 5) == 0) return load_camera(v, rest + 5, rest + 5);
+    viewer_tell(v, "camera: '%s' is not copy, paste, save FILE or load FILE", rest);
+    return false;
+}

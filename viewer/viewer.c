@@ -1,0 +1,286 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The viewer: its life, and what happens at each frame.
+#include "inner.h"
+#include "navigate.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// So long after the last change the whole picture is drawn.
+static const double SETTLE_S = 0.08;
+/// What a move of the camera takes.
+static const double ANIMATION_S = 0.25;
+/// Windows of more pixels are drawn at half their size while something moves.
+static const double LARGE_PX = 2e6;
+/// When to ask again, while something is under way and when nothing is.
+static const double SOON_S = 0.002, LATER_S = 0.1;
+/// Beside the ticket of a composed picture: it was whole.
+static const uint64_t WHOLE = (uint64_t)1 << 63;
+
+void viewer_change(viewer *v) {
+    v->revision++;
+    v->changed_s = v->now_s;
+}
+
+void viewer_mark(viewer *v) { v->marks++; }
+
+void viewer_tell(viewer *v, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(v->state.message, sizeof v->state.message, format, arguments);
+    va_end(arguments);
+    v->state.message_s = v->now_s;
+    if (v->services.say) v->services.say(v->services.user, true, v->state.message);
+}
+
+void viewer_say(viewer *v, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(v->said, sizeof v->said, format, arguments);
+    va_end(arguments);
+    if (v->services.say) v->services.say(v->services.user, false, v->said);
+}
+
+static uint32_t pixels(double points, double scale) {
+    const double size = floor(points * scale + 0.5);
+    return size < 1 ? 1 : size > 32768 ? 32768 : (uint32_t)size;
+}
+
+void viewer_coloring_init(viewer_coloring *coloring) {
+    *coloring = (viewer_coloring){.colormap = VIEWER_COLORMAP_AUTO, .alpha = 1, .radius_scale = 1};
+}
+
+ewa_status viewer_create(const viewer_options *options, viewer **made) {
+    *made = NULL;
+    if (!(options->scale > 0 && isfinite(options->scale)) || !options->width || !options->height)
+        return EWA_ERROR_ARGUMENT;
+    viewer *v = calloc(1, sizeof *v);
+    if (!v) return EWA_ERROR_MEMORY;
+    v->services = options->services;
+    v->waits = options->waits;
+    v->width = options->width, v->height = options->height, v->scale = options->scale;
+    settings_init(v);
+    ewa_camera_init(&v->camera);
+    if (options->camera) {
+        v->camera = *options->camera;
+        v->placed = true;
+    }
+    v->up_world[2] = 1;
+    v->reach_world = v->fly_speed = 1;
+    if (!options->camera) navigate_move(&v->camera, (double[3]){0, 0, -3});
+    navigate_resize(&v->camera, pixels(v->width, v->scale), pixels(v->height, v->scale));
+    v->revision = 1;
+    v->state.panels = true;
+    ewa_status status = loader_create(&v->services, &v->loader);
+    if (status == EWA_OK) status = painter_create(options->thread_count, options->cpu_mask, &v->painter);
+    if (status == EWA_OK)
+        status = paint_tools_make(options->thread_count, options->cpu_mask, NULL, NULL, &v->probe);
+    if (status != EWA_OK) viewer_destroy(&v);
+    *made = v;
+    return status;
+}
+
+void viewer_destroy(viewer **made) {
+    viewer *v = *made;
+    if (!v) return;
+    loader_destroy(&v->loader);
+    painter_destroy(&v->painter);
+    for (size_t i = 0; i < v->item_count; i++) {
+        ewa_surfels_destroy(&v->items[i].made);
+        viewer_content_free(&v->items[i].content);
+    }
+    paint_tools_free(&v->probe);
+    free(v->composed);
+    free(v);
+    *made = NULL;
+}
+
+void viewer_go(viewer *v, const ewa_camera *to) {
+    v->animated = v->now_s > 0 && to->projection == v->camera.projection;
+    v->animation_s = v->now_s;
+    v->animation_from = v->camera;
+    v->animation_to = *to;
+    if (!v->animated) v->camera = *to;
+    viewer_change(v);
+}
+
+/// Where the camera is on its way, without a jump at either end.
+static void animate(viewer *v) {
+    if (!v->animated) return;
+    const double share = (v->now_s - v->animation_s) / ANIMATION_S;
+    v->animated = share < 1;
+    ewa_camera_path *path = NULL;
+    const ewa_camera keys[2] = {v->animation_from, v->animation_to};
+    if (!v->animated || ewa_camera_path_create(v->probe.context, keys, 2, false, &path) != EWA_OK ||
+        ewa_camera_path_at(path, share * share * (3 - 2 * share), &v->camera) != EWA_OK) {
+        v->camera = v->animation_to;
+        v->animated = false;
+    }
+    ewa_camera_path_destroy(&path);
+    viewer_change(v);
+}
+
+static void resize(viewer *v, const viewer_event *event) {
+    if (!(event->x >= 1 && event->y >= 1 && event->amount > 0 && isfinite(event->amount))) return;
+    v->width = event->x, v->height = event->y, v->scale = event->amount;
+    const uint32_t width_px = pixels(v->width, v->scale), height_px = pixels(v->height, v->scale);
+    if (width_px == v->camera.width_px && height_px == v->camera.height_px) return;
+    navigate_resize(&v->camera, width_px, height_px);
+    if (v->animated) {
+        navigate_resize(&v->animation_from, width_px, height_px);
+        navigate_resize(&v->animation_to, width_px, height_px);
+    }
+    viewer_change(v);
+}
+
+/// Goes on to a time; clocks do not run backwards.
+static void advance(viewer *v, double time_s) {
+    const double passed_s = time_s - v->now_s;
+    if (!(passed_s > 0)) return;
+    v->now_s = time_s;
+    animate(v);
+    if (v->fly_keys) keys_fly(v, passed_s < 0.1 ? passed_s : 0.1);
+}
+
+void viewer_handle(viewer *v, const viewer_event *event) {
+    advance(v, event->time_s);
+    switch (event->kind) {
+    case VIEWER_RESIZE:
+        resize(v, event);
+        break;
+    case VIEWER_DROP:
+        if (event->text) items_open(v, event->text);
+        break;
+    case VIEWER_KEY:
+    case VIEWER_KEY_RELEASE:
+        keys_handle(v, event);
+        break;
+    case VIEWER_LEAVE:
+        v->fly_keys = 0;
+        pointer_handle(v, event);
+        break;
+    default:
+        pointer_handle(v, event);
+        break;
+    }
+}
+
+void viewer_scene(const viewer *v, paint_scene *scene) {
+    *scene = (paint_scene){.camera = v->camera, .render = v->render};
+    ewa_volume_options_init(&scene->volume, sizeof scene->volume);
+    memcpy(scene->volume.background, v->render.background, sizeof scene->volume.background);
+    scene->volume.density_scale = v->settings.volume_density;
+    cutaway_apply(v, &scene->render);
+    items_gather(v, scene);
+}
+
+/// A scene that is drawn within the time of a frame.
+static void make_quick(const viewer *v, paint_scene *scene) {
+    scene->render.budget_s = 1e-3 * v->settings.budget_ms;
+    scene->voxels_level = 1;
+    ewa_camera *camera = &scene->camera;
+    if (!v->settings.half_size || (double)camera->width_px * camera->height_px <= LARGE_PX) return;
+    scene->reduced = true;
+    const uint32_t width_px = (camera->width_px + 1) / 2, height_px = (camera->height_px + 1) / 2;
+    camera->fx_px *= 0.5, camera->fy_px *= 0.5, camera->cx_px *= 0.5, camera->cy_px *= 0.5;
+    camera->width_px = width_px, camera->height_px = height_px;
+}
+
+static void post(viewer *v, bool whole) {
+    paint_scene scene;
+    viewer_scene(v, &scene);
+    if (!whole) make_quick(v, &scene);
+    v->posted = v->revision;
+    v->posted_whole = whole;
+    painter_post(v->painter, &scene, v->revision, whole);
+}
+
+/// Whether something moves by itself or is held.
+static bool is_moving(const viewer *v) {
+    return v->animated || v->fly_keys || v->now_s - v->changed_s < SETTLE_S;
+}
+
+/// Has drawn what there is to draw: at once and roughly while something moves, else whole.
+static void schedule(viewer *v, const paint_result *newest) {
+    if (v->waits) {
+        if (v->posted == v->revision && newest) return;
+        post(v, true);
+        painter_wait(v->painter);
+        return;
+    }
+    if (v->posted != v->revision) {
+        painter_hurry(v->painter);
+        if (!painter_is_busy(v->painter)) post(v, false);
+        return;
+    }
+    if (newest && newest->ticket == v->posted && newest->whole) v->posted_whole = true;
+    if (!v->posted_whole && !is_moving(v) && !painter_is_busy(v->painter)) post(v, true);
+}
+
+/// Puts marks and furniture over the newest picture.
+static void compose(viewer *v, const paint_result *newest) {
+    const uint64_t ticket = newest->ticket | (newest->whole ? WHOLE : 0);
+    if (v->number && ticket == v->composed_ticket && v->marks == v->composed_marks) return;
+    const size_t wanted = 4 * (size_t)newest->width_px * newest->height_px;
+    if (wanted > v->composed_bytes) {
+        uint8_t *larger = realloc(v->composed, wanted);
+        if (!larger) return; // the picture before stays
+        v->composed = larger;
+        v->composed_bytes = wanted;
+    }
+    memcpy(v->composed, newest->rgba8, wanted);
+    overlay_draw(v, &newest->camera, v->composed);
+    v->composed_ticket = ticket;
+    v->composed_marks = v->marks;
+    v->number++;
+}
+
+void viewer_frame(viewer *v, double time_s, viewer_picture *picture) {
+    *picture = (viewer_picture){.rgba8 = NULL};
+    advance(v, time_s);
+    if (v->services.interrupted && v->services.interrupted(v->services.user)) v->state.quit = true;
+    items_update(v);
+    const char *failure;
+    const paint_result *newest = painter_newest(v->painter, &failure);
+    schedule(v, newest);
+    if (v->waits) newest = painter_newest(v->painter, &failure);
+    if (failure) viewer_tell(v, "the picture cannot be drawn: %s", failure);
+    v->state.moving = is_moving(v);
+    const bool still =
+        newest && newest->whole && newest->ticket == v->revision && !v->animated && !v->fly_keys;
+    picture->spare_s = still && !loader_is_busy(v->loader) ? LATER_S : SOON_S;
+    if (!newest) return;
+    compose(v, newest);
+    picture->rgba8 = v->composed;
+    picture->width_px = newest->width_px;
+    picture->height_px = newest->height_px;
+    picture->number = v->number;
+    picture->still = still;
+    picture->level = newest->level;
+    picture->splat_count = newest->splat_count;
+    picture->drawn_s = newest->drawn_s;
+}
+
+bool viewer_is_still(const viewer *v) {
+    return v->number && v->composed_ticket == (v->revision | WHOLE) && v->composed_marks == v->marks &&
+           !v->animated && !v->fly_keys && !loader_is_busy(v->loader);
+}
+
+void viewer_get_camera(const viewer *v, ewa_camera *camera) { *camera = v->camera; }
+
+void viewer_get_state(const viewer *v, viewer_state *state) {
+    *state = v->state;
+    char path[VIEWER_PATH_BYTES];
+    loader_tell(v->loader, path, state->stage, &state->fraction, &state->queued);
+    const char *slash = strrchr(path, '/');
+    snprintf(state->loading, sizeof state->loading, "%.255s", slash ? slash + 1 : path);
+}
+
+bool viewer_open(viewer *v, const char *path) { return items_open(v, path); }
+
+const char *viewer_said(const viewer *v) { return v->said; }

@@ -1,0 +1,227 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The viewer without a window: events with their times come in, pictures go out. Front ends (SDL, scripts)
+// translate; what is loaded from files comes through services of the program.
+//
+// One thread calls in. Loading and drawing happen on threads of the viewer's own. Places are in points from
+// the window's upper left corner, y down; a point is `scale` pixels.
+#ifndef EWA_VIEWER_VIEWER_H
+#define EWA_VIEWER_VIEWER_H
+
+#include "ewa/ewa.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum {
+    VIEWER_MAX_ITEMS = 64,
+    VIEWER_NAME_BYTES = 256,
+    VIEWER_TEXT_BYTES = 1024,
+    VIEWER_PATH_BYTES = 4096,
+};
+
+typedef struct viewer viewer;
+
+/// What a file gave. A cloud comes with its surfels, a volume with its voxels; all belong to `context`.
+typedef struct viewer_content {
+    ewa_context *context;
+    ewa_cloud *cloud;                             ///< NULL: a volume
+    ewa_surfels *surfels;                         ///< of the cloud, with levels
+    ewa_voxels *voxels;                           ///< NULL: a cloud
+    ewa_cloud *outline;                           ///< of a volume: points where something can be seen
+    bool mesh;                                    ///< the cloud was sampled from faces
+    void *keeper;                                 ///< the loader's own
+    void (*free)(struct viewer_content *content); ///< frees all of it
+} viewer_content;
+
+/// Where the news of a load goes; any of its calls may come on any thread.
+typedef struct viewer_news {
+    void *user;
+    /// The share of a stage that is done, in [0, 1]; false: give up.
+    bool (*progress)(void *user, const char *stage, double fraction);
+    /// A warning, a note or an error, without a line feed.
+    void (*message)(void *user, ewa_severity severity, const char *text);
+    /// Points to look at until the load is done; what is handed over belongs to the receiver.
+    void (*preview)(void *user, viewer_content *content);
+} viewer_news;
+
+enum { VIEWER_MAX_CLASSES = 64, VIEWER_COLORMAP_AUTO = -1 };
+
+/// A row of a legend.
+typedef struct viewer_class {
+    double value;
+    uint8_t srgb[3];
+    char name[EWA_CLASS_NAME_BYTES];
+} viewer_class;
+
+/// What is chosen of a cloud's surfels. Fill with viewer_coloring_init().
+typedef struct viewer_coloring {
+    char attribute[EWA_NAME_BYTES + 4]; ///< "name" or "name.x"; empty: the file's colours
+    int colormap;         ///< ewa_colormap, or automatic (default): classes for classes, else viridis
+    uint32_t class_count; ///< filled in: of `classes`; 0: colours go from the first number to the last
+    viewer_class classes[VIEWER_MAX_CLASSES];
+    bool ranged;         ///< `range` is given; else it is filled with the 2nd and 98th percentile
+    double range[2];     ///< numbers of the first and the last colour
+    bool tinted;         ///< all points have the one colour `tint`, when no attribute is chosen
+    double tint[3];      ///< sRGB, [0, 1]
+    double alpha;        ///< of all points, times their own; [0, 1]; default 1
+    double radius_scale; ///< multiplies radii; (0, 100]; default 1
+} viewer_coloring;
+
+void viewer_coloring_init(viewer_coloring *coloring);
+
+/// What the program does for the viewer, on the threads that are named. Calls may be NULL where it says so.
+typedef struct viewer_services {
+    void *user;
+    /// Loads a file; on the loading thread. Returns false after telling `news` why.
+    bool (*load)(void *user, const char *path, const viewer_news *news, viewer_content *content);
+    /// Makes surfels of a cloud, coloured as is wished, and fills in the range; on the loading thread.
+    bool (*color)(void *user, const viewer_content *content, const viewer_news *news, viewer_coloring *wish,
+                  ewa_surfels **surfels);
+    /// Places a camera, whose picture's size is set, for a first look or for a named view ("front" ... "iso",
+    /// NULL: the best) at the contents together; on the calling thread.
+    bool (*place)(void *user, size_t count, const viewer_content *const *contents, const char *const *paths,
+                  const char *view, ewa_camera *camera, double up_world[3]);
+    /// Says a line to standard output (picks, measures) or, for messages, to standard error.
+    void (*say)(void *user, bool message, const char *text);
+    /// Whether the program was asked to end, by a signal. May be NULL.
+    bool (*interrupted)(void *user);
+    /// The clipboard; both may be NULL: the viewer keeps a text of its own then.
+    void (*clipboard_set)(void *user, const char *text);
+    bool (*clipboard_get)(void *user, char *text, size_t text_bytes);
+} viewer_services;
+
+/// How a viewer is made.
+typedef struct viewer_options {
+    viewer_services services;
+    uint32_t thread_count;    ///< that draw; 0: one per processor
+    uint32_t cpu_mask;        ///< EWA_CPU_*
+    uint32_t width, height;   ///< of the window, points
+    double scale;             ///< pixels per point, > 0
+    bool waits;               ///< drawing and loading are waited for: no picture depends on time (scripts)
+    const ewa_camera *camera; ///< the first look; NULL: as the program frames it
+} viewer_options;
+
+/// Makes a viewer of nothing. The caller destroys it. Errors: EWA_ERROR_MEMORY, EWA_ERROR_ARGUMENT.
+ewa_status viewer_create(const viewer_options *options, viewer **made);
+void viewer_destroy(viewer **viewer);
+
+typedef enum viewer_event_kind {
+    VIEWER_MOVE,        ///< the pointer is at x, y
+    VIEWER_PRESS,       ///< of `button`, the `clicks`th in a row
+    VIEWER_RELEASE,     ///< of `button`
+    VIEWER_WHEEL,       ///< by `amount` notches, away from the user is positive; `across`: sideways
+    VIEWER_PINCH,       ///< two fingers: distances grow by the factor `amount`
+    VIEWER_KEY,         ///< `key` went down
+    VIEWER_KEY_RELEASE, ///< `key` went up
+    VIEWER_DROP,        ///< of the file `text`
+    VIEWER_RESIZE,      ///< the window has width x, height y points and `amount` pixels per point
+    VIEWER_LEAVE,       ///< the pointer or the keyboard is elsewhere: nothing is held
+} viewer_event_kind;
+
+enum { VIEWER_LEFT = 1, VIEWER_MIDDLE = 2, VIEWER_RIGHT = 3 };
+enum { VIEWER_SHIFT = 1, VIEWER_CTRL = 2, VIEWER_ALT = 4 };
+
+/// Keys are their lower-case character, or one of these.
+enum {
+    VIEWER_KEY_ENTER = 13,
+    VIEWER_KEY_ESCAPE = 27,
+    VIEWER_KEY_DELETE = 127,
+    VIEWER_KEY_F1 = 256, ///< F2 is the next, and so on
+    VIEWER_KEY_F12 = VIEWER_KEY_F1 + 11,
+    VIEWER_KEY_LEFT,
+    VIEWER_KEY_RIGHT,
+    VIEWER_KEY_UP,
+    VIEWER_KEY_DOWN,
+};
+
+typedef struct viewer_event {
+    viewer_event_kind kind;
+    double time_s; ///< any clock that never runs backwards
+    double x, y;   ///< points
+    int button, clicks;
+    uint32_t modifiers; ///< VIEWER_SHIFT ...
+    int key;
+    double amount, across;
+    const char *text;
+} viewer_event;
+
+/// Takes an event. What goes wrong is said as a message, never returned.
+void viewer_handle(viewer *viewer, const viewer_event *event);
+
+/// A picture to show, of `width_px` x `height_px`: sRGB, straight alpha, valid until the next call.
+typedef struct viewer_picture {
+    const uint8_t *rgba8;
+    uint32_t width_px, height_px; ///< half of the window's while something moves in large windows
+    uint64_t number;              ///< another one for another picture; 0: none yet
+    bool still;                   ///< all there is at full size: nothing will change until something is done
+    uint32_t level;               ///< of the surfels drawn
+    uint64_t splat_count;         ///< of what was drawn
+    double drawn_s;               ///< what the drawing took
+    double spare_s;               ///< when to ask again: 0: soon, for something moves or is under way
+} viewer_picture;
+
+/// Advances to a time and gives the newest picture.
+void viewer_frame(viewer *viewer, double time_s, viewer_picture *picture);
+
+/// Does what a line of the command language says (docs/viewer.md), such as "set kernel affine" or "view front".
+/// Returns false after saying what is wrong.
+bool viewer_do(viewer *viewer, const char *command);
+
+/// Opens a file, as "open" does; it may still be loading afterwards.
+bool viewer_open(viewer *viewer, const char *path);
+
+/// The last line of results, such as a pick; empty: none.
+const char *viewer_said(const viewer *viewer);
+
+/// Whether nothing is loading, moving or waiting to be drawn.
+bool viewer_is_still(const viewer *viewer);
+
+/// A row of the help: keys or gestures and what they do; NULL beyond the last.
+const char *viewer_help_at(uint32_t index, const char **what);
+
+/// A setting for a panel, in groups that follow each other; NULL beyond the last.
+const ewa_option *viewer_setting_at(const viewer *viewer, uint32_t index, const char **group);
+/// Its value as "set NAME VALUE" takes it; false: there is no such setting.
+bool viewer_setting_get(const viewer *viewer, const char *name, char text[EWA_OPTION_TEXT_BYTES]);
+
+/// What a panel says of one thing that was loaded.
+typedef struct viewer_item {
+    char name[VIEWER_NAME_BYTES];
+    const char *path;
+    bool visible, volume, mesh;
+    uint64_t count; ///< of points or voxels
+    viewer_coloring coloring;
+} viewer_item;
+
+size_t viewer_item_count(const viewer *viewer);
+/// False: there is no item `index`.
+bool viewer_item_get(const viewer *viewer, size_t index, viewer_item *item);
+/// Name of an attribute that item `index` can be coloured by, such as "intensity" or "normal.x"; NULL beyond
+/// the last.
+const char *viewer_attribute_at(const viewer *viewer, size_t index, uint32_t attribute,
+                                char name[EWA_NAME_BYTES + 4]);
+
+/// What goes on.
+typedef struct viewer_state {
+    char loading[VIEWER_NAME_BYTES]; ///< name of what loads; empty: nothing
+    char stage[64];
+    double fraction;
+    uint32_t queued;                 ///< loads that wait
+    char message[VIEWER_TEXT_BYTES]; ///< the last thing that went wrong or is worth knowing; empty: none
+    double message_s;                ///< when
+    char picked[VIEWER_TEXT_BYTES];  ///< the last pick or measure, several lines
+    bool moving, help, panels, quit; ///< help and panels are to be shown; quit: the user asked to end
+} viewer_state;
+
+void viewer_get_state(const viewer *viewer, viewer_state *state);
+
+/// The camera of the window's full size.
+void viewer_get_camera(const viewer *viewer, ewa_camera *camera);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
