@@ -10,8 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// sRGB of numbers that are not finite.
+/// sRGB of numbers that have no colour.
 static const uint8_t GREY_SRGB = 128;
+
+/// Codes of classes are below.
+enum { CLASS_COUNT = 1 << 16 };
 
 static bool find_component(const ewa_cloud *cloud, const char *attribute_name, const char *component_name,
                            char name[EWA_NAME_BYTES], uint32_t *component) {
@@ -93,10 +96,84 @@ static bool find_range(cli_session *session, const scalar *from, const option_bo
     return true;
 }
 
-bool color_by(cli_session *session, ewa_cloud *cloud, const char *word, ewa_colormap colormap,
-              const option_bounds *range) {
+/// Whether a number is the code of a class.
+static bool is_class(double number) { return number >= 0 && number < CLASS_COUNT && number == floor(number); }
+
+/// Lists the classes that there are, by code. False after reporting.
+static bool list_classes(cli_session *session, const scalar *from, color_scale *scale) {
+    bool *there = calloc(CLASS_COUNT, sizeof *there);
+    for (uint64_t i = 0; there && i < from->count; i++) {
+        const double number = read_scalar(from, i);
+        if (!is_class(number)) continue;
+        scale->category_count += !there[(uint32_t)number];
+        there[(uint32_t)number] = true;
+    }
+    scale->categories = calloc(scale->category_count + 1, sizeof *scale->categories);
+    scale->names = calloc(scale->category_count + 1, sizeof *scale->names);
+    const bool done = there && scale->categories && scale->names;
+    if (!done) session_fail(session, "--color-by: out of memory for %u classes", scale->category_count);
+    for (uint32_t code = 0, k = 0; done && code < CLASS_COUNT; code++) {
+        if (!there[code]) continue;
+        ewa_class_name(code, scale->names[k]);
+        scale->categories[k] = (ewa_category){.value = code, .name = scale->names[k]};
+        ewa_class_color(code, scale->categories[k++].srgb);
+    }
+    free(there);
+    return done;
+}
+
+/// Whether an attribute holds classes by its name and its numbers.
+static bool holds_classes(const scalar *from, const char *name) {
+    static const char *const names[] = {"classification", "Classification", "scalar_classification",
+                                        "scalar_Classification"};
+    bool named = false;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) named = named || strcmp(name, names[i]) == 0;
+    for (uint64_t i = 0; named && i < from->count; i++) named = is_class(read_scalar(from, i));
+    return named;
+}
+
+/// Chooses colours for the numbers; says which. False after reporting.
+static bool choose_scale(cli_session *session, const scalar *from, const char *word, const char *name,
+                         int colormap, const option_bounds *range, color_scale *scale) {
+    const bool classes = colormap == COLOR_BY_CLASSES ||
+                         (colormap == COLOR_BY_AUTO && !range->given && holds_classes(from, name));
+    scale->colormap = colormap >= 0 && !classes ? (ewa_colormap)colormap : EWA_COLORMAP_VIRIDIS;
+    if (!classes) {
+        if (!find_range(session, from, range, scale->range)) return false;
+        session_say(session, "--color-by: %s from %g to %g", word, scale->range[0], scale->range[1]);
+        return true;
+    }
+    if (!list_classes(session, from, scale)) return false;
+    session_say(session, "--color-by: %s has %u classes, drawn in the colours of classes%s", word,
+                scale->category_count,
+                colormap == COLOR_BY_CLASSES ? "" : " (--colormap viridis shows the numbers)");
+    return true;
+}
+
+/// The colour of a number; false, and grey, when it has none.
+static bool find_color(const color_scale *scale, double number, uint8_t srgb[3]) {
+    const double extent = scale->range[1] - scale->range[0];
+    const bool has = scale->categories ? is_class(number) : isfinite(number);
+    if (!has)
+        memset(srgb, GREY_SRGB, 3);
+    else if (scale->categories)
+        ewa_class_color((uint32_t)number, srgb);
+    else
+        ewa_colormap_color(scale->colormap, extent != 0 ? (number - scale->range[0]) / extent : 0.5, srgb);
+    return has;
+}
+
+void color_scale_free(color_scale *scale) {
+    free(scale->categories);
+    free(scale->names);
+    *scale = (color_scale){.categories = NULL};
+}
+
+bool color_by(cli_session *session, ewa_cloud *cloud, const char *word, int colormap,
+              const option_bounds *range, color_scale *scale) {
     char name[EWA_NAME_BYTES];
     uint32_t component;
+    *scale = (color_scale){.categories = NULL};
     if (!color_by_find(session, cloud, word, name, &component)) return false;
     const uint64_t count = ewa_cloud_point_count(cloud);
     scalar from = {*ewa_cloud_find(cloud, name), component, 0, count};
@@ -104,32 +181,24 @@ bool color_by(cli_session *session, ewa_cloud *cloud, const char *word, ewa_colo
         double origin_world[3] = {0, 0, 0};
         ewa_cloud_origin(cloud, origin_world);
         from.shift = origin_world[component];
+        scale->length = true;
     }
-    double ends[2];
-    if (!find_range(session, &from, range, ends)) return false;
-    session_say(session, "--color-by: %s from %g to %g", word, ends[0], ends[1]);
-    const double extent = ends[1] - ends[0];
+    if (!choose_scale(session, &from, word, name, colormap, range, scale)) return false;
     uint8_t(*colors)[3] = NULL;
     // Under a name of its own first: the colours themselves may be what is read.
     static const char made[] = "ewa_color_by";
     ewa_status status = ewa_cloud_add(cloud, made, EWA_U8, 3, (void **)&colors);
     uint64_t grey_count = 0;
-    for (uint64_t i = 0; status == EWA_OK && i < count; i++) {
-        const double number = read_scalar(&from, i);
-        if (isfinite(number))
-            ewa_colormap_color(colormap, extent != 0 ? (number - ends[0]) / extent : 0.5, colors[i]);
-        else
-            memset(colors[i], GREY_SRGB, 3);
-        grey_count += !isfinite(number);
-    }
+    for (uint64_t i = 0; status == EWA_OK && i < count; i++)
+        grey_count += !find_color(scale, read_scalar(&from, i), colors[i]);
     void *data = NULL;
     if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, &data);
     if (status == EWA_OK) memcpy(data, colors, 3 * count);
     ewa_cloud_remove(cloud, made);
     if (status != EWA_OK) session_failed(session, status);
     if (status == EWA_OK && grey_count)
-        session_warn(session,
-                     "--color-by: %llu of %llu numbers of %s are not finite; these points are drawn in grey",
-                     (unsigned long long)grey_count, (unsigned long long)count, word);
+        session_warn(session, "--color-by: %llu of %llu numbers of %s are %s; these points are drawn in grey",
+                     (unsigned long long)grey_count, (unsigned long long)count, word,
+                     scale->categories ? "no classes" : "not finite");
     return status == EWA_OK;
 }

@@ -12,9 +12,27 @@
 bool color_by_find(cli_session *session, const ewa_cloud *cloud, const char *word, char name[EWA_NAME_BYTES],
                    uint32_t *component);
 
-/// Replaces the colours of a cloud by those of one component of an attribute; numbers that are not finite
-/// become grey. A `range` that is not given: from the least to the greatest. Returns false after reporting.
-bool color_by(cli_session *session, ewa_cloud *cloud, const char *word, ewa_colormap colormap,
-              const option_bounds *range);
+/// Colormaps of color_by() beside those of the library.
+enum {
+    COLOR_BY_AUTO = -1, ///< classes for whole numbers that are called so, else viridis
+    COLOR_BY_CLASSES = EWA_COLORMAP_COOLWARM + 1, ///< whole numbers by ewa_class_color()
+};
+
+/// What the colours mean.
+typedef struct color_scale {
+    ewa_colormap colormap;
+    double range[2];          ///< numbers of the first and the last colour
+    bool length;              ///< the numbers are lengths of the world
+    ewa_category *categories; ///< classes in place of numbers, by code; NULL: none
+    char (*names)[EWA_CLASS_NAME_BYTES];
+    uint32_t category_count;
+} color_scale;
+
+/// Replaces the colours of a cloud by those of one component of an attribute; numbers that are not finite, or
+/// no classes where those are shown, become grey. `colormap`: of the library, or COLOR_BY_*. A `range` that is not
+/// given: from the least to the greatest. Returns false after reporting; free `scale` in any case.
+bool color_by(cli_session *session, ewa_cloud *cloud, const char *word, int colormap,
+              const option_bounds *range, color_scale *scale);
+void color_scale_free(color_scale *scale);
 
 #endif

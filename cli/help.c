@@ -183,18 +183,28 @@ static void print_group_markdown(FILE *file, const option_group *group, const vo
     }
 }
 
-static const ewa_option_table *const tables[] = {
-    &ewa_acquire_options_table,     &ewa_cloud_save_options_table,
-    &ewa_context_options_table,     &ewa_csg_options_table,
-    &ewa_estimate_options_table,    &ewa_feature_options_table,
-    &ewa_generate_options_table,    &ewa_image_save_options_table,
-    &ewa_mesh_sample_options_table, &ewa_material_table,
-    &ewa_procedure_options_table,   &ewa_refit_options_table,
-    &ewa_render_options_table,      &ewa_surfels_options_table,
-    &ewa_texture_options_table,     &ewa_volume_generate_options_table,
-    &ewa_volume_load_options_table, &ewa_volume_options_table,
-    &ewa_volume_save_options_table, &ewa_voxels_options_table,
-    &ewa_warp_options_table};
+static const ewa_option_table *const tables[] = {&ewa_acquire_options_table,
+                                                 &ewa_cloud_save_options_table,
+                                                 &ewa_context_options_table,
+                                                 &ewa_csg_options_table,
+                                                 &ewa_estimate_options_table,
+                                                 &ewa_feature_options_table,
+                                                 &ewa_furniture_options_table,
+                                                 &ewa_generate_options_table,
+                                                 &ewa_image_save_options_table,
+                                                 &ewa_mesh_sample_options_table,
+                                                 &ewa_material_table,
+                                                 &ewa_procedure_options_table,
+                                                 &ewa_refit_options_table,
+                                                 &ewa_render_options_table,
+                                                 &ewa_surfels_options_table,
+                                                 &ewa_texture_options_table,
+                                                 &ewa_volume_generate_options_table,
+                                                 &ewa_volume_load_options_table,
+                                                 &ewa_volume_options_table,
+                                                 &ewa_volume_save_options_table,
+                                                 &ewa_voxels_options_table,
+                                                 &ewa_warp_options_table};
 
 static void print_option_json(json_writer *json, const ewa_option *option) {
     static const char *const types[] = {"bool", "choice", "u32", "u64", "f32", "f64"};

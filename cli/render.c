@@ -5,6 +5,7 @@
 #include "color_by.h"
 #include "commands.h"
 #include "frames.h"
+#include "furnish.h"
 #include "inputs.h"
 #include "json.h"
 #include "light.h"
@@ -29,6 +30,7 @@ typedef struct render_arguments {
     int colormap;
     option_bounds range;
     option_color background;
+    furnish_arguments furniture;
 } render_arguments;
 
 #define AT(member)      offsetof(render_arguments, member)
@@ -91,11 +93,20 @@ static const cli_option look_table[] = {
      .help = "colour by an attribute ('ewa info' lists them), one component of it (normal.x), or by x, y, z",
      .absent = "the file's colours, else grey"},
     {"colormap", OPTION_CHOICE, AT(colormap), NULL,
-     "viridis|turbo|gray|plasma|inferno|magma|cividis|coolwarm", .help = "colours for --color-by",
-     .absent = "viridis", .needs = "color-by"},
+     "viridis|turbo|gray|plasma|inferno|magma|cividis|coolwarm|classes",
+     .help = "colours for --color-by; classes: whole numbers by the colours of LAS classes (ground, "
+             "vegetation, building, ...)",
+     .absent = "classes for whole numbers named classification, else viridis", .needs = "color-by"},
     {"range", OPTION_BOUNDS, AT(range), "a,b",
      .help = "numbers that get the first and the last colour; with a percent sign, percentiles: 2%,98%",
      .aliases = "coloring-range", .absent = "least to greatest", .needs = "color-by"},
+};
+
+static const cli_option furniture_table[] = {
+    FURNISH_OPTIONS(AT(furniture)),
+    {"color-bar", OPTION_FLAG, AT(furniture.color_bar),
+     .help = "show on the right what the colours of --color-by mean: a scale, or the classes there are",
+     .needs = "color-by"},
 };
 
 static void set_defaults(void *data) {
@@ -104,7 +115,7 @@ static void set_defaults(void *data) {
     light_set_defaults(&arguments->light);
     ewa_surfels_options_init(&arguments->surfels, sizeof arguments->surfels);
     arguments->close_gaps = true;
-    arguments->colormap = -1;
+    arguments->colormap = COLOR_BY_AUTO;
     arguments->background = (option_color){{1, 1, 1, 1}};
 }
 
@@ -140,10 +151,13 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         missing = "--layers needs --passes 3";
     else if (arguments->light.render.opacity < 1 && arguments->light.render.passes == 1)
         missing = "--opacity below 1 needs --passes 3";
+    else if (arguments->colormap == COLOR_BY_CLASSES && arguments->range.given)
+        missing = "--colormap classes takes no --range: each class has its own colour";
     if (!options_fine(missing, message)) return false;
     return light_check(&arguments->light, message) && section_check(&arguments->section, message) &&
            frames_check(&arguments->frames, arguments->output, arguments->background.rgba[3] == 1, message) &&
-           parse_paths(arguments, &paths, message);
+           parse_paths(arguments, &paths, message) &&
+           furnish_check(&arguments->furniture, arguments->output, message);
 }
 
 static ewa_render_options render_options(const render_arguments *arguments, const light_objects *lit_by) {
@@ -154,9 +168,17 @@ static ewa_render_options render_options(const render_arguments *arguments, cons
     return options;
 }
 
+/// What all frames share.
+typedef struct render_scene {
+    frame_cameras frames;
+    ewa_surfels *surfels;
+    color_scale scale;
+    furnishing furniture;
+} render_scene;
+
 /// Loads, colours, and makes surfels and the cameras; the clouds are gone afterwards. False after reporting.
-static bool make_scene(cli_session *session, const render_arguments *arguments, frame_cameras *frames,
-                       ewa_surfels **surfels, render_report *report) {
+static bool make_scene(cli_session *session, const render_arguments *arguments, render_scene *scene,
+                       render_report *report) {
     const common_arguments *common = &arguments->frames.view.common;
     const double started_s = clock_now_s();
     const char *by = arguments->color_by;
@@ -165,10 +187,12 @@ static bool make_scene(cli_session *session, const render_arguments *arguments, 
     report->load_s = clock_now_s() - started_s - report->estimate_s;
     report->point_count = ewa_cloud_point_count(cloud);
     session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
-    const ewa_colormap colormap =
-        arguments->colormap >= 0 ? (ewa_colormap)arguments->colormap : EWA_COLORMAP_VIRIDIS;
-    bool done = (!by || color_by(session, cloud, by, colormap, &arguments->range)) &&
-                frames_make(session, &arguments->frames, cloud, arguments->surfels.radius_scale, frames);
+    ewa_surfels **surfels = &scene->surfels;
+    bool done =
+        (!by || color_by(session, cloud, by, arguments->colormap, &arguments->range, &scene->scale)) &&
+        frames_make(session, &arguments->frames, cloud, arguments->surfels.radius_scale, &scene->frames) &&
+        furnish_make(session, &arguments->furniture, &arguments->frames, &arguments->background, cloud, by,
+                     &scene->scale, &scene->furniture);
     session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
     const resident_options options = {arguments->surfels, arguments->close_gaps,
                                       arguments->light.render.point_size_px > 0};
@@ -180,21 +204,24 @@ static bool make_scene(cli_session *session, const render_arguments *arguments, 
 
 /// What paint() works with.
 typedef struct surfel_painter {
+    cli_session *session;
     ewa_renderer *renderer;
-    const ewa_surfels *surfels;
+    const render_scene *scene;
     const ewa_render_options *options;
 } surfel_painter;
 
 static ewa_status paint(void *user, const ewa_camera *camera, const ewa_frame *frame,
                         ewa_render_stats *stats) {
     const surfel_painter *painter = user;
-    return ewa_render(painter->renderer, painter->surfels, camera, painter->options, frame, stats);
+    const ewa_status status =
+        ewa_render(painter->renderer, painter->scene->surfels, camera, painter->options, frame, stats);
+    return status == EWA_OK ? furnish_draw(painter->session, &painter->scene->furniture, camera, frame)
+                            : status;
 }
 
 /// Draws and writes everything. False after reporting.
 static bool draw(cli_session *session, const render_arguments *arguments, const picture_paths *paths,
-                 const frame_cameras *frames, const light_objects *lit_by, const ewa_surfels *surfels,
-                 render_report *report) {
+                 const light_objects *lit_by, const render_scene *scene, render_report *report) {
     const bool many = frames_many(&arguments->frames);
     const ewa_render_options options = render_options(arguments, lit_by);
     const sequence_output output = {
@@ -207,7 +234,8 @@ static bool draw(cli_session *session, const render_arguments *arguments, const 
         .quality = arguments->frames.quality >= 0 ? (int)arguments->frames.quality : 75,
         .opaque = arguments->background.rgba[3] == 1,
     };
-    surfel_painter painting = {.surfels = surfels, .options = &options};
+    surfel_painter painting = {.session = session, .scene = scene, .options = &options};
+    const frame_cameras *frames = &scene->frames;
     const ewa_status status = ewa_renderer_create(session->context, &painting.renderer);
     if (status != EWA_OK) session_failed(session, status);
     const bool done =
@@ -225,16 +253,16 @@ static int run(const void *data) {
     if (!session_start(&session, common)) return session_end(&session, EXIT_FAILED);
     picture_paths paths;
     char message[OPTION_ERROR_BYTES];
-    frame_cameras frames = {.count = 0};
-    ewa_surfels *surfels = NULL;
+    render_scene scene = {.surfels = NULL};
+    const frame_cameras *frames = &scene.frames;
     light_objects lit_by = {.material_count = 0};
     render_report report = {.load_s = 0};
     bool done =
         parse_paths(arguments, &paths, message) && light_load(&session, &arguments->light, &lit_by) &&
-        make_scene(&session, arguments, &frames, &surfels, &report) &&
-        draw(&session, arguments, &paths, &frames, &lit_by, surfels, &report) &&
+        make_scene(&session, arguments, &scene, &report) &&
+        draw(&session, arguments, &paths, &lit_by, &scene, &report) &&
         (!arguments->stats_path || render_report_write(&session, common, frames_many(&arguments->frames),
-                                                       &frames, &report, arguments->stats_path));
+                                                       frames, &report, arguments->stats_path));
     if (done && !frames_many(&arguments->frames))
         session_say(&session, "%s: %llu of %llu splats drawn in %.1f ms, %.3f s in all", arguments->output,
                     (unsigned long long)(report.stats.splat_count - report.stats.culled_count),
@@ -242,11 +270,12 @@ static int run(const void *data) {
                     clock_now_s() - session.started_s);
     else if (done)
         session_say(&session, "%s: %zu frames, each drawn in %.1f ms, %.3f s in all", arguments->output,
-                    frames.count, 1e3 * report.render_s / (double)frames.count,
+                    frames->count, 1e3 * report.render_s / (double)frames->count,
                     clock_now_s() - session.started_s);
     render_report_free(&report);
-    frames_free(&frames);
-    ewa_surfels_destroy(&surfels);
+    color_scale_free(&scene.scale);
+    frames_free(&scene.frames);
+    ewa_surfels_destroy(&scene.surfels);
     light_free(&lit_by);
     return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
 }
@@ -255,6 +284,7 @@ static const option_group output_options = OPTION_GROUP("Output", output_table);
 static const option_group splat_options = OPTION_GROUP("Splats", splat_table);
 static const option_group section_options = OPTION_GROUP("Section", section_table);
 static const option_group look_options = OPTION_GROUP("Look", look_table);
+static const option_group furniture_options = OPTION_GROUP("Over the picture", furniture_table);
 const cli_command render_command = {
     .name = "render",
     .operands = "IN... -o OUT",
@@ -279,6 +309,9 @@ const cli_command render_command = {
         "ewa render scan.ply -o scan.png\n"
         "ewa render scan.ply -o side.png --view right --size 1920x1080 --background transparent\n"
         "ewa render tile1.ply tile2.ply -o height.png --color-by z --colormap turbo --shading lambert\n"
+        "ewa render tile.ply -o map.png --view top --ortho 500 --color-by classification --color-bar "
+        "--scale-bar "
+        "--unit m\n"
         "ewa render scan.ply -o scan.exr --camera camera.json --aov depth=depth.pfm,normal=normal.exr\n"
         "ewa render scan.ply -o turn.mp4 --turntable 120 --elevation 20\n"
         "ewa render scan.ply -o fly_%04d.png --path keys.json --frames 300\n"
@@ -286,7 +319,8 @@ const cli_command render_command = {
     .low_operands = 1,
     .high_operands = 4096,
     .groups = (const option_group *const[]){&output_options, &view_options, &frames_options, &splat_options,
-                                            &section_options, &light_options, &look_options, NULL},
+                                            &section_options, &light_options, &look_options,
+                                            &furniture_options, NULL},
     .arguments_bytes = sizeof(render_arguments),
     .set_defaults = set_defaults,
     .check = check,

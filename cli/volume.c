@@ -3,6 +3,7 @@
 //
 // ewa volume: volumes to a picture.
 #include "commands.h"
+#include "furnish.h"
 #include "json.h"
 #include "light.h"
 #include "sequence.h"
@@ -20,6 +21,7 @@ typedef struct volume_arguments {
     const char *output, *aov, *save_camera_path, *stats_path;
     bool progressive;
     option_color background;
+    furnish_arguments furniture;
 } volume_arguments;
 
 #define AT(member)     offsetof(volume_arguments, member)
@@ -85,6 +87,8 @@ static const cli_option look_table[] = {
      .help = "sRGB numbers in [0, 1], or transparent", .aliases = "background-color"},
 };
 
+static const cli_option furniture_table[] = {FURNISH_OPTIONS(AT(furniture))};
+
 static void set_defaults(void *data) {
     volume_arguments *arguments = data;
     frames_set_defaults(&arguments->frames);
@@ -118,7 +122,8 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     if (!options_fine(wrong, message)) return false;
     return volume_input_check(&arguments->input, message) && light_check(&arguments->light, message) &&
            frames_check(&arguments->frames, arguments->output, arguments->background.rgba[3] == 1, message) &&
-           parse_paths(arguments, &paths, message);
+           parse_paths(arguments, &paths, message) &&
+           furnish_check(&arguments->furniture, arguments->output, message);
 }
 
 /// What paint() works with.
@@ -127,6 +132,7 @@ typedef struct volume_painter {
     const volume_scene *scene;
     ewa_volume_renderer *renderer;
     ewa_volume_options options;
+    furnishing furniture;
     ewa_volume_stats stats; // counts and times summed over all frames
     ewa_renderer *surface_renderer;
     ewa_render_options surface_options;
@@ -221,7 +227,7 @@ static ewa_status paint(void *user, const ewa_camera *camera, const ewa_frame *f
     sum->points_s += drawn.points_s;
     sum->splats_s += drawn.splats_s;
     sum->resolve_s += drawn.resolve_s;
-    return status;
+    return status == EWA_OK ? furnish_draw(painter->session, &painter->furniture, camera, frame) : status;
 }
 
 /// Sets up what the frames are drawn with. Returns false after reporting.
@@ -340,7 +346,11 @@ static int run(const void *data) {
         volume_scene_load(&session, &arguments->input, &arguments->scene, common->operands[0],
                           arguments->progressive ? 2 : 1, &scene) &&
         volume_scene_frame(&session, &arguments->frames, &scene, &frames) &&
-        prepare_painter(arguments, &painter) && draw(arguments, &paths, &frames, &painter, &report) &&
+        prepare_painter(arguments, &painter) &&
+        furnish_make(&session, &arguments->furniture, &arguments->frames, &arguments->background,
+                     ewa_cloud_point_count(scene.outline) ? scene.outline : NULL, NULL, NULL,
+                     &painter.furniture) &&
+        draw(arguments, &paths, &frames, &painter, &report) &&
         (!arguments->stats_path || write_stats(&session, arguments, &frames, &painter, &report));
     if (done)
         session_say(&session, "%s: %llu of %llu voxels, drawn in %.1f ms, %.3f s in all", arguments->output,
@@ -357,6 +367,7 @@ static const option_group output_options = OPTION_GROUP("Output", output_table);
 static const option_group input_options = OPTION_GROUP("Raw volumes", input_table);
 static const option_group voxel_options = OPTION_GROUP("Voxels", voxel_table);
 static const option_group look_options = OPTION_GROUP("Look", look_table);
+static const option_group furniture_options = OPTION_GROUP("Over the picture", furniture_table);
 const cli_command volume_command = {
     .name = "volume",
     .operands = "VOL -o OUT",
@@ -378,7 +389,7 @@ const cli_command volume_command = {
     .low_operands = 1,
     .high_operands = 1,
     .groups = (const option_group *const[]){&output_options, &input_options, &view_options, &frames_options,
-                                            &voxel_options, &look_options, NULL},
+                                            &voxel_options, &look_options, &furniture_options, NULL},
     .arguments_bytes = sizeof(volume_arguments),
     .set_defaults = set_defaults,
     .check = check,

@@ -52,6 +52,7 @@ int window_run(const void *data, int (*front)(const front_job *job)) {
                      .path_count = common->operand_count,
                      .script_path = arguments->script_path,
                      .timings = arguments->timings,
+                     .started_s = clock_now_s(),
                      .options = {.thread_count = (uint32_t)common->threads,
                                  .cpu_mask = EWA_CPU_ALL,
                                  .width = arguments->view.size.width_px,

@@ -185,12 +185,24 @@ static ewa_status borrow_cloud(const ewa_cloud *cloud, ewa_context *context, ewa
     return EWA_OK;
 }
 
-/// The range of the colours: what was asked for, or without the outermost two per cent.
-static bool color_range(cli_session *session, ewa_cloud *cloud, viewer_coloring *wish) {
+/// Colours by an attribute, without the outermost two per cent of the numbers where no range is asked for, and
+/// fills in what the colours mean.
+static bool color_scaled(cli_session *session, ewa_cloud *cloud, viewer_coloring *wish) {
     const option_bounds range = wish->ranged
                                     ? (option_bounds){{wish->range[0], wish->range[1]}, {false, false}, true}
                                     : (option_bounds){{2, 98}, {true, true}, true};
-    return color_by(session, cloud, wish->attribute, (ewa_colormap)wish->colormap, &range, wish->range);
+    color_scale scale = {.categories = NULL};
+    const bool done = color_by(session, cloud, wish->attribute, wish->colormap, &range, &scale);
+    memcpy(wish->range, scale.range, sizeof scale.range);
+    wish->class_count = 0;
+    for (uint32_t k = 0; done && k < scale.category_count && k < VIEWER_MAX_CLASSES; k++) {
+        viewer_class *to = &wish->classes[wish->class_count++];
+        to->value = scale.categories[k].value;
+        memcpy(to->srgb, scale.categories[k].srgb, sizeof to->srgb);
+        snprintf(to->name, sizeof to->name, "%s", scale.categories[k].name);
+    }
+    color_scale_free(&scale);
+    return done;
 }
 
 static bool color(void *user, const viewer_content *content, const viewer_news *news, viewer_coloring *wish,
@@ -204,7 +216,7 @@ static bool color(void *user, const viewer_content *content, const viewer_news *
     ewa_status status = borrow_cloud(content->cloud, content->context, &cloud);
     bool done = status == EWA_OK;
     if (done && wish->attribute[0])
-        done = color_range(session, cloud, wish);
+        done = color_scaled(session, cloud, wish);
     else if (done && wish->tinted)
         status = tint(cloud, wish->tint);
     if (done && status == EWA_OK && wish->alpha < 1) status = fade(cloud, wish->alpha);

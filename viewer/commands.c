@@ -158,7 +158,7 @@ static bool do_colormap(viewer *v, const char *rest) {
         viewer_coloring *wish = &v->items[i].wish;
         int map = 0;
         if (strcmp(rest, "next") == 0)
-            map = colormap_name(wish->colormap + 1) ? wish->colormap + 1 : 0;
+            map = colormap_name(wish->colormap + 1) ? wish->colormap + 1 : 0; // from automatic to the first
         else
             while (colormap_name(map) && strcmp(colormap_name(map), rest) != 0) map++;
         if (!colormap_name(map)) return refuse(v, "colormap", rest, "a colour map or next");

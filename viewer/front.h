@@ -17,6 +17,7 @@ typedef struct front_job {
     const char *const *paths; ///< opened at the start
     size_t path_count;
     const char *script_path; ///< NULL: people do
+    double started_s;        ///< when the program began, CLOCK_MONOTONIC
     bool timings;            ///< the script's times are kept, and what frames took is printed
 } front_job;
 

@@ -17,8 +17,6 @@ typedef struct scene_item {
     bool loaded, preview, visible;
     viewer_coloring wish, coloring; ///< what is asked for, and what is shown
     ewa_surfels *made;              ///< in place of the content's; NULL: none
-    ewa_category *categories;       ///< of a coloring by classes; NULL: it is continuous
-    uint32_t category_count;
 } scene_item;
 
 typedef enum navigation { NAVIGATION_TURNTABLE, NAVIGATION_TRACKBALL, NAVIGATION_FLY } navigation;

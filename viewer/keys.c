@@ -79,7 +79,7 @@ const char *viewer_help_at(uint32_t index, const char **what) {
 void keys_handle(viewer *v, const viewer_event *event) {
     const char *letter = event->key > 0 && event->key < 128 ? strchr(fly_letters, event->key) : NULL;
     const uint32_t bit = letter ? 1u << (letter - fly_letters) : 0;
-    if (event->kind == VIEWER_KEY_UP) {
+    if (event->kind == VIEWER_KEY_RELEASE) {
         v->fly_keys &= ~bit;
         return;
     }

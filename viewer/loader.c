@@ -153,8 +153,8 @@ ewa_status loader_create(const viewer_services *services, loader **made) {
     return *made ? EWA_OK : EWA_ERROR_MEMORY;
 }
 
-void loader_destroy(loader **loader) {
-    struct loader *l = *loader;
+void loader_destroy(loader **made) {
+    loader *l = *made;
     if (!l) return;
     if (l->started) {
         pthread_mutex_lock(&l->lock);
@@ -174,7 +174,7 @@ void loader_destroy(loader **loader) {
     pthread_cond_destroy(&l->changed);
     pthread_mutex_destroy(&l->lock);
     free(l);
-    *loader = NULL;
+    *made = NULL;
 }
 
 static void post(loader *l, loader_note *order) {
@@ -184,13 +184,13 @@ static void post(loader *l, loader_note *order) {
     pthread_mutex_unlock(&l->lock);
 }
 
-bool loader_load(loader *loader, uint64_t item, const char *path) {
+bool loader_load(loader *l, uint64_t item, const char *path) {
     loader_note *order = calloc(1, sizeof *order);
     if (!order) return false;
     order->kind = LOADER_LOAD;
     order->item = item;
     snprintf(order->path, sizeof order->path, "%s", path);
-    post(loader, order);
+    post(l, order);
     return true;
 }
 
@@ -207,7 +207,7 @@ static void drop_orders(loader *l, uint64_t item) {
     }
 }
 
-bool loader_color(loader *loader, uint64_t item, const viewer_content *content,
+bool loader_color(loader *l, uint64_t item, const viewer_content *content,
                   const viewer_coloring *coloring) {
     loader_note *order = calloc(1, sizeof *order);
     if (!order) return false;
@@ -215,64 +215,64 @@ bool loader_color(loader *loader, uint64_t item, const viewer_content *content,
     order->item = item;
     order->content = *content;
     order->coloring = *coloring;
-    pthread_mutex_lock(&loader->lock);
-    drop_orders(loader, item);
-    pthread_mutex_unlock(&loader->lock);
-    post(loader, order);
+    pthread_mutex_lock(&l->lock);
+    drop_orders(l, item);
+    pthread_mutex_unlock(&l->lock);
+    post(l, order);
     return true;
 }
 
-void loader_cancel(loader *loader) {
-    pthread_mutex_lock(&loader->lock);
+void loader_cancel(loader *l) {
+    pthread_mutex_lock(&l->lock);
     // Each order that waits reports that it came to nothing.
-    for (loader_note *order; (order = loader->orders);) {
-        loader->orders = order->next;
+    for (loader_note *order; (order = l->orders);) {
+        l->orders = order->next;
         order->kind = LOADER_FAILED;
-        append(&loader->reports, order);
+        append(&l->reports, order);
     }
-    if (loader->current) atomic_store(&loader->give_up, true);
-    pthread_mutex_unlock(&loader->lock);
+    if (l->current) atomic_store(&l->give_up, true);
+    pthread_mutex_unlock(&l->lock);
 }
 
-void loader_forget(loader *loader, uint64_t item) {
-    pthread_mutex_lock(&loader->lock);
-    drop_orders(loader, item);
-    while (loader->current && loader->current->item == item) {
-        atomic_store(&loader->give_up, true);
-        pthread_cond_wait(&loader->changed, &loader->lock);
+void loader_forget(loader *l, uint64_t item) {
+    pthread_mutex_lock(&l->lock);
+    drop_orders(l, item);
+    while (l->current && l->current->item == item) {
+        atomic_store(&l->give_up, true);
+        pthread_cond_wait(&l->changed, &l->lock);
     }
-    pthread_mutex_unlock(&loader->lock);
+    pthread_mutex_unlock(&l->lock);
 }
 
-void loader_wait(loader *loader) {
-    pthread_mutex_lock(&loader->lock);
-    while (loader->orders || loader->current) pthread_cond_wait(&loader->changed, &loader->lock);
-    pthread_mutex_unlock(&loader->lock);
+void loader_wait(loader *l) {
+    pthread_mutex_lock(&l->lock);
+    while (l->orders || l->current) pthread_cond_wait(&l->changed, &l->lock);
+    pthread_mutex_unlock(&l->lock);
 }
 
-bool loader_is_busy(loader *loader) {
-    pthread_mutex_lock(&loader->lock);
-    const bool busy = loader->orders || loader->current || loader->reports;
-    pthread_mutex_unlock(&loader->lock);
+bool loader_is_busy(loader *l) {
+    pthread_mutex_lock(&l->lock);
+    const bool busy = l->orders || l->current || l->reports;
+    pthread_mutex_unlock(&l->lock);
     return busy;
 }
 
-loader_note *loader_take(loader *loader) {
-    pthread_mutex_lock(&loader->lock);
-    loader_note *note = loader->reports;
-    if (note) loader->reports = note->next;
-    pthread_mutex_unlock(&loader->lock);
+loader_note *loader_take(loader *l) {
+    pthread_mutex_lock(&l->lock);
+    loader_note *note = l->reports;
+    if (note) l->reports = note->next;
+    pthread_mutex_unlock(&l->lock);
     return note;
 }
 
-void loader_tell(loader *loader, char path[VIEWER_PATH_BYTES], char stage[64], double *fraction,
+void loader_tell(loader *l, char path[VIEWER_PATH_BYTES], char stage[64], double *fraction,
                  uint32_t *waiting) {
-    pthread_mutex_lock(&loader->lock);
-    snprintf(path, VIEWER_PATH_BYTES, "%s", loader->current ? loader->current->path : "");
-    memcpy(stage, loader->stage, sizeof loader->stage);
-    *fraction = loader->fraction;
+    pthread_mutex_lock(&l->lock);
+    snprintf(path, VIEWER_PATH_BYTES, "%s", l->current ? l->current->path : "");
+    memcpy(stage, l->stage, sizeof l->stage);
+    *fraction = l->fraction;
     *waiting = 0;
-    for (const loader_note *order = loader->orders; order; order = order->next)
+    for (const loader_note *order = l->orders; order; order = order->next)
         *waiting += order->kind == LOADER_LOAD;
-    pthread_mutex_unlock(&loader->lock);
+    pthread_mutex_unlock(&l->lock);
 }

@@ -94,17 +94,25 @@ static void draw_picks(const overlay *o, const viewer *v) {
 }
 
 /// The colour bar is that of the first visible cloud that is coloured by an attribute.
-static void set_color_bar(const viewer *v, ewa_furniture_options *furniture) {
+static void set_color_bar(const viewer *v, ewa_category categories[VIEWER_MAX_CLASSES],
+                          ewa_furniture_options *furniture) {
     furniture->color_bar = false;
     for (size_t i = 0; i < v->item_count; i++) {
         const scene_item *item = &v->items[i];
         if (!item->visible || !item->coloring.attribute[0]) continue;
         furniture->color_bar = true;
-        furniture->colormap = (ewa_colormap)item->coloring.colormap;
-        memcpy(furniture->range, item->coloring.range, sizeof furniture->range);
-        furniture->color_label = item->coloring.attribute;
-        furniture->categories = item->categories;
-        furniture->category_count = item->category_count;
+        const viewer_coloring *coloring = &item->coloring;
+        furniture->colormap =
+            coloring->colormap >= 0 ? (ewa_colormap)coloring->colormap : EWA_COLORMAP_VIRIDIS;
+        memcpy(furniture->range, coloring->range, sizeof furniture->range);
+        furniture->color_label = coloring->attribute;
+        for (uint32_t k = 0; k < coloring->class_count; k++) {
+            const viewer_class *from = &coloring->classes[k];
+            categories[k] = (ewa_category){.value = from->value, .name = from->name};
+            memcpy(categories[k].srgb, from->srgb, sizeof from->srgb);
+        }
+        furniture->categories = coloring->class_count ? categories : NULL;
+        furniture->category_count = coloring->class_count;
         return;
     }
 }
@@ -116,7 +124,8 @@ void overlay_draw(viewer *v, const ewa_camera *camera, uint8_t *rgba8) {
     if (v->section.box) draw_box(&o, v);
     draw_picks(&o, v);
     ewa_furniture_options furniture = v->furniture;
-    if (furniture.color_bar) set_color_bar(v, &furniture);
+    ewa_category categories[VIEWER_MAX_CLASSES];
+    if (furniture.color_bar) set_color_bar(v, categories, &furniture);
     const double depth = navigate_depth(camera, v->pivot_world);
     furniture.scale_depth_world = depth > 0 && depth < 1e30 ? depth : 0;
     furniture.pixel_scale = fmin(o.scale, 100);

@@ -6,6 +6,7 @@
 
 #include <pthread.h>
 #include <stdatomic.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -25,12 +26,19 @@ struct painter {
     paint_result results[3];
     int drawing, newest, shown; ///< indices of `results`; newest -1: none yet
     ewa_status failure;
+    char failure_text[PAINT_TEXT_BYTES], told[PAINT_TEXT_BYTES]; ///< `told` is the caller's
 };
 
 static bool on_progress(void *user, const char *stage, double fraction) {
     (void)stage, (void)fraction;
     painter *p = user;
     return !atomic_load_explicit(&p->give_up, memory_order_relaxed);
+}
+
+static void on_message(void *user, ewa_severity severity, const char *text) {
+    (void)severity;
+    paint_tools *tools = user;
+    snprintf(tools->message, sizeof tools->message, "%s", text);
 }
 
 ewa_status paint_tools_make(uint32_t thread_count, uint32_t cpu_mask, ewa_progress_callback *progress,
@@ -42,6 +50,9 @@ ewa_status paint_tools_make(uint32_t thread_count, uint32_t cpu_mask, ewa_progre
     options.cpu_mask = cpu_mask;
     options.progress = progress;
     options.progress_user = user;
+    options.message = on_message;
+    options.message_user = tools;
+    options.message_level = EWA_SEVERITY_ERROR;
     ewa_status status = ewa_context_create(&options, &tools->context);
     if (status == EWA_OK) status = ewa_renderer_create(tools->context, &tools->renderer);
     if (status == EWA_OK) status = ewa_volume_renderer_create(tools->context, &tools->volume_renderer);
@@ -171,6 +182,7 @@ static void *run(void *data) {
             p->newest = p->drawing;
         }
         if (status != EWA_CANCELLED) p->failure = status;
+        if (p->failure != EWA_OK) memcpy(p->failure_text, p->tools.message, sizeof p->failure_text);
         pthread_cond_broadcast(&p->changed);
     }
     pthread_mutex_unlock(&p->lock);
@@ -192,8 +204,8 @@ ewa_status painter_create(uint32_t thread_count, uint32_t cpu_mask, painter **ma
     return status;
 }
 
-void painter_destroy(painter **painter) {
-    struct painter *p = *painter;
+void painter_destroy(painter **made) {
+    painter *p = *made;
     if (!p) return;
     if (p->started) {
         pthread_mutex_lock(&p->lock);
@@ -208,7 +220,7 @@ void painter_destroy(painter **painter) {
     pthread_cond_destroy(&p->changed);
     pthread_mutex_destroy(&p->lock);
     free(p);
-    *painter = NULL;
+    *made = NULL;
 }
 
 void painter_post(painter *p, const paint_scene *scene, uint64_t ticket, bool whole) {
@@ -249,10 +261,14 @@ void painter_wait(painter *p) {
     pthread_mutex_unlock(&p->lock);
 }
 
-const paint_result *painter_newest(painter *p, ewa_status *failure) {
+const paint_result *painter_newest(painter *p, const char **failure) {
     pthread_mutex_lock(&p->lock);
     p->shown = p->newest;
-    *failure = p->failure;
+    *failure = NULL;
+    if (p->failure != EWA_OK) {
+        snprintf(p->told, sizeof p->told, "%s", p->failure_text[0] ? p->failure_text : ewa_status_name(p->failure));
+        *failure = p->told;
+    }
     p->failure = EWA_OK;
     const paint_result *result = p->shown >= 0 ? &p->results[p->shown] : NULL;
     pthread_mutex_unlock(&p->lock);

@@ -7,6 +7,8 @@
 
 #include "viewer.h"
 
+enum { PAINT_TEXT_BYTES = 512 };
+
 /// What a picture shows. What it points to is borrowed until the painter is at rest.
 typedef struct paint_scene {
     ewa_camera camera;
@@ -32,19 +34,21 @@ typedef struct paint_result {
     uint64_t splat_count;
 } paint_result;
 
-/// Draws a scene here and now; `rgba8` holds the camera's picture. `*level` is that of the surfels drawn.
-/// Volumes are drawn over the surfaces, each up to their depth.
+/// What draws, of one thread.
 typedef struct paint_tools {
     ewa_context *context;
     ewa_renderer *renderer;
     ewa_volume_renderer *volume_renderer;
     float *rgba[2], *depth;
     size_t capacity_px;
+    char message[PAINT_TEXT_BYTES]; ///< the last error's
 } paint_tools;
 
 ewa_status paint_tools_make(uint32_t thread_count, uint32_t cpu_mask, ewa_progress_callback *progress,
                             void *user, paint_tools *tools);
 void paint_tools_free(paint_tools *tools);
+/// Draws a scene here and now into the camera's picture; volumes over the surfaces, each up to their depth.
+/// `stats` may be NULL.
 ewa_status paint_scene_draw(paint_tools *tools, const paint_scene *scene, uint8_t *rgba8,
                             ewa_render_stats *stats);
 /// The depths (camera-space z) of what is seen, volumes included; +infinity where nothing is.
@@ -65,7 +69,8 @@ void painter_hurry(painter *painter);
 void painter_rest(painter *painter);
 /// Waits until nothing is drawn.
 void painter_wait(painter *painter);
-/// Gives the newest picture: valid until the next call; NULL: none yet. Tells how the last one failed.
-const paint_result *painter_newest(painter *painter, ewa_status *failure);
+/// Gives the newest picture: valid until the next call; NULL: none yet. `*failure` says why the last one was not
+/// drawn, once; NULL: it was.
+const paint_result *painter_newest(painter *painter, const char **failure);
 
 #endif

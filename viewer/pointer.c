@@ -9,7 +9,7 @@
 #include <string.h>
 
 /// Degrees a point of the window turns; the factor of a notch of the wheel and of a point of a zooming drag.
-static const double TURN_DEG = 0.4, NOTCH = 0.85, DRAG_ZOOM = 0.99;
+static const double TURN_DEG = 0.4, NOTCH = 0.85, DRAG_FACTOR = 0.99;
 /// A press that moves less is a click.
 static const double CLICK_REACH = 4;
 /// The wheel turns about the same place while it goes on within this time.
@@ -67,7 +67,7 @@ static void drag(viewer *v, double x, double y) {
         navigate_pan(&v->camera, v->drag_depth, dx * v->scale, dy * v->scale);
         break;
     case DRAG_ZOOM:
-        navigate_zoom(&v->camera, v->pivot_world, pow(DRAG_ZOOM, -dy));
+        navigate_zoom(&v->camera, v->pivot_world, pow(DRAG_FACTOR, -dy));
         break;
     case DRAG_HANDLE:
         section_drag(v, dx * v->scale, dy * v->scale);

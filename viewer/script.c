@@ -25,6 +25,7 @@ typedef struct script {
     bool closed;
     double *intervals_s; ///< between pictures shown while something moved
     size_t interval_count;
+    double first_s; ///< from the program's start to the first picture of something
     double shown_s;            ///< when the last picture came; negative: none yet
     double settled_s, event_s; ///< longest way from the last event to the whole picture; when that was
     bool settling;
@@ -44,6 +45,7 @@ static bool fail(const script *s, const char *what, const char *detail) {
 /// Notes what a step showed.
 static void take_times(script *s, uint64_t number_before) {
     if (!s->job->timings || s->picture.number == number_before) return;
+    if (s->picture.splat_count && !(s->first_s > 0)) s->first_s = now_s() - s->job->started_s;
     const double at_s = now_s() - s->began_s;
     if (s->shown_s >= 0 && s->interval_count < MAX_FRAMES && s->settling)
         s->intervals_s[s->interval_count++] = at_s - s->shown_s;
@@ -142,7 +144,7 @@ static bool do_event(script *s, const char *word, const char *rest, bool *fine) 
         event.kind = VIEWER_RESIZE;
         if (got == 2) event.amount = 1;
     } else if (strcmp(word, "key") == 0 || strcmp(word, "keyup") == 0) {
-        event.kind = word[3] ? VIEWER_KEY_UP : VIEWER_KEY;
+        event.kind = word[3] ? VIEWER_KEY_RELEASE : VIEWER_KEY;
         event.modifiers = 0;
         if (sscanf(rest, "%4095s", name) == 1) {
             event.key = read_key(name);
@@ -178,7 +180,8 @@ static bool save_shown(script *s, const char *path) {
     ewa_context *context = NULL;
     ewa_status status = ewa_context_create(NULL, &context);
     if (status == EWA_OK)
-        status = ewa_png_save(context, path, s->picture.width_px, s->picture.height_px, 4, s->picture.rgba8);
+        status = ewa_png_save(context, path, s->picture.width_px, s->picture.height_px, 4, s->picture.rgba8,
+                              4 * (size_t)s->picture.width_px);
     ewa_context_destroy(&context);
     return status == EWA_OK || fail(s, "the picture cannot be saved", path);
 }
@@ -289,11 +292,12 @@ static void print_times(script *s) {
                "frames/s\n",
                n, 1e3 * sum_s / (double)n, 1e3 * s->intervals_s[n / 2], 1e3 * s->intervals_s[n * 95 / 100],
                1e3 * s->intervals_s[n - 1], (double)n / sum_s);
+    printf("timings first picture %.3f s after the start\n", s->first_s);
     printf("timings whole picture at most %.3f s after the last event\n", s->settled_s);
 }
 
-int script_run(viewer *viewer, const front_job *job, const script_host *host) {
-    script s = {.viewer = viewer, .job = job, .host = host, .name = job->script_path, .shown_s = -1};
+int script_run(viewer *v, const front_job *job, const script_host *host) {
+    script s = {.viewer = v, .job = job, .host = host, .name = job->script_path, .shown_s = -1};
     const bool from_input = strcmp(job->script_path, "-") == 0;
     FILE *file = from_input ? stdin : fopen(job->script_path, "r");
     if (!file) {
@@ -326,14 +330,14 @@ static bool pass_step(void *user, double time_s, viewer_picture *picture) {
 }
 
 int front_script_run(const front_job *job) {
-    viewer *viewer = NULL;
-    const ewa_status status = viewer_create(&job->options, &viewer);
+    viewer *v = NULL;
+    const ewa_status status = viewer_create(&job->options, &v);
     if (status != EWA_OK) {
         fprintf(stderr, "ewa: the viewer cannot be made: %s\n", ewa_status_name(status));
         return 1;
     }
-    for (size_t i = 0; i < job->path_count; i++) viewer_open(viewer, job->paths[i]);
-    const int exit_status = script_run(viewer, job, &(script_host){viewer, pass_event, pass_step});
-    viewer_destroy(&viewer);
+    for (size_t i = 0; i < job->path_count; i++) viewer_open(v, job->paths[i]);
+    const int exit_status = script_run(v, job, &(script_host){v, pass_event, pass_step});
+    viewer_destroy(&v);
     return exit_status;
 }

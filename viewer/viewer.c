@@ -52,7 +52,7 @@ static uint32_t pixels(double points, double scale) {
 }
 
 void viewer_coloring_init(viewer_coloring *coloring) {
-    *coloring = (viewer_coloring){.alpha = 1, .radius_scale = 1};
+    *coloring = (viewer_coloring){.colormap = VIEWER_COLORMAP_AUTO, .alpha = 1, .radius_scale = 1};
 }
 
 ewa_status viewer_create(const viewer_options *options, viewer **made) {
@@ -85,8 +85,8 @@ ewa_status viewer_create(const viewer_options *options, viewer **made) {
     return status;
 }
 
-void viewer_destroy(viewer **viewer) {
-    struct viewer *v = *viewer;
+void viewer_destroy(viewer **made) {
+    viewer *v = *made;
     if (!v) return;
     loader_destroy(&v->loader);
     painter_destroy(&v->painter);
@@ -97,7 +97,7 @@ void viewer_destroy(viewer **viewer) {
     paint_tools_free(&v->probe);
     free(v->composed);
     free(v);
-    *viewer = NULL;
+    *made = NULL;
 }
 
 void viewer_go(viewer *v, const ewa_camera *to) {
@@ -157,7 +157,7 @@ void viewer_handle(viewer *v, const viewer_event *event) {
         if (event->text) items_open(v, event->text);
         break;
     case VIEWER_KEY:
-    case VIEWER_KEY_UP:
+    case VIEWER_KEY_RELEASE:
         keys_handle(v, event);
         break;
     case VIEWER_LEAVE:
@@ -245,13 +245,11 @@ void viewer_frame(viewer *v, double time_s, viewer_picture *picture) {
     advance(v, time_s);
     if (v->services.interrupted && v->services.interrupted(v->services.user)) v->state.quit = true;
     items_update(v);
-    ewa_status failure;
+    const char *failure;
     const paint_result *newest = painter_newest(v->painter, &failure);
     schedule(v, newest);
     if (v->waits) newest = painter_newest(v->painter, &failure);
-    if (failure != EWA_OK)
-        viewer_tell(v, "the picture cannot be drawn: %s",
-                    failure == EWA_ERROR_MEMORY ? "out of memory" : ewa_status_name(failure));
+    if (failure) viewer_tell(v, "the picture cannot be drawn: %s", failure);
     v->state.moving = is_moving(v);
     const bool still =
         newest && newest->whole && newest->ticket == v->revision && !v->animated && !v->fly_keys;
@@ -264,6 +262,7 @@ void viewer_frame(viewer *v, double time_s, viewer_picture *picture) {
     picture->number = v->number;
     picture->still = still;
     picture->level = newest->level;
+    picture->splat_count = newest->splat_count;
     picture->drawn_s = newest->drawn_s;
 }
 

@@ -58,6 +58,16 @@ typedef enum ewa_colormap {
 /// Gives the 8-bit sRGB colour of a number, which is clamped to [0, 1]; NaN counts as 0. Any thread.
 EWA_API void ewa_colormap_color(ewa_colormap colormap, double number, uint8_t srgb[3]);
 
+/// Gives the 8-bit sRGB colour of a class of points: codes 0 to 18 are those of ASPRS LAS 1.4 (ground brown, vegetation
+/// green, buildings red, water blue), others follow a fixed sequence of colours that are far from each other. Any
+/// thread.
+EWA_API void ewa_class_color(uint32_t code, uint8_t srgb[3]);
+
+enum { EWA_CLASS_NAME_BYTES = 32 };
+
+/// Writes the name of a class: "ground", of codes above 18 "class 37". Any thread.
+EWA_API void ewa_class_name(uint32_t code, char name[EWA_CLASS_NAME_BYTES]);
+
 #ifdef __cplusplus
 }
 #endif

@@ -20,7 +20,12 @@ typedef struct ewa_surfels_options {
     size_t struct_size;
     double cutoff;       ///< F, standard deviations at which kernels end; (0, 4]; default 3
     double radius_scale; ///< multiplies every radius and tangent axis; (0, 1e15]; default 1
+    /// Levels of detail: each holds one surfel of about twice the radius for up to four neighbours of the
+    /// one before, and the last has 1024 surfels or more; [1, EWA_MAX_LEVELS]; default 1: all surfels only
+    uint32_t level_count;
 } ewa_surfels_options;
+
+enum { EWA_MAX_LEVELS = 8 };
 
 EWA_API extern const ewa_option_table ewa_surfels_options_table;
 EWA_API void ewa_surfels_options_init(ewa_surfels_options *options, size_t struct_size);
@@ -32,8 +37,8 @@ typedef struct ewa_surfels ewa_surfels;
 /// Makes surfels from a cloud that has "position", "normal" and "radius", or "position", "tangent_u" and
 /// "tangent_v" (see ewa_cloud_estimate() for clouds that have less). Points that cannot be drawn (coordinates
 /// not finite, no normal, radius not positive) are left out and counted. The cloud is not needed afterwards.
-/// Colourless clouds are light grey; a "material" that is no whole number in [0, 255] counts as 0. The result
-/// does not depend on the order of the points. `options` may be NULL. Errors: EWA_ERROR_ARGUMENT (missing
+/// Colourless clouds are light grey; a "material" that is no whole number in [0, 255] counts as 0. Levels of
+/// detail beyond the first take about 2/5 more memory. The result does not depend on the order of the points. `options` may be NULL. Errors: EWA_ERROR_ARGUMENT (missing
 /// attribute, named), EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_surfels_create(const ewa_cloud *cloud, const ewa_surfels_options *options,
                                       ewa_surfels **surfels);
@@ -43,11 +48,12 @@ EWA_API void ewa_surfels_destroy(ewa_surfels **surfels);
 typedef struct ewa_surfels_info {
     uint64_t point_count;    ///< that can be drawn
     uint64_t left_out_count; ///< of the cloud's points
-    size_t resident_bytes;
+    size_t resident_bytes;   ///< of all levels
     double unit_coverage; ///< q0 of docs/math.md section 7: the sum of kernels that a covered pixel expects
     bool transparent;     ///< some surfel's colour has an alpha below 1
     ewa_bounds bounds;    ///< of the centres
     uint32_t material_count; ///< 1 + the largest "material"
+    uint32_t level_count;    ///< of detail; fewer than were asked for where there are few surfels
 } ewa_surfels_info;
 
 EWA_API void ewa_surfels_describe(const ewa_surfels *surfels, ewa_surfels_info *info);
@@ -130,6 +136,11 @@ typedef struct ewa_render_options {
     /// are as exact as the surfels' places (docs/conventions.md, precision).
     double section_planes[EWA_MAX_SECTION_PLANES][4];
     uint32_t section_count; ///< of `section_planes`; [0, EWA_MAX_SECTION_PLANES]; default 0
+    uint32_t level; ///< of detail, of each source's surfels, or its last one; [0, 7]; default 0: all surfels
+    /// Seconds of wall clock that the frame may take: draws the finest level, from `level` on, that this
+    /// renderer expects to draw in that time, by what its frames before took; [0, 1e15]; default 0: `level`.
+    /// Only which level is drawn depends on time.
+    double budget_s;
 } ewa_render_options;
 
 EWA_API extern const ewa_option_table ewa_render_options_table;
@@ -155,6 +166,7 @@ typedef struct ewa_render_stats {
     uint64_t fragment_count; ///< 4x4-pixel blocks evaluated in the accumulation
     double bin_s, setup_s, visibility_s, accumulate_s, edge_s, resolve_s;
     double total_s; ///< wall clock of the call
+    uint32_t level; ///< of detail that was drawn: the finest of the sources
 } ewa_render_stats;
 
 /// A reusable object that owns all memory of a frame; nothing is allocated once it is warm.

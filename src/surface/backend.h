@@ -16,7 +16,8 @@ typedef struct ewa_render_job {
     ewa_frame frame;
     const ewa_surfels *const *sources; ///< of one cutoff
     uint32_t source_count;
-    uint32_t tile_px; ///< side of a tile, a power of two of at most EWA_FIELD_PX; 0: the back end chooses
+    bool count_fragments; ///< for the stats
+    uint32_t tile_px;     ///< side of a tile, a power of two of at most EWA_FIELD_PX; 0: the back end chooses
 } ewa_render_job;
 
 /// A back end. Its state belongs to one renderer, and is used by one thread at a time.
@@ -25,7 +26,7 @@ typedef struct ewa_backend {
     ewa_status (*create)(ewa_context *context, void **state);
     void (*destroy)(ewa_context *context, void *state);
     /// Draws a frame; neither the order of its sources nor how surfels are spread over them changes a byte,
-    /// as long as their packets and their unit coverages are the same. `stats` may be NULL.
+    /// as long as their packets and their unit coverages are the same. Sets all of `stats` but the level.
     ewa_status (*draw)(void *state, const ewa_render_job *job, ewa_render_stats *stats);
 } ewa_backend;
 

@@ -215,7 +215,7 @@ static ewa_status draw(void *state, const ewa_render_job *frame, ewa_render_stat
                         .tiles = ewa_tiles_make(frame->camera.width_px, frame->camera.height_px, side_px),
                         .with_normals = frame->shading.lit || drawn.normal,
                         .with_depth = drawn.depth != NULL,
-                        .count_fragments = stats != NULL,
+                        .count_fragments = frame->count_fragments,
                         .scratch = cpu->scratch};
     ewa_scales scales;
     status = set_views(context, &job, frame, &scales);
@@ -247,7 +247,7 @@ static ewa_status draw(void *state, const ewa_render_job *frame, ewa_render_stat
     if (status != EWA_OK) return status;
     if (with_dome) ewa_dome_pass_finish(context, &cpu->dome);
     report_broken(cpu, &frame->camera);
-    if (stats) gather_stats(cpu, &job, start_s, binned_s, stats);
+    gather_stats(cpu, &job, start_s, binned_s, stats);
     return EWA_OK;
 }
 

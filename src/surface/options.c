@@ -17,6 +17,8 @@ static const ewa_option surfels_rows[] = {
      .help = "standard deviations at which a kernel ends"},
     {"radius_scale", EWA_OPTION_F64, OF_SURFELS(radius_scale), 0, 1e15, EWA_OPTION_ABOVE, .initial = 1,
      .help = "multiplies every radius and axis"},
+    {"level_count", EWA_OPTION_U32, OF_SURFELS(level_count), 1, EWA_MAX_LEVELS, .initial = 1,
+     .help = "levels of detail, each of a quarter of the surfels of the one before; 1: all surfels only"},
 };
 
 const ewa_option_table ewa_surfels_options_table = EWA_OPTION_TABLE(ewa_surfels_options, surfels_rows);
@@ -69,6 +71,11 @@ static const ewa_option render_rows[] = {
      .help = "linear light, straight alpha, which is at most 1"},
     {"section_count", EWA_OPTION_U32, OF_RENDER(section_count), 0, EWA_MAX_SECTION_PLANES,
      .help = "how many section planes there are"},
+    {"level", EWA_OPTION_U32, OF_RENDER(level), 0, EWA_MAX_LEVELS - 1,
+     .help = "level of detail, if the surfels have levels; 0: all surfels"},
+    {"budget_s", EWA_OPTION_F64, OF_RENDER(budget_s), 0, 1e15, .unit = "s",
+     .help = "time for a frame: of the levels of detail from `level` on, the finest that is expected to be "
+             "drawn in that time; 0: `level`"},
 };
 
 const ewa_option_table ewa_render_options_table = EWA_OPTION_TABLE(ewa_render_options, render_rows);

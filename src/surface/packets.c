@@ -12,6 +12,7 @@
 #include "surface/color_form.h"
 #include "surface/discs.h"
 #include "surface/extras.h"
+#include "surface/levels.h"
 #include "surface/options.h"
 #include "surface/pack.h"
 #include "surface/packet_order.h"
@@ -179,15 +180,6 @@ static uint16_t encode_surfels(const build *b, const uint32_t *points, uint32_t 
     return form;
 }
 
-/// Clears the lanes from `count` on.
-static void empty_lanes(ewa_packet *packet, uint32_t count) {
-    for (uint32_t i = count; i < LANES; i++) {
-        packet->x[i] = packet->y[i] = packet->z[i] = packet->sigma[i] = 0;
-        packet->oct_x[i] = packet->oct_y[i] = 0;
-        packet->angle[i] = packet->ratio[i] = packet->red[i] = packet->green[i] = packet->blue[i] = 0;
-    }
-}
-
 static uint32_t count_points(const uint32_t points[LANES]) {
     uint32_t count = LANES;
     while (points[count - 1] == EWA_NO_POINT) count--;
@@ -221,7 +213,7 @@ static void encode_group(const build *b, uint64_t group) {
                                   (float)surfels->cutoff, (float)EWA_PACKET_REACH, &surfels->bounds, first);
     for (uint32_t k = 0; k < packet_count; k++) {
         b->wide[first + k] = wide >> k & 1;
-        if (counts[k] < LANES) empty_lanes(&surfels->packets[first + k], counts[k]);
+        if (counts[k] < LANES) ewa_packet_empty_lanes(&surfels->packets[first + k], counts[k]);
     }
 }
 
@@ -238,39 +230,6 @@ static void set_color_codes(build *b) {
     b->grey_code = ewa_color_unit_code(EWA_DEFAULT_GREY);
     for (int value = 0; value < 256; value++)
         b->color_codes[value] = ewa_color_unit_code(b->reader.colors.linear_from_u8[value]);
-}
-
-void ewa_packets_view_bounds(ewa_surfels *surfels) {
-    const size_t stride = surfels->bounds_stride;
-    double *centers = surfels->bounds_memory;
-    uint32_t *cones = (uint32_t *)(void *)(centers + 3 * stride);
-    uint16_t *halves = (uint16_t *)(void *)(cones + stride);
-    surfels->bounds = (ewa_packet_bounds){.center_x = centers,
-                                          .center_y = centers + stride,
-                                          .center_z = centers + 2 * stride,
-                                          .cone = cones,
-                                          .radius = halves,
-                                          .colors = halves + stride};
-}
-
-static void free_packets(ewa_surfels *surfels) {
-    ewa_context *context = surfels->context;
-    ewa_release(context, surfels->packets, surfels->packet_count, sizeof *surfels->packets);
-    ewa_release(context, surfels->bounds_memory, surfels->bounds_stride, EWA_BOUNDS_BYTES);
-    surfels->packets = NULL;
-    surfels->bounds_memory = NULL;
-}
-
-static ewa_status allocate_packets(ewa_surfels *surfels, uint32_t packet_count) {
-    ewa_context *context = surfels->context;
-    free_packets(surfels);
-    surfels->packet_count = packet_count;
-    surfels->bounds_stride = ((size_t)packet_count + LANES - 1) / LANES * LANES;
-    surfels->packets = ewa_allocate(context, surfels->packet_count, sizeof *surfels->packets);
-    surfels->bounds_memory = ewa_allocate_zeroed(context, surfels->bounds_stride, EWA_BOUNDS_BYTES);
-    if (!surfels->packets || !surfels->bounds_memory) return EWA_ERROR_MEMORY;
-    ewa_packets_view_bounds(surfels);
-    return EWA_OK;
 }
 
 /// The unit of lengths in packets: a power of two near the sigma of a surfel amid the others, so that sets
@@ -295,7 +254,7 @@ static ewa_status encode(build *b, ewa_context *context) {
     ewa_status status = EWA_OK;
     if (any) status = ewa_packet_order_split(context, &b->reader, b->wide, &b->order);
     if (status == EWA_OK && b->order.packet_count != packet_count && any) {
-        status = allocate_packets(b->surfels, b->order.packet_count);
+        status = ewa_packets_allocate(b->surfels, b->order.packet_count);
         ewa_release(context, b->wide, packet_count, sizeof *b->wide);
         b->wide = status == EWA_OK ? ewa_allocate(context, b->order.packet_count, sizeof *b->wide) : NULL;
         if (!b->wide) return EWA_ERROR_MEMORY;
@@ -315,7 +274,7 @@ static ewa_status build_surfels(build *b, ewa_context *context) {
     if (b->are_discs) set_color_codes(b);
     ewa_surfels *s = b->surfels;
     const uint32_t count = (uint32_t)b->point_count;
-    ewa_status status = allocate_packets(s, (uint32_t)(((uint64_t)s->count + LANES - 1) / LANES));
+    ewa_status status = ewa_packets_allocate(s, (uint32_t)(((uint64_t)s->count + LANES - 1) / LANES));
     if (status != EWA_OK) return status;
     // The sort may use the packets' memory before there are packets.
     const bool fits = s->packet_count * sizeof *s->packets >= ewa_morton_room_bytes(count);
@@ -360,93 +319,10 @@ ewa_status ewa_surfels_create(const ewa_cloud *cloud, const ewa_surfels_options 
     ewa_release(context, b->drawable, b->point_count, sizeof *b->drawable);
     ewa_packet_order_free(context, &b->order);
     ewa_release(context, b, 1, sizeof *b);
+    if (status == EWA_OK) status = ewa_levels_make(made, chosen.level_count);
     if (status == EWA_OK)
         *surfels = made;
     else
         ewa_surfels_destroy(&made);
     return status;
-}
-
-void ewa_surfels_destroy(ewa_surfels **surfels) {
-    if (!surfels || !*surfels) return;
-    ewa_surfels *old = *surfels;
-    ewa_context *context = old->context;
-    ewa_extras_free(context, old);
-    free_packets(old);
-    ewa_release(context, old, 1, sizeof *old);
-    *surfels = NULL;
-}
-
-/// The largest major and minor sigmas, in units of the set: of each part, then of all.
-typedef struct sigma_job {
-    const ewa_surfels *surfels;
-    double largest[MAX_PARTS][2];
-} sigma_job;
-
-static void find_largest_sigmas(void *data, uint32_t part, uint32_t worker) {
-    (void)worker;
-    sigma_job *job = data;
-    const ewa_surfels *surfels = job->surfels;
-    double major[LANES] = {0}, minor[LANES] = {0};
-    const uint64_t end = ewa_split(surfels->packet_count, MAX_PARTS, part + 1);
-    for (uint64_t i = ewa_split(surfels->packet_count, MAX_PARTS, part); i < end; i++) {
-        const ewa_packet *packet = &surfels->packets[i];
-        for (int lane = 0; lane < LANES; lane++) major[lane] = most(major[lane], (double)packet->sigma[lane]);
-        for (int lane = 0; lane < LANES && surfels->ellipses; lane++) {
-            const double root = packet->ratio[lane] / 65535.0;
-            minor[lane] = most(minor[lane], (double)packet->sigma[lane] * root * root * root * root);
-        }
-    }
-    double *largest = job->largest[part];
-    largest[0] = largest[1] = 0;
-    for (int lane = 0; lane < LANES; lane++) {
-        largest[0] = most(largest[0], major[lane]);
-        largest[1] = most(largest[1], surfels->ellipses ? minor[lane] : major[lane]);
-    }
-}
-
-void ewa_packets_sum_up(ewa_surfels *surfels) {
-    const ewa_packet_bounds *bounds = &surfels->bounds;
-    double smallest = INFINITY, largest_limit = 0; // limits of packets' colours
-    bool even = true;
-    uint32_t reach_code = 0;
-    for (uint32_t i = 0; i < surfels->packet_count; i++) {
-        if (!bounds->radius[i]) continue;
-        const double limit = ewa_color_form_limit(bounds->colors[i]);
-        if (bounds->radius[i] > reach_code) reach_code = bounds->radius[i];
-        smallest = least(smallest, limit), largest_limit = most(largest_limit, limit);
-        even = even && ewa_color_form_is_even(bounds->colors[i]);
-    }
-    surfels->largest_color = largest_limit > 0 ? largest_limit : 1;
-    surfels->fine_colors =
-        largest_limit > EWA_PLAIN_COLORS && (!even || largest_limit > EWA_PLAIN_COLORS * smallest);
-    const uint32_t bits = reach_code << EWA_RADIUS_SHIFT;
-    float reach;
-    memcpy(&reach, &bits, sizeof reach);
-    surfels->reach_world = (double)reach * surfels->unit;
-    sigma_job job = {.surfels = surfels};
-    ewa_parallel(surfels->context, find_largest_sigmas, &job, MAX_PARTS);
-    for (int i = 0; i < 2; i++) {
-        double largest = 0;
-        for (int part = 0; part < MAX_PARTS; part++) largest = most(largest, job.largest[part][i]);
-        surfels->largest_sigmas_world[i] = largest * surfels->unit;
-    }
-}
-
-void ewa_surfels_describe(const ewa_surfels *surfels, ewa_surfels_info *info) {
-    ewa_bounds bounds = surfels->extent;
-    for (int c = 0; c < 3 && surfels->count; c++) {
-        bounds.low_world[c] += surfels->origin_world[c];
-        bounds.high_world[c] += surfels->origin_world[c];
-    }
-    *info = (ewa_surfels_info){
-        .point_count = surfels->count,
-        .left_out_count = surfels->left_out_count,
-        .resident_bytes = sizeof *surfels + surfels->packet_count * sizeof *surfels->packets +
-                          EWA_BOUNDS_BYTES * surfels->bounds_stride + ewa_extras_bytes(surfels),
-        .unit_coverage = surfels->unit_coverage,
-        .transparent = surfels->opacities != NULL,
-        .bounds = bounds,
-        .material_count = (uint32_t)surfels->most_material + 1,
-    };
 }

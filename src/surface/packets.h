@@ -41,6 +41,7 @@ struct ewa_surfels {
     double cutoff;
     bool ellipses; ///< some kernel is not a circle
     double unit_coverage;
+    ewa_surfels *coarser; ///< the next level of detail; NULL: none
 };
 
 /// Colours up to so much keep enough digits in one word of a sum (surface/road_sums.h), as do those of which
@@ -48,6 +49,12 @@ struct ewa_surfels {
 #define EWA_PLAIN_COLORS 16.0
 
 enum { EWA_BOUNDS_BYTES = 3 * sizeof(double) + 2 * sizeof(uint16_t) + sizeof(uint32_t) }; ///< of a packet
+
+/// Makes room for `packet_count` packets, zero bounds included, instead of those that were there.
+ewa_status ewa_packets_allocate(ewa_surfels *surfels, uint32_t packet_count);
+
+/// Clears the lanes from `count` on.
+void ewa_packet_empty_lanes(ewa_packet *packet, uint32_t count);
 
 /// Sets the views of `bounds` into `bounds_memory`.
 void ewa_packets_view_bounds(ewa_surfels *surfels);

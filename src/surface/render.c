@@ -5,6 +5,8 @@
 #include "surface/render.h"
 #include "base/base.h"
 #include "surface/backend.h"
+#include "surface/budget.h"
+#include "surface/levels.h"
 #include "surface/options.h"
 #include "surface/packets.h"
 
@@ -16,6 +18,7 @@ struct ewa_renderer {
     ewa_render_job job;
     ewa_buffer sources;
     uint32_t tile_px; ///< 0: chosen
+    ewa_budget budget;
 };
 
 ewa_status ewa_renderer_create(ewa_context *context, ewa_renderer **renderer) {
@@ -25,6 +28,7 @@ ewa_status ewa_renderer_create(ewa_context *context, ewa_renderer **renderer) {
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
     made->backend = &ewa_backend_cpu;
+    ewa_budget_start(&made->budget);
     const ewa_status status = made->backend->create(context, &made->state);
     if (status != EWA_OK) {
         ewa_release(context, made, 1, sizeof *made);
@@ -88,12 +92,71 @@ ewa_status ewa_render_add(ewa_renderer *renderer, const ewa_surfels *surfels) {
     return EWA_OK;
 }
 
+/// How much there is to draw at each level of detail.
+static ewa_budget_work work_of(const ewa_render_job *job) {
+    ewa_budget_work work = {.level_count = 1,
+                            .pixel_count = (uint64_t)job->camera.width_px * job->camera.height_px};
+    for (uint32_t i = 0; i < job->source_count; i++)
+        for (uint32_t level = 0; level < EWA_MAX_LEVELS; level++) {
+            uint32_t found = level;
+            work.splat_counts[level] += ewa_levels_find(job->sources[i], &found)->count;
+            if (found >= work.level_count) work.level_count = found + 1;
+        }
+    return work;
+}
+
+/// The finest and the coarsest level of a frame's sources.
+typedef struct level_range {
+    uint32_t finest, coarsest;
+} level_range;
+
+/// Takes each source at a level, or its last one.
+static level_range take_level(ewa_renderer *renderer, uint32_t level) {
+    const ewa_surfels **sources = renderer->sources.data;
+    level_range range = {renderer->job.source_count ? level : 0, 0};
+    for (uint32_t i = 0; i < renderer->job.source_count; i++) {
+        uint32_t found = level;
+        sources[i] = ewa_levels_find(sources[i], &found);
+        if (found < range.finest) range.finest = found;
+        if (found > range.coarsest) range.coarsest = found;
+    }
+    return range;
+}
+
+/// Takes what a frame took into the model of what frames take.
+static void learn(ewa_renderer *renderer, uint32_t level, const ewa_render_stats *stats) {
+    const double pixels_s = stats->edge_s + stats->resolve_s;
+    const double sum_s = stats->bin_s + stats->setup_s + stats->visibility_s + stats->accumulate_s + pixels_s;
+    const ewa_camera *camera = &renderer->job.camera;
+    const ewa_budget_frame frame = {.level = level,
+                                    .splat_count = stats->splat_count,
+                                    .culled_count = stats->culled_count,
+                                    .pixel_count = (uint64_t)camera->width_px * camera->height_px,
+                                    .total_s = stats->total_s,
+                                    .pixel_share = sum_s > 0 ? pixels_s / sum_s : 0};
+    ewa_budget_learn(&renderer->budget, &frame);
+}
+
 ewa_status ewa_render_finish(ewa_renderer *renderer, ewa_render_stats *stats) {
     if (!renderer) return EWA_ERROR_ARGUMENT;
     if (!renderer->begun)
         return ewa_fail(renderer->context, EWA_ERROR_ARGUMENT, "render: no frame has been begun");
     renderer->begun = false;
-    return renderer->backend->draw(renderer->state, &renderer->job, stats);
+    ewa_render_job *job = &renderer->job;
+    uint32_t level = job->options.level;
+    if (job->options.budget_s > 0) {
+        const ewa_budget_work work = work_of(job);
+        level = ewa_budget_choose(&renderer->budget, job->options.budget_s, &work, level);
+    }
+    const level_range drawn = take_level(renderer, level);
+    ewa_render_stats took;
+    job->count_fragments = stats != NULL;
+    const ewa_status status = renderer->backend->draw(renderer->state, job, &took);
+    if (status != EWA_OK) return status;
+    took.level = drawn.finest;
+    learn(renderer, drawn.coarsest, &took);
+    if (stats) *stats = took;
+    return EWA_OK;
 }
 
 ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const ewa_camera *camera,

@@ -183,6 +183,12 @@
 
 #define EWA_INVERSE_TWO_PI 0.15915494309189535
 
+// ---- Levels of detail
+
+/// How much larger the first coarser level's surfels are than what keeps the area of those that they stand
+/// for.
+#define EWA_LEVEL_GROWTH 1.0
+
 // ---- Section 5
 
 /// Sine of the smallest angle between a viewing ray and a surfel's plane that its depth plane is computed

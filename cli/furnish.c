@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Title, axes, scale bar and colour bar over the pictures of a command.
+#include "furnish.h"
+#include "framing.h"
+#include "pattern.h"
+
+#include <math.h>
+#include <string.h>
+
+/// Luminance of a middle grey.
+static const double MIDDLE_LUMINANCE = 0.18;
+
+static bool has_any(const furnish_arguments *arguments) {
+    return arguments->title || arguments->axes || arguments->scale_bar || arguments->color_bar;
+}
+
+bool furnish_check(const furnish_arguments *arguments, const char *output, char message[OPTION_ERROR_BYTES]) {
+    const char *wrong = NULL;
+    if (has_any(arguments) && path_has_suffix(output, ".exr|.pfm"))
+        wrong =
+            "--title, --axes, --scale-bar and --color-bar are not drawn on .exr and .pfm, which hold data; "
+            "write a .png or a film";
+    else if (arguments->unit && !arguments->scale_bar && !arguments->color_bar)
+        wrong = "--unit needs --scale-bar or --color-bar";
+    return options_fine(wrong, message);
+}
+
+/// The ink of all frames of a film, by their background: it must not change from frame to frame.
+static ewa_ink steady_ink(const option_color *background) {
+    float linear[4];
+    option_color_linear(background, linear);
+    const double alpha = (double)linear[3];
+    const double luminance =
+        0.2126 * (double)linear[0] + 0.7152 * (double)linear[1] + 0.0722 * (double)linear[2];
+    return alpha * luminance + (1 - alpha) > MIDDLE_LUMINANCE ? EWA_INK_DARK : EWA_INK_LIGHT;
+}
+
+bool furnish_make(cli_session *session, const furnish_arguments *arguments, const frames_arguments *frames,
+                  const option_color *background, const ewa_cloud *cloud, const char *word,
+                  const color_scale *scale, furnishing *made) {
+    made->any = has_any(arguments);
+    ewa_furniture_options *options = &made->options;
+    ewa_furniture_options_init(options, sizeof *options);
+    options->title = arguments->title;
+    options->axes = arguments->axes;
+    options->scale_bar = arguments->scale_bar;
+    options->unit = arguments->unit;
+    if (frames_many(frames)) options->ink = steady_ink(background);
+    if (arguments->color_bar) {
+        options->color_bar = true;
+        options->color_label = word;
+        options->color_unit = scale->length ? arguments->unit : NULL;
+        options->colormap = scale->colormap;
+        memcpy(options->range, scale->range, sizeof options->range);
+        options->categories = scale->categories;
+        options->category_count = scale->category_count;
+    }
+    const option_vector *target = &frames->view.target;
+    memcpy(made->middle_world, target->values, sizeof made->middle_world);
+    if (!arguments->scale_bar || target->count || !cloud) return true;
+    cloud_framing framing;
+    const bool done = framing_make(session, cloud, 1, &framing);
+    if (done) memcpy(made->middle_world, framing.middle_world, sizeof made->middle_world);
+    framing_free(&framing);
+    return done;
+}
+
+ewa_status furnish_draw(cli_session *session, const furnishing *made, const ewa_camera *camera,
+                        const ewa_frame *frame) {
+    if (!made->any) return EWA_OK;
+    ewa_furniture_options options = made->options;
+    const double *m = camera->world_to_camera, *at = made->middle_world;
+    const double depth = m[8] * at[0] + m[9] * at[1] + m[10] * at[2] + m[11];
+    const double depth_world = depth / sqrt(m[8] * m[8] + m[9] * m[9] + m[10] * m[10]);
+    options.scale_depth_world = depth_world > 0 && depth_world < 1e30 ? depth_world : 0;
+    const ewa_canvas canvas = {frame->rgba8, camera->width_px, camera->height_px};
+    return ewa_furniture_draw(session->context, camera, &options, &canvas);
+}

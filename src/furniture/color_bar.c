@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What colours mean: a bar with ticks, or a legend of categories.
+#include "furniture/decimal.h"
+#include "furniture/layout.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/// Sizes in points: the bar, its ticks, the room beside it, rows of a legend and their squares.
+static const double BAR_WIDTH_PT = 14, BAR_LEAST_PT = 60, BAR_MOST_PT = 300, TICK_PT = 4, BESIDE_PT = 6;
+static const double ROW_PT = 18, SQUARE_PT = 12, LABEL_ROW_PT = 20;
+/// Parts of the picture: height of the bar, widest text.
+static const double BAR_PART = 0.6, TEXT_PART = 0.4;
+/// Points from a tick to the next one, at least.
+static const double TICK_STEP_PT = 30;
+
+/// Fills a rectangle with a rim of a pixel or more around it, in the colour of the text.
+static void draw_framed(const ewa_layout *layout, const ewa_inks *inks, const ewa_box *box) {
+    const double rim = fmax(1, floor(layout->point_px)), halo = 2 * rim;
+    ewa_draw_rectangle(layout->canvas, box->left - halo, box->top - halo, box->right + halo,
+                       box->bottom + halo, inks->rim);
+    ewa_draw_rectangle(layout->canvas, box->left - rim, box->top - rim, box->right + rim, box->bottom + rim,
+                       inks->ink);
+}
+
+/// Label and unit in one text that fits; empty when there is none, or no room.
+static void write_label(const ewa_layout *layout, double height_px, double most_px,
+                        char label[EWA_LAYOUT_TEXT_BYTES]) {
+    const ewa_furniture_options *options = layout->options;
+    const char *name = options->color_label ? options->color_label : "";
+    const char *unit = options->color_unit ? options->color_unit : "";
+    char whole[EWA_LAYOUT_TEXT_BYTES];
+    snprintf(whole, sizeof whole, unit[0] ? "%s%s[%s]" : "%s", name, name[0] ? " " : "", unit);
+    if (!ewa_layout_shorten(whole, height_px, most_px, label)) label[0] = 0;
+}
+
+/// Draws the label above a block that begins at (left, top); no farther right than the room.
+static void draw_label(const ewa_layout *layout, const ewa_inks *inks, const char *label, double left,
+                       double top) {
+    const ewa_text_style style = ewa_layout_style(layout, inks, EWA_TEXT_PT, EWA_TEXT_LEFT);
+    const double over = left + ewa_text_width_px(label, style.height_px) - layout->room.right;
+    ewa_draw_text(layout->canvas, label, left - fmax(over, 0), top - 0.7 * BESIDE_PT * layout->point_px - 2,
+                  &style);
+}
+
+/// The texts of the ticks of a bar.
+typedef struct bar_scale {
+    ewa_ticks ticks;
+    bool single; ///< both ends are one number
+    double widest_px;
+} bar_scale;
+
+/// Writes tick `index`.
+static void write_tick(const ewa_layout *layout, const bar_scale *scale, int64_t index,
+                       char text[EWA_DECIMAL_BYTES]) {
+    const ewa_decimal number =
+        scale->single ? ewa_decimal_near(layout->options->range[0]) : ewa_ticks_at(&scale->ticks, index);
+    ewa_decimal_write(number, text);
+}
+
+/// Finds the ticks of a bar so many points high; false when there is none.
+static bool find_scale(const ewa_layout *layout, double height_pt, bar_scale *scale) {
+    const double *range = layout->options->range;
+    *scale = (bar_scale){.single = range[0] == range[1]};
+    const uint32_t most = (uint32_t)fmax(1, floor(height_pt / TICK_STEP_PT));
+    if (!scale->single &&
+        !ewa_ticks_find(fmin(range[0], range[1]), fmax(range[0], range[1]), most, &scale->ticks))
+        return false;
+    for (int64_t k = scale->ticks.first; k <= scale->ticks.last; k++) {
+        char text[EWA_DECIMAL_BYTES];
+        write_tick(layout, scale, k, text);
+        scale->widest_px = fmax(scale->widest_px, ewa_text_width_px(text, EWA_TEXT_PT * layout->point_px));
+    }
+    return true;
+}
+
+/// Draws the ticks right of a bar.
+static void draw_ticks(const ewa_layout *layout, const ewa_inks *inks, const ewa_box *bar,
+                       const bar_scale *scale) {
+    const double *range = layout->options->range, point = layout->point_px;
+    const ewa_text_style style = ewa_layout_style(layout, inks, EWA_TEXT_PT, EWA_TEXT_LEFT_MIDDLE);
+    const double thick = fmax(1, floor(point)), extent = range[1] - range[0];
+    for (int64_t k = scale->ticks.first; k <= scale->ticks.last; k++) {
+        char text[EWA_DECIMAL_BYTES];
+        write_tick(layout, scale, k, text);
+        const double value = ewa_decimal_value(ewa_ticks_at(&scale->ticks, k));
+        const double share = scale->single      ? 0.5
+                             : isfinite(extent) ? (value - range[0]) / extent
+                                                : (value / 2 - range[0] / 2) / (range[1] / 2 - range[0] / 2);
+        const double y = bar->bottom - share * (bar->bottom - bar->top);
+        const double top = fmin(fmax(floor(y - thick / 2 + 0.5), bar->top - thick), bar->bottom);
+        ewa_draw_rectangle(layout->canvas, bar->right, top, bar->right + floor(TICK_PT * point), top + thick,
+                           inks->ink);
+        ewa_draw_text(layout->canvas, text, bar->right + (TICK_PT + BESIDE_PT) * point, top + thick / 2,
+                      &style);
+    }
+}
+
+void ewa_color_bar_draw(const ewa_layout *layout) {
+    const double point = layout->point_px, text_px = EWA_TEXT_PT * point;
+    const ewa_box *room = &layout->room;
+    const double label_px =
+        layout->options->color_label || layout->options->color_unit ? LABEL_ROW_PT * point : 0;
+    // Half a text stands above and below the bar, where its ends have ticks.
+    const double tall = room->bottom - room->top - label_px - text_px;
+    const double height = floor(fmin(fmin(tall, BAR_PART * layout->canvas->height_px), BAR_MOST_PT * point));
+    bar_scale scale;
+    if (height < BAR_LEAST_PT * point || !find_scale(layout, height / point, &scale)) return;
+    const double beside = (TICK_PT + BESIDE_PT) * point + scale.widest_px;
+    const double right = floor(room->right - beside), left = right - floor(BAR_WIDTH_PT * point);
+    const double top = floor(room->top + label_px + text_px / 2 + (tall - height) / 2);
+    const ewa_box bar = {left, top, right, top + height};
+    if (left < layout->canvas->width_px * (1 - TEXT_PART)) return;
+    const ewa_inks inks =
+        ewa_layout_inks(layout, &(ewa_box){left, top - label_px, room->right, top + height});
+    draw_framed(layout, &inks, &bar);
+    for (int j = 0; j < (int)height; j++) {
+        uint8_t rgba[4] = {0, 0, 0, 255};
+        const double place =
+            layout->options->range[0] == layout->options->range[1] ? 0.5 : (j + 0.5) / height;
+        ewa_colormap_color(layout->options->colormap, place, rgba);
+        ewa_draw_rectangle(layout->canvas, left, bar.bottom - j - 1, right, bar.bottom - j, rgba);
+    }
+    draw_ticks(layout, &inks, &bar, &scale);
+    char label[EWA_LAYOUT_TEXT_BYTES];
+    write_label(layout, text_px, TEXT_PART * layout->canvas->width_px, label);
+    draw_label(layout, &inks, label, left, top - text_px / 2);
+}
+
+/// Writes the text of row `index` of a legend of `row_count`, as far as it fits; the last one may count the rest.
+static void write_row(const ewa_layout *layout, uint32_t index, uint32_t row_count, double most_px,
+                      char text[EWA_LAYOUT_TEXT_BYTES]) {
+    const ewa_furniture_options *options = layout->options;
+    const ewa_category *category = &options->categories[index];
+    char number[EWA_DECIMAL_BYTES];
+    const char *name = category->name;
+    if (index + 1 == row_count && row_count < options->category_count) {
+        snprintf(number, sizeof number, "and %u more", options->category_count - index);
+        name = number;
+    } else if (!name) {
+        if (isfinite(category->value))
+            ewa_decimal_write(ewa_decimal_near(category->value), number);
+        else
+            snprintf(number, sizeof number, "no number");
+        name = number;
+    }
+    if (!ewa_layout_shorten(name, EWA_TEXT_PT * layout->point_px, most_px, text)) text[0] = 0;
+}
+
+void ewa_legend_draw(const ewa_layout *layout) {
+    const ewa_furniture_options *options = layout->options;
+    const double point = layout->point_px, text_px = EWA_TEXT_PT * point, row_px = floor(ROW_PT * point);
+    const ewa_box *room = &layout->room;
+    const double label_px = options->color_label || options->color_unit ? LABEL_ROW_PT * point : 0;
+    const double tall = room->bottom - room->top - label_px;
+    if (options->category_count == 0 || tall < row_px) return;
+    const double fitting = floor(tall / row_px);
+    const uint32_t row_count =
+        fitting < options->category_count ? (uint32_t)fitting : options->category_count;
+    const double most_px = TEXT_PART * layout->canvas->width_px - (SQUARE_PT + BESIDE_PT) * point;
+    char text[EWA_LAYOUT_TEXT_BYTES];
+    double widest_px = 0;
+    for (uint32_t i = 0; i < row_count; i++) {
+        write_row(layout, i, row_count, most_px, text);
+        widest_px = fmax(widest_px, ewa_text_width_px(text, text_px));
+    }
+    if (widest_px == 0) return;
+    const double square_px = floor(SQUARE_PT * point);
+    const double left = floor(room->right - widest_px - BESIDE_PT * point - square_px);
+    const double top = floor(room->top + label_px + (tall - row_count * row_px) / 2);
+    const ewa_inks inks =
+        ewa_layout_inks(layout, &(ewa_box){left, top - label_px, room->right, top + row_count * row_px});
+    const ewa_text_style style = ewa_layout_style(layout, &inks, EWA_TEXT_PT, EWA_TEXT_LEFT_MIDDLE);
+    for (uint32_t i = 0; i < row_count; i++) {
+        const bool rest = i + 1 == row_count && row_count < options->category_count;
+        const double y = top + i * row_px + floor((row_px - square_px) / 2);
+        const ewa_box square = {left, y, left + square_px, y + square_px};
+        const uint8_t *srgb = options->categories[i].srgb, rgba[4] = {srgb[0], srgb[1], srgb[2], 255};
+        if (!rest) draw_framed(layout, &inks, &square);
+        if (!rest)
+            ewa_draw_rectangle(layout->canvas, square.left, square.top, square.right, square.bottom, rgba);
+        write_row(layout, i, row_count, most_px, text);
+        ewa_draw_text(layout->canvas, text, square.right + BESIDE_PT * point, y + square_px / 2, &style);
+    }
+    write_label(layout, text_px, TEXT_PART * layout->canvas->width_px, text);
+    draw_label(layout, &inks, text, left, top);
+}

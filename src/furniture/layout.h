@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What the pieces of furniture share: room, sizes, ink.
+#ifndef EWA_SRC_FURNITURE_LAYOUT_H
+#define EWA_SRC_FURNITURE_LAYOUT_H
+
+#include "ewa/furniture.h"
+
+/// Sizes in points.
+#define EWA_MARGIN_PT 14.0
+#define EWA_TEXT_PT   12.0
+#define EWA_TITLE_PT  18.0
+
+/// A rectangle, pixels.
+typedef struct ewa_box {
+    double left, top, right, bottom;
+} ewa_box;
+
+/// Where furniture goes.
+typedef struct ewa_layout {
+    const ewa_canvas *canvas;
+    const ewa_furniture_options *options;
+    double point_px;
+    ewa_box room; ///< what title and scale bar leave to the colour bar
+} ewa_layout;
+
+/// Colours of a piece: that of its text and lines, and that of their rims.
+typedef struct ewa_inks {
+    uint8_t ink[4], rim[4];
+} ewa_inks;
+
+/// Colours that can be read on what the picture has in a box.
+ewa_inks ewa_layout_inks(const ewa_layout *layout, const ewa_box *box);
+
+/// A style of text in these colours.
+ewa_text_style ewa_layout_style(const ewa_layout *layout, const ewa_inks *inks, double points,
+                                ewa_text_anchor anchor);
+
+enum { EWA_LAYOUT_TEXT_BYTES = 512 };
+
+/// Copies a text, shortened by "..." in place of its end until it is at most `most_px` wide; false when not even one
+/// character and the dots have room.
+bool ewa_layout_shorten(const char *text, double height_px, double most_px,
+                        char fitting[EWA_LAYOUT_TEXT_BYTES]);
+
+/// Draws the colour bar, or the legend of categories, at the right of the room.
+void ewa_color_bar_draw(const ewa_layout *layout);
+void ewa_legend_draw(const ewa_layout *layout);
+
+#endif

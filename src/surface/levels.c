@@ -1,0 +1,446 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// A level of detail from the one before: what stands for each group of surfels, packed as they are.
+//
+// Packets are looked at twice: to divide them into groups and count these, then to make what stands for them.
+// Parts have a fixed number of packets, so that the result does not depend on the number of workers.
+#include "surface/levels.h"
+#include "base/base.h"
+#include "surface/color_form.h"
+#include "surface/groups.h"
+#include "surface/pack.h"
+#include "surface/packet_order.h"
+#include "surface/semantics.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { LANES = EWA_PACKET_LANES, PART_PACKETS = 1024, LEAST_SURFELS = 1024 };
+
+/// Mean normals shorter than that say nothing.
+static const double SOUND_NORMAL = 0.5;
+
+/// A surfel in the making that stands for a group.
+typedef struct stand_in {
+    ewa_vec3 center; ///< from the origin, in the surfels' unit
+    ewa_vec3 normal, axis_u;
+    double sigma, color[3], opacity;
+    uint16_t ratio;
+    uint8_t material;
+    bool clipped;
+    ewa_surfel_clip clip;
+} stand_in;
+
+/// What a part of the finer level gives.
+typedef struct part_count {
+    uint32_t surfels, packets, clips; ///< of all that it gives
+    uint32_t first_packet;            ///< of the coarser level
+    uint64_t first_clip;
+} part_count;
+
+typedef struct level_job {
+    const ewa_surfels *fine;
+    ewa_surfels *coarse;
+    const ewa_pack_kernels *kernels;
+    double growth;             ///< of sigmas, beside what keeps the area
+    ewa_packet_groups *groups; ///< [packet of the finer level]
+    uint8_t *apart;            ///< [packet of the finer level]: too far from those before for one packet
+    part_count *parts;
+    uint32_t part_count;
+    uint8_t *lane_counts; ///< [packet of the coarser level]
+} level_job;
+
+/// Boxes around packets that may become one.
+typedef struct open_box {
+    double low[3], high[3], least_sigma;
+} open_box;
+
+static uint64_t part_end(const level_job *job, uint32_t part) {
+    const uint64_t end = ((uint64_t)part + 1) * PART_PACKETS;
+    return end < job->fine->packet_count ? end : job->fine->packet_count;
+}
+
+/// Puts a packet into the box; false where that becomes too wide for single precision.
+static bool open_with(open_box *box, const ewa_surfels *fine, uint32_t index) {
+    const ewa_packet *packet = &fine->packets[index];
+    const ewa_vec3 center = ewa_packet_center(fine, index);
+    const double middle[3] = {center.x, center.y, center.z};
+    const float *const places[3] = {packet->x, packet->y, packet->z};
+    bool fits = true;
+    for (int lane = 0; lane < LANES; lane++)
+        if (packet->sigma[lane] > 0) box->least_sigma = fmin(box->least_sigma, (double)packet->sigma[lane]);
+    for (int c = 0; c < 3; c++) {
+        float low = places[c][0], high = low;
+        for (int lane = 1; lane < LANES; lane++) {
+            low = places[c][lane] < low ? places[c][lane] : low;
+            high = places[c][lane] > high ? places[c][lane] : high;
+        }
+        box->low[c] = fmin(box->low[c], middle[c] + (double)low);
+        box->high[c] = fmax(box->high[c], middle[c] + (double)high);
+        fits &= box->high[c] - box->low[c] <= EWA_PACKET_REACH * box->least_sigma;
+    }
+    return fits;
+}
+
+static const open_box EMPTY = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, INFINITY};
+
+/// Divides the packets of a part into groups and counts what these give.
+static void count_part(void *data, uint32_t part, uint32_t worker) {
+    (void)worker;
+    const level_job *job = data;
+    const ewa_surfels *fine = job->fine;
+    part_count made = {0};
+    open_box box = EMPTY;
+    uint32_t open = 0; // surfels of a packet that is not full
+    for (uint64_t p = (uint64_t)part * PART_PACKETS; p < part_end(job, part); p++) {
+        ewa_packet_groups *groups = &job->groups[p];
+        float normal[3][LANES];
+        ewa_packet_normals(&fine->packets[p], normal);
+        ewa_groups_make(&fine->packets[p], (const float(*)[LANES])normal, fine->cutoff, groups);
+        job->apart[p] = !open_with(&box, fine, (uint32_t)p) && open > 0;
+        if (job->apart[p]) made.packets++, open = 0;
+        open += groups->count;
+        if (job->apart[p] || open >= LANES) {
+            box = EMPTY;
+            open_with(&box, fine, (uint32_t)p);
+        }
+        made.packets += open / LANES;
+        open %= LANES;
+        made.surfels += groups->count;
+        for (uint32_t g = 0; fine->clip_masks && g < groups->count; g++)
+            made.clips += (groups->lanes[g] & fine->clip_masks[p]) != 0;
+    }
+    made.packets += open > 0;
+    job->parts[part] = made;
+}
+
+/// Where each part's packets and clip lines begin. Without packets kept apart, if these would be too many.
+static void place_parts(level_job *job) {
+    enum { ALWAYS = 64 }; // more packets that any level may have
+    uint64_t packets = 0, least = 0, clips = 0, surfels = 0;
+    for (uint32_t part = 0; part < job->part_count; part++) {
+        packets += job->parts[part].packets;
+        least += ((uint64_t)job->parts[part].surfels + LANES - 1) / LANES;
+    }
+    const bool spread = packets > least + least / 4 + ALWAYS;
+    if (spread) memset(job->apart, 0, job->fine->packet_count);
+    packets = 0;
+    for (uint32_t part = 0; part < job->part_count; part++) {
+        part_count *made = &job->parts[part];
+        if (spread) made->packets = (made->surfels + LANES - 1) / LANES;
+        made->first_packet = (uint32_t)packets, made->first_clip = clips;
+        packets += made->packets, clips += made->clips, surfels += made->surfels;
+    }
+    job->coarse->packet_count = (uint32_t)packets;
+    job->coarse->count = (uint32_t)surfels;
+    job->coarse->clip_count = clips;
+}
+
+/// The members of a group, decoded.
+typedef struct group_members {
+    uint32_t count;
+    uint32_t lane[EWA_GROUP_SURFELS];
+    double area[EWA_GROUP_SURFELS], share[EWA_GROUP_SURFELS]; ///< sigma_u sigma_v; of the sum of all
+    ewa_vec3 place[EWA_GROUP_SURFELS], normal[EWA_GROUP_SURFELS];
+} group_members;
+
+static void read_members(const ewa_surfels *fine, uint32_t index, const float normal[3][LANES],
+                         uint32_t lanes, group_members *members) {
+    const ewa_packet *packet = &fine->packets[index];
+    double sum = 0;
+    members->count = 0;
+    for (; lanes; lanes &= lanes - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(lanes), i = members->count++;
+        const double sigma = (double)packet->sigma[lane], root = packet->ratio[lane] / 65535.0;
+        members->lane[i] = lane;
+        members->area[i] = sigma * sigma * (fine->ellipses ? root * root * root * root : 1);
+        members->place[i] =
+            vec3_make((double)packet->x[lane], (double)packet->y[lane], (double)packet->z[lane]);
+        members->normal[i] =
+            vec3_make((double)normal[0][lane], (double)normal[1][lane], (double)normal[2][lane]);
+        sum += members->area[i];
+    }
+    // Areas may vanish where sigmas do not.
+    for (uint32_t i = 0; i < members->count; i++)
+        members->share[i] = sum > 0 ? members->area[i] / sum : 1.0 / members->count;
+}
+
+/// The member among those of `mask` that is nearest to a place.
+static uint32_t nearest_member(const group_members *members, uint32_t mask, ewa_vec3 place) {
+    uint32_t nearest = 0;
+    double least = INFINITY;
+    for (uint32_t i = 0; i < members->count; i++) {
+        const ewa_vec3 way = vec3_sub(members->place[i], place);
+        const double distance2 = vec3_dot(way, way);
+        if (mask >> members->lane[i] & 1 && distance2 < least) least = distance2, nearest = i;
+    }
+    return nearest;
+}
+
+/// Colour and opacity: what a pixel that all members fill alike sees.
+static void mix_colors(const ewa_surfels *fine, uint32_t index, const group_members *members,
+                       stand_in *made) {
+    const ewa_packet *packet = &fine->packets[index];
+    const uint16_t form = fine->bounds.colors[index];
+    double opaque[EWA_GROUP_SURFELS], sum = 0;
+    for (uint32_t i = 0; i < members->count; i++) {
+        const size_t at = (size_t)index * LANES + members->lane[i];
+        opaque[i] = members->share[i] * (fine->opacities ? fine->opacities[at] / 65535.0 : 1);
+        sum += opaque[i];
+    }
+    made->opacity = sum < 1 ? sum : 1;
+    memset(made->color, 0, sizeof made->color);
+    for (uint32_t i = 0; i < members->count; i++) {
+        const uint32_t lane = members->lane[i];
+        const double part = sum > 0 ? opaque[i] / sum : members->share[i];
+        made->color[0] += part * ewa_color_decode_code(form, packet->red[lane]);
+        made->color[1] += part * ewa_color_decode_code(form, packet->green[lane]);
+        made->color[2] += part * ewa_color_decode_code(form, packet->blue[lane]);
+    }
+}
+
+/// The mean of the members' normals, or `own` where that says nothing.
+static ewa_vec3 mean_normal(const group_members *members, ewa_vec3 own) {
+    ewa_vec3 sum = vec3_make(0, 0, 0);
+    for (uint32_t i = 0; i < members->count; i++)
+        sum = vec3_add(sum, vec3_scale(members->normal[i], members->share[i]));
+    const double length = vec3_length(sum);
+    bool sound = length > SOUND_NORMAL;
+    for (uint32_t i = 0; i < members->count; i++) sound &= vec3_dot(sum, members->normal[i]) > 0;
+    return sound ? vec3_scale(sum, 1 / length) : own;
+}
+
+/// The clip lines of a member, at the same places in the world seen from another centre in its plane.
+static void move_clip(const ewa_surfels *fine, uint32_t index, uint32_t lane, ewa_vec3 moved,
+                      ewa_surfel_clip *clip) {
+    const uint32_t before = fine->clip_masks[index] & ((1u << lane) - 1);
+    *clip = fine->clips[fine->clip_first[index] + (uint32_t)__builtin_popcount(before)];
+    for (int k = 0; k < 2; k++) {
+        const float *t = clip->toward[k];
+        const ewa_vec3 toward = vec3_make((double)t[0], (double)t[1], (double)t[2]);
+        clip->offset[k] = (float)((double)clip->offset[k] + vec3_dot(toward, moved));
+    }
+}
+
+/// Makes what stands for a group: in its middle, where that is on its surface, else at the nearest member.
+static void make_stand_in(const level_job *job, uint32_t index, const float normal[3][LANES], uint32_t lanes,
+                          stand_in *made) {
+    const ewa_surfels *fine = job->fine;
+    const ewa_packet *packet = &fine->packets[index];
+    group_members members;
+    read_members(fine, index, normal, lanes, &members);
+    ewa_vec3 middle = vec3_make(0, 0, 0);
+    for (uint32_t i = 0; i < members.count; i++)
+        middle = vec3_add(middle, vec3_scale(members.place[i], members.share[i]));
+    const uint32_t clipped = fine->clip_masks ? lanes & fine->clip_masks[index] : 0;
+    const uint32_t pick = nearest_member(&members, clipped ? clipped : lanes, middle);
+    const uint32_t lane = members.lane[pick];
+    // A line is in its surfel's plane.
+    const ewa_vec3 own = members.normal[pick];
+    made->normal = clipped ? own : mean_normal(&members, own);
+    const double grown = job->growth * sqrt(1 / members.share[pick]), sigma = (double)packet->sigma[lane];
+    double reach = 0, height = 0;
+    for (uint32_t i = 0; i < members.count; i++) {
+        const ewa_vec3 way = vec3_sub(members.place[i], middle);
+        height = fmax(height, fabs(vec3_dot(way, made->normal)));
+        // Where surfels lie upon each other the area is not that of what they cover.
+        reach = fmax(reach, 4 * vec3_length(way) + fine->cutoff * (double)packet->sigma[members.lane[i]]);
+    }
+    made->sigma = fmax(sigma, fmin(sigma * grown, reach / fine->cutoff));
+    ewa_vec3 place = members.place[pick];
+    if (height <= made->sigma) {
+        const ewa_vec3 way = vec3_sub(middle, place);
+        place = clipped ? vec3_sub(middle, vec3_scale(own, vec3_dot(way, own))) : middle;
+    }
+    made->center = vec3_add(ewa_packet_center(fine, index), place);
+    made->ratio = packet->ratio[lane];
+    made->clipped = clipped != 0;
+    if (clipped) move_clip(fine, index, lane, vec3_sub(place, members.place[pick]), &made->clip);
+    made->material = fine->materials ? fine->materials[(size_t)index * LANES + lane] : fine->material;
+    if (made->ratio != UINT16_MAX) {
+        ewa_packet_surfel decoded;
+        ewa_packet_decode(fine, index, lane, &decoded);
+        made->axis_u = decoded.axis_u;
+    }
+    mix_colors(fine, index, &members, made);
+}
+
+/// Packs 1 to 16 surfels as packet `index`; all lanes behind them are like the first. Its centre becomes the
+/// place that its surfels are relative to.
+static void encode_packet(const level_job *job, uint32_t index, const stand_in *made, uint32_t count,
+                          bool even, ewa_surfel_clip **clips) {
+    ewa_surfels *coarse = job->coarse;
+    ewa_packet *packet = &coarse->packets[index];
+    float normal[3][LANES];
+    double colors[LANES][3];
+    uint32_t clip_mask = 0;
+    for (uint32_t i = 0; i < LANES; i++) {
+        const stand_in *s = &made[i < count ? i : 0];
+        const ewa_vec3 way = vec3_sub(s->center, made[0].center);
+        packet->x[i] = (float)way.x, packet->y[i] = (float)way.y, packet->z[i] = (float)way.z;
+        packet->sigma[i] = ewa_packed_sigma(s->sigma);
+        packet->ratio[i] = s->ratio;
+        normal[0][i] = (float)s->normal.x, normal[1][i] = (float)s->normal.y;
+        normal[2][i] = (float)s->normal.z;
+        memcpy(colors[i], s->color, sizeof colors[i]);
+        const size_t at = (size_t)index * LANES + i;
+        if (coarse->opacities)
+            coarse->opacities[at] = i < count ? (uint16_t)(s->opacity * 65535 + 0.5) : UINT16_MAX;
+        if (coarse->materials) coarse->materials[at] = s->material;
+        if (i < count && s->clipped) clip_mask |= 1u << i, *(*clips)++ = s->clip;
+    }
+    if (coarse->clip_masks) coarse->clip_masks[index] = (uint16_t)clip_mask;
+    job->kernels->code_normals((const float(*)[LANES])normal, packet);
+    for (uint32_t i = 0; i < LANES; i++) {
+        const bool circle = packet->ratio[i] == UINT16_MAX;
+        packet->angle[i] = circle ? 0 : ewa_packet_code_angle(packet, i, made[i < count ? i : 0].axis_u);
+    }
+    const uint16_t form =
+        even ? EWA_COLOR_FORM_UNIT : ewa_color_form_choose((const double(*)[3])colors, LANES);
+    uint16_t *const channels[3] = {packet->red, packet->green, packet->blue};
+    ewa_color_encode(form, (const double(*)[3])colors, LANES, channels);
+    coarse->bounds.colors[index] = form;
+    coarse->bounds.center_x[index] = made[0].center.x, coarse->bounds.center_y[index] = made[0].center.y;
+    coarse->bounds.center_z[index] = made[0].center.z;
+    job->lane_counts[index] = (uint8_t)count;
+}
+
+static void encode_part(void *data, uint32_t part, uint32_t worker) {
+    (void)worker;
+    const level_job *job = data;
+    const ewa_surfels *fine = job->fine;
+    uint32_t next = job->parts[part].first_packet, pending = 0;
+    ewa_surfel_clip *clips = fine->clip_masks ? job->coarse->clips + job->parts[part].first_clip : NULL;
+    bool even = true; // all colours that are pending are of the plain form
+    stand_in made[2 * LANES];
+    for (uint64_t p = (uint64_t)part * PART_PACKETS; p < part_end(job, part); p++) {
+        const ewa_packet_groups *groups = &job->groups[p];
+        float normal[3][LANES];
+        ewa_packet_normals(&fine->packets[p], normal);
+        if (job->apart[p] && pending) {
+            encode_packet(job, next++, made, pending, even, &clips);
+            pending = 0;
+        }
+        const bool plain = fine->bounds.colors[p] == EWA_COLOR_FORM_UNIT;
+        even = (even || pending == 0) && plain;
+        for (uint32_t g = 0; g < groups->count; g++)
+            make_stand_in(job, (uint32_t)p, (const float(*)[LANES])normal, groups->lanes[g],
+                          &made[pending++]);
+        if (pending < LANES) continue;
+        encode_packet(job, next++, made, LANES, even, &clips);
+        pending -= LANES;
+        memcpy(made, made + LANES, pending * sizeof *made);
+        even = plain;
+    }
+    if (pending) encode_packet(job, next, made, pending, even, &clips);
+}
+
+/// Bounds sixteen packets, fewer at the end.
+static void bound_group(void *data, uint32_t group, uint32_t worker) {
+    (void)worker;
+    const level_job *job = data;
+    const ewa_surfels *coarse = job->coarse;
+    const uint64_t first = (uint64_t)group * LANES, left = coarse->packet_count - first;
+    const uint32_t count = left < LANES ? (uint32_t)left : LANES;
+    double starts[LANES][3];
+    for (uint32_t k = 0; k < count; k++) {
+        const ewa_vec3 start = ewa_packet_center(coarse, (uint32_t)first + k);
+        vec3_store(start, starts[k]);
+    }
+    job->kernels->bound_packets(&coarse->packets[first], count, (const double(*)[3])starts,
+                                (float)coarse->cutoff, (float)EWA_PACKET_REACH, &coarse->bounds, first);
+    for (uint32_t k = 0; k < count; k++)
+        if (job->lane_counts[first + k] < LANES)
+            ewa_packet_empty_lanes(&coarse->packets[first + k], job->lane_counts[first + k]);
+}
+
+/// Makes room for what the packets were counted to take.
+static ewa_status allocate_level(level_job *job) {
+    const ewa_surfels *fine = job->fine;
+    ewa_surfels *coarse = job->coarse;
+    ewa_context *context = coarse->context;
+    const size_t packets = coarse->packet_count, lanes = packets * LANES;
+    const ewa_status status = ewa_packets_allocate(coarse, coarse->packet_count);
+    if (status != EWA_OK) return status;
+    job->lane_counts = ewa_allocate(context, packets, sizeof *job->lane_counts);
+    if (fine->opacities) coarse->opacities = ewa_allocate(context, lanes, sizeof *coarse->opacities);
+    if (fine->materials) coarse->materials = ewa_allocate(context, lanes, sizeof *coarse->materials);
+    if (fine->clip_masks) {
+        coarse->clip_masks = ewa_allocate(context, packets, sizeof *coarse->clip_masks);
+        coarse->clip_first = ewa_allocate(context, packets, sizeof *coarse->clip_first);
+        coarse->clips = ewa_allocate(context, coarse->clip_count, sizeof *coarse->clips);
+    }
+    const bool made = job->lane_counts && (!fine->opacities || coarse->opacities) &&
+                      (!fine->materials || coarse->materials) &&
+                      (!fine->clip_masks || (coarse->clip_masks && coarse->clip_first && coarse->clips));
+    return made ? EWA_OK : EWA_ERROR_MEMORY;
+}
+
+static ewa_status encode_level(level_job *job) {
+    ewa_surfels *coarse = job->coarse;
+    ewa_context *context = coarse->context;
+    ewa_status status = allocate_level(job);
+    if (status == EWA_OK) {
+        ewa_parallel(context, encode_part, job, job->part_count);
+        ewa_parallel(context, bound_group, job, (coarse->packet_count + LANES - 1) / LANES);
+        uint32_t clips = 0;
+        for (uint32_t p = 0; coarse->clip_masks && p < coarse->packet_count; p++) {
+            coarse->clip_first[p] = clips;
+            clips += (uint32_t)__builtin_popcount(coarse->clip_masks[p]);
+        }
+        coarse->unit_coverage = ewa_packets_unit_coverage(coarse);
+        ewa_packets_sum_up(coarse);
+    }
+    ewa_release(context, job->lane_counts, coarse->packet_count, sizeof *job->lane_counts);
+    return status;
+}
+
+/// Makes the level behind `fine`, if that is worth it.
+static ewa_status make_level(ewa_surfels *fine, double growth) {
+    ewa_context *context = fine->context;
+    const uint32_t parts = (fine->packet_count + PART_PACKETS - 1) / PART_PACKETS;
+    level_job job = {.fine = fine,
+                     .kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_pack_kernels),
+                     .growth = growth,
+                     .part_count = parts};
+    job.groups = ewa_allocate(context, fine->packet_count, sizeof *job.groups);
+    job.apart = ewa_allocate(context, fine->packet_count, sizeof *job.apart);
+    job.parts = ewa_allocate(context, parts, sizeof *job.parts);
+    job.coarse = ewa_allocate_zeroed(context, 1, sizeof *job.coarse);
+    ewa_status status = job.groups && job.apart && job.parts && job.coarse ? EWA_OK : EWA_ERROR_MEMORY;
+    if (status == EWA_OK) {
+        ewa_surfels *coarse = job.coarse;
+        coarse->context = context;
+        coarse->material = fine->material, coarse->most_material = fine->most_material;
+        coarse->unit = fine->unit, coarse->cutoff = fine->cutoff, coarse->ellipses = fine->ellipses;
+        coarse->extent = fine->extent;
+        memcpy(coarse->origin_world, fine->origin_world, sizeof coarse->origin_world);
+        ewa_parallel(context, count_part, &job, parts);
+        place_parts(&job);
+        const bool worth = coarse->count >= LEAST_SURFELS && coarse->count <= fine->count / 2;
+        if (worth) status = encode_level(&job);
+        if (worth && status == EWA_OK) fine->coarser = coarse;
+    }
+    ewa_release(context, job.groups, fine->packet_count, sizeof *job.groups);
+    ewa_release(context, job.apart, fine->packet_count, sizeof *job.apart);
+    ewa_release(context, job.parts, parts, sizeof *job.parts);
+    if (!fine->coarser) ewa_surfels_destroy(&job.coarse);
+    return status;
+}
+
+ewa_status ewa_levels_make(ewa_surfels *surfels, uint32_t level_count) {
+    for (uint32_t level = 1; level < level_count; level++) {
+        // What grew once stays grown: areas add up.
+        const ewa_status status = make_level(surfels, level == 1 ? EWA_LEVEL_GROWTH : 1);
+        if (status != EWA_OK || !surfels->coarser) return status;
+        surfels = surfels->coarser;
+    }
+    return EWA_OK;
+}
+
+const ewa_surfels *ewa_levels_find(const ewa_surfels *surfels, uint32_t *level) {
+    const uint32_t wanted = *level;
+    for (*level = 0; *level < wanted && surfels->coarser; ++*level) surfels = surfels->coarser;
+    return surfels;
+}
