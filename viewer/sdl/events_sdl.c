@@ -5,6 +5,7 @@
 #include "events_sdl.h"
 
 #include <math.h>
+#include <string.h>
 
 /// Half the distance of two fingers, as a share of the touch screen, where SDL does not tell it.
 static const double usual_spread = 0.25;
@@ -106,6 +107,7 @@ static bool translate_window(events_window *window, const SDL_WindowEvent *event
     }
     window->buttons = 0;
     window->key_count = 0;
+    memset(window->keys, 0, sizeof window->keys);
     to->kind = VIEWER_LEAVE;
     return true;
 }
@@ -128,9 +130,11 @@ static bool translate_button(events_window *window, const SDL_MouseButtonEvent *
 static bool translate_key(events_window *window, const SDL_KeyboardEvent *event, viewer_event *to) {
     const bool press = event->type == SDL_KEYDOWN;
     to->key = key_of(&event->keysym);
-    if (!to->key || event->repeat) return false;
-    if (press) window->key_count++;
-    if (!press && window->key_count) window->key_count--;
+    if (!to->key || event->repeat || event->keysym.scancode >= SDL_NUM_SCANCODES) return false;
+    bool *held = &window->keys[event->keysym.scancode];
+    if (!press && !*held) return false; // it was pressed for a panel
+    window->key_count += (press ? 1u : 0u) - (*held ? 1u : 0u);
+    *held = press;
     to->kind = press ? VIEWER_KEY : VIEWER_KEY_RELEASE;
     to->modifiers = modifiers_of(event->keysym.mod);
     return true;

@@ -12,11 +12,12 @@
 /// A window and what is held down over it.
 typedef struct events_window {
     SDL_Window *window;
-    double zoom;        ///< SDL's units per point: above 1 where the desktop scales and SDL does not
-    double scale;       ///< pixels per point
-    uint32_t buttons;   ///< bits of the buttons whose press was given on
-    uint32_t key_count; ///< of keys whose press was given on
-    bool pinching;      ///< two fingers are down
+    double zoom;      ///< SDL's units per point: above 1 where the desktop scales and SDL does not
+    double scale;     ///< pixels per point
+    uint32_t buttons; ///< bits of the buttons whose press was given on
+    uint32_t key_count;
+    bool keys[SDL_NUM_SCANCODES]; ///< whose press was given on; `key_count` in all
+    bool pinching;                ///< two fingers are down
 } events_window;
 
 /// Measures the window's size in points and its scale, as VIEWER_RESIZE has them.

@@ -220,7 +220,7 @@ void draw_list(panel *p, const ImDrawList *list) {
     }
 }
 
-/// A button counts where the pointer is now: each change of one has a layout of its own.
+/// A button counts where the pointer is now, and is not missed: each change has a layout of its own.
 void press(panel *p, viewer *shown, const SDL_MouseButtonEvent &event) {
     ImGuiIO &io = ImGui::GetIO();
     const int button = event.button == SDL_BUTTON_LEFT ? 0 : event.button == SDL_BUTTON_RIGHT ? 1 : 2;
@@ -306,7 +306,9 @@ bool panel_event(panel *p, viewer *shown, const SDL_Event *event) {
     case SDL_KEYDOWN:
     case SDL_KEYUP:
         press_key(event->key);
-        return event->type == SDL_KEYDOWN && io.WantCaptureKeyboard;
+        if (!io.WantCaptureKeyboard) return false;
+        lay_out(p, shown);
+        return event->type == SDL_KEYDOWN;
     case SDL_TEXTINPUT:
         io.AddInputCharactersUTF8(event->text.text);
         return io.WantTextInput;
