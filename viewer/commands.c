@@ -270,8 +270,8 @@ static bool do_zoom(viewer *v, const char *rest) {
 }
 
 static bool do_section(viewer *v, const char *what, const char *rest) {
-    const bool on = strcmp(what, "box") == 0 ? v->section.box : v->section.slab;
-    return section_set(v, what, strcmp(rest, "next") == 0 ? (on ? "off" : "on") : rest);
+    const bool on = strcmp(what, "box") == 0 ? v->cutaway.box : v->cutaway.slab;
+    return cutaway_set(v, what, strcmp(rest, "next") == 0 ? (on ? "off" : "on") : rest);
 }
 
 static bool do_box(viewer *v, const char *rest) { return do_section(v, "box", rest); }

@@ -44,12 +44,12 @@ typedef struct viewer_pick {
 } viewer_pick;
 
 /// What is cut away.
-typedef struct viewer_section {
+typedef struct viewer_cutaway {
     bool box, slab;
     double low_world[3], high_world[3];
     double slab_direction[3];   ///< unit, away from the eye when it was set
     double slab_near, slab_far; ///< along it, world units from the world's origin
-} viewer_section;
+} viewer_cutaway;
 
 struct viewer {
     viewer_services services;
@@ -92,7 +92,7 @@ struct viewer {
     double fly_speed;  ///< sizes of the scene a second
 
     viewer_pick picks[2];
-    viewer_section section;
+    viewer_cutaway cutaway;
 
     uint64_t revision, posted; ///< of what is to be drawn; the last one handed to the painter
     bool posted_whole;
@@ -141,16 +141,16 @@ bool pick_surface(viewer *v, double x, double y, double reach, double place_worl
 bool pick_point(viewer *v, double x, double y, bool second);
 void pick_clear(viewer *v);
 
-// section.c
+// cutaway.c
 /// Sets the planes of the renderer.
-void section_apply(const viewer *v, ewa_render_options *render);
-bool section_set(viewer *v, const char *what, const char *rest);
-void section_move_slab(viewer *v, double notches, bool thickness);
+void cutaway_apply(const viewer *v, ewa_render_options *render);
+bool cutaway_set(viewer *v, const char *what, const char *rest);
+void cutaway_move_slab(viewer *v, double notches, bool thickness);
 /// Middle of a side of the box.
-void section_handle(const viewer *v, int handle, double place_world[3]);
+void cutaway_handle(const viewer *v, int handle, double place_world[3]);
 /// The side under a place of the window; -1: none.
-int section_find_handle(const viewer *v, double x, double y);
-void section_drag(viewer *v, double x_px, double y_px);
+int cutaway_find_handle(const viewer *v, double x, double y);
+void cutaway_drag(viewer *v, double x_px, double y_px);
 
 // settings.c
 void settings_init(viewer *v);

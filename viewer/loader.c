@@ -207,8 +207,7 @@ static void drop_orders(loader *l, uint64_t item) {
     }
 }
 
-bool loader_color(loader *l, uint64_t item, const viewer_content *content,
-                  const viewer_coloring *coloring) {
+bool loader_color(loader *l, uint64_t item, const viewer_content *content, const viewer_coloring *coloring) {
     loader_note *order = calloc(1, sizeof *order);
     if (!order) return false;
     order->kind = LOADER_COLOR;

@@ -54,7 +54,7 @@ static void draw_label(const overlay *o, const double place_world[3], const char
 }
 
 static void draw_box(const overlay *o, const viewer *v) {
-    const viewer_section *s = &v->section;
+    const viewer_cutaway *s = &v->cutaway;
     for (int axis = 0; axis < 3; axis++)
         for (int k = 0; k < 4; k++) { // the four edges along each axis
             const int b = (axis + 1) % 3, c = (axis + 2) % 3;
@@ -66,7 +66,7 @@ static void draw_box(const overlay *o, const viewer *v) {
         }
     for (int handle = 0; handle < 6; handle++) {
         double middle[3];
-        section_handle(v, handle, middle);
+        cutaway_handle(v, handle, middle);
         draw_dot(o, middle, 9, EDGE);
     }
 }
@@ -121,7 +121,7 @@ void overlay_draw(viewer *v, const ewa_camera *camera, uint8_t *rgba8) {
     const overlay o = {{rgba8, camera->width_px, camera->height_px},
                        camera,
                        v->scale * camera->height_px / v->camera.height_px};
-    if (v->section.box) draw_box(&o, v);
+    if (v->cutaway.box) draw_box(&o, v);
     draw_picks(&o, v);
     ewa_furniture_options furniture = v->furniture;
     ewa_category categories[VIEWER_MAX_CLASSES];

@@ -266,7 +266,8 @@ const paint_result *painter_newest(painter *p, const char **failure) {
     p->shown = p->newest;
     *failure = NULL;
     if (p->failure != EWA_OK) {
-        snprintf(p->told, sizeof p->told, "%s", p->failure_text[0] ? p->failure_text : ewa_status_name(p->failure));
+        snprintf(p->told, sizeof p->told, "%s",
+                 p->failure_text[0] ? p->failure_text : ewa_status_name(p->failure));
         *failure = p->told;
     }
     p->failure = EWA_OK;

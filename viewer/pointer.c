@@ -43,7 +43,7 @@ static void press(viewer *v, const viewer_event *event) {
     v->press_x = v->x = event->x, v->press_y = v->y = event->y;
     v->moved = false;
     v->wheel_held = false;
-    v->handle = event->button == VIEWER_LEFT ? section_find_handle(v, event->x, event->y) : -1;
+    v->handle = event->button == VIEWER_LEFT ? cutaway_find_handle(v, event->x, event->y) : -1;
     v->drag = v->handle >= 0 ? DRAG_HANDLE : choose_drag(v, event->button, event->modifiers);
     if (v->drag == DRAG_HANDLE || v->drag == DRAG_LOOK) return;
     set_pivot(v, event->x, event->y);
@@ -70,7 +70,7 @@ static void drag(viewer *v, double x, double y) {
         navigate_zoom(&v->camera, v->pivot_world, pow(DRAG_FACTOR, -dy));
         break;
     case DRAG_HANDLE:
-        section_drag(v, dx * v->scale, dy * v->scale);
+        cutaway_drag(v, dx * v->scale, dy * v->scale);
         break;
     case DRAG_NONE:
         break;
@@ -135,7 +135,7 @@ static void zoom(viewer *v, double x, double y, double factor) {
 static void wheel(viewer *v, const viewer_event *event) {
     const double notches = fmin(fmax(event->amount, -20), 20);
     if (event->modifiers & VIEWER_ALT)
-        section_move_slab(v, notches, event->modifiers & VIEWER_CTRL);
+        cutaway_move_slab(v, notches, event->modifiers & VIEWER_CTRL);
     else if (v->settings.navigation == NAVIGATION_FLY && v->fly_keys)
         v->fly_speed *= pow(NOTCH, -notches);
     else

@@ -25,7 +25,7 @@ typedef struct script {
     bool closed;
     double *intervals_s; ///< between pictures shown while something moved
     size_t interval_count;
-    double first_s; ///< from the program's start to the first picture of something
+    double first_s;            ///< from the program's start to the first picture of something
     double shown_s;            ///< when the last picture came; negative: none yet
     double settled_s, event_s; ///< longest way from the last event to the whole picture; when that was
     bool settling;

@@ -175,7 +175,7 @@ void viewer_scene(const viewer *v, paint_scene *scene) {
     ewa_volume_options_init(&scene->volume, sizeof scene->volume);
     memcpy(scene->volume.background, v->render.background, sizeof scene->volume.background);
     scene->volume.density_scale = v->settings.volume_density;
-    section_apply(v, &scene->render);
+    cutaway_apply(v, &scene->render);
     items_gather(v, scene);
 }
 

@@ -59,7 +59,7 @@ typedef struct viewer_class {
 /// What is chosen of a cloud's surfels. Fill with viewer_coloring_init().
 typedef struct viewer_coloring {
     char attribute[EWA_NAME_BYTES + 4]; ///< "name" or "name.x"; empty: the file's colours
-    int colormap; ///< ewa_colormap, or automatic (default): classes for classes, else viridis
+    int colormap;         ///< ewa_colormap, or automatic (default): classes for classes, else viridis
     uint32_t class_count; ///< filled in: of `classes`; 0: colours go from the first number to the last
     viewer_class classes[VIEWER_MAX_CLASSES];
     bool ranged;         ///< `range` is given; else it is filled with the 2nd and 98th percentile
@@ -109,16 +109,16 @@ ewa_status viewer_create(const viewer_options *options, viewer **made);
 void viewer_destroy(viewer **viewer);
 
 typedef enum viewer_event_kind {
-    VIEWER_MOVE,    ///< the pointer is at x, y
-    VIEWER_PRESS,   ///< of `button`, the `clicks`th in a row
-    VIEWER_RELEASE, ///< of `button`
-    VIEWER_WHEEL,   ///< by `amount` notches, away from the user is positive; `across`: sideways
-    VIEWER_PINCH,   ///< two fingers: distances grow by the factor `amount`
-    VIEWER_KEY,     ///< `key` went down
+    VIEWER_MOVE,        ///< the pointer is at x, y
+    VIEWER_PRESS,       ///< of `button`, the `clicks`th in a row
+    VIEWER_RELEASE,     ///< of `button`
+    VIEWER_WHEEL,       ///< by `amount` notches, away from the user is positive; `across`: sideways
+    VIEWER_PINCH,       ///< two fingers: distances grow by the factor `amount`
+    VIEWER_KEY,         ///< `key` went down
     VIEWER_KEY_RELEASE, ///< `key` went up
-    VIEWER_DROP,    ///< of the file `text`
-    VIEWER_RESIZE,  ///< the window has width x, height y points and `amount` pixels per point
-    VIEWER_LEAVE,   ///< the pointer or the keyboard is elsewhere: nothing is held
+    VIEWER_DROP,        ///< of the file `text`
+    VIEWER_RESIZE,      ///< the window has width x, height y points and `amount` pixels per point
+    VIEWER_LEAVE,       ///< the pointer or the keyboard is elsewhere: nothing is held
 } viewer_event_kind;
 
 enum { VIEWER_LEFT = 1, VIEWER_MIDDLE = 2, VIEWER_RIGHT = 3 };
@@ -158,7 +158,7 @@ typedef struct viewer_picture {
     uint64_t number;              ///< another one for another picture; 0: none yet
     bool still;                   ///< all there is at full size: nothing will change until something is done
     uint32_t level;               ///< of the surfels drawn
-    uint64_t splat_count; ///< of what was drawn
+    uint64_t splat_count;         ///< of what was drawn
     double drawn_s;               ///< what the drawing took
     double spare_s;               ///< when to ask again: 0: soon, for something moves or is under way
 } viewer_picture;

@@ -18,8 +18,8 @@ static void add_plane(ewa_render_options *render, double a, double b, double c, 
     memcpy(render->section_planes[render->section_count++], plane, sizeof plane);
 }
 
-void section_apply(const viewer *v, ewa_render_options *render) {
-    const viewer_section *s = &v->section;
+void cutaway_apply(const viewer *v, ewa_render_options *render) {
+    const viewer_cutaway *s = &v->cutaway;
     for (int c = 0; c < 3 && s->box; c++) {
         add_plane(render, c == 0, c == 1, c == 2, -s->low_world[c]);
         add_plane(render, -(c == 0), -(c == 1), -(c == 2), s->high_world[c]);
@@ -33,7 +33,7 @@ void section_apply(const viewer *v, ewa_render_options *render) {
 
 /// The box around all that is visible, a little larger.
 static bool reset_box(viewer *v) {
-    viewer_section *s = &v->section;
+    viewer_cutaway *s = &v->cutaway;
     if (!items_bounds(v, s->low_world, s->high_world)) return false;
     for (int c = 0; c < 3; c++) {
         s->low_world[c] -= 1e-3 * v->reach_world;
@@ -44,7 +44,7 @@ static bool reset_box(viewer *v) {
 
 /// The slab about the pivot, across the view.
 static bool reset_slab(viewer *v) {
-    viewer_section *s = &v->section;
+    viewer_cutaway *s = &v->cutaway;
     const double *ahead = &v->camera.world_to_camera[8];
     const double length = sqrt(ahead[0] * ahead[0] + ahead[1] * ahead[1] + ahead[2] * ahead[2]);
     double middle = 0;
@@ -57,8 +57,8 @@ static bool reset_slab(viewer *v) {
     return true;
 }
 
-bool section_set(viewer *v, const char *what, const char *rest) {
-    viewer_section *s = &v->section;
+bool cutaway_set(viewer *v, const char *what, const char *rest) {
+    viewer_cutaway *s = &v->cutaway;
     const bool box = strcmp(what, "box") == 0;
     bool *on = box ? &s->box : &s->slab;
     double n[6];
@@ -92,8 +92,8 @@ bool section_set(viewer *v, const char *what, const char *rest) {
     return true;
 }
 
-void section_move_slab(viewer *v, double notches, bool thickness) {
-    viewer_section *s = &v->section;
+void cutaway_move_slab(viewer *v, double notches, bool thickness) {
+    viewer_cutaway *s = &v->cutaway;
     if (!s->slab) return;
     const double step = notches * SLAB_STEP * v->reach_world;
     s->slab_far += step;
@@ -102,19 +102,19 @@ void section_move_slab(viewer *v, double notches, bool thickness) {
     viewer_change(v);
 }
 
-void section_handle(const viewer *v, int handle, double place_world[3]) {
-    const viewer_section *s = &v->section;
+void cutaway_handle(const viewer *v, int handle, double place_world[3]) {
+    const viewer_cutaway *s = &v->cutaway;
     for (int c = 0; c < 3; c++) place_world[c] = 0.5 * (s->low_world[c] + s->high_world[c]);
     const int axis = handle % 3;
     place_world[axis] = handle < 3 ? s->low_world[axis] : s->high_world[axis];
 }
 
-int section_find_handle(const viewer *v, double x, double y) {
+int cutaway_find_handle(const viewer *v, double x, double y) {
     int found = -1;
     double least = HANDLE_REACH, nearest = INFINITY;
-    for (int handle = 0; handle < 6 && v->section.box; handle++) {
+    for (int handle = 0; handle < 6 && v->cutaway.box; handle++) {
         double place_world[3], place_px[2], depth;
-        section_handle(v, handle, place_world);
+        cutaway_handle(v, handle, place_world);
         if (!navigate_project(&v->camera, place_world, place_px, &depth)) continue;
         const double away = hypot(place_px[0] / v->scale - x, place_px[1] / v->scale - y);
         if (away > least || depth > nearest) continue;
@@ -124,11 +124,11 @@ int section_find_handle(const viewer *v, double x, double y) {
     return found;
 }
 
-void section_drag(viewer *v, double x_px, double y_px) {
-    viewer_section *s = &v->section;
+void cutaway_drag(viewer *v, double x_px, double y_px) {
+    viewer_cutaway *s = &v->cutaway;
     const int axis = v->handle % 3;
     double place_world[3], from_px[2], to_px[2], depth;
-    section_handle(v, v->handle, place_world);
+    cutaway_handle(v, v->handle, place_world);
     const double step = 1e-3 * v->reach_world;
     if (!navigate_project(&v->camera, place_world, from_px, &depth)) return;
     place_world[axis] += step;
