@@ -70,11 +70,14 @@ static bool start_video(void) {
     SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");
     // Else SDL looks for OpenGL behind the renderer that is to do without it.
     SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
-    // Ctrl-C in the terminal ends a load as it ends any command.
-    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
+    const bool asked = SDL_GetHint(SDL_HINT_VIDEODRIVER) != NULL;
+#ifdef __linux__
+    // Wayland's library prints a line of its own when it is tried without.
+    if (!asked && !SDL_getenv("XDG_RUNTIME_DIR")) SDL_SetHint(SDL_HINT_VIDEODRIVER, "x11");
+#endif
     if (SDL_Init(SDL_INIT_VIDEO) != 0) return false;
     const char *driver = SDL_GetCurrentVideoDriver();
-    if (SDL_GetHint(SDL_HINT_VIDEODRIVER) || !driver || strcmp(driver, "offscreen") != 0) return true;
+    if (asked || !driver || strcmp(driver, "offscreen") != 0) return true;
     SDL_Quit();
     SDL_SetError("no display can be opened");
     return false;
@@ -239,7 +242,7 @@ int front_window_run(const front_job *job) {
                               : job->paths[0],
              job->path_count ? " - " : "");
     front_window front = {.scripted = job->script_path != NULL};
-    front.events.zoom = job->options.scale > 0 ? job->options.scale : find_zoom();
+    front.events.zoom = front.scripted ? job->options.scale : find_zoom();
     const int width = (int)lround(job->options.width * front.events.zoom);
     const int height = (int)lround(job->options.height * front.events.zoom);
     front.events.window = SDL_CreateWindow(title, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, width,
