@@ -12,6 +12,8 @@ namespace {
 
 /// So long a message stays.
 constexpr double message_stays_s = 10;
+/// What the picture's scale bar takes at the lower right.
+constexpr float scale_bar_points = 40;
 /// Progress and figures are shown anew so often.
 constexpr double progress_step_s = 0.1, figures_step_s = 0.25;
 
@@ -119,7 +121,8 @@ void message(panel_page *page, float *bottom) {
 void picked(const panel_page *page) {
     if (!page->state.picked[0]) return;
     const float margin = panel_margin(page);
-    ImGui::SetNextWindowPos(ImVec2(page->width - margin, page->height - line_height(page)), 0, ImVec2(1, 1));
+    const float bottom = page->height - margin - scale_bar_points * page->unit;
+    ImGui::SetNextWindowPos(ImVec2(page->width - margin, bottom), 0, ImVec2(1, 1));
     ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(0.45f * page->width, 0.6f * page->height));
     ImGui::Begin("picked", nullptr, note_flags & ~ImGuiWindowFlags_NoScrollbar);
     ImGui::TextUnformatted(page->state.picked);
