@@ -15,6 +15,8 @@ enum { MOST_PLACES = 6, MOST_ZEROS = 6, MOST_WHOLE_DIGITS = 12 };
 /// Multiples of a step up to here are exact, with digits to spare for the rounding of the ends.
 static const double MOST_MULTIPLE = 1e14;
 static const double LEAST_NICE = 1e-290;
+/// Numbers from here on are rounded rather than written with a power of ten.
+static const double LEAST_PLAIN = 0.01;
 /// Shares of a step by which an end may miss a tick, and of a multiple of it, for rounding.
 static const double TICK_SLACK = 1e-9, MULTIPLE_SLACK = 1e-15;
 
@@ -71,7 +73,8 @@ ewa_decimal ewa_decimal_near(double value) {
     for (int places = 0; places <= 9; places++) {
         number.exponent = exponent - places;
         number.digits = (int64_t)floor(scale10(size, -number.exponent) + 0.5);
-        if (fabs(ewa_decimal_value(number) - size) <= 0x1p-24 * size) break;
+        const bool enough = size >= LEAST_PLAIN && number.exponent == -MOST_PLACES;
+        if (enough || fabs(ewa_decimal_value(number) - size) <= 0x1p-24 * size) break;
     }
     // 9.9999999e5 rounds up to 10e5.
     for (; number.digits % 10 == 0; number.exponent++) number.digits /= 10;

@@ -22,7 +22,8 @@ double ewa_decimal_value(ewa_decimal number);
 /// would be long. Numbers of one exponent have as many places.
 void ewa_decimal_write(ewa_decimal number, char text[EWA_DECIMAL_BYTES]);
 
-/// Gives the shortest number that is within a 2^24th of a finite `value`.
+/// Gives the shortest number that is within a 2^24th of a finite `value`; from 0.01 on, with at most six places behind
+/// the point.
 ewa_decimal ewa_decimal_near(double value);
 
 /// Gives the largest of 1, 2 and 5 times a power of ten that is at most `most`; false unless that is positive, finite

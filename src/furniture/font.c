@@ -27,7 +27,7 @@ static const ewa_glyph ascii[LAST - FIRST + 1] = {
     {0, false, "04"},                                      // .
     {6, false, "026h"},                                    // /
     {8, false, "4g-0c08!44-888c!4g"},                      // 0
-    {8, true, "1e4g44 0484"},                              // 1
+    {8, false, "2e5g54 2484"},                             // 1
     {8, false, "0d!4g-8d(8b580484"},                       // 2
     {8, false, "0d!4g-7d!4a3a 4a-87!44-07"},               // 3
     {8, false, "646g0787"},                                // 4

@@ -44,8 +44,8 @@ ewa_inks ewa_layout_inks(const ewa_layout *layout, const ewa_box *box) {
     const ewa_ink wanted = layout->options->ink;
     const bool dark = wanted == EWA_INK_DARK ||
                       (wanted == EWA_INK_AUTO && box_luminance(layout->canvas, box) > MIDDLE_LUMINANCE);
-    const ewa_inks on_light = {{16, 16, 16, 255}, {255, 255, 255, 200}};
-    const ewa_inks on_dark = {{255, 255, 255, 255}, {0, 0, 0, 200}};
+    const ewa_inks on_light = {{16, 16, 16, 255}, {255, 255, 255, 220}};
+    const ewa_inks on_dark = {{255, 255, 255, 255}, {0, 0, 0, 220}};
     return dark ? on_light : on_dark;
 }
 

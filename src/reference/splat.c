@@ -269,37 +269,73 @@ static void make_depth(const ewa_reference_view *view, double half_range, ewa_re
 /// Clip lines on the screen (docs/math.md section 5, PAS 4.4): l' = M^-1 l by the adjugate of M with the rows
 /// tu, tv, p, with the sign that makes (x, y, 1).l' positive inside for z > 0. Orthographic: (x, y) - p is
 /// the picture of u tu + v tv, so (u, v) is its product with the inverse of the axes' first two components.
-static void make_clip(const ewa_reference_view *view, const ewa_surfel *surfel, ewa_reference_splat *splat) {
-    splat->clipped = false;
-    if (view->point_sigma_px > 0) return;
+static void add_line(const ewa_reference_view *view, const double l[3], ewa_reference_splat *splat) {
     const ewa_vec3 u = splat->axis_u, v = splat->axis_v, p = splat->center;
-    splat->clip_either = surfel->clip_either == 1;
-    for (int k = 0; k < 2; k++) {
-        const double *l = surfel->clip[k];
-        double *line = splat->clip[k];
-        line[0] = line[1] = 0, line[2] = 1;
-        if (l[0] == 0 && l[1] == 0) {
-            splat->clip_either = false;
-            continue;
+    double *line = splat->clip[splat->clip_count++];
+    ewa_vec3 seen;
+    if (view->orthographic) {
+        const double determinant = u.x * v.y - u.y * v.x;
+        const double a = (l[0] * v.y - l[1] * u.y) / determinant, b = (l[1] * u.x - l[0] * v.x) / determinant;
+        seen = vec3_make(a, b, l[2] - a * p.x - b * p.y);
+    } else {
+        const ewa_mat3 m = mat3_from_rows(u, v, p), adjugate = mat3_adjugate(&m);
+        seen = vec3_scale(mat3_mul_vec3(&adjugate, vec3_make(l[0], l[1], l[2])),
+                          mat3_determinant(&m) < 0 ? -1 : 1);
+    }
+    // From (x, y) at z = 1 to pixels, and to pixels from the line.
+    const double a = seen.x / view->fx_px, b = seen.y / view->fy_px;
+    const double c = seen.z - a * view->cx_px - b * view->cy_px, length = hypot(a, b);
+    line[0] = length > 0 ? a / length : 0;
+    line[1] = length > 0 ? b / length : 0;
+    line[2] = length > 0 ? c / length : copysign(1, c);
+}
+
+/// How a section plane and a surfel meet.
+typedef struct section_meeting {
+    double line[3];  ///< keep a u + b v + c >= 0 of its plane; c: how far the centre lies inside
+    double distance; ///< c
+    double reach;    ///< of the support along the plane's normal, at most
+} section_meeting;
+
+static section_meeting meet_section(const ewa_reference_view *view, uint32_t plane,
+                                    const ewa_surfel *surfel) {
+    const ewa_vec3 n = vec3_load(view->sections[plane]), u = vec3_load(surfel->axis_u_world);
+    const double along = vec3_dot(n, vec3_load(surfel->normal_world));
+    const double distance = vec3_dot(n, vec3_load(surfel->center)) + view->sections[plane][3];
+    const double support = view->point_sigma_px > 0 ? 0 : view->cutoff * vec3_length(u);
+    return (section_meeting){{vec3_dot(n, u), vec3_dot(n, vec3_load(surfel->axis_v_world)), distance},
+                             distance,
+                             support * sqrt(fmax(1 - along * along, 0))};
+}
+
+/// Whether a surfel lies outside of some section plane.
+static bool is_cut_off(const ewa_reference_view *view, const ewa_surfel *surfel) {
+    for (uint32_t k = 0; k < view->section_count; k++) {
+        const section_meeting met = meet_section(view, k, surfel);
+        if (met.distance < 0 && met.distance <= -met.reach) return true;
+    }
+    return false;
+}
+
+static void make_clip(const ewa_reference_view *view, const ewa_surfel *surfel, ewa_reference_splat *splat) {
+    splat->clip_count = 0;
+    if (view->point_sigma_px > 0) return;
+    for (int k = 0; k < 2; k++)
+        if (surfel->clip[k][0] != 0 || surfel->clip[k][1] != 0) add_line(view, surfel->clip[k], splat);
+    splat->clip_either = surfel->clip_either == 1 && splat->clip_count == 2;
+    // The planes that cut it, from the smallest distance on.
+    uint32_t done = 0;
+    while (splat->clip_count < EWA_CLIP_LINES) {
+        section_meeting next = {.distance = INFINITY};
+        uint32_t plane = 0;
+        for (uint32_t k = 0; k < view->section_count; k++) {
+            const section_meeting met = meet_section(view, k, surfel);
+            if (done >> k & 1 || !(met.distance < met.reach) || met.distance >= next.distance) continue;
+            next = met, plane = k;
         }
-        splat->clipped = true;
-        ewa_vec3 seen;
-        if (view->orthographic) {
-            const double determinant = u.x * v.y - u.y * v.x;
-            const double a = (l[0] * v.y - l[1] * u.y) / determinant,
-                         b = (l[1] * u.x - l[0] * v.x) / determinant;
-            seen = vec3_make(a, b, l[2] - a * p.x - b * p.y);
-        } else {
-            const ewa_mat3 m = mat3_from_rows(u, v, p), adjugate = mat3_adjugate(&m);
-            seen = vec3_scale(mat3_mul_vec3(&adjugate, vec3_make(l[0], l[1], l[2])),
-                              mat3_determinant(&m) < 0 ? -1 : 1);
-        }
-        // From (x, y) at z = 1 to pixels, and to pixels from the line.
-        const double a = seen.x / view->fx_px, b = seen.y / view->fy_px;
-        const double c = seen.z - a * view->cx_px - b * view->cy_px, length = hypot(a, b);
-        line[0] = length > 0 ? a / length : 0;
-        line[1] = length > 0 ? b / length : 0;
-        line[2] = length > 0 ? c / length : copysign(1, c);
+        if (!(next.distance < INFINITY)) return;
+        add_line(view, next.line, splat);
+        done |= 1u << plane;
     }
 }
 
@@ -318,29 +354,29 @@ static double half_plane_share(const double line[3], double inside) {
 /// Sets the share of a pixel that clip lines leave, and where it lies.
 static void clip_sample(const ewa_reference_splat *splat, double x_px, double y_px,
                         ewa_reference_sample *sample) {
-    double share[2], decides[2];
-    for (int k = 0; k < 2; k++) {
+    double share[EWA_CLIP_LINES], sum = 0;
+    ewa_vec3 inward = {0, 0, 0};
+    for (uint32_t k = 0; k < splat->clip_count; k++) {
         const double *line = splat->clip[k];
         share[k] = half_plane_share(line, line[0] * x_px + line[1] * y_px + line[2]);
-        decides[k] = splat->clip_either ? share[k] : 1 - share[k];
+        const double decides = splat->clip_either && k < 2 ? share[k] : 1 - share[k];
+        inward = vec3_add(inward, vec3_scale(vec3_make(line[0], line[1], 0), decides));
+        sum += decides;
+        sample->share = fmin(sample->share, share[k]);
+        if (!splat->clip_either || k != 1) continue;
+        // Two lines of which one suffices are one line beside the others.
+        sample->share = fmax(share[0], share[1]);
+        inward = vec3_scale(inward, sum > 0 ? (1 - sample->share) / sum : 0);
+        sum = 1 - sample->share;
     }
-    sample->share = splat->clip_either ? fmax(share[0], share[1]) : fmin(share[0], share[1]);
-    const double sum = decides[0] + decides[1];
-    for (int c = 0; c < 2; c++)
-        sample->inward[c] =
-            sum > 0 ? (decides[0] * splat->clip[0][c] + decides[1] * splat->clip[1][c]) / sum : 0;
-}
-
-/// How far a surfel's centre lies inside of a section plane.
-static double section_distance(const double plane[4], const ewa_surfel *surfel) {
-    return vec3_dot(vec3_load(plane), vec3_load(surfel->center)) + plane[3];
+    sample->inward[0] = sum > 0 ? inward.x / sum : 0;
+    sample->inward[1] = sum > 0 ? inward.y / sum : 0;
 }
 
 void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *surfel,
                            ewa_reference_splat *splat) {
     splat->drawn = false;
-    for (uint32_t k = 0; k < view->section_count; k++)
-        if (section_distance(view->sections[k], surfel) < 0) return;
+    if (is_cut_off(view, surfel)) return;
     const ewa_vec3 p = ewa_placement_apply(&view->placement, vec3_load(surfel->center));
     ewa_vec3 u = to_camera(view, vec3_load(surfel->axis_u_world));
     ewa_vec3 v = to_camera(view, vec3_load(surfel->axis_v_world));
@@ -470,7 +506,7 @@ static bool sample_unclipped(const ewa_reference_view *view, const ewa_reference
 bool ewa_reference_sample_at(const ewa_reference_view *view, const ewa_reference_splat *splat, double x_px,
                              double y_px, ewa_reference_sample *sample) {
     sample->share = 1;
-    if (splat->clipped) clip_sample(splat, x_px, y_px, sample);
+    if (splat->clip_count) clip_sample(splat, x_px, y_px, sample);
     if (!(sample->share > 0) || !sample_unclipped(view, splat, x_px, y_px, sample)) return false;
     sample->weight *= sample->share;
     return true;

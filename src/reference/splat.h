@@ -7,6 +7,7 @@
 
 #include "homogeneous/placement.h"
 #include "homogeneous/vec.h"
+#include "surface/semantics.h"
 #include "surface/surfel.h"
 
 /// A camera and the options that decide where a splat lies and what it weighs. Lengths in camera space are in
@@ -49,9 +50,10 @@ typedef struct ewa_reference_splat {
     ewa_vec3 normal_world;
     ewa_vec3 color;
     double opacity; ///< [0, 1]
-    bool clipped;
-    double clip[2][3]; ///< of the pixel x, y, clip . (x, y, 1) pixels from the line is how far inside
-    bool clip_either;
+    uint32_t clip_count;
+    double clip[EWA_CLIP_LINES]
+               [3];   ///< of the pixel x, y, clip . (x, y, 1) pixels from the line is how far inside
+    bool clip_either; ///< of the first two
 } ewa_reference_splat;
 
 /// A splat at a pixel.

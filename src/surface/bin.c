@@ -26,12 +26,17 @@ ewa_status ewa_bins_fill(ewa_context *context, ewa_bins *bins, const ewa_road_ke
     enum { STREAMS = offsetof(ewa_packet_places, lanes) / sizeof(float *) };
     ewa_status status = ewa_buffer_reserve(context, &bins->places_buffer, STREAMS * stride, sizeof(float));
     if (status == EWA_OK && view->section_count)
-        status = ewa_buffer_reserve(context, &bins->lanes_buffer, stride, sizeof(uint16_t));
+        status = ewa_buffer_reserve(context, &bins->lanes_buffer, 2 * stride, sizeof(uint16_t));
     if (status != EWA_OK) return status;
     float *places = bins->places_buffer.data;
     uint16_t *lanes = view->section_count ? bins->lanes_buffer.data : NULL;
-    bins->places = (ewa_packet_places){
-        places, places + stride, places + 2 * stride, places + 3 * stride, places + 4 * stride, lanes};
+    bins->places = (ewa_packet_places){places,
+                                       places + stride,
+                                       places + 2 * stride,
+                                       places + 3 * stride,
+                                       places + 4 * stride,
+                                       lanes,
+                                       lanes ? lanes + stride : NULL};
     bins->tiles = ewa_tiles_make(view->width_px, view->height_px, view->tile_px);
     const bin_job job = {kernels, view, surfels, bins->places};
     status = ewa_bin_lists_fill(context, &bins->lists, bins->tiles.columns, bins->tiles.rows,

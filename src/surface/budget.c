@@ -19,6 +19,10 @@ static const double FIRST_SPLAT_S = 60e-9, FIRST_PIXEL_S = 15e-9, COARSER = 2;
 static const double ROOM = 0.75;
 enum { PATIENCE = 2 };
 
+/// How much less a splat of a level that was never drawn is hoped to cost than one of the next coarser level: as
+/// much as may be, so that it is tried.
+static const double FINER = 3;
+
 /// What a later frame of a level that others have been drawn in between says of its cost beside theirs.
 static const double REMEMBERED = 0.25;
 
@@ -33,11 +37,18 @@ double ewa_budget_expect_s(const ewa_budget *budget, const ewa_budget_work *work
            (double)work->pixel_count * budget->pixel_s;
 }
 
-/// The finest level from `level` on that is expected to take at most `limit_s`.
+/// The finest level from `level` on that is expected to take at most `limit_s`; the fastest if none is: very
+/// coarse levels, of which each pixel sees several surfels, gain nothing.
 static uint32_t finest_within(const ewa_budget *budget, const ewa_budget_work *work, uint32_t level,
                               double limit_s) {
-    while (level + 1 < work->level_count && ewa_budget_expect_s(budget, work, level) > limit_s) level++;
-    return level;
+    uint32_t fastest = level;
+    double least_s = INFINITY;
+    for (; level < work->level_count; level++) {
+        const double expected_s = ewa_budget_expect_s(budget, work, level);
+        if (expected_s <= limit_s) return level;
+        if (expected_s < least_s) least_s = expected_s, fastest = level;
+    }
+    return fastest;
 }
 
 uint32_t ewa_budget_choose(ewa_budget *budget, double budget_s, const ewa_budget_work *work, uint32_t level) {
@@ -48,7 +59,7 @@ uint32_t ewa_budget_choose(ewa_budget *budget, double budget_s, const ewa_budget
     if (finer) {
         // Not so if only by little: the next frame might say otherwise.
         chosen = finest_within(budget, work, finest, ROOM * budget_s);
-        if (chosen > before) chosen = before;
+        chosen = chosen < before ? before - 1 : before; // step by step: what is not seen is only hoped
         budget->finer_choices = chosen < before ? budget->finer_choices + 1 : 0;
         if (budget->finer_choices < PATIENCE) chosen = before;
     }
@@ -87,6 +98,8 @@ void ewa_budget_learn(ewa_budget *budget, const ewa_budget_frame *frame) {
         for (uint32_t l = level + 1; l < EWA_MAX_LEVELS && !budget->seen[l]; l++)
             known[l] = known[l - 1] * COARSER;
     }
+    for (uint32_t l = level; l-- > 0 && !budget->seen[level] && !budget->seen[l];)
+        known[l] = known[l + 1] / FINER;
     budget->seen[level] = budget->drawn = true;
     budget->drawn_level = level;
     budget->last_splat_s = splat_s, budget->last_pixel_s = pixel_s;

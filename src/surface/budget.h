@@ -40,9 +40,9 @@ void ewa_budget_start(ewa_budget *budget);
 /// The seconds that a frame is expected to take at a level.
 double ewa_budget_expect_s(const ewa_budget *budget, const ewa_budget_work *work, uint32_t level);
 
-/// Chooses the finest level, from `level` on, that is expected to take at most `budget_s`; the last one if
-/// none is. A finer level than the one before is taken where it leaves time to spare, twice in a row, so that
-/// a still view keeps its level.
+/// Chooses the finest level, from `level` on, that is expected to take at most `budget_s`; the one that
+/// takes least if none is. The next finer level than the one before is taken where it leaves time to spare, twice in a row,
+/// so that a still view keeps its level.
 uint32_t ewa_budget_choose(ewa_budget *budget, double budget_s, const ewa_budget_work *work, uint32_t level);
 
 /// Takes a frame into the model.

@@ -237,7 +237,7 @@ static ewa_status draw(void *state, const ewa_render_job *frame, ewa_render_stat
     for (uint32_t i = 0; i < job.source_count; i++) {
         set_packets(&job, &options, &job.sources[i]);
         job.sources[i].view.materials = job.view.materials;
-        job.with_clips |= job.sources[i].packets.clip_masks != NULL;
+        job.with_clips |= job.sources[i].packets.clip_masks || job.sources[i].view.section_reach > 0;
     }
     const double binned_s = ewa_now_s();
     for (uint32_t i = 0; i < cpu->worker_count && status == EWA_OK; i++)

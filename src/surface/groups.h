@@ -1,29 +1,33 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Which surfels of a packet one coarser surfel stands for: up to four neighbours of one surface.
+// Which surfels one coarser surfel stands for: up to four neighbours of one surface.
 #ifndef EWA_SRC_SURFACE_GROUPS_H
 #define EWA_SRC_SURFACE_GROUPS_H
 
-#include "surface/packet.h"
+#include "surface/packets.h"
 
-#include <stdint.h>
+enum {
+    EWA_GROUP_SURFELS = 4,  ///< at most
+    EWA_WINDOW_PACKETS = 4, ///< at most, that are divided together
+    EWA_WINDOW_LANES = EWA_WINDOW_PACKETS * EWA_PACKET_LANES,
+};
 
-enum { EWA_GROUP_SURFELS = 4 }; ///< at most
+/// Some packets that follow each other, decoded as far as groups need it. Lane l is that of packet first + l /
+/// 16. A sigma of 0: no surfel.
+typedef struct ewa_window {
+    uint32_t first, packet_count;
+    float place[3][EWA_WINDOW_LANES]; ///< from the centre of the first packet, in the surfels' unit
+    float normal[3][EWA_WINDOW_LANES], sigma[EWA_WINDOW_LANES];
+} ewa_window;
 
-/// The lanes of each group of a packet: bit per lane.
-typedef struct ewa_packet_groups {
-    uint32_t count;
-    uint16_t lanes[EWA_PACKET_LANES];
-} ewa_packet_groups;
+void ewa_window_read(const ewa_surfels *surfels, uint32_t first, uint32_t packet_count, ewa_window *window);
 
-/// The unit normals of a packet, one array per coordinate.
-void ewa_packet_normals(const ewa_packet *packet, float normal[3][EWA_PACKET_LANES]);
-
-/// Divides a packet's surfels, all with a sigma above zero, into compact groups of as equal sizes as can be,
-/// along the widest of the axes of their places and normals, but first of all where there is a gap. Groups
-/// come in the order of their first lanes. `normal` is ewa_packet_normals(); `cutoff` is F. Any thread.
-void ewa_groups_make(const ewa_packet *packet, const float normal[3][EWA_PACKET_LANES], double cutoff,
-                     ewa_packet_groups *groups);
+/// Divides the surfels of a window into compact groups of as equal sizes as can be, along the widest of the
+/// axes of their places and normals, but first of all where there is a gap. Sets `order` to their lanes, those
+/// of a group side by side, and a bit of `starts` for the first one of each group. Returns the number of
+/// groups. Any thread.
+uint32_t ewa_groups_make(const ewa_window *window, double cutoff, uint8_t order[EWA_WINDOW_LANES],
+                         uint16_t starts[EWA_WINDOW_PACKETS]);
 
 #endif

@@ -16,7 +16,12 @@
 #include <math.h>
 #include <string.h>
 
-enum { LANES = EWA_PACKET_LANES, PART_PACKETS = 1024, LEAST_SURFELS = 1024 };
+enum {
+    LANES = EWA_PACKET_LANES,
+    PART_PACKETS = 1024,
+    LEAST_SURFELS = 1024,
+    WINDOW_APART = 128, // too far from what lies before for one packet with it
+};
 
 /// Mean normals shorter than that say nothing.
 static const double SOUND_NORMAL = 0.5;
@@ -43,13 +48,18 @@ typedef struct level_job {
     const ewa_surfels *fine;
     ewa_surfels *coarse;
     const ewa_pack_kernels *kernels;
-    double growth;             ///< of sigmas, beside what keeps the area
-    ewa_packet_groups *groups; ///< [packet of the finer level]
-    uint8_t *apart;            ///< [packet of the finer level]: too far from those before for one packet
+    double growth;    ///< of sigmas, beside what keeps the area
+    uint8_t *order;   ///< [packet of the finer level][16]: lanes of each window, as groups are
+    uint16_t *starts; ///< [packet of the finer level]: of groups
+    uint8_t *windows; ///< [packet of the finer level]: packets of the window that begins there; WINDOW_APART
     part_count *parts;
     uint32_t part_count;
     uint8_t *lane_counts; ///< [packet of the coarser level]
 } level_job;
+
+/// As fmin() and fmax() of numbers, without the calls.
+static inline double least(double a, double b) { return a < b ? a : b; }
+static inline double most(double a, double b) { return a > b ? a : b; }
 
 /// Boxes around packets that may become one.
 typedef struct open_box {
@@ -64,26 +74,62 @@ static uint64_t part_end(const level_job *job, uint32_t part) {
 /// Puts a packet into the box; false where that becomes too wide for single precision.
 static bool open_with(open_box *box, const ewa_surfels *fine, uint32_t index) {
     const ewa_packet *packet = &fine->packets[index];
-    const ewa_vec3 center = ewa_packet_center(fine, index);
-    const double middle[3] = {center.x, center.y, center.z};
-    const float *const places[3] = {packet->x, packet->y, packet->z};
+    const uint32_t bits = (uint32_t)fine->bounds.radius[index] << EWA_RADIUS_SHIFT;
+    float radius, sigma = INFINITY;
+    memcpy(&radius, &bits, sizeof radius);
+    for (int lane = 0; lane < LANES; lane++) {
+        const float here = packet->sigma[lane];
+        sigma = here > 0 && here < sigma ? here : sigma;
+    }
+    box->least_sigma = least(box->least_sigma, (double)sigma);
+    double center[3];
+    vec3_store(ewa_packet_center(fine, index), center);
     bool fits = true;
-    for (int lane = 0; lane < LANES; lane++)
-        if (packet->sigma[lane] > 0) box->least_sigma = fmin(box->least_sigma, (double)packet->sigma[lane]);
     for (int c = 0; c < 3; c++) {
-        float low = places[c][0], high = low;
-        for (int lane = 1; lane < LANES; lane++) {
-            low = places[c][lane] < low ? places[c][lane] : low;
-            high = places[c][lane] > high ? places[c][lane] : high;
-        }
-        box->low[c] = fmin(box->low[c], middle[c] + (double)low);
-        box->high[c] = fmax(box->high[c], middle[c] + (double)high);
+        box->low[c] = least(box->low[c], center[c] - (double)radius);
+        box->high[c] = most(box->high[c], center[c] + (double)radius);
         fits &= box->high[c] - box->low[c] <= EWA_PACKET_REACH * box->least_sigma;
     }
     return fits;
 }
 
 static const open_box EMPTY = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, INFINITY};
+
+/// Takes packets into a window, up to one that would make the open packet too wide; returns the window, with
+/// WINDOW_APART if that is so for the first one.
+static uint8_t take_window(const ewa_surfels *fine, open_box *box, bool open, uint32_t first, uint32_t end) {
+    uint32_t count = 0, apart = 0;
+    for (; count < EWA_WINDOW_PACKETS && first + count < end; count++) {
+        if (open_with(box, fine, first + count) || (count == 0 && !open)) continue;
+        if (count > 0) break; // the box keeps it: the next window is apart
+        apart = WINDOW_APART;
+        *box = EMPTY;
+        open_with(box, fine, first);
+    }
+    return (uint8_t)(count | apart);
+}
+
+/// Whether a group has a member with clip lines.
+static uint32_t clipped_count(const ewa_surfels *fine, const uint8_t *order, uint32_t first_packet,
+                              uint32_t first, uint32_t end) {
+    uint32_t count = 0;
+    for (uint32_t i = first; i < end; i++)
+        count += fine->clip_masks[first_packet + order[i] / LANES] >> order[i] % LANES & 1;
+    return count;
+}
+
+/// The end of the group that begins at `first` of a window's order.
+static uint32_t group_end(const uint16_t *starts, uint32_t first, uint32_t surfel_count) {
+    uint32_t end = first + 1;
+    while (end < surfel_count && !(starts[end / LANES] >> end % LANES & 1)) end++;
+    return end;
+}
+
+static uint32_t surfels_of(const ewa_window *window) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < window->packet_count * LANES; i++) count += window->sigma[i] > 0;
+    return count;
+}
 
 /// Divides the packets of a part into groups and counts what these give.
 static void count_part(void *data, uint32_t part, uint32_t worker) {
@@ -93,23 +139,28 @@ static void count_part(void *data, uint32_t part, uint32_t worker) {
     part_count made = {0};
     open_box box = EMPTY;
     uint32_t open = 0; // surfels of a packet that is not full
-    for (uint64_t p = (uint64_t)part * PART_PACKETS; p < part_end(job, part); p++) {
-        ewa_packet_groups *groups = &job->groups[p];
-        float normal[3][LANES];
-        ewa_packet_normals(&fine->packets[p], normal);
-        ewa_groups_make(&fine->packets[p], (const float(*)[LANES])normal, fine->cutoff, groups);
-        job->apart[p] = !open_with(&box, fine, (uint32_t)p) && open > 0;
-        if (job->apart[p]) made.packets++, open = 0;
-        open += groups->count;
-        if (job->apart[p] || open >= LANES) {
-            box = EMPTY;
-            open_with(&box, fine, (uint32_t)p);
-        }
+    const uint32_t end = (uint32_t)part_end(job, part);
+    for (uint32_t p = part * PART_PACKETS, count; p < end; p += count) {
+        ewa_window window;
+        job->windows[p] = take_window(fine, &box, open > 0, p, end);
+        count = job->windows[p] % WINDOW_APART;
+        ewa_window_read(fine, p, count, &window);
+        uint8_t *order = job->order + (size_t)p * LANES;
+        const uint32_t groups = ewa_groups_make(&window, fine->cutoff, order, job->starts + p);
+        if (job->windows[p] & WINDOW_APART) made.packets++, open = 0;
+        open += groups;
+        made.surfels += groups;
         made.packets += open / LANES;
+        if (open >= LANES) {
+            box = EMPTY;
+            for (uint32_t k = 0; k < count && open % LANES; k++) open_with(&box, fine, p + k);
+        }
         open %= LANES;
-        made.surfels += groups->count;
-        for (uint32_t g = 0; fine->clip_masks && g < groups->count; g++)
-            made.clips += (groups->lanes[g] & fine->clip_masks[p]) != 0;
+        const uint32_t surfels = fine->clip_masks ? surfels_of(&window) : 0;
+        for (uint32_t first = 0, next; first < surfels; first = next) {
+            next = group_end(job->starts + p, first, surfels);
+            made.clips += clipped_count(fine, order, p, first, next) > 0;
+        }
     }
     made.packets += open > 0;
     job->parts[part] = made;
@@ -118,13 +169,13 @@ static void count_part(void *data, uint32_t part, uint32_t worker) {
 /// Where each part's packets and clip lines begin. Without packets kept apart, if these would be too many.
 static void place_parts(level_job *job) {
     enum { ALWAYS = 64 }; // more packets that any level may have
-    uint64_t packets = 0, least = 0, clips = 0, surfels = 0;
+    uint64_t packets = 0, full = 0, clips = 0, surfels = 0;
     for (uint32_t part = 0; part < job->part_count; part++) {
         packets += job->parts[part].packets;
-        least += ((uint64_t)job->parts[part].surfels + LANES - 1) / LANES;
+        full += ((uint64_t)job->parts[part].surfels + LANES - 1) / LANES;
     }
-    const bool spread = packets > least + least / 4 + ALWAYS;
-    if (spread) memset(job->apart, 0, job->fine->packet_count);
+    const bool spread = packets > full + full / 4 + ALWAYS;
+    for (uint32_t p = 0; spread && p < job->fine->packet_count; p++) job->windows[p] &= WINDOW_APART - 1;
     packets = 0;
     for (uint32_t part = 0; part < job->part_count; part++) {
         part_count *made = &job->parts[part];
@@ -140,52 +191,54 @@ static void place_parts(level_job *job) {
 /// The members of a group, decoded.
 typedef struct group_members {
     uint32_t count;
-    uint32_t lane[EWA_GROUP_SURFELS];
-    double area[EWA_GROUP_SURFELS], share[EWA_GROUP_SURFELS]; ///< sigma_u sigma_v; of the sum of all
-    ewa_vec3 place[EWA_GROUP_SURFELS], normal[EWA_GROUP_SURFELS];
+    uint32_t packet[EWA_GROUP_SURFELS], lane[EWA_GROUP_SURFELS];
+    double share[EWA_GROUP_SURFELS]; ///< of the sum of areas sigma_u sigma_v
+    double sigma[EWA_GROUP_SURFELS];
+    bool clipped[EWA_GROUP_SURFELS], any_clipped;
+    ewa_vec3 place[EWA_GROUP_SURFELS], normal[EWA_GROUP_SURFELS]; ///< as in the window
 } group_members;
 
-static void read_members(const ewa_surfels *fine, uint32_t index, const float normal[3][LANES],
-                         uint32_t lanes, group_members *members) {
-    const ewa_packet *packet = &fine->packets[index];
+static void read_members(const ewa_surfels *fine, const ewa_window *window, const uint8_t *lanes,
+                         group_members *members) {
+    const uint32_t count = members->count;
     double sum = 0;
-    members->count = 0;
-    for (; lanes; lanes &= lanes - 1) {
-        const uint32_t lane = (uint32_t)__builtin_ctz(lanes), i = members->count++;
-        const double sigma = (double)packet->sigma[lane], root = packet->ratio[lane] / 65535.0;
-        members->lane[i] = lane;
-        members->area[i] = sigma * sigma * (fine->ellipses ? root * root * root * root : 1);
-        members->place[i] =
-            vec3_make((double)packet->x[lane], (double)packet->y[lane], (double)packet->z[lane]);
-        members->normal[i] =
-            vec3_make((double)normal[0][lane], (double)normal[1][lane], (double)normal[2][lane]);
-        sum += members->area[i];
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t at = lanes[i], packet = window->first + at / LANES, lane = at % LANES;
+        const double root = fine->packets[packet].ratio[lane] / 65535.0;
+        members->packet[i] = packet, members->lane[i] = lane;
+        members->sigma[i] = (double)window->sigma[at];
+        members->share[i] =
+            members->sigma[i] * members->sigma[i] * (fine->ellipses ? root * root * root * root : 1);
+        members->place[i] = vec3_make((double)window->place[0][at], (double)window->place[1][at],
+                                      (double)window->place[2][at]);
+        members->normal[i] = vec3_make((double)window->normal[0][at], (double)window->normal[1][at],
+                                       (double)window->normal[2][at]);
+        members->clipped[i] = fine->clip_masks && fine->clip_masks[packet] >> lane & 1;
+        members->any_clipped |= members->clipped[i];
+        sum += members->share[i];
     }
     // Areas may vanish where sigmas do not.
-    for (uint32_t i = 0; i < members->count; i++)
-        members->share[i] = sum > 0 ? members->area[i] / sum : 1.0 / members->count;
+    for (uint32_t i = 0; i < count; i++) members->share[i] = sum > 0 ? members->share[i] / sum : 1.0 / count;
 }
 
-/// The member among those of `mask` that is nearest to a place.
-static uint32_t nearest_member(const group_members *members, uint32_t mask, ewa_vec3 place) {
+/// The member that is nearest to a place, of those with clip lines if there are any.
+static uint32_t nearest_member(const group_members *members, ewa_vec3 place) {
     uint32_t nearest = 0;
-    double least = INFINITY;
+    double nearest2 = INFINITY;
     for (uint32_t i = 0; i < members->count; i++) {
         const ewa_vec3 way = vec3_sub(members->place[i], place);
         const double distance2 = vec3_dot(way, way);
-        if (mask >> members->lane[i] & 1 && distance2 < least) least = distance2, nearest = i;
+        if (distance2 < nearest2 && members->clipped[i] == members->any_clipped)
+            nearest2 = distance2, nearest = i;
     }
     return nearest;
 }
 
 /// Colour and opacity: what a pixel that all members fill alike sees.
-static void mix_colors(const ewa_surfels *fine, uint32_t index, const group_members *members,
-                       stand_in *made) {
-    const ewa_packet *packet = &fine->packets[index];
-    const uint16_t form = fine->bounds.colors[index];
+static void mix_colors(const ewa_surfels *fine, const group_members *members, stand_in *made) {
     double opaque[EWA_GROUP_SURFELS], sum = 0;
     for (uint32_t i = 0; i < members->count; i++) {
-        const size_t at = (size_t)index * LANES + members->lane[i];
+        const size_t at = (size_t)members->packet[i] * LANES + members->lane[i];
         opaque[i] = members->share[i] * (fine->opacities ? fine->opacities[at] / 65535.0 : 1);
         sum += opaque[i];
     }
@@ -193,10 +246,13 @@ static void mix_colors(const ewa_surfels *fine, uint32_t index, const group_memb
     memset(made->color, 0, sizeof made->color);
     for (uint32_t i = 0; i < members->count; i++) {
         const uint32_t lane = members->lane[i];
+        const ewa_packet *packet = &fine->packets[members->packet[i]];
+        const uint16_t form = fine->bounds.colors[members->packet[i]];
         const double part = sum > 0 ? opaque[i] / sum : members->share[i];
-        made->color[0] += part * ewa_color_decode_code(form, packet->red[lane]);
-        made->color[1] += part * ewa_color_decode_code(form, packet->green[lane]);
-        made->color[2] += part * ewa_color_decode_code(form, packet->blue[lane]);
+        const uint16_t codes[3] = {packet->red[lane], packet->green[lane], packet->blue[lane]};
+        for (int c = 0; c < 3; c++)
+            made->color[c] += part * (form == EWA_COLOR_FORM_UNIT ? codes[c] * (1 / 65535.0)
+                                                                  : ewa_color_decode_code(form, codes[c]));
     }
 }
 
@@ -224,46 +280,50 @@ static void move_clip(const ewa_surfels *fine, uint32_t index, uint32_t lane, ew
 }
 
 /// Makes what stands for a group: in its middle, where that is on its surface, else at the nearest member.
-static void make_stand_in(const level_job *job, uint32_t index, const float normal[3][LANES], uint32_t lanes,
-                          stand_in *made) {
+static void make_stand_in(const level_job *job, const ewa_window *window, const uint8_t *lanes,
+                          uint32_t count, stand_in *made) {
     const ewa_surfels *fine = job->fine;
-    const ewa_packet *packet = &fine->packets[index];
-    group_members members;
-    read_members(fine, index, normal, lanes, &members);
+    group_members members = {.count = count};
+    read_members(fine, window, lanes, &members);
     ewa_vec3 middle = vec3_make(0, 0, 0);
-    for (uint32_t i = 0; i < members.count; i++)
+    for (uint32_t i = 0; i < count; i++)
         middle = vec3_add(middle, vec3_scale(members.place[i], members.share[i]));
-    const uint32_t clipped = fine->clip_masks ? lanes & fine->clip_masks[index] : 0;
-    const uint32_t pick = nearest_member(&members, clipped ? clipped : lanes, middle);
-    const uint32_t lane = members.lane[pick];
+    const uint32_t pick = nearest_member(&members, middle), index = members.packet[pick],
+                   lane = members.lane[pick];
+    const ewa_packet *packet = &fine->packets[index];
     // A line is in its surfel's plane.
     const ewa_vec3 own = members.normal[pick];
-    made->normal = clipped ? own : mean_normal(&members, own);
-    const double grown = job->growth * sqrt(1 / members.share[pick]), sigma = (double)packet->sigma[lane];
-    double reach = 0, height = 0;
-    for (uint32_t i = 0; i < members.count; i++) {
+    made->normal = members.any_clipped ? own : mean_normal(&members, own);
+    const double sigma = members.sigma[pick];
+    double reach = 0, height = 0, spread = 0;
+    for (uint32_t i = 0; i < count; i++) {
         const ewa_vec3 way = vec3_sub(members.place[i], middle);
-        height = fmax(height, fabs(vec3_dot(way, made->normal)));
+        const double distance = vec3_length(way);
+        height = most(height, fabs(vec3_dot(way, made->normal)));
+        spread = most(spread, distance);
         // Where surfels lie upon each other the area is not that of what they cover.
-        reach = fmax(reach, 4 * vec3_length(way) + fine->cutoff * (double)packet->sigma[members.lane[i]]);
+        reach = most(reach, 4 * distance + fine->cutoff * members.sigma[i]);
     }
-    made->sigma = fmax(sigma, fmin(sigma * grown, reach / fine->cutoff));
-    ewa_vec3 place = members.place[pick];
+    const double grown = most(sigma / sqrt(members.share[pick]), spread / EWA_LEVEL_SPREAD) * job->growth;
+    made->sigma = most(sigma, least(grown, reach / fine->cutoff));
+    ewa_vec3 moved = vec3_make(0, 0, 0);
     if (height <= made->sigma) {
-        const ewa_vec3 way = vec3_sub(middle, place);
-        place = clipped ? vec3_sub(middle, vec3_scale(own, vec3_dot(way, own))) : middle;
+        moved = vec3_sub(middle, members.place[pick]);
+        if (members.any_clipped) moved = vec3_sub(moved, vec3_scale(own, vec3_dot(moved, own)));
     }
-    made->center = vec3_add(ewa_packet_center(fine, index), place);
+    const ewa_vec3 offset =
+        vec3_make((double)packet->x[lane], (double)packet->y[lane], (double)packet->z[lane]);
+    made->center = vec3_add(ewa_packet_center(fine, index), vec3_add(offset, moved));
     made->ratio = packet->ratio[lane];
-    made->clipped = clipped != 0;
-    if (clipped) move_clip(fine, index, lane, vec3_sub(place, members.place[pick]), &made->clip);
+    made->clipped = members.any_clipped;
+    if (made->clipped) move_clip(fine, index, lane, moved, &made->clip);
     made->material = fine->materials ? fine->materials[(size_t)index * LANES + lane] : fine->material;
     if (made->ratio != UINT16_MAX) {
         ewa_packet_surfel decoded;
         ewa_packet_decode(fine, index, lane, &decoded);
         made->axis_u = decoded.axis_u;
     }
-    mix_colors(fine, index, &members, made);
+    mix_colors(fine, &members, made);
 }
 
 /// Packs 1 to 16 surfels as packet `index`; all lanes behind them are like the first. Its centre becomes the
@@ -306,34 +366,45 @@ static void encode_packet(const level_job *job, uint32_t index, const stand_in *
     job->lane_counts[index] = (uint8_t)count;
 }
 
+/// Whether all colours of a window have the plain form.
+static bool plain_colors(const ewa_surfels *fine, const ewa_window *window) {
+    bool plain = true;
+    for (uint32_t k = 0; k < window->packet_count; k++)
+        plain &= fine->bounds.colors[window->first + k] == EWA_COLOR_FORM_UNIT;
+    return plain;
+}
+
 static void encode_part(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const level_job *job = data;
     const ewa_surfels *fine = job->fine;
-    uint32_t next = job->parts[part].first_packet, pending = 0;
+    uint32_t index = job->parts[part].first_packet, pending = 0;
     ewa_surfel_clip *clips = fine->clip_masks ? job->coarse->clips + job->parts[part].first_clip : NULL;
     bool even = true; // all colours that are pending are of the plain form
-    stand_in made[2 * LANES];
-    for (uint64_t p = (uint64_t)part * PART_PACKETS; p < part_end(job, part); p++) {
-        const ewa_packet_groups *groups = &job->groups[p];
-        float normal[3][LANES];
-        ewa_packet_normals(&fine->packets[p], normal);
-        if (job->apart[p] && pending) {
-            encode_packet(job, next++, made, pending, even, &clips);
+    stand_in made[LANES];
+    const uint32_t end = (uint32_t)part_end(job, part);
+    for (uint32_t p = part * PART_PACKETS, count; p < end; p += count) {
+        ewa_window window;
+        count = job->windows[p] % WINDOW_APART;
+        ewa_window_read(fine, p, count, &window);
+        if (job->windows[p] & WINDOW_APART && pending) {
+            encode_packet(job, index++, made, pending, even, &clips);
             pending = 0;
         }
-        const bool plain = fine->bounds.colors[p] == EWA_COLOR_FORM_UNIT;
+        const bool plain = plain_colors(fine, &window);
         even = (even || pending == 0) && plain;
-        for (uint32_t g = 0; g < groups->count; g++)
-            make_stand_in(job, (uint32_t)p, (const float(*)[LANES])normal, groups->lanes[g],
-                          &made[pending++]);
-        if (pending < LANES) continue;
-        encode_packet(job, next++, made, LANES, even, &clips);
-        pending -= LANES;
-        memcpy(made, made + LANES, pending * sizeof *made);
-        even = plain;
+        const uint8_t *order = job->order + (size_t)p * LANES;
+        const uint32_t surfels = surfels_of(&window);
+        for (uint32_t first = 0, next; first < surfels; first = next) {
+            next = group_end(job->starts + p, first, surfels);
+            make_stand_in(job, &window, order + first, next - first, &made[pending++]);
+            if (pending < LANES) continue;
+            encode_packet(job, index++, made, LANES, even, &clips);
+            pending = 0;
+            even = plain;
+        }
     }
-    if (pending) encode_packet(job, next, made, pending, even, &clips);
+    if (pending) encode_packet(job, index, made, pending, even, &clips);
 }
 
 /// Bounds sixteen packets, fewer at the end.
@@ -404,14 +475,16 @@ static ewa_status make_level(ewa_surfels *fine, double growth) {
                      .kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_pack_kernels),
                      .growth = growth,
                      .part_count = parts};
-    job.groups = ewa_allocate(context, fine->packet_count, sizeof *job.groups);
-    job.apart = ewa_allocate(context, fine->packet_count, sizeof *job.apart);
+    job.order = ewa_allocate(context, (size_t)fine->packet_count * LANES, sizeof *job.order);
+    job.starts = ewa_allocate(context, fine->packet_count, sizeof *job.starts);
+    job.windows = ewa_allocate(context, fine->packet_count, sizeof *job.windows);
     job.parts = ewa_allocate(context, parts, sizeof *job.parts);
     job.coarse = ewa_allocate_zeroed(context, 1, sizeof *job.coarse);
-    ewa_status status = job.groups && job.apart && job.parts && job.coarse ? EWA_OK : EWA_ERROR_MEMORY;
+    if (job.coarse) job.coarse->context = context;
+    const bool room = job.order && job.starts && job.windows && job.parts && job.coarse;
+    ewa_status status = room ? EWA_OK : EWA_ERROR_MEMORY;
     if (status == EWA_OK) {
         ewa_surfels *coarse = job.coarse;
-        coarse->context = context;
         coarse->material = fine->material, coarse->most_material = fine->most_material;
         coarse->unit = fine->unit, coarse->cutoff = fine->cutoff, coarse->ellipses = fine->ellipses;
         coarse->extent = fine->extent;
@@ -422,8 +495,9 @@ static ewa_status make_level(ewa_surfels *fine, double growth) {
         if (worth) status = encode_level(&job);
         if (worth && status == EWA_OK) fine->coarser = coarse;
     }
-    ewa_release(context, job.groups, fine->packet_count, sizeof *job.groups);
-    ewa_release(context, job.apart, fine->packet_count, sizeof *job.apart);
+    ewa_release(context, job.order, (size_t)fine->packet_count * LANES, sizeof *job.order);
+    ewa_release(context, job.starts, fine->packet_count, sizeof *job.starts);
+    ewa_release(context, job.windows, fine->packet_count, sizeof *job.windows);
     ewa_release(context, job.parts, parts, sizeof *job.parts);
     if (!fine->coarser) ewa_surfels_destroy(&job.coarse);
     return status;

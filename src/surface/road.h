@@ -15,6 +15,7 @@
 #include "image/environment.h"
 #include "road/bin.h"
 #include "surface/packet.h"
+#include "surface/semantics.h"
 #include "wide/isa.h"
 #include "wide/lights.h"
 
@@ -96,6 +97,7 @@ typedef struct ewa_view {
                              ///< reach_px and a pixel
     double sections[EWA_MAX_SECTION_PLANES][4]; ///< unit normal inward, distance from where packets' centres
     uint32_t section_count;                     ///< are measured from, in their unit
+    float section_reach;                        ///< F; 0 for points
 } ewa_view;
 
 /// Packets' centres in camera space, one entry each, written by `cull` for those that it keeps. Surfels are
@@ -107,6 +109,7 @@ typedef struct ewa_view {
 typedef struct ewa_packet_places {
     float *slope_x, *slope_y, *rest_x, *rest_y, *depth;
     uint16_t *lanes; ///< a bit per surfel that the section planes leave; NULL: no planes
+    uint16_t *cuts;  ///< a bit per surfel that one of them cuts; NULL: none is
 } ewa_packet_places;
 
 /// One splat in one tile. Places are measured from the middle of the field, of EWA_FIELD_PX pixels a side,
@@ -156,10 +159,11 @@ typedef struct ewa_clip_line {
     float per_narrow, per_widths; ///< 1 / narrow (0 for 0), 1 / twice the larger
 } ewa_clip_line;
 
-/// The clip lines of a splat.
+/// The clip lines of a splat. What all keep is kept.
 typedef struct ewa_clip {
-    ewa_clip_line line[2];
-    bool either; ///< what one line keeps is kept, else what both keep
+    ewa_clip_line line[EWA_CLIP_LINES];
+    uint32_t count; ///< of `line`, at least 2
+    bool either;    ///< of the first two lines: what one of them keeps is kept
 } ewa_clip;
 
 /// A splat of a run that has clip lines.

@@ -43,11 +43,22 @@ static ALWAYS_INLINE void add_cut(const ewa_tile *tile, uint32_t row, uint32_t c
     float *sums = visit_marked(tile, &apart->cut, apart->cut_rows, row, column, EWA_CUT_CHANNELS);
     wf decides[2];
     for (int i = 0; i < 2; i++) decides[i] = clip->either ? left->line[i] : wf_sub(one, left->line[i]);
-    const wf sum = wf_add(decides[0], decides[1]);
-    const wf scaled = wf_div(one, wf_select(wf_lt(zero, sum), sum, one));
+    wf sum = wf_add(decides[0], decides[1]);
     const ewa_clip_line *lines = clip->line;
-    const wf x = wf_fma(decides[0], wf_set(lines[0].x_inward), wf_mul(decides[1], wf_set(lines[1].x_inward)));
-    const wf y = wf_fma(decides[0], wf_set(lines[0].y_inward), wf_mul(decides[1], wf_set(lines[1].y_inward)));
+    wf x = wf_fma(decides[0], wf_set(lines[0].x_inward), wf_mul(decides[1], wf_set(lines[1].x_inward)));
+    wf y = wf_fma(decides[0], wf_set(lines[0].y_inward), wf_mul(decides[1], wf_set(lines[1].y_inward)));
+    if (clip->count > 2 && clip->either) { // one line beside the others
+        const wf off_first = wf_sub(one, left->first);
+        const wf share = wf_div(off_first, wf_select(wf_lt(zero, sum), sum, one));
+        x = wf_mul(x, share), y = wf_mul(y, share), sum = off_first;
+    }
+    for (uint32_t i = 2; i < clip->count; i++) {
+        const wf decides_too = wf_sub(one, left->line[i]);
+        x = wf_fma(decides_too, wf_set(lines[i].x_inward), x);
+        y = wf_fma(decides_too, wf_set(lines[i].y_inward), y);
+        sum = wf_add(sum, decides_too);
+    }
+    const wf scaled = wf_div(one, wf_select(wf_lt(zero, sum), sum, one));
     const wf parts[EWA_CUT_CHANNELS] = {[CUT_KEPT] = left->share,
                                         [CUT_WHOLE] = one,
                                         [CUT_X] = wf_mul(scaled, x),

@@ -30,18 +30,21 @@ static ALWAYS_INLINE wf half_plane_share(const wide_line *l, wf x, wf y) {
 
 /// What clip lines leave of pixels' squares.
 typedef struct clip_sample {
-    wf line[2]; ///< each of them
-    wf share;   ///< both, or either
+    wf line[EWA_CLIP_LINES]; ///< each of them
+    wf first;                ///< the first two together
+    wf share;                ///< all together
 } clip_sample;
 
 static ALWAYS_INLINE clip_sample clip_at(const ewa_clip *clip, wf x, wf y) {
     clip_sample sample;
-    for (int i = 0; i < 2; i++) {
+    for (uint32_t i = 0; i < clip->count; i++) {
         const wide_line line = broadcast_line(&clip->line[i]);
         sample.line[i] = half_plane_share(&line, x, y);
     }
-    sample.share =
+    sample.first =
         clip->either ? wf_max(sample.line[0], sample.line[1]) : wf_min(sample.line[0], sample.line[1]);
+    sample.share = sample.first;
+    for (uint32_t i = 2; i < clip->count; i++) sample.share = wf_min(sample.share, sample.line[i]);
     return sample;
 }
 

@@ -171,7 +171,7 @@ static uint32_t cull(const ewa_view *view, const ewa_packet *packets, const ewa_
         const uint32_t left = first + count - p;
         if (left < 16) alive = wm_and(alive, wm_of_bits((1u << left) - 1));
         if (!wm_bits(alive)) continue;
-        if (view->section_count) alive = keep_sections(view, packets, bounds, p, alive, places->lanes);
+        if (view->section_count) alive = keep_sections(view, packets, bounds, p, alive, places);
         if (!wm_bits(alive)) continue;
         if (view->cull_back) alive = wm_and(alive, wm_not(back_facing(view, bounds, p, &o)));
         if (!wm_bits(alive)) continue;

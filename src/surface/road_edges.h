@@ -179,7 +179,8 @@ typedef struct splat_lanes {
     wf dy[EWA_BLOCK_PX];       ///< by row
     wf yy, key_y, bound_y;
     wm steep, clipped;
-    wide_line line[2];
+    wide_line line[EWA_CLIP_LINES];
+    uint32_t line_count;                             ///< the most that one of them has
     wf either;                                       ///< of clipped ones
     wf key_low, key_high, bound_scale, bound_offset; ///< of steep ones
 } splat_lanes;
@@ -189,18 +190,22 @@ static void load_lines(const ewa_clip *clips, const uint32_t *indices, uint32_t 
                        splat_lanes *s) {
     enum { NUMBERS = sizeof(ewa_clip_line) / sizeof(float) };
     static const ewa_clip_line keep_all = {.offset = 1};
-    float numbers[2][NUMBERS][EWA_BLOCK_LANES], either[EWA_BLOCK_LANES];
+    float numbers[EWA_CLIP_LINES][NUMBERS][EWA_BLOCK_LANES], either[EWA_BLOCK_LANES];
+    s->line_count = 2;
+    for (uint32_t i = 0; i < count && i < EWA_BLOCK_LANES; i++)
+        if ((clipped_bits >> i & 1) && clips[indices[i]].count > s->line_count)
+            s->line_count = clips[indices[i]].count;
     for (uint32_t i = 0; i < EWA_BLOCK_LANES; i++) {
         const bool clipped = clipped_bits >> i & 1;
         const ewa_clip *clip = clipped ? &clips[indices[i < count ? i : count - 1]] : NULL;
-        for (int k = 0; k < 2; k++) {
+        for (uint32_t k = 0; k < s->line_count; k++) {
             float line[NUMBERS];
-            memcpy(line, clip ? &clip->line[k] : &keep_all, sizeof line);
+            memcpy(line, clip && k < clip->count ? &clip->line[k] : &keep_all, sizeof line);
             for (int c = 0; c < NUMBERS; c++) numbers[k][c][i] = line[c];
         }
         either[i] = clip && clip->either;
     }
-    for (int k = 0; k < 2; k++)
+    for (uint32_t k = 0; k < s->line_count; k++)
         s->line[k] = (wide_line){wf_load(numbers[k][0]), wf_load(numbers[k][1]), wf_load(numbers[k][2]),
                                  wf_load(numbers[k][3]), wf_load(numbers[k][4]), wf_load(numbers[k][5]),
                                  wf_load(numbers[k][6])};
@@ -209,9 +214,13 @@ static void load_lines(const ewa_clip *clips, const uint32_t *indices, uint32_t 
 
 /// The shares of sixteen splats at one pixel.
 static ALWAYS_INLINE wf lane_shares(const splat_lanes *s, float x, float y) {
-    wf share[2];
-    for (int i = 0; i < 2; i++) share[i] = half_plane_share(&s->line[i], wf_set(x), wf_set(y));
-    return wf_select(wf_lt(wf_set(0), s->either), wf_max(share[0], share[1]), wf_min(share[0], share[1]));
+    const wf x_px = wf_set(x), y_px = wf_set(y);
+    wf own[2];
+    for (int i = 0; i < 2; i++) own[i] = half_plane_share(&s->line[i], x_px, y_px);
+    wf share = wf_select(wf_lt(wf_set(0), s->either), wf_max(own[0], own[1]), wf_min(own[0], own[1]));
+    for (uint32_t i = 2; i < s->line_count; i++)
+        share = wf_min(share, half_plane_share(&s->line[i], x_px, y_px));
+    return share;
 }
 
 /// The same numbers as column_terms and the passes over whole boxes get.

@@ -415,7 +415,8 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_sour
     uint8_t same[EWA_PACKET_LANES];
     const uint8_t *materials = source->materials ? source->materials + first_lane : same;
     if (run->materials && !source->materials) memset(same, source->material, sizeof same);
-    const wm clipped = wm_of_bits(source->clip_masks ? source->clip_masks[id] : 0);
+    const uint32_t own = source->clip_masks ? source->clip_masks[id] : 0;
+    const wm clipped = wm_of_bits(own | (source->places.cuts ? source->places.cuts[id] : 0));
     const wf c1_px = wf_mul(t->c1, wf_set(view->fx_zoomed)), c2_px = wf_mul(t->c2, wf_set(view->fy_zoomed));
     const wf slope = wf_sqrt(wf_fma(t->key_x, t->key_x, wf_mul(t->key_y, t->key_y)));
     // The depth that the prefilter reaches across, the most that goes into the tolerance, and how far the

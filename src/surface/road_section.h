@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of road_body.h: what section planes leave of packets (semantics.h, section 2).
+// Part of road_body.h: what section planes leave of packets (docs/math.md section 5; semantics.h, section planes).
 #ifndef EWA_SRC_SURFACE_ROAD_SECTION_H
 #define EWA_SRC_SURFACE_ROAD_SECTION_H
 
-#include "surface/road_camera.h"
+#include "surface/road_project.h"
 #include "wide/wide_double.h"
 
 /// The distances of packets' centres [first, first + 16) from a section plane, inward. Rounding to floats keeps
@@ -19,23 +19,34 @@ static ALWAYS_INLINE wf section_distance(const double plane[4], const ewa_packet
     return wf_from_d(distance);
 }
 
-/// Which surfels of a packet have their centres inside of all planes; `distances` are the packet's.
-static inline uint32_t section_lanes(const ewa_view *view, const ewa_packet *packet,
-                                     const float distances[EWA_MAX_SECTION_PLANES]) {
+/// Which surfels of a packet the section planes leave, and which of them they cut; `distances` are the packet's.
+static inline void section_lanes(const ewa_view *view, const ewa_packet *packet,
+                                 const float distances[EWA_MAX_SECTION_PLANES], uint16_t *lanes,
+                                 uint16_t *cuts) {
     const wf x = wf_load(packet->x), y = wf_load(packet->y), z = wf_load(packet->z);
-    wm inside = wf_lt(wf_set(0), wf_load(packet->sigma));
+    const wf zero = wf_set(0), support = wf_mul(wf_load(packet->sigma), wf_set(view->section_reach));
+    wf normal[3];
+    decode_normals(packet, normal);
+    make_unit(normal);
+    wm inside = wf_lt(zero, wf_load(packet->sigma)), cut = wm_of_bits(0);
     for (uint32_t k = 0; k < view->section_count; k++) {
-        const double *n = view->sections[k];
-        const wf yz = wf_fma(wf_set((float)n[1]), y, wf_fma(wf_set((float)n[2]), z, wf_set(distances[k])));
-        inside = wm_and(inside, wf_le(wf_set(0), wf_fma(wf_set((float)n[0]), x, yz)));
+        wf n[3];
+        for (int i = 0; i < 3; i++) n[i] = wf_set((float)view->sections[k][i]);
+        const wf yz = wf_fma(n[1], y, wf_fma(n[2], z, wf_set(distances[k]))), distance = wf_fma(n[0], x, yz);
+        const wf along = wf_fma(n[0], normal[0], wf_fma(n[1], normal[1], wf_mul(n[2], normal[2])));
+        const wf reach = wf_mul(support, wf_sqrt(wf_max(wf_fnma(along, along, wf_set(1)), zero)));
+        inside = wm_and(inside, wm_or(wf_le(zero, distance), wf_lt(wf_negate(reach), distance)));
+        cut = wm_or(cut, wf_lt(distance, reach));
     }
-    return wm_bits(inside);
+    *lanes = (uint16_t)wm_bits(inside);
+    *cuts = (uint16_t)wm_bits(wm_and(inside, cut));
 }
 
-/// Leaves, of packets [first, first + 16), those that reach into what the section planes keep, and sets
-/// `lanes` of these.
+/// Leaves, of packets [first, first + 16), those that reach into what the section planes keep, and sets what
+/// is left of these.
 static inline wm keep_sections(const ewa_view *view, const ewa_packet *packets,
-                               const ewa_packet_bounds *bounds, uint32_t first, wm alive, uint16_t *lanes) {
+                               const ewa_packet_bounds *bounds, uint32_t first, wm alive,
+                               const ewa_packet_places *places) {
     const wf radius = wf_of_bits(wi_shl(wi_load_u16(bounds->radius + first), EWA_RADIUS_SHIFT));
     float distances[EWA_MAX_SECTION_PLANES][16];
     wm crossed = wm_of_bits(0);
@@ -46,14 +57,14 @@ static inline wm keep_sections(const ewa_view *view, const ewa_packet *packets,
         wf_store(distances[k], distance);
     }
     uint32_t kept = wm_bits(alive), some = kept & wm_bits(crossed);
-    for (uint32_t left = kept; left; left &= left - 1) lanes[first + (uint32_t)__builtin_ctz(left)] = 0xffff;
+    memset(places->lanes + first, 0xff, 16 * sizeof *places->lanes);
+    memset(places->cuts + first, 0, 16 * sizeof *places->cuts);
     for (; some; some &= some - 1) {
         const uint32_t i = (uint32_t)__builtin_ctz(some);
         float own[EWA_MAX_SECTION_PLANES];
         for (uint32_t k = 0; k < view->section_count; k++) own[k] = distances[k][i];
-        const uint32_t inside = section_lanes(view, &packets[first + i], own);
-        lanes[first + i] = (uint16_t)inside;
-        if (!inside) kept &= ~(1u << i);
+        section_lanes(view, &packets[first + i], own, places->lanes + first + i, places->cuts + first + i);
+        if (!places->lanes[first + i]) kept &= ~(1u << i);
     }
     return wm_of_bits(kept);
 }

@@ -10,7 +10,9 @@
 // all in camera space (p = A w + t; axes and normal by A). Sigma = tu'tu + tv'tv, R = F sqrt(Sigma33) the
 // depth half range of its disc, F the cutoff.
 //
-// Section planes: a surfel is dropped whose centre lies outside of one, n.c + d < 0 (in the world).
+// Section planes, of unit normal m and distance e from the origin, keep m.q + e >= 0 in the world. A surfel is
+// as far inside as its centre, a = m.p + e, and its disc reaches r = F |tu| sqrt(1 - (m.n)^2) to either side at
+// most; points have r = 0. It is dropped where a < 0 and a <= -r, and cut where a < r.
 //
 // Dropped before anything else: perspective, pz + R <= 0 (wholly behind the eye plane); orthographic, pz <=
 // 0; with EWA_CULL_BACK, n.p >= 0 (orthographic: nz >= 0). Without culling, n is turned towards the viewer
@@ -54,7 +56,9 @@
 // Clip lines: a splat's weight is rho times the share of the pixel's square that lies on the inner side of
 // the line on the screen, its area; of two lines the smaller share (clip_mode 1: the larger). A share of 0
 // does not count. The paper keeps where the pixel's centre is inside; areas antialias the edge, and those of
-// two surfaces that are clipped by one line add up to 1.
+// two surfaces that are clipped by one line add up to 1. A section plane that cuts a surfel is a line of its,
+// m.(q - p) + a >= 0. Of all lines, the two of clip_mode 1 taken for one, the smallest share counts. There are no
+// more than EWA_CLIP_LINES: the surfel's own, then those of the planes of smallest a.
 //
 // ---- Section 6: visibility and accumulation
 //
@@ -95,8 +99,8 @@
 // What a line leaves is not for the threshold tau to judge: an edge alone in front of something else covers
 // its share of the pixel. A splat is cut there by c = min(1, (1 - share) / EWA_CUT). With w = sum of c rho
 // over a surface's splats, k = sum of c rho share, u = q - k the rest, and D = sum of c rho m, m the
-// direction on the screen in which the line keeps (unit; of two lines their mean weighted by what each cuts
-// off, clip_mode 1: by what each keeps), where w > 0:
+// direction on the screen in which the line keeps (unit; of several lines their mean weighted by what each cuts
+// off, of the two of clip_mode 1 first by what each keeps), where w > 0:
 //   alpha = min(1, max(u / (tau q0), q / max(tau q0, u + a w))),
 //   a = clamp((|D| / w - EWA_EDGES_OPPOSE) / (EWA_EDGES_AGREE - EWA_EDGES_OPPOSE), 0, 1).
 // Lines that agree (a = 1) are one edge: alpha is the mean share as long as the whole weights reach tau q0.
@@ -183,11 +187,13 @@
 
 #define EWA_INVERSE_TWO_PI 0.15915494309189535
 
-// ---- Levels of detail
+// ---- Levels of detail (docs/levels.md)
 
 /// How much larger the first coarser level's surfels are than what keeps the area of those that they stand
-/// for.
-#define EWA_LEVEL_GROWTH 1.0
+/// for, and how far from the middle of these one of them may be, in sigmas, before that makes the surfel
+/// larger. Without both, grids show holes; with them, no sampling of docs/levels.md does.
+#define EWA_LEVEL_GROWTH 1.3
+#define EWA_LEVEL_SPREAD 1.7
 
 // ---- Section 5
 
@@ -199,6 +205,9 @@
 /// support radii and at most in depths of the centre. The reach takes from it.
 #define EWA_FREE_RADII 2.0
 #define EWA_FREE_DEPTH 0.25
+
+/// Clip lines that a splat has at most: a surfel's own two, and those of section planes.
+#define EWA_CLIP_LINES 4
 
 // ---- Section 6
 

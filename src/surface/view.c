@@ -172,6 +172,7 @@ ewa_scales ewa_scales_make(const ewa_surfels *const *sources, uint32_t source_co
 /// The section planes as the packets' centres see them.
 static void set_sections(ewa_view *view, const ewa_surfels *surfels, const ewa_render_options *options) {
     view->section_count = options->section_count;
+    view->section_reach = options->section_count && options->point_size_px == 0 ? (float)surfels->cutoff : 0;
     for (uint32_t k = 0; k < options->section_count; k++) {
         ewa_placement_plane(options->section_planes[k], surfels->origin_world, view->sections[k]);
         view->sections[k][3] /= surfels->unit;
@@ -390,21 +391,67 @@ static placed_surfel place_surfel(const ewa_surfels *surfels, uint32_t surfel, c
     return placed;
 }
 
-void ewa_clip_set(ewa_clip *clip, const ewa_surfels *surfels, uint32_t surfel, const ewa_view *view,
-                  const ewa_tile *tile) {
+/// A clip line that a section plane makes: keep toward.(q - center) + distance >= 0.
+typedef struct section_line {
+    ewa_vec3 toward;
+    double distance;
+} section_line;
+
+/// Lists the lines of the section planes that cut a surfel, the smallest distance first; returns how many.
+static uint32_t find_section_lines(const ewa_surfels *surfels, uint32_t surfel, const placed_surfel *placed,
+                                   const ewa_view *view, section_line lines[EWA_MAX_SECTION_PLANES]) {
+    const ewa_packet_surfel *s = &placed->coded;
+    const ewa_vec3 packet = ewa_packet_center(surfels, surfel / EWA_PACKET_LANES);
+    const double support = (double)view->section_reach * vec3_length(s->axis_u);
+    uint32_t count = 0;
+    for (uint32_t k = 0; k < view->section_count; k++) {
+        const ewa_vec3 n = vec3_load(view->sections[k]);
+        const double distance = vec3_dot(n, packet) + view->sections[k][3] + vec3_dot(n, s->offset);
+        const double along = vec3_dot(n, s->normal);
+        if (!(distance < support * sqrt(fmax(1 - along * along, 0)))) continue;
+        uint32_t at = count++;
+        for (; at > 0 && lines[at - 1].distance > distance; at--) lines[at] = lines[at - 1];
+        lines[at] = (section_line){n, distance};
+    }
+    return count;
+}
+
+/// Sets the lines that the surfel has of its own.
+static void set_own_lines(ewa_clip *clip, const ewa_surfels *surfels, uint32_t surfel,
+                          const placed_surfel *placed, const ewa_view *view, const ewa_tile *tile) {
     const ewa_surfel_clip *from = find_clip(surfels, surfel);
-    const placed_surfel placed = place_surfel(surfels, surfel, view);
     clip->either = from->either;
     for (int k = 0; k < 2; k++) {
         const float *g = from->toward[k];
-        if (g[0] == 0 && g[1] == 0 && g[2] == 0) {
-            clip->line[k] = (ewa_clip_line){.offset = 1};
-            continue;
-        }
+        if (g[0] == 0 && g[1] == 0 && g[2] == 0) continue;
         const ewa_vec3 toward = vec3_make((double)g[0], (double)g[1], (double)g[2]);
-        set_clip_line(&clip->line[k], turn(view, toward, 1), (double)view->scale * (double)from->offset[k],
-                      placed.n, placed.p, view, tile);
+        set_clip_line(&clip->line[clip->count++], turn(view, toward, 1),
+                      (double)view->scale * (double)from->offset[k], placed->n, placed->p, view, tile);
     }
+}
+
+/// Sets the clip lines of a surfel; returns whether it has some.
+static bool set_clip(ewa_clip *clip, const ewa_surfels *surfels, uint32_t surfel, const placed_surfel *placed,
+                     const ewa_view *view, const ewa_tile *tile) {
+    const uint32_t packet = surfel / EWA_PACKET_LANES, lane = surfel % EWA_PACKET_LANES;
+    clip->count = 0;
+    clip->either = false;
+    if (surfels->clip_masks && surfels->clip_masks[packet] >> lane & 1)
+        set_own_lines(clip, surfels, surfel, placed, view, tile);
+    section_line lines[EWA_MAX_SECTION_PLANES];
+    const uint32_t line_count = find_section_lines(surfels, surfel, placed, view, lines);
+    for (uint32_t k = 0; k < line_count && clip->count < EWA_CLIP_LINES; k++)
+        set_clip_line(&clip->line[clip->count++], turn(view, lines[k].toward, 1),
+                      (double)view->scale * lines[k].distance, placed->n, placed->p, view, tile);
+    const bool some = clip->count > 0;
+    while (clip->count < 2) clip->line[clip->count++] = (ewa_clip_line){.offset = 1};
+    return some;
+}
+
+void ewa_clip_set(ewa_clip *clip, const ewa_surfels *surfels, uint32_t surfel, const ewa_view *view,
+                  const ewa_tile *tile) {
+    const placed_surfel placed = place_surfel(surfels, surfel, view);
+    set_clip(clip, surfels, surfel, &placed, view, tile);
 }
 
 /// U, V, W and Z of a surfel (ewa_near_record); returns what z changes per pixel at the centre.
@@ -469,8 +516,6 @@ bool ewa_near_record_set(ewa_near_record *record, const ewa_surfels *surfels, ui
                sizeof record->material);
     else
         memset(record->material, 0, sizeof record->material);
-    const uint32_t packet = surfel / EWA_PACKET_LANES, lane = surfel % EWA_PACKET_LANES;
-    record->clipped = surfels->clip_masks && surfels->clip_masks[packet] >> lane & 1;
-    if (record->clipped) ewa_clip_set(&record->clip, surfels, surfel, view, tile);
+    record->clipped = set_clip(&record->clip, surfels, surfel, &s, view, tile);
     return true;
 }

@@ -52,8 +52,7 @@ static void print_coverage(ewa_context *context, level_kind kind) {
             options.level = level;
             const ewa_frame frame = {.coverage = coverage};
             assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &frame, NULL), EWA_OK);
-            const double margin =
-                fmin(0.3, fmax(0.05, 2 * drawn->cutoff * drawn->largest_sigmas_world[0]));
+            const double margin = fmin(0.3, fmax(0.05, 2 * drawn->cutoff * drawn->largest_sigmas_world[0]));
             for (uint32_t i = 0; i < SIDE_PX * SIDE_PX; i++) {
                 if (!level_inside(kind, &camera, i % SIDE_PX, i / SIDE_PX, margin)) continue;
                 inside++;
@@ -109,13 +108,13 @@ static void print_frames(ewa_context *context, uint32_t points) {
     ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
     const size_t pixels = (size_t)WIDTH_PX * HEIGHT_PX;
-    uint8_t *pictures[2] = {malloc(4 * pixels), malloc(4 * pixels)}, *whole[2] = {malloc(4 * pixels), malloc(4 * pixels)};
+    uint8_t *pictures[2] = {malloc(4 * pixels), malloc(4 * pixels)},
+            *whole[2] = {malloc(4 * pixels), malloc(4 * pixels)};
     for (uint32_t level = 0; level < info.level_count; level++) {
         ewa_render_stats stats;
         double psnr[2];
         for (int size = 0; size < 2; size++) {
-            const ewa_camera camera =
-                level_camera(WIDTH_PX >> 2 * size, HEIGHT_PX >> 2 * size, 2.4, 20);
+            const ewa_camera camera = level_camera(WIDTH_PX >> 2 * size, HEIGHT_PX >> 2 * size, 2.4, 20);
             ewa_render_options options;
             ewa_render_options_init(&options, sizeof options);
             options.level = level;

@@ -10,7 +10,7 @@ static const double PI = 3.14159265358979323846;
 
 /// Darts that keep their distance, in a grid of cells of that size.
 static uint32_t throw_darts(check_random *random, uint32_t count, float *xy) {
-    const double apart = 2 * 0.72 / sqrt(count);
+    const double apart = 2 * 0.81 / sqrt(count);
     const uint32_t side = (uint32_t)(2 / (apart / sqrt(2))) + 1;
     int32_t *cells = malloc((size_t)side * side * sizeof *cells);
     assert_non_null(cells);
@@ -44,7 +44,8 @@ static uint32_t make_places(level_kind kind, uint32_t count, float *xy) {
         return count;
     }
     const double stretch = kind == LEVEL_SLANTED ? 1.5 : 1;
-    const uint32_t columns = (uint32_t)(sqrt(count) * sqrt(stretch)), rows = (uint32_t)(sqrt(count / stretch));
+    const uint32_t columns = (uint32_t)(sqrt(count) * sqrt(stretch)),
+                   rows = (uint32_t)(sqrt(count / stretch));
     for (uint32_t i = 0; i < columns * rows; i++) {
         const double shift = kind == LEVEL_SLANTED ? i / columns % 3 / 3.0 : 0.5;
         const bool anywhere = kind == LEVEL_JITTERED;
@@ -89,8 +90,8 @@ ewa_cloud *level_cloud(ewa_context *context, level_kind kind, uint32_t count) {
     }
     assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, (void **)&radius), EWA_OK);
     // The widest gaps decide: those between rows, and those that chance leaves.
-    const double spacings = kind == LEVEL_JITTERED ? 1.6 : kind == LEVEL_SLANTED ? 1.14 * sqrt(1.5) : 1.14;
-    for (uint32_t i = 0; i < made; i++) radius[i] = (float)(spacings * 2 / sqrt(made));
+    static const double spacings[] = {1.14, 2.2, 1.5, 0, 1.4};
+    for (uint32_t i = 0; i < made; i++) radius[i] = (float)(spacings[kind] * 2 / sqrt(made));
     return cloud;
 }
 

@@ -235,3 +235,19 @@ void picture_hold(scene *of, const ewa_render_options *options, bool orthographi
     picture_free(&reference);
     picture_free(&fast);
 }
+
+void picture_add_clips(ewa_cloud *cloud) {
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    float *clip[2] = {NULL, NULL};
+    uint8_t *mode = NULL;
+    check_random random = {11};
+    assert_int_equal(ewa_cloud_add(cloud, EWA_CLIP0, EWA_F32, 3, (void **)&clip[0]), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_CLIP1, EWA_F32, 3, (void **)&clip[1]), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_CLIP_MODE, EWA_U8, 1, (void **)&mode), EWA_OK);
+    for (uint64_t i = 0; i < count; i++) {
+        for (int k = 0; k < 2; k++)
+            for (int c = 0; c < 3; c++)
+                clip[k][3 * i + (uint64_t)c] = i % 3 > (uint64_t)k ? (float)check_uniform(&random, -1, 1) : 0;
+        mode[i] = i % 2 == 0;
+    }
+}

@@ -49,6 +49,9 @@ void picture_mark_edges(const scene *of, const ewa_surfels_options *surfels_opti
                         const ewa_render_options *options, double support_band, double depth_band,
                         uint8_t *mask);
 
+/// Gives two thirds of the points of a cloud with tangent axes one or two clip lines.
+void picture_add_clips(ewa_cloud *cloud);
+
 /// How far a picture is from the reference. Errors: colour absolute (premultiplied linear), depth relative to
 /// z (and to no less than a hundredth of the picture's deepest), coverage in units of q0, relative where it
 /// is above 1 (the sum of many kernels has their relative error); the largest of the pixel's.

@@ -10,27 +10,10 @@
 
 enum { POINTS = 3000, SIDE = 128 };
 
-/// Gives two thirds of the points one or two clip lines; scenes of discs get tangents first.
-static void add_clips(ewa_cloud *cloud) {
-    const uint64_t count = ewa_cloud_point_count(cloud);
-    float *clip[2] = {NULL, NULL};
-    uint8_t *mode = NULL;
-    check_random random = {11};
-    assert_int_equal(ewa_cloud_add(cloud, EWA_CLIP0, EWA_F32, 3, (void **)&clip[0]), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_CLIP1, EWA_F32, 3, (void **)&clip[1]), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_CLIP_MODE, EWA_U8, 1, (void **)&mode), EWA_OK);
-    for (uint64_t i = 0; i < count; i++) {
-        for (int k = 0; k < 2; k++)
-            for (int c = 0; c < 3; c++)
-                clip[k][3 * i + (uint64_t)c] = i % 3 > (uint64_t)k ? (float)check_uniform(&random, -1, 1) : 0;
-        mode[i] = i % 2 == 0;
-    }
-}
-
 static void hold(scene_kind kind, const ewa_render_options *options, bool orthographic, const char *what) {
     ewa_context *context = check_context(0, NULL);
     scene of = picture_measured_scene(context, kind, POINTS, NULL);
-    add_clips(of.cloud);
+    picture_add_clips(of.cloud);
     char name[96];
     snprintf(name, sizeof name, "%s, %s", scene_name(kind), what);
     picture_hold(&of, options, orthographic, name);

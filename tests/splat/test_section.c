@@ -130,13 +130,36 @@ static void check_grid(const ewa_render_options *options, double spacing, const 
     assert_true(sum > 0 && left == 0);
 }
 
+/// Pixels outside of the planes are empty, those inside as in the whole picture.
+static void check_cut(const ewa_render_options *options, double spacing, const drawn *whole,
+                      const drawn *to) {
+    int inside_count = 0, outside_count = 0;
+    for (int y = 0; y < SIDE; y++)
+        for (int x = 0; x < SIDE; x++) {
+            const size_t pixel = (size_t)(y * SIDE + x);
+            double inside_px = INFINITY;
+            for (uint32_t k = 0; k < options->section_count; k++) {
+                const double *p = options->section_planes[k];
+                const double x_world = (x + 0.5 - SIDE / 2) / CELL_PX * spacing,
+                             y_world = (y + 0.5 - SIDE / 2) / CELL_PX * spacing;
+                const double distance = (p[0] * x_world + p[1] * y_world + p[3]) / hypot(p[0], p[1]);
+                inside_px = fmin(inside_px, distance / spacing * CELL_PX);
+            }
+            const double alpha = (double)to->rgba[4 * pixel + 3], was = (double)whole->rgba[4 * pixel + 3];
+            if (fabs(inside_px) < 0.75) continue; // the line goes through
+            assert_true(inside_px > 0 ? fabs(alpha - was) < 1e-5 : alpha == 0);
+            if (was == 1) inside_px > 0 ? inside_count++ : outside_count++;
+        }
+    assert_true(inside_count > 100 && outside_count > 100);
+}
+
 static void test_grid(void **state) {
     (void)state;
     static const double none[3] = {0, 0, 0};
     static const double planes[][4] = {{1, 0, 0, 0},          {0, -1, 0, 0.25},      {3, 4, 0, -5.25},
                                        {1, 1, 0, 0.125},      {-1, 0.5, 7, 0.03125}, {1e-300, 0, 0, 0},
                                        {0, -1e300, 0, 2e300}, {0, 1e-320, 0, 0}};
-    static drawn to;
+    static drawn whole, to;
     ewa_context *context = check_context(2, NULL);
     const double spacing = 1;
     ewa_cloud *cloud = make_grid(context, spacing, none, 0);
@@ -145,9 +168,13 @@ static void test_grid(void **state) {
             const ewa_camera camera = make_camera(way & 1, spacing, none);
             ewa_render_options options = plain_options();
             options.point_size_px = way & 2 ? 3 : 0;
+            draw(context, cloud, &camera, &options, &whole);
             add_plane(&options, planes[i][0], planes[i][1], planes[i][2], planes[i][3]);
             draw(context, cloud, &camera, &options, &to);
-            check_grid(&options, spacing, &to);
+            if (way & 2)
+                check_grid(&options, spacing, &to);
+            else
+                check_cut(&options, spacing, &whole, &to);
             assert_true(to.stats.culled_count > 0 && to.stats.culled_count < GRID * GRID);
         }
     ewa_cloud_destroy(&cloud);
@@ -196,6 +223,7 @@ static void hold(scene_kind kind, const ewa_render_options *options, uint32_t pl
                  const char *what) {
     ewa_context *context = check_context(0, NULL);
     scene of = picture_measured_scene(context, kind, POINTS, NULL);
+    if (strstr(what, "own lines")) picture_add_clips(of.cloud);
     ewa_render_options cut = *options;
     add_oblique(&cut, &of, planes);
     char name[96];
@@ -223,6 +251,11 @@ static void test_road_holds(void **state) {
             hold(kinds[i], &options, 2, false, names[kernel]);
         }
         options = plain_options();
+        hold(kinds[i], &options, 3, false, "three planes");
+        if (kinds[i] != SCENE_SPHERE) { // which has no tangent axes
+            hold(kinds[i], &options, 3, false, "three planes and own lines");
+            hold(kinds[i], &options, 3, true, "three planes and own lines, orthographic");
+        }
         options.cull = EWA_CULL_BACK;
         hold(kinds[i], &options, 2, false, "front only");
         options = plain_options();
@@ -294,18 +327,20 @@ static void test_threads_and_instructions(void **state) {
 static void test_order_and_origin(void **state) {
     (void)state;
     static const double none[3] = {0, 0, 0}, far[3] = {4194304, -524288, 2048};
-    static drawn first, other;
+    static drawn whole, first, other;
     ewa_context *context = check_context(2, NULL);
     const double spacing = 0.25;
+    const ewa_render_options no_planes = plain_options();
     ewa_render_options options = plain_options();
     add_plane(&options, 1, 0.5, 0, 0.375);
     add_plane(&options, 0, -1, 0, 1.5);
     for (int orthographic = 0; orthographic < 2; orthographic++) {
         ewa_cloud *cloud = make_grid(context, spacing, none, 0);
         ewa_camera camera = make_camera(orthographic, spacing, none);
+        draw(context, cloud, &camera, &no_planes, &whole);
         draw(context, cloud, &camera, &options, &first);
         ewa_cloud_destroy(&cloud);
-        check_grid(&options, spacing, &first);
+        check_cut(&options, spacing, &whole, &first);
         cloud = make_grid(context, spacing, none, 5);
         draw(context, cloud, &camera, &options, &other);
         assert_same(&first, &other, "order");
@@ -337,7 +372,7 @@ static void test_sources(void **state) {
     }
     const ewa_camera camera = make_camera(true, 1, none);
     ewa_render_options options = plain_options();
-    add_plane(&options, -1, 0, 0, 4.25);
+    add_plane(&options, -1, 0, 0, 4);
     const ewa_surfels *const sources[2] = {surfels[0], surfels[1]}, *const turned[2] = {surfels[1],
                                                                                         surfels[0]};
     draw_sources(context, sources, 1, &camera, &options, &one);

@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What stands over the pictures of render and volume: title, axes, scale bar, colour bar; colours of classes.
+#include <string.h>
+
+#include "run_ewa.h"
+
+static ewa_context *context;
+
+static int enter(void **state) {
+    (void)state;
+    context = check_context(0, NULL);
+    if (scratch_enter("cli_furniture") != 0) return -1;
+    return run("ewa generate terrain -n 20000 -o terrain.ply && ewa generate ball --dims 16 -o ball.nrrd");
+}
+
+static int leave(void **state) {
+    (void)state;
+    ewa_context_destroy(&context);
+    return 0;
+}
+
+static ewa_image load(const char *name) {
+    ewa_image image = {0};
+    assert_int_equal(ewa_image_load(context, scratch_path(name), &image), EWA_OK);
+    return image;
+}
+
+/// A box of a picture, parts of its size.
+typedef struct corner {
+    double left, top, right, bottom;
+} corner;
+
+static const corner upper_middle = {0.2, 0, 0.8, 0.12}, lower_left = {0, 0.75, 0.2, 1},
+                    lower_right = {0.7, 0.85, 1, 1}, right_edge = {0.8, 0.15, 1, 0.85};
+
+/// How many pixels within a box differ between two pictures, and beyond it.
+static void count_changes(const char *a, const char *b, const corner *box, size_t *inside, size_t *outside) {
+    ewa_image one = load(a), other = load(b);
+    assert_int_equal(one.width_px, other.width_px);
+    *inside = *outside = 0;
+    for (uint32_t y = 0; y < one.height_px; y++) {
+        for (uint32_t x = 0; x < one.width_px; x++) {
+            const size_t at = ((size_t)y * one.width_px + x) * one.channel_count;
+            if (memcmp(one.pixels + at, other.pixels + at, one.channel_count * sizeof(float)) == 0) continue;
+            const double u = (x + 0.5) / one.width_px, v = (y + 0.5) / one.height_px;
+            const bool in = u >= box->left && u <= box->right && v >= box->top && v <= box->bottom;
+            ++*(in ? inside : outside);
+        }
+    }
+    ewa_image_free(&one), ewa_image_free(&other);
+}
+
+/// Each piece changes its part of the picture and nothing else; without one, and by default, the picture is as it was.
+static void test_places(void **state) {
+    (void)state;
+    static const struct {
+        const char *options;
+        const corner *box;
+    } cases[] = {{"--title Terrain", &upper_middle}, {"--axes", &lower_left},
+                 {"--scale-bar", &lower_right},      {"--scale-bar --unit m", &lower_right},
+                 {"--color-bar", &right_edge},       {"--color-bar --unit m", &right_edge}};
+    run_done("ewa render terrain.ply -o bare.png --size 640x480 --color-by z");
+    run_done("ewa volume ball.nrrd -o none.png --size 640x480");
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        size_t inside, outside;
+        run_done("ewa render terrain.ply -o a.png --size 640x480 --color-by z %s", cases[k].options);
+        count_changes("bare.png", "a.png", cases[k].box, &inside, &outside);
+        assert_true(inside > 100);
+        assert_int_equal(outside, 0);
+        if (strstr(cases[k].options, "color")) continue;
+        run_done("ewa volume ball.nrrd -o b.png --size 640x480 %s", cases[k].options);
+        count_changes("none.png", "b.png", cases[k].box, &inside, &outside);
+        assert_true(inside > 100);
+        assert_int_equal(outside, 0);
+    }
+}
+
+/// Every frame has its furniture, in one ink; units, labels and orthographic cameras are seen in the bytes.
+static void test_frames(void **state) {
+    (void)state;
+    run_done("ewa render terrain.ply -o t%%d.png --turntable 3 --size 320x240");
+    run_done(
+        "ewa render terrain.ply -o f%%d.png --turntable 3 --size 320x240 --title Frames --scale-bar --axes");
+    for (int k = 0; k < 3; k++) {
+        char bare[16], furnished[16];
+        snprintf(bare, sizeof bare, "t%d.png", k), snprintf(furnished, sizeof furnished, "f%d.png", k);
+        size_t inside, outside;
+        count_changes(bare, furnished, &upper_middle, &inside, &outside);
+        assert_true(inside > 100 && outside > 200);
+    }
+    run_done("ewa render terrain.ply -o a.png --size 320x240 --view top --ortho 3 --scale-bar && "
+             "ewa render terrain.ply -o b.png --size 320x240 --view top --ortho 3 --scale-bar --unit ft && "
+             "ewa render terrain.ply -o c.png --size 320x240 --view top --ortho 3 --scale-bar --unit ft "
+             "--threads 1");
+    assert_false(scratch_same("a.png", "b.png"));
+    assert_true(scratch_same("b.png", "c.png"));
+}
+
+static void test_usage(void **state) {
+    (void)state;
+    run_fails(2, "--color-bar needs --color-by", "ewa render a.ply -o a.png --color-bar");
+    run_fails(2, "--unit needs --scale-bar or --color-bar", "ewa render a.ply -o a.png --unit m");
+    run_fails(2, "--colormap classes takes no --range",
+              "ewa render a.ply -o a.png --color-by z --colormap classes --range 0,1");
+    run_fails(2, "color-bar", "ewa volume a.nrrd -o a.png --color-bar");
+    static const char *const pieces[] = {"--title x", "--axes", "--scale-bar", "--color-by z --color-bar"};
+    for (int k = 0; k < 4; k++) {
+        run_fails(2, ".exr and .pfm|hold data", "ewa render a.ply -o a.exr %s", pieces[k]);
+        run_fails(2, ".exr and .pfm|hold data", "ewa render a.ply -o a_%%d.pfm --turntable 3 %s", pieces[k]);
+    }
+    run_fails(2, ".exr and .pfm|hold data", "ewa volume a.nrrd -o a.exr --axes");
+}
+
+/// Writes a flat cloud of four stripes along x whose attribute has these numbers.
+static void write_stripes(const char *name, const char *attribute, const char *const numbers[4]) {
+    char text[1 << 16] = "";
+    size_t used =
+        (size_t)snprintf(text, sizeof text,
+                         "ply\nformat ascii 1.0\nelement vertex 1600\nproperty float x\nproperty float y\n"
+                         "property float z\nproperty float %s\nend_header\n",
+                         attribute);
+    for (int i = 0; i < 1600; i++)
+        used += (size_t)snprintf(text + used, sizeof text - used, "%d %d 0 %s\n", i % 40, i / 40,
+                                 numbers[i % 40 / 10]);
+    scratch_text(name, text);
+}
+
+/// Checks the colours in the middle of the four stripes.
+static void check_stripes(const char *picture, const uint8_t srgb[4][3]) {
+    ewa_image image = load(picture);
+    for (uint32_t k = 0; k < 4; k++) {
+        const uint32_t x = image.width_px * (2 * k + 1) / 8;
+        const float *pixel =
+            image.pixels + ((size_t)image.height_px / 2 * image.width_px + x) * image.channel_count;
+        for (int c = 0; c < 3; c++)
+            assert_true((int)(255 * ewa_srgb_from_linear(pixel[c]) + 0.5f) - srgb[k][c] <= 1 &&
+                        srgb[k][c] - (int)(255 * ewa_srgb_from_linear(pixel[c]) + 0.5f) <= 1);
+    }
+    ewa_image_free(&image);
+}
+
+/// An attribute that is called so has the colours of classes, unless a colormap or a range is asked for; others have
+/// them when asked.
+static void test_classes(void **state) {
+    (void)state;
+    static const char view[] = "--view top --ortho 20 --size 80x40 --shading none";
+    static const char *const codes[] = {"2", "6", "9", "37"}, *const mixed[] = {"2", "6.5", "-1", "nan"};
+    uint8_t classes[4][3], viridis[4][3], partly[4][3];
+    for (int k = 0; k < 4; k++) {
+        ewa_class_color((const uint32_t[]){2, 6, 9, 37}[k], classes[k]);
+        ewa_colormap_color(EWA_COLORMAP_VIRIDIS, ((const double[]){2, 6, 9, 37}[k] - 2) / 35, viridis[k]);
+        memset(partly[k], 128, 3);
+    }
+    memcpy(partly[0], classes[0], 3);
+    write_stripes("named.ply", "scalar_Classification", codes);
+    write_stripes("other.ply", "q", codes);
+    write_stripes("mixed.ply", "classification", mixed);
+    run_done("ewa render -q named.ply -o a.png --color-by scalar_Classification %s", view);
+    check_stripes("a.png", classes);
+    run_done("ewa render -q other.ply -o b.png --color-by q --colormap classes %s", view);
+    check_stripes("b.png", classes);
+    run_done("ewa render -q named.ply -o c.png --color-by scalar_Classification --colormap viridis %s", view);
+    check_stripes("c.png", viridis);
+    run_done("ewa render -q named.ply -o d.png --color-by scalar_Classification --range 0%%,100%% %s", view);
+    check_stripes("d.png", viridis);
+    run_done("ewa render -q other.ply -o e.png --color-by q %s", view);
+    check_stripes("e.png", viridis);
+    // By itself only where all numbers are codes.
+    assert_int_equal(
+        run("ewa render mixed.ply -o f.png --color-by classification --colormap classes %s", view), 0);
+    check_stripes("f.png", partly);
+    assert_non_null(strstr(last_run.err, "1200 of 1600 numbers of classification are no classes"));
+    assert_int_equal(run("ewa render mixed.ply -o g.png --color-by classification --verbose %s", view), 0);
+    assert_non_null(strstr(last_run.err, "classification from -1 to 6.5"));
+    assert_int_equal(run("ewa render named.ply -o h.png --color-by scalar_Classification --verbose %s", view),
+                     0);
+    assert_non_null(strstr(last_run.err, "has 4 classes, drawn in the colours of classes"));
+    // The legend names them.
+    run_done("ewa render -q named.ply -o i.png --color-by scalar_Classification --view top --size 640x480");
+    run_done("ewa render -q named.ply -o j.png --color-by scalar_Classification --view top --size 640x480 "
+             "--color-bar");
+    size_t inside, outside;
+    count_changes("i.png", "j.png", &(corner){0.7, 0.2, 1, 0.8}, &inside, &outside);
+    assert_true(inside > 1000 && outside == 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_places), cmocka_unit_test(test_frames),
+                                       cmocka_unit_test(test_usage), cmocka_unit_test(test_classes)};
+    return cmocka_run_group_tests(tests, enter, leave);
+}

@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Scripts through the viewer without a window: the pictures and words that each expects, on every instruction set.
+#include "check.h"
+#include "cli/commands.h"
+#include "cli/window_services.h"
+#include "viewer/front.h"
+
+#include <dirent.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { WIDTH = 320, HEIGHT = 240, MAX_SCRIPTS = 128 };
+
+static char scripts_folder[1024];
+
+static void save(const ewa_cloud *cloud, const char *path) {
+    assert_int_equal(ewa_cloud_save(cloud, path, NULL), EWA_OK);
+}
+
+/// A part of the landscape with what surveys have: intensities and classes.
+static ewa_cloud *make_survey(ewa_context *context) {
+    ewa_generate_options options;
+    ewa_generate_options_init(&options, sizeof options);
+    options.object = EWA_OBJECT_TERRAIN;
+    options.point_count = 20000;
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_OK);
+    void *intensities, *classes;
+    assert_int_equal(ewa_cloud_add(cloud, "intensity", EWA_F32, 1, &intensities), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, "classification", EWA_U8, 1, &classes), EWA_OK);
+    const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
+        double p[3];
+        ewa_attribute_read_f64(position, i, 1, p);
+        ((float *)intensities)[i] = (float)(p[0] * p[0] + p[1] * p[1]);
+        ((uint8_t *)classes)[i] = p[2] <= 0 ? 9 : p[2] > 0.2 ? 6 : p[0] > 0 ? 5 : 2;
+    }
+    return cloud;
+}
+
+static void write_text(const char *path, const char *text) {
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+/// The files that scripts name, in a folder of the build.
+static int make_files(void **state) {
+    (void)state;
+    char folder[1024];
+    snprintf(folder, sizeof folder, "%s/view", getenv("EWA_BINARY_DIR"));
+    snprintf(scripts_folder, sizeof scripts_folder, "%s/tests/viewer/scripts", getenv("EWA_SOURCE_DIR"));
+    mkdir(folder, 0777);
+    assert_int_equal(chdir(folder), 0);
+    ewa_context *context = check_context(2, NULL);
+    ewa_generate_options options;
+    ewa_generate_options_init(&options, sizeof options);
+    options.object = EWA_OBJECT_SPHERE;
+    options.point_count = 20000;
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_OK);
+    save(cloud, "sphere.ply");
+    const double far_world[16] = {1, 0, 0, 500000.25, 0, 1, 0, 4200000.125, 0, 0, 1, 300, 0, 0, 0, 1};
+    assert_int_equal(ewa_cloud_transform(cloud, far_world), EWA_OK);
+    save(cloud, "far.ply");
+    ewa_cloud_destroy(&cloud);
+    options.object = EWA_OBJECT_TORUS;
+    options.positions_only = true;
+    assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_OK);
+    save(cloud, "scan.ply");
+    ewa_cloud_destroy(&cloud);
+    cloud = make_survey(context);
+    save(cloud, "survey.ply");
+    ewa_cloud_destroy(&cloud);
+    write_text("cube.obj",
+               "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+               "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+    write_text("broken.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 100\nproperty float x\n"
+                             "property float y\nproperty float z\nend_header\n123");
+    ewa_volume_generate_options volume_options;
+    ewa_volume_generate_options_init(&volume_options, sizeof volume_options);
+    volume_options.object = EWA_VOLUME_BALL;
+    for (int c = 0; c < 3; c++) volume_options.dims[c] = 32;
+    ewa_volume volume;
+    assert_int_equal(ewa_volume_generate(context, &volume_options, &volume), EWA_OK);
+    assert_int_equal(ewa_volume_save(&volume, "ball.nrrd", NULL), EWA_OK);
+    ewa_volume_free(&volume);
+    ewa_context_destroy(&context);
+    return 0;
+}
+
+static int compare_names(const void *a, const void *b) { return strcmp(a, b); }
+
+static size_t list_scripts(char names[MAX_SCRIPTS][256]) {
+    DIR *folder = opendir(scripts_folder);
+    assert_non_null(folder);
+    size_t count = 0;
+    const struct dirent *entry;
+    while ((entry = readdir(folder)) && count < MAX_SCRIPTS)
+        if (strstr(entry->d_name, ".txt")) snprintf(names[count++], 256, "%.250s", entry->d_name);
+    closedir(folder);
+    qsort(names, count, 256, compare_names);
+    return count;
+}
+
+static int run_script(const char *name, uint32_t cpu_mask, int64_t threads) {
+    static const char *const no_paths[] = {NULL};
+    char path[2048];
+    snprintf(path, sizeof path, "%s/%s", scripts_folder, name);
+    view_arguments view = {.common = {.operands = no_paths, .threads = threads, .quiet = true}};
+    view_set_defaults(&view);
+    window_services services;
+    front_job job = {.script_path = path,
+                     .options = {.thread_count = (uint32_t)threads,
+                                 .cpu_mask = cpu_mask,
+                                 .width = WIDTH,
+                                 .height = HEIGHT,
+                                 .scale = 1,
+                                 .waits = true}};
+    assert_true(window_services_make(&services, &view, &job.options.services));
+    const int exit_status = front_script_run(&job);
+    window_services_free(&services);
+    return exit_status;
+}
+
+static void run_all(uint32_t cpu_mask, int64_t threads) {
+    char names[MAX_SCRIPTS][256];
+    const size_t count = list_scripts(names);
+    assert_true(count >= 30);
+    size_t failed = 0;
+    for (size_t i = 0; i < count; i++) {
+        const int exit_status = run_script(names[i], cpu_mask, threads);
+        if (exit_status != 0) print_error("%s failed\n", names[i]);
+        failed += exit_status != 0;
+    }
+    print_message("%zu scripts\n", count);
+    assert_int_equal(failed, 0);
+}
+
+static void scripts_with_everything(void **state) {
+    (void)state;
+    run_all(EWA_CPU_ALL, 2);
+}
+
+static void scripts_without_avx512(void **state) {
+    (void)state;
+    run_all(EWA_CPU_AVX2, 1);
+}
+
+static void scripts_portable(void **state) {
+    (void)state;
+    run_all(0, 3);
+}
+
+static void wrong_scripts_fail(void **state) {
+    (void)state;
+    static const char *const wrong[] = {"nothing\n",       "1 frame\n0.5 frame\n",
+                                        "press 1\n",       "do nothing\n",
+                                        "key\n",           "expect-hash 0123456789abcdef\n",
+                                        "expect-said x\n", "refuse view front\n",
+                                        "inf frame\n",     "expect-same nowhere.png\n",
+                                        "drop\n",          "shot /nowhere/at/all.png\n",
+                                        "key nosuchkey\n", "wheel 1 2\n"};
+    char path[2048];
+    snprintf(path, sizeof path, "%s/view/wrong.txt", getenv("EWA_BINARY_DIR"));
+    char saved[1024];
+    memcpy(saved, scripts_folder, sizeof saved);
+    snprintf(scripts_folder, sizeof scripts_folder, "%s/view", getenv("EWA_BINARY_DIR"));
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        write_text(path, wrong[i]);
+        if (run_script("wrong.txt", EWA_CPU_ALL, 1) != 1) fail_msg("'%s' did not fail", wrong[i]);
+    }
+    assert_int_equal(run_script("absent.txt", EWA_CPU_ALL, 1), 1);
+    memcpy(scripts_folder, saved, sizeof saved);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(scripts_with_everything),
+        cmocka_unit_test(scripts_without_avx512),
+        cmocka_unit_test(scripts_portable),
+        cmocka_unit_test(wrong_scripts_fail),
+    };
+    return cmocka_run_group_tests(tests, make_files, NULL);
+}

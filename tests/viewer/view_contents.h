@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Services of a viewer whose files are names of generated objects.
+#ifndef EWA_TESTS_VIEWER_VIEW_CONTENTS_H
+#define EWA_TESTS_VIEWER_VIEW_CONTENTS_H
+
+#include "viewer/viewer.h"
+
+#include <stdatomic.h>
+
+enum { CONTENTS_POINTS = 20000 };
+
+/// What the services are asked to do beside, and what they saw.
+typedef struct view_contents {
+    atomic_int loads, frees, colors;
+    atomic_bool holds; ///< loads wait, with progress, until this is false
+    char said[1024], message[1024], clipboard[4096];
+    bool preview; ///< loads show one first
+} view_contents;
+
+/// "plane", "sphere", "torus": objects of CONTENTS_POINTS points; "volume": a blob; anything else fails.
+viewer_services view_contents_services(view_contents *contents);
+
+#endif
