@@ -46,7 +46,9 @@ setup:
 demo: program
 	@sh tools/demo.sh $(EWA) "$(OUT)" "$(FILE)"
 
+# A person's session in a window needs a screen and a hand.
 check: build asan-build clang-build tsan-build
+	@sh tools/setup.sh xvfb xdotool || echo "Without these it is skipped."
 	@sh tools/check.sh build/release build/asan:quick build/clang:parallel build/tsan:parallel
 
 # Optimised, so that the tests take minutes and not an hour.
@@ -110,7 +112,7 @@ docs: program
 	$(EWA) --help-json >docs/options.json
 
 format:
-	git ls-files '*.c' '*.h' | xargs clang-format -i
+	git ls-files '*.c' '*.h' '*.cpp' | xargs clang-format -i
 
 install: build
 	cmake --install build/release --prefix "$(PREFIX)"

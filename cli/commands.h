@@ -7,9 +7,9 @@
 
 #include "options.h"
 
-extern const cli_command render_command, view_command, info_command, convert_command, surfels_command, features_command,
-    sample_command, csg_command, texture_command, warp_command, volume_command, generate_command,
-    bench_command;
+extern const cli_command render_command, view_command, info_command, convert_command, surfels_command,
+    features_command, sample_command, csg_command, texture_command, warp_command, volume_command,
+    generate_command, bench_command;
 
 /// All commands, in the order of the help.
 extern const cli_command *const all_commands[];
@@ -17,5 +17,9 @@ extern const size_t all_commands_count;
 
 /// Finds a command by its name; NULL when there is none.
 const cli_command *command_find(const char *name);
+
+/// Parses the words after a command's name and runs it, or prints its help or what is wrong. Returns the exit
+/// status.
+int command_run(const cli_command *command, size_t count, const char *const *words);
 
 #endif

@@ -4,11 +4,9 @@
 // The program: finds the command, parses its options, runs it.
 #include "commands.h"
 #include "json.h"
-#include "outputs.h"
 
 #include <signal.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -38,32 +36,6 @@ static int unknown_command(const char *word) {
     return EXIT_USAGE;
 }
 
-static int run_command(const cli_command *command, size_t count, const char *const *words) {
-    void *arguments = malloc(command->arguments_bytes);
-    const char **operands = calloc(count + 1, sizeof *operands);
-    char message[OPTION_ERROR_BYTES];
-    int exit_status = EXIT_USAGE;
-    if (!arguments || !operands) {
-        fputs("ewa: out of memory\n", stderr);
-        exit_status = EXIT_FAILED;
-    } else {
-        options_default(command, arguments);
-        if (!options_parse(command, count, words, operands, arguments, message)) {
-            fprintf(stderr, "ewa: %s\n", message);
-        } else if (((const common_arguments *)arguments)->help) {
-            help_print_command(stdout, command);
-            exit_status = EXIT_DONE;
-        } else if (!outputs_check(command, arguments, message)) {
-            fprintf(stderr, "ewa: %s\n", message);
-        } else {
-            exit_status = command->run(arguments);
-        }
-    }
-    free(operands);
-    free(arguments);
-    return exit_status;
-}
-
 /// Does what the first word says.
 static int run(size_t count, const char *const *words) {
     if (count == 0) {
@@ -86,7 +58,7 @@ static int run(size_t count, const char *const *words) {
         help_print_markdown(stdout, all_commands_count, all_commands);
     } else {
         const cli_command *command = command_find(word);
-        return command ? run_command(command, count - 1, words + 1) : unknown_command(word);
+        return command ? command_run(command, count - 1, words + 1) : unknown_command(word);
     }
     return EXIT_DONE;
 }

@@ -6,7 +6,7 @@
 # line to type and fails. Calls no package manager when everything is there.
 set -eu
 
-packages="build-essential cmake ninja-build pkg-config libcmocka-dev libspng-dev libdeflate-dev libopenexr-dev libcjson-dev libjpeg62-turbo-dev libwebp-dev libassimp-dev zlib1g-dev libsuitesparse-dev libbz2-dev"
+packages="build-essential cmake ninja-build pkg-config libcmocka-dev libspng-dev libdeflate-dev libopenexr-dev libcjson-dev libjpeg62-turbo-dev libwebp-dev libassimp-dev zlib1g-dev libsuitesparse-dev libbz2-dev libsdl2-dev libimgui-dev"
 
 missing=""
 for package in $packages "$@"; do

@@ -1,0 +1,98 @@
+#!/bin/sh
+# SPDX-FileCopyrightText: 2026 The ewa authors
+# SPDX-License-Identifier: MIT
+#
+# A person's session in a window, on a screen of its own: orbit by dragging, pick by a click, measure by a Shift-click,
+# clip box, pictures, end. Checks what is printed, the pictures and the exit status: session_x11.sh EWA EWA-VIEW FOLDER
+set -eu
+ewa=$1
+view=$2
+folder=$3
+
+for tool in Xvfb xdotool; do
+    command -v $tool >/dev/null 2>&1 || { echo "skipped: $tool is not installed"; exit 77; }
+done
+rm -rf "$folder"
+mkdir -p "$folder"
+cd "$folder"
+
+# The screen says its own number, so that sessions beside this one do not matter.
+Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp 3>display 2>xvfb.log &
+screen=$!
+session=""
+trap 'kill $screen $session 2>/dev/null || true' EXIT
+fail() {
+    echo "session: $1" >&2
+    sed 's/^/  printed: /' printed >&2 || true
+    sed 's/^/  complained: /' complained >&2 || true
+    exit 1
+}
+# wait_for WHAT COMMAND...: until the command succeeds; a minute at most, for slow machines.
+wait_for() {
+    what=$1
+    shift
+    tries=600
+    until "$@" >/dev/null 2>&1; do
+        tries=$((tries - 1))
+        [ $tries -gt 0 ] || fail "$what does not happen"
+        sleep 0.1
+    done
+}
+: >printed
+: >complained
+wait_for "a screen" test -s display
+DISPLAY=:$(cat display)
+export DISPLAY
+unset WAYLAND_DISPLAY SDL_VIDEODRIVER
+
+"$ewa" generate torus --points 20000 -o torus.ply
+"$view" torus.ply --size 1000x700 >printed 2>complained &
+session=$!
+wait_for "a window" xdotool search --onlyvisible --name torus.ply
+window=$(xdotool search --onlyvisible --name torus.ply | tail -n 1)
+xdotool windowmove "$window" 0 0
+# The first picture that is saved shows that the file is there: a key is a request, a file is the answer.
+wait_for "the first picture" sh -c "xdotool key F12 && sleep 0.5 && test -s ewa-0001.png && ! cmp -s ewa-0001.png empty.png"
+
+# Drag across the ring, away from the panels.
+xdotool mousemove 500 200 mousedown 1
+for step in 1 2 3 4 5 6 7 8; do
+    xdotool mousemove $((500 + 12 * step)) $((200 + 6 * step))
+    sleep 0.02
+done
+xdotool mouseup 1
+sleep 0.5
+
+# Somewhere down the middle is the ring: clicks that meet nothing print nothing.
+pick() {
+    for y in 200 250 300 400 450 500 550 600; do
+        xdotool mousemove "$1" $y
+        sleep 0.1
+        [ -z "$2" ] || xdotool keydown "$2"
+        xdotool click 1
+        [ -z "$2" ] || xdotool keyup "$2"
+        sleep 0.4
+        grep -q "$3" printed && return
+    done
+    fail "nothing is picked"
+}
+pick 500 "" "^pick torus.ply point [0-9]* at "
+pick 560 shift "^measure distance [0-9]"
+[ "$(grep -c '^pick ' printed)" = 2 ] || fail "not two picks"
+
+count=$(ls ewa-*.png | wc -l)
+xdotool key c
+sleep 0.3
+xdotool key F12
+wait_for "the last picture" sh -c "test \$(ls ewa-*.png | wc -l) -gt $count"
+sleep 0.5
+last=$(ls ewa-*.png | tail -n 1)
+cmp -s ewa-0001.png "$last" && fail "nothing has turned"
+
+xdotool key ctrl+q
+status=0
+wait $session || status=$?
+session=""
+[ $status = 0 ] || fail "the exit status is $status"
+[ ! -s complained ] || fail "something was wrong"
+echo "a session of $(wc -l <printed) results and $(ls ewa-*.png | wc -l) pictures"

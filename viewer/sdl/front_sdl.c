@@ -1,0 +1,257 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The window: made, kept up to date, closed. It sleeps while nothing changes, and needs no GPU.
+#include "events_sdl.h"
+#include "panel.h"
+#include "picture_sdl.h"
+#include "viewer/front.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/// A second's worth of pictures, at the rate of the fastest screens.
+enum { MAX_TIMES = 256 };
+
+/// The longest sleep: something may have gone unnoticed. The shortest: how late a picture may be seen.
+static const double longest_sleep_s = 10, shortest_sleep_s = 0.002;
+/// Frames that the panels take until every size has settled after something has happened.
+enum { SETTLING_FRAMES = 3 };
+
+typedef struct front_window {
+    viewer *viewer;
+    events_window events;
+    picture_window picture;
+    panel *panel;
+    viewer_state state;
+    bool closed;
+    bool scripted; ///< time is what the script says
+    double scripted_s;
+    double refresh_s;          ///< between two images of the screen
+    double drawn_at_s;         ///< when the window was last drawn
+    int unsettled;             ///< frames to draw though the picture is the same
+    double times_s[MAX_TIMES]; ///< when the last pictures came, in a ring
+    uint64_t times_count;
+} front_window;
+
+static double clock_s(const front_window *front) {
+    if (front->scripted) return front->scripted_s;
+    return (double)SDL_GetPerformanceCounter() / (double)SDL_GetPerformanceFrequency();
+}
+
+static void set_clipboard(void *user, const char *text) {
+    (void)user;
+    SDL_SetClipboardText(text);
+}
+
+static bool get_clipboard(void *user, char *text, size_t text_bytes) {
+    (void)user;
+    char *found = SDL_GetClipboardText();
+    const bool fits = found && *found && strlen(found) < text_bytes;
+    if (fits) memcpy(text, found, strlen(found) + 1);
+    SDL_free(found);
+    return fits;
+}
+
+/// Says why there is no window, and what helps.
+static int no_window(const char *what) {
+    fprintf(
+        stderr,
+        "ewa view: no %s (%s): set DISPLAY or WAYLAND_DISPLAY (SDL_VIDEODRIVER chooses among several), or "
+        "draw without a window: ewa render\n",
+        what, *SDL_GetError() ? SDL_GetError() : "SDL does not say why");
+    return 1;
+}
+
+/// Starts SDL; false: there is no screen. Drivers that nobody sees are taken only when they are asked for.
+static bool start_video(void) {
+    SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
+    SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");
+    // Else SDL looks for OpenGL behind the renderer that is to do without it.
+    SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
+    const bool asked = SDL_GetHint(SDL_HINT_VIDEODRIVER) != NULL;
+#ifdef __linux__
+    // Wayland's library prints a line of its own when it is tried without.
+    if (!asked && !SDL_getenv("XDG_RUNTIME_DIR")) SDL_SetHint(SDL_HINT_VIDEODRIVER, "x11");
+#endif
+    if (SDL_Init(SDL_INIT_VIDEO) != 0) return false;
+    const char *driver = SDL_GetCurrentVideoDriver();
+    if (asked || !driver || strcmp(driver, "offscreen") != 0) return true;
+    SDL_Quit();
+    SDL_SetError("no display can be opened");
+    return false;
+}
+
+/// SDL's units per point: what the desktop scales everything by, where SDL's units are pixels (X11).
+static double find_zoom(void) {
+    float dpi = 0;
+    const char *driver = SDL_GetCurrentVideoDriver();
+    if (!driver || strcmp(driver, "x11") != 0 || SDL_GetDisplayDPI(0, &dpi, NULL, NULL) != 0) return 1;
+    // In quarters from 1 to 4, as desktops have it. Screens that do not know their size say anything.
+    const double zoom = nearbyint((double)dpi / 96 * 4) / 4;
+    return zoom >= 1.25 && zoom <= 4 ? zoom : 1;
+}
+
+static double find_refresh_s(SDL_Window *window) {
+    SDL_DisplayMode mode;
+    const int display = SDL_GetWindowDisplayIndex(window);
+    if (display < 0 || SDL_GetCurrentDisplayMode(display, &mode) != 0 || mode.refresh_rate < 20)
+        return 1.0 / 60;
+    return 1.0 / mode.refresh_rate;
+}
+
+/// Gives on an event, to the panels first.
+static void handle(front_window *front, const SDL_Event *event) {
+    viewer_event translated;
+    front->unsettled = SETTLING_FRAMES;
+    if (event->type == SDL_QUIT) front->closed = true;
+    if (event->type == SDL_RENDER_DEVICE_RESET || event->type == SDL_RENDER_TARGETS_RESET)
+        front->picture.number = 0;
+    const bool resized =
+        event->type == SDL_WINDOWEVENT && (event->window.event == SDL_WINDOWEVENT_SIZE_CHANGED ||
+                                           event->window.event == SDL_WINDOWEVENT_DISPLAY_CHANGED);
+    if (resized) {
+        events_measure(&front->events, &translated);
+        translated.time_s = clock_s(front);
+        front->refresh_s = find_refresh_s(front->events.window);
+        viewer_handle(front->viewer, &translated);
+    } else if (!(front->panel && panel_event(front->panel, front->viewer, event)) &&
+               events_translate(&front->events, event, clock_s(front), &translated)) {
+        viewer_handle(front->viewer, &translated);
+    }
+    if (event->type == SDL_DROPFILE) SDL_free(event->drop.file);
+}
+
+/// Handles what has happened.
+static void pump(front_window *front) {
+    SDL_Event event;
+    while (SDL_PollEvent(&event)) handle(front, &event);
+}
+
+/// Counts a new picture and returns how many come in a second, 0 when they do not follow each other.
+static double count_frames(front_window *front, bool fresh) {
+    const double now_s = clock_s(front);
+    if (fresh) front->times_s[front->times_count++ % MAX_TIMES] = now_s;
+    uint64_t recent = 0;
+    double first_s = now_s;
+    while (recent < MAX_TIMES && recent < front->times_count) {
+        const double time_s = front->times_s[(front->times_count - 1 - recent) % MAX_TIMES];
+        if (now_s - time_s > 1) break;
+        first_s = time_s;
+        recent++;
+    }
+    const double last_s = recent ? front->times_s[(front->times_count - 1) % MAX_TIMES] : now_s;
+    return recent > 2 && last_s > first_s ? (double)(recent - 1) / (last_s - first_s) : 0;
+}
+
+/// Draws the window: the picture, and panels over it where there is something to say.
+static void draw(front_window *front, const viewer_picture *picture) {
+    const panel_facts facts = {.picture = *picture,
+                               .frames_per_s = count_frames(front, picture->number != front->picture.number),
+                               .scale = front->events.scale,
+                               .now_s = clock_s(front)};
+    picture_window_draw(&front->picture, picture, front->events.scale);
+    const bool wanted = !front->scripted || front->state.panels || front->state.help;
+    if (wanted && !front->panel) front->panel = panel_create(front->events.window, front->picture.renderer);
+    if (wanted && front->panel) panel_draw(front->panel, front->viewer, &facts);
+    SDL_RenderPresent(front->picture.renderer);
+    front->drawn_at_s = facts.now_s;
+    if (front->unsettled) front->unsettled--;
+}
+
+/// Shows the window until it is closed.
+static void live(front_window *front) {
+    while (!front->closed) {
+        viewer_picture picture;
+        pump(front);
+        viewer_frame(front->viewer, clock_s(front), &picture);
+        viewer_get_state(front->viewer, &front->state);
+        front->closed = front->closed || front->state.quit;
+        const double since_s = clock_s(front) - front->drawn_at_s;
+        const double panel_s = front->panel ? panel_spare_s(front->panel) : INFINITY;
+        const bool changed =
+            picture.number != front->picture.number || front->unsettled || since_s >= panel_s;
+        if (changed && since_s >= front->refresh_s) {
+            draw(front, &picture);
+            continue;
+        }
+        double sleep_s = fmin(picture.spare_s, fmin(panel_s - since_s, longest_sleep_s));
+        if (changed) sleep_s = front->refresh_s - since_s;
+        SDL_WaitEventTimeout(NULL, (int)ceil(fmax(sleep_s, shortest_sleep_s) * 1000));
+    }
+}
+
+/// What a script does is put into SDL's queue and taken out again at once, so that its time is kept.
+static void script_event(void *user, const viewer_event *event) {
+    front_window *front = user;
+    front->scripted_s = event->time_s;
+    events_push(&front->events, event);
+    pump(front);
+}
+
+static bool script_step(void *user, double time_s, viewer_picture *picture) {
+    front_window *front = user;
+    front->scripted_s = time_s;
+    pump(front);
+    viewer_frame(front->viewer, time_s, picture);
+    viewer_get_state(front->viewer, &front->state);
+    draw(front, picture);
+    return !front->closed && !front->state.quit;
+}
+
+/// Makes the viewer while the window comes up, so that files load meanwhile.
+static bool open_viewer(front_window *front, const front_job *job) {
+    viewer_event size;
+    viewer_options options = job->options;
+    events_measure(&front->events, &size);
+    options.width = (uint32_t)lround(size.x);
+    options.height = (uint32_t)lround(size.y);
+    options.scale = size.amount;
+    options.services.clipboard_set = set_clipboard;
+    options.services.clipboard_get = get_clipboard;
+    if (viewer_create(&options, &front->viewer) != EWA_OK) return false;
+    if (front->scripted) viewer_do(front->viewer, "panels off");
+    for (size_t i = 0; i < job->path_count; i++) viewer_open(front->viewer, job->paths[i]);
+    return true;
+}
+
+static int run(front_window *front, const front_job *job) {
+    if (!open_viewer(front, job)) {
+        fputs("ewa view: out of memory\n", stderr);
+        return 1;
+    }
+    if (!picture_window_open(front->events.window, &front->picture)) return no_window("renderer");
+    front->refresh_s = find_refresh_s(front->events.window);
+    if (front->scripted) {
+        const script_host host = {.user = front, .event = script_event, .step = script_step};
+        pump(front);
+        return script_run(front->viewer, job, &host);
+    }
+    live(front);
+    return 0;
+}
+
+int front_window_run(const front_job *job) {
+    if (!start_video()) return no_window("display");
+    const char *name = job->path_count ? strrchr(job->paths[0], '/') : NULL;
+    char title[VIEWER_NAME_BYTES];
+    snprintf(title, sizeof title, "%s%sewa",
+             !job->path_count ? ""
+             : name           ? name + 1
+                              : job->paths[0],
+             job->path_count ? " - " : "");
+    front_window front = {.scripted = job->script_path != NULL};
+    front.events.zoom = front.scripted ? job->options.scale : find_zoom();
+    const int width = (int)lround(job->options.width * front.events.zoom);
+    const int height = (int)lround(job->options.height * front.events.zoom);
+    front.events.window = SDL_CreateWindow(title, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, width,
+                                           height, SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
+    int exit_status = front.events.window ? run(&front, job) : no_window("window");
+    viewer_destroy(&front.viewer);
+    panel_destroy(&front.panel);
+    picture_window_close(&front.picture);
+    if (front.events.window) SDL_DestroyWindow(front.events.window);
+    SDL_Quit();
+    return exit_status;
+}

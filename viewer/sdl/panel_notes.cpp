@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What comes and goes: progress, messages, results, help; and the line below with figures of the picture.
+#include "panel_parts.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+namespace {
+
+/// So long a message stays.
+constexpr double message_stays_s = 10;
+/// What the picture's scale bar takes at the lower right.
+constexpr float scale_bar_points = 40;
+/// Progress and figures are shown anew so often.
+constexpr double progress_step_s = 0.1, figures_step_s = 0.25;
+
+constexpr ImGuiWindowFlags note_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing |
+                                        ImGuiWindowFlags_NoNav;
+
+/// Height of the line of figures with its margins: other notes stand above it.
+float line_height(const panel_page *page) { return ImGui::GetFrameHeight() + 2 * panel_margin(page); }
+
+/// "1.0 M" of 1,000,000.
+void write_short(uint64_t count, char text[32]) {
+    const double number = (double)count;
+    if (number >= 1e9)
+        snprintf(text, 32, "%.2f G", number * 1e-9);
+    else if (number >= 1e6)
+        snprintf(text, 32, "%.2f M", number * 1e-6);
+    else if (number >= 1e4)
+        snprintf(text, 32, "%.0f k", number * 1e-3);
+    else
+        snprintf(text, 32, "%.0f", number);
+}
+
+void figures(panel_page *page) {
+    uint64_t splats = 0, voxels = 0;
+    for (size_t i = 0; i < viewer_item_count(page->viewer); i++) {
+        viewer_item item;
+        if (!viewer_item_get(page->viewer, i, &item) || !item.visible) continue;
+        if (item.volume)
+            voxels += item.count;
+        else
+            splats += item.count;
+    }
+    const panel_facts *facts = page->facts;
+    const float margin = panel_margin(page);
+    ImGui::SetNextWindowPos(ImVec2(margin, page->height - margin), 0, ImVec2(0, 1));
+    ImGui::SetNextWindowBgAlpha(0.7f);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(10 * page->unit, 4 * page->unit));
+    ImGui::Begin("figures", nullptr, note_flags | ImGuiWindowFlags_NoInputs);
+    char count[32];
+    if (splats || !voxels) {
+        write_short(splats, count);
+        ImGui::Text("%s splats", count);
+    }
+    if (voxels) {
+        if (splats) ImGui::SameLine(0, 14 * page->unit);
+        write_short(voxels, count);
+        ImGui::Text("%s voxels", count);
+    }
+    if (facts->picture.level) {
+        ImGui::SameLine(0, 14 * page->unit);
+        ImGui::Text("level %u", facts->picture.level);
+    }
+    ImGui::SameLine(0, 14 * page->unit);
+    ImGui::Text("%.1f ms", 1e3 * facts->picture.drawn_s);
+    if (facts->frames_per_s > 0) {
+        ImGui::SameLine(0, 14 * page->unit);
+        ImGui::Text("%.0f frames/s", facts->frames_per_s);
+        page->spare_s = fmin(page->spare_s, figures_step_s);
+    }
+    ImGui::SameLine(0, 14 * page->unit);
+    ImGui::TextDisabled("H: help   Tab: panels");
+    ImGui::End();
+    ImGui::PopStyleVar();
+}
+
+void progress(panel_page *page, float *bottom) {
+    const viewer_state &state = page->state;
+    if (!state.loading[0]) return;
+    page->spare_s = fmin(page->spare_s, progress_step_s);
+    const float width = fminf(360 * page->unit, 0.8f * page->width);
+    ImGui::SetNextWindowPos(ImVec2(0.5f * page->width, *bottom), 0, ImVec2(0.5f, 1));
+    ImGui::SetNextWindowSize(ImVec2(width, 0));
+    ImGui::Begin("progress", nullptr, note_flags & ~ImGuiWindowFlags_AlwaysAutoResize);
+    ImGui::Text("%s", state.loading);
+    if (state.queued) {
+        ImGui::SameLine();
+        ImGui::TextDisabled("and %u more", state.queued);
+    }
+    const float button = ImGui::CalcTextSize("Cancel").x + 2 * ImGui::GetStyle().FramePadding.x;
+    const float fraction = (float)fmin(fmax(state.fraction, 0), 1);
+    ImGui::ProgressBar(fraction, ImVec2(-button - ImGui::GetStyle().ItemSpacing.x, 0),
+                       state.stage[0] ? state.stage : "...");
+    ImGui::SameLine();
+    if (ImGui::Button("Cancel")) panel_say(page, "cancel");
+    *bottom = ImGui::GetWindowPos().y - panel_margin(page);
+    ImGui::End();
+}
+
+void message(panel_page *page, float *bottom) {
+    const viewer_state &state = page->state;
+    const double left_s = message_stays_s - (page->facts->now_s - state.message_s);
+    if (!state.message[0] || left_s <= 0) return;
+    page->spare_s = fmin(page->spare_s, left_s);
+    const float width = fminf(520 * page->unit, 0.8f * page->width);
+    ImGui::SetNextWindowPos(ImVec2(0.5f * page->width, *bottom), 0, ImVec2(0.5f, 1));
+    ImGui::Begin("message", nullptr, note_flags | ImGuiWindowFlags_NoInputs);
+    ImGui::PushTextWrapPos(width);
+    ImGui::TextUnformatted(state.message);
+    ImGui::PopTextWrapPos();
+    *bottom = ImGui::GetWindowPos().y - panel_margin(page);
+    ImGui::End();
+}
+
+void picked(const panel_page *page) {
+    if (!page->state.picked[0]) return;
+    const float margin = panel_margin(page);
+    const float bottom = page->height - margin - scale_bar_points * page->unit;
+    ImGui::SetNextWindowPos(ImVec2(page->width - margin, bottom), 0, ImVec2(1, 1));
+    ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(0.45f * page->width, 0.6f * page->height));
+    ImGui::Begin("picked", nullptr, note_flags & ~ImGuiWindowFlags_NoScrollbar);
+    ImGui::TextUnformatted(page->state.picked);
+    if (ImGui::Button("Copy")) SDL_SetClipboardText(page->state.picked);
+    ImGui::SameLine();
+    if (ImGui::Button("Clear")) panel_say(page, "clear");
+    ImGui::End();
+}
+
+/// An empty window says what to do with it.
+void invitation(const panel_page *page) {
+    if (viewer_item_count(page->viewer) || page->state.loading[0]) return;
+    static const char text[] = "Drop a point cloud, a mesh or a volume here";
+    const ImVec2 size = ImGui::CalcTextSize(text);
+    const ImVec2 place(floorf(0.5f * (page->width - size.x)), floorf(0.5f * (page->height - size.y)));
+    const ImVec2 pad(12 * page->unit, 8 * page->unit);
+    ImDrawList *list = ImGui::GetBackgroundDrawList();
+    list->AddRectFilled(ImVec2(place.x - pad.x, place.y - pad.y),
+                        ImVec2(place.x + size.x + pad.x, place.y + size.y + pad.y),
+                        ImGui::GetColorU32(ImGuiCol_WindowBg));
+    list->AddText(place, ImGui::GetColorU32(ImGuiCol_Text), text);
+}
+
+} // namespace
+
+void panel_notes(panel_page *page) {
+    float bottom = page->height - line_height(page);
+    if (page->state.panels) {
+        figures(page);
+        picked(page);
+    }
+    // Help takes the middle down to here.
+    if (page->state.help) return;
+    progress(page, &bottom);
+    message(page, &bottom);
+    invitation(page);
+}
+
+void panel_help(panel_page *page) {
+    ImGui::SetNextWindowPos(ImVec2(0.5f * page->width, 0.5f * page->height), 0, ImVec2(0.5f, 0.5f));
+    const float margin = panel_margin(page);
+    ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0),
+                                        ImVec2(page->width - 2 * margin, page->height - 2 * margin));
+    ImGui::Begin("help", nullptr,
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
+                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove);
+    const char *what, *keys;
+    if (ImGui::BeginTable("rows", 2, ImGuiTableFlags_SizingFixedFit)) {
+        for (uint32_t i = 0; (keys = viewer_help_at(i, &what)); i++) {
+            ImGui::TableNextRow();
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(keys);
+            ImGui::TableNextColumn();
+            ImGui::TextDisabled("%s   ", what);
+        }
+        ImGui::EndTable();
+    }
+    if (ImGui::Button("Close")) panel_say(page, "help off");
+    ImGui::End();
+}

@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The panel of what is loaded: shown or not, name, colours, opacity; views above, settings below.
+#include "panel_parts.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+namespace {
+
+/// Points.
+constexpr float panel_width = 300;
+/// Larger clouds take too long to be coloured again while a hand moves.
+constexpr uint64_t live_count = 2000000;
+
+/// In the order of ewa_colormap.
+const char *const colormaps[] = {"viridis", "turbo", "gray",    "plasma",
+                                 "inferno", "magma", "cividis", "coolwarm"};
+
+void views(const panel_page *page) {
+    static const struct {
+        const char *label, *view, *tip;
+    } buttons[] = {{"All", "reset", "All of it, as at first (Enter)"},
+                   {"Front", "front", "From the front (1)"},
+                   {"Right", "right", "From the right (3)"},
+                   {"Top", "top", "From above (7)"},
+                   {"Corner", "iso", "From a corner (9)"}};
+    constexpr int count = IM_ARRAYSIZE(buttons);
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+    const float width = (ImGui::GetContentRegionAvail().x - gap * (count - 1)) / count;
+    for (int i = 0; i < count; i++) {
+        if (i) ImGui::SameLine(0, gap);
+        if (ImGui::Button(buttons[i].label, ImVec2(floorf(width), 0)))
+            panel_say(page, "view %s", buttons[i].view);
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", buttons[i].tip);
+    }
+}
+
+/// Chooses the file's colours, one colour, or an attribute's.
+void choose_colors(const panel_page *page, int index, const viewer_item *item) {
+    const viewer_coloring &now = item->coloring;
+    static const char own[] = "as in the file", one[] = "one colour";
+    panel_label(page, "Colours");
+    if (!ImGui::BeginCombo("##colors", now.attribute[0] ? now.attribute : now.tinted ? one : own)) return;
+    if (ImGui::Selectable(own, !now.attribute[0] && !now.tinted)) {
+        panel_say(page, "color %d none", index);
+        panel_say(page, "tint %d none", index);
+    }
+    if (ImGui::Selectable(one, !now.attribute[0] && now.tinted)) {
+        panel_say(page, "color %d none", index);
+        panel_say(page, "tint %d 0.8,0.8,0.8", index);
+    }
+    char name[EWA_NAME_BYTES + 4];
+    for (uint32_t i = 0; viewer_attribute_at(page->viewer, (size_t)index, i, name); i++)
+        if (ImGui::Selectable(name, strcmp(name, now.attribute) == 0))
+            panel_say(page, "color %d %s", index, name);
+    ImGui::EndCombo();
+}
+
+void say_range(const panel_page *page, int index, const viewer_coloring *now, int map,
+               const double range[2]) {
+    panel_say(page, "color %d %s %s %.10g,%.10g", index, now->attribute, colormaps[map], range[0], range[1]);
+}
+
+/// The map of an attribute's numbers to colours.
+void choose_map(panel_page *page, int index, const viewer_item *item) {
+    const viewer_coloring &now = item->coloring;
+    const bool known = now.colormap >= 0 && now.colormap < IM_ARRAYSIZE(colormaps);
+    panel_label(page, "Colour map");
+    int map = known ? now.colormap : 0;
+    if (ImGui::Combo("##map", &map, colormaps, IM_ARRAYSIZE(colormaps))) {
+        if (now.ranged)
+            say_range(page, index, &now, map, now.range);
+        else
+            panel_say(page, "color %d %s %s", index, now.attribute, colormaps[map]);
+    }
+    panel_label(page, "Range");
+    static const char label[] = "##range";
+    double range[2] = {now.range[0], now.range[1]};
+    panel_edit_begin(page, label, 2, range);
+    const float width = ImGui::CalcTextSize("Auto").x + 2 * ImGui::GetStyle().FramePadding.x;
+    ImGui::SetNextItemWidth(-width - ImGui::GetStyle().ItemInnerSpacing.x);
+    const float extent = (float)fabs(range[1] - range[0]);
+    const bool changed = ImGui::DragScalarN(label, ImGuiDataType_Double, range, 2,
+                                            extent > 0 ? 0.005f * extent : 0.01f, nullptr, nullptr, "%.4g");
+    if (panel_edit_end(page, label, 2, range, changed, item->count <= live_count))
+        say_range(page, index, &now, map, range);
+    ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+    if (ImGui::Button("Auto")) panel_say(page, "color %d %s %s", index, now.attribute, colormaps[map]);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("From the 2nd to the 98th percentile");
+}
+
+void choose_tint(panel_page *page, int index, const viewer_item *item) {
+    panel_label(page, "Colour");
+    static const char label[] = "##tint";
+    double tint[3] = {item->coloring.tint[0], item->coloring.tint[1], item->coloring.tint[2]};
+    panel_edit_begin(page, label, 3, tint);
+    float shown[3] = {(float)tint[0], (float)tint[1], (float)tint[2]};
+    const bool changed = ImGui::ColorEdit3(label, shown, ImGuiColorEditFlags_NoOptions);
+    for (int c = 0; c < 3; c++) tint[c] = shown[c] < 0 ? 0 : shown[c] > 1 ? 1 : (double)shown[c];
+    if (panel_edit_end(page, label, 3, tint, changed, item->count <= live_count))
+        panel_say(page, "tint %d %.4f,%.4f,%.4f", index, tint[0], tint[1], tint[2]);
+}
+
+void choose_alpha(panel_page *page, int index, const viewer_item *item) {
+    panel_label(page, "Opacity");
+    static const char label[] = "##alpha";
+    const double none = 0, full = 1;
+    double alpha = item->coloring.alpha;
+    panel_edit_begin(page, label, 1, &alpha);
+    const bool changed = ImGui::SliderScalar(label, ImGuiDataType_Double, &alpha, &none, &full, "%.2f",
+                                             ImGuiSliderFlags_AlwaysClamp);
+    if (panel_edit_end(page, label, 1, &alpha, changed, item->count <= live_count))
+        panel_say(page, "alpha %d %.4f", index, alpha);
+}
+
+/// A number with its thousands set apart.
+void write_count(uint64_t count, char text[32]) {
+    char digits[24];
+    const int length = snprintf(digits, sizeof digits, "%llu", (unsigned long long)count);
+    int used = 0;
+    for (int i = 0; i < length; i++) {
+        if (i && (length - i) % 3 == 0) text[used++] = ',';
+        text[used++] = digits[i];
+    }
+    text[used] = 0;
+}
+
+/// Returns false when the item was closed.
+bool item_row(panel_page *page, int index, const viewer_item *item, bool open_first) {
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x, side = ImGui::GetFrameHeight();
+    bool visible = item->visible;
+    if (ImGui::Checkbox("##shown", &visible)) panel_say(page, "show %d %s", index, visible ? "on" : "off");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Show it");
+    ImGui::SameLine(0, gap);
+    bool *open = ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("open"), open_first);
+    ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0, 0, 0, 0));
+    if (ImGui::ArrowButton("##fold", *open ? ImGuiDir_Down : ImGuiDir_Right)) *open = !*open;
+    ImGui::PopStyleColor();
+    ImGui::SameLine(0, gap);
+    char name[VIEWER_NAME_BYTES];
+    memcpy(name, item->name, sizeof name);
+    ImGui::SetNextItemWidth(-side - gap);
+    ImGui::PushStyleColor(ImGuiCol_FrameBg, ImVec4(0, 0, 0, 0));
+    ImGui::InputText("##name", name, sizeof name, ImGuiInputTextFlags_AutoSelectAll);
+    ImGui::PopStyleColor();
+    if (ImGui::IsItemDeactivatedAfterEdit() && name[0]) panel_say(page, "name %d %s", index, name);
+    if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) ImGui::SetTooltip("%s", item->path);
+    ImGui::SameLine(0, gap);
+    ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0, 0, 0, 0));
+    const bool closed = ImGui::Button("x", ImVec2(side, 0));
+    ImGui::PopStyleColor();
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Close it");
+    if (closed) {
+        panel_say(page, "close %d", index);
+        return false;
+    }
+    if (!*open) return true;
+    char count[32];
+    write_count(item->count, count);
+    ImGui::TextDisabled("%s %s", count, item->volume ? "voxels" : item->mesh ? "points on faces" : "points");
+    if (item->volume) return true;
+    choose_colors(page, index, item);
+    if (item->coloring.attribute[0])
+        choose_map(page, index, item);
+    else if (item->coloring.tinted)
+        choose_tint(page, index, item);
+    choose_alpha(page, index, item);
+    return true;
+}
+
+void items(panel_page *page) {
+    const size_t count = viewer_item_count(page->viewer);
+    if (!count) ImGui::TextDisabled("Nothing is open.");
+    for (size_t i = 0; i < count; i++) {
+        viewer_item item;
+        if (!viewer_item_get(page->viewer, i, &item)) break;
+        ImGui::PushID((int)i);
+        const bool kept = item_row(page, (int)i, &item, count == 1);
+        ImGui::PopID();
+        if (!kept) break;
+    }
+}
+
+} // namespace
+
+void panel_scene(panel_page *page) {
+    const float margin = panel_margin(page), width = fminf(panel_width * page->unit, 0.5f * page->width);
+    const float below = ImGui::GetFrameHeight() + 2 * margin;
+    ImGui::SetNextWindowPos(ImVec2(margin, margin));
+    ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0),
+                                        ImVec2(width, fmaxf(page->height - margin - below, 1)));
+    ImGui::Begin("scene", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoFocusOnAppearing);
+    views(page);
+    ImGui::Separator();
+    items(page);
+    ImGui::Separator();
+    panel_settings(page);
+    ImGui::End();
+}
