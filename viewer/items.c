@@ -81,9 +81,11 @@ bool items_close(viewer *v, size_t index) {
         viewer_tell(v, "close: there is no item %zu", index);
         return false;
     }
-    loader_forget(v->loader, v->items[index].id);
-    items_update(v);
-    remove_item(v, index);
+    const uint64_t id = v->items[index].id;
+    loader_forget(v->loader, id);
+    items_update(v); // in which it may go by itself
+    scene_item *item = find_item(v, id);
+    if (item) remove_item(v, (size_t)(item - v->items));
     return true;
 }
 
