@@ -230,7 +230,7 @@ void items_gather(const viewer *v, paint_scene *scene) {
         if (!item->visible) continue;
         if (item_surfels(item)) {
             scene->surfels[scene->surfels_count++] = item_surfels(item);
-            if (item->preview && scene->render.point_size_px == 0)
+            if (item->content.as_points && scene->render.point_size_px == 0)
                 scene->render.point_size_px = PREVIEW_POINT_PX;
         }
         const ewa_voxels *voxels = item->content.voxels;
