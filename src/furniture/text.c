@@ -110,9 +110,11 @@ static void add_line(tile *to, point a, point b) {
         const double y = j + 0.5 - y0;
         for (int i = left; i < right; i++) {
             const double x = i + 0.5 - x0;
-            const double part = fmin(fmax((x * dx + y * dy) * scale, 0), 1);
+            const double along = (x * dx + y * dy) * scale;
+            const double part = along > 0 ? (along < 1 ? along : 1) : 0;
             const double off_x = x - part * dx, off_y = y - part * dy;
-            to->squares[j][i] = fminf(to->squares[j][i], (float)(off_x * off_x + off_y * off_y));
+            const float near = (float)(off_x * off_x + off_y * off_y);
+            if (near < to->squares[j][i]) to->squares[j][i] = near;
         }
     }
 }

@@ -316,19 +316,19 @@ static void test_same(void **state) {
     ewa_text_style style = {22.5, {250, 240, 20, 230}, 7, {10, 20, 90, 160}, EWA_TEXT_LEFT};
     enum { WIDE = 211, HIGH = 60 };
     ewa_canvas whole = painting_make(WIDE, HIGH, (const uint8_t[4]){40, 90, 60, 255});
-    ewa_draw_text(&whole, "Äïk 0.5 m² "Quick 0.5 m² & so" Îço", 7, 40, &style);
+    ewa_draw_text(&whole, "Äïk 0.5 m² & Îço", 7, 40, &style);
     uint8_t *block = malloc(WIDE * HIGH * 4 + 8);
     for (size_t shift = 0; shift < 5; shift++) {
         ewa_canvas moved = {block + shift, WIDE, HIGH};
         for (size_t i = 0; i < WIDE * HIGH; i++)
             memcpy(moved.rgba8 + 4 * i, (const uint8_t[4]){40, 90, 60, 255}, 4);
-        ewa_draw_text(&moved, "Äïk 0.5 m² "Quick 0.5 m² & so" Îço", 7, 40, &style);
+        ewa_draw_text(&moved, "Äïk 0.5 m² & Îço", 7, 40, &style);
         assert_true(painting_same(&whole, &moved));
     }
     free(block);
     for (uint32_t cut = 1; cut < 100; cut += 7) {
         ewa_canvas part = painting_make(WIDE - cut, HIGH - cut / 2, (const uint8_t[4]){40, 90, 60, 255});
-        ewa_draw_text(&part, "Äïk 0.5 m² "Quick 0.5 m² & so" Îço", 7.0 - cut, 40.0 - cut / 2, &style);
+        ewa_draw_text(&part, "Äïk 0.5 m² & Îço", 7.0 - cut, 40.0 - cut / 2, &style);
         for (uint32_t y = 0; y < part.height_px; y++)
             assert_memory_equal(painting_at(&part, 0, y), painting_at(&whole, cut, y + cut / 2),
                                 4 * (size_t)part.width_px);
