@@ -163,6 +163,14 @@ static bool find_color(const color_scale *scale, double number, uint8_t srgb[3])
     return has;
 }
 
+bool color_by_shows_classes(cli_session *session, const ewa_cloud *cloud, const char *word) {
+    char name[EWA_NAME_BYTES];
+    uint32_t component;
+    if (!color_by_find(session, cloud, word, name, &component)) return false;
+    const scalar from = {*ewa_cloud_find(cloud, name), component, 0, ewa_cloud_point_count(cloud)};
+    return holds_classes(&from, name);
+}
+
 void color_scale_free(color_scale *scale) {
     free(scale->categories);
     free(scale->names);

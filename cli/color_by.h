@@ -28,6 +28,9 @@ typedef struct color_scale {
     uint32_t category_count;
 } color_scale;
 
+/// Whether color_by() shows an attribute as classes when neither colormap nor range are given.
+bool color_by_shows_classes(cli_session *session, const ewa_cloud *cloud, const char *word);
+
 /// Replaces the colours of a cloud by those of one component of an attribute; numbers that are not finite, or
 /// no classes where those are shown, become grey. `colormap`: of the library, or COLOR_BY_*. A `range` that is not
 /// given: from the least to the greatest. Returns false after reporting; free `scale` in any case.

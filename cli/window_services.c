@@ -222,7 +222,10 @@ static bool color_scaled(cli_session *session, ewa_cloud *cloud, viewer_coloring
                                     ? (option_bounds){{wish->range[0], wish->range[1]}, {false, false}, true}
                                     : (option_bounds){{2, 98}, {true, true}, true};
     color_scale scale = {.categories = NULL};
-    const bool done = color_by(session, cloud, wish->attribute, wish->colormap, &range, &scale);
+    const bool classes = !wish->ranged && wish->colormap == VIEWER_COLORMAP_AUTO &&
+                         color_by_shows_classes(session, cloud, wish->attribute);
+    const bool done = color_by(session, cloud, wish->attribute, classes ? COLOR_BY_CLASSES : wish->colormap,
+                               &range, &scale);
     memcpy(wish->range, scale.range, sizeof scale.range);
     wish->class_count = 0;
     for (uint32_t k = 0; done && k < scale.category_count && k < VIEWER_MAX_CLASSES; k++) {
