@@ -40,6 +40,7 @@ static const cli_option work_table[] = {
     {"passes", RENDER(passes), .help = "as for render"},
     {"shading", RENDER(shading), .help = "lambert and phong need normals in each pixel, none does not"},
     {"edge-layers", RENDER(edge_layers), .help = "as for render"},
+    {"level", RENDER(level), .help = "level of detail to draw, of as many as are needed for it"},
     {"stages", OPTION_ON_OFF, AT(stages),
      .help = "also time what comes before and after a frame, for the first scene: PLY, normals, surfels, "
              "PNG; and clipping"},

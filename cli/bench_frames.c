@@ -59,13 +59,16 @@ ewa_status bench_borrow(ewa_context *context, const ewa_cloud *cloud, ewa_cloud 
 }
 
 static bool open_lane(cli_session *session, bench_lane *lane, const bench_sets *sets, uint32_t threads,
-                      const ewa_cloud *cloud) {
+                      uint32_t level, const ewa_cloud *cloud) {
     lane->sets = sets;
     lane->context = session_context(session, threads, sets->mask);
     if (!lane->context) return false;
     ewa_cloud *borrowed = NULL;
+    ewa_surfels_options surfels;
+    ewa_surfels_options_init(&surfels, sizeof surfels);
+    surfels.level_count = level + 1;
     ewa_status status = bench_borrow(lane->context, cloud, &borrowed);
-    if (status == EWA_OK) status = ewa_surfels_create(borrowed, NULL, &lane->surfels);
+    if (status == EWA_OK) status = ewa_surfels_create(borrowed, &surfels, &lane->surfels);
     if (status == EWA_OK) status = ewa_renderer_create(lane->context, &lane->renderer);
     ewa_cloud_destroy(&borrowed);
     if (status != EWA_OK) session_failed(session, status);
@@ -161,7 +164,7 @@ bool bench_frames(cli_session *session, const bench_plan *plan, const bench_scen
         const size_t count = i / way_count;
         if (scene->in_all_ways) lanes[i].way = &all_ways[i % way_count];
         done = open_lane(session, &lanes[i], &plan->sets[count / plan->thread_counts],
-                         plan->threads[count % plan->thread_counts], scene->cloud);
+                         plan->threads[count % plan->thread_counts], render->level, scene->cloud);
         if (done && plan->against && count < plan->thread_counts && i % way_count == 0)
             done = bench_rival_start(session, plan->against, scene, plan->threads[count], &lanes[i].rival);
     }

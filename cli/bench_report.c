@@ -133,7 +133,8 @@ void bench_report_frames(const bench_sink *sink, const bench_frame_row *row) {
         json_object(sink->json, NULL);
         write_frames(sink->json, row, label);
     }
-    const double peer_ms = row->threads == 2 ? bench_peer_ms(row->scene) : 0;
+    const bool all_splats = row->stats.level == 0; // others draw them, and goals are of them
+    const double peer_ms = row->threads == 2 && all_splats ? bench_peer_ms(row->scene) : 0;
     if (peer_ms > 0) {
         const double ratio = peer_ms / (1e3 * row->total.median);
         fprintf(sink->text, "  best peer %.0f ms: %.1f times faster", peer_ms, ratio);
@@ -156,7 +157,7 @@ void bench_report_frames(const bench_sink *sink, const bench_frame_row *row) {
     if (row->first_way_s > 0)
         fprintf(sink->text, "  %.3f of the first", row->total.quartile / row->first_way_s);
     bench_goal goals[BENCH_MAX_GOALS];
-    report_goals(sink, goals, bench_goals_frames(row, goals));
+    report_goals(sink, goals, all_splats ? bench_goals_frames(row, goals) : 0);
     if (sink->json) json_close(sink->json, '}');
     fputc('\n', sink->text);
     fflush(sink->text);

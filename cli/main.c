@@ -15,8 +15,10 @@ enum { MAX_COMMANDS = 32 };
 static int unknown_command(const char *word) {
     struct stat facts;
     if (stat(word, &facts) == 0 && S_ISREG(facts.st_mode)) {
-        fprintf(stderr, "ewa: '%s': a file, no command; to draw it: ewa render '%s' -o picture.png\n", word,
-                word);
+        fprintf(stderr,
+                "ewa: '%s': a file, no command; to look at it: ewa view '%s'; to draw it: ewa render '%s' -o "
+                "picture.png\n",
+                word, word, word);
         return EXIT_USAGE;
     }
     const char *names[MAX_COMMANDS + 2];

@@ -18,8 +18,12 @@ enum {
     LEVELS = 8,
     VOXEL_LEVELS = 2,
     PREVIEW_POINTS = 200000,
+    MANY_POINTS = 400000,   ///< take a while to become surfels with levels
     SAMPLE_POINTS = 100000, ///< of each of several clouds, for framing them together
 };
+
+/// Radii of a preview, in units that keep its area.
+static const double PREVIEW_GROWTH = 1.5;
 
 /// The session of one file, which lives as long as what was loaded: its context reports to it.
 typedef struct file_session {
@@ -56,15 +60,35 @@ static file_session *make_session(const viewer_news *news, uint32_t thread_count
     return NULL;
 }
 
-/// Every so many of a cloud's points as they are, with what draws them as discs of pixels. NULL: no memory.
-static ewa_cloud *make_preview_cloud(ewa_context *context, const ewa_cloud *cloud) {
+/// Copies point `from` of a stream, when there is one.
+static void copy_numbers(const ewa_attribute *stream, uint64_t from, uint64_t to, double scale,
+                         float *numbers) {
+    double read[4];
+    if (!stream) return;
+    ewa_attribute_read_f64(stream, from, 1, read);
+    for (uint32_t c = 0; c < stream->component_count; c++)
+        numbers[stream->component_count * to + c] = (float)(scale * read[c]);
+}
+
+/// One of every `step` points, not always the same one: files have rows.
+static uint64_t choose_point(uint64_t index, uint64_t step, uint64_t count) {
+    const uint64_t mixed = (index * 0x9e3779b97f4a7c15u) >> 32, point = index * step + mixed % step;
+    return point < count ? point : count - 1;
+}
+
+/// Some of a cloud's points: larger, where they have normals and radii, else with what draws them as discs of
+/// pixels. NULL: no memory.
+static ewa_cloud *make_preview_cloud(ewa_context *context, const ewa_cloud *cloud, bool whole) {
     const uint64_t count = ewa_cloud_point_count(cloud);
     const uint64_t step = (count + PREVIEW_POINTS - 1) / PREVIEW_POINTS, kept = (count + step - 1) / step;
     const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION),
                         *color = ewa_cloud_find(cloud, EWA_COLOR);
+    const ewa_attribute *normal = whole ? ewa_cloud_find(cloud, EWA_NORMAL) : NULL,
+                        *radius = whole ? ewa_cloud_find(cloud, EWA_RADIUS) : NULL;
+    const double larger = PREVIEW_GROWTH * sqrt((double)step);
     ewa_cloud *made = NULL;
     void *positions = NULL, *normals = NULL, *radii = NULL, *colors = NULL;
-    const bool with_color = color && color->type == EWA_U8 && color->component_count >= 3;
+    const bool with_color = color && color->type == EWA_U8 && color->component_count == 3;
     ewa_status status = ewa_cloud_create(context, kept, &made);
     if (status == EWA_OK) status = ewa_cloud_add(made, EWA_POSITION, EWA_F64, 3, &positions);
     if (status == EWA_OK) status = ewa_cloud_add(made, EWA_NORMAL, EWA_F32, 3, &normals);
@@ -78,26 +102,31 @@ static ewa_cloud *make_preview_cloud(ewa_context *context, const ewa_cloud *clou
     ewa_cloud_origin(cloud, origin);
     ewa_cloud_set_origin(made, origin);
     for (uint64_t i = 0; i < kept; i++) {
-        double rgba[4];
-        ewa_attribute_read_f64(position, i * step, 1, (double *)positions + 3 * i);
-        float *normal = (float *)normals + 3 * i;
-        normal[0] = normal[1] = 0, normal[2] = 1;
+        const uint64_t point = choose_point(i, step, count);
+        ewa_attribute_read_f64(position, point, 1, (double *)positions + 3 * i);
+        memcpy((float *)normals + 3 * i, (const float[3]){0, 0, 1}, 3 * sizeof(float));
         ((float *)radii)[i] = 1;
-        if (!with_color) continue;
-        ewa_attribute_read_f64(color, i * step, 1, rgba);
-        for (int c = 0; c < 3; c++) ((uint8_t *)colors)[3 * i + (uint64_t)c] = (uint8_t)rgba[c];
+        copy_numbers(normal, point, i, 1, normals);
+        copy_numbers(radius, point, i, larger, radii);
+        double rgb[3];
+        if (with_color) ewa_attribute_read_f64(color, point, 1, rgb);
+        for (int c = 0; c < 3 && with_color; c++) ((uint8_t *)colors)[3 * i + (uint64_t)c] = (uint8_t)rgb[c];
     }
     return made;
 }
 
-/// Shows the points of a cloud that is not ready. Without memory there is nothing to see until it is.
+/// Shows some points of a cloud that is not ready. Without memory there is nothing to see until it is.
 static void show_preview(const viewer_news *news, const ewa_cloud *cloud) {
     viewer_content content;
     file_session *file = make_session(news, 1, true, &content);
     if (!file) return;
+    const ewa_attribute *normal = ewa_cloud_find(cloud, EWA_NORMAL),
+                        *radius = ewa_cloud_find(cloud, EWA_RADIUS);
+    const bool whole = normal && radius && normal->component_count == 3 && radius->component_count == 1;
     ewa_surfels_options options;
     ewa_surfels_options_init(&options, sizeof options);
-    content.cloud = make_preview_cloud(content.context, cloud);
+    content.cloud = make_preview_cloud(content.context, cloud, whole);
+    content.as_points = !whole;
     if (content.cloud && ewa_surfels_create(content.cloud, &options, &content.surfels) == EWA_OK)
         news->preview(news->user, &content);
     else
@@ -133,7 +162,8 @@ static bool load_points(const window_services *own, cli_session *session, const 
     double estimate_s = 0;
     content->cloud = input_points(session, path, own->surfels.cutoff, &content->mesh);
     if (!content->cloud) return false;
-    if (!cloud_is_drawable(content->cloud)) show_preview(news, content->cloud);
+    const bool takes_time = ewa_cloud_point_count(content->cloud) > MANY_POINTS;
+    if (takes_time || !cloud_is_drawable(content->cloud)) show_preview(news, content->cloud);
     render_report report = {.load_s = 0};
     const resident_options options = surfels_options(own, 1);
     return input_complete(session, path, &content->cloud, &estimate_s) &&

@@ -18,3 +18,4 @@ name=$(basename "$file")
 picture=$folder/${name%.*}.png
 "$ewa" render "$file" -o "$picture" --verbose
 echo "The picture is $(cd "$(dirname "$picture")" && pwd)/$(basename "$picture")"
+echo "To look around in it: $ewa view $file"

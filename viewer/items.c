@@ -81,9 +81,11 @@ bool items_close(viewer *v, size_t index) {
         viewer_tell(v, "close: there is no item %zu", index);
         return false;
     }
-    loader_forget(v->loader, v->items[index].id);
-    items_update(v);
-    remove_item(v, index);
+    const uint64_t id = v->items[index].id;
+    loader_forget(v->loader, id);
+    items_update(v); // in which it may go by itself
+    scene_item *item = find_item(v, id);
+    if (item) remove_item(v, (size_t)(item - v->items));
     return true;
 }
 
@@ -228,7 +230,7 @@ void items_gather(const viewer *v, paint_scene *scene) {
         if (!item->visible) continue;
         if (item_surfels(item)) {
             scene->surfels[scene->surfels_count++] = item_surfels(item);
-            if (item->preview && scene->render.point_size_px == 0)
+            if (item->content.as_points && scene->render.point_size_px == 0)
                 scene->render.point_size_px = PREVIEW_POINT_PX;
         }
         const ewa_voxels *voxels = item->content.voxels;

@@ -32,6 +32,7 @@ typedef struct viewer_content {
     ewa_voxels *voxels;                           ///< NULL: a cloud
     ewa_cloud *outline;                           ///< of a volume: points where something can be seen
     bool mesh;                                    ///< the cloud was sampled from faces
+    bool as_points;                               ///< of a preview: its surfels have no size of their own
     void *keeper;                                 ///< the loader's own
     void (*free)(struct viewer_content *content); ///< frees all of it
 } viewer_content;

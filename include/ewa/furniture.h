@@ -57,8 +57,9 @@ typedef struct ewa_text_style {
     ewa_text_anchor anchor;
 } ewa_text_style;
 
-/// Draws one line of text: UTF-8, ASCII and the signs ° ² ³ · × ± µ μ – − …; another character, each control character
-/// and each byte that is no UTF-8 is an empty box. Letters stand on whole pixels. Any thread.
+/// Draws one line of text: UTF-8, ASCII, the letters of Latin-1 but for ð and þ, and the signs ° ² ³ · × ÷ ± µ μ – …;
+/// another character, each control character and each byte that is no UTF-8 is an empty box. Letters stand on whole
+/// pixels. Any thread.
 EWA_API void ewa_draw_text(const ewa_canvas *canvas, const char *text, double x_px, double y_px,
                            const ewa_text_style *style);
 

@@ -131,9 +131,10 @@ typedef struct ewa_render_options {
     /// needs no normals. [0, 100]; 0 (default): none; 1: strong.
     double eye_dome;
     float background[4]; ///< linear, [0, 1e15], straight alpha; default transparent black
-    /// Only surfels whose centre x, y, z fulfils a x + b y + c z + d >= 0 for every plane a, b, c, d are drawn.
-    /// World units; finite, a, b, c not all 0, of any length. What lies outside takes next to no time. The sides
-    /// are as exact as the surfels' places (docs/conventions.md, precision).
+    /// Only what fulfils a x + b y + c z + d >= 0 for every plane a, b, c, d is drawn. World units; finite, a, b, c
+    /// not all 0, of any length. Surfels that a plane crosses are cut along it (docs/math.md section 5); points of
+    /// `point_size_px` are drawn whole where their place is inside. What lies outside takes next to no time. The
+    /// sides are as exact as the surfels' places (docs/conventions.md, precision).
     double section_planes[EWA_MAX_SECTION_PLANES][4];
     uint32_t section_count; ///< of `section_planes`; [0, EWA_MAX_SECTION_PLANES]; default 0
     uint32_t level; ///< of detail, of each source's surfels, or its last one; [0, 7]; default 0: all surfels

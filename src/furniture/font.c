@@ -112,25 +112,63 @@ static const struct {
     uint32_t code;
     ewa_glyph glyph;
 } signs[] = {
-    {0x00b0, {4, false, "2g-0e!2c-4e!2g"}},      // degree
-    {0x00b1, {8, true, "0b8b 4f47 0484"}},       // plus-minus
-    {0x00b2, {4, false, "0f(0g2g(4g4e(4d0a4a"}}, // squared
-    {0x00b3, {4, false, "0g4g2d(4d4b(4a2a0a"}},  // cubed
-    {0x00b5, {7, false, "0c00 07!34-77 7c74"}},  // micro
-    {0x00b7, {0, false, "09"}},                  // middle dot
-    {0x00d7, {6, false, "066c 0c66"}},           // times
-    {0x03bc, {7, false, "0c00 07!34-77 7c74"}},  // mu
-    {0x2013, {8, false, "0989"}},                // en dash
-    {0x2026, {8, false, "04 44 84"}},            // ellipsis
+    {0x00b0, {4, false, "2g-0e!2c-4e!2g"}},                                       // degree
+    {0x00b1, {8, true, "0b8b 4f47 0484"}},                                        // plus-minus
+    {0x00b2, {4, false, "0f(0g2g(4g4e(4d0a4a"}},                                  // squared
+    {0x00b3, {4, false, "0g4g2d(4d4b(4a2a0a"}},                                   // cubed
+    {0x00b5, {7, false, "0c00 07!34-77 7c74"}},                                   // micro
+    {0x00b7, {0, false, "09"}},                                                   // middle dot
+    {0x00c6, {12, false, "046gcg 6g64c4 6aba 2868"}},                             // AE
+    {0x00d7, {6, false, "066c 0c66"}},                                            // times
+    {0x00d8, {10, false, "5g-0b09!54-a9ab!5g 04ag"}},                             // O slashed
+    {0x00df, {7, false, "040d!3g-6d!3a-77!4424"}},                                // sharp s
+    {0x00e6, {12, false, "0a!2c3c-6964 6838-06!3444-66 68c8c9!9c-6967!94a4-c5"}}, // ae
+    {0x00f7, {8, true, "0989 4d 45"}},                                            // divided by
+    {0x00f8, {8, false, "4c-0907!44-8789!4c 048c"}},                              // o slashed
+    {0x03bc, {7, false, "0c00 07!34-77 7c74"}},                                   // mu
+    {0x2013, {8, false, "0989"}},                                                 // en dash
+    {0x2026, {8, false, "04 44 84"}},                                             // ellipsis
 };
 
 static const ewa_glyph box = {6, false, "040g6g6404"};
+static const ewa_glyph dotless_i = {0, false, "0c04"};
+
+/// What stands above small letters, or below.
+static const struct {
+    char mark;
+    ewa_glyph glyph;
+} marks[] = {
+    {'`', {3, false, "0g3e"}},           // grave
+    {'/', {3, false, "0e3g"}},           // acute
+    {'^', {4, false, "0e2g4e"}},         // circumflex
+    {'~', {6, false, "0e(1h3f(5d6g"}},   // tilde
+    {':', {4, false, "0f 4f"}},          // diaeresis
+    {'o', {4, false, "2i-0g!2e-4g!2i"}}, // ring
+    {',', {2, false, "14(2101"}},        // cedilla
+};
+
+enum { FIRST_MARKED = 0xc0, LAST_MARKED = 0xff };
+
+/// Letters of Latin-1 that are another one with a mark: that one, and the mark; blanks: neither.
+static const char bases[] = "AAAAAA CEEEEIIII NOOOOO  UUUUY  aaaaaa ceeeeiiii nooooo  uuuuy y";
+static const char marked[] = "`/^~:o ,`/^:`/^: ~`/^~:  `/^:/  `/^~:o ,`/^:`/^: ~`/^~:  `/^:/ :";
 
 const ewa_glyph *ewa_font_glyph(uint32_t code) {
     if (code >= FIRST && code <= LAST) return &ascii[code - FIRST];
     for (size_t i = 0; i < sizeof signs / sizeof signs[0]; i++)
         if (signs[i].code == code) return &signs[i].glyph;
-    return &box;
+    const char base = code >= FIRST_MARKED && code <= LAST_MARKED ? bases[code - FIRST_MARKED] : ' ';
+    return base == ' ' ? &box : base == 'i' ? &dotless_i : &ascii[base - FIRST];
+}
+
+const ewa_glyph *ewa_font_mark(uint32_t code, bool *raised) {
+    if (code < FIRST_MARKED || code > LAST_MARKED) return NULL;
+    for (size_t i = 0; i < sizeof marks / sizeof marks[0]; i++) {
+        if (marks[i].mark != marked[code - FIRST_MARKED]) continue;
+        *raised = bases[code - FIRST_MARKED] < 'a' && marks[i].mark != ',';
+        return &marks[i].glyph;
+    }
+    return NULL;
 }
 
 uint32_t ewa_font_next(const char **text) {
@@ -140,7 +178,7 @@ uint32_t ewa_font_next(const char **text) {
     const uint32_t length = bytes[0] < 0x80 ? 1 : bytes[0] < 0xe0 ? 2 : bytes[0] < 0xf0 ? 3 : 4;
     static const uint32_t least[] = {0, 0x80, 0x800, 0x10000};
     uint32_t code = length == 1 ? bytes[0] : bytes[0] & (0x7fu >> length);
-    bool fine = length == 1 || (bytes[0] >= 0xc2 && bytes[0] <= 0xf4);
+    bool fine = length == 1 || (bytes[0] >= 0xc0 && bytes[0] <= 0xf4);
     for (uint32_t i = 1; i < length && fine; i++) {
         fine = (bytes[i] & 0xc0) == 0x80; // the zero at the end is none either
         code = code << 6 | (bytes[i] & 0x3fu);

@@ -20,8 +20,14 @@ typedef struct ewa_glyph {
     const char *path;
 } ewa_glyph;
 
-/// Returns the letter of a character; an empty box for one that there is none of.
+/// Returns the letter of a character, without its mark; an empty box for one that there is none of.
 const ewa_glyph *ewa_font_glyph(uint32_t code);
+
+/// Returns the mark of an accented letter, NULL for others. It stands in the middle of the letter's width; `*raised`:
+/// higher by EWA_FONT_RAISE, as above a capital.
+const ewa_glyph *ewa_font_mark(uint32_t code, bool *raised);
+
+enum { EWA_FONT_RAISE = 4 };
 
 /// Takes one character off zero-terminated UTF-8: its code, UINT32_MAX for a byte that begins none, 0 at the end.
 uint32_t ewa_font_next(const char **text);

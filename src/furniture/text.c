@@ -22,7 +22,9 @@ static const double DOT_PART = 0.4;
 /// Height of capitals, outside, as part of the type's; and of their middle lines on the letters' grid.
 static const double CAPITAL_PART = 0.7, CAPITAL_GRID = 12;
 /// What reaches farthest beyond baseline and capitals, as parts of the height.
-static const double BELOW_PART = 0.35, ABOVE_PART = 0.9;
+static const double BELOW_PART = 0.35, ABOVE_PART = 1;
+/// How far marks may reach beyond the sides of their letters.
+static const double MARK_PART = 0.15;
 /// Widest rim, as part of the height.
 static const double MOST_HALO_PART = 1;
 
@@ -108,9 +110,11 @@ static void add_line(tile *to, point a, point b) {
         const double y = j + 0.5 - y0;
         for (int i = left; i < right; i++) {
             const double x = i + 0.5 - x0;
-            const double part = fmin(fmax((x * dx + y * dy) * scale, 0), 1);
+            const double along = (x * dx + y * dy) * scale;
+            const double part = along > 0 ? (along < 1 ? along : 1) : 0;
             const double off_x = x - part * dx, off_y = y - part * dy;
-            to->squares[j][i] = fminf(to->squares[j][i], (float)(off_x * off_x + off_y * off_y));
+            const float near = (float)(off_x * off_x + off_y * off_y);
+            if (near < to->squares[j][i]) to->squares[j][i] = near;
         }
     }
 }
@@ -223,6 +227,18 @@ static void paint_tile(const ewa_canvas *canvas, const tile *from, const type_si
     }
 }
 
+/// Takes a character's letter, which stands at `pen_px`, and its mark into the distances.
+static void add_character(tile *to, const type_size *size, uint32_t code, double pen_px, int baseline_px) {
+    const ewa_glyph *glyph = ewa_font_glyph(code);
+    bool raised = false;
+    const ewa_glyph *mark = ewa_font_mark(code, &raised);
+    add_letter(to, &(letter){size, glyph, pen_px, baseline_px});
+    if (!mark) return;
+    const double aside_px = floor((inner_px(size, glyph) - inner_px(size, mark)) / 2.0);
+    const int lift_px = raised ? nearest(EWA_FONT_RAISE * size->grid_px) : 0;
+    add_letter(to, &(letter){size, mark, pen_px + aside_px, baseline_px - lift_px});
+}
+
 /// Draws what of a text, whose first letter stands at (left, baseline), lies in a tile.
 static void draw_tile(const ewa_canvas *canvas, tile *work, const char *text, const type_size *size,
                       int left_px, int baseline_px, const ewa_text_style *style, double halo_px) {
@@ -230,11 +246,11 @@ static void draw_tile(const ewa_canvas *canvas, tile *work, const char *text, co
         for (int i = 0; i < TILE; i++) work->squares[j][i] = INFINITY;
     bool any = false;
     double pen_px = left_px;
-    for (uint32_t code; (code = ewa_font_next(&text)) && pen_px - work->reach_px < work->x + TILE;) {
-        const ewa_glyph *glyph = ewa_font_glyph(code);
-        const double next_px = pen_px + advance_px(size, glyph);
-        if (next_px + work->reach_px > work->x) {
-            add_letter(work, &(letter){size, glyph, pen_px, baseline_px});
+    const double reach_px = work->reach_px + MARK_PART * style->height_px;
+    for (uint32_t code; (code = ewa_font_next(&text)) && pen_px - reach_px < work->x + TILE;) {
+        const double next_px = pen_px + advance_px(size, ewa_font_glyph(code));
+        if (next_px + reach_px > work->x) {
+            add_character(work, size, code, pen_px, baseline_px);
             any = true;
         }
         pen_px = next_px;
@@ -257,8 +273,9 @@ void ewa_draw_text(const ewa_canvas *canvas, const char *text, double x_px, doub
     const int top = ewa_canvas_clip(baseline_px - ABOVE_PART * height_px - work.reach_px, canvas->height_px);
     const int bottom =
         ewa_canvas_clip(baseline_px + BELOW_PART * height_px + work.reach_px, canvas->height_px);
-    const int first = ewa_canvas_clip(left_px - work.reach_px, canvas->width_px);
-    const int end = ewa_canvas_clip(left_px + width_px + work.reach_px + 1, canvas->width_px);
+    const double sides_px = work.reach_px + MARK_PART * height_px;
+    const int first = ewa_canvas_clip(left_px - sides_px, canvas->width_px);
+    const int end = ewa_canvas_clip(left_px + width_px + sides_px + 1, canvas->width_px);
     for (work.y = top; work.y < bottom; work.y += TILE)
         for (work.x = first; work.x < end; work.x += TILE)
             draw_tile(canvas, &work, text, &size, left_px, baseline_px, style, halo_px);

@@ -79,10 +79,20 @@ static uint64_t place(const bin_job *job, uint64_t *starts) {
     return sum;
 }
 
-/// More parts than these would spend more on their counts than on the items.
+/// One per worker, but more where these would take milliseconds, between which a run can be stopped. More parts
+/// than are worthwhile would spend more on their counts than on the items.
 static uint32_t part_count(uint32_t candidate_count, uint64_t bin_count, uint32_t worker_count) {
+    enum { LARGE_PART = 1 << 16 };
     const uint64_t worthwhile = 1 + candidate_count / bin_count;
-    return worthwhile < worker_count ? (uint32_t)worthwhile : worker_count;
+    const uint32_t large = candidate_count / LARGE_PART, parts = large > worker_count ? large : worker_count;
+    return worthwhile < parts ? (uint32_t)worthwhile : parts;
+}
+
+static ewa_status run(ewa_context *context, ewa_task *task, bin_job *job) {
+    if (job->parts > ewa_context_worker_count(context))
+        return ewa_parallel_stoppable(context, "bin", task, job, job->parts);
+    ewa_parallel(context, task, job, job->parts);
+    return EWA_OK;
 }
 
 ewa_status ewa_bin_lists_fill(ewa_context *context, ewa_bin_lists *lists, uint32_t columns, uint32_t rows,
@@ -109,14 +119,14 @@ ewa_status ewa_bin_lists_fill(ewa_context *context, ewa_bin_lists *lists, uint32
                    .candidate_count = candidate_count,
                    .parts = parts};
     lists->columns = columns;
-    ewa_parallel(context, count_part, &job, parts);
+    status = run(context, count_part, &job);
+    if (status != EWA_OK) return status;
     const uint64_t id_count = place(&job, lists->start_buffer.data);
     status = ewa_buffer_reserve(context, &lists->id_buffer, id_count, sizeof *job.ids);
     if (status != EWA_OK) return status;
     lists->starts = lists->start_buffer.data;
     lists->ids = job.ids = lists->id_buffer.data;
-    ewa_parallel(context, fill_part, &job, parts);
-    return EWA_OK;
+    return run(context, fill_part, &job);
 }
 
 void ewa_bin_lists_free(ewa_context *context, ewa_bin_lists *lists) {

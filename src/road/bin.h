@@ -34,7 +34,7 @@ typedef struct ewa_bin_lists {
 } ewa_bin_lists;
 
 /// Fills `columns` x `rows` bins, each fewer than 2^16, in parallel; the result does not depend on the number
-/// of workers. Errors: EWA_ERROR_MEMORY.
+/// of workers. Errors: EWA_ERROR_MEMORY; EWA_CANCELLED, where there are many candidates.
 ewa_status ewa_bin_lists_fill(ewa_context *context, ewa_bin_lists *lists, uint32_t columns, uint32_t rows,
                               uint32_t candidate_count, ewa_bin_find *find, const void *data);
 

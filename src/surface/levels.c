@@ -201,24 +201,23 @@ typedef struct group_members {
 static void read_members(const ewa_surfels *fine, const ewa_window *window, const uint8_t *lanes,
                          group_members *members) {
     const uint32_t count = members->count;
-    double sum = 0;
+    double sum = 0, areas[EWA_GROUP_SURFELS] = {0};
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t at = lanes[i], packet = window->first + at / LANES, lane = at % LANES;
         const double root = fine->packets[packet].ratio[lane] / 65535.0;
         members->packet[i] = packet, members->lane[i] = lane;
         members->sigma[i] = (double)window->sigma[at];
-        members->share[i] =
-            members->sigma[i] * members->sigma[i] * (fine->ellipses ? root * root * root * root : 1);
+        areas[i] = members->sigma[i] * members->sigma[i] * (fine->ellipses ? root * root * root * root : 1);
         members->place[i] = vec3_make((double)window->place[0][at], (double)window->place[1][at],
                                       (double)window->place[2][at]);
         members->normal[i] = vec3_make((double)window->normal[0][at], (double)window->normal[1][at],
                                        (double)window->normal[2][at]);
         members->clipped[i] = fine->clip_masks && fine->clip_masks[packet] >> lane & 1;
         members->any_clipped |= members->clipped[i];
-        sum += members->share[i];
+        sum += areas[i];
     }
     // Areas may vanish where sigmas do not.
-    for (uint32_t i = 0; i < count; i++) members->share[i] = sum > 0 ? members->share[i] / sum : 1.0 / count;
+    for (uint32_t i = 0; i < count; i++) members->share[i] = sum > 0 ? areas[i] / sum : 1.0 / count;
 }
 
 /// The member that is nearest to a place, of those with clip lines if there are any.

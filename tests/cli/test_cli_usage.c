@@ -70,7 +70,10 @@ static void test_wrong_usage(void **state) {
     run_fails(2, "'rendr': no such command; did you mean 'render'?", "ewa rendr");
     run_fails(2, "'--vresion': no such option; did you mean '--version'?", "ewa --vresion");
     run_fails(2, "'xyzzy': no such command; see 'ewa --help'", "ewa help xyzzy");
-    run_fails(2, "'a scan.ply': a file, no command; to draw it: ewa render 'a scan.ply' -o picture.png",
+    run_fails(2,
+              "'a scan.ply': a file, no command; to look at it: ewa view 'a scan.ply'; to draw it: ewa "
+              "render 'a scan.ply' -o "
+              "picture.png",
               "touch 'a scan.ply' && ewa 'a scan.ply'");
     run_done("rm 'a scan.ply'");
     run_fails(2, "an input is missing; usage: ewa render IN... -o OUT", "ewa render -o a.png");

@@ -94,6 +94,9 @@ static void test_blending(void **state) {
     const uint8_t glass[4] = {255, 0, 0, 51};
     ewa_draw_rectangle(&canvas, 5, 0, 6, 1, glass);
     assert_memory_equal(painting_at(&canvas, 5, 0), glass, 4);
+    ewa_draw_rectangle(&canvas, 7, 0, 8, 1, (const uint8_t[4]){0, 0, 0, 255});
+    ewa_draw_rectangle(&canvas, 7, 0, 8, 1, glass);
+    assert_memory_equal(painting_at(&canvas, 7, 0), ((const uint8_t[4]){124, 0, 0, 255}), 4);
     ewa_draw_rectangle(&canvas, 0, 0, 1, 1, (const uint8_t[4]){1, 2, 3, 0});
     assert_memory_equal(painting_at(&canvas, 0, 0), orange, 4);
     free(canvas.rgba8);

@@ -10,9 +10,11 @@
 static const ewa_text_style plain = {.height_px = 20, .rgba = {255, 255, 255, 255}};
 
 /// Characters beyond ASCII that there are letters for.
-static const char *const signs[] = {"°", "±", "²", "³", "µ", "·", "×", "μ", "–", "…"};
+static const char *const signs[] = {"°", "±", "²", "³", "µ", "·", "×", "μ", "–", "…",
+                                    "Ä", "Ö", "Ü", "ß", "ä", "é", "è", "ê", "ñ", "ö",
+                                    "ü", "ø", "Ø", "æ", "Æ", "å", "ç", "î", "ï", "÷"};
 
-enum { SIGNS = sizeof signs / sizeof signs[0] };
+enum { SIGNS = sizeof signs / sizeof signs[0], GOLDEN_SIGNS = 10 };
 
 /// The width of a text is the sum of its characters', in whole pixels.
 static void test_width(void **state) {
@@ -132,12 +134,48 @@ static void test_letters_differ(void **state) {
     }
 }
 
+/// A letter with a mark is the letter, as wide as without, and something above it, or below.
+static void test_marks(void **state) {
+    (void)state;
+    static const struct {
+        const char *marked, *bare;
+        bool below;
+    } cases[] = {{"ä", "a", false}, {"Ä", "A", false}, {"ö", "o", false}, {"Ü", "U", false},
+                 {"é", "e", false}, {"È", "E", false}, {"ê", "e", false}, {"ñ", "n", false},
+                 {"Å", "A", false}, {"å", "a", false}, {"ÿ", "y", false}, {"Ó", "O", false},
+                 {"ç", "c", true},  {"Ç", "C", true}};
+    for (int height = 10; height <= 40; height += 5) {
+        for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+            ewa_text_style style = plain;
+            style.height_px = height;
+            ewa_canvas with = painting_empty(80, 80), bare = painting_empty(80, 80);
+            ewa_draw_text(&with, cases[k].marked, 20, 50, &style);
+            ewa_draw_text(&bare, cases[k].bare, 20, 50, &style);
+            assert_true(ewa_text_width_px(cases[k].marked, height) ==
+                        ewa_text_width_px(cases[k].bare, height));
+            double above = 0, below = 0;
+            for (uint32_t y = 0; y < 80; y++) {
+                for (uint32_t x = 0; x < 80; x++) {
+                    const int more = painting_at(&with, x, y)[3] - painting_at(&bare, x, y)[3];
+                    assert_true(more >= 0);
+                    *(y < 50 - 0.45 * height ? &above : &below) += more / 255.0;
+                }
+            }
+            assert_true((cases[k].below ? below : above) >= 1);
+            assert_true((cases[k].below ? above : below) == 0);
+            free(with.rgba8), free(bare.rgba8);
+        }
+    }
+}
+
 /// Paths are what font.h says, and lie within the letter's width and what text.c takes for its height.
 static void test_paths(void **state) {
     (void)state;
     static const char digits[] = "0123456789abcdefghijklmnopqrstuvwxyz";
-    for (uint32_t code = 32; code < 0x2100; code++) {
-        const ewa_glyph *glyph = ewa_font_glyph(code);
+    for (uint32_t k = 0; k < 0x4200; k++) {
+        bool raised;
+        const ewa_glyph *glyph = k % 2 ? ewa_font_mark(k / 2, &raised) : ewa_font_glyph(k / 2);
+        if (!glyph) continue;
         bool begun = false;
         for (const char *c = glyph->path; *c;) {
             int points = 1;
@@ -275,22 +313,22 @@ static void test_hostile(void **state) {
 /// Pixels do not depend on where the canvas lies in memory, nor on how it is cut off.
 static void test_same(void **state) {
     (void)state;
-    ewa_text_style style = {22.5, {250, 240, 20, 230}, 2.5, {10, 20, 90, 160}, EWA_TEXT_LEFT};
+    ewa_text_style style = {22.5, {250, 240, 20, 230}, 7, {10, 20, 90, 160}, EWA_TEXT_LEFT};
     enum { WIDE = 211, HIGH = 60 };
     ewa_canvas whole = painting_make(WIDE, HIGH, (const uint8_t[4]){40, 90, 60, 255});
-    ewa_draw_text(&whole, "Quick 0.5 m² & so", 7, 40, &style);
+    ewa_draw_text(&whole, "Äïk 0.5 m² & Îço", 7, 40, &style);
     uint8_t *block = malloc(WIDE * HIGH * 4 + 8);
     for (size_t shift = 0; shift < 5; shift++) {
         ewa_canvas moved = {block + shift, WIDE, HIGH};
         for (size_t i = 0; i < WIDE * HIGH; i++)
             memcpy(moved.rgba8 + 4 * i, (const uint8_t[4]){40, 90, 60, 255}, 4);
-        ewa_draw_text(&moved, "Quick 0.5 m² & so", 7, 40, &style);
+        ewa_draw_text(&moved, "Äïk 0.5 m² & Îço", 7, 40, &style);
         assert_true(painting_same(&whole, &moved));
     }
     free(block);
     for (uint32_t cut = 1; cut < 100; cut += 7) {
         ewa_canvas part = painting_make(WIDE - cut, HIGH - cut / 2, (const uint8_t[4]){40, 90, 60, 255});
-        ewa_draw_text(&part, "Quick 0.5 m² & so", 7.0 - cut, 40.0 - cut / 2, &style);
+        ewa_draw_text(&part, "Äïk 0.5 m² & Îço", 7.0 - cut, 40.0 - cut / 2, &style);
         for (uint32_t y = 0; y < part.height_px; y++)
             assert_memory_equal(painting_at(&part, 0, y), painting_at(&whole, cut, y + cut / 2),
                                 4 * (size_t)part.width_px);
@@ -311,7 +349,7 @@ static void test_golden(void **state) {
         for (int row = 0; row < 3; row++, y += 1.4 * heights[h]) {
             char text[128] = "";
             for (int k = 0; k < 32 && row * 32 + k < 95; k++) text[k] = (char)(' ' + row * 32 + k);
-            for (int k = 0; k < SIGNS && row == 2; k++) strcat(text, signs[k]);
+            for (int k = 0; k < GOLDEN_SIGNS && row == 2; k++) strcat(text, signs[k]);
             ewa_draw_text(&canvas, text, 5, y, &style);
         }
     }
@@ -321,17 +359,12 @@ static void test_golden(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_width),
-        cmocka_unit_test(test_digits),
-        cmocka_unit_test(test_whole_pixels),
-        cmocka_unit_test(test_symmetric),
-        cmocka_unit_test(test_letters_differ),
-        cmocka_unit_test(test_paths),
-        cmocka_unit_test(test_utf8),
-        cmocka_unit_test(test_anchors),
-        cmocka_unit_test(test_rim),
-        cmocka_unit_test(test_hostile),
-        cmocka_unit_test(test_same),
+        cmocka_unit_test(test_width),          cmocka_unit_test(test_digits),
+        cmocka_unit_test(test_whole_pixels),   cmocka_unit_test(test_symmetric),
+        cmocka_unit_test(test_letters_differ), cmocka_unit_test(test_paths),
+        cmocka_unit_test(test_marks),          cmocka_unit_test(test_utf8),
+        cmocka_unit_test(test_anchors),        cmocka_unit_test(test_rim),
+        cmocka_unit_test(test_hostile),        cmocka_unit_test(test_same),
         cmocka_unit_test(test_golden),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

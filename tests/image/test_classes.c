@@ -47,7 +47,7 @@ static double distance(const uint8_t a[3], const uint8_t b[3]) {
     return sqrt((2 + red / 256) * d[0] * d[0] + 4 * d[1] * d[1] + (2 + (255 - red) / 256) * d[2] * d[2]);
 }
 
-/// Known classes are told apart, and so are any twelve codes in a row beyond; the sequence does not wrap.
+/// Known classes are told apart, and so are any twelve codes in a row beyond; of the first 120 no two are alike.
 static void test_apart(void **state) {
     (void)state;
     for (uint32_t i = 0; i < 400; i++) {
@@ -56,6 +56,13 @@ static void test_apart(void **state) {
             ewa_class_color(i, a), ewa_class_color(j, b);
             if (distance(a, b) < 40) print_error("%u and %u: %g\n", i, j, distance(a, b));
             assert_true(distance(a, b) >= 40);
+        }
+    }
+    for (uint32_t i = 0; i < 120; i++) {
+        for (uint32_t j = 0; j < i; j++) {
+            uint8_t a[3], b[3];
+            ewa_class_color(i, a), ewa_class_color(j, b);
+            assert_memory_not_equal(a, b, 3);
         }
     }
     uint8_t last[3];

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
+//
+// Closed surfaces, sampled evenly and unevenly.
 #include "splat/level_scene.h"
 
 #include <math.h>

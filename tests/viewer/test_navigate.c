@@ -9,6 +9,20 @@
 
 enum { TRIALS = 200 };
 
+static ewa_context *context;
+
+static int make_context(void **state) {
+    (void)state;
+    context = check_context(1, NULL);
+    return 0;
+}
+
+static int end_context(void **state) {
+    (void)state;
+    ewa_context_destroy(&context);
+    return 0;
+}
+
 /// Some camera that looks about the origin; every other one is orthographic or has a scale.
 static ewa_camera random_camera(check_random *random, int trial) {
     static const double up_world[3] = {0, 0, 1};
@@ -104,7 +118,7 @@ static void orbit_keeps_pivot_and_horizon(void **state) {
             navigate_orbit(&camera, pivot, up_world, right_deg, down_deg);
         }
         assert_near(roll(&camera, up_world), 0, 1e-9);
-        assert_int_equal(ewa_camera_check(NULL, &camera), EWA_OK);
+        assert_int_equal(ewa_camera_check(context, &camera), EWA_OK);
         // The pivot keeps its distance from the eye; seen from its own axis it would not move at all.
         double eye_world[3], away2 = 0, before2 = 0, first[3];
         navigate_unproject(&camera, place_px[0], place_px[1], depth, first);
@@ -203,7 +217,7 @@ static void ortho_and_back_keep_the_size_at_a_point(void **state) {
         navigate_set_ortho(&camera, false, point, 30);
         navigate_project(&camera, point, b, &depth);
         assert_place(&camera, beside, b[0] + 10, b[1]);
-        assert_int_equal(ewa_camera_check(NULL, &camera), EWA_OK);
+        assert_int_equal(ewa_camera_check(context, &camera), EWA_OK);
     }
 }
 
@@ -219,5 +233,5 @@ int main(void) {
         cmocka_unit_test(resize_keeps_what_the_height_shows),
         cmocka_unit_test(ortho_and_back_keep_the_size_at_a_point),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_context, end_context);
 }

@@ -232,8 +232,8 @@ static void picks_respect_the_box(void **state) {
     assert_true(viewer_open(v, "sphere"));
     assert_true(viewer_do(v, "box -2,0,-2,2,2,2")); // the half that is behind
     settle(v);
-    handle(v, (viewer_event){.kind = VIEWER_PRESS, .x = 80, .y = 61, .button = VIEWER_LEFT, .clicks = 1});
-    handle(v, (viewer_event){.kind = VIEWER_RELEASE, .x = 80, .y = 61, .button = VIEWER_LEFT, .clicks = 1});
+    handle(v, (viewer_event){.kind = VIEWER_PRESS, .x = 92, .y = 76, .button = VIEWER_LEFT, .clicks = 1});
+    handle(v, (viewer_event){.kind = VIEWER_RELEASE, .x = 92, .y = 76, .button = VIEWER_LEFT, .clicks = 1});
     unsigned long long point;
     double p[3];
     assert_int_equal(
