@@ -6,7 +6,8 @@
 #
 # cmake -DROOT=folder -P check_files.cmake
 file(GLOB_RECURSE files RELATIVE "${ROOT}" "${ROOT}/include/*.h" "${ROOT}/src/*.[ch]" "${ROOT}/cli/*.[ch]"
-  "${ROOT}/examples/*.[ch]" "${ROOT}/tests/*.[ch]" "${ROOT}/bench/*.[ch]" "${ROOT}/scenes/*.[ch]" "${ROOT}/import/*.[ch]")
+  "${ROOT}/examples/*.[ch]" "${ROOT}/tests/*.[ch]" "${ROOT}/bench/*.[ch]" "${ROOT}/scenes/*.[ch]" "${ROOT}/import/*.[ch]"
+  "${ROOT}/viewer/*.[ch]" "${ROOT}/viewer/*.cpp")
 set(wrong "")
 foreach(path IN LISTS files)
   file(READ "${ROOT}/${path}" text)

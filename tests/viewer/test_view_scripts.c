@@ -11,6 +11,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#ifndef FRONT_RUN
+#define FRONT_RUN front_script_run
+#endif
+
 enum { WIDTH = 320, HEIGHT = 240, MAX_SCRIPTS = 128 };
 
 static char scripts_folder[1024];
@@ -51,7 +55,7 @@ static void write_text(const char *path, const char *text) {
 static int make_files(void **state) {
     (void)state;
     char folder[1024];
-    snprintf(folder, sizeof folder, "%s/view", getenv("EWA_BINARY_DIR"));
+    snprintf(folder, sizeof folder, "%s/%s", getenv("EWA_BINARY_DIR"), getenv("EWA_TEST"));
     snprintf(scripts_folder, sizeof scripts_folder, "%s/tests/viewer/scripts", getenv("EWA_SOURCE_DIR"));
     mkdir(folder, 0777);
     assert_int_equal(chdir(folder), 0);
@@ -121,7 +125,7 @@ static int run_script(const char *name, uint32_t cpu_mask, int64_t threads) {
                                  .scale = 1,
                                  .waits = true}};
     assert_true(window_services_make(&services, &view, &job.options.services));
-    const int exit_status = front_script_run(&job);
+    const int exit_status = FRONT_RUN(&job);
     window_services_free(&services);
     return exit_status;
 }
@@ -165,10 +169,10 @@ static void wrong_scripts_fail(void **state) {
                                         "drop\n",          "shot /nowhere/at/all.png\n",
                                         "key nosuchkey\n", "wheel 1 2\n"};
     char path[2048];
-    snprintf(path, sizeof path, "%s/view/wrong.txt", getenv("EWA_BINARY_DIR"));
+    snprintf(path, sizeof path, "%s/%s/wrong.txt", getenv("EWA_BINARY_DIR"), getenv("EWA_TEST"));
     char saved[1024];
     memcpy(saved, scripts_folder, sizeof saved);
-    snprintf(scripts_folder, sizeof scripts_folder, "%s/view", getenv("EWA_BINARY_DIR"));
+    snprintf(scripts_folder, sizeof scripts_folder, "%s/%s", getenv("EWA_BINARY_DIR"), getenv("EWA_TEST"));
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         write_text(path, wrong[i]);
         if (run_script("wrong.txt", EWA_CPU_ALL, 1) != 1) fail_msg("'%s' did not fail", wrong[i]);

@@ -7,6 +7,7 @@
 #include "picture_sdl.h"
 #include "viewer/front.h"
 
+#include <SDL_syswm.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -83,14 +84,34 @@ static bool start_video(void) {
     return false;
 }
 
-/// SDL's units per point: what the desktop scales everything by, where SDL's units are pixels (X11).
+/// SDL's units per point: what the desktop scales everything by, where SDL's units are pixels (X11). SDL knows
+/// the size of the glass alone, not what was chosen.
 static double find_zoom(void) {
-    float dpi = 0;
+    double zoom = 1;
+#ifdef SDL_VIDEO_DRIVER_X11
     const char *driver = SDL_GetCurrentVideoDriver();
-    if (!driver || strcmp(driver, "x11") != 0 || SDL_GetDisplayDPI(0, &dpi, NULL, NULL) != 0) return 1;
-    // In quarters from 1 to 4, as desktops have it. Screens that do not know their size say anything.
-    const double zoom = nearbyint((double)dpi / 96 * 4) / 4;
-    return zoom >= 1.25 && zoom <= 4 ? zoom : 1;
+    void *library = driver && strcmp(driver, "x11") == 0 ? SDL_LoadObject("libX11.so.6") : NULL;
+    Display *(*open_display)(const char *) = NULL;
+    char *(*get_default)(Display *, const char *, const char *) = NULL;
+    int (*close_display)(Display *) = NULL;
+    if (library) {
+        void *found[] = {SDL_LoadFunction(library, "XOpenDisplay"), SDL_LoadFunction(library, "XGetDefault"),
+                         SDL_LoadFunction(library, "XCloseDisplay")};
+        memcpy(&open_display, &found[0], sizeof found[0]);
+        memcpy(&get_default, &found[1], sizeof found[1]);
+        memcpy(&close_display, &found[2], sizeof found[2]);
+    }
+    Display *display = open_display && get_default && close_display ? open_display(NULL) : NULL;
+    if (display) {
+        // In quarters, as desktops have it.
+        const char *text = get_default(display, "Xft", "dpi");
+        const double wished = text ? nearbyint(SDL_strtod(text, NULL) / 96 * 4) / 4 : 1;
+        if (wished >= 1 && wished <= 8) zoom = wished;
+        close_display(display);
+    }
+    SDL_UnloadObject(library);
+#endif
+    return zoom;
 }
 
 static double find_refresh_s(SDL_Window *window) {
