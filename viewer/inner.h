@@ -26,7 +26,7 @@ typedef struct viewer_settings {
     size_t struct_size;
     navigation navigation;
     double budget_ms;
-    bool half_size;
+    bool reduce;
     double volume_density;
 } viewer_settings;
 
@@ -96,6 +96,8 @@ struct viewer {
 
     uint64_t revision, posted; ///< of what is to be drawn; the last one handed to the painter
     bool posted_whole;
+    uint32_t reduction, slow_count, fast_count;      ///< of moving pictures: see adapt()
+    uint64_t adapted;                                ///< the last picture that was looked at for it
     uint64_t marks, composed_marks, composed_ticket; ///< of what is drawn over the picture
     uint8_t *composed;
     size_t composed_bytes;

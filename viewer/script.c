@@ -47,7 +47,7 @@ static void take_times(script *s, uint64_t number_before) {
     if (!s->job->timings || s->picture.number == number_before) return;
     if (s->picture.splat_count && !(s->first_s > 0)) s->first_s = now_s() - s->job->started_s;
     const double at_s = now_s() - s->began_s;
-    if (s->shown_s >= 0 && s->interval_count < MAX_FRAMES && s->settling)
+    if (s->shown_s >= 0 && s->interval_count < MAX_FRAMES && s->settling && !s->picture.still)
         s->intervals_s[s->interval_count++] = at_s - s->shown_s;
     s->shown_s = at_s;
     if (s->picture.still && s->settling) {
@@ -64,13 +64,17 @@ static bool step(script *s) {
     return !s->closed;
 }
 
+/// Waits for a moment.
+static void rest(void) { nanosleep(&(struct timespec){.tv_nsec = 500000}, NULL); }
+
 /// Goes on to a time: at once, or as time passes when that is what is measured.
 static bool reach(script *s, double time_s) {
     if (time_s < s->time_s) return fail(s, "time runs backwards", NULL);
     while (s->job->timings && now_s() - s->began_s < time_s) {
         s->time_s = now_s() - s->began_s;
+        const uint64_t before = s->picture.number;
         if (!step(s)) return false;
-        if (s->picture.still) nanosleep(&(struct timespec){.tv_nsec = 500000}, NULL);
+        if (s->picture.number == before) rest(); // what draws needs the processors
     }
     s->time_s = time_s;
     return true;
@@ -118,11 +122,18 @@ static int read_key(const char *word) {
     return 0;
 }
 
+/// Times go from here, where everything was still before.
+static void begin_motion(script *s) {
+    static const double PAUSE_S = 0.1;
+    const double before_s = s->event_s;
+    s->event_s = now_s() - s->began_s;
+    if (!s->settling || s->event_s - before_s > PAUSE_S) s->shown_s = s->event_s;
+    s->settling = true;
+}
+
 static void send(script *s, viewer_event event) {
     event.time_s = s->time_s;
-    s->event_s = now_s() - s->began_s;
-    s->settling = true;
-    if (s->shown_s >= 0 && s->job->timings && !s->interval_count) s->shown_s = s->event_s;
+    begin_motion(s);
     s->host->event(s->host->user, &event);
 }
 
@@ -236,8 +247,7 @@ static bool do_line(script *s, const char *word, const char *rest) {
     viewer_state state;
     if (do_event(s, word, rest, &fine)) return fine;
     if (strcmp(word, "do") == 0) {
-        s->event_s = now_s() - s->began_s;
-        s->settling = true;
+        begin_motion(s);
         return viewer_do(s->viewer, rest) || fail(s, "refused", rest);
     }
     if (strcmp(word, "refuse") == 0) return !viewer_do(s->viewer, rest) || fail(s, "not refused", rest);

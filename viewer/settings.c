@@ -15,8 +15,8 @@ static const ewa_option own_table[] = {
      .help = "how the left button turns: with an upright horizon, freely, or the head"},
     {"budget_ms", EWA_OPTION_F64, ROW(budget_ms), 1, 10000, .initial = 25, .unit = "ms",
      .help = "what a picture may take while something moves"},
-    {"half_size", EWA_OPTION_BOOL, ROW(half_size), .initial = 1,
-     .help = "draw large windows at half their size while something moves"},
+    {"reduce", EWA_OPTION_BOOL, ROW(reduce), .initial = 1,
+     .help = "draw smaller pictures while something moves in large windows, or where drawing is slow"},
     {"volume_density", EWA_OPTION_F64, ROW(volume_density), 0, 100, .initial = 1,
      .help = "multiplies the extinctions of volumes"},
 };
@@ -51,7 +51,7 @@ static const struct {
     {"Furniture", FURNITURE, "color_bar"},
     {"Moving", OWN, "navigation"},
     {"Moving", OWN, "budget_ms"},
-    {"Moving", OWN, "half_size"},
+    {"Moving", OWN, "reduce"},
 };
 
 static const ewa_option_table *const tables[] = {&viewer_settings_table, &ewa_render_options_table,
@@ -64,7 +64,7 @@ static void *place_of(viewer *v, setting_owner owner) {
 
 void settings_init(viewer *v) {
     v->settings = (viewer_settings){
-        .struct_size = sizeof v->settings, .budget_ms = 25, .half_size = true, .volume_density = 1};
+        .struct_size = sizeof v->settings, .budget_ms = 25, .reduce = true, .volume_density = 1};
     ewa_render_options_init(&v->render, sizeof v->render);
     for (int c = 0; c < 4; c++) v->render.background[c] = 1; // as `ewa render`
     ewa_furniture_options_init(&v->furniture, sizeof v->furniture);

@@ -17,6 +17,10 @@ static const double SETTLE_S = 0.08;
 static const double ANIMATION_S = 0.25;
 /// Windows of more pixels are drawn at half their size while something moves.
 static const double LARGE_PX = 2e6;
+/// Moving pictures become smaller after so many that take so many times their budget, and larger after so many
+/// that would take so much of it.
+static const double TOO_SLOW = 1.4, MUCH_FASTER = 0.7;
+enum { SLOW_PICTURES = 2, FAST_PICTURES = 8, MOST_REDUCTION = 4 };
 /// When to ask again, while something is under way and when nothing is.
 static const double SOON_S = 0.002, LATER_S = 0.1;
 /// Beside the ticket of a composed picture: it was whole.
@@ -74,7 +78,7 @@ ewa_status viewer_create(const viewer_options *options, viewer **made) {
     v->reach_world = v->fly_speed = 1;
     if (!options->camera) navigate_move(&v->camera, (double[3]){0, 0, -3});
     navigate_resize(&v->camera, pixels(v->width, v->scale), pixels(v->height, v->scale));
-    v->revision = 1;
+    v->revision = v->reduction = 1;
     v->state.panels = true;
     ewa_status status = loader_create(&v->services, &v->loader);
     if (status == EWA_OK) status = painter_create(options->thread_count, options->cpu_mask, &v->painter);
@@ -179,16 +183,37 @@ void viewer_scene(const viewer *v, paint_scene *scene) {
     items_gather(v, scene);
 }
 
+/// By how much the sides of a picture are divided at least while something moves.
+static uint32_t least_reduction(const viewer *v) {
+    return (double)v->camera.width_px * v->camera.height_px > LARGE_PX ? 2 : 1;
+}
+
+/// Makes moving pictures smaller where even the coarsest surfels take too long, and larger again.
+static void adapt(viewer *v, const paint_result *newest) {
+    if (!newest || newest->whole || newest->ticket == v->adapted) return;
+    v->adapted = newest->ticket;
+    const double budget_s = 1e-3 * v->settings.budget_ms, r = v->reduction > 1 ? v->reduction : 2;
+    const bool slow = newest->drawn_s > TOO_SLOW * budget_s;
+    const bool fast = newest->drawn_s * r * r / ((r - 1) * (r - 1)) < MUCH_FASTER * budget_s;
+    v->slow_count = slow ? v->slow_count + 1 : 0;
+    v->fast_count = fast ? v->fast_count + 1 : 0;
+    const uint32_t before = v->reduction;
+    if (v->slow_count >= SLOW_PICTURES && v->reduction < MOST_REDUCTION) v->reduction++;
+    if (v->fast_count >= FAST_PICTURES && v->reduction > 1) v->reduction--;
+    if (v->reduction != before) v->slow_count = v->fast_count = 0;
+}
+
 /// A scene that is drawn within the time of a frame.
 static void make_quick(const viewer *v, paint_scene *scene) {
     scene->render.budget_s = 1e-3 * v->settings.budget_ms;
     scene->voxels_level = 1;
-    ewa_camera *camera = &scene->camera;
-    if (!v->settings.half_size || (double)camera->width_px * camera->height_px <= LARGE_PX) return;
+    const uint32_t least = least_reduction(v), divisor = v->reduction > least ? v->reduction : least;
+    if (!v->settings.reduce || divisor == 1) return;
     scene->reduced = true;
-    const uint32_t width_px = (camera->width_px + 1) / 2, height_px = (camera->height_px + 1) / 2;
-    camera->fx_px *= 0.5, camera->fy_px *= 0.5, camera->cx_px *= 0.5, camera->cy_px *= 0.5;
-    camera->width_px = width_px, camera->height_px = height_px;
+    ewa_camera *camera = &scene->camera;
+    camera->width_px = (camera->width_px + divisor - 1) / divisor;
+    camera->height_px = (camera->height_px + divisor - 1) / divisor;
+    camera->fx_px /= divisor, camera->fy_px /= divisor, camera->cx_px /= divisor, camera->cy_px /= divisor;
 }
 
 static void post(viewer *v, bool whole) {
@@ -247,6 +272,7 @@ void viewer_frame(viewer *v, double time_s, viewer_picture *picture) {
     items_update(v);
     const char *failure;
     const paint_result *newest = painter_newest(v->painter, &failure);
+    adapt(v, newest);
     schedule(v, newest);
     if (v->waits) newest = painter_newest(v->painter, &failure);
     if (failure) viewer_tell(v, "the picture cannot be drawn: %s", failure);
