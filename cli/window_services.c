@@ -76,6 +76,15 @@ static uint64_t choose_point(uint64_t index, uint64_t step, uint64_t count) {
     return point < count ? point : count - 1;
 }
 
+/// Gives points that are drawn as discs of pixels a radius that framing does not see.
+static void set_small_radii(const ewa_cloud *cloud, uint64_t count, float *radii) {
+    ewa_bounds box = {.finite_count = 0};
+    double size = 0;
+    if (ewa_cloud_measure(cloud, &box) == EWA_OK && box.finite_count)
+        for (int c = 0; c < 3; c++) size += box.high_world[c] - box.low_world[c];
+    for (uint64_t i = 0; i < count; i++) radii[i] = (float)(size > 0 ? 1e-4 * size : 1);
+}
+
 /// Some of a cloud's points: larger, where they have normals and radii, else with what draws them as discs of
 /// pixels. NULL: no memory.
 static ewa_cloud *make_preview_cloud(ewa_context *context, const ewa_cloud *cloud, bool whole) {
@@ -105,13 +114,13 @@ static ewa_cloud *make_preview_cloud(ewa_context *context, const ewa_cloud *clou
         const uint64_t point = choose_point(i, step, count);
         ewa_attribute_read_f64(position, point, 1, (double *)positions + 3 * i);
         memcpy((float *)normals + 3 * i, (const float[3]){0, 0, 1}, 3 * sizeof(float));
-        ((float *)radii)[i] = 1;
         copy_numbers(normal, point, i, 1, normals);
         copy_numbers(radius, point, i, larger, radii);
         double rgb[3];
         if (with_color) ewa_attribute_read_f64(color, point, 1, rgb);
         for (int c = 0; c < 3 && with_color; c++) ((uint8_t *)colors)[3 * i + (uint64_t)c] = (uint8_t)rgb[c];
     }
+    if (!radius) set_small_radii(made, kept, radii);
     return made;
 }
 
