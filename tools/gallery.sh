@@ -5,7 +5,8 @@
 # Makes the pictures of docs/gallery anew from the commands that docs/gallery/README.md shows: gallery.sh EWA
 #
 # Blocks that name $EWA_DATA, a folder with scans that are not ours to distribute, are left out when it is not set;
-# those that call ffmpeg, to put pictures side by side, when it is not installed.
+# those that call ffmpeg, to put pictures side by side, when it is not installed; those that open a window, without
+# Xvfb, xdotool and ImageMagick.
 set -eu
 program=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
 tools=$(cd "$(dirname "$0")" && pwd)
@@ -14,13 +15,15 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 have_ffmpeg=$(command -v ffmpeg || true)
+have_screen=$(command -v Xvfb && command -v xdotool && command -v import || true)
 
-awk -v have_data="${EWA_DATA:+1}" -v have_ffmpeg="$have_ffmpeg" '
+awk -v have_data="${EWA_DATA:+1}" -v have_ffmpeg="$have_ffmpeg" -v have_screen="${have_screen:+1}" '
     /^```sh$/ { inside = 1; block = ""; next }
     /^```$/ && inside {
         inside = 0
         if (block ~ /\$EWA_DATA/ && !have_data) print "skipped, for EWA_DATA is not set:\n" block >"/dev/stderr"
         else if (block ~ /ffmpeg/ && !have_ffmpeg) print "skipped, for want of ffmpeg:\n" block >"/dev/stderr"
+        else if (block ~ /Xvfb/ && !have_screen) print "skipped, for want of a screen:\n" block >"/dev/stderr"
         else printf "%s", block
         next
     }

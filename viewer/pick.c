@@ -11,6 +11,9 @@
 
 enum { BLOCK = 512, MOST_REACH_PX = 32, MANY_SPLATS = 2000000 };
 
+/// See reach_of().
+static const double POINT_REACH = 40, POINT_SHARE = 0.01;
+
 static const double PI = 3.14159265358979323846;
 
 /// The depths of a window of pixels about a place, its middle first; +infinity where nothing is. What is
@@ -70,11 +73,21 @@ static bool is_kept(const ewa_render_options *render, const double p[3]) {
     return true;
 }
 
-/// The point that is nearest to a place; false: there are none.
+/// How far from a place of a surface its points may be: some of the window's points, or a share of the scene.
+static double reach_of(const viewer *v, const double place_world[3]) {
+    const double depth = navigate_depth(&v->camera, place_world);
+    const double per_px = (v->camera.projection == EWA_ORTHOGRAPHIC ? 1 : depth) / v->camera.fy_px;
+    const double *m = &v->camera.world_to_camera[8], scale = sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
+    return fmax(POINT_REACH * v->scale * per_px / scale, POINT_SHARE * v->reach_world);
+}
+
+/// The point that is nearest to a place; false: there is none about there.
 static bool find_point(const viewer *v, const double place_world[3], viewer_pick *pick) {
     paint_scene scene;
     viewer_scene(v, &scene);
-    double best = INFINITY, block[BLOCK][3];
+    const double reach = reach_of(v, place_world);
+    double best = reach * reach, block[BLOCK][3];
+    bool found = false;
     for (size_t i = 0; i < v->item_count; i++) {
         const scene_item *item = &v->items[i];
         if (!item->visible || !item->loaded || !item->content.cloud) continue;
@@ -93,11 +106,12 @@ static bool find_point(const viewer *v, const double place_world[3], viewer_pick
                 }
                 if (!(away < best) || !is_kept(&scene.render, p)) continue;
                 best = away;
+                found = true;
                 *pick = (viewer_pick){true, i, first + k, {p[0], p[1], p[2]}};
             }
         }
     }
-    return isfinite(best);
+    return found;
 }
 
 /// Adds to a text what fits.

@@ -10,6 +10,8 @@
 #include <string.h>
 #include <unistd.h>
 
+enum { ASIDE_BYTES = 256 };
+
 static bool save_picture(viewer *v, const char *path, uint32_t width_px, uint32_t height_px,
                          bool transparent) {
     paint_scene scene;
@@ -109,19 +111,20 @@ static bool load_camera(viewer *v, const char *path, const char *name) {
 }
 
 /// A file of our own for a moment: the text of a camera is the library's business.
-static bool make_aside(char path[64]) {
-    snprintf(path, 64, "/tmp/ewa-camera-XXXXXX");
+static bool make_aside(viewer *v, char path[ASIDE_BYTES]) {
+    const char *folder = getenv("TMPDIR");
+    snprintf(path, ASIDE_BYTES, "%.200s/ewa-camera-XXXXXX", folder && *folder ? folder : "/tmp");
     const int file = mkstemp(path);
-    if (file >= 0) close(file);
+    if (file >= 0)
+        close(file);
+    else
+        viewer_tell(v, "camera: %s cannot be made", path);
     return file >= 0;
 }
 
 static bool copy_camera(viewer *v) {
-    char path[64];
-    if (!make_aside(path)) {
-        viewer_tell(v, "camera: no file can be made in /tmp");
-        return false;
-    }
+    char path[ASIDE_BYTES];
+    if (!make_aside(v, path)) return false;
     const bool done = save_camera(v, path) && read_text(path, v->clipboard, sizeof v->clipboard);
     unlink(path);
     if (done && v->services.clipboard_set) v->services.clipboard_set(v->services.user, v->clipboard);
@@ -129,7 +132,7 @@ static bool copy_camera(viewer *v) {
 }
 
 static bool paste_camera(viewer *v) {
-    char path[64], text[4 * VIEWER_TEXT_BYTES];
+    char path[ASIDE_BYTES], text[4 * VIEWER_TEXT_BYTES];
     snprintf(text, sizeof text, "%s", v->clipboard);
     if (v->services.clipboard_get && !v->services.clipboard_get(v->services.user, text, sizeof text))
         text[0] = 0;
@@ -137,10 +140,7 @@ static bool paste_camera(viewer *v) {
         viewer_tell(v, "camera: there is no text to paste");
         return false;
     }
-    if (!make_aside(path)) {
-        viewer_tell(v, "camera: no file can be made in /tmp");
-        return false;
-    }
+    if (!make_aside(v, path)) return false;
     FILE *file = fopen(path, "w");
     bool done = file && fputs(text, file) >= 0;
     if (file) done = fclose(file) == 0 && done;

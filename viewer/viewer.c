@@ -15,6 +15,8 @@
 static const double SETTLE_S = 0.08;
 /// What a move of the camera takes.
 static const double ANIMATION_S = 0.25;
+/// No window is larger.
+static const double MOST_PX = 1 << 27, MOST_SIDE_PX = 32768;
 /// Windows of more pixels are drawn at half their size while something moves.
 static const double LARGE_PX = 2e6;
 /// Moving pictures become smaller after so many that take so many times their budget, and larger after so many
@@ -52,7 +54,7 @@ void viewer_say(viewer *v, const char *format, ...) {
 
 static uint32_t pixels(double points, double scale) {
     const double size = floor(points * scale + 0.5);
-    return size < 1 ? 1 : size > 32768 ? 32768 : (uint32_t)size;
+    return size < 1 ? 1 : size > MOST_SIDE_PX ? (uint32_t)MOST_SIDE_PX : (uint32_t)size;
 }
 
 void viewer_coloring_init(viewer_coloring *coloring) {
@@ -130,7 +132,9 @@ static void animate(viewer *v) {
 }
 
 static void resize(viewer *v, const viewer_event *event) {
-    if (!(event->x >= 1 && event->y >= 1 && event->amount > 0 && isfinite(event->amount))) return;
+    const double wide_px = event->x * event->amount, high_px = event->y * event->amount;
+    if (!(event->x >= 1 && event->y >= 1 && event->amount > 0 && wide_px * high_px <= MOST_PX)) return;
+    if (!(wide_px <= MOST_SIDE_PX && high_px <= MOST_SIDE_PX)) return;
     v->width = event->x, v->height = event->y, v->scale = event->amount;
     const uint32_t width_px = pixels(v->width, v->scale), height_px = pixels(v->height, v->scale);
     if (width_px == v->camera.width_px && height_px == v->camera.height_px) return;
