@@ -149,6 +149,7 @@ static void scripts_with_everything(void **state) {
     run_all(EWA_CPU_ALL, 2);
 }
 
+#ifndef EVENTS_ONLY
 static void scripts_without_avx512(void **state) {
     (void)state;
     run_all(EWA_CPU_AVX2, 1);
@@ -158,6 +159,7 @@ static void scripts_portable(void **state) {
     (void)state;
     run_all(0, 3);
 }
+#endif
 
 static void wrong_scripts_fail(void **state) {
     (void)state;
@@ -184,8 +186,10 @@ static void wrong_scripts_fail(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(scripts_with_everything),
+#ifndef EVENTS_ONLY // other instruction sets change nothing about a window's events
         cmocka_unit_test(scripts_without_avx512),
         cmocka_unit_test(scripts_portable),
+#endif
         cmocka_unit_test(wrong_scripts_fail),
     };
     return cmocka_run_group_tests(tests, make_files, NULL);
