@@ -167,7 +167,7 @@ typedef struct ewa_render_stats {
     uint64_t fragment_count; ///< 4x4-pixel blocks evaluated in the accumulation
     double bin_s, setup_s, visibility_s, accumulate_s, edge_s, resolve_s;
     double total_s; ///< wall clock of the call
-    uint32_t level; ///< of detail that was drawn: the finest of the sources
+    uint32_t level; ///< of detail that was drawn: the coarsest of the sources; 0: all surfels
 } ewa_render_stats;
 
 /// A reusable object that owns all memory of a frame; nothing is allocated once it is warm.

@@ -105,30 +105,24 @@ static ewa_budget_work work_of(const ewa_render_job *job) {
     return work;
 }
 
-/// The finest and the coarsest level of a frame's sources.
-typedef struct level_range {
-    uint32_t finest, coarsest;
-} level_range;
-
-/// Takes each source at a level, or its last one.
-static level_range take_level(ewa_renderer *renderer, uint32_t level) {
+/// Takes each source at a level, or its last one; returns the coarsest of them.
+static uint32_t take_level(ewa_renderer *renderer, uint32_t level) {
     const ewa_surfels **sources = renderer->sources.data;
-    level_range range = {renderer->job.source_count ? level : 0, 0};
+    uint32_t coarsest = 0;
     for (uint32_t i = 0; i < renderer->job.source_count; i++) {
         uint32_t found = level;
         sources[i] = ewa_levels_find(sources[i], &found);
-        if (found < range.finest) range.finest = found;
-        if (found > range.coarsest) range.coarsest = found;
+        if (found > coarsest) coarsest = found;
     }
-    return range;
+    return coarsest;
 }
 
 /// Takes what a frame took into the model of what frames take.
-static void learn(ewa_renderer *renderer, uint32_t level, const ewa_render_stats *stats) {
+static void learn(ewa_renderer *renderer, const ewa_render_stats *stats) {
     const double pixels_s = stats->edge_s + stats->resolve_s;
     const double sum_s = stats->bin_s + stats->setup_s + stats->visibility_s + stats->accumulate_s + pixels_s;
     const ewa_camera *camera = &renderer->job.camera;
-    const ewa_budget_frame frame = {.level = level,
+    const ewa_budget_frame frame = {.level = stats->level,
                                     .splat_count = stats->splat_count,
                                     .culled_count = stats->culled_count,
                                     .pixel_count = (uint64_t)camera->width_px * camera->height_px,
@@ -148,13 +142,13 @@ ewa_status ewa_render_finish(ewa_renderer *renderer, ewa_render_stats *stats) {
         const ewa_budget_work work = work_of(job);
         level = ewa_budget_choose(&renderer->budget, job->options.budget_s, &work, level);
     }
-    const level_range drawn = take_level(renderer, level);
+    level = take_level(renderer, level);
     ewa_render_stats took;
     job->count_fragments = stats != NULL;
     const ewa_status status = renderer->backend->draw(renderer->state, job, &took);
     if (status != EWA_OK) return status;
-    took.level = drawn.finest;
-    learn(renderer, drawn.coarsest, &took);
+    took.level = level;
+    learn(renderer, &took);
     if (stats) *stats = took;
     return EWA_OK;
 }

@@ -456,6 +456,33 @@ static void test_cancelled_frame_changes_nothing(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// What is said of a frame is its coarsest part: 0 says that all surfels were drawn.
+static void level_of_several_sources(void **state) {
+    (void)state;
+    ewa_context *context = check_context(2, NULL);
+    ewa_cloud *cloud = level_cloud(context, LEVEL_SPHERE, POINTS);
+    ewa_surfels *sources[2] = {surfels_of(cloud, 1), surfels_of(cloud, EWA_MAX_LEVELS)};
+    const ewa_camera camera = level_camera(SIDE_PX, SIDE_PX, 2.2, 20);
+    static uint8_t picture[4 * PIXELS];
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    for (int count = 0; count <= 2; count++) {
+        ewa_render_options options;
+        ewa_render_stats stats;
+        ewa_render_options_init(&options, sizeof options);
+        options.level = 2;
+        assert_int_equal(ewa_render_begin(renderer, &camera, &options, &(ewa_frame){.rgba8 = picture}),
+                         EWA_OK);
+        for (int i = 0; i < count; i++) assert_int_equal(ewa_render_add(renderer, sources[i]), EWA_OK);
+        assert_int_equal(ewa_render_finish(renderer, &stats), EWA_OK);
+        assert_int_equal(stats.level, count == 2 ? 2 : 0);
+    }
+    ewa_renderer_destroy(&renderer);
+    for (int i = 0; i < 2; i++) ewa_surfels_destroy(&sources[i]);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_first_level_is_all_surfels),
@@ -469,6 +496,7 @@ int main(void) {
         cmocka_unit_test(test_older_callers),
         cmocka_unit_test(test_out_of_memory),
         cmocka_unit_test(test_cancelled_frame_changes_nothing),
+        cmocka_unit_test(level_of_several_sources),
     };
     return cmocka_run_group_tests_name("levels", tests, NULL, NULL);
 }
