@@ -59,7 +59,7 @@ static bool get_clipboard(void *user, char *text, size_t text_bytes) {
 static int no_window(const char *what) {
     fprintf(
         stderr,
-        "ewa view: no %s (%s): set DISPLAY or WAYLAND_DISPLAY (SDL_VIDEODRIVER chooses among several), or "
+        "ewa: view: no %s (%s): set DISPLAY or WAYLAND_DISPLAY (SDL_VIDEODRIVER chooses among several), or "
         "draw without a window: ewa render\n",
         what, *SDL_GetError() ? SDL_GetError() : "SDL does not say why");
     return 1;
@@ -239,7 +239,7 @@ static bool open_viewer(front_window *front, const front_job *job) {
 
 static int run(front_window *front, const front_job *job) {
     if (!open_viewer(front, job)) {
-        fputs("ewa view: out of memory\n", stderr);
+        fputs("ewa: out of memory\n", stderr);
         return 1;
     }
     if (!picture_window_open(front->events.window, &front->picture)) return no_window("renderer");
