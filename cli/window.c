@@ -8,6 +8,7 @@
 #include "window_services.h"
 
 #include <errno.h>
+#include <malloc.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -44,7 +45,16 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     return view_check(&arguments->view, false, message);
 }
 
+/// Keeps memory flat over hours: else the C library gives each thread that loads or draws a heap of its own,
+/// which stays when the thread ends.
+static void share_heap(void) {
+#ifdef M_ARENA_MAX
+    mallopt(M_ARENA_MAX, 1);
+#endif
+}
+
 int window_run(const void *data, int (*front)(const front_job *job)) {
+    share_heap();
     const window_arguments *arguments = data;
     const common_arguments *common = &arguments->view.common;
     window_services services;
