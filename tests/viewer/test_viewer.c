@@ -242,6 +242,29 @@ static void picks_respect_the_box(void **state) {
     viewer_destroy(&v);
 }
 
+/// Beside the cut, where the nearest point of all may have been cut off.
+static void picks_beside_the_box_are_inside(void **state) {
+    (void)state;
+    viewer *v = make_viewer(true);
+    assert_true(viewer_open(v, "plane"));
+    assert_true(viewer_do(v, "view top"));
+    assert_true(viewer_do(v, "box 0,-2,-2,2,2,2"));
+    settle(v);
+    for (int y = 26; y < 46; y++) {
+        const viewer_event press = {
+            .kind = VIEWER_PRESS, .x = 80.3, .y = y, .button = VIEWER_LEFT, .clicks = 1};
+        viewer_event release = press;
+        release.kind = VIEWER_RELEASE;
+        contents.said[0] = 0;
+        handle(v, press);
+        handle(v, release);
+        double x;
+        assert_int_equal(sscanf(contents.said, "pick plane point %*u at %lf", &x), 1);
+        assert_true(x >= 0);
+    }
+    viewer_destroy(&v);
+}
+
 static void cameras_are_copied(void **state) {
     (void)state;
     viewer *v = make_viewer(true);
@@ -399,6 +422,7 @@ int main(void) {
         cmocka_unit_test(previews_come_first),
         cmocka_unit_test(picks_name_points_exactly),
         cmocka_unit_test(picks_respect_the_box),
+        cmocka_unit_test(picks_beside_the_box_are_inside),
         cmocka_unit_test(cameras_are_copied),
         cmocka_unit_test(opening_more_never_moves_the_camera),
         cmocka_unit_test(commands_refuse_what_is_wrong),
