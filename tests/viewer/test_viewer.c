@@ -252,7 +252,7 @@ static void picks_beside_the_box_are_inside(void **state) {
     settle(v);
     for (int y = 26; y < 46; y++) {
         const viewer_event press = {
-            .kind = VIEWER_PRESS, .x = 80.3, .y = y, .button = VIEWER_LEFT, .clicks = 1};
+            .kind = VIEWER_PRESS, .x = 80.1, .y = y, .button = VIEWER_LEFT, .clicks = 1};
         viewer_event release = press;
         release.kind = VIEWER_RELEASE;
         contents.said[0] = 0;
