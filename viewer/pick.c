@@ -52,9 +52,11 @@ static double nearest_depth(viewer *v, double x_px, double y_px, int reach_px, b
 }
 
 static bool find_surface(viewer *v, double x, double y, double reach, bool coarse, double place_world[3]) {
-    const double most = fmin(reach * v->scale, MOST_REACH_PX);
+    const double most = fmin(reach * v->scale, MOST_REACH_PX), x_px = x * v->scale, y_px = y * v->scale;
+    const bool inside = x_px >= -most && y_px >= -most && x_px < v->camera.width_px + most &&
+                        y_px < v->camera.height_px + most;
     double place_px[2];
-    const double depth = nearest_depth(v, x * v->scale, y * v->scale, (int)most, coarse, place_px);
+    const double depth = inside ? nearest_depth(v, x_px, y_px, (int)most, coarse, place_px) : INFINITY;
     if (!isfinite(depth)) return false;
     navigate_unproject(&v->camera, place_px[0], place_px[1], depth, place_world);
     return true;

@@ -10,6 +10,8 @@
 
 /// Degrees a point of the window turns; the factor of a notch of the wheel and of a point of a zooming drag.
 static const double TURN_DEG = 0.4, NOTCH = 0.85, DRAG_FACTOR = 0.99;
+/// Events farther away are none.
+static const double MOST_POINTS = 1e6;
 /// A press that moves less is a click.
 static const double CLICK_REACH = 4;
 /// The wheel turns about the same place while it goes on within this time.
@@ -79,7 +81,6 @@ static void drag(viewer *v, double x, double y) {
 }
 
 static void move(viewer *v, const viewer_event *event) {
-    if (!isfinite(event->x) || !isfinite(event->y)) return;
     const bool far = hypot(event->x - v->press_x, event->y - v->press_y) >= CLICK_REACH;
     if (hypot(event->x - v->x, event->y - v->y) > 0 && !v->button) v->wheel_held = false;
     if (v->button && !v->moved && !far) return; // the hand trembles
@@ -133,6 +134,7 @@ static void zoom(viewer *v, double x, double y, double factor) {
 }
 
 static void wheel(viewer *v, const viewer_event *event) {
+    if (!isfinite(event->amount)) return;
     const double notches = fmin(fmax(event->amount, -20), 20);
     if (event->modifiers & VIEWER_ALT)
         cutaway_move_slab(v, notches, event->modifiers & VIEWER_CTRL);
@@ -143,6 +145,9 @@ static void wheel(viewer *v, const viewer_event *event) {
 }
 
 void pointer_handle(viewer *v, const viewer_event *event) {
+    // No screen is as large; what is no number would put the camera nowhere.
+    const bool placed = fabs(event->x) <= MOST_POINTS && fabs(event->y) <= MOST_POINTS;
+    if (event->kind != VIEWER_LEAVE && !placed) return;
     switch (event->kind) {
     case VIEWER_MOVE:
         move(v, event);
