@@ -44,6 +44,17 @@ static inline ewa_context *check_context(uint32_t threads, check_log *log) {
     return context;
 }
 
+/// A context with `threads` workers and the instruction sets of `cpu_mask`.
+static inline ewa_context *check_context_of(uint32_t threads, uint32_t cpu_mask) {
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.thread_count = threads;
+    options.cpu_mask = cpu_mask;
+    ewa_context *context = NULL;
+    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+    return context;
+}
+
 /// Memory of which one allocation fails, and what of it is not given back.
 typedef struct check_memory {
     long calls_left; ///< allocations before the one that fails; negative: none fails

@@ -3,13 +3,11 @@
 //
 // render: turntables, camera paths, numbered files, films. Films go through a stand-in for ffmpeg that notes
 // what it is asked for and counts bytes, and through the real one where it is installed.
-#include "run_ewa.h"
+#include "check_pictures.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static ewa_context *context;
 
 /// Writes an ffmpeg of shell lines into the folder `name` of the scratch folder.
 static void stand_in(const char *name, const char *lines) {
@@ -30,18 +28,6 @@ static int enter(void **state) {
     stand_in("broken", "echo 'Unknown encoder' >&2\nexit 3");
     stand_in("dying", "kill -9 $$");
     return run("ewa generate torus -n 5000 -o torus.ply && ewa generate cube -n 3000 -o cube.ply");
-}
-
-static int leave(void **state) {
-    (void)state;
-    ewa_context_destroy(&context);
-    return 0;
-}
-
-static ewa_image load(const char *name) {
-    ewa_image image = {0};
-    assert_int_equal(ewa_image_load(context, scratch_path(name), &image), EWA_OK);
-    return image;
 }
 
 /// Whole in every frame, with little room to spare in the worst, and the first frame again after a full turn.

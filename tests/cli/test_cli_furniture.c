@@ -4,27 +4,13 @@
 // What stands over the pictures of render and volume: title, axes, scale bar, colour bar; colours of classes.
 #include <string.h>
 
-#include "run_ewa.h"
-
-static ewa_context *context;
+#include "check_pictures.h"
 
 static int enter(void **state) {
     (void)state;
     context = check_context(0, NULL);
     if (scratch_enter("cli_furniture") != 0) return -1;
     return run("ewa generate terrain -n 20000 -o terrain.ply && ewa generate ball --dims 16 -o ball.nrrd");
-}
-
-static int leave(void **state) {
-    (void)state;
-    ewa_context_destroy(&context);
-    return 0;
-}
-
-static ewa_image load(const char *name) {
-    ewa_image image = {0};
-    assert_int_equal(ewa_image_load(context, scratch_path(name), &image), EWA_OK);
-    return image;
 }
 
 /// A box of a picture, parts of its size.

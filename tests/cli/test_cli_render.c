@@ -5,10 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "check_pictures.h"
 #include "image_difference.h"
-#include "run_ewa.h"
-
-static ewa_context *context;
 
 static int enter(void **state) {
     (void)state;
@@ -16,18 +14,6 @@ static int enter(void **state) {
     if (scratch_enter("cli_render") != 0) return -1;
     return run("ewa generate torus -n 20000 -o torus.ply && ewa generate sphere -n 5000 -o ball.ply && "
                "ewa generate plane -n 5000 -o plane.ply");
-}
-
-static int leave(void **state) {
-    (void)state;
-    ewa_context_destroy(&context);
-    return 0;
-}
-
-static ewa_image load(const char *name) {
-    ewa_image image = {0};
-    assert_int_equal(ewa_image_load(context, scratch_path(name), &image), EWA_OK);
-    return image;
 }
 
 /// Share of the pixels whose channel `channel` is over `threshold`.

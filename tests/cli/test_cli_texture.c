@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: MIT
 //
 // texture: maps, formats, usage, broken input.
+#include "check_pictures.h"
 #include "image_difference.h"
-#include "run_ewa.h"
 
 #include <math.h>
 #include <string.h>
-
-static ewa_context *context;
 
 static void save(const char *name, uint32_t channels) {
     ewa_image image;
@@ -28,18 +26,6 @@ static int enter(void **state) {
     save("rgb.png", 3);
     save("rgb.pfm", 3);
     return 0;
-}
-
-static int leave(void **state) {
-    (void)state;
-    ewa_context_destroy(&context);
-    return 0;
-}
-
-static ewa_image load(const char *name) {
-    ewa_image image = {0};
-    assert_int_equal(ewa_image_load(context, scratch_path(name), &image), EWA_OK);
-    return image;
 }
 
 /// The same map said in four ways gives the same picture.

@@ -3,13 +3,11 @@
 //
 // volume, and what info and generate do with volumes: pictures that come out as asked for, wrong usage, bad
 // input.
-#include "run_ewa.h"
+#include "check_pictures.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static ewa_context *context;
 
 static int enter(void **state) {
     (void)state;
@@ -19,18 +17,6 @@ static int enter(void **state) {
         "ewa generate blob -o blob.nrrd --dims 24 && ewa generate ball -o ball.nrrd --dims 32,24,28 && "
         "ewa generate checkerbox -o box.nrrd --dims 24 --checks 4 && "
         "ewa generate vessels -o vessels.nrrd --dims 48");
-}
-
-static int leave(void **state) {
-    (void)state;
-    ewa_context_destroy(&context);
-    return 0;
-}
-
-static ewa_image load(const char *name) {
-    ewa_image image = {0};
-    assert_int_equal(ewa_image_load(context, scratch_path(name), &image), EWA_OK);
-    return image;
 }
 
 /// Share of the pixels of a picture whose alpha is above a half; its middle is in `place`.

@@ -70,16 +70,6 @@ static void fill(batch *b, uint64_t seed) {
     }
 }
 
-static ewa_context *make_context(uint32_t threads, uint32_t cpu_mask) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
-    options.thread_count = threads;
-    options.cpu_mask = cpu_mask;
-    ewa_context *context = NULL;
-    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
-    return context;
-}
-
 static ewa_vec4 end_of(const batch *b, int e, int i) {
     return vec4_make(b->in[4 * e][i], b->in[4 * e + 1][i], b->in[4 * e + 2][i], b->in[4 * e + 3][i]);
 }
@@ -141,7 +131,7 @@ static void check_ends(const batch *b, int i) {
 static void test_against_double(void **state) {
     (void)state;
     batch *b = make_batch();
-    ewa_context *context = make_context(1, EWA_CPU_ALL);
+    ewa_context *context = check_context_of(1, EWA_CPU_ALL);
     int seen[4] = {0};
     for (uint64_t seed = 1; seed < 4; seed++) {
         fill(b, seed);
@@ -170,7 +160,7 @@ static void test_touching(void **state) {
     for (int i = 0; i < 3; i++)
         for (int c = 0; c < 8; c++) b->in[c][i] = segments[i][c];
     for (int m = 0; m < 3; m++) {
-        ewa_context *context = make_context(1, masks[m]);
+        ewa_context *context = check_context_of(1, masks[m]);
         assert_int_equal(ewa_clip_segments(context, &b->segments, &b->clips), EWA_OK);
         for (int i = 0; i < 3; i++) {
             assert_int_equal(b->visible[i], EWA_VISIBLE_POSITIVE);
@@ -187,11 +177,11 @@ static void test_same_bytes(void **state) {
     batch *reference = make_batch(), *b = make_batch();
     fill(reference, 9);
     memcpy(b->in, reference->in, 8 * sizeof *b->in);
-    ewa_context *plain = make_context(1, 0);
+    ewa_context *plain = check_context_of(1, 0);
     assert_int_equal(ewa_clip_segments(plain, &reference->segments, &reference->clips), EWA_OK);
     for (size_t m = 0; m < 3; m++)
         for (size_t t = 0; t < 3; t++) {
-            ewa_context *context = make_context(threads[t], masks[m]);
+            ewa_context *context = check_context_of(threads[t], masks[m]);
             feclearexcept(FE_ALL_EXCEPT);
             memset(b->out, 0, OUTPUTS * sizeof *b->out);
             assert_int_equal(ewa_clip_segments(context, &b->segments, &b->clips), EWA_OK);
@@ -207,7 +197,7 @@ static void test_same_bytes(void **state) {
         }
     // Any number of segments, from any address: the same as the beginning of all.
     for (uint64_t count = 0; count < 40; count++) {
-        ewa_context *context = make_context(1, EWA_CPU_ALL);
+        ewa_context *context = check_context_of(1, EWA_CPU_ALL);
         batch *few = make_batch();
         few->segments.count = count;
         for (int c = 0; c < 8; c++) few->segments.end[c / 4][c % 4] = reference->in[c] + 3;

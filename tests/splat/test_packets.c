@@ -55,16 +55,6 @@ static void make_numbers(numbers *made) {
     }
 }
 
-static ewa_context *context_of(uint32_t threads, uint32_t cpu_mask) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
-    options.thread_count = threads;
-    options.cpu_mask = cpu_mask;
-    ewa_context *context = NULL;
-    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
-    return context;
-}
-
 static void borrow(ewa_cloud *cloud, const char *name, ewa_type type, uint32_t components, const void *data,
                    size_t stride_bytes) {
     assert_int_equal(ewa_cloud_borrow(cloud, name, type, components, data, stride_bytes), EWA_OK);
@@ -103,12 +93,12 @@ static void test_same_bytes_from_all_kernels(void **state) {
     (void)state;
     static numbers of;
     make_numbers(&of);
-    ewa_context *plain = context_of(1, 0);
+    ewa_context *plain = check_context_of(1, 0);
     ewa_surfels *expected = surfels_of(plain, &of);
     assert_int_equal(expected->left_out_count, of.spoilt_count);
     static const uint32_t masks[] = {EWA_CPU_AVX2, EWA_CPU_ALL};
     for (int i = 0; i < 2; i++) {
-        ewa_context *context = context_of(3, masks[i]);
+        ewa_context *context = check_context_of(3, masks[i]);
         ewa_surfels *surfels = surfels_of(context, &of);
         assert_same_packets(expected, surfels);
         ewa_surfels_destroy(&surfels);
@@ -134,7 +124,7 @@ static void test_same_bytes_from_all_layouts(void **state) {
         memcpy(records[i].color, of.color[i], sizeof records[i].color);
         records[i].radius = of.radius[i];
     }
-    ewa_context *context = context_of(2, EWA_CPU_ALL);
+    ewa_context *context = check_context_of(2, EWA_CPU_ALL);
     ewa_surfels *expected = surfels_of(context, &of);
     ewa_cloud *cloud = NULL;
     assert_int_equal(ewa_cloud_create(context, POINTS, &cloud), EWA_OK);
@@ -159,7 +149,7 @@ static void test_discs_equal_surfels(void **state) {
     make_numbers(&of);
     for (int i = 0; i < POINTS; i++)
         for (int c = 0; c < 3; c++) normal[i][c] = (double)of.normal[i][c];
-    ewa_context *context = context_of(2, EWA_CPU_ALL);
+    ewa_context *context = check_context_of(2, EWA_CPU_ALL);
     ewa_surfels *discs = surfels_of(context, &of);
     ewa_cloud *cloud = NULL;
     assert_int_equal(ewa_cloud_create(context, POINTS, &cloud), EWA_OK);
@@ -191,7 +181,7 @@ static void test_discs_equal_surfels(void **state) {
 static void test_normals_are_kept(void **state) {
     (void)state;
     check_random random = {3};
-    ewa_context *context = context_of(1, EWA_CPU_ALL);
+    ewa_context *context = check_context_of(1, EWA_CPU_ALL);
     for (int turn = 0; turn < 2000; turn++) {
         float position[3] = {1, 2, 3}, normal[3], radius = 1;
         for (int c = 0; c < 3; c++) normal[c] = (float)check_uniform(&random, -1, 1);
@@ -238,7 +228,7 @@ static void test_bounds_hold(void **state) {
     static numbers of;
     make_numbers(&of);
     for (int i = 0; i < POINTS; i++) of.normal[i][2] = 30 * fabsf(of.normal[i][0]); // narrow and wide cones
-    ewa_context *context = context_of(2, EWA_CPU_ALL);
+    ewa_context *context = check_context_of(2, EWA_CPU_ALL);
     ewa_surfels *surfels = surfels_of(context, &of);
     int narrow = 0;
     for (uint32_t p = 0; p < surfels->packet_count; p++) {
@@ -269,7 +259,7 @@ static void test_largest_sigmas(void **state) {
     static float position[POINTS][3], axis_u[POINTS][3], axis_v[POINTS][3];
     static const uint32_t counts[] = {1, 17, 16 * 64 - 1, POINTS};
     check_random random = {11};
-    ewa_context *context = context_of(2, EWA_CPU_ALL);
+    ewa_context *context = check_context_of(2, EWA_CPU_ALL);
     for (int turn = 0; turn < 16; turn++) {
         const uint32_t count = counts[turn / 4];
         const double most_aspect = turn % 2 ? 5 : 1;

@@ -141,16 +141,6 @@ static void assert_same_bytes(const picture *a, const picture *b) {
     assert_memory_equal(a->frame.coverage, b->frame.coverage, 4 * pixels);
 }
 
-static ewa_context *context_of(uint32_t threads, uint32_t cpu_mask) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
-    options.thread_count = threads;
-    options.cpu_mask = cpu_mask;
-    ewa_context *context = NULL;
-    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
-    return context;
-}
-
 static void test_same_bytes_of_every_kernel(void **state) {
     (void)state;
     static const uint32_t masks[] = {EWA_CPU_ALL, EWA_CPU_AVX2, 0};
@@ -162,7 +152,7 @@ static void test_same_bytes_of_every_kernel(void **state) {
             options.kernel = (ewa_kernel)kernel;
             picture first = {0};
             for (size_t i = 0; i < sizeof masks / sizeof masks[0]; i++) {
-                ewa_context *context = context_of(1 + (uint32_t)i, masks[i]);
+                ewa_context *context = check_context_of(1 + (uint32_t)i, masks[i]);
                 scene of;
                 assert_int_equal(scene_make(context, kinds[k], POINTS / 4, 101, 97, &of), EWA_OK);
                 picture made = picture_draw(context, of.cloud, &of.camera, NULL, &options);
@@ -223,7 +213,7 @@ static void test_same_bytes_on_all_threads_and_instruction_sets(void **state) {
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
         picture first = {0};
         for (size_t i = 0; i < sizeof runs / sizeof runs[0]; i++) {
-            ewa_context *context = context_of(runs[i].threads, runs[i].mask);
+            ewa_context *context = check_context_of(runs[i].threads, runs[i].mask);
             scene of;
             // Small, because plain C under sanitizers takes its time.
             assert_int_equal(scene_make(context, (scene_kind)kind, POINTS / 4, 101, 97, &of), EWA_OK);

@@ -292,16 +292,6 @@ static void test_untouched(void **state) {
     ewa_context_destroy(&context);
 }
 
-static ewa_context *make_context(uint32_t threads, uint32_t cpu_mask) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
-    options.thread_count = threads;
-    options.cpu_mask = cpu_mask;
-    ewa_context *context = NULL;
-    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
-    return context;
-}
-
 static void test_threads_and_instructions(void **state) {
     (void)state;
     static const struct {
@@ -311,7 +301,7 @@ static void test_threads_and_instructions(void **state) {
     static drawn first, other;
     for (size_t kind = 0; kind < sizeof kinds / sizeof kinds[0]; kind++)
         for (size_t i = 0; i < sizeof runs / sizeof runs[0]; i++) {
-            ewa_context *context = make_context(runs[i].threads, runs[i].mask);
+            ewa_context *context = check_context_of(runs[i].threads, runs[i].mask);
             scene of;
             assert_int_equal(scene_make(context, kinds[kind], POINTS, SIDE, SIDE, &of), EWA_OK);
             ewa_render_options options = plain_options();
