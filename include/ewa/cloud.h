@@ -26,6 +26,13 @@ extern "C" {
 /// | clip0, clip1 |          3 | clip line (a, b, c): keep a u + b v + c >= 0 at                           |
 /// |              |            | position + u tangent_u + v tangent_v                                      |
 /// | clip_mode    |          1 | 0: both lines hold, 1: either holds                                       |
+///
+/// Readers of scans give these names, with one component each, to what the formats have in common: intensity,
+/// return_number, number_of_returns, scan_direction_flag, edge_of_flight_line, classification, synthetic,
+/// key_point, withheld, overlap, scanner_channel, user_data, scan_angle (degrees, F32), point_source_id,
+/// gps_time (F64), nir. 8-bit colours become U8, 16-bit colours U16. Invalid or missing numbers are NaN in
+/// floats. Scans of one file are told apart by "scan" (U16), the scanner of each by the note "scanners": 3
+/// numbers x y z per scan as text, a line each, world units.
 #define EWA_POSITION  "position"
 #define EWA_NORMAL    "normal"
 #define EWA_COLOR     "color"
@@ -86,6 +93,36 @@ EWA_API const ewa_attribute *ewa_cloud_attribute_at(const ewa_cloud *cloud, uint
 /// keeps its exact place while the streams stay small numbers.
 EWA_API void ewa_cloud_set_origin(ewa_cloud *cloud, const double origin_world[3]);
 EWA_API void ewa_cloud_origin(const ewa_cloud *cloud, double origin_world[3]);
+
+/// The grid of decimal coordinates that a file holds: world coordinates are offset + whole number * step.
+typedef struct ewa_grid {
+    double step_world[3]; ///< > 0; 0: there is none on this axis
+    double offset_world[3];
+} ewa_grid;
+
+/// Sets or returns the grid that the positions came from (default: none). Writers put the same decimals into
+/// files again, which positions in binary fractions alone would not give. It changes no position.
+EWA_API void ewa_cloud_set_grid(ewa_cloud *cloud, const ewa_grid *grid);
+EWA_API void ewa_cloud_grid(const ewa_cloud *cloud, ewa_grid *grid);
+
+/// Returns the double nearest to the place of the grid that is nearest to a world coordinate; the coordinate
+/// itself where there is no grid, or no such place within range. Any thread.
+EWA_API double ewa_grid_world(const ewa_grid *grid, uint32_t axis, double world);
+
+/// Keeps bytes with the cloud, a copy, replacing those of the same name; none when `size_bytes` is 0. Known
+/// names: "crs", the coordinate reference system as text (WKT, or a name such as "EPSG:32632"); "crs_name", a
+/// name for people; "las.vlrs", raw variable length records; "file.WHAT", facts about the file that
+/// the points came from, as text for people. Selections and the first of merged clouds hand them on. Errors:
+/// EWA_ERROR_ARGUMENT (name empty or too long), EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_cloud_set_note(ewa_cloud *cloud, const char *name, const void *bytes,
+                                      size_t size_bytes);
+
+/// Returns the bytes of a note, behind which a zero stands, or NULL; `*size_bytes` (may be NULL) without that
+/// zero. Valid until the notes change.
+EWA_API const char *ewa_cloud_note(const ewa_cloud *cloud, const char *name, size_t *size_bytes);
+
+/// Returns the name of note `index` in the order of addition, NULL beyond the last.
+EWA_API const char *ewa_cloud_note_name(const ewa_cloud *cloud, uint32_t index);
 
 /// Reads `count` points from point `first` as floats, `component_count` of the attribute each, tightly packed
 /// into `values`. Integers are converted as numbers, not normalised.

@@ -39,6 +39,48 @@ EWA_API ewa_status ewa_cloud_load(ewa_context *context, const char *path, ewa_cl
 EWA_API ewa_status ewa_cloud_load_memory(ewa_context *context, const void *bytes, size_t size_bytes,
                                          const char *name, ewa_cloud **cloud);
 
+/// How a cloud is read. Fill with ewa_cloud_load_options_init().
+typedef struct ewa_cloud_load_options {
+    size_t struct_size;
+    /// Step over damaged pieces of a file, with a warning that says where, and count the points that are lost
+    /// with them; default false: the first one ends the call.
+    bool keep_going;
+    /// Names of the attributes that are wanted, comma-separated, besides "position"; default NULL: all.
+    const char *attributes;
+    /// Columns of a text file in their order, comma-separated: x, y, z, r, g, b, nx, ny, nz, intensity, ...
+    /// or "-" for one that is left out; default NULL: as the file's head or its numbers say.
+    const char *columns;
+} ewa_cloud_load_options;
+
+EWA_API extern const ewa_option_table ewa_cloud_load_options_table;
+EWA_API void ewa_cloud_load_options_init(ewa_cloud_load_options *options, size_t struct_size);
+
+/// A number of points that is not known before all have been read.
+#define EWA_POINTS_UNKNOWN UINT64_MAX
+
+/// A file whose points are read piece by piece, in the order of the file.
+typedef struct ewa_cloud_reader ewa_cloud_reader;
+
+/// Opens a file of points for reading in pieces; a mesh is read for its vertices, at once. The caller closes
+/// `*reader`, which is NULL after a failure. `options` may be NULL. Errors as ewa_cloud_load().
+EWA_API ewa_status ewa_cloud_reader_open(ewa_context *context, const char *path,
+                                         const ewa_cloud_load_options *options, ewa_cloud_reader **reader);
+
+/// Returns a cloud of no points with the attributes, the origin, the grid and the notes of every piece.
+EWA_API const ewa_cloud *ewa_cloud_reader_prototype(const ewa_cloud_reader *reader);
+
+/// Returns a number of points that is never exceeded.
+EWA_API uint64_t ewa_cloud_reader_most_points(const ewa_cloud_reader *reader);
+
+/// Reads the next points, at most `most_points` > 0, into a cloud that the caller owns; NULL at the end.
+EWA_API ewa_status ewa_cloud_reader_next(ewa_cloud_reader *reader, uint64_t most_points, ewa_cloud **piece);
+
+/// Returns how many points were lost to damage so far (`keep_going`).
+EWA_API uint64_t ewa_cloud_reader_lost_count(const ewa_cloud_reader *reader);
+
+/// Closes the file and sets `*reader` to NULL; accepts NULL and a pointer to NULL.
+EWA_API void ewa_cloud_reader_close(ewa_cloud_reader **reader);
+
 /// Receives one line of text without its line feed, valid during the call.
 typedef void ewa_line_callback(void *user, const char *line);
 
@@ -72,6 +114,10 @@ typedef struct ewa_cloud_save_options {
     /// NULL. Their numbers of vertices count only as long as the cloud has the points of that file in their
     /// order.
     const ewa_elements *elements;
+    /// Step of the coordinates of LAS, LAZ, world units; default 0: that of the cloud's grid, else the finest
+    /// of 1e-4, 1e-3, 1e-2 with which the box fits 32 bits, finer for small objects.
+    double step_world;
+    uint32_t chunk_points; ///< points of one chunk of LAZ; default 50,000
 } ewa_cloud_save_options;
 
 EWA_API extern const ewa_option_table ewa_cloud_save_options_table;
@@ -86,6 +132,28 @@ EWA_API void ewa_cloud_save_options_init(ewa_cloud_save_options *options, size_t
 /// EWA_CANCELLED.
 EWA_API ewa_status ewa_cloud_save(const ewa_cloud *cloud, const char *path,
                                   const ewa_cloud_save_options *options);
+
+/// A file of points that is written piece by piece.
+typedef struct ewa_cloud_writer ewa_cloud_writer;
+
+/// Begins a file for `point_count` points (EWA_POINTS_UNKNOWN: as many as come) that all have the attributes,
+/// in their order, the origin, the grid and the notes of `prototype`, whose own points are not looked at;
+/// `bounds` is the box of all of them, which LAS needs where there is no grid; else NULL. The suffix chooses
+/// the format as in ewa_cloud_save(). `options` and `prototype` stay the caller's and are not needed after
+/// the call. End with ewa_cloud_writer_commit() or ewa_cloud_writer_abort(). Errors as ewa_cloud_save().
+EWA_API ewa_status ewa_cloud_writer_open(ewa_context *context, const char *path,
+                                         const ewa_cloud_save_options *options, const ewa_cloud *prototype,
+                                         uint64_t point_count, const ewa_bounds *bounds,
+                                         ewa_cloud_writer **writer);
+
+/// Appends the points of a piece, which has the attributes of the prototype.
+EWA_API ewa_status ewa_cloud_writer_put(ewa_cloud_writer *writer, const ewa_cloud *piece);
+
+/// Finishes the file, which appears now, and sets `*writer` to NULL, also after a failure, which removes it.
+EWA_API ewa_status ewa_cloud_writer_commit(ewa_cloud_writer **writer);
+
+/// Removes what was written and sets `*writer` to NULL; accepts NULL and a pointer to NULL.
+EWA_API void ewa_cloud_writer_abort(ewa_cloud_writer **writer);
 
 /// What a picture file says beside its pixels. Fill with ewa_image_save_options_init().
 typedef struct ewa_image_save_options {

@@ -21,6 +21,11 @@ typedef enum ewa_model_format {
     EWA_MODEL_STL,
     EWA_MODEL_OFF,
     EWA_MODEL_GLTF, ///< .gltf and .glb
+    EWA_MODEL_LAS,  ///< LAS, LAZ and COPC
+    EWA_MODEL_E57,
+    EWA_MODEL_PCD,
+    EWA_MODEL_PTX,
+    EWA_MODEL_TEXT, ///< XYZ, PTS, CSV: numbers in columns
 } ewa_model_format;
 
 /// Returns "PLY", "OBJ", "STL", "OFF", "glTF" or "unknown".

@@ -45,6 +45,11 @@ ewa_status ewa_writer_open(ewa_context *context, const char *path, ewa_writer **
 /// the same status.
 ewa_status ewa_writer_put(ewa_writer *writer, const void *data, size_t size_bytes);
 
+/// Overwrites bytes that were appended before, from byte `at_bytes` of the file on. Fails with EWA_ERROR_IO
+/// where the file is standard output, a pipe or a device (ewa_writer_can_patch()).
+ewa_status ewa_writer_patch(ewa_writer *writer, uint64_t at_bytes, const void *data, size_t size_bytes);
+bool ewa_writer_can_patch(const ewa_writer *writer);
+
 /// Returns the name of the file that is being written, for libraries that open files by name, or NULL for
 /// standard output. Whoever writes by name leaves ewa_writer_put() alone and closes the file before the
 /// commit.

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What a format of point clouds has to offer: one road in, one road out. A format says what its points have
+// before any of them is read, then hands them over in the order of the file, as many at a time as the caller
+// has room for; so the same reader fills a whole cloud and passes a file through that is larger than memory.
+#ifndef EWA_SRC_FORMAT_H
+#define EWA_SRC_FORMAT_H
+
+#include "ewa/io.h"
+#include "ewa/model.h"
+
+/// A file that is read and where messages about it go.
+typedef struct ewa_cloud_source {
+    ewa_context *context;
+    const char *name;     ///< stands for the file in messages
+    const char *path;     ///< of the file, for formats that name others beside it; NULL: there is none
+    const uint8_t *bytes; ///< of the whole file
+    uint64_t size_bytes;
+    const ewa_cloud_load_options *options; ///< complete, of this version
+    uint64_t *lost_count;                  ///< points that ewa_cloud_damage() gave up
+} ewa_cloud_source;
+
+/// Where the numbers of one attribute go: point i of a call to `to + i * stride_bytes`. NULL: not wanted.
+typedef struct ewa_cloud_sink {
+    uint8_t *to;
+    size_t stride_bytes;
+} ewa_cloud_sink;
+
+/// One format that is read.
+typedef struct ewa_cloud_format {
+    ewa_model_format format;
+
+    /// Whether the bytes are of this format; `name` helps only where bytes of two formats look alike.
+    bool (*probe)(const char *name, const uint8_t *bytes, uint64_t size_bytes);
+
+    /// Reads what comes before the points. `prototype` is a cloud of no points: the format adds the
+    /// attributes that its points have, sets origin and grid, and adds notes (ewa_cloud_set_note()).
+    /// `*point_count`: never more points than this come; it must be bounded by the bytes that are there. The
+    /// source and its bytes stay until close(). `*state` stays NULL after a failure.
+    ewa_status (*open)(const ewa_cloud_source *source, ewa_cloud *prototype, uint64_t *point_count,
+                       void **state);
+
+    /// Reads the next points, at most `most`, into one sink per attribute of the prototype, in its order.
+    /// `*got_count` is 0 at the end only. Uses threads by ewa_parallel().
+    ewa_status (*read)(void *state, uint64_t most, const ewa_cloud_sink *sinks, uint64_t *got_count);
+
+    /// Frees the state; accepts NULL.
+    void (*close)(void *state);
+} ewa_cloud_format;
+
+/// Says that a piece of a file is damaged: with `keep_going` a warning, `lost_count` points are counted as
+/// lost and EWA_OK returned, so that the reader goes on behind the piece; else an error and
+/// EWA_ERROR_FORMAT. The text begins with the name of the file.
+ewa_status ewa_cloud_damage(const ewa_cloud_source *source, uint64_t lost_count, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/// Says that the bytes before `at_bytes` are not needed again, so that pages of a mapped file can leave
+/// memory.
+void ewa_cloud_passed(const ewa_cloud_source *source, uint64_t at_bytes);
+
+/// A file that is written.
+typedef struct ewa_cloud_target {
+    ewa_context *context;
+    const char *name; ///< stands for the file in messages
+    struct ewa_writer *writer;
+    const ewa_cloud_save_options *options; ///< complete, of this version
+    const ewa_cloud *prototype; ///< attributes and their order, origin, grid and notes of every piece
+    uint64_t point_count;       ///< of all pieces together; EWA_POINTS_UNKNOWN
+    const ewa_bounds *bounds;   ///< world box of all pieces together; NULL: not known
+} ewa_cloud_target;
+
+/// One format that is written.
+typedef struct ewa_cloud_write_format {
+    const char *suffixes; ///< in small letters, separated by '|': ".las|.laz"
+    bool needs_bounds;    ///< open() fails without bounds unless the prototype has a grid
+    bool needs_count;     ///< point_count must be known
+
+    /// Begins a file. The target stays until close(). `*state` stays NULL after a failure.
+    ewa_status (*open)(const ewa_cloud_target *target, void **state);
+
+    /// Appends the points of a piece.
+    ewa_status (*put)(void *state, const ewa_cloud *piece);
+
+    /// Writes what comes after the points and what only now is known (ewa_writer_patch()).
+    ewa_status (*finish)(void *state);
+
+    /// Frees the state; accepts NULL.
+    void (*close)(void *state);
+} ewa_cloud_write_format;
+
+/// The formats, in the order in which they are asked. Each lives in a file of its own.
+extern const ewa_cloud_format ewa_format_ply, ewa_format_las, ewa_format_e57, ewa_format_pcd, ewa_format_ptx,
+    ewa_format_text;
+extern const ewa_cloud_write_format ewa_write_ply, ewa_write_las, ewa_write_pcd, ewa_write_text;
+
+/// Finds the format of a file that is no mesh; NULL when it is of none that is read.
+const ewa_cloud_format *ewa_cloud_format_of(const char *name, const uint8_t *bytes, uint64_t size_bytes);
+
+/// Reads all points of a source into a cloud.
+ewa_status ewa_cloud_read_all(const ewa_cloud_source *source, const ewa_cloud_format *format,
+                              ewa_cloud **cloud);
+
+#endif
