@@ -27,10 +27,11 @@ enum {
 /// Bits of the global encoding.
 enum { EWA_LAS_WKT = 1u << 4 };
 
-/// The notes that carry what only LAS has from file to file: records as they stand in the file, and the bits
-/// of the global encoding as decimal text.
+/// The notes that carry what only LAS has from file to file: records as they stand in the file, and, as
+/// decimal text, the bits of the global encoding and the point format.
 #define EWA_LAS_NOTE_RECORDS  "las.vlrs"
 #define EWA_LAS_NOTE_ENCODING "las.global_encoding"
+#define EWA_LAS_NOTE_FORMAT   "las.point_format"
 
 /// Little-endian numbers anywhere in memory.
 static inline uint16_t ewa_las_u16(const uint8_t *bytes) { return (uint16_t)(bytes[0] | bytes[1] << 8); }
@@ -182,11 +183,21 @@ typedef struct ewa_las_table {
     uint32_t column_count;
     ewa_las_column columns[EWA_LAS_MAX_COLUMNS];
     uint32_t record_bytes;
-    int64_t first[3]; ///< whole numbers of the origin
-    double scale[3];
+    int64_t first[3];     ///< whole numbers of the origin
+    double scale[3];      ///< world units a step
     uint32_t color_shift; ///< 8-bit colours are the numbers shifted right by this
     uint32_t color_at;    ///< column of the colours; column_count: none
 } ewa_las_table;
+
+/// Fills the table with the attributes of a point format without extra bytes.
+void ewa_las_table_begin(uint8_t point_format, ewa_las_table *table);
+
+/// Returns the attribute of that name, NULL when there is none.
+ewa_las_column *ewa_las_table_find(ewa_las_table *table, const char *name);
+
+/// Returns the name that component `component` of an attribute of three numbers has among extra bytes, NULL
+/// when it has none of its own.
+const char *ewa_las_part_name(const char *attribute, uint32_t component);
 
 /// Fills the table from the header and the record of extra bytes. Errors: none, but what is left out is
 /// reported as a warning.

@@ -71,8 +71,9 @@ static ewa_status note_head(const ewa_las_header *header, ewa_cloud *prototype) 
     ewa_las_text(header->system, 32, text);
     if (status == EWA_OK) status = note_text(prototype, "file.system", text);
     snprintf(text, sizeof text, "%u", header->global_encoding);
-    if (status == EWA_OK && header->global_encoding)
-        status = note_text(prototype, EWA_LAS_NOTE_ENCODING, text);
+    if (status == EWA_OK) status = note_text(prototype, EWA_LAS_NOTE_ENCODING, text);
+    snprintf(text, sizeof text, "%u", header->point_format);
+    if (status == EWA_OK) status = note_text(prototype, EWA_LAS_NOTE_FORMAT, text);
     if (status == EWA_OK) status = note_date(header, prototype);
     return status;
 }

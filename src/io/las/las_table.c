@@ -103,9 +103,15 @@ static void add_fields(ewa_las_table *table, const field *fields, size_t count, 
     }
 }
 
-static ewa_las_column *find(ewa_las_table *table, const char *name) {
+ewa_las_column *ewa_las_table_find(ewa_las_table *table, const char *name) {
     for (uint32_t i = 0; i < table->column_count; i++)
         if (strcmp(table->columns[i].name, name) == 0) return &table->columns[i];
+    return NULL;
+}
+
+const char *ewa_las_part_name(const char *attribute, uint32_t component) {
+    for (uint32_t g = 0; g < GROUP_COUNT; g++)
+        if (strcmp(groups[g].attribute, attribute) == 0) return groups[g].names[component];
     return NULL;
 }
 
@@ -179,7 +185,7 @@ static bool add_bytes(ewa_las_table *table, const char *name, uint32_t at_bytes,
     for (uint32_t i = 0; 4 * i < count; i++) {
         char part[EWA_NAME_BYTES];
         snprintf(part, sizeof part, i ? "%.48s_%u" : "%.48s", name, i);
-        if (table->column_count == EWA_LAS_MAX_COLUMNS || find(table, part)) return false;
+        if (table->column_count == EWA_LAS_MAX_COLUMNS || ewa_las_table_find(table, part)) return false;
         ewa_las_column *column = add(table, part, EWA_LAS_PLAIN, EWA_U8, at_bytes + 4 * i);
         column->component_count = count - 4 * i < 4 ? count - 4 * i : 4;
         for (uint32_t c = 1; c < column->component_count; c++)
@@ -192,7 +198,7 @@ static bool add_bytes(ewa_las_table *table, const char *name, uint32_t at_bytes,
 /// full. Returns false when there is no room.
 static bool add_extra(ewa_las_table *table, const extra *e, uint32_t at_bytes) {
     if (e->raw == EWA_LAS_RAW_BYTES) return add_bytes(table, e->name, at_bytes, e->component_count);
-    ewa_las_column *column = find(table, e->name);
+    ewa_las_column *column = ewa_las_table_find(table, e->name);
     if (column && (column->component_count != 1 || e->component_count != 1 ||
                    column->at_bytes[0] >= table->record_bytes))
         return false;
@@ -222,24 +228,24 @@ static void drop(ewa_las_table *table, const ewa_las_column *column) {
 /// Makes fields such as nx ny nz the one attribute that they are parts of, and "alpha" a part of the colour.
 static void join_parts(ewa_las_table *table) {
     for (uint32_t g = 0; g < GROUP_COUNT; g++) {
-        ewa_las_column *first = find(table, groups[g].names[0]);
-        if (!first || find(table, groups[g].attribute)) continue;
+        ewa_las_column *first = ewa_las_table_find(table, groups[g].names[0]);
+        if (!first || ewa_las_table_find(table, groups[g].attribute)) continue;
         for (uint32_t c = 1; c < 3 && first; c++) {
-            const ewa_las_column *part = find(table, groups[g].names[c]);
+            const ewa_las_column *part = ewa_las_table_find(table, groups[g].names[c]);
             if (!is_part(part, first->type) || !is_part(first, first->type)) first = NULL;
         }
         if (!first || (first->type != EWA_F32 && first->type != EWA_F64)) continue;
         snprintf(first->name, sizeof first->name, "%s", groups[g].attribute);
         for (uint32_t c = 1; c < 3; c++) {
-            const ewa_las_column *part = find(table, groups[g].names[c]);
+            const ewa_las_column *part = ewa_las_table_find(table, groups[g].names[c]);
             first->at_bytes[c] = part->at_bytes[0];
             drop(table, part);
-            first = find(table, groups[g].attribute);
+            first = ewa_las_table_find(table, groups[g].attribute);
         }
         first->component_count = 3;
     }
-    ewa_las_column *color = find(table, EWA_COLOR);
-    const ewa_las_column *alpha = find(table, "alpha");
+    ewa_las_column *color = ewa_las_table_find(table, EWA_COLOR);
+    const ewa_las_column *alpha = ewa_las_table_find(table, "alpha");
     if (!color || color->kind != EWA_LAS_COLOR || !is_part(alpha, EWA_U16)) return;
     color->at_bytes[color->component_count++] = alpha->at_bytes[0];
     drop(table, alpha);
@@ -252,7 +258,6 @@ static void add_extras(const ewa_cloud_source *source, const ewa_las_header *hea
     uint64_t count = 0;
     if (ewa_las_find(source, header, "LASF_Spec", 4, &vlr)) count = vlr.size_bytes / EWA_LAS_EXTRA_BYTES;
     if (count > MAX_EXTRA_FIELDS) count = MAX_EXTRA_FIELDS;
-    table->record_bytes = at;
     for (uint64_t i = 0; i < count; i++) {
         extra e;
         if (!read_extra(vlr.bytes + i * EWA_LAS_EXTRA_BYTES, &e) ||
@@ -277,10 +282,10 @@ static void add_extras(const ewa_cloud_source *source, const ewa_las_header *hea
                    source->name, left_out);
 }
 
-void ewa_las_table_make(const ewa_cloud_source *source, const ewa_las_header *header, ewa_las_table *table) {
-    const uint8_t format = header->point_format;
-    table->column_count = 0;
-    table->color_shift = 0;
+void ewa_las_table_begin(uint8_t point_format, ewa_las_table *table) {
+    const uint8_t format = point_format;
+    memset(table, 0, sizeof *table);
+    table->record_bytes = ewa_las_format_bytes(format);
     add(table, EWA_POSITION, EWA_LAS_POSITION, EWA_F64, 0)->component_count = 3;
     if (format < 6)
         add_fields(table, fields_legacy, sizeof fields_legacy / sizeof *fields_legacy, 0);
@@ -295,10 +300,16 @@ void ewa_las_table_make(const ewa_cloud_source *source, const ewa_las_header *he
     if (parts[format].nir) add(table, "nir", EWA_LAS_PLAIN, EWA_U16, parts[format].nir);
     if (parts[format].wave)
         add_fields(table, fields_wave, sizeof fields_wave / sizeof *fields_wave, parts[format].wave);
+    const ewa_las_column *color = ewa_las_table_find(table, EWA_COLOR);
+    table->color_at = color ? (uint32_t)(color - table->columns) : table->column_count;
+}
+
+void ewa_las_table_make(const ewa_cloud_source *source, const ewa_las_header *header, ewa_las_table *table) {
+    ewa_las_table_begin(header->point_format, table);
     add_extras(source, header, table);
     join_parts(table);
     table->record_bytes = header->record_bytes;
-    const ewa_las_column *color = find(table, EWA_COLOR);
+    const ewa_las_column *color = ewa_las_table_find(table, EWA_COLOR);
     table->color_at =
         color && color->kind == EWA_LAS_COLOR ? (uint32_t)(color - table->columns) : table->column_count;
     for (int c = 0; c < 3; c++) {
