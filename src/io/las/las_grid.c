@@ -57,7 +57,7 @@ ewa_status ewa_las_grid_choose(const ewa_cloud_target *target, ewa_las_plan *pla
     const double option = target->options->step_world;
     const ewa_bounds *bounds = target->bounds;
     const bool has_box = bounds && bounds->finite_count > 0;
-    ewa_grid grid;
+    ewa_coordinate_grid grid;
     ewa_cloud_grid(target->prototype, &grid);
     double extent_world = 0;
     for (int c = 0; c < 3 && has_box; c++)

@@ -139,7 +139,7 @@ static ewa_status open_points(las_state *state, ewa_cloud *prototype) {
 static ewa_status lay_out(const las_state *state, ewa_cloud *prototype) {
     const ewa_las_table *table = &state->table;
     double origin_world[3];
-    ewa_grid grid;
+    ewa_coordinate_grid grid;
     for (int c = 0; c < 3; c++) {
         grid.step_world[c] = table->scale[c];
         grid.offset_world[c] = state->header.offset[c];

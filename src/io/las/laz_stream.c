@@ -84,9 +84,16 @@ static ewa_status decode(ewa_laz_stream *stream, uint64_t chunk, uint8_t *record
                           &stream->memories[worker], result);
 }
 
+/// Kept chunks from `first` on that are to be decoded.
+typedef struct keep_job {
+    ewa_laz_stream *stream;
+    uint32_t first;
+} keep_job;
+
 static void decode_kept(void *data, uint32_t index, uint32_t worker) {
-    ewa_laz_stream *stream = data;
-    kept_chunk *kept = &stream->kept[index];
+    const keep_job *job = data;
+    ewa_laz_stream *stream = job->stream;
+    kept_chunk *kept = &stream->kept[job->first + index];
     kept->status = decode(stream, kept->chunk, kept->records, worker, &kept->result);
 }
 
@@ -114,7 +121,8 @@ ewa_status ewa_laz_stream_sample(ewa_laz_stream *stream,
         status = add_kept(stream, chunk);
     }
     if (status != EWA_OK) return status;
-    ewa_parallel(stream->source->context, decode_kept, stream, stream->kept_count);
+    const keep_job job = {stream, 0};
+    ewa_parallel(stream->source->context, decode_kept, (void *)&job, stream->kept_count);
     *is_all = stream->kept_count == chunk_count;
     for (uint32_t i = 0; i < stream->kept_count; i++) {
         const kept_chunk *kept = &stream->kept[i];
@@ -142,6 +150,26 @@ static ewa_status damage(const ewa_laz_stream *stream, uint64_t chunk, uint64_t 
                             (unsigned long long)(points_before + result->point_count + 1), result->fault);
 }
 
+/// Decodes and keeps the next chunks, one per worker as far as there is room.
+static ewa_status keep_next(ewa_laz_stream *stream) {
+    const uint64_t chunk_count = stream->layout->chunk_count;
+    ewa_status status = EWA_OK;
+    const uint32_t first = stream->kept_count;
+    uint64_t bytes = 0;
+    for (uint64_t chunk = stream->next_chunk; chunk < chunk_count && stream->kept_count <= MOST_SAMPLES &&
+                                              stream->kept_count - first < stream->worker_count;
+         chunk++) {
+        if (find_kept(stream, chunk)) continue;
+        bytes += chunk_bytes(stream, chunk);
+        if (chunk > stream->next_chunk && bytes > SAMPLE_BYTES) break;
+        status = add_kept(stream, chunk);
+        if (status != EWA_OK) return status;
+    }
+    const keep_job job = {stream, first};
+    ewa_parallel(stream->source->context, decode_kept, (void *)&job, stream->kept_count - first);
+    return EWA_OK;
+}
+
 /// Hands out a part of the next chunk, which is decoded and kept for it.
 static ewa_status read_part(ewa_laz_stream *stream, const ewa_las_table *table, uint64_t most,
                             const ewa_cloud_sink *sinks, uint64_t *got_count, uint64_t *above_count) {
@@ -149,10 +177,9 @@ static ewa_status read_part(ewa_laz_stream *stream, const ewa_las_table *table, 
     kept_chunk *kept = find_kept(stream, chunk);
     ewa_status status = EWA_OK;
     if (!kept) {
-        status = add_kept(stream, chunk);
+        status = keep_next(stream);
         if (status != EWA_OK) return status;
-        kept = &stream->kept[stream->kept_count - 1];
-        decode_kept(stream, stream->kept_count - 1, 0);
+        kept = find_kept(stream, chunk);
     }
     status = kept->status;
     const uint64_t point_count = stream->layout->chunks[chunk].point_count;
