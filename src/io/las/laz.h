@@ -11,7 +11,11 @@
 
 #include "base/base.h"
 
-enum { EWA_LAZ_MAX_ITEMS = 16, EWA_LAZ_MAX_RECORD_BYTES = 65535 };
+enum {
+    EWA_LAZ_MAX_ITEMS = 16,
+    EWA_LAZ_MAX_RECORD_BYTES = 65535,
+    EWA_LAZ_MAX_EXTRA_BYTES = 8192, ///< of one item BYTE or BYTE14: each has models of its own, of a kilobyte
+};
 
 /// Types of items as LASzip numbers them.
 typedef enum ewa_laz_item_type {
