@@ -180,7 +180,7 @@ bool import_load(cli_session *session, const char *path, uint32_t wanted, ewa_mo
     size_t size_bytes;
     if (!import_run(session, helper, path, &usual_limits, &bytes, &size_bytes)) return false;
     const ewa_status status =
-        ewa_model_load_memory(session->context, bytes, size_bytes, path, path, wanted, model);
+        ewa_model_load_memory(session->context, bytes, size_bytes, path, path, wanted, NULL, model);
     free(bytes);
     if (status != EWA_OK) session_failed(session, status);
     return status == EWA_OK;

@@ -26,7 +26,7 @@ bool model_input_load(cli_session *session, const char *path, uint32_t wanted, e
     if (import_is_named(path)) {
         if (!import_load(session, path, wanted, model)) return false;
     } else {
-        const ewa_status status = ewa_model_load(session->context, path, wanted, model);
+        const ewa_status status = ewa_model_load(session->context, path, wanted, NULL, model);
         if (status != EWA_OK) {
             session_failed(session, status);
             return false;

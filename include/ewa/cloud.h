@@ -95,19 +95,19 @@ EWA_API void ewa_cloud_set_origin(ewa_cloud *cloud, const double origin_world[3]
 EWA_API void ewa_cloud_origin(const ewa_cloud *cloud, double origin_world[3]);
 
 /// The grid of decimal coordinates that a file holds: world coordinates are offset + whole number * step.
-typedef struct ewa_grid {
+typedef struct ewa_coordinate_grid {
     double step_world[3]; ///< > 0; 0: there is none on this axis
     double offset_world[3];
-} ewa_grid;
+} ewa_coordinate_grid;
 
 /// Sets or returns the grid that the positions came from (default: none). Writers put the same decimals into
 /// files again, which positions in binary fractions alone would not give. It changes no position.
-EWA_API void ewa_cloud_set_grid(ewa_cloud *cloud, const ewa_grid *grid);
-EWA_API void ewa_cloud_grid(const ewa_cloud *cloud, ewa_grid *grid);
+EWA_API void ewa_cloud_set_grid(ewa_cloud *cloud, const ewa_coordinate_grid *grid);
+EWA_API void ewa_cloud_grid(const ewa_cloud *cloud, ewa_coordinate_grid *grid);
 
 /// Returns the double nearest to the place of the grid that is nearest to a world coordinate; the coordinate
 /// itself where there is no grid, or no such place within range. Any thread.
-EWA_API double ewa_grid_world(const ewa_grid *grid, uint32_t axis, double world);
+EWA_API double ewa_grid_world(const ewa_coordinate_grid *grid, uint32_t axis, double world);
 
 /// Keeps bytes with the cloud, a copy, replacing those of the same name; none when `size_bytes` is 0. Known
 /// names: "crs", the coordinate reference system as text (WKT, or a name such as "EPSG:32632"); "crs_name", a

@@ -28,7 +28,7 @@ typedef enum ewa_model_format {
     EWA_MODEL_TEXT, ///< XYZ, PTS, CSV: numbers in columns
 } ewa_model_format;
 
-/// Returns "PLY", "OBJ", "STL", "OFF", "glTF" or "unknown".
+/// Returns "PLY", "OBJ", "STL", "OFF", "glTF", "LAS", "E57", "PCD", "PTX", "text" or "unknown".
 EWA_API const char *ewa_model_format_name(ewa_model_format format);
 
 /// What ewa_model_load() is asked for.
@@ -41,6 +41,7 @@ enum {
 /// What a file holds. Zero-initialise; free with ewa_model_free().
 typedef struct ewa_model {
     ewa_model_format format;
+    uint64_t lost_count;    ///< points lost to damage (`keep_going`)
     uint64_t face_count;    ///< faces and strips in the file, before polygons are cut
     ewa_mesh mesh;          ///< no triangles: not asked for, or there are no faces
     ewa_cloud *points;      ///< the caller may take it, and set this to NULL
@@ -48,6 +49,7 @@ typedef struct ewa_model {
 } ewa_model;
 
 /// Reads a file of points or triangles, the format by content: PLY, OBJ (with MTL), STL, OFF, glTF and GLB.
+/// Clouds of every format that ewa_cloud_load() knows are read as there, by `options` (may be NULL).
 /// `wanted` are EWA_MODEL_* bits; without EWA_MODEL_POINTS, `points` are made only where there are no faces.
 /// "-" reads standard input.
 ///
@@ -66,13 +68,14 @@ typedef struct ewa_model {
 /// `*model` is zeroed after a failure. Errors: EWA_ERROR_IO, EWA_ERROR_FORMAT (with the place; no face can be
 /// used), EWA_ERROR_UNSUPPORTED (format, required extensions of glTF), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY,
 /// EWA_CANCELLED.
-EWA_API ewa_status ewa_model_load(ewa_context *context, const char *path, uint32_t wanted, ewa_model *model);
+EWA_API ewa_status ewa_model_load(ewa_context *context, const char *path, uint32_t wanted,
+                                  const ewa_cloud_load_options *options, ewa_model *model);
 
 /// The same from `size_bytes` bytes in memory; `name` stands for the file in messages. Files that they name
 /// lie below the folder of `path`; NULL: they are not read.
 EWA_API ewa_status ewa_model_load_memory(ewa_context *context, const void *bytes, size_t size_bytes,
                                          const char *name, const char *path, uint32_t wanted,
-                                         ewa_model *model);
+                                         const ewa_cloud_load_options *options, ewa_model *model);
 
 /// Frees what the model still holds and zeroes the struct; accepts NULL and a zeroed struct.
 EWA_API void ewa_model_free(ewa_model *model);

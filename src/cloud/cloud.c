@@ -5,14 +5,17 @@
 #include "ewa/cloud.h"
 #include "base/base.h"
 #include "cloud/cloud.h"
+#include "cloud/notes.h"
 
 #include <math.h>
 #include <string.h>
 
 struct ewa_cloud {
     ewa_context *context;
-    uint64_t point_count;
+    uint64_t point_count, point_capacity; // the streams that are owned have room for so many
     double origin_world[3];
+    ewa_coordinate_grid grid;
+    ewa_notes notes;
     ewa_attribute *attributes;
     uint32_t attribute_count, attribute_capacity;
 };
@@ -28,14 +31,14 @@ ewa_status ewa_cloud_create(ewa_context *context, uint64_t point_count, ewa_clou
                         (unsigned long long)point_count, (unsigned long long)limit);
     ewa_cloud *made = ewa_allocate(context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
-    *made = (ewa_cloud){.context = context, .point_count = point_count};
+    *made = (ewa_cloud){.context = context, .point_count = point_count, .point_capacity = point_count};
     *cloud = made;
     return EWA_OK;
 }
 
 static void release_attribute(ewa_cloud *cloud, ewa_attribute *attribute) {
     if (!attribute->borrowed)
-        ewa_release(cloud->context, attribute->data, cloud->point_count, attribute->stride_bytes);
+        ewa_release(cloud->context, attribute->data, cloud->point_capacity, attribute->stride_bytes);
 }
 
 void ewa_cloud_destroy(ewa_cloud **cloud) {
@@ -43,6 +46,7 @@ void ewa_cloud_destroy(ewa_cloud **cloud) {
     ewa_cloud *old = *cloud;
     for (uint32_t i = 0; i < old->attribute_count; i++) release_attribute(old, &old->attributes[i]);
     ewa_release(old->context, old->attributes, old->attribute_capacity, sizeof *old->attributes);
+    ewa_notes_free(old->context, &old->notes);
     ewa_release(old->context, old, 1, sizeof *old);
     *cloud = NULL;
 }
@@ -103,7 +107,7 @@ ewa_status ewa_cloud_add(ewa_cloud *cloud, const char *name, ewa_type type, uint
                                .component_count = component_count,
                                .stride_bytes = component_count * ewa_type_bytes(type)};
     memcpy(attribute.name, name, strlen(name) + 1);
-    attribute.data = ewa_allocate(cloud->context, cloud->point_count, attribute.stride_bytes);
+    attribute.data = ewa_allocate(cloud->context, cloud->point_capacity, attribute.stride_bytes);
     if (!attribute.data) return EWA_ERROR_MEMORY;
     status = put(cloud, &attribute);
     if (status != EWA_OK)
@@ -151,6 +155,52 @@ void ewa_cloud_set_origin(ewa_cloud *cloud, const double origin_world[3]) {
 
 void ewa_cloud_origin(const ewa_cloud *cloud, double origin_world[3]) {
     memcpy(origin_world, cloud->origin_world, sizeof cloud->origin_world);
+}
+
+void ewa_cloud_set_grid(ewa_cloud *cloud, const ewa_coordinate_grid *grid) { cloud->grid = *grid; }
+void ewa_cloud_grid(const ewa_cloud *cloud, ewa_coordinate_grid *grid) { *grid = cloud->grid; }
+
+ewa_status ewa_cloud_set_note(ewa_cloud *cloud, const char *name, const void *bytes, size_t size_bytes) {
+    if (!cloud || (size_bytes && !bytes)) return EWA_ERROR_ARGUMENT;
+    return ewa_notes_set(cloud->context, &cloud->notes, name, bytes, size_bytes);
+}
+
+const char *ewa_cloud_note(const ewa_cloud *cloud, const char *name, size_t *size_bytes) {
+    const ewa_note *note = ewa_notes_find(&cloud->notes, name);
+    if (size_bytes) *size_bytes = note ? note->size_bytes : 0;
+    return note ? note->bytes : NULL;
+}
+
+const char *ewa_cloud_note_name(const ewa_cloud *cloud, uint32_t index) {
+    return index < cloud->notes.count ? cloud->notes.notes[index].name : NULL;
+}
+
+ewa_status ewa_cloud_follow(ewa_cloud *cloud, const ewa_cloud *source) {
+    ewa_status status = EWA_OK;
+    memcpy(cloud->origin_world, source->origin_world, sizeof cloud->origin_world);
+    cloud->grid = source->grid;
+    for (uint32_t i = 0; i < source->notes.count && status == EWA_OK; i++) {
+        const ewa_note *note = &source->notes.notes[i];
+        status = ewa_notes_set(cloud->context, &cloud->notes, note->name, note->bytes, note->size_bytes);
+    }
+    return status;
+}
+
+ewa_status ewa_cloud_like(const ewa_cloud *cloud, ewa_cloud **like) {
+    ewa_cloud *made = NULL;
+    ewa_status status = ewa_cloud_create(cloud->context, 0, &made);
+    for (uint32_t i = 0; i < cloud->attribute_count && status == EWA_OK; i++) {
+        const ewa_attribute *attribute = &cloud->attributes[i];
+        status = ewa_cloud_add(made, attribute->name, attribute->type, attribute->component_count, NULL);
+    }
+    if (status == EWA_OK) status = ewa_cloud_follow(made, cloud);
+    if (status != EWA_OK) ewa_cloud_destroy(&made);
+    *like = made;
+    return status;
+}
+
+void ewa_cloud_truncate(ewa_cloud *cloud, uint64_t point_count) {
+    if (point_count < cloud->point_count) cloud->point_count = point_count;
 }
 
 /// Packed numbers are one run, of which the compiler makes vectors.

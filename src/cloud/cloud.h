@@ -9,6 +9,16 @@
 
 ewa_context *ewa_cloud_context(const ewa_cloud *cloud);
 
+/// Gives a cloud the origin, the grid and the notes of another. Errors: EWA_ERROR_MEMORY.
+ewa_status ewa_cloud_follow(ewa_cloud *cloud, const ewa_cloud *source);
+
+/// Makes a cloud of no points with the attributes, the origin, the grid and the notes of another. Errors:
+/// EWA_ERROR_MEMORY.
+ewa_status ewa_cloud_like(const ewa_cloud *cloud, ewa_cloud **like);
+
+/// Leaves only the first points; their memory stays until the cloud is destroyed.
+void ewa_cloud_truncate(ewa_cloud *cloud, uint64_t point_count);
+
 /// Measures the box of the finite ones among `count` positions (three components, any type); adds no origin.
 void ewa_position_measure(ewa_context *context, const ewa_attribute *position, uint64_t count,
                           ewa_bounds *bounds);

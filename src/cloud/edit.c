@@ -47,15 +47,10 @@ ewa_status ewa_cloud_select(const ewa_cloud *cloud, const uint64_t *indices, uin
             memcpy((char *)data + i * point_bytes,
                    (const char *)attribute->data + indices[i] * attribute->stride_bytes, point_bytes);
     }
-    if (status != EWA_OK) {
-        ewa_cloud_destroy(&made);
-        return status;
-    }
-    double origin_world[3];
-    ewa_cloud_origin(cloud, origin_world);
-    ewa_cloud_set_origin(made, origin_world);
+    if (status == EWA_OK) status = ewa_cloud_follow(made, cloud);
+    if (status != EWA_OK) ewa_cloud_destroy(&made);
     *selected = made;
-    return EWA_OK;
+    return status;
 }
 
 /// The type that holds every number of both types.
@@ -127,6 +122,19 @@ static void report_dropped(const ewa_cloud *cloud, uint32_t index, const ewa_clo
                        attribute->name, index + 1);
 }
 
+/// Keeps the grid of the first cloud on the axes on which all have the same.
+static void merge_grids(const ewa_cloud *const *clouds, uint32_t count, ewa_cloud *merged) {
+    ewa_coordinate_grid grid, other;
+    ewa_cloud_grid(clouds[0], &grid);
+    for (uint32_t k = 1; k < count; k++) {
+        ewa_cloud_grid(clouds[k], &other);
+        for (int c = 0; c < 3; c++)
+            if (other.step_world[c] != grid.step_world[c] || other.offset_world[c] != grid.offset_world[c])
+                grid.step_world[c] = 0;
+    }
+    ewa_cloud_set_grid(merged, &grid);
+}
+
 ewa_status ewa_cloud_merge(const ewa_cloud *const *clouds, uint32_t count, ewa_cloud **merged) {
     if (!clouds || !merged || count == 0) return EWA_ERROR_ARGUMENT;
     *merged = NULL;
@@ -155,11 +163,12 @@ ewa_status ewa_cloud_merge(const ewa_cloud *const *clouds, uint32_t count, ewa_c
             bytes += point_count * first->component_count * ewa_type_bytes(stream.type);
         }
     }
+    if (status == EWA_OK) status = ewa_cloud_follow(made, clouds[0]);
     if (status != EWA_OK) {
         ewa_cloud_destroy(&made);
         return status;
     }
-    ewa_cloud_set_origin(made, origin_world);
+    merge_grids(clouds, count, made);
     for (uint32_t k = 0; k < count; k++) report_dropped(clouds[k], k, made);
     *merged = made;
     return EWA_OK;
@@ -235,6 +244,19 @@ static ewa_status scale_component(ewa_cloud *cloud, const char *name, uint32_t c
     return status;
 }
 
+/// A cloud that is shifted as a whole keeps its grid, shifted; any other map leaves none.
+static void move_grid(ewa_cloud *cloud, const double linear[9], const double shift_world[3]) {
+    static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    ewa_coordinate_grid grid;
+    ewa_cloud_grid(cloud, &grid);
+    const bool shifted = memcmp(linear, identity, sizeof identity) == 0;
+    for (int c = 0; c < 3; c++) {
+        grid.offset_world[c] += shift_world[c];
+        if (!shifted) grid.step_world[c] = 0;
+    }
+    ewa_cloud_set_grid(cloud, &grid);
+}
+
 ewa_status ewa_cloud_transform(ewa_cloud *cloud, const double world_to_world[16]) {
     if (!cloud || !world_to_world) return EWA_ERROR_ARGUMENT;
     const double *m = world_to_world;
@@ -270,5 +292,6 @@ ewa_status ewa_cloud_transform(ewa_cloud *cloud, const double world_to_world[16]
         moved_world[r] = linear[3 * r] * origin_world[0] + linear[3 * r + 1] * origin_world[1] +
                          linear[3 * r + 2] * origin_world[2] + m[4 * r + 3];
     ewa_cloud_set_origin(cloud, moved_world);
+    move_grid(cloud, linear, (const double[3]){m[3], m[7], m[11]});
     return EWA_OK;
 }

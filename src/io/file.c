@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Whole files in, whole files out, by POSIX calls.
-#define _XOPEN_SOURCE 700 // realpath
+#define _DEFAULT_SOURCE // realpath, madvise
 #include "io/file.h"
 #include "base/base.h"
 
@@ -31,6 +31,7 @@ struct ewa_writer {
     bool named;     // ewa_writer_path() has a name to give
     bool temporary; // `written` is to be renamed to `target`
     size_t buffered_bytes;
+    uint64_t flushed_bytes;
     char shown[PATH_MAX];   // the path as the caller wrote it, for messages
     char target[PATH_MAX];  // where the file belongs, links resolved
     char written[PATH_MAX]; // the file that receives the bytes
@@ -127,6 +128,13 @@ void ewa_file_unmap(ewa_context *context, ewa_file *file) {
     *file = (ewa_file){0};
 }
 
+void ewa_file_passed(const uint8_t *bytes, uint64_t at_bytes) {
+    const uint64_t page_bytes = (uint64_t)sysconf(_SC_PAGESIZE),
+                   whole_bytes = at_bytes / page_bytes * page_bytes;
+    // Pages of a file come back from it when they are asked for again.
+    if (whole_bytes) madvise((void *)(uintptr_t)bytes, whole_bytes, MADV_DONTNEED);
+}
+
 /// Opens a new file beside the target. The name is short and does not grow with the target's, so that every
 /// target that can be named can be written.
 static int open_temporary(ewa_writer *writer) {
@@ -185,6 +193,7 @@ ewa_status ewa_writer_open(ewa_context *context, const char *path, ewa_writer **
     made->status = EWA_OK;
     made->named = made->temporary = false;
     made->buffered_bytes = 0;
+    made->flushed_bytes = 0;
     memcpy(made->shown, path, length + 1);
     made->descriptor = open_output(made);
     if (made->descriptor < 0) {
@@ -205,6 +214,7 @@ static ewa_status write_all(ewa_writer *writer, const uint8_t *bytes, size_t siz
         }
         bytes += put;
         size_bytes -= (size_t)put;
+        writer->flushed_bytes += (uint64_t)put;
     }
     return writer->status;
 }
@@ -222,6 +232,29 @@ ewa_status ewa_writer_put(ewa_writer *writer, const void *data, size_t size_byte
     if (size_bytes >= sizeof writer->buffer) return write_all(writer, data, size_bytes);
     memcpy(writer->buffer + writer->buffered_bytes, data, size_bytes);
     writer->buffered_bytes += size_bytes;
+    return EWA_OK;
+}
+
+uint64_t ewa_writer_size(const ewa_writer *writer) { return writer->flushed_bytes + writer->buffered_bytes; }
+
+bool ewa_writer_can_patch(const ewa_writer *writer) { return writer->temporary; }
+
+ewa_status ewa_writer_patch(ewa_writer *writer, uint64_t at_bytes, const void *data, size_t size_bytes) {
+    if (writer->status != EWA_OK || flush(writer) != EWA_OK) return writer->status;
+    if (!ewa_writer_can_patch(writer))
+        return writer->status = ewa_fail(writer->context, EWA_ERROR_IO,
+                                         "%s: no place to go back to: write to a file", writer->shown);
+    const uint8_t *bytes = data;
+    while (size_bytes) {
+        const ssize_t put = pwrite(writer->descriptor, bytes, size_bytes, (off_t)at_bytes);
+        if (put < 0) {
+            if (errno == EINTR) continue;
+            return writer->status = fail_errno(writer->context, writer->shown, errno);
+        }
+        bytes += put;
+        at_bytes += (uint64_t)put;
+        size_bytes -= (size_t)put;
+    }
     return EWA_OK;
 }
 

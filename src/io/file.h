@@ -27,6 +27,9 @@ ewa_status ewa_file_map(ewa_context *context, const char *path, ewa_file *file);
 /// An empty file has no bytes and is held by nothing.
 bool ewa_file_map_descriptor(int descriptor, ewa_file *file);
 
+/// Lets the first pages of a mapped file, up to byte `at_bytes`, leave memory; they come back when read.
+void ewa_file_passed(const uint8_t *bytes, uint64_t at_bytes);
+
 /// Gives the bytes back and clears `*file`; accepts a cleared one.
 void ewa_file_unmap(ewa_context *context, ewa_file *file);
 
@@ -49,6 +52,9 @@ ewa_status ewa_writer_put(ewa_writer *writer, const void *data, size_t size_byte
 /// where the file is standard output, a pipe or a device (ewa_writer_can_patch()).
 ewa_status ewa_writer_patch(ewa_writer *writer, uint64_t at_bytes, const void *data, size_t size_bytes);
 bool ewa_writer_can_patch(const ewa_writer *writer);
+
+/// Returns how many bytes were appended so far.
+uint64_t ewa_writer_size(const ewa_writer *writer);
 
 /// Returns the name of the file that is being written, for libraries that open files by name, or NULL for
 /// standard output. Whoever writes by name leaves ewa_writer_put() alone and closes the file before the

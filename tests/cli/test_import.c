@@ -134,8 +134,9 @@ static void test_real_helper(void **state) {
     scratch_write(scratch_path("model.dae", path), collada, sizeof collada - 1);
     if (!run_helper(helper, path, 60, 1 << 20, &bytes, &size)) fail_msg("%s", said);
     ewa_model model;
-    assert_int_equal(ewa_model_load_memory(session.context, bytes, size, path, path, EWA_MODEL_MESH, &model),
-                     EWA_OK);
+    assert_int_equal(
+        ewa_model_load_memory(session.context, bytes, size, path, path, EWA_MODEL_MESH, NULL, &model),
+        EWA_OK);
     assert_int_equal(model.mesh.triangle_count, 1);
     double low = INFINITY, high = -INFINITY;
     for (uint32_t v = 0; v < 3; v++) {

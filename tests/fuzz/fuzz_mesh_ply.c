@@ -13,7 +13,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
     ewa_context *context = fuzz_context(&errors);
     ewa_model model;
     ewa_status status = ewa_model_load_memory(context, bytes, size_bytes, "input.ply", NULL,
-                                              EWA_MODEL_POINTS | EWA_MODEL_ELEMENTS, &model);
+                                              EWA_MODEL_POINTS | EWA_MODEL_ELEMENTS, NULL, &model);
     fuzz_require((status == EWA_OK) == (model.points != NULL), "points on success only");
     fuzz_require((status == EWA_OK) == (errors == 0), "a message on failure only");
     for (int encoding = 0; status == EWA_OK && model.elements && encoding < 3; encoding++) {
@@ -26,7 +26,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
         ewa_model back;
         // The vertices may become more properties than a file can have.
         if (ewa_cloud_save(model.points, path, &options) != EWA_OK) break;
-        fuzz_require(ewa_model_load(context, path, EWA_MODEL_POINTS | EWA_MODEL_ELEMENTS, &back) == EWA_OK,
+        fuzz_require(ewa_model_load(context, path, EWA_MODEL_POINTS | EWA_MODEL_ELEMENTS, NULL, &back) ==
+                         EWA_OK,
                      "what was written can be read");
         fuzz_require(ewa_elements_face_count(back.elements) == ewa_elements_face_count(model.elements),
                      "as many faces");
@@ -37,7 +38,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
     }
     ewa_model_free(&model);
     errors = 0;
-    status = ewa_model_load_memory(context, bytes, size_bytes, "input.ply", NULL, EWA_MODEL_MESH, &model);
+    status =
+        ewa_model_load_memory(context, bytes, size_bytes, "input.ply", NULL, EWA_MODEL_MESH, NULL, &model);
     fuzz_require((status == EWA_OK) == (errors == 0), "a message on failure only");
     if (status == EWA_OK && model.mesh.triangle_count) fuzz_check_mesh(&model.mesh);
     ewa_model_free(&model);

@@ -46,7 +46,7 @@ static inline void mesh_load_bytes(ewa_context *context, mesh_messages *messages
     ewa_model model;
     *messages = (mesh_messages){.errors = 0};
     const ewa_status status =
-        ewa_model_load_memory(context, bytes, size_bytes, name, NULL, EWA_MODEL_MESH, &model);
+        ewa_model_load_memory(context, bytes, size_bytes, name, NULL, EWA_MODEL_MESH, NULL, &model);
     if (status != EWA_OK || (!talks && messages->text[0]))
         fail_msg("%s: %d, %s", name, status, messages->text);
     assert_null(model.points);
@@ -65,7 +65,7 @@ static inline void mesh_refuse(ewa_context *context, mesh_messages *messages, co
     ewa_model model;
     *messages = (mesh_messages){.errors = 0};
     const ewa_status got =
-        ewa_model_load_memory(context, bytes, size_bytes, name, NULL, EWA_MODEL_MESH, &model);
+        ewa_model_load_memory(context, bytes, size_bytes, name, NULL, EWA_MODEL_MESH, NULL, &model);
     if (got != status) fail_msg("%s: %d, not %d: %s", name, got, status, messages->text);
     assert_true(messages->errors >= 1);
     assert_null(model.mesh.positions);

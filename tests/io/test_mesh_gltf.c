@@ -334,7 +334,8 @@ static void test_points_and_lines(void **state) {
                              "\"accessors\":[" GLTF_POSITIONS "]," GLTF_VIEW);
     ewa_model model;
     assert_int_equal(
-        ewa_model_load_memory(context, file, glb_bytes(&g, file), "a", NULL, EWA_MODEL_MESH, &model), EWA_OK);
+        ewa_model_load_memory(context, file, glb_bytes(&g, file), "a", NULL, EWA_MODEL_MESH, NULL, &model),
+        EWA_OK);
     assert_int_equal(ewa_cloud_point_count(model.points), 4);
     assert_int_equal(model.mesh.triangle_count, 0);
     mesh_says(&messages, "1 lines beside the points are left out");

@@ -177,9 +177,9 @@ static void test_points(void **state) {
         ewa_model model;
         ewa_mesh mesh;
         char path[512];
-        assert_int_equal(
-            ewa_model_load_memory(context, texts[i], strlen(texts[i]), "a.obj", NULL, EWA_MODEL_MESH, &model),
-            EWA_OK);
+        assert_int_equal(ewa_model_load_memory(context, texts[i], strlen(texts[i]), "a.obj", NULL,
+                                               EWA_MODEL_MESH, NULL, &model),
+                         EWA_OK);
         assert_int_equal(ewa_cloud_point_count(model.points), 3);
         double p[3];
         ewa_attribute_read_f64(ewa_cloud_find(model.points, EWA_POSITION), 1, 1, p);
@@ -193,7 +193,8 @@ static void test_points(void **state) {
     static const char lines[] = "v 1 2 3\nv 4 5 6\nl 1 2\n";
     ewa_model model;
     assert_int_equal(
-        ewa_model_load_memory(context, lines, strlen(lines), "a.obj", NULL, EWA_MODEL_MESH, &model), EWA_OK);
+        ewa_model_load_memory(context, lines, strlen(lines), "a.obj", NULL, EWA_MODEL_MESH, NULL, &model),
+        EWA_OK);
     mesh_says(&messages, "1 lines beside the points are left out");
     ewa_model_free(&model);
 }
@@ -259,9 +260,9 @@ static void test_written_as_ply(void **state) {
                                   "f 2/1 4/3 3/2\n",
               &from);
     ewa_model model;
-    assert_int_equal(
-        ewa_model_load(context, scratch_path("mtl.obj", path), EWA_MODEL_POINTS | EWA_MODEL_ELEMENTS, &model),
-        EWA_OK);
+    assert_int_equal(ewa_model_load(context, scratch_path("mtl.obj", path),
+                                    EWA_MODEL_POINTS | EWA_MODEL_ELEMENTS, NULL, &model),
+                     EWA_OK);
     ewa_cloud_save_options options;
     ewa_cloud_save_options_init(&options, sizeof options);
     for (int encoding = 0; encoding < 3; encoding++) {
@@ -289,7 +290,7 @@ static void test_written_as_ply(void **state) {
     // Places whose faces cannot be used are points.
     static const char *const useless = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\nf 1 2 9\n";
     assert_int_equal(ewa_model_load_memory(context, useless, strlen(useless), "a.obj", NULL,
-                                           EWA_MODEL_POINTS | EWA_MODEL_ELEMENTS, &model),
+                                           EWA_MODEL_POINTS | EWA_MODEL_ELEMENTS, NULL, &model),
                      EWA_OK);
     assert_true(ewa_cloud_point_count(model.points) == 3 && !model.elements);
     mesh_says(&messages, "left out of 2 faces");

@@ -329,9 +329,9 @@ static void test_what_is_a_mesh(void **state) {
             snprintf(text, sizeof text,
                      "ply\nformat ascii 1.0\nelement vertex 3\n" XYZ "%send_header\n0 0 0\n1 0 0\n0 1 0\n%s",
                      cases[i].elements, strstr(cases[i].elements, " 0\n") ? "" : "3 0 1 2\n");
-            assert_int_equal(
-                ewa_model_load_memory(context, text, strlen(text), names[n], NULL, EWA_MODEL_MESH, &model),
-                EWA_OK);
+            assert_int_equal(ewa_model_load_memory(context, text, strlen(text), names[n], NULL,
+                                                   EWA_MODEL_MESH, NULL, &model),
+                             EWA_OK);
             assert_int_equal(model.format, EWA_MODEL_PLY);
             assert_int_equal(model.face_count, cases[i].faces);
             assert_int_equal(model.mesh.triangle_count, cases[i].faces);
@@ -379,7 +379,7 @@ static void test_elements_round_trip(void **state) {
         size_t size;
         scratch_path("elements.ply", path);
         assert_int_equal(ewa_model_load_memory(context, text, strlen(text), "a.ply", NULL,
-                                               EWA_MODEL_POINTS | EWA_MODEL_ELEMENTS, &model),
+                                               EWA_MODEL_POINTS | EWA_MODEL_ELEMENTS, NULL, &model),
                          EWA_OK);
         assert_int_equal(ewa_elements_face_count(model.elements), 2);
         ewa_cloud_save_options options;
@@ -389,7 +389,7 @@ static void test_elements_round_trip(void **state) {
         assert_int_equal(ewa_cloud_save(model.points, path, &options), EWA_OK);
         ewa_model_free(&model);
         // And back to text, which is that of the first.
-        assert_int_equal(ewa_model_load(context, path, EWA_MODEL_POINTS | EWA_MODEL_ELEMENTS, &model),
+        assert_int_equal(ewa_model_load(context, path, EWA_MODEL_POINTS | EWA_MODEL_ELEMENTS, NULL, &model),
                          EWA_OK);
         options.ply_encoding = EWA_PLY_ASCII;
         options.elements = model.elements;

@@ -126,7 +126,7 @@ static void load_hostile(void *user, const char *path) {
     (void)user;
     ewa_model model;
     messages = (mesh_messages){.errors = 0};
-    const ewa_status status = ewa_model_load(context, path, EWA_MODEL_MESH, &model);
+    const ewa_status status = ewa_model_load(context, path, EWA_MODEL_MESH, NULL, &model);
     if (status == EWA_OK)
         ewa_model_free(&model);
     else

@@ -19,6 +19,7 @@ typedef struct ewa_cloud_source {
     uint64_t size_bytes;
     const ewa_cloud_load_options *options; ///< complete, of this version
     uint64_t *lost_count;                  ///< points that ewa_cloud_damage() gave up
+    bool mapped;                           ///< the bytes are pages of a file (ewa_cloud_passed())
 } ewa_cloud_source;
 
 /// Where the numbers of one attribute go: point i of a call to `to + i * stride_bytes`. NULL: not wanted.
@@ -94,8 +95,29 @@ extern const ewa_cloud_format ewa_format_ply, ewa_format_las, ewa_format_e57, ew
     ewa_format_text;
 extern const ewa_cloud_write_format ewa_write_ply, ewa_write_las, ewa_write_pcd, ewa_write_text;
 
-/// Finds the format of a file that is no mesh; NULL when it is of none that is read.
-const ewa_cloud_format *ewa_cloud_format_of(const char *name, const uint8_t *bytes, uint64_t size_bytes);
+/// What messages say is read and written.
+#define EWA_CLOUD_FORMATS  "PLY, LAS, LAZ, E57, PCD, PTX, PTS, XYZ, CSV"
+#define EWA_CLOUD_SUFFIXES ".ply, .las, .laz, .pcd, .xyz, .txt, .pts or .csv"
+
+/// Finds the format that a path is written in, by its suffix; "-" and devices: PLY. NULL: none.
+const ewa_cloud_write_format *ewa_cloud_write_format_of(const char *path);
+
+/// Which formats are asked.
+typedef enum ewa_probe {
+    EWA_PROBE_MAGIC, ///< those that are known by their first bytes for certain
+    EWA_PROBE_ALL,   ///< text in columns too, for what is no mesh
+} ewa_probe;
+
+/// Finds the format of a file; NULL when it is of none of them.
+const ewa_cloud_format *ewa_cloud_format_of(const char *name, const uint8_t *bytes, uint64_t size_bytes,
+                                            ewa_probe probe);
+
+/// Makes a cloud with room for `point_count` points that have the attributes of a prototype that are wanted
+/// (names, comma-separated, besides "position"; NULL: all), its origin, grid and notes, and one sink for each
+/// attribute of the prototype. `name` stands for the file in messages. Errors: EWA_ERROR_LIMIT,
+/// EWA_ERROR_MEMORY.
+ewa_status ewa_cloud_make_room(const char *name, const ewa_cloud *prototype, const char *wanted,
+                               uint64_t point_count, ewa_cloud **cloud, ewa_cloud_sink *sinks);
 
 /// Reads all points of a source into a cloud.
 ewa_status ewa_cloud_read_all(const ewa_cloud_source *source, const ewa_cloud_format *format,

@@ -8,7 +8,7 @@
 #ifndef EWA_SRC_PLY_H
 #define EWA_SRC_PLY_H
 
-#include "ewa/io.h"
+#include "io/cloud/format.h"
 #include "io/records.h"
 #include "io/text.h"
 
@@ -36,6 +36,7 @@ typedef struct ewa_ply_property {
 typedef struct ewa_ply_element {
     ewa_text name;
     uint64_t count;
+    uint64_t before_count, after_count; ///< records of the file that are no part of a piece
     uint32_t first_property, property_count;
     uint32_t list_count;
     uint32_t record_bytes; ///< scalars only
@@ -150,8 +151,30 @@ static inline bool ewa_ply_is_swapped(const ewa_ply_header *header) {
 ewa_status ewa_ply_read_vertices(const ewa_ply_source *source, const ewa_ply_header *header,
                                  const ewa_ply_element *vertices, uint64_t *at, ewa_cloud **cloud);
 
-/// Reads a whole file into a cloud of the vertices.
-ewa_status ewa_ply_read(const ewa_ply_source *source, ewa_cloud **cloud);
+/// Vertices that are read piece by piece. Zero-initialised means: not open.
+typedef struct ewa_ply_points {
+    const ewa_ply_source *source;
+    const ewa_ply_header *header;
+    ewa_ply_element element;
+    ewa_ply_column *columns;
+    ewa_ply_stream *streams; ///< room for one per property
+    uint32_t column_count;
+    size_t column_capacity;
+    uint64_t read_count, at; ///< records so far, and the byte behind them
+} ewa_ply_points;
+
+/// Begins with the vertices at byte `at`; source and header stay until the close. Errors: EWA_ERROR_FORMAT,
+/// EWA_ERROR_MEMORY.
+ewa_status ewa_ply_points_open(const ewa_ply_source *source, const ewa_ply_header *header,
+                               const ewa_ply_element *vertices, uint64_t at, ewa_ply_points *points);
+void ewa_ply_points_close(ewa_ply_points *points);
+
+/// Adds the attributes of the vertices to a cloud.
+ewa_status ewa_ply_points_add(const ewa_ply_points *points, ewa_cloud *cloud);
+
+/// Reads the next vertices, at most `most`, into one sink per column; 0 at the end.
+ewa_status ewa_ply_points_read(ewa_ply_points *points, uint64_t most, const ewa_cloud_sink *sinks,
+                               uint64_t *got_count);
 
 /// All records of one element.
 typedef struct ewa_ply_table {
@@ -212,11 +235,5 @@ ewa_status ewa_ply_write_comments(const ewa_elements *elements, ewa_writer *writ
 ewa_status ewa_ply_write_element_header(const ewa_elements *elements, uint32_t table, ewa_writer *writer);
 ewa_status ewa_ply_write_element(const ewa_elements *elements, uint32_t table, ewa_ply_encoding encoding,
                                  ewa_writer *writer);
-
-/// Writes a cloud as the vertices of a file, and other elements with it (may be NULL). Errors:
-/// EWA_ERROR_ARGUMENT (no position, a property name twice), EWA_ERROR_LIMIT (more properties than the reader
-/// takes), EWA_ERROR_IO, EWA_ERROR_MEMORY, EWA_CANCELLED.
-ewa_status ewa_ply_write(const ewa_cloud *cloud, const ewa_elements *elements, ewa_ply_encoding encoding,
-                         const char *name, ewa_writer *writer);
 
 #endif

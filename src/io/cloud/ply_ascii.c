@@ -184,7 +184,8 @@ static ewa_status fail_record(const ewa_ply_source *source, const ewa_ply_header
     ewa_quote(element->name, element_quote);
     if (why == FAULT_END) // the last line with something on it says more than the empty one after it
         while (place > (const char *)source->bytes + header->body_at && is_space(place[-1])) place--;
-    const unsigned long long line = line_of(source, header, place), record = index, count = element->count;
+    const unsigned long long line = line_of(source, header, place), record = element->before_count + index,
+                             count = element->before_count + element->count + element->after_count;
     const ewa_text word = {place, (size_t)(skip_word(place, g->end) - place)};
     if (why == FAULT_END)
         return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: line %llu: the file ends in %s %llu of %llu",
@@ -370,13 +371,15 @@ static ewa_status read_by_number(const ewa_ply_source *source, const ewa_ply_hea
         first += count;
     }
     const char *rest = skip_space(text, g.end, NO_STOP);
-    if (warned && element == &header->elements[header->element_count - 1] && rest < g.end) {
+    const ewa_ply_element *last = &header->elements[header->element_count - 1];
+    const bool is_last = element->name.chars == last->name.chars && element->after_count == 0;
+    if (warned && is_last && rest < g.end) {
         char quote[EWA_QUOTE_BYTES];
         const ewa_text word = {rest, (size_t)(skip_word(rest, g.end) - rest)};
         return ewa_fail(source->context, EWA_ERROR_FORMAT,
                         "%s: line %llu: %s follows the last of %llu records", source->name,
                         (unsigned long long)line_of(source, header, rest), ewa_quote(word, quote),
-                        (unsigned long long)element->count);
+                        (unsigned long long)(element->before_count + element->count));
     }
     *at = (uint64_t)(text - (const char *)source->bytes);
     return ewa_progress(source->context, "read", 1);

@@ -21,9 +21,9 @@ static ewa_status fail_truncated(const ewa_ply_source *source, const ewa_ply_ele
     return ewa_fail(
         source->context, EWA_ERROR_FORMAT,
         "%s: the file ends in %s %llu of %llu: %llu bytes wanted from byte %llu on, %llu are there",
-        source->name, ewa_quote(element->name, quote), (unsigned long long)index,
-        (unsigned long long)element->count, (unsigned long long)wanted, (unsigned long long)at,
-        (unsigned long long)(source->size_bytes - at));
+        source->name, ewa_quote(element->name, quote), (unsigned long long)(element->before_count + index),
+        (unsigned long long)(element->before_count + element->count + element->after_count),
+        (unsigned long long)wanted, (unsigned long long)at, (unsigned long long)(source->size_bytes - at));
 }
 
 /// Reads the length of a list as the number that `type` says; false when it is negative.

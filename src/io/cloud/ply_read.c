@@ -4,6 +4,7 @@
 // From a PLY file to a cloud: the header says what the vertices are made of, limits are checked, the cloud
 // gets its streams, and the body fills them.
 #include "base/base.h"
+#include "io/cloud/format.h"
 #include "io/cloud/ply.h"
 
 #include <string.h>
@@ -13,24 +14,6 @@ const ewa_ply_element *ewa_ply_vertices(const ewa_ply_header *header) {
         if (header->elements[i].name.length == 6 && memcmp(header->elements[i].name.chars, "vertex", 6) == 0)
             return &header->elements[i];
     return NULL;
-}
-
-static ewa_status check_limits(const ewa_ply_source *source, const ewa_ply_element *vertices,
-                               const ewa_ply_column *columns, uint32_t column_count) {
-    const ewa_limits *limits = ewa_context_limits(source->context);
-    if (vertices->count > limits->max_points)
-        return ewa_fail(source->context, EWA_ERROR_LIMIT, "%s: %llu points are over the limit of %llu",
-                        source->name, (unsigned long long)vertices->count,
-                        (unsigned long long)limits->max_points);
-    uint64_t point_bytes = 0, total;
-    for (uint32_t i = 0; i < column_count; i++)
-        point_bytes += columns[i].component_count * ewa_type_bytes(columns[i].type);
-    if (__builtin_mul_overflow(point_bytes, vertices->count, &total) || total > limits->max_memory_bytes)
-        return ewa_fail(source->context, EWA_ERROR_LIMIT,
-                        "%s: %llu points of %llu bytes are over the limit of %llu bytes", source->name,
-                        (unsigned long long)vertices->count, (unsigned long long)point_bytes,
-                        (unsigned long long)limits->max_memory_bytes);
-    return EWA_OK;
 }
 
 ewa_status ewa_ply_check_size(const ewa_ply_source *source, const ewa_ply_header *header,
@@ -86,15 +69,11 @@ static void inspect_rest(const ewa_ply_source *source, const ewa_ply_header *hea
                    (unsigned long long)left);
 }
 
-/// Gives the cloud a stream for a column and the sink one move for each run of components that lie side by
-/// side.
-static ewa_status add_stream(ewa_cloud *cloud, const ewa_ply_column *column, bool swap, ewa_ply_sink *sink) {
-    void *data;
-    const ewa_status status =
-        ewa_cloud_add(cloud, column->attribute, column->type, column->component_count, &data);
-    if (status != EWA_OK) return status;
+/// Gives the sink one move for each run of components of a column that lie side by side.
+static void add_streams(const ewa_ply_column *column, bool swap, const ewa_cloud_sink *to,
+                        ewa_ply_sink *sink) {
     const size_t number_bytes = ewa_type_bytes(column->type);
-    for (uint32_t c = 0; c < column->component_count;) {
+    for (uint32_t c = 0; c < column->component_count && to->to;) {
         const ewa_ply_property *first = column->sources[c];
         uint32_t run = 1;
         for (; c + run < column->component_count; run++) {
@@ -106,67 +85,154 @@ static ewa_status add_stream(ewa_cloud *cloud, const ewa_ply_column *column, boo
         sink->streams[sink->stream_count++] = (ewa_ply_stream){
             .move = {.from_type = first->type, .to_type = column->type, .component_count = run, .swap = swap},
             .from_offset_bytes = first->offset_bytes,
-            .to = (uint8_t *)data + c * number_bytes,
-            .to_stride_bytes = column->component_count * number_bytes};
+            .to = to->to + c * number_bytes,
+            .to_stride_bytes = to->stride_bytes};
         c += run;
     }
-    return EWA_OK;
 }
 
-/// Makes the cloud and fills it from byte `*at` on, which steps over the records.
-static ewa_status fill_cloud(const ewa_ply_source *source, const ewa_ply_header *header,
-                             const ewa_ply_element *vertices, const ewa_ply_column *columns,
-                             uint32_t column_count, uint64_t *at, ewa_cloud **cloud) {
-    ewa_ply_sink sink = {.stream_capacity = vertices->property_count};
-    sink.streams = ewa_allocate(source->context, sink.stream_capacity, sizeof *sink.streams);
-    if (!sink.streams) return EWA_ERROR_MEMORY;
-    const bool ascii = header->encoding == EWA_PLY_ASCII;
-    ewa_cloud *made = NULL;
-    ewa_status status = ewa_cloud_create(source->context, vertices->count, &made);
-    for (uint32_t i = 0; i < column_count && status == EWA_OK; i++)
-        status = add_stream(made, &columns[i], ewa_ply_is_swapped(header), &sink);
+ewa_status ewa_ply_points_open(const ewa_ply_source *source, const ewa_ply_header *header,
+                               const ewa_ply_element *vertices, uint64_t at, ewa_ply_points *points) {
+    *points = (ewa_ply_points){.source = source, .header = header, .element = *vertices, .at = at};
+    points->column_capacity = vertices->property_count + (size_t)1; // one more to try a group in
+    points->columns = ewa_allocate(source->context, points->column_capacity, sizeof *points->columns);
+    points->streams = ewa_allocate(source->context, points->column_capacity, sizeof *points->streams);
+    ewa_status status = points->columns && points->streams ? EWA_OK : EWA_ERROR_MEMORY;
     if (status == EWA_OK)
-        status = ascii ? ewa_ply_ascii_read(source, header, vertices, &sink, at)
-                       : ewa_ply_binary_read(source, header, vertices, &sink, at);
-    ewa_release(source->context, sink.streams, sink.stream_capacity, sizeof *sink.streams);
-    if (status != EWA_OK) ewa_cloud_destroy(&made);
-    *cloud = made;
+        status = ewa_ply_columns_map(source, header, vertices, points->columns, &points->column_count);
+    if (status == EWA_OK) status = ewa_ply_check_size(source, header, vertices, at);
+    if (status != EWA_OK) ewa_ply_points_close(points);
     return status;
+}
+
+void ewa_ply_points_close(ewa_ply_points *points) {
+    if (!points->source) return;
+    ewa_context *context = points->source->context;
+    ewa_release(context, points->columns, points->column_capacity, sizeof *points->columns);
+    ewa_release(context, points->streams, points->column_capacity, sizeof *points->streams);
+    *points = (ewa_ply_points){.source = NULL};
+}
+
+ewa_status ewa_ply_points_add(const ewa_ply_points *points, ewa_cloud *cloud) {
+    ewa_status status = EWA_OK;
+    for (uint32_t i = 0; i < points->column_count && status == EWA_OK; i++)
+        status = ewa_cloud_add(cloud, points->columns[i].attribute, points->columns[i].type,
+                               points->columns[i].component_count, NULL);
+    return status;
+}
+
+ewa_status ewa_ply_points_read(ewa_ply_points *points, uint64_t most, const ewa_cloud_sink *sinks,
+                               uint64_t *got_count) {
+    ewa_ply_sink sink = {.streams = points->streams, .stream_capacity = (uint32_t)points->column_capacity};
+    for (uint32_t i = 0; i < points->column_count; i++)
+        add_streams(&points->columns[i], ewa_ply_is_swapped(points->header), &sinks[i], &sink);
+    ewa_ply_element piece = points->element;
+    const uint64_t left = points->element.count - points->read_count;
+    piece.count = left < most ? left : most;
+    piece.before_count = points->read_count;
+    piece.after_count = left - piece.count;
+    *got_count = 0;
+    if (piece.count == 0) return EWA_OK;
+    const ewa_status status =
+        points->header->encoding == EWA_PLY_ASCII
+            ? ewa_ply_ascii_read(points->source, points->header, &piece, &sink, &points->at)
+            : ewa_ply_binary_read(points->source, points->header, &piece, &sink, &points->at);
+    if (status != EWA_OK) return status;
+    points->read_count += piece.count;
+    *got_count = piece.count;
+    return EWA_OK;
 }
 
 ewa_status ewa_ply_read_vertices(const ewa_ply_source *source, const ewa_ply_header *header,
                                  const ewa_ply_element *vertices, uint64_t *at, ewa_cloud **cloud) {
-    const size_t column_capacity = vertices->property_count + (size_t)1; // one more to try a group in
-    ewa_ply_column *columns = ewa_allocate(source->context, column_capacity, sizeof *columns);
-    if (!columns) return EWA_ERROR_MEMORY;
-    uint32_t column_count = 0;
-    ewa_status status = ewa_ply_columns_map(source, header, vertices, columns, &column_count);
-    if (status == EWA_OK) status = check_limits(source, vertices, columns, column_count);
-    if (status == EWA_OK) status = ewa_ply_check_size(source, header, vertices, *at);
-    if (status == EWA_OK) status = fill_cloud(source, header, vertices, columns, column_count, at, cloud);
-    ewa_release(source->context, columns, column_capacity, sizeof *columns);
+    ewa_ply_points points;
+    ewa_cloud *prototype = NULL, *made = NULL;
+    ewa_status status = ewa_ply_points_open(source, header, vertices, *at, &points);
+    if (status != EWA_OK) return status;
+    ewa_cloud_sink *sinks = ewa_allocate(source->context, points.column_count, sizeof *sinks);
+    status = sinks ? ewa_cloud_create(source->context, 0, &prototype) : EWA_ERROR_MEMORY;
+    if (status == EWA_OK) status = ewa_ply_points_add(&points, prototype);
+    if (status == EWA_OK)
+        status = ewa_cloud_make_room(source->name, prototype, NULL, vertices->count, &made, sinks);
+    uint64_t got_count;
+    if (status == EWA_OK) status = ewa_ply_points_read(&points, vertices->count, sinks, &got_count);
+    *at = points.at;
+    if (status != EWA_OK) ewa_cloud_destroy(&made);
+    ewa_cloud_destroy(&prototype);
+    ewa_release(source->context, sinks, points.column_count, sizeof *sinks);
+    ewa_ply_points_close(&points);
+    *cloud = made;
     return status;
 }
 
-static ewa_status read_body(const ewa_ply_source *source, const ewa_ply_header *header, ewa_cloud **cloud) {
-    const ewa_ply_element *vertices = ewa_ply_vertices(header);
-    if (!vertices)
+// ---- the vertices of a file, piece by piece --------------------------------------------------------------
+
+typedef struct ply_state {
+    ewa_ply_source source;
+    const ewa_cloud_source *file;
+    ewa_ply_header *header;
+    const ewa_ply_element *vertices;
+    ewa_ply_points points;
+} ply_state;
+
+static bool probe(const char *name, const uint8_t *bytes, uint64_t size_bytes) {
+    (void)name;
+    return size_bytes >= 3 && memcmp(bytes, "ply", 3) == 0;
+}
+
+static void close_state(void *state) {
+    ply_state *old = state;
+    if (!old) return;
+    ewa_context *context = old->source.context;
+    ewa_ply_points_close(&old->points);
+    ewa_release(context, old->header, 1, sizeof *old->header);
+    ewa_release(context, old, 1, sizeof *old);
+}
+
+/// Reads the header and steps over what stands before the vertices.
+static ewa_status open_vertices(ply_state *state) {
+    const ewa_ply_source *source = &state->source;
+    ewa_status status = ewa_ply_header_read(source, state->header);
+    if (status != EWA_OK) return status;
+    const ewa_ply_header *header = state->header;
+    state->vertices = ewa_ply_vertices(header);
+    if (!state->vertices)
         return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: the header has no element 'vertex'",
                         source->name);
     uint64_t at = header->body_at;
-    ewa_status status = EWA_OK;
-    for (const ewa_ply_element *element = header->elements; element < vertices && status == EWA_OK; element++)
+    for (const ewa_ply_element *element = header->elements; element < state->vertices && status == EWA_OK;
+         element++)
         status = skip_element(source, header, element, &at);
-    if (status == EWA_OK) status = ewa_ply_read_vertices(source, header, vertices, &at, cloud);
-    if (status == EWA_OK) inspect_rest(source, header, vertices, at);
+    if (status == EWA_OK) status = ewa_ply_points_open(source, header, state->vertices, at, &state->points);
     return status;
 }
 
-ewa_status ewa_ply_read(const ewa_ply_source *source, ewa_cloud **cloud) {
-    ewa_ply_header *header = ewa_allocate(source->context, 1, sizeof *header);
-    if (!header) return EWA_ERROR_MEMORY;
-    ewa_status status = ewa_ply_header_read(source, header);
-    if (status == EWA_OK) status = read_body(source, header, cloud);
-    ewa_release(source->context, header, 1, sizeof *header);
+static ewa_status open_state(const ewa_cloud_source *file, ewa_cloud *prototype, uint64_t *point_count,
+                             void **state) {
+    ply_state *made = ewa_allocate_zeroed(file->context, 1, sizeof *made);
+    if (!made) return EWA_ERROR_MEMORY;
+    made->source = (ewa_ply_source){file->context, file->name, file->bytes, file->size_bytes};
+    made->file = file;
+    made->header = ewa_allocate(file->context, 1, sizeof *made->header);
+    ewa_status status = made->header ? open_vertices(made) : EWA_ERROR_MEMORY;
+    if (status == EWA_OK) status = ewa_ply_points_add(&made->points, prototype);
+    if (status == EWA_OK) {
+        *point_count = made->vertices->count;
+        *state = made;
+    } else {
+        close_state(made);
+    }
     return status;
 }
+
+static ewa_status read_state(void *state, uint64_t most, const ewa_cloud_sink *sinks, uint64_t *got_count) {
+    ply_state *own = state;
+    const ewa_status status = ewa_ply_points_read(&own->points, most, sinks, got_count);
+    if (status != EWA_OK) return status;
+    ewa_cloud_passed(own->file, own->points.at);
+    if (own->points.read_count == own->vertices->count && (*got_count || own->vertices->count == 0))
+        inspect_rest(&own->source, own->header, own->vertices, own->points.at);
+    return EWA_OK;
+}
+
+const ewa_cloud_format ewa_format_ply = {EWA_MODEL_PLY, probe, open_state, read_state, close_state};

@@ -3,6 +3,8 @@
 //
 // Files of points or triangles: the one place that decides which of them a file holds.
 #include "base/base.h"
+#include "base/options.h"
+#include "io/cloud/format.h"
 #include "io/cloud/ply.h"
 #include "io/file.h"
 #include "io/mesh/formats.h"
@@ -52,14 +54,34 @@ static ewa_status count_ply_faces(const ewa_ply_source *source, uint64_t *count)
     return status;
 }
 
-static ewa_status read_ply(const ewa_mesh_source *source, uint32_t wanted, ewa_model *model) {
+/// Reads a file of points alone.
+static ewa_status read_points(const ewa_mesh_source *source, const ewa_cloud_format *format,
+                              const ewa_cloud_load_options *options, ewa_model *model) {
+    ewa_cloud_load_options chosen;
+    ewa_cloud_load_options_init(&chosen, sizeof chosen);
+    const ewa_status status =
+        ewa_options_take(source->context, &ewa_cloud_load_options_table, options, &chosen);
+    if (status != EWA_OK) return status;
+    model->format = format->format;
+    const ewa_cloud_source points = {.context = source->context,
+                                     .name = source->name,
+                                     .path = source->path,
+                                     .bytes = source->bytes,
+                                     .size_bytes = source->size_bytes,
+                                     .options = &chosen,
+                                     .lost_count = &model->lost_count};
+    return ewa_cloud_read_all(&points, format, &model->points);
+}
+
+static ewa_status read_ply(const ewa_mesh_source *source, uint32_t wanted,
+                           const ewa_cloud_load_options *options, ewa_model *model) {
     const ewa_ply_source ply = {source->context, source->name, source->bytes, source->size_bytes};
     ewa_status status = count_ply_faces(&ply, &model->face_count);
     if (status != EWA_OK) return status;
     const bool faces = model->face_count > 0;
     // Faces that nobody asks for need not be whole.
     if (!(wanted & (EWA_MODEL_ELEMENTS | (faces ? EWA_MODEL_MESH : 0u)))) {
-        status = ewa_ply_read(&ply, &model->points);
+        status = read_points(source, &ewa_format_ply, options, model);
     } else {
         status = ewa_ply_read_all(&ply, &model->points, &model->elements);
         if (status == EWA_OK && faces && wanted & EWA_MODEL_MESH) status = make_ply_mesh(source, model);
@@ -69,32 +91,17 @@ static ewa_status read_ply(const ewa_mesh_source *source, uint32_t wanted, ewa_m
     return status;
 }
 
-/// Says that a file is of no format that is read, and which it is where that can be told.
-static ewa_status refuse(const ewa_mesh_source *source) {
-    static const struct {
-        const char *begins, *name;
-    } known[] = {{"LASF", "a LAS or LAZ cloud"},
-                 {"ASTM-E57", "an E57 scan"},
-                 {"# .PCD", "a PCD cloud"},
-                 {"VERSION 0.", "a PCD cloud"}};
-    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
-        const size_t length = strlen(known[i].begins);
-        if (source->size_bytes >= length && memcmp(source->bytes, known[i].begins, length) == 0)
-            return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED,
-                            "%s: %s, which is not read; convert it to PLY", source->name, known[i].name);
-    }
-    return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED,
-                    "%s: no file of points or triangles of a known format (PLY, OBJ, STL, OFF, glTF)",
-                    source->name);
-}
-
-static ewa_status load(const ewa_mesh_source *source, uint32_t wanted, ewa_model *model) {
+/// Formats with a magic come first, then meshes, then text, which has none.
+static ewa_status load(const ewa_mesh_source *source, uint32_t wanted, const ewa_cloud_load_options *options,
+                       ewa_model *model) {
     if (source->size_bytes == 0)
         return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: the file is empty", source->name);
-    model->format = ewa_mesh_probe(source->name, source->bytes, source->size_bytes);
+    const ewa_cloud_format *points =
+        ewa_cloud_format_of(source->name, source->bytes, source->size_bytes, EWA_PROBE_MAGIC);
+    model->format = points ? points->format : ewa_mesh_probe(source->name, source->bytes, source->size_bytes);
     switch (model->format) {
     case EWA_MODEL_PLY:
-        return read_ply(source, wanted, model);
+        return read_ply(source, wanted, options, model);
     case EWA_MODEL_OBJ:
         return read_other(source, ewa_mesh_read_obj, wanted, model);
     case EWA_MODEL_STL:
@@ -104,21 +111,29 @@ static ewa_status load(const ewa_mesh_source *source, uint32_t wanted, ewa_model
     case EWA_MODEL_GLTF:
         return read_other(source, ewa_mesh_read_gltf, wanted, model);
     default:
-        return refuse(source);
+        break;
     }
+    if (!points) points = ewa_cloud_format_of(source->name, source->bytes, source->size_bytes, EWA_PROBE_ALL);
+    if (points) return read_points(source, points, options, model);
+    return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED,
+                    "%s: no file of points or triangles of a known format (" EWA_CLOUD_FORMATS
+                    ", OBJ, STL, OFF, glTF)",
+                    source->name);
 }
 
 ewa_status ewa_model_load_memory(ewa_context *context, const void *bytes, size_t size_bytes, const char *name,
-                                 const char *path, uint32_t wanted, ewa_model *model) {
+                                 const char *path, uint32_t wanted, const ewa_cloud_load_options *options,
+                                 ewa_model *model) {
     if (!context || !model || !name || (!bytes && size_bytes)) return EWA_ERROR_ARGUMENT;
     *model = (ewa_model){0};
     const ewa_mesh_source source = {context, name, path, bytes, size_bytes};
-    const ewa_status status = load(&source, wanted, model);
+    const ewa_status status = load(&source, wanted, options, model);
     if (status != EWA_OK) ewa_model_free(model);
     return status;
 }
 
-ewa_status ewa_model_load(ewa_context *context, const char *path, uint32_t wanted, ewa_model *model) {
+ewa_status ewa_model_load(ewa_context *context, const char *path, uint32_t wanted,
+                          const ewa_cloud_load_options *options, ewa_model *model) {
     if (!context || !path || !model) return EWA_ERROR_ARGUMENT;
     *model = (ewa_model){0};
     const bool stream = strcmp(path, "-") == 0;
@@ -126,7 +141,7 @@ ewa_status ewa_model_load(ewa_context *context, const char *path, uint32_t wante
     ewa_status status = ewa_file_map(context, path, &file);
     if (status != EWA_OK) return status;
     status = ewa_model_load_memory(context, file.bytes, file.size_bytes, stream ? "standard input" : path,
-                                   stream ? NULL : path, wanted, model);
+                                   stream ? NULL : path, wanted, options, model);
     ewa_file_unmap(context, &file);
     return status;
 }
@@ -143,7 +158,7 @@ ewa_status ewa_mesh_load(ewa_context *context, const char *path, ewa_mesh *mesh)
     if (!context || !path || !mesh) return EWA_ERROR_ARGUMENT;
     *mesh = (ewa_mesh){0};
     ewa_model model;
-    ewa_status status = ewa_model_load(context, path, EWA_MODEL_MESH, &model);
+    ewa_status status = ewa_model_load(context, path, EWA_MODEL_MESH, NULL, &model);
     if (status != EWA_OK) return status;
     if (model.mesh.triangle_count) {
         *mesh = model.mesh;
