@@ -236,7 +236,7 @@ const cli_command bench_command = {
                 "ewa bench --scene peer --stages off --against build/release/tests/quality/measure_embree\n"
                 "ewa bench scan.ply --size 1920x1080\n",
     .high_operands = 64,
-    .groups = (const option_group *const[]){&work_options, &measure_options, NULL},
+    .groups = (const option_group *const[]){&work_options, &cloud_input_options, &measure_options, NULL},
     .arguments_bytes = sizeof(bench_arguments),
     .set_defaults = set_defaults,
     .run = run,
