@@ -3,7 +3,7 @@
 //
 // Pieces of text in files: quotes for messages, UTF-16, numbers.
 //
-// UTF-16 by: The Unicode Standard 15.0, section 3.9, table 3-5.
+// UTF-16 by: The Unicode Standard 15.0, section 3.9, table 3-5; UTF-8 by table 3-7 there.
 #include "io/text.h"
 #include "base/base.h"
 #include "io/number.h"
@@ -31,6 +31,22 @@ bool ewa_text_is_any_case(ewa_text text, const char *word) {
     if (text.length != strlen(word)) return false;
     for (size_t i = 0; i < text.length; i++)
         if (lower(text.chars[i]) != lower(word[i])) return false;
+    return true;
+}
+
+bool ewa_text_is_name(ewa_text text) {
+    const unsigned char *c = (const unsigned char *)text.chars, *end = c + text.length;
+    while (c < end) {
+        const unsigned char lead = *c++;
+        if (lead <= ' ' || lead == 0x7f || (lead >= 0x80 && lead < 0xc2) || lead > 0xf4) return false;
+        const int followers = lead < 0x80 ? 0 : lead < 0xe0 ? 1 : lead < 0xf0 ? 2 : 3;
+        if (end - c < followers) return false;
+        if ((lead == 0xe0 && *c < 0xa0) || (lead == 0xed && *c > 0x9f) || (lead == 0xf0 && *c < 0x90) ||
+            (lead == 0xf4 && *c > 0x8f))
+            return false;
+        for (int i = 0; i < followers; i++)
+            if ((*c++ & 0xc0) != 0x80) return false;
+    }
     return true;
 }
 

@@ -28,6 +28,9 @@ static inline bool ewa_text_is(ewa_text text, const char *word) {
 /// The same without regard to the case of ASCII letters.
 bool ewa_text_is_any_case(ewa_text text, const char *word);
 
+/// Whether a piece can be a name: UTF-8 without blanks and control characters.
+bool ewa_text_is_name(ewa_text text);
+
 /// A place in text that consists of lines.
 typedef struct ewa_cursor {
     const char *at, *end;

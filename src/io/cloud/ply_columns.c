@@ -107,27 +107,10 @@ static bool is_used(const ewa_ply_column *columns, uint32_t column_count, const 
     return false;
 }
 
-/// Whether bytes are UTF-8 without control characters. Based on: The Unicode Standard 15.0, table 3-7.
-static bool is_clean_text(ewa_text text) {
-    const unsigned char *c = (const unsigned char *)text.chars, *end = c + text.length;
-    while (c < end) {
-        const unsigned char lead = *c++;
-        if (lead <= ' ' || lead == 0x7f || (lead >= 0x80 && lead < 0xc2) || lead > 0xf4) return false;
-        const int followers = lead < 0x80 ? 0 : lead < 0xe0 ? 1 : lead < 0xf0 ? 2 : 3;
-        if (end - c < followers) return false;
-        if ((lead == 0xe0 && *c < 0xa0) || (lead == 0xed && *c > 0x9f) || (lead == 0xf0 && *c < 0x90) ||
-            (lead == 0xf4 && *c > 0x8f))
-            return false;
-        for (int i = 0; i < followers; i++)
-            if ((*c++ & 0xc0) != 0x80) return false;
-    }
-    return true;
-}
-
 /// Whether a scalar can be an attribute under its own name; if not, says why.
 static bool is_keepable(const ewa_ply_source *source, ewa_text name) {
     char quote[EWA_QUOTE_BYTES];
-    if (name.length >= EWA_NAME_BYTES || !is_clean_text(name)) {
+    if (name.length >= EWA_NAME_BYTES || !ewa_text_is_name(name)) {
         ewa_report(source->context, EWA_SEVERITY_WARNING,
                    "%s: property %s is left out: its name is not UTF-8 of at most %d bytes", source->name,
                    ewa_quote(name, quote), EWA_NAME_BYTES - 1);
