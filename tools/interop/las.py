@@ -179,11 +179,13 @@ def main():
                 las.write(plain)
                 round_trip(program, plain, folder, f"format {point_format}, {count} points")
                 for name, backend in BACKENDS.items():
+                    if name == "lazrs" and point_format in (4, 5):
+                        continue  # a version of wave packets of its own, which LASzip refuses, too
                     packed = folder / "made.laz"
                     las.write(packed, laz_backend=backend)
                     ply = folder / "read.ply"
                     ewa(program, "convert", packed, "-o", ply)
-                    compare_read(las, read_ply(ply), f"format {point_format}, {count} points, {name}")
+                    compare_read(laspy.read(packed), read_ply(ply), f"format {point_format}, {count} points, {name}")
                 done += 1
         if len(sys.argv) > 2:
             data = pathlib.Path(sys.argv[2])
