@@ -5,6 +5,7 @@
 #include "io/e57/e57.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 int ewa_e57_find(const ewa_e57_contents *contents, const ewa_e57_scan *scan, ewa_e57_role role) {
@@ -170,8 +171,24 @@ static void settle_place(const ewa_e57_contents *contents, ewa_e57_columns *colu
     columns->columns[0].type = single ? EWA_F32 : EWA_F64;
 }
 
-static ewa_status settle_types(const ewa_cloud_source *source, const ewa_e57_contents *contents,
-                               ewa_e57_columns *columns) {
+/// Says what stands where a scan lacks what others have.
+static void tell_lacking(const ewa_cloud_source *source, const ewa_e57_columns *columns) {
+    char text[400] = "";
+    size_t length = 0;
+    for (uint32_t k = 1; k < columns->count; k++) {
+        const ewa_e57_column *column = &columns->columns[k];
+        const bool is_float = column->type == EWA_F32 || column->type == EWA_F64;
+        if (!column->lacking || length + EWA_NAME_BYTES + 16 > sizeof text) continue;
+        length += (size_t)snprintf(text + length, sizeof text - length, "%s%s (%s)", length ? ", " : "",
+                                   column->name, is_float ? "nan" : "0");
+    }
+    if (length)
+        ewa_report(source->context, EWA_SEVERITY_WARNING, "%s: some scans lack, and get instead: %s",
+                   source->name, text);
+}
+
+static void settle_types(const ewa_cloud_source *source, const ewa_e57_contents *contents,
+                         ewa_e57_columns *columns) {
     for (uint32_t k = 1; k < columns->count; k++) {
         ewa_e57_column *column = &columns->columns[k];
         for (uint32_t i = 0; i < contents->scan_count; i++)
@@ -188,12 +205,8 @@ static ewa_status settle_types(const ewa_cloud_source *source, const ewa_e57_con
         } else {
             column->type = column->role == EWA_E57_TIME ? EWA_F64 : type_of(column);
         }
-        if (!column->lacking) continue;
-        const bool is_float = column->type == EWA_F32 || column->type == EWA_F64;
-        ewa_report(source->context, EWA_SEVERITY_WARNING, "%s: some scans have no '%s': it is %s there",
-                   source->name, column->name, is_float ? "nan" : "0");
     }
-    return EWA_OK;
+    tell_lacking(source, columns);
 }
 
 ewa_status ewa_e57_columns_map(const ewa_cloud_source *source, const ewa_e57_contents *contents,
@@ -218,5 +231,6 @@ ewa_status ewa_e57_columns_map(const ewa_cloud_source *source, const ewa_e57_con
         if (status != EWA_OK) return status;
     }
     settle_place(contents, columns);
-    return settle_types(source, contents, columns);
+    settle_types(source, contents, columns);
+    return EWA_OK;
 }

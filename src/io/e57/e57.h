@@ -168,9 +168,10 @@ ewa_status ewa_e57_streams_next(ewa_e57_streams *streams, uint64_t most);
 /// Ends with a scan; the memory stays for the next one.
 void ewa_e57_streams_free(ewa_context *context, ewa_e57_streams *streams);
 
-/// Numbers of `count` records from record `first` of those at hand, as they are meant.
+/// Numbers of `count` records from record `first` of those at hand, as they are meant, plus `shift`, which is
+/// added to the offset of scaled numbers: both may be large and their sum small.
 void ewa_e57_numbers(const ewa_e57_streams *streams, uint32_t field, uint64_t first, uint32_t count,
-                     double *numbers);
+                     double shift, double *numbers);
 
 /// One attribute that the points get.
 typedef struct ewa_e57_column {

@@ -63,13 +63,13 @@ uint32_t ewa_e57_list(const ewa_e57_plan *plan, const ewa_e57_streams *streams, 
     *lost_count = 0;
     const int state = plan->fields[plan->spherical ? EWA_E57_SPHERICAL_INVALID : EWA_E57_CARTESIAN_INVALID];
     if (state >= 0) {
-        ewa_e57_numbers(streams, (uint32_t)state, first, count, numbers);
+        ewa_e57_numbers(streams, (uint32_t)state, first, count, 0, numbers);
         for (uint32_t i = 0; i < count; i++) keep[i] = numbers[i] == 0;
     }
     for (int c = 0; c < 3 && plan->may_drop; c++) {
         const int field = plan->fields[(plan->spherical ? EWA_E57_RANGE : EWA_E57_X) + c];
         if (streams->fields[field].kind != EWA_E57_FLOAT) continue;
-        ewa_e57_numbers(streams, (uint32_t)field, first, count, numbers);
+        ewa_e57_numbers(streams, (uint32_t)field, first, count, 0, numbers);
         for (uint32_t i = 0; i < count; i++) keep[i] &= numbers[i] - numbers[i] == 0;
     }
     const ewa_e57_gap *gaps = streams->gaps.data;
@@ -97,10 +97,10 @@ typedef struct move_job {
     uint32_t span, count;
 } move_job;
 
-/// Reads the numbers of the records that are kept; false when the scan has no such field.
-static bool read_kept(const move_job *job, int field, double *numbers) {
+/// Reads the numbers of the records that are kept, plus `shift`; false when the scan has no such field.
+static bool read_kept(const move_job *job, int field, double shift, double *numbers) {
     if (field < 0) return false;
-    ewa_e57_numbers(job->streams, (uint32_t)field, job->first, job->span, numbers);
+    ewa_e57_numbers(job->streams, (uint32_t)field, job->first, job->span, shift, numbers);
     if (job->span != job->count)
         for (uint32_t i = 0; i < job->count; i++) numbers[i] = numbers[job->kept[i]];
     return true;
@@ -154,20 +154,18 @@ static void turn(const double m[9], const double shift[3], double (*v)[EWA_E57_C
 
 static void move_place(const move_job *job, double (*v)[EWA_E57_CHUNK_RECORDS]) {
     const ewa_e57_plan *plan = job->plan;
+    const bool apart = plan->spherical || plan->moved; // the shift comes after what else is done
     for (int c = 0; c < 3; c++)
-        read_kept(job, plan->fields[(plan->spherical ? EWA_E57_RANGE : EWA_E57_X) + c], v[c]);
+        read_kept(job, plan->fields[(plan->spherical ? EWA_E57_RANGE : EWA_E57_X) + c],
+                  apart ? 0 : plan->shift[c], v[c]);
     if (plan->spherical) to_cartesian(v[0], v[1], v[2], job->count);
-    if (plan->moved)
-        turn(plan->turn, plan->shift, v, job->count);
-    else
-        for (int c = 0; c < 3; c++)
-            for (uint32_t i = 0; i < job->count && plan->shift[c] != 0; i++) v[c][i] += plan->shift[c];
+    if (apart) turn(plan->turn, plan->shift, v, job->count);
 }
 
 /// Sets numbers that a flag says are invalid.
 static void blank(const move_job *job, ewa_e57_role flag, double value, double *numbers) {
     double flags[EWA_E57_CHUNK_RECORDS];
-    if (!read_kept(job, job->plan->fields[flag], flags)) return;
+    if (!read_kept(job, job->plan->fields[flag], 0, flags)) return;
     for (uint32_t i = 0; i < job->count; i++)
         if (flags[i] != 0) numbers[i] = value;
 }
@@ -176,7 +174,7 @@ static void move_colors(const move_job *job, ewa_type type, double (*v)[EWA_E57_
     const double most = type == EWA_U8 ? 255 : 65535;
     for (int c = 0; c < 3; c++) {
         const double low = job->plan->color_low[c], factor = job->plan->color_factor[c];
-        const bool given = read_kept(job, job->plan->fields[EWA_E57_RED + c], v[c]);
+        const bool given = read_kept(job, job->plan->fields[EWA_E57_RED + c], 0, v[c]);
         for (uint32_t i = 0; i < job->count; i++) {
             const double share = given ? (v[c][i] - low) * factor + 0.5 : 0;
             v[c][i] = share >= most ? most : share > 0 ? floor(share) : 0;
@@ -192,7 +190,8 @@ static void move_number(const move_job *job, uint32_t index, double *numbers) {
     const bool is_other = column->role == EWA_E57_OTHER;
     if (strcmp(column->name, "scan") == 0) {
         for (uint32_t i = 0; i < job->count; i++) numbers[i] = plan->scan_index;
-    } else if (!read_kept(job, is_other ? plan->column_fields[index] : plan->fields[column->role], numbers)) {
+    } else if (!read_kept(job, is_other ? plan->column_fields[index] : plan->fields[column->role], 0,
+                          numbers)) {
         for (uint32_t i = 0; i < job->count; i++) numbers[i] = nothing;
     } else if (column->role == EWA_E57_RETURN_INDEX) { // counted from 1
         for (uint32_t i = 0; i < job->count; i++) numbers[i] += 1;
@@ -219,7 +218,7 @@ void ewa_e57_move(const ewa_e57_plan *plan, const ewa_e57_streams *streams, uint
             move_colors(&job, column->type, v);
         } else {
             for (int c = 0; c < 3; c++)
-                if (!read_kept(&job, plan->fields[EWA_E57_NORMAL_X + c], v[c]))
+                if (!read_kept(&job, plan->fields[EWA_E57_NORMAL_X + c], 0, v[c]))
                     for (uint32_t i = 0; i < kept_count; i++) v[c][i] = NAN;
             if (plan->moved) turn(plan->turn, (const double[3]){0, 0, 0}, v, kept_count);
         }

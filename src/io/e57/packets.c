@@ -223,19 +223,20 @@ static void read_floats(const uint8_t *bytes, bool single, uint32_t count, doubl
 }
 
 void ewa_e57_numbers(const ewa_e57_streams *streams, uint32_t field, uint64_t first, uint32_t count,
-                     double *numbers) {
+                     double shift, double *numbers) {
     const ewa_e57_field *f = &streams->fields[field];
     const ewa_e57_stream *stream = &streams->streams[field];
     const uint8_t *bytes = stream->buffer.data;
     uint64_t bit = stream->first_bit + first * f->bits;
-    if (f->kind == EWA_E57_FLOAT) { // of whole bytes, from the first on
+    const bool scaled = f->kind == EWA_E57_SCALED;
+    if (f->kind == EWA_E57_FLOAT) // of whole bytes, from the first on
         read_floats(bytes + bit / 8, f->single, count, numbers);
-        return;
-    }
-    for (uint32_t i = 0; i < count; i++, bit += f->bits) {
-        const uint64_t raw = f->bits ? read_bits(bytes, bit, f->bits) : 0;
-        numbers[i] = (double)(int64_t)((uint64_t)f->minimum + raw);
-    }
-    if (f->kind == EWA_E57_SCALED && (f->scale != 1 || f->offset != 0))
-        for (uint32_t i = 0; i < count; i++) numbers[i] = numbers[i] * f->scale + f->offset;
+    else
+        for (uint32_t i = 0; i < count; i++, bit += f->bits) {
+            const uint64_t raw = f->bits ? read_bits(bytes, bit, f->bits) : 0;
+            numbers[i] = (double)(int64_t)((uint64_t)f->minimum + raw);
+        }
+    const double scale = scaled ? f->scale : 1, offset = scaled ? f->offset + shift : shift;
+    if (scale != 1 || offset != 0)
+        for (uint32_t i = 0; i < count; i++) numbers[i] = numbers[i] * scale + offset;
 }

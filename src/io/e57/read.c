@@ -25,9 +25,10 @@ typedef struct e57_state {
     bool in_scan;
     ewa_e57_plan plan;
     ewa_e57_streams streams;
-    uint64_t at;              ///< of the records at hand, the next
-    uint64_t lost_count;      ///< of this scan, in damaged pages
-    uint64_t announced, done; ///< records of all scans, those that are done with
+    uint64_t at;                        ///< of the records at hand, the next
+    uint64_t lost_count;                ///< of this scan, in damaged pages
+    uint64_t scan_records, scan_points; ///< of this scan, that are done with, that were handed over
+    uint64_t announced, done;           ///< records of all scans, those that are done with
 } e57_state;
 
 static bool probe(const char *name, const uint8_t *bytes, uint64_t size_bytes) {
@@ -251,7 +252,12 @@ static uint64_t hand_over(e57_state *state, uint64_t most, const ewa_cloud_sink 
 }
 
 static ewa_status end_scan(e57_state *state) {
-    const uint64_t lost = state->lost_count;
+    const uint64_t lost = state->lost_count, left = state->scan_records - state->scan_points - lost;
+    if (left)
+        ewa_report(state->source->context, EWA_SEVERITY_INFO,
+                   "%s: scan %u: %llu of %llu points have no place and are left out", state->source->name,
+                   state->scan_count_done, (unsigned long long)left, (unsigned long long)state->scan_records);
+    state->scan_records = state->scan_points = 0;
     state->in_scan = false;
     state->lost_count = 0;
     if (!lost) return EWA_OK;
@@ -284,9 +290,12 @@ static ewa_status read_points(void *opened, uint64_t most, const ewa_cloud_sink 
             if (state->scan_count_done == state->contents.scan_count) break;
             status = begin_scan(state);
         } else if (state->at < state->streams.held_count) {
-            got += hand_over(state, most - got, sinks, got);
+            const uint64_t handed = hand_over(state, most - got, sinks, got);
+            got += handed;
+            state->scan_points += handed;
         } else {
             state->done += state->streams.held_count;
+            state->scan_records += state->streams.held_count;
             state->at = 0;
             status = ewa_e57_streams_next(&state->streams, WAVE_RECORDS);
             if (status == EWA_OK && state->streams.held_count == 0) status = end_scan(state);
