@@ -5,10 +5,14 @@
 #include "cloud_output.h"
 #include "outputs.h"
 
+#include <string.h>
+#include <strings.h>
+
 #define AT(member) offsetof(output_arguments, member)
 
 static const cli_option output_table[] = {
-    {"output", OPTION_OUTPUT, AT(path), "FILE", .help = "file to write (.ply); -: PLY to standard output",
+    {"output", OPTION_OUTPUT, AT(path), "FILE",
+     .help = "file to write (.ply, .las, .laz, .pcd, .xyz, .txt, .pts, .csv); -: PLY to standard output",
      .letter = 'o'},
     {"ascii", OPTION_FLAG, AT(ascii), .help = "write text instead of little-endian binary",
      .excludes = "big-endian"},
@@ -17,18 +21,36 @@ static const cli_option output_table[] = {
 
 const option_group cloud_output_options = OPTION_GROUP("Output", output_table);
 
+bool cloud_output_has_faces(const output_arguments *output) {
+    const char *dot = strrchr(output->path, '.');
+    return strcmp(output->path, "-") == 0 || (dot && strcasecmp(dot, ".ply") == 0);
+}
+
 bool cloud_output_check(const output_arguments *output, char message[OPTION_ERROR_BYTES]) {
-    if (output->path) return output_check_suffix("output", output->path, ".ply|-", message);
+    const char *dot = output->path ? strrchr(output->path, '.') : NULL;
+    const bool ply = !dot || cloud_output_has_faces(output), pcd = dot && strcasecmp(dot, ".pcd") == 0;
+    if ((output->ascii && !ply && !pcd) || (output->big_endian && !ply)) {
+        snprintf(message, OPTION_ERROR_BYTES, "--%s: %s files have one encoding",
+                 output->ascii ? "ascii" : "big-endian", dot);
+        return false;
+    }
+    if (output->path)
+        return output_check_suffix("output", output->path, ".ply|.las|.laz|.pcd|.xyz|.txt|.asc|.pts|.csv|-",
+                                   message);
     snprintf(message, OPTION_ERROR_BYTES, "no output; say -o FILE");
     return false;
+}
+
+void cloud_output_options_fill(const output_arguments *output, ewa_cloud_save_options *options) {
+    ewa_cloud_save_options_init(options, sizeof *options);
+    if (output->ascii) options->ply_encoding = EWA_PLY_ASCII;
+    if (output->big_endian) options->ply_encoding = EWA_PLY_BINARY_BIG_ENDIAN;
 }
 
 bool cloud_output_save(cli_session *session, const output_arguments *output, const ewa_cloud *cloud,
                        const ewa_elements *elements) {
     ewa_cloud_save_options options;
-    ewa_cloud_save_options_init(&options, sizeof options);
-    if (output->ascii) options.ply_encoding = EWA_PLY_ASCII;
-    if (output->big_endian) options.ply_encoding = EWA_PLY_BINARY_BIG_ENDIAN;
+    cloud_output_options_fill(output, &options);
     options.elements = elements;
     session->subject = output->path;
     const ewa_status status = ewa_cloud_save(cloud, output->path, &options);

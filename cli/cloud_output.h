@@ -20,6 +20,12 @@ extern const option_group cloud_output_options;
 /// Says in `message` what is wrong with the output options together; returns false then.
 bool cloud_output_check(const output_arguments *output, char message[OPTION_ERROR_BYTES]);
 
+/// How a cloud is written, as the arguments say.
+void cloud_output_options_fill(const output_arguments *output, ewa_cloud_save_options *options);
+
+/// Whether the file that is written can hold faces.
+bool cloud_output_has_faces(const output_arguments *output);
+
 /// Writes a cloud, and elements with it (may be NULL); returns false after reporting.
 bool cloud_output_save(cli_session *session, const output_arguments *output, const ewa_cloud *cloud,
                        const ewa_elements *elements);

@@ -5,6 +5,7 @@
 #include "cloud_output.h"
 #include "commands.h"
 #include "inputs.h"
+#include "passing.h"
 #include "procedure.h"
 
 #include <float.h>
@@ -99,11 +100,7 @@ static bool crop(cli_session *session, ewa_cloud **cloud, const double box[6]) {
         }
         if (inside) indices[count++] = i;
     }
-    bool done = count > 0;
-    if (done)
-        done = keep(session, cloud, indices, count);
-    else
-        session_fail(session, "--crop: none of the %llu points is inside", (unsigned long long)point_count);
+    const bool done = keep(session, cloud, indices, count);
     free(indices);
     return done;
 }
@@ -202,18 +199,39 @@ static ewa_cloud *load(cli_session *session, const common_arguments *common, ewa
                                       : inputs_merge(session, common);
 }
 
+/// What can be done to a part of a cloud as to the whole.
+static bool change_piece(cli_session *session, const void *data, ewa_cloud **cloud) {
+    const convert_arguments *arguments = data;
+    return (!arguments->crop.count || crop(session, cloud, arguments->crop.values)) &&
+           move(session, *cloud, arguments);
+}
+
+/// Whether only such things are to be done.
+static bool is_piecewise(const convert_arguments *arguments) {
+    return arguments->procedure.output.common.operand_count == 1 && arguments->subsample == 0 &&
+           arguments->refit == REFIT_OFF && !arguments->procedure.procedure;
+}
+
+static bool has_points(cli_session *session, const ewa_cloud *cloud) {
+    if (ewa_cloud_point_count(cloud)) return true;
+    session_fail(session, "none of the points is left");
+    return false;
+}
+
 static ewa_cloud *make(cli_session *session, const convert_arguments *arguments, ewa_elements **elements) {
     ewa_cloud *cloud = load(session, &arguments->procedure.output.common, elements);
     const uint64_t loaded_count = cloud ? ewa_cloud_point_count(cloud) : 0;
     if (arguments->procedure.output.common.operand_count > 1) session->subject = NULL;
-    const bool done = cloud && (!arguments->crop.count || crop(session, &cloud, arguments->crop.values)) &&
+    const bool done = cloud && change_piece(session, arguments, &cloud) && has_points(session, cloud) &&
                       (arguments->subsample == 0 || subsample(session, &cloud, arguments->subsample)) &&
-                      move(session, cloud, arguments) && complete(session, &cloud, arguments) &&
+                      complete(session, &cloud, arguments) &&
                       procedure_apply(session, &arguments->procedure, arguments->options.cutoff, cloud) &&
                       (arguments->refit == REFIT_OFF || refit(session, cloud, arguments));
     if (!done) ewa_cloud_destroy(&cloud);
     if (cloud && ewa_cloud_point_count(cloud) != loaded_count)
         drop_elements(session, elements, "some of their vertices are left out");
+    if (!cloud_output_has_faces(&arguments->procedure.output))
+        drop_elements(session, elements, "only PLY is written with faces");
     return cloud;
 }
 
@@ -222,6 +240,12 @@ static int run(const void *data) {
     const output_arguments *output = &arguments->procedure.output;
     cli_session session;
     if (!session_start(&session, &output->common)) return session_end(&session, EXIT_FAILED);
+    if (is_piecewise(arguments)) {
+        const passing_result result = passing_run(&session, output->common.operands[0], output, arguments,
+                                                  change_piece, arguments->crop.count == 0);
+        if (result != PASSING_IMPOSSIBLE)
+            return session_end(&session, result == PASSING_DONE ? EXIT_DONE : EXIT_FAILED);
+    }
     ewa_elements *elements = NULL;
     ewa_cloud *cloud = make(&session, arguments, &elements);
     const bool done = cloud && cloud_output_save(&session, output, cloud, elements);
@@ -248,7 +272,8 @@ const cli_command convert_command = {
                 "ewa convert mm.ply -o m.ply --scale 0.001 --crop -1,-1,0,1,1,2\n",
     .low_operands = 1,
     .high_operands = 4096,
-    .groups = (const option_group *const[]){&cloud_output_options, &change_options, &procedure_options, NULL},
+    .groups = (const option_group *const[]){&cloud_output_options, &cloud_input_options, &change_options,
+                                            &procedure_options, NULL},
     .arguments_bytes = sizeof(convert_arguments),
     .set_defaults = set_defaults,
     .check = check,

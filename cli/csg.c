@@ -69,7 +69,7 @@ const cli_command csg_command = {
                 "ewa render cut.ply -o cut.png --cull back\n",
     .low_operands = 2,
     .high_operands = 2,
-    .groups = (const option_group *const[]){&cloud_output_options, &csg_options, NULL},
+    .groups = (const option_group *const[]){&cloud_output_options, &cloud_input_options, &csg_options, NULL},
     .arguments_bytes = sizeof(csg_arguments),
     .set_defaults = set_defaults,
     .check = check,

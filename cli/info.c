@@ -7,6 +7,7 @@
 #include "import.h"
 #include "info_mesh.h"
 #include "info_volume.h"
+#include "inputs.h"
 #include "json.h"
 #include "model_input.h"
 #include "screening.h"
@@ -414,7 +415,7 @@ const cli_command info_command = {
                 "ewa info scan.nii.gz\n",
     .low_operands = 1,
     .high_operands = 4096,
-    .groups = (const option_group *const[]){&info_options, &volume_options, NULL},
+    .groups = (const option_group *const[]){&info_options, &cloud_input_options, &volume_options, NULL},
     .arguments_bytes = sizeof(info_arguments),
     .set_defaults = set_defaults,
     .check = check,

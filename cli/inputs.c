@@ -10,6 +10,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const cli_option input_table[] = {
+    {"columns", OPTION_TEXT, offsetof(common_arguments, columns), "NAMES",
+     .help = "what the columns of text files are, as x,y,z,intensity,-,r,g,b; -: a column that is left out",
+     .absent = "as the file's head or its numbers say"},
+    {"keep-going", OPTION_FLAG, offsetof(common_arguments, keep_going),
+     .help = "step over damaged pieces of files of points, and say what is lost"},
+};
+
+const option_group cloud_input_options = OPTION_GROUP("Files of points", input_table);
+
 /// sRGB of files without colours that are merged with coloured ones: as bright as the renderer's grey, linear
 /// 0.6.
 static const uint8_t GREY_SRGB = 203;

@@ -7,6 +7,9 @@
 
 #include "session.h"
 
+/// How files of points are read, in common_arguments; for every command that reads some.
+extern const option_group cloud_input_options;
+
 /// Loads the points of one file that has at least one; of a mesh, after a note, its vertices. NULL after
 /// reporting.
 ewa_cloud *input_load(cli_session *session, const char *path);

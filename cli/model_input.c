@@ -26,12 +26,14 @@ bool model_input_load(cli_session *session, const char *path, uint32_t wanted, e
     if (import_is_named(path)) {
         if (!import_load(session, path, wanted, model)) return false;
     } else {
-        const ewa_status status = ewa_model_load(session->context, path, wanted, NULL, model);
+        const ewa_status status = ewa_model_load(session->context, path, wanted, &session->load, model);
         if (status != EWA_OK) {
             session_failed(session, status);
             return false;
         }
     }
+    if (model->lost_count)
+        session_note(session, "%s: %llu points are lost", path, (unsigned long long)model->lost_count);
     if (model->points && ewa_cloud_point_count(model->points) == 0) {
         session_fail(session, "%s: the file has no points", path);
         return false;

@@ -104,7 +104,9 @@ typedef struct common_arguments {
     size_t word_count;
     int64_t threads;
     bool quiet, verbose, help;
-    int progress; ///< 1 or 0 when asked for, -1: where standard error is a terminal
+    int progress;        ///< 1 or 0 when asked for, -1: where standard error is a terminal
+    bool keep_going;     ///< of cloud_input_options
+    const char *columns; ///< of cloud_input_options; NULL: as the file says
 } common_arguments;
 
 /// The options of common_arguments, for the last group of each command.

@@ -135,6 +135,9 @@ bool session_start(cli_session *session, const common_arguments *common) {
         if (sigaction(numbers[i], NULL, &inherited) == 0 && inherited.sa_handler != SIG_IGN)
             sigaction(numbers[i], &action, NULL);
     }
+    ewa_cloud_load_options_init(&session->load, sizeof session->load);
+    session->load.keep_going = common->keep_going;
+    session->load.columns = common->columns;
     session->context = session_context(session, (uint32_t)common->threads, EWA_CPU_ALL);
     return session->context != NULL;
 }

@@ -86,7 +86,8 @@ const cli_command surfels_command = {
                 "ewa surfels lines.ply -o ellipses.ply --shape ellipse --keep-normals off\n",
     .low_operands = 1,
     .high_operands = 1,
-    .groups = (const option_group *const[]){&cloud_output_options, &estimate_options, NULL},
+    .groups =
+        (const option_group *const[]){&cloud_output_options, &cloud_input_options, &estimate_options, NULL},
     .arguments_bytes = sizeof(surfels_arguments),
     .set_defaults = set_defaults,
     .check = check,

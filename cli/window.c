@@ -5,6 +5,7 @@
 #include "window.h"
 #include "child.h"
 #include "commands.h"
+#include "inputs.h"
 #include "window_services.h"
 
 #include <errno.h>
@@ -118,7 +119,7 @@ const cli_command view_command = {
                 "ewa view scan.ply volume.nrrd --view iso\n"
                 "ewa view scan.ply --script session.txt --timings\n",
     .high_operands = VIEWER_MAX_ITEMS,
-    .groups = (const option_group *const[]){&window_options, &view_options, NULL},
+    .groups = (const option_group *const[]){&window_options, &cloud_input_options, &view_options, NULL},
     .arguments_bytes = sizeof(window_arguments),
     .set_defaults = set_defaults,
     .check = check,

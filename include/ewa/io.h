@@ -19,8 +19,10 @@
 extern "C" {
 #endif
 
-/// Reads a point cloud: PLY (ascii, binary of both byte orders), whose element "vertex" holds the points;
-/// other elements and lists are skipped. Properties become the attributes of ewa/cloud.h by their names:
+/// Reads a point cloud, the format by content: PLY, LAS and LAZ, E57, PCD, PTX, and text in columns (XYZ, PTS,
+/// CSV); docs/files.md says what is read of each. Of PLY (ascii, binary of both byte orders), the element
+/// "vertex" holds the points; other elements and lists are skipped. Its properties become the attributes of
+/// ewa/cloud.h by their names:
 ///   - x y z: "position", F64 when one of them is a double or a 32-bit integer, so that it is exact, else
 ///     F32;
 ///   - nx ny nz or normal_x normal_y normal_z: "normal", F32;
@@ -61,8 +63,9 @@ EWA_API void ewa_cloud_load_options_init(ewa_cloud_load_options *options, size_t
 /// A file whose points are read piece by piece, in the order of the file.
 typedef struct ewa_cloud_reader ewa_cloud_reader;
 
-/// Opens a file of points for reading in pieces; a mesh is read for its vertices, at once. The caller closes
-/// `*reader`, which is NULL after a failure. `options` may be NULL. Errors as ewa_cloud_load().
+/// Opens a file of points for reading in pieces; of PLY with faces, the vertices are read. The caller closes
+/// `*reader`, which is NULL after a failure. `options` may be NULL and is not needed after the call. Errors
+/// as ewa_cloud_load().
 EWA_API ewa_status ewa_cloud_reader_open(ewa_context *context, const char *path,
                                          const ewa_cloud_load_options *options, ewa_cloud_reader **reader);
 
@@ -135,6 +138,10 @@ EWA_API ewa_status ewa_cloud_save(const ewa_cloud *cloud, const char *path,
 
 /// A file of points that is written piece by piece.
 typedef struct ewa_cloud_writer ewa_cloud_writer;
+
+/// Whether a cloud like the prototype can be written to a path, by its suffix, only when the box of all points
+/// is known before the first.
+EWA_API bool ewa_cloud_writer_needs_bounds(const char *path, const ewa_cloud *prototype);
 
 /// Begins a file for `point_count` points (EWA_POINTS_UNKNOWN: as many as come) that all have the attributes,
 /// in their order, the origin, the grid and the notes of `prototype`, whose own points are not looked at;

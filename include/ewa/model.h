@@ -31,6 +31,10 @@ typedef enum ewa_model_format {
 /// Returns "PLY", "OBJ", "STL", "OFF", "glTF", "LAS", "E57", "PCD", "PTX", "text" or "unknown".
 EWA_API const char *ewa_model_format_name(ewa_model_format format);
 
+/// Says which format a regular file has, by its content; EWA_MODEL_UNKNOWN: none that is read here. Errors:
+/// EWA_ERROR_IO.
+EWA_API ewa_status ewa_model_probe(ewa_context *context, const char *path, ewa_model_format *format);
+
 /// What ewa_model_load() is asked for.
 enum {
     EWA_MODEL_MESH = 1u << 0,     ///< the triangles, if there are faces

@@ -447,6 +447,25 @@ const char *ewa_number_read_f64(const char *text, const char *end, double *value
     return after;
 }
 
+const char *ewa_number_read_shifted(const char *text, const char *end, int64_t shift, double *value) {
+    decimal d;
+    const char *after = read_decimal(text, end, &d);
+    if (!after || (after < end && *after == '#')) return read_word(text, end, value);
+    if (shift != 0 && !d.cut && d.exponent <= 0 && d.exponent >= -18) {
+        const __int128 digits = d.negative ? -(__int128)d.digits : (__int128)d.digits;
+        const __int128 rest = digits - (__int128)shift * (__int128)power_of_10((int)-d.exponent);
+        const unsigned __int128 magnitude = (unsigned __int128)(rest < 0 ? -rest : rest);
+        if (magnitude >> 64 == 0) {
+            d.digits = (uint64_t)magnitude;
+            d.negative = rest < 0;
+            shift = 0;
+        }
+    }
+    const double magnitude = nearest_f64(&d);
+    *value = (d.negative ? -magnitude : magnitude) - (double)shift;
+    return after;
+}
+
 const char *ewa_number_read_f32(const char *text, const char *end, float *value) {
     decimal d;
     const char *after = read_decimal(text, end, &d);

@@ -17,6 +17,11 @@ const char *ewa_number_read_f64(const char *text, const char *end, double *value
 /// The same, rounded once to float.
 const char *ewa_number_read_f32(const char *text, const char *end, float *value);
 
+/// The same less a whole number, |shift| < 2^53: the double nearest to the difference, rounded once, so that
+/// 4200000.125 less 4200000 is what 0.125 is. Only numbers of more than 18 digits behind the point, with an
+/// exponent above zero or of a difference beyond 64 bits are rounded before and after.
+const char *ewa_number_read_shifted(const char *text, const char *end, int64_t shift, double *value);
+
 /// Reads [+-]digits of at most 18 digits; NULL when there is no such integer. Stops before '.' and 'e'.
 const char *ewa_number_read_i64(const char *text, const char *end, int64_t *value);
 

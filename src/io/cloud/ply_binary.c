@@ -134,7 +134,9 @@ static ewa_status read_plain(const ewa_ply_source *source, const ewa_ply_element
         ewa_parallel(source->context, decode_task, &job,
                      (uint32_t)((count + task_records - 1) / task_records));
         job.first = job.end;
-        status = ewa_progress(source->context, "read", (double)job.end / (double)element->count);
+        const uint64_t whole = element->before_count + element->count + element->after_count;
+        status =
+            ewa_progress(source->context, "read", (double)(element->before_count + job.end) / (double)whole);
     }
     *at += element->count * element->record_bytes;
     return status;

@@ -6,6 +6,7 @@
 #include "base/base.h"
 #include "io/cloud/format.h"
 #include "io/cloud/ply.h"
+#include "io/number.h"
 
 #include <string.h>
 
@@ -207,6 +208,14 @@ static ewa_status open_vertices(ply_state *state) {
     return status;
 }
 
+static ewa_status note_faces(const ewa_ply_header *header, ewa_cloud *prototype) {
+    const uint64_t count = ewa_ply_count_faces(header);
+    char digits[EWA_NUMBER_BYTES];
+    return count ? ewa_cloud_set_note(prototype, "file.faces", digits,
+                                      ewa_number_write_i64((int64_t)count, digits))
+                 : EWA_OK;
+}
+
 static ewa_status open_state(const ewa_cloud_source *file, ewa_cloud *prototype, uint64_t *point_count,
                              void **state) {
     ply_state *made = ewa_allocate_zeroed(file->context, 1, sizeof *made);
@@ -216,6 +225,7 @@ static ewa_status open_state(const ewa_cloud_source *file, ewa_cloud *prototype,
     made->header = ewa_allocate(file->context, 1, sizeof *made->header);
     ewa_status status = made->header ? open_vertices(made) : EWA_ERROR_MEMORY;
     if (status == EWA_OK) status = ewa_ply_points_add(&made->points, prototype);
+    if (status == EWA_OK) status = note_faces(made->header, prototype);
     if (status == EWA_OK) {
         *point_count = made->vertices->count;
         *state = made;

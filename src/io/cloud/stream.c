@@ -214,6 +214,14 @@ static ewa_status open_writer(ewa_cloud_writer *writer, const char *path,
     return status == EWA_OK ? writer->format->open(&writer->target, &writer->state) : status;
 }
 
+bool ewa_cloud_writer_needs_bounds(const char *path, const ewa_cloud *prototype) {
+    const ewa_cloud_write_format *format = ewa_cloud_write_format_of(path);
+    ewa_coordinate_grid grid;
+    ewa_cloud_grid(prototype, &grid);
+    const bool has_grid = grid.step_world[0] > 0 && grid.step_world[1] > 0 && grid.step_world[2] > 0;
+    return format && format->needs_bounds && !has_grid;
+}
+
 ewa_status ewa_cloud_writer_open(ewa_context *context, const char *path,
                                  const ewa_cloud_save_options *options, const ewa_cloud *prototype,
                                  uint64_t point_count, const ewa_bounds *bounds, ewa_cloud_writer **writer) {

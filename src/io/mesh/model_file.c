@@ -91,14 +91,35 @@ static ewa_status read_ply(const ewa_mesh_source *source, uint32_t wanted,
     return status;
 }
 
-/// Formats with a magic come first, then meshes, then text, which has none.
+/// Finds the format: those with a magic first, then meshes, then text, which has none. `*points` is NULL for
+/// meshes.
+static ewa_model_format probe(const char *name, const uint8_t *bytes, size_t size_bytes,
+                              const ewa_cloud_format **points) {
+    *points = ewa_cloud_format_of(name, bytes, size_bytes, EWA_PROBE_MAGIC);
+    if (*points) return (*points)->format;
+    const ewa_model_format mesh = ewa_mesh_probe(name, bytes, size_bytes);
+    if (mesh != EWA_MODEL_UNKNOWN) return mesh;
+    *points = ewa_cloud_format_of(name, bytes, size_bytes, EWA_PROBE_ALL);
+    return *points ? (*points)->format : EWA_MODEL_UNKNOWN;
+}
+
+ewa_status ewa_model_probe(ewa_context *context, const char *path, ewa_model_format *format) {
+    if (!context || !path || !format) return EWA_ERROR_ARGUMENT;
+    ewa_file file;
+    const ewa_status status = ewa_file_map(context, path, &file);
+    if (status != EWA_OK) return status;
+    const ewa_cloud_format *points;
+    *format = probe(path, file.bytes, file.size_bytes, &points);
+    ewa_file_unmap(context, &file);
+    return EWA_OK;
+}
+
 static ewa_status load(const ewa_mesh_source *source, uint32_t wanted, const ewa_cloud_load_options *options,
                        ewa_model *model) {
     if (source->size_bytes == 0)
         return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: the file is empty", source->name);
-    const ewa_cloud_format *points =
-        ewa_cloud_format_of(source->name, source->bytes, source->size_bytes, EWA_PROBE_MAGIC);
-    model->format = points ? points->format : ewa_mesh_probe(source->name, source->bytes, source->size_bytes);
+    const ewa_cloud_format *points;
+    model->format = probe(source->name, source->bytes, source->size_bytes, &points);
     switch (model->format) {
     case EWA_MODEL_PLY:
         return read_ply(source, wanted, options, model);
@@ -111,14 +132,12 @@ static ewa_status load(const ewa_mesh_source *source, uint32_t wanted, const ewa
     case EWA_MODEL_GLTF:
         return read_other(source, ewa_mesh_read_gltf, wanted, model);
     default:
-        break;
+        if (points) return read_points(source, points, options, model);
+        return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED,
+                        "%s: no file of points or triangles of a known format (" EWA_CLOUD_FORMATS
+                        ", OBJ, STL, OFF, glTF)",
+                        source->name);
     }
-    if (!points) points = ewa_cloud_format_of(source->name, source->bytes, source->size_bytes, EWA_PROBE_ALL);
-    if (points) return read_points(source, points, options, model);
-    return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED,
-                    "%s: no file of points or triangles of a known format (" EWA_CLOUD_FORMATS
-                    ", OBJ, STL, OFF, glTF)",
-                    source->name);
 }
 
 ewa_status ewa_model_load_memory(ewa_context *context, const void *bytes, size_t size_bytes, const char *name,

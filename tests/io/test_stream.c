@@ -1,0 +1,249 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Tests of clouds in pieces: pieces of any size put together are the whole, in and out, of every format that is
+// written; grid and notes travel with a cloud; what a file promises of counts is held.
+#include "ewa/ewa.h"
+#include "io/scratch.h"
+
+#include <math.h>
+
+static ewa_context *context;
+static check_log messages;
+
+static int set_up(void **state) {
+    (void)state;
+    memset(&messages, 0, sizeof messages);
+    context = check_context(2, &messages);
+    return 0;
+}
+
+static int tear_down(void **state) {
+    (void)state;
+    ewa_context_destroy(&context);
+    return 0;
+}
+
+enum { POINTS = 5003 };
+
+/// A cloud with a grid of millimetres at a place of seven digits, colours, and two attributes of scans.
+static ewa_cloud *make_scan(void) {
+    ewa_cloud *cloud = NULL;
+    void *position, *color, *class, *time;
+    assert_int_equal(ewa_cloud_create(context, POINTS, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &position), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, &color), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, "classification", EWA_U8, 1, &class), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, "gps_time", EWA_F64, 1, &time), EWA_OK);
+    for (uint64_t i = 0; i < POINTS; i++) {
+        for (uint64_t c = 0; c < 3; c++) {
+            ((double *)position)[3 * i + c] = (double)((i * (7 + 4 * c) + 31 * c) % 9973) / 1000;
+            ((uint8_t *)color)[3 * i + c] = (uint8_t)(i * (c + 1));
+        }
+        ((uint8_t *)class)[i] = (uint8_t)(i % 7);
+        ((double *)time)[i] = 3.0e8 + (double)i / 64;
+    }
+    ewa_cloud_set_origin(cloud, (const double[3]){512345, 4200000, 100});
+    ewa_cloud_set_grid(cloud, &(ewa_coordinate_grid){{0.001, 0.001, 0.001}, {500000, 4200000, 0}});
+    assert_int_equal(ewa_cloud_set_note(cloud, "crs", "EPSG:32632", 10), EWA_OK);
+    return cloud;
+}
+
+static ewa_cloud *load(const char *path) {
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_cloud_load(context, path, &cloud), EWA_OK);
+    return cloud;
+}
+
+/// World coordinates as their decimals say them.
+static void world_of(const ewa_cloud *cloud, uint64_t point, double world[3]) {
+    ewa_coordinate_grid grid;
+    double origin_world[3];
+    ewa_cloud_grid(cloud, &grid);
+    ewa_cloud_origin(cloud, origin_world);
+    ewa_attribute_read_f64(ewa_cloud_find(cloud, EWA_POSITION), point, 1, world);
+    for (uint32_t c = 0; c < 3; c++) world[c] = ewa_grid_world(&grid, c, world[c] + origin_world[c]);
+}
+
+/// Every format that is written, and the pieces of prime sizes that it is read and written in.
+static void test_pieces(void **state) {
+    (void)state;
+    static const char *const suffixes[] = {".ply"};
+    static const uint64_t sizes[] = {1, 7, 997, 5003, 100000};
+    ewa_cloud *scan = make_scan();
+    for (size_t s = 0; s < sizeof suffixes / sizeof suffixes[0]; s++) {
+        char name[64], whole_path[512], path[512];
+        snprintf(name, sizeof name, "scan%s", suffixes[s]);
+        scratch_path(name, whole_path);
+        assert_int_equal(ewa_cloud_save(scan, whole_path, NULL), EWA_OK);
+        ewa_cloud *whole = load(whole_path);
+        size_t whole_bytes;
+        uint8_t *whole_file = scratch_read(whole_path, &whole_bytes);
+        for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++) {
+            if (sizes[k] == 1 && strcmp(suffixes[s], ".ply") != 0) continue;
+            ewa_cloud_reader *reader = NULL;
+            ewa_cloud_writer *writer = NULL;
+            ewa_cloud *piece = NULL;
+            assert_int_equal(ewa_cloud_reader_open(context, whole_path, NULL, &reader), EWA_OK);
+            snprintf(name, sizeof name, "pieces%s", suffixes[s]);
+            assert_int_equal(ewa_cloud_writer_open(context, scratch_path(name, path), NULL,
+                                                   ewa_cloud_reader_prototype(reader), POINTS, NULL, &writer),
+                             EWA_OK);
+            uint64_t count = 0;
+            while (ewa_cloud_reader_next(reader, sizes[k], &piece) == EWA_OK && piece) {
+                assert_true(ewa_cloud_point_count(piece) <= sizes[k]);
+                count += ewa_cloud_point_count(piece);
+                assert_int_equal(ewa_cloud_writer_put(writer, piece), EWA_OK);
+                ewa_cloud_destroy(&piece);
+            }
+            assert_int_equal(count, POINTS);
+            assert_int_equal(ewa_cloud_writer_commit(&writer), EWA_OK);
+            ewa_cloud_reader_close(&reader);
+            size_t bytes;
+            uint8_t *file = scratch_read(path, &bytes);
+            assert_int_equal(bytes, whole_bytes);
+            assert_memory_equal(file, whole_file, bytes);
+            free(file);
+        }
+        for (uint64_t i = 0; i < POINTS; i += 13) {
+            double wanted[3], got[3];
+            world_of(scan, i, wanted);
+            world_of(whole, i, got);
+            assert_memory_equal(wanted, got, sizeof wanted);
+        }
+        free(whole_file);
+        ewa_cloud_destroy(&whole);
+    }
+    ewa_cloud_destroy(&scan);
+}
+
+/// Only what is wanted is read, and positions always.
+static void test_wanted(void **state) {
+    (void)state;
+    char path[512];
+    ewa_cloud *scan = make_scan(), *piece = NULL;
+    assert_int_equal(ewa_cloud_save(scan, scratch_path("wanted.ply", path), NULL), EWA_OK);
+    ewa_cloud_load_options options;
+    ewa_cloud_load_options_init(&options, sizeof options);
+    options.attributes = "gps_time,no such";
+    ewa_cloud_reader *reader = NULL;
+    assert_int_equal(ewa_cloud_reader_open(context, path, &options, &reader), EWA_OK);
+    assert_int_equal(ewa_cloud_attribute_count(ewa_cloud_reader_prototype(reader)), 2);
+    assert_int_equal(ewa_cloud_reader_next(reader, POINTS, &piece), EWA_OK);
+    assert_non_null(ewa_cloud_find(piece, EWA_POSITION));
+    assert_memory_equal(ewa_cloud_find(piece, "gps_time")->data, ewa_cloud_find(scan, "gps_time")->data,
+                        POINTS * sizeof(double));
+    assert_null(ewa_cloud_find(piece, EWA_COLOR));
+    ewa_cloud_destroy(&piece);
+    assert_int_equal(ewa_cloud_reader_next(reader, POINTS, &piece), EWA_OK);
+    assert_null(piece);
+    ewa_cloud_reader_close(&reader);
+    ewa_cloud_destroy(&scan);
+}
+
+/// A writer that was promised other points than it gets says so, and leaves nothing behind.
+static void test_promises(void **state) {
+    (void)state;
+    char path[512];
+    ewa_cloud *scan = make_scan();
+    scratch_path("promised.ply", path);
+    unlink(path);
+    ewa_cloud_writer *writer = NULL;
+    assert_int_equal(ewa_cloud_writer_open(context, path, NULL, scan, POINTS + 1, NULL, &writer), EWA_OK);
+    assert_int_equal(ewa_cloud_writer_put(writer, scan), EWA_OK);
+    assert_int_equal(ewa_cloud_writer_commit(&writer), EWA_ERROR_ARGUMENT);
+    assert_null(writer);
+    assert_int_not_equal(access(path, F_OK), 0);
+    assert_int_equal(ewa_cloud_writer_open(context, path, NULL, scan, POINTS - 1, NULL, &writer), EWA_OK);
+    assert_int_equal(ewa_cloud_writer_put(writer, scan), EWA_ERROR_ARGUMENT);
+    ewa_cloud_remove(scan, "gps_time");
+    assert_int_equal(ewa_cloud_writer_put(writer, scan), EWA_ERROR_ARGUMENT);
+    ewa_cloud_writer_abort(&writer);
+    assert_int_not_equal(access(path, F_OK), 0);
+    ewa_cloud_destroy(&scan);
+}
+
+/// A number of points that is only known at the end is put where it belongs.
+static void test_unknown_count(void **state) {
+    (void)state;
+    char path[512];
+    ewa_cloud *scan = make_scan();
+    ewa_cloud_writer *writer = NULL;
+    assert_int_equal(ewa_cloud_writer_open(context, scratch_path("unknown.ply", path), NULL, scan,
+                                           EWA_POINTS_UNKNOWN, NULL, &writer),
+                     EWA_OK);
+    for (int i = 0; i < 3; i++) assert_int_equal(ewa_cloud_writer_put(writer, scan), EWA_OK);
+    assert_int_equal(ewa_cloud_writer_commit(&writer), EWA_OK);
+    ewa_cloud *back = load(path);
+    assert_int_equal(ewa_cloud_point_count(back), 3 * POINTS);
+    ewa_cloud_destroy(&back);
+    ewa_cloud_destroy(&scan);
+}
+
+/// Decimals are those that were there, also where the sum of two doubles is another double.
+static void test_grid(void **state) {
+    (void)state;
+    const ewa_coordinate_grid grid = {{0.01, 0.001, 0.25}, {600000, 0, 0.125}};
+    assert_true(ewa_grid_world(&grid, 0, 600000 + 35619.85) == 635619.85);
+    uint32_t inexact = 0;
+    for (int i = 0; i < 100000; i++) {
+        const double wanted = (4200000000.0 + i) / 1000, sum = (4200000000.0 + i) * 0.001;
+        assert_true(ewa_grid_world(&grid, 1, sum) == wanted);
+        inexact += sum != wanted;
+    }
+    assert_true(inexact > 1000); // without the grid, other digits would come out
+    assert_true(ewa_grid_world(&grid, 2, 3.4) == 3.375);
+    assert_true(isnan(ewa_grid_world(&grid, 0, NAN)));
+    assert_true(ewa_grid_world(&grid, 0, INFINITY) == INFINITY);
+    assert_true(ewa_grid_world(&grid, 0, 1e30) == 1e30);
+    assert_true(ewa_grid_world(&(ewa_coordinate_grid){{0}, {0}}, 0, 0.1 + 0.2) == 0.1 + 0.2);
+}
+
+/// Notes are copies, are replaced, removed, and handed on.
+static void test_notes(void **state) {
+    (void)state;
+    ewa_cloud *scan = make_scan(), *some = NULL, *both = NULL;
+    size_t size_bytes;
+    assert_int_equal(ewa_cloud_set_note(scan, "file.what", "a\0b", 3), EWA_OK);
+    assert_memory_equal(ewa_cloud_note(scan, "file.what", &size_bytes), "a\0b", 4);
+    assert_int_equal(size_bytes, 3);
+    assert_int_equal(ewa_cloud_set_note(scan, "crs", "EPSG:4978", 9), EWA_OK);
+    assert_string_equal(ewa_cloud_note_name(scan, 0), "crs");
+    const uint64_t indices[2] = {5, 3};
+    assert_int_equal(ewa_cloud_select(scan, indices, 2, &some), EWA_OK);
+    assert_string_equal(ewa_cloud_note(some, "crs", NULL), "EPSG:4978");
+    ewa_coordinate_grid grid;
+    ewa_cloud_grid(some, &grid);
+    assert_true(grid.step_world[1] == 0.001);
+    assert_int_equal(ewa_cloud_merge((const ewa_cloud *const[]){scan, some}, 2, &both), EWA_OK);
+    ewa_cloud_grid(both, &grid);
+    assert_true(grid.step_world[1] == 0.001 && ewa_cloud_note(both, "file.what", NULL));
+    // A cloud that is moved as a whole stays on its grid; one that is turned does not.
+    double shift[16] = {1, 0, 0, 7, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    assert_int_equal(ewa_cloud_transform(both, shift), EWA_OK);
+    ewa_cloud_grid(both, &grid);
+    assert_true(grid.step_world[0] == 0.001 && grid.offset_world[0] == 500007);
+    shift[0] = 2;
+    assert_int_equal(ewa_cloud_transform(both, shift), EWA_OK);
+    ewa_cloud_grid(both, &grid);
+    assert_true(grid.step_world[0] == 0);
+    assert_int_equal(ewa_cloud_set_note(scan, "crs", NULL, 0), EWA_OK);
+    assert_null(ewa_cloud_note(scan, "crs", NULL));
+    assert_null(ewa_cloud_note_name(scan, 1));
+    assert_int_equal(ewa_cloud_set_note(scan, "", "x", 1), EWA_ERROR_ARGUMENT);
+    ewa_cloud_destroy(&both);
+    ewa_cloud_destroy(&some);
+    ewa_cloud_destroy(&scan);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_pieces, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_wanted, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_promises, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_unknown_count, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_grid, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_notes, set_up, tear_down),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
