@@ -201,7 +201,7 @@ static ewa_text_target color_target(const text_state *state, uint32_t column_cou
 }
 
 int64_t ewa_text_origin(double coordinate) {
-    return fabs(coordinate) > 1e4 && fabs(coordinate) < 1e15 ? 1000 * (int64_t)round(coordinate / 1000) : 0;
+    return fabs(coordinate) > 1e4 && fabs(coordinate) < 1e10 ? 1000 * (int64_t)round(coordinate / 1000) : 0;
 }
 
 static void place_axis(text_state *state, uint32_t column, ewa_text_target *target, double origin_world[3],

@@ -111,17 +111,29 @@ static const alias aliases[] = {
     {"nearinfrared", "nir", 0},
 };
 
-/// Makes the key of a name: letters and digits in small letters, without a unit in brackets behind it.
+static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); }
+
+/// Makes the key of a name: its letters and digits in small letters, without a unit in brackets behind it.
+/// Empty when it is more than words with blanks, '_', '-' or '.' between them.
 static void make_key(ewa_text name, char key[KEY_BYTES]) {
     size_t length = 0;
+    bool open = true; // no letter stands before
     for (size_t i = 0; i < name.length; i++) {
-        const char c = name.chars[i];
-        if (length > 0 && (c == '(' || c == '[')) break;
-        if (length + 1 == KEY_BYTES) break;
-        if (c >= 'A' && c <= 'Z') key[length++] = (char)(c - 'A' + 'a');
-        if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) key[length++] = c;
+        char c = name.chars[i];
+        if (!open &&
+            (c == '(' || c == '[' ||
+             (c == ' ' && i + 1 < name.length && (name.chars[i + 1] == '(' || name.chars[i + 1] == '['))))
+            break;
+        if (c >= 'A' && c <= 'Z') c = (char)(c - 'A' + 'a');
+        const bool between = length > 0 && (c == ' ' || c == '_' || c == '-' || c == '.');
+        if ((!is_letter(c) && !between) || length + 1 == KEY_BYTES) {
+            key[0] = 0;
+            return;
+        }
+        open = !is_letter(c);
+        if (!open) key[length++] = c;
     }
-    key[length] = 0;
+    key[open ? 0 : length] = 0;
 }
 
 /// Gives a column the name of a scalar: the word as it is, printable.
