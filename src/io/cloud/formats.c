@@ -16,7 +16,7 @@
 
 /// Those with a magic first, then text.
 static const ewa_cloud_format *const formats[] = {&ewa_format_ply, &ewa_format_las, &ewa_format_pcd,
-                                                  &ewa_format_text};
+                                                  &ewa_format_ptx, &ewa_format_text};
 enum { MAGIC_COUNT = 3 };
 
 const ewa_cloud_format *ewa_cloud_format_of(const char *name, const uint8_t *bytes, uint64_t size_bytes,
@@ -125,7 +125,8 @@ ewa_status ewa_cloud_make_room(const char *name, const ewa_cloud *prototype, con
 }
 
 const ewa_cloud_write_format *ewa_cloud_write_format_of(const char *path) {
-    static const ewa_cloud_write_format *const known[] = {&ewa_write_ply, &ewa_write_las, &ewa_write_pcd};
+    static const ewa_cloud_write_format *const known[] = {&ewa_write_ply, &ewa_write_las, &ewa_write_pcd,
+                                                          &ewa_write_text};
     const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
     // Streams and devices have no suffix to choose by.
     if (strcmp(path, "-") == 0 || strncmp(path, "/dev/", 5) == 0) return known[0];

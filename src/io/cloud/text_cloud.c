@@ -200,9 +200,7 @@ static ewa_text_target color_target(const text_state *state, uint32_t column_cou
     return target;
 }
 
-/// A whole number of thousands near a large coordinate, which positions are relative to: so that the same
-/// shape elsewhere on the map has the same positions.
-static int64_t origin_of(double coordinate) {
+int64_t ewa_text_origin(double coordinate) {
     return fabs(coordinate) > 1e4 && fabs(coordinate) < 1e15 ? 1000 * (int64_t)round(coordinate / 1000) : 0;
 }
 
@@ -212,7 +210,7 @@ static void place_axis(text_state *state, uint32_t column, ewa_text_target *targ
     const uint32_t axis = state->columns[column].component;
     const ewa_text_range *range = &state->ranges[column];
     *target = (ewa_text_target){
-        .action = EWA_TEXT_POSITION, .type = EWA_F64, .shift = origin_of(state->first[column])};
+        .action = EWA_TEXT_POSITION, .type = EWA_F64, .shift = ewa_text_origin(state->first[column])};
     origin_world[axis] = (double)target->shift;
     if (range->decimals <= MAX_DECIMALS && !range->unusual &&
         range->digits + range->decimals <= MAX_GRID_DIGITS)
@@ -285,7 +283,7 @@ static ewa_status read_begin(text_state *state, ewa_cloud *prototype) {
         return ewa_fail(source->context, EWA_ERROR_FORMAT,
                         "%s: the first lines are no table of at least three columns of numbers",
                         source->name);
-    state->table = (ewa_text_table){begin.layout, state->targets, begin.has_count};
+    state->table = (ewa_text_table){begin.layout, rows->text.at, state->targets, begin.has_count};
     ewa_status status = look(state, &begin);
     if (status == EWA_OK)
         status = ewa_text_scan(rows, &state->table.layout, begin.data, state->ranges, &state->row_count);

@@ -4,6 +4,7 @@
 // The loop that most of the time goes into: cells to numbers, by the plain road for plain numbers, and by
 // ewa_text_cell() for what is quoted, missing or written with a comma.
 #include "io/cloud/text_parse.h"
+#include "io/cloud/text_plain.h"
 #include "io/number.h"
 
 #include <math.h>
@@ -210,14 +211,70 @@ static inline line_kind read_cells(const ewa_text_table *table, reading *line, c
 }
 
 static line_kind read_line(const ewa_text_table *table, reading *line, const place *places) {
-    const char *start = line->at = skip_blanks(&table->layout, line->at, line->end);
-    // A line that begins with a digit or a sign, as nearly all do, needs no further look.
-    const ewa_text_class class = class_at(&table->layout, start, line->end);
-    if (class == EWA_TEXT_LINE_END) return LINE_EMPTY;
-    if (class != EWA_TEXT_SIGN && (*start < '0' || *start > '9' || table->counts) &&
-        is_remark(table, start, line->end))
+    line->at = skip_blanks(&table->layout, line->at, line->end);
+    if (class_at(&table->layout, line->at, line->end) == EWA_TEXT_LINE_END ||
+        is_remark(table, line->at, line->end))
         return LINE_EMPTY;
     return read_cells(table, line, places);
+}
+
+// ---- lines of plain numbers ------------------------------------------------------------------------------
+
+/// Takes the digits of a cell together and returns how many stand behind the point; -1 when these are too many
+/// for exact arithmetic.
+static inline int take_digits(const ewa_plain_cell *cell, int64_t *digits) {
+    static const int64_t powers_of_10[EWA_PLAIN_DIGITS + 1] = {1,      10,      100,      1000,     10000,
+                                                               100000, 1000000, 10000000, 100000000};
+    const size_t before = (size_t)(cell->point - cell->start);
+    const size_t behind = (size_t)(cell->end - cell->point) - (cell->end > cell->point);
+    if (before > EWA_PLAIN_DIGITS || behind > EWA_PLAIN_DIGITS) return -1;
+    *digits = (int64_t)ewa_plain_digits(cell->point, before) * powers_of_10[behind] +
+              (int64_t)ewa_plain_digits(cell->end, behind);
+    if (cell->negative) *digits = -*digits;
+    return (int)behind;
+}
+
+/// The cell of a column where exact arithmetic on doubles or floats gives the nearest number; false elsewhere.
+static inline bool read_plain_cell(const ewa_text_target *target, const ewa_plain_cell *cell, uint8_t *to) {
+    static const double powers_of_10[EWA_PLAIN_DIGITS + 1] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8};
+    int64_t digits;
+    if (target->action == EWA_TEXT_LEAVE) return true;
+    const int behind = take_digits(cell, &digits);
+    if (behind < 0) return false;
+    switch (target->action) {
+    case EWA_TEXT_POSITION:
+        digits -= target->shift * (int64_t)powers_of_10[behind];
+        __attribute__((fallthrough));
+    case EWA_TEXT_F64: {
+        if (digits > (int64_t)1 << 53 || digits < -((int64_t)1 << 53)) return false;
+        const double value = (double)digits / powers_of_10[behind];
+        memcpy(to, &value, sizeof value);
+        return digits != 0 || !cell->negative; // minus zero
+    }
+    case EWA_TEXT_F32: {
+        if (digits > 1 << 24 || digits < -(1 << 24)) return false;
+        const float value = (float)digits / (float)powers_of_10[behind];
+        memcpy(to, &value, sizeof value);
+        return digits != 0 || !cell->negative;
+    }
+    case EWA_TEXT_WHOLE:
+        return behind == 0 && store_whole(target->type, digits, to);
+    default:
+        return false;
+    }
+}
+
+/// Reads a line that has been split; a cell that wants more care gets it.
+static line_kind read_plain_line(const ewa_text_table *table, reading *line, const ewa_plain_cell *cells,
+                                 const place *places) {
+    bool nowhere = false;
+    for (uint32_t c = 0; c < table->layout.column_count; c++) {
+        if (read_plain_cell(&table->targets[c], &cells[c], places[c].to)) continue;
+        line->column = c;
+        line->cell = line->at = cells[c].start - cells[c].with_sign;
+        if (!read_cell(&table->layout, &table->targets[c], line, places[c].to, &nowhere)) return LINE_BAD;
+    }
+    return nowhere ? LINE_NOWHERE : LINE_POINT;
 }
 
 static const char *next_line(const ewa_text_layout *layout, const char *at, const char *end) {
@@ -240,9 +297,16 @@ void ewa_text_read_chunk(const void *format, const ewa_rows_chunk *chunk, uint64
                 (place){sink->to + first * sink->stride_bytes + target->offset_bytes, sink->stride_bytes};
     }
     reading line = {.at = chunk->at, .end = chunk->end};
+    ewa_plain_cell cells[EWA_ROWS_MAX_COLUMNS];
+    ewa_plain_walk walk = ewa_plain_begin(chunk->at, chunk->end);
     while (line.at < chunk->end) {
         const char *start = line.at;
-        const line_kind kind = read_line(table, &line, places);
+        // Digits are taken by 8 bytes that end with the last one.
+        const char *next = start - table->text >= EWA_PLAIN_DIGITS
+                               ? ewa_plain_split(&table->layout, &walk, start, cells)
+                               : NULL;
+        const line_kind kind =
+            next ? read_plain_line(table, &line, cells, places) : read_line(table, &line, places);
         if (kind == LINE_POINT) {
             if (result->point_count == most) {
                 result->after = start;
@@ -262,7 +326,11 @@ void ewa_text_read_chunk(const void *format, const ewa_rows_chunk *chunk, uint64
             line.at = line.cell;
         }
         result->nowhere_count += kind == LINE_NOWHERE;
-        line.at = next_line(&table->layout, line.at, chunk->end);
+        if (!next) {
+            next = next_line(&table->layout, line.at, chunk->end);
+            walk = ewa_plain_begin(next, chunk->end);
+        }
+        line.at = next;
     }
     result->after = chunk->end;
 }

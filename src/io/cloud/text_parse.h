@@ -30,6 +30,7 @@ typedef struct ewa_text_target {
 /// What ewa_text_read_chunk() knows: `target` per column.
 typedef struct ewa_text_table {
     ewa_text_layout layout;
+    const char *text; ///< begin of the whole text
     const ewa_text_target *targets;
     bool counts; ///< lines of one whole number say how many points follow
 } ewa_text_table;

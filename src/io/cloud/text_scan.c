@@ -4,9 +4,7 @@
 // What stands in the columns of a text, of all of its lines: how many digits before and behind the point, the
 // greatest number, what is no number at all. That settles types and decimals before the first point is read.
 // Only bytes that are no digits are looked at one by one; which these are is found for 64 bytes at once.
-#include "io/cloud/text_table.h"
-
-enum { BLOCK_BYTES = 64 };
+#include "io/cloud/text_plain.h"
 
 typedef struct scan_job {
     const ewa_rows *rows;
@@ -26,22 +24,6 @@ typedef struct line_state {
     bool comment;
 } line_state;
 
-/// The bytes that are no digits, as bits, least first.
-static inline uint64_t find_others(const char *text) {
-    uint64_t bits = 0;
-    for (int i = 0; i < BLOCK_BYTES / 8; i++) {
-        uint64_t word;
-        memcpy(&word, text + 8 * i, sizeof word);
-#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
-        word = __builtin_bswap64(word);
-#endif
-        word ^= 0x3030303030303030u; // digits become 0 to 9, everything else more
-        const uint64_t others = ((word + 0x7676767676767676u) | word) >> 7 & 0x0101010101010101u;
-        bits |= (others * 0x0102040810204080u >> 56) << 8 * i;
-    }
-    return bits;
-}
-
 /// The first characters of a word as one number, later ones less.
 static inline uint64_t leading(const char *text, size_t length, const char *end) {
     uint64_t word = 0;
@@ -55,6 +37,18 @@ static inline uint64_t leading(const char *text, size_t length, const char *end)
     return length < 8 ? word >> (64 - 8 * length) : word;
 }
 
+/// Adds the digits from `start` to `point` and those behind it to a range.
+static inline void add_number(const scan_job *job, ewa_text_range *range, const char *start,
+                              const char *point, const char *end, bool negative) {
+    const uint32_t digits = (uint32_t)(point - start);
+    const uint32_t decimals = (uint32_t)(end - point) - (end > point);
+    const uint64_t greatest = digits > 0 ? leading(start, digits, job->rows->text.end) : 0;
+    range->greatest = greatest > range->greatest ? greatest : range->greatest;
+    range->digits = digits > range->digits ? digits : range->digits;
+    range->decimals = decimals > range->decimals ? decimals : range->decimals;
+    range->negative |= negative;
+}
+
 static inline void end_word(const scan_job *job, line_state *line, ewa_text_range *ranges, const char *at) {
     if (line->separated && job->layout->words && line->column > 0) { // the same cell goes on behind a blank
         line->column--;
@@ -65,14 +59,7 @@ static inline void end_word(const scan_job *job, line_state *line, ewa_text_rang
         if (line->odd) {
             range->other = true;
         } else {
-            const size_t digits = (size_t)((line->point ? line->point : at) - line->start);
-            const size_t decimals = line->point ? (size_t)(at - line->point) - 1 : 0;
-            if (digits > 0) {
-                const uint64_t greatest = leading(line->start, digits, job->rows->text.end);
-                if (greatest > range->greatest) range->greatest = greatest;
-            }
-            if (digits > range->digits) range->digits = (uint32_t)digits;
-            if (decimals > range->decimals) range->decimals = (uint32_t)decimals;
+            add_number(job, range, line->start, line->point ? line->point : at, at, false);
         }
     }
     line->column++;
@@ -106,15 +93,15 @@ static uint64_t scan_lines(const scan_job *job, const char *at, const char *end,
     const uint8_t *classes = job->layout->classes;
     line_state line = {.start = at};
     uint64_t row_count = 0;
-    char last[BLOCK_BYTES];
-    for (; at < end; at += BLOCK_BYTES) {
+    char last[EWA_PLAIN_BLOCK_BYTES];
+    for (; at < end; at += EWA_PLAIN_BLOCK_BYTES) {
         const char *block = at;
-        if (end - at < BLOCK_BYTES) {
+        if (end - at < EWA_PLAIN_BLOCK_BYTES) {
             memset(last, '0', sizeof last);
             memcpy(last, at, (size_t)(end - at));
             block = last;
         }
-        for (uint64_t others = find_others(block); others; others &= others - 1) {
+        for (uint64_t others = ewa_plain_find(block); others; others &= others - 1) {
             const char *here = at + __builtin_ctzll(others);
             const ewa_text_class class = (ewa_text_class)classes[(uint8_t)*here];
             if (line.comment && class != EWA_TEXT_LINE_END) continue;
@@ -171,13 +158,40 @@ static uint64_t scan_lines(const scan_job *job, const char *at, const char *end,
     return row_count;
 }
 
+/// Adds a line of plain numbers to the ranges.
+static inline void scan_plain(const scan_job *job, const ewa_plain_cell *cells, ewa_text_range *ranges) {
+    for (uint32_t c = 0; c < job->layout->column_count; c++)
+        add_number(job, &ranges[c], cells[c].start, cells[c].point, cells[c].end, cells[c].negative);
+}
+
+/// Looks at the lines of a chunk; returns how many are rows.
+static uint64_t scan_all(const scan_job *job, const char *at, const char *end, ewa_text_range *ranges) {
+    ewa_plain_cell cells[EWA_ROWS_MAX_COLUMNS];
+    ewa_plain_walk walk = ewa_plain_begin(at, job->rows->text.end);
+    uint64_t row_count = 0;
+    while (at < end) {
+        const char *next = ewa_plain_split(job->layout, &walk, at, cells);
+        if (next) {
+            scan_plain(job, cells, ranges);
+            row_count++;
+        } else {
+            next = ewa_rows_line_end(job->rows, at);
+            next += next < end;
+            row_count += scan_lines(job, at, next, ranges);
+            walk = ewa_plain_begin(next, job->rows->text.end);
+        }
+        at = next;
+    }
+    return row_count;
+}
+
 static void scan_chunk(void *data, uint32_t index, uint32_t worker) {
     (void)worker;
     const scan_job *job = data;
     const char *at = first_line(job, index), *end = first_line(job, index + 1);
     ewa_text_range *ranges = job->ranges + (size_t)index * job->layout->column_count;
     memset(ranges, 0, job->layout->column_count * sizeof *ranges);
-    job->chunks[index] = (ewa_rows_chunk){at, end, at < end ? scan_lines(job, at, end, ranges) : 0, 0};
+    job->chunks[index] = (ewa_rows_chunk){at, end, scan_all(job, at, end, ranges), 0};
 }
 
 static void join(ewa_text_range *all, const ewa_text_range *part) {

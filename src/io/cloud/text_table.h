@@ -95,6 +95,10 @@ void ewa_text_columns_from_numbers(const double *sample, uint32_t row_count, uin
 ewa_status ewa_text_columns_finish(const ewa_cloud_source *source, uint32_t column_count,
                                    ewa_text_column *columns);
 
+/// Returns a whole number of thousands near a large coordinate, else 0, which positions are relative to: so
+/// that the same shape elsewhere on the map has the same positions.
+int64_t ewa_text_origin(double coordinate);
+
 /// Looks at all lines from `at` on: adds their chunks to `rows` and measures the columns, one range each.
 /// Errors: EWA_ERROR_MEMORY, EWA_CANCELLED.
 ewa_status ewa_text_scan(ewa_rows *rows, const ewa_text_layout *layout, const char *at,
