@@ -6,7 +6,7 @@
 // Based on: M. Isenburg, "LASzip: lossless compression of LiDAR data" (2013); LASzip's readers of version 1.
 #include "io/las/laz_first.h"
 
-#include "io/las/laz_flat.h"
+#include "io/las/laz_point10.h"
 
 /// What POINT10 of version 1 remembers.
 typedef struct points_item {
