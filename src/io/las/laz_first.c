@@ -6,7 +6,7 @@
 // Based on: M. Isenburg, "LASzip: lossless compression of LiDAR data" (2013); LASzip's readers of version 1.
 #include "io/las/laz_first.h"
 
-#include "io/las/laz_flat.h"
+#include "io/las/laz_point10.h"
 
 /// What POINT10 of version 1 remembers.
 typedef struct points_item {
@@ -137,31 +137,14 @@ static void decode_color(ewa_laz_coder *coder, color_item *m, uint8_t *record) {
     *coder = c;
 }
 
-/// What BYTE of version 1 remembers: all bytes share the models of their differences.
-typedef struct byte_item {
-    ewa_laz_bit lowest;
-    ewa_laz_model256 highs[8];
-    EWA_LAZ_MODEL(9) widths[];
-} byte_item;
-
-static void decode_bytes(ewa_laz_coder *coder, byte_item *m, uint32_t count, uint32_t stride,
-                         uint8_t *record) {
-    ewa_laz_coder c = *coder;
-    for (uint32_t i = 0; i < count; i++)
-        record[i] = ewa_laz_integer8(false, &c, m, i, record[(ptrdiff_t)i - stride], 0);
-    *coder = c;
-}
-
 size_t ewa_laz_first_bytes(const ewa_laz_item *item) {
     switch (item->type) {
     case EWA_LAZ_POINT10:
         return sizeof(points_item);
     case EWA_LAZ_GPSTIME11:
         return sizeof(time_item);
-    case EWA_LAZ_RGB12:
-        return sizeof(color_item);
     default:
-        return sizeof(byte_item) + item->size_bytes * sizeof(((byte_item *)NULL)->widths[0]);
+        return sizeof(color_item);
     }
 }
 
@@ -170,18 +153,15 @@ void ewa_laz_first_start(const ewa_laz_item *item, void *state, const uint8_t *r
         start_points(state, record);
     else if (item->type == EWA_LAZ_GPSTIME11)
         start_times(state, ewa_laz_load64(record));
-    else if (item->type == EWA_LAZ_RGB12)
+    else
         memcpy(((color_item *)state)->last, record, sizeof((color_item *)state)->last);
 }
 
-void ewa_laz_first_decode(const ewa_laz_item *item, ewa_laz_coder *coder, void *state, uint32_t stride,
-                          uint8_t *record) {
+void ewa_laz_first_decode(const ewa_laz_item *item, ewa_laz_coder *coder, void *state, uint8_t *record) {
     if (item->type == EWA_LAZ_POINT10)
         decode_point(coder, state, record);
     else if (item->type == EWA_LAZ_GPSTIME11)
         ewa_laz_store64(record, decode_time(coder, state));
-    else if (item->type == EWA_LAZ_RGB12)
-        decode_color(coder, state, record);
     else
-        decode_bytes(coder, state, item->size_bytes, stride, record);
+        decode_color(coder, state, record);
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Items of version 1, of flat chunks that were written before 2011: decoded only.
+// Items POINT10, GPSTIME11 and RGB12 of version 1, of flat chunks that were written before 2011: decoded only.
 #ifndef EWA_SRC_LAZ_FIRST_H
 #define EWA_SRC_LAZ_FIRST_H
 
@@ -14,8 +14,7 @@ size_t ewa_laz_first_bytes(const ewa_laz_item *item);
 /// Lets an item begin with its part of the first record.
 void ewa_laz_first_start(const ewa_laz_item *item, void *state, const uint8_t *record);
 
-/// Decodes an item's part of a record; `stride`: bytes from the record before.
-void ewa_laz_first_decode(const ewa_laz_item *item, ewa_laz_coder *coder, void *state, uint32_t stride,
-                          uint8_t *record);
+/// Decodes an item's part of a record.
+void ewa_laz_first_decode(const ewa_laz_item *item, ewa_laz_coder *coder, void *state, uint8_t *record);
 
 #endif

@@ -144,7 +144,7 @@ EWA_LAZ_INLINE void code_record(bool encoding, ewa_laz_coder *coder, ewa_laz_mem
         const ewa_laz_item item = memory->plan.items[i];
         void *state = memory->items[i];
         if (!encoding && is_first(&item))
-            ewa_laz_first_decode(&item, coder, state, stride, record);
+            ewa_laz_first_decode(&item, coder, state, record);
         else if (item.type == EWA_LAZ_POINT10)
             ewa_laz_point10_code(encoding, coder, state, record);
         else if (item.type == EWA_LAZ_GPSTIME11)
