@@ -139,21 +139,12 @@ static void pack_single_returns(const ewa_las_column *column, const block *b) {
     for (size_t i = 0; i < b->count; i++, to += b->stride) *to |= (uint8_t)(1u << column->shift);
 }
 
-/// Returns how many steps the cloud's origin lies from the offset: a whole number where it is one but for
-/// rounding, so that the numbers of a file come out as they went in.
-static double shift_of(double origin_world, double offset_world, double scale) {
-    const double steps = (origin_world - offset_world) / scale, whole = nearbyint(steps);
-    const double rounding_world = 0x1p-52 * (fabs(origin_world) + fabs(offset_world));
-    return fabs(steps - whole) <= 2 * rounding_world / scale + 0x1p-40 * fabs(steps) ? whole : steps;
-}
-
 void ewa_las_pack(const ewa_las_plan *plan, const ewa_cloud *piece, uint64_t first, uint64_t count,
                   uint8_t *records, ewa_las_sums *sums) {
     const ewa_las_table *table = &plan->table;
     double origin_world[3], shift_steps[3];
     ewa_cloud_origin(piece, origin_world);
-    for (int c = 0; c < 3; c++)
-        shift_steps[c] = shift_of(origin_world[c], plan->offset_world[c], table->scale[c]);
+    for (int c = 0; c < 3; c++) shift_steps[c] = (origin_world[c] - plan->offset_world[c]) / table->scale[c];
     memset(records, 0, count * table->record_bytes);
     for (uint64_t done = 0; done < count; done += BLOCK_POINTS) {
         block b = {.first = first + done,
