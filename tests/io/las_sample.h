@@ -63,7 +63,7 @@ static inline las_sample las_make(uint8_t format, uint8_t minor, uint32_t extra_
     const size_t head_bytes = minor >= 4 ? LAS_HEAD_BYTES : minor == 3 ? 235 : 227;
     s.points_at = head_bytes + vlrs_bytes;
     s.size_bytes = s.points_at + (size_t)count * s.record_bytes;
-    s.bytes = calloc(1, s.size_bytes + 1);
+    s.bytes = calloc(1, s.size_bytes + 64); // las_number() looks where longer records would have their fields
     assert_non_null(s.bytes);
     uint8_t *h = s.bytes;
     memcpy(h, "LASF", 4);

@@ -115,6 +115,9 @@ def compare_files(a, b, what):
                 require(False, f"{what}: {name} is lost")
             continue
         second = np.asarray(b[other])
+        if first.ndim == 2 and first.shape[1] > 4:  # bytes without a type are attributes of four
+            more = [np.asarray(b[f"{name}_{k}"]) for k in range(1, (first.shape[1] + 3) // 4)]
+            second = np.column_stack([second, *more])
         if name in ("red", "green", "blue") and not equal(first, second):
             require(equal(first.astype("u4") * 257, second), f"{what}: {name}")
         else:
@@ -173,7 +176,7 @@ def main():
     with tempfile.TemporaryDirectory() as temporary:
         folder = pathlib.Path(temporary)
         for point_format in range(11):
-            for count in (1, 1000, 120000):
+            for count in (1, 1000, 60000):
                 las = make(point_format, count, random)
                 plain = folder / "made.las"
                 las.write(plain)

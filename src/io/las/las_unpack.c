@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { BLOCK_BYTES = 1 << 14 };
+enum { BLOCK_BYTES = 1 << 14, BLOCK_POINTS = BLOCK_BYTES / 20 };
 
 /// The records of a block and where the numbers of one attribute go.
 typedef struct block {
@@ -32,12 +32,25 @@ static void unpack_positions(const ewa_las_table *table, const block *b) {
     }
 }
 
-static void unpack_bits(const ewa_las_column *column, const block *b) {
-    const uint8_t *from = b->records + column->at_bytes[0];
-    uint8_t *to = b->to;
+/// Bytes of a block that several fields share, side by side, so that those are taken apart many at a time.
+typedef struct shared_bytes {
+    uint32_t at_bytes; ///< in the record; UINT32_MAX: none yet
+    uint8_t bytes[BLOCK_POINTS];
+} shared_bytes;
+
+static void unpack_bits(const ewa_las_column *column, shared_bytes *shared, const block *b) {
     const uint32_t shift = column->shift, mask = column->mask;
-    for (size_t i = 0; i < b->count; i++, from += b->stride, to += b->to_stride)
-        *to = (uint8_t)(*from >> shift & mask);
+    if (shared->at_bytes != column->at_bytes[0]) {
+        const uint8_t *from = b->records + column->at_bytes[0];
+        shared->at_bytes = column->at_bytes[0];
+        for (size_t i = 0; i < b->count; i++) shared->bytes[i] = from[i * b->stride];
+    }
+    uint8_t *restrict to = b->to;
+    const uint8_t *restrict bytes = shared->bytes;
+    if (b->to_stride == 1)
+        for (size_t i = 0; i < b->count; i++) to[i] = (uint8_t)(bytes[i] >> shift & mask);
+    else
+        for (size_t i = 0; i < b->count; i++) to[i * b->to_stride] = (uint8_t)(bytes[i] >> shift & mask);
 }
 
 static void unpack_angles(const ewa_las_column *column, const block *b) {
@@ -52,15 +65,25 @@ static void unpack_angles(const ewa_las_column *column, const block *b) {
 }
 
 static uint64_t unpack_colors_8(const ewa_las_column *column, uint32_t color_shift, const block *b) {
+    const uint32_t count = column->component_count;
+    const uint32_t last = count - 1; // the alpha, or the blue again
+    const uint8_t *from = b->records;
+    uint8_t *to = b->to;
     uint64_t above_count = 0;
-    for (uint32_t c = 0; c < column->component_count; c++) {
-        const uint8_t *from = b->records + column->at_bytes[c];
-        uint8_t *to = b->to + c;
-        for (size_t i = 0; i < b->count; i++, from += b->stride, to += b->to_stride) {
-            const uint32_t value = (uint32_t)ewa_las_u16(from) >> color_shift;
-            above_count += value > 255;
-            *to = value > 255 ? 255 : (uint8_t)value;
-        }
+    for (size_t i = 0; i < b->count; i++, from += b->stride, to += b->to_stride) {
+        uint32_t values[4] = {
+            ewa_las_u16(from + column->at_bytes[0]), ewa_las_u16(from + column->at_bytes[1]),
+            ewa_las_u16(from + column->at_bytes[2]), ewa_las_u16(from + column->at_bytes[last])};
+        for (int c = 0; c < 4; c++) values[c] >>= color_shift;
+        if ((values[0] | values[1] | values[2] | values[3]) > 255)
+            for (uint32_t c = 0; c < 4; c++) {
+                above_count += values[c] > 255 && c < count;
+                if (values[c] > 255) values[c] = 255;
+            }
+        to[0] = (uint8_t)values[0];
+        to[1] = (uint8_t)values[1];
+        to[2] = (uint8_t)values[2];
+        to[last] = (uint8_t)values[3];
     }
     return above_count;
 }
@@ -132,13 +155,14 @@ static void unpack_plain(const ewa_las_column *column, const block *b) {
     }
 }
 
-static uint64_t unpack_column(const ewa_las_table *table, const ewa_las_column *column, const block *b) {
+static uint64_t unpack_column(const ewa_las_table *table, const ewa_las_column *column, shared_bytes *shared,
+                              const block *b) {
     switch (column->kind) {
     case EWA_LAS_POSITION:
         unpack_positions(table, b);
         break;
     case EWA_LAS_BITS:
-        unpack_bits(column, b);
+        unpack_bits(column, shared, b);
         break;
     case EWA_LAS_RANK:
     case EWA_LAS_ANGLE:
@@ -167,11 +191,13 @@ uint64_t ewa_las_unpack(const ewa_las_table *table, const uint8_t *records, uint
         block b = {.records = records + first * table->record_bytes,
                    .stride = table->record_bytes,
                    .count = (size_t)(count - first < most ? count - first : most)};
+        shared_bytes shared;
+        shared.at_bytes = UINT32_MAX;
         for (uint32_t i = 0; i < table->column_count; i++) {
             if (!sinks[i].to) continue;
             b.to = sinks[i].to + first * sinks[i].stride_bytes;
             b.to_stride = sinks[i].stride_bytes;
-            above_count += unpack_column(table, &table->columns[i], &b);
+            above_count += unpack_column(table, &table->columns[i], &shared, &b);
         }
     }
     return above_count;

@@ -158,6 +158,12 @@ static ewa_status place_chunks(const ewa_cloud_source *source, uint64_t at, uint
                             "%s: chunk %llu of %llu is said to hold %llu points in %llu bytes", source->name,
                             (unsigned long long)i + 1, (unsigned long long)layout->chunk_count,
                             (unsigned long long)chunk->point_count, (unsigned long long)chunk->size_bytes);
+        const uint64_t most_bytes = ewa_context_limits(source->context)->max_memory_bytes;
+        if (chunk->point_count > most_bytes / layout->plan.record_bytes)
+            return ewa_fail(source->context, EWA_ERROR_LIMIT,
+                            "%s: chunk %llu of %llu, %llu points, is over the limit of %llu bytes",
+                            source->name, (unsigned long long)i + 1, (unsigned long long)layout->chunk_count,
+                            (unsigned long long)chunk->point_count, (unsigned long long)most_bytes);
         at += chunk->size_bytes;
         layout->point_count += chunk->point_count;
     }
