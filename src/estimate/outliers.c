@@ -9,6 +9,7 @@
 #include "base/base.h"
 #include "cloud/cloud.h"
 #include "estimate/local.h"
+#include "ewa/select.h"
 
 #include <math.h>
 
@@ -50,19 +51,6 @@ static uint64_t mark(const ewa_neighbours *neighbours, const float *mean_distanc
     return kept;
 }
 
-/// Makes a cloud of the marked points.
-static ewa_status copy_marked(const ewa_cloud *cloud, const uint8_t *keep, uint64_t kept, ewa_cloud **copy) {
-    ewa_context *context = ewa_cloud_context(cloud);
-    uint64_t *indices = ewa_allocate(context, kept, sizeof *indices);
-    if (!indices) return EWA_ERROR_MEMORY;
-    uint64_t to = 0;
-    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++)
-        if (keep[i]) indices[to++] = i;
-    const ewa_status status = ewa_cloud_select(cloud, indices, kept, copy);
-    ewa_release(context, indices, kept, sizeof *indices);
-    return status;
-}
-
 ewa_status ewa_remove_outliers(ewa_cloud **cloud, uint32_t neighbour_count, double factor) {
     ewa_context *context = ewa_cloud_context(*cloud);
     const uint64_t point_count = ewa_cloud_point_count(*cloud);
@@ -81,7 +69,7 @@ ewa_status ewa_remove_outliers(ewa_cloud **cloud, uint32_t neighbour_count, doub
         const uint64_t kept =
             status == EWA_OK ? mark(neighbours, job.mean_distance, factor, keep) : point_count;
         ewa_cloud *copy = NULL;
-        if (kept < point_count) status = copy_marked(*cloud, keep, kept, &copy);
+        if (kept < point_count) status = ewa_cloud_keep(*cloud, keep, &copy);
         if (copy) {
             ewa_report(context, EWA_SEVERITY_INFO, "%llu of %llu points removed as outliers",
                        (unsigned long long)(point_count - kept), (unsigned long long)point_count);

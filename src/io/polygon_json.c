@@ -48,10 +48,12 @@ static ewa_status add_object(ewa_rings *rings, const cJSON *object) {
     if (ewa_text_is(word, "Feature"))
         return add_object(rings, cJSON_GetObjectItemCaseSensitive(object, "geometry"));
     const bool features = ewa_text_is(word, "FeatureCollection");
-    if (!features && !ewa_text_is(word, "GeometryCollection")) return EWA_OK; // points and lines have no inside
+    if (!features && !ewa_text_is(word, "GeometryCollection"))
+        return EWA_OK; // points and lines have no inside
     const cJSON *member;
     ewa_status status = EWA_OK;
-    cJSON_ArrayForEach(member, cJSON_GetObjectItemCaseSensitive(object, features ? "features" : "geometries")) {
+    cJSON_ArrayForEach(member,
+                       cJSON_GetObjectItemCaseSensitive(object, features ? "features" : "geometries")) {
         status = add_object(rings, member);
         if (status != EWA_OK) break;
     }
@@ -60,8 +62,8 @@ static ewa_status add_object(ewa_rings *rings, const cJSON *object) {
 
 ewa_status ewa_rings_read_json(ewa_rings *rings, ewa_text text) {
     cJSON *root = NULL;
-    ewa_status status = ewa_json_parse(rings->context, rings->name, "an outline",
-                                       (const uint8_t *)text.chars, text.length, &root);
+    ewa_status status = ewa_json_parse(rings->context, rings->name, "an outline", (const uint8_t *)text.chars,
+                                       text.length, &root);
     if (status == EWA_OK) status = add_object(rings, root);
     cJSON_Delete(root);
     return status;

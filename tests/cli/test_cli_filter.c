@@ -78,7 +78,9 @@ static void test_other_commands(void **state) {
     assert_non_null(strstr(last_run.err, "high.ply: --filter takes none of its points; it is left out"));
     assert_true(scratch_same("a.png", "c.png"));
     assert_int_equal(run("ewa convert high.ply t.ply --filter 'z<=0.02' -o c.ply"), 0);
-    assert_true(scratch_same("low.ply", "c.ply"));
+    // A file that is passed through in pieces has room for its count; a copy of each has not.
+    run_done("ewa convert c.ply -o c1.ply && ewa convert low.ply -o low1.ply");
+    assert_true(scratch_same("low1.ply", "c1.ply"));
     // Of a mesh the vertices are looked at, and faces go with them.
     scratch_text("m.ply",
                  "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty "
@@ -176,7 +178,7 @@ static void test_degrees(void **state) {
                "7.001 50.001 100 2 1\n7.002 50.001 120 2 1\n7.001 50.002 110 2 1\n7.002 50.002 150 2 1\n", 4);
     assert_int_equal(run("ewa info d.ply"), 0);
     assert_non_null(strstr(last_run.out, "coordinates look like degrees of longitude and latitude"));
-    assert_non_null(strstr(last_run.out, "--scale 71552,111320,1"));
+    assert_non_null(strstr(last_run.out, "--scale 71553,111320,1"));
     assert_non_null(strstr(last_run.out, "UTM zone 32"));
     assert_non_null(strstr(last_run.err, "d.ply: coordinates look like degrees"));
     write_scan("d.ply", "7.001 50.001 0.1 2 1\n7.002 50.001 0.12 2 1\n7.001 50.002 0.11 2 1\n", 3);
