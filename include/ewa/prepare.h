@@ -24,6 +24,9 @@ typedef enum ewa_orientation {
     EWA_ORIENT_PROPAGATE = 0, ///< consistent along the neighbour graph, outward for closed surfaces
     EWA_ORIENT_VIEWPOINT = 1, ///< towards viewpoint_world
     EWA_ORIENT_NONE = 2,      ///< as the eigenvector comes (sign: largest component positive)
+    /// by what the cloud knows: towards the scanner of each point ("scan", note "scanners"); else upwards, +z,
+    /// where points have a "return_number", as seen from the air; else as PROPAGATE
+    EWA_ORIENT_AUTO = 3,
 } ewa_orientation;
 
 typedef enum ewa_surfel_shape {
@@ -34,9 +37,9 @@ typedef enum ewa_surfel_shape {
 /// How positions become surfels. Fill with ewa_estimate_options_init().
 typedef struct ewa_estimate_options {
     size_t struct_size;
-    uint32_t neighbour_count; ///< k, the point itself not counted; 6 to 64; default 16
-    ewa_orientation orientation;
-    double viewpoint_world[3]; ///< for EWA_ORIENT_VIEWPOINT
+    uint32_t neighbour_count;    ///< k, the point itself not counted; 6 to 64; default 16
+    ewa_orientation orientation; ///< default EWA_ORIENT_AUTO
+    double viewpoint_world[3];   ///< for EWA_ORIENT_VIEWPOINT
     ewa_surfel_shape shape;
     double radius_scale; ///< support radius in units of the local spacing 1/sqrt(density); (0, inf); default
                          ///< 1.14

@@ -9,6 +9,7 @@
 #include "estimate/orient.h"
 #include "estimate/outliers.h"
 #include "estimate/radii.h"
+#include "estimate/sight.h"
 #include "ewa/prepare.h"
 
 #include <float.h>
@@ -23,6 +24,7 @@ enum {
 
 // Over the limit of radii: how far apart lines of samples may be, between which there is surface.
 static const double LINE_LIMIT = 4.0 / 3;
+static const double PI = 3.141592653589793;
 
 /// What one worker has seen.
 typedef struct counter {
@@ -45,7 +47,7 @@ typedef struct estimate_job {
     // by point; NULL when not wanted
     float *radius_out, *tangent_u_out, *tangent_v_out, *normal_out;
     ewa_attribute position;
-    double viewpoint[3]; // relative to the cloud's origin
+    sight sight;         // where points were seen from, if normals are to point there
     counter *counters;   // per worker
     local_crowd *crowds; // per worker: neighbours of a block; later places that wait to be settled together
 } estimate_job;
@@ -182,6 +184,19 @@ static void settle_lane(const estimate_job *job, const local_crowd *crowd, uint3
     set_size(job, place, s, lane, radius * crowd->unit_world[lane]);
 }
 
+static double smaller(float a, double b) { return (double)a < b ? (double)a : b; }
+
+/// 1 / sqrt(neighbours per area) of a lane, wherever they are: less than along one surface where there are several
+/// or leaves.
+static double spread_of(const local_crowd *crowd, uint32_t lane) {
+    const uint32_t count = crowd->count[lane];
+    double farthest2 = 0;
+    for (uint32_t i = 0; i < count; i++)
+        if ((double)crowd->row[i].distance2[lane] > farthest2)
+            farthest2 = (double)crowd->row[i].distance2[lane];
+    return count > 1 ? sqrt(PI * farthest2 / (count - 1)) : 0;
+}
+
 /// Settles the places that wait, and empties their list.
 static void settle(const estimate_job *job, local_crowd *crowd) {
     const uint32_t count = crowd->lane_count;
@@ -193,8 +208,10 @@ static void settle(const estimate_job *job, local_crowd *crowd) {
         for (int c = 0; c < 3 && job->normals; c++)
             normal[c][lane] = job->normals[3 * (size_t)place + (size_t)c];
         around[lane] = (float)((double)around[from] / crowd->unit_world[from]);
-        limit[lane] = (float)(job->options->radius_limit *
-                              (job->notes[place] & RADIUS_THIN ? LINE_LIMIT : 1) * (double)around[lane]);
+        const bool line = job->notes[place] & RADIUS_THIN;
+        const double apart =
+            line ? LINE_LIMIT * (double)around[lane] : smaller(around[lane], spread_of(crowd, from));
+        limit[lane] = (float)(job->options->radius_limit * apart);
     }
     job->kernels->enclose(crowd, job->wanted, job->normals ? (const float(*)[EWA_BLOCK_LANES])normal : NULL,
                           limit, &s);
@@ -236,7 +253,7 @@ static void match_axes(const float *normal, const float *u, float *v) {
         for (int c = 0; c < 3; c++) v[c] = -v[c];
 }
 
-/// Hands the normals of places to their points, towards the viewpoint if that is wanted.
+/// Hands the normals of places to their points, towards where these were seen from if that is known.
 static void finish_task(void *data, uint32_t task, uint32_t worker) {
     (void)worker;
     const estimate_job *job = data;
@@ -246,11 +263,10 @@ static void finish_task(void *data, uint32_t task, uint32_t worker) {
         float *normal = &job->normals[3 * (size_t)place];
         uint32_t count;
         const uint32_t *points = ewa_neighbours_points(job->neighbours, place, &count);
-        if (job->options->orientation == EWA_ORIENT_VIEWPOINT) {
-            double p[3], towards = 0;
+        if (job->sight.kind != SIGHT_NONE) {
+            double p[3];
             ewa_attribute_read_f64(&job->position, points[0], 1, p);
-            for (int c = 0; c < 3; c++) towards += (job->viewpoint[c] - p[c]) * (double)normal[c];
-            if (towards < 0)
+            if (ewa_sight_is_behind(&job->sight, points[0], p, normal))
                 for (int c = 0; c < 3; c++) normal[c] = -normal[c];
         }
         set_points(job, place, job->normal_out, normal, 3);
@@ -316,7 +332,9 @@ static ewa_status finish_normals(ewa_cloud *cloud, estimate_job *job, bool has_g
 /// Adds the streams that are wanted, with a tree over the positions at hand.
 static ewa_status estimate_with(ewa_cloud *cloud, estimate_job *job, bool normals, bool sizes) {
     ewa_context *context = ewa_cloud_context(cloud);
-    const bool propagate = normals && job->options->orientation == EWA_ORIENT_PROPAGATE;
+    const bool alike = job->options->orientation == EWA_ORIENT_PROPAGATE ||
+                       (job->options->orientation == EWA_ORIENT_AUTO && job->sight.kind == SIGHT_NONE);
+    const bool propagate = normals && alike;
     const bool has_gaps = ewa_neighbours_finite_count(job->neighbours) < ewa_cloud_point_count(cloud);
     const bool ellipse = job->options->shape == EWA_SHAPE_ELLIPSE;
     const size_t places = job->place_count, workers = ewa_context_worker_count(context);
@@ -368,16 +386,20 @@ static ewa_status estimate(ewa_cloud *cloud, const ewa_estimate_options *options
                         .kernels =
                             EWA_CHOOSE(ewa_context_cpu_features(ewa_cloud_context(cloud)), ewa_local_kernels),
                         .position = *ewa_cloud_find(cloud, EWA_POSITION)};
-    ewa_cloud_origin(cloud, job.viewpoint);
-    for (int c = 0; c < 3; c++) job.viewpoint[c] = options->viewpoint_world[c] - job.viewpoint[c];
     ewa_neighbours *neighbours = NULL;
-    ewa_status status = ewa_neighbours_create(ewa_cloud_context(cloud), &job.position,
-                                              (uint32_t)ewa_cloud_point_count(cloud), &neighbours);
-    if (status != EWA_OK) return status;
+    ewa_status status = ewa_sight_make(cloud, options, &job.sight);
+    if (status == EWA_OK)
+        status = ewa_neighbours_create(ewa_cloud_context(cloud), &job.position,
+                                       (uint32_t)ewa_cloud_point_count(cloud), &neighbours);
+    if (status != EWA_OK) {
+        ewa_sight_free(ewa_cloud_context(cloud), &job.sight);
+        return status;
+    }
     job.neighbours = neighbours;
     job.place_count = ewa_neighbours_place_count(neighbours);
     status = estimate_with(cloud, &job, normals, sizes);
     ewa_neighbours_destroy(&neighbours);
+    ewa_sight_free(ewa_cloud_context(cloud), &job.sight);
     if (status != EWA_OK) {
         // Streams that are not filled must not stay.
         if (job.normal_out) ewa_cloud_remove(cloud, EWA_NORMAL);
@@ -404,9 +426,11 @@ static ewa_status estimate(ewa_cloud *cloud, const ewa_estimate_options *options
 static const ewa_option option_rows[] = {
     {"neighbour_count", EWA_OPTION_U32, AT(neighbour_count), MIN_NEIGHBOURS, EWA_NEIGHBOURS_MAX,
      .initial = 16, .help = "nearest neighbours that a point is judged by"},
-    {"orientation", EWA_OPTION_CHOICE, AT(orientation), .words = "propagate|viewpoint|none",
+    {"orientation", EWA_OPTION_CHOICE, AT(orientation), .initial = EWA_ORIENT_AUTO,
+     .words = "propagate|viewpoint|none|auto",
      .help = "side that normals point to: consistent along the surface and outward, towards the viewpoint, "
-             "or as they come"},
+             "as they come; auto: to the scanners that the cloud knows, else up where points have return "
+             "numbers, else consistent"},
     {"viewpoint_world", EWA_OPTION_F64, AT(viewpoint_world), -INFINITY, INFINITY,
      EWA_OPTION_ABOVE | EWA_OPTION_BELOW, 3, .help = "place that normals point to, such as the scanner's"},
     {"shape", EWA_OPTION_CHOICE, AT(shape), .words = "disc|ellipse",

@@ -105,6 +105,6 @@ static void sparse_task(void *data, uint32_t task, uint32_t worker) {
 void ewa_radius_doubt_sparse(ewa_context *context, const float *spacing, uint32_t place_count, double limit,
                              uint8_t *notes) {
     const uint32_t groups = (uint32_t)(((uint64_t)place_count + GROUP_PLACES - 1) / GROUP_PLACES);
-    sparse_job job = {spacing, place_count, groups, (float)(limit * 1.1 * RADIUS_NOTE_RATIO), notes};
+    sparse_job job = {spacing, place_count, groups, (float)(limit * RADIUS_NOTE_RATIO), notes};
     ewa_parallel(context, sparse_task, &job, (groups + TASK_GROUPS - 1) / TASK_GROUPS);
 }

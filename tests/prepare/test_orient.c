@@ -162,6 +162,60 @@ static void test_viewpoint_and_none(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// A random sphere around the origin of a cloud whose origin is at x = 1000.
+static ewa_cloud *make_sphere(ewa_context *context, float **xyz) {
+    ewa_cloud *cloud = check_cloud(context, COUNT, xyz);
+    check_random random = {2};
+    for (uint32_t i = 0; i < COUNT; i++) {
+        double d[3];
+        check_direction(&random, d);
+        for (uint32_t c = 0; c < 3; c++) (*xyz)[3 * i + c] = (float)d[c];
+    }
+    const double origin[3] = {1000, 0, 0};
+    ewa_cloud_set_origin(cloud, origin);
+    return cloud;
+}
+
+/// Counts the points whose estimated normal is turned away from a place, that of their scan, or downwards.
+static uint32_t count_turned(ewa_cloud **cloud, const double (*seen_from)[3], const uint16_t *scan) {
+    const ewa_estimate_options options = check_estimate_options();
+    assert_int_equal(ewa_cloud_estimate(cloud, &options), EWA_OK);
+    const float *normal = check_stream(*cloud, EWA_NORMAL), *xyz = check_stream(*cloud, EWA_POSITION);
+    uint32_t turned = 0;
+    for (uint32_t i = 0; i < COUNT; i++) {
+        double towards = seen_from ? 0 : (double)normal[3 * i + 2];
+        for (uint32_t c = 0; c < 3 && seen_from; c++)
+            towards +=
+                (seen_from[scan ? scan[i] : 0][c] - (double)xyz[3 * i + c]) * (double)normal[3 * i + c];
+        turned += towards < 0;
+    }
+    return turned;
+}
+
+/// Scanners decide before returns do, and returns before the shape does.
+static void test_what_the_cloud_knows(void **state) {
+    (void)state;
+    static const char *const notes[] = {"1003 0 0\n997 0 0\n", "1003 0 0", NULL, "1003 0", "here"};
+    static const double seen_from[2][3] = {{3, 0, 0}, {-3, 0, 0}};
+    ewa_context *context = check_context(2, NULL);
+    for (size_t k = 0; k < sizeof notes / sizeof *notes; k++) {
+        float *xyz = NULL;
+        void *returns = NULL, *scan = NULL;
+        ewa_cloud *cloud = make_sphere(context, &xyz);
+        assert_int_equal(ewa_cloud_add(cloud, "return_number", EWA_U8, 1, &returns), EWA_OK);
+        memset(returns, 1, COUNT);
+        if (k == 0) {
+            assert_int_equal(ewa_cloud_add(cloud, "scan", EWA_U16, 1, &scan), EWA_OK);
+            for (uint32_t i = 0; i < COUNT; i++) ((uint16_t *)scan)[i] = i % 2;
+        }
+        if (notes[k])
+            assert_int_equal(ewa_cloud_set_note(cloud, "scanners", notes[k], strlen(notes[k])), EWA_OK);
+        assert_int_equal(count_turned(&cloud, k < 2 ? seen_from : NULL, scan), 0);
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
 /// The limit by its definition: over the mean of all mean distances to 16 neighbours plus so many of their
 /// deviations.
 static void test_outlier_limit(void **state) {
@@ -274,6 +328,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_propagation),
         cmocka_unit_test(test_viewpoint_and_none),
+        cmocka_unit_test(test_what_the_cloud_knows),
         cmocka_unit_test(test_outlier_limit),
         cmocka_unit_test(test_outliers),
     };

@@ -8,9 +8,10 @@
 #include <math.h>
 
 static void print_head(void) {
-    printf(
-        "| cloud | points | inside | empty | alpha < 0.5 | alpha < 0.99 | radius / spacing: median | 99.9 %% "
-        "| largest | of the diagonal |\n|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n");
+    printf("| cloud | points | inside | of a million inside: empty | alpha < 0.5 | alpha < 0.99 | empty, "
+           "with rims "
+           "| radius / spacing: median | mean | 99.9 %% | largest | of the diagonal |\n"
+           "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n");
 }
 
 static void print_row(ewa_context *context, const char *name, const ewa_cloud *cloud, uint32_t near_count) {
@@ -18,11 +19,12 @@ static void print_row(ewa_context *context, const char *name, const ewa_cloud *c
     radii_holes holes;
     radii_measure_sizes(cloud, 300, &sizes);
     radii_measure_holes(context, cloud, RADII_WHOLE | RADII_NEAR, near_count, &holes);
-    printf("| %s | %llu | %llu | %llu | %llu | %llu | %.2f | %.2f | %.2f | %.3f |\n", name,
+    const double per_million = 1e6 / ((double)holes.inside + 1e-9);
+    printf("| %s | %llu | %llu | %.1f | %.1f | %.0f | %.0f | %.2f | %.2f | %.2f | %.2f | %.3f |\n", name,
            (unsigned long long)ewa_cloud_point_count(cloud), (unsigned long long)holes.inside,
-           (unsigned long long)holes.empty, (unsigned long long)holes.translucent,
-           (unsigned long long)holes.thin, sizes.median, sizes.permille_999, sizes.largest,
-           sizes.of_diagonal);
+           per_million * (double)holes.empty, per_million * (double)holes.translucent,
+           per_million * (double)holes.thin, per_million * (double)holes.rim, sizes.median, sizes.mean,
+           sizes.permille_999, sizes.largest, sizes.of_diagonal);
     fflush(stdout);
 }
 

@@ -223,15 +223,15 @@ void radii_measure_sizes(const ewa_cloud *cloud, uint32_t sample_count, radii_si
     const double large = count > sample_count ? sorted[count - sample_count] : -1;
     const uint32_t step = 1 + (count - 1) / sample_count;
     uint32_t even = 0;
-    double largest = 0;
+    double largest = 0, sum = 0;
     for (uint32_t i = 0; i < count; i++) {
         if (i % step != 0 && radius[i] < large) continue;
         const double r = radius[i] / local_median(tree, (const double(*)[3])place, i);
         largest = fmax(largest, r);
-        if (i % step == 0) ratio[even++] = r;
+        if (i % step == 0) ratio[even++] = r, sum += r;
     }
     qsort(ratio, even, sizeof *ratio, compare_doubles);
-    *sizes = (radii_sizes){ratio[even / 2], ratio[(uint32_t)(0.999 * (even - 1))], largest,
+    *sizes = (radii_sizes){ratio[even / 2], sum / even, ratio[(uint32_t)(0.999 * (even - 1))], largest,
                            sorted[count - 1] / box_diagonal(cloud)};
     radii_tree_free(tree);
     free(place);

@@ -39,8 +39,8 @@ uint32_t radii_tree_nearest(const radii_tree *tree, const double p[3], uint32_t 
 /// Radii of discs against the spacing around them: the median over the 64 nearest places of
 /// d sqrt(pi / 64), d the distance of a place's own 64th neighbour.
 typedef struct radii_sizes {
-    double median, permille_999, largest; ///< of radius / local median spacing
-    double of_diagonal;                   ///< largest radius over the diagonal of the cloud's box
+    double median, mean, permille_999, largest; ///< of radius / local median spacing
+    double of_diagonal;                         ///< largest radius over the diagonal of the cloud's box
 } radii_sizes;
 
 /// Judges at most `sample_count` discs, evenly chosen, and the `sample_count` largest ones.

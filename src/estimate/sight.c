@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The scanners of a cloud, from its note.
+#include "estimate/sight.h"
+#include "base/base.h"
+#include "cloud/cloud.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char *skip_space(const char *text, const char *end) {
+    while (text < end && strchr(" \t\r\n", *text)) text++;
+    return text;
+}
+
+/// Reads digits; returns behind them.
+static const char *read_digits(const char *text, const char *end, double *value, int *count) {
+    for (*count = 0; text < end && *text >= '0' && *text <= '9'; text++, (*count)++)
+        *value = 10 * *value + (*text - '0');
+    return text;
+}
+
+/// Reads a decimal number, in any locale, to a few units in the last place: a direction needs no more. Returns
+/// behind it, NULL if there is none.
+static const char *read_number(const char *text, const char *end, double *number) {
+    double value = 0, power = 0;
+    int whole, fraction = 0, digits = 1;
+    const bool negative = text < end && *text == '-';
+    text = read_digits(text + (negative || (text < end && *text == '+')), end, &value, &whole);
+    if (text < end && *text == '.') text = read_digits(text + 1, end, &value, &fraction);
+    if (whole + fraction == 0) return NULL;
+    if (text < end && (*text == 'e' || *text == 'E')) {
+        text++;
+        const bool below = text < end && *text == '-';
+        text = read_digits(text + (below || (text < end && *text == '+')), end, &power, &digits);
+        power = below ? -power : power;
+    }
+    *number = (negative ? -value : value) * pow(10, power - fraction);
+    return digits ? text : NULL;
+}
+
+/// Reads up to `most` numbers; returns how many there are, 0 if there is anything else.
+static size_t read_numbers(const char *text, size_t bytes, size_t most, double *numbers) {
+    const char *end = text + bytes;
+    size_t count = 0;
+    for (text = skip_space(text, end); text < end; text = skip_space(text, end), count++) {
+        double number;
+        text = read_number(text, end, &number);
+        if (!text || !isfinite(number)) return 0;
+        if (count < most) numbers[count] = number;
+    }
+    return count;
+}
+
+static ewa_status add_places(const ewa_cloud *cloud, const double (*world)[3], uint32_t count, sight *made) {
+    made->place = ewa_allocate(ewa_cloud_context(cloud), count, sizeof *made->place);
+    if (!made->place) return EWA_ERROR_MEMORY;
+    made->place_count = count;
+    double origin[3];
+    ewa_cloud_origin(cloud, origin);
+    for (uint32_t i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++) made->place[i][c] = world[i][c] - origin[c];
+    return EWA_OK;
+}
+
+static ewa_status add_scanners(const ewa_cloud *cloud, sight *made) {
+    ewa_context *context = ewa_cloud_context(cloud);
+    size_t bytes = 0;
+    const char *note = ewa_cloud_note(cloud, "scanners", &bytes);
+    const ewa_attribute *scan = ewa_cloud_find(cloud, "scan");
+    if (!note) return EWA_OK;
+    const size_t count = read_numbers(note, bytes, 0, NULL);
+    if (!count || count % 3 || count / 3 > UINT32_MAX || (scan && scan->component_count != 1)) {
+        ewa_report(context, EWA_SEVERITY_WARNING,
+                   "estimate: the note \"scanners\" is not three numbers per scan; it is not used");
+        return EWA_OK;
+    }
+    if (count > 3 && !scan) return EWA_OK;
+    double(*world)[3] = ewa_allocate(context, count / 3, sizeof *world);
+    if (!world) return EWA_ERROR_MEMORY;
+    read_numbers(note, bytes, count, world[0]);
+    const ewa_status status = add_places(cloud, (const double(*)[3])world, (uint32_t)(count / 3), made);
+    ewa_release(context, world, count / 3, sizeof *world);
+    if (scan && status == EWA_OK) made->scan = *scan;
+    made->kind = SIGHT_SCANNERS;
+    return status;
+}
+
+ewa_status ewa_sight_make(const ewa_cloud *cloud, const ewa_estimate_options *options, sight *made) {
+    *made = (sight){SIGHT_NONE, NULL, 0, {.data = NULL}};
+    if (options->orientation == EWA_ORIENT_VIEWPOINT) {
+        made->kind = SIGHT_PLACE;
+        return add_places(cloud, &options->viewpoint_world, 1, made);
+    }
+    if (options->orientation != EWA_ORIENT_AUTO) return EWA_OK;
+    const ewa_status status = add_scanners(cloud, made);
+    if (status == EWA_OK && made->kind == SIGHT_NONE && ewa_cloud_find(cloud, "return_number"))
+        made->kind = SIGHT_UPWARD;
+    return status;
+}
+
+void ewa_sight_free(ewa_context *context, sight *made) {
+    ewa_release(context, made->place, made->place_count, sizeof *made->place);
+    made->place = NULL;
+}
+
+bool ewa_sight_is_behind(const sight *from, uint32_t point, const double p[3], const float normal[3]) {
+    if (from->kind == SIGHT_UPWARD) return normal[2] < 0;
+    uint32_t index = 0;
+    if (from->scan.data) {
+        double scan;
+        ewa_attribute_read_f64(&from->scan, point, 1, &scan);
+        if (!(scan >= 0 && scan < from->place_count)) return false;
+        index = (uint32_t)scan;
+    }
+    double towards = 0;
+    for (int c = 0; c < 3; c++) towards += (from->place[index][c] - p[c]) * (double)normal[c];
+    return towards < 0;
+}
