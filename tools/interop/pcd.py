@@ -41,7 +41,11 @@ with tempfile.TemporaryDirectory() as folder:
         name = os.path.basename(path)
         if name == "utm17_comma.pcd":  # pypcd4 parts numbers by blanks only
             continue
-        wanted = read(path)
+        try:
+            wanted = read(path)
+        except ValueError as error:
+            print(f"{name}: not read by pypcd4: {str(error).splitlines()[0]}")
+            continue
         out = os.path.join(folder, "out.ply")
         subprocess.run([ewa, "convert", path, "-o", out, "--quiet"], check=True)
         vertex = plyfile.PlyData.read(out)["vertex"]
