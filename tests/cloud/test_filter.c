@@ -133,8 +133,9 @@ static void test_bad_texts(void **state) {
         {"intensity=..", "'..' is not a range LOW..HIGH"},
         {"intensity=1...2..3", "is not a range LOW..HIGH"},
         {"intensity>1 and", "'1 and' is not a number"},
-        {"intensity>1 and and x>2", "a comparison"},
-        {"a=1 and b=1 and c=1 and d=1 and e=1 and f=1 and g=1 and h=1 and i=1 and j=1 and k=1 and l=1 and m=1 "
+        {"intensity>1 and and x>2", "name of an attribute is missing"},
+        {"a=1 and b=1 and c=1 and d=1 and e=1 and f=1 and g=1 and h=1 and i=1 and j=1 and k=1 and l=1 and "
+         "m=1 "
          "and n=1 and o=1 and p=1 and q=1",
          "more than 16 conditions"},
         {"a=1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18,19,20,21,22,23,24,25,26,27,28,29,30,31,32,33",
@@ -279,9 +280,12 @@ static void test_pieces_and_keep(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_expressions), cmocka_unit_test(test_bad_texts),
-        cmocka_unit_test(test_unknown_attribute), cmocka_unit_test(test_names),
-        cmocka_unit_test(test_grid), cmocka_unit_test(test_pieces_and_keep),
+        cmocka_unit_test(test_expressions),
+        cmocka_unit_test(test_bad_texts),
+        cmocka_unit_test(test_unknown_attribute),
+        cmocka_unit_test(test_names),
+        cmocka_unit_test(test_grid),
+        cmocka_unit_test(test_pieces_and_keep),
     };
     return cmocka_run_group_tests(tests, enter, leave);
 }

@@ -139,6 +139,20 @@ static ewa_status add_scan(ptx_state *state, const scan *head) {
     return status;
 }
 
+/// Says that the text goes on with something else than a scan.
+static ewa_status fail_head(ptx_state *state) {
+    ewa_rows *rows = &state->rows;
+    char quote[EWA_QUOTE_BYTES];
+    ewa_cursor bad = rows->text;
+    const unsigned long long line = ewa_rows_line(rows, bad.at);
+    const ewa_text rest = ewa_cursor_rest(&bad);
+    if (rest.length == 0 && bad.at == bad.end)
+        return ewa_cloud_damage(rows->source, 0, "%s: the file ends before the points of scan %u",
+                                rows->source->name, state->scan_count + 1);
+    return ewa_cloud_damage(rows->source, 0, "%s: line %llu: %s is not what stands before scan %u",
+                            rows->source->name, line, ewa_quote(rest, quote), state->scan_count + 1);
+}
+
 /// Takes the scans one after another.
 static ewa_status take_scans(ptx_state *state, double first_world[3]) {
     ewa_rows *rows = &state->rows;
@@ -154,12 +168,7 @@ static ewa_status take_scans(ptx_state *state, double first_world[3]) {
         if (rows->text.at == rows->text.end) break;
         scan head;
         if (!take_head(&rows->text, &head)) {
-            char quote[EWA_QUOTE_BYTES];
-            ewa_cursor bad = rows->text;
-            const unsigned long long line = ewa_rows_line(rows, bad.at);
-            status = ewa_cloud_damage(source, 0, "%s: line %llu: %s is not what stands before scan %u",
-                                      source->name, line, ewa_quote(ewa_cursor_rest(&bad), quote),
-                                      state->scan_count + 1);
+            status = fail_head(state);
             break;
         }
         double p[5];
@@ -255,6 +264,7 @@ static bool take_cells(const scan *s, reading *r, double position[3], double *in
     if (!take(r, 0, intensity)) return false;
     for (++*column; s->color && *column < 7; ++*column) {
         double value;
+        while (r->at < r->end && ewa_is_blank(*r->at)) r->at++;
         const char *start = r->at;
         if (!take(r, 0, &value)) return false;
         r->fault = EWA_ROWS_RANGE;

@@ -21,6 +21,8 @@ void ewa_text_classify(ewa_text_layout *layout) {
     for (const char *c = blanks; *c; c++) layout->classes[(uint8_t)*c] = EWA_TEXT_BLANK;
     for (const char *c = signs; *c; c++) layout->classes[(uint8_t)*c] = EWA_TEXT_SIGN;
     for (const char *c = exponents; *c; c++) layout->classes[(uint8_t)*c] = EWA_TEXT_EXPONENT;
+    // Around plain numbers quotes say nothing.
+    if (!layout->words) layout->classes['"'] = EWA_TEXT_BLANK;
     layout->classes['.'] = EWA_TEXT_POINT;
     if (layout->decimal_comma) layout->classes[','] = EWA_TEXT_POINT;
     if (layout->separator) layout->classes[(uint8_t)layout->separator] = EWA_TEXT_SEPARATOR;
@@ -57,6 +59,14 @@ uint32_t ewa_text_split(const ewa_text_layout *layout, ewa_text line, ewa_text *
     return count;
 }
 
+bool ewa_text_cells(const ewa_text_layout *layout, ewa_text line, ewa_text *cells) {
+    const uint32_t count = ewa_text_split(layout, line, cells, layout->column_count);
+    line = trim(line);
+    const bool open = layout->separator && line.length && line.chars[line.length - 1] == layout->separator;
+    if (count + 1 == layout->column_count && open) cells[count] = (ewa_text){line.chars, 0};
+    return count == layout->column_count || (count + 1 == layout->column_count && open);
+}
+
 static ewa_text unquote(ewa_text word) {
     if (word.length >= 2 && word.chars[0] == '"' && word.chars[word.length - 1] == '"')
         return trim((ewa_text){word.chars + 1, word.length - 2});
@@ -86,6 +96,7 @@ bool ewa_text_cell(const ewa_text_layout *layout, ewa_text word, int64_t shift, 
 
 /// A line of the sample under one layout.
 typedef struct sample_line {
+    ewa_text text;
     uint32_t word_count;
     uint32_t cell_count;   // of words that are numbers or missing ones
     uint32_t number_count; // of words that are numbers
@@ -93,7 +104,7 @@ typedef struct sample_line {
 
 static sample_line measure(const ewa_text_layout *layout, ewa_text text) {
     ewa_text words[EWA_ROWS_MAX_COLUMNS];
-    sample_line line = {ewa_text_split(layout, text, words, EWA_ROWS_MAX_COLUMNS), 0, 0};
+    sample_line line = {text, ewa_text_split(layout, text, words, EWA_ROWS_MAX_COLUMNS), 0, 0};
     for (uint32_t i = 0; i < line.word_count && i < EWA_ROWS_MAX_COLUMNS; i++) {
         double value;
         const bool cell = ewa_text_cell(layout, words[i], 0, &value);
@@ -131,7 +142,8 @@ static bool can_be_row(const sample_line *line, bool words) {
 }
 
 static bool is_row(const sample_line *line, const ewa_text_layout *layout) {
-    return line->word_count == layout->column_count && can_be_row(line, layout->words);
+    ewa_text cells[EWA_ROWS_MAX_COLUMNS];
+    return can_be_row(line, layout->words) && ewa_text_cells(layout, line->text, cells);
 }
 
 /// Counts the sampled lines that are rows under a layout, of the number of columns that most of them have.

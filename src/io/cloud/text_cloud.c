@@ -73,7 +73,7 @@ static void sample_lines(const ewa_rows *rows, const ewa_text_layout *layout, co
         const ewa_text line = {at, (size_t)(end - at)};
         at = end < rows->text.end ? end + 1 : end;
         if (ewa_text_is_comment(line)) continue;
-        if (ewa_text_split(layout, line, cells, EWA_ROWS_MAX_COLUMNS) != layout->column_count) continue;
+        if (!ewa_text_cells(layout, line, cells)) continue;
         double *numbers = sample->numbers + (size_t)sample->row_count * layout->column_count;
         uint32_t word_count = 0;
         for (uint32_t c = 0; c < layout->column_count; c++)
@@ -201,7 +201,7 @@ static ewa_text_target color_target(const text_state *state, uint32_t column_cou
 }
 
 int64_t ewa_text_origin(double coordinate) {
-    return fabs(coordinate) > 1e4 && fabs(coordinate) < 1e15 ? 1000 * (int64_t)round(coordinate / 1000) : 0;
+    return fabs(coordinate) > 1e4 && fabs(coordinate) < 1e10 ? 1000 * (int64_t)round(coordinate / 1000) : 0;
 }
 
 static void place_axis(text_state *state, uint32_t column, ewa_text_target *target, double origin_world[3],
@@ -215,6 +215,7 @@ static void place_axis(text_state *state, uint32_t column, ewa_text_target *targ
     if (range->decimals <= MAX_DECIMALS && !range->unusual &&
         range->digits + range->decimals <= MAX_GRID_DIGITS)
         grid->step_world[axis] = steps[range->decimals];
+    grid->offset_world[axis] = origin_world[axis]; // near the points, so that few bits are enough in LAS
 }
 
 /// Says where the cells of every column go; adds the attributes to the prototype.

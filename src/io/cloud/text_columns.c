@@ -111,17 +111,29 @@ static const alias aliases[] = {
     {"nearinfrared", "nir", 0},
 };
 
-/// Makes the key of a name: letters and digits in small letters, without a unit in brackets behind it.
+static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); }
+
+/// Makes the key of a name: its letters and digits in small letters, without a unit in brackets behind it.
+/// Empty when it is more than words with blanks, '_', '-' or '.' between them.
 static void make_key(ewa_text name, char key[KEY_BYTES]) {
     size_t length = 0;
+    bool open = true; // no letter stands before
     for (size_t i = 0; i < name.length; i++) {
-        const char c = name.chars[i];
-        if (length > 0 && (c == '(' || c == '[')) break;
-        if (length + 1 == KEY_BYTES) break;
-        if (c >= 'A' && c <= 'Z') key[length++] = (char)(c - 'A' + 'a');
-        if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) key[length++] = c;
+        char c = name.chars[i];
+        if (!open &&
+            (c == '(' || c == '[' ||
+             (c == ' ' && i + 1 < name.length && (name.chars[i + 1] == '(' || name.chars[i + 1] == '['))))
+            break;
+        if (c >= 'A' && c <= 'Z') c = (char)(c - 'A' + 'a');
+        const bool between = length > 0 && (c == ' ' || c == '_' || c == '-' || c == '.');
+        if ((!is_letter(c) && !between) || length + 1 == KEY_BYTES) {
+            key[0] = 0;
+            return;
+        }
+        open = !is_letter(c);
+        if (!open) key[length++] = c;
     }
-    key[length] = 0;
+    key[open ? 0 : length] = 0;
 }
 
 /// Gives a column the name of a scalar: the word as it is, printable.
@@ -254,17 +266,25 @@ static bool is_normal(const table *t, uint32_t first) {
     return unit > 0 && 20 * (uint64_t)(unit + zero) >= 19 * (uint64_t)t->row_count;
 }
 
-/// Whether three columns are colours: whole numbers from 0 to 65535, or numbers from 0 to 1.
-static bool is_color(const table *t, uint32_t first) {
+/// Whether three columns are colours: whole numbers from 0 to `most`, or numbers from 0 to 1.
+static bool is_color(const table *t, uint32_t first, double most) {
     if (first + 3 > t->column_count) return false;
     bool whole = true, share = true;
     for (uint32_t row = 0; row < t->row_count; row++)
         for (uint32_t c = 0; c < 3; c++) {
             const double value = cell(t, row, first + c);
-            whole = whole && value >= 0 && value <= 65535 && value == floor(value);
+            whole = whole && value >= 0 && value <= most && value == floor(value);
             share = share && value >= 0 && value <= 1;
         }
     return whole || share;
+}
+
+/// Whether the fourth column is an intensity: alone, or before normals or colours. Seven columns that could be
+/// both are x y z i r g b, the order of PTS; more are x y z r g b and others.
+static bool has_intensity(const table *t) {
+    if (t->column_count == 4) return true;
+    if (t->column_count == 7) return is_normal(t, 4) || is_color(t, 4, UINT16_MAX);
+    return t->column_count > 7 && is_color(t, 4, UINT16_MAX) && !is_color(t, 3, UINT8_MAX);
 }
 
 void ewa_text_columns_from_numbers(const double *sample, uint32_t row_count, uint32_t column_count,
@@ -274,14 +294,13 @@ void ewa_text_columns_from_numbers(const double *sample, uint32_t row_count, uin
     for (uint32_t i = 0; i < column_count; i++) columns[i] = (ewa_text_column){.name = ""};
     for (uint32_t i = 0; i < column_count;) {
         const char *attribute = NULL;
-        // x y z i r g b is the order of PTS; 7 columns and more are meant so where both are possible.
-        const bool intensity = i == 3 && (column_count == 4 || (column_count >= 7 && is_color(&t, 4)));
+        const bool intensity = i == 3 && has_intensity(&t);
         if (i == 0) {
             attribute = EWA_POSITION;
         } else if (!normal && column_count >= 6 && is_normal(&t, i)) {
             attribute = EWA_NORMAL;
             normal = true;
-        } else if (!color && !intensity && column_count >= 6 && is_color(&t, i)) {
+        } else if (!color && !intensity && column_count >= 6 && is_color(&t, i, UINT16_MAX)) {
             attribute = EWA_COLOR;
             color = true;
         }

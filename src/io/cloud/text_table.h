@@ -72,6 +72,10 @@ bool ewa_text_is_comment(ewa_text line);
 /// Splits a line into its words; returns how many there are, of which the first `most` are kept.
 uint32_t ewa_text_split(const ewa_text_layout *layout, ewa_text line, ewa_text *words, uint32_t most);
 
+/// Splits a line into the cells of all columns, of which the last may be missing behind a separator; false when
+/// it has more or fewer.
+bool ewa_text_cells(const ewa_text_layout *layout, ewa_text line, ewa_text *cells);
+
 /// Reads a word as a number less `shift`, also in quotes and with a decimal comma; what is missing (nothing, "NA", "null")
 /// is NaN. False when it is none.
 bool ewa_text_cell(const ewa_text_layout *layout, ewa_text word, int64_t shift, double *value);

@@ -261,7 +261,7 @@ static ewa_status add_columns(text_writer *writer, uint32_t index) {
         for (char *at = c->name; *at; at++)
             if (*at == ',' || *at == ';' || *at == '"') *at = '_';
         for (uint32_t i = 0; i + 1 < writer->column_count; i++)
-            if (strcasecmp(writer->columns[i].name, c->name) == 0)
+            if (strcmp(writer->columns[i].name, c->name) == 0)
                 return ewa_fail(target->context, EWA_ERROR_ARGUMENT,
                                 "%s: two attributes would become column '%s'", target->name, c->name);
     }
