@@ -202,6 +202,7 @@ static uint64_t scaled_x(uint32_t r) { return r * 1000003 % (1u << 21); }
 static uint64_t scaled_y(uint32_t r) { return r * UINT64_C(100000000003) % (UINT64_C(1) << 41); }
 static uint64_t all_bits(uint32_t r) { return (UINT64_C(1) << 63) + r; }
 static uint64_t two_bits(uint32_t r) { return r % 4; }
+static uint64_t many_bits(uint32_t r) { return (r * UINT64_C(0x9e3779b97f4a7c15)) >> 3; }
 static uint64_t one_bit(uint32_t r) { return r % 2; }
 static uint64_t normal_x(uint32_t r) { return bits_of_float(r % 2 ? 1 : 0); }
 static uint64_t normal_y(uint32_t r) { return bits_of_float(r % 2 ? 0 : 1); }
@@ -247,7 +248,7 @@ static const made_field scaled_fields[] = {
     {SINGLE("nor:normalX"), 32, normal_x},
     {SINGLE("nor:normalY"), 32, normal_y},
     {SINGLE("nor:normalZ"), 32, zero_float},
-    {INTEGER("ext:x", "-3", "0"), 2, two_bits},
+    {INTEGER("ext:x", "-3", "2305843009213693948"), 61, many_bits},
 };
 
 /// A quarter of a turn about z.
@@ -337,7 +338,7 @@ static void test_scaled_integers_of_any_width(void **state) {
         cloud_expect(cloud, "color", EWA_U16, 3, r, (const double[]){color, color, color});
         cloud_expect(cloud, "intensity", EWA_F64, 1, r, (const double[]){ten * 0.5});
         cloud_expect(cloud, "normal", EWA_F32, 3, r, (const double[]){r % 2, 1 - r % 2, 0});
-        cloud_expect(cloud, "ext:x", EWA_I8, 1, r, (const double[]){(double)(r % 4) - 3});
+        cloud_expect(cloud, "ext:x", EWA_F64, 1, r, (const double[]){(double)((int64_t)many_bits(r) - 3)});
     }
     assert_string_equal(ewa_cloud_note(cloud, "file.intensity", NULL), "0 to 511.5");
     cloud_check_pieces(&file, "scaled.e57", cloud);
@@ -435,6 +436,22 @@ static void test_damaged_pages_are_stepped_over(void **state) {
         cloud, "position", EWA_F64, 3, count - 1,
         (const double[]){((double)scaled_x(1999) - 1048576) * 1e-3, (double)scaled_y(1999) * 1e-6, 1999});
     ewa_cloud_destroy(&cloud);
+    free(file.bytes);
+    // Far behind what is held at once.
+    const made_scan many = {float_fields, 3, 70000, ""};
+    file = make(&many, 1, "");
+    uint64_t least_count = UINT64_MAX;
+    for (size_t page = 18; page < 25; page++) { // one of them has the head of no packet
+        file.bytes[file.size - page * PAGE] ^= 1;
+        cloud = cloud_keep_going(context, &file, "keep.e57", &lost_count);
+        file.bytes[file.size - page * PAGE] ^= 1;
+        assert_non_null(cloud);
+        assert_in_range(lost_count, 490, 4000);
+        assert_true(ewa_cloud_point_count(cloud) > 70000 / 7 * 6 - lost_count);
+        least_count = lost_count < least_count ? lost_count : least_count;
+        ewa_cloud_destroy(&cloud);
+    }
+    assert_in_range(least_count, 490, 510);
     free(file.bytes);
     // Where the points begin: the scan is lost, the next one is read.
     const made_scan scans[2] = {float_scan, spherical_scan};
