@@ -12,11 +12,11 @@ data=$2
 shift 2
 here=$(dirname "$0")/interop
 venv=build/interop
-packages="numpy laspy lazrs laszip plyfile pye57"
+packages="numpy laspy lazrs laszip plyfile pye57 pypcd4"
 if [ ! -x "$venv/bin/python" ]; then
     python3 -m venv "$venv" || { echo "skipped: no Python with venv"; exit 0; }
 fi
-"$venv/bin/python" -c "import numpy, laspy, lazrs, laszip, plyfile, pye57" 2>/dev/null ||
+"$venv/bin/python" -c "import numpy, laspy, lazrs, laszip, plyfile, pye57, pypcd4" 2>/dev/null ||
     "$venv/bin/pip" install --quiet $packages || { echo "skipped: no $packages"; exit 0; }
 # Large, and not for every Python: what needs it says so when it is not there.
 "$venv/bin/python" -c "import open3d" 2>/dev/null || "$venv/bin/pip" install --quiet open3d || true

@@ -42,6 +42,21 @@ static inline void cloud_expect(const ewa_cloud *cloud, const char *name, ewa_ty
                      c, values[c], expected[c]);
 }
 
+/// Holds a point's place in the world to the decimals of a file, whatever origin the cloud got.
+static inline void cloud_expect_world(const ewa_cloud *cloud, uint64_t point, const double expected[3]) {
+    const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
+    double origin_world[3], place[3];
+    ewa_coordinate_grid grid;
+    ewa_cloud_origin(cloud, origin_world);
+    ewa_cloud_grid(cloud, &grid);
+    assert_int_equal(position->type, EWA_F64);
+    ewa_attribute_read_f64(position, point, 1, place);
+    for (uint32_t c = 0; c < 3; c++) {
+        const double world = ewa_grid_world(&grid, c, origin_world[c] + place[c]);
+        if (world != expected[c]) fail_msg("axis %u: %.17g instead of %.17g", c, world, expected[c]);
+    }
+}
+
 /// Reads a file in pieces of sizes that fit nothing, with one thread and with several: the same points.
 static inline void cloud_check_pieces(const cloud_bytes *file, const char *name, const ewa_cloud *whole) {
     static const struct {

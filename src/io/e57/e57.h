@@ -48,6 +48,13 @@ bool ewa_e57_copy(const ewa_e57_pages *pages, uint64_t logical, uint64_t size_by
 const uint8_t *ewa_e57_piece(const ewa_e57_pages *pages, uint64_t logical, uint64_t size_bytes,
                              uint64_t *piece_bytes);
 
+/// A whole number of 1 to 8 bytes, the lowest first.
+static inline uint64_t ewa_e57_read_le(const uint8_t *bytes, int size) {
+    uint64_t value = 0;
+    for (int i = 0; i < size; i++) value |= (uint64_t)bytes[i] << 8 * i;
+    return value;
+}
+
 typedef enum ewa_e57_kind { EWA_E57_INTEGER, EWA_E57_SCALED, EWA_E57_FLOAT } ewa_e57_kind;
 
 /// What the reader gives a meaning to; every other field keeps its name.

@@ -17,12 +17,6 @@ enum {
     PACKET_EMPTY = 2,
 };
 
-static uint64_t read_le(const uint8_t *bytes, int size) {
-    uint64_t value = 0;
-    for (int i = 0; i < size; i++) value |= (uint64_t)bytes[i] << 8 * i;
-    return value;
-}
-
 /// The points that the bits of a section can hold at most; fields of no bits do not count.
 static uint64_t bound(const ewa_e57_field *fields, uint32_t field_count, uint64_t bytes) {
     uint64_t most = UINT64_MAX;
@@ -52,12 +46,12 @@ ewa_status ewa_e57_streams_open(const ewa_e57_pages *pages, const ewa_e57_conten
     if (s->record_count == 0) return EWA_OK;
     if (!ewa_e57_logical(pages, s->file_offset, &begin) ||
         !ewa_e57_copy(pages, begin, sizeof head, head, &damaged) || head[0] != 1 || damaged ||
-        !ewa_e57_logical(pages, read_le(head + 16, 8), &at))
+        !ewa_e57_logical(pages, ewa_e57_read_le(head + 16, 8), &at))
         return quiet ? EWA_OK
                      : ewa_cloud_damage(source, s->record_count,
                                         "%s: scan %u: there are no points at byte %llu", source->name,
                                         scan + 1, (unsigned long long)s->file_offset);
-    const uint64_t said = read_le(head + 8, 8), most = there - begin;
+    const uint64_t said = ewa_e57_read_le(head + 8, 8), most = there - begin;
     streams->at = at;
     streams->end = begin + (said < most ? said : most);
     if (streams->end < at) streams->end = at;
@@ -148,7 +142,7 @@ static ewa_status next_packet(ewa_e57_streams *s) {
     bool damaged = false;
     if (left < 4 || !ewa_e57_copy(s->pages, s->at, 4, packet, &damaged) || damaged)
         return give_up(s, left < 4 ? "is cut off" : "is damaged");
-    const uint64_t size = read_le(packet + 2, 2) + 1;
+    const uint64_t size = ewa_e57_read_le(packet + 2, 2) + 1;
     if (packet[0] > PACKET_EMPTY) return give_up(s, "is of no known kind");
     if (size > left || size < 4) return give_up(s, "is longer than the points");
     if (packet[0] != PACKET_DATA) {
@@ -160,14 +154,15 @@ static ewa_status next_packet(ewa_e57_streams *s) {
     if (!ewa_e57_copy(s->pages, s->at, PACKET_HEAD_BYTES + table_bytes, packet, &head_damaged) ||
         head_damaged)
         return give_up(s, "is damaged");
-    if (read_le(packet + 4, 2) != s->field_count) return give_up(s, "has another number of fields");
+    if (ewa_e57_read_le(packet + 4, 2) != s->field_count) return give_up(s, "has another number of fields");
     if (!ewa_e57_copy(s->pages, s->at, size, packet, &damaged)) return give_up(s, "is cut off");
     uint64_t at = PACKET_HEAD_BYTES + table_bytes;
-    for (uint32_t i = 0; i < s->field_count; i++) at += read_le(packet + PACKET_HEAD_BYTES + 2 * i, 2);
+    for (uint32_t i = 0; i < s->field_count; i++)
+        at += ewa_e57_read_le(packet + PACKET_HEAD_BYTES + 2 * i, 2);
     if (at > size) return give_up(s, "is shorter than its fields");
     at = PACKET_HEAD_BYTES + table_bytes;
     for (uint32_t i = 0; i < s->field_count; i++) {
-        const uint64_t bytes = read_le(packet + PACKET_HEAD_BYTES + 2 * i, 2);
+        const uint64_t bytes = ewa_e57_read_le(packet + PACKET_HEAD_BYTES + 2 * i, 2);
         const ewa_status status = append(s, i, packet + at, bytes, damaged);
         if (status != EWA_OK) return status;
         at += bytes;

@@ -36,12 +36,6 @@ static bool probe(const char *name, const uint8_t *bytes, uint64_t size_bytes) {
     return size_bytes >= 8 && memcmp(bytes, "ASTM-E57", 8) == 0;
 }
 
-static uint64_t read_le(const uint8_t *bytes, int size) {
-    uint64_t value = 0;
-    for (int i = 0; i < size; i++) value |= (uint64_t)bytes[i] << 8 * i;
-    return value;
-}
-
 // ---- opening ---------------------------------------------------------------------------------------------
 
 /// Reads header and XML.
@@ -52,9 +46,9 @@ static ewa_status open_contents(e57_state *state) {
         return ewa_fail(context, EWA_ERROR_FORMAT, "%s: the file ends in the header of %d bytes",
                         source->name, HEADER_BYTES);
     const uint8_t *header = source->bytes;
-    const uint64_t major = read_le(header + 8, 4), size = read_le(header + 16, 8);
-    const uint64_t xml_at = read_le(header + 24, 8), xml_bytes = read_le(header + 32, 8);
-    const uint64_t page_bytes = read_le(header + 40, 8);
+    const uint64_t major = ewa_e57_read_le(header + 8, 4), size = ewa_e57_read_le(header + 16, 8);
+    const uint64_t xml_at = ewa_e57_read_le(header + 24, 8), xml_bytes = ewa_e57_read_le(header + 32, 8);
+    const uint64_t page_bytes = ewa_e57_read_le(header + 40, 8);
     if (major != 1)
         return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: E57 of version %llu; 1 is read", source->name,
                         (unsigned long long)major);
@@ -114,8 +108,8 @@ static ewa_status set_notes(const e57_state *state, ewa_cloud *prototype) {
     const ewa_e57_contents *c = &state->contents;
     const uint8_t *header = state->source->bytes;
     char text[128];
-    int length = snprintf(text, sizeof text, "E57 %u.%u", (unsigned)read_le(header + 8, 4),
-                          (unsigned)read_le(header + 12, 4));
+    int length = snprintf(text, sizeof text, "E57 %u.%u", (unsigned)ewa_e57_read_le(header + 8, 4),
+                          (unsigned)ewa_e57_read_le(header + 12, 4));
     ewa_status status = ewa_cloud_set_note(prototype, "file.format", text, (size_t)length);
     if (status == EWA_OK && c->guid_bytes)
         status = ewa_cloud_set_note(prototype, "file.guid", c->guid.data, c->guid_bytes);
