@@ -13,6 +13,7 @@
 #   make bench sweep            figures of docs/performance.md: build/bench.json and tables; docs/sweep.png and slopes;
 #                               BENCH_PREFIX="chrt -f 50" keeps other work out of them; Embree is measured
 #                               beside, where `make` has found it
+#   make interop                compares files with what laspy, laszip, libE57Format and others read and write
 #   make gallery docs           pictures and pages that the program makes
 #   make install                to PREFIX (default /usr/local)
 
@@ -28,7 +29,7 @@ EWA = build/release/cli/ewa
 # $(call quietly,COMMAND): prints what a command said only when it fails.
 quietly = @mkdir -p build && { $(1) >build/log-$@.txt 2>&1 || { cat build/log-$@.txt; exit 1; }; }
 
-.PHONY: build program setup demo check asan asan-build tsan tsan-build clang clang-build mutate fuzz bench sweep gallery docs format install clean
+.PHONY: interop build program setup demo check asan asan-build tsan tsan-build clang clang-build mutate fuzz bench sweep gallery docs format install clean
 
 build: setup
 	@echo "Building build/release"
@@ -71,6 +72,9 @@ tsan: setup
 	$(call quietly,cmake --preset tsan -DCMAKE_BUILD_TYPE=RelWithDebInfo)
 	$(call quietly,cmake --build build/tsan -j $(JOBS))
 	@sh tools/check.sh build/tsan
+
+interop: program
+	@sh tools/interop.sh $(EWA) "$${EWA_DATA:-../shared/data}"
 
 # All of the product, and the tests of what runs in threads; `make clang` builds and runs every test.
 clang-build:

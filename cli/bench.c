@@ -3,6 +3,7 @@
 //
 // ewa bench: how long each stage takes, over scenes, sizes, threads and instruction sets.
 #include "bench_cover.h"
+#include "bench_files.h"
 #include "bench_frames.h"
 #include "bench_stages.h"
 #include "commands.h"
@@ -16,6 +17,7 @@
 typedef struct bench_arguments {
     view_arguments view; // first: it begins with the common arguments; only the size is an option here
     uint32_t scenes, cpus;
+    bool files;
     option_vector splats, pixels, threads;
     int64_t frames;
     ewa_render_options render;
@@ -44,6 +46,9 @@ static const cli_option work_table[] = {
     {"stages", OPTION_ON_OFF, AT(stages),
      .help = "also time what comes before and after a frame, for the first scene: PLY, normals, surfels, "
              "PNG; and clipping"},
+    {"files", OPTION_FLAG, AT(files),
+     .help = "time how files of points are read and written, instead: a scan of a million points in every "
+             "format that is written, or, of inputs, how they are read"},
 };
 
 static const cli_option measure_table[] = {
@@ -147,6 +152,11 @@ static bool measure_files(bench_run *bench) {
 
 static bool measure(bench_run *bench) {
     bench_report_head(&bench->sink);
+    const common_arguments *common = &bench->arguments->view.common;
+    if (bench->arguments->files)
+        return common->operand_count ? bench_files_read(&bench->session, &bench->plan, common->operands,
+                                                        common->operand_count, &bench->sink)
+                                     : bench_files(&bench->session, &bench->plan, &bench->sink);
     if (bench->arguments->view.common.operand_count) return measure_files(bench);
     for (int kind = 0; kind < BENCH_SCENE_COUNT; kind++)
         if (bench->arguments->scenes >> kind & 1 && !measure_kind(bench, (bench_scene_kind)kind))

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 /// sRGB of numbers that have no colour.
 static const uint8_t GREY_SRGB = 128;
@@ -16,66 +17,33 @@ static const uint8_t GREY_SRGB = 128;
 /// Codes of classes are below.
 enum { CLASS_COUNT = 1 << 16 };
 
-static bool find_component(const ewa_cloud *cloud, const char *attribute_name, const char *component_name,
-                           char name[EWA_NAME_BYTES], uint32_t *component) {
-    const ewa_attribute *attribute = ewa_cloud_find(cloud, attribute_name);
-    if (!attribute) return false;
-    static const char letters[] = "xyzw", colors[] = "rgba";
-    *component = 0;
-    if (component_name) {
-        if (!component_name[0] || component_name[1]) return false;
-        const char *at = strchr(letters, component_name[0]);
-        if (at)
-            *component = (uint32_t)(at - letters);
-        else if ((at = strchr(colors, component_name[0])))
-            *component = (uint32_t)(at - colors);
-        else
-            return false;
-    }
-    snprintf(name, EWA_NAME_BYTES, "%s", attribute->name);
-    return *component < attribute->component_count;
-}
-
-bool color_by_find(cli_session *session, const ewa_cloud *cloud, const char *word, char name[EWA_NAME_BYTES],
-                   uint32_t *component) {
-    if (find_component(cloud, word, NULL, name, component)) return true;
-    if (strlen(word) == 1 && strchr("xyz", word[0]) &&
-        find_component(cloud, EWA_POSITION, word, name, component))
-        return true;
-    const char *dot = strrchr(word, '.');
-    char attribute_name[EWA_NAME_BYTES];
-    if (dot && dot - word < EWA_NAME_BYTES) {
-        snprintf(attribute_name, sizeof attribute_name, "%.*s", (int)(dot - word), word);
-        if (find_component(cloud, attribute_name, dot + 1, name, component)) return true;
-    }
-    char list[512] = "";
-    const ewa_attribute *attribute;
-    for (uint32_t k = 0; (attribute = ewa_cloud_attribute_at(cloud, k)); k++) {
-        const size_t used = strlen(list);
-        snprintf(list + used, sizeof list - used, "%s%s", k ? ", " : "", attribute->name);
-    }
-    session_fail(session, "--color-by: there is no attribute '%s'; there are %s", word, list);
-    return false;
-}
-
-/// One component of an attribute, in world units.
+/// The numbers of a cloud's points that colours stand for.
 typedef struct scalar {
-    ewa_attribute attribute;
-    uint32_t component;
-    double shift; ///< added to the stored numbers
+    ewa_scalar of;
     uint64_t count;
 } scalar;
 
 static double read_scalar(const scalar *from, uint64_t index) {
-    double numbers[4];
-    ewa_attribute_read_f64(&from->attribute, index, 1, numbers);
-    return numbers[from->component] + from->shift;
+    double number;
+    ewa_scalar_read(&from->of, index, 1, &number);
+    return number;
+}
+
+/// Whether an attribute is a strength of light, of which a few mirrors give numbers far above all others.
+static bool is_signal(const char *name) {
+    static const char *const names[] = {"intensity", "nir", "amplitude", "reflectance"};
+    static const char before[] = "scalar_";
+    if (strncmp(name, before, sizeof before - 1) == 0) name += sizeof before - 1;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        if (strcasecmp(name, names[i]) == 0) return true;
+    return false;
 }
 
 /// Finds the numbers of the first and the last colour; false after reporting.
 static bool find_range(cli_session *session, const scalar *from, const option_bounds *range, double ends[2]) {
-    const option_bounds all = {.values = {0, 100}, .percent = {true, true}};
-    if (!range->given) range = &all;
+    static const option_bounds all = {.values = {0, 100}, .percent = {true, true}},
+                               most = {.values = {2, 98}, .percent = {true, true}};
+    if (!range->given) range = is_signal(from->of.attribute.name) ? &most : &all;
     memcpy(ends, range->values, sizeof range->values);
     double *numbers = malloc((from->count + 1) * sizeof *numbers);
     if (!numbers) {
@@ -122,21 +90,26 @@ static bool list_classes(cli_session *session, const scalar *from, color_scale *
     return done;
 }
 
-/// Whether an attribute holds classes by its name and its numbers.
-static bool holds_classes(const scalar *from, const char *name) {
+bool color_by_names_classes(const char *name) {
     static const char *const names[] = {"classification", "Classification", "scalar_classification",
                                         "scalar_Classification"};
     bool named = false;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) named = named || strcmp(name, names[i]) == 0;
+    return named;
+}
+
+/// Whether an attribute holds classes by its name and its numbers.
+static bool holds_classes(const scalar *from) {
+    bool named = color_by_names_classes(from->of.attribute.name);
     for (uint64_t i = 0; named && i < from->count; i++) named = is_class(read_scalar(from, i));
     return named;
 }
 
 /// Chooses colours for the numbers; says which. False after reporting.
-static bool choose_scale(cli_session *session, const scalar *from, const char *word, const char *name,
-                         int colormap, const option_bounds *range, color_scale *scale) {
-    const bool classes = colormap == COLOR_BY_CLASSES ||
-                         (colormap == COLOR_BY_AUTO && !range->given && holds_classes(from, name));
+static bool choose_scale(cli_session *session, const scalar *from, const char *word, int colormap,
+                         const option_bounds *range, color_scale *scale) {
+    const bool classes =
+        colormap == COLOR_BY_CLASSES || (colormap == COLOR_BY_AUTO && !range->given && holds_classes(from));
     scale->colormap = colormap >= 0 && !classes ? (ewa_colormap)colormap : EWA_COLORMAP_VIRIDIS;
     if (!classes) {
         if (!find_range(session, from, range, scale->range)) return false;
@@ -163,13 +136,20 @@ static bool find_color(const color_scale *scale, double number, uint8_t srgb[3])
     return has;
 }
 
-bool color_by_shows_classes(cli_session *session, const ewa_cloud *cloud, const char *word) {
-    char name[EWA_NAME_BYTES];
-    uint32_t component;
-    if (!color_by_find(session, cloud, word, name, &component)) return false;
-    const scalar from = {*ewa_cloud_find(cloud, name), component, 0, ewa_cloud_point_count(cloud)};
-    return holds_classes(&from, name);
+/// Finds the numbers that a word means; false after reporting.
+static bool find_scalar(cli_session *session, const ewa_cloud *cloud, const char *word, scalar *from) {
+    from->count = ewa_cloud_point_count(cloud);
+    const ewa_status status = ewa_cloud_find_scalar(cloud, word, &from->of);
+    if (status != EWA_OK) session_failed(session, status);
+    return status == EWA_OK;
 }
+
+bool color_by_shows_classes(cli_session *session, const ewa_cloud *cloud, const char *word) {
+    scalar from;
+    return !color_by_is_own(word) && find_scalar(session, cloud, word, &from) && holds_classes(&from);
+}
+
+bool color_by_is_own(const char *word) { return strcmp(word, "rgb") == 0 || strcmp(word, EWA_COLOR) == 0; }
 
 void color_scale_free(color_scale *scale) {
     free(scale->categories);
@@ -179,19 +159,16 @@ void color_scale_free(color_scale *scale) {
 
 bool color_by(cli_session *session, ewa_cloud *cloud, const char *word, int colormap,
               const option_bounds *range, color_scale *scale) {
-    char name[EWA_NAME_BYTES];
-    uint32_t component;
     *scale = (color_scale){.categories = NULL};
-    if (!color_by_find(session, cloud, word, name, &component)) return false;
-    const uint64_t count = ewa_cloud_point_count(cloud);
-    scalar from = {*ewa_cloud_find(cloud, name), component, 0, count};
-    if (strcmp(name, EWA_POSITION) == 0) {
-        double origin_world[3] = {0, 0, 0};
-        ewa_cloud_origin(cloud, origin_world);
-        from.shift = origin_world[component];
-        scale->length = true;
+    if (color_by_is_own(word)) {
+        if (!ewa_cloud_find(cloud, EWA_COLOR)) session_fail(session, "--color-by: there are no colours");
+        return ewa_cloud_find(cloud, EWA_COLOR) != NULL;
     }
-    if (!choose_scale(session, &from, word, name, colormap, range, scale)) return false;
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    scalar from;
+    if (!find_scalar(session, cloud, word, &from)) return false;
+    scale->length = strcmp(from.of.attribute.name, EWA_POSITION) == 0;
+    if (!choose_scale(session, &from, word, colormap, range, scale)) return false;
     uint8_t(*colors)[3] = NULL;
     // Under a name of its own first: the colours themselves may be what is read.
     static const char made[] = "ewa_color_by";

@@ -7,11 +7,6 @@
 
 #include "session.h"
 
-/// Writes the name of the attribute that "ATTR", "ATTR.x" or "x" means to `name` and its component to
-/// `*component`. Returns false after reporting when the cloud has no such attribute.
-bool color_by_find(cli_session *session, const ewa_cloud *cloud, const char *word, char name[EWA_NAME_BYTES],
-                   uint32_t *component);
-
 /// Colormaps of color_by() beside those of the library.
 enum {
     COLOR_BY_AUTO = -1, ///< classes for whole numbers that are called so, else viridis
@@ -28,12 +23,19 @@ typedef struct color_scale {
     uint32_t category_count;
 } color_scale;
 
+/// Whether an attribute of this name holds codes of classes, where it holds whole numbers.
+bool color_by_names_classes(const char *name);
+
 /// Whether color_by() shows an attribute as classes when neither colormap nor range are given.
 bool color_by_shows_classes(cli_session *session, const ewa_cloud *cloud, const char *word);
 
-/// Replaces the colours of a cloud by those of one component of an attribute; numbers that are not finite, or
+/// Whether a word means the file's own colours.
+bool color_by_is_own(const char *word);
+
+/// Replaces the colours of a cloud by those of the number that a word means (ewa_cloud_find_scalar()), unless it
+/// means the colours themselves; numbers that are not finite, or
 /// no classes where those are shown, become grey. `colormap`: of the library, or COLOR_BY_*. A `range` that is not
-/// given: from the least to the greatest. Returns false after reporting; free `scale` in any case.
+/// given: from the least to the greatest, of intensities without the outermost two per cent. Returns false after reporting; free `scale` in any case.
 bool color_by(cli_session *session, ewa_cloud *cloud, const char *word, int colormap,
               const option_bounds *range, color_scale *scale);
 void color_scale_free(color_scale *scale);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // ewa convert: clouds to another file, whole or in part, moved or merged.
+#include "choosing.h"
 #include "cloud_output.h"
 #include "commands.h"
 #include "inputs.h"
@@ -17,6 +18,9 @@
 typedef struct convert_arguments {
     procedure_arguments procedure; // first
     option_vector crop, transform, scale, translate;
+    const char *outline;    ///< of --crop-polygon; NULL: none
+    double voxel, distance; ///< world units; 0: no thinning
+    option_color default_color;
     double subsample;          ///< 0: all points; under 1: a share; else a count
     int refit;                 ///< REFIT_*
     ewa_refit_options options; ///< but for the goal
@@ -24,12 +28,29 @@ typedef struct convert_arguments {
 
 #define AT(member) offsetof(convert_arguments, member)
 
+/// sRGB of points without colours beside others: as bright as the renderer's grey, linear 0.6.
+static const uint8_t GREY_SRGB = 203;
+
 /// In the order of the words of --refit-colors.
 enum { REFIT_OFF, REFIT_INTERPOLATE, REFIT_FIT };
 
 static const cli_option change_table[] = {
     {"crop", OPTION_VECTOR, AT(crop), "x0,y0,z0,x1,y1,z1", .help = "keep the points inside a box", .low = 6,
      .high = 6},
+    {"crop-polygon", OPTION_TEXT, AT(outline), "FILE|x,y;x,y;...",
+     .help =
+         "keep the points inside an outline on the map, or on it: corners, or a file of WKT (POLYGON, "
+         "MULTIPOLYGON), GeoJSON, or lines of x y; rings in rings, which ;; or an empty line part, are holes",
+     .absent = "none"},
+    {"voxel", OPTION_NUMBER, AT(voxel), "SIZE", "(0, inf)",
+     .help =
+         "keep one point per voxel of that size: the one nearest to the mean of those in it, with all its "
+         "attributes; voxels are aligned to the origin of the coordinates",
+     .absent = "all"},
+    {"min-distance", OPTION_NUMBER, AT(distance), "D", "(0, inf)",
+     .help = "keep points that are at least D from each other, as many as fit: what goes is nearer than D to "
+             "what stays",
+     .absent = "all"},
     {"subsample", OPTION_NUMBER, AT(subsample), "N", "(0, 1e15]",
      .help = "keep N points, or a share of them when N < 1: one at random of each run of equal length in the "
              "file, the same ones every time",
@@ -39,6 +60,8 @@ static const cli_option change_table[] = {
      .help = "map by a matrix, row by row, that acts on column vectors; the last row is 0,0,0,1", .low = 16,
      .high = 16},
     {"translate", OPTION_VECTOR, AT(translate), "x,y,z", .help = "add to coordinates", .low = 3, .high = 3},
+    {"default-color", OPTION_COLOR, AT(default_color), "r,g,b",
+     .help = "sRGB numbers in [0, 1] for the points of files without colours, beside others that have some"},
     {"refit-colors", OPTION_CHOICE, AT(refit), NULL, "off|interpolate|fit",
      .help = "turn colours into coefficients, so that pictures of the surfels are sharper: they show each "
              "point's colour at the point, or nearly (fit: for noisy or aliased colours)"},
@@ -50,6 +73,7 @@ static void set_defaults(void *data) {
     convert_arguments *arguments = data;
     procedure_set_defaults(&arguments->procedure);
     ewa_refit_options_init(&arguments->options, sizeof arguments->options);
+    arguments->default_color = (option_color){{GREY_SRGB / 255.0, GREY_SRGB / 255.0, GREY_SRGB / 255.0, 1}};
 }
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
@@ -80,29 +104,6 @@ static uint64_t *allocate_indices(cli_session *session, uint64_t count) {
     uint64_t *indices = count > SIZE_MAX / sizeof *indices ? NULL : malloc(count * sizeof *indices);
     if (!indices) session_fail(session, "out of memory: %llu indices", (unsigned long long)count);
     return indices;
-}
-
-static bool crop(cli_session *session, ewa_cloud **cloud, const double box[6]) {
-    const uint64_t point_count = ewa_cloud_point_count(*cloud);
-    uint64_t *indices = allocate_indices(session, point_count);
-    if (!indices) return false;
-    const ewa_attribute *position = ewa_cloud_find(*cloud, EWA_POSITION);
-    double origin_world[3];
-    ewa_cloud_origin(*cloud, origin_world);
-    uint64_t count = 0;
-    for (uint64_t i = 0; i < point_count; i++) {
-        double p[3];
-        ewa_attribute_read_f64(position, i, 1, p);
-        bool inside = true;
-        for (int c = 0; c < 3; c++) {
-            const double world = p[c] + origin_world[c];
-            inside &= world >= fmin(box[c], box[c + 3]) && world <= fmax(box[c], box[c + 3]);
-        }
-        if (inside) indices[count++] = i;
-    }
-    const bool done = keep(session, cloud, indices, count);
-    free(indices);
-    return done;
 }
 
 /// Bits that look random and depend on the number only (splitmix64 of Vigna, 2015).
@@ -192,24 +193,33 @@ static void drop_elements(cli_session *session, ewa_elements **elements, const c
     ewa_elements_free(elements);
 }
 
-/// Loads the operands; one alone keeps its faces. NULL after reporting.
-static ewa_cloud *load(cli_session *session, const common_arguments *common, ewa_elements **elements) {
-    *elements = NULL;
-    return common->operand_count == 1 ? input_load_elements(session, common->operands[0], elements)
-                                      : inputs_merge(session, common);
+/// What is done, with what was made of its options.
+typedef struct convert_job {
+    const convert_arguments *arguments;
+    ewa_polygon *polygon;
+} convert_job;
+
+/// What --filter, where it is not done yet, --crop and --crop-polygon choose.
+static point_choice choose_parts(const cli_session *session, const convert_job *job) {
+    const convert_arguments *arguments = job->arguments;
+    const bool one = arguments->procedure.output.common.operand_count == 1;
+    return (point_choice){.filter = one ? session->filter : NULL,
+                          .corners_world = arguments->crop.count ? arguments->crop.values : NULL,
+                          .polygon = job->polygon};
 }
 
 /// What can be done to a part of a cloud as to the whole.
 static bool change_piece(cli_session *session, const void *data, ewa_cloud **cloud) {
-    const convert_arguments *arguments = data;
-    return (!arguments->crop.count || crop(session, cloud, arguments->crop.values)) &&
-           move(session, *cloud, arguments);
+    const convert_job *job = data;
+    const point_choice choice = choose_parts(session, job);
+    return choose_points(session, &choice, cloud) && move(session, *cloud, job->arguments);
 }
 
 /// Whether only such things are to be done.
 static bool is_piecewise(const convert_arguments *arguments) {
     return arguments->procedure.output.common.operand_count == 1 && arguments->subsample == 0 &&
-           arguments->refit == REFIT_OFF && !arguments->procedure.procedure;
+           arguments->voxel == 0 && arguments->distance == 0 && arguments->refit == REFIT_OFF &&
+           !arguments->procedure.procedure;
 }
 
 static bool has_points(cli_session *session, const ewa_cloud *cloud) {
@@ -218,12 +228,29 @@ static bool has_points(cli_session *session, const ewa_cloud *cloud) {
     return false;
 }
 
-static ewa_cloud *make(cli_session *session, const convert_arguments *arguments, ewa_elements **elements) {
-    ewa_cloud *cloud = load(session, &arguments->procedure.output.common, elements);
+/// Leaves the points that all options together choose. False after reporting.
+static bool choose(cli_session *session, const convert_job *job, ewa_cloud **cloud) {
+    point_choice choice = choose_parts(session, job);
+    choice.voxel_world = job->arguments->voxel;
+    choice.distance_world = job->arguments->distance;
+    return choose_points(session, &choice, cloud) && has_points(session, *cloud) &&
+           (job->arguments->subsample == 0 || subsample(session, cloud, job->arguments->subsample));
+}
+
+/// Loads the operands; one alone keeps its faces. NULL after reporting.
+static ewa_cloud *load(cli_session *session, const convert_arguments *arguments, ewa_elements **elements) {
+    const common_arguments *common = &arguments->procedure.output.common;
+    *elements = NULL;
+    return common->operand_count == 1 ? input_load_elements(session, common->operands[0], elements)
+                                      : inputs_merge(session, common, arguments->default_color.rgba);
+}
+
+static ewa_cloud *make(cli_session *session, const convert_job *job, ewa_elements **elements) {
+    const convert_arguments *arguments = job->arguments;
+    ewa_cloud *cloud = load(session, arguments, elements);
     const uint64_t loaded_count = cloud ? ewa_cloud_point_count(cloud) : 0;
     if (arguments->procedure.output.common.operand_count > 1) session->subject = NULL;
-    const bool done = cloud && change_piece(session, arguments, &cloud) && has_points(session, cloud) &&
-                      (arguments->subsample == 0 || subsample(session, &cloud, arguments->subsample)) &&
+    const bool done = cloud && choose(session, job, &cloud) && move(session, cloud, arguments) &&
                       complete(session, &cloud, arguments) &&
                       procedure_apply(session, &arguments->procedure, arguments->options.cutoff, cloud) &&
                       (arguments->refit == REFIT_OFF || refit(session, cloud, arguments));
@@ -235,22 +262,32 @@ static ewa_cloud *make(cli_session *session, const convert_arguments *arguments,
     return cloud;
 }
 
-static int run(const void *data) {
-    const convert_arguments *arguments = data;
-    const output_arguments *output = &arguments->procedure.output;
-    cli_session session;
-    if (!session_start(&session, &output->common)) return session_end(&session, EXIT_FAILED);
-    if (is_piecewise(arguments)) {
-        const passing_result result = passing_run(&session, output->common.operands[0], output, arguments,
-                                                  change_piece, arguments->crop.count == 0);
-        if (result != PASSING_IMPOSSIBLE)
-            return session_end(&session, result == PASSING_DONE ? EXIT_DONE : EXIT_FAILED);
+/// Reads, changes and writes, a file alone piece by piece where that can be. False after reporting.
+static bool convert(cli_session *session, const convert_job *job) {
+    const output_arguments *output = &job->arguments->procedure.output;
+    if (is_piecewise(job->arguments)) {
+        const bool keeps_count = !job->arguments->crop.count && !job->polygon && !session->filter;
+        const passing_result result =
+            passing_run(session, output->common.operands[0], output, job, change_piece, keeps_count);
+        if (result != PASSING_IMPOSSIBLE) return result == PASSING_DONE;
     }
     ewa_elements *elements = NULL;
-    ewa_cloud *cloud = make(&session, arguments, &elements);
-    const bool done = cloud && cloud_output_save(&session, output, cloud, elements);
+    ewa_cloud *cloud = make(session, job, &elements);
+    const bool done = cloud && cloud_output_save(session, output, cloud, elements);
     ewa_elements_free(&elements);
     ewa_cloud_destroy(&cloud);
+    return done;
+}
+
+static int run(const void *data) {
+    const convert_arguments *arguments = data;
+    cli_session session;
+    if (!session_start(&session, &arguments->procedure.output.common))
+        return session_end(&session, EXIT_FAILED);
+    convert_job job = {.arguments = arguments};
+    if (arguments->outline) job.polygon = choose_outline(&session, arguments->outline);
+    const bool done = (!arguments->outline || job.polygon) && convert(&session, &job);
+    ewa_polygon_destroy(&job.polygon);
     return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
 }
 
@@ -260,14 +297,17 @@ const cli_command convert_command = {
     .operands = "IN... -o OUT",
     .summary = "write clouds to another file: another encoding, a part, moved, several as one",
     .details =
-        "All attributes are kept with their types. Of several inputs, the attributes that all have are kept; "
-        "a "
-        "warning names the others. Of one mesh the faces are kept, of PLY all else too; they are "
+        "All attributes are kept with their types. Of several inputs, attributes that only some have are "
+        "NaN, "
+        "in whole numbers 0, for the points of the others, which a warning says; normals, radii and axes are "
+        "kept only where all have them. Of one mesh the faces are kept, of PLY all else too; they are "
         "dropped, which a message says, when some of their vertices are left out. Normals, radii and axes "
         "follow --scale and --transform. Moved clouds are "
         "written with double coordinates.",
     .examples = "ewa convert scan.ply -o scan_text.ply --ascii\n"
                 "ewa convert a.ply b.ply -o both.ply --subsample 1000000\n"
+                "ewa convert scan.laz -o ground.laz --filter classification=ground --min-distance 0.5\n"
+                "ewa convert scan.las -o plot.las --crop-polygon plot.geojson --voxel 0.1\n"
                 "ewa convert scan.ply -o sharp.ply --refit-colors fit\n"
                 "ewa convert mm.ply -o m.ply --scale 0.001 --crop -1,-1,0,1,1,2\n",
     .low_operands = 1,

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 //
 // ewa info: what a file holds and what is wrong with it.
+#include "choosing.h"
 #include "commands.h"
 #include "faults.h"
 #include "import.h"
+#include "info_facts.h"
 #include "info_mesh.h"
 #include "info_volume.h"
 #include "inputs.h"
@@ -161,7 +163,7 @@ static bool gather(cli_session *session, const char *path, const ewa_model *mode
     return true;
 }
 
-enum { MAX_PROBLEMS = 16, PROBLEM_BYTES = 160 };
+enum { MAX_PROBLEMS = 16, PROBLEM_BYTES = 400 };
 
 /// What is wrong with a cloud, in words; returns how many there are.
 static size_t list_problems(const ewa_cloud *cloud, const cloud_facts *facts,
@@ -191,6 +193,7 @@ static size_t list_problems(const ewa_cloud *cloud, const cloud_facts *facts,
         snprintf(problems[count++], PROBLEM_BYTES,
                  "%" PRIu64 " of %" PRIu64 " points share their place with another",
                  facts->spacing.duplicate_count, facts->sampled_count);
+    if (!facts->is_mesh && screening_find_degrees(cloud, PROBLEM_BYTES, problems[count])) count++;
     if (facts->shape == SHAPE_POINT)
         snprintf(problems[count++], PROBLEM_BYTES, "%s",
                  facts->bounds.finite_count == 1 ? "there is one point only"
@@ -236,10 +239,7 @@ static void print_text(cli_session *session, const char *path, const ewa_cloud *
         printf("  high        %.*g %.*g %.*g\n", digits, high[0], digits, high[1], digits, high[2]);
         printf("  extent      %.6g %.6g %.6g\n", high[0] - low[0], high[1] - low[1], high[2] - low[2]);
     }
-    double origin_world[3];
-    ewa_cloud_origin(cloud, origin_world);
-    if (origin_world[0] || origin_world[1] || origin_world[2])
-        printf("  origin      %.17g %.17g %.17g\n", origin_world[0], origin_world[1], origin_world[2]);
+    info_facts_print(cloud);
     if (facts->spacing.median_world > 0)
         printf("  spacing     %.4g (5 %%: %.4g, 95 %%: %.4g)\n", facts->spacing.median_world,
                facts->spacing.low_world, facts->spacing.high_world);
@@ -258,18 +258,23 @@ static void print_text(cli_session *session, const char *path, const ewa_cloud *
     const ewa_attribute *attribute;
     for (uint32_t k = 0; (attribute = ewa_cloud_attribute_at(cloud, k)); k++) {
         printf("    %-20s %-6s", attribute->name, ewa_type_name(attribute->type));
+        const int digits =
+            attribute->type == EWA_F64 || attribute->type == EWA_I32 || attribute->type == EWA_U32 ? 12 : 6;
         for (uint32_t c = 0; c < attribute->component_count; c++) {
             component_range range;
             measure_component(attribute, facts->point_count, c, shift_of(cloud, attribute, c), &range);
             printf("%s ", c ? "," : "");
             if (range.low <= range.high)
-                printf("%.6g .. %.6g", range.low, range.high);
+                printf("%.*g .. %.*g", digits, range.low, digits, range.high);
             else
                 printf("nothing finite");
             if (range.not_finite_count) printf(" (%" PRIu64 " not finite)", range.not_finite_count);
         }
         printf("\n");
     }
+    class_counts classes;
+    info_classes_count(cloud, &classes);
+    info_classes_print(&classes);
     char problems[MAX_PROBLEMS][PROBLEM_BYTES];
     const size_t count = list_problems(cloud, facts, problems);
     printf("  problems%s\n", count ? "" : "    none");
@@ -281,8 +286,6 @@ static void add_header_line(void *user, const char *line) { json_text(user, NULL
 
 static void print_json(cli_session *session, json_writer *json, const char *path, const ewa_cloud *cloud,
                        const cloud_facts *facts) {
-    double origin_world[3];
-    ewa_cloud_origin(cloud, origin_world);
     json_object(json, NULL);
     json_text(json, "file", path);
     json_array(json, "header");
@@ -296,7 +299,7 @@ static void print_json(cli_session *session, json_writer *json, const char *path
         json_vector(json, "low", 3, facts->bounds.low_world);
         json_vector(json, "high", 3, facts->bounds.high_world);
     }
-    json_vector(json, "origin", 3, origin_world);
+    info_facts_write(json, cloud);
     json_text(json, "fills", shape_names[facts->shape]);
     if (facts->bounds.finite_count) {
         double up_world[3] = {0};
@@ -343,6 +346,9 @@ static void print_json(cli_session *session, json_writer *json, const char *path
         json_close(json, '}');
     }
     json_close(json, ']');
+    class_counts classes;
+    info_classes_count(cloud, &classes);
+    info_classes_write(json, &classes);
     json_count(json, "zero_normals", facts->faults.normal_count);
     json_count(json, "bad_radii", facts->faults.radius_count);
     json_count(json, "bad_axes", facts->faults.axis_count);
@@ -353,6 +359,16 @@ static void print_json(cli_session *session, json_writer *json, const char *path
     for (size_t i = 0; i < count; i++) json_text(json, NULL, problems[i]);
     json_close(json, ']');
     json_close(json, '}');
+}
+
+/// Loads a file; a filter looks at points, of which a mesh has its vertices. False after reporting.
+static bool load(cli_session *session, const char *path, ewa_model *model) {
+    const uint32_t wanted = session->filter ? EWA_MODEL_POINTS : EWA_MODEL_POINTS | EWA_MODEL_MESH;
+    if (!model_input_load(session, path, wanted, model)) return false;
+    if (session->filter && model->face_count)
+        session_note(session, "a mesh of %" PRIu64 " faces; --filter looks at its vertices",
+                     model->face_count);
+    return choose_points(session, &(point_choice){.filter = session->filter}, &model->points);
 }
 
 static int run(const void *data) {
@@ -375,8 +391,7 @@ static int run(const void *data) {
         }
         ewa_model model;
         cloud_facts facts;
-        if (model_input_load(&session, path, EWA_MODEL_POINTS | EWA_MODEL_MESH, &model) &&
-            gather(&session, path, &model, &facts)) {
+        if (load(&session, path, &model) && gather(&session, path, &model, &facts)) {
             if (arguments->json)
                 print_json(&session, &json, path, model.points, &facts);
             else

@@ -3,6 +3,7 @@
 //
 // Clouds from the files of the command line: loading, what is missing, merging.
 #include "inputs.h"
+#include "choosing.h"
 #include "model_input.h"
 #include "screening.h"
 
@@ -16,6 +17,11 @@ static const cli_option input_table[] = {
      .absent = "as the file's head or its numbers say"},
     {"keep-going", OPTION_FLAG, offsetof(common_arguments, keep_going),
      .help = "step over damaged pieces of files of points, and say what is lost"},
+    {"filter", OPTION_FILTER, offsetof(common_arguments, filter), "EXPR",
+     .help = "take the points that fulfil conditions on their attributes, x, y, z, red, green, blue: "
+             "classification=2,6, classification=ground,building, \"intensity>100 and z<=12.5\", "
+             "return_number=1..2, !=; given more than once, all hold",
+     .absent = "all points"},
 };
 
 const option_group cloud_input_options = OPTION_GROUP("Files of points", input_table);
@@ -42,15 +48,40 @@ static void note_faces(cli_session *session, const char *path, uint64_t face_cou
                  path, (unsigned long long)face_count);
 }
 
-ewa_cloud *input_load(cli_session *session, const char *path) {
+/// Leaves the points that the session's filter takes, maybe none. False after reporting; the cloud is gone then.
+static bool filter_points(cli_session *session, ewa_cloud **cloud) {
+    const bool done = choose_points(session, &(point_choice){.filter = session->filter}, cloud);
+    if (!done) ewa_cloud_destroy(cloud);
+    return done;
+}
+
+/// Whether a cloud, which may be NULL, has points; false after reporting that the filter takes none. The cloud
+/// is gone then.
+static bool has_points(cli_session *session, ewa_cloud **cloud) {
+    if (!*cloud || ewa_cloud_point_count(*cloud)) return *cloud != NULL;
+    session_fail(session, "--filter: none of the points is left");
+    ewa_cloud_destroy(cloud);
+    return false;
+}
+
+/// Loads the points that the filter takes of one file, maybe none; of a mesh, after a note, its vertices. NULL
+/// after reporting.
+static ewa_cloud *load_points(cli_session *session, const char *path) {
     ewa_model model;
     ewa_cloud *cloud = NULL;
     if (model_input_load(session, path, EWA_MODEL_POINTS, &model)) {
         if (model.face_count) note_faces(session, path, model.face_count);
         cloud = model.points;
         model.points = NULL;
+        filter_points(session, &cloud);
     }
     ewa_model_free(&model);
+    return cloud;
+}
+
+ewa_cloud *input_load(cli_session *session, const char *path) {
+    ewa_cloud *cloud = load_points(session, path);
+    has_points(session, &cloud);
     return cloud;
 }
 
@@ -68,7 +99,8 @@ ewa_cloud *input_load_elements(cli_session *session, const char *path, ewa_eleme
     return cloud;
 }
 
-ewa_cloud *input_points(cli_session *session, const char *path, double cutoff, bool *sampled) {
+/// Loads the points that the filter takes of one file, maybe none; of a mesh, points on its faces.
+static ewa_cloud *load_or_sample(cli_session *session, const char *path, double cutoff, bool *sampled) {
     ewa_model model;
     ewa_cloud *cloud = NULL;
     if (model_input_load(session, path, EWA_MODEL_MESH, &model)) {
@@ -76,8 +108,15 @@ ewa_cloud *input_points(cli_session *session, const char *path, double cutoff, b
         model.points = NULL;
         *sampled = !cloud;
         if (!cloud) cloud = model_input_sample(session, path, &model.mesh, cutoff);
+        if (cloud) filter_points(session, &cloud);
     }
     ewa_model_free(&model);
+    return cloud;
+}
+
+ewa_cloud *input_points(cli_session *session, const char *path, double cutoff, bool *sampled) {
+    ewa_cloud *cloud = load_or_sample(session, path, cutoff, sampled);
+    has_points(session, &cloud);
     return cloud;
 }
 
@@ -118,6 +157,16 @@ static ewa_status discs_to_axes(ewa_cloud *cloud, double cutoff) {
         }
     }
     return EWA_OK;
+}
+
+ewa_status cloud_set_color(ewa_cloud *cloud, const double srgb[3]) {
+    void *data = NULL;
+    const ewa_status status = ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, &data);
+    uint8_t *colors = data;
+    const uint64_t count = status == EWA_OK ? ewa_cloud_point_count(cloud) : 0;
+    for (uint64_t i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++) colors[3 * i + (uint64_t)c] = (uint8_t)(255 * srgb[c] + 0.5);
+    return status;
 }
 
 ewa_status colors_to_linear(ewa_cloud *cloud) {
@@ -222,47 +271,94 @@ static void release_clouds(ewa_cloud **clouds, size_t count) {
     free(clouds);
 }
 
-/// One cloud of `count`; the clouds and their array are gone afterwards. NULL after reporting.
-static ewa_cloud *merge_owned(cli_session *session, ewa_cloud **clouds, size_t count) {
+/// The clouds of the operands that have points left.
+typedef struct loaded_clouds {
+    ewa_cloud **clouds;
+    const char **paths;
+    size_t count;
+} loaded_clouds;
+
+static void release_loaded(loaded_clouds *loaded) {
+    release_clouds(loaded->clouds, loaded->count);
+    free(loaded->paths);
+}
+
+/// One cloud of all; NULL after reporting.
+static ewa_cloud *merge(cli_session *session, loaded_clouds *loaded) {
     ewa_cloud *merged = NULL;
-    if (count == 1) {
-        merged = clouds[0];
-        clouds[0] = NULL;
-    } else {
-        session->subject = NULL;
-        const ewa_status status = ewa_cloud_merge((const ewa_cloud *const *)clouds, (uint32_t)count, &merged);
-        if (status != EWA_OK) session_failed(session, status);
+    if (loaded->count == 1) {
+        merged = loaded->clouds[0];
+        loaded->count = 0;
+        return merged;
     }
-    release_clouds(clouds, count);
+    session->subject = NULL;
+    const ewa_status status =
+        ewa_cloud_merge((const ewa_cloud *const *)loaded->clouds, (uint32_t)loaded->count, &merged);
+    if (status != EWA_OK) session_failed(session, status);
     return merged;
 }
 
-ewa_cloud *inputs_merge(cli_session *session, const common_arguments *common) {
-    ewa_cloud **clouds = calloc(common->operand_count, sizeof *clouds);
-    if (!clouds) {
-        session_fail(session, "out of memory");
-        return NULL;
+/// Adds a cloud, unless the filter takes none of its points, which a note says.
+static void add_loaded(cli_session *session, loaded_clouds *loaded, const char *path, ewa_cloud *cloud) {
+    if (ewa_cloud_point_count(cloud)) {
+        loaded->paths[loaded->count] = path;
+        loaded->clouds[loaded->count++] = cloud;
+        return;
     }
-    for (size_t i = 0; i < common->operand_count; i++) {
-        clouds[i] = input_load(session, common->operands[i]);
-        if (!clouds[i]) {
-            release_clouds(clouds, i);
-            return NULL;
+    session->subject = path;
+    session_note(session, "--filter takes none of its points; it is left out");
+    ewa_cloud_destroy(&cloud);
+}
+
+/// Makes room for the clouds of all operands; false after reporting.
+static bool begin_loaded(cli_session *session, const common_arguments *common, loaded_clouds *loaded) {
+    *loaded = (loaded_clouds){.clouds = calloc(common->operand_count, sizeof *loaded->clouds),
+                              .paths = calloc(common->operand_count, sizeof *loaded->paths)};
+    if (loaded->clouds && loaded->paths) return true;
+    session_fail(session, "out of memory");
+    return false;
+}
+
+/// Whether points are left; false after reporting.
+static bool any_loaded(cli_session *session, const loaded_clouds *loaded) {
+    if (loaded->count) return true;
+    session->subject = NULL;
+    session_fail(session, "--filter: none of the points is left");
+    return false;
+}
+
+/// Gives clouds without colours one, if others have some; says so. False after reporting.
+static bool add_default_colors(cli_session *session, const loaded_clouds *loaded, const double srgb[3]) {
+    size_t colored_count = 0;
+    for (size_t i = 0; i < loaded->count; i++)
+        colored_count += ewa_cloud_find(loaded->clouds[i], EWA_COLOR) != NULL;
+    for (size_t i = 0; colored_count && i < loaded->count; i++) {
+        if (ewa_cloud_find(loaded->clouds[i], EWA_COLOR)) continue;
+        const ewa_status status = cloud_set_color(loaded->clouds[i], srgb);
+        session->subject = loaded->paths[i];
+        if (status != EWA_OK) {
+            session_failed(session, status);
+            return false;
         }
+        session_note(session,
+                     "it has no colours; its points become (%.3g, %.3g, %.3g), --default-color decides",
+                     srgb[0], srgb[1], srgb[2]);
     }
-    bool colors_differ = false;
-    for (size_t i = 1; i < common->operand_count; i++) {
-        colors_differ |= ewa_cloud_find(clouds[0], EWA_COLOR) && ewa_cloud_find(clouds[i], EWA_COLOR) &&
-                         streams_differ(clouds[0], clouds[i], EWA_COLOR);
+    return true;
+}
+
+ewa_cloud *inputs_merge(cli_session *session, const common_arguments *common, const double srgb[3]) {
+    loaded_clouds loaded;
+    bool done = begin_loaded(session, common, &loaded);
+    for (size_t i = 0; done && i < common->operand_count; i++) {
+        ewa_cloud *cloud = load_points(session, common->operands[i]);
+        done = cloud != NULL;
+        if (done) add_loaded(session, &loaded, common->operands[i], cloud);
     }
-    for (size_t i = 0; colors_differ && i < common->operand_count; i++) {
-        const ewa_status status = ewa_cloud_find(clouds[i], EWA_COLOR) ? colors_to_linear(clouds[i]) : EWA_OK;
-        if (status == EWA_OK) continue;
-        session_failed(session, status);
-        release_clouds(clouds, common->operand_count);
-        return NULL;
-    }
-    return merge_owned(session, clouds, common->operand_count);
+    done = done && any_loaded(session, &loaded) && add_default_colors(session, &loaded, srgb);
+    ewa_cloud *merged = done ? merge(session, &loaded) : NULL;
+    release_loaded(&loaded);
+    return merged;
 }
 
 bool input_complete(cli_session *session, const char *path, ewa_cloud **cloud, double *estimate_s) {
@@ -296,25 +392,27 @@ ewa_cloud *input_as_surfels(cli_session *session, const char *path, double cutof
 ewa_cloud *inputs_as_surfels(cli_session *session, const common_arguments *common, const char *wanted,
                              double cutoff, double *estimate_s) {
     *estimate_s = 0;
-    const size_t count = common->operand_count;
-    ewa_cloud **clouds = calloc(count, sizeof *clouds);
-    if (!clouds) {
-        session_fail(session, "out of memory");
-        return NULL;
+    loaded_clouds loaded;
+    bool done = begin_loaded(session, common, &loaded);
+    for (size_t i = 0; done && i < common->operand_count; i++) {
+        bool sampled;
+        const char *path = common->operands[i];
+        ewa_cloud *cloud = load_or_sample(session, path, cutoff, &sampled);
+        done = cloud != NULL;
+        if (done && ewa_cloud_point_count(cloud)) done = input_complete(session, path, &cloud, estimate_s);
+        if (done)
+            add_loaded(session, &loaded, path, cloud);
+        else
+            ewa_cloud_destroy(&cloud);
     }
-    for (size_t i = 0; i < count; i++) {
-        clouds[i] = input_as_surfels(session, common->operands[i], cutoff, estimate_s);
-        if (!clouds[i]) {
-            release_clouds(clouds, i);
-            return NULL;
-        }
-    }
-    const ewa_status status = count > 1 ? make_alike(clouds, count, wanted, cutoff) : EWA_OK;
+    done = done && any_loaded(session, &loaded);
+    const ewa_status status =
+        done && loaded.count > 1 ? make_alike(loaded.clouds, loaded.count, wanted, cutoff) : EWA_OK;
     if (status != EWA_OK) {
         session->subject = NULL;
         session_failed(session, status);
-        release_clouds(clouds, count);
-        return NULL;
     }
-    return merge_owned(session, clouds, count);
+    ewa_cloud *merged = done && status == EWA_OK ? merge(session, &loaded) : NULL;
+    release_loaded(&loaded);
+    return merged;
 }

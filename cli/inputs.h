@@ -10,15 +10,15 @@
 /// How files of points are read, in common_arguments; for every command that reads some.
 extern const option_group cloud_input_options;
 
-/// Loads the points of one file that has at least one; of a mesh, after a note, its vertices. NULL after
-/// reporting.
+/// Loads the points of one file that the session's filter takes, at least one; of a mesh, after a note, its
+/// vertices. NULL after reporting.
 ewa_cloud *input_load(cli_session *session, const char *path);
 
-/// The same with everything else that a PLY file holds, so that its faces are kept; `*elements`, which the
+/// Loads all points of one file, with everything else that a PLY file holds, so that its faces are kept; `*elements`, which the
 /// caller frees, are NULL for other formats.
 ewa_cloud *input_load_elements(cli_session *session, const char *path, ewa_elements **elements);
 
-/// Loads the points of one file; `*sampled`: they were made on the faces of a mesh, for kernels that end at
+/// Loads the points of one file that the session's filter takes, at least one; `*sampled`: they were made on the faces of a mesh, for kernels that end at
 /// `cutoff` standard deviations. NULL after reporting.
 ewa_cloud *input_points(cli_session *session, const char *path, double cutoff, bool *sampled);
 
@@ -31,9 +31,9 @@ bool input_complete(cli_session *session, const char *path, ewa_cloud **cloud, d
 /// by the time that the estimation took.
 ewa_cloud *input_as_surfels(cli_session *session, const char *path, double cutoff, double *estimate_s);
 
-/// Loads the operands and makes one cloud of them; attributes that not all have are dropped with a warning.
-/// NULL after reporting.
-ewa_cloud *inputs_merge(cli_session *session, const common_arguments *common);
+/// Loads the operands and makes one cloud of them (ewa_cloud_merge()); files without colours get `srgb`, in
+/// [0, 1], beside others that have some, which a note says. NULL after reporting.
+ewa_cloud *inputs_merge(cli_session *session, const common_arguments *common, const double srgb[3]);
 
 /// Loads the operands as one cloud that can be drawn: what a surfel needs and a file lacks is estimated file
 /// by file, files without colours become grey beside others that have some. Of several files, only what is
@@ -42,6 +42,9 @@ ewa_cloud *inputs_merge(cli_session *session, const common_arguments *common);
 /// the time that the estimation took.
 ewa_cloud *inputs_as_surfels(cli_session *session, const common_arguments *common, const char *wanted,
                              double cutoff, double *estimate_s);
+
+/// Gives every point of a cloud one colour, sRGB in [0, 1].
+ewa_status cloud_set_color(ewa_cloud *cloud, const double srgb[3]);
 
 /// Replaces a cloud's colours, or their absence, by linear floats with alpha, which all colours can become.
 ewa_status colors_to_linear(ewa_cloud *cloud);

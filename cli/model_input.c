@@ -46,7 +46,10 @@ bool model_input_load(cli_session *session, const char *path, uint32_t wanted, e
         session_say(session, "%s: %llu points read in %.3f s", path,
                     (unsigned long long)ewa_cloud_point_count(model->points), took_s);
     // The readers of meshes say so themselves.
-    if (model->points && !model->face_count) screening_check_steps(session, path, model->points);
+    if (model->points && !model->face_count) {
+        screening_check_steps(session, path, model->points);
+        screening_check_degrees(session, path, model->points);
+    }
     return true;
 }
 

@@ -234,6 +234,13 @@ static bool parse_library(const cli_option *option, const char *text, void *memb
     return wrong(message, "--%s: %s", option->key, problem);
 }
 
+static bool parse_filter(const cli_option *option, const char *text, ewa_filter *filter,
+                         char message[OPTION_ERROR_BYTES]) {
+    char problem[EWA_OPTION_TEXT_BYTES];
+    return ewa_filter_add(filter, text, problem) == EWA_OK ||
+           wrong(message, "--%s: %s", option->key, problem);
+}
+
 static bool parse_value(const cli_option *option, const char *text, void *member,
                         char message[OPTION_ERROR_BYTES]) {
     int choice = 0;
@@ -256,6 +263,8 @@ static bool parse_value(const cli_option *option, const char *text, void *member
         return parse_choice(option, text, option->range, member, message);
     case OPTION_SET:
         return parse_set(option, text, member, message);
+    case OPTION_FILTER:
+        return parse_filter(option, text, member, message);
     case OPTION_LIBRARY:
         return parse_library(option, text, member, message);
     case OPTION_ON_OFF:

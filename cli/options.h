@@ -8,6 +8,7 @@
 #include <stdio.h>
 
 #include "ewa/options.h"
+#include "ewa/select.h"
 
 /// What the value of an option is, and the type of the member that it fills.
 typedef enum option_kind {
@@ -25,6 +26,7 @@ typedef enum option_kind {
     OPTION_BOUNDS,  ///< option_bounds: two numbers, each a percentile when a percent sign follows
     OPTION_COLOR,   ///< option_color
     OPTION_SIZE,    ///< option_size
+    OPTION_FILTER,  ///< ewa_filter: conditions, given once or more often
     OPTION_SET,     ///< uint32_t: bits of words in `range`, separated by commas
     OPTION_LIBRARY, ///< a member of a struct of the library's options, as its table says: see OPTION_OF
 } option_kind;
@@ -107,6 +109,7 @@ typedef struct common_arguments {
     int progress;        ///< 1 or 0 when asked for, -1: where standard error is a terminal
     bool keep_going;     ///< of cloud_input_options
     const char *columns; ///< of cloud_input_options; NULL: as the file says
+    ewa_filter filter;   ///< of cloud_input_options
 } common_arguments;
 
 /// The options of common_arguments, for the last group of each command.

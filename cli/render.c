@@ -90,7 +90,8 @@ static const cli_option look_table[] = {
     {"background", OPTION_COLOR, AT(background), "r,g,b[,a]",
      .help = "sRGB numbers in [0, 1], or transparent", .aliases = "background-color"},
     {"color-by", OPTION_TEXT, AT(color_by), "ATTR",
-     .help = "colour by an attribute ('ewa info' lists them), one component of it (normal.x), or by x, y, z",
+     .help = "colour by an attribute ('ewa info' lists them), one component of it (normal.x), x, y, z, red, "
+             "green or blue; rgb: the file's colours",
      .absent = "the file's colours, else grey"},
     {"colormap", OPTION_CHOICE, AT(colormap), NULL,
      "viridis|turbo|gray|plasma|inferno|magma|cividis|coolwarm|classes",
@@ -99,7 +100,7 @@ static const cli_option look_table[] = {
      .absent = "classes for whole numbers named classification, else viridis", .needs = "color-by"},
     {"range", OPTION_BOUNDS, AT(range), "a,b",
      .help = "numbers that get the first and the last colour; with a percent sign, percentiles: 2%,98%",
-     .aliases = "coloring-range", .absent = "least to greatest", .needs = "color-by"},
+     .aliases = "coloring-range", .absent = "least to greatest; 2%,98% for intensities", .needs = "color-by"},
 };
 
 static const cli_option furniture_table[] = {
@@ -153,6 +154,8 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         missing = "--opacity below 1 needs --passes 3";
     else if (arguments->colormap == COLOR_BY_CLASSES && arguments->range.given)
         missing = "--colormap classes takes no --range: each class has its own colour";
+    else if (arguments->furniture.color_bar && color_by_is_own(arguments->color_by))
+        missing = "--color-bar has nothing to show for the file's own colours";
     if (!options_fine(missing, message)) return false;
     return light_check(&arguments->light, message) && section_check(&arguments->section, message) &&
            frames_check(&arguments->frames, arguments->output, arguments->background.rgba[3] == 1, message) &&

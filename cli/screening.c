@@ -2,16 +2,24 @@
 // SPDX-License-Identifier: MIT
 //
 // What a file of points turns out to be that its suffix does not say: Gaussians, normals that are none,
-// floats too coarse for their coordinates.
+// floats too coarse for their coordinates, degrees.
 #include "screening.h"
 #include "faults.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /// Distances of points in steps of their coordinates from which surfaces look as they are.
 static const double STEPS_PER_SPACING = 4;
+
+/// Metres of a degree of latitude, and of longitude at the equator.
+static const double DEGREE_M = 111320;
+
+/// Extent in height beside that on the map from which coordinates of a small extent are degrees: 1 km of land
+/// is 0.01 degrees wide and 10 m high.
+static const double DEGREES_HEIGHT_RATIO = 200;
 
 gaussian_facts screening_find_gaussians(const ewa_cloud *cloud) {
     static const char *const needed[] = {"f_dc_0",  "f_dc_1", "f_dc_2", "opacity", "scale_0",
@@ -85,4 +93,46 @@ void screening_check_steps(cli_session *session, const char *path, const ewa_clo
         "coordinates up to %.10g are floats with steps of %.2g there, but the points are about %.2g apart: "
         "shapes are lost; doubles, or points moved to the origin before they become floats, keep them",
         largest, step, spacing);
+}
+
+/// Whether the text of a coordinate reference system is one of longitude and latitude; false for none.
+static bool is_geographic(const char *crs) {
+    static const char *const codes[] = {"EPSG:4326", "EPSG:4979", "EPSG:4258", "EPSG:4269"};
+    if (!crs || strstr(crs, "PROJC")) return false;
+    bool found = strstr(crs, "GEOGC") || strstr(crs, "GEODCRS");
+    for (size_t i = 0; i < sizeof codes / sizeof codes[0]; i++) found = found || strcmp(crs, codes[i]) == 0;
+    return found;
+}
+
+bool screening_find_degrees(const ewa_cloud *cloud, size_t text_bytes, char *text) {
+    ewa_bounds box;
+    const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
+    if (!position || position->component_count != 3 || ewa_cloud_measure(cloud, &box) != EWA_OK ||
+        box.finite_count == 0)
+        return false;
+    const double *low = box.low_world, *high = box.high_world;
+    if (low[0] < -180 || high[0] > 180 || low[1] < -90 || high[1] > 90) return false;
+    const double extent = fmax(high[0] - low[0], high[1] - low[1]),
+                 away = fmin(fabs(low[0] + high[0]), fabs(low[1] + high[1]));
+    const char *crs = ewa_cloud_note(cloud, "crs", NULL);
+    const bool small =
+        extent > 0 && extent < 1 && away > 10 * extent && high[2] - low[2] > DEGREES_HEIGHT_RATIO * extent;
+    if (!is_geographic(crs) && (crs || !small)) return false;
+    const double latitude_deg = 0.5 * (low[1] + high[1]),
+                 radians = latitude_deg * (3.14159265358979323846 / 180);
+    snprintf(
+        text, text_bytes,
+        "coordinates %s degrees of longitude and latitude, so that shapes are flat and heights stand out; "
+        "'ewa convert --scale %.0f,%.0f,1' makes about metres of them, exact ones a projection such as UTM "
+        "zone %d",
+        is_geographic(crs) ? "are" : "look like", DEGREE_M * cos(radians), DEGREE_M,
+        (int)fmin(60, floor((0.5 * (low[0] + high[0]) + 180) / 6) + 1));
+    return true;
+}
+
+void screening_check_degrees(cli_session *session, const char *path, const ewa_cloud *cloud) {
+    char text[400];
+    if (!screening_find_degrees(cloud, sizeof text, text)) return;
+    session->subject = path;
+    session_warn(session, "%s", text);
 }

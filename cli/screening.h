@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What a file of points turns out to be that its suffix does not say: Gaussians, normals that are none,
-// floats too coarse for their coordinates.
+// floats too coarse for their coordinates, degrees.
 #ifndef EWA_CLI_SCREENING_H
 #define EWA_CLI_SCREENING_H
 
@@ -25,6 +25,13 @@ bool screening_admit(cli_session *session, const char *path, const ewa_cloud *cl
 
 /// Removes the normals when all are zero, which some programs write for none; says so.
 void screening_drop_zero_normals(cli_session *session, const char *path, ewa_cloud *cloud);
+
+/// Whether coordinates are longitudes and latitudes in degrees, by the cloud's coordinate reference system or by
+/// how small its extent is beside its heights; writes what that means, and what helps, to `text`.
+bool screening_find_degrees(const ewa_cloud *cloud, size_t text_bytes, char *text);
+
+/// Warns of coordinates in degrees.
+void screening_check_degrees(cli_session *session, const char *path, const ewa_cloud *cloud);
 
 /// Warns when the steps of float coordinates are not small beside the distances of the points.
 void screening_check_steps(cli_session *session, const char *path, const ewa_cloud *cloud);

@@ -20,6 +20,7 @@ typedef struct session_listener {
 typedef struct cli_session {
     ewa_context *context;
     ewa_cloud_load_options load;      ///< how files of points are read
+    const ewa_filter *filter;         ///< which of their points are taken; NULL: all
     const session_listener *listener; ///< NULL: the terminal
     const char *subject;              ///< the file that messages are about, or NULL
     bool quiet, verbose;

@@ -43,15 +43,19 @@ static void free_content(viewer_content *content) {
 }
 
 /// Makes a session whose news go to the viewer; NULL after telling it.
-static file_session *make_session(const viewer_news *news, uint32_t thread_count, bool quiet,
-                                  viewer_content *content) {
+static file_session *make_session(const window_services *own, const viewer_news *news, uint32_t thread_count,
+                                  bool quiet, viewer_content *content) {
     file_session *file = calloc(1, sizeof *file);
     if (!file) {
         news->message(news->user, EWA_SEVERITY_ERROR, "out of memory");
         return NULL;
     }
     file->listener = (session_listener){news->user, news->message, news->progress};
-    file->session = (cli_session){.listener = &file->listener, .quiet = quiet, .started_s = clock_now_s()};
+    file->session = (cli_session){.load = own->session.load,
+                                  .filter = own->session.filter,
+                                  .listener = &file->listener,
+                                  .quiet = quiet,
+                                  .started_s = clock_now_s()};
     file->session.context = session_context(&file->session, thread_count, EWA_CPU_ALL);
     *content = (viewer_content){.keeper = file, .free = free_content, .context = file->session.context};
     if (file->session.context) return file;
@@ -125,9 +129,9 @@ static ewa_cloud *make_preview_cloud(ewa_context *context, const ewa_cloud *clou
 }
 
 /// Shows some points of a cloud that is not ready. Without memory there is nothing to see until it is.
-static void show_preview(const viewer_news *news, const ewa_cloud *cloud) {
+static void show_preview(const window_services *own, const viewer_news *news, const ewa_cloud *cloud) {
     viewer_content content;
-    file_session *file = make_session(news, 1, true, &content);
+    file_session *file = make_session(own, news, 1, true, &content);
     if (!file) return;
     const ewa_attribute *normal = ewa_cloud_find(cloud, EWA_NORMAL),
                         *radius = ewa_cloud_find(cloud, EWA_RADIUS);
@@ -172,7 +176,7 @@ static bool load_points(const window_services *own, cli_session *session, const 
     content->cloud = input_points(session, path, own->surfels.cutoff, &content->mesh);
     if (!content->cloud) return false;
     const bool takes_time = ewa_cloud_point_count(content->cloud) > MANY_POINTS;
-    if (takes_time || !cloud_is_drawable(content->cloud)) show_preview(news, content->cloud);
+    if (takes_time || !cloud_is_drawable(content->cloud)) show_preview(own, news, content->cloud);
     render_report report = {.load_s = 0};
     const resident_options options = surfels_options(own, 1);
     return input_complete(session, path, &content->cloud, &estimate_s) &&
@@ -181,24 +185,13 @@ static bool load_points(const window_services *own, cli_session *session, const 
 
 static bool load(void *user, const char *path, const viewer_news *news, viewer_content *content) {
     const window_services *own = user;
-    file_session *file = make_session(news, own->thread_count, own->quiet, content);
+    file_session *file = make_session(own, news, own->thread_count, own->quiet, content);
     if (!file) return false;
     file->session.subject = path;
     const bool done = volume_input_is_named(path) ? load_volume(&file->session, path, content)
                                                   : load_points(own, &file->session, path, news, content);
     file->session.subject = NULL;
     return done;
-}
-
-/// Gives every point one colour.
-static ewa_status tint(ewa_cloud *cloud, const double srgb[3]) {
-    void *data = NULL;
-    const ewa_status status = ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, &data);
-    uint8_t *colors = data;
-    const uint64_t count = status == EWA_OK ? ewa_cloud_point_count(cloud) : 0;
-    for (uint64_t i = 0; i < count; i++)
-        for (int c = 0; c < 3; c++) colors[3 * i + (uint64_t)c] = (uint8_t)(255 * srgb[c] + 0.5);
-    return status;
 }
 
 /// Multiplies the points' alpha.
@@ -260,7 +253,7 @@ static bool color(void *user, const viewer_content *content, const viewer_news *
     if (done && wish->attribute[0])
         done = color_scaled(session, cloud, wish);
     else if (done && wish->tinted)
-        status = tint(cloud, wish->tint);
+        status = cloud_set_color(cloud, wish->tint);
     if (done && status == EWA_OK && wish->alpha < 1) status = fade(cloud, wish->alpha);
     const resident_options options = surfels_options(own, wish->radius_scale);
     if (done && status == EWA_OK) status = ewa_surfels_create(cloud, &options.surfels, surfels);

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 #
 # What Debian's packages give us: spng (PNG in), libdeflate (PNG out), OpenEXRCore (EXR), cJSON (camera
-# files, glTF), libjpeg (JPEG in), libwebp (WebP in), CHOLMOD of SuiteSparse (sparse factors), zlib and
+# files, glTF), libjpeg (JPEG in), libwebp (WebP in), expat (E57), CHOLMOD of SuiteSparse (sparse factors), zlib and
 # libbz2 (volumes in), pthreads.
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
@@ -11,6 +11,7 @@ pkg_check_modules(DEFLATE REQUIRED IMPORTED_TARGET libdeflate)
 pkg_check_modules(CJSON REQUIRED IMPORTED_TARGET libcjson)
 pkg_check_modules(JPEG REQUIRED IMPORTED_TARGET libjpeg)
 pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp)
+pkg_check_modules(EXPAT REQUIRED IMPORTED_TARGET expat)
 pkg_check_modules(ZLIB REQUIRED IMPORTED_TARGET zlib)
 find_package(OpenEXR CONFIG REQUIRED)
 
@@ -27,4 +28,4 @@ ewa_find_library(ewa_bzip2 bzlib.h bz2)
 
 add_library(ewa_dependencies INTERFACE)
 target_link_libraries(ewa_dependencies INTERFACE PkgConfig::SPNG PkgConfig::DEFLATE PkgConfig::CJSON
-  PkgConfig::JPEG PkgConfig::WEBP PkgConfig::ZLIB ewa_cholmod ewa_bzip2 OpenEXR::OpenEXRCore Threads::Threads m)
+  PkgConfig::JPEG PkgConfig::WEBP PkgConfig::EXPAT PkgConfig::ZLIB ewa_cholmod ewa_bzip2 OpenEXR::OpenEXRCore Threads::Threads m)

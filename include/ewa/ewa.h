@@ -20,6 +20,7 @@
 #include "ewa/procedure.h"
 #include "ewa/render.h"
 #include "ewa/resample.h"
+#include "ewa/select.h"
 #include "ewa/shade.h"
 #include "ewa/volume.h"
 #include "ewa/volume_render.h"

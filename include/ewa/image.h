@@ -68,6 +68,10 @@ enum { EWA_CLASS_NAME_BYTES = 32 };
 /// Writes the name of a class: "ground", of codes above 18 "class 37". Any thread.
 EWA_API void ewa_class_name(uint32_t code, char name[EWA_CLASS_NAME_BYTES]);
 
+/// Finds the class that ewa_class_name() calls so, in any case, with '_' or '-' for a blank; false when there is none.
+/// Any thread.
+EWA_API bool ewa_class_find(const char *name, uint32_t *code);
+
 #ifdef __cplusplus
 }
 #endif

@@ -122,8 +122,8 @@ EWA_API void ewa_csg_options_init(ewa_csg_options *options, size_t struct_size);
 /// - Where surfaces coincide (within 0.1 of the reach, 6 degrees) A's is kept: for union and intersection if
 ///   the normals agree, for the difference if they are opposite.
 /// - The result has A's origin, A's surfels before B's, each in Morton order; "position", "normal",
-///   "tangent_u", "tangent_v", "clip0", "clip1", "clip_mode", and the other attributes that both clouds have
-///   (see ewa_cloud_merge()). It may have no points, which is reported as a warning.
+///   "tangent_u", "tangent_v", "clip0", "clip1", "clip_mode", and the other attributes (see
+///   ewa_cloud_merge()). It may have no points, which is reported as a warning.
 ///
 /// `options` may be NULL; the caller owns `*result`, NULL after a failure. The bytes do not depend on the
 /// number of threads. Progress stage: "csg". Errors: EWA_ERROR_ARGUMENT (a missing attribute; an operand that

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Clouds from clouds: some of the points, several clouds as one, an affine map of space.
+// Clouds from clouds: some of the points, an affine map of space.
 //
 // Based on: Bloomenthal and Rokne, "Homogeneous Coordinates", 1994: points go by M, planes (normals) by the
 // inverse transpose.
@@ -13,18 +13,6 @@
 #include <string.h>
 
 enum { BLOCK_POINTS = 256 };
-
-/// Copies `count` points of an attribute, from point `first` on, tightly packed to `bytes`.
-static void copy_points(const ewa_attribute *attribute, uint64_t first, uint64_t count, char *bytes) {
-    const size_t point_bytes = attribute->component_count * ewa_type_bytes(attribute->type);
-    const char *from = (const char *)attribute->data + first * attribute->stride_bytes;
-    if (attribute->stride_bytes == point_bytes) {
-        if (count) memcpy(bytes, from, count * point_bytes);
-        return;
-    }
-    for (uint64_t i = 0; i < count; i++)
-        memcpy(bytes + i * point_bytes, from + i * attribute->stride_bytes, point_bytes);
-}
 
 ewa_status ewa_cloud_select(const ewa_cloud *cloud, const uint64_t *indices, uint64_t count,
                             ewa_cloud **selected) {
@@ -51,127 +39,6 @@ ewa_status ewa_cloud_select(const ewa_cloud *cloud, const uint64_t *indices, uin
     if (status != EWA_OK) ewa_cloud_destroy(&made);
     *selected = made;
     return status;
-}
-
-/// The type that holds every number of both types.
-static ewa_type common_type(ewa_type a, ewa_type b) {
-    if (a == b) return a;
-    const bool wide =
-        a == EWA_F64 || a == EWA_I32 || a == EWA_U32 || b == EWA_F64 || b == EWA_I32 || b == EWA_U32;
-    return wide ? EWA_F64 : EWA_F32;
-}
-
-static bool same_origin(const double a[3], const double b[3]) {
-    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
-}
-
-/// How an attribute is stored in the merged cloud.
-typedef struct merged_stream {
-    ewa_type type;
-    bool moved; // positions whose origins differ
-} merged_stream;
-
-/// Whether all clouds have the attribute in one shape, and what type takes them all.
-static bool plan_stream(const ewa_cloud *const *clouds, uint32_t count, const ewa_attribute *first,
-                        merged_stream *stream) {
-    *stream = (merged_stream){first->type, false};
-    double origin_world[3], other_world[3];
-    ewa_cloud_origin(clouds[0], origin_world);
-    for (uint32_t k = 1; k < count; k++) {
-        const ewa_attribute *other = ewa_cloud_find(clouds[k], first->name);
-        if (!other || other->component_count != first->component_count) return false;
-        if (strcmp(first->name, EWA_COLOR) == 0 && other->type != first->type) return false;
-        stream->type = common_type(stream->type, other->type);
-        ewa_cloud_origin(clouds[k], other_world);
-        if (strcmp(first->name, EWA_POSITION) == 0 && !same_origin(origin_world, other_world))
-            stream->moved = true;
-    }
-    if (stream->moved) stream->type = EWA_F64;
-    return true;
-}
-
-/// Copies one cloud's stream to its place in the merged one.
-static void merge_stream(const ewa_attribute *from, const merged_stream *stream, uint64_t count,
-                         const double shift_world[3], char *bytes) {
-    if (from->type == stream->type && !stream->moved) {
-        copy_points(from, 0, count, bytes);
-        return;
-    }
-    double block[4 * BLOCK_POINTS];
-    for (uint64_t first = 0; first < count; first += BLOCK_POINTS) {
-        const uint64_t block_count = count - first < BLOCK_POINTS ? count - first : BLOCK_POINTS;
-        ewa_attribute_read_f64(from, first, block_count, block);
-        for (uint64_t i = 0; i < block_count * from->component_count; i++) {
-            const uint64_t to = first * from->component_count + i;
-            if (stream->moved) block[i] += shift_world[i % 3];
-            if (stream->type == EWA_F32)
-                ((float *)(void *)bytes)[to] = (float)block[i];
-            else
-                ((double *)(void *)bytes)[to] = block[i];
-        }
-    }
-}
-
-/// Says which attributes of a cloud the merged one lacks.
-static void report_dropped(const ewa_cloud *cloud, uint32_t index, const ewa_cloud *merged) {
-    const ewa_attribute *attribute;
-    for (uint32_t k = 0; (attribute = ewa_cloud_attribute_at(cloud, k)); k++)
-        if (!ewa_cloud_find(merged, attribute->name))
-            ewa_report(ewa_cloud_context(cloud), EWA_SEVERITY_WARNING,
-                       "attribute '%s' of cloud %u is dropped: not every cloud has it in the same shape",
-                       attribute->name, index + 1);
-}
-
-/// Keeps the grid of the first cloud on the axes on which all have the same.
-static void merge_grids(const ewa_cloud *const *clouds, uint32_t count, ewa_cloud *merged) {
-    ewa_coordinate_grid grid, other;
-    ewa_cloud_grid(clouds[0], &grid);
-    for (uint32_t k = 1; k < count; k++) {
-        ewa_cloud_grid(clouds[k], &other);
-        for (int c = 0; c < 3; c++)
-            if (other.step_world[c] != grid.step_world[c] || other.offset_world[c] != grid.offset_world[c])
-                grid.step_world[c] = 0;
-    }
-    ewa_cloud_set_grid(merged, &grid);
-}
-
-ewa_status ewa_cloud_merge(const ewa_cloud *const *clouds, uint32_t count, ewa_cloud **merged) {
-    if (!clouds || !merged || count == 0) return EWA_ERROR_ARGUMENT;
-    *merged = NULL;
-    uint64_t total = 0;
-    for (uint32_t k = 0; k < count; k++) {
-        if (!clouds[k]) return EWA_ERROR_ARGUMENT;
-        total += ewa_cloud_point_count(clouds[k]);
-    }
-    ewa_cloud *made = NULL;
-    ewa_status status = ewa_cloud_create(ewa_cloud_context(clouds[0]), total, &made);
-    double origin_world[3];
-    ewa_cloud_origin(clouds[0], origin_world);
-    const ewa_attribute *first;
-    for (uint32_t a = 0; status == EWA_OK && (first = ewa_cloud_attribute_at(clouds[0], a)); a++) {
-        merged_stream stream;
-        if (!plan_stream(clouds, count, first, &stream)) continue;
-        void *data = NULL;
-        status = ewa_cloud_add(made, first->name, stream.type, first->component_count, &data);
-        char *bytes = data;
-        for (uint32_t k = 0; status == EWA_OK && k < count; k++) {
-            double shift_world[3];
-            ewa_cloud_origin(clouds[k], shift_world);
-            for (int c = 0; c < 3; c++) shift_world[c] -= origin_world[c];
-            const uint64_t point_count = ewa_cloud_point_count(clouds[k]);
-            merge_stream(ewa_cloud_find(clouds[k], first->name), &stream, point_count, shift_world, bytes);
-            bytes += point_count * first->component_count * ewa_type_bytes(stream.type);
-        }
-    }
-    if (status == EWA_OK) status = ewa_cloud_follow(made, clouds[0]);
-    if (status != EWA_OK) {
-        ewa_cloud_destroy(&made);
-        return status;
-    }
-    merge_grids(clouds, count, made);
-    for (uint32_t k = 0; k < count; k++) report_dropped(clouds[k], k, made);
-    *merged = made;
-    return EWA_OK;
 }
 
 /// Cofactors of the upper left 3x3, row-major: det * inverse transpose. Returns the determinant.

@@ -4,12 +4,14 @@
 // From a mesh to surfels: options, and what every point gets once the places are chosen.
 #include "base/base.h"
 #include "base/options.h"
+#include "cloud/decimals.h"
 #include "ewa/acquire.h"
 #include "homogeneous/vec.h"
 #include "mesh/clip.h"
 #include "mesh/color.h"
 #include "mesh/darts.h"
 
+#include <math.h>
 #include <string.h>
 
 /// Between looks at whether to go on, as many tasks as keep many workers busy.
@@ -333,6 +335,25 @@ static ewa_status check_mesh(const ewa_mesh *mesh, const ewa_mesh_sample_options
     return EWA_OK;
 }
 
+/// Positions relative to the low corner of all vertices, as exact as the decimals that files have: the same
+/// mesh anywhere has the same numbers. NULL without memory.
+static double *place_near(const ewa_mesh *mesh, double corner_world[3]) {
+    const size_t count = mesh->vertex_count;
+    double *near = ewa_allocate(mesh->context, count, 3 * sizeof *near);
+    for (int c = 0; c < 3 && near; c++) {
+        double low = INFINITY;
+        for (size_t i = 0; i < count; i++)
+            if (isfinite(mesh->positions[3 * i + (size_t)c]))
+                low = fmin(low, mesh->positions[3 * i + (size_t)c]);
+        corner_world[c] = isfinite(low) ? low : 0;
+        const double parts = ewa_decimals_find(mesh->positions + c, count, 3);
+        for (size_t i = 0; i < count; i++)
+            near[3 * i + (size_t)c] =
+                ewa_decimals_subtract(mesh->positions[3 * i + (size_t)c], corner_world[c], parts);
+    }
+    return near;
+}
+
 ewa_status ewa_mesh_sample(const ewa_mesh *mesh, const ewa_mesh_sample_options *given, ewa_cloud **cloud) {
     if (!mesh || !mesh->context || !cloud) return EWA_ERROR_ARGUMENT;
     *cloud = NULL;
@@ -341,11 +362,23 @@ ewa_status ewa_mesh_sample(const ewa_mesh *mesh, const ewa_mesh_sample_options *
     ewa_status status = ewa_options_take(mesh->context, &ewa_mesh_sample_options_table, given, options);
     if (status == EWA_OK) status = check_count(mesh->context, options);
     if (status == EWA_OK) status = check_mesh(mesh, options);
-    mesh_surface surface;
-    if (status == EWA_OK) status = ewa_mesh_surface_make(mesh, options, &surface);
     if (status != EWA_OK) return status;
-    sample_job job = {.surface = &surface, .options = options};
-    status = sample(mesh->context, &job, cloud);
-    ewa_mesh_surface_free(&surface);
+    ewa_mesh near = *mesh;
+    double corner_world[3];
+    near.positions = place_near(mesh, corner_world);
+    mesh_surface surface;
+    status = near.positions ? ewa_mesh_surface_make(&near, options, &surface) : EWA_ERROR_MEMORY;
+    if (status == EWA_OK) {
+        sample_job job = {.surface = &surface, .options = options};
+        status = sample(mesh->context, &job, cloud);
+        ewa_mesh_surface_free(&surface);
+    }
+    if (status == EWA_OK) {
+        double origin_world[3];
+        ewa_cloud_origin(*cloud, origin_world);
+        for (int c = 0; c < 3; c++) origin_world[c] += corner_world[c];
+        ewa_cloud_set_origin(*cloud, origin_world);
+    }
+    ewa_release(mesh->context, near.positions, mesh->vertex_count, 3 * sizeof *near.positions);
     return status;
 }

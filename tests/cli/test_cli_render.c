@@ -210,7 +210,8 @@ static void test_looks_differ(void **state) {
         assert_false(scratch_same("look.png", "base.png"));
     }
     run_fails(1,
-              "torus.ply: --color-by: there is no attribute 'foo'; there are position, normal, color, radius",
+              "torus.ply: there is no attribute 'foo'; there are position (x y z), normal (nx ny nz), color "
+              "(red green blue), radius",
               "ewa render torus.ply -o look2.png --color-by foo");
     assert_int_equal(scratch_size("look2.png"), -1);
 }

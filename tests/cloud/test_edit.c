@@ -100,7 +100,9 @@ static void test_merge(void **state) {
     (void)state;
     ewa_cloud *a = make(300, EWA_F32, "intensity", EWA_U8), *b = make(700, EWA_F64, "intensity", EWA_F32),
               *all = NULL;
-    assert_int_equal(ewa_cloud_add(b, "time", EWA_F64, 1, NULL), EWA_OK);
+    void *times = NULL;
+    assert_int_equal(ewa_cloud_add(b, "time", EWA_F64, 1, &times), EWA_OK);
+    for (int i = 0; i < 700; i++) ((double *)times)[i] = i + 0.5;
     const double origin_a[3] = {1000, 0, 0}, origin_b[3] = {1000, 0.25, -7};
     ewa_cloud_set_origin(a, origin_a);
     ewa_cloud_set_origin(b, origin_b);
@@ -108,9 +110,11 @@ static void test_merge(void **state) {
     messages.count = 0;
     assert_int_equal(ewa_cloud_merge(clouds, 2, &all), EWA_OK);
     assert_int_equal(messages.count, 1);
-    assert_non_null(strstr(messages.text, "'time' of cloud 2"));
+    assert_non_null(strstr(messages.text, "attribute 'time': 1 of 2 clouds lack it, their points get NaN"));
     assert_int_equal(ewa_cloud_point_count(all), 1000);
-    assert_int_equal(ewa_cloud_attribute_count(all), 2);
+    assert_int_equal(ewa_cloud_attribute_count(all), 3);
+    assert_true(isnan(number(all, "time", 299, 0)));
+    assert_true(number(all, "time", 300 + 17, 0) == 17.5);
     assert_int_equal(ewa_cloud_find(all, EWA_POSITION)->type, EWA_F64);
     assert_int_equal(ewa_cloud_find(all, "intensity")->type, EWA_F32);
     assert_true(number(all, "intensity", 255, 0) == 255 && number(all, "intensity", 300 + 40, 0) == 40.5);
@@ -124,6 +128,92 @@ static void test_merge(void **state) {
     ewa_cloud_destroy(&all);
     ewa_cloud_destroy(&a);
     ewa_cloud_destroy(&b);
+}
+
+/// Adds a stream whose every number is the same.
+static void add_constant(ewa_cloud *cloud, const char *name, ewa_type type, uint32_t components,
+                         double number) {
+    void *data = NULL;
+    assert_int_equal(ewa_cloud_add(cloud, name, type, components, &data), EWA_OK);
+    for (uint64_t i = 0; i < components * ewa_cloud_point_count(cloud); i++)
+        if (type == EWA_U8)
+            ((uint8_t *)data)[i] = (uint8_t)number;
+        else if (type == EWA_U16)
+            ((uint16_t *)data)[i] = (uint16_t)number;
+        else if (type == EWA_I32)
+            ((int32_t *)data)[i] = (int32_t)number;
+        else
+            ((float *)data)[i] = (float)number;
+}
+
+/// Colours of every kind become one, and those without become grey; classes become 0; normals need all.
+static void test_merge_colors(void **state) {
+    (void)state;
+    static const struct {
+        ewa_type types[2];
+        uint32_t components[2];
+        double numbers[2];
+        ewa_type type;
+        uint32_t count;
+        double expected[3], alpha, alpha_of_first; ///< of the first, the second, one without colours
+    } cases[] = {
+        {{EWA_U8, EWA_U8}, {3, 3}, {10, 200}, EWA_U8, 3, {10, 200, 203}, 0, 0},
+        {{EWA_U8, EWA_U8}, {3, 4}, {10, 200}, EWA_U8, 4, {10, 200, 203}, 255, 255},
+        {{EWA_U8, EWA_U16}, {3, 3}, {10, 2000}, EWA_U16, 3, {2570, 2000, 203 * 257}, 0, 0},
+        {{EWA_U16, EWA_U8}, {4, 3}, {1000, 255}, EWA_U16, 4, {1000, 65535, 203 * 257}, 65535, 1000},
+        {{EWA_F32, EWA_F32}, {3, 3}, {0.25, 7}, EWA_F32, 3, {0.25, 7, 0.6}, 0, 0},
+        {{EWA_F32, EWA_U8}, {3, 3}, {0.25, 255}, EWA_F32, 3, {0.25, 1, 0.6}, 0, 0},
+        {{EWA_I32, EWA_I32}, {3, 3}, {0, 2147483647}, EWA_F32, 3, {0, 1, 0.6}, 0, 0},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        ewa_cloud *parts[3], *all = NULL;
+        for (int i = 0; i < 3; i++) {
+            parts[i] = make(4, EWA_F32, "intensity", EWA_U8);
+            if (i < 2)
+                add_constant(parts[i], EWA_COLOR, cases[k].types[i], cases[k].components[i],
+                             cases[k].numbers[i]);
+        }
+        add_constant(parts[1], "classification", EWA_U8, 1, 6);
+        add_constant(parts[2], EWA_NORMAL, EWA_F32, 3, 1);
+        assert_int_equal(ewa_cloud_merge((const ewa_cloud *const *)parts, 3, &all), EWA_OK);
+        assert_non_null(strstr(messages.text, "attribute 'normal' of cloud 3 is dropped"));
+        assert_null(ewa_cloud_find(all, EWA_NORMAL));
+        const ewa_attribute *color = ewa_cloud_find(all, EWA_COLOR);
+        assert_int_equal(color->type, cases[k].type);
+        assert_int_equal(color->component_count, cases[k].count);
+        for (uint64_t i = 0; i < 12; i++) {
+            for (uint32_t c = 0; c < 3; c++)
+                assert_true(fabs(number(all, EWA_COLOR, i, c) - cases[k].expected[i / 4]) < 1e-6);
+            if (color->component_count == 4 && i < 4)
+                assert_true(number(all, EWA_COLOR, i, 3) == cases[k].alpha_of_first);
+            if (color->component_count == 4 && i >= 8)
+                assert_true(number(all, EWA_COLOR, i, 3) == cases[k].alpha);
+            assert_true(number(all, "classification", i, 0) == (i / 4 == 1 ? 6 : 0));
+        }
+        ewa_cloud_destroy(&all);
+        for (int i = 0; i < 3; i++) ewa_cloud_destroy(&parts[i]);
+    }
+}
+
+/// Reference systems that differ are named; one that is missing or the same says nothing.
+static void test_merge_systems(void **state) {
+    (void)state;
+    ewa_cloud *parts[3], *all = NULL;
+    for (int i = 0; i < 3; i++) parts[i] = make(4, EWA_F32, "intensity", EWA_U8);
+    assert_int_equal(ewa_cloud_set_note(parts[0], "crs", "EPSG:32632", 10), EWA_OK);
+    messages.count = 0;
+    assert_int_equal(ewa_cloud_merge((const ewa_cloud *const *)parts, 3, &all), EWA_OK);
+    assert_int_equal(messages.count, 0);
+    assert_string_equal(ewa_cloud_note(all, "crs", NULL), "EPSG:32632");
+    ewa_cloud_destroy(&all);
+    assert_int_equal(ewa_cloud_set_note(parts[2], "crs", "PROJCS[\"other\", ...]", 20), EWA_OK);
+    assert_int_equal(ewa_cloud_set_note(parts[2], "crs_name", "ETRS89 / UTM zone 33N", 21), EWA_OK);
+    assert_int_equal(ewa_cloud_merge((const ewa_cloud *const *)parts, 3, &all), EWA_OK);
+    assert_int_equal(messages.count, 1);
+    assert_non_null(strstr(messages.text, "clouds 1 and 3 are in different coordinate reference systems, "
+                                          "'EPSG:32632' and 'ETRS89 / UTM zone 33N'"));
+    ewa_cloud_destroy(&all);
+    for (int i = 0; i < 3; i++) ewa_cloud_destroy(&parts[i]);
 }
 
 static void add_triple(ewa_cloud *cloud, const char *name, float x, float y, float z) {
@@ -203,6 +293,8 @@ int main(void) {
         cmocka_unit_test(test_select),
         cmocka_unit_test(test_select_borrowed),
         cmocka_unit_test(test_merge),
+        cmocka_unit_test(test_merge_colors),
+        cmocka_unit_test(test_merge_systems),
         cmocka_unit_test(test_transform),
         cmocka_unit_test(test_transform_refusals),
     };

@@ -262,13 +262,7 @@ static ewa_status open_file(const ewa_cloud_source *source, ewa_cloud *prototype
         close_file(state);
         return status;
     }
-    const uint64_t text_bytes = source->size_bytes - state->header.data_at_bytes;
-    const uint64_t most_lines = text_bytes / (2 * state->header.value_count) + 1;
-    const uint64_t count = state->header.point_count;
-    if (state->text)
-        *point_count = count < most_lines ? count : most_lines;
-    else
-        *point_count = state->record_count - state->invalid_count;
+    *point_count = state->text ? state->header.point_count : state->record_count - state->invalid_count;
     *opened = state;
     return EWA_OK;
 }

@@ -315,7 +315,8 @@ ewa_status ewa_pcd_text_read(ewa_pcd_text *text, uint64_t most, const ewa_cloud_
 
 // ---- before the points -----------------------------------------------------------------------------------
 
-/// Whether a float says less than the digits of a number: whether it is farther off than half of the last.
+/// Whether a float says less than the digits of a number: whether it is farther off than half of the last, and
+/// its own digits are others.
 static bool loses_digits(ewa_text word) {
     const char *end = word.chars + word.length;
     double value;
@@ -334,7 +335,11 @@ static bool loses_digits(ewa_text word) {
         decimals += behind_point;
         behind_point |= *c == '.';
     }
-    return fabs(value - (double)narrow) > 0.5000001 * pow(10, (double)-decimals);
+    if (fabs(value - (double)narrow) <= 0.5000001 * pow(10, (double)-decimals)) return false;
+    char text[EWA_NUMBER_BYTES];
+    double own = 0;
+    ewa_number_read_f64(text, text + ewa_number_write_f32(narrow, text), &own);
+    return own != value;
 }
 
 /// Whether coordinates of the first lines have more digits than floats hold.
@@ -431,7 +436,16 @@ ewa_status ewa_pcd_text_open(const ewa_cloud_source *source, ewa_pcd_header *hea
                     header->fields[i].size_bytes = 8;
         ewa_pcd_lay_out(header);
     }
+    const uint64_t line_bytes = 2 * (uint64_t)header->value_count; // of the shortest line
+    const uint64_t most_lines = (uint64_t)(text->end - text->at) / line_bytes + 1;
     ewa_status status = allocate(text);
+    if (status == EWA_OK && header->point_count > most_lines) {
+        status =
+            ewa_cloud_damage(source, header->point_count - most_lines,
+                             "%s: the text from line %llu on is too short for %llu points", source->name,
+                             (unsigned long long)header->data_line, (unsigned long long)header->point_count);
+        header->point_count = text->points_left = most_lines;
+    }
     if (status == EWA_OK) status = look_ahead(text, columns, invalid_count);
     if (status == EWA_OK)
         *opened = text;

@@ -5,9 +5,11 @@
 #include "base/base.h"
 #include "base/options.h"
 #include "cloud/cloud.h"
+#include "cloud/decimals.h"
 #include "io/cloud/format.h"
 #include "io/file.h"
 
+#include <math.h>
 #include <string.h>
 
 struct ewa_cloud_reader {
@@ -88,6 +90,35 @@ static ewa_status read_points(ewa_cloud_reader *reader, uint64_t most_points, ew
     return EWA_OK;
 }
 
+/// Gives positions in doubles that are decimals of a few places, far from the origin, an origin of whole
+/// thousands and what is left as exact as the decimals: then the same object anywhere has the same numbers.
+static void settle(ewa_cloud *cloud) {
+    enum { FAR_WORLD = 10000, UNIT_WORLD = 1000 };
+    const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
+    ewa_coordinate_grid grid;
+    double origin_world[3];
+    ewa_cloud_grid(cloud, &grid);
+    ewa_cloud_origin(cloud, origin_world);
+    if (!position || position->type != EWA_F64 || position->component_count != 3) return;
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    double *numbers = position->data;
+    for (int c = 0; c < 3; c++) {
+        if (grid.step_world[c] > 0 || origin_world[c] != 0 || count == 0) continue;
+        const double base_world = floor(numbers[c] / UNIT_WORLD) * UNIT_WORLD;
+        if (!(fabs(base_world) >= FAR_WORLD)) continue;
+        const double parts = ewa_decimals_find(numbers + c, count, 3);
+        if (parts == 0) continue;
+        for (uint64_t i = 0; i < count; i++)
+            numbers[3 * i + (uint64_t)c] =
+                ewa_decimals_subtract(numbers[3 * i + (uint64_t)c], base_world, parts);
+        origin_world[c] = base_world;
+        grid.step_world[c] = 1 / parts;
+        grid.offset_world[c] = 0;
+    }
+    ewa_cloud_set_origin(cloud, origin_world);
+    ewa_cloud_set_grid(cloud, &grid);
+}
+
 ewa_status ewa_cloud_read_all(const ewa_cloud_source *source, const ewa_cloud_format *format,
                               ewa_cloud **cloud) {
     ewa_cloud_reader reader = {.source = *source, .options = *source->options, .format = format};
@@ -95,6 +126,7 @@ ewa_status ewa_cloud_read_all(const ewa_cloud_source *source, const ewa_cloud_fo
     *cloud = NULL;
     ewa_status status = open_points(&reader);
     if (status == EWA_OK) status = read_points(&reader, UINT64_MAX, cloud);
+    if (status == EWA_OK) settle(*cloud);
     close_points(&reader);
     return status;
 }
@@ -218,7 +250,13 @@ bool ewa_cloud_writer_needs_bounds(const char *path, const ewa_cloud *prototype)
     const ewa_cloud_write_format *format = ewa_cloud_write_format_of(path);
     ewa_coordinate_grid grid;
     ewa_cloud_grid(prototype, &grid);
-    const bool has_grid = grid.step_world[0] > 0 && grid.step_world[1] > 0 && grid.step_world[2] > 0;
+    double origin_world[3];
+    ewa_cloud_origin(prototype, origin_world);
+    // The grid can stay as it is when what is about the origin has numbers far below 2^31.
+    bool has_grid = true;
+    for (int c = 0; c < 3; c++)
+        has_grid &= grid.step_world[c] > 0 &&
+                    fabs(origin_world[c] - grid.offset_world[c]) < 0x1p30 * grid.step_world[c];
     return format && format->needs_bounds && !has_grid;
 }
 

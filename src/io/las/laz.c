@@ -16,9 +16,9 @@ static bool item_is_known(const ewa_laz_item *item, bool *layered, bool *sized, 
         uint16_t first_version, last_version;
         bool layered;
     } ITEMS[] = {
-        {EWA_LAZ_BYTE, 0, 2, 2, false},          {EWA_LAZ_POINT10, 20, 2, 2, false},
-        {EWA_LAZ_GPSTIME11, 8, 2, 2, false},     {EWA_LAZ_RGB12, 6, 2, 2, false},
-        {EWA_LAZ_WAVEPACKET13, 29, 1, 1, false}, {EWA_LAZ_POINT14, 30, 3, 4, true},
+        {EWA_LAZ_BYTE, 0, 1, 2, false},          {EWA_LAZ_POINT10, 20, 1, 2, false},
+        {EWA_LAZ_GPSTIME11, 8, 1, 2, false},     {EWA_LAZ_RGB12, 6, 1, 2, false},
+        {EWA_LAZ_WAVEPACKET13, 29, 1, 2, false}, {EWA_LAZ_POINT14, 30, 3, 4, true},
         {EWA_LAZ_RGB14, 6, 3, 4, true},          {EWA_LAZ_RGBNIR14, 8, 3, 4, true},
         {EWA_LAZ_WAVEPACKET14, 29, 3, 4, true},  {EWA_LAZ_BYTE14, 0, 3, 4, true},
     };

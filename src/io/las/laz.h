@@ -70,7 +70,8 @@ ewa_status ewa_laz_decode(ewa_context *context, const ewa_laz_plan *plan, const 
                           ewa_laz_memory **memory, ewa_laz_result *result);
 
 /// Encodes `point_count` records as one chunk, appended to `to` from byte `*at_bytes` on, which steps behind
-/// it. The same bytes as LASzip gives for the same records. Errors: EWA_ERROR_MEMORY.
+/// it, by a plan of ewa_laz_plan_make(). The same bytes as LASzip gives for the same records. Errors:
+/// EWA_ERROR_MEMORY.
 ewa_status ewa_laz_encode(ewa_context *context, const ewa_laz_plan *plan, const uint8_t *records,
                           uint64_t point_count, ewa_buffer *to, size_t *at_bytes, ewa_laz_memory **memory);
 

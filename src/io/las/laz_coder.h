@@ -108,34 +108,25 @@ static inline void ewa_laz_encoder_finish(ewa_laz_coder *c) {
     for (int i = 0; i < (long_interval ? 3 : 2); i++) *c->to++ = 0;
 }
 
-/// How many of the sixteen numbers, which ascend, are at most `quotient`.
-EWA_LAZ_INLINE uint32_t ewa_laz_count(const uint16_t *numbers, uint16_t quotient) {
-    uint16_t count = 0;
-    for (int i = 0; i < EWA_LAZ_GROUP; i++) count = (uint16_t)(count + (numbers[i] <= quotient));
-    return count;
-}
-
 /// Codes a symbol below `symbol_count`; `room` says which kind of model it is, a constant.
 EWA_LAZ_INLINE uint32_t ewa_laz_symbol_of(bool encoding, ewa_laz_coder *c, ewa_laz_model *model,
                                           uint32_t symbol_count, uint32_t room, uint32_t symbol) {
     if (EWA_LAZ_RARELY(model->generation != c->generation))
-        ewa_laz_model_start(model, symbol_count, room, c->generation);
-    const uint16_t *numbers = ewa_laz_model_distribution(model, room);
+        ewa_laz_model_start(encoding, model, symbol_count, room, c->generation);
+    ewa_laz_slot *slots = ewa_laz_model_slots(model);
     const uint32_t unit = c->length >> EWA_LAZ_MODEL_BITS;
     if (!encoding) {
-        const uint32_t exact = c->value / unit;
-        const uint16_t quotient = (uint16_t)(exact < 0x7FFF ? exact : 0x7FFF);
-        uint32_t group = 0;
-        if (room > EWA_LAZ_GROUP) {
-            const uint16_t *firsts = ewa_laz_model_firsts(model);
-            for (uint32_t i = 0; i < EWA_LAZ_FIRSTS(room); i += EWA_LAZ_GROUP)
-                group += ewa_laz_count(firsts + i, quotient);
-            group = (group - 1) * EWA_LAZ_GROUP;
-        }
-        symbol = group + ewa_laz_count(numbers + group, quotient) - 1;
+        // value / unit from below: a division takes longer than the products that tell the symbols apart.
+        const uint32_t zeros = (uint32_t)__builtin_clz(c->length),
+                       inverse = (c->length << zeros) >> 21 & 1023;
+        const uint32_t quotient = (uint32_t)((uint64_t)(c->value << zeros) * ewa_laz_inverses[inverse] >> 32);
+        symbol = ewa_laz_model_table(
+            model, room)[quotient >> (EWA_LAZ_MODEL_BITS - EWA_LAZ_TABLE_BITS(symbol_count))];
+        symbol *= EWA_LAZ_TABLE_STEP(room);
+        while ((uint64_t)slots[symbol + 1].low * unit <= c->value) symbol++;
     }
-    const uint32_t low = numbers[symbol] * unit;
-    const uint32_t high = symbol + 1 == symbol_count ? c->length : numbers[symbol + 1] * unit;
+    const uint32_t low = slots[symbol].low * unit;
+    const uint32_t high = symbol + 1 == symbol_count ? c->length : slots[symbol + 1].low * unit;
     c->length = high - low;
     if (encoding) {
         ewa_laz_raise(c, low);
@@ -144,8 +135,8 @@ EWA_LAZ_INLINE uint32_t ewa_laz_symbol_of(bool encoding, ewa_laz_coder *c, ewa_l
         c->value -= low;
         ewa_laz_renormalise_decoder(c);
     }
-    ewa_laz_model_counts(model, room)[symbol]++;
-    if (EWA_LAZ_RARELY(--model->left == 0)) ewa_laz_model_update(model, symbol_count, room);
+    slots[symbol].count++;
+    if (EWA_LAZ_RARELY(--model->left == 0)) ewa_laz_model_update(encoding, model, symbol_count, room);
     return symbol;
 }
 

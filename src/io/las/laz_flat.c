@@ -5,6 +5,7 @@
 #include "io/las/laz_flat.h"
 
 #include "io/las/laz_chunk.h"
+#include "io/las/laz_first.h"
 
 const uint8_t ewa_laz_return_map[8][8] = {
     {15, 14, 13, 12, 11, 10, 9, 8},  {14, 0, 1, 3, 6, 10, 10, 9},    {13, 1, 2, 4, 7, 11, 11, 10},
@@ -33,7 +34,13 @@ typedef struct packet_item {
     uint8_t last[EWA_LAZ_PACKET_BYTES];
 } packet_item;
 
+/// Whether laz_first.h decodes the item. Waveform packets have been the same ever since.
+static bool is_first(const ewa_laz_item *item) {
+    return item->version == 1 && item->type != EWA_LAZ_WAVEPACKET13;
+}
+
 size_t ewa_laz_flat_bytes(const ewa_laz_item *item) {
+    if (is_first(item)) return ewa_laz_first_bytes(item);
     switch (item->type) {
     case EWA_LAZ_POINT10:
         return sizeof(ewa_laz_points10);
@@ -76,7 +83,9 @@ static void start(ewa_laz_memory *memory, const uint8_t *record) {
     for (uint32_t i = 0; i < memory->plan.item_count; i++) {
         const ewa_laz_item *item = &memory->plan.items[i];
         void *state = memory->items[i];
-        if (item->type == EWA_LAZ_POINT10) {
+        if (is_first(item)) {
+            ewa_laz_first_start(item, state, record);
+        } else if (item->type == EWA_LAZ_POINT10) {
             ewa_laz_points10_start(state, record);
         } else if (item->type == EWA_LAZ_GPSTIME11) {
             ewa_laz_times_start(state, ewa_laz_load64(record));
@@ -134,7 +143,9 @@ EWA_LAZ_INLINE void code_record(bool encoding, ewa_laz_coder *coder, ewa_laz_mem
     for (uint32_t i = 0; i < memory->plan.item_count; i++) {
         const ewa_laz_item item = memory->plan.items[i];
         void *state = memory->items[i];
-        if (item.type == EWA_LAZ_POINT10)
+        if (!encoding && is_first(&item))
+            ewa_laz_first_decode(&item, coder, state, stride, record);
+        else if (item.type == EWA_LAZ_POINT10)
             ewa_laz_point10_code(encoding, coder, state, record);
         else if (item.type == EWA_LAZ_GPSTIME11)
             code_time(encoding, coder, state, record);

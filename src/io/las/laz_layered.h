@@ -219,44 +219,56 @@ EWA_LAZ_INLINE void ewa_laz_point14_code(bool encoding, ewa_laz_layer *layers, e
     }
     ewa_laz_layer *layer = &layers[EWA_LAZ_LAYER_CLASSIFICATION];
     if (encoding || layer->present) {
+        c = layer->coder;
         if (encoding) layer->changed |= now.classification != last.classification;
         now.classification = (uint8_t)ewa_laz_symbol(
-            encoding, &layer->coder, &k->classifications[(last.classification & 31) << 1 | (kind == 3)], 256,
+            encoding, &c, &k->classifications[(last.classification & 31) << 1 | (kind == 3)], 256,
             now.classification);
+        layer->coder = c;
     }
     layer = &layers[EWA_LAZ_LAYER_FLAGS];
     if (encoding || layer->present) {
+        c = layer->coder;
         if (encoding) layer->changed |= now.flags != last.flags;
-        now.flags = (uint8_t)ewa_laz_symbol(encoding, &layer->coder, &k->flags[last.flags], 64, now.flags);
+        now.flags = (uint8_t)ewa_laz_symbol(encoding, &c, &k->flags[last.flags], 64, now.flags);
+        layer->coder = c;
     }
     layer = &layers[EWA_LAZ_LAYER_INTENSITY];
     if (encoding || layer->present) {
+        c = layer->coder;
         if (encoding) layer->changed |= now.intensity != last.intensity;
         uint16_t *intensity = &k->intensities[kind << 1 | time_changed];
-        *intensity =
-            ewa_laz_integer16(encoding, &layer->coder, &k->intensity, kind, *intensity, now.intensity);
+        *intensity = ewa_laz_integer16(encoding, &c, &k->intensity, kind, *intensity, now.intensity);
         now.intensity = *intensity;
+        layer->coder = c;
     }
     layer = &layers[EWA_LAZ_LAYER_ANGLE];
     if ((encoding || layer->present) && changed & ANGLE) {
+        c = layer->coder;
         layer->changed = true;
-        now.angle =
-            ewa_laz_integer16(encoding, &layer->coder, &k->angle, time_changed, last.angle, now.angle);
+        now.angle = ewa_laz_integer16(encoding, &c, &k->angle, time_changed, last.angle, now.angle);
+        layer->coder = c;
     }
     layer = &layers[EWA_LAZ_LAYER_USER];
     if (encoding || layer->present) {
+        c = layer->coder;
         if (encoding) layer->changed |= now.user != last.user;
-        now.user = (uint8_t)ewa_laz_symbol(encoding, &layer->coder, &k->users[last.user / 4], 256, now.user);
+        now.user = (uint8_t)ewa_laz_symbol(encoding, &c, &k->users[last.user / 4], 256, now.user);
+        layer->coder = c;
     }
     layer = &layers[EWA_LAZ_LAYER_SOURCE];
     if ((encoding || layer->present) && changed & SOURCE) {
+        c = layer->coder;
         layer->changed = true;
-        now.source = ewa_laz_integer16(encoding, &layer->coder, &k->source, 0, last.source, now.source);
+        now.source = ewa_laz_integer16(encoding, &c, &k->source, 0, last.source, now.source);
+        layer->coder = c;
     }
     layer = &layers[EWA_LAZ_LAYER_TIME];
     if ((encoding || layer->present) && time_changed) {
+        c = layer->coder;
         layer->changed = true;
-        now.time = ewa_laz_time(encoding, false, &layer->coder, &k->times, now.time);
+        now.time = ewa_laz_time(encoding, false, &c, &k->times, now.time);
+        layer->coder = c;
     }
     k->last = now;
     k->time_changed = time_changed;

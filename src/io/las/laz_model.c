@@ -8,46 +8,66 @@ enum {
     MAX_TOTAL = 1 << EWA_LAZ_MODEL_BITS,   // counts are halved above it
     MAX_BIT_TOTAL = 1 << EWA_LAZ_BIT_BITS, // the same for bits
     MAX_BIT_CYCLE = 64,
-    NEVER = 0xFFFF, // behind the last symbol: above every quotient
+    NEVER = 0xFFFF, // above every quotient
 };
 
-static void distribute(ewa_laz_model *model, uint32_t symbol_count, uint32_t room) {
-    uint16_t *numbers = ewa_laz_model_distribution(model, room);
-    const uint16_t *counts = ewa_laz_model_counts(model, room);
+#define INVERSE(i)     (uint16_t)((1u << 26) / ((i) + 1025))
+#define INVERSE_4(i)   INVERSE(i), INVERSE((i) + 1), INVERSE((i) + 2), INVERSE((i) + 3)
+#define INVERSE_16(i)  INVERSE_4(i), INVERSE_4((i) + 4), INVERSE_4((i) + 8), INVERSE_4((i) + 12)
+#define INVERSE_64(i)  INVERSE_16(i), INVERSE_16((i) + 16), INVERSE_16((i) + 32), INVERSE_16((i) + 48)
+#define INVERSE_256(i) INVERSE_64(i), INVERSE_64((i) + 64), INVERSE_64((i) + 128), INVERSE_64((i) + 192)
+
+const uint16_t ewa_laz_inverses[1024] = {INVERSE_256(0), INVERSE_256(256), INVERSE_256(512),
+                                         INVERSE_256(768)};
+
+static void distribute(ewa_laz_model *model, uint32_t symbol_count) {
+    ewa_laz_slot *slots = ewa_laz_model_slots(model);
     const uint32_t scale = (1u << 31) / model->total;
     uint32_t sum = 0;
     for (uint32_t i = 0; i < symbol_count; i++) {
-        numbers[i] = (uint16_t)((scale * sum) >> (31 - EWA_LAZ_MODEL_BITS));
-        sum += counts[i];
+        slots[i].low = (uint16_t)((scale * sum) >> (31 - EWA_LAZ_MODEL_BITS));
+        sum += slots[i].count;
     }
-    if (room <= EWA_LAZ_GROUP) return;
-    uint16_t *firsts = ewa_laz_model_firsts(model);
-    for (uint32_t i = 0; i < EWA_LAZ_GROUPS(symbol_count); i++) firsts[i] = numbers[i * EWA_LAZ_GROUP];
 }
 
-void ewa_laz_model_start(ewa_laz_model *model, uint32_t symbol_count, uint32_t room, uint32_t generation) {
-    uint16_t *numbers = ewa_laz_model_distribution(model, room), *counts = ewa_laz_model_counts(model, room);
-    for (uint32_t i = 0; i < EWA_LAZ_FIRSTS(room); i++) ewa_laz_model_firsts(model)[i] = NEVER;
-    for (uint32_t i = symbol_count; i < EWA_LAZ_GROUPS(room) * EWA_LAZ_GROUP; i++) numbers[i] = NEVER;
-    for (uint32_t i = 0; i < symbol_count; i++) counts[i] = 1;
+/// Sets the entry of each stretch of quotients to the symbol of its first one.
+static void tabulate(ewa_laz_model *model, uint32_t symbol_count, uint32_t room) {
+    const ewa_laz_slot *slots = ewa_laz_model_slots(model);
+    uint8_t *table = ewa_laz_model_table(model, room);
+    const uint32_t bits = EWA_LAZ_TABLE_BITS(symbol_count), step = EWA_LAZ_TABLE_STEP(room);
+    const uint32_t shift = EWA_LAZ_MODEL_BITS - bits, last = symbol_count - 1;
+    uint32_t entry = 0;
+    for (uint32_t i = 0; i < last; i++)
+        for (const uint32_t end = ((slots[i + 1].low - 1u) >> shift) + 1; entry < end; entry++)
+            table[entry] = (uint8_t)(i / step);
+    for (; entry <= 1u << bits; entry++) table[entry] = (uint8_t)(last / step);
+}
+
+void ewa_laz_model_start(bool encoding, ewa_laz_model *model, uint32_t symbol_count, uint32_t room,
+                         uint32_t generation) {
+    ewa_laz_slot *slots = ewa_laz_model_slots(model);
+    for (uint32_t i = 0; i < symbol_count; i++) slots[i].count = 1;
+    slots[symbol_count].low = NEVER;
     model->generation = generation;
     model->total = symbol_count;
     model->cycle = model->left = (uint16_t)((symbol_count + 6) >> 1);
-    distribute(model, symbol_count, room);
+    distribute(model, symbol_count);
+    if (!encoding) tabulate(model, symbol_count, room);
 }
 
-void ewa_laz_model_update(ewa_laz_model *model, uint32_t symbol_count, uint32_t room) {
+void ewa_laz_model_update(bool encoding, ewa_laz_model *model, uint32_t symbol_count, uint32_t room) {
     model->total += model->cycle;
     if (model->total > MAX_TOTAL) {
-        uint16_t *counts = ewa_laz_model_counts(model, room);
+        ewa_laz_slot *slots = ewa_laz_model_slots(model);
         uint32_t total = 0;
         for (uint32_t i = 0; i < symbol_count; i++) {
-            counts[i] = (uint16_t)((counts[i] + 1) >> 1);
-            total += counts[i];
+            slots[i].count = (uint16_t)((slots[i].count + 1) >> 1);
+            total += slots[i].count;
         }
         model->total = total;
     }
-    distribute(model, symbol_count, room);
+    distribute(model, symbol_count);
+    if (!encoding) tabulate(model, symbol_count, room);
     const uint32_t cycle = model->cycle * 5u / 4, max_cycle = (symbol_count + 6) * 8;
     model->cycle = model->left = (uint16_t)(cycle < max_cycle ? cycle : max_cycle);
 }

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Adaptive models of LAZ's arithmetic coder: how often each symbol came, as a cumulative distribution of 15
-// bits that is made anew now and then. Symbols are found by counting the sixteen first numbers of groups of
-// sixteen, then the sixteen of one group: without branches, hence without mispredicted ones.
+// bits that is made anew now and then.
 //
 // Based on: A. Said, "Introduction to Arithmetic Coding: Theory and Practice", HPL-2004-76 (2004), section
 // 3.2; rapidlasso, "LAZ Specification 1.4", section "Entropy coder".
@@ -17,10 +16,9 @@
 enum {
     EWA_LAZ_MODEL_BITS = 15, ///< of the distribution: it ends at 2^15
     EWA_LAZ_BIT_BITS = 13,   ///< of the probability of a bit
-    EWA_LAZ_GROUP = 16,      ///< symbols that are compared at once
 };
 
-/// Where a model stands; behind it lie the first numbers of its groups, the distribution and the counts.
+/// Where a model stands; behind it lie its symbols, and for decoders the table that finds them.
 typedef struct ewa_laz_model {
     uint32_t generation; ///< the chunk for which it was started
     uint16_t left;       ///< symbols until the distribution is made anew
@@ -29,36 +27,45 @@ typedef struct ewa_laz_model {
     uint32_t unused;
 } ewa_laz_model;
 
+/// A symbol: its place in the distribution ends where the next one's begins. Behind the last one is one that no
+/// quotient reaches.
+typedef struct ewa_laz_slot {
+    uint16_t low;   ///< where it begins
+    uint16_t count; ///< how often it came
+} ewa_laz_slot;
+
 /// A bit's model.
 typedef struct ewa_laz_bit {
     uint32_t generation, left, cycle, zeros, total, zero_probability;
 } ewa_laz_bit;
 
-#define EWA_LAZ_GROUPS(n) (((n) + EWA_LAZ_GROUP - 1) / EWA_LAZ_GROUP)
-/// Numbers of the first level: none for one group.
-#define EWA_LAZ_FIRSTS(n) ((n) <= EWA_LAZ_GROUP ? 0 : EWA_LAZ_GROUPS(EWA_LAZ_GROUPS(n)) * EWA_LAZ_GROUP)
-/// A model with room for n symbols.
+/// Bits of a quotient that are looked up, and how many symbols an entry of the table stands for.
+#define EWA_LAZ_TABLE_BITS(n) ((n) >= 256 ? 8 : 31 - __builtin_clz(n))
+#define EWA_LAZ_TABLE_STEP(n) ((n) > 256 ? 4 : 1)
+/// A model of n symbols.
 #define EWA_LAZ_MODEL(n)                                                                                     \
     struct {                                                                                                 \
         alignas(16) ewa_laz_model head;                                                                      \
-        uint16_t numbers[EWA_LAZ_FIRSTS(n) + 2 * EWA_LAZ_GROUPS(n) * EWA_LAZ_GROUP];                         \
+        ewa_laz_slot slots[(n) + 1];                                                                         \
+        uint8_t table[(1 << EWA_LAZ_TABLE_BITS(n)) + 1];                                                     \
     }
 
-static inline uint16_t *ewa_laz_model_firsts(ewa_laz_model *model) { return (uint16_t *)(model + 1); }
+/// 2^26 / (1025 + i), rounded down: inverses of lengths of 32 bits whose eleven upper ones are 1024 + i, rounded up.
+extern const uint16_t ewa_laz_inverses[1024];
 
-static inline uint16_t *ewa_laz_model_distribution(ewa_laz_model *model, uint32_t room) {
-    return ewa_laz_model_firsts(model) + EWA_LAZ_FIRSTS(room);
+static inline ewa_laz_slot *ewa_laz_model_slots(ewa_laz_model *model) { return (ewa_laz_slot *)(model + 1); }
+
+/// `room`: for how many symbols the model was made.
+static inline uint8_t *ewa_laz_model_table(ewa_laz_model *model, uint32_t room) {
+    return (uint8_t *)(ewa_laz_model_slots(model) + room + 1);
 }
 
-static inline uint16_t *ewa_laz_model_counts(ewa_laz_model *model, uint32_t room) {
-    return ewa_laz_model_distribution(model, room) + EWA_LAZ_GROUPS(room) * EWA_LAZ_GROUP;
-}
-
-/// Sets every one of `symbol_count` symbols equally likely; `room`: for how many symbols there is room.
-void ewa_laz_model_start(ewa_laz_model *model, uint32_t symbol_count, uint32_t room, uint32_t generation);
+/// Sets every one of `symbol_count` symbols equally likely. `encoding`: the table is not needed.
+void ewa_laz_model_start(bool encoding, ewa_laz_model *model, uint32_t symbol_count, uint32_t room,
+                         uint32_t generation);
 
 /// Makes the distribution anew from the counts.
-void ewa_laz_model_update(ewa_laz_model *model, uint32_t symbol_count, uint32_t room);
+void ewa_laz_model_update(bool encoding, ewa_laz_model *model, uint32_t symbol_count, uint32_t room);
 
 void ewa_laz_bit_start(ewa_laz_bit *bit, uint32_t generation);
 void ewa_laz_bit_update(ewa_laz_bit *bit);
