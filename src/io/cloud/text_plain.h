@@ -100,7 +100,7 @@ static inline const char *ewa_plain_split(const ewa_text_layout *layout, ewa_pla
         cells[c] = cell;
         at = next;
         if (class == EWA_TEXT_BLANK || class == EWA_TEXT_SEPARATOR) {
-            at++;
+            if ((uint8_t)(*++at - '0') < 10) continue;
             if (!ewa_plain_skip(layout, walk, &at, class == EWA_TEXT_SEPARATOR)) return NULL;
             if (layout->classes[(uint8_t)*at] != EWA_TEXT_LINE_END) continue;
             if (!ewa_plain_next(walk)) return NULL;

@@ -7,7 +7,7 @@
 
 #include "io/cloud/text_rows.h"
 
-enum { EWA_TEXT_SAMPLE_LINES = 512 };
+enum { EWA_TEXT_SAMPLE_LINES = 128 };
 
 /// What a byte is to a line of a table.
 typedef enum ewa_text_class {
