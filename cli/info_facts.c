@@ -46,13 +46,13 @@ void info_facts_print(const ewa_cloud *cloud) {
     if (has_grid(&grid)) {
         printf("  scale       %.10g %.10g %.10g\n", grid.step_world[0], grid.step_world[1],
                grid.step_world[2]);
-        printf("  offset      %.17g %.17g %.17g\n", grid.offset_world[0], grid.offset_world[1],
+        printf("  offset      %.15g %.15g %.15g\n", grid.offset_world[0], grid.offset_world[1],
                grid.offset_world[2]);
     }
     double origin_world[3];
     ewa_cloud_origin(cloud, origin_world);
     if (origin_world[0] || origin_world[1] || origin_world[2])
-        printf("  origin      %.17g %.17g %.17g\n", origin_world[0], origin_world[1], origin_world[2]);
+        printf("  origin      %.15g %.15g %.15g\n", origin_world[0], origin_world[1], origin_world[2]);
     bool headed = false;
     for (uint32_t i = 0; (name = ewa_cloud_note_name(cloud, i)); i++) {
         if (!is_fact(name)) continue;

@@ -4,6 +4,7 @@
 // Files of points passed through piece by piece.
 #include "passing.h"
 #include "import.h"
+#include "screening.h"
 #include "volume_input.h"
 
 #include <math.h>
@@ -75,6 +76,7 @@ static ewa_status measure_piece(passage *p, const ewa_cloud *piece) {
 }
 
 static ewa_status put_piece(passage *p, const ewa_cloud *piece) {
+    if (p->count == 0) screening_check_steps(p->session, p->path, piece);
     p->count += ewa_cloud_point_count(piece);
     return ewa_cloud_writer_put(p->writer, piece);
 }

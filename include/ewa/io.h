@@ -117,10 +117,10 @@ typedef struct ewa_cloud_save_options {
     /// NULL. Their numbers of vertices count only as long as the cloud has the points of that file in their
     /// order.
     const ewa_elements *elements;
-    /// Step of the coordinates of LAS, LAZ, world units; default 0: that of the cloud's grid, else the finest
+    /// Step of the coordinates of LAS, LAZ, world units, [0, inf); default 0: that of the cloud's grid, else the finest
     /// of 1e-4, 1e-3, 1e-2 with which the box fits 32 bits, finer for small objects.
     double step_world;
-    uint32_t chunk_points; ///< points of one chunk of LAZ; default 50,000
+    uint32_t chunk_points; ///< points of one chunk of LAZ; default 50000
 } ewa_cloud_save_options;
 
 EWA_API extern const ewa_option_table ewa_cloud_save_options_table;

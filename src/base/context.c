@@ -46,7 +46,7 @@ const char *ewa_version(void) {
     return VERSION_TEXT(EWA_VERSION_MAJOR, EWA_VERSION_MINOR, EWA_VERSION_PATCH);
 }
 
-static void *allocate_default(void *user, size_t size_bytes) {
+void *ewa_allocate_default(void *user, size_t size_bytes) {
     (void)user;
     // Large blocks start on huge pages: filling fresh memory by pages of 4 KiB costs more than any copy into
     // it. Rounding up wastes at most half.
@@ -86,7 +86,7 @@ const ewa_option_table ewa_context_options_table = EWA_OPTION_TABLE(ewa_context_
 void ewa_context_options_init(ewa_context_options *options, size_t struct_size) {
     ewa_options_init(&ewa_context_options_table, options, struct_size);
     if (!options || struct_size < AT(limits) + sizeof options->limits) return;
-    options->allocator.allocate = allocate_default;
+    options->allocator.allocate = ewa_allocate_default;
     options->allocator.release = release_default;
     options->limits.max_points = ((uint64_t)1 << 32) - 17;
     options->limits.max_memory_bytes = physical_memory_bytes();

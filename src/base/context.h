@@ -15,4 +15,7 @@ struct ewa_context {
     bool soft_failures;
 };
 
+/// The allocator's function unless the caller gives one; any thread may call it.
+void *ewa_allocate_default(void *user, size_t size_bytes);
+
 #endif

@@ -115,7 +115,8 @@ static void test_written_twice(void **state) {
 static void test_long_names(void **state) {
     (void)state;
     const cli_command *command = command_find("convert");
-    char arguments[4096], message[OPTION_ERROR_BYTES], path[6000];
+    static char arguments[1 << 17];
+    char message[OPTION_ERROR_BYTES], path[6000];
     assert_true(command->arguments_bytes <= sizeof arguments);
     memset(path, 'a', sizeof path - 1);
     path[sizeof path - 1] = 0;

@@ -118,7 +118,7 @@ static void test_wrong_usage(void **state) {
     run_fails(2, "--intrinsics and --fov exclude",
               "ewa render a.ply -o a.png --camera c.log --intrinsics 1,1,1,1 --fov 30");
     run_fails(2, "--points and --spacing exclude", "ewa sample a.obj -o b.ply --points 10 --spacing 0.1");
-    run_fails(2, "--output: 'b.las' is no .ply file", "ewa convert a.ply -o b.las");
+    run_fails(2, "--output: 'b.abc' is no .ply, .las", "ewa convert a.ply -o b.abc");
     run_fails(2, "--hole-mask: 'h.jpg' is no .png file",
               "ewa warp a.png b.png --intrinsics 1,1,1,1 --shift 1,0,0 -o o.png --hole-mask h.jpg");
     run_fails(2, "--fov and --ortho exclude", "ewa render a.ply -o a.png --ortho 2 --fov 60");

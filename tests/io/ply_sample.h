@@ -104,7 +104,8 @@ static inline ewa_status sample_load_text(ewa_context *context, const char *text
     return sample_load_bytes(context, text, strlen(text), cloud);
 }
 
-/// Component `c` of a point of an attribute that has to be there with that type and component count.
+/// Component `c` of a point of an attribute that has to be there with that type and component count; of
+/// positions, in the world.
 static inline double sample_value(const ewa_cloud *cloud, const char *name, ewa_type type,
                                   uint32_t components, uint64_t point, uint32_t c) {
     const ewa_attribute *attribute = ewa_cloud_find(cloud, name);
@@ -112,9 +113,11 @@ static inline double sample_value(const ewa_cloud *cloud, const char *name, ewa_
     if (attribute->type != type || attribute->component_count != components)
         fail_msg("'%s' is %s x %u, not %s x %u", name, ewa_type_name(attribute->type),
                  attribute->component_count, ewa_type_name(type), components);
-    double values[4];
+    double values[4], origin_world[3];
     ewa_attribute_read_f64(attribute, point, 1, values);
-    return values[c];
+    ewa_cloud_origin(cloud, origin_world);
+    const bool moved = strcmp(name, EWA_POSITION) == 0 && c < 3 && origin_world[c] != 0;
+    return moved ? values[c] + origin_world[c] : values[c]; // -0 stays
 }
 
 static inline void assert_same_bits(double a, double b) {

@@ -97,7 +97,7 @@ extern const ewa_cloud_write_format ewa_write_ply, ewa_write_las, ewa_write_pcd,
 
 /// What messages say is read and written.
 #define EWA_CLOUD_FORMATS  "PLY, LAS, LAZ, E57, PCD, PTX, PTS, XYZ, CSV"
-#define EWA_CLOUD_SUFFIXES ".ply, .las, .laz, .pcd, .xyz, .txt, .pts or .csv"
+#define EWA_CLOUD_SUFFIXES ".ply, .las, .laz, .pcd, .xyz, .txt, .asc, .pts or .csv"
 
 /// Finds the format that a path is written in, by its suffix; "-" and devices: PLY. NULL: none.
 const ewa_cloud_write_format *ewa_cloud_write_format_of(const char *path);

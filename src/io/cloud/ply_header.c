@@ -239,3 +239,32 @@ void ewa_ply_header_lines(const ewa_ply_source *source, const ewa_ply_header *he
         line(user, shown);
     }
 }
+
+bool ewa_ply_find_property(const ewa_ply_header *header, const ewa_ply_element *element, const char *name,
+                           uint32_t *property) {
+    for (uint32_t i = 0; i < element->property_count; i++)
+        if (ewa_text_is(header->properties[element->first_property + i].name, name)) {
+            *property = element->first_property + i;
+            return true;
+        }
+    return false;
+}
+
+bool ewa_ply_is_faces(const ewa_ply_header *header, const ewa_ply_element *element, bool *strips,
+                      uint32_t *vertices_property) {
+    *strips = ewa_text_is(element->name, "tristrips");
+    if (element->count == 0 || (!*strips && !ewa_text_is(element->name, "face"))) return false;
+    return (ewa_ply_find_property(header, element, "vertex_indices", vertices_property) ||
+            ewa_ply_find_property(header, element, "vertex_index", vertices_property)) &&
+           header->properties[*vertices_property].is_list;
+}
+
+uint64_t ewa_ply_count_faces(const ewa_ply_header *header) {
+    bool strips;
+    uint32_t property;
+    uint64_t count = 0;
+    for (uint32_t i = 0; i < header->element_count; i++)
+        if (ewa_ply_is_faces(header, &header->elements[i], &strips, &property))
+            count += header->elements[i].count;
+    return count;
+}

@@ -181,7 +181,7 @@ static bool probe(const char *name, const uint8_t *bytes, uint64_t size_bytes) {
     return size_bytes >= 3 && memcmp(bytes, "ply", 3) == 0;
 }
 
-static void close_state(void *state) {
+static void close_ply(void *state) {
     ply_state *old = state;
     if (!old) return;
     ewa_context *context = old->source.context;
@@ -216,8 +216,8 @@ static ewa_status note_faces(const ewa_ply_header *header, ewa_cloud *prototype)
                  : EWA_OK;
 }
 
-static ewa_status open_state(const ewa_cloud_source *file, ewa_cloud *prototype, uint64_t *point_count,
-                             void **state) {
+static ewa_status open_ply(const ewa_cloud_source *file, ewa_cloud *prototype, uint64_t *point_count,
+                           void **state) {
     ply_state *made = ewa_allocate_zeroed(file->context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
     made->source = (ewa_ply_source){file->context, file->name, file->bytes, file->size_bytes};
@@ -230,12 +230,12 @@ static ewa_status open_state(const ewa_cloud_source *file, ewa_cloud *prototype,
         *point_count = made->vertices->count;
         *state = made;
     } else {
-        close_state(made);
+        close_ply(made);
     }
     return status;
 }
 
-static ewa_status read_state(void *state, uint64_t most, const ewa_cloud_sink *sinks, uint64_t *got_count) {
+static ewa_status read_ply(void *state, uint64_t most, const ewa_cloud_sink *sinks, uint64_t *got_count) {
     ply_state *own = state;
     const ewa_status status = ewa_ply_points_read(&own->points, most, sinks, got_count);
     if (status != EWA_OK) return status;
@@ -245,4 +245,4 @@ static ewa_status read_state(void *state, uint64_t most, const ewa_cloud_sink *s
     return EWA_OK;
 }
 
-const ewa_cloud_format ewa_format_ply = {EWA_MODEL_PLY, probe, open_state, read_state, close_state};
+const ewa_cloud_format ewa_format_ply = {EWA_MODEL_PLY, probe, open_ply, read_ply, close_ply};

@@ -74,6 +74,7 @@ static ewa_status read_points(ewa_cloud_reader *reader, uint64_t most_points, ew
                                             room, &made, reader->sinks);
     while (status == EWA_OK && count < room) {
         uint64_t got_count = 0;
+        // Such as read_ply().
         status = reader->format->read(reader->state, room - count, reader->sinks, &got_count);
         if (got_count == 0) break;
         count += got_count;

@@ -179,7 +179,7 @@ static void lay_extra(const extra *e, ewa_las_column *column) {
     }
 }
 
-/// Adds bytes without a type as attributes of up to four each: NAME, NAME_1, ... Returns false when there is
+/// Adds bytes without a type as attributes of up to four each, numbered from the second on. Returns false when there is
 /// no room for all.
 static bool add_bytes(ewa_las_table *table, const char *name, uint32_t at_bytes, uint32_t count) {
     for (uint32_t i = 0; 4 * i < count; i++) {

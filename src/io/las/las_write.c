@@ -4,7 +4,7 @@
 // Writes LAS and LAZ: points are packed into a wave of records by all workers, waves go to the file as they
 // are or as chunks that all workers compress; counts and bounds are patched into the header at the end.
 #include "io/las/las_write.h"
-#include "base/base.h"
+#include "base/allocating.h"
 #include "cloud/cloud.h"
 #include "io/file.h"
 #include "io/las/laz_chunks.h"
@@ -181,7 +181,7 @@ static void encode_chunk(void *data, uint32_t index, uint32_t worker) {
 static ewa_status flush_chunks(las_writer *w) {
     ewa_context *context = w->target->context;
     const uint32_t count = (uint32_t)((w->wave_filled + w->chunk_points - 1) / w->chunk_points);
-    ewa_parallel(context, encode_chunk, w, count);
+    ewa_parallel_allocating(context, encode_chunk, w, count);
     ewa_status status = ewa_buffer_grow(context, &w->chunks, (size_t)w->chunk_count,
                                         (size_t)w->chunk_count + count, sizeof(ewa_laz_chunk));
     for (uint32_t i = 0; i < count && status == EWA_OK; i++) {

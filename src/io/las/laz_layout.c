@@ -97,7 +97,7 @@ static uint64_t find_table(const ewa_cloud_source *source, const ewa_las_header 
     return at >= first && at <= size_bytes && size_bytes - at >= TABLE_HEAD_BYTES ? at : 0;
 }
 
-/// Reads the table at byte `table_at`, `chunks_end` of the chunks.
+/// Reads the table at byte `table_at`.
 static ewa_status read_table(const ewa_cloud_source *source, const ewa_las_header *header, uint64_t table_at,
                              ewa_laz_layout *layout) {
     const uint8_t *head = source->bytes + table_at;

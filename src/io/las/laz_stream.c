@@ -3,7 +3,7 @@
 //
 // The records of LAZ chunks, decoded by all workers: whole chunks go from the worker that decodes them into
 // the sinks; a chunk that is larger than what is wanted is kept and handed out in parts.
-#include "base/base.h"
+#include "base/allocating.h"
 #include "io/las/laz_chunks.h"
 
 #include <string.h>
@@ -122,7 +122,7 @@ ewa_status ewa_laz_stream_sample(ewa_laz_stream *stream,
     }
     if (status != EWA_OK) return status;
     const keep_job job = {stream, 0};
-    ewa_parallel(stream->source->context, decode_kept, (void *)&job, stream->kept_count);
+    ewa_parallel_allocating(stream->source->context, decode_kept, (void *)&job, stream->kept_count);
     *is_all = stream->kept_count == chunk_count;
     for (uint32_t i = 0; i < stream->kept_count; i++) {
         const kept_chunk *kept = &stream->kept[i];
@@ -166,7 +166,7 @@ static ewa_status keep_next(ewa_laz_stream *stream) {
         if (status != EWA_OK) return status;
     }
     const keep_job job = {stream, first};
-    ewa_parallel(stream->source->context, decode_kept, (void *)&job, stream->kept_count - first);
+    ewa_parallel_allocating(stream->source->context, decode_kept, (void *)&job, stream->kept_count - first);
     return EWA_OK;
 }
 
@@ -296,7 +296,7 @@ static ewa_status read_wave(ewa_laz_stream *stream, const ewa_las_table *table, 
     if (status == EWA_OK && chunk_count == 1)
         read_chunk(&w, 0, 0);
     else if (status == EWA_OK)
-        ewa_parallel(context, read_chunk, &w, (uint32_t)chunk_count);
+        ewa_parallel_allocating(context, read_chunk, &w, (uint32_t)chunk_count);
     if (status == EWA_OK) status = settle(&w, got_count, above_count);
     ewa_release(context, w.results, chunk_count, sizeof *w.results);
     return status;
