@@ -27,7 +27,9 @@ static ewa_status load(ewa_context *context, const uint8_t *bytes, size_t size_b
                                      .size_bytes = size_bytes,
                                      .options = &options,
                                      .lost_count = &lost_count};
-    return ewa_cloud_read_all(&source, format, cloud);
+    const ewa_status status = ewa_cloud_read_all(&source, format, cloud);
+    if (status == EWA_OK) ewa_cloud_settle(*cloud);
+    return status;
 }
 
 ewa_status ewa_cloud_load_memory(ewa_context *context, const void *bytes, size_t size_bytes, const char *name,

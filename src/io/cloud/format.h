@@ -119,6 +119,11 @@ const ewa_cloud_format *ewa_cloud_format_of(const char *name, const uint8_t *byt
 ewa_status ewa_cloud_make_room(const char *name, const ewa_cloud *prototype, const char *wanted,
                                uint64_t point_count, ewa_cloud **cloud, ewa_cloud_sink *sinks);
 
+/// Gives positions in doubles that are decimals of a few places, far from the origin, an origin of whole
+/// thousands and what is left as exact as the decimals: then the same object anywhere has the same numbers.
+/// Only a whole cloud shows whether they are.
+void ewa_cloud_settle(ewa_cloud *cloud);
+
 /// Reads all points of a source into a cloud.
 ewa_status ewa_cloud_read_all(const ewa_cloud_source *source, const ewa_cloud_format *format,
                               ewa_cloud **cloud);

@@ -91,9 +91,7 @@ static ewa_status read_points(ewa_cloud_reader *reader, uint64_t most_points, ew
     return EWA_OK;
 }
 
-/// Gives positions in doubles that are decimals of a few places, far from the origin, an origin of whole
-/// thousands and what is left as exact as the decimals: then the same object anywhere has the same numbers.
-static void settle(ewa_cloud *cloud) {
+void ewa_cloud_settle(ewa_cloud *cloud) {
     enum { FAR_WORLD = 10000, UNIT_WORLD = 1000 };
     const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
     ewa_coordinate_grid grid;
@@ -127,7 +125,6 @@ ewa_status ewa_cloud_read_all(const ewa_cloud_source *source, const ewa_cloud_fo
     *cloud = NULL;
     ewa_status status = open_points(&reader);
     if (status == EWA_OK) status = read_points(&reader, UINT64_MAX, cloud);
-    if (status == EWA_OK) settle(*cloud);
     close_points(&reader);
     return status;
 }

@@ -59,8 +59,7 @@ static ewa_status read_points(const ewa_mesh_source *source, const ewa_cloud_for
                               const ewa_cloud_load_options *options, ewa_model *model) {
     ewa_cloud_load_options chosen;
     ewa_cloud_load_options_init(&chosen, sizeof chosen);
-    const ewa_status status =
-        ewa_options_take(source->context, &ewa_cloud_load_options_table, options, &chosen);
+    ewa_status status = ewa_options_take(source->context, &ewa_cloud_load_options_table, options, &chosen);
     if (status != EWA_OK) return status;
     model->format = format->format;
     const ewa_cloud_source points = {.context = source->context,
@@ -70,7 +69,9 @@ static ewa_status read_points(const ewa_mesh_source *source, const ewa_cloud_for
                                      .size_bytes = source->size_bytes,
                                      .options = &chosen,
                                      .lost_count = &model->lost_count};
-    return ewa_cloud_read_all(&points, format, &model->points);
+    status = ewa_cloud_read_all(&points, format, &model->points);
+    if (status == EWA_OK) ewa_cloud_settle(model->points);
+    return status;
 }
 
 static ewa_status read_ply(const ewa_mesh_source *source, uint32_t wanted,
