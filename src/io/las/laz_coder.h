@@ -16,7 +16,21 @@
 
 #include <stddef.h>
 
-#define EWA_LAZ_INLINE            static inline __attribute__((always_inline))
+// Sanitizers look at every access: with all of it in one function, compilers take minutes.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) ||                                   \
+    __has_feature(undefined_behavior_sanitizer)
+#define EWA_LAZ_SANITIZED 1
+#endif
+#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define EWA_LAZ_SANITIZED 1
+#endif
+#if defined(EWA_LAZ_SANITIZED)
+#define EWA_LAZ_INLINE static __attribute__((noinline, unused))
+#else
+#define EWA_LAZ_INLINE static inline __attribute__((always_inline))
+#endif
+
 #define EWA_LAZ_RARELY(condition) __builtin_expect(!!(condition), 0)
 
 enum { EWA_LAZ_MIN_LENGTH_BITS = 24 }; ///< an interval is at least 2^24 long before a symbol
