@@ -68,7 +68,7 @@ static void world_of(const ewa_cloud *cloud, uint64_t point, double world[3]) {
 /// Every format that is written, and the pieces of prime sizes that it is read and written in.
 static void test_pieces(void **state) {
     (void)state;
-    static const char *const suffixes[] = {".ply"};
+    static const char *const suffixes[] = {".ply", ".las", ".laz", ".pcd", ".csv"};
     static const uint64_t sizes[] = {1, 7, 997, 5003, 100000};
     ewa_cloud *scan = make_scan();
     for (size_t s = 0; s < sizeof suffixes / sizeof suffixes[0]; s++) {
@@ -115,6 +115,74 @@ static void test_pieces(void **state) {
         ewa_cloud_destroy(&whole);
     }
     ewa_cloud_destroy(&scan);
+}
+
+/// What is held at most.
+typedef struct held_memory {
+    size_t held_bytes, most_bytes;
+} held_memory;
+
+static void *hold(void *user, size_t size_bytes) {
+    held_memory *memory = user;
+    memory->held_bytes += size_bytes;
+    if (memory->held_bytes > memory->most_bytes) memory->most_bytes = memory->held_bytes;
+    return aligned_alloc(64, (size_bytes + 63) / 64 * 64);
+}
+
+static void let_go(void *user, void *block, size_t size_bytes) {
+    if (block) ((held_memory *)user)->held_bytes -= size_bytes;
+    free(block);
+}
+
+/// A file that is passed through needs memory for a piece, not for its points.
+static void test_memory(void **state) {
+    (void)state;
+    enum { MANY = 400000, PIECE = 4096, MOST_BYTES = 3 << 20 };
+    ewa_cloud *cloud = NULL;
+    float *position = NULL;
+    assert_int_equal(ewa_cloud_create(context, MANY, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&position), EWA_OK);
+    for (int i = 0; i < 3 * MANY; i++) position[i] = (float)(i % 1013) / 8;
+    static const char *const suffixes[] = {".ply", ".las", ".pcd", ".xyz"};
+    enum { SUFFIXES = sizeof suffixes / sizeof suffixes[0] };
+    for (int from = 0; from < SUFFIXES; from++)
+        for (int to = 0; to < SUFFIXES; to++) {
+            char name[64], from_path[512], to_path[512];
+            snprintf(name, sizeof name, "many%s", suffixes[from]);
+            scratch_path(name, from_path);
+            snprintf(name, sizeof name, "passed%s", suffixes[to]);
+            scratch_path(name, to_path);
+            if (to == 0) assert_int_equal(ewa_cloud_save(cloud, from_path, NULL), EWA_OK);
+            held_memory memory = {0};
+            ewa_context_options options;
+            ewa_context_options_init(&options, sizeof options);
+            options.allocator = (ewa_allocator){&memory, hold, let_go};
+            options.thread_count = 2;
+            ewa_context *own = NULL;
+            ewa_cloud_reader *reader = NULL;
+            ewa_cloud_writer *writer = NULL;
+            ewa_cloud *piece = NULL;
+            const ewa_bounds bounds = {{0, 0, 0}, {127, 127, 127}, MANY};
+            assert_int_equal(ewa_context_create(&options, &own), EWA_OK);
+            assert_int_equal(ewa_cloud_reader_open(own, from_path, NULL, &reader), EWA_OK);
+            assert_int_equal(ewa_cloud_writer_open(own, to_path, NULL, ewa_cloud_reader_prototype(reader),
+                                                   EWA_POINTS_UNKNOWN, &bounds, &writer),
+                             EWA_OK);
+            uint64_t count = 0;
+            while (ewa_cloud_reader_next(reader, PIECE, &piece) == EWA_OK && piece) {
+                count += ewa_cloud_point_count(piece);
+                assert_int_equal(ewa_cloud_writer_put(writer, piece), EWA_OK);
+                ewa_cloud_destroy(&piece);
+            }
+            assert_int_equal(count, MANY);
+            assert_int_equal(ewa_cloud_writer_commit(&writer), EWA_OK);
+            ewa_cloud_reader_close(&reader);
+            ewa_context_destroy(&own);
+            assert_int_equal(memory.held_bytes, 0);
+            if (memory.most_bytes > MOST_BYTES)
+                fail_msg("%s to %s: %zu bytes", suffixes[from], suffixes[to], memory.most_bytes);
+        }
+    ewa_cloud_destroy(&cloud);
 }
 
 /// Only what is wanted is read, and positions always.
@@ -239,6 +307,7 @@ static void test_notes(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_pieces, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_memory, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_wanted, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_promises, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_unknown_count, set_up, tear_down),
