@@ -42,6 +42,8 @@ static void print_file(ewa_context *context, const char *path, uint32_t near_cou
         fprintf(stderr, "measure_radii: cannot read %s\n", path);
         exit(1);
     }
+    // Its cameras stand about the streams.
+    ewa_cloud_set_origin(cloud, (const double[3]){0});
     estimate(&cloud);
     const char *slash = strrchr(path, '/');
     print_row(context, slash ? slash + 1 : path, cloud, near_count);
