@@ -29,6 +29,7 @@ typedef struct passage {
     passing_change *change;
     ewa_cloud_reader *reader;
     ewa_cloud_writer *writer;
+    bool screened;     // the first piece was looked at
     uint64_t count;    // of the points that are kept
     ewa_bounds bounds; // of those
 } passage;
@@ -59,6 +60,9 @@ static bool each_piece(passage *p, ewa_status (*take)(passage *p, const ewa_clou
         ewa_cloud *piece = NULL;
         status = ewa_cloud_reader_next(p->reader, PIECE_POINTS, &piece);
         if (status != EWA_OK || !piece) break;
+        // What the file says, not what becomes of it.
+        if (!p->screened) screening_check_steps(p->session, p->path, piece);
+        p->screened = true;
         changed = p->change(p->session, p->arguments, &piece);
         if (changed && ewa_cloud_point_count(piece)) status = take(p, piece);
         ewa_cloud_destroy(&piece);
@@ -76,7 +80,6 @@ static ewa_status measure_piece(passage *p, const ewa_cloud *piece) {
 }
 
 static ewa_status put_piece(passage *p, const ewa_cloud *piece) {
-    if (p->count == 0) screening_check_steps(p->session, p->path, piece);
     p->count += ewa_cloud_point_count(piece);
     return ewa_cloud_writer_put(p->writer, piece);
 }
