@@ -78,7 +78,7 @@ static ewa_status make_scan(ewa_context *context, bool is_new, ewa_cloud **scan)
     return status;
 }
 
-static uint64_t file_bytes(const char *path) {
+uint64_t bench_file_bytes(const char *path) {
     FILE *file = fopen(path, "rb");
     if (!file) return 0;
     const long size = fseek(file, 0, SEEK_END) == 0 ? ftell(file) : 0;
@@ -134,7 +134,7 @@ static ewa_status measure(ewa_context *context, const bench_plan *plan, const ch
         uint64_t points = SCAN_POINTS;
         status = make_scan(context, kinds[k].is_new, &scan);
         if (status == EWA_OK) status = time_write(scan, plan, path, time_s);
-        const uint64_t bytes = file_bytes(path);
+        const uint64_t bytes = bench_file_bytes(path);
         if (status == EWA_OK) report(sink, plan, kinds[k].write, threads, time_s, points, bytes);
         if (status == EWA_OK) status = time_read(context, plan, path, time_s, &points);
         if (status == EWA_OK) report(sink, plan, kinds[k].read, threads, time_s, points, bytes);
@@ -177,7 +177,7 @@ bool bench_files_read(cli_session *session, const bench_plan *plan, const char *
             context ? time_read(context, plan, path, time_s, &points) : EWA_ERROR_MEMORY;
         done = status == EWA_OK;
         if (done)
-            report(sink, plan, name, plan->threads[i / count], time_s, points, file_bytes(path));
+            report(sink, plan, name, plan->threads[i / count], time_s, points, bench_file_bytes(path));
         else
             session_failed(session, status);
         ewa_context_destroy(&context);

@@ -7,6 +7,9 @@
 
 #include "bench_frames.h"
 
+/// Returns the size of a file; 0 when it cannot be read.
+uint64_t bench_file_bytes(const char *path);
+
 /// Measures and reports every format that is written, with a scan of a million points, for the plan's numbers
 /// of threads. Files go to a folder in TMPDIR that is removed afterwards. Returns false after reporting.
 bool bench_files(cli_session *session, const bench_plan *plan, const bench_sink *sink);

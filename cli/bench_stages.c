@@ -5,6 +5,7 @@
 #include "bench_stages.h"
 
 #include "bench_clip.h"
+#include "bench_files.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -70,14 +71,6 @@ static void scratch_close(const scratch_folder *scratch) {
     remove(scratch->again);
     remove(scratch->png);
     rmdir(scratch->folder);
-}
-
-static uint64_t file_bytes(const char *path) {
-    FILE *file = fopen(path, "rb");
-    if (!file) return 0;
-    const long size = fseek(file, 0, SEEK_END) == 0 ? ftell(file) : 0;
-    fclose(file);
-    return size > 0 ? (uint64_t)size : 0;
 }
 
 static ewa_status save_inputs(const stage_input *input) {
@@ -167,16 +160,16 @@ static void report(const bench_plan *plan, stage_lane *lane, const stage_input *
                    pixels = (uint64_t)input->camera->width_px * input->camera->height_px;
     for (int stage = 0; stage < STAGE_COUNT; stage++) {
         const bool picture = stage == STAGE_PNG_RGB || stage == STAGE_PNG_RGBA;
-        const bench_stage_row row = {.stage = stage_names[stage],
-                                     .threads = ewa_context_worker_count(lane->context),
-                                     .time = bench_summarise(lane->time_s[stage], plan->frame_count),
-                                     .item_count = picture               ? pixels
-                                                   : stage == STAGE_CLIP ? BENCH_CLIP_SEGMENTS
-                                                                         : points,
-                                     .bytes = stage == STAGE_READ_ASCII ? file_bytes(input->scratch.ascii)
-                                              : stage == STAGE_READ || stage == STAGE_WRITE
-                                                  ? file_bytes(input->scratch.ply)
-                                                  : 0};
+        const bench_stage_row row = {
+            .stage = stage_names[stage],
+            .threads = ewa_context_worker_count(lane->context),
+            .time = bench_summarise(lane->time_s[stage], plan->frame_count),
+            .item_count = picture               ? pixels
+                          : stage == STAGE_CLIP ? BENCH_CLIP_SEGMENTS
+                                                : points,
+            .bytes = stage == STAGE_READ_ASCII                     ? bench_file_bytes(input->scratch.ascii)
+                     : stage == STAGE_READ || stage == STAGE_WRITE ? bench_file_bytes(input->scratch.ply)
+                                                                   : 0};
         bench_report_stage(sink, &row);
     }
 }

@@ -21,8 +21,8 @@ extern "C" {
 typedef struct ewa_scalar {
     ewa_attribute attribute; ///< of the cloud, valid as long as its data
     uint32_t component;
-    double shift_world; ///< added to what is stored: the origin of a position, else 0
-    ewa_coordinate_grid grid;      ///< of a position; no steps for all else
+    double shift_world;       ///< added to what is stored: the origin of a position, else 0
+    ewa_coordinate_grid grid; ///< of a position; no steps for all else
 } ewa_scalar;
 
 /// Finds the number that a word means: the name of an attribute (its first component), "NAME.x" to "NAME.w"

@@ -38,8 +38,7 @@ static void mark_block(const void *data, uint64_t first, uint32_t count, uint8_t
     ewa_scalar_read(&term->scalar, first, count, numbers);
     for (uint32_t r = 0; r < term->range_count; r++) {
         const double low = term->low[r], high = term->high[r];
-        for (uint32_t i = 0; i < count; i++)
-            hits[i] |= (uint8_t)((numbers[i] >= low) & (numbers[i] <= high));
+        for (uint32_t i = 0; i < count; i++) hits[i] |= (uint8_t)((numbers[i] >= low) & (numbers[i] <= high));
     }
     if (term->outside)
         for (uint32_t i = 0; i < count; i++) hits[i] = (uint8_t)(!hits[i] & (numbers[i] == numbers[i]));

@@ -89,8 +89,8 @@ static ewa_status check_corners(ewa_context *context, const double *corners, con
     *total = 0;
     for (uint32_t r = 0; r < ring_count; r++) {
         if (ring_counts[r] < 3)
-            return ewa_fail(context, EWA_ERROR_ARGUMENT, "polygon: ring %u has %u corners, fewer than 3", r + 1,
-                            ring_counts[r]);
+            return ewa_fail(context, EWA_ERROR_ARGUMENT, "polygon: ring %u has %u corners, fewer than 3",
+                            r + 1, ring_counts[r]);
         *total += ring_counts[r];
     }
     if (*total > MOST_CORNERS)

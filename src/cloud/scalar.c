@@ -16,8 +16,8 @@ static const struct {
     const char *word, *attribute;
     uint32_t component;
 } synonyms[] = {
-    {"x", EWA_POSITION, 0}, {"y", EWA_POSITION, 1},  {"z", EWA_POSITION, 2},  {"nx", EWA_NORMAL, 0},
-    {"ny", EWA_NORMAL, 1},  {"nz", EWA_NORMAL, 2},   {"red", EWA_COLOR, 0},   {"green", EWA_COLOR, 1},
+    {"x", EWA_POSITION, 0}, {"y", EWA_POSITION, 1},  {"z", EWA_POSITION, 2}, {"nx", EWA_NORMAL, 0},
+    {"ny", EWA_NORMAL, 1},  {"nz", EWA_NORMAL, 2},   {"red", EWA_COLOR, 0},  {"green", EWA_COLOR, 1},
     {"blue", EWA_COLOR, 2}, {"alpha", EWA_COLOR, 3},
 };
 

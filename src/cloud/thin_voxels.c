@@ -45,7 +45,8 @@ static void thin_voxel(const voxel_job *job, const uint32_t *points, uint32_t co
         find_steps(frame, points[i], steps);
         double distance2 = 0;
         for (int c = 0; c < 3; c++) distance2 += (steps[c] - mean[c]) * (steps[c] - mean[c]);
-        if (distance2 > least || (distance2 == least && ewa_points_compare(job->cloud, points[i], nearest) >= 0))
+        if (distance2 > least ||
+            (distance2 == least && ewa_points_compare(job->cloud, points[i], nearest) >= 0))
             continue;
         least = distance2;
         nearest = points[i];

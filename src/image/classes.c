@@ -63,7 +63,9 @@ void ewa_class_name(uint32_t code, char name[EWA_CLASS_NAME_BYTES]) {
         snprintf(name, EWA_CLASS_NAME_BYTES, "class %u", code);
 }
 
-static char plain(char c) { return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c == '_' || c == '-' ? ' ' : c; }
+static char plain(char c) {
+    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c == '_' || c == '-' ? ' ' : c;
+}
 
 bool ewa_class_find(const char *name, uint32_t *code) {
     for (uint32_t i = 0; i < KNOWN; i++) {

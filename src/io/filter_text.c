@@ -115,8 +115,7 @@ static ewa_status read_term(ewa_text text, ewa_filter_term *term, char problem[E
     while (at < end && *at != '=' && *at != '!' && *at != '<' && *at != '>') at++;
     const ewa_text name = trimmed(text.chars, at);
     if (!name.length || name.length >= EWA_NAME_BYTES)
-        return wrong(problem, "%s: the name of an attribute is missing or too long",
-                     ewa_quote(text, quote));
+        return wrong(problem, "%s: the name of an attribute is missing or too long", ewa_quote(text, quote));
     *term = (ewa_filter_term){.range_count = 0};
     memcpy(term->name, name.chars, name.length);
     const char sign = at < end ? *at++ : 0;

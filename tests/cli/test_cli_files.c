@@ -108,8 +108,7 @@ static void test_part(void **state) {
     assert_true(scratch_same("b.ply", "c.ply"));
     run_done("ewa convert a.ply -o b.ply --subsample 20000");
     assert_true(scratch_same("a.ply", "b.ply"));
-    run_fails(1, "a.ply: none of the points is left",
-              "ewa convert a.ply -o d.ply --crop 5,5,5,6,6,6");
+    run_fails(1, "a.ply: none of the points is left", "ewa convert a.ply -o d.ply --crop 5,5,5,6,6,6");
     assert_int_equal(scratch_size("d.ply"), -1);
 }
 

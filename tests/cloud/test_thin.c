@@ -112,7 +112,8 @@ static void check_voxels(const double *p, uint32_t count, const uint8_t *wanted,
         for (int c = 0; c < 3; c++) cell[c] = floor((p[3 * i + (uint32_t)c] + origin[c]) / size);
         for (uint32_t k = 0; k < count; k++) {
             bool same = wanted[k] && is_finite(p + 3 * k);
-            for (uint32_t c = 0; same && c < 3; c++) same = floor((p[3 * k + c] + origin[c]) / size) == cell[c];
+            for (uint32_t c = 0; same && c < 3; c++)
+                same = floor((p[3 * k + c] + origin[c]) / size) == cell[c];
             if (!same) continue;
             if (k < i) break; // seen before, with its first point
             members[member_count++] = k;
@@ -219,8 +220,8 @@ static void test_order_and_threads(void **state) {
             }
             for (uint32_t i = 0; i < MANY; i++)
                 for (uint32_t c = 0; c < 3; c++) q[3 * i + c] = p[3 * ids[i] + c] - (k == 2 ? moved[c] : 0);
-            assert_int_equal(
-                thin(context, run >= KINDS, MANY, q, ids, k == 2 ? moved : no_origin, other), kept);
+            assert_int_equal(thin(context, run >= KINDS, MANY, q, ids, k == 2 ? moved : no_origin, other),
+                             kept);
             assert_memory_equal(first, other, MANY);
             ewa_context_destroy(&context);
         }
@@ -280,8 +281,8 @@ static void test_memory(void **state) {
             memset(marks, 1, sizeof marks);
             const int64_t before = memory.held_bytes;
             memory.calls_left = fails;
-            status =
-                voxels ? ewa_cloud_thin_voxels(cloud, 0.1, marks) : ewa_cloud_thin_distance(cloud, 0.1, marks);
+            status = voxels ? ewa_cloud_thin_voxels(cloud, 0.1, marks)
+                            : ewa_cloud_thin_distance(cloud, 0.1, marks);
             assert_true(status == EWA_OK || status == EWA_ERROR_MEMORY);
             assert_true(memory.held_bytes == before);
             memory.calls_left = -1;
@@ -294,9 +295,12 @@ static void test_memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_distance),     cmocka_unit_test(test_exact_distance),
-        cmocka_unit_test(test_voxels),       cmocka_unit_test(test_known_voxels),
-        cmocka_unit_test(test_order_and_threads), cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_distance),
+        cmocka_unit_test(test_exact_distance),
+        cmocka_unit_test(test_voxels),
+        cmocka_unit_test(test_known_voxels),
+        cmocka_unit_test(test_order_and_threads),
+        cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -61,10 +61,10 @@ static void test_limited(void **state) {
         double detail;
         uint32_t count;
         double largest; ///< in median spacings
-    } scenes[] = {{"plane", RADII_PLANE, 0, 20000, 3},      {"dense plane", RADII_PLANE, 0, 1000000, 3},
-                  {"sphere", RADII_SPHERE, 0, 100000, 3},   {"terrain", RADII_TERRAIN, 0, 60000, 3.05},
+    } scenes[] = {{"plane", RADII_PLANE, 0, 20000, 3},         {"dense plane", RADII_PLANE, 0, 1000000, 3},
+                  {"sphere", RADII_SPHERE, 0, 100000, 3},      {"terrain", RADII_TERRAIN, 0, 60000, 3.05},
                   {"lone points", RADII_LONE, 0, 20000, 3.05}, {"fog", RADII_FOG, 0, 20000, 3.8},
-                  {"garden", RADII_GARDEN, 0, 20000, 4.2},  {"lines 20 : 1", RADII_LINES, 20, 20000, 4}};
+                  {"garden", RADII_GARDEN, 0, 20000, 4.2},     {"lines 20 : 1", RADII_LINES, 20, 20000, 4}};
     ewa_context *context = check_context(0, NULL);
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         ewa_cloud *cloud = make_scene(context, scenes[i].kind, scenes[i].detail, scenes[i].count);
