@@ -198,6 +198,12 @@ EWA_API ewa_status ewa_render_begin(ewa_renderer *renderer, const ewa_camera *ca
 /// that the table does not have), EWA_ERROR_MEMORY; the frame stays as it was.
 EWA_API ewa_status ewa_render_add(ewa_renderer *renderer, const ewa_surfels *surfels);
 
+/// Adds a source with a weight in (0, 1] that all of its kernels have: what it adds to a pixel's weighted mean
+/// and coverage. Of two sources of one surface with the weights 1 - t and t, the picture goes from one to the
+/// other as t grows. It hides what lies behind it whatever its weight. 1: ewa_render_add(). Errors: its;
+/// EWA_ERROR_ARGUMENT (another weight).
+EWA_API ewa_status ewa_render_add_weighted(ewa_renderer *renderer, const ewa_surfels *surfels, double weight);
+
 /// Draws the frame and ends it, whatever comes of it; without sources, the background. `stats` may be NULL.
 /// Errors: EWA_ERROR_ARGUMENT (no frame), EWA_ERROR_MEMORY; EWA_CANCELLED, between two tiles: some of the
 /// frame's pixels are drawn then.

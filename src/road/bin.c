@@ -5,6 +5,7 @@
 // a bin's items stay in order however many parts there are.
 #include "road/bin.h"
 
+/// The filling of one set of lists, in parts.
 typedef struct bin_job {
     ewa_bin_lists *lists;
     ewa_bin_find *find;
@@ -13,9 +14,16 @@ typedef struct bin_job {
     uint32_t *ids;
     uint64_t *counts;     // [part][bin]: first the number of items, then where the next one goes
     uint64_t *item_count; // [part]
-    uint64_t bin_count;
+    uint64_t bin_count, id_count;
     uint32_t candidate_count, parts;
+    uint32_t first_task; // of all lists' parts
 } bin_job;
+
+/// All that is filled together: a task is a part of one of them.
+typedef struct bin_jobs {
+    bin_job *jobs;
+    uint32_t count, task_count;
+} bin_jobs;
 
 static uint32_t part_first(const bin_job *job, uint32_t part) {
     const uint64_t groups = ((uint64_t)job->candidate_count + EWA_BIN_ALIGNMENT - 1) / EWA_BIN_ALIGNMENT;
@@ -33,8 +41,22 @@ static bin_rect rect_of(const bin_job *job, size_t k) {
     return (bin_rect){first & 0xffff, first >> 16, end & 0xffff, end >> 16};
 }
 
-static void count_part(void *data, uint32_t part, uint32_t worker) {
-    const bin_job *job = data;
+/// The job of a task.
+static const bin_job *job_of(const bin_jobs *all, uint32_t task) {
+    uint32_t low = 0, high = all->count; // jobs[low] begins at or before the task, jobs[high] behind it
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (all->jobs[middle].first_task <= task)
+            low = middle;
+        else
+            high = middle;
+    }
+    return &all->jobs[low];
+}
+
+static void count_part(void *data, uint32_t task, uint32_t worker) {
+    const bin_job *job = job_of(data, task);
+    const uint32_t part = task - job->first_task;
     uint64_t *counts = job->counts + part * job->bin_count;
     for (uint64_t bin = 0; bin < job->bin_count; bin++) counts[bin] = 0;
     const uint32_t first = part_first(job, part), count = part_first(job, part + 1) - first;
@@ -46,9 +68,10 @@ static void count_part(void *data, uint32_t part, uint32_t worker) {
     }
 }
 
-static void fill_part(void *data, uint32_t part, uint32_t worker) {
+static void fill_part(void *data, uint32_t task, uint32_t worker) {
     (void)worker;
-    const bin_job *job = data;
+    const bin_job *job = job_of(data, task);
+    const uint32_t part = task - job->first_task;
     uint64_t *next = job->counts + part * job->bin_count;
     const uint32_t first = part_first(job, part);
     for (size_t k = first; k < first + job->item_count[part]; k++) {
@@ -59,9 +82,12 @@ static void fill_part(void *data, uint32_t part, uint32_t worker) {
     }
 }
 
-/// Turns counts into first places, bin by bin and part by part; returns the number of ids.
-static uint64_t place(const bin_job *job, uint64_t *starts) {
+/// Turns counts into first places, bin by bin and part by part.
+static void place(void *data, uint32_t index, uint32_t worker) {
+    (void)worker;
+    bin_job *job = &((const bin_jobs *)data)->jobs[index];
     ewa_bin_lists *lists = job->lists;
+    uint64_t *starts = lists->start_buffer.data;
     uint64_t sum = 0;
     lists->largest = lists->item_count = 0;
     for (uint64_t bin = 0; bin < job->bin_count; bin++) {
@@ -76,31 +102,27 @@ static uint64_t place(const bin_job *job, uint64_t *starts) {
     }
     starts[job->bin_count] = sum;
     for (uint32_t part = 0; part < job->parts; part++) lists->item_count += job->item_count[part];
-    return sum;
+    job->id_count = sum;
 }
 
-/// One per worker, but more where these would take milliseconds, between which a run can be stopped. More parts
-/// than are worthwhile would spend more on their counts than on the items.
-static uint32_t part_count(uint32_t candidate_count, uint64_t bin_count, uint32_t worker_count) {
+/// One per worker, or fewer where several lists are filled, but more where these would take milliseconds, between
+/// which a run can be stopped. More parts than are worthwhile would spend more on their counts than on the items.
+static uint32_t part_count(uint32_t candidate_count, uint64_t bin_count, uint32_t worker_count,
+                           uint32_t list_count) {
     enum { LARGE_PART = 1 << 16 };
     const uint64_t worthwhile = 1 + candidate_count / bin_count;
-    const uint32_t large = candidate_count / LARGE_PART, parts = large > worker_count ? large : worker_count;
+    const uint32_t large = candidate_count / LARGE_PART, own = list_count < worker_count ? worker_count : 1,
+                   parts = large > own ? large : own;
     return worthwhile < parts ? (uint32_t)worthwhile : parts;
 }
 
-static ewa_status run(ewa_context *context, ewa_task *task, bin_job *job) {
-    if (job->parts > ewa_context_worker_count(context))
-        return ewa_parallel_stoppable(context, "bin", task, job, job->parts);
-    ewa_parallel(context, task, job, job->parts);
-    return EWA_OK;
-}
-
-ewa_status ewa_bin_lists_fill(ewa_context *context, ewa_bin_lists *lists, uint32_t columns, uint32_t rows,
-                              uint32_t candidate_count, ewa_bin_find *find, const void *data) {
+/// Makes room for all but the ids.
+static ewa_status start(ewa_context *context, const ewa_bin_request *request, uint32_t columns, uint32_t rows,
+                        uint32_t parts, bin_job *job) {
+    ewa_bin_lists *lists = request->lists;
     const uint64_t bin_count = (uint64_t)columns * rows;
     const size_t stride =
-        ((size_t)candidate_count + EWA_BIN_ALIGNMENT - 1) / EWA_BIN_ALIGNMENT * EWA_BIN_ALIGNMENT;
-    const uint32_t parts = part_count(candidate_count, bin_count, ewa_context_worker_count(context));
+        ((size_t)request->candidate_count + EWA_BIN_ALIGNMENT - 1) / EWA_BIN_ALIGNMENT * EWA_BIN_ALIGNMENT;
     ewa_status status = ewa_buffer_reserve(context, &lists->item_buffer, 3 * stride, sizeof(int32_t));
     if (status == EWA_OK)
         status = ewa_buffer_reserve(context, &lists->count_buffer, (bin_count + 1) * parts, sizeof(uint64_t));
@@ -109,24 +131,65 @@ ewa_status ewa_bin_lists_fill(ewa_context *context, ewa_bin_lists *lists, uint32
     if (status != EWA_OK) return status;
     int32_t *items = lists->item_buffer.data;
     uint64_t *counts = lists->count_buffer.data;
-    bin_job job = {.lists = lists,
-                   .find = find,
-                   .data = data,
-                   .items = {items, items + stride, items + 2 * stride},
-                   .counts = counts,
-                   .item_count = counts + parts * bin_count,
-                   .bin_count = bin_count,
-                   .candidate_count = candidate_count,
-                   .parts = parts};
+    *job = (bin_job){.lists = lists,
+                     .find = request->find,
+                     .data = request->data,
+                     .items = {items, items + stride, items + 2 * stride},
+                     .counts = counts,
+                     .item_count = counts + parts * bin_count,
+                     .bin_count = bin_count,
+                     .candidate_count = request->candidate_count,
+                     .parts = parts};
     lists->columns = columns;
-    status = run(context, count_part, &job);
+    return EWA_OK;
+}
+
+static ewa_status run(ewa_context *context, ewa_task *task, bin_jobs *all, bool stoppable) {
+    if (stoppable) return ewa_parallel_stoppable(context, "bin", task, all, all->task_count);
+    ewa_parallel(context, task, all, all->task_count);
+    return EWA_OK;
+}
+
+static ewa_status fill(ewa_context *context, const ewa_bin_request *requests, uint32_t columns, uint32_t rows,
+                       bin_jobs *all) {
+    const uint32_t workers = ewa_context_worker_count(context);
+    bool stoppable = false;
+    for (uint32_t i = 0; i < all->count; i++) {
+        const uint32_t parts =
+            part_count(requests[i].candidate_count, (uint64_t)columns * rows, workers, all->count);
+        const ewa_status status = start(context, &requests[i], columns, rows, parts, &all->jobs[i]);
+        if (status != EWA_OK) return status;
+        all->jobs[i].first_task = all->task_count;
+        all->task_count += parts;
+        stoppable |= parts > workers;
+    }
+    ewa_status status = run(context, count_part, all, stoppable);
     if (status != EWA_OK) return status;
-    const uint64_t id_count = place(&job, lists->start_buffer.data);
-    status = ewa_buffer_reserve(context, &lists->id_buffer, id_count, sizeof *job.ids);
+    ewa_parallel(context, place, all, all->count);
+    for (uint32_t i = 0; i < all->count; i++) {
+        bin_job *job = &all->jobs[i];
+        ewa_bin_lists *lists = job->lists;
+        status = ewa_buffer_reserve(context, &lists->id_buffer, job->id_count, sizeof *job->ids);
+        if (status != EWA_OK) return status;
+        lists->starts = lists->start_buffer.data;
+        lists->ids = job->ids = lists->id_buffer.data;
+    }
+    return run(context, fill_part, all, stoppable);
+}
+
+ewa_status ewa_bin_lists_fill_all(ewa_context *context, ewa_buffer *room, const ewa_bin_request *requests,
+                                  uint32_t count, uint32_t columns, uint32_t rows) {
+    if (count == 0) return EWA_OK;
+    const ewa_status status = ewa_buffer_reserve(context, room, count, sizeof(bin_job));
     if (status != EWA_OK) return status;
-    lists->starts = lists->start_buffer.data;
-    lists->ids = job.ids = lists->id_buffer.data;
-    return run(context, fill_part, &job);
+    return fill(context, requests, columns, rows, &(bin_jobs){.jobs = room->data, .count = count});
+}
+
+ewa_status ewa_bin_lists_fill(ewa_context *context, ewa_bin_lists *lists, uint32_t columns, uint32_t rows,
+                              uint32_t candidate_count, ewa_bin_find *find, const void *data) {
+    const ewa_bin_request request = {lists, candidate_count, find, data};
+    bin_job job;
+    return fill(context, &request, columns, rows, &(bin_jobs){.jobs = &job, .count = 1});
 }
 
 void ewa_bin_lists_free(ewa_context *context, ewa_bin_lists *lists) {

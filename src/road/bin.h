@@ -38,6 +38,19 @@ typedef struct ewa_bin_lists {
 ewa_status ewa_bin_lists_fill(ewa_context *context, ewa_bin_lists *lists, uint32_t columns, uint32_t rows,
                               uint32_t candidate_count, ewa_bin_find *find, const void *data);
 
+/// What is to go into some lists.
+typedef struct ewa_bin_request {
+    ewa_bin_lists *lists;
+    uint32_t candidate_count;
+    ewa_bin_find *find;
+    const void *data;
+} ewa_bin_request;
+
+/// Fills many sets of lists of the same bins, several at a time; `room` keeps memory from one call to the next.
+/// Errors: as ewa_bin_lists_fill().
+ewa_status ewa_bin_lists_fill_all(ewa_context *context, ewa_buffer *room, const ewa_bin_request *requests,
+                                  uint32_t count, uint32_t columns, uint32_t rows);
+
 void ewa_bin_lists_free(ewa_context *context, ewa_bin_lists *lists);
 
 #endif

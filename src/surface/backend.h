@@ -8,16 +8,25 @@
 #include "ewa/render.h"
 #include "surface/shading.h"
 
+/// One source of a frame.
+typedef struct ewa_frame_source {
+    const ewa_surfels *surfels;
+    double weight; ///< (0, 1]; of all its kernels
+    bool hides;    ///< takes part in finding the nearest surfaces
+} ewa_frame_source;
+
 /// A frame whose arguments are checked, with all of its sources.
 typedef struct ewa_render_job {
     ewa_camera camera;
     ewa_render_options options; ///< what it points to is borrowed from the caller
     ewa_shading_setup shading;
     ewa_frame frame;
-    const ewa_surfels *const *sources; ///< of one cutoff
+    const ewa_frame_source *sources; ///< of one cutoff
     uint32_t source_count;
     bool count_fragments; ///< for the stats
     uint32_t tile_px;     ///< side of a tile, a power of two of at most EWA_FIELD_PX; 0: the back end chooses
+    uint32_t first_row_px,
+        end_row_px; ///< the band that is drawn: multiples of EWA_FIELD_PX, or the picture's end
 } ewa_render_job;
 
 /// A back end. Its state belongs to one renderer, and is used by one thread at a time.
@@ -26,7 +35,8 @@ typedef struct ewa_backend {
     ewa_status (*create)(ewa_context *context, void **state);
     void (*destroy)(ewa_context *context, void *state);
     /// Draws a frame; neither the order of its sources nor how surfels are spread over them changes a byte,
-    /// as long as their packets and their unit coverages are the same. Sets all of `stats` but the level.
+    /// as long as their packets and their unit coverages are the same. Eye-dome lighting is put on a frame in
+    /// bands with the one at its end, of what the state's earlier calls drew. Sets all of `stats` but the level.
     ewa_status (*draw)(void *state, const ewa_render_job *job, ewa_render_stats *stats);
 } ewa_backend;
 

@@ -4,24 +4,17 @@
 // Which packets each tile has to look at: those that the kernels' culling leaves.
 #include "surface/bin.h"
 
-typedef struct bin_job {
-    const ewa_road_kernels *kernels;
-    const ewa_view *view;
-    const ewa_surfels *surfels;
-    ewa_packet_places places;
-} bin_job;
-
 static uint32_t find_packets(const void *data, uint32_t worker, uint32_t first, uint32_t count,
                              const ewa_bin_items *items) {
     (void)worker;
-    const bin_job *job = data;
-    const ewa_surfels *surfels = job->surfels;
-    return job->kernels->cull(job->view, surfels->packets, &surfels->bounds, first, count, &job->places,
-                              items);
+    const ewa_bins *bins = data;
+    const ewa_surfels *surfels = bins->surfels;
+    return bins->kernels->cull(bins->view, surfels->packets, &surfels->bounds, first, count, &bins->places,
+                               items);
 }
 
-ewa_status ewa_bins_fill(ewa_context *context, ewa_bins *bins, const ewa_road_kernels *kernels,
-                         const ewa_view *view, const ewa_surfels *surfels) {
+ewa_status ewa_bins_start(ewa_context *context, ewa_bins *bins, const ewa_road_kernels *kernels,
+                          const ewa_view *view, const ewa_surfels *surfels) {
     const size_t stride = surfels->bounds_stride;
     enum { STREAMS = offsetof(ewa_packet_places, lanes) / sizeof(float *) };
     ewa_status status = ewa_buffer_reserve(context, &bins->places_buffer, STREAMS * stride, sizeof(float));
@@ -37,12 +30,12 @@ ewa_status ewa_bins_fill(ewa_context *context, ewa_bins *bins, const ewa_road_ke
                                        places + 4 * stride,
                                        lanes,
                                        lanes ? lanes + stride : NULL};
-    bins->tiles = ewa_tiles_make(view->width_px, view->height_px, view->tile_px);
-    const bin_job job = {kernels, view, surfels, bins->places};
-    status = ewa_bin_lists_fill(context, &bins->lists, bins->tiles.columns, bins->tiles.rows,
-                                surfels->packet_count, find_packets, &job);
-    bins->culled_packet_count = surfels->packet_count - bins->lists.item_count;
-    return status;
+    bins->kernels = kernels, bins->view = view, bins->surfels = surfels;
+    return EWA_OK;
+}
+
+ewa_bin_request ewa_bins_request(ewa_bins *bins) {
+    return (ewa_bin_request){&bins->lists, bins->surfels->packet_count, find_packets, bins};
 }
 
 void ewa_bins_free(ewa_context *context, ewa_bins *bins) {

@@ -67,6 +67,7 @@ static void draw_runs(const ewa_tile_job *job, const ewa_tile *tile, const ewa_t
     behind.nearest = s->edges.nearest, behind.sums = s->edges.sums, behind.passed = s->edges.passed;
     behind.apart = s->edges.apart;
     for (uint32_t i = 0; i < s->kept_count; i++) {
+        if (!ewa_takes_part(s->kept[i].source, what)) continue;
         const ewa_view *view = &s->kept[i].source->view;
         if (what == EWA_PASS_EDGE_VISIBILITY)
             job->kernels->visibility(view, &behind, &s->kept[i].sorted);
@@ -120,6 +121,16 @@ static uint32_t show_behind_edges(const ewa_tile_job *job, const ewa_tile_source
     return job->kernels->hide(&source->view, &source->surfels->bounds, &source->packets.places, tile,
                               s->cells, split->hidden, (uint32_t)split->hidden_count,
                               split->shown + split->shown_count, split->hidden);
+}
+
+/// Replaces the depth `from` by `to` in the marked blocks: ewa_tile_close_pixels().
+static void close_pixels(const ewa_tile_job *job, const ewa_tile *tile, const ewa_tile_scratch *s, float from,
+                         float to) {
+    for (uint32_t row = 0; row < tile->block_rows && !job->all_hide; row++)
+        for (uint32_t marked = s->edges.rows[row]; marked; marked &= marked - 1) {
+            const uint32_t block = row * tile->blocks_per_row + (uint32_t)__builtin_ctz(marked);
+            ewa_tile_close_pixels(s->edges.nearest + (size_t)block * EWA_BLOCK_LANES, 1, from, to);
+        }
 }
 
 /// Whether anything may lie behind a marked block.
@@ -201,7 +212,9 @@ bool ewa_tile_draw_edges(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile
             for (uint32_t i = 0; i < job->source_count && !kept; i++)
                 draw_again(job, tile, s, i, &current, what, dense);
             if (last) job->kernels->edge_take_all(tile, &s->edges);
+            if (what == EWA_PASS_EDGE_VISIBILITY) close_pixels(job, tile, s, -INFINITY, INFINITY);
         }
+        close_pixels(job, tile, s, INFINITY, -INFINITY);
         marked = job->kernels->edge_compose(tile, &job->resolve, &s->edges, last);
     }
     return true;

@@ -41,7 +41,8 @@ struct ewa_surfels {
     double cutoff;
     bool ellipses; ///< some kernel is not a circle
     double unit_coverage;
-    ewa_surfels *coarser; ///< the next level of detail; NULL: none
+    ewa_surfels *coarser;                            ///< the next level of detail; NULL: none
+    bool with_opacities, with_materials, with_clips; ///< of a hollow copy: what its original has (hollow.h)
 };
 
 /// Colours up to so much keep enough digits in one word of a sum (surface/road_sums.h), as do those of which

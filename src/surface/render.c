@@ -9,6 +9,7 @@
 #include "surface/levels.h"
 #include "surface/options.h"
 #include "surface/packets.h"
+#include "surface/road.h"
 
 struct ewa_renderer {
     ewa_context *context;
@@ -60,6 +61,7 @@ ewa_status ewa_render_begin(ewa_renderer *renderer, const ewa_camera *camera,
     if (status == EWA_OK) status = ewa_camera_check(renderer->context, camera);
     if (status != EWA_OK) return status;
     ewa_shading_setup_make(&job->options, &job->shading);
+    job->end_row_px = camera->height_px;
     renderer->begun = true;
     return EWA_OK;
 }
@@ -67,28 +69,60 @@ ewa_status ewa_render_begin(ewa_renderer *renderer, const ewa_camera *camera,
 /// What all sources of a frame have in common.
 static ewa_status check_source(const ewa_renderer *renderer, const ewa_surfels *surfels) {
     const ewa_render_job *job = &renderer->job;
-    if (job->source_count && surfels->cutoff != job->sources[0]->cutoff)
+    if (job->source_count && surfels->cutoff != job->sources[0].surfels->cutoff)
         return ewa_fail(renderer->context, EWA_ERROR_ARGUMENT,
                         "render: surfels with a cutoff of %g beside others with %g", surfels->cutoff,
-                        job->sources[0]->cutoff);
+                        job->sources[0].surfels->cutoff);
     if (job->source_count == UINT32_MAX)
         return ewa_fail(renderer->context, EWA_ERROR_LIMIT, "render: more than %u sources", UINT32_MAX);
     return ewa_shading_check_materials(renderer->context, &job->shading, surfels->most_material);
 }
 
-ewa_status ewa_render_add(ewa_renderer *renderer, const ewa_surfels *surfels) {
-    if (!renderer || !surfels) return EWA_ERROR_ARGUMENT;
+ewa_status ewa_render_add_source(ewa_renderer *renderer, const ewa_surfels *surfels,
+                                 const ewa_render_source *how) {
+    if (!renderer || !surfels || !how) return EWA_ERROR_ARGUMENT;
     if (!renderer->begun)
         return ewa_fail(renderer->context, EWA_ERROR_ARGUMENT, "render: no frame has been begun");
+    if (!(how->weight > 0 && how->weight <= 1))
+        return ewa_fail(renderer->context, EWA_ERROR_ARGUMENT, "render: a weight of %g is not in (0, 1]",
+                        how->weight);
     ewa_render_job *job = &renderer->job;
     ewa_status status = check_source(renderer, surfels);
     if (status == EWA_OK)
         status = ewa_buffer_grow(renderer->context, &renderer->sources, job->source_count,
-                                 (size_t)job->source_count + 1, sizeof(const ewa_surfels *));
+                                 (size_t)job->source_count + 1, sizeof(ewa_frame_source));
     if (status != EWA_OK) return status;
-    const ewa_surfels **sources = renderer->sources.data;
-    sources[job->source_count++] = surfels;
+    ewa_frame_source *sources = renderer->sources.data;
+    sources[job->source_count++] =
+        (ewa_frame_source){surfels, how->weight, how->hides || job->options.passes == 1};
     job->sources = sources;
+    return EWA_OK;
+}
+
+ewa_status ewa_render_add_weighted(ewa_renderer *renderer, const ewa_surfels *surfels, double weight) {
+    return ewa_render_add_source(renderer, surfels, &(ewa_render_source){weight, true});
+}
+
+ewa_status ewa_render_add(ewa_renderer *renderer, const ewa_surfels *surfels) {
+    return ewa_render_add_weighted(renderer, surfels, 1);
+}
+
+ewa_status ewa_render_set_rows(ewa_renderer *renderer, uint32_t first_px, uint32_t end_px) {
+    if (!renderer) return EWA_ERROR_ARGUMENT;
+    if (!renderer->begun)
+        return ewa_fail(renderer->context, EWA_ERROR_ARGUMENT, "render: no frame has been begun");
+    ewa_render_job *job = &renderer->job;
+    const uint32_t height_px = job->camera.height_px;
+    const bool end_fits = end_px == height_px || (end_px < height_px && end_px % EWA_FIELD_PX == 0);
+    if (first_px >= end_px || first_px % EWA_FIELD_PX != 0 || !end_fits)
+        return ewa_fail(
+            renderer->context, EWA_ERROR_ARGUMENT,
+            "render: rows [%u, %u) of %u are no band: they have to begin and end at multiples of %d",
+            first_px, end_px, height_px, EWA_FIELD_PX);
+    if (job->options.budget_s > 0)
+        return ewa_fail(renderer->context, EWA_ERROR_UNSUPPORTED,
+                        "render: a frame with a budget of %g s is not drawn in bands", job->options.budget_s);
+    job->first_row_px = first_px, job->end_row_px = end_px;
     return EWA_OK;
 }
 
@@ -99,7 +133,7 @@ static ewa_budget_work work_of(const ewa_render_job *job) {
     for (uint32_t i = 0; i < job->source_count; i++)
         for (uint32_t level = 0; level < EWA_MAX_LEVELS; level++) {
             uint32_t found = level;
-            work.splat_counts[level] += ewa_levels_find(job->sources[i], &found)->count;
+            work.splat_counts[level] += ewa_levels_find(job->sources[i].surfels, &found)->count;
             if (found >= work.level_count) work.level_count = found + 1;
         }
     return work;
@@ -107,11 +141,11 @@ static ewa_budget_work work_of(const ewa_render_job *job) {
 
 /// Takes each source at a level, or its last one; returns the coarsest of them.
 static uint32_t take_level(ewa_renderer *renderer, uint32_t level) {
-    const ewa_surfels **sources = renderer->sources.data;
+    ewa_frame_source *sources = renderer->sources.data;
     uint32_t coarsest = 0;
     for (uint32_t i = 0; i < renderer->job.source_count; i++) {
         uint32_t found = level;
-        sources[i] = ewa_levels_find(sources[i], &found);
+        sources[i].surfels = ewa_levels_find(sources[i].surfels, &found);
         if (found > coarsest) coarsest = found;
     }
     return coarsest;
@@ -148,7 +182,7 @@ ewa_status ewa_render_finish(ewa_renderer *renderer, ewa_render_stats *stats) {
     const ewa_status status = renderer->backend->draw(renderer->state, job, &took);
     if (status != EWA_OK) return status;
     took.level = level;
-    learn(renderer, &took);
+    if (job->end_row_px - job->first_row_px == job->camera.height_px) learn(renderer, &took);
     if (stats) *stats = took;
     return EWA_OK;
 }

@@ -7,6 +7,27 @@
 
 #include "ewa/render.h"
 
+/// How a source takes part in a frame.
+typedef struct ewa_render_source {
+    double weight; ///< of all its kernels; (0, 1]
+    /// Whether it takes part in finding the nearest surface of a pixel, and those behind it. One that does not is
+    /// added to the surfaces that others make, where it is within their tolerance, and shows nothing elsewhere.
+    /// With one pass all hide.
+    bool hides;
+} ewa_render_source;
+
+/// Adds a source as ewa_render_add_weighted() does. Errors: those.
+ewa_status ewa_render_add_source(ewa_renderer *renderer, const ewa_surfels *surfels,
+                                 const ewa_render_source *how);
+
+/// Draws of the frame that has been begun only the rows [first_px, end_px), with the bytes that the whole frame
+/// has there as long as its sources, or their hollow copies (surface/hollow.h), are the same; other pixels stay
+/// as they are. Each is a multiple of 128, or end_px the frame's height. A frame with eye-dome lighting is to be
+/// drawn band by band by one renderer, with nothing else between, the band at its end last: that puts the
+/// lighting on all of them; until then its colours are not there. Errors: EWA_ERROR_ARGUMENT (no frame; other
+/// rows), EWA_ERROR_UNSUPPORTED (a frame with a budget: bands would be of different levels).
+ewa_status ewa_render_set_rows(ewa_renderer *renderer, uint32_t first_px, uint32_t end_px);
+
 /// Sets the side of tiles: 16, 32, 64 or 128 pixels; 0: by the size of the picture. Pictures are the same.
 void ewa_renderer_set_tile(ewa_renderer *renderer, uint32_t tile_px);
 

@@ -78,7 +78,9 @@
 // depth. What the rounding leaves is summed too, to 2^-12 of a unit: of depths and the weights that they are
 // divided by; of splats that clip lines cut; of all without edge antialiasing, where a pixel shows splats of
 // next to no weight, and where colours beyond 16 meet far smaller ones. Weights of several sources are those
-// of the one with the smallest q0: the others' times that over their own.
+// of the one with the smallest q0: the others' times that over their own. And times the source's
+// own weight, if it has one. A source that hides nothing has no say in B(x); where no other has a surface,
+// nothing of it is summed.
 //
 // Facing: turned splats hide others and cover the pixel as all do, but are seen only where nothing faces the
 // viewer. With S_f the sums of weight, colour, normal, depth, material and opacity over the splats that are

@@ -235,8 +235,14 @@ static void accumulate(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_s
     }
 }
 
-void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
+void ewa_tile_close_pixels(float *nearest, uint32_t block_count, float from, float to) {
+    for (size_t i = 0; i < (size_t)block_count * EWA_BLOCK_LANES; i++)
+        if (nearest[i] == from) nearest[i] = to;
+}
+
+void ewa_tile_draw(void *data, uint32_t number, uint32_t worker) {
     const ewa_tile_job *job = data;
+    const uint32_t index = job->first_tile + number;
     ewa_tile_scratch *s = &job->scratch[worker];
     const ewa_tile_rect place = ewa_tiles_rect(&job->tiles, index);
     ewa_tile tile = {.x_px = (int32_t)place.x_px,
@@ -266,10 +272,13 @@ void ewa_tile_draw(void *data, uint32_t index, uint32_t worker) {
     tile.only_small = tile.pixels && s->small_count == s->record_count && !s->has_near;
     if (s->record_count) s->mostly_small = 16 * s->small_count >= 15 * s->record_count;
     const double accumulating = ewa_now_s();
+    const uint32_t block_count = tile.blocks_per_row * tile.block_rows;
+    if (!job->all_hide) ewa_tile_close_pixels(tile.nearest, block_count, -INFINITY, INFINITY);
     for (bool settled = false; !settled; tile.sums.careful = true) {
         accumulate(job, &tile, s, kept);
         settled = job->kernels->settle(&tile, &job->resolve);
     }
+    if (!job->all_hide) ewa_tile_close_pixels(tile.nearest, block_count, INFINITY, -INFINITY);
     const double accumulated = ewa_now_s();
     if (kept) s->accumulate_s += accumulated - accumulating;
     const bool edges = ewa_tile_draw_edges(job, &tile, s, kept);

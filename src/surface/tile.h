@@ -89,6 +89,7 @@ typedef struct ewa_tile_scratch {
 /// A source of a frame, as its tiles see it.
 typedef struct ewa_tile_source {
     const ewa_surfels *surfels;
+    bool hides; ///< takes part in finding the nearest surfaces
     ewa_packet_source packets;
     ewa_view view;
     ewa_bins bins;
@@ -100,6 +101,8 @@ typedef struct ewa_tile_job {
     ewa_tile_source *sources;
     uint32_t source_count;
     ewa_tiles tiles;
+    uint32_t first_tile;  ///< of those that are drawn
+    bool all_hide;        ///< all sources do
     uint64_t largest_bin; ///< packets of the fullest tile, of all sources
     ewa_view view;        ///< what those of the sources have in common
     ewa_resolve resolve;
@@ -117,12 +120,16 @@ typedef struct ewa_tile_job {
 ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *scratch, const ewa_tile_job *job);
 void ewa_tile_scratch_free(ewa_context *context, ewa_tile_scratch *scratch);
 
+/// Replaces the depth `from` by `to` in so many blocks of a plane like ewa_tile.nearest. Where no source that hides
+/// has a surface (-infinity), nothing is to be summed: that is so while the depth is infinite.
+void ewa_tile_close_pixels(float *nearest, uint32_t block_count, float from, float to);
+
 /// Gathers the surfaces behind the first one where it covers pixels partly, hidden packets included; `kept`
 /// when all runs of those that are shown are kept. Returns whether there are such pixels; scratch->edge_rows
 /// marks them.
 bool ewa_tile_draw_edges(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *scratch, bool kept);
 
-/// Draws tile `tile`; an ewa_task.
+/// Draws tile `tile` of those that are drawn; an ewa_task.
 void ewa_tile_draw(void *job, uint32_t tile, uint32_t worker);
 
 #endif

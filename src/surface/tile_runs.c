@@ -42,6 +42,7 @@ static void sort_run(const ewa_run *run, uint16_t *order, ewa_sorted_run *sorted
 
 void ewa_tile_draw_near(const ewa_tile_job *job, const ewa_tile_source *source, const ewa_tile *tile,
                         const ewa_edges *edges, const uint32_t *surfels, uint32_t count, ewa_tile_pass what) {
+    if (!ewa_takes_part(source, what)) return;
     const ewa_road_kernels *kernels = job->kernels;
     const ewa_view *view = &source->view;
     ewa_near_record records[NEAR_CHUNK];
@@ -76,6 +77,18 @@ static void count_splats(const ewa_tile_job *job, ewa_tile_scratch *s, const ewa
     s->fragment_count += blocks;
 }
 
+/// Makes splats that hide nothing: the key of z + eps is below all. For the passes behind edges, where lists mix
+/// the splats of several sources.
+static void unbind(ewa_record *records, uint32_t count) {
+    for (uint32_t i = 0; i < count; i++) {
+        ewa_record *r = &records[i];
+        if (r->box & EWA_STEEP_BIT)
+            r->bound_scale = 1, r->bound_offset = -INFINITY;
+        else
+            r->bound = -INFINITY, r->bound_x = r->bound_y = 0;
+    }
+}
+
 /// Sets up and sorts run `index`; its splats go to place `at` of the scratch.
 static void prepare_run(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
                         const ewa_tile_packets *packets, uint64_t index, uint32_t at,
@@ -91,6 +104,7 @@ static void prepare_run(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_
     const ewa_tile_source *source = packets->source;
     job->kernels->setup(&source->view, &source->packets, packets->ids + first,
                         announced < EWA_RUN_PACKETS ? announced : EWA_RUN_PACKETS, announced, tile, &s->run);
+    if (!source->hides) unbind(s->run.records, s->run.count);
     s->least_key = fminf(s->least_key, s->run.least_key);
     s->has_near |= s->run.near_count > 0;
     s->record_count += s->run.count, s->small_count += s->run.small_count;
@@ -103,6 +117,7 @@ static void prepare_run(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_
 
 static void visit_run(const ewa_tile_job *job, const ewa_tile_source *source, const ewa_tile *tile,
                       const ewa_sorted_run *run, ewa_tile_pass what) {
+    if (!ewa_takes_part(source, what)) return;
     if (what == EWA_PASS_VISIBILITY)
         job->kernels->visibility(&source->view, tile, run);
     else

@@ -11,6 +11,11 @@ static inline uint64_t ewa_run_count(const ewa_tile_packets *packets) {
     return (packets->count + EWA_RUN_PACKETS - 1) / EWA_RUN_PACKETS;
 }
 
+/// Whether a source takes part in a pass.
+static inline bool ewa_takes_part(const ewa_tile_source *source, ewa_tile_pass what) {
+    return source->hides || what == EWA_PASS_ACCUMULATE || what == EWA_PASS_EDGE_ACCUMULATE;
+}
+
 /// Forgets the runs that are kept.
 void ewa_tile_drop_runs(ewa_tile_scratch *scratch);
 

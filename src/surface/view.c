@@ -142,31 +142,42 @@ static ewa_placement place_in(const ewa_surfels *surfels, const ewa_camera *came
     return placement;
 }
 
-ewa_scales ewa_scales_make(const ewa_surfels *const *sources, uint32_t source_count, const ewa_camera *camera,
+ewa_scales ewa_scales_make(const ewa_frame_source *sources, uint32_t source_count, const ewa_camera *camera,
                            const ewa_render_options *options) {
     ewa_scales made = {.cutoff = 1, .unit = 1, .unit_coverage = 1, .sum = 1, .depth = 1, .largest_color = 1};
     if (!source_count) return made;
-    made.cutoff = sources[0]->cutoff;
+    const ewa_surfels *const first = sources[0].surfels;
+    made.cutoff = first->cutoff;
     made.unit = made.largest_color = 0;
     made.unit_coverage = made.sum = INFINITY;
     bool alike = true;
     for (uint32_t i = 0; i < source_count; i++) {
-        made.unit = fmax(made.unit, place(sources[i], camera).unit);
-        made.unit_coverage = fmin(made.unit_coverage, unit_coverage_of(sources[i], options));
-        made.largest_color = fmax(made.largest_color, sources[i]->largest_color);
-        alike &= sources[i]->largest_color == sources[0]->largest_color;
-        made.fine_colors |= sources[i]->fine_colors;
+        const ewa_surfels *const surfels = sources[i].surfels;
+        made.unit = fmax(made.unit, place(surfels, camera).unit);
+        made.unit_coverage = fmin(made.unit_coverage, unit_coverage_of(surfels, options));
+        made.largest_color = fmax(made.largest_color, surfels->largest_color);
+        alike &= surfels->largest_color == first->largest_color;
+        made.fine_colors |= surfels->fine_colors;
     }
     made.fine_colors |= !alike && made.largest_color > EWA_PLAIN_COLORS;
     double largest = 0;
     for (uint32_t i = 0; i < source_count; i++) {
-        const ewa_placement placement = place_in(sources[i], camera, made.unit);
-        made.sum = fmin(made.sum, sum_scale(sources[i], camera, &placement, options, made.unit_coverage));
-        if (sources[i]->extent.finite_count) largest = fmax(largest, largest_depth(sources[i], &placement));
+        const ewa_surfels *const surfels = sources[i].surfels;
+        const ewa_placement placement = place_in(surfels, camera, made.unit);
+        made.sum = fmin(made.sum, sum_scale(surfels, camera, &placement, options, made.unit_coverage));
+        if (surfels->extent.finite_count) largest = fmax(largest, largest_depth(surfels, &placement));
     }
     if (largest > 0) made.depth = power_above(largest);
     made.terms_per_carry = EWA_TERMS_PER_CARRY * (uint32_t)room_for(made.unit_coverage);
     return made;
+}
+
+double ewa_scales_nearest(const ewa_scales *scales, const ewa_surfels *surfels, const ewa_camera *camera) {
+    const ewa_placement placement = place_in(surfels, camera, scales->unit);
+    const ewa_vec3 low = vec3_load(surfels->extent.low_world), high = vec3_load(surfels->extent.high_world);
+    const ewa_vec3 middle = vec3_scale(vec3_add(low, high), 0.5);
+    const double around = vec3_length(mat3_row(&placement.linear, 2)) * vec3_length(vec3_sub(high, middle));
+    return ewa_placement_apply(&placement, middle).z - around;
 }
 
 /// The section planes as the packets' centres see them.
@@ -180,23 +191,24 @@ static void set_sections(ewa_view *view, const ewa_surfels *surfels, const ewa_r
 }
 
 /// What is a source's own.
-static void set_source(ewa_view *view, const ewa_surfels *surfels, const ewa_camera *camera,
+static void set_source(ewa_view *view, const ewa_frame_source *source, const ewa_camera *camera,
                        const ewa_render_options *options, const ewa_scales *scales) {
+    const ewa_surfels *const surfels = source->surfels;
     const ewa_placement placement = place_in(surfels, camera, scales->unit);
     set_places(view, surfels, camera, &placement);
     set_sections(view, surfels, options);
     view->ellipses = surfels->ellipses && options->point_size_px == 0;
-    const double part = scales->unit_coverage / unit_coverage_of(surfels, options);
+    const double part = source->weight * (scales->unit_coverage / unit_coverage_of(surfels, options));
     view->sum_scale = (float)(scales->sum * part);
     view->color_scale = (float)(scales->sum * part / scales->largest_color);
 }
 
-ewa_status ewa_view_set(ewa_context *context, ewa_view *view, const ewa_surfels *surfels,
+ewa_status ewa_view_set(ewa_context *context, ewa_view *view, const ewa_frame_source *source,
                         const ewa_camera *camera, const ewa_render_options *options, const ewa_scales *scales,
                         uint32_t tile_px) {
     memset(view, 0, sizeof *view);
     view->orthographic = camera->projection == EWA_ORTHOGRAPHIC;
-    if (surfels) set_source(view, surfels, camera, options, scales);
+    if (source) set_source(view, source, camera, options, scales);
     const double per_unit = view->orthographic ? scales->unit : 1; // of orthographic focal lengths
     view->focal_px[0] = camera->fx_px * per_unit, view->focal_px[1] = camera->fy_px * per_unit;
     view->principal_px[0] = camera->cx_px, view->principal_px[1] = camera->cy_px;

@@ -6,6 +6,7 @@
 #define EWA_SRC_SURFACE_VIEW_H
 
 #include "homogeneous/placement.h"
+#include "surface/backend.h"
 #include "surface/packets.h"
 #include "surface/road.h"
 #include "surface/shading.h"
@@ -24,12 +25,15 @@ typedef struct ewa_scales {
 } ewa_scales;
 
 /// `sources` are of one cutoff, `options` checked. Total.
-ewa_scales ewa_scales_make(const ewa_surfels *const *sources, uint32_t source_count, const ewa_camera *camera,
+ewa_scales ewa_scales_make(const ewa_frame_source *sources, uint32_t source_count, const ewa_camera *camera,
                            const ewa_render_options *options);
+
+/// Where a source that has surfels begins, in camera space; no more than an estimate of where they do.
+double ewa_scales_nearest(const ewa_scales *scales, const ewa_surfels *surfels, const ewa_camera *camera);
 
 /// Sets the view of one source, or, for NULL, what all have in common. All arguments are checked ones.
 /// Errors: EWA_ERROR_NUMERIC for a camera without a view volume.
-ewa_status ewa_view_set(ewa_context *context, ewa_view *view, const ewa_surfels *surfels,
+ewa_status ewa_view_set(ewa_context *context, ewa_view *view, const ewa_frame_source *source,
                         const ewa_camera *camera, const ewa_render_options *options, const ewa_scales *scales,
                         uint32_t tile_px);
 

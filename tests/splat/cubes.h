@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// A scene cut into cubes, one source each, as levels of detail draw them.
+#ifndef EWA_TESTS_SPLAT_CUBES_H
+#define EWA_TESTS_SPLAT_CUBES_H
+
+#include "splat/picture.h"
+#include "surface/render.h"
+
+enum { CUBES_MOST = 64 };
+
+/// Surfels by cubes of a grid, without the empty ones.
+typedef struct cubes {
+    ewa_surfels *part[CUBES_MOST];
+    uint32_t count;
+} cubes;
+
+/// Cuts a cloud into at most `per_axis`^3 <= CUBES_MOST cubes.
+cubes cubes_make(const ewa_cloud *cloud, uint32_t per_axis);
+void cubes_free(cubes *made);
+
+/// Fails the test unless all planes are the same bytes.
+void cubes_hold_same(const picture *a, const picture *b);
+
+/// The largest difference of two bytes of the colours.
+uint32_t cubes_largest_step(const picture *a, const picture *b);
+
+#endif
