@@ -349,7 +349,7 @@ static void refuses_every_beginning(void **state) {
         if (try_bytes(bytes, size) == EWA_OK) fail_msg("%zu bytes of %zu are taken", size, size_bytes);
     assert_int_equal(try_bytes(bytes, size_bytes), EWA_OK);
     check_random random = {5};
-    for (int i = 0; i < 3000; i++) {
+    for (int i = 0; i < 1000; i++) {
         uint8_t *changed = malloc(size_bytes);
         memcpy(changed, bytes, size_bytes);
         for (int k = 0; k < 2; k++)
