@@ -59,7 +59,7 @@ static ewa_cloud *make_node(ewa_context *context, const ewa_octree_key *key, uin
     // Along lines, as scanners and those who sort points have them.
     for (uint64_t i = 0; i < count; i++) {
         const double lines = sqrt((double)count), line = floor((double)i / lines);
-        const double x = (key->cell[0] + ((double)i - line * lines + uniform(&state)) / lines) * cell_world;
+        const double x = (key->cell[0] + ((double)i - line * lines + uniform(&state)) / (lines + 1)) * cell_world;
         const double y = (key->cell[1] + (line + uniform(&state)) / (lines + 1)) * cell_world;
         const double slope = 0.4 * cos(x / 50) * cos(y / 70), shade = 128 + 60 * sin(x / 20) * sin(y / 30);
         position[3 * i] = x;
