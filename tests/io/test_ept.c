@@ -394,6 +394,25 @@ static void says_which_node_is_missing_or_miscounted(void **state) {
     }
 }
 
+static void refuses_files_that_are_not_alike(void **state) {
+    (void)state;
+    char path[600];
+    ewa_cloud *piece = nodes.pieces[nodes.count - 1];
+    ewa_coordinate_grid grid;
+    write_folder(LASZIP);
+    key_path("ept-data", &nodes.keys[nodes.count - 1], "laz", path);
+    ewa_cloud_grid(piece, &grid);
+    grid.step_world[1] = 0.002;
+    ewa_cloud_set_grid(piece, &grid);
+    assert_int_equal(ewa_cloud_save(piece, path, NULL), EWA_OK);
+    assert_int_equal(try_folder(), EWA_ERROR_FORMAT);
+    assert_non_null(strstr(messages.text, "another grid"));
+    scratch_write(path, "LASF", 4);
+    assert_int_equal(try_folder(), EWA_ERROR_FORMAT);
+    scratch_write(path, "", 0);
+    assert_int_equal(try_folder(), EWA_ERROR_FORMAT);
+}
+
 static void refuses_hierarchies_that_lead_nowhere(void **state) {
     (void)state;
     write_folder(BINARY);
@@ -532,6 +551,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(reads_positions_of_any_type, begin, end),
         cmocka_unit_test_setup_teardown(takes_narrow_colors_for_all, begin, end),
         cmocka_unit_test_setup_teardown(says_which_node_is_missing_or_miscounted, begin, end),
+        cmocka_unit_test_setup_teardown(refuses_files_that_are_not_alike, begin, end),
         cmocka_unit_test_setup_teardown(refuses_hierarchies_that_lead_nowhere, begin, end),
         cmocka_unit_test_setup_teardown(refuses_descriptions_that_are_none, begin, end),
         cmocka_unit_test_setup_teardown(survives_changed_bytes, begin, end),
