@@ -7,29 +7,31 @@
 #ifndef EWA_SRC_COPC_H
 #define EWA_SRC_COPC_H
 
+#include "base/base.h"
 #include "io/las/las.h"
 
-/// A cube of the octree and the chunk of its points.
-typedef struct ewa_copc_node {
-    int32_t level, cell[3]; ///< the cube is cell `cell` of the 2^level along each axis
-    uint64_t at_bytes;
-    uint32_t size_bytes, point_count;
-} ewa_copc_node;
+enum { EWA_COPC_INFO_BYTES = 160, EWA_COPC_ENTRY_BYTES = 32, EWA_COPC_PAGES_ID = 1000 };
+
+/// The record that holds levels of detail of surfels.
+#define EWA_COPC_LEVELS_USER "ewa"
+enum { EWA_COPC_LEVELS_ID = 1 };
+
+enum { EWA_COPC_FAULT_BYTES = 160 };
 
 typedef struct ewa_copc_tree {
-    double spacing_world; ///< of the points of the root
-    ewa_copc_node *nodes; ///< in the order of the pages
+    double centre_world[3], half_world; ///< the root's cube
+    double spacing_world;               ///< of the points of the root
+    ewa_buffer nodes;                   ///< ewa_octree_node, in the order of the pages
     size_t node_count;
-    size_t capacity_bytes;
+    char fault[EWA_COPC_FAULT_BYTES]; ///< why a part of the pages is left out; empty: nothing is
 } ewa_copc_tree;
 
 /// Whether the file is COPC.
 bool ewa_copc_is(const ewa_cloud_source *source, const ewa_las_header *header);
 
-/// Reads the pages of the hierarchy; `*fault` (NULL: nothing) says why a part of them is left out. Free with
-/// ewa_copc_tree_free(). Errors: EWA_ERROR_MEMORY.
+/// Reads the pages of the hierarchy. Free with ewa_copc_tree_free(). Errors: EWA_ERROR_MEMORY.
 ewa_status ewa_copc_tree_read(const ewa_cloud_source *source, const ewa_las_header *header,
-                              ewa_copc_tree *tree, const char **fault);
+                              ewa_copc_tree *tree);
 void ewa_copc_tree_free(ewa_context *context, ewa_copc_tree *tree);
 
 /// Notes the facts about a COPC file as "file.copc"; of others nothing. Errors: EWA_ERROR_MEMORY.

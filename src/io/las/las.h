@@ -140,7 +140,7 @@ ewa_status ewa_las_notes(const ewa_cloud_source *source, const ewa_las_header *h
 
 /// How numbers of a record become those of an attribute.
 typedef enum ewa_las_kind {
-    EWA_LAS_POSITION, ///< three whole numbers less `first`, times `scale`
+    EWA_LAS_POSITION, ///< three whole numbers of 32 bits less `first`, times `scale`
     EWA_LAS_BITS,     ///< `mask` bits from bit `shift` of a byte
     EWA_LAS_RANK,     ///< a signed byte of degrees
     EWA_LAS_ANGLE,    ///< 16 bits of 0.006 degrees
@@ -198,6 +198,13 @@ ewa_las_column *ewa_las_table_find(ewa_las_table *table, const char *name);
 /// Returns the name that component `component` of an attribute of three numbers has among extra bytes, NULL
 /// when it has none of its own.
 const char *ewa_las_part_name(const char *attribute, uint32_t component);
+
+/// Returns the name that an attribute of one number has among extra bytes.
+const char *ewa_las_alias(const char *attribute);
+
+/// Makes fields such as NormalX NormalY NormalZ the one attribute that they are parts of, "alpha" a part of the
+/// colour, and gives fields such as "Radius" the name of their attribute.
+void ewa_las_table_join(ewa_las_table *table);
 
 /// Fills the table from the header and the record of extra bytes. Errors: none, but what is left out is
 /// reported as a warning.

@@ -4,7 +4,7 @@
 // What a LAS file says about itself, as notes of the cloud: facts for people, and the records that a LAS file
 // made from the cloud gets again.
 #include "base/base.h"
-#include "io/las/las.h"
+#include "io/las/copc.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -15,6 +15,7 @@ static bool is_kept(const ewa_las_vlr *vlr) {
     return vlr->size_bytes <= MOST_BYTES && !ewa_las_vlr_is(vlr, "laszip encoded", LASZIP) &&
            !ewa_las_vlr_is(vlr, "LASF_Spec", EXTRA_BYTES) && !ewa_las_vlr_is(vlr, "LASF_Spec", SUPERSEDED) &&
            !ewa_las_vlr_is(vlr, "LASF_Spec", WAVEFORMS) &&
+           !ewa_las_vlr_is(vlr, EWA_COPC_LEVELS_USER, EWA_COPC_LEVELS_ID) &&
            strncmp((const char *)vlr->head + 2, "copc", 16) != 0;
 }
 

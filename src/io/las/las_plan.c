@@ -6,6 +6,7 @@
 #include "base/base.h"
 #include "cloud/cloud.h"
 #include "io/las/las_write.h"
+#include "io/number.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -57,11 +58,12 @@ static bool is_legacy(const ewa_cloud_target *target, const ewa_cloud *piece, bo
     return true;
 }
 
-static uint8_t choose_format(const ewa_cloud_target *target, const ewa_cloud *piece, bool is_whole) {
+static uint8_t choose_format(const ewa_cloud_target *target, const ewa_cloud *piece, bool is_whole,
+                             bool is_new) {
     const bool has_time = ewa_cloud_find(target->prototype, "gps_time") != NULL;
     const ewa_attribute *color = ewa_cloud_find(target->prototype, EWA_COLOR);
     const bool has_color = color && color->component_count >= 3;
-    if (is_legacy(target, piece, is_whole)) return (uint8_t)(has_time + 2 * has_color);
+    if (!is_new && is_legacy(target, piece, is_whole)) return (uint8_t)(has_time + 2 * has_color);
     if (!has_color) return 6;
     return ewa_cloud_find(target->prototype, "nir") ? 8 : 7;
 }
@@ -72,9 +74,25 @@ static bool is_held(const ewa_las_column *column, const ewa_attribute *attribute
     return attribute->component_count == 1 && column->type == attribute->type;
 }
 
-/// Describes one field of extra bytes.
+/// What one of a field's whole numbers stands for; 0: itself. A note says so, and of normals in 16 bits it is known.
+static double scale_of(const ewa_cloud_target *target, const ewa_attribute *attribute) {
+    if (attribute->type == EWA_F32 || attribute->type == EWA_F64) return 0;
+    char name[EWA_NAME_BYTES + 8];
+    snprintf(name, sizeof name, EWA_LAS_NOTE_SCALE "%s", attribute->name);
+    const char *note = ewa_cloud_note(target->prototype, name, NULL);
+    double scale = 0;
+    if (note) {
+        const char *end = note + strlen(note);
+        return ewa_number_read_f64(note, end, &scale) == end && scale > 0 && isfinite(scale) ? scale : 0;
+    }
+    const bool is_normal = strcmp(attribute->name, EWA_NORMAL) == 0 && attribute->component_count == 3;
+    return is_normal && attribute->type == EWA_I16 ? 1.0 / INT16_MAX : 0;
+}
+
+/// Describes one field of extra bytes; `scale` 0: its numbers stand for themselves.
 static ewa_status describe(const ewa_cloud_target *target, ewa_las_plan *plan, const char *name, uint8_t type,
-                           uint8_t options) {
+                           uint8_t options, double scale) {
+    enum { SCALED = 8, SCALES_AT = 112 };
     const size_t at = (size_t)plan->extra_count * EWA_LAS_EXTRA_BYTES;
     const ewa_status status =
         ewa_buffer_grow(target->context, &plan->extras, at, at + EWA_LAS_EXTRA_BYTES, 1);
@@ -82,7 +100,8 @@ static ewa_status describe(const ewa_cloud_target *target, ewa_las_plan *plan, c
     uint8_t *bytes = (uint8_t *)plan->extras.data + at;
     memset(bytes, 0, EWA_LAS_EXTRA_BYTES);
     bytes[2] = type;
-    bytes[3] = options;
+    bytes[3] = (uint8_t)(options | (scale > 0 ? SCALED : 0));
+    for (int c = 0; c < 3 && scale > 0; c++) ewa_las_put_f64(bytes + SCALES_AT + 8 * c, scale);
     const size_t length = strlen(name);
     if (length > EWA_LAS_EXTRA_NAME_BYTES)
         ewa_report(target->context, EWA_SEVERITY_WARNING, "%s: the name of attribute '%s' is cut to %d bytes",
@@ -119,10 +138,12 @@ static ewa_status add_extra(const ewa_cloud_target *target, ewa_las_plan *plan, 
     plan->sources[table->column_count++] = (int32_t)index;
     table->record_bytes += (uint32_t)size_bytes;
     const uint8_t raw = raw_type(attribute->type);
-    if (count == 4 && raw == EWA_LAS_U8) return describe(target, plan, attribute->name, 0, 4);
+    if (count == 4 && raw == EWA_LAS_U8) return describe(target, plan, attribute->name, 0, 4, 0);
     const bool has_parts = count == 3 && ewa_las_part_name(attribute->name, 0);
+    const double scale = scale_of(target, attribute);
     if (count < 4 && !has_parts)
-        return describe(target, plan, attribute->name, (uint8_t)(raw + 10 * (count - 1)), 0);
+        return describe(target, plan, count == 1 ? ewa_las_alias(attribute->name) : attribute->name,
+                        (uint8_t)(raw + 10 * (count - 1)), 0, scale);
     ewa_status status = EWA_OK;
     for (uint32_t c = 0; c < count && status == EWA_OK; c++) {
         char name[EWA_NAME_BYTES + 12];
@@ -130,7 +151,7 @@ static ewa_status add_extra(const ewa_cloud_target *target, ewa_las_plan *plan, 
             snprintf(name, sizeof name, "%s", ewa_las_part_name(attribute->name, c));
         else
             snprintf(name, sizeof name, "%s_%u", attribute->name, c);
-        status = describe(target, plan, name, raw, 0);
+        status = describe(target, plan, name, raw, 0, scale);
     }
     return status;
 }
@@ -140,7 +161,7 @@ static ewa_status add_alpha(const ewa_cloud_target *target, ewa_las_plan *plan, 
     color->at_bytes[3] = (uint16_t)plan->table.record_bytes;
     color->component_count = 4;
     plan->table.record_bytes += 2;
-    return describe(target, plan, "alpha", EWA_LAS_U16, 0);
+    return describe(target, plan, "alpha", EWA_LAS_U16, 0, 0);
 }
 
 static ewa_status assign(const ewa_cloud_target *target, ewa_las_plan *plan) {
@@ -168,14 +189,14 @@ static ewa_status assign(const ewa_cloud_target *target, ewa_las_plan *plan) {
 }
 
 ewa_status ewa_las_plan_make(const ewa_cloud_target *target, const ewa_cloud *piece, bool is_whole,
-                             ewa_las_plan *plan) {
+                             bool is_new, ewa_las_plan *plan) {
     const ewa_attribute *position = ewa_cloud_find(target->prototype, EWA_POSITION);
     if (!position || position->component_count != 3)
         return ewa_fail(target->context, EWA_ERROR_ARGUMENT,
                         "%s: the cloud has no attribute 'position' of three components", target->name);
     const size_t length = strlen(target->name);
     plan->compressed = length >= 4 && (target->name[length - 1] | 32) == 'z';
-    plan->point_format = choose_format(target, piece, is_whole);
+    plan->point_format = choose_format(target, piece, is_whole, is_new);
     ewa_las_table_begin(plan->point_format, &plan->table);
     ewa_status status = assign(target, plan);
     if (status == EWA_OK) status = ewa_las_grid_choose(target, plan);

@@ -76,13 +76,15 @@ static const struct {
 /// Attributes of three numbers whose fields have names of their own, as they are written.
 static const struct {
     const char *attribute, *names[3];
-} groups[] = {{EWA_NORMAL, {"nx", "ny", "nz"}},
-              {EWA_NORMAL, {"NormalX", "NormalY", "NormalZ"}},
-              {EWA_TANGENT_U, {"tu_x", "tu_y", "tu_z"}},
-              {EWA_TANGENT_V, {"tv_x", "tv_y", "tv_z"}},
-              {EWA_CLIP0, {"clip0_a", "clip0_b", "clip0_c"}},
-              {EWA_CLIP1, {"clip1_a", "clip1_b", "clip1_c"}}};
+} groups[] = {
+    {EWA_NORMAL, {"NormalX", "NormalY", "NormalZ"}}, {EWA_NORMAL, {"nx", "ny", "nz"}},
+    {EWA_TANGENT_U, {"tu_x", "tu_y", "tu_z"}},       {EWA_TANGENT_V, {"tv_x", "tv_y", "tv_z"}},
+    {EWA_CLIP0, {"clip0_a", "clip0_b", "clip0_c"}},  {EWA_CLIP1, {"clip1_a", "clip1_b", "clip1_c"}}};
 enum { GROUP_COUNT = sizeof groups / sizeof groups[0] };
+
+/// Attributes of one number whose field has another name, as it is written.
+static const struct { const char *attribute, *name; } aliases[] = {{EWA_RADIUS, "Radius"}};
+enum { ALIAS_COUNT = sizeof aliases / sizeof aliases[0] };
 
 static ewa_las_column *add(ewa_las_table *table, const char *name, ewa_las_kind kind, ewa_type type,
                            uint32_t at_bytes) {
@@ -113,6 +115,12 @@ const char *ewa_las_part_name(const char *attribute, uint32_t component) {
     for (uint32_t g = 0; g < GROUP_COUNT; g++)
         if (strcmp(groups[g].attribute, attribute) == 0) return groups[g].names[component];
     return NULL;
+}
+
+const char *ewa_las_alias(const char *attribute) {
+    for (uint32_t i = 0; i < ALIAS_COUNT; i++)
+        if (strcmp(aliases[i].attribute, attribute) == 0) return aliases[i].name;
+    return attribute;
 }
 
 static const uint8_t raw_bytes[RAW_TYPE_COUNT] = {1, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
@@ -218,6 +226,14 @@ static bool is_part(const ewa_las_column *column, ewa_type type) {
     return column && column->kind == EWA_LAS_PLAIN && column->component_count == 1 && column->type == type;
 }
 
+/// Whether two columns can be numbers of one attribute: plain floats of one type, or whole numbers of one type
+/// with a scale.
+static bool are_parts(const ewa_las_column *a, const ewa_las_column *b) {
+    if (a->kind == EWA_LAS_PLAIN) return is_part(a, a->type) && is_part(b, a->type) && a->type <= EWA_F64;
+    return a->kind == EWA_LAS_SCALED && b->kind == EWA_LAS_SCALED && a->component_count == 1 &&
+           b->component_count == 1 && a->raw == b->raw && a->raw < EWA_LAS_F32 && !a->marked && !b->marked;
+}
+
 static void drop(ewa_las_table *table, const ewa_las_column *column) {
     const uint32_t index = (uint32_t)(column - table->columns);
     memmove(&table->columns[index], &table->columns[index + 1],
@@ -225,24 +241,32 @@ static void drop(ewa_las_table *table, const ewa_las_column *column) {
     table->column_count--;
 }
 
-/// Makes fields such as nx ny nz the one attribute that they are parts of, and "alpha" a part of the colour.
-static void join_parts(ewa_las_table *table) {
+void ewa_las_table_join(ewa_las_table *table) {
     for (uint32_t g = 0; g < GROUP_COUNT; g++) {
         ewa_las_column *first = ewa_las_table_find(table, groups[g].names[0]);
         if (!first || ewa_las_table_find(table, groups[g].attribute)) continue;
         for (uint32_t c = 1; c < 3 && first; c++) {
             const ewa_las_column *part = ewa_las_table_find(table, groups[g].names[c]);
-            if (!is_part(part, first->type) || !is_part(first, first->type)) first = NULL;
+            if (!part || !are_parts(first, part)) first = NULL;
         }
-        if (!first || (first->type != EWA_F32 && first->type != EWA_F64)) continue;
+        if (!first) continue;
+        // Numbers of 16 bits with a scale are fractions of 16 bits, for which floats have room.
+        if (first->kind == EWA_LAS_SCALED && first->raw <= EWA_LAS_I16) first->type = EWA_F32;
         snprintf(first->name, sizeof first->name, "%s", groups[g].attribute);
         for (uint32_t c = 1; c < 3; c++) {
             const ewa_las_column *part = ewa_las_table_find(table, groups[g].names[c]);
             first->at_bytes[c] = part->at_bytes[0];
+            first->scale[c] = part->scale[0];
+            first->offset[c] = part->offset[0];
             drop(table, part);
             first = ewa_las_table_find(table, groups[g].attribute);
         }
         first->component_count = 3;
+    }
+    for (uint32_t i = 0; i < ALIAS_COUNT; i++) {
+        ewa_las_column *column = ewa_las_table_find(table, aliases[i].name);
+        if (column && column->component_count == 1 && !ewa_las_table_find(table, aliases[i].attribute))
+            snprintf(column->name, sizeof column->name, "%s", aliases[i].attribute);
     }
     ewa_las_column *color = ewa_las_table_find(table, EWA_COLOR);
     const ewa_las_column *alpha = ewa_las_table_find(table, "alpha");
@@ -286,7 +310,9 @@ void ewa_las_table_begin(uint8_t point_format, ewa_las_table *table) {
     const uint8_t format = point_format;
     memset(table, 0, sizeof *table);
     table->record_bytes = ewa_las_format_bytes(format);
-    add(table, EWA_POSITION, EWA_LAS_POSITION, EWA_F64, 0)->component_count = 3;
+    ewa_las_column *position = add(table, EWA_POSITION, EWA_LAS_POSITION, EWA_F64, 0);
+    position->component_count = 3;
+    for (uint32_t c = 0; c < 3; c++) position->at_bytes[c] = (uint16_t)(4 * c);
     if (format < 6)
         add_fields(table, fields_legacy, sizeof fields_legacy / sizeof *fields_legacy, 0);
     else
@@ -307,7 +333,7 @@ void ewa_las_table_begin(uint8_t point_format, ewa_las_table *table) {
 void ewa_las_table_make(const ewa_cloud_source *source, const ewa_las_header *header, ewa_las_table *table) {
     ewa_las_table_begin(header->point_format, table);
     add_extras(source, header, table);
-    join_parts(table);
+    ewa_las_table_join(table);
     table->record_bytes = header->record_bytes;
     const ewa_las_column *color = ewa_las_table_find(table, EWA_COLOR);
     table->color_at =

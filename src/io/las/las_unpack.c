@@ -19,15 +19,16 @@ typedef struct block {
     size_t to_stride;
 } block;
 
-static void unpack_positions(const ewa_las_table *table, const block *b) {
+static void unpack_positions(const ewa_las_table *table, const ewa_las_column *column, const block *b) {
     const int64_t x0 = table->first[0], y0 = table->first[1], z0 = table->first[2];
     const double sx = table->scale[0], sy = table->scale[1], sz = table->scale[2];
+    const size_t x_at = column->at_bytes[0], y_at = column->at_bytes[1], z_at = column->at_bytes[2];
     const uint8_t *from = b->records;
     uint8_t *to = b->to;
     for (size_t i = 0; i < b->count; i++, from += b->stride, to += b->to_stride) {
-        const double position[3] = {(double)((int32_t)ewa_las_u32(from) - x0) * sx,
-                                    (double)((int32_t)ewa_las_u32(from + 4) - y0) * sy,
-                                    (double)((int32_t)ewa_las_u32(from + 8) - z0) * sz};
+        const double position[3] = {(double)((int32_t)ewa_las_u32(from + x_at) - x0) * sx,
+                                    (double)((int32_t)ewa_las_u32(from + y_at) - y0) * sy,
+                                    (double)((int32_t)ewa_las_u32(from + z_at) - z0) * sz};
         memcpy(to, position, sizeof position);
     }
 }
@@ -159,7 +160,7 @@ static uint64_t unpack_column(const ewa_las_table *table, const ewa_las_column *
                               const block *b) {
     switch (column->kind) {
     case EWA_LAS_POSITION:
-        unpack_positions(table, b);
+        unpack_positions(table, column, b);
         break;
     case EWA_LAS_BITS:
         unpack_bits(column, shared, b);

@@ -9,7 +9,6 @@
 #include "io/file.h"
 #include "io/las/laz_chunks.h"
 
-#include <stdio.h>
 #include <string.h>
 
 enum { TASK_POINTS = 1 << 12, WAVE_TASKS_PER_WORKER = 4, WAVE_CHUNKS_PER_WORKER = 2 };
@@ -74,61 +73,11 @@ static ewa_status put_bytes(las_writer *w, const void *bytes, size_t size_bytes)
 
 /// Makes the public header; returns its size.
 static uint16_t make_header(const las_writer *w, uint8_t head[EWA_LAS_HEAD_14_BYTES]) {
-    const ewa_las_plan *plan = &w->plan;
-    const uint16_t head_bytes = plan->version_minor >= 4 ? EWA_LAS_HEAD_14_BYTES : EWA_LAS_HEAD_BYTES;
-    const char *system = ewa_cloud_note(w->target->prototype, "file.system", NULL);
-    memset(head, 0, EWA_LAS_HEAD_14_BYTES);
-    memcpy(head, "LASF", 4);
-    ewa_las_put_u16(head + 6, plan->global_encoding);
-    head[24] = 1;
-    head[25] = plan->version_minor;
-    memcpy(head + 26, system ? system : "OTHER", strnlen(system ? system : "OTHER", 32));
-    snprintf((char *)head + 58, 32, "ewa %s", ewa_version());
-    ewa_las_put_u16(head + 94, head_bytes);
-    ewa_las_put_u32(head + 96, (uint32_t)w->points_at);
-    ewa_las_put_u32(head + 100, w->vlr_count);
-    head[104] = (uint8_t)(plan->point_format | (plan->compressed ? 0x80 : 0));
-    ewa_las_put_u16(head + 105, (uint16_t)plan->table.record_bytes);
-    // The fields of 32 bits stay 0 where the format is newer than they are, or the number too large.
-    if (plan->point_format < 6 && w->point_count <= UINT32_MAX) {
-        ewa_las_put_u32(head + 107, (uint32_t)w->point_count);
-        for (int r = 1; r <= 5; r++) ewa_las_put_u32(head + 107 + 4 * r, (uint32_t)w->sums.by_return[r]);
-    }
-    for (int c = 0; c < 3; c++) {
-        const double scale = plan->table.scale[c], offset = plan->offset_world[c];
-        const bool empty = w->sums.low[c] > w->sums.high[c];
-        ewa_las_put_f64(head + 131 + 8 * c, scale);
-        ewa_las_put_f64(head + 155 + 8 * c, offset);
-        ewa_las_put_f64(head + 179 + 16 * c, empty ? 0 : offset + w->sums.high[c] * scale);
-        ewa_las_put_f64(head + 187 + 16 * c, empty ? 0 : offset + w->sums.low[c] * scale);
-    }
-    if (plan->version_minor >= 4) {
-        ewa_las_put_u64(head + 247, w->point_count);
-        for (int r = 1; r <= EWA_LAS_RETURNS; r++) ewa_las_put_u64(head + 247 + 8 * r, w->sums.by_return[r]);
-    }
-    return head_bytes;
-}
-
-/// Appends the record by which LASzip's readers find out how the points are packed.
-static ewa_status append_laz_record(las_writer *w, ewa_buffer *records, size_t *size_bytes) {
-    enum { HEAD_BYTES = 34, ITEM_BYTES = 6 };
-    uint8_t bytes[HEAD_BYTES + ITEM_BYTES * EWA_LAZ_MAX_ITEMS] = {0};
-    ewa_las_put_u16(bytes, w->laz.layered ? EWA_LAZ_LAYERED : EWA_LAZ_CHUNKED);
-    bytes[4] = w->laz.layered ? 3 : 2;
-    bytes[5] = w->laz.layered ? 4 : 2;
-    ewa_las_put_u32(bytes + 12, w->chunk_points);
-    ewa_las_put_u64(bytes + 16, UINT64_MAX); // special records: none
-    ewa_las_put_u64(bytes + 24, UINT64_MAX);
-    ewa_las_put_u16(bytes + 32, (uint16_t)w->laz.item_count);
-    for (uint32_t i = 0; i < w->laz.item_count; i++) {
-        uint8_t *item = bytes + HEAD_BYTES + i * ITEM_BYTES;
-        ewa_las_put_u16(item, w->laz.items[i].type);
-        ewa_las_put_u16(item + 2, w->laz.items[i].size_bytes);
-        ewa_las_put_u16(item + 4, w->laz.items[i].version);
-    }
-    w->vlr_count++;
-    return ewa_las_record_append(w->target->context, EWA_LAZ_VLR_USER, EWA_LAZ_VLR_ID, "by ewa", bytes,
-                                 HEAD_BYTES + ITEM_BYTES * w->laz.item_count, records, size_bytes);
+    const ewa_las_head said = {.points_at = w->points_at,
+                               .point_count = w->point_count,
+                               .vlr_count = w->vlr_count,
+                               .sums = &w->sums};
+    return ewa_las_head_make(&w->plan, w->target->prototype, &said, head);
 }
 
 /// Makes room for a wave and, compressed, for what its chunks become.
@@ -292,11 +241,15 @@ static ewa_status begin(las_writer *w, const ewa_cloud *piece, bool is_whole) {
                         target->name);
     ewa_buffer records = {0};
     size_t records_bytes = 0;
-    ewa_status status = ewa_las_plan_make(target, piece, is_whole, &w->plan);
+    ewa_status status = ewa_las_plan_make(target, piece, is_whole, false, &w->plan);
     if (status == EWA_OK)
         status = ewa_las_records_make(target, &w->plan, &records, &records_bytes, &w->vlr_count);
     if (status == EWA_OK) status = make_waves(w);
-    if (status == EWA_OK && w->plan.compressed) status = append_laz_record(w, &records, &records_bytes);
+    if (status == EWA_OK && w->plan.compressed) {
+        status =
+            ewa_las_laz_record_append(target->context, &w->laz, w->chunk_points, &records, &records_bytes);
+        w->vlr_count++;
+    }
     w->points_at = (w->plan.version_minor >= 4 ? EWA_LAS_HEAD_14_BYTES : EWA_LAS_HEAD_BYTES) + records_bytes;
     if (status == EWA_OK && piece && !can_patch) {
         w->dry = true;

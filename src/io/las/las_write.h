@@ -22,11 +22,15 @@ typedef struct ewa_las_plan {
     uint32_t extra_count;
 } ewa_las_plan;
 
+/// Begins the names of notes that say, as decimal text, what one of an attribute's whole numbers stands for.
+#define EWA_LAS_NOTE_SCALE "scale."
+
 /// Makes the plan, for which the numbers of the first piece are looked at, or NULL; `is_whole`: no other will
-/// come. Free with ewa_las_plan_free(), also after a failure. Errors: EWA_ERROR_ARGUMENT (no position), EWA_ERROR_LIMIT (the
+/// come; `is_new`: by the point formats 6 to 8 only. Whole numbers in extra bytes get the scale that a note
+/// EWA_LAS_NOTE_SCALE says, normals in I16 one of 1 / 32767. Free with ewa_las_plan_free(), also after a failure. Errors: EWA_ERROR_ARGUMENT (no position), EWA_ERROR_LIMIT (the
 /// box does not fit 32 bits, too many attributes), EWA_ERROR_MEMORY.
 ewa_status ewa_las_plan_make(const ewa_cloud_target *target, const ewa_cloud *piece, bool is_whole,
-                             ewa_las_plan *plan);
+                             bool is_new, ewa_las_plan *plan);
 void ewa_las_plan_free(ewa_context *context, ewa_las_plan *plan);
 
 /// Chooses scale and offset of the coordinates. Errors: EWA_ERROR_LIMIT.
@@ -51,6 +55,22 @@ typedef struct ewa_las_sums {
     ((ewa_las_sums){.low = {INT32_MAX, INT32_MAX, INT32_MAX}, .high = {INT32_MIN, INT32_MIN, INT32_MIN}})
 
 void ewa_las_sums_add(ewa_las_sums *sums, const ewa_las_sums *more);
+
+/// What the public header says of the points and of where they are.
+typedef struct ewa_las_head {
+    uint64_t points_at, point_count, evlrs_at;
+    uint32_t vlr_count, evlr_count;
+    const ewa_las_sums *sums;
+} ewa_las_head;
+
+/// Makes the public header; returns its size.
+uint16_t ewa_las_head_make(const ewa_las_plan *plan, const ewa_cloud *prototype, const ewa_las_head *said,
+                           uint8_t head[EWA_LAS_HEAD_14_BYTES]);
+
+/// Appends the record by which LASzip's readers find out how the points are packed. Errors:
+/// EWA_ERROR_MEMORY.
+ewa_status ewa_las_laz_record_append(ewa_context *context, const ewa_laz_plan *laz, uint32_t chunk_points,
+                                     ewa_buffer *records, size_t *at_bytes);
 
 /// Makes records of points `first` to `first + count - 1` of a piece, one after the other, and adds to the
 /// sums. All positions must be finite and within the range of the plan.

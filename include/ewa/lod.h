@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Clouds that are larger than memory: octrees of points in files, COPC and EPT, of which a picture takes the cubes
+// that it needs, as fine as it shows them; and COPC files made from any clouds, with surfels at every level.
+// docs/scale.md.
+#ifndef EWA_LOD_H
+#define EWA_LOD_H
+
+#include "ewa/base.h"
+#include "ewa/camera.h"
+#include "ewa/cloud.h"
+#include "ewa/options.h"
+#include "ewa/render.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// An octree of points in a file, with the cubes that are in memory.
+typedef struct ewa_lod ewa_lod;
+
+/// Whether a path is a COPC file, by content, a folder of EPT or its "ept.json". Reports nothing.
+EWA_API bool ewa_lod_probe(ewa_context *context, const char *path);
+
+/// Opens an octree and reads its hierarchy. The caller closes `*lod`, which is NULL after a failure. Errors:
+/// EWA_ERROR_IO, EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_lod_open(ewa_context *context, const char *path, ewa_lod **lod);
+
+/// Closes the file, frees the cubes and sets `*lod` to NULL; accepts NULL and a pointer to NULL.
+EWA_API void ewa_lod_close(ewa_lod **lod);
+
+/// Facts about an octree.
+typedef struct ewa_lod_info {
+    const char *kind;     ///< "COPC 1.0", "EPT 1.1.0"; stays until the octree is closed
+    uint64_t point_count; ///< as the hierarchy says
+    ewa_bounds bounds;    ///< of the points, as the file says
+    double low_world[3], side_world; ///< the root's cube
+    double spacing_world;            ///< of the root's points
+    uint32_t node_count, level_count;
+    bool merged;                 ///< surfels stand for cubes' points at every level (ewa_lod_build())
+    uint64_t merged_count;       ///< how many there are
+    bool surfels;                ///< points have normals and radii, or axes
+    const ewa_cloud *prototype;  ///< no points; attributes, origin, grid and notes of the points
+} ewa_lod_info;
+
+EWA_API void ewa_lod_describe(const ewa_lod *lod, ewa_lod_info *info);
+
+/// Reads whole levels, from the coarsest on, as long as they have at most `most_points` > 0 points together, but the
+/// first that has any, whatever it has: what the whole looks like. The caller owns `*cloud`. Errors as ewa_lod_open().
+EWA_API ewa_status ewa_lod_sample(ewa_lod *lod, uint64_t most_points, ewa_cloud **cloud);
+
+/// Reads the points of a box, from the cubes that meet it, of levels down to a spacing: `low_world` and `high_world`,
+/// 3 numbers each, world units, both sides included; `spacing_world` >= 0, 0: all points. The caller owns `*cloud`.
+/// Errors as ewa_lod_open().
+EWA_API ewa_status ewa_lod_read(ewa_lod *lod, const double low_world[3], const double high_world[3],
+                                double spacing_world, ewa_cloud **cloud);
+
+/// How fine a picture is. Fill with ewa_lod_options_init().
+typedef struct ewa_lod_options {
+    size_t struct_size;
+    /// A cube is drawn by the surfels that stand for its points where these are no farther apart than so many pixels,
+    /// else by its parts; (0, 64]; default 0.5.
+    double spacing_px;
+    /// The same only where they are expected to be off by no more than so much, rms, in 1/255 of the light of a
+    /// screen's white, as measured when the file was made; [0, 255]; default 16; 0: always all points.
+    double error;
+    /// Cubes that are kept in memory, and what is drawn at a time: where a picture needs more, it is drawn in bands, the
+    /// same bytes. [2^24, 2^50]; default 2^30.
+    uint64_t memory_bytes;
+    /// Seconds for reading cubes: what has not been read then is drawn coarser, and counted as missing. The coarsest and
+    /// what is large in the middle of the picture come first. 0 (default): as long as it takes.
+    double load_s;
+} ewa_lod_options;
+
+EWA_API extern const ewa_option_table ewa_lod_options_table;
+EWA_API void ewa_lod_options_init(ewa_lod_options *options, size_t struct_size);
+
+/// What a picture of an octree took.
+typedef struct ewa_lod_stats {
+    ewa_render_stats render; ///< of all bands together
+    uint64_t surfel_count;   ///< in the cubes that were drawn
+    uint32_t cube_count;     ///< that were drawn
+    uint32_t loaded_count;   ///< of them, that were not in memory
+    uint32_t missing_count;  ///< that a finer picture needs, but for which there was no time
+    uint32_t band_count;
+    uint64_t resident_bytes; ///< of the cubes that are kept
+    double choose_s, load_s; ///< wall clock
+} ewa_lod_stats;
+
+/// Draws an octree: every part as coarse as the options allow, from surfels that stand for many points to the points,
+/// and over a range of distances the weighted mean of both, so that nothing pops when the camera moves. Points without
+/// normals and radii get them by ewa_cloud_estimate(), cube by cube. The same bytes for every number of threads and
+/// every `memory_bytes`, with `load_s` 0. `options`, `lod_options` and `stats` may be NULL; `level` and `budget_s` of
+/// the options do not count. Errors: as ewa_render() and ewa_lod_open(); EWA_ERROR_LIMIT (a row of tiles needs more than
+/// `memory_bytes`).
+EWA_API ewa_status ewa_lod_render(ewa_lod *lod, ewa_renderer *renderer, const ewa_camera *camera,
+                                  const ewa_render_options *options, const ewa_lod_options *lod_options,
+                                  const ewa_frame *frame, ewa_lod_stats *stats);
+
+/// How an octree is made. Fill with ewa_lod_build_options_init().
+typedef struct ewa_lod_build_options {
+    size_t struct_size;
+    uint64_t memory_bytes; ///< for points at hand; [2^26, 2^50]; default 2^31
+    /// Only part `subset` of `subset_count` is made, into a file of its own for ewa_lod_merge(), on any machine; [0, 65535] and
+    /// [1, 65536]; default 0 and 1: all.
+    uint32_t subset, subset_count;
+    bool keep_going; ///< step over damaged pieces of the files; default false
+} ewa_lod_build_options;
+
+EWA_API extern const ewa_option_table ewa_lod_build_options_table;
+EWA_API void ewa_lod_build_options_init(ewa_lod_build_options *options, size_t struct_size);
+
+/// What making an octree took.
+typedef struct ewa_lod_build_stats {
+    uint64_t point_count, left_out_count; ///< left out: without finite coordinates
+    uint64_t merged_count;                ///< surfels that stand for others
+    uint32_t node_count, level_count;
+    uint64_t temporary_bytes;                              ///< of the temporary file
+    double survey_s, distribute_s, estimate_s, merge_s, write_s, total_s; ///< wall clock
+} ewa_lod_build_stats;
+
+/// Makes one COPC file of the points of any files: the points with all their attributes, each in one cube, with normals
+/// and radii as they are, or estimated piece by piece; and, for other programs to skip, surfels that stand for the points of each
+/// cube. Files are read twice; a temporary file, beside the output and gone when the process ends however it ends, takes
+/// up to 40 bytes per point of common scans. The same file for every number of threads. `options` and `stats` may be NULL. Errors: as
+/// ewa_cloud_reader_open() and ewa_cloud_writer_open(); EWA_ERROR_FORMAT (a file changed while it was read).
+EWA_API ewa_status ewa_lod_build(ewa_context *context, const char *const *paths, uint32_t path_count,
+                                 const char *out, const ewa_lod_build_options *options,
+                                 ewa_lod_build_stats *stats);
+
+/// Makes the file of all its parts (ewa_lod_build_options.subset), in any order: the same bytes as made at once. Errors:
+/// EWA_ERROR_FORMAT (a file is no such part, or of other points; a part is missing or comes twice), EWA_ERROR_IO,
+/// EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_lod_merge(ewa_context *context, const char *const *parts, uint32_t part_count,
+                                 const char *out, ewa_lod_build_stats *stats);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// COPC files by nodes: each is a chunk of LAZ that a worker decodes into the streams of a cloud.
+#include "base/base.h"
+#include "io/file.h"
+#include "io/las/copc.h"
+#include "io/las/las_open.h"
+#include "io/octree_format.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum {
+    /// Bytes by which a file shows that it is COPC: the header, and the head of the record behind it.
+    MAGIC_BYTES = EWA_LAS_HEAD_14_BYTES + EWA_LAS_RECORD_BYTES,
+    /// No point takes less than 1 / 2048 byte: the arithmetic coder's surest symbol costs more.
+    MOST_POINTS_PER_BYTE = 2048,
+};
+
+typedef struct copc_state {
+    ewa_file bytes;
+    ewa_cloud_source source;
+    ewa_cloud_load_options options;
+    uint64_t lost_count;
+    ewa_las_file file;
+    uint32_t worker_count;
+    ewa_laz_memory **memories; ///< one per worker
+    ewa_buffer *records;       ///< one per worker
+} copc_state;
+
+static bool is_copc(const char *path) {
+    uint8_t bytes[MAGIC_BYTES];
+    FILE *file = fopen(path, "rb");
+    if (!file) return false;
+    const bool there = fread(bytes, 1, sizeof bytes, file) == sizeof bytes;
+    fclose(file);
+    const uint8_t *record = bytes + EWA_LAS_HEAD_14_BYTES;
+    return there && memcmp(bytes, "LASF", 4) == 0 && ewa_las_u16(bytes + 94) == EWA_LAS_HEAD_14_BYTES &&
+           ewa_las_u32(bytes + 100) > 0 && strncmp((const char *)record + 2, "copc", 16) == 0 &&
+           ewa_las_u16(record + 18) == 1 && ewa_las_u16(record + 20) == EWA_COPC_INFO_BYTES;
+}
+
+static void close_copc(ewa_octree *octree) {
+    copc_state *state = octree->state;
+    if (!state) return;
+    ewa_context *context = octree->context;
+    for (uint32_t i = 0; i < state->worker_count; i++) {
+        if (state->memories) ewa_laz_memory_free(context, &state->memories[i]);
+        if (state->records) ewa_buffer_free(context, &state->records[i]);
+    }
+    ewa_release(context, state->memories, state->worker_count, sizeof *state->memories);
+    ewa_release(context, state->records, state->worker_count, sizeof *state->records);
+    ewa_las_file_close(&state->file);
+    ewa_file_unmap(context, &state->bytes);
+    ewa_release(context, state, 1, sizeof *state);
+}
+
+/// Takes the nodes of the hierarchy and what is said of the root.
+static ewa_status take_tree(ewa_octree *octree, const copc_state *state, const ewa_copc_tree *tree) {
+    ewa_octree_facts *facts = &octree->facts;
+    const ewa_octree_node *nodes = tree->nodes.data;
+    if (tree->fault[0])
+        return ewa_fail(octree->context, EWA_ERROR_FORMAT, "%s: the hierarchy of COPC is damaged: %s",
+                        octree->path, tree->fault);
+    const double *centre = tree->centre_world;
+    if (!(tree->half_world > 0) || !isfinite(tree->half_world) || !(tree->spacing_world > 0) ||
+        !isfinite(tree->spacing_world) || !isfinite(centre[0]) || !isfinite(centre[1]) ||
+        !isfinite(centre[2]))
+        return ewa_fail(octree->context, EWA_ERROR_FORMAT,
+                        "%s: the root of COPC has half a side of %g about (%g, %g, %g) and a spacing of %g",
+                        octree->path, tree->half_world, centre[0], centre[1], centre[2], tree->spacing_world);
+    facts->kind = "COPC 1.0";
+    facts->side_world = 2 * tree->half_world;
+    facts->spacing_world = tree->spacing_world;
+    for (int c = 0; c < 3; c++) {
+        facts->low_world[c] = centre[c] - tree->half_world;
+        facts->bounds.low_world[c] = state->file.header.low[c];
+        facts->bounds.high_world[c] = state->file.header.high[c];
+    }
+    facts->bounds.finite_count = state->file.header.point_count;
+    const uint64_t most_bytes = ewa_context_limits(octree->context)->max_memory_bytes;
+    ewa_status status = EWA_OK;
+    for (size_t i = 0; i < tree->node_count && status == EWA_OK; i++) {
+        const ewa_octree_node *node = &nodes[i];
+        const ewa_octree_key *k = &node->key;
+        if (node->point_count / MOST_POINTS_PER_BYTE > node->size_bytes)
+            return ewa_fail(octree->context, EWA_ERROR_FORMAT,
+                            "%s: node %d-%d-%d-%d is said to hold %llu points in %llu bytes", octree->path,
+                            k->level, k->cell[0], k->cell[1], k->cell[2],
+                            (unsigned long long)node->point_count, (unsigned long long)node->size_bytes);
+        if (node->point_count > most_bytes / state->file.header.record_bytes)
+            return ewa_fail(octree->context, EWA_ERROR_LIMIT,
+                            "%s: node %d-%d-%d-%d, %llu points, is over the limit of %llu bytes",
+                            octree->path, k->level, k->cell[0], k->cell[1], k->cell[2],
+                            (unsigned long long)node->point_count, (unsigned long long)most_bytes);
+        status = ewa_octree_add(octree, node);
+    }
+    return status;
+}
+
+/// Finds the levels among the extended records.
+static void find_levels(ewa_octree *octree, const copc_state *state) {
+    ewa_las_walk walk = {0};
+    ewa_las_vlr vlr;
+    while (ewa_las_walk_next(&state->source, &state->file.header, &walk, &vlr)) {
+        if (!vlr.extended || !ewa_las_vlr_is(&vlr, EWA_COPC_LEVELS_USER, EWA_COPC_LEVELS_ID)) continue;
+        octree->facts.levels = vlr.bytes;
+        octree->facts.levels_bytes = vlr.size_bytes;
+        return;
+    }
+}
+
+static ewa_status open_copc(ewa_octree *octree) {
+    ewa_context *context = octree->context;
+    copc_state *state = ewa_allocate_zeroed(context, 1, sizeof *state);
+    octree->state = state;
+    if (!state) return EWA_ERROR_MEMORY;
+    ewa_status status = ewa_file_map(context, octree->path, &state->bytes);
+    if (status != EWA_OK) return status;
+    ewa_cloud_load_options_init(&state->options, sizeof state->options);
+    state->source = (ewa_cloud_source){.context = context,
+                                       .name = octree->path,
+                                       .path = octree->path,
+                                       .bytes = state->bytes.bytes,
+                                       .size_bytes = state->bytes.size_bytes,
+                                       .options = &state->options,
+                                       .lost_count = &state->lost_count};
+    status = ewa_las_file_open(&state->source, octree->prototype, &state->file);
+    if (status != EWA_OK) return status;
+    if (!state->file.header.compressed || !ewa_copc_is(&state->source, &state->file.header))
+        return ewa_fail(context, EWA_ERROR_FORMAT,
+                        "%s: the points of COPC are compressed as LAZ, these are not", octree->path);
+    // The chunks that were looked at for colours are not what nodes are read from.
+    ewa_laz_stream_close(state->file.stream);
+    state->file.stream = NULL;
+    state->worker_count = ewa_context_worker_count(context);
+    state->memories = ewa_allocate_zeroed(context, state->worker_count, sizeof *state->memories);
+    state->records = ewa_allocate_zeroed(context, state->worker_count, sizeof *state->records);
+    if (!state->memories || !state->records) return EWA_ERROR_MEMORY;
+    ewa_copc_tree tree;
+    status = ewa_copc_tree_read(&state->source, &state->file.header, &tree);
+    if (status != EWA_OK) return status;
+    status = take_tree(octree, state, &tree);
+    ewa_copc_tree_free(context, &tree);
+    find_levels(octree, state);
+    return status;
+}
+
+static void read_node(ewa_octree *octree, const ewa_octree_node *node, uint32_t slot, uint32_t worker,
+                      const ewa_cloud_sink *sinks, ewa_octree_result *result) {
+    (void)slot;
+    copc_state *state = octree->state;
+    ewa_buffer *records = &state->records[worker];
+    ewa_laz_result decoded;
+    result->status =
+        ewa_buffer_reserve(octree->context, records, node->point_count, state->file.table.record_bytes);
+    if (result->status != EWA_OK) return;
+    result->status = ewa_laz_decode(octree->context, &state->file.layout.plan,
+                                    state->source.bytes + node->at_bytes, node->size_bytes, node->point_count,
+                                    records->data, &state->memories[worker], &decoded);
+    if (result->status != EWA_OK) return;
+    result->fault = decoded.fault;
+    if (decoded.fault)
+        result->status = EWA_ERROR_FORMAT;
+    else
+        result->above_count = ewa_las_unpack(&state->file.table, records->data, node->point_count, sinks);
+}
+
+const ewa_octree_format ewa_octree_copc = {
+    .is = is_copc, .open = open_copc, .read = read_node, .close = close_copc};

@@ -1,0 +1,225 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Table and blocks of the surfels that stand for cubes' points.
+#include "io/levels.h"
+#include "io/las/las.h"
+
+#include <libdeflate.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    PLANES = 16, // bytes of a surfel, one plane each
+    COMPRESSION = 4,
+    AT_STEPS = 65536,
+    NORMAL_STEPS =
+        2047, // octahedral coordinates are whole numbers of 12 bits, shifted to the upper ones of 16
+    NORMAL_SHIFT = 4,
+};
+
+static float read_f32(const uint8_t *bytes) {
+    const uint32_t bits = ewa_las_u32(bytes);
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+static void write_f32(uint8_t *bytes, float value) {
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    ewa_las_put_u32(bytes, bits);
+}
+
+static int compare_pages(const void *a, const void *b) {
+    return ewa_octree_key_compare(&((const ewa_levels_page *)a)->key, &((const ewa_levels_page *)b)->key);
+}
+
+/// What is wrong with a page; NULL: nothing.
+static const char *check_page(const ewa_levels_page *page, uint64_t size_bytes) {
+    const ewa_octree_key *key = &page->key;
+    if (key->level < 0 || key->level >= EWA_OCTREE_LEVELS) return "a level is out of range";
+    for (int c = 0; c < 3; c++)
+        if (key->cell[c] < 0 || key->cell[c] >= (int64_t)1 << key->level) return "a key is no cube";
+    if (page->surfel_count > EWA_LEVELS_MOST_SURFELS) return "a cube has too many surfels";
+    if (page->at_bytes > size_bytes || page->size_bytes > size_bytes - page->at_bytes)
+        return "a block lies beyond the record";
+    if (!(page->radius_scale > 0 && page->radius_scale <= 16) || !(page->error >= 0 && page->error <= 255) ||
+        !(page->largest_radius_world >= 0 && isfinite(page->largest_radius_world)) ||
+        !(page->unit_coverage >= 0 && page->unit_coverage < 1e6f))
+        return "a cube's numbers are out of range";
+    return NULL;
+}
+
+/// Whether every page but the root follows its parent.
+static const char *check_tree(const ewa_levels *levels) {
+    for (uint32_t i = 0; i < levels->page_count; i++) {
+        const ewa_levels_page *page = &levels->pages[i];
+        if (i > 0 && compare_pages(&levels->pages[i - 1], page) == 0) return "a cube comes twice";
+        if (page->key.level == 0) continue;
+        ewa_levels_page parent = {.key = {.level = page->key.level - 1}};
+        for (int c = 0; c < 3; c++) parent.key.cell[c] = page->key.cell[c] >> 1;
+        const ewa_levels_page *found =
+            bsearch(&parent, levels->pages, levels->page_count, sizeof parent, compare_pages);
+        if (!found || !found->size_bytes) return "a cube is no part of one that is divided";
+    }
+    return NULL;
+}
+
+ewa_status ewa_levels_read(ewa_context *context, const char *name, const uint8_t *bytes, uint64_t size_bytes,
+                           ewa_levels *levels) {
+    *levels = (ewa_levels){0};
+    if (size_bytes < EWA_LEVELS_HEAD_BYTES || memcmp(bytes, "EWAL", 4) != 0)
+        return ewa_fail(context, EWA_ERROR_FORMAT, "%s: the record of surfels has no head", name);
+    if (ewa_las_u32(bytes + 4) != EWA_LEVELS_VERSION)
+        return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: the record of surfels is of version %u, not %d",
+                        name, ewa_las_u32(bytes + 4), EWA_LEVELS_VERSION);
+    const uint32_t count = ewa_las_u32(bytes + 8);
+    levels->unit_coverage = ewa_las_f64(bytes + 16);
+    if (count > (size_bytes - EWA_LEVELS_HEAD_BYTES) / EWA_LEVELS_PAGE_BYTES ||
+        !(levels->unit_coverage >= 0 && levels->unit_coverage < 1e6))
+        return ewa_fail(context, EWA_ERROR_FORMAT, "%s: the record of surfels is damaged: its head", name);
+    levels->pages = ewa_allocate(context, count, sizeof *levels->pages);
+    if (!levels->pages) return EWA_ERROR_MEMORY;
+    levels->page_count = count;
+    const char *fault = NULL;
+    for (uint32_t i = 0; i < count && !fault; i++) {
+        const uint8_t *entry = bytes + EWA_LEVELS_HEAD_BYTES + (size_t)i * EWA_LEVELS_PAGE_BYTES;
+        ewa_levels_page *page = &levels->pages[i];
+        *page = (ewa_levels_page){.key = {.level = (int32_t)ewa_las_u32(entry)},
+                                  .point_count = ewa_las_u64(entry + 16),
+                                  .surfel_count = ewa_las_u32(entry + 24),
+                                  .radius_scale = read_f32(entry + 28),
+                                  .error = read_f32(entry + 32),
+                                  .largest_radius_world = read_f32(entry + 36),
+                                  .unit_coverage = read_f32(entry + 52),
+                                  .at_bytes = ewa_las_u64(entry + 40),
+                                  .size_bytes = ewa_las_u32(entry + 48)};
+        for (int c = 0; c < 3; c++) page->key.cell[c] = (int32_t)ewa_las_u32(entry + 4 + 4 * c);
+        fault = check_page(page, size_bytes);
+        levels->surfel_count += page->surfel_count;
+    }
+    if (!fault) {
+        qsort(levels->pages, count, sizeof *levels->pages, compare_pages);
+        fault = check_tree(levels);
+    }
+    return fault
+               ? ewa_fail(context, EWA_ERROR_FORMAT, "%s: the record of surfels is damaged: %s", name, fault)
+               : EWA_OK;
+}
+
+void ewa_levels_free(ewa_context *context, ewa_levels *levels) {
+    ewa_release(context, levels->pages, levels->page_count, sizeof *levels->pages);
+    *levels = (ewa_levels){0};
+}
+
+void ewa_levels_write(const ewa_levels *levels, uint8_t *bytes) {
+    const uint64_t blocks_at = EWA_LEVELS_HEAD_BYTES + (uint64_t)levels->page_count * EWA_LEVELS_PAGE_BYTES;
+    memset(bytes, 0, (size_t)blocks_at);
+    memcpy(bytes, "EWAL", 4);
+    ewa_las_put_u32(bytes + 4, EWA_LEVELS_VERSION);
+    ewa_las_put_u32(bytes + 8, levels->page_count);
+    ewa_las_put_f64(bytes + 16, levels->unit_coverage);
+    ewa_las_put_u64(bytes + 24, levels->surfel_count);
+    for (uint32_t i = 0; i < levels->page_count; i++) {
+        const ewa_levels_page *page = &levels->pages[i];
+        uint8_t *entry = bytes + EWA_LEVELS_HEAD_BYTES + (size_t)i * EWA_LEVELS_PAGE_BYTES;
+        ewa_las_put_u32(entry, (uint32_t)page->key.level);
+        for (int c = 0; c < 3; c++) ewa_las_put_u32(entry + 4 + 4 * c, (uint32_t)page->key.cell[c]);
+        ewa_las_put_u64(entry + 16, page->point_count);
+        ewa_las_put_u32(entry + 24, page->surfel_count);
+        write_f32(entry + 28, page->radius_scale);
+        write_f32(entry + 32, page->error);
+        write_f32(entry + 36, page->largest_radius_world);
+        ewa_las_put_u64(entry + 40, page->size_bytes ? blocks_at + page->at_bytes : 0);
+        ewa_las_put_u32(entry + 48, page->size_bytes);
+        write_f32(entry + 52, page->unit_coverage);
+    }
+}
+
+size_t ewa_level_raw_bytes(uint32_t count) { return (size_t)count * PLANES; }
+
+static uint32_t code_at(float at) {
+    const float steps = floorf(at * AT_STEPS);
+    return steps < 0 ? 0 : steps > AT_STEPS - 1 ? AT_STEPS - 1 : (uint32_t)steps;
+}
+
+/// The octahedral codes of a unit vector, with NORMAL_STEPS added.
+static void code_normal(const float n[3], uint32_t code[2]) {
+    const float sum = fabsf(n[0]) + fabsf(n[1]) + fabsf(n[2]);
+    float u = sum > 0 ? n[0] / sum : 0, v = sum > 0 ? n[1] / sum : 0;
+    if (n[2] < 0) {
+        const float folded = copysignf(1 - fabsf(v), u);
+        v = copysignf(1 - fabsf(u), v);
+        u = folded;
+    }
+    code[0] = (uint32_t)(lrintf(u * NORMAL_STEPS) + NORMAL_STEPS) << NORMAL_SHIFT;
+    code[1] = (uint32_t)(lrintf(v * NORMAL_STEPS) + NORMAL_STEPS) << NORMAL_SHIFT;
+}
+
+static void decode_normal(uint32_t code_u, uint32_t code_v, float n[3]) {
+    const float u = ((float)(code_u >> NORMAL_SHIFT) - NORMAL_STEPS) / NORMAL_STEPS,
+                v = ((float)(code_v >> NORMAL_SHIFT) - NORMAL_STEPS) / NORMAL_STEPS;
+    n[2] = 1 - fabsf(u) - fabsf(v);
+    const float fold = n[2] < 0 ? -n[2] : 0;
+    n[0] = u - copysignf(fold, u);
+    n[1] = v - copysignf(fold, v);
+    const float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (int c = 0; c < 3; c++) n[c] /= length;
+}
+
+ewa_status ewa_level_encode(ewa_context *context, const ewa_level_surfels *surfels, uint32_t count,
+                            ewa_buffer *to, size_t *at_bytes) {
+    const size_t raw_bytes = ewa_level_raw_bytes(count);
+    uint8_t *raw = ewa_allocate(context, raw_bytes, 1);
+    struct libdeflate_compressor *compressor = libdeflate_alloc_compressor(COMPRESSION);
+    ewa_status status = raw && compressor ? EWA_OK : EWA_ERROR_MEMORY;
+    for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
+        uint32_t codes[6];
+        for (int c = 0; c < 3; c++) codes[c] = code_at(surfels->at[3 * (size_t)i + (size_t)c]);
+        code_normal(surfels->normal + 3 * (size_t)i, codes + 3);
+        uint32_t bits;
+        memcpy(&bits, &surfels->radius_world[i], sizeof bits);
+        codes[5] = (bits + 0x8000u) >> 16;
+        for (size_t k = 0; k < 6; k++) {
+            raw[2 * k * count + i] = (uint8_t)(codes[k] >> 8);
+            raw[(2 * k + 1) * count + i] = (uint8_t)codes[k];
+        }
+        for (size_t c = 0; c < 4; c++) raw[(12 + c) * count + i] = surfels->rgba[4 * (size_t)i + c];
+    }
+    if (status == EWA_OK) {
+        const size_t bound = libdeflate_deflate_compress_bound(compressor, raw_bytes);
+        status = ewa_buffer_grow(context, to, *at_bytes, *at_bytes + bound, 1);
+        if (status == EWA_OK)
+            *at_bytes += libdeflate_deflate_compress(compressor, raw, raw_bytes,
+                                                     (uint8_t *)to->data + *at_bytes, bound);
+    }
+    libdeflate_free_compressor(compressor);
+    ewa_release(context, raw, raw_bytes, 1);
+    return status;
+}
+
+const char *ewa_level_decode(const ewa_levels_page *page, const uint8_t *bytes, uint8_t *scratch,
+                             const ewa_level_surfels *surfels) {
+    const uint32_t count = page->surfel_count;
+    struct libdeflate_decompressor *decompressor = libdeflate_alloc_decompressor();
+    if (!decompressor) return "there is no memory";
+    size_t got = 0;
+    const enum libdeflate_result result = libdeflate_deflate_decompress(
+        decompressor, bytes + page->at_bytes, page->size_bytes, scratch, ewa_level_raw_bytes(count), &got);
+    libdeflate_free_decompressor(decompressor);
+    if (result != LIBDEFLATE_SUCCESS || got != ewa_level_raw_bytes(count))
+        return "its surfels cannot be unpacked";
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t codes[6];
+        for (size_t k = 0; k < 6; k++)
+            codes[k] = (uint32_t)scratch[2 * k * count + i] << 8 | scratch[(2 * k + 1) * count + i];
+        for (size_t c = 0; c < 3; c++) surfels->at[3 * (size_t)i + c] = ((float)codes[c] + 0.5f) / AT_STEPS;
+        decode_normal(codes[3], codes[4], surfels->normal + 3 * (size_t)i);
+        const uint32_t bits = codes[5] << 16;
+        memcpy(&surfels->radius_world[i], &bits, sizeof bits);
+        for (size_t c = 0; c < 4; c++) surfels->rgba[4 * (size_t)i + c] = scratch[(12 + c) * count + i];
+    }
+    return NULL;
+}

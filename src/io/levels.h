@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The extended record of COPC files that holds, for the cubes of the octree, surfels that stand for all points in them
+// (docs/scale.md says what its bytes are).
+#ifndef EWA_SRC_LEVELS_H
+#define EWA_SRC_LEVELS_H
+
+#include "io/octree.h"
+
+enum {
+    EWA_LEVELS_VERSION = 1,
+    EWA_LEVELS_HEAD_BYTES = 64,
+    EWA_LEVELS_PAGE_BYTES = 64,
+    EWA_LEVELS_MOST_SURFELS = 1 << 24, ///< of a page
+};
+
+/// A cube: what stands for its points.
+typedef struct ewa_levels_page {
+    ewa_octree_key key;
+    uint64_t point_count;  ///< in the cube, whatever node they are in
+    uint32_t surfel_count; ///< that stand for them
+    float radius_scale;    ///< of radii when they are drawn
+    float error;           ///< rms, 1/255 of sRGB's range, where they are half a pixel apart
+    float largest_radius_world;
+    float unit_coverage; ///< of the points' kernels, where it was measured; 0: it was not
+    uint64_t at_bytes;   ///< of their block in the record
+    uint32_t size_bytes; ///< 0: the cube is not divided and has none
+} ewa_levels_page;
+
+/// The pages of a file.
+typedef struct ewa_levels {
+    double unit_coverage;   ///< of the points' kernels all over; 0: not known
+    ewa_levels_page *pages; ///< in the order of ewa_octree_key_compare()
+    uint32_t page_count;
+    uint64_t surfel_count;
+} ewa_levels;
+
+/// Reads the table of pages. Every number is checked: keys are cubes, each comes once, every page but the root has its
+/// parent, blocks lie in the record. `name` stands for the file in messages. Free with ewa_levels_free(), also after a
+/// failure. Errors: EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED (another version), EWA_ERROR_MEMORY.
+ewa_status ewa_levels_read(ewa_context *context, const char *name, const uint8_t *bytes, uint64_t size_bytes,
+                           ewa_levels *levels);
+void ewa_levels_free(ewa_context *context, ewa_levels *levels);
+
+/// Writes head and table of `levels`, whose blocks begin at 0 in what follows, into `bytes`: EWA_LEVELS_HEAD_BYTES +
+/// page_count * EWA_LEVELS_PAGE_BYTES.
+void ewa_levels_write(const ewa_levels *levels, uint8_t *bytes);
+
+/// Surfels of a page, as arrays.
+typedef struct ewa_level_surfels {
+    float *at;           ///< [count][3], from the cube's low corner, in its sides
+    float *normal;       ///< [count][3]
+    float *radius_world; ///< [count]
+    uint8_t *rgba;       ///< [count][4], sRGB, straight alpha
+} ewa_level_surfels;
+
+/// Appends the block of `count` surfels to `to` from byte `*at_bytes` on, which steps behind it. Errors:
+/// EWA_ERROR_MEMORY.
+ewa_status ewa_level_encode(ewa_context *context, const ewa_level_surfels *surfels, uint32_t count,
+                            ewa_buffer *to, size_t *at_bytes);
+
+/// Decodes the block of a page into arrays with room for its surfels. Any thread, with memory of its own; NULL, or what
+/// is wrong. `scratch` has room for ewa_level_raw_bytes().
+const char *ewa_level_decode(const ewa_levels_page *page, const uint8_t *bytes, uint8_t *scratch,
+                             const ewa_level_surfels *surfels);
+size_t ewa_level_raw_bytes(uint32_t count);
+
+#endif

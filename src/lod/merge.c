@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// One surfel for all that lie in a cell, sheet by sheet.
+#include "lod/standin.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    PARTS = 64,
+    MOST_SHEETS = 6,  // of a cell
+    SAMPLE = 64,      // radii that a median is taken of
+    LEAST_MEDIAN = 5, // surfels that have one
+};
+
+/// Cosine between the normals of one sheet.
+static const float SAME_SHEET = 0.5f;
+
+/// Largest radius that counts, over the median.
+static const float MOST_RADIUS = 3;
+
+typedef struct sheet {
+    double weight, at[3], normal[3], color[3], alpha;
+    float first_normal[3];
+} sheet;
+
+typedef struct merge_job {
+    const ewa_standin *fine;
+    uint32_t count, cell_level;
+    ewa_standin *made; // those of each part where its fine ones begin
+    uint32_t made_counts[PARTS];
+} merge_job;
+
+static int compare_floats(const void *a, const void *b) {
+    const float p = *(const float *)a, q = *(const float *)b;
+    return p < q ? -1 : p > q;
+}
+
+/// The largest radius that counts in a cell.
+static float radius_limit(const ewa_standin *cell, uint32_t count) {
+    if (count < LEAST_MEDIAN) return INFINITY;
+    float radii[SAMPLE];
+    const uint32_t sample = count < SAMPLE ? count : SAMPLE;
+    for (uint32_t i = 0; i < sample; i++) radii[i] = cell[(uint64_t)i * count / sample].radius_world;
+    qsort(radii, sample, sizeof *radii, compare_floats);
+    return MOST_RADIUS * radii[sample / 2];
+}
+
+static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+static void add(sheet *to, const ewa_standin *s, float limit) {
+    const double radius = (double)(s->radius_world < limit ? s->radius_world : limit),
+                 weight = radius * radius;
+    to->weight += weight;
+    to->alpha += weight * (double)s->alpha;
+    for (int c = 0; c < 3; c++) {
+        to->at[c] += weight * s->at_world[c];
+        to->normal[c] += weight * (double)s->normal[c];
+        to->color[c] += weight * (double)s->color[c];
+    }
+}
+
+static ewa_standin finish(const sheet *from, uint64_t code) {
+    ewa_standin made = {.code = code,
+                        .radius_world = (float)sqrt(from->weight),
+                        .alpha = (float)(from->alpha / from->weight)};
+    const double length = sqrt(from->normal[0] * from->normal[0] + from->normal[1] * from->normal[1] +
+                               from->normal[2] * from->normal[2]);
+    for (int c = 0; c < 3; c++) {
+        made.at_world[c] = from->at[c] / from->weight;
+        made.normal[c] = length > 0 ? (float)(from->normal[c] / length) : from->first_normal[c];
+        made.color[c] = made.shown[c] = (float)(from->color[c] / from->weight);
+    }
+    return made;
+}
+
+static uint32_t merge_cell(const ewa_standin *cell, uint32_t count, ewa_standin *made) {
+    if (count == 1) {
+        *made = *cell;
+        memcpy(made->shown, made->color, sizeof made->shown);
+        return 1;
+    }
+    sheet sheets[MOST_SHEETS];
+    uint32_t sheet_count = 0;
+    const float limit = radius_limit(cell, count);
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t best = 0;
+        float most = -2;
+        for (uint32_t k = 0; k < sheet_count; k++) {
+            const float cosine = dot(sheets[k].first_normal, cell[i].normal);
+            if (cosine > most) most = cosine, best = k;
+        }
+        if (most < SAME_SHEET && sheet_count < MOST_SHEETS) {
+            best = sheet_count++;
+            sheets[best] = (sheet){0};
+            memcpy(sheets[best].first_normal, cell[i].normal, sizeof sheets[best].first_normal);
+        }
+        add(&sheets[best], &cell[i], limit);
+    }
+    for (uint32_t k = 0; k < sheet_count; k++) made[k] = finish(&sheets[k], cell->code);
+    return sheet_count;
+}
+
+/// The first surfel from `at` on that begins a cell.
+static uint32_t cell_start(const merge_job *job, uint32_t at) {
+    while (at > 0 && at < job->count &&
+           ewa_code_prefix(job->fine[at].code, job->cell_level) ==
+               ewa_code_prefix(job->fine[at - 1].code, job->cell_level))
+        at++;
+    return at;
+}
+
+static void merge_part(void *data, uint32_t part, uint32_t worker) {
+    (void)worker;
+    merge_job *job = data;
+    const uint32_t begin = cell_start(job, (uint32_t)ewa_split(job->count, PARTS, part)),
+                   end = cell_start(job, (uint32_t)ewa_split(job->count, PARTS, part + 1));
+    ewa_standin *made = job->made + begin;
+    uint32_t made_count = 0;
+    for (uint32_t first = begin, next; first < end; first = next) {
+        const uint64_t prefix = ewa_code_prefix(job->fine[first].code, job->cell_level);
+        next = first + 1;
+        while (next < end && ewa_code_prefix(job->fine[next].code, job->cell_level) == prefix) next++;
+        made_count += merge_cell(job->fine + first, next - first, made + made_count);
+    }
+    job->made_counts[part] = made_count;
+}
+
+ewa_status ewa_standins_merge(ewa_context *context, const ewa_standin *fine, uint32_t count,
+                              uint32_t cell_level, ewa_standins *merged) {
+    merge_job job = {.fine = fine, .count = count, .cell_level = cell_level};
+    job.made = ewa_allocate(context, count, sizeof *job.made);
+    if (!job.made) return EWA_ERROR_MEMORY;
+    ewa_parallel(context, merge_part, &job, PARTS);
+    merged->count = 0;
+    for (uint32_t part = 0; part < PARTS; part++) merged->count += job.made_counts[part];
+    ewa_buffer buffer = {merged->items, merged->capacity_bytes};
+    const ewa_status status = ewa_buffer_reserve(context, &buffer, merged->count, sizeof *merged->items);
+    merged->items = buffer.data, merged->capacity_bytes = buffer.capacity_bytes;
+    uint32_t kept = 0;
+    for (uint32_t part = 0; part < PARTS && status == EWA_OK; part++) {
+        const uint32_t begin = cell_start(&job, (uint32_t)ewa_split(count, PARTS, part));
+        memcpy(merged->items + kept, job.made + begin, job.made_counts[part] * sizeof *job.made);
+        kept += job.made_counts[part];
+    }
+    ewa_release(context, job.made, count, sizeof *job.made);
+    return status;
+}
+
+void ewa_standins_free(ewa_context *context, ewa_standins *standins) {
+    ewa_buffer buffer = {standins->items, standins->capacity_bytes};
+    ewa_buffer_free(context, &buffer);
+    *standins = (ewa_standins){0};
+}

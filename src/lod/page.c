@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Pages and nodes in the form of the file, and the plan that all regions are made by.
+#include "cloud/cloud.h"
+#include "image/srgb.h"
+#include "lod/records.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { BATCH = 16 };
+
+/// Whether attributes make surfels.
+static bool has(const ewa_cloud *cloud, const char *name, uint32_t component_count) {
+    const ewa_attribute *attribute = ewa_cloud_find(cloud, name);
+    return attribute && attribute->component_count == component_count;
+}
+
+static ewa_status make_output(ewa_region_plan *plan) {
+    const ewa_lattice *lattice = &plan->survey->lattice;
+    ewa_status status = ewa_cloud_create(plan->context, 0, &plan->output);
+    for (uint32_t a = 0; a < ewa_cloud_attribute_count(plan->inputs) && status == EWA_OK; a++) {
+        const ewa_attribute *attribute = ewa_cloud_attribute_at(plan->inputs, a);
+        const bool is_place = strcmp(attribute->name, EWA_POSITION) == 0;
+        if (plan->makes_normals && strcmp(attribute->name, EWA_NORMAL) == 0) continue;
+        if (plan->makes_radii && strcmp(attribute->name, EWA_RADIUS) == 0) continue;
+        status = ewa_cloud_add(plan->output, attribute->name, is_place ? EWA_F64 : attribute->type,
+                               attribute->component_count, NULL);
+    }
+    if (status == EWA_OK && plan->makes_normals)
+        status = ewa_cloud_add(plan->output, EWA_NORMAL, EWA_I16, 3, NULL);
+    if (status == EWA_OK && plan->makes_radii)
+        status = ewa_cloud_add(plan->output, EWA_RADIUS, EWA_F32, 1, NULL);
+    if (status == EWA_OK) status = ewa_cloud_follow(plan->output, plan->inputs);
+    ewa_coordinate_grid grid;
+    for (int c = 0; c < 3; c++) {
+        grid.step_world[c] = lattice->step_world;
+        grid.offset_world[c] = lattice->offset_world[c];
+    }
+    ewa_cloud_set_origin(plan->output, lattice->offset_world);
+    ewa_cloud_set_grid(plan->output, &grid);
+    return status;
+}
+
+ewa_status ewa_region_plan_make(ewa_context *context, const ewa_survey *survey, const ewa_cloud *inputs,
+                                ewa_region_plan *plan) {
+    *plan = (ewa_region_plan){.context = context, .survey = survey, .inputs = inputs};
+    const bool has_axes = has(inputs, EWA_TANGENT_U, 3) && has(inputs, EWA_TANGENT_V, 3);
+    plan->makes_normals = !has_axes && !has(inputs, EWA_NORMAL, 3);
+    plan->makes_radii = !has_axes && !has(inputs, EWA_RADIUS, 1);
+    plan->normal_at_bytes = survey->record_bytes;
+    plan->radius_at_bytes = plan->normal_at_bytes + (plan->makes_normals ? 6 : 0);
+    plan->record_bytes = plan->radius_at_bytes + (plan->makes_radii ? 4 : 0);
+    return make_output(plan);
+}
+
+void ewa_region_plan_free(ewa_region_plan *plan) { ewa_cloud_destroy(&plan->output); }
+
+void ewa_region_result_free(ewa_context *context, ewa_region_result *result) {
+    ewa_octree_chunk *chunks = result->chunks.data;
+    for (uint32_t i = 0; i < result->chunk_count; i++) ewa_octree_chunk_free(context, &chunks[i]);
+    ewa_buffer_free(context, &result->chunks);
+    ewa_buffer_free(context, &result->pages);
+    ewa_buffer_free(context, &result->blocks);
+    for (uint32_t level = 0; level < EWA_CODE_LEVELS; level++)
+        ewa_buffer_free(context, &result->above[level]);
+    ewa_standins_free(context, &result->standins);
+    *result = (ewa_region_result){.chunk_count = 0};
+}
+
+/// Encodes some nodes at once.
+static ewa_status encode_batch(ewa_region_plan *plan, const ewa_octree_key *keys, ewa_cloud **pieces,
+                               uint32_t count, ewa_region_result *result) {
+    ewa_status status = ewa_buffer_grow(plan->context, &result->chunks, result->chunk_count,
+                                        (size_t)result->chunk_count + count, sizeof(ewa_octree_chunk));
+    if (status == EWA_OK) {
+        ewa_octree_chunk *chunks = (ewa_octree_chunk *)result->chunks.data + result->chunk_count;
+        memset(chunks, 0, count * sizeof *chunks);
+        result->chunk_count += count;
+        status = ewa_octree_encode(plan->writer, keys, (const ewa_cloud *const *)pieces, count, chunks);
+    }
+    for (uint32_t i = 0; i < count; i++) ewa_cloud_destroy(&pieces[i]);
+    return status;
+}
+
+ewa_status ewa_region_encode(ewa_region_plan *plan, const uint8_t *records, uint32_t count, uint32_t level,
+                             ewa_region_result *result) {
+    const ewa_lattice *lattice = &plan->survey->lattice;
+    ewa_octree_key keys[BATCH];
+    ewa_cloud *pieces[BATCH] = {NULL};
+    uint32_t piece_count = 0;
+    ewa_status status = EWA_OK;
+    for (uint32_t first = 0, next; first < count && status == EWA_OK; first = next) {
+        const uint64_t code = ewa_record_code(lattice, records + (size_t)first * plan->record_bytes);
+        const uint64_t prefix = ewa_code_prefix(code, level);
+        next = first + 1;
+        while (next < count &&
+               ewa_code_prefix(ewa_record_code(lattice, records + (size_t)next * plan->record_bytes),
+                               level) == prefix)
+            next++;
+        keys[piece_count] = ewa_code_key(code, level);
+        status = ewa_records_to_cloud(plan, records + (size_t)first * plan->record_bytes, next - first,
+                                      &pieces[piece_count]);
+        if (status == EWA_OK && ++piece_count == BATCH) {
+            status = encode_batch(plan, keys, pieces, piece_count, result);
+            piece_count = 0;
+        }
+    }
+    if (status == EWA_OK && piece_count) status = encode_batch(plan, keys, pieces, piece_count, result);
+    for (uint32_t i = 0; i < BATCH; i++) ewa_cloud_destroy(&pieces[i]);
+    return status;
+}
+
+/// Packs what stands for a cube's points.
+static ewa_status encode_page(ewa_region_plan *plan, const ewa_octree_key *key, const ewa_standins *standins,
+                              ewa_region_result *result, ewa_levels_page *page) {
+    const uint32_t count = standins->count;
+    enum { FLOATS = 7 };
+    float *floats = ewa_allocate(plan->context, (size_t)count * FLOATS, sizeof *floats);
+    uint8_t *rgba = ewa_allocate(plan->context, count, 4);
+    ewa_status status = floats && rgba ? EWA_OK : EWA_ERROR_MEMORY;
+    const double side = ewa_lattice_side_world(&plan->survey->lattice, (uint32_t)key->level);
+    const ewa_level_surfels surfels = {floats, floats + 3 * (size_t)count, floats + 6 * (size_t)count, rgba};
+    for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
+        const ewa_standin *s = &standins->items[i];
+        for (int c = 0; c < 3; c++) {
+            surfels.at[3 * (size_t)i + (size_t)c] = (float)(s->at_world[c] / side - key->cell[c]);
+            surfels.normal[3 * (size_t)i + (size_t)c] = s->normal[c];
+            rgba[4 * (size_t)i + (size_t)c] = ewa_srgb8_from_linear(s->shown[c]);
+        }
+        surfels.radius_world[i] = s->radius_world;
+        rgba[4 * (size_t)i + 3] = (uint8_t)lrintf(255 * s->alpha);
+        if (s->radius_world > page->largest_radius_world) page->largest_radius_world = s->radius_world;
+    }
+    page->at_bytes = result->blocks_bytes;
+    if (status == EWA_OK)
+        status = ewa_level_encode(plan->context, &surfels, count, &result->blocks, &result->blocks_bytes);
+    page->size_bytes = (uint32_t)(result->blocks_bytes - page->at_bytes);
+    ewa_release(plan->context, floats, (size_t)count * FLOATS, sizeof *floats);
+    ewa_release(plan->context, rgba, count, 4);
+    return status;
+}
+
+ewa_status ewa_region_page(ewa_region_plan *plan, const ewa_octree_key *key, uint64_t point_count,
+                           const ewa_standins *parts, uint32_t part_count, ewa_region_result *result,
+                           ewa_standins *standins) {
+    ewa_levels_page page = {.key = *key, .point_count = point_count, .radius_scale = 1};
+    ewa_status status = EWA_OK;
+    for (uint32_t i = 0; i < standins->count && !part_count; i++)
+        page.largest_radius_world = fmaxf(page.largest_radius_world, standins->items[i].radius_world);
+    if (part_count) {
+        ewa_buffer all = {0};
+        uint32_t count = 0;
+        for (uint32_t i = 0; i < part_count; i++) count += parts[i].count;
+        status = ewa_buffer_reserve(plan->context, &all, count, sizeof(ewa_standin));
+        count = 0;
+        for (uint32_t i = 0; i < part_count && status == EWA_OK; i++) {
+            memcpy((ewa_standin *)all.data + count, parts[i].items, parts[i].count * sizeof *parts[i].items);
+            count += parts[i].count;
+        }
+        if (status == EWA_OK)
+            status = ewa_standins_merge(plan->context, all.data, count, (uint32_t)key->level + EWA_PAGE_BITS,
+                                        standins);
+        ewa_buffer_free(plan->context, &all);
+        const double side = ewa_lattice_side_world(&plan->survey->lattice, (uint32_t)key->level);
+        if (status == EWA_OK)
+            status = ewa_standins_judge(plan->judge, parts, part_count, key, side, standins, &page.error);
+        if (status == EWA_OK) status = encode_page(plan, key, standins, result, &page);
+        page.surfel_count = standins->count;
+        page.radius_scale = standins->radius_scale;
+        for (uint32_t i = 0; i < part_count; i++)
+            if (parts[i].unit_coverage == 0) page.unit_coverage = standins->unit_coverage;
+    }
+    if (status == EWA_OK)
+        status = ewa_buffer_grow(plan->context, &result->pages, result->page_count,
+                                 (size_t)result->page_count + 1, sizeof page);
+    if (status == EWA_OK) ((ewa_levels_page *)result->pages.data)[result->page_count++] = page;
+    return status;
+}

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// One region of the tree made: its nodes' points in the form of the file, what stands for the points of its cubes, and
+// what it gives to the cubes above it.
+#ifndef EWA_SRC_LOD_REGION_H
+#define EWA_SRC_LOD_REGION_H
+
+#include "io/levels.h"
+#include "lod/spread.h"
+#include "lod/standin.h"
+
+/// What all regions are made by.
+typedef struct ewa_region_plan {
+    ewa_context *context;
+    const ewa_survey *survey;
+    const ewa_cloud *inputs;         ///< prototype of the points that are read
+    ewa_cloud *output;               ///< prototype of those that are written
+    bool makes_normals, makes_radii; ///< they are estimated
+    uint32_t record_bytes;           ///< of a point with what is estimated behind it
+    uint32_t normal_at_bytes, radius_at_bytes;
+    ewa_octree_writer *writer; ///< encodes nodes
+    ewa_judge *judge;
+    double estimate_s, merge_s, encode_s;
+} ewa_region_plan;
+
+/// Makes the prototype of the output. Free with ewa_region_plan_free(), also after a failure.
+ewa_status ewa_region_plan_make(ewa_context *context, const ewa_survey *survey, const ewa_cloud *inputs,
+                                ewa_region_plan *plan);
+void ewa_region_plan_free(ewa_region_plan *plan);
+
+/// Points as records, in the order of their codes.
+typedef struct ewa_region_points {
+    uint32_t count;
+    uint64_t *codes;
+    uint8_t *records;
+    size_t capacity; ///< points that there is room for
+} ewa_region_points;
+
+/// What becomes of a region, or of the cubes above all regions.
+typedef struct ewa_region_result {
+    ewa_buffer chunks; ///< ewa_octree_chunk
+    uint32_t chunk_count;
+    ewa_buffer pages; ///< ewa_levels_page, whose blocks lie in `blocks`
+    uint32_t page_count;
+    ewa_buffer blocks;
+    size_t blocks_bytes;
+    ewa_buffer above[EWA_CODE_LEVELS]; ///< [level]: records of points for the cubes above
+    uint32_t above_counts[EWA_CODE_LEVELS];
+    ewa_standins standins; ///< of the region's cube
+} ewa_region_result;
+
+void ewa_region_result_free(ewa_context *context, ewa_region_result *result);
+
+/// Makes a region of a spread.
+ewa_status ewa_region_make(ewa_region_plan *plan, ewa_spread *spread, ewa_region *region,
+                           ewa_region_result *result);
+
+/// Makes the page of a cube from those of its parts, 8 at most: what stands for it replaces `*standins`, and its block and entry are
+/// added to the result.
+ewa_status ewa_region_page(ewa_region_plan *plan, const ewa_octree_key *key, uint64_t point_count,
+                           const ewa_standins *parts, uint32_t part_count, ewa_region_result *result,
+                           ewa_standins *standins);
+
+/// Encodes points, which are records in the order of their codes, as the nodes of a level, one per cube.
+ewa_status ewa_region_encode(ewa_region_plan *plan, const uint8_t *records, uint32_t count, uint32_t level,
+                             ewa_region_result *result);
+
+#endif

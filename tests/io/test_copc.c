@@ -1,0 +1,464 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// COPC by nodes: what is written is read back, by nodes as by all points; files that are cut, changed or lie.
+#include "io/copc_sample.h"
+#include "io/las_sample.h"
+#include "io/scratch.h"
+
+static check_log messages;
+static ewa_context *context;
+static char path[512];
+
+static int begin(void **state) {
+    (void)state;
+    messages = (check_log){0};
+    context = check_context(2, &messages);
+    scratch_path("made.copc.laz", path);
+    return 0;
+}
+
+static int end(void **state) {
+    (void)state;
+    unlink(path);
+    ewa_context_destroy(&context);
+    return 0;
+}
+
+static ewa_octree *open_made(void) {
+    ewa_octree *octree = NULL;
+    assert_true(ewa_octree_is(context, path));
+    if (ewa_octree_open(context, path, &octree) != EWA_OK) fail_msg("%s", messages.text);
+    return octree;
+}
+
+/// Writes `count` points as a tree of that many levels.
+static void write_made(uint64_t count, int32_t level_count, bool wide_colors, uint64_t levels_bytes) {
+    ewa_cloud *cloud = copc_cloud(context, count, wide_colors);
+    copc_nodes nodes = copc_share(cloud, level_count);
+    const ewa_octree_plan plan = copc_plan(cloud);
+    if (copc_write(context, path, &plan, &nodes, levels_bytes) != EWA_OK) fail_msg("%s", messages.text);
+    copc_nodes_free(&nodes);
+    ewa_cloud_destroy(&cloud);
+}
+
+/// Numbers that come back: places as decimals, normals and radii times their scales, all else as it was.
+static void expect_point(const ewa_cloud *before, const ewa_cloud *after) {
+    for (uint32_t a = 0; a < ewa_cloud_attribute_count(before); a++) {
+        const ewa_attribute *attribute = ewa_cloud_attribute_at(before, a);
+        const char *name = attribute->name;
+        double scale = strcmp(name, EWA_RADIUS) == 0 ? 0.0005 : 1;
+        for (uint64_t i = 0; i < ewa_cloud_point_count(before); i++)
+            for (uint32_t c = 0; c < attribute->component_count; c++) {
+                double left = las_value(before, name, i, c), right = las_value(after, name, i, c);
+                if (strcmp(name, EWA_NORMAL) == 0) {
+                    assert_int_equal(ewa_cloud_find(after, name)->type, EWA_F32);
+                    left = (float)(left * (1.0 / 32767));
+                }
+                if (strcmp(name, EWA_POSITION) == 0) {
+                    left = las_world(before, i, c);
+                    right = las_world(after, i, c);
+                }
+                if (left * scale != right) fail_msg("%s: %.17g, %.17g", name, left * scale, right);
+            }
+    }
+}
+
+static void gives_back_what_was_written(void **state) {
+    (void)state;
+    for (int wide = 0; wide < 2; wide++) {
+        ewa_cloud *cloud = copc_cloud(context, 5000, wide);
+        copc_nodes nodes = copc_share(cloud, 4);
+        const ewa_octree_plan plan = copc_plan(cloud);
+        assert_int_equal(copc_write(context, path, &plan, &nodes, 0), EWA_OK);
+        ewa_octree *octree = open_made();
+        const ewa_octree_facts *facts = ewa_octree_describe(octree);
+        assert_string_equal(facts->kind, "COPC 1.0");
+        assert_int_equal(facts->node_count, nodes.count);
+        assert_int_equal(facts->point_count, 5000);
+        assert_true(facts->side_world == copc_side_world && facts->spacing_world == 0.5);
+        assert_memory_equal(facts->low_world, copc_low_world, sizeof copc_low_world);
+        assert_null(facts->levels);
+        ewa_bounds bounds;
+        ewa_cloud_measure(cloud, &bounds);
+        for (int c = 0; c < 3; c++) {
+            assert_true(fabs(bounds.low_world[c] - facts->bounds.low_world[c]) < 1e-6);
+            assert_true(fabs(bounds.high_world[c] - facts->bounds.high_world[c]) < 1e-6);
+        }
+        for (uint32_t i = 1; i < facts->node_count; i++)
+            assert_true(ewa_octree_key_compare(&facts->nodes[i - 1].key, &facts->nodes[i].key) < 0);
+        for (uint32_t i = 0; i < nodes.count; i++) {
+            const uint32_t index = ewa_octree_find(octree, &nodes.keys[i]);
+            ewa_cloud *read = NULL;
+            assert_true(index != UINT32_MAX);
+            assert_int_equal(ewa_octree_read(octree, &index, 1, NULL, &read), EWA_OK);
+            assert_int_equal(ewa_cloud_point_count(read), ewa_cloud_point_count(nodes.pieces[i]));
+            assert_int_equal(ewa_cloud_find(read, EWA_COLOR)->type, wide ? EWA_U16 : EWA_U8);
+            expect_point(nodes.pieces[i], read);
+            ewa_cloud_destroy(&read);
+        }
+        assert_int_equal(ewa_octree_find(octree, &(ewa_octree_key){9, {1, 2, 3}}), UINT32_MAX);
+        ewa_octree_close(&octree);
+        assert_null(octree);
+        copc_nodes_free(&nodes);
+        ewa_cloud_destroy(&cloud);
+    }
+    assert_int_equal(messages.count, 0);
+}
+
+static void has_the_points_of_the_whole_file(void **state) {
+    (void)state;
+    for (int wide = 0; wide < 2; wide++) {
+        write_made(20000, 5, wide, 77);
+        ewa_cloud *whole = NULL;
+        assert_int_equal(ewa_cloud_load(context, path, &whole), EWA_OK);
+        ewa_octree *octree = open_made();
+        copc_expect(octree, whole);
+        ewa_octree_close(&octree);
+        ewa_cloud_destroy(&whole);
+    }
+    assert_int_equal(messages.count, 0);
+}
+
+static void reads_files_of_others(void **state) {
+    (void)state;
+    static const char *const files[] = {"simple.copc.laz", "simple_with_page.copc.laz",
+                                        "lion_takanawa.copc.laz"};
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+        char relative[128], real[512];
+        snprintf(relative, sizeof relative, "clouds/laz/%s", files[i]);
+        if (!check_data(relative, real, sizeof real)) continue;
+        ewa_cloud *whole = NULL;
+        ewa_octree *octree = NULL;
+        assert_true(ewa_octree_is(context, real));
+        assert_int_equal(ewa_cloud_load(context, real, &whole), EWA_OK);
+        assert_int_equal(ewa_octree_open(context, real, &octree), EWA_OK);
+        copc_expect(octree, whole);
+        ewa_octree_close(&octree);
+        ewa_cloud_destroy(&whole);
+    }
+    assert_int_equal(messages.count, 0);
+}
+
+static void reads_the_attributes_that_are_wanted(void **state) {
+    (void)state;
+    write_made(100, 1, false, 0);
+    ewa_octree *octree = open_made();
+    const uint32_t index = 0;
+    ewa_cloud *read = NULL;
+    assert_int_equal(ewa_octree_read(octree, &index, 1, "normal,gps_time,none", &read), EWA_OK);
+    assert_int_equal(ewa_cloud_attribute_count(read), 3);
+    assert_non_null(ewa_cloud_find(read, EWA_NORMAL));
+    assert_int_equal(ewa_octree_read(octree, &index, 0, NULL, NULL), EWA_OK);
+    ewa_cloud_destroy(&read);
+    const uint32_t beyond = 1;
+    assert_int_equal(ewa_octree_read(octree, &beyond, 1, NULL, &read), EWA_ERROR_ARGUMENT);
+    assert_null(read);
+    ewa_octree_close(&octree);
+}
+
+static void is_the_same_for_any_number_of_threads(void **state) {
+    (void)state;
+    size_t size_bytes = 0, other_bytes;
+    uint8_t *bytes = NULL;
+    ewa_context *kept = context;
+    for (uint32_t threads = 1; threads <= 3; threads++) {
+        context = check_context(threads, &messages);
+        write_made(3000, 4, true, 1001);
+        uint8_t *other = scratch_read(path, &other_bytes);
+        if (bytes) {
+            assert_int_equal(other_bytes, size_bytes);
+            assert_memory_equal(bytes, other, size_bytes);
+            free(other);
+        } else {
+            bytes = other;
+            size_bytes = other_bytes;
+        }
+        ewa_context_destroy(&context);
+    }
+    context = kept;
+    free(bytes);
+}
+
+static void keeps_levels_of_any_size(void **state) {
+    (void)state;
+    for (uint64_t size = 1; size < 70000; size = size * 5 + 2) {
+        write_made(50, 2, false, size);
+        ewa_octree *octree = open_made();
+        const ewa_octree_facts *facts = ewa_octree_describe(octree);
+        assert_int_equal(facts->levels_bytes, size);
+        for (uint64_t i = 0; i < size; i++) assert_int_equal(facts->levels[i], (uint8_t)(i * 31));
+        // What is made from the cloud has no part in the levels.
+        assert_null(ewa_cloud_note(facts->prototype, "las.vlrs", NULL));
+        ewa_octree_close(&octree);
+    }
+}
+
+/// A tree of one point in each of many nodes.
+static copc_nodes make_many(const ewa_cloud *cloud, uint32_t count) {
+    copc_nodes nodes = {calloc(count, sizeof *nodes.keys), calloc(count, sizeof(ewa_cloud *)), count};
+    assert_true(nodes.keys && nodes.pieces);
+    const uint64_t first = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        // A surface: four of eight children. Level 2 has none, so that readers need entries without points.
+        int32_t level = 0;
+        uint32_t before = 0;
+        while (i - before >= 1u << (2 * level)) before += 1u << (2 * level++);
+        const uint32_t at = i - before;
+        if (level >= 2) level++;
+        nodes.keys[i] =
+            (ewa_octree_key){level, {(int32_t)(at & ((1u << level) - 1)), 0, (int32_t)(at >> level)}};
+        assert_int_equal(ewa_cloud_select(cloud, &first, 1, &nodes.pieces[i]), EWA_OK);
+    }
+    return nodes;
+}
+
+static void writes_many_nodes_in_pages(void **state) {
+    (void)state;
+    enum { COUNT = 5461, PAGE_ENTRIES = 1000, ENTRY_BYTES = 32 };
+    ewa_cloud *cloud = copc_cloud(context, 1, false);
+    copc_nodes nodes = make_many(cloud, COUNT);
+    const ewa_octree_plan plan = copc_plan(cloud);
+    assert_int_equal(copc_write(context, path, &plan, &nodes, 3), EWA_OK);
+    ewa_octree *octree = open_made();
+    const ewa_octree_facts *facts = ewa_octree_describe(octree);
+    assert_int_equal(facts->node_count, COUNT);
+    for (uint32_t i = 0; i < COUNT; i++) assert_true(ewa_octree_find(octree, &nodes.keys[i]) != UINT32_MAX);
+    ewa_status status;
+    ewa_cloud **clouds = copc_read_all(octree, &status);
+    assert_int_equal(status, EWA_OK);
+    copc_free_all(clouds, COUNT);
+    // From page to page as readers go that look for one cube: every entry's parent is in its page, but the root's.
+    size_t size_bytes;
+    uint8_t *bytes = scratch_read(path, &size_bytes);
+    size_t page_at[COUNT], page_bytes[COUNT], pages = 1, entries = 0, empty = 0;
+    page_at[0] = las_get(bytes + 375 + 54 + 40, 8);
+    page_bytes[0] = las_get(bytes + 375 + 54 + 48, 8);
+    for (size_t p = 0; p < pages; p++) {
+        const uint8_t *page = bytes + page_at[p];
+        const size_t count = page_bytes[p] / ENTRY_BYTES;
+        assert_true(count <= PAGE_ENTRIES && page_at[p] + page_bytes[p] <= size_bytes);
+        for (size_t i = 0; i < count; i++) {
+            const uint8_t *entry = page + i * ENTRY_BYTES;
+            bool found = i == 0;
+            for (size_t k = 0; k < i && !found; k++) {
+                found = las_get(page + k * ENTRY_BYTES, 4) + 1 == las_get(entry, 4);
+                for (int c = 1; c <= 3; c++)
+                    found =
+                        found && las_get(page + k * ENTRY_BYTES + 4 * c, 4) == las_get(entry + 4 * c, 4) / 2;
+            }
+            assert_true(found);
+            const int32_t point_count = (int32_t)las_get(entry + 28, 4);
+            entries += point_count >= 0;
+            empty += point_count == 0;
+            if (point_count >= 0) continue;
+            page_at[pages] = las_get(entry + 16, 8);
+            page_bytes[pages++] = las_get(entry + 24, 4);
+        }
+    }
+    assert_true(pages > 3);
+    assert_true(empty > 0);
+    assert_int_equal(entries, COUNT + empty);
+    free(bytes);
+    ewa_octree_close(&octree);
+    copc_nodes_free(&nodes);
+    ewa_cloud_destroy(&cloud);
+}
+
+static void writes_trees_without_nodes(void **state) {
+    (void)state;
+    ewa_cloud *cloud = copc_cloud(context, 0, false);
+    const ewa_octree_plan plan = copc_plan(cloud);
+    const ewa_octree_key key = {0, {0, 0, 0}};
+    ewa_cloud *const pieces[1] = {cloud};
+    const copc_nodes nodes[2] = {{0}, {(ewa_octree_key *)&key, (ewa_cloud **)pieces, 1}};
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(copc_write(context, path, &plan, &nodes[i], 0), EWA_OK);
+        ewa_octree *octree = open_made();
+        assert_int_equal(ewa_octree_describe(octree)->node_count, 0);
+        assert_int_equal(ewa_octree_describe(octree)->point_count, 0);
+        ewa_octree_close(&octree);
+    }
+    ewa_cloud_destroy(&cloud);
+}
+
+static void refuses_what_it_cannot_write(void **state) {
+    (void)state;
+    ewa_cloud *cloud = copc_cloud(context, 10, false), *other = copc_cloud(context, 10, true);
+    ewa_octree_plan plan = copc_plan(cloud);
+    ewa_octree_key keys[2] = {{1, {0, 1, 0}}, {1, {0, 1, 0}}};
+    ewa_cloud *pieces[2] = {cloud, cloud};
+    copc_nodes nodes = {keys, pieces, 2};
+    assert_int_equal(copc_write(context, path, &plan, &nodes, 0), EWA_ERROR_ARGUMENT);
+    assert_non_null(strstr(messages.text, "1-0-1-0 comes twice"));
+    assert_int_not_equal(access(path, F_OK), 0);
+    keys[1].cell[1] = 2;
+    assert_int_equal(copc_write(context, path, &plan, &nodes, 0), EWA_ERROR_ARGUMENT);
+    assert_non_null(strstr(messages.text, "no node 1-0-2-0"));
+    keys[1].cell[1] = 0;
+    pieces[1] = other;
+    assert_int_equal(copc_write(context, path, &plan, &nodes, 0), EWA_ERROR_ARGUMENT);
+    assert_non_null(strstr(messages.text, "other attributes"));
+    nodes.count = 1;
+    plan.side_world = 0;
+    assert_int_equal(copc_write(context, path, &plan, &nodes, 0), EWA_ERROR_ARGUMENT);
+    plan.side_world = 64;
+    plan.bounds.high_world[0] += 1e12;
+    assert_int_equal(copc_write(context, path, &plan, &nodes, 0), EWA_ERROR_LIMIT);
+    plan = copc_plan(cloud);
+    assert_int_equal(copc_write(context, "/dev/null", &plan, &nodes, 0), EWA_ERROR_UNSUPPORTED);
+    ewa_octree_writer *writer = NULL;
+    assert_int_equal(ewa_octree_writer_open(context, path, &plan, &writer), EWA_OK);
+    assert_int_equal(ewa_octree_levels_begin(writer, 3), EWA_OK);
+    assert_int_equal(ewa_octree_levels_begin(writer, 3), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_octree_levels_put(writer, "1234", 4), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_octree_levels_put(writer, "12", 2), EWA_OK);
+    const ewa_octree_chunk late = {.point_count = 1};
+    assert_int_equal(ewa_octree_append(writer, &late), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_octree_writer_commit(&writer), EWA_ERROR_ARGUMENT);
+    assert_null(writer);
+    assert_int_not_equal(access(path, F_OK), 0);
+    ewa_cloud_destroy(&cloud);
+    ewa_cloud_destroy(&other);
+}
+
+/// Opens the bytes as a file and reads all nodes; the first failure.
+static ewa_status try_bytes(const uint8_t *bytes, size_t size_bytes) {
+    ewa_octree *octree = NULL;
+    messages = (check_log){0};
+    scratch_write(path, bytes, size_bytes);
+    ewa_status status = ewa_octree_open(context, path, &octree);
+    if (status == EWA_OK) {
+        const uint32_t count = ewa_octree_describe(octree)->node_count;
+        ewa_cloud **clouds = copc_read_all(octree, &status);
+        copc_free_all(clouds, count);
+    } else {
+        assert_null(octree);
+    }
+    ewa_octree_close(&octree);
+    if (status != EWA_OK) assert_true(strncmp(messages.text, path, strlen(path)) == 0);
+    return status;
+}
+
+static void refuses_every_beginning(void **state) {
+    (void)state;
+    size_t size_bytes;
+    write_made(60, 2, false, 0);
+    uint8_t *bytes = scratch_read(path, &size_bytes);
+    for (size_t size = 0; size < size_bytes; size++)
+        if (try_bytes(bytes, size) == EWA_OK) fail_msg("%zu bytes of %zu are taken", size, size_bytes);
+    assert_int_equal(try_bytes(bytes, size_bytes), EWA_OK);
+    check_random random = {5};
+    for (int i = 0; i < 3000; i++) {
+        uint8_t *changed = malloc(size_bytes);
+        memcpy(changed, bytes, size_bytes);
+        for (int k = 0; k < 2; k++)
+            changed[check_random_u64(&random) % size_bytes] = (uint8_t)check_random_u64(&random);
+        const ewa_status status = try_bytes(changed, size_bytes);
+        assert_true(status == EWA_OK || messages.count > 0);
+        free(changed);
+    }
+    free(bytes);
+}
+
+static void refuses_hierarchies_that_lie(void **state) {
+    (void)state;
+    enum { ENTRY_BYTES = 32 };
+    size_t size_bytes;
+    write_made(400, 2, false, 0);
+    uint8_t *bytes = scratch_read(path, &size_bytes);
+    const size_t root_at = las_get(bytes + 375 + 54 + 40, 8);
+    const struct {
+        const char *what;
+        size_t at;
+        uint64_t value;
+        int count;
+        const char *said;
+    } lies[] = {
+        {"a point more", root_at + 28, las_get(bytes + root_at + 28, 4) + 1, 4, "node 0-0-0-0"},
+        {"a point less", root_at + 28, las_get(bytes + root_at + 28, 4) - 1, 4, "node 0-0-0-0"},
+        {"too many points", root_at + 28, 0x7fffffff, 4, "0-0-0-0"},
+        {"points below none", root_at + 28, (uint64_t)-2, 4, "0-0-0-0"},
+        {"a chunk beyond the file", root_at + 16, size_bytes, 8, "0-0-0-0"},
+        {"a chunk far beyond", root_at + 16, UINT64_MAX, 8, "0-0-0-0"},
+        {"a chunk too long", root_at + 24, size_bytes, 4, "0-0-0-0"},
+        {"a chunk elsewhere", root_at + 16, 400, 8, "0-0-0-0"},
+        {"a cell beside the cube", root_at + ENTRY_BYTES + 4, 2, 4, "1-2-"},
+        {"a level too deep", root_at + ENTRY_BYTES, 31, 4, "31-"},
+        {"the root twice", root_at + ENTRY_BYTES, 0, 4, "0-0-0-0 comes twice"},
+        {"a page in itself", root_at + 28, (uint64_t)-1, 4, "page"},
+        {"no root page", 375 + 54 + 48, 0, 8, "page"},
+        {"a page beyond the file", 375 + 54 + 40, size_bytes - 8, 8, "page"},
+        {"no side", 375 + 54 + 24, 0, 8, "half a side of 0"},
+    };
+    for (size_t i = 0; i < sizeof lies / sizeof lies[0]; i++) {
+        uint8_t *changed = malloc(size_bytes);
+        memcpy(changed, bytes, size_bytes);
+        las_put(changed + lies[i].at, lies[i].value, lies[i].count);
+        if (strcmp(lies[i].what, "a page in itself") == 0) {
+            las_put(changed + root_at + 16, root_at, 8);
+            las_put(changed + root_at + 24, las_get(bytes + 375 + 54 + 48, 8), 4);
+        }
+        if (try_bytes(changed, size_bytes) != EWA_ERROR_FORMAT || !strstr(messages.text, lies[i].said))
+            fail_msg("%s: '%s'", lies[i].what, messages.text);
+        free(changed);
+    }
+    free(bytes);
+}
+
+static void is_no_other_file(void **state) {
+    (void)state;
+    ewa_octree *octree = NULL;
+    assert_false(ewa_octree_is(context, "/nowhere/at/all"));
+    assert_false(ewa_octree_is(context, "/tmp"));
+    assert_false(ewa_octree_is(context, "/dev/null"));
+    assert_int_equal(messages.count, 0);
+    assert_int_equal(ewa_octree_open(context, "/nowhere/at/all", &octree), EWA_ERROR_UNSUPPORTED);
+    las_sample plain = las_make(7, 4, 0, 10, NULL, 0, 0);
+    assert_int_equal(try_bytes(plain.bytes, plain.size_bytes), EWA_ERROR_UNSUPPORTED);
+    assert_false(ewa_octree_is(context, path));
+    free(plain.bytes);
+}
+
+static ewa_status write_and_read(ewa_context *failing, void *user) {
+    const copc_nodes *nodes = user;
+    const ewa_octree_plan plan = copc_plan(nodes->pieces[0]);
+    ewa_status status = copc_write(failing, path, &plan, nodes, 5);
+    ewa_octree *octree = NULL;
+    if (status == EWA_OK) status = ewa_octree_open(failing, path, &octree);
+    if (status == EWA_OK) {
+        const uint32_t count = ewa_octree_describe(octree)->node_count;
+        ewa_cloud **clouds = copc_read_all(octree, &status);
+        copc_free_all(clouds, count);
+    }
+    ewa_octree_close(&octree);
+    return status;
+}
+
+static void survives_memory_that_fails(void **state) {
+    (void)state;
+    ewa_cloud *cloud = copc_cloud(context, 40, false);
+    copc_nodes nodes = copc_share(cloud, 2);
+    scratch_fail_each(write_and_read, &nodes);
+    copc_nodes_free(&nodes);
+    ewa_cloud_destroy(&cloud);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(gives_back_what_was_written, begin, end),
+        cmocka_unit_test_setup_teardown(has_the_points_of_the_whole_file, begin, end),
+        cmocka_unit_test_setup_teardown(reads_files_of_others, begin, end),
+        cmocka_unit_test_setup_teardown(reads_the_attributes_that_are_wanted, begin, end),
+        cmocka_unit_test_setup_teardown(is_the_same_for_any_number_of_threads, begin, end),
+        cmocka_unit_test_setup_teardown(keeps_levels_of_any_size, begin, end),
+        cmocka_unit_test_setup_teardown(writes_many_nodes_in_pages, begin, end),
+        cmocka_unit_test_setup_teardown(writes_trees_without_nodes, begin, end),
+        cmocka_unit_test_setup_teardown(refuses_what_it_cannot_write, begin, end),
+        cmocka_unit_test_setup_teardown(refuses_every_beginning, begin, end),
+        cmocka_unit_test_setup_teardown(refuses_hierarchies_that_lie, begin, end),
+        cmocka_unit_test_setup_teardown(is_no_other_file, begin, end),
+        cmocka_unit_test_setup_teardown(survives_memory_that_fails, begin, end),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
