@@ -13,6 +13,7 @@
 #include "ewa/homogeneous.h"
 #include "ewa/image.h"
 #include "ewa/io.h"
+#include "ewa/lod.h"
 #include "ewa/mesh.h"
 #include "ewa/model.h"
 #include "ewa/options.h"

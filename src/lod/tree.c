@@ -5,6 +5,8 @@
 #include "lod/tree.h"
 #include "base/base.h"
 #include "cloud/cloud.h"
+#include "ewa/prepare.h"
+#include "surface/hollow.h"
 
 #include <math.h>
 #include <string.h>
