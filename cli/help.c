@@ -139,23 +139,13 @@ static void append_keys(const char *lead, const char *keys, char text[2 * TEXT_B
     }
 }
 
-/// Writes the range of a library's option; of bytes, as people write them.
-static void write_range(const ewa_option *option, char range[EWA_OPTION_TEXT_BYTES]) {
-    char low[BYTES_TEXT_BYTES], high[BYTES_TEXT_BYTES];
-    ewa_option_range(option, range);
-    if (!options_counts_bytes(option) || !isfinite(option->maximum)) return;
-    bytes_write((uint64_t)option->minimum, low);
-    bytes_write((uint64_t)option->maximum, high);
-    snprintf(range, EWA_OPTION_TEXT_BYTES, "[%s, %s]", low, high);
-}
-
 /// Writes what an option means with what it needs and excludes, its range, default and other names.
 static void format_meaning(const cli_option *option, const void *defaults, char text[2 * TEXT_BYTES]) {
     char initial[TEXT_BYTES], range[EWA_OPTION_TEXT_BYTES] = "";
     format_default(option, defaults, initial);
     const ewa_option *of = options_library(option);
     if (of && !of->words && of->type != EWA_OPTION_BOOL && (isfinite(of->minimum) || isfinite(of->maximum)))
-        write_range(of, range);
+        options_write_range(of, range);
     else if (option->range && option->kind != OPTION_CHOICE)
         snprintf(range, sizeof range, "%s", option->range);
     snprintf(text, 2 * TEXT_BYTES, "%s%s%s%s%s%s", option->help ? option->help : of->help,

@@ -34,7 +34,8 @@ static const cli_option making_table[] = {
      .absent = "the whole at once", .excludes = "merge"},
     {"merge", OPTION_FLAG, AT(merge),
      .help = "the inputs are all parts of --subset; the file is the one that is made at once"},
-    {"keep-going", BUILD(keep_going), .excludes = "merge"},
+    {"keep-going", OPTION_FLAG, offsetof(common_arguments, keep_going),
+     .help = "step over damaged pieces of files", .excludes = "merge"},
 };
 
 static void set_defaults(void *data) {
@@ -102,6 +103,7 @@ static int run(const void *data) {
     cli_session session;
     if (!session_start(&session, common)) return session_end(&session, EXIT_FAILED);
     ewa_lod_build_options options = arguments->options;
+    options.keep_going = common->keep_going;
     if (arguments->subset) read_subset(arguments->subset, &options.subset, &options.subset_count);
     ewa_lod_build_stats stats = {.point_count = 0};
     const uint32_t count = (uint32_t)common->operand_count;

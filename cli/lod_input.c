@@ -10,6 +10,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
+/// Boxes of so much of an octree are cheaper to have by its nodes than by reading all and leaving out the rest.
+static const double SMALL_SHARE = 0.25;
+
 void lod_input_set_defaults(lod_arguments *arguments) {
     ewa_lod_options_init(&arguments->options, sizeof arguments->options);
     arguments->options.memory_bytes = 0;
@@ -105,6 +108,23 @@ ewa_cloud *lod_input_sample(cli_session *session, ewa_lod *lod, const char *path
         return cloud;
     ewa_cloud_destroy(&cloud);
     return NULL;
+}
+
+bool lod_input_serves(cli_session *session, const char *path, const double corners_world[6]) {
+    if (!ewa_lod_probe(session->context, path)) return false;
+    if (lod_input_is_folder(session, path)) return true;
+    ewa_lod *lod = lod_input_open(session, path);
+    if (!lod) return false;
+    ewa_lod_info info;
+    ewa_lod_describe(lod, &info);
+    double share = 1;
+    for (int c = 0; c < 3; c++) {
+        const double low = info.bounds.low_world[c], high = info.bounds.high_world[c];
+        const double inside = fmin(corners_world[3 + c], high) - fmax(corners_world[c], low);
+        if (high > low) share *= fmax(inside, 0) / (high - low);
+    }
+    ewa_lod_close(&lod);
+    return share < SMALL_SHARE;
 }
 
 ewa_cloud *lod_input_read(cli_session *session, const char *path, const double corners_world[6]) {

@@ -57,6 +57,10 @@ bool lod_input_choose(cli_session *session, const common_arguments *common, cons
 /// Reads what the whole looks like, with what a surfel needs (estimated where it lacks). NULL after reporting.
 ewa_cloud *lod_input_sample(cli_session *session, ewa_lod *lod, const char *path);
 
+/// Whether a box, corner low, corner high, is so small a part of the octree at a path that reading only the nodes
+/// that meet it is worth it; of a folder, which cannot be read otherwise, always. False where there is no octree.
+bool lod_input_serves(cli_session *session, const char *path, const double corners_world[6]);
+
 /// Reads all points of a box, of a folder or file, both corners included; `corners_world` NULL: all. NULL after
 /// reporting.
 ewa_cloud *lod_input_read(cli_session *session, const char *path, const double corners_world[6]);

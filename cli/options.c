@@ -218,6 +218,15 @@ bool options_counts_bytes(const ewa_option *option) {
     return option->type == EWA_OPTION_U64 && option->unit && strcmp(option->unit, "bytes") == 0;
 }
 
+void options_write_range(const ewa_option *option, char range[EWA_OPTION_TEXT_BYTES]) {
+    char low[BYTES_TEXT_BYTES], high[BYTES_TEXT_BYTES];
+    ewa_option_range(option, range);
+    if (!options_counts_bytes(option) || !isfinite(option->maximum)) return;
+    bytes_write((uint64_t)option->minimum, low);
+    bytes_write((uint64_t)option->maximum, high);
+    snprintf(range, EWA_OPTION_TEXT_BYTES, "[%s, %s]", low, high);
+}
+
 void options_name_value(const cli_option *option, char text[EWA_OPTION_TEXT_BYTES]) {
     const ewa_option *of = options_library(option);
     if (option->value || option->range)
@@ -239,6 +248,10 @@ static bool parse_library(const cli_option *option, const char *text, void *memb
     char problem[EWA_OPTION_TEXT_BYTES], number[BYTES_TEXT_BYTES];
     uint64_t bytes;
     if (options_counts_bytes(of) && bytes_read(text, &bytes)) {
+        char range[EWA_OPTION_TEXT_BYTES];
+        options_write_range(of, range);
+        if (!((double)bytes >= of->minimum && (double)bytes <= of->maximum))
+            return wrong(message, "--%s: %.80s is outside %s", option->key, text, range);
         snprintf(number, sizeof number, "%" PRIu64, bytes);
         text = number;
     }

@@ -157,6 +157,9 @@ const ewa_option *options_library(const cli_option *option);
 /// Whether a library's option is a number of bytes, which may be written as 512M or 8G.
 bool options_counts_bytes(const ewa_option *option);
 
+/// Writes the range of a library's option; of bytes, as people write them.
+void options_write_range(const ewa_option *option, char range[EWA_OPTION_TEXT_BYTES]);
+
 /// Returns the name nearest to `word` among `count` names, NULL when none is near.
 const char *options_nearest(const char *word, size_t count, const char *const *names);
 
