@@ -4,6 +4,7 @@
 // ewa lod: clouds of any size to an octree with surfels at every level.
 #include "commands.h"
 #include "json.h"
+#include "outputs.h"
 #include "session.h"
 
 #include <stdio.h>
@@ -63,7 +64,8 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         wrong = "--output: an octree is written to a file, not to standard output";
     else if (arguments->subset && !read_subset(arguments->subset, &subset, &subset_count))
         wrong = "--subset: not I/N with a whole number I from 1 to N, and N up to 65536";
-    return options_fine(wrong, message);
+    return options_fine(wrong, message) &&
+           output_check_suffix("output", arguments->output, ".copc.laz|.laz", message);
 }
 
 static bool write_stats(cli_session *session, const lod_command_arguments *arguments,

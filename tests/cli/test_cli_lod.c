@@ -35,6 +35,7 @@ static void test_make(void **state) {
     assert_non_null(strstr(last_run.out, "\"points\": 60000"));
     run_fails(2, "lod: no output", "ewa lod t.ply");
     run_fails(2, "--output: an octree is written to a file", "ewa lod t.ply -o -");
+    run_fails(2, "--output: 'x.ply' is no .copc.laz or .laz file", "ewa lod t.ply -o x.ply");
     static const char *const wrong[] = {"0/2", "3/2", "1", "1/2x", "a/b", "1/70000"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
         run_fails(2, "--subset: not I/N", "ewa lod t.ply -o x.copc.laz --subset %s", wrong[i]);
