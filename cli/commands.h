@@ -8,7 +8,7 @@
 #include "options.h"
 
 extern const cli_command render_command, view_command, info_command, convert_command, surfels_command,
-    features_command, sample_command, csg_command, texture_command, warp_command, volume_command,
+    features_command, sample_command, csg_command, texture_command, warp_command, volume_command, lod_command,
     generate_command, bench_command;
 
 /// All commands, in the order of the help.

@@ -6,6 +6,7 @@
 #include "cloud_output.h"
 #include "commands.h"
 #include "inputs.h"
+#include "lod_input.h"
 #include "passing.h"
 #include "procedure.h"
 
@@ -237,17 +238,41 @@ static bool choose(cli_session *session, const convert_job *job, ewa_cloud **clo
            (job->arguments->subsample == 0 || subsample(session, cloud, job->arguments->subsample));
 }
 
+/// Whether only the nodes of an octree that meet a box, which is set, are to be read.
+static bool is_part_of_octree(cli_session *session, const convert_job *job, double corners_world[6]) {
+    const common_arguments *common = &job->arguments->procedure.output.common;
+    const bool cuts = job->arguments->crop.count || job->polygon;
+    if (common->operand_count != 1 || !cuts || session->load.keep_going) return false;
+    for (int c = 0; c < 6; c++) corners_world[c] = c < 3 ? -DBL_MAX : DBL_MAX;
+    if (job->polygon) {
+        double box_world[4];
+        ewa_polygon_box(job->polygon, box_world);
+        corners_world[0] = box_world[0], corners_world[1] = box_world[1];
+        corners_world[3] = box_world[2], corners_world[4] = box_world[3];
+    }
+    const double *crop = job->arguments->crop.values;
+    for (int c = 0; c < 3 && job->arguments->crop.count; c++) {
+        corners_world[c] = fmax(corners_world[c], fmin(crop[c], crop[3 + c]));
+        corners_world[3 + c] = fmin(corners_world[3 + c], fmax(crop[c], crop[3 + c]));
+    }
+    return lod_input_serves(session, common->operands[0], corners_world);
+}
+
 /// Loads the operands; one alone keeps its faces. NULL after reporting.
-static ewa_cloud *load(cli_session *session, const convert_arguments *arguments, ewa_elements **elements) {
+static ewa_cloud *load(cli_session *session, const convert_job *job, ewa_elements **elements) {
+    const convert_arguments *arguments = job->arguments;
     const common_arguments *common = &arguments->procedure.output.common;
     *elements = NULL;
+    double corners_world[6];
+    if (is_part_of_octree(session, job, corners_world))
+        return lod_input_read(session, common->operands[0], corners_world);
     return common->operand_count == 1 ? input_load_elements(session, common->operands[0], elements)
                                       : inputs_merge(session, common, arguments->default_color.rgba);
 }
 
 static ewa_cloud *make(cli_session *session, const convert_job *job, ewa_elements **elements) {
     const convert_arguments *arguments = job->arguments;
-    ewa_cloud *cloud = load(session, arguments, elements);
+    ewa_cloud *cloud = load(session, job, elements);
     const uint64_t loaded_count = cloud ? ewa_cloud_point_count(cloud) : 0;
     if (arguments->procedure.output.common.operand_count > 1) session->subject = NULL;
     const bool done = cloud && choose(session, job, &cloud) && move(session, cloud, arguments) &&
@@ -265,7 +290,8 @@ static ewa_cloud *make(cli_session *session, const convert_job *job, ewa_element
 /// Reads, changes and writes, a file alone piece by piece where that can be. False after reporting.
 static bool convert(cli_session *session, const convert_job *job) {
     const output_arguments *output = &job->arguments->procedure.output;
-    if (is_piecewise(job->arguments)) {
+    double corners_world[6];
+    if (is_piecewise(job->arguments) && !is_part_of_octree(session, job, corners_world)) {
         const bool keeps_count = !job->arguments->crop.count && !job->polygon && !session->filter;
         const passing_result result =
             passing_run(session, output->common.operands[0], output, job, change_piece, keeps_count);

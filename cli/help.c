@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Help and the page docs/cli.md, from the option tables.
+#include "bytes.h"
 #include "json.h"
 #include "options.h"
 
@@ -55,7 +56,10 @@ static void format_default(const cli_option *option, const void *defaults, char 
     const ewa_option *of = options_library(option);
     switch (option->kind) {
     case OPTION_LIBRARY:
-        ewa_option_get(of, (const char *)member - of->offset, text);
+        if (options_counts_bytes(of))
+            bytes_write(*(const uint64_t *)member, text);
+        else
+            ewa_option_get(of, (const char *)member - of->offset, text);
         break;
     case OPTION_FLAG:
     case OPTION_TOGGLE:
@@ -141,7 +145,7 @@ static void format_meaning(const cli_option *option, const void *defaults, char 
     format_default(option, defaults, initial);
     const ewa_option *of = options_library(option);
     if (of && !of->words && of->type != EWA_OPTION_BOOL && (isfinite(of->minimum) || isfinite(of->maximum)))
-        ewa_option_range(of, range);
+        options_write_range(of, range);
     else if (option->range && option->kind != OPTION_CHOICE)
         snprintf(range, sizeof range, "%s", option->range);
     snprintf(text, 2 * TEXT_BYTES, "%s%s%s%s%s%s", option->help ? option->help : of->help,
@@ -193,6 +197,8 @@ static const ewa_option_table *const tables[] = {&ewa_acquire_options_table,
                                                  &ewa_furniture_options_table,
                                                  &ewa_generate_options_table,
                                                  &ewa_image_save_options_table,
+                                                 &ewa_lod_build_options_table,
+                                                 &ewa_lod_options_table,
                                                  &ewa_mesh_sample_options_table,
                                                  &ewa_material_table,
                                                  &ewa_procedure_options_table,

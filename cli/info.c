@@ -7,10 +7,12 @@
 #include "faults.h"
 #include "import.h"
 #include "info_facts.h"
+#include "info_lod.h"
 #include "info_mesh.h"
 #include "info_volume.h"
 #include "inputs.h"
 #include "json.h"
+#include "lod_input.h"
 #include "model_input.h"
 #include "screening.h"
 #include "view.h"
@@ -61,6 +63,9 @@ typedef struct cloud_facts {
     ewa_model_format format;
     bool is_mesh; ///< the points are vertices of:
     mesh_facts mesh;
+    const ewa_lod *lod;         ///< NULL: no octree
+    uint64_t lod_sampled_count; ///< the points stand for those of an octree; 0: they are all
+    ewa_lod_info tree;
 } cloud_facts;
 
 static void measure_component(const ewa_attribute *attribute, uint64_t count, uint32_t component,
@@ -143,11 +148,15 @@ static point_shape measure_shape(const ewa_cloud *cloud, const ewa_bounds *bound
 }
 
 /// Measures everything; false after reporting.
-static bool gather(cli_session *session, const char *path, const ewa_model *model, cloud_facts *facts) {
+static bool gather(cli_session *session, const char *path, const ewa_model *model, const ewa_lod *lod,
+                   bool sampled, cloud_facts *facts) {
     const ewa_cloud *cloud = model->points;
     *facts = (cloud_facts){.point_count = ewa_cloud_point_count(cloud),
                            .format = model->format,
-                           .is_mesh = model->mesh.triangle_count > 0};
+                           .is_mesh = model->mesh.triangle_count > 0,
+                           .lod = lod};
+    if (lod) ewa_lod_describe(lod, &facts->tree);
+    if (sampled) facts->lod_sampled_count = facts->point_count;
     if (facts->is_mesh && !info_mesh_gather(session, model, &facts->mesh)) return false;
     ewa_status status = ewa_cloud_measure(cloud, &facts->bounds);
     facts->sampled_count = facts->point_count < SPACING_SAMPLES ? facts->point_count : SPACING_SAMPLES;
@@ -222,17 +231,28 @@ static bool has_header(const char *path, const cloud_facts *facts) {
     return facts->format == EWA_MODEL_PLY && strcmp(path, "-") != 0 && !import_is_named(path);
 }
 
+static const char *format_name(const char *path, const cloud_facts *facts) {
+    if (facts->format == EWA_MODEL_UNKNOWN && facts->lod) return facts->tree.kind;
+    return import_is_named(path) ? "imported" : ewa_model_format_name(facts->format);
+}
+
+/// How many points there are, of which those of the facts may be a sample.
+static uint64_t all_points(const cloud_facts *facts) {
+    return facts->lod_sampled_count ? facts->tree.point_count : facts->point_count;
+}
+
 static void print_text(cli_session *session, const char *path, const ewa_cloud *cloud,
                        const cloud_facts *facts) {
     const double *low = facts->bounds.low_world, *high = facts->bounds.high_world;
     printf("%s\n", path);
-    printf("  format      %s\n", import_is_named(path) ? "imported" : ewa_model_format_name(facts->format));
+    printf("  format      %s\n", format_name(path, facts));
     if (facts->is_mesh) info_mesh_print(&facts->mesh);
     if (has_header(path, facts)) {
         printf("  header\n");
         ewa_ply_describe(session->context, path, print_header_line, NULL);
     }
-    printf("  %-11s %" PRIu64 "\n", facts->is_mesh ? "vertices" : "points", facts->point_count);
+    printf("  %-11s %" PRIu64 "\n", facts->is_mesh ? "vertices" : "points", all_points(facts));
+    if (facts->lod) info_lod_print(facts->lod, facts->lod_sampled_count);
     if (facts->bounds.finite_count) {
         const int digits = ewa_cloud_find(cloud, EWA_POSITION)->type == EWA_F64 ? 12 : 8;
         printf("  low         %.*g %.*g %.*g\n", digits, low[0], digits, low[1], digits, low[2]);
@@ -291,9 +311,10 @@ static void print_json(cli_session *session, json_writer *json, const char *path
     json_array(json, "header");
     if (has_header(path, facts)) ewa_ply_describe(session->context, path, add_header_line, json);
     json_close(json, ']');
-    json_text(json, "format", import_is_named(path) ? "imported" : ewa_model_format_name(facts->format));
+    json_text(json, "format", format_name(path, facts));
     if (facts->is_mesh) info_mesh_write(json, &facts->mesh);
-    json_count(json, "points", facts->point_count);
+    json_count(json, "points", all_points(facts));
+    if (facts->lod) info_lod_write(json, facts->lod, facts->lod_sampled_count);
     json_count(json, "finite_points", facts->bounds.finite_count);
     if (facts->bounds.finite_count) {
         json_vector(json, "low", 3, facts->bounds.low_world);
@@ -361,8 +382,19 @@ static void print_json(cli_session *session, json_writer *json, const char *path
     json_close(json, '}');
 }
 
-/// Loads a file; a filter looks at points, of which a mesh has its vertices. False after reporting.
-static bool load(cli_session *session, const char *path, ewa_model *model) {
+/// Loads a file; a filter looks at points, of which a mesh has its vertices. `*sampled`: of a large octree, `*lod`
+/// or NULL, some of its points. False after reporting.
+static bool load(cli_session *session, const char *path, ewa_model *model, ewa_lod **lod, bool *sampled) {
+    *model = (ewa_model){.points = NULL};
+    ewa_cloud *sample;
+    session->subject = path;
+    if (!info_lod_open(session, path, lod, &sample)) return false;
+    *sampled = sample != NULL;
+    if (sample) {
+        model->points = sample;
+        return ewa_model_probe(session->context, path, &model->format) == EWA_OK ||
+               lod_input_is_folder(session, path);
+    }
     const uint32_t wanted = session->filter ? EWA_MODEL_POINTS : EWA_MODEL_POINTS | EWA_MODEL_MESH;
     if (!model_input_load(session, path, wanted, model)) return false;
     if (session->filter && model->face_count)
@@ -391,7 +423,10 @@ static int run(const void *data) {
         }
         ewa_model model;
         cloud_facts facts;
-        if (load(&session, path, &model) && gather(&session, path, &model, &facts)) {
+        ewa_lod *lod = NULL;
+        bool sampled = false;
+        if (load(&session, path, &model, &lod, &sampled) &&
+            gather(&session, path, &model, lod, sampled, &facts)) {
             if (arguments->json)
                 print_json(&session, &json, path, model.points, &facts);
             else
@@ -400,6 +435,7 @@ static int run(const void *data) {
             exit_status = EXIT_FAILED;
         }
         ewa_model_free(&model);
+        ewa_lod_close(&lod);
     }
     if (arguments->json) {
         json_close(&json, ']');
@@ -422,7 +458,9 @@ const cli_command info_command = {
     .summary = "say what files hold: counts, bounds, attributes with their ranges, spacing, problems",
     .details =
         "A file that has faces is a mesh: faces, area, whether it is closed, materials; then its vertices. "
-        "Problems are counted, not judged: the exit status is 0 when the files could be read. Volumes "
+        "Of an octree (COPC, EPT) the tree is told; of one with more than 4 million points, ranges and "
+        "problems are those of a sample. Problems are counted, not judged: the exit status is 0 when the "
+        "files could be read. Volumes "
         "are told by their suffix (.nrrd, .nhdr, .nii, .mha, .mhd, .vti, .vtk, .raw, and .gz of "
         "these) or by --dims.",
     .examples = "ewa info scan.ply\n"

@@ -4,6 +4,7 @@
 // Files of points or triangles: the one place where the program decides which of them a file holds.
 #include "model_input.h"
 #include "import.h"
+#include "lod_input.h"
 #include "screening.h"
 #include "volume_input.h"
 
@@ -25,6 +26,9 @@ bool model_input_load(cli_session *session, const char *path, uint32_t wanted, e
     const double started_s = clock_now_s();
     if (import_is_named(path)) {
         if (!import_load(session, path, wanted, model)) return false;
+    } else if (lod_input_is_folder(session, path)) {
+        model->points = lod_input_read(session, path, NULL);
+        if (!model->points) return false;
     } else {
         const ewa_status status = ewa_model_load(session->context, path, wanted, &session->load, model);
         if (status != EWA_OK) {

@@ -3,6 +3,7 @@
 //
 // Options: finding them in the tables, reading and checking their values.
 #include "options.h"
+#include "bytes.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -213,10 +214,25 @@ const ewa_option *options_library(const cli_option *option) {
     return ewa_option_find(option->table, option->member);
 }
 
+bool options_counts_bytes(const ewa_option *option) {
+    return option->type == EWA_OPTION_U64 && option->unit && strcmp(option->unit, "bytes") == 0;
+}
+
+void options_write_range(const ewa_option *option, char range[EWA_OPTION_TEXT_BYTES]) {
+    char low[BYTES_TEXT_BYTES], high[BYTES_TEXT_BYTES];
+    ewa_option_range(option, range);
+    if (!options_counts_bytes(option) || !isfinite(option->maximum)) return;
+    bytes_write((uint64_t)option->minimum, low);
+    bytes_write((uint64_t)option->maximum, high);
+    snprintf(range, EWA_OPTION_TEXT_BYTES, "[%s, %s]", low, high);
+}
+
 void options_name_value(const cli_option *option, char text[EWA_OPTION_TEXT_BYTES]) {
     const ewa_option *of = options_library(option);
     if (option->value || option->range)
         snprintf(text, EWA_OPTION_TEXT_BYTES, "%s", option->value ? option->value : option->range);
+    else if (of && options_counts_bytes(of))
+        snprintf(text, EWA_OPTION_TEXT_BYTES, "SIZE");
     else if (of && (of->words || of->type == EWA_OPTION_BOOL))
         ewa_option_range(of, text);
     else if (of)
@@ -229,7 +245,16 @@ void options_name_value(const cli_option *option, char text[EWA_OPTION_TEXT_BYTE
 static bool parse_library(const cli_option *option, const char *text, void *member,
                           char message[OPTION_ERROR_BYTES]) {
     const ewa_option *of = options_library(option);
-    char problem[EWA_OPTION_TEXT_BYTES];
+    char problem[EWA_OPTION_TEXT_BYTES], number[BYTES_TEXT_BYTES];
+    uint64_t bytes;
+    if (options_counts_bytes(of) && bytes_read(text, &bytes)) {
+        char range[EWA_OPTION_TEXT_BYTES];
+        options_write_range(of, range);
+        if (!((double)bytes >= of->minimum && (double)bytes <= of->maximum))
+            return wrong(message, "--%s: %.80s is outside %s", option->key, text, range);
+        snprintf(number, sizeof number, "%" PRIu64, bytes);
+        text = number;
+    }
     if (ewa_option_set(of, (char *)member - of->offset, text, problem) == EWA_OK) return true;
     return wrong(message, "--%s: %s", option->key, problem);
 }

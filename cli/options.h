@@ -154,6 +154,12 @@ const cli_option *options_at(const cli_command *command, size_t index);
 /// The library's option behind an option of kind OPTION_LIBRARY; NULL for another kind.
 const ewa_option *options_library(const cli_option *option);
 
+/// Whether a library's option is a number of bytes, which may be written as 512M or 8G.
+bool options_counts_bytes(const ewa_option *option);
+
+/// Writes the range of a library's option; of bytes, as people write them.
+void options_write_range(const ewa_option *option, char range[EWA_OPTION_TEXT_BYTES]);
+
 /// Returns the name nearest to `word` among `count` names, NULL when none is near.
 const char *options_nearest(const char *word, size_t count, const char *const *names);
 

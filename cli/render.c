@@ -9,6 +9,7 @@
 #include "inputs.h"
 #include "json.h"
 #include "light.h"
+#include "lod_input.h"
 #include "picture.h"
 #include "render_report.h"
 #include "resident.h"
@@ -26,6 +27,7 @@ typedef struct render_arguments {
     ewa_surfels_options surfels;
     section_arguments section;
     bool close_gaps;
+    lod_arguments lod;
     const char *layers, *color_by;
     int colormap;
     option_bounds range;
@@ -76,6 +78,8 @@ static const cli_option splat_table[] = {
     {"cull", RENDER(cull)},
 };
 
+static const cli_option lod_table[] = {LOD_OPTIONS(AT(lod))};
+
 static const cli_option section_table[] = {
     {"clip-box", OPTION_VECTOR, AT(section.box), "x0,y0,z0,x1,y1,z1",
      .help = "draw only what lies inside a box: its lower, then its upper corner, in the file's coordinates",
@@ -116,6 +120,7 @@ static void set_defaults(void *data) {
     light_set_defaults(&arguments->light);
     ewa_surfels_options_init(&arguments->surfels, sizeof arguments->surfels);
     arguments->close_gaps = true;
+    lod_input_set_defaults(&arguments->lod);
     arguments->colormap = COLOR_BY_AUTO;
     arguments->background = (option_color){{1, 1, 1, 1}};
 }
@@ -174,7 +179,9 @@ static ewa_render_options render_options(const render_arguments *arguments, cons
 /// What all frames share.
 typedef struct render_scene {
     frame_cameras frames;
-    ewa_surfels *surfels;
+    ewa_surfels *surfels; ///< NULL: an octree
+    ewa_lod *lod;         ///< NULL: surfels
+    ewa_lod_options lod_options;
     color_scale scale;
     furnishing furniture;
 } render_scene;
@@ -205,19 +212,89 @@ static bool make_scene(cli_session *session, const render_arguments *arguments, 
     return done;
 }
 
+/// Options that need all points of an octree, or change how it was made into surfels; NULL: none is given.
+static const char *find_lod_clash(const render_arguments *arguments) {
+    ewa_surfels_options surfels;
+    ewa_surfels_options_init(&surfels, sizeof surfels);
+    return arguments->color_by && !color_by_is_own(arguments->color_by) ? "--color-by"
+           : arguments->surfels.cutoff != surfels.cutoff                ? "--cutoff"
+           : arguments->surfels.radius_scale != surfels.radius_scale    ? "--radius-scale"
+                                                                        : NULL;
+}
+
+/// Makes the scene of an octree, of which a sample stands for the whole where that is looked at. False after
+/// reporting.
+static bool make_lod_scene(cli_session *session, const render_arguments *arguments, render_scene *scene,
+                           render_report *report) {
+    const double started_s = clock_now_s();
+    const char *path = arguments->frames.view.common.operands[0], *clash = find_lod_clash(arguments);
+    if (clash) {
+        session_fail(session,
+                     "%s is not there for octrees that are drawn from their levels; --lod-error 0 draws "
+                     "all points",
+                     clash);
+        return false;
+    }
+    ewa_cloud *sample = lod_input_sample(session, scene->lod, path);
+    if (!sample) return false;
+    scene->lod_options = lod_input_options(&arguments->lod);
+    ewa_lod_info info;
+    ewa_lod_describe(scene->lod, &info);
+    report->point_count = info.point_count;
+    report->from_lod = true;
+    if (!info.merged)
+        session_note(
+            session,
+            "%s has points at its levels only, none that stand for others: what is far away is drawn "
+            "by few of them; `ewa lod %s -o FILE.copc.laz` makes better levels",
+            path, path);
+    const bool done =
+        frames_make(session, &arguments->frames, sample, arguments->surfels.radius_scale, &scene->frames) &&
+        furnish_make(session, &arguments->furniture, &arguments->frames, &arguments->background, sample, NULL,
+                     &scene->scale, &scene->furniture);
+    session->subject = path;
+    ewa_cloud_destroy(&sample);
+    report->load_s = clock_now_s() - started_s;
+    return done;
+}
+
+/// Opens or loads what is to be drawn. False after reporting.
+static bool prepare(cli_session *session, const render_arguments *arguments, render_scene *scene,
+                    render_report *report) {
+    const common_arguments *common = &arguments->frames.view.common;
+    if (!lod_input_choose(session, common, &arguments->lod, &scene->lod)) return false;
+    return scene->lod ? make_lod_scene(session, arguments, scene, report)
+                      : make_scene(session, arguments, scene, report);
+}
+
 /// What paint() works with.
 typedef struct surfel_painter {
     cli_session *session;
     ewa_renderer *renderer;
     const render_scene *scene;
     const ewa_render_options *options;
+    render_report *report;
 } surfel_painter;
+
+/// Draws a frame of an octree, and adds what that took to the report.
+static ewa_status paint_lod(const surfel_painter *painter, const ewa_camera *camera, const ewa_frame *frame,
+                            ewa_render_stats *stats) {
+    const render_scene *scene = painter->scene;
+    ewa_lod_stats took;
+    const ewa_status status = ewa_lod_render(scene->lod, painter->renderer, camera, painter->options,
+                                             &scene->lod_options, frame, &took);
+    if (status != EWA_OK) return status;
+    *stats = took.render;
+    render_report_add_lod(painter->report, &took);
+    return EWA_OK;
+}
 
 static ewa_status paint(void *user, const ewa_camera *camera, const ewa_frame *frame,
                         ewa_render_stats *stats) {
     const surfel_painter *painter = user;
-    const ewa_status status =
-        ewa_render(painter->renderer, painter->scene->surfels, camera, painter->options, frame, stats);
+    const ewa_status status = painter->scene->lod ? paint_lod(painter, camera, frame, stats)
+                                                  : ewa_render(painter->renderer, painter->scene->surfels,
+                                                               camera, painter->options, frame, stats);
     return status == EWA_OK ? furnish_draw(painter->session, &painter->scene->furniture, camera, frame)
                             : status;
 }
@@ -237,7 +314,7 @@ static bool draw(cli_session *session, const render_arguments *arguments, const 
         .quality = arguments->frames.quality >= 0 ? (int)arguments->frames.quality : 75,
         .opaque = arguments->background.rgba[3] == 1,
     };
-    surfel_painter painting = {.session = session, .scene = scene, .options = &options};
+    surfel_painter painting = {.session = session, .scene = scene, .options = &options, .report = report};
     const frame_cameras *frames = &scene->frames;
     const ewa_status status = ewa_renderer_create(session->context, &painting.renderer);
     if (status != EWA_OK) session_failed(session, status);
@@ -262,7 +339,7 @@ static int run(const void *data) {
     render_report report = {.load_s = 0};
     bool done =
         parse_paths(arguments, &paths, message) && light_load(&session, &arguments->light, &lit_by) &&
-        make_scene(&session, arguments, &scene, &report) &&
+        prepare(&session, arguments, &scene, &report) &&
         draw(&session, arguments, &paths, &lit_by, &scene, &report) &&
         (!arguments->stats_path || render_report_write(&session, common, frames_many(&arguments->frames),
                                                        frames, &report, arguments->stats_path));
@@ -279,12 +356,14 @@ static int run(const void *data) {
     color_scale_free(&scene.scale);
     frames_free(&scene.frames);
     ewa_surfels_destroy(&scene.surfels);
+    ewa_lod_close(&scene.lod);
     light_free(&lit_by);
     return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
 }
 
 static const option_group output_options = OPTION_GROUP("Output", output_table);
 static const option_group splat_options = OPTION_GROUP("Splats", splat_table);
+static const option_group lod_options = OPTION_GROUP("Octrees", lod_table);
 static const option_group section_options = OPTION_GROUP("Section", section_table);
 static const option_group look_options = OPTION_GROUP("Look", look_table);
 static const option_group furniture_options = OPTION_GROUP("Over the picture", furniture_table);
@@ -320,8 +399,8 @@ const cli_command render_command = {
     .low_operands = 1,
     .high_operands = 4096,
     .groups = (const option_group *const[]){&output_options, &cloud_input_options, &view_options,
-                                            &frames_options, &splat_options, &section_options, &light_options,
-                                            &look_options, &furniture_options, NULL},
+                                            &frames_options, &splat_options, &lod_options, &section_options,
+                                            &light_options, &look_options, &furniture_options, NULL},
     .arguments_bytes = sizeof(render_arguments),
     .set_defaults = set_defaults,
     .check = check,

@@ -33,6 +33,16 @@ bool render_report_add(cli_session *session, render_report *report, size_t index
     return true;
 }
 
+void render_report_add_lod(render_report *report, const ewa_lod_stats *stats) {
+    ewa_lod_stats *sum = &report->lod;
+    const uint64_t loaded_count = sum->loaded_count + (uint64_t)stats->loaded_count;
+    const double choose_s = sum->choose_s + stats->choose_s, load_s = sum->load_s + stats->load_s;
+    if (stats->surfel_count >= sum->surfel_count) *sum = *stats;
+    sum->loaded_count = loaded_count < UINT32_MAX ? (uint32_t)loaded_count : UINT32_MAX;
+    sum->choose_s = choose_s;
+    sum->load_s = load_s;
+}
+
 void render_report_free(render_report *report) {
     free(report->frames);
     report->frames = NULL;
@@ -50,6 +60,19 @@ static void write_frames(json_writer *json, size_t count, const frame_report *fr
         json_close(json, '}');
     }
     json_close(json, ']');
+}
+
+static void write_lod(json_writer *json, const ewa_lod_stats *stats) {
+    json_object(json, "lod");
+    json_count(json, "cubes_drawn", stats->cube_count);
+    json_count(json, "cubes_loaded", stats->loaded_count);
+    json_count(json, "cubes_missing", stats->missing_count);
+    json_count(json, "surfels", stats->surfel_count);
+    json_count(json, "resident_bytes", stats->resident_bytes);
+    json_count(json, "bands", stats->band_count);
+    json_number(json, "choose_s", stats->choose_s);
+    json_number(json, "load_s", stats->load_s);
+    json_close(json, '}');
 }
 
 bool render_report_write(cli_session *session, const common_arguments *common, bool many,
@@ -90,6 +113,7 @@ bool render_report_write(cli_session *session, const common_arguments *common, b
     json_number(&json, "edges", report->stats.edge_s);
     json_number(&json, "resolve", report->stats.resolve_s);
     json_close(&json, '}');
+    if (report->from_lod) write_lod(&json, &report->lod);
     if (many) write_frames(&json, frames->count, report->frames);
     json_count(&json, "peak_memory_bytes", memory_peak_bytes());
     json_end(&json);

@@ -20,11 +20,16 @@ typedef struct render_report {
     ewa_surfels_info surfels;
     ewa_render_stats stats; ///< counts and times summed over all frames, but for the splats
     frame_report *frames;   ///< of each frame when there are many
+    bool from_lod;          ///< drawn from the levels of an octree:
+    ewa_lod_stats lod;      ///< of the frame with the most surfels, but for what was loaded and times: of all
 } render_report;
 
 /// Adds what frame `index` of `count` took; false after reporting that memory ran out.
 bool render_report_add(cli_session *session, render_report *report, size_t index, size_t count,
                        const ewa_render_stats *stats, double render_s, double write_s);
+
+/// Adds what a frame of an octree took, beside its drawing.
+void render_report_add_lod(render_report *report, const ewa_lod_stats *stats);
 
 void render_report_free(render_report *report);
 

@@ -6,6 +6,7 @@
 #include "child.h"
 #include "commands.h"
 #include "inputs.h"
+#include "lod_input.h"
 #include "window_services.h"
 
 #include <errno.h>
@@ -22,6 +23,7 @@ typedef struct window_arguments {
     const char *script_path;
     bool timings, window;
     double scale;
+    lod_arguments lod;
 } window_arguments;
 
 static const cli_option window_table[] = {
@@ -36,8 +38,11 @@ static const cli_option window_table[] = {
      .help = "pixels per point of the script's screen", .needs = "script"},
 };
 
+static const cli_option lod_table[] = {LOD_OPTIONS(offsetof(window_arguments, lod))};
+
 static void set_defaults(void *data) {
     window_arguments *arguments = data;
+    lod_input_set_defaults(&arguments->lod);
     view_set_defaults(&arguments->view);
     arguments->view.size = (option_size){1280, 800, false};
     arguments->scale = 1;
@@ -61,6 +66,7 @@ int window_run(const void *data, int (*front)(const front_job *job)) {
     const window_arguments *arguments = data;
     const common_arguments *common = &arguments->view.common;
     window_services services;
+    const ewa_lod_options lod_options = lod_input_options(&arguments->lod);
     front_job job = {.paths = common->operands,
                      .path_count = common->operand_count,
                      .script_path = arguments->script_path,
@@ -71,8 +77,10 @@ int window_run(const void *data, int (*front)(const front_job *job)) {
                                  .width = arguments->view.size.width_px,
                                  .height = arguments->view.size.height_px,
                                  .scale = arguments->scale,
+                                 .lod = &lod_options,
                                  .waits = arguments->script_path && !arguments->timings}};
     if (!window_services_make(&services, &arguments->view, &job.options.services)) return EXIT_FAILED;
+    services.whole = arguments->lod.options.error == 0;
     const int exit_status = front(&job);
     window_services_free(&services);
     return exit_status;
@@ -103,6 +111,7 @@ static int run(const void *data) {
     return headless ? window_run(data, front_script_run) : start_window(&arguments->view.common);
 }
 
+static const option_group lod_options = OPTION_GROUP("Octrees", lod_table);
 static const option_group window_options = OPTION_GROUP("Window", window_table);
 const cli_command view_command = {
     .name = "view",
@@ -119,7 +128,8 @@ const cli_command view_command = {
                 "ewa view scan.ply volume.nrrd --view iso\n"
                 "ewa view scan.ply --script session.txt --timings\n",
     .high_operands = VIEWER_MAX_ITEMS,
-    .groups = (const option_group *const[]){&window_options, &cloud_input_options, &view_options, NULL},
+    .groups = (const option_group *const[]){&window_options, &cloud_input_options, &view_options,
+                                            &lod_options, NULL},
     .arguments_bytes = sizeof(window_arguments),
     .set_defaults = set_defaults,
     .check = check,

@@ -6,6 +6,7 @@
 #include "color_by.h"
 #include "framing.h"
 #include "inputs.h"
+#include "lod_input.h"
 #include "resident.h"
 #include "volume_scene.h"
 
@@ -38,6 +39,7 @@ static void free_content(viewer_content *content) {
     ewa_voxels_destroy(&content->voxels);
     ewa_cloud_destroy(&content->cloud);
     ewa_cloud_destroy(&content->outline);
+    ewa_lod_close(&content->lod);
     ewa_context_destroy(&file->session.context);
     free(file);
 }
@@ -183,13 +185,52 @@ static bool load_points(const window_services *own, cli_session *session, const 
            resident_make(session, &options, &content->cloud, &content->surfels, &report);
 }
 
+/// What an octree says while it is drawn, on whichever thread: nobody waits for it.
+static void octree_message(void *user, ewa_severity severity, const char *text) {
+    const file_session *file = user;
+    (void)severity;
+    if (!file->session.quiet) fprintf(stderr, "ewa: %s\n", text);
+}
+
+static bool octree_progress(void *user, const char *stage, double fraction) {
+    (void)user, (void)stage, (void)fraction;
+    return true;
+}
+
+/// Opens an octree that is drawn from its levels: one that has surfels for them, or a large one. `*done` is false
+/// after reporting. Returns whether it is one.
+static bool load_octree(const window_services *own, file_session *file, const char *path,
+                        viewer_content *content, bool *done) {
+    cli_session *session = &file->session;
+    *done = true;
+    if (own->whole || session->filter || session->load.columns || !ewa_lod_probe(session->context, path))
+        return false;
+    ewa_lod *lod = lod_input_open(session, path);
+    *done = lod != NULL;
+    if (!lod) return true;
+    ewa_lod_info info;
+    ewa_lod_describe(lod, &info);
+    if (!info.merged && info.point_count <= LOD_WHOLE_POINTS) {
+        ewa_lod_close(&lod);
+        return false;
+    }
+    content->lod = lod;
+    content->outline = lod_input_sample(session, lod, path);
+    *done = content->outline != NULL;
+    if (*done) file->listener = (session_listener){file, octree_message, octree_progress};
+    return true;
+}
+
 static bool load(void *user, const char *path, const viewer_news *news, viewer_content *content) {
     const window_services *own = user;
     file_session *file = make_session(own, news, own->thread_count, own->quiet, content);
     if (!file) return false;
     file->session.subject = path;
-    const bool done = volume_input_is_named(path) ? load_volume(&file->session, path, content)
-                                                  : load_points(own, &file->session, path, news, content);
+    bool done = true;
+    if (volume_input_is_named(path))
+        done = load_volume(&file->session, path, content);
+    else if (!load_octree(own, file, path, content, &done))
+        done = load_points(own, &file->session, path, news, content);
     file->session.subject = NULL;
     return done;
 }
@@ -337,7 +378,7 @@ static bool place(void *user, size_t count, const viewer_content *const *content
     cli_session *session = &own->session;
     session->reported = false;
     view_arguments arguments = place_arguments(own, count, paths, view, camera);
-    if (count == 1 && contents[0]->outline && !arguments.up.count) { // scanners' volumes stand on z
+    if (count == 1 && contents[0]->voxels && !arguments.up.count) { // scanners' volumes stand on z
         arguments.up_axis = 2;
         if (arguments.view < 0 && !view_is_placed(&arguments)) arguments.view = VIEW_ISO;
     }

@@ -66,6 +66,8 @@ struct viewer {
     viewer_settings settings;
     ewa_render_options render;
     ewa_furniture_options furniture;
+    ewa_lod_options lod;
+    pthread_mutex_t *lods_lock; ///< held while an octree is used
     char title[VIEWER_NAME_BYTES];
 
     double width, height, scale; ///< of the window: points, pixels per point
@@ -96,9 +98,11 @@ struct viewer {
 
     uint64_t revision, posted; ///< of what is to be drawn; the last one handed to the painter
     bool posted_whole;
+    uint64_t refined; ///< the last picture that was drawn again for the cubes that had come
     uint32_t reduction, slow_count, fast_count;      ///< of moving pictures: see adapt()
     uint64_t adapted;                                ///< the last picture that was looked at for it
     uint64_t marks, composed_marks, composed_ticket; ///< of what is drawn over the picture
+    uint64_t composed_drawn;                         ///< which picture it was drawn over
     uint8_t *composed;
     size_t composed_bytes;
     uint64_t number; ///< of composed pictures

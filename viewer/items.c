@@ -91,6 +91,10 @@ bool items_close(viewer *v, size_t index) {
 
 void items_recolor(viewer *v, size_t index) {
     scene_item *item = &v->items[index];
+    if (item->loaded && item->content.lod) {
+        viewer_tell(v, "%s: an octree has the colours of its points", item->name);
+        item->wish = item->coloring;
+    }
     if (!item->loaded || !item->content.cloud) return;
     if (!loader_color(v->loader, item->id, &item->content, &item->wish))
         viewer_tell(v, "%s: out of memory", item->name);
@@ -111,6 +115,11 @@ bool items_bounds(const viewer *v, double low_world[3], double high_world[3]) {
             ewa_voxels_info info;
             ewa_voxels_describe(item->content.voxels, &info);
             bounds = info.bounds;
+        } else if (item->content.lod) {
+            ewa_lod_info info;
+            ewa_lod_describe(item->content.lod, &info);
+            bounds = info.bounds;
+            bounds.finite_count = info.point_count;
         }
         if (!bounds.finite_count || !(bounds.low_world[0] <= bounds.high_world[0])) continue;
         for (int c = 0; c < 3; c++) {
@@ -233,6 +242,7 @@ void items_gather(const viewer *v, paint_scene *scene) {
             if (item->content.as_points && scene->render.point_size_px == 0)
                 scene->render.point_size_px = PREVIEW_POINT_PX;
         }
+        if (item->content.lod) scene->lods[scene->lods_count++] = item->content.lod;
         const ewa_voxels *voxels = item->content.voxels;
         if (!voxels) continue;
         uint32_t at = scene->voxels_count++;
@@ -255,6 +265,11 @@ bool viewer_item_get(const viewer *v, size_t index, viewer_item *item) {
                           .coloring = from->coloring};
     memcpy(item->name, from->name, sizeof item->name);
     if (from->content.cloud) item->count = ewa_cloud_point_count(from->content.cloud);
+    if (from->content.lod) {
+        ewa_lod_info info;
+        ewa_lod_describe(from->content.lod, &info);
+        item->count = info.point_count;
+    }
     if (from->content.voxels) {
         ewa_voxels_info info;
         ewa_voxels_describe(from->content.voxels, &info);

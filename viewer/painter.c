@@ -3,8 +3,8 @@
 //
 // The thread that draws.
 #include "painter.h"
+#include "surfaces.h"
 
-#include <pthread.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,6 +24,7 @@ struct painter {
     uint64_t next_ticket;
     paint_scene next, now; ///< `now` is the thread's own while it draws
     paint_result results[3];
+    uint64_t drawn_count;
     int drawing, newest, shown; ///< indices of `results`; newest -1: none yet
     ewa_status failure;
     char failure_text[PAINT_TEXT_BYTES], told[PAINT_TEXT_BYTES]; ///< `told` is the caller's
@@ -66,6 +67,7 @@ void paint_tools_free(paint_tools *tools) {
     free(tools->rgba[0]);
     free(tools->rgba[1]);
     free(tools->depth);
+    surfaces_free(tools);
     ewa_context_destroy(&tools->context);
     *tools = (paint_tools){.context = NULL};
 }
@@ -83,14 +85,6 @@ static ewa_status reserve(paint_tools *tools, const ewa_camera *camera) {
     return done ? EWA_OK : EWA_ERROR_MEMORY;
 }
 
-static ewa_status draw_surfels(paint_tools *tools, const paint_scene *scene, const ewa_frame *frame,
-                               ewa_render_stats *stats) {
-    ewa_status status = ewa_render_begin(tools->renderer, &scene->camera, &scene->render, frame);
-    for (uint32_t i = 0; i < scene->surfels_count && status == EWA_OK; i++)
-        status = ewa_render_add(tools->renderer, scene->surfels[i]);
-    return status == EWA_OK ? ewa_render_finish(tools->renderer, stats) : status;
-}
-
 /// The finest level that voxels have and that is wanted.
 static uint32_t voxels_level(const paint_scene *scene, const ewa_voxels *voxels) {
     ewa_voxels_info info;
@@ -99,12 +93,12 @@ static uint32_t voxels_level(const paint_scene *scene, const ewa_voxels *voxels)
 }
 
 ewa_status paint_scene_draw(paint_tools *tools, const paint_scene *scene, uint8_t *rgba8,
-                            ewa_render_stats *stats) {
-    if (!scene->voxels_count) return draw_surfels(tools, scene, &(ewa_frame){.rgba8 = rgba8}, stats);
+                            paint_stats *stats) {
+    if (!scene->voxels_count) return surfaces_draw(tools, scene, &(ewa_frame){.rgba8 = rgba8}, stats);
     ewa_status status = reserve(tools, &scene->camera);
     if (status == EWA_OK)
         status =
-            draw_surfels(tools, scene, &(ewa_frame){.rgba = tools->rgba[0], .depth = tools->depth}, stats);
+            surfaces_draw(tools, scene, &(ewa_frame){.rgba = tools->rgba[0], .depth = tools->depth}, stats);
     for (uint32_t i = 0; i < scene->voxels_count && status == EWA_OK; i++) {
         const bool last = i + 1 == scene->voxels_count;
         ewa_volume_options options = scene->volume;
@@ -120,7 +114,7 @@ ewa_status paint_scene_draw(paint_tools *tools, const paint_scene *scene, uint8_
 }
 
 ewa_status paint_scene_depth(paint_tools *tools, const paint_scene *scene, float *depth) {
-    ewa_status status = draw_surfels(tools, scene, &(ewa_frame){.depth = depth}, NULL);
+    ewa_status status = surfaces_draw(tools, scene, &(ewa_frame){.depth = depth}, NULL);
     if (scene->voxels_count && status == EWA_OK) status = reserve(tools, &scene->camera);
     const size_t count = (size_t)scene->camera.width_px * scene->camera.height_px;
     for (uint32_t i = 0; i < scene->voxels_count && status == EWA_OK; i++) {
@@ -144,13 +138,14 @@ static ewa_status draw_now(painter *p, paint_result *result) {
         result->capacity_bytes = result->rgba8 ? wanted : 0;
         if (!result->rgba8) return EWA_ERROR_MEMORY;
     }
-    ewa_render_stats stats = {.level = 0};
+    paint_stats stats = {.missing_count = 0};
     const ewa_status status = paint_scene_draw(&p->tools, &p->now, result->rgba8, &stats);
     result->width_px = camera->width_px;
     result->height_px = camera->height_px;
-    result->level = stats.level;
-    result->splat_count = stats.splat_count;
-    result->drawn_s = stats.total_s;
+    result->level = stats.render.level;
+    result->splat_count = stats.render.splat_count;
+    result->drawn_s = stats.render.total_s;
+    result->to_refine = stats.missing_count && stats.loaded_count;
     return status;
 }
 
@@ -177,7 +172,9 @@ static void *run(void *data) {
         p->draws = false;
         if (status == EWA_OK) {
             result->ticket = ticket;
-            result->whole = p->whole || (!p->now.reduced && !result->level && !p->now.voxels_level);
+            result->drawn_count = ++p->drawn_count;
+            const bool full = !p->now.reduced && !result->level && !p->now.voxels_level && !p->now.coarse;
+            result->whole = (p->whole || full) && !result->to_refine;
             result->camera = p->now.camera;
             p->newest = p->drawing;
         }

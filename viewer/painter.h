@@ -7,32 +7,53 @@
 
 #include "viewer.h"
 
+#include <pthread.h>
+
 enum { PAINT_TEXT_BYTES = 512 };
 
 /// What a picture shows. What it points to is borrowed until the painter is at rest.
 typedef struct paint_scene {
     ewa_camera camera;
     ewa_render_options render;
-    uint32_t surfels_count, voxels_count;
+    uint32_t surfels_count, voxels_count, lods_count;
     const ewa_surfels *surfels[VIEWER_MAX_ITEMS];
     const ewa_voxels *voxels[VIEWER_MAX_ITEMS]; ///< the farthest first
+    ewa_lod *lods[VIEWER_MAX_ITEMS];
+    ewa_lod_options lod_options;
+    pthread_mutex_t *lods_lock; ///< held while one of them is used
+    bool coarse;                ///< octrees are drawn coarser than they are to be in the end
     ewa_volume_options volume;
     uint32_t voxels_level; ///< of volumes
     bool reduced;          ///< the picture is smaller than the window's
 } paint_scene;
+
+/// What drawing took.
+typedef struct paint_stats {
+    ewa_render_stats render;
+    uint32_t missing_count, loaded_count; ///< cubes of octrees that were not there, and that were read
+} paint_stats;
 
 /// A picture that was drawn.
 typedef struct paint_result {
     uint8_t *rgba8;
     size_t capacity_bytes;
     uint32_t width_px, height_px;
-    uint64_t ticket; ///< of its scene
-    bool whole;      ///< at full size with all there is
+    uint64_t ticket;      ///< of its scene
+    uint64_t drawn_count; ///< pictures that were drawn, this one included
+    bool whole;           ///< at full size with all there is
     ewa_camera camera;
     uint32_t level;
     double drawn_s;
     uint64_t splat_count;
+    bool
+        to_refine; ///< cubes of octrees are missing, and some were read: the same scene gets better when drawn again
 } paint_result;
+
+/// Surfaces that are put together with others.
+typedef struct paint_layer {
+    float *rgba, *depth;
+    size_t capacity_px;
+} paint_layer;
 
 /// What draws, of one thread.
 typedef struct paint_tools {
@@ -41,6 +62,7 @@ typedef struct paint_tools {
     ewa_volume_renderer *volume_renderer;
     float *rgba[2], *depth;
     size_t capacity_px;
+    paint_layer layers[2];
     char message[PAINT_TEXT_BYTES]; ///< the last error's
 } paint_tools;
 
@@ -49,8 +71,7 @@ ewa_status paint_tools_make(uint32_t thread_count, uint32_t cpu_mask, ewa_progre
 void paint_tools_free(paint_tools *tools);
 /// Draws a scene here and now into the camera's picture; volumes over the surfaces, each up to their depth.
 /// `stats` may be NULL.
-ewa_status paint_scene_draw(paint_tools *tools, const paint_scene *scene, uint8_t *rgba8,
-                            ewa_render_stats *stats);
+ewa_status paint_scene_draw(paint_tools *tools, const paint_scene *scene, uint8_t *rgba8, paint_stats *stats);
 /// The depths (camera-space z) of what is seen, volumes included; +infinity where nothing is.
 ewa_status paint_scene_depth(paint_tools *tools, const paint_scene *scene, float *depth);
 

@@ -32,6 +32,10 @@ static double nearest_depth(viewer *v, double x_px, double y_px, int reach_px, b
         count += info.point_count;
     }
     scene.render.level = coarse && count > MANY_SPLATS ? 2 : 0;
+    if (scene.lods_count && !v->waits) { // what draws them goes on afterwards
+        painter_hurry(v->painter);
+        v->posted_whole = false;
+    }
     scene.render.shading = EWA_SHADING_NONE;
     scene.render.eye_dome = 0;
     scene.camera.cx_px -= middle_x - reach_px, scene.camera.cy_px -= middle_y - reach_px;
@@ -83,35 +87,73 @@ static double reach_of(const viewer *v, const double place_world[3]) {
     return fmax(POINT_REACH * v->scale * per_px / scale, POINT_SHARE * v->reach_world);
 }
 
-/// The point that is nearest to a place; false: there is none about there.
-static bool find_point(const viewer *v, const double place_world[3], viewer_pick *pick) {
+/// What a place is compared with.
+typedef struct search {
+    const ewa_render_options *render; ///< whose sections cut
+    const double *place_world;
+    double best; ///< square of the distance of what was found, or within which to look
+} search;
+
+/// The point of a cloud that is nearest to a place, and nearer than what was found; false: there is none.
+static bool find_in_cloud(search *s, const ewa_cloud *cloud, viewer_pick *pick) {
+    const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    double origin[3], block[BLOCK][3];
+    bool found = false;
+    ewa_cloud_origin(cloud, origin);
+    for (uint64_t first = 0; first < count; first += BLOCK) {
+        const uint64_t in_block = count - first < BLOCK ? count - first : BLOCK;
+        ewa_attribute_read_f64(position, first, in_block, &block[0][0]);
+        for (uint64_t k = 0; k < in_block; k++) {
+            double p[3], away = 0;
+            for (int c = 0; c < 3; c++) {
+                p[c] = block[k][c] + origin[c];
+                away += (p[c] - s->place_world[c]) * (p[c] - s->place_world[c]);
+            }
+            if (!(away < s->best) || !is_kept(s->render, p)) continue;
+            s->best = away;
+            found = true;
+            pick->given = true;
+            pick->point = first + k;
+            memcpy(pick->place_world, p, sizeof p);
+        }
+    }
+    return found;
+}
+
+/// Reads the points of an octree about a place; NULL: it cannot.
+static ewa_cloud *read_about(const viewer *v, ewa_lod *lod, const double place_world[3], double reach) {
+    double low[3], high[3];
+    for (int c = 0; c < 3; c++) low[c] = place_world[c] - reach, high[c] = place_world[c] + reach;
+    ewa_cloud *cloud = NULL;
+    pthread_mutex_lock(v->lods_lock);
+    ewa_lod_read(lod, low, high, 0, &cloud);
+    pthread_mutex_unlock(v->lods_lock);
+    return cloud;
+}
+
+/// The point that is nearest to a place; false: there is none about there. `*read` gets the points of the octree
+/// that it belongs to, the caller's; NULL: it is of a cloud.
+static bool find_point(const viewer *v, const double place_world[3], viewer_pick *pick, ewa_cloud **read) {
     paint_scene scene;
     viewer_scene(v, &scene);
     const double reach = reach_of(v, place_world);
-    double best = reach * reach, block[BLOCK][3];
+    search s = {&scene.render, place_world, reach * reach};
     bool found = false;
+    *read = NULL;
     for (size_t i = 0; i < v->item_count; i++) {
         const scene_item *item = &v->items[i];
-        if (!item->visible || !item->loaded || !item->content.cloud) continue;
-        const ewa_attribute *position = ewa_cloud_find(item->content.cloud, EWA_POSITION);
-        const uint64_t count = ewa_cloud_point_count(item->content.cloud);
-        double origin[3];
-        ewa_cloud_origin(item->content.cloud, origin);
-        for (uint64_t first = 0; first < count; first += BLOCK) {
-            const uint64_t in_block = count - first < BLOCK ? count - first : BLOCK;
-            ewa_attribute_read_f64(position, first, in_block, &block[0][0]);
-            for (uint64_t k = 0; k < in_block; k++) {
-                double p[3], away = 0;
-                for (int c = 0; c < 3; c++) {
-                    p[c] = block[k][c] + origin[c];
-                    away += (p[c] - place_world[c]) * (p[c] - place_world[c]);
-                }
-                if (!(away < best) || !is_kept(&scene.render, p)) continue;
-                best = away;
-                found = true;
-                *pick = (viewer_pick){true, i, first + k, {p[0], p[1], p[2]}};
-            }
+        if (!item->visible || !item->loaded || (!item->content.cloud && !item->content.lod)) continue;
+        ewa_cloud *about = item->content.lod ? read_about(v, item->content.lod, place_world, reach) : NULL;
+        const ewa_cloud *cloud = about ? about : item->content.cloud;
+        if (!cloud || !find_in_cloud(&s, cloud, pick)) {
+            ewa_cloud_destroy(&about);
+            continue;
         }
+        found = true;
+        pick->item = i;
+        ewa_cloud_destroy(read);
+        *read = about;
     }
     return found;
 }
@@ -137,15 +179,19 @@ static void write_number(char text[40], double number, bool is_float) {
     }
 }
 
-/// Says what a point is: its number, its exact place and everything that the file says of it.
-static void describe(viewer *v, const viewer_pick *pick) {
+/// Says what a point is: its number, its exact place and everything that the file says of it. Points of an octree,
+/// of which `read` holds some, have no numbers.
+static void describe(viewer *v, const viewer_pick *pick, const ewa_cloud *read) {
     const scene_item *item = &v->items[pick->item];
-    const ewa_cloud *cloud = item->content.cloud;
+    const ewa_cloud *cloud = read ? read : item->content.cloud;
     char line[VIEWER_TEXT_BYTES], number[40];
-    snprintf(line, sizeof line, "pick %.200s point %llu at", item->name, (unsigned long long)pick->point);
+    if (read)
+        snprintf(number, sizeof number, "point");
+    else
+        snprintf(number, sizeof number, "point %llu", (unsigned long long)pick->point);
+    snprintf(line, sizeof line, "pick %.200s %s at", item->name, number);
     char *shown = v->state.picked;
-    snprintf(shown, VIEWER_TEXT_BYTES, "point %llu of %.200s\nat", (unsigned long long)pick->point,
-             item->name);
+    snprintf(shown, VIEWER_TEXT_BYTES, "%s of %.200s\nat", number, item->name);
     const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
     double origin[3];
     ewa_cloud_origin(cloud, origin);
@@ -200,14 +246,16 @@ bool pick_point(viewer *v, double x, double y, bool second) {
     viewer_pick pick;
     double place_world[3];
     if (!find_surface(v, x, y, 4, false, place_world)) return false;
-    if (!find_point(v, place_world, &pick)) { // a volume: the place itself
+    ewa_cloud *read = NULL;
+    if (!find_point(v, place_world, &pick, &read)) { // a volume: the place itself
         snprintf(v->state.picked, sizeof v->state.picked, "at %.9g %.9g %.9g", place_world[0], place_world[1],
                  place_world[2]);
         viewer_say(v, "pick place at %.9g %.9g %.9g", place_world[0], place_world[1], place_world[2]);
         pick = (viewer_pick){true, SIZE_MAX, 0, {place_world[0], place_world[1], place_world[2]}};
     } else {
-        describe(v, &pick);
+        describe(v, &pick, read);
     }
+    ewa_cloud_destroy(&read);
     second = second && v->picks[0].given;
     v->picks[second ? 1 : 0] = pick;
     if (second)

@@ -25,7 +25,7 @@ const ewa_option_table viewer_settings_table = {
     "viewer_settings", own_table, sizeof own_table / sizeof own_table[0], sizeof(viewer_settings)};
 
 /// What a panel shows, of which struct.
-typedef enum setting_owner { OWN, RENDER, FURNITURE } setting_owner;
+typedef enum setting_owner { OWN, RENDER, FURNITURE, LOD } setting_owner;
 
 static const struct {
     const char *group;
@@ -46,6 +46,8 @@ static const struct {
     {"Splats", RENDER, "layers"},
     {"Splats", RENDER, "tolerance"},
     {"Splats", RENDER, "passes"},
+    {"Octrees", LOD, "spacing_px"},
+    {"Octrees", LOD, "error"},
     {"Furniture", FURNITURE, "axes"},
     {"Furniture", FURNITURE, "scale_bar"},
     {"Furniture", FURNITURE, "color_bar"},
@@ -55,11 +57,12 @@ static const struct {
 };
 
 static const ewa_option_table *const tables[] = {&viewer_settings_table, &ewa_render_options_table,
-                                                 &ewa_furniture_options_table};
+                                                 &ewa_furniture_options_table, &ewa_lod_options_table};
 
 /// The struct that an owner's options are in.
 static void *place_of(viewer *v, setting_owner owner) {
-    return owner == OWN ? (void *)&v->settings : owner == RENDER ? (void *)&v->render : (void *)&v->furniture;
+    void *const places[] = {&v->settings, &v->render, &v->furniture, &v->lod};
+    return places[owner];
 }
 
 void settings_init(viewer *v) {
@@ -68,6 +71,7 @@ void settings_init(viewer *v) {
     ewa_render_options_init(&v->render, sizeof v->render);
     for (int c = 0; c < 4; c++) v->render.background[c] = 1; // as `ewa render`
     ewa_furniture_options_init(&v->furniture, sizeof v->furniture);
+    ewa_lod_options_init(&v->lod, sizeof v->lod);
 }
 
 const ewa_option *viewer_setting_at(const viewer *v, uint32_t index, const char **group) {
@@ -79,10 +83,10 @@ const ewa_option *viewer_setting_at(const viewer *v, uint32_t index, const char 
 
 /// Finds a setting of any of the structs; a setting of the renderer that the viewer chooses itself is none.
 static const ewa_option *find(const char *name, setting_owner *owner) {
-    static const char *const own_choice[] = {"level", "budget_s"};
+    static const char *const own_choice[] = {"level", "budget_s", "load_s"};
     for (size_t i = 0; i < sizeof own_choice / sizeof own_choice[0]; i++)
         if (strcmp(name, own_choice[i]) == 0) return NULL;
-    for (int k = OWN; k <= FURNITURE; k++) {
+    for (int k = OWN; k <= LOD; k++) {
         const ewa_option *option = ewa_option_find(tables[k], name);
         *owner = (setting_owner)k;
         if (option) return option;

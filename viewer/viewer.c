@@ -23,6 +23,10 @@ static const double LARGE_PX = 2e6;
 /// that would take so much of it.
 static const double TOO_SLOW = 1.4, MUCH_FASTER = 0.7;
 enum { SLOW_PICTURES = 2, FAST_PICTURES = 8, MOST_REDUCTION = 4 };
+/// Time for reading the cubes of octrees, of each picture while they get finer.
+static const double REFINE_S = 0.15;
+/// How much coarser octrees are while something moves, and at most.
+static const double COARSER = 2, MOST_SPACING_PX = 64;
 /// When to ask again, while something is under way and when nothing is.
 static const double SOON_S = 0.002, LATER_S = 0.1;
 /// Beside the ticket of a composed picture: it was whole.
@@ -71,6 +75,7 @@ ewa_status viewer_create(const viewer_options *options, viewer **made) {
     v->waits = options->waits;
     v->width = options->width, v->height = options->height, v->scale = options->scale;
     settings_init(v);
+    if (options->lod) v->lod = *options->lod;
     ewa_camera_init(&v->camera);
     if (options->camera) {
         v->camera = *options->camera;
@@ -82,7 +87,9 @@ ewa_status viewer_create(const viewer_options *options, viewer **made) {
     navigate_resize(&v->camera, pixels(v->width, v->scale), pixels(v->height, v->scale));
     v->revision = v->reduction = 1;
     v->state.panels = true;
-    ewa_status status = loader_create(&v->services, &v->loader);
+    v->lods_lock = malloc(sizeof *v->lods_lock);
+    if (v->lods_lock) pthread_mutex_init(v->lods_lock, NULL);
+    ewa_status status = v->lods_lock ? loader_create(&v->services, &v->loader) : EWA_ERROR_MEMORY;
     if (status == EWA_OK) status = painter_create(options->thread_count, options->cpu_mask, &v->painter);
     if (status == EWA_OK)
         status = paint_tools_make(options->thread_count, options->cpu_mask, NULL, NULL, &v->probe);
@@ -101,6 +108,8 @@ void viewer_destroy(viewer **made) {
         viewer_content_free(&v->items[i].content);
     }
     paint_tools_free(&v->probe);
+    if (v->lods_lock) pthread_mutex_destroy(v->lods_lock);
+    free(v->lods_lock);
     free(v->composed);
     free(v);
     *made = NULL;
@@ -179,7 +188,9 @@ void viewer_handle(viewer *v, const viewer_event *event) {
 }
 
 void viewer_scene(const viewer *v, paint_scene *scene) {
-    *scene = (paint_scene){.camera = v->camera, .render = v->render};
+    *scene = (paint_scene){.camera = v->camera, .render = v->render, .lod_options = v->lod};
+    scene->lods_lock = v->lods_lock;
+    scene->lod_options.load_s = v->waits ? 0 : REFINE_S;
     ewa_volume_options_init(&scene->volume, sizeof scene->volume);
     memcpy(scene->volume.background, v->render.background, sizeof scene->volume.background);
     scene->volume.density_scale = v->settings.volume_density;
@@ -211,6 +222,11 @@ static void adapt(viewer *v, const paint_result *newest) {
 static void make_quick(const viewer *v, paint_scene *scene) {
     scene->render.budget_s = 1e-3 * v->settings.budget_ms;
     scene->voxels_level = 1;
+    if (scene->lods_count) {
+        scene->coarse = true;
+        scene->lod_options.load_s = 0.5 * scene->render.budget_s;
+        scene->lod_options.spacing_px = fmin(COARSER * scene->lod_options.spacing_px, MOST_SPACING_PX);
+    }
     const uint32_t least = least_reduction(v), divisor = v->reduction > least ? v->reduction : least;
     if (!v->settings.reduce || divisor == 1) return;
     scene->reduced = true;
@@ -248,13 +264,19 @@ static void schedule(viewer *v, const paint_result *newest) {
         return;
     }
     if (newest && newest->ticket == v->posted && newest->whole) v->posted_whole = true;
+    if (v->posted_whole && newest && newest->ticket == v->posted && newest->to_refine &&
+        newest->drawn_count != v->refined && !painter_is_busy(v->painter)) {
+        v->refined = newest->drawn_count;
+        v->posted_whole = false; // once more, with the cubes that have come
+    }
     if (!v->posted_whole && !is_moving(v) && !painter_is_busy(v->painter)) post(v, true);
 }
 
 /// Puts marks and furniture over the newest picture.
 static void compose(viewer *v, const paint_result *newest) {
     const uint64_t ticket = newest->ticket | (newest->whole ? WHOLE : 0);
-    if (v->number && ticket == v->composed_ticket && v->marks == v->composed_marks) return;
+    const bool same = ticket == v->composed_ticket && newest->drawn_count == v->composed_drawn;
+    if (v->number && same && v->marks == v->composed_marks) return;
     const size_t wanted = 4 * (size_t)newest->width_px * newest->height_px;
     if (wanted > v->composed_bytes) {
         uint8_t *larger = realloc(v->composed, wanted);
@@ -265,6 +287,7 @@ static void compose(viewer *v, const paint_result *newest) {
     memcpy(v->composed, newest->rgba8, wanted);
     overlay_draw(v, &newest->camera, v->composed);
     v->composed_ticket = ticket;
+    v->composed_drawn = newest->drawn_count;
     v->composed_marks = v->marks;
     v->number++;
 }

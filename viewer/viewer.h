@@ -24,16 +24,18 @@ enum {
 
 typedef struct viewer viewer;
 
-/// What a file gave. A cloud comes with its surfels, a volume with its voxels; all belong to `context`.
+/// What a file gave. A cloud comes with its surfels, a volume with its voxels, an octree alone; all belong to
+/// `context`, whose messages and progress must be for any thread where there is an octree.
 typedef struct viewer_content {
     ewa_context *context;
-    ewa_cloud *cloud;                             ///< NULL: a volume
-    ewa_surfels *surfels;                         ///< of the cloud, with levels
-    ewa_voxels *voxels;                           ///< NULL: a cloud
-    ewa_cloud *outline;                           ///< of a volume: points where something can be seen
-    bool mesh;                                    ///< the cloud was sampled from faces
-    bool as_points;                               ///< of a preview: its surfels have no size of their own
-    void *keeper;                                 ///< the loader's own
+    ewa_cloud *cloud;     ///< NULL: a volume
+    ewa_surfels *surfels; ///< of the cloud, with levels
+    ewa_voxels *voxels;   ///< NULL: a cloud
+    ewa_lod *lod;         ///< an octree, drawn from its levels, in place of a cloud and surfels; NULL: none
+    ewa_cloud *outline;   ///< of a volume or an octree: points where something can be seen
+    bool mesh;            ///< the cloud was sampled from faces
+    bool as_points;       ///< of a preview: its surfels have no size of their own
+    void *keeper;         ///< the loader's own
     void (*free)(struct viewer_content *content); ///< frees all of it
 } viewer_content;
 
@@ -97,12 +99,13 @@ typedef struct viewer_services {
 /// How a viewer is made.
 typedef struct viewer_options {
     viewer_services services;
-    uint32_t thread_count;    ///< that draw; 0: one per processor
-    uint32_t cpu_mask;        ///< EWA_CPU_*
-    uint32_t width, height;   ///< of the window, points
-    double scale;             ///< pixels per point, > 0
-    bool waits;               ///< drawing and loading are waited for: no picture depends on time (scripts)
-    const ewa_camera *camera; ///< the first look; NULL: as the program frames it
+    uint32_t thread_count;      ///< that draw; 0: one per processor
+    uint32_t cpu_mask;          ///< EWA_CPU_*
+    uint32_t width, height;     ///< of the window, points
+    double scale;               ///< pixels per point, > 0
+    const ewa_lod_options *lod; ///< of octrees, copied; NULL: defaults
+    bool waits;                 ///< drawing and loading are waited for: no picture depends on time (scripts)
+    const ewa_camera *camera;   ///< the first look; NULL: as the program frames it
 } viewer_options;
 
 /// Makes a viewer of nothing. The caller destroys it. Errors: EWA_ERROR_MEMORY, EWA_ERROR_ARGUMENT.

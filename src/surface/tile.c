@@ -235,11 +235,6 @@ static void accumulate(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_s
     }
 }
 
-void ewa_tile_close_pixels(float *nearest, uint32_t block_count, float from, float to) {
-    for (size_t i = 0; i < (size_t)block_count * EWA_BLOCK_LANES; i++)
-        if (nearest[i] == from) nearest[i] = to;
-}
-
 void ewa_tile_draw(void *data, uint32_t number, uint32_t worker) {
     const ewa_tile_job *job = data;
     const uint32_t index = job->first_tile + number;

@@ -120,10 +120,6 @@ typedef struct ewa_tile_job {
 ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *scratch, const ewa_tile_job *job);
 void ewa_tile_scratch_free(ewa_context *context, ewa_tile_scratch *scratch);
 
-/// Replaces the depth `from` by `to` in so many blocks of a plane like ewa_tile.nearest. Where no source that hides
-/// has a surface (-infinity), nothing is to be summed: that is so while the depth is infinite.
-void ewa_tile_close_pixels(float *nearest, uint32_t block_count, float from, float to);
-
 /// Gathers the surfaces behind the first one where it covers pixels partly, hidden packets included; `kept`
 /// when all runs of those that are shown are kept. Returns whether there are such pixels; scratch->edge_rows
 /// marks them.

@@ -148,6 +148,11 @@ void ewa_tile_walk_again(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile
     }
 }
 
+void ewa_tile_close_pixels(float *nearest, uint32_t block_count, float from, float to) {
+    for (size_t i = 0; i < (size_t)block_count * EWA_BLOCK_LANES; i++)
+        if (nearest[i] == from) nearest[i] = to;
+}
+
 void ewa_tile_drop_runs(ewa_tile_scratch *s) { s->kept_count = s->near_count = s->boxes[0].count = 0; }
 
 uint64_t ewa_tile_keep_runs(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,

@@ -19,6 +19,10 @@ static inline bool ewa_takes_part(const ewa_tile_source *source, ewa_tile_pass w
 /// Forgets the runs that are kept.
 void ewa_tile_drop_runs(ewa_tile_scratch *scratch);
 
+/// Replaces the depth `from` by `to` in so many blocks of a plane like ewa_tile.nearest. Where no source that hides
+/// has a surface (-infinity), nothing is to be summed: that is so while the depth is infinite.
+void ewa_tile_close_pixels(float *nearest, uint32_t block_count, float from, float to);
+
 /// Sets up runs [first, end) and keeps them behind those that are kept, as many as there is room for; with
 /// `draw`, for the first pass. Returns where it stopped.
 uint64_t ewa_tile_keep_runs(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *scratch,

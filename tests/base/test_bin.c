@@ -30,9 +30,7 @@ static uint32_t find(const void *data, uint32_t worker, uint32_t first, uint32_t
     return next - first;
 }
 
-static void hold(ewa_context *context, ewa_bin_lists *lists, const scene *s, uint32_t columns,
-                 uint32_t rows) {
-    assert_int_equal(ewa_bin_lists_fill(context, lists, columns, rows, s->count, find, s), EWA_OK);
+static void hold_lists(const ewa_bin_lists *lists, const scene *s, uint32_t columns, uint32_t rows) {
     uint64_t at = 0, largest = 0, kept = 0;
     for (uint32_t i = 0; i < s->count; i++) kept += s->left[i] < s->right[i] && s->top[i] < s->bottom[i];
     for (uint32_t bin = 0; bin < columns * rows; bin++) {
@@ -49,6 +47,22 @@ static void hold(ewa_context *context, ewa_bin_lists *lists, const scene *s, uin
     assert_int_equal(lists->item_count, kept);
 }
 
+static void hold(ewa_context *context, ewa_bin_lists *lists, const scene *s, uint32_t columns,
+                 uint32_t rows) {
+    assert_int_equal(ewa_bin_lists_fill(context, lists, columns, rows, s->count, find, s), EWA_OK);
+    hold_lists(lists, s, columns, rows);
+}
+
+static void make_rectangles(check_random *random, uint32_t count, uint32_t columns, uint32_t rows, scene *s) {
+    s->count = count;
+    for (uint32_t i = 0; i < count; i++) {
+        s->left[i] = (uint32_t)check_random_u64(random) % columns;
+        s->top[i] = (uint32_t)check_random_u64(random) % rows;
+        s->right[i] = s->left[i] + (uint32_t)check_random_u64(random) % (columns - s->left[i] + 1);
+        s->bottom[i] = s->top[i] + (uint32_t)check_random_u64(random) % (rows - s->top[i] + 1);
+    }
+}
+
 static void test_lists(void **state) {
     (void)state;
     static const uint32_t workers[] = {1, 2, 7}, counts[] = {0, 1, 15, 16, 17, 500, MOST};
@@ -60,18 +74,37 @@ static void test_lists(void **state) {
         ewa_bin_lists lists = {0};
         for (int g = 0; g < 4; g++)
             for (int c = 0; c < 7; c++) {
-                s.count = counts[c];
-                for (uint32_t i = 0; i < s.count; i++) {
-                    s.left[i] = (uint32_t)check_random_u64(&random) % grids[g][0];
-                    s.top[i] = (uint32_t)check_random_u64(&random) % grids[g][1];
-                    s.right[i] =
-                        s.left[i] + (uint32_t)check_random_u64(&random) % (grids[g][0] - s.left[i] + 1);
-                    s.bottom[i] =
-                        s.top[i] + (uint32_t)check_random_u64(&random) % (grids[g][1] - s.top[i] + 1);
-                }
+                make_rectangles(&random, counts[c], grids[g][0], grids[g][1], &s);
                 hold(context, &lists, &s, grids[g][0], grids[g][1]);
             }
         ewa_bin_lists_free(context, &lists);
+        ewa_context_destroy(&context);
+    }
+}
+
+/// Many sets of lists at once, some without candidates: as one after the other.
+static void test_many_lists(void **state) {
+    (void)state;
+    enum { SETS = 9, COLUMNS = 6, ROWS = 4 };
+    static const uint32_t workers[] = {1, 2, 7}, counts[SETS] = {0, 1, 700, 0, 17, 16, MOST, 33, 0};
+    static scene scenes[SETS];
+    for (int w = 0; w < 3; w++) {
+        ewa_context *context = check_context(workers[w], NULL);
+        check_random random = {8};
+        ewa_bin_lists lists[SETS] = {0};
+        ewa_bin_request requests[SETS];
+        ewa_buffer room = {0};
+        for (uint32_t set_count = 0; set_count <= SETS; set_count++) {
+            for (uint32_t i = 0; i < set_count; i++) {
+                make_rectangles(&random, counts[i], COLUMNS, ROWS, &scenes[i]);
+                requests[i] = (ewa_bin_request){&lists[i], counts[i], find, &scenes[i]};
+            }
+            assert_int_equal(ewa_bin_lists_fill_all(context, &room, requests, set_count, COLUMNS, ROWS),
+                             EWA_OK);
+            for (uint32_t i = 0; i < set_count; i++) hold_lists(&lists[i], &scenes[i], COLUMNS, ROWS);
+        }
+        for (uint32_t i = 0; i < SETS; i++) ewa_bin_lists_free(context, &lists[i]);
+        ewa_buffer_free(context, &room);
         ewa_context_destroy(&context);
     }
 }
@@ -97,6 +130,7 @@ static void test_tiles(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_lists), cmocka_unit_test(test_tiles)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_lists), cmocka_unit_test(test_many_lists),
+                                       cmocka_unit_test(test_tiles)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

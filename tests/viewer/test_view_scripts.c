@@ -79,6 +79,8 @@ static int make_files(void **state) {
     cloud = make_survey(context);
     save(cloud, "survey.ply");
     ewa_cloud_destroy(&cloud);
+    static const char *const survey = "survey.ply";
+    assert_int_equal(ewa_lod_build(context, &survey, 1, "survey.copc.laz", NULL, NULL), EWA_OK);
     write_text("cube.obj",
                "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
                "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");

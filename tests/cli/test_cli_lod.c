@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Octrees of points in the program: made, told about, drawn from their levels, cut out of.
+#include "check_pictures.h"
+
+static int enter(void **state) {
+    (void)state;
+    context = check_context(0, NULL);
+    if (scratch_enter("lod") != 0) return 1;
+    run_done("ewa generate torus -n 60000 -o t.ply && ewa lod t.ply -o t.copc.laz");
+    return 0;
+}
+
+/// Whether a file of the scratch folder holds a text.
+static bool holds(const char *name, const char *text) {
+    run("cat %s", name);
+    return strstr(last_run.out, text) != NULL;
+}
+
+static void test_make(void **state) {
+    (void)state;
+    run_done("ewa lod t.ply -o again.copc.laz --threads 1 --memory 64M --stats s.json");
+    assert_true(scratch_same("t.copc.laz", "again.copc.laz"));
+    assert_true(holds("s.json", "\"points\": 60000"));
+    assert_true(holds("s.json", "\"distribute\": "));
+    run_done("ewa convert t.copc.laz -o back.ply");
+    run_done("ewa info --json back.ply");
+    assert_non_null(strstr(last_run.out, "\"points\": 60000"));
+    // Several files, as one that holds the same points.
+    run_done("ewa convert t.ply -o left.ply --crop -9,-9,-9,0,9,9 && "
+             "ewa convert t.ply -o right.ply --filter 'x>0'");
+    run_done("ewa lod left.ply right.ply -o both.copc.laz");
+    run_done("ewa info --json both.copc.laz");
+    assert_non_null(strstr(last_run.out, "\"points\": 60000"));
+    run_fails(2, "lod: no output", "ewa lod t.ply");
+    run_fails(2, "--output: an octree is written to a file", "ewa lod t.ply -o -");
+    run_fails(2, "--output: 'x.ply' is no .copc.laz or .laz file", "ewa lod t.ply -o x.ply");
+    static const char *const wrong[] = {"0/2", "3/2", "1", "1/2x", "a/b", "1/70000"};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
+        run_fails(2, "--subset: not I/N", "ewa lod t.ply -o x.copc.laz --subset %s", wrong[i]);
+    run_fails(2, "--subset and --merge exclude each other",
+              "ewa lod t.ply -o x.copc.laz --subset 1/2 --merge");
+    run_fails(1, "nothing.ply", "ewa lod nothing.ply -o x.copc.laz");
+    assert_int_equal(scratch_size("x.copc.laz"), -1);
+}
+
+static void test_sizes(void **state) {
+    (void)state;
+    static const char *const fine[] = {"64M", "64m", "0.5G", "1GiB", "100MB", "67108864", "1T"};
+    for (size_t i = 0; i < sizeof fine / sizeof fine[0]; i++)
+        run_done("ewa lod t.ply -o x.copc.laz --memory %s", fine[i]);
+    run_fails(2, "--memory: 1K is outside [64M, 1P]", "ewa lod t.ply -o x.copc.laz --memory 1K");
+    static const char *const wrong[] = {"M", "1X", "-64M", "64 M", "64MM", "0x10M", "nan", "inf"};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
+        run_fails(2, "--memory", "ewa lod t.ply -o x.copc.laz --memory='%s'", wrong[i]);
+}
+
+static void test_info(void **state) {
+    (void)state;
+    run_done("ewa info t.copc.laz");
+    assert_non_null(strstr(last_run.out, "octree      COPC 1.0"));
+    assert_non_null(strstr(last_run.out, "stand for the points at its levels"));
+    assert_non_null(strstr(last_run.out, "problems    none"));
+    run_done("ewa info --json t.copc.laz");
+    assert_non_null(strstr(last_run.out, "\"octree\": {"));
+    assert_non_null(strstr(last_run.out, "\"merged\": true"));
+    assert_non_null(strstr(last_run.out, "\"sampled_points\": 0"));
+}
+
+/// Mean square of the differences of two pictures' numbers, in 1/255 of white.
+static double mean_square(const char *a, const char *b) {
+    ewa_image first = load(a), second = load(b);
+    assert_true(first.width_px == second.width_px && first.height_px == second.height_px);
+    double sum = 0;
+    const size_t count = (size_t)first.width_px * first.height_px * first.channel_count;
+    for (size_t i = 0; i < count; i++) {
+        const double off = 255 * ((double)first.pixels[i] - (double)second.pixels[i]);
+        sum += off * off;
+    }
+    ewa_image_free(&first);
+    ewa_image_free(&second);
+    return sum / (double)count;
+}
+
+static void test_render(void **state) {
+    (void)state;
+    // A small octree is drawn as any file; --lod-error 0 asks for that.
+    run_done("ewa render t.copc.laz -o plain.png --size 300x300");
+    run_done("ewa render t.copc.laz -o all.png --size 300x300 --lod-error 0 --memory 1G");
+    assert_true(scratch_same("plain.png", "all.png"));
+    // From its levels it looks the same, whatever the memory and the number of threads.
+    run_done("ewa render t.copc.laz -o levels.png --size 300x300 --memory 1G --lod-spacing 2 --stats s.json");
+    assert_true(mean_square("plain.png", "levels.png") < 25);
+    assert_true(holds("s.json", "\"cubes_drawn\": "));
+    assert_true(holds("s.json", "\"bands\": 1"));
+    run_done("ewa render t.copc.laz -o again.png --size 300x300 --memory 16M --lod-spacing 2 --threads 1");
+    assert_true(scratch_same("levels.png", "again.png"));
+    // Frames share what was read.
+    run_done("ewa render t.copc.laz -o f%%d.png --size 300x300 --lod-spacing 2 --turntable 3 --stats s.json "
+             "--scale-bar");
+    assert_true(scratch_size("f2.png") > 0);
+    assert_true(holds("s.json", "\"frame_count\": 3"));
+    // Planes and sections are there, too.
+    run_done("ewa render t.copc.laz -o cut.png --aov depth=cut.pfm --size 100x100 --lod-spacing 2 "
+             "--clip-plane 1,0,0,0 --edl 0.5");
+    assert_true(scratch_size("cut.pfm") > 0);
+}
+
+static void test_refusals(void **state) {
+    (void)state;
+    run_fails(1, "t.ply: not an octree (COPC, EPT); `ewa lod t.ply -o FILE.copc.laz` makes one",
+              "ewa render t.ply -o x.png --memory 1G");
+    run_fails(1, "are for one octree alone", "ewa render t.copc.laz t.ply -o x.png --lod-spacing 1");
+    run_fails(1, "--filter needs all points", "ewa render t.copc.laz -o x.png --memory 1G --filter 'z>0'");
+    run_fails(1, "--color-by is not there for octrees",
+              "ewa render t.copc.laz -o x.png --lod-spacing 1 --color-by z");
+    run_fails(1, "--radius-scale is not there for octrees",
+              "ewa render t.copc.laz -o x.png --lod-error 5 --radius-scale 2");
+    run_fails(2, "--lod-spacing: 0 is outside (0, 64]", "ewa render t.copc.laz -o x.png --lod-spacing 0");
+    assert_int_equal(scratch_size("x.png"), -1);
+}
+
+/// What a box keeps is the same whether the file is read whole or by nodes.
+static void test_crop(void **state) {
+    (void)state;
+    static const char sorted[] = "--ascii | sort";
+    run_done("ewa convert t.copc.laz -o - --filter 'x=0.2..0.7 and y=0.1..0.6 and z>=0' %s > a.txt", sorted);
+    run_done("ewa convert t.copc.laz -o - --crop 0.2,0.1,0,0.7,0.6,1 %s > b.txt", sorted);
+    assert_true(scratch_size("a.txt") > 1000);
+    assert_true(scratch_same("a.txt", "b.txt"));
+    run_done("ewa convert t.copc.laz -o whole.ply");
+    run_done("ewa convert whole.ply -o - --crop-polygon '0.2,0.2;0.7,0.3;0.5,0.6' --ascii | cut -d' ' -f1-3 "
+             "| sed '1,/end_header/d' | sort > a.txt");
+    run_done("ewa convert t.copc.laz -o - --crop-polygon '0.2,0.2;0.7,0.3;0.5,0.6' --ascii | cut -d' ' -f1-3 "
+             "| sed '1,/end_header/d' | sort > b.txt");
+    assert_true(scratch_size("a.txt") > 1000);
+    assert_true(scratch_same("a.txt", "b.txt"));
+    run_fails(1, "none of the points is left", "ewa convert t.copc.laz -o x.ply --crop 5,5,5,6,6,6");
+}
+
+/// Octrees of more than four million points are drawn from their levels without being asked to.
+static void test_large(void **state) {
+    (void)state;
+    run_done("ewa generate plane -n 4010000 -o big.ply && ewa lod big.ply -o big.copc.laz && rm big.ply");
+    run_done("ewa render big.copc.laz -o big.png --size 200x200 --stats s.json");
+    assert_true(holds("s.json", "\"cubes_drawn\": "));
+    run_done("ewa info --json big.copc.laz");
+    assert_non_null(strstr(last_run.out, "\"points\": 4010000"));
+    assert_null(strstr(last_run.out, "\"sampled_points\": 0"));
+    run_done("ewa render big.copc.laz -o ground.png --size 200x200 --filter 'x<0' --stats s.json");
+    assert_false(holds("s.json", "\"cubes_drawn\": ")); // that takes all points
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_make),   cmocka_unit_test(test_sizes),    cmocka_unit_test(test_info),
+        cmocka_unit_test(test_render), cmocka_unit_test(test_refusals), cmocka_unit_test(test_crop),
+        cmocka_unit_test(test_large),
+    };
+    return cmocka_run_group_tests(tests, enter, leave);
+}
