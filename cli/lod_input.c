@@ -3,7 +3,6 @@
 //
 // Octrees of points as inputs.
 #include "lod_input.h"
-#include "inputs.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -95,17 +94,11 @@ bool lod_input_choose(cli_session *session, const common_arguments *common, cons
 
 ewa_cloud *lod_input_sample(cli_session *session, ewa_lod *lod, const char *path) {
     ewa_cloud *cloud = NULL;
-    double estimate_s = 0;
     session->subject = path;
     const ewa_status status = ewa_lod_sample(lod, LOD_SAMPLE_POINTS, &cloud);
-    if (status != EWA_OK) {
-        session_failed(session, status);
-        return NULL;
-    }
-    if (ewa_cloud_point_count(cloud) == 0)
-        session_fail(session, "%s: the file has no points", path);
-    else if (input_complete(session, path, &cloud, &estimate_s))
-        return cloud;
+    if (status != EWA_OK) session_failed(session, status);
+    if (status != EWA_OK || ewa_cloud_point_count(cloud)) return cloud;
+    session_fail(session, "%s: the file has no points", path);
     ewa_cloud_destroy(&cloud);
     return NULL;
 }

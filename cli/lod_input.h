@@ -54,7 +54,7 @@ ewa_lod *lod_input_open(cli_session *session, const char *path);
 bool lod_input_choose(cli_session *session, const common_arguments *common, const lod_arguments *arguments,
                       ewa_lod **lod);
 
-/// Reads what the whole looks like, with what a surfel needs (estimated where it lacks). NULL after reporting.
+/// Reads what the whole looks like, at least one point. NULL after reporting.
 ewa_cloud *lod_input_sample(cli_session *session, ewa_lod *lod, const char *path);
 
 /// Whether a box, corner low, corner high, is so small a part of the octree at a path that reading only the nodes

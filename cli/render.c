@@ -236,7 +236,10 @@ static bool make_lod_scene(cli_session *session, const render_arguments *argumen
         return false;
     }
     ewa_cloud *sample = lod_input_sample(session, scene->lod, path);
-    if (!sample) return false;
+    if (!sample || !input_complete(session, path, &sample, &report->estimate_s)) {
+        ewa_cloud_destroy(&sample);
+        return false;
+    }
     scene->lod_options = lod_input_options(&arguments->lod);
     ewa_lod_info info;
     ewa_lod_describe(scene->lod, &info);
@@ -254,7 +257,7 @@ static bool make_lod_scene(cli_session *session, const render_arguments *argumen
                      &scene->scale, &scene->furniture);
     session->subject = path;
     ewa_cloud_destroy(&sample);
-    report->load_s = clock_now_s() - started_s;
+    report->load_s = clock_now_s() - started_s - report->estimate_s;
     return done;
 }
 

@@ -215,8 +215,9 @@ static bool load_octree(const window_services *own, file_session *file, const ch
         return false;
     }
     content->lod = lod;
+    double estimate_s = 0;
     content->outline = lod_input_sample(session, lod, path);
-    *done = content->outline != NULL;
+    *done = content->outline && input_complete(session, path, &content->outline, &estimate_s);
     if (*done) file->listener = (session_listener){file, octree_message, octree_progress};
     return true;
 }
