@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const ewa_octree_format *const formats[] = {&ewa_octree_copc};
+static const ewa_octree_format *const formats[] = {&ewa_octree_copc, &ewa_octree_ept};
 enum { FORMAT_COUNT = sizeof formats / sizeof formats[0] };
 
 int ewa_octree_key_compare(const ewa_octree_key *a, const ewa_octree_key *b) {

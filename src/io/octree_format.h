@@ -55,6 +55,6 @@ struct ewa_octree {
 /// Appends a node. Errors: EWA_ERROR_MEMORY.
 ewa_status ewa_octree_add(ewa_octree *octree, const ewa_octree_node *node);
 
-extern const ewa_octree_format ewa_octree_copc;
+extern const ewa_octree_format ewa_octree_copc, ewa_octree_ept;
 
 #endif

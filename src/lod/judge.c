@@ -24,7 +24,7 @@ enum {
 };
 
 /// Radii that are tried, over those that keep areas.
-static const float RADIUS_SCALES[] = {1.0f, 0.7f};
+static const float RADIUS_SCALES[] = {1.0f, 0.7f, 0.5f, 0.35f};
 
 /// Standard deviation of the neighbourhood that colours are sharpened against, in cells, and most sharpening.
 static const float BLUR_CELLS = 0.6f, MOST_SHARPENING = 1.5f;
@@ -219,6 +219,14 @@ static ewa_status pack(ewa_judge *judge, const ewa_standins *list, uint32_t firs
     if (status == EWA_OK) status = ewa_cloud_borrow(cloud, EWA_COLOR, EWA_F32, 3, stream + 7, stride);
     if (status == EWA_OK) status = ewa_surfels_create(cloud, &options, surfels);
     ewa_cloud_destroy(&cloud);
+    return status;
+}
+
+ewa_status ewa_standins_cover(ewa_judge *judge, const ewa_standins *standins, float *unit_coverage) {
+    ewa_surfels *surfels = NULL;
+    const ewa_status status = pack(judge, standins, 0, standins->count, 1, NULL, &surfels);
+    *unit_coverage = status == EWA_OK ? (float)surfels->unit_coverage : 0;
+    ewa_surfels_destroy(&surfels);
     return status;
 }
 

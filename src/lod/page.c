@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BATCH = 16 };
+enum { BATCH = 16, MEASURED_LEAVES = 8 /* one in so many */ };
 
 /// Whether attributes make surfels.
 static bool has(const ewa_cloud *cloud, const char *name, uint32_t component_count) {
@@ -150,6 +150,8 @@ ewa_status ewa_region_page(ewa_region_plan *plan, const ewa_octree_key *key, uin
     ewa_status status = EWA_OK;
     for (uint32_t i = 0; i < standins->count && !part_count; i++)
         page.largest_radius_world = fmaxf(page.largest_radius_world, standins->items[i].radius_world);
+    if (!part_count && standins->count && plan->leaf_count++ % MEASURED_LEAVES == 0)
+        status = ewa_standins_cover(plan->judge, standins, &page.unit_coverage);
     if (part_count) {
         ewa_buffer all = {0};
         uint32_t count = 0;
@@ -170,8 +172,6 @@ ewa_status ewa_region_page(ewa_region_plan *plan, const ewa_octree_key *key, uin
         if (status == EWA_OK) status = encode_page(plan, key, standins, result, &page);
         page.surfel_count = standins->count;
         page.radius_scale = standins->radius_scale;
-        for (uint32_t i = 0; i < part_count; i++)
-            if (parts[i].unit_coverage == 0) page.unit_coverage = standins->unit_coverage;
     }
     if (status == EWA_OK)
         status = ewa_buffer_grow(plan->context, &result->pages, result->page_count,

@@ -172,7 +172,9 @@ static ewa_status estimate(ewa_region_plan *plan, ewa_spread *spread, ewa_region
     ewa_cloud *cloud = NULL;
     if (status == EWA_OK) status = make_neighbourhood(plan, &job, &cloud);
     ewa_release(context, around, around_count, EWA_AROUND_BYTES);
-    if (status == EWA_OK) status = ewa_cloud_estimate(&cloud, NULL);
+    ewa_estimate_options options;
+    ewa_estimate_options_init(&options, sizeof options);
+    if (status == EWA_OK) status = ewa_cloud_estimate(&cloud, &options);
     if (status == EWA_OK) {
         job.normals = ewa_cloud_find(cloud, EWA_NORMAL)->data;
         job.radii = ewa_cloud_find(cloud, EWA_RADIUS)->data;
@@ -298,6 +300,7 @@ ewa_status ewa_region_make(ewa_region_plan *plan, ewa_spread *spread, ewa_region
                            ewa_region_result *result) {
     ewa_region_points points;
     double before = ewa_now_s();
+    plan->leaf_count = 0;
     ewa_status status = load(plan, spread, region, &points);
     if (status == EWA_OK) status = estimate(plan, spread, region, &points);
     double now = ewa_now_s();

@@ -21,6 +21,7 @@ typedef struct ewa_region_plan {
     uint32_t normal_at_bytes, radius_at_bytes;
     ewa_octree_writer *writer; ///< encodes nodes
     ewa_judge *judge;
+    uint32_t leaf_count; ///< pages that are not divided, of the region so far
     double estimate_s, merge_s, encode_s;
 } ewa_region_plan;
 

@@ -51,6 +51,9 @@ typedef struct ewa_judge {
 ewa_status ewa_judge_make(ewa_context *context, bool lit, ewa_judge *judge);
 void ewa_judge_free(ewa_judge *judge);
 
+/// Measures what the kernels of surfels sum up to where they cover (q0 of docs/math.md section 7). Errors: EWA_ERROR_MEMORY.
+ewa_status ewa_standins_cover(ewa_judge *judge, const ewa_standins *standins, float *unit_coverage);
+
 /// Chooses how the surfels of a cube are drawn, radii as they are or narrower and colours as they are or sharpened, by
 /// pictures of a part of it beside those of its parts: sets `merged`'s radius_scale and unit_coverage and its items'
 /// shown colours. `*error` is the root of the mean square of what remains, in 1/255 of the range of sRGB, where the surfels

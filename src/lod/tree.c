@@ -255,10 +255,12 @@ static ewa_status load_points(ewa_lod *lod, ewa_cube *cube, uint64_t memory_byte
     uint32_t nodes[EWA_OCTREE_LEVELS];
     const uint32_t count = find_path(lod, cube, nodes);
     ewa_cloud *cloud = NULL;
+    ewa_estimate_options options;
+    ewa_estimate_options_init(&options, sizeof options);
     ewa_status status = fetch_nodes(lod, nodes, count);
     if (status == EWA_OK) status = gather_points(lod, cube, nodes, count, &cloud);
     if (status == EWA_OK && !lod->has_surfels && ewa_cloud_point_count(cloud))
-        status = ewa_cloud_estimate(&cloud, NULL);
+        status = ewa_cloud_estimate(&cloud, &options);
     if (status == EWA_OK && ewa_cloud_point_count(cloud) == 0 && !lod->has_surfels) {
         // An empty cloud has no shape either.
         status = ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, NULL);

@@ -120,6 +120,43 @@ static void has_the_points_of_the_whole_file(void **state) {
     assert_int_equal(messages.count, 0);
 }
 
+static void counts_colors_that_others_do_not_lead_to_expect(void **state) {
+    (void)state;
+    enum { NODES = 40, ODD = 7 }; // not among the eight chunks that are looked at
+    ewa_cloud *cloud = copc_cloud(context, 2 * NODES, true);
+    copc_nodes nodes = {calloc(NODES, sizeof *nodes.keys), calloc(NODES, sizeof(ewa_cloud *)), NODES};
+    for (uint32_t i = 0; i < NODES; i++) {
+        const uint64_t indices[2] = {2 * i, 2 * i + 1};
+        nodes.keys[i] = (ewa_octree_key){6, {(int32_t)i, 3, 4}};
+        assert_int_equal(ewa_cloud_select(cloud, indices, 2, &nodes.pieces[i]), EWA_OK);
+        uint16_t *color = ewa_cloud_find(nodes.pieces[i], EWA_COLOR)->data;
+        for (int c = 0; c < 6; c++) color[c] = i == ODD && c > 3 ? 300 : (uint16_t)(i + 1);
+    }
+    const ewa_octree_plan plan = copc_plan(cloud);
+    assert_int_equal(copc_write(context, path, &plan, &nodes, 0), EWA_OK);
+    ewa_cloud *whole = NULL;
+    assert_int_equal(ewa_cloud_load(context, path, &whole), EWA_OK);
+    assert_int_equal(ewa_cloud_find(whole, EWA_COLOR)->type, EWA_U8);
+    messages = (check_log){0};
+    ewa_octree *octree = open_made();
+    copc_expect(octree, whole);
+    assert_int_equal(messages.count, 0);
+    ewa_octree_close(&octree);
+    assert_non_null(strstr(messages.text, ": 2 numbers of colours are above 255"));
+    ewa_cloud_destroy(&whole);
+    copc_nodes_free(&nodes);
+    ewa_cloud_destroy(&cloud);
+}
+
+static void notes_the_times_of_the_points(void **state) {
+    (void)state;
+    size_t size_bytes;
+    write_made(101, 2, false, 0);
+    uint8_t *bytes = scratch_read(path, &size_bytes);
+    assert_true(las_get_f64(bytes + 375 + 54 + 56) == 1000 && las_get_f64(bytes + 375 + 54 + 64) == 1025);
+    free(bytes);
+}
+
 static void reads_files_of_others(void **state) {
     (void)state;
     static const char *const files[] = {"simple.copc.laz", "simple_with_page.copc.laz",
@@ -349,7 +386,7 @@ static void refuses_every_beginning(void **state) {
         if (try_bytes(bytes, size) == EWA_OK) fail_msg("%zu bytes of %zu are taken", size, size_bytes);
     assert_int_equal(try_bytes(bytes, size_bytes), EWA_OK);
     check_random random = {5};
-    for (int i = 0; i < 3000; i++) {
+    for (int i = 0; i < 1000; i++) {
         uint8_t *changed = malloc(size_bytes);
         memcpy(changed, bytes, size_bytes);
         for (int k = 0; k < 2; k++)
@@ -448,6 +485,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(gives_back_what_was_written, begin, end),
         cmocka_unit_test_setup_teardown(has_the_points_of_the_whole_file, begin, end),
+        cmocka_unit_test_setup_teardown(counts_colors_that_others_do_not_lead_to_expect, begin, end),
+        cmocka_unit_test_setup_teardown(notes_the_times_of_the_points, begin, end),
         cmocka_unit_test_setup_teardown(reads_files_of_others, begin, end),
         cmocka_unit_test_setup_teardown(reads_the_attributes_that_are_wanted, begin, end),
         cmocka_unit_test_setup_teardown(is_the_same_for_any_number_of_threads, begin, end),

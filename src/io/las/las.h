@@ -202,6 +202,12 @@ const char *ewa_las_part_name(const char *attribute, uint32_t component);
 /// Returns the name that an attribute of one number has among extra bytes.
 const char *ewa_las_alias(const char *attribute);
 
+/// Bytes of a number of extra bytes.
+uint32_t ewa_las_raw_bytes(ewa_las_raw raw);
+
+/// Gives a column the type of numbers that are taken as they are, those of 64 bits as doubles.
+void ewa_las_column_number(ewa_las_raw raw, ewa_las_column *column);
+
 /// Makes fields such as NormalX NormalY NormalZ the one attribute that they are parts of, "alpha" a part of the
 /// colour, and gives fields such as "Radius" the name of their attribute.
 void ewa_las_table_join(ewa_las_table *table);

@@ -163,20 +163,23 @@ static double missing_number(ewa_las_raw raw, const uint8_t *bytes) {
     return is_signed ? (double)(int64_t)bits : (double)bits;
 }
 
-static void lay_extra(const extra *e, ewa_las_column *column) {
+uint32_t ewa_las_raw_bytes(ewa_las_raw raw) { return raw_bytes[raw]; }
+
+void ewa_las_column_number(ewa_las_raw raw, ewa_las_column *column) {
     static const ewa_type types[RAW_TYPE_COUNT] = {EWA_U8,  EWA_U8,  EWA_I8,  EWA_U16, EWA_I16, EWA_U32,
                                                    EWA_I32, EWA_F64, EWA_F64, EWA_F32, EWA_F64};
-    column->raw = e->raw;
+    column->raw = raw;
+    column->type = types[raw];
+    column->kind = raw == EWA_LAS_U64 || raw == EWA_LAS_I64 ? EWA_LAS_WIDE : EWA_LAS_PLAIN;
+}
+
+static void lay_extra(const extra *e, ewa_las_column *column) {
+    ewa_las_column_number(e->raw, column);
     column->component_count = e->component_count;
-    column->type = types[e->raw];
     for (uint32_t c = 0; c < e->component_count; c++)
         column->at_bytes[c] = (uint16_t)(column->at_bytes[0] + c * raw_bytes[e->raw]);
     const bool is_float = e->raw == EWA_LAS_F32 || e->raw == EWA_LAS_F64;
-    const bool is_wide = e->raw == EWA_LAS_U64 || e->raw == EWA_LAS_I64;
-    if (!e->scaled && !e->shifted && !(e->marked && is_float)) {
-        column->kind = is_wide ? EWA_LAS_WIDE : EWA_LAS_PLAIN;
-        return;
-    }
+    if (!e->scaled && !e->shifted && !(e->marked && is_float)) return;
     column->kind = EWA_LAS_SCALED;
     if (e->scaled || e->shifted) column->type = EWA_F64;
     column->marked = e->marked;
