@@ -206,8 +206,7 @@ static bool load_octree(const window_services *own, file_session *file, const ch
     if (own->whole || session->filter || session->load.columns || !ewa_lod_probe(session->context, path))
         return false;
     ewa_lod *lod = lod_input_open(session, path);
-    *done = lod != NULL;
-    if (!lod) return true;
+    if (!lod) return false; // its points may be read yet
     ewa_lod_info info;
     ewa_lod_describe(lod, &info);
     if (!info.merged && info.point_count <= LOD_WHOLE_POINTS) {

@@ -113,9 +113,9 @@ static void test_refusals(void **state) {
               "ewa render t.ply -o x.png --memory 1G");
     run_fails(1, "are for one octree alone", "ewa render t.copc.laz t.ply -o x.png --lod-spacing 1");
     run_fails(1, "--filter needs all points", "ewa render t.copc.laz -o x.png --memory 1G --filter 'z>0'");
-    run_fails(1, "--color-by is not there for octrees",
+    run_fails(1, "--color-by needs all points",
               "ewa render t.copc.laz -o x.png --lod-spacing 1 --color-by z");
-    run_fails(1, "--radius-scale is not there for octrees",
+    run_fails(1, "--radius-scale needs all points",
               "ewa render t.copc.laz -o x.png --lod-error 5 --radius-scale 2");
     run_fails(2, "--lod-spacing: 0 is outside (0, 64]", "ewa render t.copc.laz -o x.png --lod-spacing 0");
     assert_int_equal(scratch_size("x.png"), -1);
