@@ -34,5 +34,6 @@ bool bytes_read(const char *text, uint64_t *bytes) {
 void bytes_write(uint64_t bytes, char text[BYTES_TEXT_BYTES]) {
     int steps = 0;
     while (bytes && bytes % 1024 == 0 && letters[steps]) bytes /= 1024, steps++;
-    snprintf(text, BYTES_TEXT_BYTES, "%" PRIu64 "%.*s", bytes, steps > 0, steps ? &letters[steps - 1] : "");
+    const char letter[2] = {steps ? letters[steps - 1] : '\0', '\0'};
+    snprintf(text, BYTES_TEXT_BYTES, "%" PRIu64 "%s", bytes, letter);
 }

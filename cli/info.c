@@ -392,8 +392,8 @@ static bool load(cli_session *session, const char *path, ewa_model *model, ewa_l
     *sampled = sample != NULL;
     if (sample) {
         model->points = sample;
-        return ewa_model_probe(session->context, path, &model->format) == EWA_OK ||
-               lod_input_is_folder(session, path);
+        return lod_input_is_folder(session, path) ||
+               ewa_model_probe(session->context, path, &model->format) == EWA_OK;
     }
     const uint32_t wanted = session->filter ? EWA_MODEL_POINTS : EWA_MODEL_POINTS | EWA_MODEL_MESH;
     if (!model_input_load(session, path, wanted, model)) return false;

@@ -3,7 +3,6 @@
 //
 // Octrees of points as inputs.
 #include "lod_input.h"
-#include "inputs.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -51,17 +50,29 @@ ewa_lod *lod_input_open(cli_session *session, const char *path) {
     return lod;
 }
 
-/// Options that need all points; NULL: none is given.
-static const char *find_clash(const cli_session *session) {
-    return session->filter ? "--filter" : session->load.columns ? "--columns" : NULL;
+bool lod_input_is_large(cli_session *session, const char *path) {
+    uint64_t point_count = 0;
+    if (!lod_input_is_folder(session, path)) { // whose header is enough
+        ewa_cloud_reader *reader = NULL;
+        if (ewa_cloud_reader_open(session->context, path, &session->load, &reader) == EWA_OK)
+            point_count = ewa_cloud_reader_most_points(reader);
+        ewa_cloud_reader_close(&reader);
+        return point_count > LOD_WHOLE_POINTS;
+    }
+    ewa_lod *lod = lod_input_open(session, path);
+    if (!lod) return false;
+    ewa_lod_info info;
+    ewa_lod_describe(lod, &info);
+    ewa_lod_close(&lod);
+    return info.point_count > LOD_WHOLE_POINTS;
 }
 
 bool lod_input_choose(cli_session *session, const common_arguments *common, const lod_arguments *arguments,
-                      ewa_lod **lod) {
+                      const char *clash, ewa_lod **lod) {
     *lod = NULL;
     const char *path = common->operands[0];
-    const bool asked = lod_input_asked(arguments), all = arguments->options.error == 0;
-    if (all || (!asked && common->operand_count > 1)) return true;
+    const bool asked = lod_input_asked(arguments);
+    if (arguments->options.error == 0 || (!asked && common->operand_count > 1)) return true;
     if (asked && common->operand_count > 1) {
         session_fail(session, "--memory, --lod-spacing and --lod-error are for one octree alone");
         return false;
@@ -72,40 +83,28 @@ bool lod_input_choose(cli_session *session, const common_arguments *common, cons
                      path);
         return false;
     }
-    ewa_lod *found = lod_input_open(session, path);
-    if (!found) return false;
-    ewa_lod_info info;
-    ewa_lod_describe(found, &info);
-    const char *clash = find_clash(session);
-    if (!asked && (info.point_count <= LOD_WHOLE_POINTS || clash)) {
-        ewa_lod_close(&found);
-        return true;
-    }
+    if (session->filter) clash = "--filter";
+    if (session->load.columns) clash = "--columns";
+    if (!asked && (clash || session->load.keep_going || !lod_input_is_large(session, path))) return true;
+    session->subject = path;
     if (clash) {
         session_fail(session,
-                     "%s needs all points, --memory, --lod-spacing and --lod-error do without; leave "
-                     "these out, or `ewa convert` what is wanted to a file of its own",
+                     "%s needs all points, --memory, --lod-spacing and --lod-error do without; leave these "
+                     "out, or `ewa convert` what is wanted to a file of its own",
                      clash);
-        ewa_lod_close(&found);
         return false;
     }
-    *lod = found;
-    return true;
+    *lod = lod_input_open(session, path);
+    return *lod != NULL;
 }
 
 ewa_cloud *lod_input_sample(cli_session *session, ewa_lod *lod, const char *path) {
     ewa_cloud *cloud = NULL;
-    double estimate_s = 0;
     session->subject = path;
     const ewa_status status = ewa_lod_sample(lod, LOD_SAMPLE_POINTS, &cloud);
-    if (status != EWA_OK) {
-        session_failed(session, status);
-        return NULL;
-    }
-    if (ewa_cloud_point_count(cloud) == 0)
-        session_fail(session, "%s: the file has no points", path);
-    else if (input_complete(session, path, &cloud, &estimate_s))
-        return cloud;
+    if (status != EWA_OK) session_failed(session, status);
+    if (status != EWA_OK || ewa_cloud_point_count(cloud)) return cloud;
+    session_fail(session, "%s: the file has no points", path);
     ewa_cloud_destroy(&cloud);
     return NULL;
 }

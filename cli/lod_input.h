@@ -48,13 +48,16 @@ bool lod_input_is_folder(cli_session *session, const char *path);
 /// Opens the octree at a path; NULL after reporting.
 ewa_lod *lod_input_open(cli_session *session, const char *path);
 
-/// Opens the only operand, if it is an octree that is to be drawn from its levels: one of the options asks for
-/// that, or there are more than LOD_WHOLE_POINTS, unless --lod-error is 0. `*lod` is NULL where it is not. False
-/// after reporting.
-bool lod_input_choose(cli_session *session, const common_arguments *common, const lod_arguments *arguments,
-                      ewa_lod **lod);
+/// Whether an octree has more than LOD_WHOLE_POINTS.
+bool lod_input_is_large(cli_session *session, const char *path);
 
-/// Reads what the whole looks like, with what a surfel needs (estimated where it lacks). NULL after reporting.
+/// Opens the only operand, if it is an octree that is to be drawn from its levels: one of the options asks for
+/// that, or there are more than LOD_WHOLE_POINTS, unless --lod-error is 0 or an option needs all points: `clash`
+/// names one of the command's, NULL: none. `*lod` is NULL where it is not. False after reporting.
+bool lod_input_choose(cli_session *session, const common_arguments *common, const lod_arguments *arguments,
+                      const char *clash, ewa_lod **lod);
+
+/// Reads what the whole looks like, at least one point. NULL after reporting.
 ewa_cloud *lod_input_sample(cli_session *session, ewa_lod *lod, const char *path);
 
 /// Whether a box, corner low, corner high, is so small a part of the octree at a path that reading only the nodes

@@ -4,6 +4,7 @@
 // Files of points passed through piece by piece.
 #include "passing.h"
 #include "import.h"
+#include "lod_input.h"
 #include "screening.h"
 #include "volume_input.h"
 
@@ -16,7 +17,8 @@ static const uint64_t PIECE_POINTS = 1 << 19;
 /// Whether a file holds points of a known format, which `*format` gets, and can be read twice.
 static bool is_possible(cli_session *session, const char *path, ewa_model_format *format) {
     if (strcmp(path, "-") == 0 || strncmp(path, "/dev/", 5) == 0 || volume_input_is_named(path) ||
-        import_is_named(path) || ewa_model_probe(session->context, path, format) != EWA_OK)
+        import_is_named(path) || lod_input_is_folder(session, path) ||
+        ewa_model_probe(session->context, path, format) != EWA_OK)
         return false;
     return *format == EWA_MODEL_PLY || *format >= EWA_MODEL_LAS;
 }

@@ -227,16 +227,12 @@ static const char *find_lod_clash(const render_arguments *arguments) {
 static bool make_lod_scene(cli_session *session, const render_arguments *arguments, render_scene *scene,
                            render_report *report) {
     const double started_s = clock_now_s();
-    const char *path = arguments->frames.view.common.operands[0], *clash = find_lod_clash(arguments);
-    if (clash) {
-        session_fail(session,
-                     "%s is not there for octrees that are drawn from their levels; --lod-error 0 draws "
-                     "all points",
-                     clash);
+    const char *path = arguments->frames.view.common.operands[0];
+    ewa_cloud *sample = lod_input_sample(session, scene->lod, path);
+    if (!sample || !input_complete(session, path, &sample, &report->estimate_s)) {
+        ewa_cloud_destroy(&sample);
         return false;
     }
-    ewa_cloud *sample = lod_input_sample(session, scene->lod, path);
-    if (!sample) return false;
     scene->lod_options = lod_input_options(&arguments->lod);
     ewa_lod_info info;
     ewa_lod_describe(scene->lod, &info);
@@ -254,7 +250,7 @@ static bool make_lod_scene(cli_session *session, const render_arguments *argumen
                      &scene->scale, &scene->furniture);
     session->subject = path;
     ewa_cloud_destroy(&sample);
-    report->load_s = clock_now_s() - started_s;
+    report->load_s = clock_now_s() - started_s - report->estimate_s;
     return done;
 }
 
@@ -262,7 +258,8 @@ static bool make_lod_scene(cli_session *session, const render_arguments *argumen
 static bool prepare(cli_session *session, const render_arguments *arguments, render_scene *scene,
                     render_report *report) {
     const common_arguments *common = &arguments->frames.view.common;
-    if (!lod_input_choose(session, common, &arguments->lod, &scene->lod)) return false;
+    if (!lod_input_choose(session, common, &arguments->lod, find_lod_clash(arguments), &scene->lod))
+        return false;
     return scene->lod ? make_lod_scene(session, arguments, scene, report)
                       : make_scene(session, arguments, scene, report);
 }

@@ -206,8 +206,7 @@ static bool load_octree(const window_services *own, file_session *file, const ch
     if (own->whole || session->filter || session->load.columns || !ewa_lod_probe(session->context, path))
         return false;
     ewa_lod *lod = lod_input_open(session, path);
-    *done = lod != NULL;
-    if (!lod) return true;
+    if (!lod) return false; // its points may be read yet
     ewa_lod_info info;
     ewa_lod_describe(lod, &info);
     if (!info.merged && info.point_count <= LOD_WHOLE_POINTS) {
@@ -215,8 +214,9 @@ static bool load_octree(const window_services *own, file_session *file, const ch
         return false;
     }
     content->lod = lod;
+    double estimate_s = 0;
     content->outline = lod_input_sample(session, lod, path);
-    *done = content->outline != NULL;
+    *done = content->outline && input_complete(session, path, &content->outline, &estimate_s);
     if (*done) file->listener = (session_listener){file, octree_message, octree_progress};
     return true;
 }

@@ -113,9 +113,9 @@ static void test_refusals(void **state) {
               "ewa render t.ply -o x.png --memory 1G");
     run_fails(1, "are for one octree alone", "ewa render t.copc.laz t.ply -o x.png --lod-spacing 1");
     run_fails(1, "--filter needs all points", "ewa render t.copc.laz -o x.png --memory 1G --filter 'z>0'");
-    run_fails(1, "--color-by is not there for octrees",
+    run_fails(1, "--color-by needs all points",
               "ewa render t.copc.laz -o x.png --lod-spacing 1 --color-by z");
-    run_fails(1, "--radius-scale is not there for octrees",
+    run_fails(1, "--radius-scale needs all points",
               "ewa render t.copc.laz -o x.png --lod-error 5 --radius-scale 2");
     run_fails(2, "--lod-spacing: 0 is outside (0, 64]", "ewa render t.copc.laz -o x.png --lod-spacing 0");
     assert_int_equal(scratch_size("x.png"), -1);
@@ -139,6 +139,48 @@ static void test_crop(void **state) {
     run_fails(1, "none of the points is left", "ewa convert t.copc.laz -o x.ply --crop 5,5,5,6,6,6");
 }
 
+/// Folders of EPT are inputs as any file, and are drawn from their levels when that is asked for.
+static void test_folder(void **state) {
+    (void)state;
+    run_done("mkdir -p e/ept-data e/ept-hierarchy && ewa generate sphere -n 5000 -o s.ply");
+    run_done("ewa convert s.ply -o e/ept-data/0-0-0-0.laz && ewa convert s.ply -o - --ascii "
+             "--crop 0,-1,-1,1,0,0 | sed '1,/end_header/d' | wc -l");
+    unsigned long below = 0, all = 0;
+    assert_true(sscanf(last_run.out, "%lu", &below) == 1 && below > 100);
+    run_done("ewa info --json s.ply");
+    const char *points = strstr(last_run.out, "\"points\": ");
+    assert_true(points && sscanf(points, "\"points\": %lu", &all) == 1);
+    char text[2048];
+    snprintf(text, sizeof text, "{\"0-0-0-0\": %lu}", all);
+    scratch_text("e/ept-hierarchy/0-0-0-0.json", text);
+    snprintf(text, sizeof text,
+             "{\"bounds\": [-1, -1, -1, 1, 1, 1], \"boundsConforming\": [-1, -1, -1, 1, 1, 1], "
+             "\"dataType\": \"laszip\", \"hierarchyType\": \"json\", \"points\": %lu, \"span\": 128, "
+             "\"version\": \"1.1.0\", \"srs\": {}, \"schema\": ["
+             "{\"name\": \"X\", \"type\": \"signed\", \"size\": 4, \"scale\": 1e-8, \"offset\": 0}, "
+             "{\"name\": \"Y\", \"type\": \"signed\", \"size\": 4, \"scale\": 1e-8, \"offset\": 0}, "
+             "{\"name\": \"Z\", \"type\": \"signed\", \"size\": 4, \"scale\": 1e-8, \"offset\": 0}]}",
+             all);
+    scratch_text("e/ept.json", text);
+    run_done("ewa info e");
+    assert_non_null(strstr(last_run.out, "format      EPT 1.1.0"));
+    assert_non_null(strstr(last_run.out, "1 nodes of 1 levels"));
+    run_done("ewa info --json e/ept.json");
+    snprintf(text, sizeof text, "\"points\": %lu", all);
+    assert_non_null(strstr(last_run.out, text));
+    run_done("ewa convert e -o all.ply && ewa info --json all.ply");
+    assert_non_null(strstr(last_run.out, text));
+    run_done("ewa convert e -o part.ply --crop 0,-1,-1,1,0,0 && ewa info --json part.ply");
+    snprintf(text, sizeof text, "\"points\": %lu", below);
+    assert_non_null(strstr(last_run.out, text));
+    run_done("ewa render e -o e.png --size 100x100");
+    assert_int_equal(run("ewa render e/ept.json -o levels.png --size 100x100 --memory 64M"), 0);
+    assert_non_null(strstr(last_run.err, "none that stand for others"));
+    assert_true(mean_square("e.png", "levels.png") < 100);
+    run_done("mkdir empty");
+    assert_int_equal(run("ewa info empty"), 1);
+}
+
 /// Octrees of more than four million points are drawn from their levels without being asked to.
 static void test_large(void **state) {
     (void)state;
@@ -156,7 +198,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_make),   cmocka_unit_test(test_sizes),    cmocka_unit_test(test_info),
         cmocka_unit_test(test_render), cmocka_unit_test(test_refusals), cmocka_unit_test(test_crop),
-        cmocka_unit_test(test_large),
+        cmocka_unit_test(test_folder), cmocka_unit_test(test_large),
     };
     return cmocka_run_group_tests(tests, enter, leave);
 }

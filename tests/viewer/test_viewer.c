@@ -412,9 +412,46 @@ static void resizes_and_loads_leave_nothing_behind(void **state) {
     assert_true(contents.frees <= contents.loads && contents.frees >= contents.loads * 3 / 5);
 }
 
+/// What is seen of an octree gets finer until nothing is missing: then it is the picture of viewers that wait.
+static void octrees_get_finer(void **state) {
+    (void)state;
+    uint8_t *pictures[2];
+    for (int waits = 0; waits < 2; waits++) {
+        viewer *v = make_viewer(waits);
+        assert_true(viewer_do(v, "set spacing_px 0.2"));
+        assert_true(viewer_open(v, "octree"));
+        settle(v);
+        assert_true(viewer_do(v, "zoom 4"));
+        viewer_item item;
+        assert_true(viewer_item_get(v, 0, &item));
+        assert_int_equal(item.count, CONTENTS_OCTREE_POINTS);
+        assert_false(item.volume);
+        const viewer_picture picture = settle(v);
+        assert_true(picture.splat_count > 0);
+        pictures[waits] = copy_picture(&picture);
+        handle(v, (viewer_event){.kind = VIEWER_PRESS, .x = 80, .y = 60, .button = VIEWER_LEFT, .clicks = 1});
+        handle(v,
+               (viewer_event){.kind = VIEWER_RELEASE, .x = 80, .y = 60, .button = VIEWER_LEFT, .clicks = 1});
+        assert_non_null(strstr(contents.said, "pick octree point at"));
+        settle(v);
+        // Other things beside it; a wish that it cannot fulfil.
+        assert_true(viewer_open(v, "sphere"));
+        settle(v);
+        viewer_do(v, "color 0 intensity");
+        assert_non_null(strstr(contents.message, "an octree has the colours of its points"));
+        viewer_do(v, "close 0");
+        settle(v);
+        viewer_destroy(&v);
+        assert_int_equal(contents.loads, contents.frees);
+    }
+    assert_memory_equal(pictures[0], pictures[1], 4 * PIXELS);
+    for (int k = 0; k < 2; k++) free(pictures[k]);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(still_pictures_are_the_renderers),
+        cmocka_unit_test(octrees_get_finer),
         cmocka_unit_test(moving_ends_in_the_same_picture),
         cmocka_unit_test(failing_loads_leave_the_scene),
         cmocka_unit_test(dropped_files_queue),

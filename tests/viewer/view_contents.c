@@ -13,6 +13,7 @@ static void free_content(viewer_content *content) {
     view_contents *contents = content->keeper;
     ewa_surfels_destroy(&content->surfels);
     ewa_voxels_destroy(&content->voxels);
+    ewa_lod_close(&content->lod);
     ewa_cloud_destroy(&content->cloud);
     ewa_cloud_destroy(&content->outline);
     ewa_context_destroy(&content->context);
@@ -50,6 +51,27 @@ static bool make_volume(viewer_content *content) {
     return done;
 }
 
+/// Makes the files of an octree once for each run, and opens it.
+static bool make_octree(viewer_content *content) {
+    static bool made;
+    char cloud_path[1024], tree_path[1024];
+    snprintf(cloud_path, sizeof cloud_path, "%s/viewer_octree.ply", getenv("EWA_BINARY_DIR"));
+    snprintf(tree_path, sizeof tree_path, "%s/viewer_octree.copc.laz", getenv("EWA_BINARY_DIR"));
+    const char *paths[1] = {cloud_path};
+    ewa_generate_options options;
+    ewa_generate_options_init(&options, sizeof options);
+    options.object = EWA_OBJECT_TORUS;
+    options.point_count = CONTENTS_OCTREE_POINTS;
+    ewa_cloud *cloud = NULL;
+    bool done = made || (ewa_cloud_generate(content->context, &options, &cloud) == EWA_OK &&
+                         ewa_cloud_save(cloud, cloud_path, NULL) == EWA_OK &&
+                         ewa_lod_build(content->context, paths, 1, tree_path, NULL, NULL) == EWA_OK);
+    made = done;
+    ewa_cloud_destroy(&cloud);
+    return done && ewa_lod_open(content->context, tree_path, &content->lod) == EWA_OK &&
+           ewa_lod_sample(content->lod, 1000, &content->outline) == EWA_OK;
+}
+
 static bool load(void *user, const char *path, const viewer_news *news, viewer_content *content) {
     view_contents *contents = user;
     contents->loads++;
@@ -59,7 +81,8 @@ static bool load(void *user, const char *path, const viewer_news *news, viewer_c
     }
     const bool object =
         strcmp(path, "plane") == 0 || strcmp(path, "sphere") == 0 || strcmp(path, "torus") == 0;
-    if (!object && strcmp(path, "volume") != 0) {
+    const bool octree = strcmp(path, "octree") == 0;
+    if (!object && !octree && strcmp(path, "volume") != 0) {
         char text[256];
         snprintf(text, sizeof text, "%.100s: no such object", path);
         news->message(news->user, EWA_SEVERITY_ERROR, text);
@@ -74,6 +97,7 @@ static bool load(void *user, const char *path, const viewer_news *news, viewer_c
     }
     *content = (viewer_content){.keeper = contents, .free = free_content};
     if (ewa_context_create(NULL, &content->context) != EWA_OK) return false;
+    if (octree) return make_octree(content);
     return object ? make_object(path, CONTENTS_POINTS, content) : make_volume(content);
 }
 

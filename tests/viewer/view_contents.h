@@ -9,7 +9,7 @@
 
 #include <stdatomic.h>
 
-enum { CONTENTS_POINTS = 20000 };
+enum { CONTENTS_POINTS = 20000, CONTENTS_OCTREE_POINTS = 150000 };
 
 /// What the services are asked to do beside, and what they saw.
 typedef struct view_contents {
@@ -19,7 +19,8 @@ typedef struct view_contents {
     bool preview; ///< loads show one first
 } view_contents;
 
-/// "plane", "sphere", "torus": objects of CONTENTS_POINTS points; "volume": a blob; anything else fails.
+/// "plane", "sphere", "torus": objects of CONTENTS_POINTS points; "volume": a blob; "octree": the torus in a file of
+/// the build's folder, of CONTENTS_OCTREE_POINTS; anything else fails.
 viewer_services view_contents_services(view_contents *contents);
 
 #endif
