@@ -228,6 +228,13 @@ static int quality(ewa_context *context, int count, char **words) {
     return 0;
 }
 
+/// Colours of pixels that show next to nothing say nothing.
+static void put_over_black(uint8_t *rgba) {
+    for (uint32_t i = 0; i < PIXELS; i++)
+        for (uint32_t c = 0; c < 3; c++)
+            rgba[4 * i + c] = (uint8_t)((rgba[4 * i + c] * rgba[4 * i + 3] + 127) / 255);
+}
+
 static int dolly(ewa_context *context, int count, char **words) {
     const int frame_count = count > 1 ? atoi(words[1]) : 240;
     ewa_lod *lod = NULL;
@@ -253,6 +260,8 @@ static int dolly(ewa_context *context, int count, char **words) {
         lod_options.memory_bytes = (uint64_t)1 << 33;
         must(ewa_render(renderer, surfels, &camera, &options, &full, NULL), "render");
         must(ewa_lod_render(lod, renderer, &camera, &options, &lod_options, &part, NULL), "render");
+        put_over_black(full.rgba8);
+        put_over_black(part.rgba8);
         double square = 0;
         uint64_t shown = 0;
         int jump = 0;

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-enum { WIDTH = 300, HEIGHT = 420, POINTS = 8000, BAND = 128, BANDS = (HEIGHT + BAND - 1) / BAND };
+enum { WIDTH = 300, HEIGHT = 420, POINTS = 20000, BAND = 128 };
 
 typedef struct bench {
     ewa_context *context;
@@ -38,22 +38,16 @@ static void stop(bench *b) {
 
 static uint32_t band_end(uint32_t first_px) { return first_px + BAND < HEIGHT ? first_px + BAND : HEIGHT; }
 
-/// Sets in which bands a source has some pixel; returns in how many it has none.
-static uint32_t find_bands(const bench *b, uint32_t source, const ewa_render_options *options,
-                           const picture *room, bool seen[BANDS][CUBES_MOST]) {
+/// Whether a source has some pixel in rows from `first_px` on.
+static bool is_seen(const bench *b, uint32_t source, const ewa_render_options *options, uint32_t first_px,
+                    const picture *room) {
     ewa_render_options plain = *options;
     plain.eye_dome = 0;
-    const ewa_surfels *surfels = b->full.part[source];
-    assert_int_equal(ewa_render(b->renderer, surfels, &b->of.camera, &plain, &room->frame, NULL), EWA_OK);
-    uint32_t without = 0;
-    for (uint32_t band = 0; band < BANDS; band++) {
-        seen[band][source] = false;
-        const uint32_t first = band * BAND;
-        for (size_t i = (size_t)first * WIDTH; i < (size_t)band_end(first) * WIDTH; i++)
-            if (room->frame.depth[i] < INFINITY) seen[band][source] = true;
-        without += !seen[band][source];
-    }
-    return without;
+    assert_int_equal(ewa_render(b->renderer, b->full.part[source], &b->of.camera, &plain, &room->frame, NULL),
+                     EWA_OK);
+    for (size_t i = (size_t)first_px * WIDTH; i < (size_t)band_end(first_px) * WIDTH; i++)
+        if (room->frame.depth[i] < INFINITY) return true;
+    return false;
 }
 
 static void fill(const picture *to, int byte) {
@@ -68,7 +62,7 @@ static void fill(const picture *to, int byte) {
 /// Adds the sources, hollow ones where `seen` is false; some have weights, some hide nothing.
 static void add_sources(const bench *b, const bool *seen) {
     for (uint32_t i = 0; i < b->full.count; i++) {
-        const ewa_render_source how = {i % 4 ? 1 : 0.3, i % 5 != 2, 1};
+        const ewa_render_source how = {i % 4 ? 1 : 0.3, i % 5 != 2};
         const ewa_surfels *surfels = !seen || seen[i] ? b->full.part[i] : b->hollow[i];
         assert_int_equal(ewa_render_add_source(b->renderer, surfels, &how), EWA_OK);
     }
@@ -77,9 +71,13 @@ static void add_sources(const bench *b, const bool *seen) {
 /// Draws the whole frame, then band by band, and compares; returns how many hollow sources bands had.
 static uint32_t hold_bands(const bench *b, const ewa_render_options *options, const picture *whole,
                            const picture *banded) {
-    bool seen[BANDS][CUBES_MOST];
+    bool seen[(HEIGHT + BAND - 1) / BAND][CUBES_MOST];
     uint32_t hollow_count = 0;
-    for (uint32_t i = 0; i < b->full.count; i++) hollow_count += find_bands(b, i, options, banded, seen);
+    for (uint32_t band = 0; band * BAND < HEIGHT; band++)
+        for (uint32_t i = 0; i < b->full.count; i++) {
+            seen[band][i] = is_seen(b, i, options, band * BAND, banded);
+            hollow_count += !seen[band][i];
+        }
     assert_int_equal(ewa_render_begin(b->renderer, &b->of.camera, options, &whole->frame), EWA_OK);
     add_sources(b, NULL);
     assert_int_equal(ewa_render_finish(b->renderer, NULL), EWA_OK);
