@@ -181,24 +181,11 @@ static void test_folder(void **state) {
     assert_int_equal(run("ewa info empty"), 1);
 }
 
-/// Octrees of more than four million points are drawn from their levels without being asked to.
-static void test_large(void **state) {
-    (void)state;
-    run_done("ewa generate plane -n 4010000 -o big.ply && ewa lod big.ply -o big.copc.laz && rm big.ply");
-    run_done("ewa render big.copc.laz -o big.png --size 200x200 --stats s.json");
-    assert_true(holds("s.json", "\"cubes_drawn\": "));
-    run_done("ewa info --json big.copc.laz");
-    assert_non_null(strstr(last_run.out, "\"points\": 4010000"));
-    assert_null(strstr(last_run.out, "\"sampled_points\": 0"));
-    run_done("ewa render big.copc.laz -o ground.png --size 200x200 --filter 'x<0' --stats s.json");
-    assert_false(holds("s.json", "\"cubes_drawn\": ")); // that takes all points
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_make),   cmocka_unit_test(test_sizes),    cmocka_unit_test(test_info),
         cmocka_unit_test(test_render), cmocka_unit_test(test_refusals), cmocka_unit_test(test_crop),
-        cmocka_unit_test(test_folder), cmocka_unit_test(test_large),
+        cmocka_unit_test(test_folder),
     };
     return cmocka_run_group_tests(tests, enter, leave);
 }
