@@ -166,7 +166,7 @@ static ewa_status write_above(ewa_lod_builder *b) {
     return status;
 }
 
-ewa_status ewa_lod_write(ewa_lod_builder *b, const char *out) {
+ewa_status ewa_lod_prepare(ewa_lod_builder *b, const char *out, ewa_judge *judge) {
     const ewa_survey *survey = b->plan.survey;
     const ewa_lattice *lattice = &survey->lattice;
     ewa_octree_plan plan = {.prototype = b->plan.output,
@@ -178,10 +178,15 @@ ewa_status ewa_lod_write(ewa_lod_builder *b, const char *out) {
         plan.bounds.low_world[c] = ewa_lattice_world(lattice, c, survey->point_count ? survey->least[c] : 0);
         plan.bounds.high_world[c] = ewa_lattice_world(lattice, c, survey->point_count ? survey->most[c] : 0);
     }
+    const ewa_status status = ewa_judge_make(b->context, !ewa_cloud_find(b->plan.inputs, EWA_COLOR), judge);
+    b->plan.judge = judge;
+    return status == EWA_OK ? ewa_octree_writer_open(b->context, out, &plan, &b->plan.writer) : status;
+}
+
+ewa_status ewa_lod_write(ewa_lod_builder *b, const char *out) {
+    const ewa_survey *survey = b->plan.survey;
     ewa_judge judge = {.context = NULL};
-    ewa_status status = ewa_judge_make(b->context, !ewa_cloud_find(b->plan.inputs, EWA_COLOR), &judge);
-    b->plan.judge = &judge;
-    if (status == EWA_OK) status = ewa_octree_writer_open(b->context, out, &plan, &b->plan.writer);
+    ewa_status status = ewa_lod_prepare(b, out, &judge);
     if (status == EWA_OK) status = ewa_spool_open(b->context, out, &b->blocks);
     ewa_standins standins = {.count = 0};
     uint64_t point_count;

@@ -257,7 +257,8 @@ static ewa_status draw_rows(ewa_lod *lod, ewa_renderer *renderer, const ewa_came
     for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
         const bool touches = items[i].first_row < end_row && items[i].end_row > first_row;
         const ewa_surfels *surfels = !hollows || touches ? lod->cubes[items[i].cube].surfels : hollows[i];
-        const ewa_render_source how = {items[i].weight, items[i].hides};
+        const ewa_cube *cube = &lod->cubes[items[i].cube];
+        const ewa_render_source how = {items[i].weight, items[i].hides, 1 / cube->radius_scale};
         status = ewa_render_add_source(renderer, surfels, &how);
     }
     return status == EWA_OK ? ewa_render_finish(renderer, stats) : status;

@@ -7,6 +7,7 @@
 #include "image/srgb.h"
 #include "lod/standin.h"
 #include "surface/packets.h"
+#include "surface/render.h"
 
 #include <math.h>
 #include <string.h>
@@ -24,7 +25,7 @@ enum {
 };
 
 /// Radii that are tried, over those that keep areas.
-static const float RADIUS_SCALES[] = {1.0f, 0.7f, 0.5f, 0.35f};
+static const float RADIUS_SCALES[] = {1.0f, 0.7f};
 
 /// Standard deviation of the neighbourhood that colours are sharpened against, in cells, and most sharpening.
 static const float BLUR_CELLS = 0.6f, MOST_SHARPENING = 1.5f;
@@ -231,15 +232,17 @@ ewa_status ewa_standins_cover(ewa_judge *judge, const ewa_standins *standins, fl
 }
 
 /// Draws ranges of lists as one picture, linear and premultiplied.
-static ewa_status draw(ewa_judge *judge, const ewa_camera *camera, ewa_surfels **surfels, uint32_t count,
-                       float *picture) {
+static ewa_status draw(ewa_judge *judge, const ewa_camera *camera, ewa_surfels **surfels,
+                       const float *radius_scales, uint32_t count, float *picture) {
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
     options.shading = judge->lit ? EWA_SHADING_LAMBERT : EWA_SHADING_NONE;
     const ewa_frame frame = {.rgba = picture};
     ewa_status status = ewa_render_begin(judge->renderer, camera, &options, &frame);
-    for (uint32_t i = 0; i < count && status == EWA_OK; i++)
-        if (surfels[i]) status = ewa_render_add(judge->renderer, surfels[i]);
+    for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
+        const ewa_render_source how = {1, true, 1 / (double)radius_scales[i]};
+        if (surfels[i]) status = ewa_render_add_source(judge->renderer, surfels[i], &how);
+    }
     return status == EWA_OK ? ewa_render_finish(judge->renderer, NULL) : status;
 }
 
@@ -297,7 +300,7 @@ static ewa_status try_scales(ewa_judge *judge, const ewa_camera *camera, const e
                           sharp ? (const float(*)[3])judge->blurred.data : NULL, &surfels);
             if (status != EWA_OK) break;
             surfels->unit_coverage = (double)(unit_coverage * RADIUS_SCALES[k] * RADIUS_SCALES[k]);
-            status = draw(judge, camera, &surfels, 1, pictures[sharp]);
+            status = draw(judge, camera, &surfels, &RADIUS_SCALES[k], 1, pictures[sharp]);
             ewa_surfels_destroy(&surfels);
         }
         if (status != EWA_OK) break;
@@ -323,6 +326,8 @@ ewa_status ewa_standins_judge(ewa_judge *judge, const ewa_standins *parts, uint3
     if (status == EWA_OK) status = blur(judge, merged, level, side_world / GRID_SIDE);
     const uint64_t prefix = choose_window(merged, window_level);
     ewa_surfels *surfels[MOST_PARTS] = {NULL};
+    float radius_scales[MOST_PARTS];
+    for (uint32_t i = 0; i < part_count && i < MOST_PARTS; i++) radius_scales[i] = parts[i].radius_scale;
     uint32_t first, end;
     double coverage = 0;
     for (uint32_t i = 0; i < part_count && status == EWA_OK; i++) {
@@ -346,7 +351,7 @@ ewa_status ewa_standins_judge(ewa_judge *judge, const ewa_standins *parts, uint3
         ewa_camera camera;
         aim(merged, first, end, low, window_world, &camera);
         verdict best = {1, 0, 0};
-        status = draw(judge, &camera, surfels, part_count, judge->pictures.data);
+        status = draw(judge, &camera, surfels, radius_scales, part_count, judge->pictures.data);
         if (status == EWA_OK)
             status = try_scales(judge, &camera, merged, first, end, merged->unit_coverage,
                                 judge->pictures.data, &best);

@@ -24,7 +24,7 @@ static ewa_status add_cube(ewa_lod *lod, const ewa_octree_key *key, uint32_t *in
     lod->cubes = buffer.data, lod->cube_capacity_bytes = buffer.capacity_bytes;
     if (status != EWA_OK) return status;
     ewa_cube *cube = &lod->cubes[lod->cube_count];
-    *cube = (ewa_cube){.key = *key, .node = UINT32_MAX, .page = UINT32_MAX};
+    *cube = (ewa_cube){.key = *key, .node = UINT32_MAX, .page = UINT32_MAX, .radius_scale = 1};
     for (int i = 0; i < 8; i++) cube->parts[i] = EWA_NO_CUBE;
     cube->side_world = ldexp(lod->facts->side_world, -key->level);
     cube->spacing_world = ldexp(lod->facts->spacing_world, -key->level);
@@ -64,6 +64,7 @@ static ewa_status add_pages(ewa_lod *lod) {
         ewa_cube *cube = &lod->cubes[index];
         cube->page = i;
         cube->divided = page->size_bytes > 0;
+        if (cube->divided) cube->radius_scale = (double)page->radius_scale;
         cube->error = (double)page->error;
         cube->largest_radius_world = (double)page->largest_radius_world;
         cube->count = cube->divided ? page->surfel_count : page->point_count;

@@ -19,7 +19,8 @@ typedef struct ewa_cube {
     uint32_t page;     ///< of the levels; UINT32_MAX: there are none
     bool divided;
     double low_world[3], side_world;
-    double spacing_world;        ///< of what is drawn of it
+    double radius_scale;         ///< of what is drawn of it
+    double spacing_world;        ///< of that
     double error;                ///< of that, rms, 1/255, where it is half a pixel apart
     double largest_radius_world; ///< of that
     uint64_t count;              ///< surfels or points of it, about

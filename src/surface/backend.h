@@ -13,6 +13,7 @@ typedef struct ewa_frame_source {
     const ewa_surfels *surfels;
     double weight; ///< (0, 1]; of all its kernels
     bool hides;    ///< takes part in finding the nearest surfaces
+    double tolerance_scale; ///< of the depth tolerance
 } ewa_frame_source;
 
 /// A frame whose arguments are checked, with all of its sources.

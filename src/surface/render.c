@@ -86,6 +86,9 @@ ewa_status ewa_render_add_source(ewa_renderer *renderer, const ewa_surfels *surf
     if (!(how->weight > 0 && how->weight <= 1))
         return ewa_fail(renderer->context, EWA_ERROR_ARGUMENT, "render: a weight of %g is not in (0, 1]",
                         how->weight);
+    if (!(how->tolerance_scale > 0 && how->tolerance_scale <= 1e6))
+        return ewa_fail(renderer->context, EWA_ERROR_ARGUMENT,
+                        "render: a tolerance scale of %g is not in (0, 1e6]", how->tolerance_scale);
     ewa_render_job *job = &renderer->job;
     ewa_status status = check_source(renderer, surfels);
     if (status == EWA_OK)
@@ -93,14 +96,14 @@ ewa_status ewa_render_add_source(ewa_renderer *renderer, const ewa_surfels *surf
                                  (size_t)job->source_count + 1, sizeof(ewa_frame_source));
     if (status != EWA_OK) return status;
     ewa_frame_source *sources = renderer->sources.data;
-    sources[job->source_count++] =
-        (ewa_frame_source){surfels, how->weight, how->hides || job->options.passes == 1};
+    sources[job->source_count++] = (ewa_frame_source){
+        surfels, how->weight, how->hides || job->options.passes == 1, how->tolerance_scale};
     job->sources = sources;
     return EWA_OK;
 }
 
 ewa_status ewa_render_add_weighted(ewa_renderer *renderer, const ewa_surfels *surfels, double weight) {
-    return ewa_render_add_source(renderer, surfels, &(ewa_render_source){weight, true});
+    return ewa_render_add_source(renderer, surfels, &(ewa_render_source){weight, true, 1});
 }
 
 ewa_status ewa_render_add(ewa_renderer *renderer, const ewa_surfels *surfels) {

@@ -14,6 +14,8 @@ typedef struct ewa_render_source {
     /// added to the surfaces that others make, where it is within their tolerance, and shows nothing elsewhere.
     /// With one pass all hide.
     bool hides;
+    /// Of the depth tolerance: kernels that were narrowed belong to surfaces that are as thick as before; > 0.
+    double tolerance_scale;
 } ewa_render_source;
 
 /// Adds a source as ewa_render_add_weighted() does. Errors: those.

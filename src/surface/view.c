@@ -230,7 +230,8 @@ ewa_status ewa_view_set(ewa_context *context, ewa_view *view, const ewa_frame_so
     view->prefilter2_px2 = (float)(options->prefilter_px * options->prefilter_px);
     view->reach_px = (float)reach_px;
     // With one pass the nearest splat wins: no tolerance.
-    view->tolerance = options->passes == 1 ? 0 : (float)(options->tolerance * cutoff);
+    const double tolerance_scale = source ? source->tolerance_scale : 1;
+    view->tolerance = options->passes == 1 ? 0 : (float)(options->tolerance * cutoff * tolerance_scale);
     view->grazing = options->passes == 1 ? 0 : 1;
     // Halve r^2 / 2 until F^2 / 2 is in the range of the exponential's polynomial.
     view->doublings = 2;

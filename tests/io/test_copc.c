@@ -380,13 +380,13 @@ static ewa_status try_bytes(const uint8_t *bytes, size_t size_bytes) {
 static void refuses_every_beginning(void **state) {
     (void)state;
     size_t size_bytes;
-    write_made(60, 2, false, 0);
+    write_made(12, 2, false, 0);
     uint8_t *bytes = scratch_read(path, &size_bytes);
     for (size_t size = 0; size < size_bytes; size++)
         if (try_bytes(bytes, size) == EWA_OK) fail_msg("%zu bytes of %zu are taken", size, size_bytes);
     assert_int_equal(try_bytes(bytes, size_bytes), EWA_OK);
     check_random random = {5};
-    for (int i = 0; i < 1000; i++) {
+    for (int i = 0; i < 600; i++) {
         uint8_t *changed = malloc(size_bytes);
         memcpy(changed, bytes, size_bytes);
         for (int k = 0; k < 2; k++)

@@ -539,7 +539,21 @@ static ewa_status open_and_read(ewa_context *failing, void *user) {
 static void survives_memory_that_fails(void **state) {
     (void)state;
     for (int encoding = 0; encoding < ENCODING_COUNT; encoding++) {
+        char entries[128];
+        uint32_t root = 0, below = 0;
         write_folder(encoding);
+        for (uint32_t i = 0; i < nodes.count; i++) *(nodes.keys[i].level ? &below : &root) = i;
+        // Two nodes, in a file each.
+        const ewa_octree_key *k = &nodes.keys[below];
+        snprintf(entries, sizeof entries, "{\"0-0-0-0\":%d,\"%d-%d-%d-%d\":-1}",
+                 (int)ewa_cloud_point_count(nodes.pieces[root]), k->level, k->cell[0], k->cell[1],
+                 k->cell[2]);
+        write_text("ept-hierarchy/0-0-0-0.json", entries);
+        char path[600];
+        key_path("ept-hierarchy", k, "json", path);
+        const int length = snprintf(entries, sizeof entries, "{\"%d-%d-%d-%d\":%d}", k->level, k->cell[0],
+                                    k->cell[1], k->cell[2], (int)ewa_cloud_point_count(nodes.pieces[below]));
+        scratch_write(path, entries, (size_t)length);
         scratch_fail_each(open_and_read, NULL);
         empty_folder();
     }

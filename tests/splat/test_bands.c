@@ -68,7 +68,7 @@ static void fill(const picture *to, int byte) {
 /// Adds the sources, hollow ones where `seen` is false; some have weights, some hide nothing.
 static void add_sources(const bench *b, const bool *seen) {
     for (uint32_t i = 0; i < b->full.count; i++) {
-        const ewa_render_source how = {i % 4 ? 1 : 0.3, i % 5 != 2};
+        const ewa_render_source how = {i % 4 ? 1 : 0.3, i % 5 != 2, 1};
         const ewa_surfels *surfels = !seen || seen[i] ? b->full.part[i] : b->hollow[i];
         assert_int_equal(ewa_render_add_source(b->renderer, surfels, &how), EWA_OK);
     }

@@ -19,7 +19,7 @@ static void draw(ewa_renderer *renderer, const scene *of, const ewa_render_optio
                  const part *parts, uint32_t count, const picture *to) {
     assert_int_equal(ewa_render_begin(renderer, &of->camera, options, &to->frame), EWA_OK);
     for (uint32_t i = 0; i < count; i++) {
-        const ewa_render_source how = {parts[i].weight, parts[i].hides};
+        const ewa_render_source how = {parts[i].weight, parts[i].hides, 1};
         assert_int_equal(ewa_render_add_source(renderer, parts[i].surfels, &how), EWA_OK);
     }
     assert_int_equal(ewa_render_finish(renderer, NULL), EWA_OK);

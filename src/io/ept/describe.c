@@ -76,13 +76,15 @@ static ewa_status take_encoding(const description *d) {
     const char *version = cJSON_GetStringValue(item(d, "version"));
     const char *data = cJSON_GetStringValue(item(d, "dataType"));
     const char *hierarchy = cJSON_GetStringValue(item(d, "hierarchyType"));
+    char shown[EWA_EPT_SHOWN_BYTES];
     if (!version || strncmp(version, "1.", 2) != 0 || strlen(version) > 8 ||
         strspn(version, "0123456789.") != strlen(version))
-        return ewa_fail(ept->context, EWA_ERROR_UNSUPPORTED, "%s: EPT of version %.20s; 1.0 and 1.1 are read",
-                        d->path, version ? version : "none");
+        return ewa_fail(ept->context, EWA_ERROR_UNSUPPORTED, "%s: EPT of version %s; 1.0 and 1.1 are read",
+                        d->path, ewa_ept_show(version, shown));
     if (hierarchy && strcmp(hierarchy, "json") != 0)
         return ewa_fail(ept->context, EWA_ERROR_UNSUPPORTED,
-                        "%s: a hierarchy of type \"%.20s\"; \"json\" is read", d->path, hierarchy);
+                        "%s: a hierarchy of type \"%s\"; \"json\" is read", d->path,
+                        ewa_ept_show(hierarchy, shown));
     snprintf(ept->kind, sizeof ept->kind, "EPT %s", version);
     d->octree->facts.kind = ept->kind;
     for (int i = 0; i < 3 && data; i++) {
@@ -91,8 +93,8 @@ static ewa_status take_encoding(const description *d) {
         return EWA_OK;
     }
     return ewa_fail(ept->context, EWA_ERROR_UNSUPPORTED,
-                    "%s: points of type \"%.20s\"; \"laszip\", \"binary\" and \"zstandard\" are read",
-                    d->path, data ? data : "");
+                    "%s: points of type \"%s\"; \"laszip\", \"binary\" and \"zstandard\" are read", d->path,
+                    ewa_ept_show(data, shown));
 }
 
 static ewa_status note(const description *d, const char *name, const char *text) {

@@ -43,6 +43,14 @@ typedef struct ewa_ept {
     ewa_ept_file files[EWA_OCTREE_WAVE];
 } ewa_ept;
 
+/// Text of a file as messages and names may have it: printable, cut to what fits; NULL is "none".
+enum { EWA_EPT_SHOWN_BYTES = 61 };
+static inline const char *ewa_ept_show(const char *text, char shown[EWA_EPT_SHOWN_BYTES]) {
+    if (!text) return "none";
+    ewa_las_text((const uint8_t *)text, strnlen(text, EWA_EPT_SHOWN_BYTES - 1), shown);
+    return shown;
+}
+
 /// Writes the path of a file of the folder; `what` is "ept-data/" or such, which keys and suffix follow. Errors:
 /// EWA_ERROR_LIMIT.
 ewa_status ewa_ept_path(const ewa_ept *ept, const char *what, const ewa_octree_key *key, const char *suffix,

@@ -51,6 +51,7 @@ static ewa_status take_entries(ewa_octree *octree, const char *path, const cJSON
     ewa_context *context = octree->context;
     ewa_status status = EWA_OK;
     const cJSON *entry;
+    char shown[EWA_EPT_SHOWN_BYTES];
     cJSON_ArrayForEach(entry, entries) {
         ewa_octree_node node = {0};
         const double count = cJSON_IsNumber(entry) ? entry->valuedouble : -2;
@@ -61,9 +62,10 @@ static ewa_status take_entries(ewa_octree *octree, const char *path, const cJSON
         if (!is_good)
             return ewa_fail(
                 context, EWA_ERROR_FORMAT,
-                "%s: \"%.60s\" is no cube \"level-x-y-z\" within %d-%d-%d-%d with a number of points, or "
+                "%s: \"%s\" is no cube \"level-x-y-z\" within %d-%d-%d-%d with a number of points, or "
                 "-1 for a file below this one",
-                path, entry->string, root->level, root->cell[0], root->cell[1], root->cell[2]);
+                path, ewa_ept_show(entry->string, shown), root->level, root->cell[0], root->cell[1],
+                root->cell[2]);
         if (count < 0) {
             status = ewa_buffer_grow(context, &list->buffer, list->count, list->count + 1, sizeof node.key);
             if (status == EWA_OK) ((ewa_octree_key *)list->buffer.data)[list->count++] = node.key;

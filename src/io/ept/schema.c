@@ -76,7 +76,7 @@ static bool read_dimension(const cJSON *object, dimension *d) {
 static ewa_las_column *add(ewa_las_table *table, const char *name, const dimension *d) {
     ewa_las_column *column = &table->columns[table->column_count++];
     *column = (ewa_las_column){.component_count = 1, .at_bytes = {(uint16_t)d->at_bytes}};
-    snprintf(column->name, sizeof column->name, "%s", name);
+    ewa_las_text((const uint8_t *)name, strnlen(name, EWA_NAME_BYTES - 1), column->name);
     ewa_las_column_number(d->raw, column);
     column->scale[0] = d->scale;
     column->offset[0] = d->offset;
@@ -152,10 +152,11 @@ static ewa_status check_position(const ewa_ept *ept, const char *name, const dim
     return EWA_OK;
 }
 
-/// Whether two attributes have one name: the later one could not be asked for.
+/// An attribute that could not be asked for: its name is another's, or blank.
 static const char *find_double(ewa_las_table *table) {
     for (uint32_t i = 1; i < table->column_count; i++)
-        if (ewa_las_table_find(table, table->columns[i].name) != &table->columns[i])
+        if (!table->columns[i].name[0] ||
+            ewa_las_table_find(table, table->columns[i].name) != &table->columns[i])
             return table->columns[i].name;
     return NULL;
 }
@@ -170,6 +171,7 @@ ewa_status ewa_ept_schema(const char *name, const cJSON *schema, const double lo
                         EWA_LAS_MAX_COLUMNS);
     uint32_t at_bytes = 0;
     const cJSON *object;
+    char shown[EWA_EPT_SHOWN_BYTES];
     memset(table, 0, sizeof *table);
     // Positions come first, as in all other clouds.
     for (int round = 0; round < 2; round++) {
@@ -179,9 +181,9 @@ ewa_status ewa_ept_schema(const char *name, const cJSON *schema, const double lo
             if (!read_dimension(object, &d))
                 return ewa_fail(
                     ept->context, EWA_ERROR_FORMAT,
-                    "%s: the schema: dimension %.60s has no name, an unknown type or size, or a scale "
+                    "%s: the schema: dimension %s has no name, an unknown type or size, or a scale "
                     "that is none",
-                    name, d.name ? d.name : "?");
+                    name, ewa_ept_show(d.name, shown));
             at_bytes += ewa_las_raw_bytes(d.raw);
             int slot = 0;
             while (slot < GATHERED_COUNT && strcmp(d.name, gathered_names[slot]) != 0) slot++;
@@ -199,8 +201,8 @@ ewa_status ewa_ept_schema(const char *name, const cJSON *schema, const double lo
     ewa_las_table_join(table);
     const char *twice = find_double(table);
     if (twice)
-        return ewa_fail(ept->context, EWA_ERROR_FORMAT, "%s: the schema has two dimensions of '%s'", name,
-                        twice);
+        return ewa_fail(ept->context, EWA_ERROR_FORMAT,
+                        "%s: the schema has two dimensions of '%s', or one without a name", name, twice);
     table->record_bytes = at_bytes;
     const ewa_las_column *color = ewa_las_table_find(table, EWA_COLOR);
     table->color_at =

@@ -207,7 +207,7 @@ static void encode_node(void *data, uint32_t index, uint32_t worker) {
     chunk->point_count = (uint32_t)count;
     chunk->size_bytes = 0;
     ewa_status status = ewa_buffer_reserve(context, &w->records[worker], count, w->las.table.record_bytes);
-    if (status == EWA_OK) {
+    if (status == EWA_OK && count) {
         ewa_las_pack(&w->las, piece, 0, count, w->records[worker].data, &sums);
         status = ewa_laz_encode(context, &w->laz, w->records[worker].data, count, &chunk->bytes,
                                 &chunk->size_bytes, &w->memories[worker]);
