@@ -45,6 +45,18 @@ static void test_make(void **state) {
     assert_int_equal(scratch_size("x.copc.laz"), -1);
 }
 
+/// Parts that are made alone become the file that is made at once.
+static void test_parts(void **state) {
+    (void)state;
+    for (int part = 1; part <= 3; part++) run_done("ewa lod t.ply -o p%d.copc.laz --subset %d/3", part, part);
+    run_done("ewa lod p2.copc.laz p3.copc.laz p1.copc.laz -o joined.copc.laz --merge --stats s.json");
+    assert_true(scratch_same("t.copc.laz", "joined.copc.laz"));
+    assert_true(holds("s.json", "\"points\": 60000"));
+    assert_int_equal(run("ewa lod p1.copc.laz p2.copc.laz -o x.copc.laz --merge"), 1);
+    assert_int_equal(run("ewa lod p1.copc.laz p2.copc.laz p2.copc.laz -o x.copc.laz --merge"), 1);
+    assert_int_equal(scratch_size("x.copc.laz"), -1);
+}
+
 static void test_sizes(void **state) {
     (void)state;
     static const char *const fine[] = {"64M", "64m", "0.5G", "1GiB", "100MB", "67108864", "1T"};
@@ -183,9 +195,9 @@ static void test_folder(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_make),   cmocka_unit_test(test_sizes),    cmocka_unit_test(test_info),
-        cmocka_unit_test(test_render), cmocka_unit_test(test_refusals), cmocka_unit_test(test_crop),
-        cmocka_unit_test(test_folder),
+        cmocka_unit_test(test_make), cmocka_unit_test(test_parts),  cmocka_unit_test(test_sizes),
+        cmocka_unit_test(test_info), cmocka_unit_test(test_render), cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_crop), cmocka_unit_test(test_folder),
     };
     return cmocka_run_group_tests(tests, enter, leave);
 }
