@@ -45,6 +45,18 @@ static void test_make(void **state) {
     assert_int_equal(scratch_size("x.copc.laz"), -1);
 }
 
+/// Parts that are made alone become the file that is made at once.
+static void test_parts(void **state) {
+    (void)state;
+    for (int part = 1; part <= 3; part++) run_done("ewa lod t.ply -o p%d.copc.laz --subset %d/3", part, part);
+    run_done("ewa lod p2.copc.laz p3.copc.laz p1.copc.laz -o joined.copc.laz --merge --stats s.json");
+    assert_true(scratch_same("t.copc.laz", "joined.copc.laz"));
+    assert_true(holds("s.json", "\"points\": 60000"));
+    assert_int_equal(run("ewa lod p1.copc.laz p2.copc.laz -o x.copc.laz --merge"), 1);
+    assert_int_equal(run("ewa lod p1.copc.laz p2.copc.laz p2.copc.laz -o x.copc.laz --merge"), 1);
+    assert_int_equal(scratch_size("x.copc.laz"), -1);
+}
+
 static void test_sizes(void **state) {
     (void)state;
     static const char *const fine[] = {"64M", "64m", "0.5G", "1GiB", "100MB", "67108864", "1T"};
@@ -181,24 +193,11 @@ static void test_folder(void **state) {
     assert_int_equal(run("ewa info empty"), 1);
 }
 
-/// Octrees of more than four million points are drawn from their levels without being asked to.
-static void test_large(void **state) {
-    (void)state;
-    run_done("ewa generate plane -n 4010000 -o big.ply && ewa lod big.ply -o big.copc.laz && rm big.ply");
-    run_done("ewa render big.copc.laz -o big.png --size 200x200 --stats s.json");
-    assert_true(holds("s.json", "\"cubes_drawn\": "));
-    run_done("ewa info --json big.copc.laz");
-    assert_non_null(strstr(last_run.out, "\"points\": 4010000"));
-    assert_null(strstr(last_run.out, "\"sampled_points\": 0"));
-    run_done("ewa render big.copc.laz -o ground.png --size 200x200 --filter 'x<0' --stats s.json");
-    assert_false(holds("s.json", "\"cubes_drawn\": ")); // that takes all points
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_make),   cmocka_unit_test(test_sizes),    cmocka_unit_test(test_info),
-        cmocka_unit_test(test_render), cmocka_unit_test(test_refusals), cmocka_unit_test(test_crop),
-        cmocka_unit_test(test_folder), cmocka_unit_test(test_large),
+        cmocka_unit_test(test_make), cmocka_unit_test(test_parts),  cmocka_unit_test(test_sizes),
+        cmocka_unit_test(test_info), cmocka_unit_test(test_render), cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_crop), cmocka_unit_test(test_folder),
     };
     return cmocka_run_group_tests(tests, enter, leave);
 }
