@@ -4,8 +4,9 @@
 // A picture of an octree: which cubes, with which weights, what has to be read for it, and in which bands.
 //
 // A cube stands for its parts while what is drawn of it lies no farther apart on the screen than it may. From three
-// quarters of that on its parts are drawn as well, with weights that grow to one as those of the cube fall to zero: the
-// picture, a quotient of sums, changes with the camera without a step. One of both finds the nearest surfaces.
+// quarters of that on its parts are drawn as well, with weights that grow to one as those of the cube fall to zero:
+// the picture, a quotient of sums, changes with the camera without a step. The finest that is drawn finds the nearest
+// surfaces.
 #include "base/base.h"
 #include "base/options.h"
 #include "homogeneous/vec.h"
@@ -145,7 +146,7 @@ static bool parts_are_loaded(const chooser *c, const ewa_cube *cube) {
     return true;
 }
 
-static void choose(chooser *c, uint32_t index, double weight, bool hides) {
+static void choose(chooser *c, uint32_t index, double weight) {
     const ewa_cube *cube = &c->lod->cubes[index];
     const sight_of s = look_at(c, cube);
     if (!s.seen || c->status != EWA_OK) return;
@@ -154,11 +155,10 @@ static void choose(chooser *c, uint32_t index, double weight, bool hides) {
         c->missing_count++;
         share = 0;
     }
-    // Of the way to a file's surfels, what has next to no weight is left out.
-    const bool parts_hide = hides && share >= 0.5;
-    if (share < 1) add_item(c, index, weight * (1 - share), hides && !parts_hide, &s);
+    // What stands for parts is larger than they are: where these are drawn they say what is in front of what.
+    if (share < 1) add_item(c, index, weight * (1 - share), share == 0, &s);
     for (int i = 0; i < 8 && share > 0; i++)
-        if (cube->parts[i] != EWA_NO_CUBE) choose(c, cube->parts[i], weight * share, parts_hide);
+        if (cube->parts[i] != EWA_NO_CUBE) choose(c, cube->parts[i], weight * share);
 }
 
 /// All cubes from the root to those that are wanted, for pictures that get finer.
@@ -176,7 +176,7 @@ static ewa_status choose_cubes(chooser *c, bool loaded_only) {
     c->loaded_only = loaded_only;
     c->item_count = c->missing_count = 0;
     c->status = EWA_OK;
-    choose(c, 0, 1, true);
+    choose(c, 0, 1);
     return c->status;
 }
 

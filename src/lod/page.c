@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BATCH = 16, MEASURED_LEAVES = 8 /* one in so many */ };
+enum { BATCH = 16, MEASURED_LEAVES = 8 };
 
 /// Whether attributes make surfels.
 static bool has(const ewa_cloud *cloud, const char *name, uint32_t component_count) {
@@ -143,6 +143,9 @@ static ewa_status encode_page(ewa_region_plan *plan, const ewa_octree_key *key, 
     return status;
 }
 
+/// Whether the unit coverage of a page of points is measured: of the first of a region, then of one in so many.
+static bool is_measured(uint32_t leaf) { return leaf < MEASURED_LEAVES || leaf % MEASURED_LEAVES == 0; }
+
 ewa_status ewa_region_page(ewa_region_plan *plan, const ewa_octree_key *key, uint64_t point_count,
                            const ewa_standins *parts, uint32_t part_count, ewa_region_result *result,
                            ewa_standins *standins) {
@@ -150,7 +153,7 @@ ewa_status ewa_region_page(ewa_region_plan *plan, const ewa_octree_key *key, uin
     ewa_status status = EWA_OK;
     for (uint32_t i = 0; i < standins->count && !part_count; i++)
         page.largest_radius_world = fmaxf(page.largest_radius_world, standins->items[i].radius_world);
-    if (!part_count && standins->count && plan->leaf_count++ % MEASURED_LEAVES == 0)
+    if (!part_count && standins->count && is_measured(plan->leaf_count++))
         status = ewa_standins_cover(plan->judge, standins, &page.unit_coverage);
     if (part_count) {
         ewa_buffer all = {0};

@@ -11,6 +11,9 @@
 #include <math.h>
 #include <string.h>
 
+/// Mean distance of surfels of a surface, over the side of the cells that have one each.
+static const double CELLS_CROSSED = 0.82;
+
 /// Which of its parent's parts a cube is.
 static uint32_t part_of(const ewa_octree_key *key) {
     return (uint32_t)(key->cell[0] & 1) << 2 | (uint32_t)(key->cell[1] & 1) << 1 |
@@ -67,6 +70,8 @@ static ewa_status add_pages(ewa_lod *lod) {
         cube->error = (double)page->error;
         cube->largest_radius_world = (double)page->largest_radius_world;
         cube->count = cube->divided ? page->surfel_count : page->point_count;
+        // A surface that crosses cells in any way has half as many surfels more as one along them.
+        if (cube->divided) cube->spacing_world *= CELLS_CROSSED;
     }
     return status;
 }
@@ -181,13 +186,17 @@ static uint32_t find_path(const ewa_lod *lod, const ewa_cube *cube, uint32_t nod
     }
 }
 
-/// Reads the points of nodes that are not in memory.
+enum { BATCH = 16, BATCH_NODES = BATCH * EWA_OCTREE_LEVELS };
+
+/// Reads the points of nodes that are not in memory, all at once.
 static ewa_status fetch_nodes(ewa_lod *lod, const uint32_t *nodes, uint32_t count) {
-    uint32_t missing[EWA_OCTREE_LEVELS], missing_count = 0;
-    ewa_cloud *clouds[EWA_OCTREE_LEVELS];
+    uint32_t missing[BATCH_NODES], missing_count = 0;
+    ewa_cloud *clouds[BATCH_NODES];
     for (uint32_t i = 0; i < count; i++) {
-        if (!lod->clouds[nodes[i]]) missing[missing_count++] = nodes[i];
         lod->cloud_frames[nodes[i]] = lod->frame;
+        bool known = lod->clouds[nodes[i]] != NULL;
+        for (uint32_t k = 0; k < missing_count && !known; k++) known = missing[k] == nodes[i];
+        if (!known) missing[missing_count++] = nodes[i];
     }
     if (!missing_count) return EWA_OK;
     const ewa_status status = ewa_octree_read(lod->octree, missing, missing_count, SURFEL_ATTRIBUTES, clouds);
@@ -196,6 +205,39 @@ static ewa_status fetch_nodes(ewa_lod *lod, const uint32_t *nodes, uint32_t coun
         lod->cloud_bytes += cloud_bytes(clouds[i]);
     }
     return status;
+}
+
+/// Which points of a node are in a cube.
+typedef struct inside_job {
+    const ewa_lod *lod;
+    const ewa_cube *cube;
+    const ewa_octree_key *node;
+    const ewa_attribute *position;
+    double origin[3];
+    uint64_t count;
+    uint8_t *inside;
+} inside_job;
+
+enum { INSIDE_POINTS = 1 << 12 };
+
+static void inside_task(void *data, uint32_t task, uint32_t worker) {
+    (void)worker;
+    enum { BLOCK = 256 };
+    const inside_job *job = data;
+    double block[3 * BLOCK];
+    const uint64_t first = (uint64_t)task * INSIDE_POINTS, left = job->count - first;
+    const uint64_t end = first + (left < INSIDE_POINTS ? left : INSIDE_POINTS);
+    for (uint64_t i = first; i < end; i += BLOCK) {
+        const uint64_t part = end - i < BLOCK ? end - i : BLOCK;
+        ewa_attribute_read_f64(job->position, i, part, block);
+        for (uint64_t k = 0; k < part; k++) {
+            int32_t cell[3];
+            double at[3];
+            for (uint64_t c = 0; c < 3; c++) at[c] = block[3 * k + c] + job->origin[c];
+            ewa_tree_cell(job->lod, at, job->node, job->cube->key.level, cell);
+            job->inside[i + k] = memcmp(cell, job->cube->key.cell, sizeof cell) == 0;
+        }
+    }
 }
 
 /// Makes one cloud of the points that nodes have in a cube. The caller owns it.
@@ -209,21 +251,22 @@ static ewa_status gather_points(ewa_lod *lod, const ewa_cube *cube, const uint32
         const ewa_octree_key *key = &lod->facts->nodes[nodes[n]].key;
         const uint64_t point_count = ewa_cloud_point_count(cloud);
         uint64_t *indices = ewa_allocate(lod->context, point_count, sizeof *indices), kept = 0;
-        if (!indices) {
+        inside_job job = {.lod = lod,
+                          .cube = cube,
+                          .node = key,
+                          .position = ewa_cloud_find(cloud, EWA_POSITION),
+                          .count = point_count,
+                          .inside = ewa_allocate(lod->context, point_count, 1)};
+        if (indices && job.inside) {
+            ewa_cloud_origin(cloud, job.origin);
+            ewa_parallel(lod->context, inside_task, &job,
+                         (uint32_t)((point_count + INSIDE_POINTS - 1) / INSIDE_POINTS));
+            for (uint64_t i = 0; i < point_count; i++)
+                if (job.inside[i]) indices[kept++] = i;
+        } else {
             status = EWA_ERROR_MEMORY;
-            break;
         }
-        double origin[3];
-        ewa_cloud_origin(cloud, origin);
-        const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
-        for (uint64_t i = 0; i < point_count; i++) {
-            double at[4];
-            int32_t cell[3];
-            ewa_attribute_read_f64(position, i, 1, at);
-            for (int c = 0; c < 3; c++) at[c] += origin[c];
-            ewa_tree_cell(lod, at, key, cube->key.level, cell);
-            if (memcmp(cell, cube->key.cell, sizeof cell) == 0) indices[kept++] = i;
-        }
+        ewa_release(lod->context, job.inside, point_count, 1);
         if (kept) status = ewa_cloud_select(cloud, indices, kept, &selected[count]);
         count += kept > 0;
         ewa_release(lod->context, indices, point_count, sizeof *indices);
@@ -251,7 +294,7 @@ static ewa_status keep(ewa_lod *lod, ewa_cube *cube, const ewa_cloud *cloud, dou
     return EWA_OK;
 }
 
-static ewa_status load_points(ewa_lod *lod, ewa_cube *cube, uint64_t memory_bytes) {
+static ewa_status load_points(ewa_lod *lod, ewa_cube *cube) {
     uint32_t nodes[EWA_OCTREE_LEVELS];
     const uint32_t count = find_path(lod, cube, nodes);
     ewa_cloud *cloud = NULL;
@@ -268,7 +311,6 @@ static ewa_status load_points(ewa_lod *lod, ewa_cube *cube, uint64_t memory_byte
     }
     if (status == EWA_OK) status = keep(lod, cube, cloud, 1);
     ewa_cloud_destroy(&cloud);
-    trim_clouds(lod, memory_bytes / 8);
     return status;
 }
 
@@ -339,22 +381,37 @@ static ewa_status load_pages(ewa_lod *lod, const uint32_t *cubes, uint32_t count
     return status;
 }
 
+/// Makes surfels of the points of some cubes, at most BATCH.
+static ewa_status load_leaves(ewa_lod *lod, const uint32_t *cubes, uint32_t count, uint64_t memory_bytes) {
+    uint32_t nodes[BATCH_NODES] = {0}, node_count = 0;
+    for (uint32_t i = 0; i < count; i++)
+        node_count += find_path(lod, &lod->cubes[cubes[i]], nodes + node_count);
+    ewa_status status = fetch_nodes(lod, nodes, node_count);
+    for (uint32_t i = 0; i < count && status == EWA_OK; i++) status = load_points(lod, &lod->cubes[cubes[i]]);
+    trim_clouds(lod, memory_bytes / 8);
+    return status;
+}
+
 ewa_status ewa_tree_load(ewa_lod *lod, const uint32_t *cubes, uint32_t count, uint64_t memory_bytes) {
-    enum { BATCH = 16 };
-    uint32_t pages[BATCH], page_count = 0;
+    uint32_t pages[BATCH], leaves[BATCH], page_count = 0, leaf_count = 0;
     ewa_status status = EWA_OK;
     for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
-        ewa_cube *cube = &lod->cubes[cubes[i]];
+        const ewa_cube *cube = &lod->cubes[cubes[i]];
         if (cube->surfels) continue;
-        if (cube->page == UINT32_MAX || !cube->divided) {
-            status = load_points(lod, cube, memory_bytes);
-        } else {
+        if (cube->page == UINT32_MAX || !cube->divided)
+            leaves[leaf_count++] = cubes[i];
+        else
             pages[page_count++] = cubes[i];
-            if (page_count < BATCH) continue;
+        if (leaf_count == BATCH) {
+            status = load_leaves(lod, leaves, leaf_count, memory_bytes);
+            leaf_count = 0;
+        }
+        if (page_count == BATCH && status == EWA_OK) {
             status = load_pages(lod, pages, page_count);
             page_count = 0;
         }
     }
+    if (status == EWA_OK && leaf_count) status = load_leaves(lod, leaves, leaf_count, memory_bytes);
     if (status == EWA_OK && page_count) status = load_pages(lod, pages, page_count);
     return status;
 }

@@ -5,9 +5,9 @@
 // camera moves, what they take.
 //
 //   measure_lod build OUT.copc.laz IN...       makes an octree and says what it took
-//   measure_lod quality FILE [SPACING_PX...]   PSNR against all points, of the octree and of picks of as many points
+//   measure_lod quality FILE [SPACING...]   PSNR against all points, of the octree and of picks of as many points
 //   measure_lod dolly FILE [FRAMES]            steps between the frames of a slow dolly
-//   measure_lod speed FILE [SPACING_PX]        cold and warm frames
+//   measure_lod speed FILE [SPACING]        cold and warm frames
 #include "ewa/ewa.h"
 
 #include <math.h>
