@@ -4,8 +4,8 @@
 // Parts of an octree that were made by themselves, on any machine of the same byte order: what is known of the whole, and the
 // results of some regions. A part's sections: what it is; the survey; the prototype; all regions; then one for each
 // region that was made.
+#include "lod/part.h"
 #include "io/sections.h"
-#include "lod/build.h"
 
 #include <stdlib.h>
 #include <string.h>
