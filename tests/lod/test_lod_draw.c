@@ -3,6 +3,7 @@
 //
 // Pictures of octrees: like those of all points, the same for every number of threads and every memory, complete once
 // everything is read; and points read out of them.
+#include "io/octree.h"
 #include "lod/lod_scene.h"
 
 #include <math.h>
@@ -367,11 +368,62 @@ static void test_without_levels(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Points of a cube that lie in a part of it without a node are drawn, too: other programs leave such parts out.
+static void test_parts_without_nodes(void **state) {
+    (void)state;
+    enum { COUNT = 40000 };
+    ewa_context *context = check_context(2, NULL);
+    ewa_cloud *coarse = lod_ground(context, 0, COUNT, (lod_look){true, true}),
+              *all = lod_ground(context, COUNT, COUNT, (lod_look){true, true}), *corner = NULL;
+    uint64_t *indices = malloc(COUNT * sizeof *indices), count = 0;
+    assert_non_null(indices);
+    const double *at = ewa_cloud_find(all, EWA_POSITION)->data;
+    for (uint64_t i = 0; i < COUNT; i++)
+        if (at[3 * i] < 0 && at[3 * i + 1] < 0 && at[3 * i + 2] < 0) indices[count++] = i;
+    assert_int_equal(ewa_cloud_select(all, indices, count, &corner), EWA_OK);
+    free(indices);
+    ewa_cloud *prototype = NULL;
+    assert_int_equal(ewa_cloud_select(all, NULL, 0, &prototype), EWA_OK);
+    const ewa_octree_plan plan = {.prototype = prototype,
+                                  .bounds = {{-1, -1, -1}, {1, 1, 1}, 2},
+                                  .low_world = {-1, -1, -1},
+                                  .side_world = 2,
+                                  .spacing_world = 0.01};
+    const ewa_octree_key keys[2] = {{0, {0, 0, 0}}, {1, {0, 0, 0}}};
+    const ewa_cloud *const pieces[2] = {coarse, corner};
+    ewa_octree_chunk chunks[2] = {{.size_bytes = 0}};
+    ewa_octree_writer *writer = NULL;
+    char path[512];
+    assert_int_equal(ewa_octree_writer_open(context, scratch_path("gaps.copc.laz", path), &plan, &writer),
+                     EWA_OK);
+    assert_int_equal(ewa_octree_encode(writer, keys, pieces, 2, chunks), EWA_OK);
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(ewa_octree_append(writer, &chunks[i]), EWA_OK);
+        ewa_octree_chunk_free(context, &chunks[i]);
+    }
+    assert_int_equal(ewa_octree_writer_commit(&writer), EWA_OK);
+    ewa_cloud_destroy(&coarse);
+    ewa_cloud_destroy(&all);
+    ewa_cloud_destroy(&corner);
+    ewa_cloud_destroy(&prototype);
+    ewa_lod *lod = open_file(context, "gaps.copc.laz");
+    const ewa_camera camera = camera_at(2.2);
+    const ewa_lod_options options = lod_options_of(0, 0.5, 1 << 30);
+    shot *plain = draw_plain(context, "gaps.copc.laz", &camera),
+         *made = draw(lod, context, &camera, &options);
+    hold_like("parts without nodes", plain, made, 45);
+    free(plain);
+    free(made);
+    ewa_lod_close(&lod);
+    ewa_context_destroy(&context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_like_plain),     cmocka_unit_test(test_threads), cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_load),           cmocka_unit_test(test_read),    cmocka_unit_test(test_sample),
-        cmocka_unit_test(test_without_levels),
+        cmocka_unit_test(test_like_plain),     cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_memory),         cmocka_unit_test(test_load),
+        cmocka_unit_test(test_read),           cmocka_unit_test(test_sample),
+        cmocka_unit_test(test_without_levels), cmocka_unit_test(test_parts_without_nodes),
     };
     return cmocka_run_group_tests(tests, enter, leave);
 }
