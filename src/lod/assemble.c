@@ -111,7 +111,7 @@ static ewa_status write_pages(ewa_lod_builder *b) {
         .pages = b->pages.data, .page_count = b->page_count, .surfel_count = b->stats.merged_count};
     ewa_status status = find_coverage(b, &levels.unit_coverage);
     if (status != EWA_OK) return status;
-    qsort(levels.pages, levels.page_count, sizeof *levels.pages, compare_pages);
+    if (levels.page_count) qsort(levels.pages, levels.page_count, sizeof *levels.pages, compare_pages);
     const size_t table_bytes = EWA_LEVELS_HEAD_BYTES + (size_t)levels.page_count * EWA_LEVELS_PAGE_BYTES;
     const uint64_t blocks_bytes = ewa_spool_size(b->blocks);
     uint8_t *bytes = ewa_allocate(b->context, table_bytes, 1),

@@ -300,7 +300,7 @@ static bool take_chunks(ewa_context *context, ewa_section_view *from, ewa_region
     bool good = ewa_section_take(from, &count, sizeof count) && count <= from->size_bytes;
     if (good) *status = ewa_buffer_reserve(context, &result->chunks, count, sizeof(ewa_octree_chunk));
     if (!good || *status != EWA_OK) return false;
-    memset(result->chunks.data, 0, count * sizeof(ewa_octree_chunk));
+    if (count) memset(result->chunks.data, 0, count * sizeof(ewa_octree_chunk));
     result->chunk_count = count;
     ewa_octree_chunk *chunks = result->chunks.data;
     for (uint32_t i = 0; i < count && good && *status == EWA_OK; i++) {

@@ -104,6 +104,24 @@ static void test_wrong_parts(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Fewer regions than parts, or none at all.
+static void test_empty_parts(void **state) {
+    (void)state;
+    static const char *const files[] = {"e.ply"}, *const parts[] = {"e0", "e1", "e2"};
+    static const uint64_t counts[] = {0, 1, 1000};
+    ewa_context *context = check_context(2, NULL);
+    for (int i = 0; i < 3; i++) {
+        lod_save(lod_ground(context, 0, counts[i], (lod_look){.colors = true}), files[0]);
+        make_parts(context, files, 1, parts, NULL);
+        assert_int_equal(lod_build(context, files, 1, "e.copc.laz", NULL, NULL), EWA_OK);
+        ewa_lod_build_stats stats;
+        assert_int_equal(merge(context, parts, PARTS, "em.copc.laz", &stats), EWA_OK);
+        assert_int_equal(stats.point_count, counts[i]);
+        lod_hold_same_files("e.copc.laz", "em.copc.laz");
+    }
+    ewa_context_destroy(&context);
+}
+
 /// A byte that is another, at many places, and ends of all kinds.
 static void test_damage(void **state) {
     (void)state;
@@ -141,6 +159,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_orders),
         cmocka_unit_test(test_wrong_parts),
+        cmocka_unit_test(test_empty_parts),
         cmocka_unit_test(test_damage),
     };
     return cmocka_run_group_tests(tests, enter, leave);
