@@ -200,6 +200,13 @@ static ewa_status open_part_file(ewa_context *context, const char *path, open_pa
     return EWA_OK;
 }
 
+/// Whether what was copied into a truth value is one.
+static bool is_truth(const bool *copied) {
+    uint8_t byte;
+    memcpy(&byte, copied, sizeof byte);
+    return byte <= 1;
+}
+
 /// Reads what is known of all points.
 static bool take_survey(ewa_context *context, ewa_section_view from, ewa_survey *survey, ewa_status *status) {
     enum { MOST_COLUMNS = 4096, MOST_RECORD_BYTES = 1 << 16 };
@@ -220,7 +227,8 @@ static bool take_survey(ewa_context *context, ewa_section_view from, ewa_survey 
         return false;
     for (uint32_t k = 0; k < survey->column_count; k++) {
         const ewa_survey_column *column = &survey->columns[k];
-        good = good && column->size_bytes <= sizeof column->value &&
+        good = good && column->size_bytes <= sizeof column->value && is_truth(&column->constant) &&
+               is_truth(&column->seen) &&
                (column->constant || (column->at_bytes <= survey->record_bytes &&
                                      column->size_bytes <= survey->record_bytes - column->at_bytes));
     }
