@@ -4,8 +4,8 @@
 // Parts of an octree that were made by themselves, on any machine of the same byte order: what is known of the whole, and the
 // results of some regions. A part's sections: what it is; the survey; the prototype; all regions; then one for each
 // region that was made.
+#include "lod/part.h"
 #include "io/sections.h"
-#include "lod/build.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -200,6 +200,13 @@ static ewa_status open_part_file(ewa_context *context, const char *path, open_pa
     return EWA_OK;
 }
 
+/// Whether what was copied into a truth value is one.
+static bool is_truth(const bool *copied) {
+    uint8_t byte;
+    memcpy(&byte, copied, sizeof byte);
+    return byte <= 1;
+}
+
 /// Reads what is known of all points.
 static bool take_survey(ewa_context *context, ewa_section_view from, ewa_survey *survey, ewa_status *status) {
     enum { MOST_COLUMNS = 4096, MOST_RECORD_BYTES = 1 << 16 };
@@ -220,7 +227,8 @@ static bool take_survey(ewa_context *context, ewa_section_view from, ewa_survey 
         return false;
     for (uint32_t k = 0; k < survey->column_count; k++) {
         const ewa_survey_column *column = &survey->columns[k];
-        good = good && column->size_bytes <= sizeof column->value &&
+        good = good && column->size_bytes <= sizeof column->value && is_truth(&column->constant) &&
+               is_truth(&column->seen) &&
                (column->constant || (column->at_bytes <= survey->record_bytes &&
                                      column->size_bytes <= survey->record_bytes - column->at_bytes));
     }
@@ -300,7 +308,7 @@ static bool take_chunks(ewa_context *context, ewa_section_view *from, ewa_region
     bool good = ewa_section_take(from, &count, sizeof count) && count <= from->size_bytes;
     if (good) *status = ewa_buffer_reserve(context, &result->chunks, count, sizeof(ewa_octree_chunk));
     if (!good || *status != EWA_OK) return false;
-    memset(result->chunks.data, 0, count * sizeof(ewa_octree_chunk));
+    if (count) memset(result->chunks.data, 0, count * sizeof(ewa_octree_chunk));
     result->chunk_count = count;
     ewa_octree_chunk *chunks = result->chunks.data;
     for (uint32_t i = 0; i < count && good && *status == EWA_OK; i++) {

@@ -104,12 +104,48 @@ static ewa_status add_nodes(ewa_lod *lod) {
     return status;
 }
 
+/// Makes the parts of divided cubes that have no node: points of the nodes above may lie in them.
+static ewa_status add_parts(ewa_lod *lod) {
+    const uint32_t cube_count = lod->cube_count;
+    ewa_status status = EWA_OK;
+    for (uint32_t i = 0; i < cube_count; i++)
+        for (uint32_t part = 0; part < 8 && status == EWA_OK; part++) {
+            if (!lod->cubes[i].divided || lod->cubes[i].parts[part] != EWA_NO_CUBE) continue;
+            ewa_octree_key key = {.level = lod->cubes[i].key.level + 1};
+            for (int c = 0; c < 3; c++)
+                key.cell[c] = 2 * lod->cubes[i].key.cell[c] + (int32_t)(part >> (2 - c) & 1);
+            uint32_t index;
+            status = add_cube(lod, &key, &index);
+            if (status == EWA_OK) lod->cubes[i].parts[part] = index;
+        }
+    return status;
+}
+
+/// Adds to every cube its share of the points of the nodes above, which are drawn with its own; parents come first.
+static void share_counts(ewa_lod *lod) {
+    for (uint32_t i = 0; i < lod->cube_count; i++) {
+        const ewa_cube *cube = &lod->cubes[i];
+        uint32_t sharers[8], count = 0;
+        for (int part = 0; part < 8; part++) {
+            const uint32_t index = cube->parts[part];
+            // Next to nothing lies where no node is.
+            if (index != EWA_NO_CUBE && (lod->cubes[index].node != UINT32_MAX || lod->cubes[index].divided))
+                sharers[count++] = index;
+        }
+        for (uint32_t k = 0; k < count; k++) lod->cubes[sharers[k]].count += cube->count / count;
+    }
+}
+
 ewa_status ewa_tree_make(ewa_lod *lod) {
     const ewa_octree_key root = {.level = 0};
     uint32_t index;
     ewa_status status = add_cube(lod, &root, &index);
     if (status == EWA_OK && lod->has_levels) status = add_pages(lod);
     if (status == EWA_OK) status = add_nodes(lod);
+    if (status == EWA_OK && !lod->has_levels) {
+        status = add_parts(lod);
+        share_counts(lod);
+    }
     const size_t node_count = lod->facts->node_count;
     lod->clouds = ewa_allocate_zeroed(lod->context, node_count, sizeof *lod->clouds);
     lod->cloud_frames = ewa_allocate_zeroed(lod->context, node_count, sizeof *lod->cloud_frames);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // An octree in the making, wherever its regions come from.
-#ifndef EWA_SRC_LOD_BUILD_H
-#define EWA_SRC_LOD_BUILD_H
+#ifndef EWA_SRC_LOD_ASSEMBLE_H
+#define EWA_SRC_LOD_ASSEMBLE_H
 
 #include "ewa/lod.h"
 #include "lod/region.h"
@@ -35,8 +35,5 @@ ewa_status ewa_lod_prepare(ewa_lod_builder *b, const char *out, ewa_judge *judge
 
 /// Makes the whole file. `b` has a plan, regions and get().
 ewa_status ewa_lod_write(ewa_lod_builder *b, const char *out);
-
-/// Makes the regions `subset`, `subset` + `subset_count`, ... into a part's file.
-ewa_status ewa_lod_part_write(ewa_lod_builder *b, const char *out, uint32_t subset, uint32_t subset_count);
 
 #endif

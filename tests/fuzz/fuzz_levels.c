@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Fuzz target: any bytes as the record of surfels that stand for cubes' points. What is read is a tree whose blocks lie in
+// the record and can be tried.
+#include "fuzz_cloud.h"
+#include "io/levels.h"
+
+/// Decodes a page into memory that ends with its surfels.
+static void try_page(const ewa_levels_page *page, const uint8_t *bytes) {
+    enum { MOST_SURFELS = 1 << 14 };
+    if (!page->size_bytes || page->surfel_count > MOST_SURFELS) return;
+    const size_t count = page->surfel_count;
+    float *at = malloc(3 * count * sizeof *at + 1), *normal = malloc(3 * count * sizeof *normal + 1),
+          *radius = malloc(count * sizeof *radius + 1);
+    uint8_t *rgba = malloc(4 * count + 1), *scratch = malloc(ewa_level_raw_bytes(page->surfel_count) + 1);
+    fuzz_require(at && normal && radius && rgba && scratch, "memory");
+    const ewa_level_surfels surfels = {at, normal, radius, rgba};
+    if (!ewa_level_decode(page, bytes, scratch, &surfels))
+        for (size_t i = 0; i < 3 * count; i++) {
+            fuzz_require(at[i] >= 0 && at[i] <= 1, "places in the cube");
+            fuzz_require(normal[i] >= -1.001f && normal[i] <= 1.001f, "normals of length 1");
+        }
+    free(at), free(normal), free(radius), free(rgba), free(scratch);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
+    int errors = 0;
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.thread_count = 1;
+    options.message = fuzz_message;
+    options.message_user = &errors;
+    ewa_context *context = NULL;
+    fuzz_require(ewa_context_create(&options, &context) == EWA_OK, "a context");
+    ewa_levels levels;
+    const ewa_status status = ewa_levels_read(context, "fuzz", bytes, size_bytes, &levels);
+    fuzz_require((status == EWA_OK) == (errors == 0), "a message on failure only");
+    for (uint32_t i = 0; status == EWA_OK && i < levels.page_count; i++) {
+        const ewa_levels_page *page = &levels.pages[i];
+        fuzz_require(i == 0 || ewa_octree_key_compare(&page[-1].key, &page->key) < 0, "pages in order");
+        fuzz_require(page->at_bytes <= size_bytes && page->size_bytes <= size_bytes - page->at_bytes,
+                     "blocks in the record");
+        if (i < 64) try_page(page, bytes);
+    }
+    ewa_levels_free(context, &levels);
+    ewa_context_destroy(&context);
+    return 0;
+}

@@ -1,0 +1,229 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Octrees made of files: every point is there once, as it was, for any number of threads; and odd inputs.
+#include "lod/lod_scene.h"
+
+#include <math.h>
+
+enum { POINTS = 300000, FILES = 3 };
+
+static const char *const files[FILES] = {"a.las", "b.las", "c.las"};
+
+/// A folder without files but those that are made here.
+static int enter(void **state) {
+    (void)state;
+    lod_clear();
+    return 0;
+}
+
+static void make_files(ewa_context *context, lod_look look) {
+    for (uint64_t i = 0; i < FILES; i++)
+        lod_save(lod_ground(context, i * POINTS / FILES, POINTS / FILES, look), files[i]);
+}
+
+/// Estimated or given, every point has a unit normal and a radius.
+static void hold_surfels(const ewa_cloud *cloud) {
+    const ewa_attribute *normal = ewa_cloud_find(cloud, EWA_NORMAL),
+                        *radius = ewa_cloud_find(cloud, EWA_RADIUS);
+    assert_non_null(normal);
+    assert_non_null(radius);
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
+        float n[4], r[4];
+        ewa_attribute_read_f32(normal, i, 1, n);
+        ewa_attribute_read_f32(radius, i, 1, r);
+        assert_true(fabsf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] - 1) < 1e-3f);
+        assert_true(r[0] > 0 && r[0] < 0.1f);
+    }
+}
+
+static void test_points(void **state) {
+    (void)state;
+    ewa_context *context = check_context(2, NULL);
+    make_files(context, (lod_look){.colors = true});
+    ewa_lod_build_stats stats;
+    assert_int_equal(lod_build(context, files, FILES, "o.copc.laz", NULL, &stats), EWA_OK);
+    assert_int_equal(stats.point_count, POINTS);
+    assert_int_equal(stats.left_out_count, 0);
+    assert_true(stats.merged_count > 0 && stats.temporary_bytes > 0 && stats.node_count > 8);
+    ewa_cloud *inputs[FILES], *output = lod_load(context, "o.copc.laz");
+    for (int i = 0; i < FILES; i++) inputs[i] = lod_load(context, files[i]);
+    lod_hold_same(inputs, FILES, output, false);
+    hold_surfels(output);
+    // Estimated normals are those of the ground, whose slope is at most 1/2.
+    const ewa_attribute *normal = ewa_cloud_find(output, EWA_NORMAL);
+    for (uint64_t i = 0; i < POINTS; i++) {
+        float n[4];
+        ewa_attribute_read_f32(normal, i, 1, n);
+        assert_true(fabsf(n[2]) > 0.8f);
+    }
+    ewa_lod *lod = NULL;
+    char path[512];
+    assert_int_equal(ewa_lod_open(context, scratch_path("o.copc.laz", path), &lod), EWA_OK);
+    ewa_lod_info info;
+    ewa_lod_describe(lod, &info);
+    assert_int_equal(info.point_count, POINTS);
+    assert_int_equal(info.node_count, stats.node_count);
+    assert_int_equal(info.level_count, stats.level_count);
+    assert_int_equal(info.merged_count, stats.merged_count);
+    assert_true(info.merged && info.surfels);
+    ewa_lod_close(&lod);
+    for (int i = 0; i < FILES; i++) ewa_cloud_destroy(&inputs[i]);
+    ewa_cloud_destroy(&output);
+    // The three inputs and the output, nothing else.
+    assert_int_equal(lod_clear(), FILES + 1);
+    ewa_context_destroy(&context);
+}
+
+static void test_threads(void **state) {
+    (void)state;
+    static const uint32_t threads[] = {1, 2, 4};
+    char names[3][16];
+    for (int i = 0; i < 3; i++) {
+        ewa_context *context = check_context(threads[i], NULL);
+        if (i == 0) make_files(context, (lod_look){.colors = true});
+        snprintf(names[i], sizeof names[i], "%u.copc.laz", threads[i]);
+        assert_int_equal(lod_build(context, files, FILES, names[i], NULL, NULL), EWA_OK);
+        if (i > 0) lod_hold_same_files(names[0], names[i]);
+        ewa_context_destroy(&context);
+    }
+    lod_clear();
+}
+
+/// Normals and radii that points have stay as they are, in files of different kinds.
+static void test_own_surfels(void **state) {
+    (void)state;
+    static const char *const names[] = {"a.las", "b.ply"};
+    ewa_context *context = check_context(2, NULL);
+    const lod_look look = {true, true};
+    lod_save(lod_ground(context, 0, 20000, look), names[0]);
+    lod_save(lod_ground(context, 20000, 10000, look), names[1]);
+    assert_int_equal(lod_build(context, names, 2, "o.copc.laz", NULL, NULL), EWA_OK);
+    ewa_cloud *inputs[2], *output = lod_load(context, "o.copc.laz");
+    for (int i = 0; i < 2; i++) inputs[i] = lod_load(context, names[i]);
+    lod_hold_same(inputs, 2, output, true);
+    for (int i = 0; i < 2; i++) ewa_cloud_destroy(&inputs[i]);
+    ewa_cloud_destroy(&output);
+    assert_int_equal(lod_clear(), 3);
+    ewa_context_destroy(&context);
+}
+
+static void test_without_colors(void **state) {
+    (void)state;
+    static const char *const names[] = {"a.ply"};
+    ewa_context *context = check_context(2, NULL);
+    lod_save(lod_ground(context, 0, 20000, (lod_look){.colors = false}), names[0]);
+    assert_int_equal(lod_build(context, names, 1, "o.copc.laz", NULL, NULL), EWA_OK);
+    ewa_cloud *input = lod_load(context, names[0]), *output = lod_load(context, "o.copc.laz");
+    assert_null(ewa_cloud_find(output, EWA_COLOR));
+    lod_hold_same(&input, 1, output, false);
+    hold_surfels(output);
+    ewa_cloud_destroy(&input);
+    ewa_cloud_destroy(&output);
+    lod_clear();
+    ewa_context_destroy(&context);
+}
+
+/// Makes an octree of a cloud, which is destroyed, and loads what is in it.
+static ewa_cloud *build_of(ewa_context *context, ewa_cloud *cloud, ewa_lod_build_stats *stats) {
+    static const char *const names[] = {"a.ply"};
+    lod_save(cloud, names[0]);
+    assert_int_equal(lod_build(context, names, 1, "o.copc.laz", NULL, stats), EWA_OK);
+    char path[512];
+    ewa_lod *lod = NULL;
+    assert_int_equal(ewa_lod_open(context, scratch_path("o.copc.laz", path), &lod), EWA_OK);
+    ewa_lod_close(&lod);
+    ewa_cloud *made = lod_load(context, "o.copc.laz");
+    assert_int_equal(lod_clear(), 2);
+    return made;
+}
+
+static void test_few(void **state) {
+    (void)state;
+    ewa_context *context = check_context(2, NULL);
+    static const uint64_t counts[] = {0, 1, 2, 3, 10};
+    for (int i = 0; i < 5; i++) {
+        ewa_lod_build_stats stats;
+        ewa_cloud *made =
+            build_of(context, lod_ground(context, 0, counts[i], (lod_look){.colors = true}), &stats);
+        assert_int_equal(stats.point_count, counts[i]);
+        assert_int_equal(ewa_cloud_point_count(made), counts[i]);
+        ewa_cloud *plain = lod_ground(context, 0, counts[i], (lod_look){.colors = true});
+        // Without a grid places are in steps of 10^-8 of the box or finer.
+        if (counts[i]) lod_hold_same(&plain, 1, made, false);
+        ewa_cloud_destroy(&plain);
+        ewa_cloud_destroy(&made);
+    }
+    ewa_context_destroy(&context);
+}
+
+static void test_one_place(void **state) {
+    (void)state;
+    enum { COUNT = 5000 };
+    ewa_context *context = check_context(2, NULL);
+    ewa_cloud *cloud = lod_ground(context, 0, COUNT, (lod_look){.colors = true});
+    double *at = ewa_cloud_find(cloud, EWA_POSITION)->data;
+    for (int i = 0; i < COUNT; i++) at[3 * i] = 0.5, at[3 * i + 1] = -0.25, at[3 * i + 2] = 1;
+    ewa_lod_build_stats stats;
+    ewa_cloud *made = build_of(context, cloud, &stats);
+    assert_int_equal(stats.point_count, COUNT);
+    assert_int_equal(ewa_cloud_point_count(made), COUNT);
+    ewa_bounds bounds;
+    assert_int_equal(ewa_cloud_measure(made, &bounds), EWA_OK);
+    const double place[3] = {0.5, -0.25, 1};
+    for (int c = 0; c < 3; c++) {
+        assert_true(fabs(bounds.low_world[c] - place[c]) < 1e-3);
+        assert_true(bounds.low_world[c] == bounds.high_world[c]);
+    }
+    ewa_cloud_destroy(&made);
+    ewa_context_destroy(&context);
+}
+
+static void test_left_out(void **state) {
+    (void)state;
+    enum { COUNT = 5000 };
+    ewa_context *context = check_context(2, NULL);
+    ewa_cloud *cloud = lod_ground(context, 0, COUNT, (lod_look){.colors = true});
+    double *at = ewa_cloud_find(cloud, EWA_POSITION)->data;
+    at[0] = (double)NAN, at[3 * 77 + 1] = (double)INFINITY, at[3 * (COUNT - 1) + 2] = -(double)INFINITY;
+    ewa_lod_build_stats stats;
+    ewa_cloud *made = build_of(context, cloud, &stats);
+    assert_int_equal(stats.point_count, COUNT - 3);
+    assert_int_equal(stats.left_out_count, 3);
+    assert_int_equal(ewa_cloud_point_count(made), COUNT - 3);
+    ewa_bounds bounds;
+    assert_int_equal(ewa_cloud_measure(made, &bounds), EWA_OK);
+    assert_int_equal(bounds.finite_count, COUNT - 3);
+    ewa_cloud_destroy(&made);
+    ewa_context_destroy(&context);
+}
+
+static void test_refusals(void **state) {
+    (void)state;
+    static const char *const names[] = {"a.ply", "nothing.ply"};
+    check_log log = {0};
+    ewa_context *context = check_context(1, &log);
+    lod_save(lod_ground(context, 0, 100, (lod_look){.colors = true}), names[0]);
+    assert_int_equal(lod_build(context, names, 2, "o.copc.laz", NULL, NULL), EWA_ERROR_IO);
+    assert_non_null(strstr(log.text, "nothing.ply"));
+    assert_int_equal(lod_build(context, names, 0, "o.copc.laz", NULL, NULL), EWA_ERROR_ARGUMENT);
+    ewa_lod_build_options options;
+    ewa_lod_build_options_init(&options, sizeof options);
+    options.subset = options.subset_count = 2;
+    assert_int_equal(lod_build(context, names, 1, "o.copc.laz", &options, NULL), EWA_ERROR_ARGUMENT);
+    ewa_lod_build_options_init(&options, sizeof options);
+    options.memory_bytes = 1 << 20;
+    assert_int_equal(lod_build(context, names, 1, "o.copc.laz", &options, NULL), EWA_ERROR_ARGUMENT);
+    assert_int_equal(lod_clear(), 1);
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup(test_points, enter),      cmocka_unit_test_setup(test_threads, enter),
+        cmocka_unit_test_setup(test_own_surfels, enter), cmocka_unit_test_setup(test_without_colors, enter),
+        cmocka_unit_test_setup(test_few, enter),         cmocka_unit_test_setup(test_one_place, enter),
+        cmocka_unit_test_setup(test_left_out, enter),    cmocka_unit_test_setup(test_refusals, enter),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

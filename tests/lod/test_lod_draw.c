@@ -1,0 +1,429 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Pictures of octrees: like those of all points, the same for every number of threads and every memory, complete once
+// everything is read; and points read out of them.
+#include "io/octree.h"
+#include "lod/lod_scene.h"
+
+#include <math.h>
+
+enum { POINTS = 600000, WIDTH_PX = 480, HEIGHT_PX = 640, NUMBERS = 4 * WIDTH_PX * HEIGHT_PX };
+
+typedef struct shot {
+    ewa_lod_stats stats;
+    uint8_t rgba8[NUMBERS];
+} shot;
+
+static const char file[] = "ground.copc.laz";
+
+/// One octree for all tests, of points with normals and radii.
+static int enter(void **state) {
+    (void)state;
+    static const char *const names[] = {"ground.ply"};
+    lod_clear();
+    ewa_context *context = check_context(2, NULL);
+    lod_save(lod_ground(context, 0, POINTS, (lod_look){true, true}), names[0]);
+    assert_int_equal(lod_build(context, names, 1, file, NULL, NULL), EWA_OK);
+    ewa_context_destroy(&context);
+    return 0;
+}
+
+static int leave(void **state) {
+    (void)state;
+    lod_clear();
+    return 0;
+}
+
+/// From far above, the ground as high as the picture, or from close by.
+static ewa_camera camera_at(double distance) {
+    ewa_camera camera;
+    ewa_camera_init(&camera);
+    camera.width_px = WIDTH_PX, camera.height_px = HEIGHT_PX;
+    const double eye[3] = {0.1, -0.6 * distance, distance}, target[3] = {0, 0, 0}, up[3] = {0, 1, 0};
+    assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
+    assert_int_equal(ewa_camera_set_fov(&camera, 45), EWA_OK);
+    return camera;
+}
+
+static ewa_lod *open_file(ewa_context *context, const char *name) {
+    char path[512];
+    ewa_lod *lod = NULL;
+    assert_int_equal(ewa_lod_open(context, scratch_path(name, path), &lod), EWA_OK);
+    return lod;
+}
+
+static ewa_render_options over_black(void) {
+    ewa_render_options options;
+    ewa_render_options_init(&options, sizeof options);
+    options.background[3] = 1;
+    return options;
+}
+
+static ewa_lod_options lod_options_of(double error, double spacing_px, uint64_t memory_bytes) {
+    ewa_lod_options options;
+    ewa_lod_options_init(&options, sizeof options);
+    options.error = error, options.spacing_px = spacing_px, options.memory_bytes = memory_bytes;
+    return options;
+}
+
+static ewa_status try_draw(ewa_lod *lod, ewa_context *context, const ewa_camera *camera,
+                           const ewa_lod_options *lod_options, shot *made) {
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    const ewa_render_options options = over_black();
+    const ewa_frame frame = {.rgba8 = made->rgba8};
+    const ewa_status status =
+        ewa_lod_render(lod, renderer, camera, &options, lod_options, &frame, &made->stats);
+    ewa_renderer_destroy(&renderer);
+    return status;
+}
+
+static shot *draw(ewa_lod *lod, ewa_context *context, const ewa_camera *camera,
+                  const ewa_lod_options *lod_options) {
+    shot *made = calloc(1, sizeof *made);
+    assert_non_null(made);
+    assert_int_equal(try_draw(lod, context, camera, lod_options, made), EWA_OK);
+    return made;
+}
+
+/// All points of a file at once.
+static shot *draw_plain(ewa_context *context, const char *name, const ewa_camera *camera) {
+    shot *made = calloc(1, sizeof *made);
+    assert_non_null(made);
+    ewa_cloud *cloud = lod_load(context, name);
+    ewa_surfels *surfels = NULL;
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    const ewa_render_options options = over_black();
+    const ewa_frame frame = {.rgba8 = made->rgba8};
+    assert_int_equal(ewa_render(renderer, surfels, camera, &options, &frame, NULL), EWA_OK);
+    ewa_renderer_destroy(&renderer);
+    ewa_surfels_destroy(&surfels);
+    ewa_cloud_destroy(&cloud);
+    return made;
+}
+
+/// Over the pixels that are not black in both: the rest of a picture is no merit.
+static double psnr_db(const shot *a, const shot *b) {
+    double sum = 0;
+    size_t count = 0;
+    for (size_t i = 0; i < NUMBERS; i += 4) {
+        bool black = true;
+        for (size_t c = i; c < i + 3; c++) {
+            const double off = (double)a->rgba8[c] - (double)b->rgba8[c];
+            black = black && !a->rgba8[c] && !b->rgba8[c];
+            sum += off * off;
+        }
+        if (!black) count += 3;
+    }
+    return sum > 0 ? 10 * log10(255.0 * 255 * (double)count / sum) : (double)INFINITY;
+}
+
+/// Share of the pixels that are not black.
+static double filled(const shot *made) {
+    size_t count = 0;
+    for (size_t i = 0; i < NUMBERS; i += 4)
+        count += made->rgba8[i] || made->rgba8[i + 1] || made->rgba8[i + 2];
+    return (double)count / (WIDTH_PX * HEIGHT_PX);
+}
+
+static void hold_same(const shot *a, const shot *b) {
+    assert_memory_equal(a->rgba8, b->rgba8, sizeof a->rgba8);
+}
+
+static void hold_like(const char *what, const shot *plain, const shot *made, double least_db) {
+    const double found = psnr_db(plain, made);
+    print_message("%s: %.1f dB, %u cubes, %llu surfels\n", what, found, made->stats.cube_count,
+                  (unsigned long long)made->stats.surfel_count);
+    assert_true(found >= least_db);
+}
+
+static void test_like_plain(void **state) {
+    (void)state;
+    ewa_context *context = check_context(2, NULL);
+    ewa_lod *lod = open_file(context, file);
+    static const double distances[] = {0.6, 2.2, 8, 25};
+    for (int i = 0; i < 4; i++) {
+        const ewa_camera camera = camera_at(distances[i]);
+        const ewa_lod_options all = lod_options_of(0, 0.5, 1 << 30),
+                              levels = lod_options_of(16, 0.5, 1 << 30);
+        shot *plain = draw_plain(context, file, &camera), *points = draw(lod, context, &camera, &all),
+             *merged = draw(lod, context, &camera, &levels);
+        assert_true(filled(plain) > 0.005);
+        hold_like("all points", plain, points, 45);
+        hold_like("levels", plain, merged, 38);
+        assert_int_equal(points->stats.missing_count, 0);
+        assert_int_equal(points->stats.band_count, 1);
+        // From far away few surfels stand for all points.
+        if (i == 3) assert_true(merged->stats.surfel_count < points->stats.surfel_count / 2);
+        free(plain);
+        free(points);
+        free(merged);
+    }
+    ewa_lod_close(&lod);
+    ewa_context_destroy(&context);
+}
+
+static void test_threads(void **state) {
+    (void)state;
+    static const uint32_t threads[] = {1, 2, 4, 8};
+    const ewa_camera camera = camera_at(2.2);
+    const ewa_lod_options options = lod_options_of(16, 2, 1 << 30);
+    shot *first = NULL;
+    for (int i = 0; i < 4; i++) {
+        ewa_context *context = check_context(threads[i], NULL);
+        ewa_lod *lod = open_file(context, file);
+        shot *made = draw(lod, context, &camera, &options);
+        if (first)
+            hold_same(first, made);
+        else
+            first = made;
+        if (first != made) free(made);
+        ewa_lod_close(&lod);
+        ewa_context_destroy(&context);
+    }
+    assert_true(filled(first) > 0.1);
+    free(first);
+}
+
+static void test_memory(void **state) {
+    (void)state;
+    static const uint64_t memories[] = {1 << 30, 1 << 26, 1 << 24};
+    static const double errors[] = {0, 16};
+    ewa_context *context = check_context(2, NULL);
+    const ewa_camera camera = camera_at(2.2);
+    for (int e = 0; e < 2; e++) {
+        shot *first = NULL;
+        for (int i = 0; i < 3; i++) {
+            ewa_lod *lod = open_file(context, file);
+            const ewa_lod_options options = lod_options_of(errors[e], 0.5, memories[i]);
+            shot *made = draw(lod, context, &camera, &options);
+            print_message("memory %llu: %u bands, %llu surfels\n", (unsigned long long)memories[i],
+                          made->stats.band_count, (unsigned long long)made->stats.surfel_count);
+            // 600,000 points of 40 bytes or more do not fit.
+            if (errors[e] == 0 && i == 2) assert_true(made->stats.band_count > 1);
+            assert_true(made->stats.resident_bytes <= memories[i]);
+            if (first) {
+                hold_same(first, made);
+                free(made);
+            } else {
+                first = made;
+            }
+            ewa_lod_close(&lod);
+        }
+        free(first);
+    }
+    ewa_context_destroy(&context);
+}
+
+/// With next to no time each picture shows more, until nothing is missing.
+static void test_load(void **state) {
+    (void)state;
+    enum { MOST_CALLS = 400 };
+    ewa_context *context = check_context(2, NULL);
+    const ewa_camera camera = camera_at(1);
+    ewa_lod_options options = lod_options_of(16, 0.5, 1 << 30);
+    ewa_lod *lod = open_file(context, file);
+    shot *whole = draw(lod, context, &camera, &options), *made = calloc(1, sizeof *made);
+    assert_non_null(made);
+    ewa_lod_close(&lod);
+    lod = open_file(context, file);
+    options.load_s = 1e-9;
+    assert_int_equal(try_draw(lod, context, &camera, &options, made), EWA_OK);
+    assert_true(made->stats.missing_count > 0);
+    assert_true(filled(made) > 0.1);
+    const double first_db = psnr_db(whole, made);
+    int calls = 1;
+    for (; made->stats.missing_count > 0 && calls < MOST_CALLS; calls++)
+        assert_int_equal(try_draw(lod, context, &camera, &options, made), EWA_OK);
+    print_message("%d calls, first %.1f dB\n", calls, first_db);
+    assert_int_equal(made->stats.missing_count, 0);
+    hold_same(whole, made);
+    free(whole);
+    free(made);
+    ewa_lod_close(&lod);
+    ewa_context_destroy(&context);
+}
+
+/// Points of a box are those of the whole file that lie in it.
+static void test_read(void **state) {
+    (void)state;
+    ewa_context *context = check_context(2, NULL);
+    ewa_lod *lod = open_file(context, file);
+    ewa_lod_info info;
+    ewa_lod_describe(lod, &info);
+    assert_int_equal(info.point_count, POINTS);
+    assert_true(info.merged && info.surfels && info.merged_count > 0);
+    assert_true(info.level_count > 1 && info.node_count > info.level_count);
+    assert_int_equal(ewa_cloud_point_count(info.prototype), 0);
+    ewa_cloud *all = lod_load(context, file), *read = NULL, *expected = NULL;
+    ewa_bounds bounds;
+    assert_int_equal(ewa_cloud_measure(all, &bounds), EWA_OK);
+    for (int c = 0; c < 3; c++) {
+        assert_true(fabs(bounds.low_world[c] - info.bounds.low_world[c]) < 1e-6);
+        assert_true(fabs(bounds.high_world[c] - info.bounds.high_world[c]) < 1e-6);
+        assert_true(info.low_world[c] <= bounds.low_world[c] + 1e-9);
+        assert_true(info.low_world[c] + info.side_world >= bounds.high_world[c] - 1e-9);
+    }
+    static const double low[3] = {-0.3, 0.1, -0.05}, high[3] = {0.25, 0.9, 0.2};
+    uint64_t *inside = malloc(POINTS * sizeof *inside), count = 0;
+    assert_non_null(inside);
+    double origin[3];
+    ewa_cloud_origin(all, origin);
+    const ewa_attribute *position = ewa_cloud_find(all, EWA_POSITION);
+    for (uint64_t i = 0; i < POINTS; i++) {
+        double at[4];
+        bool in = true;
+        ewa_attribute_read_f64(position, i, 1, at);
+        for (int c = 0; c < 3; c++) in = in && at[c] + origin[c] >= low[c] && at[c] + origin[c] <= high[c];
+        if (in) inside[count++] = i;
+    }
+    assert_true(count > 10000 && count < POINTS / 2);
+    assert_int_equal(ewa_cloud_select(all, inside, count, &expected), EWA_OK);
+    assert_int_equal(ewa_lod_read(lod, low, high, 0, &read), EWA_OK);
+    lod_hold_same(&expected, 1, read, true);
+    ewa_cloud_destroy(&read);
+    // Coarser: fewer, all of them in the box; outside: none.
+    assert_int_equal(ewa_lod_read(lod, low, high, info.spacing_world, &read), EWA_OK);
+    assert_true(ewa_cloud_point_count(read) > 0 && ewa_cloud_point_count(read) < count);
+    ewa_cloud_destroy(&read);
+    static const double far_low[3] = {5, 5, 5}, far_high[3] = {6, 6, 6};
+    assert_int_equal(ewa_lod_read(lod, far_low, far_high, 0, &read), EWA_OK);
+    assert_int_equal(ewa_cloud_point_count(read), 0);
+    ewa_cloud_destroy(&read);
+    assert_int_equal(ewa_lod_read(lod, low, high, -1, &read), EWA_ERROR_ARGUMENT);
+    ewa_cloud_destroy(&expected);
+    ewa_cloud_destroy(&all);
+    free(inside);
+    ewa_lod_close(&lod);
+    ewa_context_destroy(&context);
+}
+
+static void test_sample(void **state) {
+    (void)state;
+    ewa_context *context = check_context(2, NULL);
+    ewa_lod *lod = open_file(context, file);
+    ewa_cloud *few = NULL, *some = NULL, *all = NULL;
+    assert_int_equal(ewa_lod_sample(lod, 1, &few), EWA_OK);
+    assert_int_equal(ewa_lod_sample(lod, POINTS / 2, &some), EWA_OK);
+    assert_int_equal(ewa_lod_sample(lod, POINTS, &all), EWA_OK);
+    assert_true(ewa_cloud_point_count(few) > 0);
+    assert_true(ewa_cloud_point_count(some) >= ewa_cloud_point_count(few));
+    assert_true(ewa_cloud_point_count(some) <= POINTS / 2);
+    assert_int_equal(ewa_cloud_point_count(all), POINTS);
+    // The coarsest level is a sample of the whole ground.
+    ewa_bounds bounds;
+    assert_int_equal(ewa_cloud_measure(few, &bounds), EWA_OK);
+    for (int c = 0; c < 2; c++) assert_true(bounds.low_world[c] < -0.9 && bounds.high_world[c] > 0.9);
+    ewa_cloud_destroy(&few);
+    assert_int_equal(ewa_lod_sample(lod, 0, &few), EWA_ERROR_ARGUMENT);
+    ewa_cloud_destroy(&some);
+    ewa_cloud_destroy(&all);
+    ewa_lod_close(&lod);
+    ewa_context_destroy(&context);
+}
+
+/// Copies the file with another user in the record of surfels, as one that another program has made.
+static void strip(const char *from, const char *to) {
+    static const uint8_t user[18] = {'e', 'w', 'a', [16] = 1}; // 16 bytes of name, the number 1
+    char path[512];
+    size_t size_bytes, found = 0;
+    uint8_t *bytes = scratch_read(scratch_path(from, path), &size_bytes);
+    for (size_t at = 0; at + sizeof user <= size_bytes; at++)
+        if (memcmp(bytes + at, user, sizeof user) == 0) bytes[at] = 'x', found++;
+    assert_int_equal(found, 1);
+    scratch_write(scratch_path(to, path), bytes, size_bytes);
+    free(bytes);
+}
+
+static void test_without_levels(void **state) {
+    (void)state;
+    ewa_context *context = check_context(2, NULL);
+    strip(file, "plain.copc.laz");
+    ewa_lod *lod = open_file(context, "plain.copc.laz");
+    ewa_lod_info info;
+    ewa_lod_describe(lod, &info);
+    assert_false(info.merged);
+    assert_int_equal(info.point_count, POINTS);
+    const ewa_camera camera = camera_at(2.2);
+    const ewa_lod_options all = lod_options_of(0, 0.5, 1 << 30), some = lod_options_of(16, 0.5, 1 << 30);
+    shot *plain = draw_plain(context, file, &camera), *made = draw(lod, context, &camera, &all),
+         *coarse = draw(lod, context, &camera, &some);
+    hold_like("without levels, all points", plain, made, 45);
+    hold_like("without levels", plain, coarse, 25);
+    // Bands are the same bytes here, too.
+    ewa_lod_close(&lod);
+    lod = open_file(context, "plain.copc.laz");
+    const ewa_lod_options little = lod_options_of(0, 0.5, 1 << 24);
+    shot *bands = draw(lod, context, &camera, &little);
+    assert_true(bands->stats.band_count > 1);
+    hold_same(made, bands);
+    free(plain);
+    free(made);
+    free(bands);
+    free(coarse);
+    ewa_lod_close(&lod);
+    ewa_context_destroy(&context);
+}
+
+/// Points of a cube that lie in a part of it without a node are drawn, too: other programs leave such parts out.
+static void test_parts_without_nodes(void **state) {
+    (void)state;
+    enum { COUNT = 40000 };
+    ewa_context *context = check_context(2, NULL);
+    ewa_cloud *coarse = lod_ground(context, 0, COUNT, (lod_look){true, true}),
+              *all = lod_ground(context, COUNT, COUNT, (lod_look){true, true}), *corner = NULL;
+    uint64_t *indices = malloc(COUNT * sizeof *indices), count = 0;
+    assert_non_null(indices);
+    const double *at = ewa_cloud_find(all, EWA_POSITION)->data;
+    for (uint64_t i = 0; i < COUNT; i++)
+        if (at[3 * i] < 0 && at[3 * i + 1] < 0 && at[3 * i + 2] < 0) indices[count++] = i;
+    assert_int_equal(ewa_cloud_select(all, indices, count, &corner), EWA_OK);
+    free(indices);
+    ewa_cloud *prototype = NULL;
+    assert_int_equal(ewa_cloud_select(all, NULL, 0, &prototype), EWA_OK);
+    const ewa_octree_plan plan = {.prototype = prototype,
+                                  .bounds = {{-1, -1, -1}, {1, 1, 1}, 2},
+                                  .low_world = {-1, -1, -1},
+                                  .side_world = 2,
+                                  .spacing_world = 0.01};
+    const ewa_octree_key keys[2] = {{0, {0, 0, 0}}, {1, {0, 0, 0}}};
+    const ewa_cloud *const pieces[2] = {coarse, corner};
+    ewa_octree_chunk chunks[2] = {{.size_bytes = 0}};
+    ewa_octree_writer *writer = NULL;
+    char path[512];
+    assert_int_equal(ewa_octree_writer_open(context, scratch_path("gaps.copc.laz", path), &plan, &writer),
+                     EWA_OK);
+    assert_int_equal(ewa_octree_encode(writer, keys, pieces, 2, chunks), EWA_OK);
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(ewa_octree_append(writer, &chunks[i]), EWA_OK);
+        ewa_octree_chunk_free(context, &chunks[i]);
+    }
+    assert_int_equal(ewa_octree_writer_commit(&writer), EWA_OK);
+    ewa_cloud_destroy(&coarse);
+    ewa_cloud_destroy(&all);
+    ewa_cloud_destroy(&corner);
+    ewa_cloud_destroy(&prototype);
+    ewa_lod *lod = open_file(context, "gaps.copc.laz");
+    const ewa_camera camera = camera_at(2.2);
+    const ewa_lod_options options = lod_options_of(0, 0.5, 1 << 30);
+    shot *plain = draw_plain(context, "gaps.copc.laz", &camera),
+         *made = draw(lod, context, &camera, &options);
+    hold_like("parts without nodes", plain, made, 45);
+    free(plain);
+    free(made);
+    ewa_lod_close(&lod);
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_like_plain),     cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_memory),         cmocka_unit_test(test_load),
+        cmocka_unit_test(test_read),           cmocka_unit_test(test_sample),
+        cmocka_unit_test(test_without_levels), cmocka_unit_test(test_parts_without_nodes),
+    };
+    return cmocka_run_group_tests(tests, enter, leave);
+}
