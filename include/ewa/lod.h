@@ -32,16 +32,16 @@ EWA_API void ewa_lod_close(ewa_lod **lod);
 
 /// Facts about an octree.
 typedef struct ewa_lod_info {
-    const char *kind;     ///< "COPC 1.0", "EPT 1.1.0"; stays until the octree is closed
-    uint64_t point_count; ///< as the hierarchy says
-    ewa_bounds bounds;    ///< of the points, as the file says
+    const char *kind;                ///< "COPC 1.0", "EPT 1.1.0"; stays until the octree is closed
+    uint64_t point_count;            ///< as the hierarchy says
+    ewa_bounds bounds;               ///< of the points, as the file says
     double low_world[3], side_world; ///< the root's cube
     double spacing_world;            ///< of the root's points
     uint32_t node_count, level_count;
-    bool merged;                 ///< surfels stand for cubes' points at every level (ewa_lod_build())
-    uint64_t merged_count;       ///< how many there are
-    bool surfels;                ///< points have normals and radii, or axes
-    const ewa_cloud *prototype;  ///< no points; attributes, origin, grid and notes of the points
+    bool merged;                ///< surfels stand for cubes' points at every level (ewa_lod_build())
+    uint64_t merged_count;      ///< how many there are
+    bool surfels;               ///< points have normals and radii, or axes
+    const ewa_cloud *prototype; ///< no points; attributes, origin, grid and notes of the points
 } ewa_lod_info;
 
 EWA_API void ewa_lod_describe(const ewa_lod *lod, ewa_lod_info *info);
@@ -66,10 +66,11 @@ typedef struct ewa_lod_options {
     /// screen's white, as measured when the file was made; [0, 255]; default 16; 0: always all points.
     double error;
     /// Cubes that are kept in memory, and what is drawn at a time: where a picture needs more, it is drawn in bands, the
-    /// same bytes. [2^24, 2^50]; default 2^30.
+    /// same bytes; [16777216, inf); default 1073741824
     uint64_t memory_bytes;
-    /// Seconds for reading cubes: what has not been read then is drawn coarser, and counted as missing. The coarsest and
-    /// what is large in the middle of the picture come first. 0 (default): as long as it takes.
+    /// Seconds for reading cubes: what has not been read then, or does not fit in memory, is drawn coarser, and counted
+    /// as missing. The coarsest and what is large in the middle of the picture come first; [0, 1e15]; default 0: as
+    /// long as it takes
     double load_s;
 } ewa_lod_options;
 
@@ -101,11 +102,12 @@ EWA_API ewa_status ewa_lod_render(ewa_lod *lod, ewa_renderer *renderer, const ew
 /// How an octree is made. Fill with ewa_lod_build_options_init().
 typedef struct ewa_lod_build_options {
     size_t struct_size;
-    uint64_t memory_bytes; ///< for points at hand; [2^26, 2^50]; default 2^31
-    /// Only part `subset` of `subset_count` is made, into a file of its own for ewa_lod_merge(), on any machine; [0, 65535] and
-    /// [1, 65536]; default 0 and 1: all.
-    uint32_t subset, subset_count;
-    bool keep_going; ///< step over damaged pieces of the files; default false
+    uint64_t memory_bytes; ///< for points at hand; [67108864, inf); default 2147483648
+    /// Only part `subset` of `subset_count` is made, into a file of its own for ewa_lod_merge(), on any machine;
+    /// [0, 65535]; default 0
+    uint32_t subset;
+    uint32_t subset_count; ///< [1, 65536]; default 1: all at once
+    bool keep_going;       ///< step over damaged pieces of the files; default false
 } ewa_lod_build_options;
 
 EWA_API extern const ewa_option_table ewa_lod_build_options_table;
@@ -116,7 +118,7 @@ typedef struct ewa_lod_build_stats {
     uint64_t point_count, left_out_count; ///< left out: without finite coordinates
     uint64_t merged_count;                ///< surfels that stand for others
     uint32_t node_count, level_count;
-    uint64_t temporary_bytes;                              ///< of the temporary file
+    uint64_t temporary_bytes;                                             ///< of the temporary file
     double survey_s, distribute_s, estimate_s, merge_s, write_s, total_s; ///< wall clock
 } ewa_lod_build_stats;
 

@@ -18,7 +18,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BAND_PX = 128, BYTES_PER_SURFEL = 40 };
+enum {
+    BAND_PX = 128,
+    BYTES_PER_SURFEL = 40,
+    CROWD = 5000000, // surfels of a picture of which fewer fit in cache than a tile of the usual size has
+    CROWDED_TILE_PX = 32,
+};
 
 /// Share of the spacing, or of the error, at which parts begin to show.
 static const double FADE_FROM = 0.75;
@@ -32,8 +37,8 @@ static const ewa_option lod_rows[] = {
      .help = "cubes are drawn by surfels that stand for their points where these are no farther apart"},
     {"error", EWA_OPTION_F64, offsetof(ewa_lod_options, error), 0, 255, .initial = 16,
      .help = "and expected to be off by no more than so much, rms, in 1/255; 0: all points"},
-    {"memory_bytes", EWA_OPTION_U64, offsetof(ewa_lod_options, memory_bytes), 0x1p24, 0x1p50,
-     .initial = 0x1p30, .unit = "bytes",
+    {"memory_bytes", EWA_OPTION_U64, offsetof(ewa_lod_options, memory_bytes), 0x1p24, INFINITY,
+     EWA_OPTION_BELOW, .initial = 0x1p30, .unit = "bytes",
      .help = "memory for cubes; a picture that needs more is drawn in bands"},
     {"load_s", EWA_OPTION_F64, offsetof(ewa_lod_options, load_s), 0, 1e15, .unit = "s",
      .help = "time for reading cubes; what is missing then is drawn coarser; 0: as long as it takes"},
@@ -252,6 +257,9 @@ static ewa_status draw_rows(ewa_lod *lod, ewa_renderer *renderer, const ewa_came
                             const ewa_render_options *options, const ewa_frame *frame, const item *items,
                             uint32_t count, ewa_surfels *const *hollows, uint32_t first_row, uint32_t end_row,
                             ewa_render_stats *stats) {
+    uint64_t surfel_count = 0;
+    for (uint32_t i = 0; i < count; i++) surfel_count += lod->cubes[items[i].cube].count;
+    ewa_renderer_set_tile(renderer, surfel_count > CROWD ? CROWDED_TILE_PX : 0);
     ewa_status status = ewa_render_begin(renderer, camera, options, frame);
     if (status == EWA_OK && hollows) status = ewa_render_set_rows(renderer, first_row, end_row);
     for (uint32_t i = 0; i < count && status == EWA_OK; i++) {

@@ -328,6 +328,10 @@ static int speed(ewa_context *context, int count, char **words) {
     }
     printf("warm %.3f s (choose %.4f s), %.0f MiB of cubes, %.0f MiB resident\n", warm_s, stats.choose_s,
            (double)stats.resident_bytes / 1048576, peak_mib());
+    printf("thread time: bins %.3f s, set-up %.3f s, visibility %.3f s, accumulation %.3f s, edges %.3f s, "
+           "resolve %.3f s\n",
+           stats.render.bin_s, stats.render.setup_s, stats.render.visibility_s, stats.render.accumulate_s,
+           stats.render.edge_s, stats.render.resolve_s);
     save(context, "speed", rgba);
     free(rgba);
     ewa_renderer_destroy(&renderer);
