@@ -4,8 +4,10 @@
 // From files of points to an octree, or to a part of one: all are read once to survey them and once to put them aside
 // by regions, which are made of them.
 #include "base/options.h"
+
 #include "lod/assemble.h"
 #include "lod/part.h"
+#include <math.h>
 
 enum { BYTES_PER_POINT = 640 }; ///< of a region that is made
 
