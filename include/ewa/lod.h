@@ -66,7 +66,7 @@ typedef struct ewa_lod_options {
     /// screen's white, as measured when the file was made; [0, 255]; default 16; 0: always all points.
     double error;
     /// Cubes that are kept in memory, and what is drawn at a time: where a picture needs more, it is drawn in bands, the
-    /// same bytes; [16777216, inf); default 1073741824
+    /// same bytes; [16777216, 1.125899907e15]; default 1073741824
     uint64_t memory_bytes;
     /// Seconds for reading cubes: what has not been read then, or does not fit in memory, is drawn coarser, and counted
     /// as missing. The coarsest and what is large in the middle of the picture come first; [0, 1e15]; default 0: as
@@ -102,7 +102,7 @@ EWA_API ewa_status ewa_lod_render(ewa_lod *lod, ewa_renderer *renderer, const ew
 /// How an octree is made. Fill with ewa_lod_build_options_init().
 typedef struct ewa_lod_build_options {
     size_t struct_size;
-    uint64_t memory_bytes; ///< for points at hand; [67108864, inf); default 2147483648
+    uint64_t memory_bytes; ///< for points at hand; [67108864, 1.125899907e15]; default 2147483648
     /// Only part `subset` of `subset_count` is made, into a file of its own for ewa_lod_merge(), on any machine;
     /// [0, 65535]; default 0
     uint32_t subset;

@@ -4,16 +4,14 @@
 // From files of points to an octree, or to a part of one: all are read once to survey them and once to put them aside
 // by regions, which are made of them.
 #include "base/options.h"
-
 #include "lod/assemble.h"
 #include "lod/part.h"
-#include <math.h>
 
 enum { BYTES_PER_POINT = 640 }; ///< of a region that is made
 
 static const ewa_option build_rows[] = {
-    {"memory_bytes", EWA_OPTION_U64, offsetof(ewa_lod_build_options, memory_bytes), 0x1p26, INFINITY,
-     EWA_OPTION_BELOW, .initial = 0x1p31, .unit = "bytes", .help = "memory for points at hand"},
+    {"memory_bytes", EWA_OPTION_U64, offsetof(ewa_lod_build_options, memory_bytes), 0x1p26, 0x1p50,
+     .initial = 0x1p31, .unit = "bytes", .help = "memory for points at hand"},
     {"subset", EWA_OPTION_U32, offsetof(ewa_lod_build_options, subset), 0, 65535,
      .help = "which part is made, counted from 0"},
     {"subset_count", EWA_OPTION_U32, offsetof(ewa_lod_build_options, subset_count), 1, 65536, .initial = 1,
