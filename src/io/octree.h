@@ -65,8 +65,8 @@ uint32_t ewa_octree_find(const ewa_octree *octree, const ewa_octree_key *key);
 /// the caller owns (all NULL after a failure): the attributes of the prototype that are named, comma-separated,
 /// besides "position"; NULL: all. A node whose chunk is damaged, or whose file of EPT is missing or has another number of
 /// points, is an error that names its key (level-x-y-z). Errors as ewa_octree_open().
-ewa_status ewa_octree_read(ewa_octree *octree, const uint32_t *indices, uint32_t count, const char *attributes,
-                           ewa_cloud **clouds);
+ewa_status ewa_octree_read(ewa_octree *octree, const uint32_t *indices, uint32_t count,
+                           const char *attributes, ewa_cloud **clouds);
 
 /// Closes the tree and sets `*octree` to NULL; accepts NULL and a pointer to NULL.
 void ewa_octree_close(ewa_octree **octree);
