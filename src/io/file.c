@@ -5,6 +5,7 @@
 #define _DEFAULT_SOURCE // realpath, madvise
 #include "io/file.h"
 #include "base/base.h"
+#include "io/nameless.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -28,8 +29,8 @@ struct ewa_writer {
     ewa_context *context;
     ewa_status status; // the first failure
     int descriptor;
-    bool named;     // ewa_writer_path() has a name to give
     bool temporary; // `written` is to be renamed to `target`
+    bool nameless;  // the file has no name yet: it is gone when the process ends, however it ends
     size_t buffered_bytes;
     uint64_t flushed_bytes;
     char shown[PATH_MAX];   // the path as the caller wrote it, for messages
@@ -135,24 +136,58 @@ void ewa_file_passed(const uint8_t *bytes, uint64_t at_bytes) {
     if (whole_bytes) madvise((void *)(uintptr_t)bytes, whole_bytes, MADV_DONTNEED);
 }
 
-/// Opens a new file beside the target. The name is short and does not grow with the target's, so that every
-/// target that can be named can be written.
-static int open_temporary(ewa_writer *writer) {
-    const char *slash = strrchr(writer->target, '/');
-    const int folder_bytes = slash ? (int)(slash - writer->target) + 1 : 0;
+/// Bytes of a path that are its folder's, with the slash.
+static int folder_bytes_of(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash ? (int)(slash - path) + 1 : 0;
+}
+
+/// Gives a file a name beside the target that nothing has, by `make`, which fails with EEXIST for one that is taken; returns what
+/// it returned, or -1 with errno. The name is short and does not grow with the target's, so that every target that can be
+/// named can be written.
+static int take_name(ewa_writer *writer, int (*make)(ewa_writer *writer)) {
     struct timespec now;
     clock_gettime(CLOCK_REALTIME, &now);
     for (int attempt = 0; attempt < NAME_ATTEMPTS; attempt++) {
-        const int length = snprintf(writer->written, sizeof writer->written, "%.*s.ewa-%ld-%09ld-%d.tmp",
-                                    folder_bytes, writer->target, (long)getpid(), now.tv_nsec, attempt);
+        const int length =
+            snprintf(writer->written, sizeof writer->written, "%.*s.ewa-%ld-%09ld-%d.tmp",
+                     folder_bytes_of(writer->target), writer->target, (long)getpid(), now.tv_nsec, attempt);
         if (length < 0 || (size_t)length >= sizeof writer->written) {
             errno = ENAMETOOLONG;
             return -1;
         }
-        const int descriptor = open(writer->written, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor >= 0 || errno != EEXIST) return descriptor;
+        const int made = make(writer);
+        if (made >= 0 || errno != EEXIST) return made;
     }
     return -1;
+}
+
+static int create_named(ewa_writer *writer) {
+    return open(writer->written, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+}
+
+static int link_nameless(ewa_writer *writer) {
+    return ewa_nameless_link(writer->descriptor, writer->written);
+}
+
+/// Opens a new file in the folder of the target, without a name where the system can.
+static int open_temporary(ewa_writer *writer) {
+    char folder[PATH_MAX];
+    const int folder_bytes = folder_bytes_of(writer->target);
+    snprintf(folder, sizeof folder, "%.*s", folder_bytes ? folder_bytes : 1,
+             folder_bytes ? writer->target : ".");
+    const int descriptor = ewa_nameless_open(folder);
+    writer->nameless = descriptor >= 0;
+    return descriptor >= 0 ? descriptor : take_name(writer, create_named);
+}
+
+/// Gives the file a name, so that it can be renamed.
+static void name_file(ewa_writer *writer) {
+    if (!writer->nameless || writer->status != EWA_OK) return;
+    if (take_name(writer, link_nameless) < 0)
+        writer->status = fail_errno(writer->context, writer->shown, errno);
+    else
+        writer->nameless = false;
 }
 
 /// Finds out what the target is and opens the file that receives the bytes; returns its descriptor or -1 with
@@ -160,7 +195,6 @@ static int open_temporary(ewa_writer *writer) {
 static int open_output(ewa_writer *writer) {
     if (strcmp(writer->shown, "-") == 0 || strcmp(writer->shown, "/dev/stdout") == 0)
         return fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
-    writer->named = true;
     struct stat facts;
     if (stat(writer->shown, &facts) != 0) {
         if (errno != ENOENT) return -1;
@@ -191,7 +225,7 @@ ewa_status ewa_writer_open(ewa_context *context, const char *path, ewa_writer **
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
     made->status = EWA_OK;
-    made->named = made->temporary = false;
+    made->temporary = made->nameless = false;
     made->buffered_bytes = 0;
     made->flushed_bytes = 0;
     memcpy(made->shown, path, length + 1);
@@ -258,11 +292,10 @@ ewa_status ewa_writer_patch(ewa_writer *writer, uint64_t at_bytes, const void *d
     return EWA_OK;
 }
 
-const char *ewa_writer_path(const ewa_writer *writer) { return writer->named ? writer->written : NULL; }
-
 ewa_status ewa_writer_commit(ewa_writer **writer) {
     ewa_writer *done = *writer;
     if (done->status == EWA_OK) flush(done);
+    name_file(done);
     // Some file systems report a full disk only now.
     const bool closed = close(done->descriptor) == 0;
     done->descriptor = -1;
@@ -282,7 +315,7 @@ void ewa_writer_abort(ewa_writer **writer) {
     if (!*writer) return;
     ewa_writer *old = *writer;
     if (old->descriptor >= 0) close(old->descriptor);
-    if (old->temporary) unlink(old->written);
+    if (old->temporary && !old->nameless) unlink(old->written);
     ewa_release(old->context, old, 1, sizeof *old);
     *writer = NULL;
 }

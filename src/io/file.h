@@ -36,7 +36,8 @@ void ewa_file_unmap(ewa_context *context, ewa_file *file);
 /// One output file that is being written.
 typedef struct ewa_writer ewa_writer;
 
-/// Starts an output file. The bytes go to a new file in the folder of `path` that takes its name on commit;
+/// Starts an output file. The bytes go to a new file in the folder of `path` that takes its name on commit, and has none
+/// before where the system can, so that nothing is left of it when the process is killed;
 /// the permissions are those of the file that is replaced, or what the umask allows. A symbolic link is
 /// followed.
 /// "-" and "/dev/stdout" are standard output; what exists and is no regular file (a device, a pipe) is
@@ -55,11 +56,6 @@ bool ewa_writer_can_patch(const ewa_writer *writer);
 
 /// Returns how many bytes were appended so far.
 uint64_t ewa_writer_size(const ewa_writer *writer);
-
-/// Returns the name of the file that is being written, for libraries that open files by name, or NULL for
-/// standard output. Whoever writes by name leaves ewa_writer_put() alone and closes the file before the
-/// commit.
-const char *ewa_writer_path(const ewa_writer *writer);
 
 /// Finishes the file, gives it its name and frees the writer; after an earlier failure, or one now, the file
 /// is removed instead and the failure returned. Sets `*writer` to NULL.
