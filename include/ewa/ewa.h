@@ -10,6 +10,7 @@
 #include "ewa/camera.h"
 #include "ewa/cloud.h"
 #include "ewa/furniture.h"
+#include "ewa/gpu.h"
 #include "ewa/homogeneous.h"
 #include "ewa/image.h"
 #include "ewa/io.h"

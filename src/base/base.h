@@ -60,6 +60,10 @@ ewa_status ewa_progress(ewa_context *context, const char *stage, double fraction
 /// Monotonic time in seconds.
 double ewa_now_s(void);
 
+/// Returns a number that nothing else of the context has got, at least 1: for what may be freed and made again at the same
+/// address. Any thread.
+uint64_t ewa_serial_next(ewa_context *context);
+
 /// EWA_CPU_* bits of this machine.
 uint32_t ewa_cpu_detect(void);
 

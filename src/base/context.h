@@ -8,11 +8,14 @@
 #include "base/base.h"
 #include "base/pool.h"
 
+#include <stdatomic.h>
+
 struct ewa_context {
     ewa_context_options options;
     ewa_pool *pool;
     uint32_t cpu_features;
     bool soft_failures;
+    atomic_uint_fast64_t serial; ///< the last that ewa_serial_next() has given
 };
 
 /// The allocator's function unless the caller gives one; any thread may call it.

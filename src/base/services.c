@@ -160,6 +160,10 @@ ewa_status ewa_parallel_stoppable(ewa_context *context, const char *stage, ewa_t
     return status;
 }
 
+uint64_t ewa_serial_next(ewa_context *context) {
+    return (uint64_t)atomic_fetch_add_explicit(&context->serial, 1, memory_order_relaxed) + 1;
+}
+
 double ewa_now_s(void) {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);

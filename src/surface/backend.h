@@ -5,7 +5,7 @@
 #ifndef EWA_SRC_SURFACE_BACKEND_H
 #define EWA_SRC_SURFACE_BACKEND_H
 
-#include "ewa/render.h"
+#include "surface/render.h"
 #include "surface/shading.h"
 
 /// One source of a frame.
@@ -30,7 +30,7 @@ typedef struct ewa_render_job {
 } ewa_render_job;
 
 /// A back end. Its state belongs to one renderer, and is used by one thread at a time.
-typedef struct ewa_backend {
+struct ewa_backend {
     const char *name;
     ewa_status (*create)(ewa_context *context, void **state);
     void (*destroy)(ewa_context *context, void *state);
@@ -38,7 +38,7 @@ typedef struct ewa_backend {
     /// as long as their packets and their unit coverages are the same. Eye-dome lighting is put on a frame in
     /// bands with the one at its end, of what the state's earlier calls drew. Sets all of `stats` but the level.
     ewa_status (*draw)(void *state, const ewa_render_job *job, ewa_render_stats *stats);
-} ewa_backend;
+};
 
 /// Threads and vectors of the processor; what others are compared with.
 extern const ewa_backend ewa_backend_cpu;

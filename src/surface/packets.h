@@ -18,6 +18,7 @@ typedef struct ewa_surfel_clip {
 
 struct ewa_surfels {
     ewa_context *context;
+    uint64_t serial; ///< of its packets: another for each set of surfels
     uint32_t count, packet_count;
     uint64_t left_out_count;
     ewa_packet *packets;

@@ -22,13 +22,12 @@ struct ewa_renderer {
     ewa_budget budget;
 };
 
-ewa_status ewa_renderer_create(ewa_context *context, ewa_renderer **renderer) {
-    if (!context || !renderer) return EWA_ERROR_ARGUMENT;
+ewa_status ewa_renderer_create_by(ewa_context *context, const ewa_backend *backend, ewa_renderer **renderer) {
     *renderer = NULL;
     ewa_renderer *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
-    made->backend = &ewa_backend_cpu;
+    made->backend = backend;
     ewa_budget_start(&made->budget);
     const ewa_status status = made->backend->create(context, &made->state);
     if (status != EWA_OK) {
@@ -37,6 +36,11 @@ ewa_status ewa_renderer_create(ewa_context *context, ewa_renderer **renderer) {
     }
     *renderer = made;
     return EWA_OK;
+}
+
+ewa_status ewa_renderer_create(ewa_context *context, ewa_renderer **renderer) {
+    if (!context || !renderer) return EWA_ERROR_ARGUMENT;
+    return ewa_renderer_create_by(context, &ewa_backend_cpu, renderer);
 }
 
 void ewa_renderer_destroy(ewa_renderer **renderer) {

@@ -7,6 +7,11 @@
 
 #include "ewa/render.h"
 
+typedef struct ewa_backend ewa_backend;
+
+/// Makes a renderer whose frames `backend` draws. Errors: EWA_ERROR_MEMORY, those of the back end.
+ewa_status ewa_renderer_create_by(ewa_context *context, const ewa_backend *backend, ewa_renderer **renderer);
+
 /// How a source takes part in a frame.
 typedef struct ewa_render_source {
     double weight; ///< of all its kernels; (0, 1]

@@ -38,6 +38,7 @@ static void free_packets(ewa_surfels *surfels) {
 ewa_status ewa_packets_allocate(ewa_surfels *surfels, uint32_t packet_count) {
     ewa_context *context = surfels->context;
     free_packets(surfels);
+    surfels->serial = ewa_serial_next(context);
     surfels->packet_count = packet_count;
     surfels->bounds_stride = ((size_t)packet_count + LANES - 1) / LANES * LANES;
     surfels->packets = ewa_allocate(context, surfels->packet_count, sizeof *surfels->packets);

@@ -1,0 +1,15 @@
+# SPDX-FileCopyrightText: 2026 The ewa authors
+# SPDX-License-Identifier: MIT
+#
+# Renderers on graphics processors (src/gl) where libepoxy is found; drivers are looked for when they are used.
+set(EWA_WITH_GL AUTO CACHE STRING "Build the renderers on graphics processors: AUTO (where libepoxy is found), OFF")
+set_property(CACHE EWA_WITH_GL PROPERTY STRINGS AUTO OFF)
+set(EWA_HAS_GL OFF)
+if(NOT EWA_WITH_GL STREQUAL "OFF" AND NOT EWA_BUILD_FUZZERS)
+  pkg_check_modules(EPOXY IMPORTED_TARGET epoxy)
+  pkg_check_modules(EGL IMPORTED_TARGET egl) # its header
+  if(EPOXY_FOUND AND EGL_FOUND)
+    set(EWA_HAS_GL ON)
+    target_link_libraries(ewa_dependencies INTERFACE PkgConfig::EPOXY ${CMAKE_DL_LIBS})
+  endif()
+endif()

@@ -1,0 +1,16 @@
+# SPDX-FileCopyrightText: 2026 The ewa authors
+# SPDX-License-Identifier: MIT
+#
+# The library carries the shaders of src/gl as text: each becomes <name>.c in the build folder, a string ewa_shader_<name>.
+if(NOT EWA_HAS_GL)
+  return()
+endif()
+foreach(name fill passes scene setup splat surface wide)
+  set(source ${PROJECT_SOURCE_DIR}/src/gl/shaders/${name}.glsl)
+  set(made ${PROJECT_BINARY_DIR}/shaders/${name}.c)
+  add_custom_command(OUTPUT ${made}
+    COMMAND ${CMAKE_COMMAND} -DNAME=${name} -DSOURCE=${source} -DMADE=${made}
+            -P ${PROJECT_SOURCE_DIR}/cmake/shader.cmake
+    DEPENDS ${source} ${PROJECT_SOURCE_DIR}/cmake/shader.cmake VERBATIM)
+  target_sources(ewa_objects PRIVATE ${made})
+endforeach()

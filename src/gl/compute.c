@@ -1,0 +1,476 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The road as compute programs: the order of a frame's stages, in bands of rows that fit the device. Every sum and every
+// rounding is that of src/surface, so that a device that keeps them draws the same bytes. Reference:
+// src/reference/surface.c.
+#include "gl/compute.h"
+#include "gl/backends.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { DEFAULT_TILE_PX = 16, DEFAULT_UNIT = 1024, THREADS = 64, COUNTERS = 2 };
+
+void ewa_gl_compute_destroy(ewa_context *context, void *state) {
+    ewa_gl_compute *old = state;
+    if (old->device && ewa_gl_enter(old->device) == EWA_OK) {
+        for (int i = 0; i < EWA_GL_BUFFERS; i++) ewa_gl_buffer_free(&old->buffers[i]);
+        ewa_gl_variants_free(&old->variants);
+        ewa_gl_residents_free(old->device, &old->residents);
+        ewa_gl_leave(old->device);
+    } else if (old->device) {
+        old->residents.count = 0;
+        ewa_buffer_free(context, &old->residents.items);
+    }
+    ewa_gl_close(&old->device);
+    ewa_gl_band_free(context, &old->band);
+    ewa_buffer_free(context, &old->page_packets);
+    ewa_buffer_free(context, &old->indices);
+    ewa_buffer_free(context, &old->views);
+    ewa_job_room_free(context, &old->room);
+    ewa_release(context, old, 1, sizeof *old);
+}
+
+/// Reads a number of "name=value name=value" from the environment, for tests.
+static uint64_t tuning(const char *name, uint64_t otherwise) {
+    const char *text = getenv("EWA_GL_TUNING");
+    const size_t length = strlen(name);
+    for (const char *at = text; at && *at; at = strchr(at, ' ')) {
+        while (*at == ' ') at++;
+        if (strncmp(at, name, length) == 0 && at[length] == '=') return strtoull(at + length + 1, NULL, 10);
+    }
+    return otherwise;
+}
+
+ewa_status ewa_gl_compute_create(ewa_context *context, void **state) {
+    ewa_gl_compute *made = ewa_allocate_zeroed(context, 1, sizeof *made);
+    if (!made) return EWA_ERROR_MEMORY;
+    made->context = context;
+    made->room.dome.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_road_kernels);
+    made->tile_px = (uint32_t)tuning("tile_px", DEFAULT_TILE_PX);
+    made->unit_splats = (uint32_t)tuning("unit", DEFAULT_UNIT);
+    made->residents.page_packets = (uint32_t)tuning("page", 0);
+    ewa_status status = ewa_gl_open(context, &made->device);
+    if (status == EWA_OK) {
+        ewa_gl_facts *facts = &made->device->facts;
+        facts->storage_bytes = tuning("storage", facts->storage_bytes);
+        enum { STORAGE_BLOCKS = 14, GROUP_THREADS = 256 };
+        if (!facts->compute || !facts->with_doubles || facts->storage_count < STORAGE_BLOCKS ||
+            facts->group_threads < GROUP_THREADS)
+            status = ewa_fail(context, EWA_ERROR_UNSUPPORTED,
+                              "OpenGL: %s (%s) has no compute programs, or small ones: %u storage blocks, "
+                              "groups of %u",
+                              facts->renderer, facts->version, facts->storage_count, facts->group_threads);
+    }
+    if (status != EWA_OK) {
+        ewa_gl_compute_destroy(context, made);
+        return status;
+    }
+    *state = made;
+    return EWA_OK;
+}
+
+static ewa_status reserve(ewa_gl_compute *gl, ewa_gl_buffer_kind kind, const char *what,
+                          uint64_t size_bytes) {
+    return ewa_gl_buffer_reserve(gl->device, &gl->buffers[kind], what, size_bytes);
+}
+
+static ewa_status put(ewa_gl_compute *gl, ewa_gl_buffer_kind kind, const char *what, const void *bytes,
+                      uint64_t size_bytes) {
+    return ewa_gl_buffer_put(gl->device, &gl->buffers[kind], what, bytes, size_bytes);
+}
+
+static void bind(ewa_gl_compute *gl, GLuint binding, ewa_gl_buffer_kind kind) {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, gl->buffers[kind].name);
+}
+
+static void read_back(ewa_gl_compute *gl, ewa_gl_buffer_kind kind, uint64_t at_bytes, uint64_t size_bytes,
+                      void *to) {
+    if (!size_bytes) return;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glBindBuffer(GL_COPY_READ_BUFFER, gl->buffers[kind].name);
+    glGetBufferSubData(GL_COPY_READ_BUFFER, (GLintptr)at_bytes, (GLsizeiptr)size_bytes, to);
+}
+
+static void set_uint(GLuint program, const char *name, uint32_t value) {
+    glProgramUniform1ui(program, glGetUniformLocation(program, name), value);
+}
+
+static void set_int(GLuint program, const char *name, int32_t value) {
+    glProgramUniform1i(program, glGetUniformLocation(program, name), value);
+}
+
+static void set_pair(GLuint program, const char *name, uint32_t x, uint32_t y) {
+    glProgramUniform2ui(program, glGetUniformLocation(program, name), x, y);
+}
+
+/// Runs a program in groups, as many at a time as the device takes; `first` is told where each time begins.
+static void dispatch(const ewa_gl_compute *gl, GLuint program, const char *first, uint32_t step,
+                     uint32_t from, uint32_t group_count) {
+    const uint32_t most = gl->device->facts.group_count;
+    glUseProgram(program);
+    for (uint32_t done = 0; done < group_count; done += most) {
+        set_uint(program, first, from + done * step);
+        glDispatchCompute(group_count - done < most ? group_count - done : most, 1, 1);
+    }
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+/// What all programs of the frame depend on.
+static ewa_gl_variant variant_of(const ewa_gl_compute *gl, const ewa_tile_job *job, ewa_gl_pass pass) {
+    ewa_gl_variant v;
+    memset(&v, 0, sizeof v);
+    v.pass = (uint8_t)pass;
+    if (pass == EWA_GL_SETUP || pass == EWA_GL_FILL) return v;
+    v.tile_px = (uint8_t)gl->tile_px;
+    v.with_clips = job->with_clips;
+    v.rays = pass <= EWA_GL_SUMS && job->view.raycast;
+    if (pass == EWA_GL_VISIBILITY) return v;
+    v.with_normals = job->with_normals, v.with_depth = job->with_depth;
+    v.with_materials = job->with_materials, v.with_opacity = job->with_opacity;
+    v.with_fine = job->fine_sums;
+    v.channel_count = (uint8_t)job->channel_count;
+    return v;
+}
+
+static ewa_status program_for(ewa_gl_compute *gl, const ewa_tile_job *job, ewa_gl_pass pass,
+                              GLuint *program) {
+    const ewa_gl_variant variant = variant_of(gl, job, pass);
+    return ewa_gl_variant_get(gl->device, &gl->variants, &variant, program);
+}
+
+/// Words of a channel's sum at a pixel.
+static uint32_t sum_words(const ewa_tile_job *job) {
+    return job->fine_sums || job->with_depth || job->with_clips ? 4 : 2;
+}
+
+/// Sets up the band's surfels and counts them by tile.
+static ewa_status set_up(ewa_gl_compute *gl, const ewa_tile_job *job) {
+    ewa_gl_band *band = &gl->band;
+    GLuint program = 0;
+    ewa_status status = program_for(gl, job, EWA_GL_SETUP, &program);
+    const uint64_t pairs = band->pair_count, lanes = pairs * EWA_PACKET_LANES;
+    if (status == EWA_OK)
+        status = put(gl, EWA_GL_PAIRS, "packets", band->pairs.data, pairs * sizeof(ewa_gl_pair));
+    if (status == EWA_OK) status = put(gl, EWA_GL_PLACES, "places", band->places.data, pairs * 24);
+    if (status == EWA_OK) status = put(gl, EWA_GL_WORDS, "packets", band->words.data, pairs * 8);
+    if (status == EWA_OK) status = reserve(gl, EWA_GL_RECORDS, "splats", lanes * EWA_GL_RECORD_BYTES);
+    if (status == EWA_OK) status = reserve(gl, EWA_GL_MASKS, "masks", pairs * 4);
+    if (status == EWA_OK) status = reserve(gl, EWA_GL_COUNTS, "tiles", (uint64_t)band->tile_count * 4);
+    if (status != EWA_OK) return status;
+    ewa_gl_buffer_fill(&gl->buffers[EWA_GL_MASKS], pairs * 4, 0);
+    ewa_gl_buffer_fill(&gl->buffers[EWA_GL_COUNTS], (uint64_t)band->tile_count * 4, 0);
+    bind(gl, 0, EWA_GL_VIEWS), bind(gl, 2, EWA_GL_PAIRS), bind(gl, 3, EWA_GL_PLACES),
+        bind(gl, 4, EWA_GL_WORDS);
+    bind(gl, 5, EWA_GL_RECORDS), bind(gl, 6, EWA_GL_COUNTS), bind(gl, 7, EWA_GL_MASKS);
+    set_pair(program, "picture_px", job->tiles.width_px, job->tiles.height_px);
+    set_pair(program, "first_tile_px", 0, band->first_row_px);
+    set_uint(program, "tiles_per_row", band->tiles_per_row);
+    set_uint(program, "tile_side_px", band->tile_px);
+    const uint32_t *indices = gl->indices.data;
+    const ewa_gl_batch *batches = band->batches.data;
+    for (uint32_t i = 0; i < band->batch_count; i++) {
+        const ewa_gl_batch *batch = &batches[i];
+        const ewa_gl_page *page =
+            &ewa_gl_residents_at(&gl->residents, indices[batch->source])->pages[batch->page];
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, page->packets.name);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, page->attributes.name);
+        set_uint(program, "end_pair", batch->first_pair + batch->pair_count);
+        set_uint(program, "source", batch->source);
+        set_int(program, "opacities_at", job->with_opacity ? page->opacities_at : -1);
+        set_int(program, "materials_at", job->with_materials ? page->materials_at : -1);
+        enum { PAIRS = THREADS / EWA_PACKET_LANES };
+        dispatch(gl, program, "first_pair", PAIRS, batch->first_pair,
+                 (batch->pair_count + PAIRS - 1) / PAIRS);
+    }
+    return ewa_gl_check(gl->device, "set-up");
+}
+
+/// Asks the device what it found, gives it what it needs, and lists the splats of each tile.
+static ewa_status list(ewa_gl_compute *gl, const ewa_tile_job *job) {
+    ewa_gl_band *band = &gl->band;
+    ewa_status status = ewa_gl_wait(gl->device, "set-up");
+    if (status != EWA_OK) return status;
+    read_back(gl, EWA_GL_MASKS, 0, (uint64_t)band->pair_count * 4, band->masks.data);
+    read_back(gl, EWA_GL_COUNTS, 0, (uint64_t)band->tile_count * 4, band->counts.data);
+    status = ewa_gl_band_answer(gl->context, band, job);
+    if (status == EWA_OK) status = ewa_gl_band_divide(gl->context, band, job, gl->unit_splats);
+    GLuint program = 0;
+    if (status == EWA_OK) status = program_for(gl, job, EWA_GL_FILL, &program);
+    if (status == EWA_OK)
+        status = put(gl, EWA_GL_NEARS, "near surfels", band->nears.data,
+                     (uint64_t)band->near_count * sizeof(ewa_gl_near));
+    if (status == EWA_OK)
+        status = put(gl, EWA_GL_CLIPS, "clip lines", band->clips.data,
+                     (uint64_t)band->clip_count * sizeof(ewa_gl_clip));
+    if (status == EWA_OK)
+        status = put(gl, EWA_GL_CLIPPED, "clip lines", band->clipped.data, (uint64_t)band->pair_count * 8);
+    if (status == EWA_OK)
+        status = put(gl, EWA_GL_COUNTS, "tiles", band->starts.data, (uint64_t)band->tile_count * 4);
+    if (status == EWA_OK)
+        status =
+            put(gl, EWA_GL_UNITS, "work", band->units.data, (uint64_t)band->unit_count * sizeof(ewa_gl_unit));
+    if (status == EWA_OK) status = reserve(gl, EWA_GL_LIST, "lists", band->list_count * 4);
+    if (status != EWA_OK) return status;
+    bind(gl, 4, EWA_GL_CLIPPED), bind(gl, 5, EWA_GL_RECORDS), bind(gl, 6, EWA_GL_LIST),
+        bind(gl, 7, EWA_GL_COUNTS);
+    const uint32_t record_count = band->pair_count * EWA_PACKET_LANES;
+    set_uint(program, "record_count", record_count);
+    set_pair(program, "first_tile_px", 0, band->first_row_px);
+    set_uint(program, "tiles_per_row", band->tiles_per_row);
+    set_uint(program, "tile_side_px", band->tile_px);
+    dispatch(gl, program, "first_record", THREADS, 0, (record_count + THREADS - 1) / THREADS);
+    return ewa_gl_check(gl->device, "lists");
+}
+
+/// The planes of the band's pixels, all at their start.
+static ewa_status reserve_planes(ewa_gl_compute *gl, const ewa_tile_job *job) {
+    const ewa_gl_band *band = &gl->band;
+    const uint64_t pixels = (uint64_t)band->width_px * band->height_px, channels = job->channel_count;
+    const uint64_t cut_words = job->with_clips ? 8 * pixels + pixels / (EWA_BLOCK_PX * EWA_BLOCK_PX) : 0;
+    const uint64_t picture_px = (uint64_t)job->tiles.width_px * (band->end_row_px - band->first_row_px);
+    const ewa_resolve *to = &job->resolve;
+    const uint64_t floats =
+        (to->rgba ? 4u : 0u) + (to->depth ? 1u : 0u) + (to->normal ? 3u : 0u) + (to->coverage ? 1u : 0u);
+    const struct {
+        ewa_gl_buffer_kind kind;
+        uint64_t words;
+        bool filled;
+        uint32_t word;
+    } needs[] = {{EWA_GL_NEAREST, pixels, true, EWA_GL_NEVER},
+                 {EWA_GL_PASSED, pixels, false, 0},
+                 {EWA_GL_OPEN, (uint64_t)band->tile_count + COUNTERS, true, 0},
+                 {EWA_GL_SUM_WORDS, channels * sum_words(job) * pixels, true, 0},
+                 {EWA_GL_TURNED, channels * sum_words(job) * pixels, true, 0},
+                 {EWA_GL_CUT, cut_words, true, 0},
+                 {EWA_GL_SETTLED, channels * pixels, false, 0},
+                 {EWA_GL_BEHIND, 8 * pixels, false, 0},
+                 {EWA_GL_CODES, to->rgba8 ? picture_px : 0, false, 0},
+                 {EWA_GL_PLANES, floats * picture_px, false, 0}};
+    for (size_t i = 0; i < sizeof needs / sizeof needs[0]; i++) {
+        const ewa_status status = reserve(gl, needs[i].kind, "the picture", needs[i].words * 4);
+        if (status != EWA_OK) return status;
+        if (needs[i].filled)
+            ewa_gl_buffer_fill(&gl->buffers[needs[i].kind], needs[i].words * 4, needs[i].word);
+    }
+    return ewa_gl_check(gl->device, "the picture");
+}
+
+static void set_place(const ewa_gl_band *band, GLuint program) {
+    set_pair(program, "band_px", band->width_px, band->height_px);
+    set_pair(program, "first_px", 0, band->first_row_px);
+    set_uint(program, "tiles_per_row", band->tiles_per_row);
+}
+
+/// Both passes over the band's splats; `behind` the first surface, or of it. `whole`: all that is left is one surface.
+static ewa_status gather(ewa_gl_compute *gl, const ewa_tile_job *job, bool behind, bool whole) {
+    const ewa_gl_band *band = &gl->band;
+    bind(gl, 0, EWA_GL_VIEWS), bind(gl, 1, EWA_GL_NEAREST), bind(gl, 2, EWA_GL_PASSED),
+        bind(gl, 3, EWA_GL_OPEN);
+    bind(gl, 4, EWA_GL_SUM_WORDS), bind(gl, 5, EWA_GL_RECORDS), bind(gl, 6, EWA_GL_LIST);
+    bind(gl, 7, EWA_GL_UNITS), bind(gl, 8, EWA_GL_TURNED), bind(gl, 9, EWA_GL_CLIPS),
+        bind(gl, 10, EWA_GL_NEARS);
+    bind(gl, 11, EWA_GL_CUT), bind(gl, 12, EWA_GL_MATERIALS);
+    for (int pass = whole ? EWA_GL_SUMS : EWA_GL_VISIBILITY; pass <= EWA_GL_SUMS; pass++) {
+        GLuint program = 0;
+        const ewa_status status = program_for(gl, job, (ewa_gl_pass)pass, &program);
+        if (status != EWA_OK) return status;
+        set_place(band, program);
+        set_uint(program, "behind", behind);
+        set_uint(program, "whole", whole);
+        glProgramUniform1f(program, glGetUniformLocation(program, "exponent_end"), job->view.exponent_end);
+        dispatch(gl, program, "first_unit", 1, 0, band->unit_count);
+    }
+    return ewa_gl_check(gl->device, "sums");
+}
+
+/// Makes the surface that has been gathered: the first, or one behind it.
+static ewa_status make_surface(ewa_gl_compute *gl, const ewa_tile_job *job, bool behind, bool whole) {
+    const ewa_gl_band *band = &gl->band;
+    GLuint program = 0;
+    const ewa_status status =
+        program_for(gl, job, behind ? EWA_GL_NEXT_SURFACE : EWA_GL_FIRST_SURFACE, &program);
+    if (status != EWA_OK) return status;
+    bind(gl, 0, EWA_GL_RESOLVE), bind(gl, 1, EWA_GL_NEAREST), bind(gl, 2, EWA_GL_PASSED),
+        bind(gl, 3, EWA_GL_OPEN);
+    bind(gl, 4, EWA_GL_SUM_WORDS), bind(gl, 8, EWA_GL_TURNED), bind(gl, 11, EWA_GL_CUT);
+    bind(gl, 13, EWA_GL_SETTLED), bind(gl, 14, EWA_GL_BEHIND), bind(gl, 15, EWA_GL_ENVIRONMENT);
+    set_place(band, program);
+    set_uint(program, "tile_count", band->tile_count);
+    set_uint(program, "whole", whole);
+    set_uint(program, "layered", job->layers > 1);
+    dispatch(gl, program, "first_tile", 1, 0, band->tile_count);
+    return ewa_gl_check(gl->device, "surfaces");
+}
+
+/// Draws what lies behind the first surface, while any pixel is open.
+static ewa_status draw_layers(ewa_gl_compute *gl, const ewa_tile_job *job) {
+    const uint64_t counter_at = (uint64_t)gl->band.tile_count * 4;
+    for (uint32_t layer = 1; layer < job->layers; layer++) {
+        uint32_t open = 0;
+        ewa_status status = ewa_gl_wait(gl->device, "surfaces");
+        if (status != EWA_OK) return status;
+        read_back(gl, EWA_GL_OPEN, counter_at, 4, &open);
+        if (!open) return EWA_OK;
+        static const uint32_t none = 0;
+        glBindBuffer(GL_COPY_WRITE_BUFFER, gl->buffers[EWA_GL_OPEN].name);
+        glBufferSubData(GL_COPY_WRITE_BUFFER, (GLintptr)counter_at, 4, &none);
+        const bool whole = job->merge_last && layer + 1 == job->layers;
+        status = gather(gl, job, true, whole);
+        if (status == EWA_OK) status = make_surface(gl, job, true, whole);
+        if (status == EWA_OK) status = ewa_progress(gl->context, "render", 0);
+        if (status != EWA_OK) return status;
+    }
+    return EWA_OK;
+}
+
+/// Makes the band's pixels and fetches them; counts those without a colour.
+static ewa_status finish_band(ewa_gl_compute *gl, const ewa_tile_job *job, uint64_t *broken) {
+    const ewa_gl_band *band = &gl->band;
+    const ewa_resolve *to = &job->resolve;
+    GLuint program = 0;
+    ewa_status status = program_for(gl, job, EWA_GL_PICTURE, &program);
+    if (status != EWA_OK) return status;
+    const uint64_t width = job->tiles.width_px, first = width * band->first_row_px,
+                   pixels = width * (band->end_row_px - band->first_row_px);
+    const struct {
+        const char *name;
+        float *plane;
+        uint32_t floats;
+    } planes[] = {{"rgba_at", to->rgba, 4},
+                  {"depth_at", to->depth, 1},
+                  {"normal_at", to->normal, 3},
+                  {"coverage_at", to->coverage, 1}};
+    uint64_t at = 0, starts[4];
+    for (int i = 0; i < 4; i++) {
+        starts[i] = at;
+        set_int(program, planes[i].name, planes[i].plane ? (int32_t)at : -1);
+        if (planes[i].plane) at += planes[i].floats * pixels;
+    }
+    bind(gl, 5, EWA_GL_CODES), bind(gl, 6, EWA_GL_PLANES);
+    set_place(band, program);
+    set_pair(program, "picture_px", job->tiles.width_px, band->end_row_px);
+    set_uint(program, "with_codes", to->rgba8 != NULL);
+    set_uint(program, "tile_count", band->tile_count);
+    set_uint(program, "layered", job->layers > 1);
+    dispatch(gl, program, "first_tile", 1, 0, band->tile_count);
+    status = ewa_gl_wait(gl->device, "the picture");
+    if (status != EWA_OK) return status;
+    if (to->rgba8) read_back(gl, EWA_GL_CODES, 0, pixels * 4, to->rgba8 + first * 4);
+    for (int i = 0; i < 4; i++)
+        if (planes[i].plane)
+            read_back(gl, EWA_GL_PLANES, starts[i] * 4, pixels * planes[i].floats * 4,
+                      planes[i].plane + first * planes[i].floats);
+    uint32_t count = 0;
+    read_back(gl, EWA_GL_OPEN, (uint64_t)band->tile_count * 4 + 4, 4, &count);
+    *broken += count;
+    return ewa_gl_check(gl->device, "the picture");
+}
+
+/// Draws rows of the picture.
+static ewa_status draw_band(ewa_gl_compute *gl, const ewa_tile_job *job, uint32_t first_row_px,
+                            uint32_t end_row_px, uint64_t *broken) {
+    ewa_status status = ewa_gl_band_start(gl->context, &gl->band, job, first_row_px, end_row_px, gl->tile_px,
+                                          gl->page_packets.data);
+    if (status == EWA_OK) status = reserve_planes(gl, job);
+    if (status == EWA_OK) status = set_up(gl, job);
+    if (status == EWA_OK) status = list(gl, job);
+    if (status == EWA_OK) status = gather(gl, job, false, false);
+    if (status == EWA_OK) status = make_surface(gl, job, false, false);
+    if (status == EWA_OK) status = draw_layers(gl, job);
+    return status == EWA_OK ? finish_band(gl, job, broken) : status;
+}
+
+/// Draws rows, in halves where they do not fit the device.
+static ewa_status draw_rows(ewa_gl_compute *gl, const ewa_tile_job *job, uint32_t first_row_px,
+                            uint32_t end_row_px, uint64_t *broken) {
+    enum { DEEPEST = 32 };
+    uint32_t ends[DEEPEST], depth = 0;
+    ends[0] = end_row_px;
+    for (uint32_t row = first_row_px; row < end_row_px;) {
+        const uint32_t end = ends[depth], fields = (end - row + EWA_FIELD_PX - 1) / EWA_FIELD_PX;
+        const bool divisible = fields > 1 && depth + 1 < DEEPEST;
+        ewa_failures_soften(gl->context, divisible);
+        const ewa_status status = draw_band(gl, job, row, end, broken);
+        ewa_failures_soften(gl->context, false);
+        if ((status == EWA_ERROR_LIMIT || status == EWA_ERROR_MEMORY) && divisible) {
+            ends[++depth] = row + fields / 2 * EWA_FIELD_PX;
+            continue;
+        }
+        if (status != EWA_OK) return status;
+        row = end;
+        if (depth) depth--;
+        const ewa_status told =
+            ewa_progress(gl->context, "render", (double)(row - first_row_px) / (end_row_px - first_row_px));
+        if (told != EWA_OK) return told;
+    }
+    return EWA_OK;
+}
+
+/// What all bands of the frame see: views, lights, materials, the environment, surfels.
+static ewa_status put_frame(ewa_gl_compute *gl, const ewa_tile_job *job) {
+    ewa_context *context = gl->context;
+    ewa_status status = ewa_buffer_reserve(context, &gl->views, job->source_count, sizeof(ewa_gl_view));
+    if (status == EWA_OK)
+        status = ewa_buffer_reserve(context, &gl->indices, job->source_count, sizeof(uint32_t));
+    if (status == EWA_OK)
+        status = ewa_buffer_reserve(context, &gl->page_packets, job->source_count, sizeof(uint32_t));
+    ewa_gl_view *views = gl->views.data;
+    uint32_t *indices = gl->indices.data, *page_packets = gl->page_packets.data;
+    ewa_gl_residents_start(gl->device, &gl->residents);
+    for (uint32_t i = 0; i < job->source_count && status == EWA_OK; i++) {
+        ewa_gl_view_set(&views[i], &job->sources[i].view, job->sources[i].hides);
+        status = ewa_gl_residents_get(gl->device, &gl->residents, job->sources[i].surfels, &indices[i]);
+        if (status != EWA_OK) return status;
+        page_packets[i] = ewa_gl_residents_at(&gl->residents, indices[i])->pages[0].count;
+    }
+    ewa_gl_resolve resolve;
+    ewa_gl_resolve_set(&resolve, &job->resolve);
+    if (status == EWA_OK)
+        status = put(gl, EWA_GL_VIEWS, "views", views, (uint64_t)job->source_count * sizeof *views);
+    if (status == EWA_OK) status = put(gl, EWA_GL_RESOLVE, "lights", &resolve, sizeof resolve);
+    if (status == EWA_OK)
+        status = put(gl, EWA_GL_MATERIALS, "materials", job->materials, sizeof job->materials);
+    const ewa_environment *environment = job->resolve.environment;
+    uint64_t texels = 0;
+    for (uint32_t i = 0; environment && i < environment->level_count; i++)
+        texels += (uint64_t)environment->levels[i].width * environment->levels[i].height;
+    if (status == EWA_OK) status = reserve(gl, EWA_GL_ENVIRONMENT, "the environment", texels * 12);
+    if (status != EWA_OK) return status;
+    glBindBuffer(GL_COPY_WRITE_BUFFER, gl->buffers[EWA_GL_ENVIRONMENT].name);
+    texels = 0;
+    for (uint32_t i = 0; environment && i < environment->level_count; i++) {
+        const ewa_environment_level *level = &environment->levels[i];
+        const uint64_t here = (uint64_t)level->width * level->height;
+        glBufferSubData(GL_COPY_WRITE_BUFFER, (GLintptr)(texels * 12), (GLsizeiptr)(here * 12),
+                        level->texels);
+        texels += here;
+    }
+    return ewa_gl_check(gl->device, "the frame");
+}
+
+ewa_status ewa_gl_compute_draw(void *state, const ewa_render_job *frame, ewa_render_stats *stats) {
+    ewa_gl_compute *gl = state;
+    const double start_s = ewa_now_s();
+    ewa_tile_job job;
+    ewa_status status = ewa_tile_job_make(gl->context, &gl->room, frame, EWA_FIELD_PX, &job);
+    if (status != EWA_OK) return status;
+    const double binned_s = ewa_now_s();
+    uint64_t broken = 0;
+    status = ewa_gl_enter(gl->device);
+    if (status != EWA_OK) return status;
+    status = put_frame(gl, &job);
+    if (status == EWA_OK) status = draw_rows(gl, &job, frame->first_row_px, frame->end_row_px, &broken);
+    ewa_gl_leave(gl->device);
+    if (status != EWA_OK) return status;
+    ewa_job_finish(gl->context, &gl->room, frame, broken);
+    *stats = (ewa_render_stats){.bin_s = binned_s - start_s};
+    ewa_job_count(&job, stats);
+    stats->drawn_count = gl->band.list_count;
+    stats->total_s = ewa_now_s() - start_s;
+    return EWA_OK;
+}
+
+const ewa_backend ewa_backend_gl = {"gl", ewa_gl_compute_create, ewa_gl_compute_destroy, ewa_gl_compute_draw};

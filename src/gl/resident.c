@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Copies of surfels on the device.
+#include "gl/resident.h"
+
+#include <string.h>
+
+enum { LANES = EWA_PACKET_LANES, MOST_PAGE_PACKETS = 1 << 18 };
+
+/// Copies that the last frame did not use are kept up to so many bytes.
+static const uint64_t KEPT_BYTES = 512ull << 20;
+
+static void free_resident(ewa_gl *device, ewa_gl_residents *residents, ewa_gl_resident *old) {
+    for (uint32_t i = 0; i < old->page_count; i++) {
+        ewa_gl_buffer_free(&old->pages[i].packets);
+        ewa_gl_buffer_free(&old->pages[i].attributes);
+    }
+    ewa_release(device->context, old->pages, old->page_count, sizeof *old->pages);
+    residents->size_bytes -= old->size_bytes;
+}
+
+/// Drops what this frame has not used.
+static void drop_unused(ewa_gl *device, ewa_gl_residents *residents, uint64_t used_least) {
+    ewa_gl_resident *items = residents->items.data;
+    for (uint32_t i = residents->count; i-- > 0;) {
+        if (items[i].used >= used_least) continue;
+        free_resident(device, residents, &items[i]);
+        items[i] = items[--residents->count];
+    }
+}
+
+void ewa_gl_residents_start(ewa_gl *device, ewa_gl_residents *residents) {
+    if (residents->size_bytes > KEPT_BYTES) drop_unused(device, residents, residents->frame);
+    residents->frame++;
+}
+
+static ewa_status put_page(ewa_gl *device, const ewa_surfels *surfels, ewa_gl_page *page) {
+    const size_t lanes = (size_t)page->count * LANES, first = (size_t)page->first * LANES;
+    ewa_status status = ewa_gl_buffer_put(device, &page->packets, "surfels", surfels->packets + page->first,
+                                          page->count * sizeof *surfels->packets);
+    const size_t opacity_bytes = surfels->opacities ? lanes * sizeof *surfels->opacities : 0,
+                 material_bytes = surfels->materials ? lanes : 0;
+    page->opacities_at = opacity_bytes ? 0 : -1;
+    page->materials_at = material_bytes ? (int32_t)(opacity_bytes / 4) : -1;
+    if (status == EWA_OK)
+        status = ewa_gl_buffer_reserve(device, &page->attributes, "surfels", opacity_bytes + material_bytes);
+    if (status != EWA_OK) return status;
+    glBindBuffer(GL_COPY_WRITE_BUFFER, page->attributes.name);
+    if (opacity_bytes)
+        glBufferSubData(GL_COPY_WRITE_BUFFER, 0, (GLsizeiptr)opacity_bytes, surfels->opacities + first);
+    if (material_bytes)
+        glBufferSubData(GL_COPY_WRITE_BUFFER, (GLintptr)opacity_bytes, (GLsizeiptr)material_bytes,
+                        surfels->materials + first);
+    return ewa_gl_check(device, "surfels");
+}
+
+static ewa_status put_surfels(ewa_gl *device, ewa_gl_residents *residents, const ewa_surfels *surfels) {
+    uint32_t most = residents->page_packets ? residents->page_packets : MOST_PAGE_PACKETS;
+    const uint64_t fit = device->facts.storage_bytes / sizeof(ewa_packet);
+    if (most > fit) most = fit ? (uint32_t)fit : 1;
+    const uint32_t page_count = (surfels->packet_count + most - 1) / most;
+    ewa_gl_resident made = {.serial = surfels->serial, .page_count = page_count, .used = residents->frame};
+    made.pages = ewa_allocate_zeroed(device->context, page_count, sizeof *made.pages);
+    if (!made.pages) return EWA_ERROR_MEMORY;
+    ewa_status status = ewa_buffer_grow(device->context, &residents->items, residents->count,
+                                        (size_t)residents->count + 1, sizeof made);
+    for (uint32_t i = 0; i < page_count && status == EWA_OK; i++) {
+        ewa_gl_page *page = &made.pages[i];
+        page->first = i * most;
+        page->count = surfels->packet_count - page->first < most ? surfels->packet_count - page->first : most;
+        status = put_page(device, surfels, page);
+        made.size_bytes += page->packets.size_bytes + page->attributes.size_bytes;
+    }
+    residents->size_bytes += made.size_bytes;
+    if (status != EWA_OK) {
+        free_resident(device, residents, &made);
+        return status;
+    }
+    ((ewa_gl_resident *)residents->items.data)[residents->count++] = made;
+    return EWA_OK;
+}
+
+ewa_status ewa_gl_residents_get(ewa_gl *device, ewa_gl_residents *residents, const ewa_surfels *surfels,
+                                uint32_t *index) {
+    ewa_gl_resident *items = residents->items.data;
+    for (uint32_t i = 0; i < residents->count; i++)
+        if (items[i].serial == surfels->serial) {
+            items[i].used = residents->frame;
+            *index = i;
+            return EWA_OK;
+        }
+    *index = residents->count;
+    return put_surfels(device, residents, surfels);
+}
+
+void ewa_gl_residents_free(ewa_gl *device, ewa_gl_residents *residents) {
+    drop_unused(device, residents, UINT64_MAX);
+    ewa_buffer_free(device->context, &residents->items);
+}

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What programs see of a frame, as src/gl/shaders/scene.glsl and surface.glsl declare it.
+#ifndef EWA_SRC_GL_SCENE_H
+#define EWA_SRC_GL_SCENE_H
+
+#include "surface/view.h"
+
+enum {
+    EWA_GL_ORTHOGRAPHIC = 1,
+    EWA_GL_CULL_BACK = 2,
+    EWA_GL_ELLIPSES = 4,
+    EWA_GL_AFFINE = 8,
+    EWA_GL_SOURCE = 16,
+    EWA_GL_CIRCULAR = 32,
+    EWA_GL_RAYCAST = 64,
+    EWA_GL_POINTS = 128,
+    EWA_GL_HIDES = 256,
+    EWA_GL_RECORD_BYTES = 96
+};
+
+/// A source's ewa_view.
+typedef struct ewa_gl_view {
+    double focal_px[2], principal_px[2];
+    float rotation[9];
+    float scale;
+    float fx_px, fy_px, inverse_fx, inverse_fy;
+    float zoom, fx_zoomed, fy_zoomed;
+    float broad;
+    float cutoff, cutoff2, inverse_cutoff, center_scale;
+    float prefilter2_px2, reach_px;
+    float point_x, point_y, point_major, point_minor, point_sigma;
+    float tolerance, grazing;
+    float exponent_scale, exponent_end;
+    float sum_scale, color_scale, depth_scale;
+    uint32_t doublings, flags;
+    float pad;
+} ewa_gl_view;
+
+/// ewa_clip.
+typedef struct ewa_gl_clip {
+    float lines[EWA_CLIP_LINES][8];
+    uint32_t count, either, pad[2];
+} ewa_gl_clip;
+
+/// ewa_near_record.
+typedef struct ewa_gl_near {
+    float u[3], v[3], w[3], z[3];
+    float depth_low, depth_high, tolerance;
+    float color[3], normal[3], opacity, material[EWA_MATERIAL_CHANNELS];
+    uint32_t flags, source, pad[2];
+    ewa_gl_clip clip;
+} ewa_gl_near;
+
+/// ewa_resolve.
+typedef struct ewa_gl_resolve {
+    float unit_coverage_inverse, alpha_scale, covering, front_scale;
+    float color_unit, material_units[EWA_MATERIAL_CHANNELS];
+    float opacity, depth_unit, depth_per_share, texels_per_radian2;
+    float material[EWA_MATERIAL_CHANNELS];
+    float environment_from_camera[9];
+    float background[4];
+    float ray_x[2], ray_y[2];
+    float to_world[9];
+    uint32_t flags, shading, light_count, level_count;
+    struct {
+        uint32_t headlight;
+        float toward[3], color[3];
+    } lights[EWA_MAX_LIGHTS];
+    struct {
+        uint32_t width, height, first, pad;
+    } levels[EWA_MAX_ENVIRONMENT_LEVELS];
+} ewa_gl_resolve;
+
+void ewa_gl_view_set(ewa_gl_view *to, const ewa_view *from, bool hides);
+void ewa_gl_clip_set(ewa_gl_clip *to, const ewa_clip *from);
+void ewa_gl_near_set(ewa_gl_near *to, const ewa_near_record *from, uint32_t source);
+void ewa_gl_resolve_set(ewa_gl_resolve *to, const ewa_resolve *from);
+
+#endif

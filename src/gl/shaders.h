@@ -1,0 +1,11 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The sources of src/gl/shaders, which the build makes into strings.
+#ifndef EWA_SRC_GL_SHADERS_H
+#define EWA_SRC_GL_SHADERS_H
+
+extern const char ewa_shader_fill[], ewa_shader_passes[], ewa_shader_scene[], ewa_shader_setup[],
+    ewa_shader_splat[], ewa_shader_surface[], ewa_shader_wide[];
+
+#endif

@@ -1,0 +1,270 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The two passes over a unit of work: some splats of one tile, a pixel by each invocation. PASS is 1 for visibility, 2 for the
+// sums (src/surface/road_passes.h, road_payload.h, road_sums.h, road_apart.h).
+
+layout(local_size_x = TILE_PX, local_size_y = TILE_PX) in;
+
+layout(std430, binding = 5) readonly buffer RecordBlock { Record records[]; };
+layout(std430, binding = 6) readonly buffer ListBlock { uint list[]; };
+layout(std430, binding = 7) readonly buffer UnitBlock { uvec4 units[]; }; // tile; first, end of the list or of near ones; near
+layout(std430, binding = 1) buffer NearestBlock { uint nearest[]; };
+layout(std430, binding = 2) readonly buffer PassedBlock { float passed[]; };
+layout(std430, binding = 3) readonly buffer OpenBlock { uint open[]; }; // [tile]: whether anything is wanted of it
+#if PASS == 2
+layout(std430, binding = 4) buffer SumBlock { int sums[]; };      // [channel][word][pixel]
+layout(std430, binding = 8) buffer TurnedBlock { int turned[]; }; // the same of what faces away
+layout(std430, binding = 11) buffer CutBlock { int cut[]; };      // [channel][word][pixel], then a flag for each block
+layout(std430, binding = 12) readonly buffer MaterialBlock { float materials[]; };
+#endif
+
+uniform uint first_unit;
+uniform uvec2 band_px;      // size
+uniform uvec2 first_px;     // of the band in the picture
+uniform uint tiles_per_row;
+uniform uint behind;        // 0: the first surface
+uniform uint whole;         // all that is left is one surface
+
+#if PASS == 2
+#if WITH_FINE || WITH_DEPTH || WITH_CLIPS
+const uint WORDS = 4u;
+#else
+const uint WORDS = 2u;
+#endif
+uint pixel_count = 0u, pixel = 0u;
+int low[CHANNELS];
+#if WITH_FINE
+int low_fine[CHANNELS];
+#endif
+
+const float BIAS = 12582912.0;
+const int BIAS_BITS = 0x4b400000;
+
+int units_of(float weight, float factor) { return floatBitsToInt(wf_fma(weight, factor, BIAS)) - BIAS_BITS; }
+
+// What that leaves, in units of its own.
+int fine_units(float weight, float factor) {
+    float after = wf_fma(weight, factor, BIAS);
+    float left = wf_odd(wf_fma(weight, factor, wf_sub(BIAS, after)));
+    return units_of(FINE_SCALE, left);
+}
+
+void add_word(uint channel, uint word, int value, bool is_turned) {
+    if (value == 0) return;
+    uint at = (channel * WORDS + word) * pixel_count + pixel;
+    if (is_turned) {
+        atomicAdd(turned[at], value & 0xffff);
+        atomicAdd(turned[at + pixel_count], value >> 16);
+    } else {
+        atomicAdd(sums[at], value & 0xffff);
+        atomicAdd(sums[at + pixel_count], value >> 16);
+    }
+}
+
+void add_channel(uint channel, float weight, float factor, bool is_turned, bool fine) {
+    int value = units_of(weight, factor);
+    if (is_turned)
+        add_word(channel, 0u, value, true);
+    else
+        low[channel] += value;
+#if WITH_FINE || WITH_DEPTH || WITH_CLIPS
+    if (!fine) return;
+    int rest = fine_units(weight, factor);
+#if WITH_FINE
+    if (!is_turned) {
+        low_fine[channel] += rest;
+        return;
+    }
+#endif
+    add_word(channel, 2u, rest, is_turned);
+#endif
+}
+
+#if WITH_CLIPS
+void add_cut(Clip clip, Sample s, float whole_weight) {
+    float off = wf_mul(wf_sub(1.0, s.share), PER_CUT);
+    float cut_weight = wf_mul(wf_min(off, 1.0), whole_weight);
+    if (!(0.0 < cut_weight)) return;
+    float decides[2];
+    for (int i = 0; i < 2; i++) decides[i] = clip.either != 0u ? s.line[i] : wf_sub(1.0, s.line[i]);
+    float sum = wf_add(decides[0], decides[1]);
+    float x = wf_fma(decides[0], clip.line[0].x_inward, wf_mul(decides[1], clip.line[1].x_inward));
+    float y = wf_fma(decides[0], clip.line[0].y_inward, wf_mul(decides[1], clip.line[1].y_inward));
+    if (clip.count > 2u && clip.either != 0u) {
+        float off_first = wf_sub(1.0, s.first), share = wf_div(off_first, 0.0 < sum ? sum : 1.0);
+        x = wf_mul(x, share);
+        y = wf_mul(y, share);
+        sum = off_first;
+    }
+    for (uint i = 2u; i < clip.count; i++) {
+        float decides_too = wf_sub(1.0, s.line[i]);
+        x = wf_fma(decides_too, clip.line[i].x_inward, x);
+        y = wf_fma(decides_too, clip.line[i].y_inward, y);
+        sum = wf_add(sum, decides_too);
+    }
+    float scaled = wf_div(1.0, 0.0 < sum ? sum : 1.0);
+    float parts[4] = float[4](s.share, 1.0, wf_mul(scaled, x), wf_mul(scaled, y));
+    for (uint c = 0u; c < 4u; c++) {
+        int value = units_of(1.0, wf_odd_product(cut_weight, parts[c]));
+        uint at = c * 2u * pixel_count + pixel;
+        atomicAdd(cut[at], value & 0xffff);
+        atomicAdd(cut[at + pixel_count], value >> 16);
+    }
+    uvec2 block = uvec2(pixel % band_px.x, pixel / band_px.x) / 4u;
+    cut[8u * pixel_count + block.y * ((band_px.x + 3u) / 4u) + block.x] = 1;
+}
+#endif
+
+float depth_share(View view, float key, float bound) {
+    float share = has(view.flags, ORTHOGRAPHIC) ? wf_mul(key, -view.depth_scale) : wf_div(bound, key);
+    return wf_odd(wf_min(wf_max(share, -1.0), ALMOST_ONE));
+}
+
+// What a splat adds (payload): peak, colour, normal, opacity, material.
+struct Payload {
+    float peak;
+    vec3 color, normal;
+    float opacity, material[5];
+};
+
+void add_splat(Payload p, View view, Sample s, float bound, bool is_turned, bool fine) {
+    float weight = exponential(s.exponent, view.doublings);
+#if WITH_CLIPS
+    weight = wf_mul(weight, s.share);
+#endif
+    bool depth_too = WITH_DEPTH != 0 && behind == 0u;
+    add_channel(0u, weight, p.peak, is_turned, fine || depth_too);
+    for (uint i = 0u; i < 3u; i++) add_channel(1u + i, weight, p.color[i], is_turned, fine);
+#if WITH_NORMAL
+    for (uint i = 0u; i < 3u; i++) add_channel(4u + i, weight, p.normal[i], is_turned, fine);
+#endif
+#if WITH_DEPTH
+    if (depth_too)
+        add_channel(DEPTH_CHANNEL, wf_mul(weight, p.peak), depth_share(view, s.key, bound), is_turned, true);
+#endif
+#if WITH_MATERIAL
+    for (uint i = 0u; i < 5u; i++) add_channel(8u + i, weight, p.material[i], is_turned, fine);
+#endif
+#if WITH_OPACITY
+    add_channel(CHANNELS - 1u, weight, p.opacity, is_turned, fine);
+#endif
+}
+#endif
+
+void main() {
+    uvec4 unit = units[first_unit + gl_WorkGroupID.x];
+    if (behind != 0u && open[unit.x] == 0u) return;
+    uvec2 in_band = uvec2(unit.x % tiles_per_row, unit.x / tiles_per_row) * uint(TILE_PX) + gl_LocalInvocationID.xy;
+    if (any(greaterThanEqual(in_band, band_px))) return;
+    uvec2 in_field = (first_px + in_band) & 127u, block = in_field / 4u;
+    vec2 at = vec2(float(in_field.x) - 63.5, float(in_field.y) - 63.5);
+    uint here = in_band.y * band_px.x + in_band.x;
+    float beyond = behind != 0u ? passed[here] : INF;
+    if (behind != 0u && beyond == -INF) return;
+#if PASS == 1
+    float largest = -INF;
+#else
+    pixel = here;
+    pixel_count = band_px.x * band_px.y;
+    float bound = float_of(nearest[here]);
+    if (whole != 0u) bound = LEAST_KEY_OF_ALL;
+    if (bound == -INF) return;
+    for (int i = 0; i < CHANNELS; i++) low[i] = 0;
+#if WITH_FINE
+    for (int i = 0; i < CHANNELS; i++) low_fine[i] = 0;
+#endif
+#endif
+    if (unit.w == 0u) {
+        for (uint i = unit.y; i < unit.z; i++) {
+            Record r = records[list[i]];
+            View view = views[r.extra >> 8];
+#if PASS == 1
+            if (!has(view.flags, HIDES)) continue;
+#endif
+            if (!in_box(r.box, block)) continue;
+#if RAYS
+            Sample s = sample_ray(r, at, view);
+#else
+            Sample s = sample_splat(r, at, view);
+#endif
+            s.counts = s.counts && (behind == 0u || s.key < beyond);
+#if WITH_CLIPS
+            if (s.counts && has(r.box, CLIPPED)) clip_at(clips[r.clip], at, s);
+#endif
+#if PASS == 1
+            if (s.counts) largest = wf_max(s.bound, largest);
+#else
+            if (!(s.counts && bound <= s.key)) continue;
+            Payload p;
+            p.peak = r.peak;
+            p.color = vec3(r.red, r.green, r.blue);
+            p.normal = vec3(r.nx, r.ny, r.nz);
+            p.opacity = r.opacity;
+#if WITH_MATERIAL
+            for (uint k = 0u; k < 5u; k++)
+                p.material[k] = wf_odd(wf_mul(materials[(r.extra & 255u) * 5u + k], r.peak));
+#endif
+#if RAYS
+            p.peak = wf_odd_product(p.peak, s.gain);
+            for (int k = 0; k < 3; k++) {
+                p.color[k] = wf_odd_product(p.color[k], s.gain);
+                p.normal[k] = wf_odd_product(p.normal[k], s.gain);
+            }
+            p.opacity = wf_odd_product(p.opacity, s.gain);
+#if WITH_MATERIAL
+            for (int k = 0; k < 5; k++) p.material[k] = wf_odd_product(p.material[k], s.gain);
+#endif
+#endif
+            bool fine = WITH_FINE != 0;
+#if WITH_CLIPS
+            if (has(r.box, CLIPPED)) {
+                add_cut(clips[r.clip], s, wf_mul(exponential(s.exponent, view.doublings), p.peak));
+                fine = true;
+            }
+#endif
+            add_splat(p, view, s, bound, has(r.box, TURNED), fine);
+#endif
+        }
+    } else {
+        for (uint i = unit.y; i < unit.z; i++) {
+            Near r = nears[i];
+            View view = views[r.source];
+#if PASS == 1
+            if (!has(view.flags, HIDES)) continue;
+#endif
+            Sample s = sample_near(r, at, view);
+            s.counts = s.counts && (behind == 0u || s.key < beyond);
+#if PASS == 1
+            if (s.counts) largest = wf_max(s.bound, largest);
+#else
+            if (!(s.counts && bound <= s.key)) continue;
+            float peak = wf_mul(s.gain, view.sum_scale);
+            Payload p;
+            p.peak = wf_odd(peak);
+            for (int k = 0; k < 3; k++) {
+                p.color[k] = wf_odd_product(peak, r.color[k]);
+                p.normal[k] = wf_odd_product(peak, r.normal[k]);
+            }
+            p.opacity = wf_odd_product(peak, r.opacity);
+            for (int k = 0; k < 5; k++) p.material[k] = wf_odd_product(peak, r.material[k]);
+            bool fine = WITH_FINE != 0;
+#if WITH_CLIPS
+            if (has(r.flags, CLIPPED)) {
+                add_cut(r.clip, s, wf_mul(exponential(s.exponent, view.doublings), peak));
+                fine = true;
+            }
+#endif
+            add_splat(p, view, s, bound, has(r.flags, TURNED), fine);
+#endif
+        }
+    }
+#if PASS == 1
+    if (largest > -INF) atomicMax(nearest[here], order_of(largest));
+#else
+    for (uint i = 0u; i < uint(CHANNELS); i++) add_word(i, 0u, low[i], false);
+#if WITH_FINE
+    for (uint i = 0u; i < uint(CHANNELS); i++) add_word(i, 2u, low_fine[i], false);
+#endif
+#endif
+}

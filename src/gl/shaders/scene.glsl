@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What programs see of a frame; src/gl/scene.h is the same in C.
+
+// Of a source (ewa_view).
+struct View {
+    double focal_x, focal_y, principal_x, principal_y;
+    float rotation[9];
+    float scale;
+    float fx_px, fy_px, inverse_fx, inverse_fy;
+    float zoom, fx_zoomed, fy_zoomed;
+    float broad;
+    float cutoff, cutoff2, inverse_cutoff, center_scale;
+    float prefilter2_px2, reach_px;
+    float point_x, point_y, point_major, point_minor, point_sigma;
+    float tolerance, grazing;
+    float exponent_scale, exponent_end;
+    float sum_scale, color_scale, depth_scale;
+    uint doublings;
+    uint flags; // ORTHOGRAPHIC, ...
+    float pad;
+};
+
+const uint ORTHOGRAPHIC = 1u, CULL_BACK = 2u, ELLIPSES = 4u, AFFINE = 8u, SOURCE = 16u, CIRCULAR = 32u, RAYCAST = 64u,
+           POINTS = 128u, HIDES = 256u;
+
+// A splat in one field (ewa_record, ewa_load).
+struct Record {
+    float cx, cy;               // centre, from the middle of the field
+    float xx, xy, yy;
+    float key, key_x, key_y;
+    float bound, bound_x, bound_y; // steep or wide: bound_scale, bound_offset, key_high
+    float key_low;
+    float red, green, blue;
+    uint box;                   // first column | flags | first row << 8 | columns << 16 | rows << 24, in blocks of the field
+    float nx, ny, nz, peak;
+    float opacity;
+    uint extra;                 // material | source << 8
+    uint field;                 // column | row << 16
+    uint clip;                  // of clipped ones: where their lines are
+};
+
+const uint TURNED = 64u, STEEP = 128u, CLIPPED = 32768u;
+
+// A clip line on the screen (ewa_clip_line), and those of a splat (ewa_clip).
+struct ClipLine { float x_inward, y_inward, offset, reach, narrow, per_narrow, per_widths, pad; };
+struct Clip { ClipLine line[4]; uint count, either, pad0, pad1; };
+
+// A surfel that is drawn by pixel rays (ewa_near_record).
+struct Near {
+    float u[3], v[3], w[3], z[3];
+    float depth_low, depth_high, tolerance;
+    float color[3], normal[3], opacity, material[5];
+    uint flags; // TURNED, CLIPPED
+    uint source, pad0, pad1;
+    Clip clip;
+};
+
+layout(std430, binding = 0) readonly buffer ViewBlock { View views[]; };
+
+// Floats as numbers that keep their order; 0 is below all.
+uint order_of(float f) {
+    uint bits = floatBitsToUint(f);
+    return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
+}
+float float_of(uint order) {
+    return uintBitsToFloat((order & 0x80000000u) != 0u ? order & 0x7fffffffu : ~order);
+}
+const uint NEVER = 0x007fffffu; // order_of(-INF)
+
+bool has(uint flags, uint flag) { return (flags & flag) != 0u; }

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The programs of the compute road. Constants go to them as bits, so that no compiler's decimals matter.
+#include "gl/variant.h"
+#include "gl/shaders.h"
+#include "image/environment.h"
+#include "surface/road.h"
+#include "surface/semantics.h"
+
+#include <stdio.h>
+#include <string.h>
+
+size_t ewa_gl_head_write(const ewa_gl_arithmetic *arithmetic, char *head) {
+    const float limit = 1 / (float)EWA_NEAR_RATIO;
+    const struct {
+        const char *name;
+        float value;
+    } constants[] = {
+        {"TINY", 0x1p-40f},
+        {"LEAST_NORMAL", 0x1p-126f},
+        {"LEAST_POWER", 0x1p-90f},
+        {"ALMOST_ONE", 0x1.fffffep-1f},
+        {"LARGEST", 0x1.fffffep127f},
+        {"LEAST_KEY_OF_ALL", -3e38f},
+        {"UNIT_OCT", 1.0f / 32767.0f},
+        {"UNIT_ANGLE", 1.0f / 32768.0f},
+        {"UNIT_U16", 1.0f / 65535.0f},
+        {"NEAR_RATIO", (float)EWA_NEAR_RATIO},
+        {"RAY_LIMIT2", limit * limit},
+        {"FLAT", (float)EWA_FLAT},
+        {"LEAST_AREA", (float)EWA_LEAST_AREA},
+        {"LEAST_SPLAT", (float)EWA_LEAST_SPLAT},
+        {"INVERSE_TWO_PI", (float)EWA_INVERSE_TWO_PI},
+        {"TWO_PI", (float)(1 / EWA_INVERSE_TWO_PI)},
+        {"EDGE_ON2", (float)(EWA_EDGE_ON * EWA_EDGE_ON)},
+        {"FREE_RADII", (float)EWA_FREE_RADII},
+        {"FREE_DEPTH", (float)EWA_FREE_DEPTH},
+        {"GRAZING_TOLERANCE", (float)EWA_GRAZING_TOLERANCE},
+        {"LEAST_KEY", (float)EWA_LEAST_KEY},
+        {"TANGENT_KEY", 1 - 1 / (float)16},
+        {"FINE_SCALE", 4096},
+        {"FINE_UNIT", 1.0f / 4096},
+        {"PER_CUT", (float)(1 / EWA_CUT)},
+        {"EDGES_OPPOSE", (float)EWA_EDGES_OPPOSE},
+        {"EDGES_SLOPE", (float)(1 / (EWA_EDGES_AGREE - EWA_EDGES_OPPOSE))},
+        {"SHADED_NORMAL", (float)EWA_SHADED_NORMAL},
+        {"CURVE_OFFSET", 0.5f - 255 * 0.055f},
+        {"LINE_SLOPE", 255 * 12.92f},
+    };
+    size_t at = (size_t)snprintf(head, EWA_GL_HEAD_BYTES,
+                                 "#version 430 core\n#define FUSED %d\n#define DIVIDES %d\n#define ROOTS %d\n"
+                                 "#define MOST_LIGHTS %d\n#define MOST_LEVELS %d\n",
+                                 arithmetic->fused, arithmetic->divides, arithmetic->roots, EWA_MAX_LIGHTS,
+                                 EWA_MAX_ENVIRONMENT_LEVELS);
+    for (size_t i = 0; i < sizeof constants / sizeof constants[0]; i++) {
+        uint32_t bits;
+        memcpy(&bits, &constants[i].value, sizeof bits);
+        at += (size_t)snprintf(head + at, EWA_GL_HEAD_BYTES - at,
+                               "const float %s = uintBitsToFloat(0x%08xu);\n", constants[i].name,
+                               (unsigned)bits);
+    }
+    return at;
+}
+
+static ewa_status make(ewa_gl *device, const ewa_gl_variants *variants, const ewa_gl_variant *v,
+                       GLuint *program) {
+    static const char *const pieces[][4] = {
+        [EWA_GL_SETUP] = {ewa_shader_wide, ewa_shader_scene, ewa_shader_setup},
+        [EWA_GL_FILL] = {ewa_shader_wide, ewa_shader_scene, ewa_shader_fill},
+        [EWA_GL_VISIBILITY] = {ewa_shader_wide, ewa_shader_scene, ewa_shader_splat, ewa_shader_passes},
+        [EWA_GL_SUMS] = {ewa_shader_wide, ewa_shader_scene, ewa_shader_splat, ewa_shader_passes},
+        [EWA_GL_FIRST_SURFACE] = {ewa_shader_wide, ewa_shader_surface},
+        [EWA_GL_NEXT_SURFACE] = {ewa_shader_wide, ewa_shader_surface},
+        [EWA_GL_PICTURE] = {ewa_shader_wide, ewa_shader_surface},
+    };
+    static const char *const names[] = {[EWA_GL_SETUP] = "set-up",
+                                        [EWA_GL_FILL] = "lists",
+                                        [EWA_GL_VISIBILITY] = "visibility",
+                                        [EWA_GL_SUMS] = "accumulation",
+                                        [EWA_GL_FIRST_SURFACE] = "first surface",
+                                        [EWA_GL_NEXT_SURFACE] = "next surface",
+                                        [EWA_GL_PICTURE] = "picture"};
+    static const int pass_numbers[] = {[EWA_GL_VISIBILITY] = 1,
+                                       [EWA_GL_SUMS] = 2,
+                                       [EWA_GL_FIRST_SURFACE] = 3,
+                                       [EWA_GL_NEXT_SURFACE] = 4,
+                                       [EWA_GL_PICTURE] = 5};
+    char head[EWA_GL_HEAD_BYTES + 512];
+    const size_t at = ewa_gl_head_write(&variants->arithmetic, head);
+    snprintf(head + at, sizeof head - at,
+             "#define PASS %d\n#define TILE_PX %d\n#define CHANNELS %d\n#define WITH_NORMAL %d\n"
+             "#define WITH_DEPTH %d\n#define DEPTH_CHANNEL %du\n#define WITH_MATERIAL %d\n"
+             "#define WITH_OPACITY %d\n#define WITH_CLIPS %d\n#define WITH_FINE %d\n#define RAYS %d\n",
+             pass_numbers[v->pass], v->tile_px, v->channel_count, v->with_normals, v->with_depth,
+             v->with_normals ? 7 : 4, v->with_materials, v->with_opacity, v->with_clips, v->with_fine,
+             v->rays);
+    uint32_t piece_count = 0;
+    while (piece_count < 4 && pieces[v->pass][piece_count]) piece_count++;
+    const ewa_gl_stage stage = {GL_COMPUTE_SHADER, head, pieces[v->pass], piece_count};
+    return ewa_gl_program_make(device, names[v->pass], &stage, 1, program);
+}
+
+ewa_status ewa_gl_variant_get(ewa_gl *device, ewa_gl_variants *variants, const ewa_gl_variant *wanted,
+                              GLuint *program) {
+    for (uint32_t i = 0; i < variants->count; i++)
+        if (memcmp(&variants->made[i], wanted, sizeof *wanted) == 0) {
+            *program = variants->programs[i];
+            return EWA_OK;
+        }
+    const ewa_status status = make(device, variants, wanted, program);
+    if (status != EWA_OK) return status;
+    uint32_t place = variants->count;
+    if (place == EWA_GL_MOST_VARIANTS) {
+        place = variants->oldest++ % EWA_GL_MOST_VARIANTS;
+        glDeleteProgram(variants->programs[place]);
+    } else {
+        variants->count++;
+    }
+    variants->made[place] = *wanted;
+    variants->programs[place] = *program;
+    return EWA_OK;
+}
+
+void ewa_gl_variants_free(ewa_gl_variants *variants) {
+    for (uint32_t i = 0; i < variants->count; i++) glDeleteProgram(variants->programs[i]);
+    variants->count = variants->oldest = 0;
+}
