@@ -176,13 +176,15 @@ void main() {
 #endif
 #endif
     if (unit.w == 0u) {
-        for (uint i = unit.y; i < unit.z; i++) {
+        // Each pixel goes on to the next splat that may reach it, so that those of a group that work do so together.
+        for (uint i = unit.y;; i++) {
+            while (i < unit.z && !in_box(records[list[i]].box, block)) i++;
+            if (i >= unit.z) break;
             Record r = records[list[i]];
             View view = views[r.extra >> 8];
 #if PASS == 1
             if (!has(view.flags, HIDES)) continue;
 #endif
-            if (!in_box(r.box, block)) continue;
 #if RAYS
             Sample s = sample_ray(r, at, view);
 #else
