@@ -140,7 +140,7 @@ void ewa_raster_view_set(ewa_raster_view *to, const ewa_view *from, const ewa_ti
     memset(to, 0, sizeof *to);
     for (int i = 0; i < 3; i++) memcpy(to->rotation[i], &view.rotation[3 * i], 3 * sizeof(float));
     // One pass draws the nearest: what both passes make of its key may differ in the last places.
-    const float slack = job->resolve.one_pass ? 1e-6f : 0;
+    const float slack = job->resolve.one_pass ? 0x1p-22f : 0;
     const float numbers[7][4] = {{view.fx_px, view.fy_px, view.inverse_fx, view.inverse_fy},
                                  {view.fx_zoomed, view.fy_zoomed, view.zoom, view.scale},
                                  {view.cutoff, view.cutoff2, view.prefilter2_px2, view.reach_px},
