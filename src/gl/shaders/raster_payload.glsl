@@ -31,6 +31,9 @@ void find_payload() {
     normal = vec4(n * (is_turned ? -color.w : color.w), color.w * opacity);
 }
 
+// Corners are rounded to parts of a pixel.
+const float MARGIN_PX = 1.0 / 64.0;
+
 // One corner of a box of pixels, cut to the band, so that huge ones are drawn as exactly.
 void emit_box(vec2 low, vec2 high) {
     vec2 first = max(low, vec2(-1.0)), last = min(high, place.xy + 1.0);

@@ -36,6 +36,6 @@ void main() {
 #if WITH_CLIPS
     find_lines(lane, projected);
 #endif
-    emit_box(shape.xy - half_px, shape.xy + half_px);
+    emit_box(shape.xy - half_px - MARGIN_PX, shape.xy + half_px + MARGIN_PX);
 #endif
 }
