@@ -17,6 +17,8 @@ void ewa_raster_destroy(ewa_context *context, void *state) {
         ewa_gl_buffer_free(&old->packets);
         ewa_gl_buffer_free(&old->view_blocks);
         ewa_gl_buffer_free(&old->resolve_block);
+        ewa_gl_buffer_free(&old->material_block);
+        glDeleteTextures(1, &old->environment);
         glDeleteVertexArrays(1, &old->vertices);
         glDeleteQueries(1, &old->query);
         ewa_raster_residents_free(old->device, &old->residents);
@@ -58,17 +60,10 @@ ewa_status ewa_raster_create(ewa_context *context, void **state) {
 /// What this pipeline leaves to others.
 static ewa_status check(const ewa_raster *raster, const ewa_tile_job *job) {
     ewa_context *context = raster->context;
-    const ewa_resolve *to = &job->resolve;
     const uint32_t most_px = raster->device->facts.texture_px;
     if (job->tiles.width_px > most_px)
         return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "OpenGL: %u pixels are wider than the %u of %s",
                         job->tiles.width_px, most_px, raster->device->facts.renderer);
-    if (job->with_materials)
-        return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
-                        "gl-raster: surfels of several materials are drawn by cpu and gl only");
-    if (to->shading == EWA_ROAD_PHONG && to->environment && to->material[4] != 0)
-        return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
-                        "gl-raster: reflections of an environment are drawn by cpu and gl only");
     return EWA_OK;
 }
 
@@ -91,6 +86,10 @@ static uint32_t wanted_pictures(const ewa_tile_job *job) {
                  {EWA_PICTURE_OPACITY_TURNED, both && job->with_opacity},
                  {EWA_PICTURE_COMPOSED, true},
                  {EWA_PICTURE_FIRST_CUT, layered && job->with_clips},
+                 {EWA_PICTURE_MATERIAL, job->with_materials},
+                 {EWA_PICTURE_REFLECTION, job->with_materials},
+                 {EWA_PICTURE_MATERIAL_TURNED, both && job->with_materials},
+                 {EWA_PICTURE_REFLECTION_TURNED, both && job->with_materials},
                  {EWA_PICTURE_PLANES, to->depth || to->normal},
                  {EWA_PICTURE_COVERAGE, to->coverage},
                  {EWA_PICTURE_CODES, to->rgba8},
@@ -99,6 +98,45 @@ static uint32_t wanted_pictures(const ewa_tile_job *job) {
     for (size_t i = 0; i < sizeof needs / sizeof needs[0]; i++)
         if (needs[i].wanted) wanted |= 1u << needs[i].picture;
     return wanted;
+}
+
+/// The numbers of materials, and the environment, as pictures and blocks.
+static ewa_status put_shading(ewa_raster *raster, const ewa_tile_job *job) {
+    ewa_gl *device = raster->device;
+    ewa_status status = EWA_OK;
+    if (job->with_materials) {
+        float blocks[EWA_MAX_MATERIALS][8] = {{0}};
+        for (int i = 0; i < EWA_MAX_MATERIALS; i++)
+            memcpy(blocks[i], job->materials[i], sizeof job->materials[i]);
+        status = ewa_gl_buffer_put(device, &raster->material_block, "materials", blocks, sizeof blocks);
+    }
+    const ewa_environment *environment = job->resolve.environment;
+    if (status != EWA_OK || !environment || job->resolve.shading != EWA_ROAD_PHONG) return status;
+    uint64_t count = 0;
+    for (uint32_t i = 0; i < environment->level_count; i++)
+        count += (uint64_t)environment->levels[i].width * environment->levels[i].height;
+    const uint32_t width = device->facts.texture_px;
+    const uint64_t rows = (count + width - 1) / width;
+    if (rows > width)
+        return ewa_fail(raster->context, EWA_ERROR_LIMIT,
+                        "OpenGL: an environment of %llu texels is larger than pictures of %s",
+                        (unsigned long long)count, device->facts.renderer);
+    status = ewa_buffer_reserve(raster->context, &raster->row, (size_t)rows * width, 3 * sizeof(float));
+    if (status != EWA_OK) return status;
+    float *texels = raster->row.data;
+    for (uint32_t i = 0; i < environment->level_count; i++) {
+        const size_t here = (size_t)environment->levels[i].width * environment->levels[i].height * 3;
+        memcpy(texels, environment->levels[i].texels, here * sizeof *texels);
+        texels += here;
+    }
+    if (!raster->environment) glGenTextures(1, &raster->environment);
+    glActiveTexture(GL_TEXTURE0 + EWA_PICTURE_BESIDE);
+    glBindTexture(GL_TEXTURE_2D, raster->environment);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, (GLsizei)width, (GLsizei)rows, 0, GL_RGB, GL_FLOAT,
+                 raster->row.data);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    return ewa_gl_check(device, "the environment");
 }
 
 static ewa_status put_band(ewa_raster *raster, const ewa_tile_job *job) {
@@ -142,7 +180,8 @@ static void clear(const ewa_raster *raster, ewa_raster_target target, ewa_raster
 
 /// Lets programs read a target's pictures; not those that are drawn into.
 static void bind_maps(const ewa_raster *raster, uint32_t maps) {
-    for (GLuint i = 0; i <= EWA_PICTURE_FIRST_CUT; i++) {
+    for (GLuint i = 0; i <= EWA_PICTURE_REFLECTION_TURNED; i++) {
+        if (i == EWA_PICTURE_BESIDE) continue;
         glActiveTexture(GL_TEXTURE0 + i);
         glBindTexture(GL_TEXTURE_2D, maps >> i & 1 ? raster->targets.pictures[i] : 0);
     }
@@ -155,6 +194,11 @@ static ewa_status gather(ewa_raster *raster, const ewa_tile_job *job, bool behin
     static const ewa_raster_picture turned_sums[] = {EWA_PICTURE_COLOR_TURNED, EWA_PICTURE_NORMAL_TURNED,
                                                      EWA_PICTURE_CUT, EWA_PICTURE_OPACITY_TURNED};
     clear(raster, EWA_TARGET_NEAREST, EWA_PICTURE_NEAREST, 0, (float)EWA_RASTER_NEVER);
+    for (GLint i = 0; i < 2; i++) {
+        clear(raster, EWA_TARGET_MATERIAL, (ewa_raster_picture)(EWA_PICTURE_MATERIAL + i), i, 0);
+        clear(raster, EWA_TARGET_MATERIAL_TURNED, (ewa_raster_picture)(EWA_PICTURE_MATERIAL_TURNED + i), i,
+              0);
+    }
     for (GLint i = 0; i < 4; i++) {
         clear(raster, EWA_TARGET_SUMS, sums[i], i, 0);
         clear(raster, EWA_TARGET_TURNED, turned_sums[i], i, 0);
@@ -171,6 +215,10 @@ static ewa_status gather(ewa_raster *raster, const ewa_tile_job *job, bool behin
     for (int turned = 0; turned < (job->view.cull_back ? 1 : 2) && status == EWA_OK; turned++) {
         start_target(raster, turned ? EWA_TARGET_TURNED : EWA_TARGET_SUMS);
         status = ewa_raster_draw_splats(raster, job, EWA_RASTER_SUMS, turned != 0, behind, whole);
+        if (status != EWA_OK || !job->with_materials) continue;
+        start_target(raster, turned ? EWA_TARGET_MATERIAL_TURNED : EWA_TARGET_MATERIAL);
+        glBindBufferBase(GL_UNIFORM_BUFFER, 2, raster->material_block.name);
+        status = ewa_raster_draw_splats(raster, job, EWA_RASTER_MATERIALS, turned != 0, behind, whole);
     }
     glDisable(GL_BLEND);
     return status;
@@ -188,8 +236,10 @@ static ewa_status draw_stage(ewa_raster *raster, const ewa_tile_job *job, ewa_ra
     glBindBufferBase(GL_UNIFORM_BUFFER, 1, raster->resolve_block.name);
     start_target(raster, target);
     bind_maps(raster, maps);
+    glActiveTexture(GL_TEXTURE0 + EWA_PICTURE_BESIDE);
+    glBindTexture(GL_TEXTURE_2D, raster->environment);
     glBindVertexArray(raster->vertices);
-    for (GLuint i = 0; i < 7; i++) glDisableVertexAttribArray(i);
+    for (GLuint i = 0; i < EWA_RASTER_ATTRIBUTES; i++) glDisableVertexAttribArray(i);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     return ewa_gl_check(raster->device, "surfaces");
 }
@@ -197,7 +247,8 @@ static ewa_status draw_stage(ewa_raster *raster, const ewa_tile_job *job, ewa_ra
 enum {
     SUM_MAPS = 1u << EWA_PICTURE_COLOR | 1u << EWA_PICTURE_NORMAL | 1u << EWA_PICTURE_CUT |
                1u << EWA_PICTURE_OPACITY | 1u << EWA_PICTURE_COLOR_TURNED | 1u << EWA_PICTURE_NORMAL_TURNED |
-               1u << EWA_PICTURE_OPACITY_TURNED,
+               1u << EWA_PICTURE_OPACITY_TURNED | 1u << EWA_PICTURE_MATERIAL | 1u << EWA_PICTURE_REFLECTION |
+               1u << EWA_PICTURE_MATERIAL_TURNED | 1u << EWA_PICTURE_REFLECTION_TURNED,
     COMPOSED_MAP = 1u << EWA_PICTURE_COMPOSED
 };
 
@@ -360,6 +411,7 @@ ewa_status ewa_raster_draw(void *state, const ewa_render_job *frame, ewa_render_
     glDisable(GL_CULL_FACE);
     glDisable(GL_DITHER);
     status = put_surfels(raster, &job);
+    if (status == EWA_OK) status = put_shading(raster, &job);
     if (status == EWA_OK)
         status = draw_rows(raster, &job, frame->first_row_px, frame->end_row_px, &broken, &surfel_count);
     ewa_gl_leave(raster->device);

@@ -14,6 +14,7 @@
 typedef enum ewa_raster_pass {
     EWA_RASTER_VISIBILITY, ///< the nearest z + eps, by MAX
     EWA_RASTER_SUMS,       ///< by ADD
+    EWA_RASTER_MATERIALS,  ///< the same of the numbers of materials
     EWA_RASTER_PASSES
 } ewa_raster_pass;
 
@@ -49,6 +50,11 @@ typedef enum ewa_raster_picture {
     EWA_PICTURE_OPACITY_TURNED,
     EWA_PICTURE_COMPOSED, ///< RGBA32F: premultiplied
     EWA_PICTURE_FIRST_CUT,
+    EWA_PICTURE_BESIDE,     ///< no picture of these, but where programs see clip lines or the environment
+    EWA_PICTURE_MATERIAL,   ///< RGBA32F: sums of ambient, diffuse, specular, shininess
+    EWA_PICTURE_REFLECTION, ///< R32F
+    EWA_PICTURE_MATERIAL_TURNED,
+    EWA_PICTURE_REFLECTION_TURNED,
     EWA_PICTURE_PLANES,   ///< RGBA32F: normal, depth
     EWA_PICTURE_COVERAGE, ///< R32F
     EWA_PICTURE_CODES,    ///< RGBA8
@@ -61,6 +67,8 @@ typedef enum ewa_raster_target {
     EWA_TARGET_NEAREST,
     EWA_TARGET_SUMS,
     EWA_TARGET_TURNED, ///< with the cuts of EWA_TARGET_SUMS
+    EWA_TARGET_MATERIAL,
+    EWA_TARGET_MATERIAL_TURNED,
     EWA_TARGET_COMPOSED,
     EWA_TARGET_PASSED,
     EWA_TARGET_FIRST_CUT,
@@ -86,7 +94,7 @@ typedef struct ewa_raster_surfel {
 
 /// Packets [first, first + count) of some surfels.
 typedef struct ewa_raster_page {
-    ewa_gl_buffer surfels;
+    ewa_gl_buffer surfels, materials; ///< materials: a code each; 0: all have the same
     uint32_t first, count;
 } ewa_raster_page;
 
@@ -142,13 +150,15 @@ typedef struct ewa_raster_view {
 typedef struct ewa_raster_resolve {
     float scales[4], units[4], material[4], background[4], rays[4], to_world[3][4];
     float toward[EWA_MAX_LIGHTS][4], light[EWA_MAX_LIGHTS][4];
-    uint32_t flags[4];
+    float material_units[4], reflection[4], environment_from_camera[3][4];
+    uint32_t flags[4], levels[EWA_MAX_ENVIRONMENT_LEVELS][4];
 } ewa_raster_resolve;
 
 /// The key of what is nowhere: below that of anything.
 #define EWA_RASTER_NEVER (-3e38)
 
 enum {
+    EWA_RASTER_ATTRIBUTES = 8,    ///< of vertices
     EWA_RASTER_VIEW_STRIDE = 512, ///< bytes between views of sources
     EWA_RASTER_TRANSLUCENT =
         512 ///< in ewa_raster_view.flags, beside those of ewa_gl_view: surfels have opacities
@@ -161,9 +171,10 @@ typedef struct ewa_raster {
     ewa_raster_residents residents;
     ewa_raster_targets targets;
     ewa_raster_band band;
-    ewa_buffer indices, views, row; ///< of sources; of a row that has been read
-    ewa_gl_buffer packets, view_blocks, resolve_block;
-    GLuint vertices, query;
+    ewa_buffer indices, views; ///< of sources
+    ewa_buffer row;            ///< of numbers on their way
+    ewa_gl_buffer packets, view_blocks, resolve_block, material_block;
+    GLuint vertices, query, environment;
     GLuint splats[EWA_RASTER_PASSES][EWA_RASTER_FORMS][2]; ///< [..][with clip lines]; 0: not yet made
     GLuint stages[EWA_RASTER_STAGES][2];
 } ewa_raster;

@@ -12,7 +12,8 @@
 enum { PAGE_PACKETS = 1 << 16, MOST_GAP = 8 };
 
 static_assert(sizeof(ewa_raster_view) == 304 && sizeof(ewa_raster_view) <= EWA_RASTER_VIEW_STRIDE &&
-                  sizeof(ewa_raster_resolve) == 400 && sizeof(ewa_raster_packet) == 48,
+                  sizeof(ewa_raster_resolve) == 480 + 16 * EWA_MAX_ENVIRONMENT_LEVELS &&
+                  sizeof(ewa_raster_packet) == 48,
               "as std140 and the attributes of vertices have them");
 
 /// Marks the packets that some field of the rows has.
@@ -156,6 +157,23 @@ void ewa_raster_view_set(ewa_raster_view *to, const ewa_view *from, const ewa_ti
     to->flags[1] = from->section_reach > 0 ? from->section_count : 0;
 }
 
+/// The environment, and what materials differ in.
+static void set_reflection(ewa_raster_resolve *to, const ewa_tile_job *job) {
+    ewa_gl_resolve from;
+    ewa_gl_resolve_set(&from, &job->resolve);
+    memcpy(to->material_units, from.material_units, sizeof to->material_units);
+    to->reflection[0] = from.material[4], to->reflection[1] = from.material_units[4];
+    to->reflection[2] = from.texels_per_radian2;
+    for (int i = 0; i < 3; i++)
+        memcpy(to->environment_from_camera[i], &from.environment_from_camera[3 * i], 3 * sizeof(float));
+    for (uint32_t i = 0; i < from.level_count; i++) {
+        to->levels[i][0] = from.levels[i].width, to->levels[i][1] = from.levels[i].height;
+        to->levels[i][2] = from.levels[i].first / 3;
+    }
+    to->flags[3] = from.level_count;
+    to->flags[0] |= job->with_materials ? 64u : 0;
+}
+
 void ewa_raster_resolve_set(ewa_raster_resolve *to, const ewa_tile_job *job, const ewa_raster_band *band) {
     const ewa_resolve *from = &job->resolve;
     memset(to, 0, sizeof *to);
@@ -178,4 +196,5 @@ void ewa_raster_resolve_set(ewa_raster_resolve *to, const ewa_tile_job *job, con
                    (job->view.cull_back ? 0 : 32u);
     to->flags[1] = (uint32_t)from->shading;
     to->flags[2] = from->light_count;
+    set_reflection(to, job);
 }

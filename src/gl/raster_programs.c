@@ -33,8 +33,10 @@ static size_t write_head(char *head) {
         {"EDGES_SLOPE", 1 / (EWA_EDGES_AGREE - EWA_EDGES_OPPOSE)},
         {"SHADED_NORMAL", EWA_SHADED_NORMAL},
     };
-    size_t at =
-        (size_t)snprintf(head, HEAD_BYTES, "#version 330 core\n#define MOST_LIGHTS %d\n", EWA_MAX_LIGHTS);
+    size_t at = (size_t)snprintf(
+        head, HEAD_BYTES,
+        "#version 330 core\n#define MOST_LIGHTS %d\n#define MOST_LEVELS %d\n#define MOST_MATERIALS %d\n",
+        EWA_MAX_LIGHTS, EWA_MAX_ENVIRONMENT_LEVELS, EWA_MAX_MATERIALS);
     for (size_t i = 0; i < sizeof constants / sizeof constants[0]; i++)
         at += (size_t)snprintf(head + at, HEAD_BYTES - at, "const float %s = %.9e;\n", constants[i].name,
                                constants[i].value);
@@ -43,7 +45,7 @@ static size_t write_head(char *head) {
 
 /// Says which blocks and pictures the program's names stand for.
 static void bind_names(GLuint program) {
-    static const char *const blocks[] = {"ViewBlock", "ResolveBlock"};
+    static const char *const blocks[] = {"ViewBlock", "ResolveBlock", "MaterialBlock"};
     static const struct {
         const char *name;
         GLint unit;
@@ -58,7 +60,12 @@ static void bind_names(GLuint program) {
                 {"opacity_turned_map", EWA_PICTURE_OPACITY_TURNED},
                 {"composed_map", EWA_PICTURE_COMPOSED},
                 {"first_cut_map", EWA_PICTURE_FIRST_CUT},
-                {"line_map", EWA_PICTURE_FIRST_CUT + 1}};
+                {"line_map", EWA_PICTURE_BESIDE},
+                {"environment_map", EWA_PICTURE_BESIDE},
+                {"material_map", EWA_PICTURE_MATERIAL},
+                {"reflection_map", EWA_PICTURE_REFLECTION},
+                {"material_turned_map", EWA_PICTURE_MATERIAL_TURNED},
+                {"reflection_turned_map", EWA_PICTURE_REFLECTION_TURNED}};
     for (GLuint i = 0; i < sizeof blocks / sizeof blocks[0]; i++) {
         const GLuint index = glGetUniformBlockIndex(program, blocks[i]);
         if (index != GL_INVALID_INDEX) glUniformBlockBinding(program, index, i);
@@ -73,7 +80,9 @@ ewa_status ewa_raster_splat_program(ewa_raster *raster, ewa_raster_pass pass, ew
     GLuint *made = &raster->splats[pass][form][with_clips];
     *program = *made;
     if (*made) return EWA_OK;
-    static const char *const names[] = {[EWA_RASTER_VISIBILITY] = "visibility", [EWA_RASTER_SUMS] = "sums"};
+    static const char *const names[] = {[EWA_RASTER_VISIBILITY] = "visibility",
+                                        [EWA_RASTER_SUMS] = "sums",
+                                        [EWA_RASTER_MATERIALS] = "materials"};
     char head[HEAD_BYTES + 256];
     const size_t at = write_head(head);
     snprintf(head + at, sizeof head - at,

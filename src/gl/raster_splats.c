@@ -6,10 +6,15 @@
 
 #include <stddef.h>
 
-enum { CORNERS = 4, SURFEL_ATTRIBUTES = 4, PACKET_ATTRIBUTES = 3, LINE_UNIT = EWA_PICTURE_FIRST_CUT + 1 };
+enum {
+    CORNERS = 4,
+    SURFEL_ATTRIBUTES = 4,
+    PACKET_ATTRIBUTES = 3,
+    MATERIAL = SURFEL_ATTRIBUTES + PACKET_ATTRIBUTES
+};
 
 /// Where a run's surfels and packets are.
-static void set_attributes(const ewa_raster *raster, const ewa_raster_run *run) {
+static void set_attributes(const ewa_raster *raster, const ewa_tile_job *job, const ewa_raster_run *run) {
     static const struct {
         GLint count;
         GLenum kind;
@@ -40,7 +45,18 @@ static void set_attributes(const ewa_raster *raster, const ewa_raster_run *run) 
         else
             glVertexAttribPointer(i, forms[i].count, forms[i].kind, GL_FALSE, stride, at);
     }
-    glActiveTexture(GL_TEXTURE0 + LINE_UNIT);
+    const GLuint materials = resident->pages[run->page].materials.name;
+    if (materials) {
+        glBindBuffer(GL_ARRAY_BUFFER, materials);
+        glEnableVertexAttribArray(MATERIAL);
+        glVertexAttribDivisor(MATERIAL, 1);
+        glVertexAttribIPointer(MATERIAL, 1, GL_UNSIGNED_BYTE, 1,
+                               (const void *)((size_t)run->first * EWA_PACKET_LANES));
+    } else {
+        glDisableVertexAttribArray(MATERIAL);
+        glVertexAttribI4ui(MATERIAL, job->sources[run->source].surfels->material, 0, 0, 1);
+    }
+    glActiveTexture(GL_TEXTURE0 + EWA_PICTURE_BESIDE);
     glBindTexture(GL_TEXTURE_2D, resident->lines);
     glBindBufferRange(GL_UNIFORM_BUFFER, 0, raster->view_blocks.name,
                       (GLintptr)run->source * EWA_RASTER_VIEW_STRIDE, sizeof(ewa_raster_view));
@@ -69,7 +85,7 @@ ewa_status ewa_raster_draw_splats(ewa_raster *raster, const ewa_tile_job *job, e
                 set_int(program, "behind", behind);
                 set_int(program, "whole", whole);
             }
-            set_attributes(raster, &runs[i]);
+            set_attributes(raster, job, &runs[i]);
             glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, CORNERS, (GLsizei)(runs[i].count * EWA_PACKET_LANES));
         }
     }

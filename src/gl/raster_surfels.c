@@ -14,7 +14,10 @@ static_assert(sizeof(ewa_raster_surfel) == 32, "as the attributes of vertices ha
 static const uint64_t KEPT_BYTES = 512ull << 20;
 
 static void free_resident(ewa_gl *device, ewa_raster_residents *residents, ewa_raster_resident *old) {
-    for (uint32_t i = 0; i < old->page_count; i++) ewa_gl_buffer_free(&old->pages[i].surfels);
+    for (uint32_t i = 0; i < old->page_count; i++) {
+        ewa_gl_buffer_free(&old->pages[i].surfels);
+        ewa_gl_buffer_free(&old->pages[i].materials);
+    }
     if (old->lines) glDeleteTextures(1, &old->lines);
     ewa_release(device->context, old->pages, old->page_count, sizeof *old->pages);
     residents->size_bytes -= old->size_bytes;
@@ -76,8 +79,10 @@ static ewa_status put_page(ewa_gl *device, const ewa_surfels *surfels, ewa_raste
     if (!made) return EWA_ERROR_MEMORY;
     unfold_job job = {surfels, page->first, made, page->count};
     ewa_parallel(device->context, unfold, &job, (page->count + UNFOLD_PACKETS - 1) / UNFOLD_PACKETS);
-    const ewa_status status =
-        ewa_gl_buffer_put(device, &page->surfels, "surfels", made, count * sizeof *made);
+    ewa_status status = ewa_gl_buffer_put(device, &page->surfels, "surfels", made, count * sizeof *made);
+    if (status == EWA_OK && surfels->materials)
+        status = ewa_gl_buffer_put(device, &page->materials, "materials",
+                                   surfels->materials + (size_t)page->first * LANES, count);
     ewa_release(device->context, made, count, sizeof *made);
     return status == EWA_OK ? ewa_gl_check(device, "surfels") : status;
 }
@@ -131,7 +136,7 @@ static ewa_status put_surfels(ewa_gl *device, ewa_raster_residents *residents, c
         page->first = i * MOST_PAGE_PACKETS;
         page->count = left < MOST_PAGE_PACKETS ? left : MOST_PAGE_PACKETS;
         status = put_page(device, surfels, page);
-        made.size_bytes += page->surfels.size_bytes;
+        made.size_bytes += page->surfels.size_bytes + page->materials.size_bytes;
     }
     residents->size_bytes += made.size_bytes;
     if (status != EWA_OK) {

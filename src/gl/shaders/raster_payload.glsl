@@ -3,6 +3,12 @@
 //
 // What a surfel adds to pixels, and a corner of the box that holds them.
 
+#if PASS == 3
+layout(std140) uniform MaterialBlock { vec4 materials[2 * MOST_MATERIALS]; }; // ambient, diffuse, specular, shininess; reflection
+flat out vec4 material; // times peak
+flat out float reflection;
+#endif
+
 uniform int turned_ones; // 0: those that face the viewer, 1: that do not, -1: all
 
 // By n.p, or what has its sign.
@@ -29,6 +35,10 @@ void find_payload() {
         color[i] = weight * opacity * sums.y * decode_color(packet_bits.x, color_code[i]);
     color.w = weight * sums.x;
     normal = vec4(n * (is_turned ? -color.w : color.w), color.w * opacity);
+#if PASS == 3
+    material = color.w * materials[2u * material_code];
+    reflection = color.w * materials[2u * material_code + 1u].x;
+#endif
 }
 
 // Corners are rounded to parts of a pixel.

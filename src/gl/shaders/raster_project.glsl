@@ -11,6 +11,7 @@ layout(location = 3) in uvec4 color_code; // red, green, blue, opacity
 layout(location = 4) in vec4 packet_at;   // of the packet: pixels of its slope, slope
 layout(location = 5) in vec4 packet_rest; // rest x, y, depth
 layout(location = 6) in uvec4 packet_bits; // form of colours; lanes | cut << 16; own lines; the first of them
+layout(location = 7) in uint material_code;
 
 flat out vec4 shape;   // centre, xx, xy
 flat out vec4 key_at;  // yy; key at the centre, its gradient

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The fragment program: a splat at a pixel (docs/math.md sections 4 to 6). PASS 1 draws the key of z + eps, PASS 2 what it
-// adds to the pixel where its own key reaches the largest of those.
+// adds to the pixel where its own key reaches the largest of those, PASS 3 what it adds to the numbers of materials.
 
 flat in vec4 shape, key_at, range, color, normal, extra;
 #if NEAR
@@ -20,10 +20,17 @@ layout(location = 0) out float bound;
 #else
 uniform sampler2D nearest_map;
 uniform int whole; // all that is left is one surface
+#endif
+#if PASS == 2
 layout(location = 0) out vec4 color_sum;
 layout(location = 1) out vec4 normal_sum;
 layout(location = 2) out vec4 cut_sum;
 layout(location = 3) out float opacity_sum;
+#elif PASS == 3
+flat in vec4 material;
+flat in float reflection;
+layout(location = 0) out vec4 material_sum;
+layout(location = 1) out float reflection_sum;
 #endif
 
 float exponent, key, gain = 1.0;
@@ -131,6 +138,13 @@ void main() {
         if (nearest == NEVER || key < nearest - depth.w * abs(nearest)) discard;
     }
     float weight = exp(-0.5 * exponent) * gain;
+#if PASS == 3
+#if WITH_CLIPS
+    weight *= share;
+#endif
+    material_sum = weight * material;
+    reflection_sum = weight * reflection;
+#else
 #if WITH_CLIPS
     cut_sum = cut_of(weight * color.w);
     weight *= share;
@@ -140,5 +154,6 @@ void main() {
     color_sum = weight * color;
     normal_sum = weight * vec4(normal.xyz, color.w * (has(ORTHOGRAPHIC) ? -key : 1.0 / key));
     opacity_sum = weight * normal.w;
+#endif
 #endif
 }

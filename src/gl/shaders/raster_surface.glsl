@@ -20,14 +20,19 @@ layout(std140) uniform ResolveBlock {
     vec4 to_world[3];
     vec4 toward[MOST_LIGHTS]; // w: it is at the eye
     vec4 light[MOST_LIGHTS];
-    uvec4 flags;   // EDGE_ANTIALIASING, ...; shading; how many lights
+    vec4 material_units; // of the sums of ambient, ...
+    vec4 mirror;   // reflection; unit of its sums; texels of the environment per squared radian
+    vec4 environment_from_camera[3];
+    uvec4 flags;   // EDGE_ANTIALIASING, ...; shading; how many lights, levels
+    uvec4 levels[MOST_LEVELS]; // of the environment: size, first texel
 };
 
-const uint EDGE_ANTIALIASING = 1u, TRANSPARENT = 2u, ONE_PASS = 4u, ORTHOGRAPHIC_VIEW = 8u, WITH_OPACITY = 16u, BOTH_SIDES = 32u;
+const uint EDGE_ANTIALIASING = 1u, TRANSPARENT = 2u, ONE_PASS = 4u, ORTHOGRAPHIC_VIEW = 8u, WITH_OPACITY = 16u, BOTH_SIDES = 32u,
+           WITH_MATERIAL = 64u;
 const uint UNSHADED = 0u, LAMBERT = 1u, PHONG = 3u;
 
 uniform sampler2D nearest_map, color_map, normal_map, cut_map, opacity_map, color_turned_map, normal_turned_map, opacity_turned_map,
-    composed_map, first_cut_map;
+    composed_map, first_cut_map, material_map, reflection_map, material_turned_map, reflection_turned_map, environment_map;
 uniform int behind, whole;
 
 #if STAGE == PICTURE || STAGE == PLANES
@@ -41,12 +46,22 @@ bool has(uint flag) { return (flags.x & flag) != 0u; }
 
 ivec2 pixel;
 vec4 color, normal; // sums; w: weight, depth
-float opacity, cover, first_alpha;
+vec4 numbers;       // the material; its reflection
+float reflection;
+float opacity, cover;
 vec2 cut;
 bool is_cut = false;
 
 // What the sums are of what is seen.
 void settle() {
+    numbers = material;
+    reflection = mirror.x;
+    vec4 material_sum = vec4(0.0);
+    float reflection_sum = 0.0;
+    if (has(WITH_MATERIAL)) {
+        material_sum = texelFetch(material_map, pixel, 0);
+        reflection_sum = texelFetch(reflection_map, pixel, 0).r;
+    }
     color = texelFetch(color_map, pixel, 0);
     normal = texelFetch(normal_map, pixel, 0);
     opacity = has(WITH_OPACITY) ? texelFetch(opacity_map, pixel, 0).r : color.w;
@@ -58,6 +73,15 @@ void settle() {
         color = scale * (color + shown * turned);
         normal = scale * (normal + shown * texelFetch(normal_turned_map, pixel, 0));
         opacity = scale * (opacity + shown * turned_opacity);
+        if (has(WITH_MATERIAL)) {
+            material_sum = scale * (material_sum + shown * texelFetch(material_turned_map, pixel, 0));
+            reflection_sum = scale * (reflection_sum + shown * texelFetch(reflection_turned_map, pixel, 0).r);
+        }
+    }
+    if (has(WITH_MATERIAL)) {
+        float inverse_ = 0.0 < color.w ? 1.0 / color.w : 0.0;
+        numbers = material_sum * inverse_ * material_units;
+        reflection = reflection_sum * inverse_ * mirror.y;
     }
     cover = 0.0;
     cut = vec2(0.0);
@@ -85,24 +109,61 @@ vec3 toward_eye() {
     return -normalize(vec3(gl_FragCoord.x * rays.x + rays.y, gl_FragCoord.y * rays.z + rays.w, 1.0));
 }
 
+vec3 environment_texel(uvec4 level, ivec2 at) {
+    ivec2 size = ivec2(level.xy);
+    if (at.y < 0 || at.y >= size.y) at = ivec2(at.x + size.x / 2, clamp(at.y, 0, size.y - 1)); // across the pole
+    at.x = at.x < 0 ? at.x + size.x : at.x >= size.x ? at.x - size.x : at.x;
+    int index = int(level.z) + at.y * size.x + at.x, width = textureSize(environment_map, 0).x;
+    return texelFetch(environment_map, ivec2(index % width, index / width), 0).rgb;
+}
+
+vec3 environment_level(int index, vec2 uv) {
+    uvec4 level = levels[index];
+    vec2 at = uv * vec2(level.xy) - 0.5, share = fract(at);
+    ivec2 first = ivec2(floor(at));
+    vec3 upper = mix(environment_texel(level, first), environment_texel(level, first + ivec2(1, 0)), share.x);
+    vec3 lower = mix(environment_texel(level, first + ivec2(0, 1)), environment_texel(level, first + ivec2(1, 1)), share.x);
+    return mix(upper, lower, share.y);
+}
+
+// What the environment shows in a direction; neighbours in the same 2x2 pixels tell how much of it a pixel sees. Of all pixels
+// at once.
+vec3 reflected(vec3 n, vec3 view, bool shown) {
+    vec3 mirrored = shown ? 2.0 * dot(n, view) * n - view : vec3(0.0);
+    vec3 d = vec3(dot(environment_from_camera[0].xyz, mirrored), dot(environment_from_camera[1].xyz, mirrored),
+                  dot(environment_from_camera[2].xyz, mirrored));
+    vec3 along_x = dFdx(d), along_y = dFdy(d);
+    float is_shown = shown ? 1.0 : 0.0;
+    float x2 = dFdx(is_shown) == 0.0 ? dot(along_x, along_x) : 0.0, y2 = dFdy(is_shown) == 0.0 ? dot(along_y, along_y) : 0.0;
+    if (!shown) return vec3(0.0);
+    float u = 0.5 - atan(d.x, d.z) * INVERSE_TWO_PI, v = 0.5 - 2.0 * atan(d.y, length(d.xz)) * INVERSE_TWO_PI;
+    float level = min(0.5 * log2(max(max(x2, y2) * mirror.z, 1.0)), float(flags.w - 1u));
+    int fine = int(level);
+    vec3 seen = environment_level(fine, vec2(u, v));
+    float share = level - float(fine);
+    return share > 0.0 ? mix(seen, environment_level(fine + 1, vec2(u, v)), share) : seen;
+}
+
 // Straight colour of the surface.
 vec3 shade() {
-    if (!(0.0 < color.w)) return vec3(0.0);
+    bool shown = 0.0 < color.w;
     vec3 straight = color.rgb * units.x / (0.0 < opacity ? opacity : 1.0);
-    if (flags.y == UNSHADED) return straight;
+    if (flags.y == UNSHADED) return shown ? straight : vec3(0.0);
     float size = max(length(normal.xyz), color.w * SHADED_NORMAL);
-    vec3 n = normal.xyz / size, view = toward_eye(), diffuse = vec3(0.0), specular = vec3(0.0);
+    vec3 n = shown ? normal.xyz / size : vec3(0.0), view = toward_eye(), diffuse = vec3(0.0), specular = vec3(0.0);
     for (int i = 0; i < int(flags.z); i++) {
         vec3 to = toward[i].w != 0.0 ? view : toward[i].xyz;
         float facing = max(dot(n, to), 0.0), power = facing;
         diffuse += light[i].rgb * facing;
         if (flags.y != PHONG) continue;
         if (toward[i].w == 0.0) power = (facing + dot(n, view)) * inversesqrt(max(2.0 * dot(to, view) + 2.0, 1e-20));
-        power = pow(clamp(power, 1e-30, 1.0), material.w);
+        power = pow(clamp(power, 1e-30, 1.0), numbers.w);
         if (0.0 < facing) specular += light[i].rgb * power;
     }
-    vec3 seen = straight * (material.x + material.y * diffuse);
-    return flags.y == PHONG ? seen + material.z * specular : seen;
+    vec3 seen = straight * (numbers.x + numbers.y * diffuse);
+    if (flags.y == PHONG) seen += numbers.z * specular;
+    if (flags.y == PHONG && flags.w != 0u) seen += reflection * reflected(n, view, shown);
+    return shown ? seen : vec3(0.0);
 }
 
 // The alpha of as many surfaces as a coverage is.

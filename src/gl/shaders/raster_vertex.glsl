@@ -10,6 +10,10 @@ void main() {
     for (int i = 0; i < MOST_LINES; i++) lines[i] = vec3(0.0, 0.0, 1.0);
     line_bits = 0u;
 #endif
+#if PASS == 3
+    material = vec4(0.0);
+    reflection = 0.0;
+#endif
     uint lane = uint(gl_InstanceID) & 15u;
     sigma = local.w * zoomed.w;
     alive = 0.0 < sigma && (packet_bits.y >> lane & 1u) != 0u;
