@@ -3,6 +3,10 @@
 //
 // What a surfel adds to pixels, and a corner of the box that holds them.
 
+#if PASS != 1
+flat out vec4 color;  // times opacity and peak; peak
+flat out vec4 normal; // times peak; opacity times peak
+#endif
 #if PASS == 3
 layout(std140) uniform MaterialBlock { vec4 materials[2 * MOST_MATERIALS]; }; // ambient, diffuse, specular, shininess; reflection
 flat out vec4 material; // times peak
@@ -17,6 +21,9 @@ bool is_wanted(float facing) {
     return turned_ones < 0 || (0.0 < facing) == (turned_ones == 1);
 }
 
+#if PASS == 1
+void find_payload() {}
+#else
 float decode_color(uint form, uint code) {
     bool with_sign = (form & 0x8000u) != 0u;
     int octave_bits = int(form >> 8 & 15u);
@@ -40,6 +47,7 @@ void find_payload() {
     reflection = color.w * materials[2u * material_code + 1u].x;
 #endif
 }
+#endif
 
 // Corners are rounded to parts of a pixel.
 const float MARGIN_PX = 1.0 / 64.0;

@@ -16,8 +16,6 @@ layout(location = 7) in uint material_code;
 flat out vec4 shape;   // centre, xx, xy
 flat out vec4 key_at;  // yy; key at the centre, its gradient
 flat out vec4 range;   // least, largest key; tolerance; z
-flat out vec4 color;   // times opacity and peak; peak
-flat out vec4 normal;  // times peak; opacity times peak
 flat out vec4 extra;   // raycast: sqrt|V|, range of z over that at the centre
 #if WITH_CLIPS
 flat out vec3 lines[MOST_LINES]; // inward, offset: from the corner of the band

@@ -4,7 +4,10 @@
 // The fragment program: a splat at a pixel (docs/math.md sections 4 to 6). PASS 1 draws the key of z + eps, PASS 2 what it
 // adds to the pixel where its own key reaches the largest of those, PASS 3 what it adds to the numbers of materials.
 
-flat in vec4 shape, key_at, range, color, normal, extra;
+flat in vec4 shape, key_at, range, extra;
+#if PASS != 1
+flat in vec4 color, normal;
+#endif
 #if NEAR
 flat in vec3 ray_u, ray_v, ray_w, ray_z;
 #endif

@@ -5,7 +5,10 @@
 
 void main() {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0); // nowhere
-    shape = key_at = range = color = normal = extra = vec4(0.0);
+    shape = key_at = range = extra = vec4(0.0);
+#if PASS != 1
+    color = normal = vec4(0.0);
+#endif
 #if WITH_CLIPS
     for (int i = 0; i < MOST_LINES; i++) lines[i] = vec3(0.0, 0.0, 1.0);
     line_bits = 0u;
