@@ -10,4 +10,7 @@
 /// Compute programs of OpenGL 4.3.
 extern const ewa_backend ewa_backend_gl;
 
+/// The pipeline of "Perspective Accurate Splatting" by OpenGL 3.3.
+extern const ewa_backend ewa_backend_gl_raster;
+
 #endif

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { DEFAULT_TILE_PX = 16, DEFAULT_UNIT = 1024, THREADS = 64, COUNTERS = 2 };
+enum { DEFAULT_TILE_PX = 8, DEFAULT_UNIT = 1024, THREADS = 64, COUNTERS = 2 };
 
 void ewa_gl_compute_destroy(ewa_context *context, void *state) {
     ewa_gl_compute *old = state;

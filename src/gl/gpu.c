@@ -15,6 +15,8 @@ ewa_status ewa_renderer_create_on(ewa_context *context, ewa_backend_kind kind, e
         return ewa_renderer_create_by(context, &ewa_backend_cpu, renderer);
     case EWA_BACKEND_GL:
         return ewa_renderer_create_by(context, &ewa_backend_gl, renderer);
+    case EWA_BACKEND_GL_RASTER:
+        return ewa_renderer_create_by(context, &ewa_backend_gl_raster, renderer);
     default:
         break;
     }

@@ -9,7 +9,7 @@ ewa_status ewa_gl_buffer_reserve(ewa_gl *device, ewa_gl_buffer *buffer, const ch
     enum { LEAST_BYTES = 256 };
     if (size_bytes < LEAST_BYTES) size_bytes = LEAST_BYTES;
     if (size_bytes <= buffer->size_bytes) return EWA_OK;
-    if (size_bytes > device->facts.storage_bytes)
+    if (device->facts.compute && size_bytes > device->facts.storage_bytes)
         return ewa_fail(device->context, EWA_ERROR_LIMIT,
                         "OpenGL: %llu bytes for %s are more than the %llu that programs of %s can see",
                         (unsigned long long)size_bytes, what, (unsigned long long)device->facts.storage_bytes,

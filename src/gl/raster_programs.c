@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The programs of the paper's pipeline, each made when a frame first needs it: OpenGL 3.3, nothing that ES 3.0 lacks.
+#include "gl/program.h"
+#include "gl/raster.h"
+#include "gl/shaders.h"
+#include "surface/semantics.h"
+
+#include <stdio.h>
+
+enum { HEAD_BYTES = 2048 };
+
+/// What programs are told before their pieces: constants of semantics.h.
+static size_t write_head(char *head) {
+    const struct {
+        const char *name;
+        double value;
+    } constants[] = {
+        {"NEVER", EWA_RASTER_NEVER},
+        {"NEAR_RATIO", EWA_NEAR_RATIO},
+        {"FLAT", EWA_FLAT},
+        {"LEAST_AREA", EWA_LEAST_AREA},
+        {"LEAST_SPLAT", EWA_LEAST_SPLAT},
+        {"INVERSE_TWO_PI", EWA_INVERSE_TWO_PI},
+        {"EDGE_ON", EWA_EDGE_ON},
+        {"FREE_RADII", EWA_FREE_RADII},
+        {"FREE_DEPTH", EWA_FREE_DEPTH},
+        {"GRAZING_TOLERANCE", EWA_GRAZING_TOLERANCE},
+        {"LEAST_KEY", EWA_LEAST_KEY},
+        {"PER_CUT", 1 / EWA_CUT},
+        {"EDGES_OPPOSE", EWA_EDGES_OPPOSE},
+        {"EDGES_SLOPE", 1 / (EWA_EDGES_AGREE - EWA_EDGES_OPPOSE)},
+        {"SHADED_NORMAL", EWA_SHADED_NORMAL},
+    };
+    size_t at = (size_t)snprintf(
+        head, HEAD_BYTES,
+        "#version 330 core\n#define MOST_LIGHTS %d\n#define MOST_LEVELS %d\n#define MOST_MATERIALS %d\n",
+        EWA_MAX_LIGHTS, EWA_MAX_ENVIRONMENT_LEVELS, EWA_MAX_MATERIALS);
+    for (size_t i = 0; i < sizeof constants / sizeof constants[0]; i++)
+        at += (size_t)snprintf(head + at, HEAD_BYTES - at, "const float %s = %.9e;\n", constants[i].name,
+                               constants[i].value);
+    return at;
+}
+
+/// Says which blocks and pictures the program's names stand for.
+static void bind_names(GLuint program) {
+    static const char *const blocks[] = {"ViewBlock", "ResolveBlock", "MaterialBlock"};
+    static const struct {
+        const char *name;
+        GLint unit;
+    } maps[] = {{"nearest_map", EWA_PICTURE_NEAREST},
+                {"passed_map", EWA_PICTURE_PASSED},
+                {"color_map", EWA_PICTURE_COLOR},
+                {"normal_map", EWA_PICTURE_NORMAL},
+                {"cut_map", EWA_PICTURE_CUT},
+                {"opacity_map", EWA_PICTURE_OPACITY},
+                {"color_turned_map", EWA_PICTURE_COLOR_TURNED},
+                {"normal_turned_map", EWA_PICTURE_NORMAL_TURNED},
+                {"opacity_turned_map", EWA_PICTURE_OPACITY_TURNED},
+                {"composed_map", EWA_PICTURE_COMPOSED},
+                {"first_cut_map", EWA_PICTURE_FIRST_CUT},
+                {"line_map", EWA_PICTURE_BESIDE},
+                {"environment_map", EWA_PICTURE_BESIDE},
+                {"material_map", EWA_PICTURE_MATERIAL},
+                {"reflection_map", EWA_PICTURE_REFLECTION},
+                {"material_turned_map", EWA_PICTURE_MATERIAL_TURNED},
+                {"reflection_turned_map", EWA_PICTURE_REFLECTION_TURNED}};
+    for (GLuint i = 0; i < sizeof blocks / sizeof blocks[0]; i++) {
+        const GLuint index = glGetUniformBlockIndex(program, blocks[i]);
+        if (index != GL_INVALID_INDEX) glUniformBlockBinding(program, index, i);
+    }
+    glUseProgram(program);
+    for (size_t i = 0; i < sizeof maps / sizeof maps[0]; i++)
+        glUniform1i(glGetUniformLocation(program, maps[i].name), maps[i].unit);
+}
+
+ewa_status ewa_raster_splat_program(ewa_raster *raster, ewa_raster_pass pass, ewa_raster_form form,
+                                    bool with_clips, GLuint *program) {
+    GLuint *made = &raster->splats[pass][form][with_clips];
+    *program = *made;
+    if (*made) return EWA_OK;
+    static const char *const names[] = {[EWA_RASTER_VISIBILITY] = "visibility",
+                                        [EWA_RASTER_SUMS] = "sums",
+                                        [EWA_RASTER_MATERIALS] = "materials"};
+    char head[HEAD_BYTES + 256];
+    const size_t at = write_head(head);
+    snprintf(head + at, sizeof head - at,
+             "#define PASS %d\n#define WITH_CLIPS %d\n#define RAYS %d\n#define NEAR %d\n", (int)pass + 1,
+             with_clips, form == EWA_RASTER_RAYCAST, form == EWA_RASTER_NEAR);
+    const char *vertex[6] = {ewa_shader_raster_scene, ewa_shader_raster_project, ewa_shader_raster_payload};
+    uint32_t count = 3;
+    if (with_clips) vertex[count++] = ewa_shader_raster_lines;
+    if (form == EWA_RASTER_NEAR) vertex[count++] = ewa_shader_raster_near;
+    vertex[count++] = ewa_shader_raster_vertex;
+    static const char *const fragment[] = {ewa_shader_raster_scene, ewa_shader_raster_splat};
+    const ewa_gl_stage stages[] = {{GL_VERTEX_SHADER, head, vertex, count},
+                                   {GL_FRAGMENT_SHADER, head, fragment, 2}};
+    const ewa_status status = ewa_gl_program_make(raster->device, names[pass], stages, 2, made);
+    if (status != EWA_OK) return status;
+    *program = *made;
+    bind_names(*made);
+    return EWA_OK;
+}
+
+ewa_status ewa_raster_stage_program(ewa_raster *raster, ewa_raster_stage stage, bool with_clips,
+                                    GLuint *program) {
+    GLuint *made = &raster->stages[stage][with_clips];
+    *program = *made;
+    if (*made) return EWA_OK;
+    static const char *const names[] = {
+        [EWA_RASTER_COMPOSE] = "surface", [EWA_RASTER_PLANES] = "planes",
+        [EWA_RASTER_CUT] = "cut edges",   [EWA_RASTER_PEEL] = "what lies behind",
+        [EWA_RASTER_BROKEN] = "colours",  [EWA_RASTER_PICTURE] = "picture"};
+    char head[HEAD_BYTES + 256];
+    const size_t at = write_head(head);
+    snprintf(head + at, sizeof head - at, "#define STAGE %d\n#define WITH_CLIPS %d\n", (int)stage,
+             with_clips);
+    static const char *const vertex[] = {ewa_shader_raster_cover};
+    static const char *const fragment[] = {ewa_shader_raster_surface};
+    const ewa_gl_stage stages[] = {{GL_VERTEX_SHADER, head, vertex, 1},
+                                   {GL_FRAGMENT_SHADER, head, fragment, 1}};
+    const ewa_status status = ewa_gl_program_make(raster->device, names[stage], stages, 2, made);
+    if (status != EWA_OK) return status;
+    *program = *made;
+    bind_names(*made);
+    return EWA_OK;
+}
+
+void ewa_raster_programs_free(ewa_raster *raster) {
+    for (int clips = 0; clips < 2; clips++) {
+        for (int pass = 0; pass < EWA_RASTER_PASSES; pass++)
+            for (int form = 0; form < EWA_RASTER_FORMS; form++)
+                if (raster->splats[pass][form][clips]) glDeleteProgram(raster->splats[pass][form][clips]);
+        for (int stage = 0; stage < EWA_RASTER_STAGES; stage++)
+            if (raster->stages[stage][clips]) glDeleteProgram(raster->stages[stage][clips]);
+    }
+}

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// How work is divided has no say: pages, tiles, units, bands and the order of sources give the bytes that the processor gives.
+// That frames of every kind do is held by the tests of the renderer (shadow.c).
+#include "ewa/gpu.h"
+#include "splat/picture.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { WIDTH_PX = 203, HEIGHT_PX = 150, POINTS = 3000 };
+
+/// Makes a renderer by OpenGL with a tuning (src/gl/compute.c).
+static ewa_renderer *open_tuned(ewa_context *context, const char *tuning) {
+    ewa_renderer *made = NULL;
+    setenv("EWA_GL_TUNING", tuning, 1);
+    assert_int_equal(ewa_renderer_create_on(context, EWA_BACKEND_GL, &made), EWA_OK);
+    unsetenv("EWA_GL_TUNING");
+    return made;
+}
+
+static void assert_same(const picture *a, const picture *b, const char *what) {
+    const size_t pixels = (size_t)a->width_px * a->height_px;
+    const bool same = memcmp(a->frame.rgba8, b->frame.rgba8, 4 * pixels) == 0 &&
+                      memcmp(a->frame.rgba, b->frame.rgba, 16 * pixels) == 0 &&
+                      memcmp(a->frame.depth, b->frame.depth, 4 * pixels) == 0 &&
+                      memcmp(a->frame.normal, b->frame.normal, 12 * pixels) == 0 &&
+                      memcmp(a->frame.coverage, b->frame.coverage, 4 * pixels) == 0;
+    if (!same) fail_msg("%s: other bytes", what);
+}
+
+/// Draws sources in the order of `order`, a digit each.
+static void draw(ewa_renderer *renderer, ewa_surfels *const *parts, const char *order, const scene *of,
+                 const ewa_render_options *options, picture *into) {
+    const size_t pixels = (size_t)into->width_px * into->height_px;
+    memset(into->frame.rgba8, 1, 4 * pixels);
+    memset(into->frame.rgba, 1, 16 * pixels);
+    assert_int_equal(ewa_render_begin(renderer, &of->camera, options, &into->frame), EWA_OK);
+    for (; *order; order++) assert_int_equal(ewa_render_add(renderer, parts[*order - '0']), EWA_OK);
+    assert_int_equal(ewa_render_finish(renderer, NULL), EWA_OK);
+}
+
+static void test_division_has_no_say(void **state) {
+    (void)state;
+    static const char *const tunings[][2] = {{"tile_px=8 unit=1 page=3", "tile_px=16 storage=4500000"},
+                                             {"tile_px=4 unit=7 page=100", "tile_px=16 unit=5000"},
+                                             {"tile_px=16 unit=100 page=7", "storage=4500000"}};
+    static const scene_kind kinds[] = {SCENE_CUBE, SCENE_NEAR, SCENE_ELLIPSES};
+    ewa_context *context = check_context(0, NULL);
+    picture expected = picture_make(WIDTH_PX, HEIGHT_PX), found = picture_make(WIDTH_PX, HEIGHT_PX);
+    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
+        scene of;
+        assert_int_equal(scene_make(context, kinds[k], POINTS, WIDTH_PX, HEIGHT_PX, &of), EWA_OK);
+        ewa_surfels *parts[1];
+        assert_int_equal(ewa_surfels_create(of.cloud, NULL, &parts[0]), EWA_OK);
+        ewa_render_options options;
+        ewa_render_options_init(&options, sizeof options);
+        options.opacity = k == 2 ? 0.5 : 1;
+        ewa_renderer *cpu = NULL;
+        assert_int_equal(ewa_renderer_create(context, &cpu), EWA_OK);
+        draw(cpu, parts, "0", &of, &options, &expected);
+        for (size_t i = 0; i < 2; i++) {
+            ewa_renderer *gl = open_tuned(context, tunings[k][i]);
+            draw(gl, parts, "0", &of, &options, &found);
+            assert_same(&expected, &found, tunings[k][i]);
+            ewa_renderer_destroy(&gl);
+        }
+        ewa_renderer_destroy(&cpu);
+        ewa_surfels_destroy(&parts[0]);
+        scene_free(&of);
+    }
+    picture_free(&expected);
+    picture_free(&found);
+    ewa_context_destroy(&context);
+}
+
+static void test_order_has_no_say(void **state) {
+    (void)state;
+    static const scene_kind kinds[] = {SCENE_SPHERE, SCENE_CUBE, SCENE_TORUS};
+    ewa_context *context = check_context(0, NULL);
+    picture expected = picture_make(WIDTH_PX, HEIGHT_PX), found = picture_make(WIDTH_PX, HEIGHT_PX);
+    scene scenes[3];
+    ewa_surfels *parts[3];
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(scene_make(context, kinds[i], POINTS / 2, WIDTH_PX, HEIGHT_PX, &scenes[i]), EWA_OK);
+        assert_int_equal(ewa_surfels_create(scenes[i].cloud, NULL, &parts[i]), EWA_OK);
+    }
+    ewa_renderer *cpu = NULL, *gl = open_tuned(context, "");
+    assert_int_equal(ewa_renderer_create(context, &cpu), EWA_OK);
+    draw(cpu, parts, "012", &scenes[0], NULL, &expected);
+    static const char *const orders[] = {"012", "201", "210"};
+    for (int i = 0; i < 3; i++) {
+        draw(gl, parts, orders[i], &scenes[0], NULL, &found);
+        assert_same(&expected, &found, orders[i]);
+    }
+    ewa_renderer_destroy(&gl);
+    ewa_renderer_destroy(&cpu);
+    for (int i = 0; i < 3; i++) {
+        ewa_surfels_destroy(&parts[i]);
+        scene_free(&scenes[i]);
+    }
+    picture_free(&expected);
+    picture_free(&found);
+    ewa_context_destroy(&context);
+}
+
+/// Surfels that are freed and made again at the same address are other surfels.
+static void test_surfels_come_and_go(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    picture expected = picture_make(WIDTH_PX, HEIGHT_PX), found = picture_make(WIDTH_PX, HEIGHT_PX);
+    ewa_renderer *cpu = NULL, *gl = open_tuned(context, "");
+    assert_int_equal(ewa_renderer_create(context, &cpu), EWA_OK);
+    for (int i = 0; i < 4; i++) {
+        scene of;
+        assert_int_equal(
+            scene_make(context, i % 2 ? SCENE_TORUS : SCENE_SPHERE, 2000, WIDTH_PX, HEIGHT_PX, &of), EWA_OK);
+        ewa_surfels *parts[1];
+        assert_int_equal(ewa_surfels_create(of.cloud, NULL, &parts[0]), EWA_OK);
+        draw(cpu, parts, "0", &of, NULL, &expected);
+        draw(gl, parts, "0", &of, NULL, &found);
+        assert_same(&expected, &found, "new surfels");
+        ewa_surfels_destroy(&parts[0]);
+        scene_free(&of);
+    }
+    ewa_renderer_destroy(&gl);
+    ewa_renderer_destroy(&cpu);
+    picture_free(&expected);
+    picture_free(&found);
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    ewa_context *context = check_context(0, NULL);
+    ewa_renderer *probe = NULL;
+    const ewa_status status = ewa_renderer_create_on(context, EWA_BACKEND_GL, &probe);
+    ewa_renderer_destroy(&probe);
+    ewa_context_destroy(&context);
+    if (status != EWA_OK) {
+        printf("skipped: no device that draws by OpenGL 4.3\n");
+        return 77;
+    }
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_division_has_no_say),
+        cmocka_unit_test(test_order_has_no_say),
+        cmocka_unit_test(test_surfels_come_and_go),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
