@@ -5,7 +5,7 @@
 if(NOT EWA_HAS_GL)
   return()
 endif()
-foreach(name fill passes scene setup splat surface wide)
+foreach(name fill passes scene selftest setup splat surface wide)
   set(source ${PROJECT_SOURCE_DIR}/src/gl/shaders/${name}.glsl)
   set(made ${PROJECT_BINARY_DIR}/shaders/${name}.c)
   add_custom_command(OUTPUT ${made}

@@ -10,4 +10,10 @@
 /// Compute programs of OpenGL 4.3.
 extern const ewa_backend ewa_backend_gl;
 
+/// The processor, and compute programs where they are faster.
+extern const ewa_backend ewa_backend_auto;
+
+/// Sets what the device is, of an info of zeros but for the size. Errors: those of ewa_gpu_describe().
+ewa_status ewa_gpu_find(ewa_context *context, ewa_gpu_info *info);
+
 #endif

@@ -5,7 +5,7 @@
 #ifndef EWA_SRC_GL_SHADERS_H
 #define EWA_SRC_GL_SHADERS_H
 
-extern const char ewa_shader_fill[], ewa_shader_passes[], ewa_shader_scene[], ewa_shader_setup[],
-    ewa_shader_splat[], ewa_shader_surface[], ewa_shader_wide[];
+extern const char ewa_shader_fill[], ewa_shader_passes[], ewa_shader_scene[], ewa_shader_selftest[],
+    ewa_shader_setup[], ewa_shader_splat[], ewa_shader_surface[], ewa_shader_wide[];
 
 #endif

@@ -5,6 +5,7 @@
 #ifndef EWA_SRC_SURFACE_BACKEND_H
 #define EWA_SRC_SURFACE_BACKEND_H
 
+#include "ewa/gpu.h"
 #include "surface/render.h"
 #include "surface/shading.h"
 
@@ -38,6 +39,8 @@ struct ewa_backend {
     /// as long as their packets and their unit coverages are the same. Eye-dome lighting is put on a frame in
     /// bands with the one at its end, of what the state's earlier calls drew. Sets all of `stats` but the level.
     ewa_status (*draw)(void *state, const ewa_render_job *job, ewa_render_stats *stats);
+    /// Sets what of `info`, with zeros and the back end's name in it, is otherwise. NULL: nothing is.
+    void (*describe)(const void *state, ewa_renderer_info *info);
 };
 
 /// Threads and vectors of the processor; what others are compared with.
