@@ -5,6 +5,7 @@
 #ifndef EWA_SRC_GL_BACKENDS_H
 #define EWA_SRC_GL_BACKENDS_H
 
+#include "ewa/gpu.h"
 #include "surface/backend.h"
 
 /// Compute programs of OpenGL 4.3.

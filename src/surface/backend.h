@@ -5,9 +5,10 @@
 #ifndef EWA_SRC_SURFACE_BACKEND_H
 #define EWA_SRC_SURFACE_BACKEND_H
 
-#include "ewa/gpu.h"
 #include "surface/render.h"
 #include "surface/shading.h"
+
+typedef struct ewa_renderer_info ewa_renderer_info; ///< ewa/gpu.h
 
 /// One source of a frame.
 typedef struct ewa_frame_source {

@@ -11,9 +11,6 @@
 #include "surface/packets.h"
 #include "surface/road.h"
 
-#include <stdio.h>
-#include <string.h>
-
 struct ewa_renderer {
     ewa_context *context;
     const ewa_backend *backend;
@@ -56,17 +53,11 @@ void ewa_renderer_destroy(ewa_renderer **renderer) {
     *renderer = NULL;
 }
 
-ewa_status ewa_renderer_describe(const ewa_renderer *renderer, ewa_renderer_info *info) {
-    if (!renderer || !info) return EWA_ERROR_ARGUMENT;
-    const size_t size = info->struct_size;
-    if (size < sizeof size || size > sizeof *info)
-        return ewa_fail(renderer->context, EWA_ERROR_ARGUMENT, "renderer: struct_size is %zu, not %zu", size,
-                        sizeof *info);
-    ewa_renderer_info all = {.struct_size = size};
-    snprintf(all.backend, sizeof all.backend, "%s", renderer->backend->name);
-    if (renderer->backend->describe) renderer->backend->describe(renderer->state, &all);
-    memcpy(info, &all, size);
-    return EWA_OK;
+const ewa_backend *ewa_renderer_backend(const ewa_renderer *renderer, ewa_context **context,
+                                        const void **state) {
+    *context = renderer->context;
+    *state = renderer->state;
+    return renderer->backend;
 }
 
 void ewa_renderer_set_tile(ewa_renderer *renderer, uint32_t tile_px) { renderer->tile_px = tile_px; }
