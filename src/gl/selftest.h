@@ -10,7 +10,8 @@
 
 /// What a trial has found.
 typedef struct ewa_gl_verdict {
-    ewa_gl_arithmetic arithmetic; ///< what of the device's own is to be used
+    ewa_gl_arithmetic own;        ///< what of the device's arithmetic is correctly rounded
+    ewa_gl_arithmetic arithmetic; ///< what of it is to be used
     bool exact;                   ///< with that every operation gives the bits of the processor
     const char *differs;          ///< the first operation that does not; NULL: none
 } ewa_gl_verdict;
