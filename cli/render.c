@@ -315,9 +315,12 @@ static bool draw(cli_session *session, const render_arguments *arguments, const 
     };
     surfel_painter painting = {.session = session, .scene = scene, .options = &options, .report = report};
     const frame_cameras *frames = &scene->frames;
+    const char *subject = session->subject;
+    session->subject = NULL; // a device is nothing of the file
     const ewa_status status =
         ewa_renderer_create_on(session->context, (ewa_backend_kind)arguments->backend, &painting.renderer);
     if (status != EWA_OK) session_failed(session, status);
+    session->subject = subject;
     const bool done =
         status == EWA_OK &&
         sequence_draw(session, &output, frames, &(frame_painter){paint, &painting}, report) &&

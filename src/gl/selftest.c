@@ -97,8 +97,8 @@ static bool all_agree(const trial_memory *memory, uint32_t word) {
     return true;
 }
 
-/// What a device's own operations are to give; doubles beside them.
-static bool native_agree(trial_memory *memory, ewa_gl_arithmetic *own) {
+/// Sets which of a device's own operations are correctly rounded. Returns what else is wrong, that nothing helps; NULL: nothing.
+static const char *judge_own(trial_memory *memory, ewa_gl_arithmetic *own) {
     bool doubles = true;
     for (uint32_t i = 0; i < COUNT; i++) {
         const numbers *v = &memory->inputs[i];
@@ -110,7 +110,8 @@ static bool native_agree(trial_memory *memory, ewa_gl_arithmetic *own) {
         doubles &= memcmp(&bits, &sum, sizeof bits) == 0;
     }
     own->fused = all_agree(memory, 0), own->divides = all_agree(memory, 1), own->roots = all_agree(memory, 2);
-    return doubles && all_agree(memory, 3) && all_agree(memory, 4) && all_agree(memory, 7);
+    if (!all_agree(memory, 3)) return "sum of a product"; // made one operation, although it is `precise`
+    return doubles && all_agree(memory, 4) && all_agree(memory, 7) ? NULL : "double precision";
 }
 
 /// Numbers `member` of sixteen inputs.
@@ -182,20 +183,16 @@ static ewa_status judge(ewa_gl *device, const ewa_gl_buffer *inputs, const ewa_g
     ewa_gl_arithmetic *use = &verdict->arithmetic;
     ewa_status status = run(device, use, true, inputs, results, memory);
     if (status != EWA_OK) return status;
-    const bool as_said = native_agree(memory, &verdict->own);
+    verdict->differs = judge_own(memory, &verdict->own);
     *use = verdict->own;
     if (ewa_gl_tuning_is("arith", "emulated")) *use = (ewa_gl_arithmetic){false, false, false};
     if (ewa_gl_tuning_is("arith", "close")) *use = (ewa_gl_arithmetic){true, true, true};
-    verdict->differs = "sum of a product";
-    if (as_said) {
+    if (!verdict->differs) {
         status = run(device, use, false, inputs, results, memory);
         if (status != EWA_OK) return status;
         verdict->differs = find_difference(memory);
         verdict->exact = !verdict->differs;
-        if (verdict->exact) return EWA_OK;
     }
-    // Help that does not help costs time.
-    *use = (ewa_gl_arithmetic){true, true, true};
     return EWA_OK;
 }
 
