@@ -234,8 +234,9 @@ ewa_status ewa_gl_wait(ewa_gl *device, const char *what) {
     if (device->wait_count == device->hang_at) return lose(device, what, "hangs");
     const GLsync fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     if (!fence) return ewa_gl_check(device, what);
-    const GLenum waited =
-        glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, (GLuint64)(EWA_GL_PATIENCE_S * 1e9));
+    enum { SLOW = 60 }; // software does not hang, it is slow
+    const double patience_s = (device->facts.software ? SLOW : 1) * EWA_GL_PATIENCE_S;
+    const GLenum waited = glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, (GLuint64)(patience_s * 1e9));
     glDeleteSync(fence);
     if (waited == GL_TIMEOUT_EXPIRED) return lose(device, what, "hangs");
     if (waited == GL_WAIT_FAILED) return lose(device, what, "fails");

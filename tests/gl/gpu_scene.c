@@ -25,7 +25,14 @@ void gpu_scene_resize(gpu_scene *of, uint32_t width_px, uint32_t height_px) {
 
 void gpu_scene_make(gpu_scene *of, uint64_t points, uint32_t width_px, uint32_t height_px) {
     of->log.count = 0;
-    of->context = check_context(1, &of->log);
+    of->memory = (check_memory){.calls_left = -1};
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.thread_count = 1;
+    options.allocator = check_allocator(&of->memory);
+    options.message = check_log_keep;
+    options.message_user = &of->log;
+    assert_int_equal(ewa_context_create(&options, &of->context), EWA_OK);
     ewa_generate_options object;
     ewa_generate_options_init(&object, sizeof object);
     object.object = EWA_OBJECT_TORUS;
@@ -42,6 +49,7 @@ void gpu_scene_make(gpu_scene *of, uint64_t points, uint32_t width_px, uint32_t 
 void gpu_scene_free(gpu_scene *of) {
     ewa_surfels_destroy(&of->surfels);
     ewa_context_destroy(&of->context);
+    assert_int_equal(of->memory.held_bytes, 0);
 }
 
 ewa_status gpu_scene_draw(const gpu_scene *of, ewa_renderer *renderer, uint8_t *rgba8) {

@@ -10,6 +10,7 @@
 /// A context, and a torus before a camera.
 typedef struct gpu_scene {
     check_log log;
+    check_memory memory; ///< of the context; all of it is given back in the end
     ewa_context *context;
     ewa_surfels *surfels;
     ewa_bounds bounds;
