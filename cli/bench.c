@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // ewa bench: how long each stage takes, over scenes, sizes, threads and instruction sets.
+#include "backend.h"
 #include "bench_cover.h"
 #include "bench_files.h"
 #include "bench_frames.h"
@@ -22,6 +23,7 @@ typedef struct bench_arguments {
     int64_t frames;
     ewa_render_options render;
     bool stages;
+    int backend;
     const char *against, *json_path;
 } bench_arguments;
 
@@ -58,6 +60,7 @@ static const cli_option measure_table[] = {
      .help = "frames per scene and context, after two that warm up; and runs of each other stage"},
     {"cpu", OPTION_SET, AT(cpus), "SET,...", "all|avx2|plain",
      .help = "instruction sets to compare, as far as the processor has them"},
+    BACKEND_OPTION(AT(backend)),
     {"against", OPTION_TEXT, AT(against), "PROGRAM",
      .help = "also have another program draw each scene, frame by frame in turns"},
     {"json", OPTION_OUTPUT, AT(json_path), "FILE",
@@ -169,6 +172,7 @@ static void make_plan(bench_run *bench) {
     bench_plan *plan = &bench->plan;
     plan->frame_count = (size_t)arguments->frames;
     plan->against = arguments->against;
+    plan->backend = (ewa_backend_kind)arguments->backend;
     for (; plan->thread_counts < arguments->threads.count; plan->thread_counts++)
         plan->threads[plan->thread_counts] = (uint32_t)arguments->threads.values[plan->thread_counts];
     if (plan->thread_counts == 0) {
@@ -244,7 +248,8 @@ const cli_command bench_command = {
                 "ewa bench --scene plane,hidden --workers 1,2 --frames 31 --json bench.json\n"
                 "ewa bench --scene plane --splats 1e6 --pixels 9 --cpu all,avx2\n"
                 "ewa bench --scene peer --stages off --against build/release/tests/quality/measure_embree\n"
-                "ewa bench scan.ply --size 1920x1080\n",
+                "ewa bench scan.ply --size 1920x1080\n"
+                "ewa bench --backend gl --scene peer --passes 1 --workers 1 --stages off --json gl.json\n",
     .high_operands = 64,
     .groups = (const option_group *const[]){&work_options, &cloud_input_options, &measure_options, NULL},
     .arguments_bytes = sizeof(bench_arguments),

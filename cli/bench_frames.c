@@ -59,7 +59,7 @@ ewa_status bench_borrow(ewa_context *context, const ewa_cloud *cloud, ewa_cloud 
 }
 
 static bool open_lane(cli_session *session, bench_lane *lane, const bench_sets *sets, uint32_t threads,
-                      uint32_t level, const ewa_cloud *cloud) {
+                      ewa_backend_kind backend, uint32_t level, const ewa_cloud *cloud) {
     lane->sets = sets;
     lane->context = session_context(session, threads, sets->mask);
     if (!lane->context) return false;
@@ -69,7 +69,7 @@ static bool open_lane(cli_session *session, bench_lane *lane, const bench_sets *
     surfels.level_count = level + 1;
     ewa_status status = bench_borrow(lane->context, cloud, &borrowed);
     if (status == EWA_OK) status = ewa_surfels_create(borrowed, &surfels, &lane->surfels);
-    if (status == EWA_OK) status = ewa_renderer_create(lane->context, &lane->renderer);
+    if (status == EWA_OK) status = ewa_renderer_create_on(lane->context, backend, &lane->renderer);
     ewa_cloud_destroy(&borrowed);
     if (status != EWA_OK) session_failed(session, status);
     return status == EWA_OK;
@@ -113,8 +113,8 @@ static bool draw_frame(cli_session *session, bench_lane *lane, const ewa_camera 
     return true;
 }
 
-static void report(const bench_plan *plan, const bench_scene *scene, bench_lane *lanes, size_t lane_count,
-                   const bench_sink *sink) {
+static void report(const bench_plan *plan, const bench_scene *scene, uint32_t passes, bench_lane *lanes,
+                   size_t lane_count, const bench_sink *sink) {
     const double clock_ghz = bench_clock_ghz();
     bench_frame_row rows[OPTION_VECTOR_MAX * BENCH_MAX_SETS * MAX_WAYS];
     for (size_t i = 0; i < lane_count; i++) {
@@ -126,10 +126,13 @@ static void report(const bench_plan *plan, const bench_scene *scene, bench_lane 
                                  .threads = ewa_context_worker_count(lane->context),
                                  .total = bench_summarise(lane->total_s, plan->frame_count),
                                  .stats = lane->last,
+                                 .passes = passes,
+                                 .renderer.struct_size = sizeof row->renderer,
                                  .clock_ghz = clock_ghz};
         for (int k = 0; k < BENCH_FRAME_STAGES; k++)
             row->stage_s[k] = bench_summarise(lane->stage_s[k], plan->frame_count).median;
         ewa_surfels_describe(lane->surfels, &row->info);
+        ewa_renderer_describe(lane->renderer, &row->renderer);
         if (lane->rival.program) {
             row->rival = lane->rival.name;
             row->rival_total = bench_summarise(lane->rival_s, plan->frame_count);
@@ -163,8 +166,9 @@ bool bench_frames(cli_session *session, const bench_plan *plan, const bench_scen
     for (size_t i = 0; done && i < lane_count; i++) {
         const size_t count = i / way_count;
         if (scene->in_all_ways) lanes[i].way = &all_ways[i % way_count];
-        done = open_lane(session, &lanes[i], &plan->sets[count / plan->thread_counts],
-                         plan->threads[count % plan->thread_counts], render->level, scene->cloud);
+        done =
+            open_lane(session, &lanes[i], &plan->sets[count / plan->thread_counts],
+                      plan->threads[count % plan->thread_counts], plan->backend, render->level, scene->cloud);
         if (done && plan->against && count < plan->thread_counts && i % way_count == 0)
             done = bench_rival_start(session, plan->against, scene, plan->threads[count], &lanes[i].rival);
     }
@@ -183,7 +187,7 @@ bool bench_frames(cli_session *session, const bench_plan *plan, const bench_scen
             done = draw_frame(session, &lanes[i], &scene->camera, &options, rgba8, frame);
     for (size_t i = 0; done && i < lane_count; i++)
         if (lanes[i].rival.program) done = bench_rival_end(session, &lanes[i].rival);
-    if (done) report(plan, scene, lanes, lane_count, sink);
+    if (done) report(plan, scene, render->passes, lanes, lane_count, sink);
     for (size_t i = 0; lanes && i < lane_count; i++) close_lane(&lanes[i]);
     free(lanes);
     return done;

@@ -21,7 +21,8 @@ typedef struct bench_plan {
     size_t thread_counts;
     bench_sets sets[BENCH_MAX_SETS]; ///< the one that others are compared with first
     size_t set_count;
-    size_t frame_count;  ///< at most BENCH_MAX_FRAMES
+    size_t frame_count; ///< at most BENCH_MAX_FRAMES
+    ewa_backend_kind backend;
     const char *against; ///< another program to draw each scene in turns with; NULL: none
 } bench_plan;
 

@@ -4,6 +4,7 @@
 // What ewa bench says: statistics of repeated measurements, goals beside them, a table and JSON.
 #include "bench_report.h"
 
+#include "backend.h"
 #include "bench_goals.h"
 
 #include <stdlib.h>
@@ -96,6 +97,8 @@ static void write_frames(json_writer *json, const bench_frame_row *row, const ch
     json_count(json, "height", scene->camera.height_px);
     json_text(json, "cpu", row->cpu);
     json_count(json, "threads", row->threads);
+    backend_write(json, &row->renderer);
+    json_count(json, "passes", row->passes);
     json_number(json, "median_ms", 1e3 * row->total.median);
     json_number(json, "lower_quartile_ms", 1e3 * row->total.quartile);
     json_number(json, "lowest_ms", 1e3 * row->total.lowest);
@@ -133,7 +136,9 @@ void bench_report_frames(const bench_sink *sink, const bench_frame_row *row) {
         json_object(sink->json, NULL);
         write_frames(sink->json, row, label);
     }
-    const bool all_splats = row->stats.level == 0; // others draw them, and goals are of them
+    const bool on_device = *row->renderer.device != 0;
+    if (on_device) fprintf(sink->text, "  %s: %s", row->renderer.backend, row->renderer.device);
+    const bool all_splats = row->stats.level == 0 && !on_device; // others draw them, and goals are of them
     const double peer_ms = row->threads == 2 && all_splats ? bench_peer_ms(row->scene) : 0;
     if (peer_ms > 0) {
         const double ratio = peer_ms / (1e3 * row->total.median);

@@ -37,6 +37,8 @@ typedef struct bench_frame_row {
     bench_sample total;                 ///< seconds
     double stage_s[BENCH_FRAME_STAGES]; ///< medians of thread time, in the order of ewa_render_stats
     ewa_render_stats stats;             ///< of the last frame
+    ewa_renderer_info renderer;         ///< after it
+    uint32_t passes;
     ewa_surfels_info info;
     double clock_ghz;
     double one_thread_s; ///< lower quartile of the same scene and instruction sets with one thread; 0: none

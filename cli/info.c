@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // ewa info: what a file holds and what is wrong with it.
+#include "backend.h"
 #include "choosing.h"
 #include "commands.h"
 #include "faults.h"
@@ -26,7 +27,7 @@
 
 typedef struct info_arguments {
     common_arguments common; // first
-    bool json;
+    bool json, gpu;
     volume_input_arguments volume;
 } info_arguments;
 
@@ -40,6 +41,10 @@ static const cli_option volume_table[] = {VOLUME_INPUT_OPTIONS(offsetof(info_arg
 
 static const cli_option table[] = {
     {"json", OPTION_FLAG, offsetof(info_arguments, json), .help = "print JSON"},
+    {"gpu", OPTION_FLAG, offsetof(info_arguments, gpu),
+     .help =
+         "say what graphics processor --backend gl would draw with, whether it draws the same bytes as the "
+         "processor, and its limits; inputs may be left out then"},
 };
 
 /// Numbers of one component of an attribute.
@@ -408,11 +413,11 @@ static int run(const void *data) {
     cli_session session;
     if (!session_start(&session, &arguments->common)) return session_end(&session, EXIT_FAILED);
     json_writer json;
-    if (arguments->json) {
-        json_start(&json, stdout);
-        json_array(&json, "files");
-    }
+    if (arguments->json) json_start(&json, stdout);
     int exit_status = EXIT_DONE;
+    if (arguments->gpu && !backend_print_gpu(&session, arguments->json ? &json : NULL))
+        exit_status = EXIT_FAILED;
+    if (arguments->json) json_array(&json, "files");
     for (size_t i = 0; i < arguments->common.operand_count; i++) {
         const char *path = arguments->common.operands[i];
         session.reported = false;
@@ -449,12 +454,15 @@ static const option_group volume_options = OPTION_GROUP("Raw volumes", volume_ta
 static void set_defaults(void *data) { volume_input_set_defaults(&((info_arguments *)data)->volume); }
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
-    return volume_input_check(&((const info_arguments *)data)->volume, message);
+    const info_arguments *arguments = data;
+    const bool asks = arguments->gpu || arguments->common.operand_count;
+    return options_fine(asks ? NULL : "info: an input is missing; usage: ewa info [IN...]", message) &&
+           volume_input_check(&arguments->volume, message);
 }
 
 const cli_command info_command = {
     .name = "info",
-    .operands = "IN...",
+    .operands = "[IN...]",
     .summary = "say what files hold: counts, bounds, attributes with their ranges, spacing, problems",
     .details =
         "A file that has faces is a mesh: faces, area, whether it is closed, materials; then its vertices. "
@@ -465,8 +473,8 @@ const cli_command info_command = {
         "these) or by --dims.",
     .examples = "ewa info scan.ply\n"
                 "ewa info --json *.ply > scans.json\n"
-                "ewa info scan.nii.gz\n",
-    .low_operands = 1,
+                "ewa info scan.nii.gz\n"
+                "ewa info --gpu\n",
     .high_operands = 4096,
     .groups = (const option_group *const[]){&info_options, &cloud_input_options, &volume_options, NULL},
     .arguments_bytes = sizeof(info_arguments),

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // ewa render: clouds to a picture.
+#include "backend.h"
 #include "color_by.h"
 #include "commands.h"
 #include "frames.h"
@@ -29,7 +30,7 @@ typedef struct render_arguments {
     bool close_gaps;
     lod_arguments lod;
     const char *layers, *color_by;
-    int colormap;
+    int colormap, backend;
     option_bounds range;
     option_color background;
     furnish_arguments furniture;
@@ -54,6 +55,7 @@ static const cli_option output_table[] = {
      .help = "write the camera that was used, for --camera; of frames all cameras, for --path"},
     {"stats", OPTION_OUTPUT, AT(stats_path), "FILE",
      .help = "write times per stage, counts and peak memory as JSON"},
+    BACKEND_OPTION(AT(backend)),
 };
 
 static const cli_option splat_table[] = {
@@ -313,12 +315,18 @@ static bool draw(cli_session *session, const render_arguments *arguments, const 
     };
     surfel_painter painting = {.session = session, .scene = scene, .options = &options, .report = report};
     const frame_cameras *frames = &scene->frames;
-    const ewa_status status = ewa_renderer_create(session->context, &painting.renderer);
+    const char *subject = session->subject;
+    session->subject = NULL; // a device is nothing of the file
+    const ewa_status status =
+        ewa_renderer_create_on(session->context, (ewa_backend_kind)arguments->backend, &painting.renderer);
     if (status != EWA_OK) session_failed(session, status);
+    session->subject = subject;
     const bool done =
         status == EWA_OK &&
         sequence_draw(session, &output, frames, &(frame_painter){paint, &painting}, report) &&
         (!arguments->save_camera_path || frames_save(session, arguments->save_camera_path, frames, many));
+    report->renderer.struct_size = sizeof report->renderer;
+    if (done) ewa_renderer_describe(painting.renderer, &report->renderer);
     ewa_renderer_destroy(&painting.renderer);
     return done;
 }

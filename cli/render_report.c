@@ -3,7 +3,7 @@
 //
 // What a run of render took and drew: --stats.
 #include "render_report.h"
-#include "json.h"
+#include "backend.h"
 
 #include <stdlib.h>
 
@@ -88,6 +88,7 @@ bool render_report_write(cli_session *session, const common_arguments *common, b
     json_count(&json, "width", frames->cameras->width_px);
     json_count(&json, "height", frames->cameras->height_px);
     json_count(&json, "threads", ewa_context_worker_count(session->context));
+    backend_write(&json, &report->renderer);
     json_count(&json, "points", report->point_count);
     json_count(&json, "points_left_out", report->surfels.left_out_count);
     json_count(&json, "resident_bytes", report->surfels.resident_bytes);

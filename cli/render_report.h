@@ -18,10 +18,11 @@ typedef struct render_report {
     double load_s, estimate_s, surfels_s;
     double render_s, write_s; ///< of all frames
     ewa_surfels_info surfels;
-    ewa_render_stats stats; ///< counts and times summed over all frames, but for the splats
-    frame_report *frames;   ///< of each frame when there are many
-    bool from_lod;          ///< drawn from the levels of an octree:
-    ewa_lod_stats lod;      ///< of the frame with the most surfels, but for what was loaded and times: of all
+    ewa_renderer_info renderer; ///< after the last frame
+    ewa_render_stats stats;     ///< counts and times summed over all frames, but for the splats
+    frame_report *frames;       ///< of each frame when there are many
+    bool from_lod;              ///< drawn from the levels of an octree:
+    ewa_lod_stats lod; ///< of the frame with the most surfels, but for what was loaded and times: of all
 } render_report;
 
 /// Adds what frame `index` of `count` took; false after reporting that memory ran out.

@@ -3,6 +3,7 @@
 //
 // ewa view: the viewer, in a window by the program ewa-view beside this one, or run by a script without any.
 #include "window.h"
+#include "backend.h"
 #include "child.h"
 #include "commands.h"
 #include "inputs.h"
@@ -23,6 +24,7 @@ typedef struct window_arguments {
     const char *script_path;
     bool timings, window;
     double scale;
+    int backend;
     lod_arguments lod;
 } window_arguments;
 
@@ -36,6 +38,7 @@ static const cli_option window_table[] = {
      .needs = "script"},
     {"scale", OPTION_NUMBER, offsetof(window_arguments, scale), "N", "[0.25, 8]",
      .help = "pixels per point of the script's screen", .needs = "script"},
+    BACKEND_OPTION(offsetof(window_arguments, backend)),
 };
 
 static const cli_option lod_table[] = {LOD_OPTIONS(offsetof(window_arguments, lod))};
@@ -74,6 +77,7 @@ int window_run(const void *data, int (*front)(const front_job *job)) {
                      .started_s = clock_now_s(),
                      .options = {.thread_count = (uint32_t)common->threads,
                                  .cpu_mask = EWA_CPU_ALL,
+                                 .backend = (ewa_backend_kind)arguments->backend,
                                  .width = arguments->view.size.width_px,
                                  .height = arguments->view.size.height_px,
                                  .scale = arguments->scale,

@@ -42,8 +42,8 @@ static void on_message(void *user, ewa_severity severity, const char *text) {
     snprintf(tools->message, sizeof tools->message, "%s", text);
 }
 
-ewa_status paint_tools_make(uint32_t thread_count, uint32_t cpu_mask, ewa_progress_callback *progress,
-                            void *user, paint_tools *tools) {
+ewa_status paint_tools_make(uint32_t thread_count, uint32_t cpu_mask, ewa_backend_kind backend,
+                            ewa_progress_callback *progress, void *user, paint_tools *tools) {
     *tools = (paint_tools){.context = NULL};
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
@@ -55,7 +55,7 @@ ewa_status paint_tools_make(uint32_t thread_count, uint32_t cpu_mask, ewa_progre
     options.message_user = tools;
     options.message_level = EWA_SEVERITY_ERROR;
     ewa_status status = ewa_context_create(&options, &tools->context);
-    if (status == EWA_OK) status = ewa_renderer_create(tools->context, &tools->renderer);
+    if (status == EWA_OK) status = ewa_renderer_create_on(tools->context, backend, &tools->renderer);
     if (status == EWA_OK) status = ewa_volume_renderer_create(tools->context, &tools->volume_renderer);
     if (status != EWA_OK) paint_tools_free(tools);
     return status;
@@ -186,14 +186,15 @@ static void *run(void *data) {
     return NULL;
 }
 
-ewa_status painter_create(uint32_t thread_count, uint32_t cpu_mask, painter **made) {
+ewa_status painter_create(uint32_t thread_count, uint32_t cpu_mask, ewa_backend_kind backend,
+                          painter **made) {
     *made = NULL;
     painter *p = calloc(1, sizeof *p);
     if (!p) return EWA_ERROR_MEMORY;
     p->newest = p->shown = -1;
     pthread_mutex_init(&p->lock, NULL);
     pthread_cond_init(&p->changed, NULL);
-    ewa_status status = paint_tools_make(thread_count, cpu_mask, on_progress, p, &p->tools);
+    ewa_status status = paint_tools_make(thread_count, cpu_mask, backend, on_progress, p, &p->tools);
     if (status == EWA_OK && pthread_create(&p->thread, NULL, run, p) != 0) status = EWA_ERROR_MEMORY;
     p->started = status == EWA_OK;
     if (status != EWA_OK) painter_destroy(&p);

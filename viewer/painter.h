@@ -66,8 +66,8 @@ typedef struct paint_tools {
     char message[PAINT_TEXT_BYTES]; ///< the last error's
 } paint_tools;
 
-ewa_status paint_tools_make(uint32_t thread_count, uint32_t cpu_mask, ewa_progress_callback *progress,
-                            void *user, paint_tools *tools);
+ewa_status paint_tools_make(uint32_t thread_count, uint32_t cpu_mask, ewa_backend_kind backend,
+                            ewa_progress_callback *progress, void *user, paint_tools *tools);
 void paint_tools_free(paint_tools *tools);
 /// Draws a scene here and now into the camera's picture; volumes over the surfaces, each up to their depth.
 /// `stats` may be NULL.
@@ -77,7 +77,7 @@ ewa_status paint_scene_depth(paint_tools *tools, const paint_scene *scene, float
 
 typedef struct painter painter;
 
-ewa_status painter_create(uint32_t thread_count, uint32_t cpu_mask, painter **made);
+ewa_status painter_create(uint32_t thread_count, uint32_t cpu_mask, ewa_backend_kind backend, painter **made);
 void painter_destroy(painter **painter);
 
 /// Hands over a scene, which replaces one that waits. `whole`: it is given up for the next one.

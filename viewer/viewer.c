@@ -90,9 +90,11 @@ ewa_status viewer_create(const viewer_options *options, viewer **made) {
     v->lods_lock = malloc(sizeof *v->lods_lock);
     if (v->lods_lock) pthread_mutex_init(v->lods_lock, NULL);
     ewa_status status = v->lods_lock ? loader_create(&v->services, &v->loader) : EWA_ERROR_MEMORY;
-    if (status == EWA_OK) status = painter_create(options->thread_count, options->cpu_mask, &v->painter);
     if (status == EWA_OK)
-        status = paint_tools_make(options->thread_count, options->cpu_mask, NULL, NULL, &v->probe);
+        status = painter_create(options->thread_count, options->cpu_mask, options->backend, &v->painter);
+    if (status == EWA_OK)
+        status = paint_tools_make(options->thread_count, options->cpu_mask, EWA_BACKEND_CPU, NULL, NULL,
+                                  &v->probe);
     if (status != EWA_OK) viewer_destroy(&v);
     *made = v;
     return status;

@@ -101,6 +101,7 @@ typedef struct viewer_options {
     viewer_services services;
     uint32_t thread_count;      ///< that draw; 0: one per processor
     uint32_t cpu_mask;          ///< EWA_CPU_*
+    ewa_backend_kind backend;   ///< draws the pictures
     uint32_t width, height;     ///< of the window, points
     double scale;               ///< pixels per point, > 0
     const ewa_lod_options *lod; ///< of octrees, copied; NULL: defaults

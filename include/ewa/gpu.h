@@ -26,6 +26,50 @@ typedef enum ewa_backend_kind {
 EWA_API ewa_status ewa_renderer_create_on(ewa_context *context, ewa_backend_kind kind,
                                           ewa_renderer **renderer);
 
+/// How a device calculates, by what it gives for numbers that are hard to round.
+typedef enum ewa_gpu_class {
+    EWA_GPU_NONE,     ///< no device, or the processor
+    EWA_GPU_UNUSABLE, ///< too old or too small for EWA_BACKEND_GL, or its driver does not compile the programs
+    EWA_GPU_CLOSE,    ///< draws, but some operations round otherwise: pictures differ in last places
+    EWA_GPU_EXACT     ///< every operation gives the bits of the processor: pictures are the same bytes
+} ewa_gpu_class;
+
+/// Returns the word for a class: "none", "unusable", "close", "exact".
+EWA_API const char *ewa_gpu_class_name(ewa_gpu_class device_class);
+
+/// What a device is and can. Texts end with a zero and are cut where they are longer.
+typedef struct ewa_gpu_info {
+    size_t struct_size; ///< sizeof(ewa_gpu_info) of the caller, who sets it
+    char vendor[128], renderer[128], version[128];
+    bool software; ///< the processor does the device's work
+    ewa_gpu_class device_class;
+    char differs[64];       ///< of a close device: the first operation that gives other bits; else ""
+    bool native_fma;        ///< its own fma() is used; false: a few more operations do its work
+    bool native_division;   ///< its own division
+    bool native_root;       ///< its own square root
+    uint64_t storage_bytes; ///< of a buffer that programs see, at most; 0: no compute programs
+    uint32_t storage_count; ///< of such buffers at a time
+    uint32_t group_threads; ///< of a work group, at most
+    uint32_t texture_px;    ///< side of a picture that can be drawn into, at most
+} ewa_gpu_info;
+
+/// Opens the device that EWA_BACKEND_GL would draw with, tries how it calculates, and closes it. Takes tenths of a second.
+/// Errors: EWA_ERROR_ARGUMENT (struct_size), EWA_ERROR_MEMORY, EWA_ERROR_UNSUPPORTED (no device, the message names what to
+/// install; a library without OpenGL).
+EWA_API ewa_status ewa_gpu_describe(ewa_context *context, ewa_gpu_info *info);
+
+/// What draws the frames of a renderer.
+typedef struct ewa_renderer_info {
+    size_t struct_size; ///< sizeof(ewa_renderer_info) of the caller, who sets it
+    char backend[16];   ///< "cpu", "gl", "gl-raster"; of EWA_BACKEND_AUTO what drew the last frame
+    char device[128];   ///< its name; "" for the CPU
+    ewa_gpu_class device_class;
+    char remark[160]; ///< of EWA_BACKEND_AUTO: why; else ""
+} ewa_renderer_info;
+
+/// Describes a renderer. Errors: EWA_ERROR_ARGUMENT (struct_size).
+EWA_API ewa_status ewa_renderer_describe(const ewa_renderer *renderer, ewa_renderer_info *info);
+
 #ifdef __cplusplus
 }
 #endif

@@ -39,7 +39,7 @@ void ewa_buffer_free(ewa_context *context, ewa_buffer *buffer);
 ewa_status ewa_fail(ewa_context *context, ewa_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/// While `soft`, ewa_fail() reports warnings: what fails is left out, and the call goes on.
+/// While `soft`, ewa_fail() reports warnings: what fails is left out, and the call goes on. In pairs, which nest.
 void ewa_failures_soften(ewa_context *context, bool soft);
 
 /// Reports a message of another severity; formats nothing when nobody listens at that level.

@@ -14,9 +14,12 @@ struct ewa_context {
     ewa_context_options options;
     ewa_pool *pool;
     uint32_t cpu_features;
-    bool soft_failures;
-    atomic_uint_fast64_t serial; ///< the last that ewa_serial_next() has given
+    int soft_failures, hushed_failures; ///< how many ask for it
+    atomic_uint_fast64_t serial;        ///< the last that ewa_serial_next() has given
 };
+
+/// While `hushed`, ewa_fail() reports at EWA_SEVERITY_DEBUG: what fails is not missed. In pairs, which nest.
+void ewa_failures_hush(ewa_context *context, bool hushed);
 
 /// The allocator's function unless the caller gives one; any thread may call it.
 void *ewa_allocate_default(void *user, size_t size_bytes);

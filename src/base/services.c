@@ -91,13 +91,18 @@ ewa_status ewa_fail(ewa_context *context, ewa_status status, const char *format,
     va_list arguments;
     va_start(arguments, format);
     if (context)
-        report(context, context->soft_failures ? EWA_SEVERITY_WARNING : EWA_SEVERITY_ERROR, format,
-               arguments);
+        report(context,
+               context->hushed_failures ? EWA_SEVERITY_DEBUG
+               : context->soft_failures ? EWA_SEVERITY_WARNING
+                                        : EWA_SEVERITY_ERROR,
+               format, arguments);
     va_end(arguments);
     return status;
 }
 
-void ewa_failures_soften(ewa_context *context, bool soft) { context->soft_failures = soft; }
+void ewa_failures_soften(ewa_context *context, bool soft) { context->soft_failures += soft ? 1 : -1; }
+
+void ewa_failures_hush(ewa_context *context, bool hushed) { context->hushed_failures += hushed ? 1 : -1; }
 
 void ewa_report(ewa_context *context, ewa_severity severity, const char *format, ...) {
     va_list arguments;

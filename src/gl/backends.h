@@ -5,6 +5,7 @@
 #ifndef EWA_SRC_GL_BACKENDS_H
 #define EWA_SRC_GL_BACKENDS_H
 
+#include "ewa/gpu.h"
 #include "surface/backend.h"
 
 /// Compute programs of OpenGL 4.3.
@@ -12,5 +13,11 @@ extern const ewa_backend ewa_backend_gl;
 
 /// The pipeline of "Perspective Accurate Splatting" by OpenGL 3.3.
 extern const ewa_backend ewa_backend_gl_raster;
+
+/// The processor, and compute programs where they are faster.
+extern const ewa_backend ewa_backend_auto;
+
+/// Sets what the device is, of an info of zeros but for the size. Errors: those of ewa_gpu_describe().
+ewa_status ewa_gpu_find(ewa_context *context, ewa_gpu_info *info);
 
 #endif

@@ -6,23 +6,22 @@
 // src/reference/surface.c.
 #include "gl/compute.h"
 #include "gl/backends.h"
+#include "gl/tuning.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { DEFAULT_TILE_PX = 8, DEFAULT_UNIT = 1024, THREADS = 64, COUNTERS = 2 };
 
 void ewa_gl_compute_destroy(ewa_context *context, void *state) {
     ewa_gl_compute *old = state;
-    if (old->device && ewa_gl_enter(old->device) == EWA_OK) {
+    if (old->device && !old->device->lost && ewa_gl_enter(old->device) == EWA_OK) {
         for (int i = 0; i < EWA_GL_BUFFERS; i++) ewa_gl_buffer_free(&old->buffers[i]);
         ewa_gl_variants_free(&old->variants);
         ewa_gl_residents_free(old->device, &old->residents);
         ewa_gl_leave(old->device);
     } else if (old->device) {
-        old->residents.count = 0;
-        ewa_buffer_free(context, &old->residents.items);
+        ewa_gl_residents_free(old->device, &old->residents);
     }
     ewa_gl_close(&old->device);
     ewa_gl_band_free(context, &old->band);
@@ -33,15 +32,24 @@ void ewa_gl_compute_destroy(ewa_context *context, void *state) {
     ewa_release(context, old, 1, sizeof *old);
 }
 
-/// Reads a number of "name=value name=value" from the environment, for tests.
-static uint64_t tuning(const char *name, uint64_t otherwise) {
-    const char *text = getenv("EWA_GL_TUNING");
-    const size_t length = strlen(name);
-    for (const char *at = text; at && *at; at = strchr(at, ' ')) {
-        while (*at == ' ') at++;
-        if (strncmp(at, name, length) == 0 && at[length] == '=') return strtoull(at + length + 1, NULL, 10);
-    }
-    return otherwise;
+ewa_status ewa_gl_try(ewa_gl *device, ewa_gl_verdict *verdict) {
+    enum { STORAGE_BLOCKS = 14, GROUP_THREADS = 256 };
+    const ewa_gl_facts *facts = &device->facts;
+    *verdict = (ewa_gl_verdict){.exact = false};
+    if (!facts->compute || !facts->with_doubles || facts->storage_count < STORAGE_BLOCKS ||
+        facts->group_threads < GROUP_THREADS)
+        return ewa_fail(
+            device->context, EWA_ERROR_UNSUPPORTED,
+            "OpenGL: %s (%s) has no compute programs, or small ones: %u storage blocks, groups of %u",
+            facts->renderer, facts->version, facts->storage_count, facts->group_threads);
+    ewa_status status = ewa_gl_enter(device);
+    if (status != EWA_OK) return status;
+    const uint64_t lose_at = device->lose_at, hang_at = device->hang_at;
+    device->lose_at = device->hang_at = 0; // which tests mean of frames
+    status = ewa_gl_selftest(device, verdict);
+    ewa_gl_leave(device);
+    device->wait_count = 0, device->lose_at = lose_at, device->hang_at = hang_at;
+    return status;
 }
 
 ewa_status ewa_gl_compute_create(ewa_context *context, void **state) {
@@ -49,21 +57,12 @@ ewa_status ewa_gl_compute_create(ewa_context *context, void **state) {
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
     made->room.dome.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_road_kernels);
-    made->tile_px = (uint32_t)tuning("tile_px", DEFAULT_TILE_PX);
-    made->unit_splats = (uint32_t)tuning("unit", DEFAULT_UNIT);
-    made->residents.page_packets = (uint32_t)tuning("page", 0);
+    made->tile_px = (uint32_t)ewa_gl_tuning("tile_px", DEFAULT_TILE_PX);
+    made->unit_splats = (uint32_t)ewa_gl_tuning("unit", DEFAULT_UNIT);
+    made->residents.page_packets = (uint32_t)ewa_gl_tuning("page", 0);
     ewa_status status = ewa_gl_open(context, &made->device);
-    if (status == EWA_OK) {
-        ewa_gl_facts *facts = &made->device->facts;
-        facts->storage_bytes = tuning("storage", facts->storage_bytes);
-        enum { STORAGE_BLOCKS = 14, GROUP_THREADS = 256 };
-        if (!facts->compute || !facts->with_doubles || facts->storage_count < STORAGE_BLOCKS ||
-            facts->group_threads < GROUP_THREADS)
-            status = ewa_fail(context, EWA_ERROR_UNSUPPORTED,
-                              "OpenGL: %s (%s) has no compute programs, or small ones: %u storage blocks, "
-                              "groups of %u",
-                              facts->renderer, facts->version, facts->storage_count, facts->group_threads);
-    }
+    if (status == EWA_OK) status = ewa_gl_try(made->device, &made->verdict);
+    made->variants.arithmetic = made->verdict.arithmetic;
     if (status != EWA_OK) {
         ewa_gl_compute_destroy(context, made);
         return status;
@@ -392,9 +391,9 @@ static ewa_status draw_rows(ewa_gl_compute *gl, const ewa_tile_job *job, uint32_
     for (uint32_t row = first_row_px; row < end_row_px;) {
         const uint32_t end = ends[depth], fields = (end - row + EWA_FIELD_PX - 1) / EWA_FIELD_PX;
         const bool divisible = fields > 1 && depth + 1 < DEEPEST;
-        ewa_failures_soften(gl->context, divisible);
+        if (divisible) ewa_failures_soften(gl->context, true);
         const ewa_status status = draw_band(gl, job, row, end, broken);
-        ewa_failures_soften(gl->context, false);
+        if (divisible) ewa_failures_soften(gl->context, false);
         if ((status == EWA_ERROR_LIMIT || status == EWA_ERROR_MEMORY) && divisible) {
             ends[++depth] = row + fields / 2 * EWA_FIELD_PX;
             continue;
@@ -473,4 +472,11 @@ ewa_status ewa_gl_compute_draw(void *state, const ewa_render_job *frame, ewa_ren
     return EWA_OK;
 }
 
-const ewa_backend ewa_backend_gl = {"gl", ewa_gl_compute_create, ewa_gl_compute_destroy, ewa_gl_compute_draw};
+static void describe(const void *state, ewa_renderer_info *info) {
+    const ewa_gl_compute *gl = state;
+    snprintf(info->device, sizeof info->device, "%s", gl->device->facts.renderer);
+    info->device_class = gl->verdict.exact ? EWA_GPU_EXACT : EWA_GPU_CLOSE;
+}
+
+const ewa_backend ewa_backend_gl = {"gl", ewa_gl_compute_create, ewa_gl_compute_destroy, ewa_gl_compute_draw,
+                                    describe};

@@ -7,7 +7,7 @@
 
 #include "gl/band.h"
 #include "gl/resident.h"
-#include "gl/variant.h"
+#include "gl/selftest.h"
 #include "surface/backend.h"
 #include "surface/job.h"
 
@@ -48,6 +48,7 @@ typedef struct ewa_gl_compute {
     ewa_context *context;
     ewa_gl *device;
     ewa_gl_variants variants;
+    ewa_gl_verdict verdict;
     ewa_gl_residents residents;
     ewa_gl_buffer buffers[EWA_GL_BUFFERS];
     ewa_gl_band band;
@@ -55,6 +56,10 @@ typedef struct ewa_gl_compute {
     ewa_buffer views, indices, page_packets; ///< of sources
     uint32_t tile_px, unit_splats;
 } ewa_gl_compute;
+
+/// Whether a device has what the road needs, and how it calculates. Errors: EWA_ERROR_MEMORY, EWA_ERROR_UNSUPPORTED (too
+/// small, its compiler's words, or it is lost).
+ewa_status ewa_gl_try(ewa_gl *device, ewa_gl_verdict *verdict);
 
 /// As ewa_backend has them.
 ewa_status ewa_gl_compute_create(ewa_context *context, void **state);

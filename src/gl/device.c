@@ -3,6 +3,7 @@
 //
 // A graphics device without a window, by EGL: of all devices, else without any surface.
 #include "gl/device.h"
+#include "gl/tuning.h"
 
 #include <dlfcn.h>
 #include <stdio.h>
@@ -157,7 +158,7 @@ ewa_status ewa_gl_open(ewa_context *context, ewa_gl **device) {
     const EGLenum api = eglQueryAPI();
     candidates found;
     find_displays(&found);
-    const bool chosen = choose_display(made, &found);
+    const bool chosen = ewa_gl_tuning("nodevice", 0) == 0 && choose_display(made, &found);
     eglBindAPI(api);
     if (!chosen) {
         ewa_release(context, made, 1, sizeof *made);
@@ -167,6 +168,8 @@ ewa_status ewa_gl_open(ewa_context *context, ewa_gl **device) {
             "(Debian: libegl-mesa0 and libgl1-mesa-dri, or libnvidia-gl)",
             found.count);
     }
+    made->facts.storage_bytes = ewa_gl_tuning("storage", made->facts.storage_bytes);
+    made->lose_at = ewa_gl_tuning("lose", 0), made->hang_at = ewa_gl_tuning("hang", 0);
     *device = made;
     return EWA_OK;
 }
@@ -226,10 +229,14 @@ ewa_status ewa_gl_check(ewa_gl *device, const char *what) {
 }
 
 ewa_status ewa_gl_wait(ewa_gl *device, const char *what) {
+    device->wait_count++;
+    if (device->wait_count == device->lose_at) return lose(device, what, "was reset");
+    if (device->wait_count == device->hang_at) return lose(device, what, "hangs");
     const GLsync fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     if (!fence) return ewa_gl_check(device, what);
-    const GLenum waited =
-        glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, (GLuint64)(EWA_GL_PATIENCE_S * 1e9));
+    enum { SLOW = 60 }; // software does not hang, it is slow
+    const double patience_s = (device->facts.software ? SLOW : 1) * EWA_GL_PATIENCE_S;
+    const GLenum waited = glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, (GLuint64)(patience_s * 1e9));
     glDeleteSync(fence);
     if (waited == GL_TIMEOUT_EXPIRED) return lose(device, what, "hangs");
     if (waited == GL_WAIT_FAILED) return lose(device, what, "fails");

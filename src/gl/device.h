@@ -33,7 +33,8 @@ typedef struct ewa_gl {
     EGLDisplay display;
     EGLContext gl;
     ewa_gl_facts facts;
-    bool lost; ///< nothing works any more
+    bool lost;                             ///< nothing works any more
+    uint64_t wait_count, lose_at, hang_at; ///< calls of ewa_gl_wait(), and those that tests make fail
     struct {
         EGLenum api;
         EGLDisplay display;

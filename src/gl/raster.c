@@ -7,6 +7,7 @@
 #include "gl/raster.h"
 #include "gl/backends.h"
 
+#include <stdio.h>
 #include <string.h>
 
 void ewa_raster_destroy(ewa_context *context, void *state) {
@@ -424,5 +425,11 @@ ewa_status ewa_raster_draw(void *state, const ewa_render_job *frame, ewa_render_
     return EWA_OK;
 }
 
+static void describe(const void *state, ewa_renderer_info *info) {
+    const ewa_raster *raster = state;
+    snprintf(info->device, sizeof info->device, "%s", raster->device->facts.renderer);
+    info->device_class = EWA_GPU_CLOSE; // by its arithmetic, whatever the device
+}
+
 const ewa_backend ewa_backend_gl_raster = {"gl-raster", ewa_raster_create, ewa_raster_destroy,
-                                           ewa_raster_draw};
+                                           ewa_raster_draw, describe};

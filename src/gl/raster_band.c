@@ -116,8 +116,8 @@ void ewa_raster_band_free(ewa_context *context, ewa_raster_band *band) {
     ewa_buffer_free(context, &band->live);
 }
 
-/// The section planes in camera space: with q = linear (c - anchor) + offset, linear a rotation R times a length,
-/// m.c + e is in its unit (R m).q + e'.
+/// The section planes in camera space: with q = linear (c - anchor) + offset, linear a rotation R times a length:
+/// the plane is (R m).q + e' in its unit.
 static void set_sections(ewa_raster_view *to, const ewa_view *from) {
     for (uint32_t k = 0; k < from->section_count; k++) {
         const double *plane = from->sections[k];

@@ -12,7 +12,7 @@ enum { LANES = EWA_PACKET_LANES, MOST_PAGE_PACKETS = 1 << 18 };
 static const uint64_t KEPT_BYTES = 512ull << 20;
 
 static void free_resident(ewa_gl *device, ewa_gl_residents *residents, ewa_gl_resident *old) {
-    for (uint32_t i = 0; i < old->page_count; i++) {
+    for (uint32_t i = 0; i < old->page_count && !device->lost; i++) {
         ewa_gl_buffer_free(&old->pages[i].packets);
         ewa_gl_buffer_free(&old->pages[i].attributes);
     }

@@ -44,6 +44,7 @@ static inline const ewa_gl_resident *ewa_gl_residents_at(const ewa_gl_residents 
     return (const ewa_gl_resident *)residents->items.data + index;
 }
 
+/// Frees them all; of a lost device, whose objects went with it, what the host has of them.
 void ewa_gl_residents_free(ewa_gl *device, ewa_gl_residents *residents);
 
 #endif

@@ -8,6 +8,8 @@
 #include "surface/render.h"
 #include "surface/shading.h"
 
+typedef struct ewa_renderer_info ewa_renderer_info; ///< ewa/gpu.h
+
 /// One source of a frame.
 typedef struct ewa_frame_source {
     const ewa_surfels *surfels;
@@ -38,6 +40,8 @@ struct ewa_backend {
     /// as long as their packets and their unit coverages are the same. Eye-dome lighting is put on a frame in
     /// bands with the one at its end, of what the state's earlier calls drew. Sets all of `stats` but the level.
     ewa_status (*draw)(void *state, const ewa_render_job *job, ewa_render_stats *stats);
+    /// Sets what of `info`, with zeros and the back end's name in it, is otherwise. NULL: nothing is.
+    void (*describe)(const void *state, ewa_renderer_info *info);
 };
 
 /// Threads and vectors of the processor; what others are compared with.

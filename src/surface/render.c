@@ -53,6 +53,13 @@ void ewa_renderer_destroy(ewa_renderer **renderer) {
     *renderer = NULL;
 }
 
+const ewa_backend *ewa_renderer_backend(const ewa_renderer *renderer, ewa_context **context,
+                                        const void **state) {
+    *context = renderer->context;
+    *state = renderer->state;
+    return renderer->backend;
+}
+
 void ewa_renderer_set_tile(ewa_renderer *renderer, uint32_t tile_px) { renderer->tile_px = tile_px; }
 
 ewa_status ewa_render_begin(ewa_renderer *renderer, const ewa_camera *camera,

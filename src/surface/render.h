@@ -12,6 +12,10 @@ typedef struct ewa_backend ewa_backend;
 /// Makes a renderer whose frames `backend` draws. Errors: EWA_ERROR_MEMORY, those of the back end.
 ewa_status ewa_renderer_create_by(ewa_context *context, const ewa_backend *backend, ewa_renderer **renderer);
 
+/// Returns what draws the frames, with its context and state.
+const ewa_backend *ewa_renderer_backend(const ewa_renderer *renderer, ewa_context **context,
+                                        const void **state);
+
 /// How a source takes part in a frame.
 typedef struct ewa_render_source {
     double weight; ///< of all its kernels; (0, 1]

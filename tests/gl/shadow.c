@@ -179,7 +179,8 @@ static ewa_status draw(void *state, const ewa_render_job *job, ewa_render_stats 
     return status;
 }
 
-static const ewa_backend shadow_backend = {"shadow", create, destroy, draw};
+static const ewa_backend shadow_backend = {
+    .name = "shadow", .create = create, .destroy = destroy, .draw = draw};
 
 ewa_status __wrap_ewa_renderer_create(ewa_context *context, ewa_renderer **renderer);
 

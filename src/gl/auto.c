@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The processor and the compute road beside each other: both draw the first frames of a scene, the faster the others. They
+// draw the same bytes, so that nobody sees which it was. Whatever the device fails to draw, the processor draws.
+#include "base/context.h"
+#include "gl/backends.h"
+#include "gl/compute.h"
+#include "gl/tuning.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/// Frames of a scene until both are measured. The first is the processor's, so that a single picture waits for no device; the
+/// next gives the device its surfels and programs; then one for each counts.
+enum { FIRST, WARM_UP, MEASURE_CPU, MEASURE_GL, DECIDED };
+
+/// What decides how long frames take.
+typedef struct scene_kind {
+    uint64_t splat_count, pixel_count;
+    uint32_t passes, layers, edge_layers, planes;
+    bool lit, antialiased;
+} scene_kind;
+
+typedef struct auto_state {
+    ewa_context *context;
+    void *cpu, *gl; ///< of the back ends; gl: NULL: not opened, or gone
+    bool tried;     ///< whether the device has been looked for
+    scene_kind kind;
+    int step;
+    double cpu_s, gl_s;
+    bool by_gl; ///< the faster is
+    bool drew_by_gl;
+    char remark[160];
+} auto_state;
+
+static ewa_status create(ewa_context *context, void **state) {
+    auto_state *made = ewa_allocate_zeroed(context, 1, sizeof *made);
+    if (!made) return EWA_ERROR_MEMORY;
+    made->context = context;
+    const ewa_status status = ewa_backend_cpu.create(context, &made->cpu);
+    if (status != EWA_OK) {
+        ewa_release(context, made, 1, sizeof *made);
+        return status;
+    }
+    *state = made;
+    return EWA_OK;
+}
+
+static void drop_gl(auto_state *both) {
+    if (both->gl) ewa_backend_gl.destroy(both->context, both->gl);
+    both->gl = NULL;
+    both->by_gl = false;
+}
+
+static void destroy(ewa_context *context, void *state) {
+    auto_state *old = state;
+    drop_gl(old);
+    ewa_backend_cpu.destroy(context, old->cpu);
+    ewa_release(context, old, 1, sizeof *old);
+}
+
+/// Opens the device, where there is one that draws the same bytes and is none of software.
+static void open_gl(auto_state *both) {
+    both->tried = true;
+    ewa_failures_hush(both->context, true);
+    const ewa_status status = ewa_backend_gl.create(both->context, &both->gl);
+    ewa_failures_hush(both->context, false);
+    if (status != EWA_OK) {
+        both->gl = NULL;
+        snprintf(both->remark, sizeof both->remark, "no device");
+        return;
+    }
+    const ewa_gl_compute *gl = both->gl;
+    const char *renderer = gl->device->facts.renderer;
+    const bool software = gl->device->facts.software && !ewa_gl_tuning("software", 0);
+    if (software)
+        snprintf(both->remark, sizeof both->remark, "%.100s is software", renderer);
+    else if (!gl->verdict.exact)
+        snprintf(both->remark, sizeof both->remark, "%.100s is not exact: %s", renderer, gl->verdict.differs);
+    if (software || !gl->verdict.exact) drop_gl(both);
+}
+
+static scene_kind kind_of(const ewa_render_job *job) {
+    const ewa_frame *frame = &job->frame;
+    scene_kind kind = {.pixel_count = (uint64_t)job->camera.width_px * (job->end_row_px - job->first_row_px),
+                       .passes = job->options.passes,
+                       .layers = job->options.layers,
+                       .edge_layers = job->options.edge_layers,
+                       .lit = job->shading.lit,
+                       .antialiased = job->options.edge_antialiasing};
+    kind.planes = (frame->rgba8 ? 1u : 0u) | (frame->rgba ? 2u : 0u) | (frame->depth ? 4u : 0u) |
+                  (frame->normal ? 8u : 0u) | (frame->coverage ? 16u : 0u);
+    for (uint32_t i = 0; i < job->source_count; i++) kind.splat_count += job->sources[i].surfels->count;
+    return kind;
+}
+
+/// Whether one is more than twice the other.
+static bool far_apart(uint64_t a, uint64_t b) { return a / 2 > b || b / 2 > a; }
+
+/// Whether what was measured says nothing of this frame.
+static bool is_other(const scene_kind *a, const scene_kind *b) {
+    return far_apart(a->splat_count, b->splat_count) || far_apart(a->pixel_count, b->pixel_count) ||
+           a->passes != b->passes || a->layers != b->layers || a->edge_layers != b->edge_layers ||
+           a->planes != b->planes || a->lit != b->lit || a->antialiased != b->antialiased;
+}
+
+/// What is put on a frame in bands when its last is drawn is of one back end's memory.
+static bool needs_one(const ewa_render_job *job) {
+    return job->options.eye_dome > 0 && job->end_row_px - job->first_row_px < job->camera.height_px;
+}
+
+/// Draws by the device; false: the frame is still to be drawn, and `*status` is EWA_OK unless the call is to end.
+static bool draw_by_gl(auto_state *both, const ewa_render_job *job, ewa_render_stats *stats,
+                       ewa_status *status) {
+    ewa_failures_soften(both->context, true);
+    *status = ewa_backend_gl.draw(both->gl, job, stats);
+    ewa_failures_soften(both->context, false);
+    if (*status == EWA_OK || *status == EWA_CANCELLED) return true;
+    // The same scene would not fit again. What else fails, fails for good.
+    const bool fits_not = *status == EWA_ERROR_LIMIT || *status == EWA_ERROR_MEMORY;
+    snprintf(both->remark, sizeof both->remark, "%.100s failed: %s",
+             ((const ewa_gl_compute *)both->gl)->device->facts.renderer, ewa_status_name(*status));
+    ewa_report(both->context, EWA_SEVERITY_WARNING, "renderer: %s; the CPU draws %s", both->remark,
+               fits_not ? "this scene" : "from here on");
+    if (!fits_not) drop_gl(both);
+    both->step = DECIDED;
+    both->by_gl = false;
+    *status = EWA_OK;
+    return false;
+}
+
+/// Notes what a frame took, and decides after the last.
+static void learn(auto_state *both, double took_s) {
+    if (both->step == DECIDED) return;
+    *(both->drew_by_gl ? &both->gl_s : &both->cpu_s) = took_s;
+    if (++both->step != DECIDED) return;
+    both->by_gl = both->gl_s < both->cpu_s || ewa_gl_tuning_is("auto", "gl");
+    snprintf(both->remark, sizeof both->remark, "frames took %.3g ms by the CPU, %.3g ms by the device",
+             1e3 * both->cpu_s, 1e3 * both->gl_s);
+}
+
+static ewa_status draw(void *state, const ewa_render_job *job, ewa_render_stats *stats) {
+    auto_state *both = state;
+    const scene_kind kind = kind_of(job);
+    if (is_other(&kind, &both->kind)) {
+        both->kind = kind;
+        both->step = both->tried && !both->gl ? DECIDED : FIRST;
+        both->by_gl = false;
+    }
+    if (both->step == WARM_UP && !both->tried) open_gl(both);
+    if (!both->gl && both->step > FIRST) both->step = DECIDED;
+    const bool wanted = both->step == WARM_UP || both->step == MEASURE_GL || both->by_gl;
+    both->drew_by_gl = wanted && both->gl && !needs_one(job);
+    ewa_status status = EWA_OK;
+    if (!both->drew_by_gl || !draw_by_gl(both, job, stats, &status)) {
+        both->drew_by_gl = false;
+        status = ewa_backend_cpu.draw(both->cpu, job, stats);
+    }
+    if (status == EWA_OK && !needs_one(job)) learn(both, stats->total_s);
+    return status;
+}
+
+static void describe(const void *state, ewa_renderer_info *info) {
+    const auto_state *both = state;
+    snprintf(info->backend, sizeof info->backend, "%s", ewa_backend_cpu.name);
+    if (both->drew_by_gl) {
+        snprintf(info->backend, sizeof info->backend, "%s", ewa_backend_gl.name);
+        ewa_backend_gl.describe(both->gl, info);
+    }
+    memcpy(info->remark, both->remark, sizeof info->remark);
+}
+
+const ewa_backend ewa_backend_auto = {"auto", create, destroy, draw, describe};

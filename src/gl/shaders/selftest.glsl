@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What src/gl/selftest.c compares with the processor, for numbers that are hard to round. After wide.glsl. NATIVE 1: the
+// device's own operations; 0: those of wide.glsl as they are to be used.
+
+layout(local_size_x = 64) in;
+
+// a, b, c of a b + c; n / m; x > 0; an exponent; a number in [0, 1].
+struct Numbers { float a, b, c, n, m, x, e, s; };
+
+layout(std430, binding = 0) readonly buffer Inputs { Numbers inputs[]; };
+layout(std430, binding = 1) writeonly buffer Results { uint results[]; };
+
+void main() {
+    uint i = gl_GlobalInvocationID.x, at = i * 8u;
+    Numbers v = inputs[i];
+#if NATIVE
+    precise float fused = fma(v.a, v.b, v.c), quotient = v.n / v.m, root = sqrt(v.x), product = v.a * v.b,
+                  both = product + v.c;
+    precise double wide_product = double(v.a) * double(v.b), wide = wide_product + double(v.c);
+    results[at] = floatBitsToUint(fused);
+    results[at + 1u] = floatBitsToUint(quotient);
+    results[at + 2u] = floatBitsToUint(root);
+    results[at + 3u] = floatBitsToUint(both);
+    results[at + 4u] = floatBitsToUint(float(wide_product));
+    results[at + 5u] = unpackDouble2x32(wide).x;
+    results[at + 6u] = unpackDouble2x32(wide).y;
+    results[at + 7u] = floatBitsToUint(float(double(v.x)));
+#else
+    results[at] = floatBitsToUint(wf_fma(v.a, v.b, v.c));
+    results[at + 1u] = floatBitsToUint(wf_div(v.n, v.m));
+    results[at + 2u] = floatBitsToUint(wf_sqrt(v.x));
+    results[at + 3u] = floatBitsToUint(wf_reciprocal(v.x));
+    results[at + 4u] = floatBitsToUint(wf_inverse_root(v.x));
+    results[at + 5u] = floatBitsToUint(wf_log2(v.x));
+    results[at + 6u] = floatBitsToUint(wf_exp2(v.e));
+    results[at + 7u] = floatBitsToUint(wf_odd_product(v.s, v.s));
+#endif
+}

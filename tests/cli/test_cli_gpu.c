@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// --backend and info --gpu: the same pictures whatever draws them, and what is said where there is no device.
+#include <string.h>
+
+#include "run_ewa.h"
+
+static int enter(void **state) {
+    (void)state;
+    const int entered = scratch_enter("cli_gpu");
+    run_done("ewa generate torus -n 2000 -o torus.ply");
+    return entered;
+}
+
+/// Whether there is a device that draws the same bytes; else says what the program said.
+static bool exact(void) {
+    const bool there = run("ewa info --gpu --json") == 0 && strstr(last_run.out, "\"class\": \"exact\"");
+    if (!there) print_message("skipped: %s\n", *last_run.err ? last_run.err : last_run.out);
+    return there;
+}
+
+static void test_info(void **state) {
+    (void)state;
+    if (!exact()) return;
+    assert_non_null(strstr(last_run.out, "\"native_fma\": "));
+    assert_non_null(strstr(last_run.out, "\"files\": []"));
+    run_done("ewa info --gpu torus.ply");
+    assert_int_equal(strncmp(last_run.out, "gpu\n  renderer ", strlen("gpu\n  renderer ")), 0);
+    assert_non_null(strstr(last_run.out, "\n  class       exact"));
+    assert_non_null(strstr(last_run.out, "\ntorus.ply\n"));
+    run_done("EWA_GL_TUNING=arith=emulated ewa info --gpu");
+    assert_non_null(strstr(last_run.out, "fma emulated, division emulated, square root emulated"));
+}
+
+static void test_no_device(void **state) {
+    (void)state;
+    run_fails(1, "OpenGL", "EWA_GL_TUNING=nodevice=1 ewa info --gpu");
+    run_fails(1, "OpenGL",
+              "EWA_GL_TUNING=nodevice=1 ewa render torus.ply -o none.png --size 32x24 --backend gl");
+    assert_int_equal(scratch_size("none.png"), -1);
+    run_fails(2, "an input is missing", "ewa info");
+    run_fails(2, "--backend", "ewa render torus.ply -o none.png --backend gpu");
+}
+
+/// A film of four frames: auto has found out by then that there is nothing to choose.
+static void test_auto(void **state) {
+    (void)state;
+    run_done("ewa render torus.ply -o cpu_%%d.png --size 32x24 --turntable 4 && "
+             "EWA_GL_TUNING=nodevice=1 ewa render torus.ply -o auto_%%d.png --size 32x24 --turntable 4 "
+             "--backend auto --stats - ");
+    assert_non_null(strstr(last_run.out, "\"backend\": \"cpu\""));
+    assert_non_null(strstr(last_run.out, "\"backend_remark\": \""));
+    assert_null(strstr(last_run.out, "\"device\""));
+    for (int i = 0; i < 4; i++) {
+        char a[16], b[16];
+        snprintf(a, sizeof a, "cpu_%d.png", i), snprintf(b, sizeof b, "auto_%d.png", i);
+        assert_true(scratch_same(a, b));
+    }
+}
+
+static void test_same_pictures(void **state) {
+    (void)state;
+    if (!exact()) return;
+    run_done("ewa render torus.ply -o a.png --aov depth=a.pfm --size 64x48 && "
+             "ewa render torus.ply -o b.png --aov depth=b.pfm --size 64x48 --backend gl --stats -");
+    assert_non_null(strstr(last_run.out, "\"backend\": \"gl\""));
+    assert_non_null(strstr(last_run.out, "\"device\": \""));
+    assert_non_null(strstr(last_run.out, "\"device_class\": \"exact\""));
+    assert_true(scratch_same("a.png", "b.png"));
+    assert_true(scratch_same("a.pfm", "b.pfm"));
+    run_done("ewa bench torus.ply --backend gl --size 32x24 --frames 1 --workers 1 --stages off --json - "
+             "2>tables");
+    assert_non_null(strstr(last_run.out, "\"backend\": \"gl\""));
+    assert_non_null(strstr(last_run.out, "\"splats_per_s\": "));
+    assert_non_null(strstr(last_run.out, "\"passes\": 3"));
+}
+
+/// Three frames, of which the device is lost in one: the same film as ever, and a warning.
+static void test_lost(void **state) {
+    (void)state;
+    if (!exact()) return;
+    assert_int_equal(
+        run("ewa render torus.ply -o whole_%%d.png --size 32x24 --turntable 3 && "
+            "EWA_GL_TUNING='lose=2 software=1' ewa render torus.ply -o lost_%%d.png --size 32x24 "
+            "--turntable 3 --backend auto"),
+        0);
+    assert_non_null(strstr(last_run.err, "the CPU draws from here on"));
+    for (int i = 0; i < 3; i++) {
+        char a[16], b[16];
+        snprintf(a, sizeof a, "whole_%d.png", i), snprintf(b, sizeof b, "lost_%d.png", i);
+        assert_true(scratch_same(a, b));
+    }
+}
+
+/// The viewer draws by it too.
+static void test_view(void **state) {
+    (void)state;
+    if (!exact()) return;
+    scratch_text("cpu.txt", "shot view_cpu.png\n");
+    scratch_text("gl.txt", "shot view_gl.png\n");
+    run_done("ewa view torus.ply --script cpu.txt --size 64x48 && "
+             "ewa view torus.ply --script gl.txt --size 64x48 --backend gl");
+    assert_true(scratch_same("view_cpu.png", "view_gl.png"));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_info),          cmocka_unit_test(test_no_device), cmocka_unit_test(test_auto),
+        cmocka_unit_test(test_same_pictures), cmocka_unit_test(test_lost),      cmocka_unit_test(test_view),
+    };
+    return cmocka_run_group_tests(tests, enter, NULL);
+}

@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What a back end says and does where the device is missing, too small, lost or hangs: an error with its reason, and under
+// EWA_BACKEND_AUTO the processor's frame, byte by byte. EWA_GL_TUNING makes it so.
+#include "gpu_scene.h"
+
+enum { POINTS = 2000, WIDTH_PX = 48, HEIGHT_PX = 40 };
+
+static gpu_scene at;
+static uint8_t rgba8[4 * GPU_MOST_PX * GPU_MOST_PX];
+
+static int enter(void **state) {
+    (void)state;
+    gpu_scene_make(&at, POINTS, WIDTH_PX, HEIGHT_PX);
+    return 0;
+}
+
+static int leave(void **state) {
+    (void)state;
+    unsetenv("EWA_GL_TUNING");
+    gpu_scene_free(&at);
+    return 0;
+}
+
+static void tune(const char *text) { assert_int_equal(setenv("EWA_GL_TUNING", text, 1), 0); }
+
+static ewa_renderer *make(ewa_backend_kind kind) {
+    ewa_renderer *made = NULL;
+    assert_int_equal(ewa_renderer_create_on(at.context, kind, &made), EWA_OK);
+    return made;
+}
+
+static void assert_says(const char *word) {
+    if (!strstr(at.log.text, word)) fail_msg("'%s' says nothing of '%s'", at.log.text, word);
+}
+
+/// Draws frames by the renderer, each the processor's.
+static void draw_same(ewa_renderer *renderer, int frames) {
+    for (int i = 0; i < frames; i++) {
+        memset(rgba8, 0, sizeof rgba8);
+        assert_int_equal(gpu_scene_draw(&at, renderer, rgba8), EWA_OK);
+        assert_true(gpu_scene_same(&at, rgba8));
+    }
+}
+
+static void test_no_device(void **state) {
+    (void)state;
+    tune("nodevice=1");
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_renderer_create_on(at.context, EWA_BACKEND_GL, &renderer), EWA_ERROR_UNSUPPORTED);
+    assert_null(renderer);
+    assert_says("OpenGL: ");
+    ewa_gpu_info info = {.struct_size = sizeof info};
+    assert_int_equal(ewa_gpu_describe(at.context, &info), EWA_ERROR_UNSUPPORTED);
+    at.log.count = 0;
+    renderer = make(EWA_BACKEND_AUTO);
+    draw_same(renderer, 3);
+    assert_int_equal(at.log.count, 0); // nothing is missed
+    assert_string_equal(gpu_backend(renderer), "cpu");
+    ewa_renderer_info what = {.struct_size = sizeof what};
+    assert_int_equal(ewa_renderer_describe(renderer, &what), EWA_OK);
+    assert_true(what.remark[0] != 0 && what.device[0] == 0 && what.device_class == EWA_GPU_NONE);
+    ewa_renderer_destroy(&renderer);
+}
+
+static void test_arguments(void **state) {
+    (void)state;
+    tune("");
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_renderer_create_on(at.context, (ewa_backend_kind)77, &renderer), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_renderer_create_on(NULL, EWA_BACKEND_CPU, &renderer), EWA_ERROR_ARGUMENT);
+    ewa_gpu_info info = {.struct_size = sizeof info + 1};
+    assert_int_equal(ewa_gpu_describe(at.context, &info), EWA_ERROR_ARGUMENT);
+    renderer = make(EWA_BACKEND_CPU);
+    // A caller of an older library gets the members that it knows.
+    struct {
+        ewa_renderer_info info;
+    } short_one;
+    memset(&short_one, 0x5a, sizeof short_one);
+    short_one.info.struct_size = offsetof(ewa_renderer_info, device);
+    assert_int_equal(ewa_renderer_describe(renderer, &short_one.info), EWA_OK);
+    assert_string_equal(short_one.info.backend, "cpu");
+    assert_int_equal((uint8_t)short_one.info.device[0], 0x5a);
+    short_one.info.struct_size = 3;
+    assert_int_equal(ewa_renderer_describe(renderer, &short_one.info), EWA_ERROR_ARGUMENT);
+    ewa_renderer_destroy(&renderer);
+    for (int k = 0; k <= EWA_GPU_EXACT; k++)
+        assert_true(ewa_gpu_class_name((ewa_gpu_class)k)[0] != 'u' || k == 1);
+}
+
+/// Software is not what anybody wants to wait for.
+static void test_software_is_not_taken(void **state) {
+    (void)state;
+    tune("");
+    ewa_gpu_info info = {.struct_size = sizeof info};
+    assert_int_equal(ewa_gpu_describe(at.context, &info), EWA_OK);
+    if (!info.software) return;
+    at.log.count = 0;
+    ewa_renderer *renderer = make(EWA_BACKEND_AUTO);
+    for (int i = 0; i < 6; i++) {
+        draw_same(renderer, 1);
+        assert_string_equal(gpu_backend(renderer), "cpu");
+    }
+    assert_int_equal(at.log.count, 0);
+    ewa_renderer_destroy(&renderer);
+}
+
+/// Both are measured; the bytes never tell which it was.
+static void test_both_draw(void **state) {
+    (void)state;
+    tune("software=1 auto=gl");
+    ewa_renderer *renderer = make(EWA_BACKEND_AUTO);
+    static const char *const wanted[] = {"cpu", "gl", "cpu", "gl", "gl"};
+    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
+        draw_same(renderer, 1);
+        assert_string_equal(gpu_backend(renderer), wanted[i]);
+    }
+    gpu_scene_resize(&at, 2 * WIDTH_PX, 2 * HEIGHT_PX); // measured anew
+    draw_same(renderer, 1);
+    assert_string_equal(gpu_backend(renderer), "cpu");
+    draw_same(renderer, 1);
+    assert_string_equal(gpu_backend(renderer), "gl");
+    gpu_scene_resize(&at, WIDTH_PX, HEIGHT_PX);
+    ewa_renderer_destroy(&renderer);
+    tune("software=1"); // the processor is faster here
+    renderer = make(EWA_BACKEND_AUTO);
+    draw_same(renderer, 5);
+    ewa_gpu_info info = {.struct_size = sizeof info};
+    assert_int_equal(ewa_gpu_describe(at.context, &info), EWA_OK);
+    if (info.software) assert_string_equal(gpu_backend(renderer), "cpu");
+    ewa_renderer_destroy(&renderer);
+}
+
+/// The device ends in one of the waits of a frame; whichever it is, nothing is missing from the picture.
+static void test_device_goes(void **state) {
+    (void)state;
+    static const char *const ways[] = {"lose", "hang"}, *const said[] = {"was reset", "hangs"};
+    for (int way = 0; way < 2; way++)
+        for (int wait = 1; wait <= 4; wait++) {
+            char text[64];
+            snprintf(text, sizeof text, "%s=%d software=1 auto=gl", ways[way], wait);
+            tune(text);
+            ewa_renderer *renderer = make(EWA_BACKEND_GL);
+            ewa_status status = EWA_OK;
+            for (int i = 0; i < 4 && status == EWA_OK; i++) status = gpu_scene_draw(&at, renderer, rgba8);
+            assert_int_equal(status, EWA_ERROR_UNSUPPORTED);
+            assert_says(said[way]);
+            assert_int_equal(gpu_scene_draw(&at, renderer, rgba8), EWA_ERROR_UNSUPPORTED); // and stays so
+            ewa_renderer_destroy(&renderer);
+            at.log.count = 0;
+            renderer = make(EWA_BACKEND_AUTO);
+            draw_same(renderer, 6);
+            assert_int_equal(at.log.count, 2); // why, and what follows from it
+            assert_says("the CPU draws from here on");
+            assert_string_equal(gpu_backend(renderer), "cpu");
+            ewa_renderer_destroy(&renderer);
+        }
+}
+
+/// Storage so small that frames are drawn in bands, then so small that none can be drawn.
+static void test_little_memory(void **state) {
+    (void)state;
+    gpu_scene_resize(&at, 96, 384);
+    tune("storage=1500000");
+    at.log.count = 0;
+    ewa_renderer *renderer = make(EWA_BACKEND_GL);
+    draw_same(renderer, 1);
+    assert_true(at.log.count > 0);
+    assert_says("bytes for");
+    ewa_renderer_destroy(&renderer);
+    tune("storage=3000");
+    renderer = NULL;
+    ewa_status status = ewa_renderer_create_on(at.context, EWA_BACKEND_GL, &renderer);
+    if (status == EWA_OK) status = gpu_scene_draw(&at, renderer, rgba8);
+    assert_int_equal(status, EWA_ERROR_LIMIT);
+    ewa_renderer_destroy(&renderer);
+    tune("storage=600000 software=1 auto=gl"); // the self-test fits, a frame does not
+    at.log.count = 0;
+    renderer = make(EWA_BACKEND_AUTO);
+    draw_same(renderer, 4);
+    assert_true(at.log.count > 0);
+    assert_says("the CPU draws this scene");
+    assert_string_equal(gpu_backend(renderer), "cpu");
+    gpu_scene_resize(&at, 16, 16); // another scene: the device is still there
+    draw_same(renderer, 2);
+    assert_string_equal(gpu_backend(renderer), "gl");
+    ewa_renderer_destroy(&renderer);
+    gpu_scene_resize(&at, WIDTH_PX, HEIGHT_PX);
+}
+
+int main(void) {
+    const struct CMUnitTest always[] = {
+        cmocka_unit_test(test_no_device),
+        cmocka_unit_test(test_arguments),
+    };
+    const struct CMUnitTest with_device[] = {
+        cmocka_unit_test(test_software_is_not_taken),
+        cmocka_unit_test(test_both_draw),
+        cmocka_unit_test(test_device_goes),
+        cmocka_unit_test(test_little_memory),
+    };
+    const int failed = cmocka_run_group_tests(always, enter, leave);
+    if (failed || !gpu_there()) return failed;
+    return cmocka_run_group_tests(with_device, enter, leave);
+}

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Rates of a device, by its own clock (GL_TIME_ELAPSED) where it has one.
+#ifndef EWA_TOOLS_GPU_PROBE_RATES_H
+#define EWA_TOOLS_GPU_PROBE_RATES_H
+
+#include "gl/memory.h"
+#include "gl/program.h"
+
+enum { PROBE_WIDTH_PX = 1280, PROBE_HEIGHT_PX = 1024, PROBE_SPLAT_PX = 5 };
+
+/// A way to add splats up.
+typedef enum probe_way { PROBE_GATHER, PROBE_SHARED_ATOMICS, PROBE_GLOBAL_ATOMICS, PROBE_WAYS } probe_way;
+
+/// What was measured; 0: it could not be.
+typedef struct probe_rates {
+    uint32_t splat_count;                ///< of PROBE_SPLAT_PX squared pixels
+    double fma_tflops;                   ///< two operations each
+    double way_ms[PROBE_WAYS];           ///< of seven sums of whole numbers per pixel
+    bool ways_agree;                     ///< all have the same sums
+    double blend32_gpx_s, blend16_gpx_s; ///< additions of four numbers to RGBA32F and RGBA16F
+    double readback_ms, readback_mb;     ///< of a buffer, by the wall
+} probe_rates;
+
+/// Something that is measured.
+typedef void probe_work(void *user);
+
+/// Returns the least seconds of a few runs after one that warms up.
+double probe_time(ewa_gl *device, probe_work *work, void *user);
+
+/// Measures all; the device is entered, and has compute programs. Errors: EWA_ERROR_MEMORY, EWA_ERROR_UNSUPPORTED.
+ewa_status probe_measure(ewa_gl *device, probe_rates *rates);
+
+/// Measures blending into floats of `bits`, in billions of pixels per second. Errors: as probe_measure().
+ewa_status probe_blending(ewa_gl *device, int bits, uint32_t splat_count, double *gpx_s);
+
+#endif
