@@ -67,6 +67,9 @@ static ewa_status check(const ewa_raster *raster, const ewa_tile_job *job) {
     return EWA_OK;
 }
 
+/// Whether the nearest splats are found by the test of depths. Materials are not: they would be drawn after that.
+static bool is_single(const ewa_tile_job *job) { return job->resolve.one_pass && !job->with_materials; }
+
 /// The pictures that a frame needs.
 static uint32_t wanted_pictures(const ewa_tile_job *job) {
     const bool layered = job->layers > 1, both = !job->view.cull_back,
@@ -90,6 +93,7 @@ static uint32_t wanted_pictures(const ewa_tile_job *job) {
                  {EWA_PICTURE_REFLECTION, job->with_materials},
                  {EWA_PICTURE_MATERIAL_TURNED, both && job->with_materials},
                  {EWA_PICTURE_REFLECTION_TURNED, both && job->with_materials},
+                 {EWA_PICTURE_DEPTH, is_single(job)},
                  {EWA_PICTURE_PLANES, to->depth || to->normal},
                  {EWA_PICTURE_COVERAGE, to->coverage},
                  {EWA_PICTURE_CODES, to->rgba8},
@@ -187,6 +191,19 @@ static void bind_maps(const ewa_raster *raster, uint32_t maps) {
     }
 }
 
+/// One pass: the nearest splat of each pixel.
+static ewa_status gather_single(ewa_raster *raster, const ewa_tile_job *job) {
+    static const float nowhere = 0;
+    start_target(raster, EWA_TARGET_SUMS);
+    glClearBufferfv(GL_DEPTH, 0, &nowhere);
+    bind_maps(raster, 0);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    const ewa_status status = ewa_raster_draw_splats(raster, job, EWA_RASTER_SINGLE, false, false, false);
+    glDisable(GL_DEPTH_TEST);
+    return status;
+}
+
 /// Both passes over the band's splats; `behind` the first surface, or of it. `whole`: all that is left is one.
 static ewa_status gather(ewa_raster *raster, const ewa_tile_job *job, bool behind, bool whole) {
     static const ewa_raster_picture sums[] = {EWA_PICTURE_COLOR, EWA_PICTURE_NORMAL, EWA_PICTURE_CUT,
@@ -203,6 +220,7 @@ static ewa_status gather(ewa_raster *raster, const ewa_tile_job *job, bool behin
         clear(raster, EWA_TARGET_SUMS, sums[i], i, 0);
         clear(raster, EWA_TARGET_TURNED, turned_sums[i], i, 0);
     }
+    if (is_single(job)) return gather_single(raster, job);
     glEnable(GL_BLEND);
     bind_maps(raster, 1u << EWA_PICTURE_PASSED);
     start_target(raster, EWA_TARGET_NEAREST);

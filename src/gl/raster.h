@@ -15,6 +15,7 @@ typedef enum ewa_raster_pass {
     EWA_RASTER_VISIBILITY, ///< the nearest z + eps, by MAX
     EWA_RASTER_SUMS,       ///< by ADD
     EWA_RASTER_MATERIALS,  ///< the same of the numbers of materials
+    EWA_RASTER_SINGLE,     ///< one pass: the nearest splat, by the test of depths
     EWA_RASTER_PASSES
 } ewa_raster_pass;
 
@@ -55,6 +56,7 @@ typedef enum ewa_raster_picture {
     EWA_PICTURE_REFLECTION, ///< R32F
     EWA_PICTURE_MATERIAL_TURNED,
     EWA_PICTURE_REFLECTION_TURNED,
+    EWA_PICTURE_DEPTH,    ///< of EWA_RASTER_SINGLE
     EWA_PICTURE_PLANES,   ///< RGBA32F: normal, depth
     EWA_PICTURE_COVERAGE, ///< R32F
     EWA_PICTURE_CODES,    ///< RGBA8

@@ -82,12 +82,15 @@ ewa_status ewa_raster_splat_program(ewa_raster *raster, ewa_raster_pass pass, ew
     if (*made) return EWA_OK;
     static const char *const names[] = {[EWA_RASTER_VISIBILITY] = "visibility",
                                         [EWA_RASTER_SUMS] = "sums",
-                                        [EWA_RASTER_MATERIALS] = "materials"};
+                                        [EWA_RASTER_MATERIALS] = "materials",
+                                        [EWA_RASTER_SINGLE] = "nearest splats"};
+    const bool single = pass == EWA_RASTER_SINGLE;
     char head[HEAD_BYTES + 256];
     const size_t at = write_head(head);
     snprintf(head + at, sizeof head - at,
-             "#define PASS %d\n#define WITH_CLIPS %d\n#define RAYS %d\n#define NEAR %d\n", (int)pass + 1,
-             with_clips, form == EWA_RASTER_RAYCAST, form == EWA_RASTER_NEAR);
+             "#define PASS %d\n#define SINGLE %d\n#define WITH_CLIPS %d\n#define RAYS %d\n#define NEAR %d\n",
+             (int)(single ? EWA_RASTER_SUMS : pass) + 1, single, with_clips, form == EWA_RASTER_RAYCAST,
+             form == EWA_RASTER_NEAR);
     const char *vertex[6] = {ewa_shader_raster_scene, ewa_shader_raster_project, ewa_shader_raster_payload};
     uint32_t count = 3;
     if (with_clips) vertex[count++] = ewa_shader_raster_lines;

@@ -81,9 +81,13 @@ ewa_status ewa_raster_draw_splats(ewa_raster *raster, const ewa_tile_job *job, e
                     raster, pass, near ? EWA_RASTER_NEAR : plain, job->with_clips, &program);
                 if (status != EWA_OK) return status;
                 glUseProgram(program);
-                set_int(program, "turned_ones", pass == EWA_RASTER_VISIBILITY ? -1 : turned);
+                set_int(program, "turned_ones",
+                        pass == EWA_RASTER_VISIBILITY || pass == EWA_RASTER_SINGLE ? -1 : turned);
                 set_int(program, "behind", behind);
                 set_int(program, "whole", whole);
+                // Nothing is nearer than 2^-24 of the scene's size.
+                glUniform1f(glGetUniformLocation(program, "depth_unit"),
+                            job->view.orthographic ? job->view.depth_scale : 0x1p-24f);
             }
             set_attributes(raster, job, &runs[i]);
             glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, CORNERS, (GLsizei)(runs[i].count * EWA_PACKET_LANES));
