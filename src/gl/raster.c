@@ -6,13 +6,14 @@
 // through surfaces. Its sums are floats: close to the processor's pictures, not equal to them.
 #include "gl/raster.h"
 #include "gl/backends.h"
+#include "gl/raster_splats.h"
 
 #include <string.h>
 
 void ewa_raster_destroy(ewa_context *context, void *state) {
     ewa_raster *old = state;
     if (old->device && ewa_gl_enter(old->device) == EWA_OK) {
-        ewa_raster_programs_free(old);
+        ewa_raster_programs_free(&old->programs);
         ewa_raster_targets_free(&old->targets);
         ewa_gl_buffer_free(&old->packets);
         ewa_gl_buffer_free(&old->view_blocks);
@@ -246,7 +247,8 @@ static ewa_status gather(ewa_raster *raster, const ewa_tile_job *job, bool behin
 static ewa_status draw_stage(ewa_raster *raster, const ewa_tile_job *job, ewa_raster_stage stage,
                              ewa_raster_target target, uint32_t maps, bool behind, bool whole) {
     GLuint program = 0;
-    const ewa_status status = ewa_raster_stage_program(raster, stage, job->with_clips, &program);
+    const ewa_status status =
+        ewa_raster_stage_program(raster->device, &raster->programs, stage, job->with_clips, &program);
     if (status != EWA_OK) return status;
     glUseProgram(program);
     glUniform1i(glGetUniformLocation(program, "behind"), behind);

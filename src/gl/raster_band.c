@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Rows of a frame on their way to the paper's pipeline: which packets they see, and what programs see of views and lights.
-#include "gl/raster.h"
+#include "gl/raster_band.h"
 #include "gl/scene.h"
 
 #include <assert.h>
@@ -116,8 +116,8 @@ void ewa_raster_band_free(ewa_context *context, ewa_raster_band *band) {
     ewa_buffer_free(context, &band->live);
 }
 
-/// The section planes in camera space: with q = linear (c - anchor) + offset, linear a rotation R times a length,
-/// m.c + e is in its unit (R m).q + e'.
+/// The section planes in camera space: of (m, e) with q = linear (c - anchor) + offset,
+/// linear a rotation R times a length, it is (R m, e').
 static void set_sections(ewa_raster_view *to, const ewa_view *from) {
     for (uint32_t k = 0; k < from->section_count; k++) {
         const double *plane = from->sections[k];

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Splats as instanced boxes: four vertices each, their attributes those of a surfel and of its packet.
-#include "gl/raster.h"
+#include "gl/raster_splats.h"
 
 #include <stddef.h>
 
@@ -79,8 +79,9 @@ ewa_status ewa_raster_draw_splats(ewa_raster *raster, const ewa_tile_job *job, e
             if (near && !runs[i].near) continue;
             if (pass == EWA_RASTER_VISIBILITY && !job->sources[runs[i].source].hides) continue;
             if (!program) {
-                const ewa_status status = ewa_raster_splat_program(
-                    raster, pass, near ? EWA_RASTER_NEAR : plain, job->with_clips, &program);
+                const ewa_status status =
+                    ewa_raster_splat_program(raster->device, &raster->programs, pass,
+                                             near ? EWA_RASTER_NEAR : plain, job->with_clips, &program);
                 if (status != EWA_OK) return status;
                 glUseProgram(program);
                 set_int(program, "turned_ones",

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Surfels as vertices, which stay on the device from frame to frame; clip lines as a picture.
-#include "gl/raster.h"
+#include "gl/raster_surfels.h"
 
 #include <assert.h>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The pictures that the paper's pipeline draws into.
-#include "gl/raster.h"
+#include "gl/raster_targets.h"
 
 enum { MOST_ATTACHED = 4 }; ///< as ES 3.0 promises
 
