@@ -25,8 +25,7 @@ void ewa_raster_destroy(ewa_context *context, void *state) {
         ewa_raster_residents_free(old->device, &old->residents);
         ewa_gl_leave(old->device);
     } else if (old->device) {
-        old->residents.count = 0;
-        ewa_buffer_free(context, &old->residents.items);
+        ewa_raster_residents_forget(context, &old->residents);
     }
     ewa_gl_close(&old->device);
     ewa_raster_band_free(context, &old->band);
@@ -120,15 +119,16 @@ static ewa_status put_shading(ewa_raster *raster, const ewa_tile_job *job) {
     uint64_t count = 0;
     for (uint32_t i = 0; i < environment->level_count; i++)
         count += (uint64_t)environment->levels[i].width * environment->levels[i].height;
-    const uint32_t width = device->facts.texture_px;
+    const uint32_t most_px = device->facts.texture_px, width = most_px < 4096 ? most_px : 4096;
     const uint64_t rows = (count + width - 1) / width;
-    if (rows > width)
+    if (rows > most_px)
         return ewa_fail(raster->context, EWA_ERROR_LIMIT,
                         "OpenGL: an environment of %llu texels is larger than pictures of %s",
                         (unsigned long long)count, device->facts.renderer);
     status = ewa_buffer_reserve(raster->context, &raster->row, (size_t)rows * width, 3 * sizeof(float));
     if (status != EWA_OK) return status;
     float *texels = raster->row.data;
+    memset(texels, 0, (size_t)rows * width * 3 * sizeof *texels);
     for (uint32_t i = 0; i < environment->level_count; i++) {
         const size_t here = (size_t)environment->levels[i].width * environment->levels[i].height * 3;
         memcpy(texels, environment->levels[i].texels, here * sizeof *texels);

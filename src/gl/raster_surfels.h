@@ -50,6 +50,8 @@ static inline const ewa_raster_resident *ewa_raster_residents_at(const ewa_raste
     return (const ewa_raster_resident *)residents->items.data + index;
 }
 
+/// Frees the host's memory alone, when the device is lost.
+void ewa_raster_residents_forget(ewa_context *context, ewa_raster_residents *residents);
 void ewa_raster_residents_free(ewa_gl *device, ewa_raster_residents *residents);
 
 #endif
