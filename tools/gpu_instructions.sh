@@ -51,8 +51,8 @@ vertex="scene project payload"
 echo "| program | arithmetic | texels | all |"
 echo "|---|---|---|---|"
 for pass in 1 2; do
-    plain="PASS=$pass WITH_CLIPS=0 RAYS=0 NEAR=0"
-    lines="PASS=$pass WITH_CLIPS=1 RAYS=0 NEAR=0"
+    plain="PASS=$pass SINGLE=0 WITH_CLIPS=0 RAYS=0 NEAR=0"
+    lines="PASS=$pass SINGLE=0 WITH_CLIPS=1 RAYS=0 NEAR=0"
     # shellcheck disable=SC2086
     {
         compile vert "vertex, pass $pass" "$plain" $vertex vertex
@@ -67,11 +67,15 @@ for pass in 1 2; do
         compile frag "fragment, pass $pass, clip lines" "$lines" scene splat
     }
 done
+edit=$perspective
 # shellcheck disable=SC2086
-compile frag "fragment, pass 2, raycast kernel" "PASS=2 WITH_CLIPS=0 RAYS=1 NEAR=0" scene splat
+compile frag "fragment, one pass, perspective alone" "PASS=2 SINGLE=1 WITH_CLIPS=0 RAYS=0 NEAR=0" scene splat
+edit=
 # shellcheck disable=SC2086
-compile vert "vertex, pass 2, at the eye's plane" "PASS=2 WITH_CLIPS=0 RAYS=0 NEAR=1" $vertex near vertex
-compile frag "fragment, pass 2, at the eye's plane" "PASS=2 WITH_CLIPS=0 RAYS=0 NEAR=1" scene splat
+compile frag "fragment, pass 2, raycast kernel" "PASS=2 SINGLE=0 WITH_CLIPS=0 RAYS=1 NEAR=0" scene splat
+# shellcheck disable=SC2086
+compile vert "vertex, pass 2, at the eye's plane" "PASS=2 SINGLE=0 WITH_CLIPS=0 RAYS=0 NEAR=1" $vertex near vertex
+compile frag "fragment, pass 2, at the eye's plane" "PASS=2 SINGLE=0 WITH_CLIPS=0 RAYS=0 NEAR=1" scene splat
 compile frag "pass 3, surface" "STAGE=0 WITH_CLIPS=0" surface
 compile frag "pass 3, surface, clip lines" "STAGE=0 WITH_CLIPS=1" surface
 compile frag "pass 3, picture" "STAGE=5 WITH_CLIPS=0" surface

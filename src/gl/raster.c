@@ -6,6 +6,7 @@
 // through surfaces. Its sums are floats: close to the processor's pictures, not equal to them.
 #include "gl/raster.h"
 #include "gl/backends.h"
+#include "gl/raster_splats.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -13,7 +14,7 @@
 void ewa_raster_destroy(ewa_context *context, void *state) {
     ewa_raster *old = state;
     if (old->device && ewa_gl_enter(old->device) == EWA_OK) {
-        ewa_raster_programs_free(old);
+        ewa_raster_programs_free(&old->programs);
         ewa_raster_targets_free(&old->targets);
         ewa_gl_buffer_free(&old->packets);
         ewa_gl_buffer_free(&old->view_blocks);
@@ -25,8 +26,7 @@ void ewa_raster_destroy(ewa_context *context, void *state) {
         ewa_raster_residents_free(old->device, &old->residents);
         ewa_gl_leave(old->device);
     } else if (old->device) {
-        old->residents.count = 0;
-        ewa_buffer_free(context, &old->residents.items);
+        ewa_raster_residents_forget(context, &old->residents);
     }
     ewa_gl_close(&old->device);
     ewa_raster_band_free(context, &old->band);
@@ -68,6 +68,9 @@ static ewa_status check(const ewa_raster *raster, const ewa_tile_job *job) {
     return EWA_OK;
 }
 
+/// Whether the nearest splats are found by the test of depths. Materials are not: they would be drawn after that.
+static bool is_single(const ewa_tile_job *job) { return job->resolve.one_pass && !job->with_materials; }
+
 /// The pictures that a frame needs.
 static uint32_t wanted_pictures(const ewa_tile_job *job) {
     const bool layered = job->layers > 1, both = !job->view.cull_back,
@@ -91,6 +94,7 @@ static uint32_t wanted_pictures(const ewa_tile_job *job) {
                  {EWA_PICTURE_REFLECTION, job->with_materials},
                  {EWA_PICTURE_MATERIAL_TURNED, both && job->with_materials},
                  {EWA_PICTURE_REFLECTION_TURNED, both && job->with_materials},
+                 {EWA_PICTURE_DEPTH, is_single(job)},
                  {EWA_PICTURE_PLANES, to->depth || to->normal},
                  {EWA_PICTURE_COVERAGE, to->coverage},
                  {EWA_PICTURE_CODES, to->rgba8},
@@ -116,15 +120,16 @@ static ewa_status put_shading(ewa_raster *raster, const ewa_tile_job *job) {
     uint64_t count = 0;
     for (uint32_t i = 0; i < environment->level_count; i++)
         count += (uint64_t)environment->levels[i].width * environment->levels[i].height;
-    const uint32_t width = device->facts.texture_px;
+    const uint32_t most_px = device->facts.texture_px, width = most_px < 4096 ? most_px : 4096;
     const uint64_t rows = (count + width - 1) / width;
-    if (rows > width)
+    if (rows > most_px)
         return ewa_fail(raster->context, EWA_ERROR_LIMIT,
                         "OpenGL: an environment of %llu texels is larger than pictures of %s",
                         (unsigned long long)count, device->facts.renderer);
     status = ewa_buffer_reserve(raster->context, &raster->row, (size_t)rows * width, 3 * sizeof(float));
     if (status != EWA_OK) return status;
     float *texels = raster->row.data;
+    memset(texels, 0, (size_t)rows * width * 3 * sizeof *texels);
     for (uint32_t i = 0; i < environment->level_count; i++) {
         const size_t here = (size_t)environment->levels[i].width * environment->levels[i].height * 3;
         memcpy(texels, environment->levels[i].texels, here * sizeof *texels);
@@ -188,6 +193,19 @@ static void bind_maps(const ewa_raster *raster, uint32_t maps) {
     }
 }
 
+/// One pass: the nearest splat of each pixel.
+static ewa_status gather_single(ewa_raster *raster, const ewa_tile_job *job) {
+    static const float nowhere = 0;
+    start_target(raster, EWA_TARGET_SUMS);
+    glClearBufferfv(GL_DEPTH, 0, &nowhere);
+    bind_maps(raster, 0);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    const ewa_status status = ewa_raster_draw_splats(raster, job, EWA_RASTER_SINGLE, false, false, false);
+    glDisable(GL_DEPTH_TEST);
+    return status;
+}
+
 /// Both passes over the band's splats; `behind` the first surface, or of it. `whole`: all that is left is one.
 static ewa_status gather(ewa_raster *raster, const ewa_tile_job *job, bool behind, bool whole) {
     static const ewa_raster_picture sums[] = {EWA_PICTURE_COLOR, EWA_PICTURE_NORMAL, EWA_PICTURE_CUT,
@@ -204,6 +222,7 @@ static ewa_status gather(ewa_raster *raster, const ewa_tile_job *job, bool behin
         clear(raster, EWA_TARGET_SUMS, sums[i], i, 0);
         clear(raster, EWA_TARGET_TURNED, turned_sums[i], i, 0);
     }
+    if (is_single(job)) return gather_single(raster, job);
     glEnable(GL_BLEND);
     bind_maps(raster, 1u << EWA_PICTURE_PASSED);
     start_target(raster, EWA_TARGET_NEAREST);
@@ -229,7 +248,8 @@ static ewa_status gather(ewa_raster *raster, const ewa_tile_job *job, bool behin
 static ewa_status draw_stage(ewa_raster *raster, const ewa_tile_job *job, ewa_raster_stage stage,
                              ewa_raster_target target, uint32_t maps, bool behind, bool whole) {
     GLuint program = 0;
-    const ewa_status status = ewa_raster_stage_program(raster, stage, job->with_clips, &program);
+    const ewa_status status =
+        ewa_raster_stage_program(raster->device, &raster->programs, stage, job->with_clips, &program);
     if (status != EWA_OK) return status;
     glUseProgram(program);
     glUniform1i(glGetUniformLocation(program, "behind"), behind);

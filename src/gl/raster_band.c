@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Rows of a frame on their way to the paper's pipeline: which packets they see, and what programs see of views and lights.
-#include "gl/raster.h"
+#include "gl/raster_band.h"
 #include "gl/scene.h"
 
 #include <assert.h>

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 //
 // The programs of the paper's pipeline, each made when a frame first needs it: OpenGL 3.3, nothing that ES 3.0 lacks.
+#include "gl/raster_programs.h"
 #include "gl/program.h"
-#include "gl/raster.h"
+#include "gl/raster_targets.h"
 #include "gl/shaders.h"
+#include "image/environment.h"
 #include "surface/semantics.h"
 
 #include <stdio.h>
@@ -75,19 +77,22 @@ static void bind_names(GLuint program) {
         glUniform1i(glGetUniformLocation(program, maps[i].name), maps[i].unit);
 }
 
-ewa_status ewa_raster_splat_program(ewa_raster *raster, ewa_raster_pass pass, ewa_raster_form form,
-                                    bool with_clips, GLuint *program) {
-    GLuint *made = &raster->splats[pass][form][with_clips];
+ewa_status ewa_raster_splat_program(ewa_gl *device, ewa_raster_programs *programs, ewa_raster_pass pass,
+                                    ewa_raster_form form, bool with_clips, GLuint *program) {
+    GLuint *made = &programs->splats[pass][form][with_clips];
     *program = *made;
     if (*made) return EWA_OK;
     static const char *const names[] = {[EWA_RASTER_VISIBILITY] = "visibility",
                                         [EWA_RASTER_SUMS] = "sums",
-                                        [EWA_RASTER_MATERIALS] = "materials"};
+                                        [EWA_RASTER_MATERIALS] = "materials",
+                                        [EWA_RASTER_SINGLE] = "nearest splats"};
+    const bool single = pass == EWA_RASTER_SINGLE;
     char head[HEAD_BYTES + 256];
     const size_t at = write_head(head);
     snprintf(head + at, sizeof head - at,
-             "#define PASS %d\n#define WITH_CLIPS %d\n#define RAYS %d\n#define NEAR %d\n", (int)pass + 1,
-             with_clips, form == EWA_RASTER_RAYCAST, form == EWA_RASTER_NEAR);
+             "#define PASS %d\n#define SINGLE %d\n#define WITH_CLIPS %d\n#define RAYS %d\n#define NEAR %d\n",
+             (int)(single ? EWA_RASTER_SUMS : pass) + 1, single, with_clips, form == EWA_RASTER_RAYCAST,
+             form == EWA_RASTER_NEAR);
     const char *vertex[6] = {ewa_shader_raster_scene, ewa_shader_raster_project, ewa_shader_raster_payload};
     uint32_t count = 3;
     if (with_clips) vertex[count++] = ewa_shader_raster_lines;
@@ -96,16 +101,16 @@ ewa_status ewa_raster_splat_program(ewa_raster *raster, ewa_raster_pass pass, ew
     static const char *const fragment[] = {ewa_shader_raster_scene, ewa_shader_raster_splat};
     const ewa_gl_stage stages[] = {{GL_VERTEX_SHADER, head, vertex, count},
                                    {GL_FRAGMENT_SHADER, head, fragment, 2}};
-    const ewa_status status = ewa_gl_program_make(raster->device, names[pass], stages, 2, made);
+    const ewa_status status = ewa_gl_program_make(device, names[pass], stages, 2, made);
     if (status != EWA_OK) return status;
     *program = *made;
     bind_names(*made);
     return EWA_OK;
 }
 
-ewa_status ewa_raster_stage_program(ewa_raster *raster, ewa_raster_stage stage, bool with_clips,
-                                    GLuint *program) {
-    GLuint *made = &raster->stages[stage][with_clips];
+ewa_status ewa_raster_stage_program(ewa_gl *device, ewa_raster_programs *programs, ewa_raster_stage stage,
+                                    bool with_clips, GLuint *program) {
+    GLuint *made = &programs->stages[stage][with_clips];
     *program = *made;
     if (*made) return EWA_OK;
     static const char *const names[] = {
@@ -120,19 +125,19 @@ ewa_status ewa_raster_stage_program(ewa_raster *raster, ewa_raster_stage stage, 
     static const char *const fragment[] = {ewa_shader_raster_surface};
     const ewa_gl_stage stages[] = {{GL_VERTEX_SHADER, head, vertex, 1},
                                    {GL_FRAGMENT_SHADER, head, fragment, 1}};
-    const ewa_status status = ewa_gl_program_make(raster->device, names[stage], stages, 2, made);
+    const ewa_status status = ewa_gl_program_make(device, names[stage], stages, 2, made);
     if (status != EWA_OK) return status;
     *program = *made;
     bind_names(*made);
     return EWA_OK;
 }
 
-void ewa_raster_programs_free(ewa_raster *raster) {
+void ewa_raster_programs_free(ewa_raster_programs *programs) {
     for (int clips = 0; clips < 2; clips++) {
         for (int pass = 0; pass < EWA_RASTER_PASSES; pass++)
             for (int form = 0; form < EWA_RASTER_FORMS; form++)
-                if (raster->splats[pass][form][clips]) glDeleteProgram(raster->splats[pass][form][clips]);
+                if (programs->splats[pass][form][clips]) glDeleteProgram(programs->splats[pass][form][clips]);
         for (int stage = 0; stage < EWA_RASTER_STAGES; stage++)
-            if (raster->stages[stage][clips]) glDeleteProgram(raster->stages[stage][clips]);
+            if (programs->stages[stage][clips]) glDeleteProgram(programs->stages[stage][clips]);
     }
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Splats as instanced boxes: four vertices each, their attributes those of a surfel and of its packet.
-#include "gl/raster.h"
+#include "gl/raster_splats.h"
 
 #include <stddef.h>
 
@@ -10,7 +10,8 @@ enum {
     CORNERS = 4,
     SURFEL_ATTRIBUTES = 4,
     PACKET_ATTRIBUTES = 3,
-    MATERIAL = SURFEL_ATTRIBUTES + PACKET_ATTRIBUTES
+    MATERIAL = SURFEL_ATTRIBUTES + PACKET_ATTRIBUTES,
+    PACKETS_PER_WAIT = 1 << 16 // so that a slow device does not count as hung
 };
 
 /// Where a run's surfels and packets are.
@@ -70,6 +71,7 @@ ewa_status ewa_raster_draw_splats(ewa_raster *raster, const ewa_tile_job *job, e
                                   bool turned, bool behind, bool whole) {
     const ewa_raster_form plain = job->view.raycast ? EWA_RASTER_RAYCAST : EWA_RASTER_ELLIPSES;
     const ewa_raster_run *runs = raster->band.runs.data;
+    uint64_t told = 0; // packets that the device has not been waited for
     glBindVertexArray(raster->vertices);
     for (int near = 0; near < 2; near++) {
         GLuint program = 0;
@@ -77,16 +79,26 @@ ewa_status ewa_raster_draw_splats(ewa_raster *raster, const ewa_tile_job *job, e
             if (near && !runs[i].near) continue;
             if (pass == EWA_RASTER_VISIBILITY && !job->sources[runs[i].source].hides) continue;
             if (!program) {
-                const ewa_status status = ewa_raster_splat_program(
-                    raster, pass, near ? EWA_RASTER_NEAR : plain, job->with_clips, &program);
+                const ewa_status status =
+                    ewa_raster_splat_program(raster->device, &raster->programs, pass,
+                                             near ? EWA_RASTER_NEAR : plain, job->with_clips, &program);
                 if (status != EWA_OK) return status;
                 glUseProgram(program);
-                set_int(program, "turned_ones", pass == EWA_RASTER_VISIBILITY ? -1 : turned);
+                set_int(program, "turned_ones",
+                        pass == EWA_RASTER_VISIBILITY || pass == EWA_RASTER_SINGLE ? -1 : turned);
                 set_int(program, "behind", behind);
                 set_int(program, "whole", whole);
+                // Nothing is nearer than 2^-24 of the scene's size.
+                glUniform1f(glGetUniformLocation(program, "depth_unit"),
+                            job->view.orthographic ? job->view.depth_scale : 0x1p-24f);
             }
             set_attributes(raster, job, &runs[i]);
             glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, CORNERS, (GLsizei)(runs[i].count * EWA_PACKET_LANES));
+            told += runs[i].count;
+            if (told < PACKETS_PER_WAIT) continue;
+            const ewa_status status = ewa_gl_wait(raster->device, "splats");
+            if (status != EWA_OK) return status;
+            told = 0;
         }
     }
     return ewa_gl_check(raster->device, "splats");

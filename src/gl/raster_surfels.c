@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Surfels as vertices, which stay on the device from frame to frame; clip lines as a picture.
-#include "gl/raster.h"
+#include "gl/raster_surfels.h"
 
 #include <assert.h>
 
@@ -163,4 +163,12 @@ ewa_status ewa_raster_residents_get(ewa_gl *device, ewa_raster_residents *reside
 void ewa_raster_residents_free(ewa_gl *device, ewa_raster_residents *residents) {
     drop_unused(device, residents, UINT64_MAX);
     ewa_buffer_free(device->context, &residents->items);
+}
+
+void ewa_raster_residents_forget(ewa_context *context, ewa_raster_residents *residents) {
+    ewa_raster_resident *items = residents->items.data;
+    for (uint32_t i = 0; i < residents->count; i++)
+        ewa_release(context, items[i].pages, items[i].page_count, sizeof *items[i].pages);
+    residents->count = 0;
+    ewa_buffer_free(context, &residents->items);
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The pictures that the paper's pipeline draws into.
-#include "gl/raster.h"
+#include "gl/raster_targets.h"
 
 enum { MOST_ATTACHED = 4 }; ///< as ES 3.0 promises
 
@@ -27,6 +27,7 @@ static const struct {
     [EWA_PICTURE_REFLECTION] = {GL_R32F, GL_RED, GL_FLOAT},
     [EWA_PICTURE_MATERIAL_TURNED] = {GL_RGBA32F, GL_RGBA, GL_FLOAT},
     [EWA_PICTURE_REFLECTION_TURNED] = {GL_R32F, GL_RED, GL_FLOAT},
+    [EWA_PICTURE_DEPTH] = {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT},
     [EWA_PICTURE_PLANES] = {GL_RGBA32F, GL_RGBA, GL_FLOAT},
     [EWA_PICTURE_COVERAGE] = {GL_R32F, GL_RED, GL_FLOAT},
     [EWA_PICTURE_CODES] = {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE},
@@ -88,6 +89,9 @@ static ewa_status make_target(ewa_gl *device, ewa_raster_targets *targets, int t
         glFramebufferTexture2D(GL_FRAMEBUFFER, outputs[i], GL_TEXTURE_2D, targets->pictures[picture], 0);
     }
     if (!some) return EWA_OK;
+    if (target == EWA_TARGET_SUMS && targets->made >> EWA_PICTURE_DEPTH & 1)
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D,
+                               targets->pictures[EWA_PICTURE_DEPTH], 0);
     glDrawBuffers(MOST_ATTACHED, outputs);
     const GLenum state = glCheckFramebufferStatus(GL_FRAMEBUFFER);
     if (state == GL_FRAMEBUFFER_COMPLETE) return EWA_OK;

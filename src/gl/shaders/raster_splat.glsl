@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The fragment program: a splat at a pixel (docs/math.md sections 4 to 6). PASS 1 draws the key of z + eps, PASS 2 what it
-// adds to the pixel where its own key reaches the largest of those, PASS 3 what it adds to the numbers of materials.
+// adds to the pixel where its own key reaches the largest of those, PASS 3 what it adds to the numbers of
+// materials. SINGLE: PASS 2 where the test of depths keeps the nearest splat, and PASS 1 is not drawn.
 
 flat in vec4 shape, key_at, range, extra;
 #if PASS != 1
@@ -23,6 +24,9 @@ layout(location = 0) out float bound;
 #else
 uniform sampler2D nearest_map;
 uniform int whole; // all that is left is one surface
+#if SINGLE
+uniform float depth_unit; // a power of two: it keeps all digits of a key
+#endif
 #endif
 #if PASS == 2
 layout(location = 0) out vec4 color_sum;
@@ -136,10 +140,14 @@ void main() {
 #if PASS == 1
     bound = has(ORTHOGRAPHIC) ? key - range.z : key / (1.0 + range.z * key);
 #else
+#if SINGLE
+    gl_FragDepth = (has(ORTHOGRAPHIC) ? 1.0 : 0.0) + key * depth_unit;
+#else
     if (whole == 0) {
         float nearest = texelFetch(nearest_map, pixel, 0).r;
         if (nearest == NEVER || key < nearest - depth.w * abs(nearest)) discard;
     }
+#endif
     float weight = exp(-0.5 * exponent) * gain;
 #if PASS == 3
 #if WITH_CLIPS
