@@ -168,7 +168,10 @@ ewa_status ewa_gl_open(ewa_context *context, ewa_gl **device) {
             "(Debian: libegl-mesa0 and libgl1-mesa-dri, or libnvidia-gl)",
             found.count);
     }
-    made->facts.storage_bytes = ewa_gl_tuning("storage", made->facts.storage_bytes);
+    ewa_gl_facts *facts = &made->facts;
+    facts->storage_bytes = ewa_gl_tuning("storage", facts->storage_bytes);
+    facts->storage_count = (uint32_t)ewa_gl_tuning("blocks", facts->storage_count);
+    facts->group_count = (uint32_t)ewa_gl_tuning("groups", facts->group_count);
     made->lose_at = ewa_gl_tuning("lose", 0), made->hang_at = ewa_gl_tuning("hang", 0);
     *device = made;
     return EWA_OK;

@@ -189,16 +189,38 @@ static void test_little_memory(void **state) {
     gpu_scene_resize(&at, WIDTH_PX, HEIGHT_PX);
 }
 
+/// A device that has too few storage blocks is none for this road; one that takes few groups at a time gets them in turns.
+static void test_small_limits(void **state) {
+    (void)state;
+    tune("blocks=8");
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_renderer_create_on(at.context, EWA_BACKEND_GL, &renderer), EWA_ERROR_UNSUPPORTED);
+    assert_says("8 storage blocks");
+    ewa_gpu_info info = {.struct_size = sizeof info};
+    assert_int_equal(ewa_gpu_describe(at.context, &info), EWA_OK);
+    assert_int_equal(info.device_class, EWA_GPU_UNUSABLE);
+    assert_int_equal(info.storage_count, 8);
+    at.log.count = 0;
+    tune("blocks=8 software=1");
+    renderer = make(EWA_BACKEND_AUTO);
+    draw_same(renderer, 3);
+    assert_int_equal(at.log.count, 0);
+    ewa_renderer_destroy(&renderer);
+    tune("groups=3 unit=64");
+    renderer = make(EWA_BACKEND_GL);
+    draw_same(renderer, 2);
+    ewa_renderer_destroy(&renderer);
+}
+
 int main(void) {
     const struct CMUnitTest always[] = {
         cmocka_unit_test(test_no_device),
         cmocka_unit_test(test_arguments),
     };
     const struct CMUnitTest with_device[] = {
-        cmocka_unit_test(test_software_is_not_taken),
-        cmocka_unit_test(test_both_draw),
-        cmocka_unit_test(test_device_goes),
-        cmocka_unit_test(test_little_memory),
+        cmocka_unit_test(test_software_is_not_taken), cmocka_unit_test(test_both_draw),
+        cmocka_unit_test(test_device_goes),           cmocka_unit_test(test_little_memory),
+        cmocka_unit_test(test_small_limits),
     };
     const int failed = cmocka_run_group_tests(always, enter, leave);
     if (failed || !gpu_there()) return failed;
