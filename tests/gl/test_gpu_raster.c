@@ -301,11 +301,32 @@ static void test_materials(void **state) {
     ewa_environment_destroy(&environment);
 }
 
+/// What is wider than any device's pictures is refused, with a reason; the renderer goes on.
+static void test_refusal(void **state) {
+    (void)state;
+    if (!shared.raster) skip();
+    enum { WIDE = 1 << 17 };
+    ewa_bounds bounds;
+    ewa_surfels *surfels = make_surfels(EWA_OBJECT_SPHERE, false, &bounds);
+    view of = make_view(&bounds, EWA_PERSPECTIVE, 1);
+    of.camera.width_px = WIDE, of.camera.height_px = 1;
+    uint8_t *row = calloc(WIDE, 4);
+    assert_non_null(row);
+    const ewa_frame frame = {.rgba8 = row};
+    assert_int_equal(ewa_render(shared.raster, surfels, &of.camera, &of.options, &frame, NULL),
+                     EWA_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(shared.log.text, "131072 pixels are wider than"));
+    free(row);
+    of = make_view(&bounds, EWA_PERSPECTIVE, 1);
+    hold("after a refusal", surfels, &of);
+    ewa_surfels_destroy(&surfels);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_kernels),   cmocka_unit_test(test_options),
         cmocka_unit_test(test_lines),     cmocka_unit_test(test_sources_and_bands),
-        cmocka_unit_test(test_materials),
+        cmocka_unit_test(test_materials), cmocka_unit_test(test_refusal),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
