@@ -5,6 +5,7 @@
 // failures of its frames.
 #include "check.h"
 #include "ewa/gpu.h"
+#include "gl/raster.h"
 #include "surface/render.h"
 
 #include <math.h>
@@ -322,11 +323,64 @@ static void test_refusal(void **state) {
     ewa_surfels_destroy(&surfels);
 }
 
+/// The raster pipeline, of which the test sees the state.
+static ewa_raster *watched;
+
+static ewa_status create_watched(ewa_context *context, void **state) {
+    const ewa_status status = ewa_raster_create(context, state);
+    watched = status == EWA_OK ? *state : NULL;
+    return status;
+}
+
+static const ewa_backend watched_backend = {"watched", create_watched, ewa_raster_destroy, ewa_raster_draw};
+
+/// The names that a device would give to new objects, which it gives again when they are deleted.
+typedef struct object_names {
+    GLuint picture, buffer, target;
+} object_names;
+
+static object_names next_names(void) {
+    object_names next;
+    assert_int_equal(ewa_gl_enter(watched->device), EWA_OK);
+    glGenTextures(1, &next.picture), glGenBuffers(1, &next.buffer), glGenFramebuffers(1, &next.target);
+    glDeleteTextures(1, &next.picture), glDeleteBuffers(1, &next.buffer),
+        glDeleteFramebuffers(1, &next.target);
+    assert_int_equal(glGetError(), GL_NO_ERROR);
+    ewa_gl_leave(watched->device);
+    return next;
+}
+
+/// Other sizes and options leave no objects behind.
+static void test_objects(void **state) {
+    (void)state;
+    if (!shared.raster) skip();
+    enum { TURNS = 61, WARM = 30 };
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_renderer_create_by(shared.context, &watched_backend, &renderer), EWA_OK);
+    ewa_bounds bounds;
+    ewa_surfels *surfels = make_surfels(EWA_OBJECT_CSG, true, &bounds);
+    object_names warm = {0};
+    for (uint32_t i = 0; i < TURNS; i++) {
+        view of = make_view(&bounds, EWA_PERSPECTIVE, 1);
+        of.camera.width_px = 32 + i, of.camera.height_px = 16 + i * 11 % 40;
+        of.options.edge_layers = 1 + i % 2;
+        of.options.passes = i % 5 ? 3 : 1;
+        const ewa_frame frame = frame_of(&drawn[1], i % 3 == 0);
+        assert_int_equal(ewa_render(renderer, surfels, &of.camera, &of.options, &frame, NULL), EWA_OK);
+        if (i == WARM) warm = next_names(); // a frame like the last one
+    }
+    const object_names last = next_names();
+    if (watched->device->facts.software) assert_memory_equal(&warm, &last, sizeof warm);
+    ewa_renderer_destroy(&renderer);
+    ewa_surfels_destroy(&surfels);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_kernels),   cmocka_unit_test(test_options),
         cmocka_unit_test(test_lines),     cmocka_unit_test(test_sources_and_bands),
         cmocka_unit_test(test_materials), cmocka_unit_test(test_refusal),
+        cmocka_unit_test(test_objects),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
