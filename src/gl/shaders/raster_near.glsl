@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Surfels at the eye's plane, and huge ones: no ellipse, but what pixel rays meet (ewa_near_record_set()). They may be seen
-// anywhere, so their box is the band.
+// anywhere, so their box is the band. What they are goes by the names of an ellipse's numbers, as there are few of those.
 
-flat out vec3 ray_u, ray_v, ray_w, ray_z; // linear on the picture: u = U / W, v = V / W, z = Z / W
+vec3 ray_u, ray_v, ray_w, ray_z; // linear on the picture: u = U / W, v = V / W, z = Z / W
 
 // A vector's product with pixel rays (x, y, 1).
 vec3 linear_on_picture(vec3 by) {
@@ -38,6 +38,9 @@ void emit_near(uint lane) {
     if (!is_wanted(np) || abs(np) < EDGE_ON * (has(ORTHOGRAPHIC) ? 1.0 : length(p))) return;
     vec3 u = axis * sigma;
     set_rays(p, u, cross(n, u) * ratio);
+    shape = vec4(ray_u, ray_z.x);
+    key_at = vec4(ray_v, ray_z.y);
+    extra = vec4(ray_w, ray_z.z);
     float steepness = length(n.xy * focal.zw / np) * (has(ORTHOGRAPHIC) ? 1.0 : p.z * p.z);
     float grazing = min(kernel.w * steepness, GRAZING_TOLERANCE * kernel.x * sigma);
     range = vec4(p.z - half_range, p.z + half_range, depth.x * sigma + depth.y * grazing, p.z);

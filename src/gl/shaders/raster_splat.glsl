@@ -9,9 +9,6 @@ flat in vec4 shape, key_at, range, extra;
 #if PASS != 1
 flat in vec4 color, normal;
 #endif
-#if NEAR
-flat in vec3 ray_u, ray_v, ray_w, ray_z;
-#endif
 #if WITH_CLIPS
 flat in vec3 lines[MOST_LINES];
 flat in uint line_bits;
@@ -46,6 +43,7 @@ float exponent, key, gain = 1.0;
 float linear(vec3 terms, vec2 at) { return dot(terms.xy, at) + terms.z; }
 
 bool sample_splat(vec2 at) {
+    vec3 ray_u = shape.xyz, ray_v = key_at.xyz, ray_w = extra.xyz, ray_z = vec3(shape.w, key_at.w, extra.w);
     float h2 = kernel.z, inverse_ = 1.0 / linear(ray_w, at);
     vec2 uv = vec2(linear(ray_u, at), linear(ray_v, at)) * inverse_;
     float z = linear(ray_z, at) * inverse_;
