@@ -5,6 +5,7 @@
 // failures of its frames.
 #include "check.h"
 #include "ewa/gpu.h"
+#include "gl/raster.h"
 #include "surface/render.h"
 
 #include <math.h>
@@ -322,11 +323,71 @@ static void test_refusal(void **state) {
     ewa_surfels_destroy(&surfels);
 }
 
+/// The raster pipeline, of which the test sees the state.
+static ewa_raster *watched;
+
+static ewa_status create_watched(ewa_context *context, void **state) {
+    const ewa_status status = ewa_raster_create(context, state);
+    watched = status == EWA_OK ? *state : NULL;
+    return status;
+}
+
+static const ewa_backend watched_backend = {"watched", create_watched, ewa_raster_destroy, ewa_raster_draw};
+
+/// Objects of the renderer's context; drivers count names up from 1.
+typedef struct object_counts {
+    uint32_t pictures, buffers, targets, programs;
+} object_counts;
+
+static object_counts count_objects(void) {
+    enum { MOST_NAMES = 20000 };
+    object_counts found = {0};
+    assert_int_equal(ewa_gl_enter(watched->device), EWA_OK);
+    for (GLuint name = 1; name < MOST_NAMES; name++) {
+        found.pictures += glIsTexture(name);
+        found.buffers += glIsBuffer(name);
+        found.targets += glIsFramebuffer(name);
+        found.programs += glIsProgram(name);
+    }
+    assert_int_equal(glGetError(), GL_NO_ERROR);
+    ewa_gl_leave(watched->device);
+    return found;
+}
+
+/// Other sizes and options leave no objects behind.
+static void test_objects(void **state) {
+    (void)state;
+    if (!shared.raster) skip();
+    enum { TURNS = 61, WARM = 30 };
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_renderer_create_by(shared.context, &watched_backend, &renderer), EWA_OK);
+    ewa_bounds bounds;
+    ewa_surfels *surfels = make_surfels(EWA_OBJECT_CSG, true, &bounds);
+    object_counts warm = {0};
+    for (uint32_t i = 0; i < TURNS; i++) {
+        view of = make_view(&bounds, EWA_PERSPECTIVE, 1);
+        of.camera.width_px = 32 + i, of.camera.height_px = 16 + i * 11 % 40;
+        of.options.edge_layers = 1 + i % 2;
+        of.options.passes = i % 5 ? 3 : 1;
+        const ewa_frame frame = frame_of(&drawn[1], i % 3 == 0);
+        assert_int_equal(ewa_render(renderer, surfels, &of.camera, &of.options, &frame, NULL), EWA_OK);
+        if (i == WARM) warm = count_objects(); // a frame like the last one
+    }
+    const object_counts last = count_objects();
+    print_message("%u pictures, %u buffers, %u frame buffers, %u programs\n", last.pictures, last.buffers,
+                  last.targets, last.programs);
+    assert_true(warm.pictures > 0 && warm.buffers > 0 && warm.targets > 0 && warm.programs > 0);
+    assert_memory_equal(&warm, &last, sizeof warm);
+    ewa_renderer_destroy(&renderer);
+    ewa_surfels_destroy(&surfels);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_kernels),   cmocka_unit_test(test_options),
         cmocka_unit_test(test_lines),     cmocka_unit_test(test_sources_and_bands),
         cmocka_unit_test(test_materials), cmocka_unit_test(test_refusal),
+        cmocka_unit_test(test_objects),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
