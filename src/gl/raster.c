@@ -444,5 +444,5 @@ ewa_status ewa_raster_draw(void *state, const ewa_render_job *frame, ewa_render_
     return EWA_OK;
 }
 
-const ewa_backend ewa_backend_gl_raster = {"gl-raster", ewa_raster_create, ewa_raster_destroy,
-                                           ewa_raster_draw};
+const ewa_backend ewa_backend_gl_raster = {
+    .name = "gl-raster", .create = ewa_raster_create, .destroy = ewa_raster_destroy, .draw = ewa_raster_draw};
