@@ -408,6 +408,28 @@ static ewa_status draw_rows(ewa_gl_compute *gl, const ewa_tile_job *job, uint32_
     return EWA_OK;
 }
 
+/// Copies an environment, unless it is there; without one, there is a buffer all the same.
+static ewa_status put_environment(ewa_gl_compute *gl, const ewa_environment *environment) {
+    if (environment && gl->environment_serial == environment->serial) return EWA_OK;
+    uint64_t texels = 0;
+    for (uint32_t i = 0; environment && i < environment->level_count; i++)
+        texels += (uint64_t)environment->levels[i].width * environment->levels[i].height;
+    const ewa_status status = reserve(gl, EWA_GL_ENVIRONMENT, "the environment", texels * 12);
+    gl->environment_serial = 0;
+    if (status != EWA_OK || !environment) return status;
+    glBindBuffer(GL_COPY_WRITE_BUFFER, gl->buffers[EWA_GL_ENVIRONMENT].name);
+    texels = 0;
+    for (uint32_t i = 0; i < environment->level_count; i++) {
+        const ewa_environment_level *level = &environment->levels[i];
+        const uint64_t here = (uint64_t)level->width * level->height;
+        glBufferSubData(GL_COPY_WRITE_BUFFER, (GLintptr)(texels * 12), (GLsizeiptr)(here * 12),
+                        level->texels);
+        texels += here;
+    }
+    gl->environment_serial = environment->serial;
+    return EWA_OK;
+}
+
 /// What all bands of the frame see: views, lights, materials, the environment, surfels.
 static ewa_status put_frame(ewa_gl_compute *gl, const ewa_tile_job *job) {
     ewa_context *context = gl->context;
@@ -432,21 +454,8 @@ static ewa_status put_frame(ewa_gl_compute *gl, const ewa_tile_job *job) {
     if (status == EWA_OK) status = put(gl, EWA_GL_RESOLVE, "lights", &resolve, sizeof resolve);
     if (status == EWA_OK)
         status = put(gl, EWA_GL_MATERIALS, "materials", job->materials, sizeof job->materials);
-    const ewa_environment *environment = job->resolve.environment;
-    uint64_t texels = 0;
-    for (uint32_t i = 0; environment && i < environment->level_count; i++)
-        texels += (uint64_t)environment->levels[i].width * environment->levels[i].height;
-    if (status == EWA_OK) status = reserve(gl, EWA_GL_ENVIRONMENT, "the environment", texels * 12);
+    if (status == EWA_OK) status = put_environment(gl, job->resolve.environment);
     if (status != EWA_OK) return status;
-    glBindBuffer(GL_COPY_WRITE_BUFFER, gl->buffers[EWA_GL_ENVIRONMENT].name);
-    texels = 0;
-    for (uint32_t i = 0; environment && i < environment->level_count; i++) {
-        const ewa_environment_level *level = &environment->levels[i];
-        const uint64_t here = (uint64_t)level->width * level->height;
-        glBufferSubData(GL_COPY_WRITE_BUFFER, (GLintptr)(texels * 12), (GLsizeiptr)(here * 12),
-                        level->texels);
-        texels += here;
-    }
     return ewa_gl_check(gl->device, "the frame");
 }
 

@@ -54,6 +54,7 @@ typedef struct ewa_gl_compute {
     ewa_gl_band band;
     ewa_job_room room;
     ewa_buffer views, indices, page_packets; ///< of sources
+    uint64_t environment_serial;             ///< of what EWA_GL_ENVIRONMENT holds; 0: nothing
     uint32_t tile_px, unit_splats;
 } ewa_gl_compute;
 

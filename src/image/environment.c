@@ -146,6 +146,7 @@ ewa_status ewa_environment_create(const ewa_image *image, ewa_environment **envi
     ewa_environment *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
+    made->serial = ewa_serial_next(context);
     ewa_status status = allocate_levels(made, image->width_px, image->height_px);
     if (status == EWA_OK) status = fill_levels(made, image);
     if (status == EWA_OK)

@@ -26,6 +26,7 @@ typedef struct ewa_environment_level {
 
 struct ewa_environment {
     ewa_context *context;
+    uint64_t serial; ///< another for each environment
     uint32_t level_count;
     ewa_environment_level levels[EWA_MAX_ENVIRONMENT_LEVELS];
 };

@@ -167,7 +167,8 @@ static ewa_status draw(void *state, const ewa_render_job *job, ewa_render_stats 
             fprintf(stderr, "the graphics processor: %s\n", ewa_status_name(drawn));
             exit(1);
         }
-        if (ewa_gl_enter(done.gl->device) == EWA_OK) { // another context counts its surfels anew
+        done.gl->environment_serial = 0; // another context counts anew
+        if (ewa_gl_enter(done.gl->device) == EWA_OK) {
             ewa_gl_residents_free(done.gl->device, &done.gl->residents);
             ewa_gl_leave(done.gl->device);
         }
