@@ -9,6 +9,7 @@
 #include "ewa/base.h"
 #include "ewa/camera.h"
 #include "ewa/cloud.h"
+#include "ewa/cluster.h"
 #include "ewa/furniture.h"
 #include "ewa/gpu.h"
 #include "ewa/homogeneous.h"

@@ -50,7 +50,7 @@ ewa_status ewa_gpu_describe(ewa_context *context, ewa_gpu_info *info) {
 ewa_status ewa_renderer_describe(const ewa_renderer *renderer, ewa_renderer_info *info) {
     if (!renderer || !info) return EWA_ERROR_ARGUMENT;
     ewa_context *context;
-    const void *state;
+    void *state;
     const ewa_backend *backend = ewa_renderer_backend(renderer, &context, &state);
     ewa_renderer_info all = {.struct_size = info->struct_size};
     const ewa_status status = check_size(context, all.struct_size, sizeof all);

@@ -145,16 +145,26 @@ static bool something_behind(const ewa_tile_job *job, const ewa_tile *tile, cons
 }
 
 /// One pass over a source's splats, as many at a time as there is room for.
+static void draw_some(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
+                      const ewa_tile_packets *packets, batch *current, ewa_tile_pass what, bool dense) {
+    for (uint64_t run = 0, end = ewa_run_count(packets); run < end;) {
+        ewa_tile_drop_runs(s);
+        run = ewa_tile_keep_runs(job, tile, s, packets, run, end, false);
+        if (!dense) start_batch(job, s, false, current);
+        draw_batch(job, tile, s, current, what, dense);
+    }
+}
+
+void ewa_tile_draw_behind(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
+                          const ewa_tile_packets *packets, ewa_tile_pass what) {
+    draw_some(job, tile, s, packets, NULL, what, true);
+}
+
 static void draw_again(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, uint32_t source,
                        batch *current, ewa_tile_pass what, bool dense) {
     const ewa_tile_packets all = {&job->sources[source], s->split[source].shown,
                                   s->split[source].shown_count};
-    for (uint64_t run = 0, end = ewa_run_count(&all); run < end;) {
-        ewa_tile_drop_runs(s);
-        run = ewa_tile_keep_runs(job, tile, s, &all, run, end, false);
-        if (!dense) start_batch(job, s, false, current);
-        draw_batch(job, tile, s, current, what, dense);
-    }
+    draw_some(job, tile, s, &all, current, what, dense);
 }
 
 /// Unmarks the blocks that no splat reaches behind the first surface; returns how many stay marked.

@@ -54,7 +54,7 @@ void ewa_renderer_destroy(ewa_renderer **renderer) {
 }
 
 const ewa_backend *ewa_renderer_backend(const ewa_renderer *renderer, ewa_context **context,
-                                        const void **state) {
+                                        void **state) {
     *context = renderer->context;
     *state = renderer->state;
     return renderer->backend;

@@ -13,8 +13,7 @@ typedef struct ewa_backend ewa_backend;
 ewa_status ewa_renderer_create_by(ewa_context *context, const ewa_backend *backend, ewa_renderer **renderer);
 
 /// Returns what draws the frames, with its context and state.
-const ewa_backend *ewa_renderer_backend(const ewa_renderer *renderer, ewa_context **context,
-                                        const void **state);
+const ewa_backend *ewa_renderer_backend(const ewa_renderer *renderer, ewa_context **context, void **state);
 
 /// How a source takes part in a frame.
 typedef struct ewa_render_source {

@@ -13,19 +13,63 @@
 #include <math.h>
 #include <string.h>
 
+/// Floats of the parts of a tile's planes.
+typedef struct plane_sizes {
+    size_t tile, sums, cuts; ///< of a plane, of all sums of one kind, of what is noted of clip lines
+    bool two_words;
+} plane_sizes;
+
+static plane_sizes sizes_of(const ewa_tile_job *job) {
+    plane_sizes sizes = {.tile = (size_t)job->tiles.side_px * job->tiles.side_px};
+    sizes.two_words = job->fine_sums || job->with_depth || job->with_clips;
+    sizes.sums = sizes.tile * job->channel_count * (sizes.two_words ? 2 : 1);
+    sizes.cuts = job->with_clips ? sizes.tile * EWA_CUT_CHANNELS : 0;
+    return sizes;
+}
+
+size_t ewa_tile_plane_floats(const ewa_tile_job *job) {
+    // Per pixel: `nearest` twice, the edges' `passed`, and four channels of what lies behind; per block
+    // `reach`; sums of both surfaces and of turned splats, and what is noted of clip lines by both, each in
+    // two words.
+    const plane_sizes n = sizes_of(job);
+    return n.tile * (2 + 1 + 4) + n.tile / EWA_BLOCK_LANES + 2 * (3 * n.sums + 2 * n.cuts);
+}
+
+void ewa_tile_planes_bind(const ewa_tile_job *job, ewa_tile_scratch *s, float *planes) {
+    const plane_sizes n = sizes_of(job);
+    const size_t tile_floats = n.tile, sum_floats = n.sums, cut_floats = n.cuts;
+    const bool two_words = n.two_words;
+    s->nearest = planes;
+    s->edges.rows = s->edge_rows_left;
+    s->edges.nearest = s->nearest + tile_floats;
+    s->edges.passed = s->edges.nearest + tile_floats;
+    s->edges.behind = s->edges.passed + tile_floats;
+    s->edges.reach = s->edges.behind + 4 * tile_floats;
+    ewa_sums *const sums[5] = {&s->sums, &s->edges.sums, &s->apart.turned, &s->apart.cut,
+                               &s->edges.apart.cut};
+    float *next = s->edges.reach + tile_floats / EWA_BLOCK_LANES;
+    for (int i = 0; i < 5; i++) {
+        const size_t floats = i < 3 ? sum_floats : cut_floats;
+        *sums[i] = (ewa_sums){.planes = next,
+                              .high = next + floats,
+                              .fine = i < 3 && two_words ? floats / 2 : 0,
+                              .careful = i > 0,
+                              .most_visits = job->terms_per_carry,
+                              .visits = s->visits[i],
+                              .high_rows = s->high_rows[i]};
+        next += 2 * floats;
+    }
+    s->edges.apart.turned = s->apart.turned;
+    s->apart.turned_rows = s->turned_rows[0], s->edges.apart.turned_rows = s->turned_rows[1];
+    s->apart.cut_rows = cut_floats ? s->cut_rows[0] : NULL;
+    s->edges.apart.cut_rows = cut_floats ? s->cut_rows[1] : NULL;
+}
+
 ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, const ewa_tile_job *job) {
     uint64_t records = job->largest_bin * EWA_PACKET_LANES;
     if (records > EWA_KEPT_RECORDS) records = EWA_KEPT_RECORDS;
     if (records < EWA_RUN_RECORDS) records = EWA_RUN_RECORDS;
-    // Per pixel: `nearest` twice, the edges' `passed`, and four channels of what lies behind; per block
-    // `reach`; sums of both surfaces and of turned splats, and what is noted of clip lines by both, each in
-    // two words.
     const size_t tile_floats = (size_t)job->tiles.side_px * job->tiles.side_px;
-    const bool two_words = job->fine_sums || job->with_depth || job->with_clips;
-    const size_t sum_floats = tile_floats * job->channel_count * (two_words ? 2 : 1),
-                 cut_floats = job->with_clips ? tile_floats * EWA_CUT_CHANNELS : 0;
-    const size_t plane_floats =
-        tile_floats * (2 + 1 + 4) + tile_floats / EWA_BLOCK_LANES + 2 * (3 * sum_floats + 2 * cut_floats);
     const uint64_t packet_count = job->largest_bin + (uint64_t)EWA_PACKET_LANES * (job->source_count + 1),
                    run_count = records / EWA_RUN_RECORDS + 2 * ((uint64_t)job->source_count + 1);
     const size_t box_counts[EWA_BOX_LEVELS] = {
@@ -47,7 +91,7 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
         {&s->opacity_buffer, job->with_opacity ? records + EWA_PACKET_LANES : 0, sizeof *s->opacities},
         {&s->material_buffer, job->with_materials ? records + EWA_PACKET_LANES : 0, sizeof *s->materials},
         {&s->kept_buffer, run_count, sizeof *s->kept},
-        {&s->plane_buffer, plane_floats, sizeof(float)},
+        {&s->plane_buffer, ewa_tile_plane_floats(job), sizeof(float)},
         {&s->pixel_buffer, job->with_small ? tile_floats * EWA_PIXEL_FLOATS + EWA_BLOCK_LANES : 0,
          sizeof(float)},
         {&s->packet_buffer, 4 * packet_count, sizeof *s->ordered},
@@ -74,31 +118,8 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     s->opacities = job->with_opacity ? s->opacity_buffer.data : NULL;
     s->materials = job->with_materials ? s->material_buffer.data : NULL;
     s->kept = s->kept_buffer.data;
-    s->nearest = s->plane_buffer.data;
     s->pixels = job->with_small ? s->pixel_buffer.data : NULL;
-    s->edges.rows = s->edge_rows_left;
-    s->edges.nearest = s->nearest + tile_floats;
-    s->edges.passed = s->edges.nearest + tile_floats;
-    s->edges.behind = s->edges.passed + tile_floats;
-    s->edges.reach = s->edges.behind + 4 * tile_floats;
-    ewa_sums *const sums[5] = {&s->sums, &s->edges.sums, &s->apart.turned, &s->apart.cut,
-                               &s->edges.apart.cut};
-    float *next = s->edges.reach + tile_floats / EWA_BLOCK_LANES;
-    for (int i = 0; i < 5; i++) {
-        const size_t floats = i < 3 ? sum_floats : cut_floats;
-        *sums[i] = (ewa_sums){.planes = next,
-                              .high = next + floats,
-                              .fine = i < 3 && two_words ? floats / 2 : 0,
-                              .careful = i > 0,
-                              .most_visits = job->terms_per_carry,
-                              .visits = s->visits[i],
-                              .high_rows = s->high_rows[i]};
-        next += 2 * floats;
-    }
-    s->edges.apart.turned = s->apart.turned;
-    s->apart.turned_rows = s->turned_rows[0], s->edges.apart.turned_rows = s->turned_rows[1];
-    s->apart.cut_rows = cut_floats ? s->cut_rows[0] : NULL;
-    s->edges.apart.cut_rows = cut_floats ? s->cut_rows[1] : NULL;
+    ewa_tile_planes_bind(job, s, s->plane_buffer.data);
     s->record_capacity = records;
     s->kept_capacity = run_count;
     s->split = s->split_buffer.data;
@@ -235,32 +256,37 @@ static void accumulate(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_s
     }
 }
 
+void ewa_tile_place(const ewa_tile_job *job, ewa_tile_scratch *s, uint32_t index, ewa_tile *tile) {
+    const ewa_tile_rect place = ewa_tiles_rect(&job->tiles, index);
+    *tile = (ewa_tile){.x_px = (int32_t)place.x_px,
+                       .y_px = (int32_t)place.y_px,
+                       .width_px = (int32_t)place.width_px,
+                       .height_px = (int32_t)place.height_px,
+                       .nearest = s->nearest,
+                       .sums = s->sums,
+                       .apart = s->apart,
+                       .channel_count = job->channel_count,
+                       .with_normals = job->with_normals,
+                       .with_depth = job->with_depth,
+                       .with_opacity = job->with_opacity,
+                       .with_materials = job->with_materials,
+                       .with_fine = job->fine_sums,
+                       .pixels = s->pixels,
+                       .beyond_rows = s->beyond_rows,
+                       .settled_rows = s->settled_rows};
+    static_assert(EWA_FIELD_PX == EWA_MAX_TILE_BLOCKS * EWA_BLOCK_PX, "no tile is in two fields");
+    tile->field_x_px = (float)(tile->x_px % EWA_FIELD_PX - EWA_FIELD_PX / 2);
+    tile->field_y_px = (float)(tile->y_px % EWA_FIELD_PX - EWA_FIELD_PX / 2);
+    tile->blocks_per_row = ((uint32_t)tile->width_px + EWA_BLOCK_PX - 1) / EWA_BLOCK_PX;
+    tile->block_rows = ((uint32_t)tile->height_px + EWA_BLOCK_PX - 1) / EWA_BLOCK_PX;
+}
+
 void ewa_tile_draw(void *data, uint32_t number, uint32_t worker) {
     const ewa_tile_job *job = data;
     const uint32_t index = job->first_tile + number;
     ewa_tile_scratch *s = &job->scratch[worker];
-    const ewa_tile_rect place = ewa_tiles_rect(&job->tiles, index);
-    ewa_tile tile = {.x_px = (int32_t)place.x_px,
-                     .y_px = (int32_t)place.y_px,
-                     .width_px = (int32_t)place.width_px,
-                     .height_px = (int32_t)place.height_px,
-                     .nearest = s->nearest,
-                     .sums = s->sums,
-                     .apart = s->apart,
-                     .channel_count = job->channel_count,
-                     .with_normals = job->with_normals,
-                     .with_depth = job->with_depth,
-                     .with_opacity = job->with_opacity,
-                     .with_materials = job->with_materials,
-                     .with_fine = job->fine_sums,
-                     .pixels = s->pixels,
-                     .beyond_rows = s->beyond_rows,
-                     .settled_rows = s->settled_rows};
-    static_assert(EWA_FIELD_PX == EWA_MAX_TILE_BLOCKS * EWA_BLOCK_PX, "no tile is in two fields");
-    tile.field_x_px = (float)(tile.x_px % EWA_FIELD_PX - EWA_FIELD_PX / 2);
-    tile.field_y_px = (float)(tile.y_px % EWA_FIELD_PX - EWA_FIELD_PX / 2);
-    tile.blocks_per_row = ((uint32_t)tile.width_px + EWA_BLOCK_PX - 1) / EWA_BLOCK_PX;
-    tile.block_rows = ((uint32_t)tile.height_px + EWA_BLOCK_PX - 1) / EWA_BLOCK_PX;
+    ewa_tile tile;
+    ewa_tile_place(job, s, index, &tile);
     if (!s->mostly_small) tile.pixels = NULL;
     job->kernels->clear_nearest(&tile);
     const bool kept = draw_sources(job, &tile, s, index);

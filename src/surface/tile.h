@@ -120,6 +120,19 @@ typedef struct ewa_tile_job {
 ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *scratch, const ewa_tile_job *job);
 void ewa_tile_scratch_free(ewa_context *context, ewa_tile_scratch *scratch);
 
+/// How many floats the planes of a tile take, and points a worker at some: its own, unless it is told otherwise after
+/// ewa_tile_scratch_reserve().
+size_t ewa_tile_plane_floats(const ewa_tile_job *job);
+void ewa_tile_planes_bind(const ewa_tile_job *job, ewa_tile_scratch *scratch, float *planes);
+
+/// Sets `tile` to tile `index` of the picture in the worker's planes.
+void ewa_tile_place(const ewa_tile_job *job, ewa_tile_scratch *scratch, uint32_t index, ewa_tile *tile);
+
+/// One pass over the splats of a source beyond scratch->edges.passed, in the blocks that scratch->edges.rows marks; others
+/// are to be closed (-infinity).
+void ewa_tile_draw_behind(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *scratch,
+                          const ewa_tile_packets *packets, ewa_tile_pass what);
+
 /// Gathers the surfaces behind the first one where it covers pixels partly, hidden packets included; `kept`
 /// when all runs of those that are shown are kept. Returns whether there are such pixels; scratch->edge_rows
 /// marks them.

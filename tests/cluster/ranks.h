@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Ranks as threads of one process, which exchange through its memory.
+#ifndef EWA_TESTS_CLUSTER_RANKS_H
+#define EWA_TESTS_CLUSTER_RANKS_H
+
+#include "ewa/cluster.h"
+
+enum { RANKS_MOST = 8 };
+
+/// What a rank does; returns when it has nothing more to exchange.
+typedef void ranks_work(const ewa_exchange *exchange, void *data);
+
+/// Runs the ranks to their end; returns how many bytes each has given to others.
+uint64_t ranks_run(uint32_t count, ranks_work *work, void *data);
+
+#endif
