@@ -216,7 +216,9 @@ bool frames_plan(cli_session *session, const frames_arguments *arguments, frames
         there_count += there;
         if (!there) frames->chosen[frames->chosen_count++] = i;
     }
-    if (there_count) session_say(session, "%zu frames are there and are left out", there_count);
+    if (there_count)
+        session_say(session, "%zu of %zu frames are there and left out", there_count,
+                    there_count + frames->chosen_count);
     if (!there_count && !frames->chosen_count)
         session_note(session, "part %" PRIu64 " of %" PRIu64 " has no frames: the film has %zu", part->index,
                      part->parts, frames->count);

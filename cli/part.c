@@ -54,9 +54,7 @@ bool part_add(film_part *part, const char *text, char message[PART_ERROR_BYTES])
         return true;
     }
     if (left < 1 || left > right)
-        return wrong(message,
-                     "'%.80s' is no part: parts are counted from 1, of %" PRIu64 " there is 1 to %" PRIu64,
-                     text, right, right);
+        return wrong(message, "'%.80s' is no part: I/N counts the parts from 1 to N", text);
     part->kind = PART_ROBIN;
     part->index = left;
     part->parts = right;
