@@ -222,12 +222,33 @@ static void test_killed(void **state) {
     }
 }
 
+/// The script for Slurm, as a task of an array and by itself.
+static void test_script(void **state) {
+    (void)state;
+    const film *of = &films[0];
+    draw_whole(of);
+    assert_int_equal(setenv("EWA", getenv("EWA_PROGRAM"), 1), 0);
+    run_done("export SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_TASK_MAX=3 SLURM_CPUS_PER_TASK=2; "
+             "sh \"$EWA_SOURCE_DIR/examples/slurm_film.sh\" %s -o p_%%03d.png",
+             of->command);
+    check_part(of, 1, 6, 3);
+    run_done("PARTS=4 sh \"$EWA_SOURCE_DIR/examples/slurm_film.sh\" %s -o p_%%03d.png", of->command);
+    check_part(of, 0, 6, 1);
+    // One part that fails fails the whole; the others are drawn.
+    assert_int_equal(
+        run("rm p_*; mkdir p_001.png; sh \"$EWA_SOURCE_DIR/examples/slurm_film.sh\" %s -o p_%%03d.png",
+            of->command),
+        1);
+    run_done("rmdir p_001.png && test -s p_006.png && test ! -e p_003.png");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_ranges),  cmocka_unit_test(test_round_robin),
         cmocka_unit_test(test_beside),  cmocka_unit_test(test_usage),
         cmocka_unit_test(test_failure), cmocka_unit_test(test_skip_existing),
         cmocka_unit_test(test_film),    cmocka_unit_test(test_killed),
+        cmocka_unit_test(test_script),
     };
     return cmocka_run_group_tests(tests, enter, NULL);
 }
