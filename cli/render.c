@@ -404,6 +404,7 @@ const cli_command render_command = {
         "ewa render scan.ply -o scan.exr --camera camera.json --aov depth=depth.pfm,normal=normal.exr\n"
         "ewa render scan.ply -o turn.mp4 --turntable 120 --elevation 20\n"
         "ewa render scan.ply -o fly_%04d.png --path keys.json --frames 300\n"
+        "ewa render scan.ply -o turn_%04d.png --turntable 360 --frames 2/8 --skip-existing\n"
         "ewa render scan.ply -o floor.png --view top --clip-plane 0,0,-1,1.5\n",
     .low_operands = 1,
     .high_operands = 4096,
