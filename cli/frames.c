@@ -23,7 +23,8 @@ static const cli_option frames_table[] = {
      .excludes = "camera camera-index eye target up ortho view azimuth elevation"},
     {"frames", OPTION_FRAMES, offsetof(frames_arguments, part), "N|A-B|I/N",
      .help =
-         "N frames on a smooth way through the cameras of --path, which are evenly spaced in time; A-B or "
+         "N frames (1 to 1000000) on a smooth way through the cameras of --path, which are evenly spaced in "
+         "time; A-B or "
          "I/N: only a part of the film, frames A to B, or every Nth from frame I - 1 (part I of N), with the "
          "numbers and the bytes of the whole. A number and a part may both be given, each by its own "
          "--frames",

@@ -28,11 +28,14 @@ CODE = ("src", "include", "cli", "viewer", "examples", "import", "tests", "scene
 FOREIGN_OPTIONS = {
     "cmake": {"preset", "build", "target", "help"},
     "F3D": {"camera-azimuth-angle", "camera-elevation-angle"},
+    "parallel": {"wd", "retries"},
+    "sbatch": {"array", "dependency"},
 }
 
 # Files and programs of others; what reads like a name in formulas.
 FOREIGN_FILES = {"atanf.c", "nifti1.h", "nifti2.h"}
-FOREIGN_NAMES = {"surface_splatting", "sum_lights"}
+FOREIGN_NAMES = {"surface_splatting", "sum_lights", "AWS_BATCH_JOB_ARRAY_INDEX", "JOB_COMPLETION_INDEX", "PBS_ARRAY_INDEX",
+                 "SGE_TASK_ID", "SGE_TASK_LAST"}
 
 TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'', re.S)
 
