@@ -24,10 +24,9 @@ static const cli_option frames_table[] = {
     {"frames", OPTION_FRAMES, offsetof(frames_arguments, part), "N|A-B|I/N",
      .help =
          "N frames (1 to 1000000) on a smooth way through the cameras of --path, which are evenly spaced in "
-         "time; A-B or "
-         "I/N: only a part of the film, frames A to B, or every Nth from frame I - 1 (part I of N), with the "
-         "numbers and the bytes of the whole. A number and a part may both be given, each by its own "
-         "--frames",
+         "time; A-B or I/N: only a part of the film, frames A to B, or every Nth from frame I - 1 (part I of "
+         "N), with the numbers and the bytes of the whole. A number and a part may both be given, each by "
+         "its own --frames",
      .absent = "the cameras as they are, all frames", .needs = "turntable path"},
     {"skip-existing", OPTION_FLAG, offsetof(frames_arguments, skip_existing),
      .help = "leave out frames whose files are all there", .needs = "turntable path"},

@@ -184,7 +184,7 @@ def check_symbols(tree, found):
         for match in re.finditer(r"`([a-z]+(?:_[a-z0-9]+)+)`|"
                                  r"(?<![\w./%-])(?<!-\w )((?!EWA_)[A-Z][A-Z0-9]*(?:_[A-Z0-9]+)+)(?![\w./*])", text.text):
             name = match.group(1) or match.group(2)
-            if name not in tree.words:
+            if name not in tree.words and name not in FOREIGN_NAMES:
                 found.append((text.path, text.line(match.start()), f"{name}: no such name"))
         if text.path not in tree.sources:
             continue  # pages name files of data so
