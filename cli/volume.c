@@ -344,7 +344,8 @@ static int run(const void *data) {
     render_report report = {.load_s = 0};
     bool done = parse_paths(arguments, &paths, message) &&
                 frames_plan(&session, &arguments->frames, sequence_exists, &paths, &frames);
-    const bool idle = done && !frames.chosen_count && !arguments->save_camera_path && !arguments->stats_path;
+    const bool idle = done && !frames.chosen_count && !arguments->save_camera_path &&
+                      !arguments->stats_path && !arguments->scene.save_transfer_path;
     done = done && !idle &&
            volume_scene_load(&session, &arguments->input, &arguments->scene, common->operands[0],
                              arguments->progressive ? 2 : 1, &scene) &&

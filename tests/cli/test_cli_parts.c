@@ -132,6 +132,11 @@ static void test_skip_existing(void **state) {
         "ewa %s -o p_%%03d.png --skip-existing --frames 1/2; ended=$?; mv aside.ply torus.ply; exit $ended",
         of->command, of->command);
     assert_int_equal(scratch_size("p_001.png"), -1);
+    // But what else is asked for is made.
+    run_done(
+        "ewa volume ball.nrrd -o v_%%d.png --turntable 2 --size 32x32 && ewa volume ball.nrrd -o v_%%d.png "
+        "--turntable 2 --size 32x32 --skip-existing --save-transfer t.json --save-camera v.json && "
+        "test -s t.json -a -s v.json");
     // A frame is there when all of its files are.
     run_done(
         "ewa render torus.ply -o a_%%d.png --aov depth=d_%%d.pfm --turntable 3 --size 64x48 && rm d_1.pfm && "
