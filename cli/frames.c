@@ -7,6 +7,7 @@
 #include "pattern.h"
 #include "video.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,9 +21,15 @@ static const cli_option frames_table[] = {
     {"path", OPTION_TEXT, offsetof(frames_arguments, path_file), "FILE",
      .help = "one frame for each camera of a file, in its order; formats as --camera",
      .excludes = "camera camera-index eye target up ortho view azimuth elevation"},
-    {"frames", OPTION_INTEGER, offsetof(frames_arguments, path_frames), "N", "[1, 1000000]",
-     .help = "N frames on a smooth way through the cameras of --path, which are evenly spaced in time",
-     .absent = "the cameras as they are", .needs = "path"},
+    {"frames", OPTION_FRAMES, offsetof(frames_arguments, part), "N|A-B|I/N",
+     .help =
+         "N frames (1 to 1000000) on a smooth way through the cameras of --path, which are evenly spaced in "
+         "time; A-B or I/N: only a part of the film, frames A to B, or every Nth from frame I - 1 (part I of "
+         "N), with the numbers and the bytes of the whole. A number and a part may both be given, each by "
+         "its own --frames",
+     .absent = "the cameras as they are, all frames", .needs = "turntable path"},
+    {"skip-existing", OPTION_FLAG, offsetof(frames_arguments, skip_existing),
+     .help = "leave out frames whose files are all there", .needs = "turntable path"},
     {"loop", OPTION_FLAG, offsetof(frames_arguments, loop),
      .help = "with --frames: the way goes on from the last camera to the first", .needs = "frames"},
     {"fps", OPTION_NUMBER, offsetof(frames_arguments, frames_per_s), "F", "(0, 1000]",
@@ -45,6 +52,9 @@ static const char *check_output(const frames_arguments *arguments, const char *o
     const video_format *film = video_find_format(output);
     if (!film && (arguments->frames_per_s > 0 || arguments->quality >= 0))
         return "--fps and --quality are for films: -o FILE.mp4, .webm, .mkv or .gif";
+    if (film && arguments->skip_existing) return "--skip-existing is for numbered files, not for films";
+    if (film && arguments->part.kind == PART_ROBIN)
+        return "--frames I/N: a film of every Nth frame jumps; say A-B, or write numbered files";
     if (film && !video_has_quality(film) && arguments->quality >= 0)
         return "--quality: .gif has one quality only";
     if (film && !frames_many(arguments)) return "--output: a film needs --turntable or --path";
@@ -56,29 +66,49 @@ static const char *check_output(const frames_arguments *arguments, const char *o
     return NULL;
 }
 
+/// What is wrong with --frames; false then.
+static bool check_part(const frames_arguments *arguments, char message[OPTION_ERROR_BYTES]) {
+    const film_part *part = &arguments->part;
+    const int64_t count = arguments->path_file ? part->count : arguments->turntable;
+    char problem[PART_ERROR_BYTES];
+    if (part->count && !arguments->path_file) {
+        snprintf(message, OPTION_ERROR_BYTES,
+                 "--frames N needs --path; a part of a turntable is A-B, such as %" PRId64 "-%" PRId64
+                 " for one frame, or I/N",
+                 part->count, part->count);
+        return false;
+    }
+    if (arguments->loop && !part->count) return options_fine("--loop needs --frames N", message);
+    if (count && part_is_beyond(part, (uint64_t)count, problem)) {
+        snprintf(message, OPTION_ERROR_BYTES, "--frames: %s", problem);
+        return false;
+    }
+    return true;
+}
+
 bool frames_check(const frames_arguments *arguments, const char *output, bool opaque,
                   char message[OPTION_ERROR_BYTES]) {
     const bool poses = arguments->path_file && camera_input_is_poses(arguments->path_file);
     const char *wrong = check_output(arguments, output, opaque);
     if (!wrong && arguments->path_file && !poses && arguments->view.fov_deg > 0)
         wrong = "--path and --fov exclude each other, but for poses (.txt, .log, .tum): the file has lenses";
-    return options_fine(wrong, message) && view_check(&arguments->view, poses, message);
+    return options_fine(wrong, message) && check_part(arguments, message) &&
+           view_check(&arguments->view, poses, message);
 }
 
-/// Makes room for cameras; false after reporting.
-static bool allocate(cli_session *session, size_t count, frame_cameras *frames) {
-    frames->cameras = calloc(count, sizeof *frames->cameras);
-    frames->count = count;
-    if (!frames->cameras) session_fail(session, "out of memory for %zu cameras", count);
+/// Makes room for the cameras of all frames; false after reporting.
+static bool allocate(cli_session *session, frame_cameras *frames) {
+    frames->cameras = calloc(frames->count, sizeof *frames->cameras);
+    if (!frames->cameras) session_fail(session, "out of memory for %zu cameras", frames->count);
     return frames->cameras != NULL;
 }
 
 static bool make_turntable(cli_session *session, const frames_arguments *arguments, const ewa_cloud *cloud,
                            double radius_scale, frame_cameras *frames) {
-    const size_t count = (size_t)arguments->turntable;
+    const size_t count = frames->count;
     ewa_camera first;
     view_turn turn;
-    if (!allocate(session, count, frames) ||
+    if (!allocate(session, frames) ||
         !view_make(session, &arguments->view, cloud, radius_scale, &first, &turn))
         return false;
     ewa_status status = EWA_OK;
@@ -148,30 +178,64 @@ static bool load_keys(cli_session *session, const frames_arguments *arguments, c
 static bool make_path(cli_session *session, const frames_arguments *arguments, frame_cameras *frames) {
     camera_keys keys = {.count = 0};
     bool done = load_keys(session, arguments, &keys);
-    if (done && arguments->path_frames) {
-        done = allocate(session, (size_t)arguments->path_frames, frames);
+    if (done && arguments->part.count) {
+        frames->count = (size_t)arguments->part.count;
+        done = allocate(session, frames);
         const ewa_status status = done ? interpolate(session, arguments, &keys, frames) : EWA_OK;
         if (status != EWA_OK) session_failed(session, status);
         done = done && status == EWA_OK;
         free(keys.cameras);
     } else {
-        *frames = (frame_cameras){keys.cameras, keys.count};
+        frames->cameras = keys.cameras;
+        frames->count = keys.count;
     }
     session->subject = NULL;
     return done;
 }
 
+bool frames_plan(cli_session *session, const frames_arguments *arguments, frames_exist *exist,
+                 const void *user, frame_cameras *frames) {
+    const film_part *part = &arguments->part;
+    *frames = (frame_cameras){.count = arguments->turntable ? (size_t)arguments->turntable : 1};
+    if (arguments->path_file && !make_path(session, arguments, frames)) return false;
+    char problem[PART_ERROR_BYTES];
+    frames->beyond = part_is_beyond(part, frames->count, problem);
+    if (frames->beyond) {
+        session_fail(session, "--frames: %s", problem);
+        return false;
+    }
+    frames->chosen = calloc(frames->count, sizeof *frames->chosen);
+    if (!frames->chosen) {
+        session_fail(session, "out of memory for %zu frames", frames->count);
+        return false;
+    }
+    size_t there_count = 0;
+    for (size_t i = 0; i < frames->count; i++) {
+        if (!part_has(part, i)) continue;
+        const bool there = arguments->skip_existing && exist(user, i);
+        there_count += there;
+        if (!there) frames->chosen[frames->chosen_count++] = i;
+    }
+    if (there_count)
+        session_say(session, "%zu of %zu frames are there and left out", there_count,
+                    there_count + frames->chosen_count);
+    if (!there_count && !frames->chosen_count)
+        session_note(session, "part %" PRIu64 " of %" PRIu64 " has no frames: the film has %zu", part->index,
+                     part->parts, frames->count);
+    return true;
+}
+
 bool frames_make(cli_session *session, const frames_arguments *arguments, const ewa_cloud *cloud,
                  double radius_scale, frame_cameras *frames) {
-    *frames = (frame_cameras){.count = 0};
-    if (arguments->path_file) return make_path(session, arguments, frames);
+    if (arguments->path_file) return true; // the plan has them
     if (arguments->turntable) return make_turntable(session, arguments, cloud, radius_scale, frames);
-    return allocate(session, 1, frames) &&
+    return allocate(session, frames) &&
            view_make(session, &arguments->view, cloud, radius_scale, frames->cameras, NULL);
 }
 
 void frames_free(frame_cameras *frames) {
     free(frames->cameras);
+    free(frames->chosen);
     *frames = (frame_cameras){.count = 0};
 }
 

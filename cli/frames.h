@@ -12,8 +12,9 @@ typedef struct frames_arguments {
     view_arguments view; // first: it begins with the common arguments
     int64_t turntable;   ///< frames; 0: not asked for
     const char *path_file;
-    int64_t path_frames; ///< 0: the cameras as they are
+    film_part part; ///< its count: frames on the way through the cameras; 0: the cameras as they are
     bool loop;
+    bool skip_existing;
     double frames_per_s; ///< 0: not given
     int64_t quality;     ///< -1: not given
 } frames_arguments;
@@ -30,14 +31,25 @@ bool frames_many(const frames_arguments *arguments);
 bool frames_check(const frames_arguments *arguments, const char *output, bool opaque,
                   char message[OPTION_ERROR_BYTES]);
 
-/// The cameras of all frames, one when a single picture is asked for.
+/// The frames of a film, one when a single picture is asked for, and which of them this run draws.
 typedef struct frame_cameras {
-    ewa_camera *cameras;
-    size_t count;
+    ewa_camera *cameras; ///< of all frames, so that a part is drawn as the whole film is
+    size_t count;        ///< of the whole film
+    size_t *chosen;      ///< numbers of the frames that are drawn, rising
+    size_t chosen_count;
+    bool beyond; ///< the part lies beyond the film's end: wrong usage
 } frame_cameras;
 
-/// Makes the cameras that the options ask for, looking at a cloud whose radii are drawn times `radius_scale`.
-/// Returns false after reporting; free in any case.
+/// Whether the files of frame `index` are there; false where one is not.
+typedef bool frames_exist(const void *user, size_t index);
+
+/// Counts the frames before anything large is read, and chooses those of the part, with --skip-existing those
+/// that are not there already. Returns false after reporting; free in any case.
+bool frames_plan(cli_session *session, const frames_arguments *arguments, frames_exist *exist,
+                 const void *user, frame_cameras *frames);
+
+/// Makes the cameras that the options ask for, looking at a cloud whose radii are drawn times `radius_scale`;
+/// `frames` is planned. Returns false after reporting.
 bool frames_make(cli_session *session, const frames_arguments *arguments, const ewa_cloud *cloud,
                  double radius_scale, frame_cameras *frames);
 void frames_free(frame_cameras *frames);

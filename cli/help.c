@@ -64,6 +64,7 @@ static void format_default(const cli_option *option, const void *defaults, char 
     case OPTION_FLAG:
     case OPTION_TOGGLE:
     case OPTION_BOUNDS:
+    case OPTION_FRAMES:
     case OPTION_FILTER:
         break;
     case OPTION_ON_OFF:

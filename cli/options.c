@@ -266,6 +266,12 @@ static bool parse_filter(const cli_option *option, const char *text, ewa_filter 
            wrong(message, "--%s: %s", option->key, problem);
 }
 
+static bool parse_frames(const cli_option *option, const char *text, film_part *part,
+                         char message[OPTION_ERROR_BYTES]) {
+    char problem[PART_ERROR_BYTES];
+    return part_add(part, text, problem) || wrong(message, "--%s: %s", option->key, problem);
+}
+
 static bool parse_value(const cli_option *option, const char *text, void *member,
                         char message[OPTION_ERROR_BYTES]) {
     int choice = 0;
@@ -288,6 +294,8 @@ static bool parse_value(const cli_option *option, const char *text, void *member
         return parse_choice(option, text, option->range, member, message);
     case OPTION_SET:
         return parse_set(option, text, member, message);
+    case OPTION_FRAMES:
+        return parse_frames(option, text, member, message);
     case OPTION_FILTER:
         return parse_filter(option, text, member, message);
     case OPTION_LIBRARY:

@@ -9,6 +9,7 @@
 
 #include "ewa/options.h"
 #include "ewa/select.h"
+#include "part.h"
 
 /// What the value of an option is, and the type of the member that it fills.
 typedef enum option_kind {
@@ -26,6 +27,7 @@ typedef enum option_kind {
     OPTION_BOUNDS,  ///< option_bounds: two numbers, each a percentile when a percent sign follows
     OPTION_COLOR,   ///< option_color
     OPTION_SIZE,    ///< option_size
+    OPTION_FRAMES,  ///< film_part: N, A-B or I/N; a number and a part may both be given
     OPTION_FILTER,  ///< ewa_filter: conditions, given once or more often
     OPTION_SET,     ///< uint32_t: bits of words in `range`, separated by commas
     OPTION_LIBRARY, ///< a member of a struct of the library's options, as its table says: see OPTION_OF

@@ -340,30 +340,34 @@ static int run(const void *data) {
     char message[OPTION_ERROR_BYTES];
     render_scene scene = {.surfels = NULL};
     const frame_cameras *frames = &scene.frames;
+    const bool many = frames_many(&arguments->frames);
     light_objects lit_by = {.material_count = 0};
     render_report report = {.load_s = 0};
-    bool done =
-        parse_paths(arguments, &paths, message) && light_load(&session, &arguments->light, &lit_by) &&
-        prepare(&session, arguments, &scene, &report) &&
-        draw(&session, arguments, &paths, &lit_by, &scene, &report) &&
-        (!arguments->stats_path || render_report_write(&session, common, frames_many(&arguments->frames),
-                                                       frames, &report, arguments->stats_path));
-    if (done && !frames_many(&arguments->frames))
+    bool done = parse_paths(arguments, &paths, message) &&
+                frames_plan(&session, &arguments->frames, sequence_exists, &paths, &scene.frames);
+    const bool idle = done && !frames->chosen_count && !arguments->save_camera_path && !arguments->stats_path;
+    done = done && !idle && light_load(&session, &arguments->light, &lit_by) &&
+           prepare(&session, arguments, &scene, &report) &&
+           draw(&session, arguments, &paths, &lit_by, &scene, &report) &&
+           (!arguments->stats_path ||
+            render_report_write(&session, common, many, frames, &report, arguments->stats_path));
+    if (done && !many)
         session_say(&session, "%s: %llu of %llu splats drawn in %.1f ms, %.3f s in all", arguments->output,
                     (unsigned long long)(report.stats.splat_count - report.stats.culled_count),
                     (unsigned long long)report.stats.splat_count, 1e3 * report.render_s,
                     clock_now_s() - session.started_s);
-    else if (done)
+    else if (done && frames->chosen_count)
         session_say(&session, "%s: %zu frames, each drawn in %.1f ms, %.3f s in all", arguments->output,
-                    frames->count, 1e3 * report.render_s / (double)frames->count,
+                    frames->chosen_count, 1e3 * report.render_s / (double)frames->chosen_count,
                     clock_now_s() - session.started_s);
+    const int ended = done || idle ? EXIT_DONE : frames->beyond ? EXIT_USAGE : EXIT_FAILED;
     render_report_free(&report);
     color_scale_free(&scene.scale);
     frames_free(&scene.frames);
     ewa_surfels_destroy(&scene.surfels);
     ewa_lod_close(&scene.lod);
     light_free(&lit_by);
-    return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
+    return session_end(&session, ended);
 }
 
 static const option_group output_options = OPTION_GROUP("Output", output_table);
@@ -400,6 +404,7 @@ const cli_command render_command = {
         "ewa render scan.ply -o scan.exr --camera camera.json --aov depth=depth.pfm,normal=normal.exr\n"
         "ewa render scan.ply -o turn.mp4 --turntable 120 --elevation 20\n"
         "ewa render scan.ply -o fly_%04d.png --path keys.json --frames 300\n"
+        "ewa render scan.ply -o turn_%04d.png --turntable 360 --frames 2/8 --skip-existing\n"
         "ewa render scan.ply -o floor.png --view top --clip-plane 0,0,-1,1.5\n",
     .low_operands = 1,
     .high_operands = 4096,

@@ -48,11 +48,13 @@ void render_report_free(render_report *report) {
     report->frames = NULL;
 }
 
-static void write_frames(json_writer *json, size_t count, const frame_report *frames) {
-    json_count(json, "frame_count", count);
+static void write_frames(json_writer *json, const frame_cameras *drawn, const frame_report *frames) {
+    json_count(json, "film_frame_count", drawn->count);
+    json_count(json, "frame_count", drawn->chosen_count);
     json_array(json, "frames");
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < drawn->chosen_count; i++) {
         json_object(json, NULL);
+        json_count(json, "frame", drawn->chosen[i]);
         json_number(json, "render_s", frames[i].render_s);
         json_number(json, "write_s", frames[i].write_s);
         json_count(json, "splats_culled", frames[i].culled_count);
@@ -115,7 +117,7 @@ bool render_report_write(cli_session *session, const common_arguments *common, b
     json_number(&json, "resolve", report->stats.resolve_s);
     json_close(&json, '}');
     if (report->from_lod) write_lod(&json, &report->lod);
-    if (many) write_frames(&json, frames->count, report->frames);
+    if (many) write_frames(&json, frames, report->frames);
     json_count(&json, "peak_memory_bytes", memory_peak_bytes());
     json_end(&json);
     return text_file_close(session, &text);

@@ -20,12 +20,12 @@ typedef struct render_report {
     ewa_surfels_info surfels;
     ewa_renderer_info renderer; ///< after the last frame
     ewa_render_stats stats;     ///< counts and times summed over all frames, but for the splats
-    frame_report *frames;       ///< of each frame when there are many
+    frame_report *frames;       ///< of each frame that was drawn, when there are many
     bool from_lod;              ///< drawn from the levels of an octree:
     ewa_lod_stats lod; ///< of the frame with the most surfels, but for what was loaded and times: of all
 } render_report;
 
-/// Adds what frame `index` of `count` took; false after reporting that memory ran out.
+/// Adds what frame `index` of the `count` that are drawn took; false after reporting that memory ran out.
 bool render_report_add(cli_session *session, render_report *report, size_t index, size_t count,
                        const ewa_render_stats *stats, double render_s, double write_s);
 

@@ -9,6 +9,7 @@
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <sys/stat.h>
 
 /// Frames that are written at the same time, at most: each holds its planes.
 enum { MAX_SLOTS = 8 };
@@ -33,22 +34,37 @@ bool sequence_check_paths(const picture_paths *paths, char message[OPTION_ERROR_
     return true;
 }
 
-/// Names the files of frame `index`; false after reporting.
-static bool number_files(cli_session *session, const picture_paths *paths, size_t index, frame_files *files) {
+/// Names the files of frame `index`; returns NULL, or the path that is too long then.
+static const char *number_files(const picture_paths *paths, size_t index, frame_files *files) {
     files->paths.color = paths->color ? files->color : NULL;
     const char *const from[] = {paths->color, paths->depth, paths->normal, paths->coverage};
     char *const to[] = {files->color, files->paths.depth, files->paths.normal, files->paths.coverage};
     for (size_t i = 0; i < sizeof from / sizeof from[0]; i++) {
-        if (from[i] && !pattern_expand(from[i], index, sizeof files->color, to[i])) {
-            session_fail(session, "%.200s: the path is too long", from[i]);
-            return false;
-        }
+        if (from[i] && !pattern_expand(from[i], index, sizeof files->color, to[i])) return from[i];
     }
-    return true;
+    return NULL;
 }
 
 _Static_assert(sizeof((frame_files){0}.color) == sizeof((frame_files){0}.paths.depth),
                "number_files() takes all for one size");
+
+/// A file that is there and not empty; whole, as files appear here. Others may have made an empty one to hold its
+/// place.
+static bool is_there(const char *path) {
+    struct stat facts;
+    return stat(path, &facts) == 0 && S_ISREG(facts.st_mode) && facts.st_size > 0;
+}
+
+bool sequence_exists(const void *user, size_t index) {
+    const picture_paths *paths = user;
+    frame_files files = {.paths = *paths};
+    if (number_files(paths, index, &files)) return false; // which the drawing reports
+    const char *const all[] = {files.paths.color, files.paths.depth, files.paths.normal,
+                               files.paths.coverage};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        if (all[i] && all[i][0] && !is_there(all[i])) return false;
+    return true;
+}
 
 /// Whether all frames have one size, which a film needs; false after reporting.
 static bool check_sizes(cli_session *session, const char *film, const frame_cameras *frames) {
@@ -75,7 +91,7 @@ typedef struct frame_slot {
     pthread_t thread;
     bool busy, threaded; ///< a frame has to be collected; by waiting for the thread
     bool saved, opaque;
-    size_t index;
+    size_t place, index; ///< of the frame, among those that are drawn, and in the film
     double render_s, write_s;
     ewa_render_stats stats;
 } frame_slot;
@@ -90,7 +106,7 @@ typedef struct sequence {
     frame_slot slots[MAX_SLOTS];
     size_t slot_count;
     render_report *report;
-    bool *written;                   ///< of each frame: its files are there
+    bool *written;                   ///< of each frame that is drawn: its files are there
     size_t empty_count, first_empty; ///< frames that show nothing
     char subject[1024];              ///< names the frame that is drawn
 } sequence;
@@ -109,14 +125,14 @@ static bool collect_slot(sequence *all, frame_slot *slot) {
     if (!slot->busy) return true;
     if (slot->threaded) pthread_join(slot->thread, NULL);
     slot->busy = false;
-    all->written[slot->index] = slot->saved;
+    all->written[slot->place] = slot->saved;
     if (slot->saved && slot->stats.splat_count > 0 && slot->stats.drawn_count == 0 && all->empty_count++ == 0)
         all->first_empty = slot->index;
     return slot->saved &&
-           render_report_add(all->session, all->report, slot->index, all->frames->count, &slot->stats,
+           render_report_add(all->session, all->report, slot->place, all->frames->chosen_count, &slot->stats,
                              slot->render_s, slot->write_s) &&
            (!all->output->numbered ||
-            session_step(all->session, "frame", slot->index + 1, all->frames->count));
+            session_step(all->session, "frame", slot->place + 1, all->frames->chosen_count));
 }
 
 /// Starts writing what a slot holds.
@@ -126,9 +142,10 @@ static void start_saving(sequence *all, frame_slot *slot) {
     if (!slot->threaded) save_slot(slot);
 }
 
-/// Draws frame `index` and hands it to a slot; false after reporting.
-static bool draw_frame(sequence *all, size_t index) {
-    frame_slot *slot = &all->slots[index % all->slot_count];
+/// Draws the frame at `place` of those chosen and hands it to a slot; false after reporting.
+static bool draw_frame(sequence *all, size_t place) {
+    const size_t index = all->frames->chosen[place];
+    frame_slot *slot = &all->slots[place % all->slot_count];
     const ewa_camera *camera = &all->frames->cameras[index], *last = slot->camera;
     if (!collect_slot(all, slot)) return false;
     slot->camera = camera;
@@ -143,10 +160,15 @@ static bool draw_frame(sequence *all, size_t index) {
         picture_free(&slot->picture);
         if (!picture_make(slot->session, all->output->paths, camera, &slot->picture)) return false;
     }
+    slot->place = place;
     slot->index = index;
     slot->files.paths = *all->output->paths;
-    if (all->output->numbered && !number_files(all->session, all->output->paths, index, &slot->files))
+    const char *too_long =
+        all->output->numbered ? number_files(all->output->paths, index, &slot->files) : NULL;
+    if (too_long) {
+        session_fail(all->session, "%.200s: the path is too long", too_long);
         return false;
+    }
     const double started_s = clock_now_s();
     const ewa_status status =
         all->painter->paint(all->painter->user, camera, &slot->picture.frame, &slot->stats);
@@ -168,7 +190,7 @@ static bool make_slots(sequence *all) {
     const picture_paths *paths = all->output->paths;
     const bool writes = paths->color || paths->depth[0] || paths->normal[0] || paths->coverage[0];
     const size_t workers = writes ? ewa_context_worker_count(all->session->context) : 1;
-    const size_t wanted = all->frames->count < workers ? all->frames->count : workers;
+    const size_t count = all->frames->chosen_count, wanted = count < workers ? count : workers;
     all->slot_count = wanted < MAX_SLOTS ? wanted : MAX_SLOTS;
     for (size_t i = 0; i < all->slot_count; i++) {
         frame_slot *slot = &all->slots[i];
@@ -196,32 +218,34 @@ static void free_slots(sequence *all) {
 
 static bool draw_all(sequence *all) {
     bool done = true;
-    for (size_t i = 0; i < all->frames->count && done; i++) done = draw_frame(all, i);
+    const size_t count = all->frames->chosen_count;
+    for (size_t i = 0; i < count && done; i++) done = draw_frame(all, i);
     // In the order of the frames, whether or not one failed.
     for (size_t i = 0; i < MAX_SLOTS; i++)
-        done = collect_slot(all, &all->slots[(all->frames->count + i) % all->slot_count]) && done;
+        done = collect_slot(all, &all->slots[(count + i) % all->slot_count]) && done;
     return done;
 }
 
 /// Says which frames of an unfinished sequence are there: whoever goes on need not draw them again.
 static void report_written(const sequence *all) {
     char ranges[256] = "";
+    const size_t *numbers = all->frames->chosen, drawn_count = all->frames->chosen_count;
     size_t count = 0, used = 0;
-    for (size_t i = 0; i < all->frames->count; i++) {
-        count += all->written[i];
-        if (!all->written[i] || (i > 0 && all->written[i - 1])) continue;
-        size_t last = i;
-        while (last + 1 < all->frames->count && all->written[last + 1]) last++;
-        if (used < sizeof ranges)
-            used += (size_t)snprintf(ranges + used, sizeof ranges - used, last > i ? "%s%zu to %zu" : "%s%zu",
-                                     used ? ", " : "", i, last);
+    for (size_t i = 0; i < drawn_count;) {
+        size_t end = i;
+        while (end < drawn_count && all->written[end] && numbers[end] - numbers[i] == end - i) end++;
+        count += end - i;
+        if (end > i && used < sizeof ranges)
+            used +=
+                (size_t)snprintf(ranges + used, sizeof ranges - used, end - i > 1 ? "%s%zu to %zu" : "%s%zu",
+                                 used ? ", " : "", numbers[i], numbers[end - 1]);
+        i = end > i ? end : i + 1;
     }
     all->session->subject = NULL;
     if (count)
-        session_note(all->session, "of %zu frames, %zu are written and stay: %s", all->frames->count, count,
-                     ranges);
+        session_note(all->session, "of %zu frames, %zu are written and stay: %s", drawn_count, count, ranges);
     else
-        session_note(all->session, "none of %zu frames is written", all->frames->count);
+        session_note(all->session, "none of %zu frames is written", drawn_count);
 }
 
 /// Warns of pictures that show nothing of what there is.
@@ -232,7 +256,7 @@ static void report_empty(const sequence *all) {
         session_warn(
             all->session,
             "%zu of %zu frames, the first is %zu, show nothing: their cameras see none of the %llu splats",
-            all->empty_count, all->frames->count, all->first_empty, splat_count);
+            all->empty_count, all->frames->chosen_count, all->first_empty, splat_count);
     else if (all->empty_count)
         session_warn(all->session, "the picture shows nothing: the camera sees none of the %llu splats",
                      splat_count);
@@ -240,6 +264,7 @@ static void report_empty(const sequence *all) {
 
 bool sequence_draw(cli_session *session, const sequence_output *output, const frame_cameras *frames,
                    const frame_painter *painter, render_report *report) {
+    if (frames->chosen_count == 0) return true;
     const video_settings settings = {.width_px = frames->cameras->width_px,
                                      .height_px = frames->cameras->height_px,
                                      .frames_per_s = output->frames_per_s,
@@ -247,8 +272,8 @@ bool sequence_draw(cli_session *session, const sequence_output *output, const fr
                                      .opaque = output->opaque};
     sequence all = {
         .session = session, .output = output, .frames = frames, .painter = painter, .report = report};
-    all.written = calloc(frames->count, sizeof *all.written);
-    if (!all.written) session_fail(session, "out of memory for %zu frames", frames->count);
+    all.written = calloc(frames->chosen_count, sizeof *all.written);
+    if (!all.written) session_fail(session, "out of memory for %zu frames", frames->chosen_count);
     bool done = all.written && make_slots(&all) &&
                 (!output->film || (check_sizes(session, output->film, frames) &&
                                    video_start(session, output->film, &settings, &all.video))) &&

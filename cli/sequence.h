@@ -22,6 +22,9 @@ typedef struct sequence_output {
 /// Says in `message` which of the paths has no place for a number; returns false then.
 bool sequence_check_paths(const picture_paths *paths, char message[OPTION_ERROR_BYTES]);
 
+/// Whether all files of a frame are there; `user`: the numbered picture_paths. For frames_plan().
+bool sequence_exists(const void *user, size_t index);
+
 /// What draws a frame: fills the planes and the statistics; the status of the library.
 typedef struct frame_painter {
     ewa_status (*paint)(void *user, const ewa_camera *camera, const ewa_frame *frame,
@@ -29,7 +32,7 @@ typedef struct frame_painter {
     void *user;
 } frame_painter;
 
-/// Draws a frame for each camera and writes it; warns of frames that show nothing. Returns false after
+/// Draws the frames that are chosen and writes them; warns of frames that show nothing. Returns false after
 /// reporting; whole files stay, which a message counts, a film is removed then.
 bool sequence_draw(cli_session *session, const sequence_output *output, const frame_cameras *frames,
                    const frame_painter *painter, render_report *report);

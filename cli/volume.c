@@ -298,7 +298,8 @@ static bool write_stats(cli_session *session, const volume_arguments *arguments,
     json_text(&json, "input", arguments->frames.view.common.operands[0]);
     json_count(&json, "width", frames->cameras->width_px);
     json_count(&json, "height", frames->cameras->height_px);
-    json_count(&json, "frame_count", frames->count);
+    json_count(&json, "film_frame_count", frames->count);
+    json_count(&json, "frame_count", frames->chosen_count);
     json_count(&json, "threads", ewa_context_worker_count(session->context));
     json_count(&json, "voxels", info->voxel_count);
     json_count(&json, "voxels_occupied", info->occupied_count);
@@ -341,26 +342,30 @@ static int run(const void *data) {
     frame_cameras frames = {.count = 0};
     volume_painter painter = {.session = &session, .scene = &scene};
     render_report report = {.load_s = 0};
-    const bool done =
-        parse_paths(arguments, &paths, message) &&
-        volume_scene_load(&session, &arguments->input, &arguments->scene, common->operands[0],
-                          arguments->progressive ? 2 : 1, &scene) &&
-        volume_scene_frame(&session, &arguments->frames, &scene, &frames) &&
-        prepare_painter(arguments, &painter) &&
-        furnish_make(&session, &arguments->furniture, &arguments->frames, &arguments->background,
-                     ewa_cloud_point_count(scene.outline) ? scene.outline : NULL, NULL, NULL,
-                     &painter.furniture) &&
-        draw(arguments, &paths, &frames, &painter, &report) &&
-        (!arguments->stats_path || write_stats(&session, arguments, &frames, &painter, &report));
-    if (done)
+    bool done = parse_paths(arguments, &paths, message) &&
+                frames_plan(&session, &arguments->frames, sequence_exists, &paths, &frames);
+    const bool idle = done && !frames.chosen_count && !arguments->save_camera_path &&
+                      !arguments->stats_path && !arguments->scene.save_transfer_path;
+    done = done && !idle &&
+           volume_scene_load(&session, &arguments->input, &arguments->scene, common->operands[0],
+                             arguments->progressive ? 2 : 1, &scene) &&
+           volume_scene_frame(&session, &arguments->frames, &scene, &frames) &&
+           prepare_painter(arguments, &painter) &&
+           furnish_make(&session, &arguments->furniture, &arguments->frames, &arguments->background,
+                        ewa_cloud_point_count(scene.outline) ? scene.outline : NULL, NULL, NULL,
+                        &painter.furniture) &&
+           draw(arguments, &paths, &frames, &painter, &report) &&
+           (!arguments->stats_path || write_stats(&session, arguments, &frames, &painter, &report));
+    if (done && frames.chosen_count)
         session_say(&session, "%s: %llu of %llu voxels, drawn in %.1f ms, %.3f s in all", arguments->output,
                     (unsigned long long)scene.info.occupied_count, (unsigned long long)scene.info.voxel_count,
-                    1e3 * report.render_s / (double)frames.count, clock_now_s() - session.started_s);
+                    1e3 * report.render_s / (double)frames.chosen_count, clock_now_s() - session.started_s);
     free_painter(&painter);
     render_report_free(&report);
+    const int ended = done || idle ? EXIT_DONE : frames.beyond ? EXIT_USAGE : EXIT_FAILED;
     frames_free(&frames);
     volume_scene_free(&scene);
-    return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
+    return session_end(&session, ended);
 }
 
 static const option_group output_options = OPTION_GROUP("Output", output_table);

@@ -217,7 +217,6 @@ static ewa_cloud *make_outline(cli_session *session, const volume_scene *scene) 
 
 bool volume_scene_frame(cli_session *session, const frames_arguments *arguments, const volume_scene *scene,
                         frame_cameras *frames) {
-    *frames = (frame_cameras){.count = 0};
     ewa_cloud *cloud = make_outline(session, scene);
     if (!cloud) return false;
     // Scanners' volumes stand on z, whatever their proportions.

@@ -36,8 +36,8 @@ bool volume_scene_load(cli_session *session, const volume_input_arguments *input
                        volume_scene *scene);
 void volume_scene_free(volume_scene *scene);
 
-/// Makes the cameras that the options ask for, looking at all that can be seen. Returns false after
-/// reporting; free with frames_free() in any case.
+/// Makes the cameras that the options ask for, looking at all that can be seen; `frames` is planned.
+/// Returns false after reporting.
 bool volume_scene_frame(cli_session *session, const frames_arguments *arguments, const volume_scene *scene,
                         frame_cameras *frames);
 

@@ -28,11 +28,14 @@ CODE = ("src", "include", "cli", "viewer", "examples", "import", "tests", "scene
 FOREIGN_OPTIONS = {
     "cmake": {"preset", "build", "target", "help"},
     "F3D": {"camera-azimuth-angle", "camera-elevation-angle"},
+    "parallel": {"wd", "retries"},
+    "sbatch": {"array", "dependency"},
 }
 
 # Files and programs of others; what reads like a name in formulas.
 FOREIGN_FILES = {"atanf.c", "nifti1.h", "nifti2.h"}
-FOREIGN_NAMES = {"surface_splatting", "sum_lights"}
+FOREIGN_NAMES = {"surface_splatting", "sum_lights", "AWS_BATCH_JOB_ARRAY_INDEX", "JOB_COMPLETION_INDEX", "PBS_ARRAY_INDEX",
+                 "SGE_TASK_ID", "SGE_TASK_LAST"}
 
 TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'', re.S)
 
@@ -181,7 +184,7 @@ def check_symbols(tree, found):
         for match in re.finditer(r"`([a-z]+(?:_[a-z0-9]+)+)`|"
                                  r"(?<![\w./%-])(?<!-\w )((?!EWA_)[A-Z][A-Z0-9]*(?:_[A-Z0-9]+)+)(?![\w./*])", text.text):
             name = match.group(1) or match.group(2)
-            if name not in tree.words:
+            if name not in tree.words and name not in FOREIGN_NAMES:
                 found.append((text.path, text.line(match.start()), f"{name}: no such name"))
         if text.path not in tree.sources:
             continue  # pages name files of data so

@@ -117,7 +117,7 @@ static void test_usage(void **state) {
         {"-o a_%d.png --turntable 0", "--turntable|[1,"},
         {"-o a_%d.png --turntable 4 --aov depth=d.pfm", "d.pfm|numbered"},
         {"-o a_%d.png --turntable 4 --path c.json", "exclude"},
-        {"-o a_%d.png --frames 4", "--frames needs --path"},
+        {"-o a_%d.png --frames 4", "--frames needs --turntable or --path"},
         {"-o a_%d.png --path c.json --loop", "--loop needs --frames"},
         {"-o a_%d.png --path c.json --view top", "--path and --view exclude"},
         {"-o a_%d.png --turntable 4 --fps 20", "--fps"},

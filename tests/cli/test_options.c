@@ -270,6 +270,9 @@ static size_t add_option(const cli_option *option, const char **words, size_t co
     case OPTION_BOUNDS:
         snprintf(text[1], sizeof text[1], "0,1");
         break;
+    case OPTION_FRAMES:
+        snprintf(text[1], sizeof text[1], "0-1");
+        break;
     case OPTION_FILTER:
         snprintf(text[1], sizeof text[1], "x>1");
         break;
