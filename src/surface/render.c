@@ -53,8 +53,7 @@ void ewa_renderer_destroy(ewa_renderer **renderer) {
     *renderer = NULL;
 }
 
-const ewa_backend *ewa_renderer_backend(const ewa_renderer *renderer, ewa_context **context,
-                                        void **state) {
+const ewa_backend *ewa_renderer_backend(const ewa_renderer *renderer, ewa_context **context, void **state) {
     *context = renderer->context;
     *state = renderer->state;
     return renderer->backend;
