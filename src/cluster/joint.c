@@ -135,7 +135,8 @@ static void find_nearest(void *data, uint32_t number, uint32_t worker) {
 /// A set of sums of a tile, and how they are exchanged: blocks times channels, words after each other.
 typedef struct sum_set {
     const ewa_sums *of;
-    uint32_t *rows; ///< blocks that have some; NULL: all
+    const uint32_t *within; ///< blocks that are being gathered; NULL: all
+    uint32_t *rows;         ///< of those, blocks that have some; NULL: all
     uint32_t channels;
 } sum_set;
 
@@ -143,11 +144,11 @@ typedef struct sum_set {
 static uint32_t sets_of(const joint_state *joint, ewa_tile_scratch *s, sum_set sets[3]) {
     const uint32_t channels = joint->job.channel_count;
     const ewa_apart *apart = joint->surface ? &s->edges.apart : &s->apart;
+    const uint32_t *within = joint->surface ? s->edges.rows : NULL;
     uint32_t count = 0;
-    sets[count++] = joint->surface ? (sum_set){&s->edges.sums, s->edges.rows, channels}
-                                   : (sum_set){&s->sums, NULL, channels};
-    sets[count++] = (sum_set){&apart->turned, apart->turned_rows, channels};
-    if (apart->cut_rows) sets[count++] = (sum_set){&apart->cut, apart->cut_rows, EWA_CUT_CHANNELS};
+    sets[count++] = (sum_set){joint->surface ? &s->edges.sums : &s->sums, within, NULL, channels};
+    sets[count++] = (sum_set){&apart->turned, within, apart->turned_rows, channels};
+    if (apart->cut_rows) sets[count++] = (sum_set){&apart->cut, within, apart->cut_rows, EWA_CUT_CHANNELS};
     return count;
 }
 
@@ -185,7 +186,7 @@ static void write_sums(const sum_set *set, const ewa_tile *tile, int64_t *to) {
     const uint32_t columns = tile->blocks_per_row;
     for (uint32_t block = 0; block < columns * tile->block_rows; block++, to += block_numbers(set)) {
         const uint32_t row = block / columns, bit = 1u << block % columns;
-        to[0] = !set->rows || (set->rows[row] & bit);
+        to[0] = (!set->within || (set->within[row] & bit)) && (!set->rows || (set->rows[row] & bit));
         memset(to + 1, 0, (block_numbers(set) - 1) * sizeof *to);
         if (!to[0]) continue;
         const bool has_high = set->of->high_rows[row] & bit;
