@@ -7,6 +7,13 @@
 #include <inttypes.h>
 #include <stdio.h>
 
+void backend_warn(cli_session *session, int backend, const ewa_renderer *renderer) {
+    ewa_renderer_info info = {.struct_size = sizeof info};
+    if (backend == EWA_BACKEND_CPU || backend == EWA_BACKEND_AUTO) return;
+    if (ewa_renderer_describe(renderer, &info) == EWA_OK && *info.remark)
+        session_warn(session, "%s: --backend cpu is many times faster", info.remark);
+}
+
 void backend_write(json_writer *json, const ewa_renderer_info *info) {
     json_text(json, "backend", info->backend);
     if (*info->device) json_text(json, "device", info->device);

@@ -16,6 +16,9 @@
                     "auto: the faster of cpu and gl, where that is exact and no software"                    \
     }
 
+/// Warns where what was asked for is slower than the processor: OpenGL by software.
+void backend_warn(cli_session *session, int backend, const ewa_renderer *renderer);
+
 /// Adds to an object what drew.
 void backend_write(json_writer *json, const ewa_renderer_info *info);
 

@@ -319,7 +319,10 @@ static bool draw(cli_session *session, const render_arguments *arguments, const 
     session->subject = NULL; // a device is nothing of the file
     const ewa_status status =
         ewa_renderer_create_on(session->context, (ewa_backend_kind)arguments->backend, &painting.renderer);
-    if (status != EWA_OK) session_failed(session, status);
+    if (status != EWA_OK)
+        session_failed(session, status);
+    else
+        backend_warn(session, arguments->backend, painting.renderer);
     session->subject = subject;
     const bool done =
         status == EWA_OK &&

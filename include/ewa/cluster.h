@@ -28,7 +28,7 @@ typedef struct ewa_exchange {
 /// Makes a renderer whose frames are those of all ranks' sources: every rank begins a frame with the same camera and
 /// options, adds the sources that it has, maybe none, and finishes it; each gets the picture, if its frame
 /// asks for one. The same bytes as of one process that adds all of the sources, whatever rank has which.
-/// Memory beside the sources: about 200 bytes a pixel. `exchange` is copied. Frames have no levels of detail by budget and are drawn
+/// Memory beside the sources: 200 to 320 bytes a pixel, with depths or clip lines up to twice that. `exchange` is copied. Frames have no levels of detail by budget and are drawn
 /// whole. The caller destroys the renderer. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_MEMORY. Errors of frames: those of
 /// ewa_render_finish() and of the exchange; ranks that fail while others do not are for the exchange to end.
 EWA_API ewa_status ewa_renderer_create_joint(ewa_context *context, const ewa_exchange *exchange,

@@ -64,7 +64,7 @@ typedef struct ewa_renderer_info {
     char backend[16];   ///< "cpu", "gl", "gl-raster"; of EWA_BACKEND_AUTO what drew the last frame
     char device[128];   ///< its name; "" for the CPU
     ewa_gpu_class device_class;
-    char remark[160]; ///< of EWA_BACKEND_AUTO: why; else ""
+    char remark[160]; ///< of EWA_BACKEND_AUTO: why; that a device is software; else ""
 } ewa_renderer_info;
 
 /// Describes a renderer. Errors: EWA_ERROR_ARGUMENT (struct_size).

@@ -485,6 +485,8 @@ static void describe(const void *state, ewa_renderer_info *info) {
     const ewa_gl_compute *gl = state;
     snprintf(info->device, sizeof info->device, "%s", gl->device->facts.renderer);
     info->device_class = gl->verdict.exact ? EWA_GPU_EXACT : EWA_GPU_CLOSE;
+    if (gl->device->facts.software)
+        snprintf(info->remark, sizeof info->remark, "%.100s is software", gl->device->facts.renderer);
 }
 
 const ewa_backend ewa_backend_gl = {"gl", ewa_gl_compute_create, ewa_gl_compute_destroy, ewa_gl_compute_draw,

@@ -449,6 +449,8 @@ static void describe(const void *state, ewa_renderer_info *info) {
     const ewa_raster *raster = state;
     snprintf(info->device, sizeof info->device, "%s", raster->device->facts.renderer);
     info->device_class = EWA_GPU_CLOSE; // by its arithmetic, whatever the device
+    if (raster->device->facts.software)
+        snprintf(info->remark, sizeof info->remark, "%.100s is software", raster->device->facts.renderer);
 }
 
 const ewa_backend ewa_backend_gl_raster = {"gl-raster", ewa_raster_create, ewa_raster_destroy,

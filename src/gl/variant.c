@@ -48,11 +48,12 @@ size_t ewa_gl_head_write(const ewa_gl_arithmetic *arithmetic, char *head) {
         {"CURVE_OFFSET", 0.5f - 255 * 0.055f},
         {"LINE_SLOPE", 255 * 12.92f},
     };
-    size_t at = (size_t)snprintf(head, EWA_GL_HEAD_BYTES,
-                                 "#version 430 core\n#define FUSED %d\n#define DIVIDES %d\n#define ROOTS %d\n"
-                                 "#define MOST_LIGHTS %d\n#define MOST_LEVELS %d\n",
-                                 arithmetic->fused, arithmetic->divides, arithmetic->roots, EWA_MAX_LIGHTS,
-                                 EWA_MAX_ENVIRONMENT_LEVELS);
+    size_t at =
+        (size_t)snprintf(head, EWA_GL_HEAD_BYTES,
+                         "#version 430 core\n#define FUSED %d\n#define DIVIDES %d\n#define ROOTS %d\n"
+                         "#define MOST_LIGHTS %d\n#define MOST_LEVELS %d\n#define MERGED_SURFACES %d\n",
+                         arithmetic->fused, arithmetic->divides, arithmetic->roots, EWA_MAX_LIGHTS,
+                         EWA_MAX_ENVIRONMENT_LEVELS, EWA_MERGED_SURFACES);
     for (size_t i = 0; i < sizeof constants / sizeof constants[0]; i++) {
         uint32_t bits;
         memcpy(&bits, &constants[i].value, sizeof bits);

@@ -111,6 +111,21 @@ float mean_depth(bool of_turned) {
 }
 #endif
 
+// Starts what lies behind the pixel, where that is wanted (start_surface).
+void leave_pixel(bool wanted, float key) {
+    passed[pixel] = wanted ? key : -INF;
+    nearest[pixel] = NEVER;
+    if (wanted) still_open = 1u;
+}
+
+// Notes whether anything is wanted of the tile. All invocations of the group call it, after their pixels.
+void leave_tile(uint tile) {
+    barrier();
+    if (gl_LocalInvocationIndex != 0u) return;
+    open[tile] = still_open;
+    if (still_open != 0u) atomicAdd(open[tile_count], 1u);
+}
+
 // Reads the sums of the pixel (settle_block) and starts them over.
 Surface settle(bool block_is_cut, bool first) {
     Surface s;
@@ -352,28 +367,21 @@ void main() {
         if (layered != 0u) {
             float key = float_of(nearest[pixel]);
             float alpha = surface_alpha(s.sums[0], s.sums[CHANNELS - 1], block_is_cut, s.cover);
-            bool wanted = -INF < key && alpha < 1.0;
-            passed[pixel] = wanted ? key : -INF;
-            nearest[pixel] = NEVER;
             for (uint c = 0u; c < 4u; c++) behind_planes[c * pixel_count + pixel] = 0.0;
-            if (wanted) still_open = 1u;
+            leave_pixel(-INF < key && alpha < 1.0, key);
         }
 #if WITH_CLIPS
         cut[flag] = 0u;
 #endif
     }
-    barrier();
-    if (gl_LocalInvocationIndex == 0u) {
-        open[tile] = still_open;
-        if (still_open != 0u) atomicAdd(open[tile_count], 1u);
-    }
+    leave_tile(tile);
 }
 #endif
 
 #if PASS == 4
 float merged_alpha(float alpha, float coverage) {
     float through = wf_sub(1.0, alpha);
-    for (int i = 1; i < 64; i++) {
+    for (int i = 1; i < MERGED_SURFACES; i++) {
         float share = wf_min(wf_max(wf_fma(coverage, 4.0, float(-4 * i - 2)), 0.0), 1.0);
         if (!(0.0 < share)) break;
         through = wf_mul(through, wf_sub(1.0, wf_mul(alpha, share)));
@@ -426,19 +434,12 @@ void main() {
         float total = wf_add(covered, share);
         behind_planes[3u * pixel_count + pixel] = total;
         float key = float_of(nearest[pixel]);
-        bool wanted = passed[pixel] > -INF && -INF < key && total < 1.0;
-        passed[pixel] = wanted ? key : -INF;
-        nearest[pixel] = NEVER;
-        if (wanted) still_open = 1u;
+        leave_pixel(passed[pixel] > -INF && -INF < key && total < 1.0, key);
 #if WITH_CLIPS
         cut[flag] = 0u;
 #endif
     }
-    barrier();
-    if (gl_LocalInvocationIndex == 0u) {
-        open[tile] = still_open;
-        if (still_open != 0u) atomicAdd(open[tile_count], 1u);
-    }
+    leave_tile(tile);
 }
 #endif
 
