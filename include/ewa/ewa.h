@@ -11,6 +11,7 @@
 #include "ewa/cloud.h"
 #include "ewa/cluster.h"
 #include "ewa/furniture.h"
+#include "ewa/gaussian.h"
 #include "ewa/gpu.h"
 #include "ewa/homogeneous.h"
 #include "ewa/image.h"

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Sets of trained Gaussians: what the files of 3D and 2D Gaussian splatting hold.
+#ifndef EWA_GAUSSIAN_H
+#define EWA_GAUSSIAN_H
+
+#include "ewa/base.h"
+#include "ewa/cloud.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { EWA_MAX_SH_DEGREE = 4 };
+
+/// Gaussians with their colours by direction. A caller may fill one with memory of its own, for which
+/// ewa_gaussians_free() is then not called.
+///
+/// Number i has the covariance R S S' R' of the rotation R by its quaternion and the scales S, peak 1, and
+/// lets 1 - opacity * its value through. Its colour seen along the unit direction d, from the eye to the centre,
+/// is max(0, 0.5 + sum of harmonics k times the real spherical harmonic Y_k(d)), as in 3DGS; a display
+/// value, sRGB, as the pictures that it was trained on: these are composited as they are.
+typedef struct ewa_gaussians {
+    ewa_context *context;
+    uint32_t count;
+    uint32_t sh_degree; ///< L, [0, EWA_MAX_SH_DEGREE]
+    bool flat;          ///< 2D Gaussians: the third scale is 0, the third axis is the normal
+    bool antialiased;   ///< trained with a pixel filter that keeps what a Gaussian adds, not one that thickens
+    double origin[3];   ///< world units; centres are relative to it
+    float *centers;     ///< 3 per Gaussian, world units
+    float *scales;      ///< 3 per Gaussian, standard deviations, world units, finite, >= 0
+    float *rotations;   ///< 4 per Gaussian, unit quaternion w x y z, from the axes to the world
+    float *opacities;   ///< 1 per Gaussian, [0, 1]
+    float *harmonics;   ///< (L + 1)^2 coefficients of red green blue per Gaussian; order and signs as in 3DGS
+} ewa_gaussians;
+
+/// Makes a set with everything zero; the caller frees it with ewa_gaussians_free(). Errors (set zeroed):
+/// EWA_ERROR_ARGUMENT (sh_degree), EWA_ERROR_LIMIT (count over max_points, bytes over max_memory_bytes),
+/// EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_gaussians_create(ewa_context *context, uint32_t count, uint32_t sh_degree,
+                                        ewa_gaussians *gaussians);
+
+/// Frees the streams and zeroes the struct; accepts NULL and a zeroed struct.
+EWA_API void ewa_gaussians_free(ewa_gaussians *gaussians);
+
+/// Measures the box around the centres, in world units, origin included. Errors: EWA_ERROR_ARGUMENT.
+EWA_API ewa_status ewa_gaussians_measure(const ewa_gaussians *gaussians, ewa_bounds *bounds);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
