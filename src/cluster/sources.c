@@ -60,7 +60,7 @@ static ewa_surfels hollow_of(ewa_context *context, const told_source *told) {
 static ewa_status gather(ewa_context *context, const ewa_exchange *exchange, ewa_joint_sources *room,
                          const ewa_render_job *frame, uint64_t *counts, uint64_t *most) {
     const uint64_t mine = frame->source_count;
-    ewa_status status = exchange->gather(exchange->user, &mine, sizeof mine, counts);
+    ewa_status status = ewa_exchange_gather(context, exchange, &mine, sizeof mine, counts);
     if (status != EWA_OK) return status;
     *most = 0;
     for (uint32_t i = 0; i < exchange->rank_count; i++) *most = counts[i] > *most ? counts[i] : *most;
@@ -70,7 +70,7 @@ static ewa_status gather(ewa_context *context, const ewa_exchange *exchange, ewa
     told_source *all = room->told.data, *own = all + (size_t)*most * exchange->rank_count;
     if (*most) memset(own, 0, (size_t)*most * sizeof *own);
     for (uint32_t i = 0; i < frame->source_count; i++) tell(&frame->sources[i], &own[i]);
-    return *most ? exchange->gather(exchange->user, own, (size_t)*most * sizeof *own, all) : EWA_OK;
+    return *most ? ewa_exchange_gather(context, exchange, own, (size_t)*most * sizeof *own, all) : EWA_OK;
 }
 
 /// Lists the sources of all ranks in their order.

@@ -5,8 +5,7 @@
 #ifndef EWA_SRC_CLUSTER_SOURCES_H
 #define EWA_SRC_CLUSTER_SOURCES_H
 
-#include "base/base.h"
-#include "ewa/cluster.h"
+#include "cluster/exchange.h"
 #include "surface/backend.h"
 #include "surface/packets.h"
 

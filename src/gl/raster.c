@@ -439,7 +439,7 @@ ewa_status ewa_raster_draw(void *state, const ewa_render_job *frame, ewa_render_
     if (status != EWA_OK) return status;
     ewa_job_finish(raster->context, &raster->room, frame, broken);
     *stats = (ewa_render_stats){.bin_s = binned_s - start_s};
-    ewa_job_count(&job, stats);
+    ewa_job_count(&job, 0, stats);
     stats->drawn_count = surfel_count;
     stats->total_s = ewa_now_s() - start_s;
     return EWA_OK;

@@ -50,24 +50,6 @@ static ewa_status create(ewa_context *context, void **state) {
     return EWA_OK;
 }
 
-static void gather_stats(const cpu_state *cpu, const ewa_tile_job *job, double start_s, double binned_s,
-                         ewa_render_stats *stats) {
-    *stats = (ewa_render_stats){.bin_s = (binned_s - start_s) * cpu->worker_count};
-    ewa_job_count(job, stats);
-    for (uint32_t i = 0; i < cpu->worker_count; i++) {
-        const ewa_tile_scratch *s = &cpu->scratch[i];
-        stats->hidden_count += s->hidden_splat_count;
-        stats->drawn_count += s->drawn_count;
-        stats->fragment_count += s->fragment_count;
-        stats->setup_s += s->setup_s;
-        stats->visibility_s += s->visibility_s;
-        stats->accumulate_s += s->accumulate_s;
-        stats->edge_s += s->edge_s;
-        stats->resolve_s += s->resolve_s;
-    }
-    stats->total_s = ewa_now_s() - start_s;
-}
-
 /// Draws the tiles of the frame's band.
 static ewa_status draw_tiles(cpu_state *cpu, ewa_tile_job *job, const ewa_render_job *frame) {
     const uint32_t side_px = job->tiles.side_px, first_row = frame->first_row_px / side_px,
@@ -98,7 +80,9 @@ static ewa_status draw(void *state, const ewa_render_job *frame, ewa_render_stat
     uint64_t broken = 0;
     for (uint32_t i = 0; i < cpu->worker_count; i++) broken += cpu->scratch[i].broken_pixel_count;
     ewa_job_finish(context, &cpu->room, frame, broken);
-    gather_stats(cpu, &job, start_s, binned_s, stats);
+    *stats = (ewa_render_stats){.bin_s = (binned_s - start_s) * cpu->worker_count};
+    ewa_job_count(&job, cpu->worker_count, stats);
+    stats->total_s = ewa_now_s() - start_s;
     return EWA_OK;
 }
 

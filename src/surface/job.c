@@ -223,13 +223,24 @@ void ewa_job_finish(ewa_context *context, ewa_job_room *room, const ewa_render_j
                    (unsigned long long)camera->width_px * camera->height_px);
 }
 
-void ewa_job_count(const ewa_tile_job *job, ewa_render_stats *stats) {
+void ewa_job_count(const ewa_tile_job *job, uint32_t worker_count, ewa_render_stats *stats) {
     for (uint32_t i = 0; i < job->source_count; i++) {
         const ewa_tile_source *source = &job->sources[i];
         const uint64_t culled =
             (source->surfels->packet_count - source->bins.lists.item_count) * EWA_PACKET_LANES;
         stats->splat_count += source->surfels->count;
         stats->culled_count += culled < source->surfels->count ? culled : source->surfels->count;
+    }
+    for (uint32_t i = 0; i < worker_count; i++) {
+        const ewa_tile_scratch *s = &job->scratch[i];
+        stats->hidden_count += s->hidden_splat_count;
+        stats->drawn_count += s->drawn_count;
+        stats->fragment_count += s->fragment_count;
+        stats->setup_s += s->setup_s;
+        stats->visibility_s += s->visibility_s;
+        stats->accumulate_s += s->accumulate_s;
+        stats->edge_s += s->edge_s;
+        stats->resolve_s += s->resolve_s;
     }
 }
 

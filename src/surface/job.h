@@ -28,8 +28,9 @@ ewa_status ewa_tile_job_make(ewa_context *context, ewa_job_room *room, const ewa
 void ewa_job_finish(ewa_context *context, ewa_job_room *room, const ewa_render_job *frame,
                     uint64_t broken_pixel_count);
 
-/// Adds the splats of the sources, and those of packets in no tile, to the counts.
-void ewa_job_count(const ewa_tile_job *job, ewa_render_stats *stats);
+/// Adds the splats of the sources, and those of packets in no tile, to the counts, and what `worker_count` of
+/// job->scratch have counted.
+void ewa_job_count(const ewa_tile_job *job, uint32_t worker_count, ewa_render_stats *stats);
 
 void ewa_job_room_free(ewa_context *context, ewa_job_room *room);
 

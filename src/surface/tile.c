@@ -246,6 +246,29 @@ static bool draw_sources(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile
     return kept;
 }
 
+void ewa_tile_find_nearest(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
+                           uint32_t index) {
+    draw_sources(job, tile, s, index);
+}
+
+void ewa_tile_sum_nearest(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
+                          uint32_t index) {
+    const uint32_t block_count = tile->blocks_per_row * tile->block_rows;
+    job->kernels->set_cells(tile, s->cells);
+    ewa_tile_close_pixels(tile->nearest, block_count, -INFINITY, INFINITY);
+    for (uint32_t i = 0; i < job->source_count; i++) {
+        const ewa_tile_source *source = &job->sources[i];
+        const uint64_t first = source->bins.lists.starts[index],
+                       count = source->bins.lists.starts[index + 1] - first;
+        const uint32_t *ids = source->bins.lists.ids + first;
+        ewa_tile_packets shown = {source, s->packets, 0};
+        shown.count = job->kernels->hide(&source->view, &source->surfels->bounds, &source->packets.places, tile,
+                                         s->cells, ids, (uint32_t)count, s->packets, s->packets + count + 1);
+        ewa_tile_walk_again(job, tile, s, &shown, 0, ewa_run_count(&shown), EWA_PASS_ACCUMULATE);
+    }
+    ewa_tile_close_pixels(tile->nearest, block_count, INFINITY, -INFINITY);
+}
+
 /// Second pass.
 static void accumulate(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, bool kept) {
     job->kernels->clear_sums(tile);

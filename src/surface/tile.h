@@ -128,6 +128,13 @@ void ewa_tile_planes_bind(const ewa_tile_job *job, ewa_tile_scratch *scratch, fl
 /// Sets `tile` to tile `index` of the picture in the worker's planes.
 void ewa_tile_place(const ewa_tile_job *job, ewa_tile_scratch *scratch, uint32_t index, ewa_tile *tile);
 
+/// First pass over the splats of a tile, and the second over those that are not hidden by a surface that is known: no
+/// run is kept between the two.
+void ewa_tile_find_nearest(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *scratch,
+                           uint32_t index);
+void ewa_tile_sum_nearest(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *scratch,
+                          uint32_t index);
+
 /// One pass over the splats of a source beyond scratch->edges.passed, in the blocks that scratch->edges.rows marks; others
 /// are to be closed (-infinity).
 void ewa_tile_draw_behind(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *scratch,

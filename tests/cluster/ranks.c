@@ -5,17 +5,18 @@
 #include "cluster/ranks.h"
 
 #include <pthread.h>
-#include <stdlib.h>
 #include <string.h>
 
 /// What all ranks see.
 typedef struct shared {
     pthread_barrier_t barrier;
     uint32_t count;
-    const void *given[RANKS_MOST];
+    const ewa_parcel *given[RANKS_MOST];
     ranks_work *work;
     void *data;
-    uint64_t bytes;
+    uint32_t picture_rank;
+    uint64_t bytes[RANKS_MOST];
+    bool unequal; ///< somebody took another size than was given
 } shared;
 
 typedef struct rank {
@@ -23,60 +24,33 @@ typedef struct rank {
     uint32_t number;
 } rank;
 
-/// Shows what this rank gives to the others and waits for theirs.
-static shared *show(rank *of, const void *mine, size_t size_bytes) {
-    of->all->given[of->number] = mine;
-    if (of->number == 0) of->all->bytes += size_bytes;
-    pthread_barrier_wait(&of->all->barrier);
-    return of->all;
-}
-
-static ewa_status gather(void *user, const void *mine, size_t size_bytes, void *to) {
+static ewa_status swap(void *user, const ewa_parcel *given, const ewa_parcel *taken) {
     rank *of = user;
-    shared *all = show(of, mine, size_bytes);
-    for (uint32_t i = 0; i < all->count; i++) memcpy((char *)to + i * size_bytes, all->given[i], size_bytes);
+    shared *all = of->all;
+    all->given[of->number] = given;
     pthread_barrier_wait(&all->barrier);
-    return EWA_OK;
-}
-
-static ewa_status take_largest(void *user, float *values, size_t count) {
-    rank *of = user;
-    float *largest = malloc((count ? count : 1) * sizeof *largest);
-    shared *all = show(of, values, count * sizeof *values);
-    memcpy(largest, all->given[0], count * sizeof *largest);
-    for (uint32_t r = 1; r < all->count; r++) {
-        const float *other = all->given[r];
-        for (size_t i = 0; i < count; i++) largest[i] = other[i] > largest[i] ? other[i] : largest[i];
-    }
-    pthread_barrier_wait(&all->barrier);
-    memcpy(values, largest, count * sizeof *values);
-    free(largest);
-    return EWA_OK;
-}
-
-static ewa_status add(void *user, int64_t *values, size_t count) {
-    rank *of = user;
-    int64_t *sums = calloc(count ? count : 1, sizeof *sums);
-    shared *all = show(of, values, count * sizeof *values);
     for (uint32_t r = 0; r < all->count; r++) {
-        const int64_t *other = all->given[r];
-        for (size_t i = 0; i < count; i++) sums[i] += other[i];
+        const ewa_parcel *from = &all->given[r][of->number];
+        if (r == of->number) continue;
+        all->bytes[of->number] += given[r].size_bytes;
+        if (from->size_bytes != taken[r].size_bytes)
+            all->unequal = true;
+        else if (from->size_bytes)
+            memcpy(taken[r].data, from->data, from->size_bytes);
     }
     pthread_barrier_wait(&all->barrier);
-    memcpy(values, sums, count * sizeof *values);
-    free(sums);
-    return EWA_OK;
+    return all->unequal ? EWA_ERROR_IO : EWA_OK;
 }
 
 static void *run(void *data) {
     rank *of = data;
-    const ewa_exchange exchange = {of, of->number, of->all->count, gather, take_largest, add};
+    const ewa_exchange exchange = {of, of->number, of->all->count, of->all->picture_rank, swap};
     of->all->work(&exchange, of->all->data);
     return NULL;
 }
 
-uint64_t ranks_run(uint32_t count, ranks_work *work, void *data) {
-    shared all = {.count = count, .work = work, .data = data};
+uint64_t ranks_run(uint32_t count, uint32_t picture_rank, ranks_work *work, void *data) {
+    shared all = {.count = count, .picture_rank = picture_rank, .work = work, .data = data};
     rank ranks[RANKS_MOST];
     pthread_t threads[RANKS_MOST];
     pthread_barrier_init(&all.barrier, NULL, count);
@@ -86,5 +60,7 @@ uint64_t ranks_run(uint32_t count, ranks_work *work, void *data) {
     }
     for (uint32_t i = 0; i < count; i++) pthread_join(threads[i], NULL);
     pthread_barrier_destroy(&all.barrier);
-    return all.bytes;
+    uint64_t most = 0;
+    for (uint32_t i = 0; i < count; i++) most = all.bytes[i] > most ? all.bytes[i] : most;
+    return most;
 }

@@ -12,7 +12,7 @@ enum { RANKS_MOST = 8 };
 /// What a rank does; returns when it has nothing more to exchange.
 typedef void ranks_work(const ewa_exchange *exchange, void *data);
 
-/// Runs the ranks to their end; returns how many bytes each has given to others.
-uint64_t ranks_run(uint32_t count, ranks_work *work, void *data);
+/// Runs the ranks to their end; returns how many bytes the one that gave most has given to others.
+uint64_t ranks_run(uint32_t count, uint32_t picture_rank, ranks_work *work, void *data);
 
 #endif

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Parcels between ranks.
+#ifndef EWA_SRC_CLUSTER_EXCHANGE_H
+#define EWA_SRC_CLUSTER_EXCHANGE_H
+
+#include "base/base.h"
+#include "ewa/cluster.h"
+
+/// Checks an exchange of a caller. Errors: EWA_ERROR_ARGUMENT.
+ewa_status ewa_exchange_check(ewa_context *context, const ewa_exchange *exchange);
+
+/// What goes to and comes from each rank in one swap. Zero-initialise.
+typedef struct ewa_mail {
+    ewa_parcel *given, *taken; ///< [rank]
+    ewa_parcel *given_sizes, *taken_sizes;
+    uint64_t *sizes; ///< [2][rank]
+    ewa_buffer memory, post;
+} ewa_mail;
+
+/// Makes room for the parcels of all ranks, empty. Errors: EWA_ERROR_MEMORY.
+ewa_status ewa_mail_open(ewa_context *context, const ewa_exchange *exchange, ewa_mail *mail);
+
+/// Swaps given[] and taken[], whose sizes are known. Errors: those of the exchange.
+ewa_status ewa_mail_send(const ewa_exchange *exchange, const ewa_mail *mail);
+
+/// Swaps given[] of sizes that the others do not know, and points taken[] at what has come, which stays until the next
+/// such call. Errors: EWA_ERROR_MEMORY, those of the exchange.
+ewa_status ewa_mail_send_any(ewa_context *context, const ewa_exchange *exchange, ewa_mail *mail);
+
+void ewa_mail_free(ewa_context *context, ewa_mail *mail);
+
+#endif
