@@ -22,7 +22,7 @@ const cli_command *command_find(const char *name) {
     return NULL;
 }
 
-int command_run(const cli_command *command, size_t count, const char *const *words) {
+int command_run(const cli_command *command, const cli_crew *crew, size_t count, const char *const *words) {
     void *arguments = malloc(command->arguments_bytes);
     const char **operands = calloc(count + 1, sizeof *operands);
     char message[OPTION_ERROR_BYTES];
@@ -32,13 +32,15 @@ int command_run(const cli_command *command, size_t count, const char *const *wor
         exit_status = EXIT_FAILED;
     } else {
         options_default(command, arguments);
+        ((common_arguments *)arguments)->crew = crew;
+        const bool leads = crew_leads(crew); // all are told the same
         if (!options_parse(command, count, words, operands, arguments, message)) {
-            fprintf(stderr, "ewa: %s\n", message);
+            if (leads) fprintf(stderr, "ewa: %s\n", message);
         } else if (((const common_arguments *)arguments)->help) {
-            help_print_command(stdout, command);
+            if (leads) help_print_command(stdout, command);
             exit_status = EXIT_DONE;
         } else if (!outputs_check(command, arguments, message)) {
-            fprintf(stderr, "ewa: %s\n", message);
+            if (leads) fprintf(stderr, "ewa: %s\n", message);
         } else {
             exit_status = command->run(arguments);
         }

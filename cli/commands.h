@@ -18,8 +18,8 @@ extern const size_t all_commands_count;
 /// Finds a command by its name; NULL when there is none.
 const cli_command *command_find(const char *name);
 
-/// Parses the words after a command's name and runs it, or prints its help or what is wrong. Returns the exit
-/// status.
-int command_run(const cli_command *command, size_t count, const char *const *words);
+/// Parses the words after a command's name and runs it, or prints its help or what is wrong; `crew` may be NULL.
+/// Returns the exit status.
+int command_run(const cli_command *command, const cli_crew *crew, size_t count, const char *const *words);
 
 #endif

@@ -8,7 +8,10 @@
 #include "session.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+enum { PART_NAME_BYTES = 4096 };
 
 typedef struct lod_command_arguments {
     common_arguments common; // first
@@ -99,6 +102,60 @@ static bool write_stats(cli_session *session, const lod_command_arguments *argum
     return text_file_close(session, &text);
 }
 
+/// Waits for all processes of a crew.
+static ewa_status meet(const cli_session *session) {
+    int64_t nothing = 0;
+    return ewa_exchange_add(session->context, &session->crew->exchange, &nothing, 1);
+}
+
+/// Names the part that process `rank` of a crew makes, beside the output.
+static bool name_part(const char *output, uint32_t rank, uint32_t count, char name[PART_NAME_BYTES]) {
+    const int length = snprintf(name, PART_NAME_BYTES, "%s.part-%u-of-%u.copc.laz", output, rank + 1, count);
+    return length > 0 && length < PART_NAME_BYTES;
+}
+
+/// Joins the parts of all processes.
+static ewa_status join_parts(cli_session *session, const char *output, ewa_lod_build_stats *stats) {
+    const uint32_t count = session->crew->exchange.rank_count;
+    char(*names)[PART_NAME_BYTES] = calloc(count, sizeof *names);
+    const char **parts = calloc(count, sizeof *parts);
+    ewa_status status = names && parts ? EWA_OK : EWA_ERROR_MEMORY;
+    for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
+        name_part(output, i, count, names[i]);
+        parts[i] = names[i];
+    }
+    if (status == EWA_OK) status = ewa_lod_merge(session->context, parts, count, output, stats);
+    free(parts);
+    free(names);
+    return status;
+}
+
+/// Makes an octree by all processes of a crew: a part each, which the first one joins.
+static ewa_status build_together(cli_session *session, const lod_command_arguments *arguments,
+                                 const ewa_lod_build_options *options, ewa_lod_build_stats *stats) {
+    const ewa_exchange *all = &session->crew->exchange;
+    const common_arguments *common = &arguments->common;
+    ewa_lod_build_options own = *options;
+    own.subset = all->rank, own.subset_count = all->rank_count;
+    char part[PART_NAME_BYTES];
+    if (arguments->subset || arguments->merge) {
+        session_fail(session, "--subset and --merge: the ranks do this by themselves");
+        return EWA_ERROR_ARGUMENT;
+    }
+    if (!name_part(arguments->output, all->rank, all->rank_count, part)) {
+        session_fail(session, "%.200s: the path is too long", arguments->output);
+        return EWA_ERROR_ARGUMENT;
+    }
+    ewa_status status =
+        ewa_lod_build(session->context, common->operands, (uint32_t)common->operand_count, part, &own, stats);
+    if (status != EWA_OK) return status; // and there is no part
+    status = meet(session);
+    if (status == EWA_OK && all->rank == 0) status = join_parts(session, arguments->output, stats);
+    if (status == EWA_OK) status = meet(session);
+    remove(part);
+    return status;
+}
+
 static int run(const void *data) {
     const lod_command_arguments *arguments = data;
     const common_arguments *common = &arguments->common;
@@ -110,7 +167,8 @@ static int run(const void *data) {
     ewa_lod_build_stats stats = {.point_count = 0};
     const uint32_t count = (uint32_t)common->operand_count;
     const ewa_status status =
-        arguments->merge
+        session.crew ? build_together(&session, arguments, &options, &stats)
+        : arguments->merge
             ? ewa_lod_merge(session.context, common->operands, count, arguments->output, &stats)
             : ewa_lod_build(session.context, common->operands, count, arguments->output, &options, &stats);
     if (status != EWA_OK) session_failed(&session, status);
@@ -122,8 +180,8 @@ static int run(const void *data) {
                     "%s: %llu points in %u nodes of %u levels, %llu surfels that stand for them, in %.1f s",
                     arguments->output, (unsigned long long)stats.point_count, stats.node_count,
                     stats.level_count, (unsigned long long)stats.merged_count, stats.total_s);
-    const bool done =
-        status == EWA_OK && (!arguments->stats_path || write_stats(&session, arguments, &stats));
+    const bool done = status == EWA_OK && (!arguments->stats_path || !crew_leads(session.crew) ||
+                                           write_stats(&session, arguments, &stats));
     return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
 }
 

@@ -58,7 +58,7 @@ static int run(size_t count, const char *const *words) {
         help_print_markdown(stdout, all_commands_count, all_commands);
     } else {
         const cli_command *command = command_find(word);
-        return command ? command_run(command, count - 1, words + 1) : unknown_command(word);
+        return command ? command_run(command, NULL, count - 1, words + 1) : unknown_command(word);
     }
     return EXIT_DONE;
 }

@@ -9,6 +9,7 @@
 
 #include "ewa/options.h"
 #include "ewa/select.h"
+#include "crew.h"
 #include "part.h"
 
 /// What the value of an option is, and the type of the member that it fills.
@@ -106,6 +107,7 @@ typedef struct common_arguments {
     size_t operand_count;
     const char *const *words; ///< all, as they were given
     size_t word_count;
+    const cli_crew *crew; ///< NULL: this process alone
     int64_t threads;
     bool quiet, verbose, help;
     int progress;        ///< 1 or 0 when asked for, -1: where standard error is a terminal

@@ -5,6 +5,7 @@
 #include "backend.h"
 #include "color_by.h"
 #include "commands.h"
+#include "dividing.h"
 #include "frames.h"
 #include "furnish.h"
 #include "inputs.h"
@@ -236,6 +237,10 @@ static bool make_lod_scene(cli_session *session, const render_arguments *argumen
         return false;
     }
     scene->lod_options = lod_input_options(&arguments->lod);
+    if (crew_shares_cloud(session->crew)) {
+        scene->lod_options.share = session->crew->exchange.rank;
+        scene->lod_options.share_count = session->crew->exchange.rank_count;
+    }
     ewa_lod_info info;
     ewa_lod_describe(scene->lod, &info);
     report->point_count = info.point_count;
@@ -262,6 +267,13 @@ static bool prepare(cli_session *session, const render_arguments *arguments, ren
     const common_arguments *common = &arguments->frames.view.common;
     if (!lod_input_choose(session, common, &arguments->lod, find_lod_clash(arguments), &scene->lod))
         return false;
+    if (crew_shares_cloud(session->crew) && !scene->lod) {
+        session_fail(session,
+                     "--split cloud: what is shared is an octree that is drawn from its levels; `ewa-mpi lod "
+                     "%s -o FILE.copc.laz` makes one, and --memory draws a small one so, too",
+                     common->operands[0]);
+        return false;
+    }
     return scene->lod ? make_lod_scene(session, arguments, scene, report)
                       : make_scene(session, arguments, scene, report);
 }
@@ -298,6 +310,24 @@ static ewa_status paint(void *user, const ewa_camera *camera, const ewa_frame *f
                             : status;
 }
 
+/// Makes the renderer that was asked for, or the one of all processes. False after reporting.
+static bool make_renderer(cli_session *session, int backend, ewa_renderer **renderer) {
+    const char *subject = session->subject;
+    session->subject = NULL; // a device is nothing of the file
+    const bool joint = crew_shares_cloud(session->crew);
+    ewa_status status = EWA_OK;
+    if (joint && backend != EWA_BACKEND_CPU)
+        session_fail(session, "--split cloud draws on processors: leave out --backend");
+    else if (joint)
+        status = ewa_renderer_create_joint(session->context, &session->crew->exchange, renderer);
+    else
+        status = ewa_renderer_create_on(session->context, (ewa_backend_kind)backend, renderer);
+    if (status != EWA_OK) session_failed(session, status);
+    if (*renderer && !joint) backend_warn(session, backend, *renderer);
+    session->subject = subject;
+    return *renderer != NULL;
+}
+
 /// Draws and writes everything. False after reporting.
 static bool draw(cli_session *session, const render_arguments *arguments, const picture_paths *paths,
                  const light_objects *lit_by, const render_scene *scene, render_report *report) {
@@ -315,19 +345,10 @@ static bool draw(cli_session *session, const render_arguments *arguments, const 
     };
     surfel_painter painting = {.session = session, .scene = scene, .options = &options, .report = report};
     const frame_cameras *frames = &scene->frames;
-    const char *subject = session->subject;
-    session->subject = NULL; // a device is nothing of the file
-    const ewa_status status =
-        ewa_renderer_create_on(session->context, (ewa_backend_kind)arguments->backend, &painting.renderer);
-    if (status != EWA_OK)
-        session_failed(session, status);
-    else
-        backend_warn(session, arguments->backend, painting.renderer);
-    session->subject = subject;
-    const bool done =
-        status == EWA_OK &&
-        sequence_draw(session, &output, frames, &(frame_painter){paint, &painting}, report) &&
-        (!arguments->save_camera_path || frames_save(session, arguments->save_camera_path, frames, many));
+    const bool saves_camera = arguments->save_camera_path && crew_leads(session->crew);
+    const bool done = make_renderer(session, arguments->backend, &painting.renderer) &&
+                      sequence_draw(session, &output, frames, &(frame_painter){paint, &painting}, report) &&
+                      (!saves_camera || frames_save(session, arguments->save_camera_path, frames, many));
     report->renderer.struct_size = sizeof report->renderer;
     if (done) ewa_renderer_describe(painting.renderer, &report->renderer);
     ewa_renderer_destroy(&painting.renderer);
@@ -346,13 +367,15 @@ static int run(const void *data) {
     const bool many = frames_many(&arguments->frames);
     light_objects lit_by = {.material_count = 0};
     render_report report = {.load_s = 0};
-    bool done = parse_paths(arguments, &paths, message) &&
-                frames_plan(&session, &arguments->frames, sequence_exists, &paths, &scene.frames);
+    const bool film = video_find_format(arguments->output) != NULL;
+    bool done = dividing_check(&session, many, film, false) && parse_paths(arguments, &paths, message) &&
+                frames_plan(&session, &arguments->frames, sequence_exists, &paths, &scene.frames) &&
+                dividing_choose(&session, &scene.frames);
     const bool idle = done && !frames->chosen_count && !arguments->save_camera_path && !arguments->stats_path;
     done = done && !idle && light_load(&session, &arguments->light, &lit_by) &&
            prepare(&session, arguments, &scene, &report) &&
            draw(&session, arguments, &paths, &lit_by, &scene, &report) &&
-           (!arguments->stats_path ||
+           (!arguments->stats_path || !crew_leads(session.crew) ||
             render_report_write(&session, common, many, frames, &report, arguments->stats_path));
     if (done && !many)
         session_say(&session, "%s: %llu of %llu splats drawn in %.1f ms, %.3f s in all", arguments->output,

@@ -117,6 +117,13 @@ bool render_report_write(cli_session *session, const common_arguments *common, b
     json_number(&json, "resolve", report->stats.resolve_s);
     json_close(&json, '}');
     if (report->from_lod) write_lod(&json, &report->lod);
+    if (session->crew) {
+        json_object(&json, "ranks");
+        json_count(&json, "count", session->crew->exchange.rank_count);
+        json_count(&json, "given_bytes", session->crew->given_bytes(session->crew));
+        json_number(&json, "waited_s", session->crew->waited_s(session->crew));
+        json_close(&json, '}');
+    }
     if (many) write_frames(&json, frames, report->frames);
     json_count(&json, "peak_memory_bytes", memory_peak_bytes());
     json_end(&json);

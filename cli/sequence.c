@@ -108,6 +108,7 @@ typedef struct sequence {
     render_report *report;
     bool *written;                   ///< of each frame that is drawn: its files are there
     size_t empty_count, first_empty; ///< frames that show nothing
+    bool mute;                       ///< another process writes the frames
     char subject[1024];              ///< names the frame that is drawn
 } sequence;
 
@@ -178,6 +179,7 @@ static bool draw_frame(sequence *all, size_t place) {
         return false;
     }
     all->session->subject = slot->session->subject = NULL;
+    if (all->mute) return all->written[place] = true;
     const bool put = !all->output->film || video_put(all->session, &all->video, slot->picture.rgba8);
     slot->write_s = clock_now_s() - started_s - slot->render_s;
     if (put) start_saving(all, slot);
@@ -270,15 +272,20 @@ bool sequence_draw(cli_session *session, const sequence_output *output, const fr
                                      .frames_per_s = output->frames_per_s,
                                      .quality = output->quality,
                                      .opaque = output->opaque};
-    sequence all = {
-        .session = session, .output = output, .frames = frames, .painter = painter, .report = report};
+    sequence all = {.session = session,
+                    .output = output,
+                    .frames = frames,
+                    .painter = painter,
+                    .report = report,
+                    .mute = crew_shares_cloud(session->crew) && !crew_leads(session->crew)};
     all.written = calloc(frames->chosen_count, sizeof *all.written);
     if (!all.written) session_fail(session, "out of memory for %zu frames", frames->chosen_count);
     bool done = all.written && make_slots(&all) &&
-                (!output->film || (check_sizes(session, output->film, frames) &&
-                                   video_start(session, output->film, &settings, &all.video))) &&
+                (!output->film || all.mute ||
+                 (check_sizes(session, output->film, frames) &&
+                  video_start(session, output->film, &settings, &all.video))) &&
                 draw_all(&all);
-    if (done && output->film) {
+    if (done && output->film && !all.mute) {
         const double started_s = clock_now_s();
         done = video_finish(session, &all.video);
         report->write_s += clock_now_s() - started_s;

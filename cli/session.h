@@ -22,6 +22,7 @@ typedef struct cli_session {
     ewa_cloud_load_options load;      ///< how files of points are read
     const ewa_filter *filter;         ///< which of their points are taken; NULL: all
     const session_listener *listener; ///< NULL: the terminal
+    const cli_crew *crew;             ///< NULL: this process alone
     const char *subject;              ///< the file that messages are about, or NULL
     bool quiet, verbose;
     bool reported;     ///< an error was printed

@@ -3,6 +3,7 @@
 //
 // ewa volume: volumes to a picture.
 #include "commands.h"
+#include "dividing.h"
 #include "furnish.h"
 #include "json.h"
 #include "light.h"
@@ -342,8 +343,11 @@ static int run(const void *data) {
     frame_cameras frames = {.count = 0};
     volume_painter painter = {.session = &session, .scene = &scene};
     render_report report = {.load_s = 0};
-    bool done = parse_paths(arguments, &paths, message) &&
-                frames_plan(&session, &arguments->frames, sequence_exists, &paths, &frames);
+    const bool film = video_find_format(arguments->output) != NULL;
+    bool done = dividing_check(&session, frames_many(&arguments->frames), film, true) &&
+                parse_paths(arguments, &paths, message) &&
+                frames_plan(&session, &arguments->frames, sequence_exists, &paths, &frames) &&
+                dividing_choose(&session, &frames);
     const bool idle = done && !frames.chosen_count && !arguments->save_camera_path &&
                       !arguments->stats_path && !arguments->scene.save_transfer_path;
     done = done && !idle &&
@@ -355,7 +359,8 @@ static int run(const void *data) {
                         ewa_cloud_point_count(scene.outline) ? scene.outline : NULL, NULL, NULL,
                         &painter.furniture) &&
            draw(arguments, &paths, &frames, &painter, &report) &&
-           (!arguments->stats_path || write_stats(&session, arguments, &frames, &painter, &report));
+           (!arguments->stats_path || !crew_leads(session.crew) ||
+            write_stats(&session, arguments, &frames, &painter, &report));
     if (done && frames.chosen_count)
         session_say(&session, "%s: %llu of %llu voxels, drawn in %.1f ms, %.3f s in all", arguments->output,
                     (unsigned long long)scene.info.occupied_count, (unsigned long long)scene.info.voxel_count,

@@ -26,13 +26,13 @@ typedef struct ewa_gaussians {
     uint32_t count;
     uint32_t sh_degree; ///< L, [0, EWA_MAX_SH_DEGREE]
     bool flat;          ///< 2D Gaussians: the third scale is 0, the third axis is the normal
-    bool antialiased;   ///< trained with a pixel filter that keeps what a Gaussian adds, not one that thickens
-    double origin[3];   ///< world units; centres are relative to it
-    float *centers;     ///< 3 per Gaussian, world units
-    float *scales;      ///< 3 per Gaussian, standard deviations, world units, finite, >= 0
-    float *rotations;   ///< 4 per Gaussian, unit quaternion w x y z, from the axes to the world
-    float *opacities;   ///< 1 per Gaussian, [0, 1]
-    float *harmonics;   ///< (L + 1)^2 coefficients of red green blue per Gaussian; order and signs as in 3DGS
+    bool antialiased; ///< trained with a pixel filter that keeps what a Gaussian adds, not one that thickens
+    double origin[3]; ///< world units; centres are relative to it
+    float *centers;   ///< 3 per Gaussian, world units
+    float *scales;    ///< 3 per Gaussian, standard deviations, world units, finite, >= 0
+    float *rotations; ///< 4 per Gaussian, unit quaternion w x y z, from the axes to the world
+    float *opacities; ///< 1 per Gaussian, [0, 1]
+    float *harmonics; ///< (L + 1)^2 coefficients of red green blue per Gaussian; order and signs as in 3DGS
 } ewa_gaussians;
 
 /// Makes a set with everything zero; the caller frees it with ewa_gaussians_free(). Errors (set zeroed):

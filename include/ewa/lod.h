@@ -72,6 +72,11 @@ typedef struct ewa_lod_options {
     /// as missing. The coarsest and what is large in the middle of the picture come first; [0, 1e15]; default 0: as
     /// long as it takes
     double load_s;
+    /// With a renderer of several ranks (ewa/cluster.h), each draws a part of the surfels of about the same
+    /// size: this one part `share` of `share_count`; all of these must fit in its memory. [0, 1048576];
+    /// default 0
+    uint32_t share;
+    uint32_t share_count; ///< [0, 1048576]; default 0: no parts
 } ewa_lod_options;
 
 EWA_API extern const ewa_option_table ewa_lod_options_table;

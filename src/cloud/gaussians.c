@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Memory and bounds of sets of Gaussians.
-#include "ewa/gaussian.h"
 #include "base/base.h"
+#include "ewa/gaussian.h"
 
 #include <math.h>
 
@@ -15,8 +15,9 @@ ewa_status ewa_gaussians_create(ewa_context *context, uint32_t count, uint32_t s
     if (!context || !gaussians) return EWA_ERROR_ARGUMENT;
     *gaussians = (ewa_gaussians){0};
     if (sh_degree > EWA_MAX_SH_DEGREE)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "gaussians: spherical harmonics of degree %u, not 0 to %d",
-                        sh_degree, EWA_MAX_SH_DEGREE);
+        return ewa_fail(context, EWA_ERROR_ARGUMENT,
+                        "gaussians: spherical harmonics of degree %u, not 0 to %d", sh_degree,
+                        EWA_MAX_SH_DEGREE);
     const ewa_limits *limits = ewa_context_limits(context);
     const uint64_t bytes = count * (uint64_t)sizeof(float) * (3 + 3 + 4 + 1 + harmonic_count(sh_degree));
     if (count > limits->max_points)

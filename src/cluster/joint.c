@@ -87,6 +87,22 @@ static ewa_status add_up(ewa_joint *joint, uint64_t mine, uint64_t *sum) {
     return status;
 }
 
+/// Makes the counts those of all ranks.
+static ewa_status count_all(ewa_joint *joint, uint64_t *broken, ewa_render_stats *stats) {
+    uint64_t *const counts[] = {broken,
+                                &stats->splat_count,
+                                &stats->culled_count,
+                                &stats->hidden_count,
+                                &stats->drawn_count,
+                                &stats->fragment_count};
+    enum { COUNTS = sizeof counts / sizeof counts[0] };
+    int64_t values[COUNTS];
+    for (int i = 0; i < COUNTS; i++) values[i] = (int64_t)*counts[i];
+    const ewa_status status = ewa_exchange_add(joint->context, &joint->exchange, values, COUNTS);
+    for (int i = 0; i < COUNTS; i++) *counts[i] = (uint64_t)values[i];
+    return status;
+}
+
 /// Draws the surfaces of shared tiles, one behind the other, until nothing is open on any rank.
 static ewa_status draw_shared(ewa_joint *joint) {
     const ewa_tile_job *job = &joint->job;
@@ -132,12 +148,12 @@ static ewa_status draw(void *state, const ewa_render_job *own, ewa_render_stats 
     if (status == EWA_OK) status = ewa_joint_collect(joint);
     uint64_t broken = 0;
     for (uint32_t i = 0; i < joint->worker_count; i++) broken += joint->scratch[i].broken_pixel_count;
-    if (status == EWA_OK) status = add_up(joint, broken, &broken);
+    ewa_job_count(&joint->job, joint->worker_count, stats);
+    if (status == EWA_OK) status = count_all(joint, &broken, stats);
     if (status != EWA_OK) return status;
     const uint32_t to = joint->exchange.picture_rank;
     if (to == EWA_ALL_RANKS || to == joint->exchange.rank)
         ewa_job_finish(context, &joint->room, &frame, broken);
-    ewa_job_count(&joint->job, joint->worker_count, stats);
     stats->total_s = ewa_now_s() - start_s;
     return EWA_OK;
 }

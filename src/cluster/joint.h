@@ -34,15 +34,15 @@ typedef struct ewa_joint {
     ewa_buffer packed, wave, pixels;
     // Of the frame:
     ewa_tile_job job;
-    size_t tile_floats;                             ///< of all planes of a tile
-    size_t pixel_lanes;                             ///< of one plane of a tile
-    uint32_t surface;                               ///< 0: the first, 1: one behind
-    bool whole;                                     ///< all that is left is one surface
-    uint32_t (*share_rows)[EWA_MAX_TILE_BLOCKS];    ///< [share]: blocks in which some pixel is open
-    size_t *share_places, *part_places;             ///< blocks of those before, of keys
-    const void **part_sums;                         ///< [part]: as packed
-    uint32_t wave_first, *active, active_count;     ///< shares that are open
-    size_t wave_bytes;                              ///< of a share
+    size_t tile_floats;                          ///< of all planes of a tile
+    size_t pixel_lanes;                          ///< of one plane of a tile
+    uint32_t surface;                            ///< 0: the first, 1: one behind
+    bool whole;                                  ///< all that is left is one surface
+    uint32_t (*share_rows)[EWA_MAX_TILE_BLOCKS]; ///< [share]: blocks in which some pixel is open
+    size_t *share_places, *part_places;          ///< blocks of those before, of keys
+    const void **part_sums;                      ///< [part]: as packed
+    uint32_t wave_first, *active, active_count;  ///< shares that are open
+    size_t wave_bytes;                           ///< of a share
 } ewa_joint;
 
 /// Finds the nearest of all ranks' splats in the open blocks of what is shared: on all ranks that have some, and

@@ -42,7 +42,8 @@ static void close_unmarked(const ewa_tile *tile, ewa_tile_scratch *s) {
 }
 
 /// Puts the sums of all parts of a meeting into its planes.
-static void put_sums(ewa_joint *joint, const ewa_joint_meeting *meeting, uint32_t worker, const ewa_tile *tile) {
+static void put_sums(ewa_joint *joint, const ewa_joint_meeting *meeting, uint32_t worker,
+                     const ewa_tile *tile) {
     ewa_tile_scratch *s = &joint->scratch[worker];
     const size_t numbers = ewa_joint_total_numbers(&joint->job);
     int64_t *totals = (int64_t *)joint->totals.data + worker * numbers;
@@ -149,13 +150,15 @@ static ewa_status read_told(ewa_joint *joint) {
         ewa_parcel *from = &joint->mail.taken[share->owner];
         told_tile told;
         if (from->size_bytes < sizeof told)
-            return ewa_fail(joint->context, EWA_ERROR_FORMAT, "render: rank %u says too little", share->owner);
+            return ewa_fail(joint->context, EWA_ERROR_FORMAT, "render: rank %u says too little",
+                            share->owner);
         memcpy(&told, from->data, sizeof told);
         const size_t keys = told.open ? count_blocks(told.rows) * LANES * sizeof(float) : 0;
         const ewa_tile_rect rect = ewa_tiles_rect(all, share->tile);
         const uint32_t columns = (rect.width_px + EWA_BLOCK_PX - 1) / EWA_BLOCK_PX;
         if (from->size_bytes - sizeof told < keys)
-            return ewa_fail(joint->context, EWA_ERROR_FORMAT, "render: rank %u says too little", share->owner);
+            return ewa_fail(joint->context, EWA_ERROR_FORMAT, "render: rank %u says too little",
+                            share->owner);
         share->open = told.open;
         memcpy(joint->share_rows[number], told.rows, sizeof told.rows);
         const char *at = (const char *)from->data + sizeof told;

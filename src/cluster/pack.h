@@ -32,6 +32,7 @@ void ewa_joint_add(const ewa_joint_set *sets, uint32_t set_count, const ewa_tile
                    int64_t *totals);
 
 /// Sets the sums of blocks that have something to the totals.
-void ewa_joint_put(const ewa_joint_set *sets, uint32_t set_count, const ewa_tile *tile, const int64_t *totals);
+void ewa_joint_put(const ewa_joint_set *sets, uint32_t set_count, const ewa_tile *tile,
+                   const int64_t *totals);
 
 #endif

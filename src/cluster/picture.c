@@ -36,8 +36,8 @@ static size_t copy_tiles(const ewa_joint *joint, uint32_t rank, char *post, bool
         for (int i = 0; i < PLANES; i++) {
             const size_t row_bytes = rect.width_px * planes[i].size_bytes;
             for (size_t y = 0; y < rect.height_px && planes[i].pixels; y++, bytes += row_bytes) {
-                char *at = (char *)planes[i].pixels +
-                           ((rect.y_px + y) * width + rect.x_px) * planes[i].size_bytes;
+                char *at =
+                    (char *)planes[i].pixels + ((rect.y_px + y) * width + rect.x_px) * planes[i].size_bytes;
                 if (post) memcpy(back ? at : post + bytes, back ? post + bytes : at, row_bytes);
             }
         }

@@ -150,7 +150,8 @@ static void address_keys(ewa_joint *joint, bool back) {
     ewa_mail *mail = &joint->mail;
     for (uint32_t r = 0, part = 0; r < joint->exchange.rank_count; r++) {
         const size_t first = joint->share_places[tiles->share_first[r]],
-                     end = joint->share_places[tiles->share_first[r + 1]], first_part = joint->part_places[part];
+                     end = joint->share_places[tiles->share_first[r + 1]],
+                     first_part = joint->part_places[part];
         while (part < tiles->part_count && tiles->parts[part].rank == r) part++;
         const ewa_parcel shares = {(float *)joint->given_keys.data + first * LANES,
                                    (end - first) * LANES * sizeof(float)};
@@ -178,8 +179,7 @@ ewa_status ewa_joint_find_nearest(ewa_joint *joint) {
 static void gather_sums(void *data, uint32_t number, uint32_t worker) {
     ewa_joint *joint = data;
     ewa_tile_scratch *s = &joint->scratch[worker];
-    const uint32_t share = joint->active[joint->wave_first + number],
-                   index = joint->tiles.shares[share].tile;
+    const uint32_t share = joint->active[joint->wave_first + number], index = joint->tiles.shares[share].tile;
     ewa_tile tile;
     place_share(joint, share, worker, &tile);
     float *nearest = joint->surface ? s->edges.nearest : s->nearest;

@@ -66,9 +66,9 @@ static ewa_status reserve(ewa_context *context, const ewa_exchange *exchange, ew
     if (status == EWA_OK)
         status = ewa_buffer_reserve(context, &tiles->part_buffer, tiles->part_count, sizeof *tiles->parts);
     if (status == EWA_OK)
-        status = ewa_buffer_grow(context, &tiles->numbers, 2 * (size_t)tiles->tile_count,
-                                 3 * (size_t)tiles->tile_count + ranks + 1 + tiles->part_count,
-                                 sizeof(uint32_t));
+        status =
+            ewa_buffer_grow(context, &tiles->numbers, 2 * (size_t)tiles->tile_count,
+                            3 * (size_t)tiles->tile_count + ranks + 1 + tiles->part_count, sizeof(uint32_t));
     if (status != EWA_OK) return status;
     tiles->shares = tiles->share_buffer.data;
     tiles->meetings = tiles->meeting_buffer.data;
@@ -104,8 +104,7 @@ static void list_owned(const ewa_exchange *exchange, ewa_joint_tiles *tiles) {
             tiles->order[tiles->meetings[m].first_part++] = parts++;
         }
     }
-    for (uint32_t m = meetings; m > 0; m--)
-        tiles->meetings[m].first_part = tiles->meetings[m - 1].first_part;
+    for (uint32_t m = meetings; m > 0; m--) tiles->meetings[m].first_part = tiles->meetings[m - 1].first_part;
     tiles->meetings[0].first_part = 0;
 }
 
@@ -132,7 +131,8 @@ ewa_status ewa_joint_tiles_settle(ewa_context *context, const ewa_exchange *exch
     tiles->tile_count = ewa_tiles_count(&job->tiles);
     ewa_status status = gather_busy(context, exchange, job, tiles);
     if (status == EWA_OK)
-        status = ewa_buffer_reserve(context, &tiles->numbers, 2 * (size_t)tiles->tile_count, sizeof(uint32_t));
+        status =
+            ewa_buffer_reserve(context, &tiles->numbers, 2 * (size_t)tiles->tile_count, sizeof(uint32_t));
     if (status != EWA_OK) return status;
     tiles->owners = tiles->numbers.data;
     tiles->busy_counts = tiles->owners + tiles->tile_count;
@@ -145,7 +145,7 @@ ewa_status ewa_joint_tiles_settle(ewa_context *context, const ewa_exchange *exch
 }
 
 void ewa_joint_tiles_free(ewa_context *context, ewa_joint_tiles *tiles) {
-    ewa_buffer *const buffers[] = {&tiles->busy, &tiles->numbers, &tiles->share_buffer, &tiles->meeting_buffer,
-                                   &tiles->part_buffer};
+    ewa_buffer *const buffers[] = {&tiles->busy, &tiles->numbers, &tiles->share_buffer,
+                                   &tiles->meeting_buffer, &tiles->part_buffer};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) ewa_buffer_free(context, buffers[i]);
 }

@@ -29,14 +29,14 @@ typedef struct ewa_joint_part {
 /// The tiles of a frame, as one rank sees them. Zero-initialise.
 typedef struct ewa_joint_tiles {
     uint32_t tile_count;
-    uint32_t *owners;        ///< [tile]
-    uint32_t *busy_counts;   ///< [tile]: ranks that have splats in it
-    uint32_t *alone;         ///< tiles that the rank owns and in which one rank at most has splats
-    ewa_joint_share *shares; ///< by owners, then tiles
-    uint32_t *share_first;   ///< [rank count + 1]: of those of an owner
+    uint32_t *owners;            ///< [tile]
+    uint32_t *busy_counts;       ///< [tile]: ranks that have splats in it
+    uint32_t *alone;             ///< tiles that the rank owns and in which one rank at most has splats
+    ewa_joint_share *shares;     ///< by owners, then tiles
+    uint32_t *share_first;       ///< [rank count + 1]: of those of an owner
     ewa_joint_meeting *meetings; ///< by tiles
     ewa_joint_part *parts;       ///< by ranks, then tiles: what comes in the order of the other's shares
-    uint32_t *order;             ///< of parts by meetings: meeting m has [meetings[m].first_part, that of m + 1)
+    uint32_t *order; ///< of parts by meetings: meeting m has [meetings[m].first_part, that of m + 1)
     uint32_t alone_count, share_count, meeting_count, part_count;
     uint32_t own_part_first; ///< where the parts of the rank itself begin, in the order of its shares
     ewa_buffer busy, numbers, share_buffer, meeting_buffer, part_buffer;

@@ -42,6 +42,10 @@ static const ewa_option lod_rows[] = {
      .help = "memory for cubes; a picture that needs more is drawn in bands"},
     {"load_s", EWA_OPTION_F64, offsetof(ewa_lod_options, load_s), 0, 1e15, .unit = "s",
      .help = "time for reading cubes; what is missing then is drawn coarser; 0: as long as it takes"},
+    {"share", EWA_OPTION_U32, offsetof(ewa_lod_options, share), 0, 0x1p20,
+     .help = "part that a rank draws of what a renderer of several ranks shows"},
+    {"share_count", EWA_OPTION_U32, offsetof(ewa_lod_options, share_count), 0, 0x1p20,
+     .help = "of so many; 0: no parts"},
 };
 
 const ewa_option_table ewa_lod_options_table = EWA_OPTION_TABLE(ewa_lod_options, lod_rows);
@@ -345,6 +349,32 @@ static ewa_status draw_bands(ewa_lod *lod, ewa_renderer *renderer, const ewa_cam
     return status;
 }
 
+/// Keeps one part of the cubes, which are in an order in which neighbours are near each other: those whose surfels
+/// begin in that part of all.
+static ewa_status keep_share(chooser *c) {
+    const ewa_lod_options *options = c->options;
+    uint64_t all = 0, before = 0, bytes = 0;
+    for (uint32_t i = 0; i < c->item_count; i++) all += c->lod->cubes[c->items[i].cube].count;
+    const uint64_t first = ewa_split(all, options->share_count, options->share),
+                   end = ewa_split(all, options->share_count, options->share + 1);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < c->item_count; i++) {
+        const ewa_cube *cube = &c->lod->cubes[c->items[i].cube];
+        if (before >= first && before < end) {
+            c->items[kept++] = c->items[i];
+            bytes += bytes_of(cube);
+        }
+        before += cube->count;
+    }
+    c->item_count = kept;
+    if (bytes <= options->memory_bytes) return EWA_OK;
+    return ewa_fail(c->lod->context, EWA_ERROR_LIMIT,
+                    "part %u of %u of the picture needs %llu bytes of cubes, more than the %llu that are "
+                    "allowed: more ranks or more memory each",
+                    options->share + 1, options->share_count, (unsigned long long)bytes,
+                    (unsigned long long)options->memory_bytes);
+}
+
 static double scale_of(const ewa_camera *camera) {
     return vec3_length(vec3_load(&camera->world_to_camera[8]));
 }
@@ -363,6 +393,7 @@ static ewa_status render(ewa_lod *lod, ewa_renderer *renderer, const ewa_camera 
     }
     const double before_s = ewa_now_s();
     if (status == EWA_OK) status = choose_cubes(&c, chosen->load_s > 0);
+    if (status == EWA_OK && chosen->share_count) status = keep_share(&c);
     if (status != EWA_OK) return status;
     stats->choose_s = ewa_now_s() - before_s;
     stats->missing_count = c.missing_count;
@@ -398,6 +429,10 @@ ewa_status ewa_lod_render(ewa_lod *lod, ewa_renderer *renderer, const ewa_camera
     ewa_status status = ewa_options_take(lod->context, &ewa_lod_options_table, lod_options, &chosen);
     if (status == EWA_OK) status = ewa_camera_check(lod->context, camera);
     if (status != EWA_OK) return status;
+    if (chosen.share_count && (chosen.share >= chosen.share_count || chosen.load_s > 0))
+        return ewa_fail(lod->context, EWA_ERROR_ARGUMENT,
+                        "lod: part %u of %u, or parts that a time limit makes", chosen.share,
+                        chosen.share_count);
     ewa_render_options plain;
     ewa_render_options_init(&plain, sizeof plain);
     if (options) plain = *options;

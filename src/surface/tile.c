@@ -262,8 +262,9 @@ void ewa_tile_sum_nearest(const ewa_tile_job *job, const ewa_tile *tile, ewa_til
                        count = source->bins.lists.starts[index + 1] - first;
         const uint32_t *ids = source->bins.lists.ids + first;
         ewa_tile_packets shown = {source, s->packets, 0};
-        shown.count = job->kernels->hide(&source->view, &source->surfels->bounds, &source->packets.places, tile,
-                                         s->cells, ids, (uint32_t)count, s->packets, s->packets + count + 1);
+        shown.count =
+            job->kernels->hide(&source->view, &source->surfels->bounds, &source->packets.places, tile,
+                               s->cells, ids, (uint32_t)count, s->packets, s->packets + count + 1);
         ewa_tile_walk_again(job, tile, s, &shown, 0, ewa_run_count(&shown), EWA_PASS_ACCUMULATE);
     }
     ewa_tile_close_pixels(tile->nearest, block_count, INFINITY, -INFINITY);

@@ -16,7 +16,7 @@ int main(int argc, char **argv) {
     cli_command command = view_command;
     command.run = show;
     const int exit_status =
-        command_run(&command, argc > 0 ? (size_t)argc - 1 : 0, (const char *const *)argv + 1);
+        command_run(&command, NULL, argc > 0 ? (size_t)argc - 1 : 0, (const char *const *)argv + 1);
     cli_session session = {.quiet = false};
     return output_flush(&session, exit_status);
 }
