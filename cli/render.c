@@ -19,8 +19,10 @@
 #include "sequence.h"
 #include "video.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 typedef struct render_arguments {
     frames_arguments frames; // first: it begins with the common arguments
@@ -268,10 +270,16 @@ static bool prepare(cli_session *session, const render_arguments *arguments, ren
     if (!lod_input_choose(session, common, &arguments->lod, find_lod_clash(arguments), &scene->lod))
         return false;
     if (crew_shares_cloud(session->crew) && !scene->lod) {
-        session_fail(session,
-                     "--split cloud: what is shared is an octree that is drawn from its levels; `ewa-mpi lod "
-                     "%s -o FILE.copc.laz` makes one, and --memory draws a small one so, too",
-                     common->operands[0]);
+        struct stat facts;
+        const char *path = common->operands[0];
+        if (stat(path, &facts) != 0)
+            session_fail(session, "%s: %s", path, strerror(errno));
+        else
+            session_fail(
+                session,
+                "--split cloud: what is shared is an octree that is drawn from its levels; `ewa-mpi lod "
+                "%s -o FILE.copc.laz` makes one, and --memory draws a small one so, too",
+                common->operands[0]);
         return false;
     }
     return scene->lod ? make_lod_scene(session, arguments, scene, report)

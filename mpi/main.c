@@ -105,7 +105,7 @@ static const cli_command *find_command(const mpi_arguments *arguments, const cha
 }
 
 /// Gives others the time to say the same before this rank does.
-static void pause_briefly(void) { nanosleep(&(struct timespec){.tv_nsec = 200000000}, NULL); }
+static void pause_briefly(void) { nanosleep(&(struct timespec){.tv_sec = 1}, NULL); }
 
 /// Ends all ranks after one has failed.
 static void abort_all(const mpi_exchange *exchange, const char *failure, int exit_status) {

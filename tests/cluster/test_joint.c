@@ -2,94 +2,47 @@
 // SPDX-License-Identifier: MIT
 //
 // A frame of sources that are spread over ranks is the frame of one process with all of them, byte for byte.
+#include "cluster/joint_frames.h"
 #include "cluster/ranks.h"
-#include "splat/picture.h"
-#include "surface/render.h"
 
 #include <string.h>
 
-enum { WIDTH_PX = 150, HEIGHT_PX = 131, POINTS = 2500, PARTS = 5 };
-
-/// A frame of PARTS sources.
 typedef struct subject {
-    bool clips; ///< some parts have clip lines
-    ewa_render_source how[PARTS];
-    ewa_camera camera;
-    ewa_render_options options;
-    bool planes;
+    joint_frame frame;
     picture found[RANKS_MOST];
     ewa_status status[RANKS_MOST];
 } subject;
 
-static const scene_kind kinds[PARTS] = {SCENE_SPHERE, SCENE_CUBE, SCENE_ELLIPSES, SCENE_NEAR, SCENE_TORUS};
-
-/// Makes surfels of a part in a context and adds them.
-static ewa_surfels *add_part(ewa_context *context, ewa_renderer *renderer, const subject *of, uint32_t part) {
-    ewa_surfels *surfels = NULL;
-    scene made;
-    assert_int_equal(scene_make(context, kinds[part], POINTS, WIDTH_PX, HEIGHT_PX, &made), EWA_OK);
-    if (of->clips && part != 2) picture_add_clips(made.cloud);
-    assert_int_equal(ewa_surfels_create(made.cloud, NULL, &surfels), EWA_OK);
-    assert_int_equal(ewa_render_add_source(renderer, surfels, &of->how[part]), EWA_OK);
-    scene_free(&made);
-    return surfels;
-}
-
-static ewa_frame frame_of(const subject *of, const picture *into) {
-    return of->planes ? into->frame : (ewa_frame){.rgba8 = into->frame.rgba8};
-}
-
-/// Draws parts `rank`, `rank` + count, ... of the frame.
-static void draw(ewa_context *context, ewa_renderer *renderer, const subject *of, uint32_t rank,
-                 uint32_t count, const picture *into, ewa_status *status) {
-    ewa_surfels *surfels[PARTS] = {NULL};
-    const ewa_frame frame = frame_of(of, into);
-    *status = ewa_render_begin(renderer, &of->camera, &of->options, &frame);
-    for (uint32_t i = rank; i < PARTS; i += count) surfels[i] = add_part(context, renderer, of, i);
-    if (*status == EWA_OK) *status = ewa_render_finish(renderer, NULL);
-    for (uint32_t i = 0; i < PARTS; i++) ewa_surfels_destroy(&surfels[i]);
-}
-
 static void draw_as_rank(const ewa_exchange *exchange, void *data) {
     subject *of = data;
+    const uint32_t rank = exchange->rank;
     ewa_context *context = check_context(1, NULL);
     ewa_renderer *renderer = NULL;
-    of->status[exchange->rank] = ewa_renderer_create_joint(context, exchange, &renderer);
-    if (of->status[exchange->rank] == EWA_OK)
-        draw(context, renderer, of, exchange->rank, exchange->rank_count, &of->found[exchange->rank],
-             &of->status[exchange->rank]);
+    of->status[rank] = ewa_renderer_create_joint(context, exchange, &renderer);
+    if (of->status[rank] == EWA_OK)
+        of->status[rank] =
+            joint_frame_draw(context, renderer, &of->frame, rank, exchange->rank_count, &of->found[rank]);
     ewa_renderer_destroy(&renderer);
     ewa_context_destroy(&context);
 }
 
-static void assert_same(const subject *of, const picture *a, const picture *b, uint32_t ranks) {
-    const size_t pixels = (size_t)WIDTH_PX * HEIGHT_PX;
-    bool same = memcmp(a->frame.rgba8, b->frame.rgba8, 4 * pixels) == 0;
-    if (of->planes)
-        same = same && memcmp(a->frame.rgba, b->frame.rgba, 16 * pixels) == 0 &&
-               memcmp(a->frame.depth, b->frame.depth, 4 * pixels) == 0 &&
-               memcmp(a->frame.normal, b->frame.normal, 12 * pixels) == 0 &&
-               memcmp(a->frame.coverage, b->frame.coverage, 4 * pixels) == 0;
-    if (!same) fail_msg("%u ranks: other bytes", ranks);
-}
-
-static void hold(subject *of) {
+static void hold(subject *of, int index) {
     ewa_context *context = check_context(2, NULL);
     ewa_renderer *renderer = NULL;
-    ewa_status status = EWA_OK;
-    picture expected = picture_make(WIDTH_PX, HEIGHT_PX);
+    picture expected = picture_make(JOINT_WIDTH_PX, JOINT_HEIGHT_PX);
     assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
-    draw(context, renderer, of, 0, 1, &expected, &status);
-    assert_int_equal(status, EWA_OK);
-    static const uint32_t counts[] = {1, 2, 3, 7};
+    assert_int_equal(joint_frame_draw(context, renderer, &of->frame, 0, 1, &expected), EWA_OK);
+    static const uint32_t counts[] = {1, 2, 3, 4, 7};
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
-        for (uint32_t rank = 0; rank < counts[i]; rank++) of->found[rank] = picture_make(WIDTH_PX, HEIGHT_PX);
+        for (uint32_t rank = 0; rank < counts[i]; rank++)
+            of->found[rank] = picture_make(JOINT_WIDTH_PX, JOINT_HEIGHT_PX);
         // For one rank, or for all.
         const uint32_t picture_rank = i % 2 ? EWA_ALL_RANKS : counts[i] - 1;
         ranks_run(counts[i], picture_rank, draw_as_rank, of);
         for (uint32_t rank = 0; rank < counts[i]; rank++) {
             assert_int_equal(of->status[rank], EWA_OK);
-            if (i % 2 || rank == picture_rank) assert_same(of, &expected, &of->found[rank], counts[i]);
+            if ((i % 2 || rank == picture_rank) && !joint_frame_same(&of->frame, &expected, &of->found[rank]))
+                fail_msg("frame %d on %u ranks: other bytes", index, counts[i]);
             picture_free(&of->found[rank]);
         }
     }
@@ -98,63 +51,42 @@ static void hold(subject *of) {
     ewa_context_destroy(&context);
 }
 
-/// Scenes of several kinds in one frame, seen by the camera of the one at `seen`.
-static subject make(ewa_context *context, int seen) {
-    subject made;
-    memset(&made, 0, sizeof made);
-    scene of;
-    assert_int_equal(scene_make(context, kinds[seen], POINTS, WIDTH_PX, HEIGHT_PX, &of), EWA_OK);
-    made.camera = of.camera;
-    scene_free(&of);
-    for (int i = 0; i < PARTS; i++) made.how[i] = (ewa_render_source){1, true};
-    ewa_render_options_init(&made.options, sizeof made.options);
-    return made;
-}
-
 static void test_bytes_of_one_process(void **state) {
     (void)state;
     ewa_context *context = check_context(1, NULL);
-    for (int i = 0; i < 12; i++) {
-        subject of = make(context, i % PARTS);
-        ewa_render_options *o = &of.options;
-        of.planes = i % 2;
-        switch (i) {
-        case 2:
-            o->opacity = 0.5;
-            break;
-        case 3:
-            o->opacity = 0.5, o->layers = 3;
-            break;
-        case 4:
-            o->kernel = EWA_KERNEL_RAYCAST;
-            break;
-        case 5:
-            o->passes = 1;
-            break;
-        case 6:
-            o->edge_antialiasing = false;
-            break;
-        case 7:
-            o->eye_dome = 1;
-            break;
-        case 8:
-            of.clips = true;
-            break;
-        case 9:
-            of.how[2].weight = 0.3, of.how[4] = (ewa_render_source){0.7, false};
-            break;
-        case 10:
-            o->point_size_px = 3;
-            break;
-        case 11:
-            o->section_count = 1, o->section_planes[0][0] = 1, o->section_planes[0][3] = -0.05;
-            break;
-        default:
-            break;
-        }
-        hold(&of);
+    for (int i = 0; i < JOINT_FRAMES; i++) {
+        subject of;
+        joint_frame_make(context, i, &of.frame);
+        hold(&of, i);
     }
     ewa_context_destroy(&context);
+}
+
+/// What a rank gathers and adds up.
+static void gather_and_add(const ewa_exchange *exchange, void *data) {
+    enum { COUNT = 11 };
+    ewa_context *context = check_context(1, NULL);
+    bool *right = data;
+    uint32_t all[RANKS_MOST] = {0}, mine = 100 + exchange->rank;
+    int64_t values[COUNT];
+    for (int i = 0; i < COUNT; i++) values[i] = (int64_t)(exchange->rank + 1) * (i - 5);
+    const bool done = ewa_exchange_gather(context, exchange, &mine, sizeof mine, all) == EWA_OK &&
+                      ewa_exchange_add(context, exchange, values, COUNT) == EWA_OK;
+    bool fine = done;
+    const int64_t sum = (int64_t)exchange->rank_count * (exchange->rank_count + 1) / 2;
+    for (uint32_t r = 0; r < exchange->rank_count; r++) fine = fine && all[r] == 100 + r;
+    for (int i = 0; i < COUNT; i++) fine = fine && values[i] == sum * (i - 5);
+    right[exchange->rank] = fine;
+    ewa_context_destroy(&context);
+}
+
+static void test_gather_and_add(void **state) {
+    (void)state;
+    for (uint32_t count = 1; count <= RANKS_MOST; count++) {
+        bool right[RANKS_MOST] = {false};
+        ranks_run(count, 0, gather_and_add, right);
+        for (uint32_t r = 0; r < count; r++) assert_true(right[r]);
+    }
 }
 
 static void test_bad_exchanges(void **state) {
@@ -171,6 +103,7 @@ static void test_bad_exchanges(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bytes_of_one_process),
+        cmocka_unit_test(test_gather_and_add),
         cmocka_unit_test(test_bad_exchanges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
