@@ -16,13 +16,15 @@ static void destroy(ewa_context *context, void *state) {
     for (uint32_t i = 0; old->scratch && i < old->worker_count; i++)
         ewa_tile_scratch_free(context, &old->scratch[i]);
     ewa_release(context, old->scratch, old->worker_count, sizeof *old->scratch);
+    ewa_joint_desk *desks = old->desks.data;
+    for (uint32_t i = 0; i < old->desk_room; i++) ewa_tile_scratch_free(context, &desks[i].scratch);
     ewa_job_room_free(context, &old->room);
     ewa_joint_sources_free(context, &old->sources);
     ewa_joint_tiles_free(context, &old->tiles);
     ewa_mail_free(context, &old->mail);
     ewa_buffer *const buffers[] = {&old->rows,   &old->passed, &old->given_keys, &old->taken_keys,
                                    &old->places, &old->kept,   &old->planes,     &old->totals,
-                                   &old->packed, &old->wave,   &old->pixels};
+                                   &old->packed, &old->wave,   &old->pixels,     &old->desks};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) ewa_buffer_free(context, buffers[i]);
     ewa_release(context, old, 1, sizeof *old);
 }
@@ -31,6 +33,7 @@ static ewa_status create(ewa_context *context, void **state) {
     ewa_joint *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
+    made->desk_bytes = EWA_JOINT_DESK_BYTES;
     made->room.dome.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_road_kernels);
     made->worker_count = ewa_context_worker_count(context);
     made->scratch = ewa_allocate_zeroed(context, made->worker_count, sizeof *made->scratch);
@@ -39,6 +42,37 @@ static ewa_status create(ewa_context *context, void **state) {
         return EWA_ERROR_MEMORY;
     }
     *state = made;
+    return EWA_OK;
+}
+
+/// Gives the first shares desks, as many as there is memory for.
+static ewa_status reserve_desks(ewa_joint *joint) {
+    enum { SPLAT_BYTES = 224 }; // records, what they carry, lists of them
+    const ewa_joint_tiles *tiles = &joint->tiles;
+    size_t bytes = 0;
+    for (joint->desk_count = 0; joint->desk_count < tiles->share_count; joint->desk_count++) {
+        const uint32_t tile = tiles->shares[joint->desk_count].tile;
+        ewa_tile_job own = joint->job;
+        own.largest_bin = 0;
+        for (uint32_t i = 0; i < own.source_count; i++) {
+            const uint64_t *starts = own.sources[i].bins.lists.starts;
+            own.largest_bin += starts[tile + 1] - starts[tile];
+        }
+        bytes += own.largest_bin * EWA_PACKET_LANES * SPLAT_BYTES + joint->tile_floats * sizeof(float);
+        if (bytes > joint->desk_bytes) break;
+        ewa_joint_desk *desks = joint->desks.data;
+        if (joint->desk_count == joint->desk_room) {
+            const ewa_status status = ewa_buffer_grow(joint->context, &joint->desks, joint->desk_room,
+                                                      (size_t)joint->desk_room + 1, sizeof *desks);
+            if (status != EWA_OK) return status;
+            desks = joint->desks.data;
+            memset(&desks[joint->desk_room++], 0, sizeof *desks);
+        }
+        ewa_joint_desk *desk = &desks[joint->desk_count];
+        desk->kept = desk->behind = false;
+        const ewa_status status = ewa_tile_scratch_reserve(joint->context, &desk->scratch, &own);
+        if (status != EWA_OK) return status;
+    }
     return EWA_OK;
 }
 
@@ -76,7 +110,7 @@ static ewa_status reserve(ewa_joint *joint) {
         const ewa_status status = ewa_tile_scratch_reserve(context, &joint->scratch[i], job);
         if (status != EWA_OK) return status;
     }
-    return EWA_OK;
+    return reserve_desks(joint);
 }
 
 /// Adds up a number of all ranks.
@@ -122,8 +156,13 @@ static ewa_status draw_shared(ewa_joint *joint) {
     return status;
 }
 
+/// The side of the tiles, the same on all ranks: of many splats, fewer tiles' records fit in cache.
+static uint32_t tile_side_px(const ewa_joint *joint) {
+    enum { CROWD = 5000000 };
+    return joint->sources.splat_count > CROWD ? 32 : 64;
+}
+
 static ewa_status draw(void *state, const ewa_render_job *own, ewa_render_stats *stats) {
-    enum { SIDE_PX = 64 };
     ewa_joint *joint = state;
     ewa_context *context = joint->context;
     const double start_s = ewa_now_s();
@@ -132,7 +171,8 @@ static ewa_status draw(void *state, const ewa_render_job *own, ewa_render_stats 
                         "render: a frame of several ranks is not drawn in bands");
     ewa_render_job frame;
     ewa_status status = ewa_joint_sources_gather(context, &joint->exchange, &joint->sources, own, &frame);
-    if (status == EWA_OK) status = ewa_tile_job_make(context, &joint->room, &frame, SIDE_PX, &joint->job);
+    if (status == EWA_OK)
+        status = ewa_tile_job_make(context, &joint->room, &frame, tile_side_px(joint), &joint->job);
     if (status != EWA_OK) return status;
     joint->job.scratch = joint->scratch;
     // A rank without sources exchanges what the others do.
@@ -148,6 +188,12 @@ static ewa_status draw(void *state, const ewa_render_job *own, ewa_render_stats 
     if (status == EWA_OK) status = ewa_joint_collect(joint);
     uint64_t broken = 0;
     for (uint32_t i = 0; i < joint->worker_count; i++) broken += joint->scratch[i].broken_pixel_count;
+    const ewa_joint_desk *desks = joint->desks.data;
+    for (uint32_t i = 0; i < joint->desk_count; i++) {
+        joint->scratch->drawn_count += desks[i].scratch.drawn_count;
+        joint->scratch->fragment_count += desks[i].scratch.fragment_count;
+        joint->scratch->hidden_splat_count += desks[i].scratch.hidden_splat_count;
+    }
     ewa_job_count(&joint->job, joint->worker_count, stats);
     if (status == EWA_OK) status = count_all(joint, &broken, stats);
     if (status != EWA_OK) return status;

@@ -19,6 +19,17 @@ typedef struct ewa_joint_kept {
     bool layered;
 } ewa_joint_kept;
 
+/// Where a share keeps its splats from pass to pass.
+typedef struct ewa_joint_desk {
+    ewa_tile_scratch scratch;
+    ewa_edge_lists lists;
+    bool kept;   ///< the runs of the first pass
+    bool behind; ///< and those behind it
+} ewa_joint_desk;
+
+/// Memory for desks; what finds no room is set up anew for each pass.
+#define EWA_JOINT_DESK_BYTES ((size_t)256 << 20)
+
 /// The state of a joint renderer.
 typedef struct ewa_joint {
     ewa_context *context;
@@ -32,6 +43,10 @@ typedef struct ewa_joint {
     ewa_buffer rows, passed, given_keys, taken_keys, places; ///< of shares and parts
     ewa_buffer kept, planes, totals;                         ///< of meetings
     ewa_buffer packed, wave, pixels;
+    ewa_buffer desks;    ///< ewa_joint_desk, which keep their memory: of the first shares
+    uint32_t desk_room;  ///< desks that have been used
+    uint32_t desk_count; ///< of the frame
+    size_t desk_bytes;   ///< as EWA_JOINT_DESK_BYTES
     // Of the frame:
     ewa_tile_job job;
     size_t tile_floats;                          ///< of all planes of a tile

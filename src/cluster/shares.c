@@ -67,47 +67,53 @@ static void copy_keys(const uint32_t rows[ROWS], const ewa_tile *tile, float *pl
         }
 }
 
-/// Makes a tile in the worker's own planes ready for a pass.
-static void place_share(ewa_joint *joint, uint32_t share, uint32_t worker, ewa_tile *tile) {
-    ewa_tile_scratch *s = &joint->scratch[worker];
+/// The desk of a share; NULL: none.
+static ewa_joint_desk *desk_of(const ewa_joint *joint, uint32_t share) {
+    return share < joint->desk_count ? (ewa_joint_desk *)joint->desks.data + share : NULL;
+}
+
+/// Makes a tile ready for a pass, at the share's desk or in the worker's own planes; returns whose.
+static ewa_tile_scratch *place_share(ewa_joint *joint, uint32_t share, uint32_t worker, ewa_tile *tile) {
+    ewa_joint_desk *desk = desk_of(joint, share);
+    ewa_tile_scratch *s = desk ? &desk->scratch : &joint->scratch[worker];
     ewa_tile_planes_bind(&joint->job, s, s->plane_buffer.data);
     ewa_tile_place(&joint->job, s, joint->tiles.shares[share].tile, tile);
     tile->pixels = NULL; // small splats have no sums of their own
     tile->sums.careful = true;
-    if (!joint->surface) {
-        joint->job.kernels->clear_nearest(tile);
-        return;
-    }
+    if (!joint->surface) return s;
     const size_t lanes = (size_t)tile->blocks_per_row * tile->block_rows * LANES;
     memcpy(s->edges.rows, joint->share_rows[share], sizeof joint->share_rows[share]);
     memcpy(s->edges.passed, (const float *)joint->passed.data + share * joint->pixel_lanes,
            lanes * sizeof(float));
     for (size_t i = 0; i < lanes; i++) s->edges.nearest[i] = -INFINITY;
+    if (desk && desk->kept && !desk->behind) ewa_tile_keep_behind(&joint->job, tile, s, &desk->lists);
+    if (desk) desk->behind = true;
+    return s;
 }
 
-/// One pass over this rank's splats of a tile beyond what has passed.
-static void walk_behind(const ewa_joint *joint, const ewa_tile *tile, ewa_tile_scratch *s, uint32_t index,
+/// One pass beyond what has passed.
+static void draw_behind(const ewa_joint *joint, uint32_t share, const ewa_tile *tile, ewa_tile_scratch *s,
                         ewa_tile_pass what) {
-    for (uint32_t i = 0; i < joint->job.source_count; i++) {
-        const ewa_tile_source *source = &joint->job.sources[i];
-        const uint64_t first = source->bins.lists.starts[index];
-        const ewa_tile_packets all = {source, source->bins.lists.ids + first,
-                                      source->bins.lists.starts[index + 1] - first};
-        ewa_tile_draw_behind(&joint->job, tile, s, &all, what);
-    }
+    ewa_joint_desk *desk = desk_of(joint, share);
+    ewa_edge_lists none = {.whole = false};
+    ewa_tile_draw_behind(&joint->job, tile, s, joint->tiles.shares[share].tile,
+                         desk && desk->kept ? &desk->lists : &none, what);
 }
 
 /// Finds the nearest of this rank's splats; an ewa_task.
 static void find_keys(void *data, uint32_t number, uint32_t worker) {
     ewa_joint *joint = data;
-    ewa_tile_scratch *s = &joint->scratch[worker];
-    const uint32_t share = joint->active[number], index = joint->tiles.shares[share].tile;
+    const uint32_t share = joint->active[number];
+    ewa_joint_desk *desk = desk_of(joint, share);
     ewa_tile tile;
-    place_share(joint, share, worker, &tile);
-    if (joint->surface)
-        walk_behind(joint, &tile, s, index, EWA_PASS_EDGE_VISIBILITY);
-    else
-        ewa_tile_find_nearest(&joint->job, &tile, s, index);
+    ewa_tile_scratch *s = place_share(joint, share, worker, &tile);
+    if (joint->surface) {
+        draw_behind(joint, share, &tile, s, EWA_PASS_EDGE_VISIBILITY);
+    } else {
+        joint->job.kernels->clear_nearest(&tile);
+        const bool kept = ewa_tile_find_nearest(&joint->job, &tile, s, joint->tiles.shares[share].tile);
+        if (desk) desk->kept = kept;
+    }
     copy_keys(joint->share_rows[share], &tile, joint->surface ? s->edges.nearest : s->nearest,
               (float *)joint->given_keys.data + joint->share_places[share] * LANES, false);
 }
@@ -178,10 +184,10 @@ ewa_status ewa_joint_find_nearest(ewa_joint *joint) {
 /// Sums this rank's splats that reach the nearest of all, and packs the sums; an ewa_task.
 static void gather_sums(void *data, uint32_t number, uint32_t worker) {
     ewa_joint *joint = data;
-    ewa_tile_scratch *s = &joint->scratch[worker];
-    const uint32_t share = joint->active[joint->wave_first + number], index = joint->tiles.shares[share].tile;
+    const uint32_t share = joint->active[joint->wave_first + number];
+    const ewa_joint_desk *desk = desk_of(joint, share);
     ewa_tile tile;
-    place_share(joint, share, worker, &tile);
+    ewa_tile_scratch *s = place_share(joint, share, worker, &tile);
     float *nearest = joint->surface ? s->edges.nearest : s->nearest;
     const uint32_t blocks = tile.blocks_per_row * tile.block_rows;
     if (joint->whole)
@@ -196,9 +202,9 @@ static void gather_sums(void *data, uint32_t number, uint32_t worker) {
     memset(s->high_rows, 0, sizeof s->high_rows);
     if (joint->surface) {
         ewa_tile_close_pixels(nearest, blocks, -INFINITY, INFINITY);
-        walk_behind(joint, &tile, s, index, EWA_PASS_EDGE_ACCUMULATE);
+        draw_behind(joint, share, &tile, s, EWA_PASS_EDGE_ACCUMULATE);
     } else {
-        ewa_tile_sum_nearest(&joint->job, &tile, s, index);
+        ewa_tile_sum_nearest(&joint->job, &tile, s, joint->tiles.shares[share].tile, desk && desk->kept);
     }
     ewa_joint_set sets[EWA_JOINT_SETS];
     const uint32_t set_count = ewa_joint_sets(&joint->job, s, joint->surface, sets);

@@ -87,10 +87,12 @@ static ewa_status list(ewa_context *context, const ewa_exchange *exchange, ewa_j
     ewa_surfels *hollow = room->hollow.data;
     const told_source *all = room->told.data;
     room->count = 0;
+    room->splat_count = 0;
     for (uint32_t rank = 0; rank < exchange->rank_count; rank++)
         for (uint64_t i = 0; i < counts[rank]; i++) {
             const uint32_t at = room->count++;
             const told_source *told = &all[rank * most + i];
+            room->splat_count += told->count;
             hollow[at] = hollow_of(context, told);
             sources[at] = rank == exchange->rank ? frame->sources[i]
                                                  : (ewa_frame_source){&hollow[at], told->weight, told->hides};

@@ -14,6 +14,7 @@
 typedef struct ewa_joint_sources {
     ewa_buffer told, sources, hollow; ///< of all ranks; hollow: ewa_surfels
     uint32_t count;
+    uint64_t splat_count; ///< of all
 } ewa_joint_sources;
 
 /// Exchanges the sources of a frame and sets `*joint` to the frame with those of all. Errors: EWA_ERROR_ARGUMENT (other

@@ -9,36 +9,27 @@
 #include <math.h>
 #include <string.h>
 
-enum {
-    MAX_BLOCKS = EWA_MAX_TILE_BLOCKS * EWA_MAX_TILE_BLOCKS,
-    NOT_LISTED = UINT32_MAX,
-};
+enum { NOT_LISTED = UINT32_MAX };
 
-/// The splats of the kept runs, and the lists of the tile's blocks that there was room for.
-typedef struct batch {
-    bool keep_lists; ///< the batch serves to the end
-    uint32_t used;   ///< of scratch->listed
-    uint32_t list_first[MAX_BLOCKS], list_count[MAX_BLOCKS];
-} batch;
-
-static void start_batch(const ewa_tile_job *job, ewa_tile_scratch *s, bool keep_lists, batch *made) {
-    made->keep_lists = keep_lists;
+static void start_lists(const ewa_tile_job *job, ewa_tile_scratch *s, bool whole, ewa_edge_lists *made) {
+    made->whole = whole;
+    made->begun = true;
     made->used = 0;
-    memset(made->list_count, 0xff, sizeof made->list_count); // NOT_LISTED
+    memset(made->count, 0xff, sizeof made->count); // NOT_LISTED
     job->kernels->edge_boxes(s->boxes);
 }
 
-static void draw_block(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, batch *from,
-                       uint32_t row, uint32_t column, ewa_tile_pass what) {
+static void draw_block(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
+                       ewa_edge_lists *from, uint32_t row, uint32_t column, ewa_tile_pass what) {
     const uint32_t block = row * tile->blocks_per_row + column;
-    const bool listed = from->list_count[block] != NOT_LISTED;
+    const bool listed = from->count[block] != NOT_LISTED;
     ewa_edge_splats splats = {s->records, s->loads,  s->opacities,   s->materials,
                               s->clips,   s->listed, s->listed_keys, 0};
-    const uint32_t first = listed ? from->list_first[block] : from->used;
+    const uint32_t first = listed ? from->first[block] : from->used;
     splats.indices += first;
     splats.largest_keys += first;
     if (listed) {
-        splats.count = from->list_count[block];
+        splats.count = from->count[block];
     } else {
         splats.count = job->kernels->edge_list(s->boxes, row, column, s->edges.reach[block], splats.indices);
         for (uint32_t i = 0; i < splats.count && what == EWA_PASS_EDGE_ACCUMULATE; i++)
@@ -51,10 +42,10 @@ static void draw_block(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_s
     // another that holds all splats. Lists are shortened by whole vectors.
     const uint32_t taken = (splats.count + EWA_BLOCK_LANES - 1) / EWA_BLOCK_LANES * EWA_BLOCK_LANES;
     const size_t room = EWA_LISTS * s->record_capacity - from->used;
-    if (listed || (from->keep_lists && taken + s->record_capacity <= room)) {
-        from->list_count[block] = splats.count;
+    if (listed || (from->whole && taken + s->record_capacity <= room)) {
+        from->count[block] = splats.count;
         if (listed) return;
-        from->list_first[block] = first;
+        from->first[block] = first;
         from->used += taken;
     }
 }
@@ -77,8 +68,8 @@ static void draw_runs(const ewa_tile_job *job, const ewa_tile *tile, const ewa_t
 }
 
 /// One pass over the splats that are kept.
-static void draw_batch(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, batch *from,
-                       ewa_tile_pass what, bool dense) {
+static void draw_batch(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
+                       ewa_edge_lists *from, ewa_tile_pass what, bool dense) {
     if (dense)
         draw_runs(job, tile, s, what);
     else
@@ -108,16 +99,21 @@ static bool close_others(const ewa_tile_job *job, const ewa_tile *tile, const ew
     return true;
 }
 
-/// A source's hidden packets that may reach marked blocks go behind those that are shown; returns how many.
-static uint32_t show_behind_edges(const ewa_tile_job *job, const ewa_tile_source *source,
-                                  const ewa_tile *tile, ewa_tile_scratch *s, const ewa_tile_split *split) {
-    if (!split->hidden_count) return 0;
+/// Marks the cells with marked blocks, for kernels->hide: there everything shows, elsewhere nothing.
+static void mark_cells(const ewa_tile *tile, ewa_tile_scratch *s) {
     for (int i = 0; i < EWA_TILE_CELLS * EWA_TILE_CELLS; i++) s->cells[i] = INFINITY;
     for (uint32_t row = 0; row < tile->block_rows; row++)
         for (uint32_t marked = s->edges.rows[row]; marked; marked &= marked - 1) {
             const uint32_t column = (uint32_t)__builtin_ctz(marked);
             s->cells[row / EWA_CELL_BLOCKS * EWA_TILE_CELLS + column / EWA_CELL_BLOCKS] = -INFINITY;
         }
+}
+
+/// A source's hidden packets that may reach marked blocks go behind those that are shown; returns how many.
+static uint32_t show_behind_edges(const ewa_tile_job *job, const ewa_tile_source *source,
+                                  const ewa_tile *tile, ewa_tile_scratch *s, const ewa_tile_split *split) {
+    if (!split->hidden_count) return 0;
+    mark_cells(tile, s);
     return job->kernels->hide(&source->view, &source->surfels->bounds, &source->packets.places, tile,
                               s->cells, split->hidden, (uint32_t)split->hidden_count,
                               split->shown + split->shown_count, split->hidden);
@@ -146,22 +142,66 @@ static bool something_behind(const ewa_tile_job *job, const ewa_tile *tile, cons
 
 /// One pass over a source's splats, as many at a time as there is room for.
 static void draw_some(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
-                      const ewa_tile_packets *packets, batch *current, ewa_tile_pass what, bool dense) {
+                      const ewa_tile_packets *packets, ewa_edge_lists *current, ewa_tile_pass what,
+                      bool dense) {
     for (uint64_t run = 0, end = ewa_run_count(packets); run < end;) {
         ewa_tile_drop_runs(s);
         run = ewa_tile_keep_runs(job, tile, s, packets, run, end, false);
-        if (!dense) start_batch(job, s, false, current);
+        if (!dense) start_lists(job, s, false, current);
         draw_batch(job, tile, s, current, what, dense);
     }
 }
 
-void ewa_tile_draw_behind(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
-                          const ewa_tile_packets *packets, ewa_tile_pass what) {
-    draw_some(job, tile, s, packets, NULL, what, true);
+/// Sets how far splats may be for marked blocks, and that nothing is wanted in others; returns how many are marked.
+static uint32_t find_reach(const ewa_tile *tile, ewa_tile_scratch *s) {
+    uint32_t count = 0;
+    for (uint32_t block = 0; block < tile->blocks_per_row * tile->block_rows; block++) {
+        const bool marked = s->edges.rows[block / tile->blocks_per_row] >> block % tile->blocks_per_row & 1;
+        const float *passed = s->edges.passed + (size_t)block * EWA_BLOCK_LANES;
+        float reach = -INFINITY;
+        for (int i = 0; i < EWA_BLOCK_LANES && marked; i++) reach = passed[i] > reach ? passed[i] : reach;
+        s->edges.reach[block] = reach;
+        count += marked;
+    }
+    return count;
+}
+
+void ewa_tile_keep_behind(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
+                          ewa_edge_lists *lists) {
+    *lists = (ewa_edge_lists){.whole = true};
+    for (uint32_t i = 0; i < job->source_count; i++) {
+        ewa_tile_split *split = &s->split[i];
+        const uint32_t behind = show_behind_edges(job, &job->sources[i], tile, s, split);
+        const ewa_tile_packets more = {&job->sources[i], split->shown + split->shown_count, behind};
+        const uint64_t end = ewa_run_count(&more);
+        lists->whole = lists->whole && ewa_tile_keep_runs(job, tile, s, &more, 0, end, false) == end;
+        split->shown_count += behind;
+    }
+}
+
+void ewa_tile_draw_behind(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, uint32_t index,
+                          ewa_edge_lists *lists, ewa_tile_pass what) {
+    const bool dense = close_others(job, tile, s, find_reach(tile, s));
+    if (lists->whole) {
+        if (!dense && !lists->begun) start_lists(job, s, true, lists);
+        draw_batch(job, tile, s, lists, what, dense);
+        return;
+    }
+    mark_cells(tile, s);
+    for (uint32_t i = 0; i < job->source_count; i++) {
+        const ewa_tile_source *source = &job->sources[i];
+        const uint64_t first = source->bins.lists.starts[index],
+                       count = source->bins.lists.starts[index + 1] - first;
+        ewa_tile_packets shown = {source, s->packets, 0};
+        shown.count = job->kernels->hide(&source->view, &source->surfels->bounds, &source->packets.places,
+                                         tile, s->cells, source->bins.lists.ids + first, (uint32_t)count,
+                                         s->packets, s->packets + count + 1);
+        draw_some(job, tile, s, &shown, lists, what, dense);
+    }
 }
 
 static void draw_again(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, uint32_t source,
-                       batch *current, ewa_tile_pass what, bool dense) {
+                       ewa_edge_lists *current, ewa_tile_pass what, bool dense) {
     const ewa_tile_packets all = {&job->sources[source], s->split[source].shown,
                                   s->split[source].shown_count};
     draw_some(job, tile, s, &all, current, what, dense);
@@ -207,7 +247,7 @@ bool ewa_tile_draw_edges(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile
     }
     marked = keep_beyond(tile, s);
     if (!marked) return false;
-    batch current;
+    ewa_edge_lists current;
     bool listed = false; // `current` holds what is kept
     for (uint32_t layer = 1; layer < job->layers && marked; layer++) {
         const bool dense = close_others(job, tile, s, marked),
@@ -216,7 +256,7 @@ bool ewa_tile_draw_edges(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile
         for (ewa_tile_pass what = last && dense ? EWA_PASS_EDGE_ACCUMULATE : EWA_PASS_EDGE_VISIBILITY;
              what <= EWA_PASS_EDGE_ACCUMULATE; what++) {
             if (kept) {
-                if (!dense && !listed) start_batch(job, s, listed = true, &current);
+                if (!dense && !listed) start_lists(job, s, listed = true, &current);
                 draw_batch(job, tile, s, &current, what, dense);
             }
             for (uint32_t i = 0; i < job->source_count && !kept; i++)

@@ -246,17 +246,18 @@ static bool draw_sources(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile
     return kept;
 }
 
-void ewa_tile_find_nearest(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
+bool ewa_tile_find_nearest(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
                            uint32_t index) {
-    draw_sources(job, tile, s, index);
+    return draw_sources(job, tile, s, index);
 }
 
-void ewa_tile_sum_nearest(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
-                          uint32_t index) {
+void ewa_tile_sum_nearest(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, uint32_t index,
+                          bool kept) {
     const uint32_t block_count = tile->blocks_per_row * tile->block_rows;
     job->kernels->set_cells(tile, s->cells);
     ewa_tile_close_pixels(tile->nearest, block_count, -INFINITY, INFINITY);
-    for (uint32_t i = 0; i < job->source_count; i++) {
+    if (kept) ewa_tile_walk_kept(job, tile, s);
+    for (uint32_t i = 0; i < job->source_count && !kept; i++) {
         const ewa_tile_source *source = &job->sources[i];
         const uint64_t first = source->bins.lists.starts[index],
                        count = source->bins.lists.starts[index + 1] - first;

@@ -128,17 +128,31 @@ void ewa_tile_planes_bind(const ewa_tile_job *job, ewa_tile_scratch *scratch, fl
 /// Sets `tile` to tile `index` of the picture in the worker's planes.
 void ewa_tile_place(const ewa_tile_job *job, ewa_tile_scratch *scratch, uint32_t index, ewa_tile *tile);
 
-/// First pass over the splats of a tile, and the second over those that are not hidden by a surface that is known: no
-/// run is kept between the two.
-void ewa_tile_find_nearest(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *scratch,
+/// First pass over the splats of a tile; returns whether its runs are kept. Second pass: over these, or, where they are not,
+/// over those that are not hidden by the surface in tile->nearest.
+bool ewa_tile_find_nearest(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *scratch,
                            uint32_t index);
 void ewa_tile_sum_nearest(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *scratch,
-                          uint32_t index);
+                          uint32_t index, bool kept);
 
-/// One pass over the splats of a source beyond scratch->edges.passed, in the blocks that scratch->edges.rows marks; others
-/// are to be closed (-infinity).
+/// Which splats of the kept runs lie in which blocks of a tile, where there is room to keep that.
+typedef struct ewa_edge_lists {
+    bool whole; ///< all splats are kept, and serve to the end
+    bool begun;
+    uint32_t used; ///< of scratch->listed
+    uint32_t first[EWA_MAX_TILE_BLOCKS * EWA_MAX_TILE_BLOCKS],
+        count[EWA_MAX_TILE_BLOCKS * EWA_MAX_TILE_BLOCKS];
+} ewa_edge_lists;
+
+/// Makes ready for passes behind the first surface in the blocks that scratch->edges.rows marks, of a tile whose runs are
+/// kept: the hidden packets that may reach these are kept as well. lists->whole: there was room for all.
+void ewa_tile_keep_behind(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *scratch,
+                          ewa_edge_lists *lists);
+
+/// One pass over the splats of a tile beyond scratch->edges.passed, in the blocks that scratch->edges.rows marks; others
+/// are to be closed (-infinity). Of the kept runs, if lists->whole.
 void ewa_tile_draw_behind(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *scratch,
-                          const ewa_tile_packets *packets, ewa_tile_pass what);
+                          uint32_t index, ewa_edge_lists *lists, ewa_tile_pass what);
 
 /// Gathers the surfaces behind the first one where it covers pixels partly, hidden packets included; `kept`
 /// when all runs of those that are shown are kept. Returns whether there are such pixels; scratch->edge_rows

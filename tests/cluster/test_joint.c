@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A frame of sources that are spread over ranks is the frame of one process with all of them, byte for byte.
+#include "cluster/joint.h"
 #include "cluster/joint_frames.h"
 #include "cluster/ranks.h"
 
@@ -9,6 +10,7 @@
 
 typedef struct subject {
     joint_frame frame;
+    size_t desk_bytes; ///< of each rank, where shares keep their splats
     picture found[RANKS_MOST];
     ewa_status status[RANKS_MOST];
 } subject;
@@ -19,6 +21,9 @@ static void draw_as_rank(const ewa_exchange *exchange, void *data) {
     ewa_context *context = check_context(1, NULL);
     ewa_renderer *renderer = NULL;
     of->status[rank] = ewa_renderer_create_joint(context, exchange, &renderer);
+    void *state = NULL;
+    ewa_renderer_backend(renderer, &context, &state);
+    ((ewa_joint *)state)->desk_bytes = of->desk_bytes;
     if (of->status[rank] == EWA_OK)
         of->status[rank] =
             joint_frame_draw(context, renderer, &of->frame, rank, exchange->rank_count, &of->found[rank]);
@@ -36,6 +41,7 @@ static void hold(subject *of, int index) {
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
         for (uint32_t rank = 0; rank < counts[i]; rank++)
             of->found[rank] = picture_make(JOINT_WIDTH_PX, JOINT_HEIGHT_PX);
+        of->desk_bytes = (size_t[]){0, EWA_JOINT_DESK_BYTES, 1 << 20}[i % 3];
         // For one rank, or for all.
         const uint32_t picture_rank = i % 2 ? EWA_ALL_RANKS : counts[i] - 1;
         ranks_run(counts[i], picture_rank, draw_as_rank, of);
