@@ -129,11 +129,42 @@ void ewa_file_unmap(ewa_context *context, ewa_file *file) {
     *file = (ewa_file){0};
 }
 
+static uint64_t page_bytes(void) { return (uint64_t)sysconf(_SC_PAGESIZE); }
+
 void ewa_file_passed(const uint8_t *bytes, uint64_t at_bytes) {
-    const uint64_t page_bytes = (uint64_t)sysconf(_SC_PAGESIZE),
-                   whole_bytes = at_bytes / page_bytes * page_bytes;
+    const uint64_t whole_bytes = at_bytes / page_bytes() * page_bytes();
     // Pages of a file come back from it when they are asked for again.
     if (whole_bytes) madvise((void *)(uintptr_t)bytes, whole_bytes, MADV_DONTNEED);
+}
+
+void ewa_file_give_up(const ewa_file *file, uint64_t from, uint64_t to) {
+    const uint64_t page = page_bytes(), first = (from + page - 1) / page * page, end = to / page * page;
+    if (!file->mapped || end <= first) return;
+    munmap((void *)(uintptr_t)(file->bytes + first), end - first);
+}
+
+int ewa_file_open_pieces(const char *path, uint64_t size_bytes) {
+    struct stat facts;
+    const int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY);
+    if (descriptor < 0) return -1;
+    if (fstat(descriptor, &facts) == 0 && S_ISREG(facts.st_mode) && (uint64_t)facts.st_size == size_bytes)
+        return descriptor;
+    close(descriptor);
+    return -1;
+}
+
+bool ewa_file_piece_map(int descriptor, uint64_t at_bytes, size_t size_bytes, ewa_file *piece,
+                        const uint8_t **bytes) {
+    const uint64_t before = at_bytes % page_bytes();
+    *piece = (ewa_file){0};
+    void *mapped =
+        mmap(NULL, size_bytes + before, PROT_READ, MAP_PRIVATE, descriptor, (off_t)(at_bytes - before));
+    if (mapped == MAP_FAILED) return false;
+    const size_t mapped_bytes = size_bytes + before;
+    *piece = (ewa_file){
+        .bytes = mapped, .size_bytes = mapped_bytes, .capacity_bytes = mapped_bytes, .mapped = true};
+    *bytes = piece->bytes + before;
+    return true;
 }
 
 /// Bytes of a path that are its folder's, with the slash.

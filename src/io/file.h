@@ -30,6 +30,17 @@ bool ewa_file_map_descriptor(int descriptor, ewa_file *file);
 /// Lets the first pages of a mapped file, up to byte `at_bytes`, leave memory; they come back when read.
 void ewa_file_passed(const uint8_t *bytes, uint64_t at_bytes);
 
+/// Gives up bytes [from, to) of a mapped file, which are not to be read any more, so that they take no room among
+/// addresses; ewa_file_piece_map() reads from them again.
+void ewa_file_give_up(const ewa_file *file, uint64_t from, uint64_t to);
+
+/// Opens a file again whose pieces are to be mapped; -1 where that cannot be, or it is not of that size.
+int ewa_file_open_pieces(const char *path, uint64_t size_bytes);
+
+/// Maps bytes [at, at + size_bytes) of an open file; false, without a report, when that cannot be. Any thread.
+bool ewa_file_piece_map(int descriptor, uint64_t at_bytes, size_t size_bytes, ewa_file *piece,
+                        const uint8_t **bytes);
+
 /// Gives the bytes back and clears `*file`; accepts a cleared one.
 void ewa_file_unmap(ewa_context *context, ewa_file *file);
 

@@ -11,6 +11,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 enum {
     /// Bytes by which a file shows that it is COPC: the header, and the head of the record behind it.
@@ -20,7 +21,8 @@ enum {
 };
 
 typedef struct copc_state {
-    ewa_file bytes;
+    ewa_file bytes; ///< without the nodes, where these are read piece by piece
+    int descriptor; ///< which they are read from; -1: from `bytes`
     ewa_cloud_source source;
     ewa_cloud_load_options options;
     uint64_t lost_count;
@@ -53,6 +55,7 @@ static void close_copc(ewa_octree *octree) {
     ewa_release(context, state->memories, state->worker_count, sizeof *state->memories);
     ewa_release(context, state->records, state->worker_count, sizeof *state->records);
     ewa_las_file_close(&state->file);
+    if (state->descriptor >= 0) close(state->descriptor);
     ewa_file_unmap(context, &state->bytes);
     ewa_release(context, state, 1, sizeof *state);
 }
@@ -112,11 +115,28 @@ static void find_levels(ewa_octree *octree, const copc_state *state) {
     }
 }
 
+/// Lets go of the nodes' bytes, most of the file, so that files larger than the room for addresses can be drawn.
+static void give_up_nodes(ewa_octree *octree, copc_state *state) {
+    uint64_t first = UINT64_MAX, end = 0;
+    for (uint64_t i = 0; i < octree->node_count; i++) {
+        const ewa_octree_node *node = (const ewa_octree_node *)octree->nodes.data + i;
+        if (!node->size_bytes) continue;
+        if (node->at_bytes < first) first = node->at_bytes;
+        if (node->at_bytes + node->size_bytes > end) end = node->at_bytes + node->size_bytes;
+    }
+    const uint8_t *levels = octree->facts.levels, *bytes = state->bytes.bytes;
+    const bool amid = levels && levels < bytes + end && levels + octree->facts.levels_bytes > bytes + first;
+    if (!state->bytes.mapped || end <= first || amid) return;
+    state->descriptor = ewa_file_open_pieces(octree->path, state->bytes.size_bytes);
+    if (state->descriptor >= 0) ewa_file_give_up(&state->bytes, first, end);
+}
+
 static ewa_status open_copc(ewa_octree *octree) {
     ewa_context *context = octree->context;
     copc_state *state = ewa_allocate_zeroed(context, 1, sizeof *state);
     octree->state = state;
     if (!state) return EWA_ERROR_MEMORY;
+    state->descriptor = -1;
     ewa_status status = ewa_file_map(context, octree->path, &state->bytes);
     if (status != EWA_OK) return status;
     ewa_cloud_load_options_init(&state->options, sizeof state->options);
@@ -145,6 +165,24 @@ static ewa_status open_copc(ewa_octree *octree) {
     status = take_tree(octree, state, &tree);
     ewa_copc_tree_free(context, &tree);
     find_levels(octree, state);
+    if (status == EWA_OK) give_up_nodes(octree, state);
+    return status;
+}
+
+/// Decodes a node's bytes to records.
+static ewa_status decode_node(const ewa_octree *octree, const copc_state *state, const ewa_octree_node *node,
+                              uint32_t worker, ewa_laz_result *decoded) {
+    ewa_file piece = {0};
+    const uint8_t *bytes = state->source.bytes + node->at_bytes;
+    if (state->descriptor >= 0 && node->size_bytes &&
+        !ewa_file_piece_map(state->descriptor, node->at_bytes, node->size_bytes, &piece, &bytes)) {
+        decoded->fault = "its bytes cannot be mapped";
+        return EWA_OK;
+    }
+    const ewa_status status =
+        ewa_laz_decode(octree->context, &state->file.layout.plan, bytes, node->size_bytes, node->point_count,
+                       state->records[worker].data, &state->memories[worker], decoded);
+    ewa_file_unmap(octree->context, &piece);
     return status;
 }
 
@@ -153,13 +191,11 @@ static void read_node(ewa_octree *octree, const ewa_octree_node *node, uint32_t 
     (void)slot;
     copc_state *state = octree->state;
     ewa_buffer *records = &state->records[worker];
-    ewa_laz_result decoded;
+    ewa_laz_result decoded = {0};
     result->status =
         ewa_buffer_reserve(octree->context, records, node->point_count, state->file.table.record_bytes);
     if (result->status != EWA_OK) return;
-    result->status = ewa_laz_decode(octree->context, &state->file.layout.plan,
-                                    state->source.bytes + node->at_bytes, node->size_bytes, node->point_count,
-                                    records->data, &state->memories[worker], &decoded);
+    result->status = decode_node(octree, state, node, worker, &decoded);
     if (result->status != EWA_OK) return;
     result->fault = decoded.fault;
     if (decoded.fault)
