@@ -22,10 +22,11 @@ import sys
 from pathlib import Path
 
 LAW = "docs/math.md"
-CODE = ("src", "include", "cli", "viewer", "examples", "import", "tests", "scenes")
+CODE = ("src", "include", "cli", "viewer", "examples", "import", "mpi", "tests", "scenes")
 
 # Options of other programs, by a word of the same paragraph.
 FOREIGN_OPTIONS = {
+    "mpirun": {"bind-to"}, "Open MPI": {"allow-run-as-root", "oversubscribe"},
     "cmake": {"preset", "build", "target", "help"},
     "F3D": {"camera-azimuth-angle", "camera-elevation-angle"},
     "parallel": {"wd", "retries"},
@@ -254,6 +255,10 @@ def read_options(tree):
             also = re.findall(r"\balso --[a-z][\w-]*(?:, --[a-z][\w-]*)*", rest)
             command |= set(re.findall(r"--([a-z][\w-]*)", first + " ".join(also)))
         options[""] |= command
+    # ewa-mpi tells of its own options in its usage.
+    usage = tree.root / "mpi/main.c"
+    if usage.exists():
+        options[""] |= set(re.findall(r"--([a-z][\w-]*)", usage.read_text().split("usage[]")[1].split(";")[0]))
     return options
 
 
@@ -273,7 +278,7 @@ def check_options(tree, found):
         for match in re.finditer(r"(?<![\w-])--([a-z][a-z0-9-]*[a-z0-9])", text.text):
             around = text.text[max(0, match.start() - 300):match.end() + 300]
             foreign = any(word in around and match.group(1) in names for word, names in FOREIGN_OPTIONS.items())
-            tools = [tree.root / name for name in re.findall(r"tools/\w+\.(?:py|sh)", around) if name in tree.files]
+            tools = [tree.root / name for name in re.findall(r"(?:tools|examples)/\w+\.(?:py|sh)", around) if name in tree.files]
             if match.group(1) not in options[""] and not foreign and \
                     not any(match.group() in tool.read_text() for tool in tools):
                 found.append((text.path, text.line(match.start()), f"{match.group()}: no such option"))
