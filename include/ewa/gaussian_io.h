@@ -44,8 +44,8 @@ EWA_API ewa_status ewa_gaussians_probe(ewa_context *context, const char *path, e
 
 /// Reads a file of Gaussians, the format by content; "-" reads standard input. Numbers are what the set says:
 /// scales are standard deviations and opacities shares, whatever the file stores. Axes are the file's, but for
-/// SPZ, whose right-up-back becomes the right-down-front of 3DGS, with its colours. Centres in doubles get an
-/// origin, in floats the origin 0. `facts` may be NULL. The caller frees the set; it is zeroed after a failure.
+/// SPZ that names its own, which become the right-down-front of 3DGS. Centres in doubles get an origin, in
+/// floats the origin 0. `facts` may be NULL. The caller frees the set; it is zeroed after a failure.
 ///
 /// Errors, with the Gaussian and the reason: EWA_ERROR_IO, EWA_ERROR_FORMAT (also a quaternion of zeros, a
 /// number that is not finite, no Gaussians), EWA_ERROR_UNSUPPORTED (no Gaussians of a known form, versions,

@@ -41,7 +41,8 @@ static uint32_t find_row(const ewa_ply_header *header, const ewa_ply_element *el
     return count;
 }
 
-bool ewa_gaussians_ply_is_plain(const ewa_ply_header *header) {
+/// Whether the vertices have the columns of 3DGS or 2DGS.
+static bool is_plain(const ewa_ply_header *header) {
     const ewa_ply_element *vertices = ewa_ply_vertices(header);
     uint32_t found[4];
     return vertices && find_row(header, vertices, "f_dc", 3, found) == 3 &&
@@ -214,15 +215,17 @@ static ewa_status read_ply(const ewa_gaussian_source *source, ewa_gaussians *set
     return status;
 }
 
-static bool is_ply(const ewa_gaussian_source *source) {
+bool ewa_gaussians_ply_probe(const ewa_gaussian_source *source, bool (*fits)(const ewa_ply_header *header)) {
     if (source->size_bytes < 4 || memcmp(source->bytes, "ply", 3) != 0) return false;
     ewa_ply_header *header = ewa_allocate(source->context, 1, sizeof *header);
     if (!header) return false;
     // Nobody wants to be told here what is wrong with files of other readers.
     const ewa_ply_source ply = {NULL, source->name, source->bytes, source->size_bytes};
-    const bool found = ewa_ply_header_read(&ply, header) == EWA_OK && ewa_gaussians_ply_is_plain(header);
+    const bool found = ewa_ply_header_read(&ply, header) == EWA_OK && fits(header);
     ewa_release(source->context, header, 1, sizeof *header);
     return found;
 }
 
-const ewa_gaussian_reader ewa_gaussians_ply = {EWA_GAUSSIANS_PLY, is_ply, read_ply};
+static bool probe(const ewa_gaussian_source *source) { return ewa_gaussians_ply_probe(source, is_plain); }
+
+const ewa_gaussian_reader ewa_gaussians_ply = {EWA_GAUSSIANS_PLY, probe, read_ply};

@@ -23,6 +23,35 @@ typedef enum fault {
     FAULT_HARMONICS,
 } fault;
 
+typedef struct decode_job {
+    uint32_t count;
+    ewa_gaussian_decode *decode;
+    void *data;
+} decode_job;
+
+static void decode_piece(void *data, uint32_t piece, uint32_t worker) {
+    (void)worker;
+    const decode_job *job = data;
+    job->decode(job->data, (uint32_t)ewa_split(job->count, PIECES, piece),
+                (uint32_t)ewa_split(job->count, PIECES, piece + 1));
+}
+
+void ewa_gaussians_decode(ewa_context *context, uint32_t count, ewa_gaussian_decode *decode, void *data) {
+    decode_job job = {count, decode, data};
+    ewa_parallel(context, decode_piece, &job, PIECES);
+}
+
+void ewa_quaternion_complete(const double others[3], uint32_t largest, float rotation[4]) {
+    double rest = 1;
+    for (uint32_t k = 0, from = 0; k < 4; k++) {
+        if (k == largest) continue;
+        rotation[k] = (float)others[from];
+        rest -= others[from] * others[from];
+        from++;
+    }
+    rotation[largest] = (float)sqrt(fmax(rest, 0));
+}
+
 typedef struct settle_job {
     ewa_gaussians *set;
     const ewa_gaussian_form *form;
