@@ -39,7 +39,7 @@ typedef struct ewa_gaussian_reader {
 
 /// The formats, in the order in which they are asked. Each lives in a file of its own.
 extern const ewa_gaussian_reader ewa_gaussians_ply, ewa_gaussians_packed_ply, ewa_gaussians_spz,
-    ewa_gaussians_splat, ewa_gaussians_ksplat;
+    ewa_gaussians_splat, ewa_gaussians_ksplat, ewa_gaussians_gltf;
 
 /// Makes a set for `count` Gaussians that the file says it has, of which each takes `least_bytes` of the
 /// `left_bytes` that are there. Errors: EWA_ERROR_FORMAT (there are fewer bytes, or no Gaussians),
