@@ -39,7 +39,7 @@ typedef struct ewa_gaussian_reader {
 
 /// The formats, in the order in which they are asked. Each lives in a file of its own.
 extern const ewa_gaussian_reader ewa_gaussians_ply, ewa_gaussians_packed_ply, ewa_gaussians_spz,
-    ewa_gaussians_splat, ewa_gaussians_ksplat, ewa_gaussians_gltf;
+    ewa_gaussians_splat, ewa_gaussians_ksplat, ewa_gaussians_gltf, ewa_gaussians_sog;
 
 /// Makes a set for `count` Gaussians that the file says it has, of which each takes `least_bytes` of the
 /// `left_bytes` that are there. Errors: EWA_ERROR_FORMAT (there are fewer bytes, or no Gaussians),
@@ -100,6 +100,9 @@ static inline float ewa_file_f16(const uint8_t *bytes) {
             exponent ? ldexpf((float)(1024 + mantissa), (int)exponent - 25) : ldexpf((float)mantissa, -24);
     return bits >> 15 ? -value : value;
 }
+
+/// Makes 2D Gaussians of a set that is said to hold such, whatever its third scales.
+void ewa_gaussians_flatten(ewa_gaussians *gaussians);
 
 /// Gives centres in doubles, 3 per Gaussian, an origin amid them and makes floats of them.
 void ewa_gaussians_place(const double *centers_world, ewa_gaussians *gaussians);

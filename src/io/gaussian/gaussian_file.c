@@ -7,9 +7,9 @@
 
 #include <string.h>
 
-static const ewa_gaussian_reader *const readers[] = {&ewa_gaussians_ply,    &ewa_gaussians_packed_ply,
-                                                     &ewa_gaussians_spz,    &ewa_gaussians_gltf,
-                                                     &ewa_gaussians_ksplat, &ewa_gaussians_splat};
+static const ewa_gaussian_reader *const readers[] = {
+    &ewa_gaussians_ply, &ewa_gaussians_packed_ply, &ewa_gaussians_spz,  &ewa_gaussians_gltf,
+    &ewa_gaussians_sog, &ewa_gaussians_ksplat,     &ewa_gaussians_splat};
 
 const char *ewa_gaussian_format_name(ewa_gaussian_format format) {
     static const char *const names[] = {"unknown", "3DGS PLY", "compressed PLY", "splat",

@@ -27,7 +27,10 @@ static ewa_status put_header(const ewa_gaussian_target *target) {
         snprintf(head, sizeof head,
                  "ply\nformat binary_little_endian 1.0\n%selement vertex %u\nproperty %s x\nproperty %s y\n"
                  "property %s z\nproperty float nx\nproperty float ny\nproperty float nz\n",
-                 set->antialiased ? "comment SplatRenderMode: mip\n" : "", set->count, type, type, type);
+                 set->antialiased ? "comment SplatRenderMode: mip\n"
+                 : set->flat      ? "comment SplatRenderMode: 2dgs\n"
+                                  : "",
+                 set->count, type, type, type);
     static const char *const names[] = {"f_dc", "f_rest", NULL, "scale", "rot"};
     const uint32_t counts[] = {3, 3 * (ewa_sh_count(target->sh_degree) - 1), 1, set->flat ? 2 : 3, 4};
     for (size_t n = 0; n < sizeof counts / sizeof counts[0]; n++)

@@ -157,3 +157,8 @@ void ewa_gaussians_place(const double *centers_world, ewa_gaussians *gaussians) 
             gaussians->centers[3 * (size_t)i + (size_t)k] =
                 (float)(centers_world[3 * (size_t)i + (size_t)k] - gaussians->origin[k]);
 }
+
+void ewa_gaussians_flatten(ewa_gaussians *gaussians) {
+    gaussians->flat = true;
+    for (size_t i = 0; i < gaussians->count; i++) gaussians->scales[3 * i + 2] = 0;
+}
