@@ -7,7 +7,7 @@
 // Its documentation says that axes are right, up, back; but converters, its own among them, put the numbers of 3DGS
 // there as they are, and the file does not say which. So numbers are kept, unless the file names its axes.
 //
-// Based on: Niantic Labs, "spz", README and src/cc, versions 1 to 4.
+// Based on: Niantic Labs, "spz", README and sources, versions 1 to 4.
 #include "io/gaussian/spz.h"
 #include "io/source.h"
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Files of Gaussians out: the format by suffix, the set checked.
-#include "io/gaussian/save.h"
 #include "base/options.h"
+#include "io/gaussian/save.h"
 
 #include <strings.h>
 
