@@ -85,6 +85,9 @@ static void converted(void **state) {
     run_done("ewa convert a.spz -o g.ply --scale 1 && ewa surfels b.splat -o h.ply && ewa info h.ply");
     said("tangent_u");
     said("color");
+    // Centres alone keep their colours: 0.5 + 0.2821 of 0 and 1.
+    run_done("ewa surfels three.ply -o i.ply --keep-normals off && ewa info i.ply");
+    said("color                uchar  128 .. 199, 135 .. 135, 142 .. 142");
 }
 
 /// Scales follow, and where they are.
