@@ -322,6 +322,94 @@ static void placed(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// A .glb of the given JSON, in which %zu is the number of bytes of the buffer.
+static void make_glb(sample_file *file, const char *json, const sample_file *body) {
+    char text[4096];
+    int length = snprintf(text, sizeof text, json, body->size, body->size);
+    while (length % 4) text[length++] = ' ';
+    file->size = 0;
+    sample_text(file, "glTF");
+    sample_u32(file, 2);
+    sample_u32(file, (uint32_t)(28 + (size_t)length + body->size));
+    sample_u32(file, (uint32_t)length);
+    sample_text(file, "JSON");
+    sample_put(file, text, (size_t)length);
+    sample_u32(file, (uint32_t)body->size);
+    sample_put(file, "BIN", 4);
+    sample_put(file, body->bytes, body->size);
+}
+
+/// SPZ in a buffer view, twice: where it is and moved; beside a primitive of triangles, which is left out.
+static void packed_in_gltf(void **state) {
+    (void)state;
+    static sample_file body, file;
+    sample_spz(&body, 3, 1);
+    make_glb(
+        &file,
+        "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_gaussian_splatting\"],"
+        "\"extensionsRequired\":[\"KHR_gaussian_splatting\",\"KHR_gaussian_splatting_compression_spz_2\"],"
+        "\"nodes\":[{\"mesh\":0},{\"mesh\":0,\"translation\":[0,0,50]}],\"meshes\":[{\"primitives\":[{"
+        "\"mode\":0,"
+        "\"attributes\":{},\"extensions\":{\"KHR_gaussian_splatting\":{\"extensions\":{"
+        "\"KHR_gaussian_splatting_compression_spz_2\":{\"bufferView\":0}}}}},{\"attributes\":{}}]}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":%zu}],\"buffers\":[{\"byteLength\":%zu}]}",
+        &body);
+    check_log log = {.count = 0};
+    ewa_context *context = check_context(1, &log);
+    ewa_gaussians set;
+    if (ewa_gaussians_load_memory(context, file.bytes, file.size, "test", NULL, &set, NULL) != EWA_OK)
+        fail_msg("%s", log.text);
+    assert_int_equal(set.count, 2 * SAMPLE_COUNT);
+    assert_true(set.antialiased);
+    for (uint32_t i = 0; i < SAMPLE_COUNT; i++) {
+        sample_near("z", i, set.centers[3 * i + 2], sample_center(i, 2), 1e-3);
+        sample_near("z", i, set.centers[3 * (SAMPLE_COUNT + i) + 2], 50 + sample_center(i, 2), 1e-3);
+    }
+    set.count = SAMPLE_COUNT; // the first half
+    sample_check(&set, 1, &(sample_limits){1e-3, 4e-2, 2e-4, 2e-3, 2e-2, 1e-2});
+    set.count = 2 * SAMPLE_COUNT;
+    ewa_gaussians_free(&set);
+    // As a mesh it has nothing to show, and cannot be read without the extension.
+    ewa_model model;
+    assert_int_equal(
+        ewa_model_load_memory(context, file.bytes, file.size, "test", NULL, EWA_MODEL_MESH, NULL, &model),
+        EWA_ERROR_UNSUPPORTED);
+    ewa_context_destroy(&context);
+}
+
+/// The first draft: colours and opacities of the display in COLOR_0.
+static void draft(void **state) {
+    (void)state;
+    static sample_file body, file;
+    body.size = 0;
+    const double numbers[14] = {1, 2, 3, 0.1, 0.2, 0.3, 0, 0, 0, 1, 1, 0.5, 0, 0.25};
+    for (int k = 0; k < 14; k++) sample_f32(&body, numbers[k]);
+    make_glb(&file,
+             "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_gaussian_splatting\"],\"nodes\":[{"
+             "\"mesh\":0}],"
+             "\"meshes\":[{\"primitives\":[{\"mode\":0,\"attributes\":{\"POSITION\":0,\"_SCALE\":1,\"_"
+             "ROTATION\":2,"
+             "\"COLOR_0\":3},\"extensions\":{\"KHR_gaussian_splatting\":{\"colorSpace\":\"lin_rec709_"
+             "display\"}}}]}],"
+             "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":1,\"type\":\"VEC3\"},"
+             "{\"bufferView\":0,\"byteOffset\":12,\"componentType\":5126,\"count\":1,\"type\":\"VEC3\"},"
+             "{\"bufferView\":0,\"byteOffset\":24,\"componentType\":5126,\"count\":1,\"type\":\"VEC4\"},"
+             "{\"bufferView\":0,\"byteOffset\":40,\"componentType\":5126,\"count\":1,\"type\":\"VEC4\"}],"
+             "\"bufferViews\":[{\"buffer\":0,\"byteLength\":%zu}],\"buffers\":[{\"byteLength\":%zu}]}",
+             &body);
+    check_log log = {.count = 0};
+    ewa_context *context = check_context(1, &log);
+    ewa_gaussians set;
+    if (ewa_gaussians_load_memory(context, file.bytes, file.size, "test", NULL, &set, NULL) != EWA_OK)
+        fail_msg("%s", log.text);
+    assert_non_null(strstr(log.text, "linear light")); // which a set cannot say
+    const double wanted[3] = {0.5 / 0.28209479177387814, 0, -0.5 / 0.28209479177387814};
+    for (uint32_t k = 0; k < 3; k++) sample_near("colour", k, set.harmonics[k], wanted[k], 1e-6);
+    assert_true(set.opacities[0] == 0.25f && set.rotations[0] == 1 && set.scales[2] == 0.3f);
+    ewa_gaussians_free(&set);
+    ewa_context_destroy(&context);
+}
+
 /// SPZ that names its axes: right, up, back turns to right, down, front.
 static void axes(void **state) {
     (void)state;
@@ -401,8 +489,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(forms),  cmocka_unit_test(cut_short), cmocka_unit_test(broken),
         cmocka_unit_test(lies),   cmocka_unit_test(words),     cmocka_unit_test(palettes),
-        cmocka_unit_test(beside), cmocka_unit_test(placed),    cmocka_unit_test(axes),
-        cmocka_unit_test(memory),
+        cmocka_unit_test(beside), cmocka_unit_test(placed),    cmocka_unit_test(packed_in_gltf),
+        cmocka_unit_test(draft),  cmocka_unit_test(axes),      cmocka_unit_test(memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

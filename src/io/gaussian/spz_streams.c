@@ -8,7 +8,8 @@
 
 #include <zstd.h>
 
-/// How much smaller than its content a stream is taken to be at most; what the format's own library believes.
+/// How much smaller than its content a stream of centres is taken to be at most; what the format's own library
+/// believes.
 enum { MOST_RATIO = 1024 };
 
 uint32_t ewa_spz_stream_bytes(const ewa_spz_header *header, uint32_t stream) {
@@ -50,16 +51,18 @@ static void read_header(const uint8_t *bytes, ewa_spz_header *header) {
                                .stream_count = bytes[15]};
 }
 
-/// Places the streams one after the other; fails when there cannot be so many bytes in `most_bytes`.
-static ewa_status place_streams(const ewa_gaussian_source *source, const ewa_spz_header *header,
-                                uint64_t most_bytes, size_t at[EWA_SPZ_STREAMS], size_t *size_bytes) {
+/// Bytes per Gaussian of all streams.
+static uint64_t all_bytes(const ewa_spz_header *header) {
     uint64_t each = 0;
-    for (uint32_t k = 0; k < EWA_SPZ_STREAMS; k++) {
-        at[k] = (size_t)(each * header->count);
-        each += ewa_spz_stream_bytes(header, k);
-    }
-    const uint64_t all = each * header->count;
-    if (all > most_bytes)
+    for (uint32_t k = 0; k < EWA_SPZ_STREAMS; k++) each += ewa_spz_stream_bytes(header, k);
+    return each;
+}
+
+/// Places the streams one after the other; fails when there cannot be more than `most_count` Gaussians.
+static ewa_status place_streams(const ewa_gaussian_source *source, const ewa_spz_header *header,
+                                uint64_t most_count, size_t at[EWA_SPZ_STREAMS], size_t *size_bytes) {
+    const uint64_t each = all_bytes(header), all = each * header->count;
+    if (header->count > most_count)
         return ewa_fail(source->context, EWA_ERROR_FORMAT,
                         "%s: SPZ: %u Gaussians take %llu bytes, which a file of %zu cannot hold",
                         source->name, header->count, (unsigned long long)all, source->size_bytes);
@@ -67,7 +70,11 @@ static ewa_status place_streams(const ewa_gaussian_source *source, const ewa_spz
         return ewa_fail(source->context, EWA_ERROR_LIMIT,
                         "%s: %u Gaussians of %llu bytes are over max_memory_bytes", source->name,
                         header->count, (unsigned long long)each);
-    *size_bytes = (size_t)all;
+    *size_bytes = 0;
+    for (uint32_t k = 0; k < EWA_SPZ_STREAMS; k++) {
+        at[k] = *size_bytes;
+        *size_bytes += (size_t)ewa_spz_stream_bytes(header, k) * header->count;
+    }
     return EWA_OK;
 }
 
@@ -98,8 +105,9 @@ static ewa_status unpack_gzip(const ewa_gaussian_source *source, ewa_spz_header 
         status = ewa_fail(source->context, EWA_ERROR_FORMAT,
                           "%s: SPZ of version 4 packed as one of version 3", source->name);
     if (status == EWA_OK)
-        status = place_streams(source, header, ewa_source_bound(EWA_PACKING_DEFLATE, source->size_bytes), at,
-                               size_bytes);
+        status = place_streams(source, header,
+                               ewa_source_bound(EWA_PACKING_DEFLATE, source->size_bytes) / all_bytes(header),
+                               at, size_bytes);
     if (status == EWA_OK) {
         *bytes = ewa_allocate(source->context, *size_bytes, 1);
         status = *bytes ? ewa_source_read(packed, *bytes, *size_bytes, &got) : EWA_ERROR_MEMORY;
@@ -177,7 +185,10 @@ static ewa_status unpack_zstd(const ewa_gaussian_source *source, ewa_spz_header 
             source->name, header->stream_count, header->table_at, streams, source->size_bytes);
     if (status == EWA_OK && header->flags & EWA_SPZ_EXTENDED) status = read_extensions(source, header, axes);
     if (status == EWA_OK)
-        status = place_streams(source, header, (uint64_t)source->size_bytes * MOST_RATIO, at, size_bytes);
+        status = place_streams(source, header,
+                               (uint64_t)source->size_bytes * MOST_RATIO /
+                                   ewa_spz_stream_bytes(header, EWA_SPZ_CENTERS),
+                               at, size_bytes);
     if (status != EWA_OK) return status;
     *bytes = ewa_allocate(source->context, *size_bytes, 1);
     if (!*bytes) return EWA_ERROR_MEMORY;
