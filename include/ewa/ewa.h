@@ -12,6 +12,7 @@
 #include "ewa/cluster.h"
 #include "ewa/furniture.h"
 #include "ewa/gaussian.h"
+#include "ewa/gaussian_io.h"
 #include "ewa/gpu.h"
 #include "ewa/homogeneous.h"
 #include "ewa/image.h"

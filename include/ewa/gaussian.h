@@ -47,6 +47,19 @@ EWA_API void ewa_gaussians_free(ewa_gaussians *gaussians);
 /// Measures the box around the centres, in world units, origin included. Errors: EWA_ERROR_ARGUMENT.
 EWA_API ewa_status ewa_gaussians_measure(const ewa_gaussians *gaussians, ewa_bounds *bounds);
 
+/// Maps space: centres, axes and the directions of the colours. `world_to_world` is row-major, acts on column
+/// vectors, its last row is 0 0 0 1; its linear part becomes scales and a turn, after a mirroring of the second
+/// axis where it mirrors, by which the colours go. The translation goes into the origin. Errors:
+/// EWA_ERROR_ARGUMENT, EWA_ERROR_NUMERIC (no inverse, a number that is not finite; the set is then as before).
+EWA_API ewa_status ewa_gaussians_transform(ewa_gaussians *gaussians, const double world_to_world[16]);
+
+/// Makes surfels of a set, for which 2D Gaussians are meant: "position", float, with the set's origin,
+/// "tangent_u" and "tangent_v" along the two longest axes, one standard deviation long, "normal" along the
+/// shortest, "color" in linear light, that of the constant harmonic, clamped to [0, 1], with the opacity as
+/// alpha. The caller owns `*cloud`, which is NULL after a failure. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT,
+/// EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_gaussians_to_cloud(const ewa_gaussians *gaussians, ewa_cloud **cloud);
+
 #ifdef __cplusplus
 }
 #endif
