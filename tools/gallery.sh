@@ -36,6 +36,17 @@ measure_acquire() { "$(dirname "$program")/../tests/quality/measure_acquire" "$@
 measure_layers() { "$(dirname "$program")/../tests/quality/measure_layers" "$@"; }
 measure_warp() { "$(dirname "$program")/../tests/quality/measure_warp" "$@"; }
 measure_textured() { "$(dirname "$program")/../tests/quality/measure_textured" "$@"; }
+# mpirun -n N ewa-mpi COMMAND ...: as it is, or by one process where there is no MPI, which makes the same bytes.
+mpirun() {
+    ranks=$2
+    shift 3
+    if command -v mpiexec >/dev/null && [ -x "$(dirname "$program")/../mpi/ewa-mpi" ]; then
+        OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 \
+            mpiexec -n "$ranks" "$(dirname "$program")/../mpi/ewa-mpi" "$@"
+    else
+        "$program" "$@"
+    fi
+}
 cd "$work"
 set -x
 . ./commands
