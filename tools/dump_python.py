@@ -36,6 +36,15 @@ LIMITS = {"UINT64_MAX": 2**64 - 1, "UINT32_MAX": 2**32 - 1, "UINT16_MAX": 2**16 
           "INT64_MAX": 2**63 - 1, "INT32_MAX": 2**31 - 1, "INFINITY": float("inf")}
 
 
+# Members that the package sets by arguments of its own.
+OWN = {
+    "ewa_render_options": {"background", "layers", "light_count", "material_count", "section_count"},
+    "ewa_volume_options": {"background", "light_count"}, "ewa_texture_options": {"background"},
+    "ewa_generate_options": {"object", "point_count"}, "ewa_volume_generate_options": {"object"},
+    "ewa_procedure_options": {"procedure"}, "ewa_furniture_options": {"category_count"},
+}
+
+
 class Api:
     """What docs/api.json says, over all headers."""
 
@@ -144,7 +153,8 @@ class Types:
             return name, *kind
         ctype, annotation = self.pointer(base, stars) if stars else self.scalar(base)
         for length in reversed(lengths):
-            annotation = "bytes" if ctype == "c.c_char" else f"c.Array[{ctype if annotation != 'Any' else 'Any'}]"
+            plain = re.fullmatch(r"[\w.]+", ctype) and annotation != "Any"
+            annotation = "bytes" if ctype == "c.c_char" else f"c.Array[{ctype if plain else 'Any'}]"
             ctype = f"{ctype} * {length}" if "*" not in ctype else f"({ctype}) * {length}"
         return name, ctype, annotation
 
@@ -242,6 +252,8 @@ def write_options(options):
         names.append(name)
         lines += ["", f"class {name}(TypedDict, total=False):", f'    """Members of {struct}."""', ""]
         for member, option in members.items():
+            if member in OWN.get(struct, ()):
+                continue
             if keyword.iskeyword(member):
                 sys.exit(f"{struct}.{member} is a word of Python")
             if option["type"] == "choice":
@@ -259,6 +271,9 @@ def write_options(options):
             unit = f", {option['unit']}" if option.get("unit") else ""
             lines += [f"    #: {option['help']}; {option['range']}{unit}, default {default}", f"    {member}: {kind}"]
         lines.append("")
+    lines += ["", "#: Members that are no keyword arguments: the package sets them by arguments of its own.",
+              "OWN: dict[str, frozenset[str]] = {"]
+    lines += [f'    "{struct}": frozenset({sorted(members)}),' for struct, members in OWN.items()] + ["}"]
     lines += ["", "__all__ = ["] + [f'    "{name}",' for name in sorted(names)] + ["]"]
     return "\n".join(lines) + "\n"
 

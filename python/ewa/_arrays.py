@@ -16,11 +16,11 @@ Array = npt.NDArray[Any]
 
 _T = b.ewa_type
 #: ewa_type of each type of numpy, and the other way.
-TYPE_OF = {np.dtype(np.float32): int(_T.EWA_F32), np.dtype(np.float64): int(_T.EWA_F64),
+TYPE_OF: dict[np.dtype[Any], int] = {np.dtype(np.float32): int(_T.EWA_F32), np.dtype(np.float64): int(_T.EWA_F64),
            np.dtype(np.int8): int(_T.EWA_I8), np.dtype(np.uint8): int(_T.EWA_U8),
            np.dtype(np.int16): int(_T.EWA_I16), np.dtype(np.uint16): int(_T.EWA_U16),
            np.dtype(np.int32): int(_T.EWA_I32), np.dtype(np.uint32): int(_T.EWA_U32)}
-DTYPE_OF = {number: dtype for dtype, number in TYPE_OF.items()}
+DTYPE_OF: dict[int, np.dtype[Any]] = {number: dtype for dtype, number in TYPE_OF.items()}
 
 
 class _Exporter:

@@ -640,14 +640,14 @@ class ewa_line3(c.Structure):
 
 
 class ewa_mat3(c.Structure):
-    m: c.Array[c.c_double * 3]
+    m: c.Array[Any]
     _fields_ = [
         ("m", (c.c_double * 3) * 3),
     ]
 
 
 class ewa_mat4(c.Structure):
-    m: c.Array[c.c_double * 4]
+    m: c.Array[Any]
     _fields_ = [
         ("m", (c.c_double * 4) * 4),
     ]
@@ -655,7 +655,7 @@ class ewa_mat4(c.Structure):
 
 class ewa_segment_batch(c.Structure):
     count: int
-    end: c.Array[c.c_void_p * 4]
+    end: c.Array[Any]
     _fields_ = [
         ("count", c.c_uint64),
         ("end", (c.c_void_p * 4) * 2),
@@ -664,8 +664,8 @@ class ewa_segment_batch(c.Structure):
 
 class ewa_segment_clips(c.Structure):
     visible: int | None
-    alpha: c.Array[c.c_void_p * 2]
-    end: c.Array[(c.c_void_p * 4) * 2]
+    alpha: c.Array[Any]
+    end: c.Array[Any]
     _fields_ = [
         ("visible", c.c_void_p),
         ("alpha", (c.c_void_p * 2) * 2),
@@ -1215,7 +1215,7 @@ class ewa_procedure_options(c.Structure):
     prefilter: float
     cutoff: float
     seed: int
-    colors: c.Array[c.c_float * 3]
+    colors: c.Array[Any]
     _fields_ = [
         ("struct_size", c.c_size_t),
         ("procedure", c.c_int),
@@ -1289,7 +1289,7 @@ class ewa_render_options(c.Structure):
     environment_up: c.Array[c.c_double]
     eye_dome: float
     background: c.Array[c.c_float]
-    section_planes: c.Array[c.c_double * 4]
+    section_planes: c.Array[Any]
     section_count: int
     level: int
     budget_s: float

@@ -121,7 +121,7 @@ class _Framing:
             if _diagonal(*inner) > 0 and _diagonal(low, high) > _FAR_RATIO * _diagonal(*inner):
                 self.trimmed = True
                 low, high = np.maximum(low, inner[0]), np.minimum(high, inner[1])
-                self.box.low_world[:], self.box.high_world[:] = low, high  # type: ignore[assignment]
+                self.box.low_world[:], self.box.high_world[:] = low, high
         self.low, self.high = low, high
         self.middle = 0.5 * low + 0.5 * high
         rims = _rims(cloud, sample, radius_scale)

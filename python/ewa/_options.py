@@ -116,8 +116,6 @@ class FurnitureOptions(TypedDict, total=False):
     colormap: Literal["viridis", "turbo", "gray", "plasma", "inferno", "magma", "cividis", "coolwarm"] | int
     #: numbers of the first and the last colour; (-inf, inf), default [0, 1]
     range: Sequence[float]
-    #: rows of a legend in place of the colour bar; [0, 65536], default 0
-    category_count: int
     #: pixels per point, of which text has 12; 0: a 720th of the picture's smaller side, at least 0.84; [0, 100], px, default 0
     pixel_scale: float
     #: colour of text and lines; auto|dark|light, default auto
@@ -127,10 +125,6 @@ class FurnitureOptions(TypedDict, total=False):
 class GenerateOptions(TypedDict, total=False):
     """Members of ewa_generate_options."""
 
-    #: which object is made; plane|checker|cube|sphere|torus|terrain|csg, default plane
-    object: Literal["plane", "checker", "cube", "sphere", "torus", "terrain", "csg"] | int
-    #: how many points; with rows on edges at most so many; [0, inf), default 100000
-    point_count: int
     #: same seed, same bytes, on every machine; [0, inf), default 1
     seed: int
     #: edge of plane, cube and terrain, outer diameter of sphere and torus, length of csg, in world units; [1e-25, 1e25], default 2
@@ -229,8 +223,6 @@ class MaterialOptions(TypedDict, total=False):
 class ProcedureOptions(TypedDict, total=False):
     """Members of ewa_procedure_options."""
 
-    #: which solid texture; checker|marble|wood|noise, default checker
-    procedure: Literal["checker", "marble", "wood", "noise"] | int
     #: features per world unit: cubes, veins, rings, waves; (0, 1000000000], default 8
     frequency: float
     #: width of the filter in units of the surfel's kernel; 0: none, which aliases; [0, 10], default 1
@@ -273,26 +265,16 @@ class RenderOptions(TypedDict, total=False):
     edge_layers: int
     #: of every surface, times the alpha of the colours; [0, 1], default 1
     opacity: float
-    #: transparent surfaces of a pixel that are composited: 1: the nearest as if it were opaque; L: the L - 1 nearest and all that lies behind as one more; 4294967295: all; 0: all when something is transparent; [0, 4294967295], default 0
-    layers: int
     #: leave out splats that face away; none|back, default none
     cull: Literal["none", "back"] | int
     #: light: none gives the bare colours, lambert matt surfaces, phong materials with highlights; none|lambert|phong, default lambert
     shading: Literal["none", "lambert", "phong"] | int
-    #: how many lights there are; 0: a headlight; [0, 8], default 0
-    light_count: int
     #: share of the light that comes from everywhere, where materials do not say; [0, 1], default 0.15
     ambient: float
-    #: how many materials there are; [0, 256], default 0
-    material_count: int
     #: direction in the world of the surroundings' upper edge; (-inf, inf), default [0, 1, 0]
     environment_up: Sequence[float]
     #: eye-dome lighting: darken what lies behind its surroundings; 0: none, 1: strong; [0, 100], default 0
     eye_dome: float
-    #: linear light, straight alpha, which is at most 1; [0, 1e15], default 0
-    background: Sequence[float]
-    #: how many section planes there are; [0, 8], default 0
-    section_count: int
     #: level of detail, if the surfels have levels; 0: all surfels; [0, 7], default 0
     level: int
     #: time for a frame: of the levels of detail from `level` on, the finest that is expected to be drawn in that time; 0: `level`; [0, 1e15], s, default 0
@@ -325,15 +307,11 @@ class TextureOptions(TypedDict, total=False):
     point_spacing_px: float
     #: fill the whole plane with copies of the image, up to the horizon; on|off, default off
     repeat: bool
-    #: linear light, straight alpha, which is at most 1; [0, 1000000], default 0
-    background: Sequence[float]
 
 
 class VolumeGenerateOptions(TypedDict, total=False):
     """Members of ewa_volume_generate_options."""
 
-    #: which volume is made; checkerbox|blob|ball|vessels, default checkerbox
-    object: Literal["checkerbox", "blob", "ball", "vessels"] | int
     #: voxels along each axis; [2, 4294967295], default 128
     dims: Sequence[int]
     #: distance of the outermost voxels along the longest axis, in world units; (0, inf), default 1
@@ -382,10 +360,6 @@ class VolumeOptions(TypedDict, total=False):
     least_transmittance: float
     #: light, by the gradient: none gives the bare colours, lambert matt matter, phong highlights; none|lambert|phong, default none
     shading: Literal["none", "lambert", "phong"] | int
-    #: how many lights there are; 0: a headlight; [0, 8], default 0
-    light_count: int
-    #: linear light, straight alpha, which is at most 1; [0, 1e15], default 0
-    background: Sequence[float]
 
 
 class VolumeSaveOptions(TypedDict, total=False):
@@ -420,6 +394,17 @@ class WarpOptions(TypedDict, total=False):
     #: farther depths are left out; [1e-9, 1e12], world, default 1000000000.0
     farthest_world: float
 
+
+#: Members that are no keyword arguments: the package sets them by arguments of its own.
+OWN: dict[str, frozenset[str]] = {
+    "ewa_render_options": frozenset(['background', 'layers', 'light_count', 'material_count', 'section_count']),
+    "ewa_volume_options": frozenset(['background', 'light_count']),
+    "ewa_texture_options": frozenset(['background']),
+    "ewa_generate_options": frozenset(['object', 'point_count']),
+    "ewa_volume_generate_options": frozenset(['object']),
+    "ewa_procedure_options": frozenset(['procedure']),
+    "ewa_furniture_options": frozenset(['category_count']),
+}
 
 __all__ = [
     "AcquireOptions",

@@ -12,6 +12,7 @@ from . import _bindings as b
 from ._errors import ArgumentError
 from ._library import functions as lib
 from ._library import library
+from ._options import OWN
 
 _Struct = TypeVar("_Struct", bound=ctypes.Structure)
 _TYPE = b.ewa_option_type
@@ -22,7 +23,7 @@ class Option(NamedTuple):
 
     name: str
     kind: int
-    count: int
+    length: int
     low: float
     high: float
     low_open: bool
@@ -110,24 +111,26 @@ def _flat(value: Any, label: str) -> list[Any]:
     return flat
 
 
-def fill(struct: ctypes.Structure, name: str, values: Mapping[str, Any]) -> None:
+def fill(struct: ctypes.Structure, name: str, values: Mapping[str, Any], own: bool = False) -> None:
     """Set members of a struct of options from keyword arguments.
 
     Raises ArgumentError, a ValueError, with the member and what it may be; TypeError for one that there is not.
+    `own`: also those that the package sets by arguments of its own.
     """
     if not values:
         return
     options = table(name)
     for key, value in values.items():
         option = options.get(key)
-        if option is None:
-            raise TypeError(f"{key} is no option of {name}; those are {', '.join(options)}")
-        if not option.count:
+        if option is None or (not own and key in OWN.get(name, ())):
+            known = [option for option in options if option not in OWN.get(name, ())]
+            raise TypeError(f"{key} is no option of {name}; those are {', '.join(known)}")
+        if not option.length:
             setattr(struct, key, _convert(option, value, key))
             continue
         numbers = _flat(value, key)
-        if len(numbers) != option.count:
-            raise ArgumentError(f"{key}: {len(numbers)} numbers, not {option.count}")
+        if len(numbers) != option.length:
+            raise ArgumentError(f"{key}: {len(numbers)} numbers, not {option.length}")
         converted = [_convert(option, number, key) for number in numbers]
         array = getattr(struct, key)
         if hasattr(array[0], "__len__"):  # two dimensions

@@ -119,7 +119,8 @@ class Cloud:
     def _attributes(self) -> list[b.ewa_attribute]:
         def read(cloud: int) -> list[b.ewa_attribute]:
             count = lib.ewa_cloud_attribute_count(cloud)
-            return [_copied(lib.ewa_cloud_attribute_at(cloud, i)) for i in range(count)]
+            return [b.ewa_attribute.from_buffer_copy(lib.ewa_cloud_attribute_at(cloud, i).contents)
+                    for i in range(count)]
 
         found: list[b.ewa_attribute] = self._core.value(read, self._h)
         return found
@@ -448,7 +449,7 @@ class Cloud:
         """
         made = b.ewa_procedure_options()
         made.struct_size = ctypes.sizeof(made)
-        fill(made, "ewa_procedure_options", {"procedure": procedure})
+        fill(made, "ewa_procedure_options", {"procedure": procedure}, own=True)
         lib.ewa_procedure_options_init(ctypes.byref(made), made.procedure, ctypes.sizeof(made))
         fill(made, "ewa_procedure_options", options)
         cloud = self._derive()
@@ -571,6 +572,6 @@ def generate(object: str = "plane", point_count: int = 100000, *, context: Conte
     ArgumentError, OutOfMemory
     """
     made = initialised(b.ewa_generate_options, lib.ewa_generate_options_init)
-    fill(made, "ewa_generate_options", {"object": object, "point_count": point_count, **options})
+    fill(made, "ewa_generate_options", {"object": object, "point_count": point_count, **options}, own=True)
     core = core_of(context)
     return Cloud._made(core, lib.ewa_cloud_generate, core.address, ctypes.byref(made))

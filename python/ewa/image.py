@@ -208,7 +208,7 @@ def _struct(array: Array, context: int | None) -> b.ewa_image:
 def as_picture(value: Any, label: str) -> Array:
     """A picture as (height, width, channels) floats, linear: of a path, of floats, or of uint8, which are sRGB."""
     if isinstance(value, (str, bytes, os.PathLike)):
-        return read_image(value)
+        return read_image(os.fsdecode(value))
     if isinstance(value, Image):
         value = value.rgba if value.rgba is not None else value.rgba8
     array = np.asarray(value)
@@ -232,8 +232,8 @@ def _read(function: Any, path: PathLike, context: Context | None) -> Array:
         if status:
             return status
         shape = (image.height_px, image.width_px, image.channel_count)
-        source = (ctypes.c_float * (shape[0] * shape[1] * shape[2])).from_address(image.pixels or 0)
-        pixels.append(np.frombuffer(source, np.float32).reshape(shape).copy())
+        data = ctypes.string_at(image.pixels or 0, 4 * shape[0] * shape[1] * shape[2])
+        pixels.append(np.frombuffer(bytearray(data), np.float32).reshape(shape))
         lib.ewa_image_free(ctypes.byref(image))
         return status
 

@@ -231,7 +231,7 @@ def read_mesh(path: PathLike, *, context: Context | None = None) -> Mesh:
     """
     core = core_of(context)
     model = _load(core, path, b.EWA_MODEL_MESH, False, None, None)
-    if not model.mesh.triangle_count:  # type: ignore[attr-defined]
+    if not model.mesh.triangle_count:
         core.value(lib.ewa_model_free, ctypes.byref(model))
         raise FormatError(f"{os.fspath(path)!r}: there are no faces", "EWA_ERROR_FORMAT")
     return Mesh._loaded(core, model)

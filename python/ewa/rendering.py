@@ -83,7 +83,8 @@ def options_of(options: dict[str, Any], lights: Sequence[Light] | None, material
         set_section(made, section_box, section_planes)
     if layers is not None:
         words = {"auto": 0, "exact": b.EWA_LAYERS_EXACT}
-        fill(made, "ewa_render_options", {"layers": words.get(layers, layers) if isinstance(layers, str) else layers})
+        fill(made, "ewa_render_options", {"layers": words.get(layers, layers) if isinstance(layers, str) else layers},
+             own=True)
     return made, set_background(made, background), keep
 
 
@@ -148,7 +149,7 @@ def render(scene: Scene, camera: Camera | None = None, *, size: Sequence[int] | 
            environment: Environment | Any = None, layers: int | str | None = None, section_box: Any = None,
            section_planes: Sequence[Sequence[float]] | None = None, backend: str = "cpu",
            renderer: Renderer | None = None, out: Image | None = None,
-           **options: Unpack[RenderOptions]) -> Image:  # type: ignore[misc]
+           **options: Unpack[RenderOptions]) -> Image:
     """Draw surfels, or clouds, which become surfels first.
 
     Parameters

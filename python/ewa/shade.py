@@ -48,7 +48,7 @@ def set_lights(options: Any, lights: Sequence[Light] | None) -> None:
         raise ArgumentError(f"lights: {len(lights)} of them; at most {b.EWA_MAX_LIGHTS}")
     for i, light in enumerate(lights):
         given = numbers(light, 3 if len(light) == 3 else 6, f"lights[{i}]")
-        lib.ewa_light_init(ctypes.byref(options.lights, i * ctypes.sizeof(b.ewa_light)))
+        lib.ewa_light_init(ctypes.byref(options.lights[i]))
         options.lights[i].direction_world[:] = given[:3]
         if len(given) == 6:
             options.lights[i].color[:] = given[3:]
@@ -68,7 +68,7 @@ def set_materials(options: b.ewa_render_options, materials: Materials | None) ->
         if not 1 <= len(materials) <= b.EWA_MAX_MATERIALS:
             raise ArgumentError(f"materials: {len(materials)} of them; [1, {b.EWA_MAX_MATERIALS}]")
         for i, material in enumerate(materials):
-            lib.ewa_material_init(ctypes.byref(table, i * ctypes.sizeof(b.ewa_material)))
+            lib.ewa_material_init(ctypes.byref(table[i]))
             fill(table[i], "ewa_material", material)
         count.value = len(materials)
     options.materials = ctypes.cast(table, ctypes.POINTER(b.ewa_material))
@@ -83,9 +83,8 @@ def set_section(options: b.ewa_render_options, box: Any, planes: Sequence[Sequen
         corners = numbers(box, 6, "section_box")
         for side in range(6):
             axis, inward = side // 2, -1.0 if side % 2 else 1.0
-            plane = [0.0, 0.0, 0.0, -inward * corners[axis + 3 * (side % 2)]]
-            plane[axis] = inward
-            all_planes.append(plane)
+            normal = [inward if c == axis else 0.0 for c in range(3)]
+            all_planes.append(normal + [-inward * corners[axis + 3 * (side % 2)]])
     all_planes += list(planes or ())
     if len(all_planes) > b.EWA_MAX_SECTION_PLANES:
         raise ArgumentError(f"section_planes: {len(all_planes)} with the box's six; at most {b.EWA_MAX_SECTION_PLANES}")
@@ -97,5 +96,5 @@ def set_section(options: b.ewa_render_options, box: Any, planes: Sequence[Sequen
 def set_background(options: Any, background: Color | None) -> bool:
     """Fill `background`; returns whether it is opaque."""
     if background is not None:
-        fill(options, type(options).__name__, {"background": linear(background)})
+        fill(options, type(options).__name__, {"background": linear(background)}, own=True)
     return bool(options.background[3] == 1)

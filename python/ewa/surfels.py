@@ -87,7 +87,7 @@ class Surfels:
     @property
     def bounds(self) -> Array:
         """Lower and upper corner of the centres, world units; float64, shape (2, 3)."""
-        box = self._info.bounds  # type: ignore[attr-defined]
+        box = self._info.bounds
         return np.array([box.low_world, box.high_world])
 
     def close(self) -> None:

@@ -201,7 +201,7 @@ def generate_volume(object: str = "checkerbox", *, context: Context | None = Non
     ArgumentError, OutOfMemory
     """
     made = initialised(b.ewa_volume_generate_options, lib.ewa_volume_generate_options_init)
-    fill(made, "ewa_volume_generate_options", {"object": object, **options})
+    fill(made, "ewa_volume_generate_options", {"object": object, **options}, own=True)
     core = core_of(context)
     return Volume._made(core, lib.ewa_volume_generate, core.address, ctypes.byref(made))
 

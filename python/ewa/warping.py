@@ -173,7 +173,7 @@ def warp(images: DepthImage | Sequence[DepthImage], camera: Camera | None = None
 
 def texture(picture: Any, *, homography: Any = None, corners: Any = None, camera: Camera | None = None,
             plane: Any = None, size: Sequence[int] | None = None, background: Color = (0, 0, 0, 0),
-            context: Context | None = None, **options: Unpack[TextureOptions]) -> Image:  # type: ignore[misc]
+            context: Context | None = None, **options: Unpack[TextureOptions]) -> Image:
     """Map a flat image forward, antialiased to the horizon.
 
     Parameters
