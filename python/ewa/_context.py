@@ -10,6 +10,7 @@ from __future__ import annotations
 import ctypes
 import logging
 import os
+import signal
 import sys
 import threading
 import warnings
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 #: Receives a stage and the share of it that is done, in [0, 1]; returning False stops the call.
 ProgressFunction = Callable[[str, float], Union[bool, None]]
 
+_main = threading.main_thread().ident
 _log = logging.getLogger("ewa")
 _watcher: ContextVar[ProgressFunction | None] = ContextVar("ewa_progress", default=None)
 
@@ -40,7 +42,8 @@ class Handle:
     """An object of the library, destroyed when nothing refers to it.
 
     `keep` are what it needs: arrays whose memory it borrows, other handles. `exports` counts the arrays that show its
-    memory.
+    memory. An object is counted by `core.live` from the call on that made it, while the context was locked, so that the
+    context is never destroyed before it.
     """
 
     __slots__ = ("core", "address", "destroy", "keep", "exports", "what", "__weakref__")
@@ -54,7 +57,6 @@ class Handle:
         self.exports = 0
         self.what = what
         core.handles.add(self)
-        core.live += 1 if address else 0
 
     def __del__(self) -> None:
         address, self.address = self.address, None
@@ -91,27 +93,29 @@ def _check_pins(handle: Handle) -> None:
 class _State:
     """What callbacks leave behind; apart from Core, so that the two form no circle."""
 
-    __slots__ = ("messages", "watcher", "error", "stopped")
+    __slots__ = ("messages", "watcher", "error", "interrupted")
 
     def __init__(self) -> None:
         self.messages: list[tuple[int, str]] = []
         self.watcher: ProgressFunction | None = None
         self.error: BaseException | None = None
-        self.stopped = False
+        self.interrupted = False
+
+    def interrupt(self, number: int, frame: Any) -> None:
+        """Takes Ctrl-C's place during a call, because an exception must not leave a callback."""
+        self.interrupted = True
 
 
 def _callbacks(state: _State) -> tuple[Any, Any]:
     def on_message(user: int | None, severity: int, text: bytes | None) -> None:
         state.messages.append((severity, (text or b"").decode("utf-8", "replace")))
 
-    # A signal's handler, such as Ctrl-C's, runs inside of this function, where its exception is caught and kept.
     def on_progress(user: int | None, stage: bytes | None, fraction: float) -> bool:
         try:
             watcher = state.watcher
             if watcher is not None and watcher((stage or b"").decode(), fraction) is False:
-                state.stopped = True
                 return False
-            return state.error is None
+            return state.error is None and not state.interrupted
         except BaseException as error:  # noqa: B902 - handed on by Core.call()
             state.error = error
             return False
@@ -146,6 +150,22 @@ class Core:
         """Call a function that returns a status; handles among its arguments become their addresses."""
         self.run(function, arguments, True)
 
+    def make(self, function: Callable[..., int], *arguments: Any, destroy: Callable[..., None], what: str,
+             keep: tuple[Any, ...] = ()) -> Handle:
+        """Call a function whose last argument receives a new object."""
+        made = ctypes.c_void_p()
+
+        def create(*given: Any) -> int:
+            status = function(*given, ctypes.byref(made))
+            self.live += 1 if made.value else 0
+            return status
+
+        try:
+            self.call(create, *arguments)
+        finally:
+            handle = Handle(self, made.value, destroy, what, keep)
+        return handle
+
     def value(self, function: Callable[..., Any], *arguments: Any) -> Any:
         """Call a function that cannot fail, and return what it returns."""
         return self.run(function, arguments, False)
@@ -156,9 +176,14 @@ class Core:
         if self.process != os.getpid():
             raise ClosedError("the context was made before os.fork(): its threads are in the other process")
         state = self.state
+        handler: Any = None
         with self.lock:
             self.owner = threading.get_ident()
             try:
+                if self.owner == _main:
+                    handler = signal.getsignal(signal.SIGINT)
+                    if handler is signal.default_int_handler:
+                        signal.signal(signal.SIGINT, state.interrupt)
                 if self.address is None or self.closed:
                     raise ClosedError("the context is closed")
                 addresses = [self.resolve(a) if type(a) is Handle else a for a in arguments]
@@ -166,17 +191,22 @@ class Core:
                     state.messages = []  # of a call that ended by an exception of ctypes
                 state.watcher = _watcher.get() or self.progress
                 result = function(*addresses)
-                messages, error, stopped = state.messages, state.error, state.stopped
-                state.messages, state.error, state.stopped = [], None, False
+                messages, error = state.messages, state.error
+                state.messages, state.error = [], None
             finally:
+                if handler is signal.default_int_handler:
+                    signal.signal(signal.SIGINT, handler)
                 self.owner = None
         if self.trash:
             self.sweep()
+        if state.interrupted:
+            state.interrupted = False
+            raise KeyboardInterrupt
         if error is not None:
             raise error
         status = result if checked else 0
         if status or messages:
-            _report(status, messages, stopped)
+            _report(status, messages)
         return result
 
     def resolve(self, handle: Handle) -> int:
@@ -241,15 +271,13 @@ class Core:
             self.sweep()
 
 
-def _report(status: int, messages: list[tuple[int, str]], stopped: bool) -> None:
+def _report(status: int, messages: list[tuple[int, str]]) -> None:
     errors = [text for severity, text in messages if severity == b.ewa_severity.EWA_SEVERITY_ERROR]
     for severity, text in messages:
         if severity == b.ewa_severity.EWA_SEVERITY_WARNING:
             warnings.warn(text, EwaWarning, stacklevel=_depth())
         elif severity > b.ewa_severity.EWA_SEVERITY_WARNING:
             _log.log(logging.INFO if severity == b.ewa_severity.EWA_SEVERITY_INFO else logging.DEBUG, "%s", text)
-    if status == b.ewa_status.EWA_CANCELLED and not stopped:
-        raise KeyboardInterrupt  # it came before on_progress() could catch it
     if status:
         raise make(status, "; ".join(errors))
 

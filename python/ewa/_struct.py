@@ -72,7 +72,7 @@ def _number(option: Option, value: Any, label: str) -> float | int:
         fits = fits and 0 <= number < 2 ** (32 if option.kind == _TYPE.EWA_OPTION_U32 else 64)
     elif option.kind == _TYPE.EWA_OPTION_F32:
         fits = fits and abs(number) < 3.4028235677973366e38
-    if not fits or (option.words and str(number) not in option.words):
+    if not (str(number) in option.words if option.words else fits):
         raise ArgumentError(f"{label}: {number} is outside {option.allowed}")
     return number
 

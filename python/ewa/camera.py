@@ -13,7 +13,7 @@ import numpy as np
 
 from . import _bindings as b
 from ._arrays import Array
-from ._context import Context, Handle, core_of
+from ._context import Context, core_of
 from ._errors import ArgumentError, make
 from ._library import functions as lib
 from ._struct import numbers, path_bytes
@@ -348,9 +348,8 @@ class CameraPath:
     def __init__(self, keys: Sequence[Camera], closed: bool = False, *, context: Context | None = None) -> None:
         core = core_of(context)
         array = (b.ewa_camera * max(len(keys), 1))(*[camera._struct for camera in keys])
-        made = ctypes.c_void_p()
-        core.call(lib.ewa_camera_path_create, core.address, array, len(keys), bool(closed), ctypes.byref(made))
-        self._handle = Handle(core, made.value, lib.ewa_camera_path_destroy, "the path")
+        self._handle = core.make(lib.ewa_camera_path_create, core.address, array, len(keys), bool(closed),
+                                 destroy=lib.ewa_camera_path_destroy, what="the path")
 
     def at(self, place: float) -> Camera:
         """Return the camera at a place counted in keys: 0 is the first, 1.5 half-way from the second to the third.

@@ -94,12 +94,7 @@ class Cloud:
     @staticmethod
     def _made(core: Core, function: Any, *arguments: Any, keep: tuple[Any, ...] = ()) -> Cloud:
         """The cloud that a function of the library makes; its last argument receives it."""
-        made = ctypes.c_void_p()
-        try:
-            core.call(function, *arguments, ctypes.byref(made))
-        finally:
-            handle = Handle(core, made.value, lib.ewa_cloud_destroy, "the cloud", keep)
-        return Cloud._of(handle)
+        return Cloud._of(core.make(function, *arguments, destroy=lib.ewa_cloud_destroy, what="the cloud", keep=keep))
 
     @property
     def _h(self) -> Handle:
@@ -278,11 +273,15 @@ class Cloud:
         if "viewpoint_world" in options and "orientation" not in options:
             made.orientation = b.ewa_orientation.EWA_ORIENT_VIEWPOINT
         cloud = self._derive()
-        pointer = ctypes.c_void_p(cloud._h.address)
-        try:
-            self._core.call(lib.ewa_cloud_estimate, ctypes.byref(pointer), ctypes.byref(made))
-        finally:
-            cloud._h.address = pointer.value
+        handle = cloud._h
+
+        def run(address: int) -> int:
+            pointer = ctypes.c_void_p(address)
+            status: int = lib.ewa_cloud_estimate(ctypes.byref(pointer), ctypes.byref(made))
+            handle.address = pointer.value
+            return status
+
+        self._core.call(run, handle)
         return cloud
 
     def _is_drawable(self) -> bool:

@@ -72,15 +72,10 @@ class Mesh:
                               tuple(Pin(array, "mesh") for array in arrays))
 
     @staticmethod
-    def _loaded(core: Core, model: b.ewa_model) -> Mesh:
+    def _loaded(model: _Model) -> Mesh:
         mesh = Mesh.__new__(Mesh)
-        mesh._mesh = model.mesh
-        held = model  # freed as a whole
-
-        def free(_: Any) -> None:
-            lib.ewa_model_free(ctypes.byref(held))
-
-        mesh._handle = Handle(core, ctypes.addressof(held), free, "the mesh")
+        mesh._mesh = model.struct.mesh
+        mesh._handle = model.handle
         return mesh
 
     @property
@@ -112,7 +107,10 @@ class Mesh:
         return result.value
 
     def _call(self, function: Any, *arguments: Any) -> None:
-        """Call a function of the mesh while it cannot go away."""
+        self._h.core.call(self._bound(function), *arguments)
+
+    def _bound(self, function: Any) -> Any:
+        """A function with the mesh as its first argument, for a call in which it cannot go away."""
         handle = self._h
 
         def checked(*given: Any) -> int:
@@ -123,7 +121,7 @@ class Mesh:
             status: int = function(ctypes.byref(self._mesh), *given)
             return status
 
-        handle.core.call(checked, *arguments)
+        return checked
 
     def sample(self, **options: Unpack[MeshSampleOptions]) -> Cloud:
         """Return surfels on the triangles, sharp edges as clip lines.
@@ -141,9 +139,7 @@ class Mesh:
         """
         made = initialised(b.ewa_mesh_sample_options, lib.ewa_mesh_sample_options_init)
         fill(made, "ewa_mesh_sample_options", options)
-        result = ctypes.c_void_p()
-        self._call(lib.ewa_mesh_sample, ctypes.byref(made), ctypes.byref(result))
-        return Cloud._of(Handle(self._h.core, result.value, lib.ewa_cloud_destroy, "the cloud"))
+        return Cloud._made(self._h.core, self._bound(lib.ewa_mesh_sample), ctypes.byref(made))
 
     def close(self) -> None:
         """Free the mesh; later use raises ClosedError."""
@@ -155,25 +151,53 @@ class Mesh:
         return f"<ewa.Mesh of {self._mesh.triangle_count} triangles, {self._mesh.vertex_count} vertices>"
 
 
+class _Model:
+    """What a file holds, until it is taken."""
+
+    def __init__(self, core: Core, path: PathLike, wanted: int, options: b.ewa_cloud_load_options) -> None:
+        self.core = core
+        self.path = path
+        struct = self.struct = b.ewa_model()
+
+        def create(*given: Any) -> int:
+            status: int = lib.ewa_model_load(*given[:-1], ctypes.byref(struct))
+            given[-1]._obj.value = ctypes.addressof(struct)
+            return status
+
+        def free(_: Any) -> None:
+            lib.ewa_model_free(ctypes.byref(struct))
+
+        self.handle = core.make(create, core.address, path_bytes(path), wanted, ctypes.byref(options), destroy=free,
+                                what="the mesh")
+
+    def take(self, member: str, destroy: Any, what: str) -> Handle:
+        """Take a member out, which is the caller's then."""
+        def create(_: int, place: Any) -> int:
+            place._obj.value = getattr(self.struct, member)
+            setattr(self.struct, member, None)
+            return 0
+
+        return self.core.make(create, self.handle, destroy=destroy, what=what)
+
+    def take_points(self) -> Cloud:
+        cloud = Cloud._of(self.take("points", lib.ewa_cloud_destroy, "the cloud"))
+        cloud._convention = self.convention
+        return cloud
+
+    @property
+    def convention(self) -> str:
+        return _CONVENTIONS.get(os.path.splitext(os.fsdecode(self.path))[1].lower(), "")
+
+
 def _load(core: Core, path: PathLike, wanted: int, keep_going: bool, attributes: Sequence[str] | None,
-          columns: Sequence[str] | None) -> b.ewa_model:
+          columns: Sequence[str] | None) -> _Model:
     options = initialised(b.ewa_cloud_load_options, lib.ewa_cloud_load_options_init)
     options.keep_going = bool(keep_going)
     if attributes is not None:
         options.attributes = ",".join(attributes).encode()
     if columns is not None:
         options.columns = ",".join(columns).encode()
-    model = b.ewa_model()
-    core.call(lib.ewa_model_load, core.address, path_bytes(path), wanted, ctypes.byref(options), ctypes.byref(model))
-    return model
-
-
-def _take_points(core: Core, model: b.ewa_model, path: PathLike) -> Cloud:
-    """The points of a model, which has them no longer."""
-    cloud = Cloud._of(Handle(core, model.points, lib.ewa_cloud_destroy, "the cloud"))
-    model.points = None
-    cloud._convention = _CONVENTIONS.get(os.path.splitext(os.fsdecode(path))[1].lower(), "")
-    return cloud
+    return _Model(core, path, wanted, options)
 
 
 def read(path: PathLike, *more: PathLike, filter: str | Sequence[str] | None = None, vertices: bool = False,
@@ -207,14 +231,13 @@ def read(path: PathLike, *more: PathLike, filter: str | Sequence[str] | None = N
     core = core_of(context)
     wanted = b.EWA_MODEL_POINTS if vertices else b.EWA_MODEL_MESH
     model = _load(core, path, wanted, keep_going, attributes, columns)
-    if model.points:
-        cloud = _take_points(core, model, path)
-        core.value(lib.ewa_model_free, ctypes.byref(model))
+    if model.struct.points:
+        cloud = model.take_points()
     else:
-        mesh = Mesh._loaded(core, model)
+        mesh = Mesh._loaded(model)
         count = max(_MESH_POINTS, _MESH_POINTS_PER_TRIANGLE * mesh._mesh.triangle_count)
         cloud = mesh.sample(point_count=count, texture_filter="ewa")
-        cloud._convention = _CONVENTIONS.get(os.path.splitext(os.fsdecode(path))[1].lower(), "")
+        cloud._convention = model.convention
     if filter is not None:
         cloud = cloud.filter(*([filter] if isinstance(filter, str) else filter))
     return cloud
@@ -231,10 +254,9 @@ def read_mesh(path: PathLike, *, context: Context | None = None) -> Mesh:
     """
     core = core_of(context)
     model = _load(core, path, b.EWA_MODEL_MESH, False, None, None)
-    if not model.mesh.triangle_count:
-        core.value(lib.ewa_model_free, ctypes.byref(model))
+    if not model.struct.mesh.triangle_count:
         raise FormatError(f"{os.fspath(path)!r}: there are no faces", "EWA_ERROR_FORMAT")
-    return Mesh._loaded(core, model)
+    return Mesh._loaded(model)
 
 
 def sample(path: PathLike, *, context: Context | None = None, **options: Unpack[MeshSampleOptions]) -> Cloud:
@@ -274,10 +296,7 @@ def convert(source: PathLike, target: PathLike, *, filter: str | Sequence[str] |
     """
     core = core_of(context)
     model = _load(core, source, b.EWA_MODEL_POINTS | b.EWA_MODEL_ELEMENTS, False, None, columns)
-    cloud = _take_points(core, model, source)
-    elements = Handle(core, model.elements, lib.ewa_elements_free, "the elements")
-    model.elements = None
-    core.value(lib.ewa_model_free, ctypes.byref(model))
+    cloud = model.take_points()
     before = len(cloud)
     if filter is not None:
         cloud = cloud.filter(*([filter] if isinstance(filter, str) else filter))
@@ -291,6 +310,7 @@ def convert(source: PathLike, target: PathLike, *, filter: str | Sequence[str] |
     made = initialised(b.ewa_cloud_save_options, lib.ewa_cloud_save_options_init)
     fill(made, "ewa_cloud_save_options", options)
     if len(cloud) == before and path_bytes(target).lower().endswith(b".ply"):
-        made.elements = elements.address
-    core.call(lib.ewa_cloud_save, cloud._h, path_bytes(target), ctypes.byref(made))
+        made.elements = model.struct.elements
+    core.call(lambda cloud, _, *rest: lib.ewa_cloud_save(cloud, *rest), cloud._h, model.handle, path_bytes(target),
+              ctypes.byref(made))
     return len(cloud)

@@ -114,9 +114,8 @@ class Renderer:
 def _renderer(core: Core, backend: str) -> Handle:
     if backend not in _BACKENDS:
         raise ArgumentError(f"backend: '{backend}' is none of {', '.join(_BACKENDS)}")
-    made = ctypes.c_void_p()
-    core.call(lib.ewa_renderer_create_on, core.address, _BACKENDS.index(backend), ctypes.byref(made))
-    return Handle(core, made.value, lib.ewa_renderer_destroy, "the renderer")
+    return core.make(lib.ewa_renderer_create_on, core.address, _BACKENDS.index(backend),
+                     destroy=lib.ewa_renderer_destroy, what="the renderer")
 
 
 def _shared(core: Core, backend: str) -> Handle:

@@ -7,7 +7,7 @@ import ctypes
 from typing import Any, Mapping, Sequence, Union
 
 from . import _bindings as b
-from ._context import Context, Handle, core_of
+from ._context import Context, core_of
 from ._errors import ArgumentError
 from ._library import functions as lib
 from ._struct import fill, numbers, path_bytes
@@ -35,9 +35,8 @@ class Environment:
     def __init__(self, picture: Any, *, context: Context | None = None) -> None:
         core = core_of(context)
         image = _struct(as_picture(picture, "environment"), core.address)
-        made = ctypes.c_void_p()
-        core.call(lib.ewa_environment_create, ctypes.byref(image), ctypes.byref(made))
-        self._handle = Handle(core, made.value, lib.ewa_environment_destroy, "the environment")
+        self._handle = core.make(lib.ewa_environment_create, ctypes.byref(image),
+                                 destroy=lib.ewa_environment_destroy, what="the environment")
 
 
 def set_lights(options: Any, lights: Sequence[Light] | None) -> None:

@@ -37,11 +37,9 @@ class Surfels:
 
     @staticmethod
     def _made(cloud: Cloud, options: b.ewa_surfels_options) -> Surfels:
-        made = ctypes.c_void_p()
-        core = cloud._core
-        core.call(lib.ewa_surfels_create, cloud._h, ctypes.byref(options), ctypes.byref(made))
         surfels = Surfels.__new__(Surfels)
-        surfels._handle = Handle(core, made.value, lib.ewa_surfels_destroy, "the surfels")
+        surfels._handle = cloud._core.make(lib.ewa_surfels_create, cloud._h, ctypes.byref(options),
+                                           destroy=lib.ewa_surfels_destroy, what="the surfels")
         return surfels
 
     @property

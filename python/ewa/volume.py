@@ -78,13 +78,18 @@ class Volume:
     def _made(core: Core, function: Any, *arguments: Any) -> Volume:
         volume = Volume.__new__(Volume)
         held = b.ewa_volume()
-        core.call(function, *arguments, ctypes.byref(held))
+
+        def create(*given: Any) -> int:
+            status: int = function(*given[:-1], ctypes.byref(held))
+            if held.voxels:
+                given[-1]._obj.value = ctypes.addressof(held)
+            return status
 
         def free(_: Any) -> None:
             lib.ewa_volume_free(ctypes.byref(held))
 
         volume._volume = held
-        volume._handle = Handle(core, ctypes.addressof(held), free, "the volume")
+        volume._handle = core.make(create, *arguments, destroy=free, what="the volume")
         return volume
 
     @property
@@ -94,7 +99,10 @@ class Volume:
         return self._handle
 
     def _call(self, function: Any, *arguments: Any) -> None:
-        """Call a function of the volume while it cannot go away."""
+        self._h.core.call(self._bound(function), *arguments)
+
+    def _bound(self, function: Any) -> Any:
+        """A function with the volume as its first argument, for a call in which it cannot go away."""
         handle = self._h
 
         def checked(*given: Any) -> int:
@@ -105,7 +113,7 @@ class Volume:
             status: int = function(ctypes.byref(self._volume), *given)
             return status
 
-        handle.core.call(checked, *arguments)
+        return checked
 
     @property
     def voxels(self) -> Array:
@@ -312,10 +320,8 @@ class Voxels:
         self._transfer = transfer if isinstance(transfer, Transfer) else Transfer.of(volume, transfer)
         made = initialised(b.ewa_voxels_options, lib.ewa_voxels_options_init)
         fill(made, "ewa_voxels_options", {"level_count": level_count})
-        result = ctypes.c_void_p()
-        volume._call(lib.ewa_voxels_create, ctypes.byref(self._transfer._struct), ctypes.byref(made),
-                     ctypes.byref(result))
-        self._handle = Handle(volume._h.core, result.value, lib.ewa_voxels_destroy, "the voxels")
+        self._handle = volume._h.core.make(volume._bound(lib.ewa_voxels_create), ctypes.byref(self._transfer._struct),
+                                           ctypes.byref(made), destroy=lib.ewa_voxels_destroy, what="the voxels")
         self._volume = volume
 
     @property
@@ -331,10 +337,8 @@ class Voxels:
 
     def outline(self, reach_steps: float = 1.8) -> Cloud:
         """Return points that a camera has to have in its picture, `reach_steps` steps of the grid around."""
-        made = ctypes.c_void_p()
-        self._volume._call(lib.ewa_volume_outline, ctypes.byref(self._transfer._struct), float(reach_steps),
-                           ctypes.byref(made))
-        return Cloud._of(Handle(self._core, made.value, lib.ewa_cloud_destroy, "the outline"))
+        return Cloud._made(self._core, self._volume._bound(lib.ewa_volume_outline),
+                           ctypes.byref(self._transfer._struct), float(reach_steps))
 
 
 def default_view(volume: Volume) -> str:
@@ -412,9 +416,8 @@ def render_volume(volume: Volume | Voxels, camera: Camera | None = None, *, tran
     core = voxels._core
     renderer = core.renderers.get("volume")
     if renderer is None or renderer.address is None:
-        result = ctypes.c_void_p()
-        core.call(lib.ewa_volume_renderer_create, core.address, ctypes.byref(result))
-        renderer = Handle(core, result.value, lib.ewa_volume_renderer_destroy, "the renderer")
+        renderer = core.make(lib.ewa_volume_renderer_create, core.address, destroy=lib.ewa_volume_renderer_destroy,
+                             what="the renderer")
         core.renderers["volume"] = renderer
     core.call(lib.ewa_volume_render, renderer, voxels._handle, ctypes.byref(camera._struct), ctypes.byref(made),
               ctypes.byref(frame), ctypes.byref(stats))

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _bindings as b
 from ._arrays import Array, as_numbers
-from ._context import Context, Handle, core_of
+from ._context import Context, core_of
 from ._errors import ArgumentError
 from ._library import functions as lib
 from ._struct import fill, initialised, numbers
@@ -161,9 +161,7 @@ def warp(images: DepthImage | Sequence[DepthImage], camera: Camera | None = None
     image = Image(target_camera, opaque)
     frame = new_frame(image, (width, height), planes, None)
     image.holes = np.empty((height, width), np.uint8)
-    result = ctypes.c_void_p()
-    core.call(lib.ewa_warp_create, core.address, ctypes.byref(result))
-    handle = Handle(core, result.value, lib.ewa_warp_destroy, "the warp")
+    handle = core.make(lib.ewa_warp_create, core.address, destroy=lib.ewa_warp_destroy, what="the warp")
     core.call(lib.ewa_warp_take, handle, structs, len(given), ctypes.byref(made), None)
     del keep
     core.call(lib.ewa_warp_draw, handle, ctypes.byref(target_camera._struct), _METHODS.index(method),
