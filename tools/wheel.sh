@@ -24,12 +24,12 @@ auditwheel -v repair --strip -w "$build/wheels" "$build"/wheels_plain/libewa-*.w
 # What the libraries' licences ask for: their texts.
 wheel unpack -d "$build/wheel_open" "$build"/wheels/libewa-*.whl >/dev/null
 open=$(echo "$build"/wheel_open/libewa-*)
+licences=$(echo "$open"/libewa-*.dist-info)/licenses
 for library in "$open"/libewa.libs/*.so*; do
     name=$(basename "$library" | sed 's/-[0-9a-f]\{8\}\.so/.so/')
-    path=$(/sbin/ldconfig -p | awk -v name="$name" 'index($1, name) == 1 { print $NF; exit }')
-    package=$(dpkg-query -S "$(readlink -f "${path:-/nowhere}")" 2>/dev/null | sed 's/:.*//;q')
+    package=$(dpkg-query -S "*/$name*" 2>/dev/null | sed 's/:.*//;q')
     if [ -f "/usr/share/doc/$package/copyright" ]; then
-        cp "/usr/share/doc/$package/copyright" "$open"/libewa-*.dist-info/licenses/"$package.txt"
+        cp "/usr/share/doc/$package/copyright" "$licences/$package.txt"
     else
         echo "wheel.sh: no licence is found for $name" >&2
     fi
