@@ -7,9 +7,10 @@
 """
 from __future__ import annotations
 
+import multiprocessing
 import threading
 import time
-from typing import Callable
+from typing import Any, Callable
 
 import numpy as np
 
@@ -59,31 +60,57 @@ def measure_calls() -> None:
                   f"ewa_render() | {1e6 * sorted(whole)[1500]:.0f} µs; {1e6 * sorted(beside)[1500]:.0f} µs |")
 
 
-def measure_threads() -> None:
-    contexts = [ewa.Context(thread_count=1) for _ in range(2)]
-    surfels = [ewa.generate("torus", 200_000, context=context).surfels() for context in contexts]
-    camera = ewa.Camera.look_at((0, -3, 2), (0, 0, 0), size=(800, 600))
+CAMERA = ((0, -3, 2), (0, 0, 0))
 
-    def draw(which: int) -> None:
-        for _ in range(8):
-            ewa.render(surfels[which], camera)
+
+def make(context: ewa.Context) -> ewa.Surfels:
+    return ewa.generate("torus", 200_000, context=context).surfels()
+
+
+def draw(surfels: ewa.Surfels) -> None:
+    for _ in range(8):
+        ewa.render(surfels, ewa.Camera.look_at(*CAMERA, size=(800, 600)))
+
+
+def draw_as_process(barrier: Any, rounds: int) -> None:
+    surfels = make(ewa.Context(thread_count=1))
+    for _ in range(rounds):
+        barrier.wait()
+        draw(surfels)
+        barrier.wait()
+
+
+def measure_threads() -> None:
+    """Threads beside processes, which share nothing: what other work on the machine takes is in both."""
+    rounds = 9
+    surfels = [make(ewa.Context(thread_count=1)) for _ in range(2)]
+    spawning = multiprocessing.get_context("spawn")
+    barrier = spawning.Barrier(3)
+    processes = [spawning.Process(target=draw_as_process, args=(barrier, rounds)) for _ in range(2)]
+    for process in processes:
+        process.start()
 
     def one() -> None:
-        draw(0)
-        draw(1)
+        for each in surfels:
+            draw(each)
 
-    def two() -> None:
-        threads = [threading.Thread(target=draw, args=(which,)) for which in (0, 1)]
+    def two_threads() -> None:
+        threads = [threading.Thread(target=draw, args=(each,)) for each in surfels]
         for thread in threads:
             thread.start()
         for thread in threads:
             thread.join()
 
-    one()
-    pairs = [(best_of(1, one), best_of(1, two)) for _ in range(7)]
-    alone, together = min(pair[0] for pair in pairs), min(pair[1] for pair in pairs)
-    print(f"| 16 frames by two Python threads with a context each, over one after the other, best of 7 | "
-          f"{alone / together:.2f} times as fast |")
+    def two_processes() -> None:
+        barrier.wait()
+        barrier.wait()
+
+    times = [[best_of(1, work) for work in (one, two_threads, two_processes)] for _ in range(rounds)]
+    for process in processes:
+        process.join()
+    alone, together, apart = (min(row[k] for row in times) for k in range(3))
+    print(f"| 16 frames by two Python threads with a context each, over one after the other, best of {rounds}; by two "
+          f"processes | {alone / together:.2f} times as fast; {alone / apart:.2f} |")
 
 
 if __name__ == "__main__":
