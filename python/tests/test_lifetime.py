@@ -133,6 +133,22 @@ class Interrupted(Case):
         timer.join()
         self.assertEqual(len(cloud), 400000)
 
+    def test_control_c_stops_at_the_next_report(self) -> None:
+        cloud = ewa.generate("terrain", 100000, positions_only=True)
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGINT, before)
+        calls: list[float] = []
+
+        def press(stage: str, fraction: float) -> None:
+            calls.append(fraction)
+            if len(calls) == 1:
+                os.kill(os.getpid(), signal.SIGINT)
+
+        with ewa.progress(press), self.assertRaises(KeyboardInterrupt):
+            cloud.estimate()
+        self.assertLessEqual(len(calls), 2)
+        self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+
     def test_progress_by_tqdm(self) -> None:
         try:
             import tqdm  # noqa: F401

@@ -21,7 +21,7 @@ class Cameras(Case):
         np.testing.assert_array_equal(camera.K, [[500, 0, 320], [0, 510, 240], [0, 0, 1]])
         np.testing.assert_allclose(camera.eye, -matrix[:3, :3].T @ matrix[:3, 3])
         self.assertEqual(camera, pickle.loads(pickle.dumps(camera)))
-        self.assertEqual(camera.resized(320, 240).K[0, 0], 250)
+        np.testing.assert_array_equal(camera.resized(320, 120).K, [[250, 0, 160], [0, 127.5, 60], [0, 0, 1]])
         self.assertEqual(len({camera, camera.resized(640, 480)}), 1)
         looking = ewa.Camera.look_at((0, -3, 0), (0, 0, 0))
         np.testing.assert_allclose(looking.world_to_camera[:3, :3], [[1, 0, 0], [0, 0, -1], [0, 1, 0]], atol=1e-15)
@@ -93,6 +93,12 @@ class Pictures(Case):
         shiny = ewa.render(self.cloud, self.camera, materials=[{"specular": 2.0, "reflection": 1.0}],
                            environment=np.ones((8, 16, 3), np.float32))
         self.assertGreater(np.asarray(shiny).mean(), np.asarray(plain).mean())
+
+    def test_messages_name_the_range(self) -> None:
+        with self.assertRaisesRegex(ewa.ArgumentError, r"opacity: 2.0 is outside \[0, 1\]"):
+            ewa.render(self.cloud, self.camera, opacity=2)
+        with self.assertRaisesRegex(ewa.ArgumentError, r"passes: 2 is outside 1\|3"):
+            ewa.render(self.cloud, self.camera, passes=2)
 
     def test_wrong_options(self) -> None:
         wrong: list[dict[str, Any]] = [

@@ -159,6 +159,51 @@ class SameBytes(Case):
             image.save(self.path("ours.png"))
             self.same("ours.png", "theirs.png")
 
+    def test_raw_volume(self) -> None:
+        for dims in ((24, 20, 16), (32, 32, 2), (2, 30, 30)):
+            with self.subTest(dims):
+                voxels = np.random.default_rng(5).integers(0, 255, dims[::-1], np.uint8)
+                voxels.tofile(self.path("v.raw"))
+                self.run_program("volume", "v.raw", "-o", "theirs.png", "--dims", ",".join(map(str, dims)), "--spacing",
+                                 "1,1,2", "--size", "200x160")
+                volume = ewa.read_volume(self.path("v.raw"), dims=dims, spacing=(1, 1, 2))
+                ewa.render_volume(volume, size=(200, 160)).save(self.path("ours.png"))
+                self.same("ours.png", "theirs.png")
+                ours = ewa.render_volume(ewa.Volume(voxels, spacing=(1, 1, 2)), size=(200, 160)).rgba8
+                assert ours is not None
+                self.assertEqual(ours.tobytes(), ewa.render_volume(volume, size=(200, 160)).rgba8.tobytes())
+
+    def test_cameras_that_nobody_chose(self) -> None:
+        """Of clouds of all kinds the camera is that of the program, to the last bit."""
+        rng = np.random.default_rng(7)
+        u, v = np.meshgrid(np.linspace(-0.6, 0.6, 120), np.linspace(-0.4, 0.4, 80))
+        z = 2 + 0.3 * np.sin(3 * u) + 0.2 * v
+        ball = rng.normal(size=(9000, 3))
+        ball /= np.linalg.norm(ball, axis=1)[:, None]
+        box = rng.uniform(-1, 1, (9000, 3))
+        box[np.arange(9000), rng.integers(3, size=9000)] = np.sign(rng.uniform(-1, 1, 9000))
+        clouds = {
+            "range image": np.stack([u * z, v * z, z], 2).reshape(-1, 3), "range image behind":
+                np.stack([u * z, v * z, -z], 2).reshape(-1, 3), "strip": np.stack([u * z, 0.01 * v * z, z], 2).reshape(-1, 3),
+            "ball": ball, "cone": ball * (1.2 - ball[:, 2:]) / 2, "tall": box * [1, 1, 4], "long": box * [6, 1, 1],
+            "deep": box * [1, 1, 5] + [0, 0, 30], "map": box * [5, 5, 1] + [5e5, 6e6, 100], "flat": box * [1, 1, 1e-6],
+            "wall": box * [1e-6, 1, 1], "ground": np.concatenate([box * [3, 3, 0.1], ball * 0.2]),
+            "far points": np.concatenate([ball, [[500, 0, 0], [0, -900, 3]]]), "one place": np.ones((40, 3)),
+            "table": np.concatenate([box * [2, 0.05, 1] + [0, 1, 0], box[::3] * [0.1, 1, 0.1]]),
+            "many": np.repeat(rng.normal(size=(90000, 3)), 2, 0), "scattered": rng.normal(size=(150000, 3))}
+        for name, points in clouds.items():
+            for dtype in (np.float64, np.float32):
+                with self.subTest(name, dtype=dtype.__name__):
+                    cloud = ewa.Cloud(points.astype(dtype), normals=np.tile([0, 0, 1.0], (len(points), 1)),
+                                      radius=rng.uniform(0.001, 0.1, len(points)).astype(np.float32))
+                    cloud.save(self.path("c.ply"))
+                    self.run_program("render", "c.ply", "-o", "theirs.png", "--save-camera", "theirs.json", "--size", "9x7",
+                                     "--close-gaps", "off", "-q")
+                    [theirs] = ewa.cameras(self.path("theirs.json"))
+                    ours = ewa.Camera.frame(ewa.read(self.path("c.ply")), size=(9, 7))
+                    np.testing.assert_array_equal(ours.world_to_camera, theirs.world_to_camera)
+                    np.testing.assert_array_equal(ours.K, theirs.K)
+
     def test_warp(self) -> None:
         rng = np.random.default_rng(3)
         depth = np.full((60, 80), 2, np.float32)
