@@ -97,6 +97,10 @@ class Pictures(Case):
     def test_messages_name_the_range(self) -> None:
         with self.assertRaisesRegex(ewa.ArgumentError, r"opacity: 2.0 is outside \[0, 1\]"):
             ewa.render(self.cloud, self.camera, opacity=2)
+        with self.assertRaisesRegex(ewa.ArgumentError, r"opacity: -0.1 is outside \[0, 1\]"):
+            ewa.render(self.cloud, self.camera, opacity=-0.1)
+        with self.assertRaisesRegex(ewa.ArgumentError, r"edge_threshold: 0.0 is outside \(0, 4\]"):
+            ewa.render(self.cloud, self.camera, edge_threshold=0)
         with self.assertRaisesRegex(ewa.ArgumentError, r"passes: 2 is outside 1\|3"):
             ewa.render(self.cloud, self.camera, passes=2)
 
