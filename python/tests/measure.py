@@ -46,8 +46,8 @@ def best_of(count: int, work: Callable[[], object]) -> float:
 
 def measure_calls() -> None:
     camera = ewa.Camera.look_at((0, -4, 0), (0, 0, 0), size=(16, 16))
-    for points in (16, 100, 1000):
-        with ewa.Context(thread_count=1) as context:
+    for points, threads in ((16, 1), (100, 1), (1000, 1), (100, 2)):
+        with ewa.Context(thread_count=threads) as context:
             surfels = ewa.generate("sphere", points, context=context).surfels()
             image = ewa.render(surfels, camera)
             whole, beside = [], []
@@ -56,7 +56,7 @@ def measure_calls() -> None:
                 drawn = ewa.render(surfels, camera, out=image)
                 whole.append(time.perf_counter() - started)
                 beside.append(whole[-1] - drawn.stats["total_s"])
-            print(f"| a frame of 16 x 16 pixels, {points} surfels, one thread: median of 3000 calls; of it outside of "
+            print(f"| a frame of 16 x 16 pixels, {points} surfels, {threads} worker(s): median of 3000 calls; of it outside of "
                   f"ewa_render() | {1e6 * sorted(whole)[1500]:.0f} µs; {1e6 * sorted(beside)[1500]:.0f} µs |")
 
 

@@ -67,6 +67,8 @@ class Bindings(Case):
     def test_library_has_the_version_of_the_package(self) -> None:
         version = (functions.ewa_version() or b"").decode()
         self.assertEqual(version, f"{b.EWA_VERSION_MAJOR}.{b.EWA_VERSION_MINOR}.{b.EWA_VERSION_PATCH}")
+        if (ROOT / "pyproject.toml").exists():
+            self.assertIn(f'\nversion = "{version}"\n', (ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 
 
 if __name__ == "__main__":
