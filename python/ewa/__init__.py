@@ -21,6 +21,7 @@ from .camera import Camera, CameraPath, cameras, save_cameras
 from .cloud import Cloud, csg, generate, merge
 from .image import Image, read_depth, read_image, save_image
 from .mesh import Mesh, convert, read, read_mesh, sample
+from .octree import Octree, build_octree
 from .rendering import Renderer, render
 from .shade import Environment
 from .surfels import Surfels
@@ -31,8 +32,8 @@ __version__ = version()
 
 __all__ = [
     "ArgumentError", "Array", "Camera", "CameraPath", "Cancelled", "ClosedError", "Cloud", "Context", "DepthImage",
-    "Environment", "Error", "EwaWarning", "FileError", "FormatError", "Image", "Mesh", "NumericError", "OutOfMemory",
-    "Renderer", "Surfels", "Transfer", "Volume", "Voxels", "as_cloud", "cameras", "convert", "csg", "default_context",
+    "Environment", "Error", "EwaWarning", "FileError", "FormatError", "Image", "Mesh", "NumericError", "Octree", "OutOfMemory",
+    "Renderer", "Surfels", "Transfer", "Volume", "Voxels", "as_cloud", "build_octree", "cameras", "convert", "csg", "default_context",
     "from_laspy", "from_open3d", "from_pyvista", "from_trimesh", "generate", "generate_volume", "merge", "progress",
     "read", "read_depth", "read_image", "read_mesh", "read_volume", "render", "render_volume", "sample",
     "save_cameras", "save_image", "texture", "version", "warp",

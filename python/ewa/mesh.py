@@ -17,6 +17,7 @@ from ._library import functions as lib
 from ._struct import fill, initialised, path_bytes
 from .camera import PathLike
 from .cloud import Cloud, merge
+from .octree import Octree, is_folder
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -203,7 +204,7 @@ def _load(core: Core, path: PathLike, wanted: int, keep_going: bool, attributes:
 def read(path: PathLike, *more: PathLike, filter: str | Sequence[str] | None = None, vertices: bool = False,
          keep_going: bool = False, attributes: Sequence[str] | None = None, columns: Sequence[str] | None = None,
          context: Context | None = None) -> Cloud:
-    """Read points: PLY, LAS, LAZ, COPC, E57, PCD, PTX, PTS, XYZ, CSV; or a mesh, onto whose faces points are put.
+    """Read points: PLY, LAS, LAZ, COPC, EPT, E57, PCD, PTX, PTS, XYZ, CSV; or a mesh, onto whose faces points are put.
 
     Parameters
     ----------
@@ -229,6 +230,9 @@ def read(path: PathLike, *more: PathLike, filter: str | Sequence[str] | None = N
         return merge([read(one, filter=filter, vertices=vertices, keep_going=keep_going, attributes=attributes,
                            columns=columns, context=context) for one in (path, *more)])
     core = core_of(context)
+    if is_folder(core, path):
+        cloud = Octree(path, context=context).read()
+        return cloud if filter is None else cloud.filter(*([filter] if isinstance(filter, str) else filter))
     wanted = b.EWA_MODEL_POINTS if vertices else b.EWA_MODEL_MESH
     model = _load(core, path, wanted, keep_going, attributes, columns)
     if model.struct.points:

@@ -204,6 +204,23 @@ class SameBytes(Case):
                     np.testing.assert_array_equal(ours.world_to_camera, theirs.world_to_camera)
                     np.testing.assert_array_equal(ours.K, theirs.K)
 
+    def test_octree(self) -> None:
+        self.generate("scan.ply", "terrain", 60000)
+        self.run_program("lod", "scan.ply", "-o", "theirs.copc.laz")
+        ewa.build_octree(self.path("scan.ply"), self.path("ours.copc.laz"))
+        self.same("ours.copc.laz", "theirs.copc.laz")
+        self.run_program("render", "theirs.copc.laz", "-o", "theirs.png", "--memory", "64M", "--size", "300x200",
+                         "--save-camera", "camera.json")
+        octree = ewa.Octree(self.path("ours.copc.laz"))
+        [camera] = ewa.cameras(self.path("camera.json"))
+        octree.render(camera, background="white", memory_bytes=64 << 20).save(self.path("ours.png"))
+        self.same("ours.png", "theirs.png")
+        self.assertEqual(len(octree.read((-1, -1, -1), (0, 1, 1))) + len(octree.read((1e-9, -1, -1), (1, 1, 1))), 60000)
+        self.assertEqual(len(octree), 60000)
+        octree.close()
+        with self.assertRaises(ewa.ClosedError):
+            octree.sample()
+
     def test_warp(self) -> None:
         rng = np.random.default_rng(3)
         depth = np.full((60, 80), 2, np.float32)
