@@ -172,4 +172,6 @@ def path_bytes(path: Any, label: str = "path") -> bytes:
         raise TypeError(f"{label}: a path, not {type(path).__name__}") from None
     if not made or b"\0" in made:
         raise ArgumentError(f"{label}: {path!r} is no path")
+    if made == b"-":
+        raise ArgumentError(f"{label}: '-', the program's standard input and output, is none of the package's; './-' is a file")
     return made

@@ -269,6 +269,42 @@ class Layer(RuleBasedStateMachine):
                      **data.draw(options("ewa_texture_options")))
 
     @rule(data=st.data())
+    def files(self, data: Any) -> None:
+        """Files of the package's own, with some bytes changed, and names that are none."""
+        folder = Path(self.folder.name)
+        name = data.draw(st.sampled_from(["b.ply", "b.laz", "b.copc.laz", "b.png", "b.exr", "b.json", "b.nrrd", "b.tum"]))
+        path = folder / name
+        if name.endswith("copc.laz"):
+            self.attempt(ewa.generate("plane", 200).save, folder / "c.ply")
+            self.attempt(ewa.build_octree, folder / "c.ply", path, **data.draw(options("ewa_lod_build_options")))
+        elif name.endswith((".ply", ".laz")):
+            self.attempt(ewa.generate("plane", 50).save, path)
+        elif name.endswith((".png", ".exr")):
+            self.attempt(ewa.save_image, path, np.ones((4, 5, 3), np.float32))
+        elif name.endswith(".json"):
+            self.attempt(self.cameras[0].save, path)
+        elif name.endswith(".nrrd"):
+            self.attempt(ewa.generate_volume("ball", dims=[4, 4, 4]).save, path)
+        else:
+            path.write_text("0 1 2 3 0 0 0 1\n")
+        if path.exists():
+            content = bytearray(path.read_bytes())
+            for _ in range(data.draw(st.integers(0, 3))):
+                content[data.draw(st.integers(0, len(content) - 1))] = data.draw(st.integers(0, 255))
+            path.write_bytes(content[:data.draw(st.sampled_from([len(content), len(content), len(content) // 2]))])
+        context = self.context(data)
+        readers = [ewa.read, ewa.read_mesh, ewa.read_image, ewa.read_depth, ewa.read_volume, ewa.Octree]
+        made = self.attempt(data.draw(st.sampled_from(readers)), path, context=context)
+        self.attempt(ewa.cameras, path, data.draw(st.sampled_from([None, self.cameras[0], path])))
+        self.attempt(ewa.convert, path, folder / data.draw(st.sampled_from(["d.csv", "d.las", "d"])), crop=data.draw(
+            st.sampled_from([None, [[-1, -1, -1], [0, 0, 1]], [1]])))
+        if isinstance(made, ewa.Octree):
+            self.attempt(made.render, self.one(data, self.cameras), size=(24, 16), **data.draw(options("ewa_lod_options")))
+            self.attempt(made.read, data.draw(vectors), spacing=data.draw(numbers))
+            self.attempt(made.sample, data.draw(numbers))
+            self.attempt(made.close)
+
+    @rule(data=st.data())
     def mesh(self, data: Any) -> None:
         triangles = data.draw(hnp.arrays(data.draw(st.sampled_from([np.int32, np.uint32, np.int64])), (4, 3),
                                          elements=st.integers(0, 6)))

@@ -133,6 +133,11 @@ class Arrays(Case):
         self.assertEqual(caught.exception.status, "EWA_ERROR_FORMAT")
         with self.assertRaises(ewa.FileError):
             ewa.read(self.path("none.ply"))
+        for path in ("-", "", "a\0b"):
+            with self.assertRaises(ewa.ArgumentError):
+                ewa.read(path)
+        with self.assertRaises(TypeError):
+            ewa.read(3)  # type: ignore[arg-type]
 
     def test_notes_hold_zeros(self) -> None:
         cloud = ewa.generate("plane", 500)
