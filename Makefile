@@ -113,6 +113,7 @@ gallery: build
 	@sh tools/gallery.sh $(EWA)
 
 docs: program
+	@sh tools/setup.sh python3
 	$(EWA) --help-markdown >docs/cli.md
 	$(EWA) --help-json >docs/options.json
 	python3 tools/dump_python.py

@@ -173,5 +173,5 @@ def path_bytes(path: Any, label: str = "path") -> bytes:
     if not made or b"\0" in made:
         raise ArgumentError(f"{label}: {path!r} is no path")
     if made == b"-":
-        raise ArgumentError(f"{label}: '-', the program's standard input and output, is none of the package's; './-' is a file")
+        raise ArgumentError(f"{label}: '-' stands for the program's standard input and output; './-' is a file")
     return made

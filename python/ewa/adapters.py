@@ -17,7 +17,7 @@ def _package(value: Any) -> str:
 
 
 def from_laspy(las: Any, *, context: Context | None = None) -> Cloud:
-    """Make a cloud of ``laspy.LasData``: coordinates as doubles, colours, and all other dimensions under their names."""
+    """Make a cloud of ``laspy.LasData``: coordinates as doubles, colours, all other dimensions under their names."""
     streams: dict[str, Any] = {}
     names = list(las.point_format.dimension_names)
     if all(name in names for name in ("red", "green", "blue")):

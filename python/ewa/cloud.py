@@ -232,7 +232,9 @@ class Cloud:
         self._handle = None
 
     def __repr__(self) -> str:
-        return "<ewa.Cloud, closed>" if self._handle is None else f"<ewa.Cloud of {len(self)} points: {', '.join(self)}>"
+        if self._handle is None:
+            return "<ewa.Cloud, closed>"
+        return f"<ewa.Cloud of {len(self)} points: {', '.join(self)}>"
 
     # ---- Other clouds -------------------------------------------------------------------------------------------
 
@@ -523,8 +525,12 @@ def merge(clouds: Sequence[Cloud]) -> Cloud:
         raise ArgumentError("clouds: there is none")
     core = clouds[0]._core
     count = len(clouds)
-    return Cloud._made(core, lambda *given: lib.ewa_cloud_merge((ctypes.c_void_p * count)(*given[:-1]), count, given[-1]),
-                       *[cloud._h for cloud in clouds])
+
+    def run(*given: Any) -> int:
+        status: int = lib.ewa_cloud_merge((ctypes.c_void_p * count)(*given[:-1]), count, given[-1])
+        return status
+
+    return Cloud._made(core, run, *[cloud._h for cloud in clouds])
 
 
 def csg(a: Cloud, other: Cloud, operation: str = "union", *, cutoff: float = 3) -> Cloud:

@@ -192,7 +192,8 @@ def save_image(path: PathLike, pixels: Any, *, channel_names: str | None = None,
     if channel_names is not None:
         options.channel_names = channel_names.encode()
     if camera is not None:
-        options.world_to_camera = ctypes.addressof(camera._struct) + b.ewa_camera.world_to_camera.offset  # type: ignore[attr-defined]
+        offset: int = getattr(b.ewa_camera, "world_to_camera").offset
+        options.world_to_camera = ctypes.addressof(camera._struct) + offset
     core.call(lib.ewa_image_save, ctypes.byref(image), path_bytes(path), ctypes.byref(options))
 
 

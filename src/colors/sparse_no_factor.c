@@ -17,7 +17,8 @@ ewa_status ewa_sparse_factor_make(sparse_factor *factor, ewa_severity unsolved_s
     return EWA_ERROR_UNSUPPORTED;
 }
 
-ewa_status ewa_sparse_factor_apply(sparse_factor *factor, uint32_t count, const double *sides, double *solution) {
+ewa_status ewa_sparse_factor_apply(sparse_factor *factor, uint32_t count, const double *sides,
+                                   double *solution) {
     (void)factor, (void)count, (void)sides, (void)solution;
     return EWA_ERROR_UNSUPPORTED;
 }
