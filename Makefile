@@ -15,6 +15,7 @@
 #                               beside, where `make` has found it
 #   make interop                compares files with what laspy, laszip, libE57Format and others read and write
 #   make gallery docs           pictures and pages that the program makes
+#   make wheel                  the Python package as a wheel, into build/wheels; PYTHONS names interpreters to test it with
 #   make install                to PREFIX (default /usr/local)
 
 FILE ?=
@@ -29,7 +30,7 @@ EWA = build/release/cli/ewa
 # $(call quietly,COMMAND): prints what a command said only when it fails.
 quietly = @mkdir -p build && { $(1) >build/log-$@.txt 2>&1 || { cat build/log-$@.txt; exit 1; }; }
 
-.PHONY: interop build program setup demo check asan asan-build tsan tsan-build clang clang-build mutate fuzz bench sweep gallery docs format install clean
+.PHONY: interop build program setup demo check asan asan-build tsan tsan-build clang clang-build mutate fuzz bench sweep gallery docs wheel format install clean
 
 build: setup
 	@echo "Building build/release"
@@ -112,8 +113,13 @@ gallery: build
 	@sh tools/gallery.sh $(EWA)
 
 docs: program
+	@sh tools/setup.sh python3
 	$(EWA) --help-markdown >docs/cli.md
 	$(EWA) --help-json >docs/options.json
+	python3 tools/dump_python.py
+
+wheel: setup
+	@sh tools/wheel.sh $(PYTHONS)
 
 format:
 	git ls-files '*.c' '*.h' '*.cpp' | xargs clang-format -i

@@ -24,9 +24,19 @@ function(ewa_find_library target header library)
   target_include_directories(${target} SYSTEM INTERFACE ${${target}_INCLUDE})
   target_link_libraries(${target} INTERFACE ${${target}_LIBRARY})
 endfunction()
-ewa_find_library(ewa_cholmod cholmod.h cholmod suitesparse)
 ewa_find_library(ewa_bzip2 bzlib.h bz2)
+# Without it there are no factors, and every system of equations is solved by conjugate gradients (docs/colors.md).
+option(EWA_WITH_CHOLMOD "Solve small systems by the factors of CHOLMOD, which Debian builds with parts under the GPL" ON)
+set(EWA_CHOLMOD_INSTALLED "") # what a static library needs, as CMake and pkg-config say it
+set(EWA_CHOLMOD_PC_LIBS "")
+set(EWA_CHOLMOD_TARGET "")
+if(EWA_WITH_CHOLMOD)
+  ewa_find_library(ewa_cholmod cholmod.h cholmod suitesparse)
+  set(EWA_CHOLMOD_INSTALLED "cholmod;")
+  set(EWA_CHOLMOD_PC_LIBS "-lcholmod ")
+  set(EWA_CHOLMOD_TARGET ewa_cholmod)
+endif()
 
 add_library(ewa_dependencies INTERFACE)
 target_link_libraries(ewa_dependencies INTERFACE PkgConfig::SPNG PkgConfig::DEFLATE PkgConfig::CJSON
-  PkgConfig::JPEG PkgConfig::WEBP PkgConfig::EXPAT PkgConfig::ZLIB PkgConfig::ZSTD ewa_cholmod ewa_bzip2 OpenEXR::OpenEXRCore Threads::Threads m)
+  PkgConfig::JPEG PkgConfig::WEBP PkgConfig::EXPAT PkgConfig::ZLIB PkgConfig::ZSTD ${EWA_CHOLMOD_TARGET} ewa_bzip2 OpenEXR::OpenEXRCore Threads::Threads m)

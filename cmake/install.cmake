@@ -17,6 +17,11 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/ewa-config-version.cmake 
 install(FILES ${PROJECT_BINARY_DIR}/ewa-config.cmake ${PROJECT_BINARY_DIR}/ewa-config-version.cmake
   DESTINATION ${package_dir})
 
+# A wheel has the shared library in its package (pyproject.toml).
+if(SKBUILD)
+  install(TARGETS ewa_shared LIBRARY DESTINATION ewa COMPONENT python)
+endif()
+
 # ewa.pc finds its prefix from its own place, so that the tree may be moved.
 set(pc_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX BASE_DIRECTORY ${CMAKE_INSTALL_PREFIX}/${pc_dir}

@@ -1,0 +1,40 @@
+# SPDX-FileCopyrightText: 2026 The ewa authors
+# SPDX-License-Identifier: MIT
+"""Point clouds as continuous, antialiased surfaces: numpy in, numpy out.
+
+>>> import ewa
+>>> image = ewa.render(ewa.read("scan.ply"), background="white")
+>>> image.save("scan.png")
+
+Arrays become surfels, surfels become pictures; volumes, depth images, textures and meshes take the same road. All
+lengths are world units, all colours linear light unless they are uint8, which are sRGB; cameras have OpenCV's axes.
+"""
+from __future__ import annotations
+
+from ._arrays import Array
+from ._context import Context, default_context, progress
+from ._errors import (ArgumentError, Cancelled, ClosedError, Error, EwaWarning, FileError, FormatError, NumericError,
+                      OutOfMemory)
+from ._library import version
+from .adapters import as_cloud, from_laspy, from_open3d, from_pyvista, from_trimesh
+from .camera import Camera, CameraPath, cameras, save_cameras
+from .cloud import Cloud, csg, generate, merge
+from .image import Image, read_depth, read_image, save_image
+from .mesh import Mesh, convert, read, read_mesh, sample
+from .octree import Octree, build_octree
+from .rendering import Renderer, render
+from .shade import Environment
+from .surfels import Surfels
+from .volume import Transfer, Volume, Voxels, generate_volume, read_volume, render_volume
+from .warping import DepthImage, texture, warp
+
+__version__ = version()
+
+__all__ = [
+    "ArgumentError", "Array", "Camera", "CameraPath", "Cancelled", "ClosedError", "Cloud", "Context", "DepthImage",
+    "Environment", "Error", "EwaWarning", "FileError", "FormatError", "Image", "Mesh", "NumericError", "Octree", "OutOfMemory",
+    "Renderer", "Surfels", "Transfer", "Volume", "Voxels", "as_cloud", "build_octree", "cameras", "convert", "csg", "default_context",
+    "from_laspy", "from_open3d", "from_pyvista", "from_trimesh", "generate", "generate_volume", "merge", "progress",
+    "read", "read_depth", "read_image", "read_mesh", "read_volume", "render", "render_volume", "sample",
+    "save_cameras", "save_image", "texture", "version", "warp",
+]

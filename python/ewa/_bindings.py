@@ -1,0 +1,2247 @@
+# SPDX-FileCopyrightText: 2026 The ewa authors
+# SPDX-License-Identifier: MIT
+#
+# Made by tools/dump_python.py from docs/api.json; a test holds it to that. Do not edit.
+
+"""The C interface of libewa as ctypes, under its own names; see include/ewa."""
+from __future__ import annotations
+
+import ctypes as c
+from enum import IntEnum
+from typing import Any, Callable
+
+
+EWA_CPU_AVX2 = 1
+EWA_CPU_AVX512 = 2
+EWA_CPU_ALL = 2147483647
+EWA_VERSION_MAJOR = 0
+EWA_VERSION_MINOR = 1
+EWA_VERSION_PATCH = 0
+EWA_TEXCOORD = 'texcoord'
+EWA_TEXCOORD_S = 'texcoord_s'
+EWA_TEXCOORD_T = 'texcoord_t'
+EWA_TEXTURE = 'texture'
+EWA_TEXTURE_PART = 'texture_part'
+EWA_NAME_BYTES = 64
+EWA_CLIP0 = 'clip0'
+EWA_CLIP1 = 'clip1'
+EWA_CLIP_MODE = 'clip_mode'
+EWA_COLOR = 'color'
+EWA_MATERIAL = 'material'
+EWA_NORMAL = 'normal'
+EWA_POSITION = 'position'
+EWA_RADIUS = 'radius'
+EWA_TANGENT_U = 'tangent_u'
+EWA_TANGENT_V = 'tangent_v'
+EWA_VISIBLE_POSITIVE = 1
+EWA_VISIBLE_NEGATIVE = 2
+EWA_VISIBLE_INVALID = 255
+EWA_CLASS_NAME_BYTES = 32
+EWA_POINTS_UNKNOWN = 18446744073709551615
+EWA_MESH_COLORS = 1
+EWA_MESH_TEXCOORDS = 2
+EWA_MESH_NORMALS = 4
+EWA_MODEL_MESH = 1
+EWA_MODEL_POINTS = 2
+EWA_MODEL_ELEMENTS = 4
+EWA_OPTION_ABOVE = 1
+EWA_OPTION_BELOW = 2
+EWA_OPTION_OR_ZERO = 4
+EWA_OPTION_TEXT_BYTES = 256
+EWA_DEFAULT_RADIUS_LIMIT = 2.75
+EWA_DEFAULT_RADIUS_SCALE = 1.14
+EWA_MAX_LEVELS = 8
+EWA_MAX_EDGE_LAYERS = 8
+EWA_MAX_SECTION_PLANES = 8
+EWA_LAYERS_EXACT = 4294967295
+EWA_FILTER_TERMS = 16
+EWA_FILTER_RANGES = 32
+EWA_MAX_LIGHTS = 8
+EWA_MAX_MATERIALS = 256
+EWA_MAX_TRANSFER_POINTS = 1024
+EWA_MAX_VOLUME_LEVELS = 4
+
+
+class ewa_severity(IntEnum):
+    EWA_SEVERITY_ERROR = 0
+    EWA_SEVERITY_WARNING = 1
+    EWA_SEVERITY_INFO = 2
+    EWA_SEVERITY_DEBUG = 3
+
+
+class ewa_status(IntEnum):
+    EWA_OK = 0
+    EWA_ERROR_ARGUMENT = -1
+    EWA_ERROR_MEMORY = -2
+    EWA_ERROR_IO = -3
+    EWA_ERROR_FORMAT = -4
+    EWA_ERROR_UNSUPPORTED = -5
+    EWA_ERROR_LIMIT = -6
+    EWA_ERROR_NUMERIC = -7
+    EWA_CANCELLED = -8
+
+
+class ewa_type(IntEnum):
+    EWA_F32 = 0
+    EWA_F64 = 1
+    EWA_I8 = 2
+    EWA_U8 = 3
+    EWA_I16 = 4
+    EWA_U16 = 5
+    EWA_I32 = 6
+    EWA_U32 = 7
+
+
+class ewa_texture_fit(IntEnum):
+    EWA_FIT_NORMALIZED = 0
+    EWA_FIT_SUM = 1
+
+
+class ewa_projection(IntEnum):
+    EWA_PERSPECTIVE = 0
+    EWA_ORTHOGRAPHIC = 1
+
+
+class ewa_ink(IntEnum):
+    EWA_INK_AUTO = 0
+    EWA_INK_DARK = 1
+    EWA_INK_LIGHT = 2
+
+
+class ewa_text_anchor(IntEnum):
+    EWA_TEXT_LEFT = 0
+    EWA_TEXT_CENTER = 1
+    EWA_TEXT_RIGHT = 2
+    EWA_TEXT_LEFT_MIDDLE = 3
+    EWA_TEXT_CENTER_MIDDLE = 4
+    EWA_TEXT_RIGHT_MIDDLE = 5
+    EWA_TEXT_LEFT_TOP = 6
+    EWA_TEXT_CENTER_TOP = 7
+    EWA_TEXT_RIGHT_TOP = 8
+
+
+class ewa_backend_kind(IntEnum):
+    EWA_BACKEND_CPU = 0
+    EWA_BACKEND_GL = 1
+    EWA_BACKEND_GL_RASTER = 2
+    EWA_BACKEND_AUTO = 3
+
+
+class ewa_gpu_class(IntEnum):
+    EWA_GPU_NONE = 0
+    EWA_GPU_UNUSABLE = 1
+    EWA_GPU_CLOSE = 2
+    EWA_GPU_EXACT = 3
+
+
+class ewa_clip_plane(IntEnum):
+    EWA_CLIP_LEFT = 0
+    EWA_CLIP_RIGHT = 1
+    EWA_CLIP_BOTTOM = 2
+    EWA_CLIP_TOP = 3
+    EWA_CLIP_NEAR = 4
+    EWA_CLIP_FAR = 5
+
+
+class ewa_colormap(IntEnum):
+    EWA_COLORMAP_VIRIDIS = 0
+    EWA_COLORMAP_TURBO = 1
+    EWA_COLORMAP_GRAY = 2
+    EWA_COLORMAP_PLASMA = 3
+    EWA_COLORMAP_INFERNO = 4
+    EWA_COLORMAP_MAGMA = 5
+    EWA_COLORMAP_CIVIDIS = 6
+    EWA_COLORMAP_COOLWARM = 7
+
+
+class ewa_texture_filter(IntEnum):
+    EWA_TEXTURE_NEAREST = 0
+    EWA_TEXTURE_EWA = 1
+    EWA_TEXTURE_OPTIMAL = 2
+
+
+class ewa_texture_wrap(IntEnum):
+    EWA_TEXTURE_REPEAT = 0
+    EWA_TEXTURE_CLAMP = 1
+
+
+class ewa_ply_encoding(IntEnum):
+    EWA_PLY_BINARY_LITTLE_ENDIAN = 0
+    EWA_PLY_BINARY_BIG_ENDIAN = 1
+    EWA_PLY_ASCII = 2
+
+
+class ewa_model_format(IntEnum):
+    EWA_MODEL_UNKNOWN = 0
+    EWA_MODEL_PLY = 1
+    EWA_MODEL_OBJ = 2
+    EWA_MODEL_STL = 3
+    EWA_MODEL_OFF = 4
+    EWA_MODEL_GLTF = 5
+    EWA_MODEL_LAS = 6
+    EWA_MODEL_E57 = 7
+    EWA_MODEL_PCD = 8
+    EWA_MODEL_PTX = 9
+    EWA_MODEL_TEXT = 10
+
+
+class ewa_option_type(IntEnum):
+    EWA_OPTION_BOOL = 0
+    EWA_OPTION_CHOICE = 1
+    EWA_OPTION_U32 = 2
+    EWA_OPTION_U64 = 3
+    EWA_OPTION_F32 = 4
+    EWA_OPTION_F64 = 5
+
+
+class ewa_csg_operation(IntEnum):
+    EWA_CSG_UNION = 0
+    EWA_CSG_INTERSECTION = 1
+    EWA_CSG_DIFFERENCE = 2
+
+
+class ewa_object(IntEnum):
+    EWA_OBJECT_PLANE = 0
+    EWA_OBJECT_CHECKER = 1
+    EWA_OBJECT_CUBE = 2
+    EWA_OBJECT_SPHERE = 3
+    EWA_OBJECT_TORUS = 4
+    EWA_OBJECT_TERRAIN = 5
+    EWA_OBJECT_CSG = 6
+
+
+class ewa_orientation(IntEnum):
+    EWA_ORIENT_PROPAGATE = 0
+    EWA_ORIENT_VIEWPOINT = 1
+    EWA_ORIENT_NONE = 2
+    EWA_ORIENT_AUTO = 3
+
+
+class ewa_refit(IntEnum):
+    EWA_REFIT_INTERPOLATE = 0
+    EWA_REFIT_FIT = 1
+
+
+class ewa_surfel_shape(IntEnum):
+    EWA_SHAPE_DISC = 0
+    EWA_SHAPE_ELLIPSE = 1
+
+
+class ewa_volume_object(IntEnum):
+    EWA_VOLUME_CHECKERBOX = 0
+    EWA_VOLUME_BLOB = 1
+    EWA_VOLUME_BALL = 2
+    EWA_VOLUME_VESSELS = 3
+
+
+class ewa_procedure(IntEnum):
+    EWA_PROCEDURE_CHECKER = 0
+    EWA_PROCEDURE_MARBLE = 1
+    EWA_PROCEDURE_WOOD = 2
+    EWA_PROCEDURE_NOISE = 3
+
+
+class ewa_cull(IntEnum):
+    EWA_CULL_NONE = 0
+    EWA_CULL_BACK = 1
+
+
+class ewa_kernel(IntEnum):
+    EWA_KERNEL_PERSPECTIVE = 0
+    EWA_KERNEL_AFFINE = 1
+    EWA_KERNEL_SOURCE = 2
+    EWA_KERNEL_CIRCULAR = 3
+    EWA_KERNEL_RAYCAST = 4
+
+
+class ewa_shading(IntEnum):
+    EWA_SHADING_NONE = 0
+    EWA_SHADING_LAMBERT = 1
+    EWA_SHADING_PHONG = 2
+
+
+class ewa_pixel_format(IntEnum):
+    EWA_PIXEL_SRGB8 = 0
+    EWA_PIXEL_LINEAR = 1
+
+
+class ewa_texture_method(IntEnum):
+    EWA_TEXTURE_HYBRID = 0
+    EWA_TEXTURE_SPLAT = 1
+    EWA_TEXTURE_POINT = 2
+    EWA_TEXTURE_BILINEAR = 3
+
+
+class ewa_volume_index(IntEnum):
+    EWA_INDEX_EXACT = 0
+    EWA_INDEX_TABLE = 1
+
+
+class ewa_volume_method(IntEnum):
+    EWA_VOLUME_HYBRID = 0
+    EWA_VOLUME_SPLATS = 1
+    EWA_VOLUME_POINTS = 2
+
+
+class ewa_depth_kind(IntEnum):
+    EWA_DEPTH_Z = 0
+    EWA_DEPTH_RAY = 1
+    EWA_DEPTH_DISPARITY = 2
+
+
+class ewa_warp_method(IntEnum):
+    EWA_WARP_HYBRID = 0
+    EWA_WARP_MCMILLAN = 1
+
+
+ewa_message_callback = c.CFUNCTYPE(None, c.c_void_p, c.c_int, c.c_char_p)
+
+
+ewa_progress_callback = c.CFUNCTYPE(c.c_bool, c.c_void_p, c.c_char_p, c.c_double)
+
+
+ewa_task = c.CFUNCTYPE(None, c.c_void_p, c.c_uint32, c.c_uint32)
+
+
+class ewa_camera(c.Structure):
+    projection: int
+    width_px: int
+    height_px: int
+    fx_px: float
+    fy_px: float
+    cx_px: float
+    cy_px: float
+    world_to_camera: c.Array[c.c_double]
+    _fields_ = [
+        ("projection", c.c_int),
+        ("width_px", c.c_uint32),
+        ("height_px", c.c_uint32),
+        ("fx_px", c.c_double),
+        ("fy_px", c.c_double),
+        ("cx_px", c.c_double),
+        ("cy_px", c.c_double),
+        ("world_to_camera", c.c_double * 16),
+    ]
+
+
+ewa_camera_callback = c.CFUNCTYPE(None, c.c_void_p, c.c_uint32, c.POINTER(ewa_camera))
+
+
+ewa_line_callback = c.CFUNCTYPE(None, c.c_void_p, c.c_char_p)
+
+
+class ewa_allocator(c.Structure):
+    user: int | None
+    allocate: Any
+    release: Any
+    _fields_ = [
+        ("user", c.c_void_p),
+        ("allocate", c.CFUNCTYPE(c.c_void_p, c.c_void_p, c.c_size_t)),
+        ("release", c.CFUNCTYPE(None, c.c_void_p, c.c_void_p, c.c_size_t)),
+    ]
+
+
+class ewa_bounds(c.Structure):
+    low_world: c.Array[c.c_double]
+    high_world: c.Array[c.c_double]
+    finite_count: int
+    _fields_ = [
+        ("low_world", c.c_double * 3),
+        ("high_world", c.c_double * 3),
+        ("finite_count", c.c_uint64),
+    ]
+
+
+class ewa_executor(c.Structure):
+    user: int | None
+    worker_count: int
+    run: Any
+    _fields_ = [
+        ("user", c.c_void_p),
+        ("worker_count", c.c_uint32),
+        ("run", c.CFUNCTYPE(None, c.c_void_p, ewa_task, c.c_void_p, c.c_uint32)),
+    ]
+
+
+class ewa_limits(c.Structure):
+    max_points: int
+    max_memory_bytes: int
+    max_image_side: int
+    _fields_ = [
+        ("max_points", c.c_uint64),
+        ("max_memory_bytes", c.c_uint64),
+        ("max_image_side", c.c_uint32),
+    ]
+
+
+class ewa_context_options(c.Structure):
+    struct_size: int
+    allocator: ewa_allocator
+    executor: ewa_executor
+    thread_count: int
+    cpu_mask: int
+    message_level: int
+    message: Any
+    message_user: int | None
+    progress: Any
+    progress_user: int | None
+    limits: ewa_limits
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("allocator", ewa_allocator),
+        ("executor", ewa_executor),
+        ("thread_count", c.c_uint32),
+        ("cpu_mask", c.c_uint32),
+        ("message_level", c.c_int),
+        ("message", ewa_message_callback),
+        ("message_user", c.c_void_p),
+        ("progress", ewa_progress_callback),
+        ("progress_user", c.c_void_p),
+        ("limits", ewa_limits),
+    ]
+
+
+class ewa_acquire_options(c.Structure):
+    struct_size: int
+    filter: int
+    fit: int
+    wrap_s: int
+    wrap_t: int
+    pixel_sigma_px: float
+    cutoff: float
+    ridge: float
+    modulate: bool
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("filter", c.c_int),
+        ("fit", c.c_int),
+        ("wrap_s", c.c_int),
+        ("wrap_t", c.c_int),
+        ("pixel_sigma_px", c.c_double),
+        ("cutoff", c.c_double),
+        ("ridge", c.c_double),
+        ("modulate", c.c_bool),
+    ]
+
+
+class ewa_acquire_report(c.Structure):
+    textured_count: int
+    pair_count: int
+    iterations: int
+    gradient: float
+    ridge: float
+    _fields_ = [
+        ("textured_count", c.c_uint64),
+        ("pair_count", c.c_uint64),
+        ("iterations", c.c_uint32),
+        ("gradient", c.c_double),
+        ("ridge", c.c_double),
+    ]
+
+
+class ewa_attribute(c.Structure):
+    name: bytes
+    type: int
+    component_count: int
+    stride_bytes: int
+    data: int | None
+    borrowed: bool
+    _fields_ = [
+        ("name", c.c_char * 64),
+        ("type", c.c_int),
+        ("component_count", c.c_uint32),
+        ("stride_bytes", c.c_size_t),
+        ("data", c.c_void_p),
+        ("borrowed", c.c_bool),
+    ]
+
+
+class ewa_coordinate_grid(c.Structure):
+    step_world: c.Array[c.c_double]
+    offset_world: c.Array[c.c_double]
+    _fields_ = [
+        ("step_world", c.c_double * 3),
+        ("offset_world", c.c_double * 3),
+    ]
+
+
+class ewa_exchange(c.Structure):
+    user: int | None
+    rank: int
+    rank_count: int
+    gather: Any
+    take_largest: Any
+    add: Any
+    _fields_ = [
+        ("user", c.c_void_p),
+        ("rank", c.c_uint32),
+        ("rank_count", c.c_uint32),
+        ("gather", c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p)),
+        ("take_largest", c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_void_p, c.c_size_t)),
+        ("add", c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_void_p, c.c_size_t)),
+    ]
+
+
+class ewa_canvas(c.Structure):
+    rgba8: int | None
+    width_px: int
+    height_px: int
+    _fields_ = [
+        ("rgba8", c.c_void_p),
+        ("width_px", c.c_uint32),
+        ("height_px", c.c_uint32),
+    ]
+
+
+class ewa_category(c.Structure):
+    value: float
+    name: bytes | None
+    srgb: c.Array[c.c_uint8]
+    _fields_ = [
+        ("value", c.c_double),
+        ("name", c.c_char_p),
+        ("srgb", c.c_uint8 * 3),
+    ]
+
+
+class ewa_furniture_options(c.Structure):
+    struct_size: int
+    title: bytes | None
+    axes: bool
+    scale_bar: bool
+    color_bar: bool
+    scale_depth_world: float
+    unit: bytes | None
+    colormap: int
+    range: c.Array[c.c_double]
+    color_label: bytes | None
+    color_unit: bytes | None
+    categories: Any
+    category_count: int
+    pixel_scale: float
+    ink: int
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("title", c.c_char_p),
+        ("axes", c.c_bool),
+        ("scale_bar", c.c_bool),
+        ("color_bar", c.c_bool),
+        ("scale_depth_world", c.c_double),
+        ("unit", c.c_char_p),
+        ("colormap", c.c_int),
+        ("range", c.c_double * 2),
+        ("color_label", c.c_char_p),
+        ("color_unit", c.c_char_p),
+        ("categories", c.POINTER(ewa_category)),
+        ("category_count", c.c_uint32),
+        ("pixel_scale", c.c_double),
+        ("ink", c.c_int),
+    ]
+
+
+class ewa_text_style(c.Structure):
+    height_px: float
+    rgba: c.Array[c.c_uint8]
+    halo_px: float
+    halo_rgba: c.Array[c.c_uint8]
+    anchor: int
+    _fields_ = [
+        ("height_px", c.c_double),
+        ("rgba", c.c_uint8 * 4),
+        ("halo_px", c.c_double),
+        ("halo_rgba", c.c_uint8 * 4),
+        ("anchor", c.c_int),
+    ]
+
+
+class ewa_gpu_info(c.Structure):
+    struct_size: int
+    vendor: bytes
+    renderer: bytes
+    version: bytes
+    software: bool
+    device_class: int
+    differs: bytes
+    native_fma: bool
+    native_division: bool
+    native_root: bool
+    storage_bytes: int
+    storage_count: int
+    group_threads: int
+    texture_px: int
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("vendor", c.c_char * 128),
+        ("renderer", c.c_char * 128),
+        ("version", c.c_char * 128),
+        ("software", c.c_bool),
+        ("device_class", c.c_int),
+        ("differs", c.c_char * 64),
+        ("native_fma", c.c_bool),
+        ("native_division", c.c_bool),
+        ("native_root", c.c_bool),
+        ("storage_bytes", c.c_uint64),
+        ("storage_count", c.c_uint32),
+        ("group_threads", c.c_uint32),
+        ("texture_px", c.c_uint32),
+    ]
+
+
+class ewa_renderer_info(c.Structure):
+    struct_size: int
+    backend: bytes
+    device: bytes
+    device_class: int
+    remark: bytes
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("backend", c.c_char * 16),
+        ("device", c.c_char * 128),
+        ("device_class", c.c_int),
+        ("remark", c.c_char * 160),
+    ]
+
+
+class ewa_conic(c.Structure):
+    xx: float
+    xy: float
+    xw: float
+    yy: float
+    yw: float
+    ww: float
+    _fields_ = [
+        ("xx", c.c_double),
+        ("xy", c.c_double),
+        ("xw", c.c_double),
+        ("yy", c.c_double),
+        ("yw", c.c_double),
+        ("ww", c.c_double),
+    ]
+
+
+class ewa_vec3(c.Structure):
+    x: float
+    y: float
+    z: float
+    _fields_ = [
+        ("x", c.c_double),
+        ("y", c.c_double),
+        ("z", c.c_double),
+    ]
+
+
+class ewa_line3(c.Structure):
+    direction: ewa_vec3
+    moment: ewa_vec3
+    _fields_ = [
+        ("direction", ewa_vec3),
+        ("moment", ewa_vec3),
+    ]
+
+
+class ewa_mat3(c.Structure):
+    m: c.Array[Any]
+    _fields_ = [
+        ("m", (c.c_double * 3) * 3),
+    ]
+
+
+class ewa_mat4(c.Structure):
+    m: c.Array[Any]
+    _fields_ = [
+        ("m", (c.c_double * 4) * 4),
+    ]
+
+
+class ewa_segment_batch(c.Structure):
+    count: int
+    end: c.Array[Any]
+    _fields_ = [
+        ("count", c.c_uint64),
+        ("end", (c.c_void_p * 4) * 2),
+    ]
+
+
+class ewa_segment_clips(c.Structure):
+    visible: int | None
+    alpha: c.Array[Any]
+    end: c.Array[Any]
+    _fields_ = [
+        ("visible", c.c_void_p),
+        ("alpha", (c.c_void_p * 2) * 2),
+        ("end", ((c.c_void_p * 4) * 2) * 2),
+    ]
+
+
+class ewa_vec4(c.Structure):
+    x: float
+    y: float
+    z: float
+    w: float
+    _fields_ = [
+        ("x", c.c_double),
+        ("y", c.c_double),
+        ("z", c.c_double),
+        ("w", c.c_double),
+    ]
+
+
+class ewa_segment_part(c.Structure):
+    alpha: c.Array[c.c_double]
+    end: c.Array[ewa_vec4]
+    _fields_ = [
+        ("alpha", c.c_double * 2),
+        ("end", ewa_vec4 * 2),
+    ]
+
+
+class ewa_image(c.Structure):
+    context: int | None
+    width_px: int
+    height_px: int
+    channel_count: int
+    pixels: int | None
+    _fields_ = [
+        ("context", c.c_void_p),
+        ("width_px", c.c_uint32),
+        ("height_px", c.c_uint32),
+        ("channel_count", c.c_uint32),
+        ("pixels", c.c_void_p),
+    ]
+
+
+class ewa_cloud_load_options(c.Structure):
+    struct_size: int
+    keep_going: bool
+    attributes: bytes | None
+    columns: bytes | None
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("keep_going", c.c_bool),
+        ("attributes", c.c_char_p),
+        ("columns", c.c_char_p),
+    ]
+
+
+class ewa_cloud_save_options(c.Structure):
+    struct_size: int
+    ply_encoding: int
+    elements: int | None
+    step_world: float
+    chunk_points: int
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("ply_encoding", c.c_int),
+        ("elements", c.c_void_p),
+        ("step_world", c.c_double),
+        ("chunk_points", c.c_uint32),
+    ]
+
+
+class ewa_image_save_options(c.Structure):
+    struct_size: int
+    channel_names: bytes | None
+    exr_half: bool
+    world_to_camera: int | None
+    srgb_alpha_straight: bool
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("channel_names", c.c_char_p),
+        ("exr_half", c.c_bool),
+        ("world_to_camera", c.c_void_p),
+        ("srgb_alpha_straight", c.c_bool),
+    ]
+
+
+class ewa_volume_load_options(c.Structure):
+    struct_size: int
+    dims: c.Array[c.c_uint32]
+    type: int
+    big_endian: bool
+    header_bytes: int
+    spacing_world: c.Array[c.c_double]
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("dims", c.c_uint32 * 3),
+        ("type", c.c_int),
+        ("big_endian", c.c_bool),
+        ("header_bytes", c.c_uint64),
+        ("spacing_world", c.c_double * 3),
+    ]
+
+
+class ewa_volume_save_options(c.Structure):
+    struct_size: int
+    plain: bool
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("plain", c.c_bool),
+    ]
+
+
+class ewa_lod_build_options(c.Structure):
+    struct_size: int
+    memory_bytes: int
+    subset: int
+    subset_count: int
+    keep_going: bool
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("memory_bytes", c.c_uint64),
+        ("subset", c.c_uint32),
+        ("subset_count", c.c_uint32),
+        ("keep_going", c.c_bool),
+    ]
+
+
+class ewa_lod_build_stats(c.Structure):
+    point_count: int
+    left_out_count: int
+    merged_count: int
+    node_count: int
+    level_count: int
+    temporary_bytes: int
+    survey_s: float
+    distribute_s: float
+    estimate_s: float
+    merge_s: float
+    write_s: float
+    total_s: float
+    _fields_ = [
+        ("point_count", c.c_uint64),
+        ("left_out_count", c.c_uint64),
+        ("merged_count", c.c_uint64),
+        ("node_count", c.c_uint32),
+        ("level_count", c.c_uint32),
+        ("temporary_bytes", c.c_uint64),
+        ("survey_s", c.c_double),
+        ("distribute_s", c.c_double),
+        ("estimate_s", c.c_double),
+        ("merge_s", c.c_double),
+        ("write_s", c.c_double),
+        ("total_s", c.c_double),
+    ]
+
+
+class ewa_lod_info(c.Structure):
+    kind: bytes | None
+    point_count: int
+    bounds: ewa_bounds
+    low_world: c.Array[c.c_double]
+    side_world: float
+    spacing_world: float
+    node_count: int
+    level_count: int
+    merged: bool
+    merged_count: int
+    surfels: bool
+    prototype: int | None
+    _fields_ = [
+        ("kind", c.c_char_p),
+        ("point_count", c.c_uint64),
+        ("bounds", ewa_bounds),
+        ("low_world", c.c_double * 3),
+        ("side_world", c.c_double),
+        ("spacing_world", c.c_double),
+        ("node_count", c.c_uint32),
+        ("level_count", c.c_uint32),
+        ("merged", c.c_bool),
+        ("merged_count", c.c_uint64),
+        ("surfels", c.c_bool),
+        ("prototype", c.c_void_p),
+    ]
+
+
+class ewa_lod_options(c.Structure):
+    struct_size: int
+    spacing_px: float
+    error: float
+    memory_bytes: int
+    load_s: float
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("spacing_px", c.c_double),
+        ("error", c.c_double),
+        ("memory_bytes", c.c_uint64),
+        ("load_s", c.c_double),
+    ]
+
+
+class ewa_render_stats(c.Structure):
+    splat_count: int
+    culled_count: int
+    hidden_count: int
+    drawn_count: int
+    fragment_count: int
+    bin_s: float
+    setup_s: float
+    visibility_s: float
+    accumulate_s: float
+    edge_s: float
+    resolve_s: float
+    total_s: float
+    level: int
+    _fields_ = [
+        ("splat_count", c.c_uint64),
+        ("culled_count", c.c_uint64),
+        ("hidden_count", c.c_uint64),
+        ("drawn_count", c.c_uint64),
+        ("fragment_count", c.c_uint64),
+        ("bin_s", c.c_double),
+        ("setup_s", c.c_double),
+        ("visibility_s", c.c_double),
+        ("accumulate_s", c.c_double),
+        ("edge_s", c.c_double),
+        ("resolve_s", c.c_double),
+        ("total_s", c.c_double),
+        ("level", c.c_uint32),
+    ]
+
+
+class ewa_lod_stats(c.Structure):
+    render: ewa_render_stats
+    surfel_count: int
+    cube_count: int
+    loaded_count: int
+    missing_count: int
+    band_count: int
+    resident_bytes: int
+    choose_s: float
+    load_s: float
+    _fields_ = [
+        ("render", ewa_render_stats),
+        ("surfel_count", c.c_uint64),
+        ("cube_count", c.c_uint32),
+        ("loaded_count", c.c_uint32),
+        ("missing_count", c.c_uint32),
+        ("band_count", c.c_uint32),
+        ("resident_bytes", c.c_uint64),
+        ("choose_s", c.c_double),
+        ("load_s", c.c_double),
+    ]
+
+
+class ewa_mesh_material(c.Structure):
+    base_color: c.Array[c.c_float]
+    texture: int
+    _fields_ = [
+        ("base_color", c.c_float * 4),
+        ("texture", c.c_uint32),
+    ]
+
+
+class ewa_mesh(c.Structure):
+    context: int | None
+    vertex_count: int
+    triangle_count: int
+    material_count: int
+    positions: int | None
+    normals: int | None
+    colors: int | None
+    texcoords: int | None
+    triangles: int | None
+    triangle_materials: int | None
+    materials: Any
+    textures: Any
+    _fields_ = [
+        ("context", c.c_void_p),
+        ("vertex_count", c.c_uint32),
+        ("triangle_count", c.c_uint32),
+        ("material_count", c.c_uint32),
+        ("positions", c.c_void_p),
+        ("normals", c.c_void_p),
+        ("colors", c.c_void_p),
+        ("texcoords", c.c_void_p),
+        ("triangles", c.c_void_p),
+        ("triangle_materials", c.c_void_p),
+        ("materials", c.POINTER(ewa_mesh_material)),
+        ("textures", c.POINTER(ewa_image)),
+    ]
+
+
+class ewa_mesh_sample_options(c.Structure):
+    struct_size: int
+    point_count: int
+    spacing_world: float
+    seed: int
+    crease_degrees: float
+    radius_scale: float
+    cutoff: float
+    clip_lines: bool
+    smooth_normals: bool
+    texture_filter: int
+    pixel_sigma_px: float
+    texcoords: bool
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("point_count", c.c_uint64),
+        ("spacing_world", c.c_double),
+        ("seed", c.c_uint64),
+        ("crease_degrees", c.c_double),
+        ("radius_scale", c.c_double),
+        ("cutoff", c.c_double),
+        ("clip_lines", c.c_bool),
+        ("smooth_normals", c.c_bool),
+        ("texture_filter", c.c_int),
+        ("pixel_sigma_px", c.c_double),
+        ("texcoords", c.c_bool),
+    ]
+
+
+class ewa_model(c.Structure):
+    format: int
+    lost_count: int
+    face_count: int
+    mesh: ewa_mesh
+    points: int | None
+    elements: int | None
+    _fields_ = [
+        ("format", c.c_int),
+        ("lost_count", c.c_uint64),
+        ("face_count", c.c_uint64),
+        ("mesh", ewa_mesh),
+        ("points", c.c_void_p),
+        ("elements", c.c_void_p),
+    ]
+
+
+class ewa_option(c.Structure):
+    name: bytes | None
+    type: int
+    offset: int
+    minimum: float
+    maximum: float
+    limits: int
+    count: int
+    initial: float
+    initials: int | None
+    unit: bytes | None
+    words: bytes | None
+    help: bytes | None
+    _fields_ = [
+        ("name", c.c_char_p),
+        ("type", c.c_int),
+        ("offset", c.c_size_t),
+        ("minimum", c.c_double),
+        ("maximum", c.c_double),
+        ("limits", c.c_uint32),
+        ("count", c.c_uint32),
+        ("initial", c.c_double),
+        ("initials", c.c_void_p),
+        ("unit", c.c_char_p),
+        ("words", c.c_char_p),
+        ("help", c.c_char_p),
+    ]
+
+
+class ewa_option_table(c.Structure):
+    name: bytes | None
+    options: Any
+    option_count: int
+    struct_size: int
+    _fields_ = [
+        ("name", c.c_char_p),
+        ("options", c.POINTER(ewa_option)),
+        ("option_count", c.c_size_t),
+        ("struct_size", c.c_size_t),
+    ]
+
+
+class ewa_csg_options(c.Structure):
+    struct_size: int
+    operation: int
+    cutoff: float
+    names: c.Array[c.c_char_p]
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("operation", c.c_int),
+        ("cutoff", c.c_double),
+        ("names", c.c_char_p * 2),
+    ]
+
+
+class ewa_estimate_options(c.Structure):
+    struct_size: int
+    neighbour_count: int
+    orientation: int
+    viewpoint_world: c.Array[c.c_double]
+    shape: int
+    radius_scale: float
+    radius_limit: float
+    cutoff: float
+    keep_normals: bool
+    keep_radii: bool
+    outlier_factor: float
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("neighbour_count", c.c_uint32),
+        ("orientation", c.c_int),
+        ("viewpoint_world", c.c_double * 3),
+        ("shape", c.c_int),
+        ("radius_scale", c.c_double),
+        ("radius_limit", c.c_double),
+        ("cutoff", c.c_double),
+        ("keep_normals", c.c_bool),
+        ("keep_radii", c.c_bool),
+        ("outlier_factor", c.c_double),
+    ]
+
+
+class ewa_feature_counts(c.Structure):
+    snapped_count: int
+    edge_count: int
+    corner_count: int
+    noise: float
+    neighbour_count: int
+    _fields_ = [
+        ("snapped_count", c.c_uint64),
+        ("edge_count", c.c_uint64),
+        ("corner_count", c.c_uint64),
+        ("noise", c.c_double),
+        ("neighbour_count", c.c_uint32),
+    ]
+
+
+class ewa_feature_options(c.Structure):
+    struct_size: int
+    neighbour_count: int
+    angle_deg: float
+    noise: float
+    cutoff: float
+    project: bool
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("neighbour_count", c.c_uint32),
+        ("angle_deg", c.c_double),
+        ("noise", c.c_double),
+        ("cutoff", c.c_double),
+        ("project", c.c_bool),
+    ]
+
+
+class ewa_generate_options(c.Structure):
+    struct_size: int
+    object: int
+    point_count: int
+    seed: int
+    size_world: float
+    jitter: float
+    checks: float
+    radius_scale: float
+    positions_only: bool
+    sharp: bool
+    texcoords: bool
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("object", c.c_int),
+        ("point_count", c.c_uint64),
+        ("seed", c.c_uint64),
+        ("size_world", c.c_double),
+        ("jitter", c.c_double),
+        ("checks", c.c_double),
+        ("radius_scale", c.c_double),
+        ("positions_only", c.c_bool),
+        ("sharp", c.c_bool),
+        ("texcoords", c.c_bool),
+    ]
+
+
+class ewa_refit_options(c.Structure):
+    struct_size: int
+    goal: int
+    cutoff: float
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("goal", c.c_int),
+        ("cutoff", c.c_double),
+    ]
+
+
+class ewa_refit_report(c.Structure):
+    surfel_count: int
+    left_out_count: int
+    before_rms: float
+    after_rms: float
+    low: float
+    high: float
+    iteration_count: int
+    _fields_ = [
+        ("surfel_count", c.c_uint64),
+        ("left_out_count", c.c_uint64),
+        ("before_rms", c.c_double),
+        ("after_rms", c.c_double),
+        ("low", c.c_float),
+        ("high", c.c_float),
+        ("iteration_count", c.c_uint32),
+    ]
+
+
+class ewa_spacing(c.Structure):
+    median_world: float
+    mean_world: float
+    low_world: float
+    high_world: float
+    duplicate_count: int
+    _fields_ = [
+        ("median_world", c.c_double),
+        ("mean_world", c.c_double),
+        ("low_world", c.c_double),
+        ("high_world", c.c_double),
+        ("duplicate_count", c.c_uint64),
+    ]
+
+
+class ewa_volume_generate_options(c.Structure):
+    struct_size: int
+    object: int
+    dims: c.Array[c.c_uint32]
+    size_world: float
+    checks: float
+    seed: int
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("object", c.c_int),
+        ("dims", c.c_uint32 * 3),
+        ("size_world", c.c_double),
+        ("checks", c.c_double),
+        ("seed", c.c_uint64),
+    ]
+
+
+class ewa_procedure_options(c.Structure):
+    struct_size: int
+    procedure: int
+    frequency: float
+    prefilter: float
+    cutoff: float
+    seed: int
+    colors: c.Array[Any]
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("procedure", c.c_int),
+        ("frequency", c.c_double),
+        ("prefilter", c.c_double),
+        ("cutoff", c.c_double),
+        ("seed", c.c_uint64),
+        ("colors", (c.c_float * 3) * 2),
+    ]
+
+
+class ewa_frame(c.Structure):
+    rgba8: int | None
+    rgba: int | None
+    depth: int | None
+    normal: int | None
+    coverage: int | None
+    _fields_ = [
+        ("rgba8", c.c_void_p),
+        ("rgba", c.c_void_p),
+        ("depth", c.c_void_p),
+        ("normal", c.c_void_p),
+        ("coverage", c.c_void_p),
+    ]
+
+
+class ewa_light(c.Structure):
+    direction_world: c.Array[c.c_double]
+    color: c.Array[c.c_float]
+    _fields_ = [
+        ("direction_world", c.c_double * 3),
+        ("color", c.c_float * 3),
+    ]
+
+
+class ewa_material(c.Structure):
+    ambient: float
+    diffuse: float
+    specular: float
+    shininess: float
+    reflection: float
+    _fields_ = [
+        ("ambient", c.c_float),
+        ("diffuse", c.c_float),
+        ("specular", c.c_float),
+        ("shininess", c.c_float),
+        ("reflection", c.c_float),
+    ]
+
+
+class ewa_render_options(c.Structure):
+    struct_size: int
+    kernel: int
+    prefilter_px: float
+    point_size_px: float
+    tolerance: float
+    passes: int
+    edge_antialiasing: bool
+    edge_threshold: float
+    edge_layers: int
+    opacity: float
+    layers: int
+    cull: int
+    shading: int
+    lights: c.Array[ewa_light]
+    light_count: int
+    ambient: float
+    materials: Any
+    material_count: int
+    environment: int | None
+    environment_up: c.Array[c.c_double]
+    eye_dome: float
+    background: c.Array[c.c_float]
+    section_planes: c.Array[Any]
+    section_count: int
+    level: int
+    budget_s: float
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("kernel", c.c_int),
+        ("prefilter_px", c.c_double),
+        ("point_size_px", c.c_double),
+        ("tolerance", c.c_double),
+        ("passes", c.c_uint32),
+        ("edge_antialiasing", c.c_bool),
+        ("edge_threshold", c.c_double),
+        ("edge_layers", c.c_uint32),
+        ("opacity", c.c_double),
+        ("layers", c.c_uint32),
+        ("cull", c.c_int),
+        ("shading", c.c_int),
+        ("lights", ewa_light * 8),
+        ("light_count", c.c_uint32),
+        ("ambient", c.c_double),
+        ("materials", c.POINTER(ewa_material)),
+        ("material_count", c.c_uint32),
+        ("environment", c.c_void_p),
+        ("environment_up", c.c_double * 3),
+        ("eye_dome", c.c_double),
+        ("background", c.c_float * 4),
+        ("section_planes", (c.c_double * 4) * 8),
+        ("section_count", c.c_uint32),
+        ("level", c.c_uint32),
+        ("budget_s", c.c_double),
+    ]
+
+
+class ewa_surfels_info(c.Structure):
+    point_count: int
+    left_out_count: int
+    resident_bytes: int
+    unit_coverage: float
+    transparent: bool
+    bounds: ewa_bounds
+    material_count: int
+    level_count: int
+    _fields_ = [
+        ("point_count", c.c_uint64),
+        ("left_out_count", c.c_uint64),
+        ("resident_bytes", c.c_size_t),
+        ("unit_coverage", c.c_double),
+        ("transparent", c.c_bool),
+        ("bounds", ewa_bounds),
+        ("material_count", c.c_uint32),
+        ("level_count", c.c_uint32),
+    ]
+
+
+class ewa_surfels_options(c.Structure):
+    struct_size: int
+    cutoff: float
+    radius_scale: float
+    level_count: int
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("cutoff", c.c_double),
+        ("radius_scale", c.c_double),
+        ("level_count", c.c_uint32),
+    ]
+
+
+class ewa_texture_options(c.Structure):
+    struct_size: int
+    method: int
+    prefilter_px: float
+    cutoff: float
+    sigma_texels: float
+    point_spacing_px: float
+    repeat: bool
+    background: c.Array[c.c_float]
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("method", c.c_int),
+        ("prefilter_px", c.c_double),
+        ("cutoff", c.c_double),
+        ("sigma_texels", c.c_double),
+        ("point_spacing_px", c.c_double),
+        ("repeat", c.c_bool),
+        ("background", c.c_float * 4),
+    ]
+
+
+class ewa_texture_source(c.Structure):
+    pixels: int | None
+    format: int
+    channel_count: int
+    width_px: int
+    height_px: int
+    stride_bytes: int
+    _fields_ = [
+        ("pixels", c.c_void_p),
+        ("format", c.c_int),
+        ("channel_count", c.c_uint32),
+        ("width_px", c.c_uint32),
+        ("height_px", c.c_uint32),
+        ("stride_bytes", c.c_size_t),
+    ]
+
+
+class ewa_texture_stats(c.Structure):
+    splat_count: int
+    point_count: int
+    texel_count: int
+    point_texel_count: int
+    level_bytes: int
+    levels_s: float
+    total_s: float
+    _fields_ = [
+        ("splat_count", c.c_uint64),
+        ("point_count", c.c_uint64),
+        ("texel_count", c.c_uint64),
+        ("point_texel_count", c.c_uint64),
+        ("level_bytes", c.c_uint64),
+        ("levels_s", c.c_double),
+        ("total_s", c.c_double),
+    ]
+
+
+class ewa_texture_target(c.Structure):
+    pixels: int | None
+    format: int
+    channel_count: int
+    width_px: int
+    height_px: int
+    stride_bytes: int
+    _fields_ = [
+        ("pixels", c.c_void_p),
+        ("format", c.c_int),
+        ("channel_count", c.c_uint32),
+        ("width_px", c.c_uint32),
+        ("height_px", c.c_uint32),
+        ("stride_bytes", c.c_size_t),
+    ]
+
+
+class ewa_filter_range(c.Structure):
+    low: float
+    high: float
+    low_open: bool
+    high_open: bool
+    _fields_ = [
+        ("low", c.c_double),
+        ("high", c.c_double),
+        ("low_open", c.c_bool),
+        ("high_open", c.c_bool),
+    ]
+
+
+class ewa_filter_term(c.Structure):
+    name: bytes
+    outside: bool
+    range_count: int
+    ranges: c.Array[ewa_filter_range]
+    _fields_ = [
+        ("name", c.c_char * 64),
+        ("outside", c.c_bool),
+        ("range_count", c.c_uint32),
+        ("ranges", ewa_filter_range * 32),
+    ]
+
+
+class ewa_filter(c.Structure):
+    term_count: int
+    terms: c.Array[ewa_filter_term]
+    _fields_ = [
+        ("term_count", c.c_uint32),
+        ("terms", ewa_filter_term * 16),
+    ]
+
+
+class ewa_scalar(c.Structure):
+    attribute: ewa_attribute
+    component: int
+    shift_world: float
+    grid: ewa_coordinate_grid
+    _fields_ = [
+        ("attribute", ewa_attribute),
+        ("component", c.c_uint32),
+        ("shift_world", c.c_double),
+        ("grid", ewa_coordinate_grid),
+    ]
+
+
+class ewa_transfer_point(c.Structure):
+    value: float
+    color: c.Array[c.c_float]
+    extinction: float
+    _fields_ = [
+        ("value", c.c_double),
+        ("color", c.c_float * 3),
+        ("extinction", c.c_float),
+    ]
+
+
+class ewa_transfer(c.Structure):
+    points: c.Array[ewa_transfer_point]
+    point_count: int
+    unit_length_world: float
+    gradient_low: float
+    gradient_high: float
+    _fields_ = [
+        ("points", ewa_transfer_point * 1024),
+        ("point_count", c.c_uint32),
+        ("unit_length_world", c.c_double),
+        ("gradient_low", c.c_double),
+        ("gradient_high", c.c_double),
+    ]
+
+
+class ewa_volume(c.Structure):
+    context: int | None
+    dims: c.Array[c.c_uint32]
+    type: int
+    voxels: int | None
+    index_to_world: c.Array[c.c_double]
+    anatomical: bool
+    _fields_ = [
+        ("context", c.c_void_p),
+        ("dims", c.c_uint32 * 3),
+        ("type", c.c_int),
+        ("voxels", c.c_void_p),
+        ("index_to_world", c.c_double * 12),
+        ("anatomical", c.c_bool),
+    ]
+
+
+class ewa_volume_facts(c.Structure):
+    voxel_count: int
+    finite_count: int
+    low: float
+    high: float
+    mean: float
+    histogram: c.Array[c.c_uint64]
+    spacing_world: c.Array[c.c_double]
+    low_world: c.Array[c.c_double]
+    high_world: c.Array[c.c_double]
+    _fields_ = [
+        ("voxel_count", c.c_uint64),
+        ("finite_count", c.c_uint64),
+        ("low", c.c_double),
+        ("high", c.c_double),
+        ("mean", c.c_double),
+        ("histogram", c.c_uint64 * 256),
+        ("spacing_world", c.c_double * 3),
+        ("low_world", c.c_double * 3),
+        ("high_world", c.c_double * 3),
+    ]
+
+
+class ewa_volume_options(c.Structure):
+    struct_size: int
+    method: int
+    index: int
+    sigma: float
+    cutoff: float
+    prefilter_px: float
+    point_threshold_px: float
+    depth_unit: float
+    level: int
+    density_scale: float
+    least_transmittance: float
+    shading: int
+    lights: c.Array[ewa_light]
+    light_count: int
+    material: ewa_material
+    background: c.Array[c.c_float]
+    surface_depth: int | None
+    surface_rgba: int | None
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("method", c.c_int),
+        ("index", c.c_int),
+        ("sigma", c.c_double),
+        ("cutoff", c.c_double),
+        ("prefilter_px", c.c_double),
+        ("point_threshold_px", c.c_double),
+        ("depth_unit", c.c_double),
+        ("level", c.c_uint32),
+        ("density_scale", c.c_double),
+        ("least_transmittance", c.c_double),
+        ("shading", c.c_int),
+        ("lights", ewa_light * 8),
+        ("light_count", c.c_uint32),
+        ("material", ewa_material),
+        ("background", c.c_float * 4),
+        ("surface_depth", c.c_void_p),
+        ("surface_rgba", c.c_void_p),
+    ]
+
+
+class ewa_volume_stats(c.Structure):
+    voxel_count: int
+    culled_count: int
+    near_count: int
+    hidden_count: int
+    splat_count: int
+    point_count: int
+    point_share: float
+    bin_s: float
+    setup_s: float
+    points_s: float
+    splats_s: float
+    resolve_s: float
+    total_s: float
+    _fields_ = [
+        ("voxel_count", c.c_uint64),
+        ("culled_count", c.c_uint64),
+        ("near_count", c.c_uint64),
+        ("hidden_count", c.c_uint64),
+        ("splat_count", c.c_uint64),
+        ("point_count", c.c_uint64),
+        ("point_share", c.c_double),
+        ("bin_s", c.c_double),
+        ("setup_s", c.c_double),
+        ("points_s", c.c_double),
+        ("splats_s", c.c_double),
+        ("resolve_s", c.c_double),
+        ("total_s", c.c_double),
+    ]
+
+
+class ewa_voxels_info(c.Structure):
+    voxel_count: int
+    occupied_count: int
+    block_count: int
+    skipped_count: int
+    level_count: int
+    resident_bytes: int
+    bounds: ewa_bounds
+    spacing_world: float
+    _fields_ = [
+        ("voxel_count", c.c_uint64),
+        ("occupied_count", c.c_uint64),
+        ("block_count", c.c_uint64),
+        ("skipped_count", c.c_uint64),
+        ("level_count", c.c_uint32),
+        ("resident_bytes", c.c_size_t),
+        ("bounds", ewa_bounds),
+        ("spacing_world", c.c_double),
+    ]
+
+
+class ewa_voxels_options(c.Structure):
+    struct_size: int
+    level_count: int
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("level_count", c.c_uint32),
+    ]
+
+
+class ewa_depth_image(c.Structure):
+    camera: ewa_camera
+    depth: int | None
+    depth_type: int
+    depth_stride_bytes: int
+    kind: int
+    depth_scale: float
+    baseline_world: float
+    disparity_offset_px: float
+    color: int | None
+    color_type: int
+    color_channel_count: int
+    color_stride_bytes: int
+    _fields_ = [
+        ("camera", ewa_camera),
+        ("depth", c.c_void_p),
+        ("depth_type", c.c_int),
+        ("depth_stride_bytes", c.c_size_t),
+        ("kind", c.c_int),
+        ("depth_scale", c.c_double),
+        ("baseline_world", c.c_double),
+        ("disparity_offset_px", c.c_double),
+        ("color", c.c_void_p),
+        ("color_type", c.c_int),
+        ("color_channel_count", c.c_uint32),
+        ("color_stride_bytes", c.c_size_t),
+    ]
+
+
+class ewa_warp_facts(c.Structure):
+    pixel_count: int
+    sample_count: int
+    flying_count: int
+    take_s: float
+    _fields_ = [
+        ("pixel_count", c.c_uint64),
+        ("sample_count", c.c_uint64),
+        ("flying_count", c.c_uint64),
+        ("take_s", c.c_double),
+    ]
+
+
+class ewa_warp_options(c.Structure):
+    struct_size: int
+    cutoff: float
+    radius_spacings: float
+    depth_jump: float
+    depth_noise: float
+    drop_flying: bool
+    nearest_world: float
+    farthest_world: float
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("cutoff", c.c_double),
+        ("radius_spacings", c.c_double),
+        ("depth_jump", c.c_double),
+        ("depth_noise", c.c_double),
+        ("drop_flying", c.c_bool),
+        ("nearest_world", c.c_double),
+        ("farthest_world", c.c_double),
+    ]
+
+
+#: Tables of options that the library exports.
+TABLES = (
+    "ewa_acquire_options_table",
+    "ewa_furniture_options_table",
+    "ewa_cloud_load_options_table",
+    "ewa_cloud_save_options_table",
+    "ewa_image_save_options_table",
+    "ewa_volume_load_options_table",
+    "ewa_volume_save_options_table",
+    "ewa_lod_options_table",
+    "ewa_lod_build_options_table",
+    "ewa_mesh_sample_options_table",
+    "ewa_context_options_table",
+    "ewa_estimate_options_table",
+    "ewa_csg_options_table",
+    "ewa_feature_options_table",
+    "ewa_refit_options_table",
+    "ewa_generate_options_table",
+    "ewa_volume_generate_options_table",
+    "ewa_procedure_options_table",
+    "ewa_surfels_options_table",
+    "ewa_render_options_table",
+    "ewa_texture_options_table",
+    "ewa_material_table",
+    "ewa_voxels_options_table",
+    "ewa_volume_options_table",
+    "ewa_warp_options_table",
+)
+
+
+class Functions:
+    """Every function of the library, with the types of its arguments."""
+
+    ewa_context_cpu_features: Callable[..., int]
+    ewa_context_create: Callable[..., int]
+    ewa_context_destroy: Callable[..., None]
+    ewa_context_options_init: Callable[..., None]
+    ewa_context_worker_count: Callable[..., int]
+    ewa_status_name: Callable[..., bytes | None]
+    ewa_type_bytes: Callable[..., int]
+    ewa_type_name: Callable[..., bytes | None]
+    ewa_version: Callable[..., bytes | None]
+    ewa_acquire_options_init: Callable[..., None]
+    ewa_cloud_acquire: Callable[..., int]
+    ewa_camera_check: Callable[..., int]
+    ewa_camera_eye: Callable[..., None]
+    ewa_camera_frame: Callable[..., int]
+    ewa_camera_init: Callable[..., None]
+    ewa_camera_look_at: Callable[..., int]
+    ewa_camera_orbit: Callable[..., int]
+    ewa_camera_path_at: Callable[..., int]
+    ewa_camera_path_create: Callable[..., int]
+    ewa_camera_path_destroy: Callable[..., None]
+    ewa_camera_set_fov: Callable[..., int]
+    ewa_camera_set_ortho: Callable[..., int]
+    ewa_attribute_read_f32: Callable[..., None]
+    ewa_attribute_read_f64: Callable[..., None]
+    ewa_cloud_add: Callable[..., int]
+    ewa_cloud_attribute_at: Callable[..., Any]
+    ewa_cloud_attribute_count: Callable[..., int]
+    ewa_cloud_borrow: Callable[..., int]
+    ewa_cloud_create: Callable[..., int]
+    ewa_cloud_destroy: Callable[..., None]
+    ewa_cloud_find: Callable[..., Any]
+    ewa_cloud_grid: Callable[..., None]
+    ewa_cloud_measure: Callable[..., int]
+    ewa_cloud_merge: Callable[..., int]
+    ewa_cloud_note: Callable[..., bytes | None]
+    ewa_cloud_note_name: Callable[..., bytes | None]
+    ewa_cloud_origin: Callable[..., None]
+    ewa_cloud_point_count: Callable[..., int]
+    ewa_cloud_remove: Callable[..., None]
+    ewa_cloud_select: Callable[..., int]
+    ewa_cloud_set_grid: Callable[..., None]
+    ewa_cloud_set_note: Callable[..., int]
+    ewa_cloud_set_origin: Callable[..., None]
+    ewa_cloud_transform: Callable[..., int]
+    ewa_grid_world: Callable[..., float]
+    ewa_renderer_create_joint: Callable[..., int]
+    ewa_draw_line: Callable[..., None]
+    ewa_draw_rectangle: Callable[..., None]
+    ewa_draw_text: Callable[..., None]
+    ewa_furniture_draw: Callable[..., int]
+    ewa_furniture_options_init: Callable[..., None]
+    ewa_text_width_px: Callable[..., float]
+    ewa_gpu_class_name: Callable[..., bytes | None]
+    ewa_gpu_describe: Callable[..., int]
+    ewa_renderer_create_on: Callable[..., int]
+    ewa_renderer_describe: Callable[..., int]
+    ewa_camera_clip_map: Callable[..., int]
+    ewa_clip_alphas: Callable[..., int]
+    ewa_clip_polygon: Callable[..., int]
+    ewa_clip_segment: Callable[..., int]
+    ewa_clip_segments: Callable[..., int]
+    ewa_conic_dual: Callable[..., ewa_conic]
+    ewa_conic_polar: Callable[..., ewa_vec3]
+    ewa_conic_pull: Callable[..., ewa_conic]
+    ewa_conic_transform: Callable[..., int]
+    ewa_conic_value: Callable[..., float]
+    ewa_dual_conic_ellipse: Callable[..., int]
+    ewa_dual_conic_transform: Callable[..., ewa_conic]
+    ewa_hyperbolic_alpha: Callable[..., int]
+    ewa_hyperbolic_at: Callable[..., int]
+    ewa_hyperbolic_fit: Callable[..., int]
+    ewa_incidence2: Callable[..., float]
+    ewa_incidence3: Callable[..., float]
+    ewa_line2_distance: Callable[..., int]
+    ewa_line2_join: Callable[..., int]
+    ewa_line2_meet: Callable[..., int]
+    ewa_line2_pull: Callable[..., ewa_vec3]
+    ewa_line2_transform: Callable[..., int]
+    ewa_line3_incidence: Callable[..., float]
+    ewa_line3_join: Callable[..., int]
+    ewa_line3_join_point: Callable[..., int]
+    ewa_line3_meet: Callable[..., int]
+    ewa_line3_meet_plane: Callable[..., int]
+    ewa_line3_transform: Callable[..., ewa_line3]
+    ewa_mat3_concatenate: Callable[..., ewa_mat3]
+    ewa_mat3_invert: Callable[..., int]
+    ewa_mat4_concatenate: Callable[..., ewa_mat4]
+    ewa_mat4_invert: Callable[..., int]
+    ewa_plane_distance: Callable[..., int]
+    ewa_plane_join: Callable[..., int]
+    ewa_plane_meet: Callable[..., int]
+    ewa_plane_pull: Callable[..., ewa_vec4]
+    ewa_plane_transform: Callable[..., int]
+    ewa_point2_divide: Callable[..., int]
+    ewa_point2_transform: Callable[..., ewa_vec3]
+    ewa_point3_divide: Callable[..., int]
+    ewa_point3_transform: Callable[..., ewa_vec4]
+    ewa_triangle_barycentric: Callable[..., int]
+    ewa_triangle_distances: Callable[..., int]
+    ewa_triangle_point: Callable[..., int]
+    ewa_triangle_point_from_distances: Callable[..., int]
+    ewa_class_color: Callable[..., None]
+    ewa_class_find: Callable[..., bool]
+    ewa_class_name: Callable[..., None]
+    ewa_colormap_color: Callable[..., None]
+    ewa_image_create: Callable[..., int]
+    ewa_image_free: Callable[..., None]
+    ewa_linear_from_srgb: Callable[..., float]
+    ewa_srgb_from_linear: Callable[..., float]
+    ewa_camera_load: Callable[..., int]
+    ewa_camera_load_each: Callable[..., int]
+    ewa_camera_load_lens: Callable[..., int]
+    ewa_camera_load_poses: Callable[..., int]
+    ewa_camera_save: Callable[..., int]
+    ewa_camera_save_list: Callable[..., int]
+    ewa_cloud_load: Callable[..., int]
+    ewa_cloud_load_memory: Callable[..., int]
+    ewa_cloud_load_options_init: Callable[..., None]
+    ewa_cloud_reader_close: Callable[..., None]
+    ewa_cloud_reader_lost_count: Callable[..., int]
+    ewa_cloud_reader_most_points: Callable[..., int]
+    ewa_cloud_reader_next: Callable[..., int]
+    ewa_cloud_reader_open: Callable[..., int]
+    ewa_cloud_reader_prototype: Callable[..., int | None]
+    ewa_cloud_save: Callable[..., int]
+    ewa_cloud_save_options_init: Callable[..., None]
+    ewa_cloud_writer_abort: Callable[..., None]
+    ewa_cloud_writer_commit: Callable[..., int]
+    ewa_cloud_writer_needs_bounds: Callable[..., bool]
+    ewa_cloud_writer_open: Callable[..., int]
+    ewa_cloud_writer_put: Callable[..., int]
+    ewa_depth_load: Callable[..., int]
+    ewa_depth_load_memory: Callable[..., int]
+    ewa_elements_face_count: Callable[..., int]
+    ewa_elements_free: Callable[..., None]
+    ewa_image_load: Callable[..., int]
+    ewa_image_load_memory: Callable[..., int]
+    ewa_image_save: Callable[..., int]
+    ewa_image_save_options_init: Callable[..., None]
+    ewa_materials_load: Callable[..., int]
+    ewa_ply_describe: Callable[..., int]
+    ewa_png_save: Callable[..., int]
+    ewa_transfer_load: Callable[..., int]
+    ewa_transfer_save: Callable[..., int]
+    ewa_volume_load: Callable[..., int]
+    ewa_volume_load_memory: Callable[..., int]
+    ewa_volume_load_options_init: Callable[..., None]
+    ewa_volume_save: Callable[..., int]
+    ewa_volume_save_options_init: Callable[..., None]
+    ewa_lod_build: Callable[..., int]
+    ewa_lod_build_options_init: Callable[..., None]
+    ewa_lod_close: Callable[..., None]
+    ewa_lod_describe: Callable[..., None]
+    ewa_lod_merge: Callable[..., int]
+    ewa_lod_open: Callable[..., int]
+    ewa_lod_options_init: Callable[..., None]
+    ewa_lod_probe: Callable[..., bool]
+    ewa_lod_read: Callable[..., int]
+    ewa_lod_render: Callable[..., int]
+    ewa_lod_sample: Callable[..., int]
+    ewa_mesh_create: Callable[..., int]
+    ewa_mesh_free: Callable[..., None]
+    ewa_mesh_is_closed: Callable[..., int]
+    ewa_mesh_load: Callable[..., int]
+    ewa_mesh_sample: Callable[..., int]
+    ewa_mesh_sample_options_init: Callable[..., None]
+    ewa_mesh_set_picture: Callable[..., int]
+    ewa_model_format_name: Callable[..., bytes | None]
+    ewa_model_free: Callable[..., None]
+    ewa_model_load: Callable[..., int]
+    ewa_model_load_memory: Callable[..., int]
+    ewa_model_probe: Callable[..., int]
+    ewa_option_find: Callable[..., Any]
+    ewa_option_get: Callable[..., None]
+    ewa_option_range: Callable[..., None]
+    ewa_option_set: Callable[..., int]
+    ewa_cloud_csg: Callable[..., int]
+    ewa_cloud_detect_features: Callable[..., int]
+    ewa_cloud_estimate: Callable[..., int]
+    ewa_cloud_generate: Callable[..., int]
+    ewa_cloud_measure_spacing: Callable[..., int]
+    ewa_cloud_refit_colors: Callable[..., int]
+    ewa_csg_options_init: Callable[..., None]
+    ewa_estimate_options_init: Callable[..., None]
+    ewa_feature_options_init: Callable[..., None]
+    ewa_generate_options_init: Callable[..., None]
+    ewa_refit_options_init: Callable[..., None]
+    ewa_volume_generate: Callable[..., int]
+    ewa_volume_generate_options_init: Callable[..., None]
+    ewa_volume_outline: Callable[..., int]
+    ewa_cloud_color_by_procedure: Callable[..., int]
+    ewa_procedure_options_init: Callable[..., None]
+    ewa_render: Callable[..., int]
+    ewa_render_add: Callable[..., int]
+    ewa_render_add_weighted: Callable[..., int]
+    ewa_render_begin: Callable[..., int]
+    ewa_render_finish: Callable[..., int]
+    ewa_render_options_init: Callable[..., None]
+    ewa_renderer_create: Callable[..., int]
+    ewa_renderer_destroy: Callable[..., None]
+    ewa_surfels_create: Callable[..., int]
+    ewa_surfels_describe: Callable[..., None]
+    ewa_surfels_destroy: Callable[..., None]
+    ewa_surfels_options_init: Callable[..., None]
+    ewa_texture_map: Callable[..., int]
+    ewa_texture_map_from_camera: Callable[..., int]
+    ewa_texture_map_from_corners: Callable[..., int]
+    ewa_texture_options_init: Callable[..., None]
+    ewa_box_mark: Callable[..., int]
+    ewa_cloud_find_scalar: Callable[..., int]
+    ewa_cloud_keep: Callable[..., int]
+    ewa_cloud_thin_distance: Callable[..., int]
+    ewa_cloud_thin_voxels: Callable[..., int]
+    ewa_filter_add: Callable[..., int]
+    ewa_filter_mark: Callable[..., int]
+    ewa_polygon_box: Callable[..., None]
+    ewa_polygon_create: Callable[..., int]
+    ewa_polygon_destroy: Callable[..., None]
+    ewa_polygon_load: Callable[..., int]
+    ewa_polygon_mark: Callable[..., int]
+    ewa_polygon_read: Callable[..., int]
+    ewa_scalar_read: Callable[..., None]
+    ewa_environment_create: Callable[..., int]
+    ewa_environment_destroy: Callable[..., None]
+    ewa_light_init: Callable[..., None]
+    ewa_material_init: Callable[..., None]
+    ewa_transfer_automatic: Callable[..., int]
+    ewa_transfer_preset: Callable[..., int]
+    ewa_transfer_preset_name: Callable[..., bytes | None]
+    ewa_volume_create: Callable[..., int]
+    ewa_volume_free: Callable[..., None]
+    ewa_volume_measure: Callable[..., int]
+    ewa_volume_options_init: Callable[..., None]
+    ewa_volume_render: Callable[..., int]
+    ewa_volume_renderer_create: Callable[..., int]
+    ewa_volume_renderer_destroy: Callable[..., None]
+    ewa_voxels_create: Callable[..., int]
+    ewa_voxels_describe: Callable[..., None]
+    ewa_voxels_destroy: Callable[..., None]
+    ewa_voxels_options_init: Callable[..., None]
+    ewa_depth_image_init: Callable[..., None]
+    ewa_warp_create: Callable[..., int]
+    ewa_warp_destroy: Callable[..., None]
+    ewa_warp_draw: Callable[..., int]
+    ewa_warp_options_init: Callable[..., None]
+    ewa_warp_render_options_init: Callable[..., None]
+    ewa_warp_take: Callable[..., int]
+
+    def __init__(self, library: c.CDLL) -> None:
+        def bind(name: str, result: Any, *parameters: Any) -> Any:
+            function = getattr(library, name)
+            function.restype = result
+            function.argtypes = parameters
+            return function
+
+        self.ewa_context_cpu_features = bind("ewa_context_cpu_features", c.c_uint32, c.c_void_p)
+        self.ewa_context_create = bind("ewa_context_create", c.c_int, c.POINTER(ewa_context_options), c.c_void_p)
+        self.ewa_context_destroy = bind("ewa_context_destroy", None, c.c_void_p)
+        self.ewa_context_options_init = bind("ewa_context_options_init", None, c.POINTER(ewa_context_options), c.c_size_t)
+        self.ewa_context_worker_count = bind("ewa_context_worker_count", c.c_uint32, c.c_void_p)
+        self.ewa_status_name = bind("ewa_status_name", c.c_char_p, c.c_int)
+        self.ewa_type_bytes = bind("ewa_type_bytes", c.c_size_t, c.c_int)
+        self.ewa_type_name = bind("ewa_type_name", c.c_char_p, c.c_int)
+        self.ewa_version = bind("ewa_version", c.c_char_p)
+        self.ewa_acquire_options_init = bind("ewa_acquire_options_init", None, c.POINTER(ewa_acquire_options), c.c_size_t)
+        self.ewa_cloud_acquire = bind("ewa_cloud_acquire", c.c_int, c.c_void_p, c.POINTER(ewa_image), c.c_uint32, c.POINTER(ewa_acquire_options), c.POINTER(ewa_acquire_report))
+        self.ewa_camera_check = bind("ewa_camera_check", c.c_int, c.c_void_p, c.POINTER(ewa_camera))
+        self.ewa_camera_eye = bind("ewa_camera_eye", None, c.POINTER(ewa_camera), c.c_void_p)
+        self.ewa_camera_frame = bind("ewa_camera_frame", c.c_int, c.POINTER(ewa_camera), c.POINTER(ewa_bounds), c.c_void_p, c.c_void_p, c.c_double)
+        self.ewa_camera_init = bind("ewa_camera_init", None, c.POINTER(ewa_camera))
+        self.ewa_camera_look_at = bind("ewa_camera_look_at", c.c_int, c.POINTER(ewa_camera), c.c_void_p, c.c_void_p, c.c_void_p)
+        self.ewa_camera_orbit = bind("ewa_camera_orbit", c.c_int, c.POINTER(ewa_camera), c.c_void_p, c.c_void_p, c.c_double)
+        self.ewa_camera_path_at = bind("ewa_camera_path_at", c.c_int, c.c_void_p, c.c_double, c.POINTER(ewa_camera))
+        self.ewa_camera_path_create = bind("ewa_camera_path_create", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.c_size_t, c.c_bool, c.c_void_p)
+        self.ewa_camera_path_destroy = bind("ewa_camera_path_destroy", None, c.c_void_p)
+        self.ewa_camera_set_fov = bind("ewa_camera_set_fov", c.c_int, c.POINTER(ewa_camera), c.c_double)
+        self.ewa_camera_set_ortho = bind("ewa_camera_set_ortho", c.c_int, c.POINTER(ewa_camera), c.c_double)
+        self.ewa_attribute_read_f32 = bind("ewa_attribute_read_f32", None, c.POINTER(ewa_attribute), c.c_uint64, c.c_uint64, c.c_void_p)
+        self.ewa_attribute_read_f64 = bind("ewa_attribute_read_f64", None, c.POINTER(ewa_attribute), c.c_uint64, c.c_uint64, c.c_void_p)
+        self.ewa_cloud_add = bind("ewa_cloud_add", c.c_int, c.c_void_p, c.c_char_p, c.c_int, c.c_uint32, c.c_void_p)
+        self.ewa_cloud_attribute_at = bind("ewa_cloud_attribute_at", c.POINTER(ewa_attribute), c.c_void_p, c.c_uint32)
+        self.ewa_cloud_attribute_count = bind("ewa_cloud_attribute_count", c.c_uint32, c.c_void_p)
+        self.ewa_cloud_borrow = bind("ewa_cloud_borrow", c.c_int, c.c_void_p, c.c_char_p, c.c_int, c.c_uint32, c.c_void_p, c.c_size_t)
+        self.ewa_cloud_create = bind("ewa_cloud_create", c.c_int, c.c_void_p, c.c_uint64, c.c_void_p)
+        self.ewa_cloud_destroy = bind("ewa_cloud_destroy", None, c.c_void_p)
+        self.ewa_cloud_find = bind("ewa_cloud_find", c.POINTER(ewa_attribute), c.c_void_p, c.c_char_p)
+        self.ewa_cloud_grid = bind("ewa_cloud_grid", None, c.c_void_p, c.POINTER(ewa_coordinate_grid))
+        self.ewa_cloud_measure = bind("ewa_cloud_measure", c.c_int, c.c_void_p, c.POINTER(ewa_bounds))
+        self.ewa_cloud_merge = bind("ewa_cloud_merge", c.c_int, c.c_void_p, c.c_uint32, c.c_void_p)
+        self.ewa_cloud_note = bind("ewa_cloud_note", c.c_char_p, c.c_void_p, c.c_char_p, c.c_void_p)
+        self.ewa_cloud_note_name = bind("ewa_cloud_note_name", c.c_char_p, c.c_void_p, c.c_uint32)
+        self.ewa_cloud_origin = bind("ewa_cloud_origin", None, c.c_void_p, c.c_void_p)
+        self.ewa_cloud_point_count = bind("ewa_cloud_point_count", c.c_uint64, c.c_void_p)
+        self.ewa_cloud_remove = bind("ewa_cloud_remove", None, c.c_void_p, c.c_char_p)
+        self.ewa_cloud_select = bind("ewa_cloud_select", c.c_int, c.c_void_p, c.c_void_p, c.c_uint64, c.c_void_p)
+        self.ewa_cloud_set_grid = bind("ewa_cloud_set_grid", None, c.c_void_p, c.POINTER(ewa_coordinate_grid))
+        self.ewa_cloud_set_note = bind("ewa_cloud_set_note", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p, c.c_size_t)
+        self.ewa_cloud_set_origin = bind("ewa_cloud_set_origin", None, c.c_void_p, c.c_void_p)
+        self.ewa_cloud_transform = bind("ewa_cloud_transform", c.c_int, c.c_void_p, c.c_void_p)
+        self.ewa_grid_world = bind("ewa_grid_world", c.c_double, c.POINTER(ewa_coordinate_grid), c.c_uint32, c.c_double)
+        self.ewa_renderer_create_joint = bind("ewa_renderer_create_joint", c.c_int, c.c_void_p, c.POINTER(ewa_exchange), c.c_void_p)
+        self.ewa_draw_line = bind("ewa_draw_line", None, c.POINTER(ewa_canvas), c.c_double, c.c_double, c.c_double, c.c_double, c.c_double, c.c_void_p)
+        self.ewa_draw_rectangle = bind("ewa_draw_rectangle", None, c.POINTER(ewa_canvas), c.c_double, c.c_double, c.c_double, c.c_double, c.c_void_p)
+        self.ewa_draw_text = bind("ewa_draw_text", None, c.POINTER(ewa_canvas), c.c_char_p, c.c_double, c.c_double, c.POINTER(ewa_text_style))
+        self.ewa_furniture_draw = bind("ewa_furniture_draw", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_furniture_options), c.POINTER(ewa_canvas))
+        self.ewa_furniture_options_init = bind("ewa_furniture_options_init", None, c.POINTER(ewa_furniture_options), c.c_size_t)
+        self.ewa_text_width_px = bind("ewa_text_width_px", c.c_double, c.c_char_p, c.c_double)
+        self.ewa_gpu_class_name = bind("ewa_gpu_class_name", c.c_char_p, c.c_int)
+        self.ewa_gpu_describe = bind("ewa_gpu_describe", c.c_int, c.c_void_p, c.POINTER(ewa_gpu_info))
+        self.ewa_renderer_create_on = bind("ewa_renderer_create_on", c.c_int, c.c_void_p, c.c_int, c.c_void_p)
+        self.ewa_renderer_describe = bind("ewa_renderer_describe", c.c_int, c.c_void_p, c.POINTER(ewa_renderer_info))
+        self.ewa_camera_clip_map = bind("ewa_camera_clip_map", c.c_int, c.POINTER(ewa_camera), c.c_double, c.c_double, c.POINTER(ewa_mat4))
+        self.ewa_clip_alphas = bind("ewa_clip_alphas", c.c_int, ewa_vec4, ewa_vec4, c.c_void_p, c.c_void_p)
+        self.ewa_clip_polygon = bind("ewa_clip_polygon", c.c_int, c.POINTER(ewa_vec4), c.c_void_p, c.c_uint32, c.c_uint32, c.POINTER(ewa_vec4), c.c_void_p, c.c_void_p)
+        self.ewa_clip_segment = bind("ewa_clip_segment", c.c_int, ewa_vec4, ewa_vec4, c.POINTER(ewa_segment_part), c.c_void_p)
+        self.ewa_clip_segments = bind("ewa_clip_segments", c.c_int, c.c_void_p, c.POINTER(ewa_segment_batch), c.POINTER(ewa_segment_clips))
+        self.ewa_conic_dual = bind("ewa_conic_dual", ewa_conic, c.POINTER(ewa_conic))
+        self.ewa_conic_polar = bind("ewa_conic_polar", ewa_vec3, c.POINTER(ewa_conic), ewa_vec3)
+        self.ewa_conic_pull = bind("ewa_conic_pull", ewa_conic, c.POINTER(ewa_conic), c.POINTER(ewa_mat3))
+        self.ewa_conic_transform = bind("ewa_conic_transform", c.c_int, c.POINTER(ewa_conic), c.POINTER(ewa_mat3), c.POINTER(ewa_conic))
+        self.ewa_conic_value = bind("ewa_conic_value", c.c_double, c.POINTER(ewa_conic), ewa_vec3)
+        self.ewa_dual_conic_ellipse = bind("ewa_dual_conic_ellipse", c.c_int, c.POINTER(ewa_conic), c.c_void_p, c.c_void_p)
+        self.ewa_dual_conic_transform = bind("ewa_dual_conic_transform", ewa_conic, c.POINTER(ewa_conic), c.POINTER(ewa_mat3))
+        self.ewa_hyperbolic_alpha = bind("ewa_hyperbolic_alpha", c.c_int, c.c_double, c.c_double, c.c_double, c.c_void_p)
+        self.ewa_hyperbolic_at = bind("ewa_hyperbolic_at", c.c_int, ewa_vec3, ewa_vec3, c.c_double, c.c_double, c.c_void_p)
+        self.ewa_hyperbolic_fit = bind("ewa_hyperbolic_fit", c.c_int, c.POINTER(ewa_vec4), c.c_void_p, c.c_uint32, c.POINTER(ewa_vec3), c.POINTER(ewa_vec3))
+        self.ewa_incidence2 = bind("ewa_incidence2", c.c_double, ewa_vec3, ewa_vec3)
+        self.ewa_incidence3 = bind("ewa_incidence3", c.c_double, ewa_vec4, ewa_vec4)
+        self.ewa_line2_distance = bind("ewa_line2_distance", c.c_int, ewa_vec3, ewa_vec3, c.c_void_p)
+        self.ewa_line2_join = bind("ewa_line2_join", c.c_int, ewa_vec3, ewa_vec3, c.POINTER(ewa_vec3))
+        self.ewa_line2_meet = bind("ewa_line2_meet", c.c_int, ewa_vec3, ewa_vec3, c.POINTER(ewa_vec3))
+        self.ewa_line2_pull = bind("ewa_line2_pull", ewa_vec3, ewa_vec3, c.POINTER(ewa_mat3))
+        self.ewa_line2_transform = bind("ewa_line2_transform", c.c_int, ewa_vec3, c.POINTER(ewa_mat3), c.POINTER(ewa_vec3))
+        self.ewa_line3_incidence = bind("ewa_line3_incidence", c.c_double, ewa_line3, ewa_line3)
+        self.ewa_line3_join = bind("ewa_line3_join", c.c_int, ewa_vec4, ewa_vec4, c.POINTER(ewa_line3))
+        self.ewa_line3_join_point = bind("ewa_line3_join_point", c.c_int, ewa_line3, ewa_vec4, c.POINTER(ewa_vec4))
+        self.ewa_line3_meet = bind("ewa_line3_meet", c.c_int, ewa_vec4, ewa_vec4, c.POINTER(ewa_line3))
+        self.ewa_line3_meet_plane = bind("ewa_line3_meet_plane", c.c_int, ewa_line3, ewa_vec4, c.POINTER(ewa_vec4))
+        self.ewa_line3_transform = bind("ewa_line3_transform", ewa_line3, ewa_line3, c.POINTER(ewa_mat4))
+        self.ewa_mat3_concatenate = bind("ewa_mat3_concatenate", ewa_mat3, c.POINTER(ewa_mat3), c.POINTER(ewa_mat3))
+        self.ewa_mat3_invert = bind("ewa_mat3_invert", c.c_int, c.POINTER(ewa_mat3), c.POINTER(ewa_mat3))
+        self.ewa_mat4_concatenate = bind("ewa_mat4_concatenate", ewa_mat4, c.POINTER(ewa_mat4), c.POINTER(ewa_mat4))
+        self.ewa_mat4_invert = bind("ewa_mat4_invert", c.c_int, c.POINTER(ewa_mat4), c.POINTER(ewa_mat4))
+        self.ewa_plane_distance = bind("ewa_plane_distance", c.c_int, ewa_vec4, ewa_vec4, c.c_void_p)
+        self.ewa_plane_join = bind("ewa_plane_join", c.c_int, ewa_vec4, ewa_vec4, ewa_vec4, c.POINTER(ewa_vec4))
+        self.ewa_plane_meet = bind("ewa_plane_meet", c.c_int, ewa_vec4, ewa_vec4, ewa_vec4, c.POINTER(ewa_vec4))
+        self.ewa_plane_pull = bind("ewa_plane_pull", ewa_vec4, ewa_vec4, c.POINTER(ewa_mat4))
+        self.ewa_plane_transform = bind("ewa_plane_transform", c.c_int, ewa_vec4, c.POINTER(ewa_mat4), c.POINTER(ewa_vec4))
+        self.ewa_point2_divide = bind("ewa_point2_divide", c.c_int, ewa_vec3, c.c_void_p)
+        self.ewa_point2_transform = bind("ewa_point2_transform", ewa_vec3, ewa_vec3, c.POINTER(ewa_mat3))
+        self.ewa_point3_divide = bind("ewa_point3_divide", c.c_int, ewa_vec4, c.c_void_p)
+        self.ewa_point3_transform = bind("ewa_point3_transform", ewa_vec4, ewa_vec4, c.POINTER(ewa_mat4))
+        self.ewa_triangle_barycentric = bind("ewa_triangle_barycentric", c.c_int, c.POINTER(ewa_vec3), ewa_vec3, c.c_void_p)
+        self.ewa_triangle_distances = bind("ewa_triangle_distances", c.c_int, c.POINTER(ewa_vec3), ewa_vec3, c.c_void_p)
+        self.ewa_triangle_point = bind("ewa_triangle_point", c.c_int, c.POINTER(ewa_vec3), c.c_void_p, c.POINTER(ewa_vec3))
+        self.ewa_triangle_point_from_distances = bind("ewa_triangle_point_from_distances", c.c_int, c.POINTER(ewa_vec3), c.c_void_p, c.POINTER(ewa_vec3))
+        self.ewa_class_color = bind("ewa_class_color", None, c.c_uint32, c.c_void_p)
+        self.ewa_class_find = bind("ewa_class_find", c.c_bool, c.c_char_p, c.c_void_p)
+        self.ewa_class_name = bind("ewa_class_name", None, c.c_uint32, c.c_void_p)
+        self.ewa_colormap_color = bind("ewa_colormap_color", None, c.c_int, c.c_double, c.c_void_p)
+        self.ewa_image_create = bind("ewa_image_create", c.c_int, c.c_void_p, c.c_uint32, c.c_uint32, c.c_uint32, c.POINTER(ewa_image))
+        self.ewa_image_free = bind("ewa_image_free", None, c.POINTER(ewa_image))
+        self.ewa_linear_from_srgb = bind("ewa_linear_from_srgb", c.c_float, c.c_float)
+        self.ewa_srgb_from_linear = bind("ewa_srgb_from_linear", c.c_float, c.c_float)
+        self.ewa_camera_load = bind("ewa_camera_load", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.POINTER(ewa_camera))
+        self.ewa_camera_load_each = bind("ewa_camera_load_each", c.c_int, c.c_void_p, c.c_char_p, ewa_camera_callback, c.c_void_p)
+        self.ewa_camera_load_lens = bind("ewa_camera_load_lens", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_camera))
+        self.ewa_camera_load_poses = bind("ewa_camera_load_poses", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_camera), ewa_camera_callback, c.c_void_p)
+        self.ewa_camera_save = bind("ewa_camera_save", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.c_char_p)
+        self.ewa_camera_save_list = bind("ewa_camera_save_list", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.c_size_t, c.c_char_p)
+        self.ewa_cloud_load = bind("ewa_cloud_load", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p)
+        self.ewa_cloud_load_memory = bind("ewa_cloud_load_memory", c.c_int, c.c_void_p, c.c_void_p, c.c_size_t, c.c_char_p, c.c_void_p)
+        self.ewa_cloud_load_options_init = bind("ewa_cloud_load_options_init", None, c.POINTER(ewa_cloud_load_options), c.c_size_t)
+        self.ewa_cloud_reader_close = bind("ewa_cloud_reader_close", None, c.c_void_p)
+        self.ewa_cloud_reader_lost_count = bind("ewa_cloud_reader_lost_count", c.c_uint64, c.c_void_p)
+        self.ewa_cloud_reader_most_points = bind("ewa_cloud_reader_most_points", c.c_uint64, c.c_void_p)
+        self.ewa_cloud_reader_next = bind("ewa_cloud_reader_next", c.c_int, c.c_void_p, c.c_uint64, c.c_void_p)
+        self.ewa_cloud_reader_open = bind("ewa_cloud_reader_open", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_cloud_load_options), c.c_void_p)
+        self.ewa_cloud_reader_prototype = bind("ewa_cloud_reader_prototype", c.c_void_p, c.c_void_p)
+        self.ewa_cloud_save = bind("ewa_cloud_save", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_cloud_save_options))
+        self.ewa_cloud_save_options_init = bind("ewa_cloud_save_options_init", None, c.POINTER(ewa_cloud_save_options), c.c_size_t)
+        self.ewa_cloud_writer_abort = bind("ewa_cloud_writer_abort", None, c.c_void_p)
+        self.ewa_cloud_writer_commit = bind("ewa_cloud_writer_commit", c.c_int, c.c_void_p)
+        self.ewa_cloud_writer_needs_bounds = bind("ewa_cloud_writer_needs_bounds", c.c_bool, c.c_char_p, c.c_void_p)
+        self.ewa_cloud_writer_open = bind("ewa_cloud_writer_open", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_cloud_save_options), c.c_void_p, c.c_uint64, c.POINTER(ewa_bounds), c.c_void_p)
+        self.ewa_cloud_writer_put = bind("ewa_cloud_writer_put", c.c_int, c.c_void_p, c.c_void_p)
+        self.ewa_depth_load = bind("ewa_depth_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_image))
+        self.ewa_depth_load_memory = bind("ewa_depth_load_memory", c.c_int, c.c_void_p, c.c_void_p, c.c_size_t, c.c_char_p, c.POINTER(ewa_image))
+        self.ewa_elements_face_count = bind("ewa_elements_face_count", c.c_uint64, c.c_void_p)
+        self.ewa_elements_free = bind("ewa_elements_free", None, c.c_void_p)
+        self.ewa_image_load = bind("ewa_image_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_image))
+        self.ewa_image_load_memory = bind("ewa_image_load_memory", c.c_int, c.c_void_p, c.c_void_p, c.c_size_t, c.c_char_p, c.POINTER(ewa_image))
+        self.ewa_image_save = bind("ewa_image_save", c.c_int, c.POINTER(ewa_image), c.c_char_p, c.POINTER(ewa_image_save_options))
+        self.ewa_image_save_options_init = bind("ewa_image_save_options_init", None, c.POINTER(ewa_image_save_options), c.c_size_t)
+        self.ewa_materials_load = bind("ewa_materials_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_material), c.c_void_p)
+        self.ewa_ply_describe = bind("ewa_ply_describe", c.c_int, c.c_void_p, c.c_char_p, ewa_line_callback, c.c_void_p)
+        self.ewa_png_save = bind("ewa_png_save", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_void_p, c.c_size_t)
+        self.ewa_transfer_load = bind("ewa_transfer_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_transfer))
+        self.ewa_transfer_save = bind("ewa_transfer_save", c.c_int, c.c_void_p, c.POINTER(ewa_transfer), c.c_char_p)
+        self.ewa_volume_load = bind("ewa_volume_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_volume_load_options), c.POINTER(ewa_volume))
+        self.ewa_volume_load_memory = bind("ewa_volume_load_memory", c.c_int, c.c_void_p, c.c_void_p, c.c_size_t, c.c_char_p, c.POINTER(ewa_volume_load_options), c.POINTER(ewa_volume))
+        self.ewa_volume_load_options_init = bind("ewa_volume_load_options_init", None, c.POINTER(ewa_volume_load_options), c.c_size_t)
+        self.ewa_volume_save = bind("ewa_volume_save", c.c_int, c.POINTER(ewa_volume), c.c_char_p, c.POINTER(ewa_volume_save_options))
+        self.ewa_volume_save_options_init = bind("ewa_volume_save_options_init", None, c.POINTER(ewa_volume_save_options), c.c_size_t)
+        self.ewa_lod_build = bind("ewa_lod_build", c.c_int, c.c_void_p, c.c_void_p, c.c_uint32, c.c_char_p, c.POINTER(ewa_lod_build_options), c.POINTER(ewa_lod_build_stats))
+        self.ewa_lod_build_options_init = bind("ewa_lod_build_options_init", None, c.POINTER(ewa_lod_build_options), c.c_size_t)
+        self.ewa_lod_close = bind("ewa_lod_close", None, c.c_void_p)
+        self.ewa_lod_describe = bind("ewa_lod_describe", None, c.c_void_p, c.POINTER(ewa_lod_info))
+        self.ewa_lod_merge = bind("ewa_lod_merge", c.c_int, c.c_void_p, c.c_void_p, c.c_uint32, c.c_char_p, c.POINTER(ewa_lod_build_stats))
+        self.ewa_lod_open = bind("ewa_lod_open", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p)
+        self.ewa_lod_options_init = bind("ewa_lod_options_init", None, c.POINTER(ewa_lod_options), c.c_size_t)
+        self.ewa_lod_probe = bind("ewa_lod_probe", c.c_bool, c.c_void_p, c.c_char_p)
+        self.ewa_lod_read = bind("ewa_lod_read", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p, c.c_double, c.c_void_p)
+        self.ewa_lod_render = bind("ewa_lod_render", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_render_options), c.POINTER(ewa_lod_options), c.POINTER(ewa_frame), c.POINTER(ewa_lod_stats))
+        self.ewa_lod_sample = bind("ewa_lod_sample", c.c_int, c.c_void_p, c.c_uint64, c.c_void_p)
+        self.ewa_mesh_create = bind("ewa_mesh_create", c.c_int, c.c_void_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_uint32, c.POINTER(ewa_mesh))
+        self.ewa_mesh_free = bind("ewa_mesh_free", None, c.POINTER(ewa_mesh))
+        self.ewa_mesh_is_closed = bind("ewa_mesh_is_closed", c.c_int, c.POINTER(ewa_mesh), c.c_void_p)
+        self.ewa_mesh_load = bind("ewa_mesh_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_mesh))
+        self.ewa_mesh_sample = bind("ewa_mesh_sample", c.c_int, c.POINTER(ewa_mesh), c.POINTER(ewa_mesh_sample_options), c.c_void_p)
+        self.ewa_mesh_sample_options_init = bind("ewa_mesh_sample_options_init", None, c.POINTER(ewa_mesh_sample_options), c.c_size_t)
+        self.ewa_mesh_set_picture = bind("ewa_mesh_set_picture", c.c_int, c.POINTER(ewa_mesh), c.POINTER(ewa_image))
+        self.ewa_model_format_name = bind("ewa_model_format_name", c.c_char_p, c.c_int)
+        self.ewa_model_free = bind("ewa_model_free", None, c.POINTER(ewa_model))
+        self.ewa_model_load = bind("ewa_model_load", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.POINTER(ewa_cloud_load_options), c.POINTER(ewa_model))
+        self.ewa_model_load_memory = bind("ewa_model_load_memory", c.c_int, c.c_void_p, c.c_void_p, c.c_size_t, c.c_char_p, c.c_char_p, c.c_uint32, c.POINTER(ewa_cloud_load_options), c.POINTER(ewa_model))
+        self.ewa_model_probe = bind("ewa_model_probe", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p)
+        self.ewa_option_find = bind("ewa_option_find", c.POINTER(ewa_option), c.POINTER(ewa_option_table), c.c_char_p)
+        self.ewa_option_get = bind("ewa_option_get", None, c.POINTER(ewa_option), c.c_void_p, c.c_void_p)
+        self.ewa_option_range = bind("ewa_option_range", None, c.POINTER(ewa_option), c.c_void_p)
+        self.ewa_option_set = bind("ewa_option_set", c.c_int, c.POINTER(ewa_option), c.c_void_p, c.c_char_p, c.c_void_p)
+        self.ewa_cloud_csg = bind("ewa_cloud_csg", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_csg_options), c.c_void_p)
+        self.ewa_cloud_detect_features = bind("ewa_cloud_detect_features", c.c_int, c.c_void_p, c.POINTER(ewa_feature_options), c.POINTER(ewa_feature_counts))
+        self.ewa_cloud_estimate = bind("ewa_cloud_estimate", c.c_int, c.c_void_p, c.POINTER(ewa_estimate_options))
+        self.ewa_cloud_generate = bind("ewa_cloud_generate", c.c_int, c.c_void_p, c.POINTER(ewa_generate_options), c.c_void_p)
+        self.ewa_cloud_measure_spacing = bind("ewa_cloud_measure_spacing", c.c_int, c.c_void_p, c.c_uint64, c.POINTER(ewa_spacing))
+        self.ewa_cloud_refit_colors = bind("ewa_cloud_refit_colors", c.c_int, c.c_void_p, c.POINTER(ewa_refit_options), c.POINTER(ewa_refit_report))
+        self.ewa_csg_options_init = bind("ewa_csg_options_init", None, c.POINTER(ewa_csg_options), c.c_size_t)
+        self.ewa_estimate_options_init = bind("ewa_estimate_options_init", None, c.POINTER(ewa_estimate_options), c.c_size_t)
+        self.ewa_feature_options_init = bind("ewa_feature_options_init", None, c.POINTER(ewa_feature_options), c.c_size_t)
+        self.ewa_generate_options_init = bind("ewa_generate_options_init", None, c.POINTER(ewa_generate_options), c.c_size_t)
+        self.ewa_refit_options_init = bind("ewa_refit_options_init", None, c.POINTER(ewa_refit_options), c.c_size_t)
+        self.ewa_volume_generate = bind("ewa_volume_generate", c.c_int, c.c_void_p, c.POINTER(ewa_volume_generate_options), c.POINTER(ewa_volume))
+        self.ewa_volume_generate_options_init = bind("ewa_volume_generate_options_init", None, c.POINTER(ewa_volume_generate_options), c.c_size_t)
+        self.ewa_volume_outline = bind("ewa_volume_outline", c.c_int, c.POINTER(ewa_volume), c.POINTER(ewa_transfer), c.c_double, c.c_void_p)
+        self.ewa_cloud_color_by_procedure = bind("ewa_cloud_color_by_procedure", c.c_int, c.c_void_p, c.POINTER(ewa_procedure_options))
+        self.ewa_procedure_options_init = bind("ewa_procedure_options_init", None, c.POINTER(ewa_procedure_options), c.c_int, c.c_size_t)
+        self.ewa_render = bind("ewa_render", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_render_options), c.POINTER(ewa_frame), c.POINTER(ewa_render_stats))
+        self.ewa_render_add = bind("ewa_render_add", c.c_int, c.c_void_p, c.c_void_p)
+        self.ewa_render_add_weighted = bind("ewa_render_add_weighted", c.c_int, c.c_void_p, c.c_void_p, c.c_double)
+        self.ewa_render_begin = bind("ewa_render_begin", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_render_options), c.POINTER(ewa_frame))
+        self.ewa_render_finish = bind("ewa_render_finish", c.c_int, c.c_void_p, c.POINTER(ewa_render_stats))
+        self.ewa_render_options_init = bind("ewa_render_options_init", None, c.POINTER(ewa_render_options), c.c_size_t)
+        self.ewa_renderer_create = bind("ewa_renderer_create", c.c_int, c.c_void_p, c.c_void_p)
+        self.ewa_renderer_destroy = bind("ewa_renderer_destroy", None, c.c_void_p)
+        self.ewa_surfels_create = bind("ewa_surfels_create", c.c_int, c.c_void_p, c.POINTER(ewa_surfels_options), c.c_void_p)
+        self.ewa_surfels_describe = bind("ewa_surfels_describe", None, c.c_void_p, c.POINTER(ewa_surfels_info))
+        self.ewa_surfels_destroy = bind("ewa_surfels_destroy", None, c.c_void_p)
+        self.ewa_surfels_options_init = bind("ewa_surfels_options_init", None, c.POINTER(ewa_surfels_options), c.c_size_t)
+        self.ewa_texture_map = bind("ewa_texture_map", c.c_int, c.c_void_p, c.POINTER(ewa_texture_source), c.POINTER(ewa_mat3), c.POINTER(ewa_texture_options), c.POINTER(ewa_texture_target), c.POINTER(ewa_texture_stats))
+        self.ewa_texture_map_from_camera = bind("ewa_texture_map_from_camera", c.c_int, c.c_void_p, c.c_uint32, c.c_uint32, c.POINTER(ewa_camera), c.c_void_p, c.c_void_p, c.c_void_p, c.POINTER(ewa_mat3))
+        self.ewa_texture_map_from_corners = bind("ewa_texture_map_from_corners", c.c_int, c.c_void_p, c.c_uint32, c.c_uint32, c.c_void_p, c.POINTER(ewa_mat3))
+        self.ewa_texture_options_init = bind("ewa_texture_options_init", None, c.POINTER(ewa_texture_options), c.c_size_t)
+        self.ewa_box_mark = bind("ewa_box_mark", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p)
+        self.ewa_cloud_find_scalar = bind("ewa_cloud_find_scalar", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_scalar))
+        self.ewa_cloud_keep = bind("ewa_cloud_keep", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p)
+        self.ewa_cloud_thin_distance = bind("ewa_cloud_thin_distance", c.c_int, c.c_void_p, c.c_double, c.c_void_p)
+        self.ewa_cloud_thin_voxels = bind("ewa_cloud_thin_voxels", c.c_int, c.c_void_p, c.c_double, c.c_void_p)
+        self.ewa_filter_add = bind("ewa_filter_add", c.c_int, c.POINTER(ewa_filter), c.c_char_p, c.c_void_p)
+        self.ewa_filter_mark = bind("ewa_filter_mark", c.c_int, c.POINTER(ewa_filter), c.c_void_p, c.c_void_p)
+        self.ewa_polygon_box = bind("ewa_polygon_box", None, c.c_void_p, c.c_void_p)
+        self.ewa_polygon_create = bind("ewa_polygon_create", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p, c.c_uint32, c.c_void_p)
+        self.ewa_polygon_destroy = bind("ewa_polygon_destroy", None, c.c_void_p)
+        self.ewa_polygon_load = bind("ewa_polygon_load", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p)
+        self.ewa_polygon_mark = bind("ewa_polygon_mark", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p)
+        self.ewa_polygon_read = bind("ewa_polygon_read", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p, c.c_size_t, c.c_void_p)
+        self.ewa_scalar_read = bind("ewa_scalar_read", None, c.POINTER(ewa_scalar), c.c_uint64, c.c_uint64, c.c_void_p)
+        self.ewa_environment_create = bind("ewa_environment_create", c.c_int, c.POINTER(ewa_image), c.c_void_p)
+        self.ewa_environment_destroy = bind("ewa_environment_destroy", None, c.c_void_p)
+        self.ewa_light_init = bind("ewa_light_init", None, c.POINTER(ewa_light))
+        self.ewa_material_init = bind("ewa_material_init", None, c.POINTER(ewa_material))
+        self.ewa_transfer_automatic = bind("ewa_transfer_automatic", c.c_int, c.POINTER(ewa_volume), c.POINTER(ewa_volume_facts), c.POINTER(ewa_transfer))
+        self.ewa_transfer_preset = bind("ewa_transfer_preset", c.c_int, c.POINTER(ewa_volume), c.POINTER(ewa_volume_facts), c.c_char_p, c.POINTER(ewa_transfer))
+        self.ewa_transfer_preset_name = bind("ewa_transfer_preset_name", c.c_char_p, c.c_uint32, c.c_void_p)
+        self.ewa_volume_create = bind("ewa_volume_create", c.c_int, c.c_void_p, c.c_void_p, c.c_int, c.POINTER(ewa_volume))
+        self.ewa_volume_free = bind("ewa_volume_free", None, c.POINTER(ewa_volume))
+        self.ewa_volume_measure = bind("ewa_volume_measure", c.c_int, c.POINTER(ewa_volume), c.POINTER(ewa_volume_facts))
+        self.ewa_volume_options_init = bind("ewa_volume_options_init", None, c.POINTER(ewa_volume_options), c.c_size_t)
+        self.ewa_volume_render = bind("ewa_volume_render", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_volume_options), c.POINTER(ewa_frame), c.POINTER(ewa_volume_stats))
+        self.ewa_volume_renderer_create = bind("ewa_volume_renderer_create", c.c_int, c.c_void_p, c.c_void_p)
+        self.ewa_volume_renderer_destroy = bind("ewa_volume_renderer_destroy", None, c.c_void_p)
+        self.ewa_voxels_create = bind("ewa_voxels_create", c.c_int, c.POINTER(ewa_volume), c.POINTER(ewa_transfer), c.POINTER(ewa_voxels_options), c.c_void_p)
+        self.ewa_voxels_describe = bind("ewa_voxels_describe", None, c.c_void_p, c.POINTER(ewa_voxels_info))
+        self.ewa_voxels_destroy = bind("ewa_voxels_destroy", None, c.c_void_p)
+        self.ewa_voxels_options_init = bind("ewa_voxels_options_init", None, c.POINTER(ewa_voxels_options), c.c_size_t)
+        self.ewa_depth_image_init = bind("ewa_depth_image_init", None, c.POINTER(ewa_depth_image))
+        self.ewa_warp_create = bind("ewa_warp_create", c.c_int, c.c_void_p, c.c_void_p)
+        self.ewa_warp_destroy = bind("ewa_warp_destroy", None, c.c_void_p)
+        self.ewa_warp_draw = bind("ewa_warp_draw", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.c_int, c.POINTER(ewa_render_options), c.POINTER(ewa_frame), c.c_void_p, c.POINTER(ewa_render_stats))
+        self.ewa_warp_options_init = bind("ewa_warp_options_init", None, c.POINTER(ewa_warp_options), c.c_size_t)
+        self.ewa_warp_render_options_init = bind("ewa_warp_render_options_init", None, c.POINTER(ewa_render_options), c.c_size_t)
+        self.ewa_warp_take = bind("ewa_warp_take", c.c_int, c.c_void_p, c.POINTER(ewa_depth_image), c.c_uint32, c.POINTER(ewa_warp_options), c.POINTER(ewa_warp_facts))

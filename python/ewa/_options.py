@@ -1,0 +1,434 @@
+# SPDX-FileCopyrightText: 2026 The ewa authors
+# SPDX-License-Identifier: MIT
+#
+# Made by tools/dump_python.py from docs/options.json; a test holds it to that. Do not edit.
+
+"""Keyword arguments: the members of the C library's structs of options, for type checkers."""
+from __future__ import annotations
+
+from typing import Literal, Sequence, TypedDict
+
+
+class AcquireOptions(TypedDict, total=False):
+    """Members of ewa_acquire_options."""
+
+    #: nearest: the pixel at the point; ewa: the mean under the surfel; optimal: the sharpest, by least squares, colours may leave [0, 1]; nearest|ewa|optimal, default optimal
+    filter: Literal["nearest", "ewa", "optimal"] | int
+    #: what optimal colours minimise: the error of the surface as it is drawn, or the paper's sum; normalized|sum, default normalized
+    fit: Literal["normalized", "sum"] | int
+    #: what lies beyond the left and right edges; repeat|clamp, default repeat
+    wrap_s: Literal["repeat", "clamp"] | int
+    #: what lies beyond the lower and upper edges; repeat|clamp, default repeat
+    wrap_t: Literal["repeat", "clamp"] | int
+    #: standard deviation of the Gaussian that stands for one pixel of the picture, in pixels; [0.3, 8], px, default 0.5
+    pixel_sigma_px: float
+    #: standard deviations in a radius; (0, 4], default 3
+    cutoff: float
+    #: pull of the optimal colours towards the filtered ones; [1e-6, 1], default 0.005
+    ridge: float
+    #: multiply with the colours that the cloud has; on|off, default off
+    modulate: bool
+
+
+class CloudSaveOptions(TypedDict, total=False):
+    """Members of ewa_cloud_save_options."""
+
+    #: how PLY files hold numbers; little-endian|big-endian|ascii, default little-endian
+    ply_encoding: Literal["little-endian", "big-endian", "ascii"] | int
+    #: step of the coordinates of LAS, world units; 0: that of the cloud, else by the size of the box; [0, inf), default 0
+    step_world: float
+    #: points of one chunk of LAZ; [1, 10000000], default 50000
+    chunk_points: int
+
+
+class ContextOptions(TypedDict, total=False):
+    """Members of ewa_context_options."""
+
+    #: workers of the built-in pool; 0: one per processor; [0, 256], default 0
+    thread_count: int
+    #: bits of instruction sets that may be used; [0, 4294967295], default 2147483647
+    cpu_mask: int
+    #: most detailed messages to report; error|warning|info|debug, default warning
+    message_level: Literal["error", "warning", "info", "debug"] | int
+
+
+class CsgOptions(TypedDict, total=False):
+    """Members of ewa_csg_options."""
+
+    #: what to keep; difference: A without B; union|intersection|difference, default union
+    operation: Literal["union", "intersection", "difference"] | int
+    #: standard deviations at which kernels end; (0, 4], default 3
+    cutoff: float
+
+
+class EstimateOptions(TypedDict, total=False):
+    """Members of ewa_estimate_options."""
+
+    #: nearest neighbours that a point is judged by; [6, 64], default 16
+    neighbour_count: int
+    #: side that normals point to: consistent along the surface and outward, towards the viewpoint, as they come; auto: to the scanners that the cloud knows, else up where points have return numbers, else consistent; propagate|viewpoint|none|auto, default auto
+    orientation: Literal["propagate", "viewpoint", "none", "auto"] | int
+    #: place that normals point to, such as the scanner's; (-inf, inf), default 0
+    viewpoint_world: Sequence[float]
+    #: disc: a radius from the local density; ellipse: two axes from the local anisotropy of the sampling; disc|ellipse, default disc
+    shape: Literal["disc", "ellipse"] | int
+    #: support radius in units of the local spacing; (0, inf), default 1.14
+    radius_scale: float
+    #: largest radius that closes a gap, in median spacings of the places around; [1, inf), default 2.75
+    radius_limit: float
+    #: standard deviations at which kernels end: axes are the support radius over this; (0, 4], default 3
+    cutoff: float
+    #: keep the normals that the file has; on|off, default on
+    keep_normals: bool
+    #: keep the radii or axes that the file has; on|off, default on
+    keep_radii: bool
+    #: remove points whose mean distance to their neighbours is over the mean plus so many standard deviations of all; 0: keep all; [0, inf), default 0
+    outlier_factor: float
+
+
+class FeatureOptions(TypedDict, total=False):
+    """Members of ewa_feature_options."""
+
+    #: nearest neighbours that planes are fitted to; 0: 24 for exact points up to 64 for noisy ones; 0 or [16, 64], default 0
+    neighbour_count: int
+    #: least angle between the normals of two planes that meet in an edge; less is a smooth surface; [10, 120], deg, default 30
+    angle_deg: float
+    #: standard deviation of the points from the surface in units of the spacing; negative: measured; (-inf, 1], default -1
+    noise: float
+    #: standard deviations at which kernels end: axes are the support radius over this; (0, 4], default 3
+    cutoff: float
+    #: move the points beside an edge onto their plane; on|off, default on
+    project: bool
+
+
+class FurnitureOptions(TypedDict, total=False):
+    """Members of ewa_furniture_options."""
+
+    #: show how the world's axes x, y, z lie, in the lower left corner; on|off, default off
+    axes: bool
+    #: show a length, in the lower right corner; on|off, default off
+    scale_bar: bool
+    #: show what the colours mean, on the right; on|off, default off
+    color_bar: bool
+    #: distance along the view at which the scale bar of a perspective camera holds; 0: no such bar; [0, 1e30], world, default 0
+    scale_depth_world: float
+    #: colours of the colour bar; viridis|turbo|gray|plasma|inferno|magma|cividis|coolwarm, default viridis
+    colormap: Literal["viridis", "turbo", "gray", "plasma", "inferno", "magma", "cividis", "coolwarm"] | int
+    #: numbers of the first and the last colour; (-inf, inf), default [0, 1]
+    range: Sequence[float]
+    #: pixels per point, of which text has 12; 0: a 720th of the picture's smaller side, at least 0.84; [0, 100], px, default 0
+    pixel_scale: float
+    #: colour of text and lines; auto|dark|light, default auto
+    ink: Literal["auto", "dark", "light"] | int
+
+
+class GenerateOptions(TypedDict, total=False):
+    """Members of ewa_generate_options."""
+
+    #: same seed, same bytes, on every machine; [0, inf), default 1
+    seed: int
+    #: edge of plane, cube and terrain, outer diameter of sphere and torus, length of csg, in world units; [1e-25, 1e25], default 2
+    size_world: float
+    #: 0: a regular grid, 1: anywhere in the cell; [0, 1], default 0.5
+    jitter: float
+    #: squares along an edge of the checkerboard and of the cube's faces; [1e-6, 1000000], default 16
+    checks: float
+    #: support radius in units of the spacing; 0: closed for the jitter; 0 or [1e-6, 1000000], default 0
+    radius_scale: float
+    #: leave out normals and radii; on|off, default off
+    positions_only: bool
+    #: cube and csg: rows of points on every edge, and clip lines; on|off, default off
+    sharp: bool
+    #: add texture coordinates; on|off, default off
+    texcoords: bool
+
+
+class ImageSaveOptions(TypedDict, total=False):
+    """Members of ewa_image_save_options."""
+
+    #: EXR: store half floats; on|off, default off
+    exr_half: bool
+    #: PNG: un-premultiply before encoding; on|off, default on
+    srgb_alpha_straight: bool
+
+
+class LodBuildOptions(TypedDict, total=False):
+    """Members of ewa_lod_build_options."""
+
+    #: memory for points at hand; [67108864, 1.125899907e15], bytes, default 2147483648
+    memory_bytes: int
+    #: which part is made, counted from 0; [0, 65535], default 0
+    subset: int
+    #: how many parts are made, to be merged; 1: the whole at once; [1, 65536], default 1
+    subset_count: int
+    #: step over damaged pieces of files; on|off, default off
+    keep_going: bool
+
+
+class LodOptions(TypedDict, total=False):
+    """Members of ewa_lod_options."""
+
+    #: cubes are drawn by surfels that stand for their points where these are no farther apart; (0, 64], px, default 0.5
+    spacing_px: float
+    #: and expected to be off by no more than so much, rms, in 1/255; 0: all points; [0, 255], default 16
+    error: float
+    #: memory for cubes; a picture that needs more is drawn in bands; [16777216, 1.125899907e15], bytes, default 1073741824
+    memory_bytes: int
+    #: time for reading cubes; what is missing then is drawn coarser; 0: as long as it takes; [0, 1e15], s, default 0
+    load_s: float
+
+
+class MeshSampleOptions(TypedDict, total=False):
+    """Members of ewa_mesh_sample_options."""
+
+    #: about how many points; [0, inf), default 100000
+    point_count: int
+    #: square root of the area per point away from edges, in world units; 0: by the count; [0, inf), world, default 0
+    spacing_world: float
+    #: same seed, same bytes, on every machine; [0, inf), default 1
+    seed: int
+    #: edges that bend by more are sharp; [0, 180], deg, default 35
+    crease_degrees: float
+    #: support radius in units of the spacing; [0.5, 10], default 1.6
+    radius_scale: float
+    #: standard deviations at which kernels end: axes are the support radius over this; (0, 4], default 3
+    cutoff: float
+    #: make sharp edges, corners and borders exact by clip lines; on|off, default on
+    clip_lines: bool
+    #: interpolate normals across edges that are not sharp; off: those of the triangles; on|off, default on
+    smooth_normals: bool
+    #: how pictures come onto the points; nearest|ewa|optimal, default optimal
+    texture_filter: Literal["nearest", "ewa", "optimal"] | int
+    #: standard deviation of the Gaussian that stands for one pixel of a picture, in pixels; [0.3, 8], px, default 0.5
+    pixel_sigma_px: float
+    #: keep texture coordinates; on|off, default off
+    texcoords: bool
+
+
+class MaterialOptions(TypedDict, total=False):
+    """Members of ewa_material."""
+
+    #: light from everywhere; [0, 1000], default 0.15
+    ambient: float
+    #: light from the lights, in all directions; [0, 1000], default 0.85
+    diffuse: float
+    #: strength of the highlights, which have the light's colour; [0, 1000], default 0.3
+    specular: float
+    #: exponent of the highlights; [1, 65536], default 32
+    shininess: float
+    #: strength of the environment's mirror image; [0, 1000], default 0.25
+    reflection: float
+
+
+class ProcedureOptions(TypedDict, total=False):
+    """Members of ewa_procedure_options."""
+
+    #: features per world unit: cubes, veins, rings, waves; (0, 1000000000], default 8
+    frequency: float
+    #: width of the filter in units of the surfel's kernel; 0: none, which aliases; [0, 10], default 1
+    prefilter: float
+    #: standard deviations at which kernels end; (0, 4], default 3
+    cutoff: float
+    #: same seed, same noise; [0, inf), default 1
+    seed: int
+    #: two linear colours, whose defaults go with the procedure; [0, 1], default 0
+    colors: Sequence[float]
+
+
+class RefitOptions(TypedDict, total=False):
+    """Members of ewa_refit_options."""
+
+    #: the picture has each point's colour at the point, or nearly, for noisy or aliased colours; interpolate|fit, default interpolate
+    goal: Literal["interpolate", "fit"] | int
+    #: standard deviations at which kernels will end where the cloud is drawn; (0, 4], default 3
+    cutoff: float
+
+
+class RenderOptions(TypedDict, total=False):
+    """Members of ewa_render_options."""
+
+    #: projected shape of a splat: its exact ellipse, the ellipse of the affine map at its centre, the same evaluated in the surfel's plane, the circle around it, or the exact kernel at each pixel; perspective|affine|source|circular|raycast, default perspective
+    kernel: Literal["perspective", "affine", "source", "circular", "raycast"] | int
+    #: standard deviation of the pixel filter; 0: none; [0, 4], px, default 0.35
+    prefilter_px: float
+    #: draws every point as a disc of that diameter that faces the viewer: for points that are no surface; 0: surfels as they are; 0 or [1, 256], px, default 0
+    point_size_px: float
+    #: splats closer in depth than so many support radii are blended as one surface; [0, 1e15], default 1
+    tolerance: float
+    #: 3: splats of one surface are blended; 1: the nearest splat of each pixel wins; 1|3, default 3
+    passes: int
+    #: smooth silhouettes by coverage; on|off, default on
+    edge_antialiasing: bool
+    #: coverage, as a share of a covered pixel's, from which a pixel is opaque; (0, 4], default 0.45
+    edge_threshold: float
+    #: surfaces that show through each other at smoothed silhouettes; 1: the background shows through instead; [1, 8], default 8
+    edge_layers: int
+    #: of every surface, times the alpha of the colours; [0, 1], default 1
+    opacity: float
+    #: leave out splats that face away; none|back, default none
+    cull: Literal["none", "back"] | int
+    #: light: none gives the bare colours, lambert matt surfaces, phong materials with highlights; none|lambert|phong, default lambert
+    shading: Literal["none", "lambert", "phong"] | int
+    #: share of the light that comes from everywhere, where materials do not say; [0, 1], default 0.15
+    ambient: float
+    #: direction in the world of the surroundings' upper edge; (-inf, inf), default [0, 1, 0]
+    environment_up: Sequence[float]
+    #: eye-dome lighting: darken what lies behind its surroundings; 0: none, 1: strong; [0, 100], default 0
+    eye_dome: float
+    #: level of detail, if the surfels have levels; 0: all surfels; [0, 7], default 0
+    level: int
+    #: time for a frame: of the levels of detail from `level` on, the finest that is expected to be drawn in that time; 0: `level`; [0, 1e15], s, default 0
+    budget_s: float
+
+
+class SurfelsOptions(TypedDict, total=False):
+    """Members of ewa_surfels_options."""
+
+    #: standard deviations at which a kernel ends; (0, 4], default 3
+    cutoff: float
+    #: multiplies every radius and axis; (0, 1e15], default 1
+    radius_scale: float
+    #: levels of detail, each of a quarter of the surfels of the one before; 1: all surfels only; [1, 8], default 1
+    level_count: int
+
+
+class TextureOptions(TypedDict, total=False):
+    """Members of ewa_texture_options."""
+
+    #: hybrid: texels are points where they are minified along both axes, and splats elsewhere; all splats; all points, with holes where magnified; backward, by bilinear interpolation, which aliases; hybrid|splat|point|bilinear, default hybrid
+    method: Literal["hybrid", "splat", "point", "bilinear"] | int
+    #: standard deviation of the pixel filter in pixels; [0.1, 4], px, default 0.3
+    prefilter_px: float
+    #: standard deviations at which kernels end; [1, 4], default 3.3
+    cutoff: float
+    #: standard deviation of a texel's disc, in texels: larger is softer where magnified; [0.3, 2], default 0.4
+    sigma_texels: float
+    #: hybrid: texels that are not farther apart than this, in pixels, are points; [0.05, 1], px, default 0.5
+    point_spacing_px: float
+    #: fill the whole plane with copies of the image, up to the horizon; on|off, default off
+    repeat: bool
+
+
+class VolumeGenerateOptions(TypedDict, total=False):
+    """Members of ewa_volume_generate_options."""
+
+    #: voxels along each axis; [2, 4294967295], default 128
+    dims: Sequence[int]
+    #: distance of the outermost voxels along the longest axis, in world units; (0, inf), default 1
+    size_world: float
+    #: cubes along an edge of checkerbox; (0, 1000000], default 8
+    checks: float
+    #: of the vessels: same seed, same bytes, on every machine; [0, inf), default 0
+    seed: int
+
+
+class VolumeLoadOptions(TypedDict, total=False):
+    """Members of ewa_volume_load_options."""
+
+    #: of raw numbers: how many along each axis, x fastest; 0: as the file says; [0, 4294967295], default 0
+    dims: Sequence[int]
+    #: raw numbers have their highest byte first; on|off, default off
+    big_endian: bool
+    #: bytes in front of raw numbers; [0, inf), default 0
+    header_bytes: int
+    #: distances of the voxels along each axis; 0: as the file says, else 1; [0, inf), world, default 0
+    spacing_world: Sequence[float]
+
+
+class VolumeOptions(TypedDict, total=False):
+    """Members of ewa_volume_options."""
+
+    #: voxels as splats where they are magnified and as points where they are minified, or all as one of these; hybrid|splats|points, default hybrid
+    method: Literal["hybrid", "splats", "points"] | int
+    #: how a pixel finds its place in a splat: how far its ray passes the voxel's centre, or the paper's table; exact|table, default exact
+    index: Literal["exact", "table"] | int
+    #: standard deviation of the kernel around each voxel, in voxels; [0.3, 2], default 0.6
+    sigma: float
+    #: standard deviations at which a kernel ends; [1, 4], default 3
+    cutoff: float
+    #: standard deviation of the pixel filter in pixels; 0: none; [0, 4], px, default 0.35
+    prefilter_px: float
+    #: spacing on the screen up to which voxels are points; [0, 1.5], px, default 1.2
+    point_threshold_px: float
+    #: depth that is composited at once, in smallest spacings of the grid; [0.25, 16], default 1
+    depth_unit: float
+    #: which of the voxels' levels; 0: all voxels; [0, 3], default 0
+    level: int
+    #: multiplies every extinction: 2 is twice as dense; [0, 1e15], default 1
+    density_scale: float
+    #: where less of what is behind would show, nothing more is drawn; 0: everything is; [0, 0.999999], default 0.001953125
+    least_transmittance: float
+    #: light, by the gradient: none gives the bare colours, lambert matt matter, phong highlights; none|lambert|phong, default none
+    shading: Literal["none", "lambert", "phong"] | int
+
+
+class VolumeSaveOptions(TypedDict, total=False):
+    """Members of ewa_volume_save_options."""
+
+    #: not compressed; on|off, default off
+    plain: bool
+
+
+class VoxelsOptions(TypedDict, total=False):
+    """Members of ewa_voxels_options."""
+
+    #: levels of means of 2x2x2 voxels, for a first picture that is fast; [1, 4], default 2
+    level_count: int
+
+
+class WarpOptions(TypedDict, total=False):
+    """Members of ewa_warp_options."""
+
+    #: standard deviations at which a kernel ends; (0, 4], default 3
+    cutoff: float
+    #: support radius of a splat in units of the distance to its neighbours; [0.5, 10], default 1.14
+    radius_spacings: float
+    #: depths of neighbours that differ by more than this share are on different surfaces, unless they continue a plane; (0, 1], default 0.02
+    depth_jump: float
+    #: steps of a sensor's depths at distance 1, growing with its square: depths that differ by little more are averaged over 5 x 5 pixels. 0.0036 for a first Kinect in metres; 0: taken as they are; [0, 1000000], default 0
+    depth_noise: float
+    #: leave out samples that hang between two surfaces; on|off, default on
+    drop_flying: bool
+    #: nearer depths are left out; [1e-9, 1e12], world, default 1e-06
+    nearest_world: float
+    #: farther depths are left out; [1e-9, 1e12], world, default 1000000000.0
+    farthest_world: float
+
+
+#: Members that are no keyword arguments: the package sets them by arguments of its own.
+OWN: dict[str, frozenset[str]] = {
+    "ewa_render_options": frozenset(['background', 'layers', 'light_count', 'material_count', 'section_count']),
+    "ewa_volume_options": frozenset(['background', 'light_count']),
+    "ewa_texture_options": frozenset(['background']),
+    "ewa_generate_options": frozenset(['object', 'point_count']),
+    "ewa_volume_generate_options": frozenset(['object']),
+    "ewa_procedure_options": frozenset(['procedure']),
+    "ewa_furniture_options": frozenset(['category_count']),
+}
+
+__all__ = [
+    "AcquireOptions",
+    "CloudSaveOptions",
+    "ContextOptions",
+    "CsgOptions",
+    "EstimateOptions",
+    "FeatureOptions",
+    "FurnitureOptions",
+    "GenerateOptions",
+    "ImageSaveOptions",
+    "LodBuildOptions",
+    "LodOptions",
+    "MaterialOptions",
+    "MeshSampleOptions",
+    "ProcedureOptions",
+    "RefitOptions",
+    "RenderOptions",
+    "SurfelsOptions",
+    "TextureOptions",
+    "VolumeGenerateOptions",
+    "VolumeLoadOptions",
+    "VolumeOptions",
+    "VolumeSaveOptions",
+    "VoxelsOptions",
+    "WarpOptions",
+]

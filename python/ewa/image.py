@@ -1,0 +1,272 @@
+# SPDX-FileCopyrightText: 2026 The ewa authors
+# SPDX-License-Identifier: MIT
+"""Pictures: what rendering returns, colours, files of pictures."""
+from __future__ import annotations
+
+import ctypes
+import os
+import tempfile
+from typing import Any, Sequence, Union
+
+import numpy as np
+
+from . import _bindings as b
+from ._arrays import Array, as_contiguous
+from ._context import Context, core_of
+from ._errors import ArgumentError
+from ._library import functions as lib
+from ._struct import initialised, path_bytes
+from .camera import Camera, PathLike
+
+#: Linear light (r, g, b[, a]), straight alpha, as in C; or text: "white", "transparent", "#ff8800", and "r,g,b[,a]" of
+#: sRGB numbers in [0, 1] as the program takes them.
+Color = Union[str, Sequence[float]]
+
+_NAMES = {"white": "1,1,1", "black": "0,0,0", "transparent": "0,0,0,0", "gray": "0.5,0.5,0.5", "grey": "0.5,0.5,0.5"}
+
+
+def linear(color: Color, label: str = "background") -> tuple[float, ...]:
+    """Return four linear numbers, straight alpha."""
+    if not isinstance(color, str):
+        numbers = tuple(color) if hasattr(color, "__iter__") else ()
+        if len(numbers) not in (3, 4):
+            raise ArgumentError(f"{label}: {color!r} is no colour: 3 or 4 numbers, or text")
+        return numbers if len(numbers) == 4 else numbers + (1.0,)
+    text = _NAMES.get(color, color)
+    try:
+        if text.startswith("#"):
+            digits = text[1:] if len(text) > 5 else "".join(2 * digit for digit in text[1:])
+            srgb = [int(digits[i:i + 2], 16) / 255 for i in range(0, len(digits), 2)]
+        else:
+            srgb = [float(number) for number in text.split(",")]
+    except ValueError:
+        srgb = []
+    if len(srgb) not in (3, 4) or not all(0 <= number <= 1 for number in srgb):
+        raise ArgumentError(f"{label}: '{color}' is no colour")
+    return tuple(lib.ewa_linear_from_srgb(number) for number in srgb[:3]) + tuple(srgb[3:] or [1.0])
+
+
+class Image:
+    """A picture and its further planes; what was not asked for is None.
+
+    Attributes
+    ----------
+    rgba8 : ndarray of uint8, shape (height, width, 4)
+        sRGB, straight alpha, over the background.
+    rgba : ndarray of float32, shape (height, width, 4)
+        Linear light, premultiplied, over the background.
+    depth : ndarray of float32, shape (height, width)
+        Camera-space z, world units; infinite where nothing is.
+    normal : ndarray of float32, shape (height, width, 3)
+        Unit, world space, towards the viewer; 0 where nothing is.
+    coverage : ndarray of float32, shape (height, width)
+        Sum of kernels over its expectation, 1: covered.
+    holes : ndarray of uint8, shape (height, width)
+        Of warping: 255 where less than half of a pixel is covered.
+    camera : Camera
+        That drew it.
+    opaque : bool
+        Whether alpha says nothing, so that files are written without.
+    stats : dict
+        What it took: counts, and seconds per stage.
+    """
+
+    __slots__ = ("rgba8", "rgba", "depth", "normal", "coverage", "holes", "camera", "opaque", "_stats")
+    rgba8: Array | None
+    rgba: Array | None
+    depth: Array | None
+    normal: Array | None
+    coverage: Array | None
+    holes: Array | None
+
+    def __init__(self, camera: Camera | None, opaque: bool = False) -> None:
+        self.rgba8 = self.rgba = self.depth = self.normal = self.coverage = self.holes = None
+        self.camera = camera
+        self.opaque = opaque
+        self._stats: Any = None
+
+    @property
+    def stats(self) -> dict[str, Any]:
+        if self._stats is None:
+            return {}
+        return {name: getattr(self._stats, name) for name, *_ in self._stats._fields_}
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height, pixels."""
+        for plane in (self.rgba8, self.rgba, self.depth, self.coverage, self.normal):
+            if plane is not None:
+                return plane.shape[1], plane.shape[0]
+        return 0, 0
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> Array:
+        plane = self.rgba8 if self.rgba8 is not None else self.rgba
+        if plane is None:
+            raise ArgumentError("the image has no colours; ask for the plane rgba8 or rgba")
+        return plane if dtype is None or plane.dtype == dtype else plane.astype(dtype)
+
+    def _repr_png_(self) -> bytes | None:
+        if self.rgba8 is None:
+            return None
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "image.png")
+            self.save(path)
+            with open(path, "rb") as file:
+                return file.read()
+
+    def __repr__(self) -> str:
+        planes = [name for name in ("rgba8", "rgba", "depth", "normal", "coverage") if getattr(self, name) is not None]
+        return f"<ewa.Image {self.size[0]}x{self.size[1]}: {', '.join(planes)}>"
+
+    def save(self, path: PathLike) -> None:
+        """Write the picture: .png (8-bit sRGB), .exr (linear floats, all planes), .pfm (linear RGB).
+
+        The bytes are those that the program writes.
+
+        Raises
+        ------
+        ArgumentError
+            The plane that the format needs (rgba8; rgba) was not drawn.
+        FileError, FormatError
+        """
+        file = path_bytes(path)
+        if file.lower().endswith(b".png"):
+            if self.rgba8 is None:
+                raise ArgumentError("save: a .png is made of the plane rgba8, which was not drawn")
+            pixels = np.ascontiguousarray(self.rgba8[:, :, :3] if self.opaque else self.rgba8)
+            height, width, channels = pixels.shape
+            core = core_of(None)
+            core.call(lib.ewa_png_save, core.address, file, width, height, channels, pixels.ctypes.data,
+                      width * channels)
+            return
+        if self.rgba is None:
+            raise ArgumentError("save: .exr and .pfm are made of the plane rgba, which was not drawn")
+        if not file.lower().endswith(b".exr"):
+            save_image(path, self.rgba[:, :, :3], camera=self.camera)
+            return
+        names, planes = ["R,G,B,A"], [self.rgba]
+        for name, plane in (("Z", self.depth), ("N.X,N.Y,N.Z", self.normal), ("coverage", self.coverage)):
+            if plane is not None:
+                names.append(name)
+                planes.append(plane if plane.ndim == 3 else plane[:, :, None])
+        save_image(path, np.concatenate(planes, axis=2), channel_names=",".join(names), camera=self.camera)
+
+    def save_plane(self, name: str, path: PathLike) -> None:
+        """Write one plane, "depth", "normal" or "coverage", to .exr or .pfm, as ``--aov`` of the program does.
+
+        Raises
+        ------
+        ArgumentError, FileError, FormatError
+        """
+        channels = {"depth": "Z", "normal": "N.X,N.Y,N.Z", "coverage": "coverage"}
+        if name not in channels:
+            raise ArgumentError(f"'{name}' is none of {', '.join(channels)}")
+        plane = getattr(self, name)
+        if plane is None:
+            raise ArgumentError(f"the plane {name} was not drawn")
+        save_image(path, plane, channel_names=channels[name], camera=self.camera)
+
+
+def save_image(path: PathLike, pixels: Any, *, channel_names: str | None = None, camera: Camera | None = None) -> None:
+    """Write float pixels: .png (sRGB from linear light), .exr or .pfm.
+
+    Parameters
+    ----------
+    path : path
+    pixels : array_like, shape (height, width) or (height, width, channels)
+        float32; colours linear, 4 channels premultiplied.
+    channel_names : str, optional
+        Names of the channels of .exr, comma-separated.
+    camera : Camera, optional
+        Written into .exr.
+
+    Raises
+    ------
+    ArgumentError, FileError, FormatError
+    """
+    array = np.asarray(pixels)
+    array = as_contiguous(array[:, :, None] if array.ndim == 2 else array, np.float32, (None, None, None), "pixels")
+    core = core_of(None)
+    image = _struct(array, core.address)
+    options = initialised(b.ewa_image_save_options, lib.ewa_image_save_options_init)
+    if channel_names is not None:
+        options.channel_names = channel_names.encode()
+    if camera is not None:
+        offset: int = getattr(b.ewa_camera, "world_to_camera").offset
+        options.world_to_camera = ctypes.addressof(camera._struct) + offset
+    core.call(lib.ewa_image_save, ctypes.byref(image), path_bytes(path), ctypes.byref(options))
+
+
+def _struct(array: Array, context: int | None) -> b.ewa_image:
+    """An image of the library over an array of (h, w, c) floats."""
+    height, width, channels = array.shape
+    if not (1 <= height <= 65536 and 1 <= width <= 65536 and 1 <= channels <= 16):
+        raise ArgumentError(f"pixels: shape {array.shape}; sides of 1 to 65536, 1 to 16 channels are needed")
+    return b.ewa_image(context=context, width_px=width, height_px=height, channel_count=channels,
+                       pixels=array.ctypes.data)
+
+
+def as_picture(value: Any, label: str) -> Array:
+    """A picture as (height, width, channels) floats, linear: of a path, of floats, or of uint8, which are sRGB."""
+    if isinstance(value, (str, bytes, os.PathLike)):
+        return read_image(os.fsdecode(value))
+    if isinstance(value, Image):
+        value = value.rgba if value.rgba is not None else value.rgba8
+    array = np.asarray(value)
+    array = array[:, :, None] if array.ndim == 2 else array
+    if array.dtype != np.uint8:
+        return as_contiguous(array, np.float32, (None, None, None), label)
+    table = np.array([lib.ewa_linear_from_srgb(code / 255) for code in range(256)], np.float32)
+    made: Array = table[array]
+    if array.shape[2] == 4:
+        made[:, :, 3] = array[:, :, 3].astype(np.float32) / np.float32(255)
+        made[:, :, :3] *= made[:, :, 3:]
+    return np.ascontiguousarray(made)
+
+
+def _read(function: Any, path: PathLike, context: Context | None) -> Array:
+    core = core_of(context)
+    image = b.ewa_image()
+
+    def read(address: int, file: bytes) -> Any:
+        status = function(address, file, ctypes.byref(image))
+        if status:
+            return status
+        shape = (image.height_px, image.width_px, image.channel_count)
+        data = ctypes.string_at(image.pixels or 0, 4 * shape[0] * shape[1] * shape[2])
+        pixels.append(np.frombuffer(bytearray(data), np.float32).reshape(shape))
+        lib.ewa_image_free(ctypes.byref(image))
+        return status
+
+    pixels: list[Array] = []
+    core.call(read, core.address, path_bytes(path))
+    return pixels[0]
+
+
+def read_image(path: PathLike, *, context: Context | None = None) -> Array:
+    """Read PNG, JPEG, WebP, OpenEXR, PFM or Radiance.
+
+    Returns
+    -------
+    ndarray of float32, shape (height, width, channels)
+        Linear light; 4 channels premultiplied.
+
+    Raises
+    ------
+    FileError, FormatError, OutOfMemory
+    """
+    return _read(lib.ewa_image_load, path, context)
+
+
+def read_depth(path: PathLike, *, context: Context | None = None) -> Array:
+    """Read the numbers of a depth image: PNG of 8 or 16 bits, OpenEXR, PFM; 65535 of PNG becomes infinite.
+
+    Returns
+    -------
+    ndarray of float32, shape (height, width)
+
+    Raises
+    ------
+    FileError, FormatError, OutOfMemory
+    """
+    return _read(lib.ewa_depth_load, path, context)[:, :, 0]

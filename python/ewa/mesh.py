@@ -1,0 +1,320 @@
+# SPDX-FileCopyrightText: 2026 The ewa authors
+# SPDX-License-Identifier: MIT
+"""Files of points or triangles, and meshes into surfels."""
+from __future__ import annotations
+
+import ctypes
+import os
+from typing import TYPE_CHECKING, Any, Sequence
+
+import numpy as np
+
+from . import _bindings as b
+from ._arrays import Array, as_contiguous, export
+from ._context import Context, Core, Handle, Pin, core_of
+from ._errors import ArgumentError, ClosedError, FormatError
+from ._library import functions as lib
+from ._struct import fill, initialised, path_bytes
+from .camera import PathLike
+from .cloud import Cloud, merge
+from .octree import Octree, is_folder
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._options import CloudSaveOptions, MeshSampleOptions
+
+# A mesh is drawn from at least so many points, and from so many per triangle.
+_MESH_POINTS, _MESH_POINTS_PER_TRIANGLE = 200000, 4
+_CONVENTIONS = {".gltf": "Y", ".glb": "Y", ".obj": "y", ".stl": "z"}
+
+
+class Mesh:
+    """Triangles over shared vertices.
+
+    Parameters
+    ----------
+    vertices : array_like, shape (n, 3)
+        World units.
+    triangles : array_like of int, shape (m, 3)
+        Counter-clockwise seen from outside.
+    normals : array_like, shape (n, 3), optional
+    colors : array_like, shape (n, 4), optional
+        Linear red, green, blue, straight alpha.
+
+    Raises
+    ------
+    ArgumentError
+        A shape or type that does not fit, a vertex that is not there.
+    """
+
+    _handle: Handle | None
+
+    def __init__(self, vertices: Any, triangles: Any, *, normals: Any = None, colors: Any = None,
+                 context: Context | None = None) -> None:
+        core = core_of(context)
+        positions = as_contiguous(vertices, np.float64, (None, 3), "vertices")
+        corners = np.asarray(triangles)
+        if corners.dtype.kind not in "iu" or corners.ndim != 2 or corners.shape[1] != 3:
+            raise ArgumentError(f"triangles: {corners.dtype} of shape {corners.shape}; integers of (m, 3) are needed")
+        if corners.size and (int(corners.min()) < 0 or int(corners.max()) >= len(positions)):
+            raise ArgumentError(f"triangles: a vertex outside of the {len(positions)} that there are")
+        if max(len(positions), len(corners)) >= 2**32:
+            raise ArgumentError("vertices: 2^32 or more")
+        corners = np.ascontiguousarray(corners, np.uint32)
+        arrays = [positions, corners]
+        self._mesh = b.ewa_mesh(context=core.address, vertex_count=len(positions), triangle_count=len(corners),
+                                positions=positions.ctypes.data, triangles=corners.ctypes.data)
+        for name, value, width in (("normals", normals, 3), ("colors", colors, 4)):
+            if value is not None:
+                arrays.append(as_contiguous(value, np.float32, (len(positions), width), name))
+                setattr(self._mesh, name, arrays[-1].ctypes.data)
+        self._handle = Handle(core, None, lib.ewa_mesh_free, "the mesh",
+                              tuple(Pin(array, "mesh") for array in arrays))
+
+    @staticmethod
+    def _loaded(model: _Model) -> Mesh:
+        mesh = Mesh.__new__(Mesh)
+        mesh._mesh = model.struct.mesh
+        mesh._handle = model.handle
+        return mesh
+
+    @property
+    def _h(self) -> Handle:
+        if self._handle is None:
+            raise ClosedError("the mesh is closed")
+        return self._handle
+
+    def _plane(self, address: int | None, count: int, width: int, dtype: Any) -> Array:
+        if self._h.core.closed:
+            raise ClosedError("the context is closed")
+        return export(self._h, address, (count, width), np.dtype(dtype))
+
+    @property
+    def vertices(self) -> Array:
+        """World units; float64, shape (n, 3); read-only."""
+        return self._plane(self._mesh.positions, self._mesh.vertex_count, 3, np.float64)
+
+    @property
+    def triangles(self) -> Array:
+        """Vertices of each; uint32, shape (m, 3); read-only."""
+        return self._plane(self._mesh.triangles, self._mesh.triangle_count, 3, np.uint32)
+
+    @property
+    def closed(self) -> bool:
+        """Whether the mesh bounds a solid."""
+        result = ctypes.c_bool()
+        self._call(lib.ewa_mesh_is_closed, ctypes.byref(result))
+        return result.value
+
+    def _call(self, function: Any, *arguments: Any) -> None:
+        self._h.core.call(self._bound(function), *arguments)
+
+    def _bound(self, function: Any) -> Any:
+        """A function with the mesh as its first argument, for a call in which it cannot go away."""
+        handle = self._h
+
+        def checked(*given: Any) -> int:
+            if not self._mesh.context or (handle.address is None and not handle.keep):
+                raise ClosedError("the mesh is closed")
+            for pin in handle.keep:
+                pin.check()
+            status: int = function(ctypes.byref(self._mesh), *given)
+            return status
+
+        return checked
+
+    def sample(self, **options: Unpack[MeshSampleOptions]) -> Cloud:
+        """Return surfels on the triangles, sharp edges as clip lines.
+
+        Parameters
+        ----------
+        **options
+            Members of ``ewa_mesh_sample_options``: ``point_count``, ``spacing_world``, ``seed``, ``crease_degrees``,
+            ``radius_scale``, ``cutoff``, ``clip_lines``, ``smooth_normals``, ``texture_filter``, ``pixel_sigma_px``,
+            ``texcoords``.
+
+        Raises
+        ------
+        ArgumentError, NumericError, OutOfMemory
+        """
+        made = initialised(b.ewa_mesh_sample_options, lib.ewa_mesh_sample_options_init)
+        fill(made, "ewa_mesh_sample_options", options)
+        return Cloud._made(self._h.core, self._bound(lib.ewa_mesh_sample), ctypes.byref(made))
+
+    def close(self) -> None:
+        """Free the mesh; later use raises ClosedError."""
+        self._handle = None
+
+    def __repr__(self) -> str:
+        if self._handle is None:
+            return "<ewa.Mesh, closed>"
+        return f"<ewa.Mesh of {self._mesh.triangle_count} triangles, {self._mesh.vertex_count} vertices>"
+
+
+class _Model:
+    """What a file holds, until it is taken."""
+
+    def __init__(self, core: Core, path: PathLike, wanted: int, options: b.ewa_cloud_load_options) -> None:
+        self.core = core
+        self.path = path
+        struct = self.struct = b.ewa_model()
+
+        def create(*given: Any) -> int:
+            status: int = lib.ewa_model_load(*given[:-1], ctypes.byref(struct))
+            given[-1]._obj.value = ctypes.addressof(struct)
+            return status
+
+        def free(_: Any) -> None:
+            lib.ewa_model_free(ctypes.byref(struct))
+
+        self.handle = core.make(create, core.address, path_bytes(path), wanted, ctypes.byref(options), destroy=free,
+                                what="the mesh")
+
+    def take(self, member: str, destroy: Any, what: str) -> Handle:
+        """Take a member out, which is the caller's then."""
+        def create(_: int, place: Any) -> int:
+            place._obj.value = getattr(self.struct, member)
+            setattr(self.struct, member, None)
+            return 0
+
+        return self.core.make(create, self.handle, destroy=destroy, what=what)
+
+    def take_points(self) -> Cloud:
+        cloud = Cloud._of(self.take("points", lib.ewa_cloud_destroy, "the cloud"))
+        cloud._convention = self.convention
+        return cloud
+
+    @property
+    def convention(self) -> str:
+        return _CONVENTIONS.get(os.path.splitext(os.fsdecode(self.path))[1].lower(), "")
+
+
+def _load(core: Core, path: PathLike, wanted: int, keep_going: bool, attributes: Sequence[str] | None,
+          columns: Sequence[str] | None) -> _Model:
+    options = initialised(b.ewa_cloud_load_options, lib.ewa_cloud_load_options_init)
+    options.keep_going = bool(keep_going)
+    if attributes is not None:
+        options.attributes = ",".join(attributes).encode()
+    if columns is not None:
+        options.columns = ",".join(columns).encode()
+    return _Model(core, path, wanted, options)
+
+
+def read(path: PathLike, *more: PathLike, filter: str | Sequence[str] | None = None, vertices: bool = False,
+         keep_going: bool = False, attributes: Sequence[str] | None = None, columns: Sequence[str] | None = None,
+         context: Context | None = None) -> Cloud:
+    """Read points: PLY, LAS, LAZ, COPC, EPT, E57, PCD, PTX, PTS, XYZ, CSV; or a mesh, onto whose faces points are put.
+
+    Parameters
+    ----------
+    path, *more : path
+        Several files become one cloud.
+    filter : str or sequence of str, optional
+        Conditions on attributes that points fulfil, such as ``"classification=2,6"``.
+    vertices : bool, optional
+        Of a mesh: take its vertices. Default: points on its faces, as many as the program draws.
+    keep_going : bool, optional
+        Step over damaged pieces of a file, with a warning.
+    attributes : sequence of str, optional
+        Names of the streams that are wanted besides "position". Default: all.
+    columns : sequence of str, optional
+        What the columns of a text file are. Default: as its head or its numbers say.
+    context : Context, optional
+
+    Raises
+    ------
+    FileError, FormatError, OutOfMemory
+    """
+    if more:
+        return merge([read(one, filter=filter, vertices=vertices, keep_going=keep_going, attributes=attributes,
+                           columns=columns, context=context) for one in (path, *more)])
+    core = core_of(context)
+    if is_folder(core, path):
+        cloud = Octree(path, context=context).read()
+        return cloud if filter is None else cloud.filter(*([filter] if isinstance(filter, str) else filter))
+    wanted = b.EWA_MODEL_POINTS if vertices else b.EWA_MODEL_MESH
+    model = _load(core, path, wanted, keep_going, attributes, columns)
+    if model.struct.points:
+        cloud = model.take_points()
+    else:
+        mesh = Mesh._loaded(model)
+        count = max(_MESH_POINTS, _MESH_POINTS_PER_TRIANGLE * mesh._mesh.triangle_count)
+        cloud = mesh.sample(point_count=count, texture_filter="ewa")
+        cloud._convention = model.convention
+    if filter is not None:
+        cloud = cloud.filter(*([filter] if isinstance(filter, str) else filter))
+    return cloud
+
+
+def read_mesh(path: PathLike, *, context: Context | None = None) -> Mesh:
+    """Read triangles: PLY, OBJ, STL, OFF, glTF.
+
+    Raises
+    ------
+    FileError
+    FormatError
+        Also a file that has no faces.
+    """
+    core = core_of(context)
+    model = _load(core, path, b.EWA_MODEL_MESH, False, None, None)
+    if not model.struct.mesh.triangle_count:
+        raise FormatError(f"{os.fspath(path)!r}: there are no faces", "EWA_ERROR_FORMAT")
+    return Mesh._loaded(model)
+
+
+def sample(path: PathLike, *, context: Context | None = None, **options: Unpack[MeshSampleOptions]) -> Cloud:
+    """Read a mesh and return surfels on its faces: :func:`read_mesh`, then :meth:`Mesh.sample`."""
+    return read_mesh(path, context=context).sample(**options)
+
+
+def convert(source: PathLike, target: PathLike, *, filter: str | Sequence[str] | None = None, crop: Any = None,
+            voxel: float | None = None, distance: float | None = None, transform: Any = None,
+            columns: Sequence[str] | None = None, context: Context | None = None,
+            **options: Unpack[CloudSaveOptions]) -> int:
+    """Write a cloud to another file: another format, a part of it, moved. Faces of PLY are kept where all points are.
+
+    Parameters
+    ----------
+    source, target : path
+        The suffix of the target chooses its format.
+    filter, columns
+        As of :func:`read`.
+    crop : array_like, shape (2, 3), optional
+        Keep the points within a box.
+    voxel, distance : float, optional
+        Keep one point per voxel of that size; points at least so far apart; world units.
+    transform : array_like, shape (4, 4) or (3, 4), optional
+        Map points and directions.
+    **options
+        Members of ``ewa_cloud_save_options``: ``ply_encoding``, ``step_world``, ``chunk_points``.
+
+    Returns
+    -------
+    int
+        Number of points written.
+
+    Raises
+    ------
+    ArgumentError, FileError, FormatError, OutOfMemory
+    """
+    core = core_of(context)
+    model = _load(core, source, b.EWA_MODEL_POINTS | b.EWA_MODEL_ELEMENTS, False, None, columns)
+    cloud = model.take_points()
+    before = len(cloud)
+    if filter is not None:
+        cloud = cloud.filter(*([filter] if isinstance(filter, str) else filter))
+    if crop is not None:
+        low, high = np.asarray(crop, float).reshape(2, 3)
+        cloud = cloud.crop(list(low), list(high))
+    if voxel is not None or distance is not None:
+        cloud = cloud.thin(voxel=voxel, distance=distance)
+    if transform is not None:
+        cloud = cloud.transform(transform)
+    made = initialised(b.ewa_cloud_save_options, lib.ewa_cloud_save_options_init)
+    fill(made, "ewa_cloud_save_options", options)
+    if len(cloud) == before and path_bytes(target).lower().endswith(b".ply"):
+        made.elements = model.struct.elements
+    core.call(lambda cloud, _, *rest: lib.ewa_cloud_save(cloud, *rest), cloud._h, model.handle, path_bytes(target),
+              ctypes.byref(made))
+    return len(cloud)

@@ -1,0 +1,240 @@
+# SPDX-FileCopyrightText: 2026 The ewa authors
+# SPDX-License-Identifier: MIT
+"""Pictures of surfels."""
+from __future__ import annotations
+
+import ctypes
+from typing import TYPE_CHECKING, Any, Iterable, Sequence, Union
+
+import numpy as np
+
+from . import _bindings as b
+from ._arrays import Array
+from ._context import Context, Core, Handle, core_of
+from ._errors import ArgumentError
+from ._library import functions as lib
+from ._struct import fill, initialised
+from .camera import Camera
+from .cloud import Cloud
+from .image import Color, Image
+from .shade import (Environment, Light, Materials, set_background, set_lights, set_materials, set_section)
+from .surfels import Surfels
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._options import RenderOptions
+
+#: What can be drawn.
+Scene = Union[Surfels, Cloud, Sequence[Union[Surfels, Cloud]]]
+
+#: Names of planes: their types and numbers per pixel.
+PLANES: dict[str, tuple[Any, int]] = {"rgba8": (np.uint8, 4), "rgba": (np.float32, 4), "depth": (np.float32, 1),
+                                      "normal": (np.float32, 3), "coverage": (np.float32, 1)}
+_BACKENDS = ("cpu", "gl", "gl-raster", "auto")
+_SURFELS = frozenset(("cutoff", "radius_scale", "level_count", "close_gaps"))
+
+
+def new_frame(image: Image, size: tuple[int, int], planes: str | Iterable[str], out: Image | None,
+              without: tuple[str, ...] = ()) -> b.ewa_frame:
+    """Make the planes of an image, or take those of `out`; returns where the library writes."""
+    width, height = size
+    frame = b.ewa_frame()
+    names = (planes,) if isinstance(planes, str) else tuple(planes)
+    if names == ("all",):
+        names = tuple(name for name in PLANES if name not in without)
+    if not names:
+        raise ArgumentError("planes: none is asked for")
+    for name in names:
+        if name not in PLANES or name in without:
+            raise ArgumentError(f"planes: '{name}' is none of {', '.join(n for n in PLANES if n not in without)}")
+        dtype, count = PLANES[name]
+        shape = (height, width) if count == 1 else (height, width, count)
+        plane: Array | None = getattr(out, name) if out is not None else None
+        if plane is None:
+            plane = np.empty(shape, dtype)
+        elif plane.shape != shape or plane.dtype != dtype or not plane.flags.carray:
+            raise ArgumentError(f"out: its plane {name} is {plane.shape} {plane.dtype}; {shape} is needed")
+        setattr(image, name, plane)
+        setattr(frame, name, plane.ctypes.data)
+    return frame
+
+
+def options_of(options: dict[str, Any], lights: Sequence[Light] | None, materials: Materials | None,
+               environment: Environment | Any, background: Color | None, layers: int | str | None,
+               section_box: Any, section_planes: Sequence[Sequence[float]] | None, core: Core,
+               init: Any = lib.ewa_render_options_init) -> tuple[b.ewa_render_options, bool, tuple[Any, ...]]:
+    """The struct of options, whether the background is opaque, and what has to live as long as it."""
+    made = initialised(b.ewa_render_options, init)
+    fill(made, "ewa_render_options", options)
+    keep: tuple[Any, ...] = ()
+    if lights is not None:
+        set_lights(made, lights)
+    if materials is not None or environment is not None:
+        keep = (set_materials(made, materials),)
+        if environment is not None and not isinstance(environment, Environment):
+            environment = Environment(environment)
+        if environment is not None:
+            made.environment = core.resolve(environment._handle)
+            keep += (environment,)
+        if "shading" not in options:
+            made.shading = b.ewa_shading.EWA_SHADING_PHONG
+    if section_box is not None or section_planes is not None:
+        set_section(made, section_box, section_planes)
+    if layers is not None:
+        words = {"auto": 0, "exact": b.EWA_LAYERS_EXACT}
+        fill(made, "ewa_render_options", {"layers": words.get(layers, layers) if isinstance(layers, str) else layers},
+             own=True)
+    return made, set_background(made, background), keep
+
+
+class Renderer:
+    """An object that owns the memory of frames; :func:`render` keeps one per context.
+
+    Parameters
+    ----------
+    context : Context, optional
+    backend : {"cpu", "gl", "gl-raster", "auto"}, optional
+        What draws: the processor, or OpenGL where the library was built with it.
+
+    Raises
+    ------
+    FormatError
+        There is no such device.
+    """
+
+    def __init__(self, *, context: Context | None = None, backend: str = "cpu") -> None:
+        self._handle = _renderer(core_of(context), backend)
+
+    def render(self, scene: Scene, camera: Camera | None = None, **options: Any) -> Image:
+        """As :func:`render`, by this renderer."""
+        return render(scene, camera, renderer=self, **options)
+
+
+def _renderer(core: Core, backend: str) -> Handle:
+    if backend not in _BACKENDS:
+        raise ArgumentError(f"backend: '{backend}' is none of {', '.join(_BACKENDS)}")
+    return core.make(lib.ewa_renderer_create_on, core.address, _BACKENDS.index(backend),
+                     destroy=lib.ewa_renderer_destroy, what="the renderer")
+
+
+def _shared(core: Core, backend: str) -> Handle:
+    handle = core.renderers.get(backend)
+    if handle is None or handle.address is None:
+        handle = core.renderers[backend] = _renderer(core, backend)
+    return handle
+
+
+def _sources(scene: Scene, making: dict[str, Any]) -> list[Surfels]:
+    """The surfels of a scene, made of clouds where need be."""
+    parts = [scene] if isinstance(scene, (Surfels, Cloud)) else list(scene)
+    if not parts:
+        raise ArgumentError("scene: there is nothing")
+    made = []
+    for part in parts:
+        if isinstance(part, Cloud):
+            part = part.surfels(**making)
+        elif not isinstance(part, Surfels):
+            raise TypeError(f"scene: surfels or clouds, not {type(part).__name__}")
+        elif making:
+            raise TypeError(f"{', '.join(making)}: said where surfels are made, Cloud.surfels()")
+        made.append(part)
+    return made
+
+
+def render(scene: Scene, camera: Camera | None = None, *, size: Sequence[int] | None = None,
+           planes: str | Iterable[str] = ("rgba8",), background: Color | None = None,
+           lights: Sequence[Light] | None = None, materials: Materials | None = None,
+           environment: Environment | Any = None, layers: int | str | None = None, section_box: Any = None,
+           section_planes: Sequence[Sequence[float]] | None = None, backend: str = "cpu",
+           renderer: Renderer | None = None, out: Image | None = None,
+           **options: Unpack[RenderOptions]) -> Image:
+    """Draw surfels, or clouds, which become surfels first.
+
+    Parameters
+    ----------
+    scene : Surfels, Cloud, or a sequence of them
+        Several make one picture, whose surfaces meet and blend.
+    camera : Camera, optional
+        Default: one that has all in its picture, ``Camera.frame(scene)``.
+    size : (int, int), optional
+        Width and height in pixels; scales the camera's picture. Default: the camera's.
+    planes : "all", or some of "rgba8", "rgba", "depth", "normal", "coverage"
+        What is drawn, as the attributes of :class:`Image`.
+    background : colour, optional
+        Linear (r, g, b[, a]), or text: "white", "#ff8800", "r,g,b" of sRGB. Default: transparent.
+    lights : sequence, optional
+        At most 8 directions (x, y, z), or with linear colours (x, y, z, r, g, b). Default: from the eye.
+    materials : path or sequence of mappings, optional
+        By the points' "material": ambient, diffuse, specular, shininess, reflection.
+    environment : Environment, path or array, optional
+        What surfaces mirror.
+    layers : int, "auto" or "exact", optional
+        Transparent surfaces of a pixel that are composited.
+    section_box : array_like, shape (2, 3), optional
+        Draws only what is within a box, world units.
+    section_planes : sequence of (a, b, c, d), optional
+        Draws only what fulfils a x + b y + c z + d >= 0.
+    backend : {"cpu", "gl", "gl-raster", "auto"}, optional
+    renderer : Renderer, optional
+        In place of the context's.
+    out : Image, optional
+        Whose planes are drawn into; they have to be of the picture's size.
+    **options
+        Members of ``ewa_render_options``: ``kernel``, ``prefilter_px``, ``point_size_px``, ``tolerance``, ``passes``,
+        ``edge_antialiasing``, ``edge_threshold``, ``edge_layers``, ``opacity``, ``cull``, ``shading``, ``ambient``,
+        ``environment_up``, ``eye_dome``, ``level``, ``budget_s``; and, of clouds, those of :meth:`Cloud.surfels`.
+
+    Returns
+    -------
+    Image
+
+    Raises
+    ------
+    ArgumentError
+        An option out of its range, a camera that is none, a scene of several contexts.
+    OutOfMemory, ClosedError
+    """
+    making: dict[str, Any] = {}
+    if not _SURFELS.isdisjoint(options):
+        making = {name: options.pop(name) for name in tuple(options) if name in _SURFELS}  # type: ignore[misc]
+    if type(scene) is Surfels and not making:
+        sources = [scene]
+    else:
+        if options.get("point_size_px"):
+            making.setdefault("close_gaps", False)
+        if camera is None and isinstance(scene, Cloud):
+            from .surfels import complete
+
+            scene = complete(scene)
+            camera = Camera.frame(scene, size=size or (1280, 720), radius_scale=making.get("radius_scale", 1.0))
+        sources = _sources(scene, making)
+    core = sources[0]._core
+    if camera is None:
+        camera = Camera.frame(sources if len(sources) > 1 else sources[0], size=size or (1280, 720))
+    elif not isinstance(camera, Camera):
+        raise TypeError(f"camera: an ewa.Camera, not {type(camera).__name__}")
+    if size is not None and tuple(size) != camera.size:
+        camera = camera.resized(*size)
+    made, opaque, keep = options_of(dict(options), lights, materials, environment, background, layers, section_box,
+                                    section_planes, core)
+    image = Image(camera, opaque)
+    frame = new_frame(image, camera.size, planes, out)
+    stats = b.ewa_render_stats()
+    handle = renderer._handle if renderer is not None else _shared(core, backend)
+    where = (ctypes.byref(camera._struct), ctypes.byref(made), ctypes.byref(frame))
+    if len(sources) == 1:
+        core.call(lib.ewa_render, handle, sources[0]._h, *where, ctypes.byref(stats))
+    else:
+        core.call(_render_several, handle, where, stats, *[source._h for source in sources])
+    del keep
+    image._stats = stats
+    return image
+
+
+def _render_several(renderer: int, where: tuple[Any, ...], stats: b.ewa_render_stats, *sources: int) -> int:
+    """One frame of several sources, while the context is locked."""
+    status: int = lib.ewa_render_begin(renderer, *where)
+    for source in sources:
+        status = status or lib.ewa_render_add(renderer, source)
+    return status or lib.ewa_render_finish(renderer, ctypes.byref(stats))

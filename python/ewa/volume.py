@@ -1,0 +1,426 @@
+# SPDX-FileCopyrightText: 2026 The ewa authors
+# SPDX-License-Identifier: MIT
+"""Volumes: numbers on a grid, transfer functions, and pictures of them."""
+from __future__ import annotations
+
+import ctypes
+import math
+from typing import TYPE_CHECKING, Any, Iterable, Sequence
+
+import numpy as np
+
+from . import _bindings as b
+from ._arrays import DTYPE_OF, TYPE_OF, Array, as_numbers, export
+from ._context import Context, Core, Handle, Pin, core_of
+from ._errors import ArgumentError, ClosedError
+from ._library import functions as lib
+from ._struct import fill, initialised, numbers, path_bytes
+from .camera import Camera, PathLike
+from .cloud import Cloud
+from .image import Color, Image
+from .rendering import new_frame
+from .shade import Light, set_background, set_lights
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._options import VolumeGenerateOptions, VolumeOptions
+
+_T = b.ewa_type
+_VOXELS = tuple(DTYPE_OF[kind] for kind in (_T.EWA_U8, _T.EWA_I8, _T.EWA_U16, _T.EWA_I16, _T.EWA_F32))
+_SLICE_RATIO = 8.0  # how many times as wide as thick a volume is when it is a slice
+
+
+class Volume:
+    """Numbers on a regular grid.
+
+    Parameters
+    ----------
+    voxels : array_like, shape (nz, ny, nx)
+        uint8, int8, uint16, int16 or float32; borrowed where it is C-contiguous. NaN is no matter at all.
+    spacing : float or array_like of shape (3,), optional
+        Distances of voxels along x, y, z, world units. Default 1.
+    index_to_world : array_like, shape (3, 4), optional
+        Acts on columns (i, j, k, 1), whole numbers at the voxels' centres. Default: by `spacing`, the middle at the
+        origin.
+
+    Raises
+    ------
+    ArgumentError
+    """
+
+    _handle: Handle | None
+
+    def __init__(self, voxels: Any, *, spacing: float | Sequence[float] = 1.0, index_to_world: Any = None,
+                 context: Context | None = None) -> None:
+        core = core_of(context)
+        array = as_numbers(voxels, "voxels")
+        if array.ndim != 3 or 0 in array.shape or max(array.shape) >= 2**32:
+            raise ArgumentError(f"voxels: shape {array.shape}; (nz, ny, nx) is needed")
+        if array.dtype not in _VOXELS:
+            raise ArgumentError(f"voxels: numbers of type {array.dtype}; {', '.join(map(str, _VOXELS))} are")
+        array = np.require(array, None, ["C", "A"])
+        dims = array.shape[::-1]
+        if index_to_world is not None:
+            matrix = list(numbers(index_to_world, 12, "index_to_world"))
+        else:
+            steps = list(numbers([spacing] * 3 if np.ndim(spacing) == 0 else spacing, 3, "spacing"))
+            if not all(step > 0 for step in steps):
+                raise ArgumentError(f"spacing: {steps} are not all above 0")
+            matrix = [0.0] * 12
+            for c in range(3):
+                matrix[5 * c], matrix[4 * c + 3] = steps[c], -0.5 * steps[c] * (dims[c] - 1)
+        self._volume = b.ewa_volume(context=core.address, dims=dims, type=TYPE_OF[array.dtype],
+                                    voxels=array.ctypes.data, index_to_world=tuple(matrix))
+        self._handle = Handle(core, None, lib.ewa_volume_free, "the volume", (Pin(array, "voxels"),))
+
+    @staticmethod
+    def _made(core: Core, function: Any, *arguments: Any) -> Volume:
+        volume = Volume.__new__(Volume)
+        held = b.ewa_volume()
+
+        def create(*given: Any) -> int:
+            status: int = function(*given[:-1], ctypes.byref(held))
+            if held.voxels:
+                given[-1]._obj.value = ctypes.addressof(held)
+            return status
+
+        def free(_: Any) -> None:
+            lib.ewa_volume_free(ctypes.byref(held))
+
+        volume._volume = held
+        volume._handle = core.make(create, *arguments, destroy=free, what="the volume")
+        return volume
+
+    @property
+    def _h(self) -> Handle:
+        if self._handle is None or self._handle.core.closed:
+            raise ClosedError("the volume is closed")
+        return self._handle
+
+    def _call(self, function: Any, *arguments: Any) -> None:
+        self._h.core.call(self._bound(function), *arguments)
+
+    def _bound(self, function: Any) -> Any:
+        """A function with the volume as its first argument, for a call in which it cannot go away."""
+        handle = self._h
+
+        def checked(*given: Any) -> int:
+            if handle.address is None and not handle.keep:
+                raise ClosedError("the volume is closed")
+            for pin in handle.keep:
+                pin.check()
+            status: int = function(ctypes.byref(self._volume), *given)
+            return status
+
+        return checked
+
+    @property
+    def voxels(self) -> Array:
+        """The numbers; shape (nz, ny, nx), read-only."""
+        return export(self._h, self._volume.voxels, tuple(self._volume.dims)[::-1], DTYPE_OF[self._volume.type])
+
+    @property
+    def index_to_world(self) -> Array:
+        """float64, shape (3, 4)."""
+        return np.array(self._volume.index_to_world).reshape(3, 4)
+
+    def _facts(self) -> b.ewa_volume_facts:
+        facts = b.ewa_volume_facts()
+        self._call(lib.ewa_volume_measure, ctypes.byref(facts))
+        return facts
+
+    @property
+    def range(self) -> tuple[float, float]:
+        """Least and largest finite number."""
+        facts = self._facts()
+        return facts.low, facts.high
+
+    def save(self, path: PathLike, *, plain: bool = False) -> None:
+        """Write the volume as NRRD (.nrrd); `plain`: not compressed.
+
+        Raises
+        ------
+        FileError, FormatError
+        """
+        made = initialised(b.ewa_volume_save_options, lib.ewa_volume_save_options_init)
+        fill(made, "ewa_volume_save_options", {"plain": plain})
+        self._call(lib.ewa_volume_save, path_bytes(path), ctypes.byref(made))
+
+    def close(self) -> None:
+        """Free the volume; later use raises ClosedError."""
+        self._handle = None
+
+    def __repr__(self) -> str:
+        if self._handle is None:
+            return "<ewa.Volume, closed>"
+        nx, ny, nz = self._volume.dims
+        return f"<ewa.Volume {nx}x{ny}x{nz}, {DTYPE_OF[self._volume.type]}>"
+
+
+def read_volume(path: PathLike, *, dims: Sequence[int] | None = None, dtype: Any = None, big_endian: bool = False,
+                header_bytes: int = 0, spacing: Sequence[float] | None = None,
+                context: Context | None = None) -> Volume:
+    """Read NRRD, NIfTI, Analyze, MetaImage, VTK, or raw numbers.
+
+    Parameters
+    ----------
+    path : path
+    dims : (nx, ny, nz), optional
+        The file is raw numbers, x fastest.
+    dtype : optional
+        Type of raw numbers, as numpy names it. Default: by the file's name, else uint8.
+    big_endian, header_bytes
+        Of raw numbers.
+    spacing : (x, y, z), optional
+        Distances of voxels, world units. Default: as the file says, else 1.
+
+    Raises
+    ------
+    FileError, FormatError, OutOfMemory
+    """
+    made = initialised(b.ewa_volume_load_options, lib.ewa_volume_load_options_init)
+    given: dict[str, Any] = {"big_endian": big_endian, "header_bytes": header_bytes}
+    if dims is not None:
+        given["dims"] = dims
+    if spacing is not None:
+        given["spacing_world"] = spacing
+    fill(made, "ewa_volume_load_options", given)
+    if dtype is not None:
+        kind = TYPE_OF.get(np.dtype(dtype))
+        if kind is None:
+            raise ArgumentError(f"dtype: {np.dtype(dtype)} is no type of voxels")
+        made.type = kind
+    core = core_of(context)
+    return Volume._made(core, lib.ewa_volume_load, core.address, path_bytes(path), ctypes.byref(made))
+
+
+def generate_volume(object: str = "checkerbox", *, context: Context | None = None,
+                    **options: Unpack[VolumeGenerateOptions]) -> Volume:
+    """Make a test volume: "checkerbox", "blob", "ball" or "vessels".
+
+    Parameters
+    ----------
+    **options
+        Members of ``ewa_volume_generate_options``: ``dims``, ``size_world``, ``checks``, ``seed``.
+
+    Raises
+    ------
+    ArgumentError, OutOfMemory
+    """
+    made = initialised(b.ewa_volume_generate_options, lib.ewa_volume_generate_options_init)
+    fill(made, "ewa_volume_generate_options", {"object": object, **options}, own=True)
+    core = core_of(context)
+    return Volume._made(core, lib.ewa_volume_generate, core.address, ctypes.byref(made))
+
+
+class Transfer:
+    """What values of a volume look like.
+
+    Parameters
+    ----------
+    points : sequence of (value, (r, g, b), extinction)
+        In ascending order of their values; linear colours; optical depth per unit length.
+    unit_length : float, optional
+        World units; 0 (default): the volume's smallest spacing.
+    gradient : (float, float), optional
+        Lengths of gradients, value per world unit, between which the extinction grows from none to all.
+
+    Raises
+    ------
+    ArgumentError
+    """
+
+    def __init__(self, points: Sequence[Any], *, unit_length: float = 0.0,
+                 gradient: Sequence[float] = (0.0, 0.0)) -> None:
+        self._struct = b.ewa_transfer()
+        if not 2 <= len(points) <= b.EWA_MAX_TRANSFER_POINTS:
+            raise ArgumentError(f"points: {len(points)} of them; [2, {b.EWA_MAX_TRANSFER_POINTS}]")
+        for i, point in enumerate(points):
+            value, r, g, blue, extinction = numbers(point, 5, f"points[{i}]")
+            self._struct.points[i] = b.ewa_transfer_point(value, (r, g, blue), extinction)
+        self._struct.point_count = len(points)
+        self._struct.unit_length_world = numbers([unit_length], 1, "unit_length")[0]
+        self._struct.gradient_low, self._struct.gradient_high = numbers(gradient, 2, "gradient")
+
+    @staticmethod
+    def _of(struct: b.ewa_transfer) -> Transfer:
+        transfer = Transfer.__new__(Transfer)
+        transfer._struct = struct
+        return transfer
+
+    @staticmethod
+    def presets() -> dict[str, str]:
+        """Return the names of the presets, and a few words about each."""
+        found: dict[str, str] = {}
+        what = ctypes.c_char_p()
+        while True:
+            name = lib.ewa_transfer_preset_name(len(found), ctypes.byref(what))
+            if name is None:
+                return found
+            found[name.decode()] = (what.value or b"").decode()
+
+    @staticmethod
+    def of(volume: Volume, name: str | PathLike = "auto") -> Transfer:
+        """Return a preset for a volume, "auto" by its histogram, or that of a JSON file.
+
+        Raises
+        ------
+        ArgumentError, NumericError, FileError, FormatError
+        """
+        struct = b.ewa_transfer()
+        if name != "auto" and name not in Transfer.presets():
+            core = volume._h.core
+            core.call(lib.ewa_transfer_load, core.address, path_bytes(name, "transfer"), ctypes.byref(struct))
+            return Transfer._of(struct)
+        facts = volume._facts()
+        if name == "auto":
+            volume._call(lib.ewa_transfer_automatic, ctypes.byref(facts), ctypes.byref(struct))
+        else:
+            volume._call(lib.ewa_transfer_preset, ctypes.byref(facts), str(name).encode(), ctypes.byref(struct))
+        return Transfer._of(struct)
+
+    @property
+    def points(self) -> list[tuple[float, tuple[float, float, float], float]]:
+        """(value, (r, g, b), extinction) of each point."""
+        return [(p.value, (p.color[0], p.color[1], p.color[2]), p.extinction)
+                for p in self._struct.points[:self._struct.point_count]]
+
+    def save(self, path: PathLike) -> None:
+        """Write a JSON file, for ``--transfer`` of the program and :meth:`of`.
+
+        Raises
+        ------
+        FileError
+        """
+        core = core_of(None)
+        core.call(lib.ewa_transfer_save, core.address, ctypes.byref(self._struct), path_bytes(path))
+
+
+class Voxels:
+    """The resident form of a volume under a transfer function, which is what is drawn.
+
+    Parameters
+    ----------
+    volume : Volume
+    transfer : Transfer or str, optional
+        Or a preset, "auto" (default), a JSON file.
+    level_count : int, optional
+        Levels of detail, 1 to 4. Default 2.
+
+    Raises
+    ------
+    ArgumentError, OutOfMemory
+    """
+
+    def __init__(self, volume: Volume, transfer: Transfer | str = "auto", *, level_count: int = 2) -> None:
+        if not isinstance(volume, Volume):
+            raise TypeError(f"volume: an ewa.Volume, not {type(volume).__name__}")
+        self._flat = transfer in ("fog", "gray") if isinstance(transfer, str) else False
+        self._transfer = transfer if isinstance(transfer, Transfer) else Transfer.of(volume, transfer)
+        made = initialised(b.ewa_voxels_options, lib.ewa_voxels_options_init)
+        fill(made, "ewa_voxels_options", {"level_count": level_count})
+        self._handle = volume._h.core.make(volume._bound(lib.ewa_voxels_create), ctypes.byref(self._transfer._struct),
+                                           ctypes.byref(made), destroy=lib.ewa_voxels_destroy, what="the voxels")
+        self._volume = volume
+
+    @property
+    def _core(self) -> Core:
+        return self._handle.core
+
+    @property
+    def occupied_count(self) -> int:
+        """Voxels with an extinction."""
+        info = b.ewa_voxels_info()
+        self._core.value(lib.ewa_voxels_describe, self._handle, ctypes.byref(info))
+        return info.occupied_count
+
+    def outline(self, reach_steps: float = 1.8) -> Cloud:
+        """Return points that a camera has to have in its picture, `reach_steps` steps of the grid around."""
+        return Cloud._made(self._core, self._volume._bound(lib.ewa_volume_outline),
+                           ctypes.byref(self._transfer._struct), float(reach_steps))
+
+
+def default_view(volume: Volume) -> str:
+    """The view of the program: a patient from the front, a slice where it is no line, anything else from a corner."""
+    struct = volume._volume
+    thickness, width, thin, single_count = math.inf, math.inf, 0, 0
+    m = struct.index_to_world
+    for axis in range(3):
+        single = struct.dims[axis] == 1
+        step = math.hypot(math.hypot(m[axis], m[4 + axis]), m[8 + axis])
+        extent = 0.0 if single else struct.dims[axis] * step
+        single_count += single
+        if extent < thickness:
+            width, thickness, thin = thickness, extent, axis
+        elif extent < width:
+            width = extent
+    x, y, z = abs(m[thin]), abs(m[4 + thin]), abs(m[8 + thin])
+    if single_count < 2 and width > _SLICE_RATIO * thickness:
+        return "bottom" if z >= x and z >= y else "left" if x > y else "front"
+    return "front" if struct.anatomical else "iso"
+
+
+def render_volume(volume: Volume | Voxels, camera: Camera | None = None, *, transfer: Transfer | str = "auto",
+                  size: Sequence[int] | None = None, planes: str | Iterable[str] = ("rgba8",),
+                  background: Color = "black", lights: Sequence[Light] | None = None,
+                  surfaces: Image | None = None, out: Image | None = None,
+                  **options: Unpack[VolumeOptions]) -> Image:
+    """Draw a volume.
+
+    Parameters
+    ----------
+    volume : Volume or Voxels
+    camera : Camera, optional
+        Default: that of ``ewa volume``, which has the whole in its picture.
+    transfer : Transfer or str, optional
+        Of a volume: a preset, "auto" (default), a JSON file.
+    size, planes, background, out
+        As of :func:`render`; there are no normals. Default background: black.
+    lights : sequence, optional
+    surfaces : Image, optional
+        With the planes rgba and depth, of the same size: what stands in the volume, opaque.
+    **options
+        Members of ``ewa_volume_options``: ``method``, ``index``, ``sigma``, ``cutoff``, ``prefilter_px``,
+        ``point_threshold_px``, ``depth_unit``, ``level``, ``density_scale``, ``least_transmittance``, ``shading``.
+        Default shading: "phong"; "none" of the presets gray and fog.
+
+    Raises
+    ------
+    ArgumentError, OutOfMemory, ClosedError
+    """
+    voxels = volume if isinstance(volume, Voxels) else Voxels(volume, transfer, level_count=1)
+    made = initialised(b.ewa_volume_options, lib.ewa_volume_options_init)
+    made.shading = b.ewa_shading.EWA_SHADING_NONE if voxels._flat else b.ewa_shading.EWA_SHADING_PHONG
+    fill(made, "ewa_volume_options", dict(options))
+    set_lights(made, lights)
+    opaque = set_background(made, background)
+    if camera is None:
+        outline = voxels.outline(made.sigma * made.cutoff)
+        if not len(outline):
+            outline = Cloud(np.array([[-1.0] * 3, [1.0] * 3]))
+        camera = Camera.frame(outline, default_view(voxels._volume), "z", size=size or (1280, 720))
+    if size is not None and tuple(size) != camera.size:
+        camera = camera.resized(*size)
+    keep = None
+    if surfaces is not None:
+        width, height = camera.size
+        depth, rgba = surfaces.depth, surfaces.rgba
+        if depth is None or rgba is None or depth.shape != (height, width) or rgba.shape != (height, width, 4):
+            raise ArgumentError(f"surfaces: planes depth and rgba of {width} x {height} pixels are needed")
+        keep = np.ascontiguousarray(depth, np.float32), np.ascontiguousarray(rgba, np.float32)
+        made.surface_depth, made.surface_rgba = keep[0].ctypes.data, keep[1].ctypes.data
+    image = Image(camera, opaque)
+    frame = new_frame(image, camera.size, planes, out, without=("normal",))
+    stats = b.ewa_volume_stats()
+    core = voxels._core
+    renderer = core.renderers.get("volume")
+    if renderer is None or renderer.address is None:
+        renderer = core.make(lib.ewa_volume_renderer_create, core.address, destroy=lib.ewa_volume_renderer_destroy,
+                             what="the renderer")
+        core.renderers["volume"] = renderer
+    core.call(lib.ewa_volume_render, renderer, voxels._handle, ctypes.byref(camera._struct), ctypes.byref(made),
+              ctypes.byref(frame), ctypes.byref(stats))
+    del keep
+    image._stats = stats
+    return image

@@ -1,0 +1,242 @@
+# SPDX-FileCopyrightText: 2026 The ewa authors
+# SPDX-License-Identifier: MIT
+"""Arrays in and out of clouds."""
+from __future__ import annotations
+
+import types
+import unittest
+from typing import Any
+
+import numpy as np
+
+import ewa
+from common import Case
+
+
+class Arrays(Case):
+    def setUp(self) -> None:
+        super().setUp()
+        self.points = np.random.default_rng(1).normal(size=(1000, 3))
+
+    def test_borrows_contiguous_and_strided(self) -> None:
+        rows = np.zeros((1000, 8), np.float32)
+        rows[:, 2:5] = self.points
+        record = np.zeros(1000, [("xyz", np.float64, 3), ("i", np.uint16), ("rgb", np.uint8, 3), ("pad", np.uint8, 11)])
+        record["xyz"], record["i"] = self.points, np.arange(1000)
+        for positions in (self.points, self.points.astype(np.float32), rows[:, 2:5], self.points[::2], record["xyz"]):
+            with self.subTest(str(positions.strides)):
+                cloud = ewa.Cloud(positions, copy=False)
+                self.assertTrue(cloud.borrows("position"))
+                self.assertTrue(np.shares_memory(cloud["position"], positions))
+                np.testing.assert_array_equal(cloud["position"], positions)
+                self.assertFalse(cloud["position"].flags.writeable)
+        cloud = ewa.Cloud(record["xyz"], colors=record["rgb"], i=record["i"], copy=False)
+        np.testing.assert_array_equal(cloud["i"], np.arange(1000))
+        self.assertEqual(cloud.keys(), ["position", "color", "i"])
+
+    def test_copies_what_cannot_be_borrowed(self) -> None:
+        for positions in (self.points[::-1], np.asfortranarray(self.points), self.points.astype(">f8"),
+                          np.broadcast_to(self.points[:1], (5, 3)), self.points.tolist()):
+            cloud = ewa.Cloud(positions)
+            np.testing.assert_array_equal(cloud["position"], np.asarray(positions))
+        with self.assertRaises(ewa.ArgumentError):
+            ewa.Cloud(self.points[::-1], copy=False)
+
+    def test_strided_surfels_are_those_of_contiguous_ones(self) -> None:
+        made = ewa.generate("torus", 3000)
+        wide = np.zeros((3000, 10), np.float32)
+        for name, first, width in (("position", 0, 3), ("normal", 3, 3), ("radius", 6, 1)):
+            wide[:, first:first + width] = made[name].reshape(3000, width)
+        strided = ewa.Cloud(wide[:, :3], normals=wide[:, 3:6], radius=wide[:, 6], colors=made["color"], copy=False)
+        camera = ewa.Camera.frame(made, size=(160, 90))
+        a, b = (ewa.render(cloud, camera, planes="rgba").rgba for cloud in (made, strided))
+        assert a is not None and b is not None
+        self.assertEqual(a.tobytes(), b.tobytes())
+
+    def test_refuses_wrong_arrays(self) -> None:
+        n = len(self.points)
+        wrong: list[Any] = [
+            np.zeros((4, 2)), np.zeros(3), np.zeros((2, 3, 1)), np.zeros((4, 3), np.int32), np.zeros((4, 3), complex),
+            np.zeros((4, 3), object), np.zeros((4, 3), np.float16), np.ma.masked_array(np.zeros((4, 3))), "abc", None,
+            [[1, 2], [3]], {"a": 1}]
+        for value in wrong:
+            with self.subTest(repr(value)[:40]), self.assertRaises(ewa.ArgumentError):
+                ewa.Cloud(value)
+        for name, value in (("normals", np.zeros((n - 1, 3))), ("colors", np.zeros((n, 5))), ("radius", np.zeros((n, 2, 2))),
+                            ("intensity", np.zeros(n, np.int64)), ("x" * 64, np.zeros(n)), ("", np.zeros(n))):
+            with self.subTest(name), self.assertRaises(ewa.ArgumentError):
+                ewa.Cloud(self.points, **{name: value})
+        with self.assertRaises(ewa.ArgumentError):
+            ewa.Cloud(self.points, colors=np.zeros((n, 2), np.uint8)).estimate().surfels()
+        with self.assertRaises(ewa.ArgumentError):
+            ewa.Cloud(self.points, origin=(0, np.nan, 0))
+
+    def test_points_that_are_nan_are_left_out(self) -> None:
+        points = np.concatenate([self.points, np.full((7, 3), np.nan)])
+        with self.assertWarns(ewa.EwaWarning):
+            surfels = ewa.Cloud(points).surfels()
+        self.assertEqual((len(surfels), surfels.left_out_count), (1000, 7))
+        with self.assertRaises(ewa.ArgumentError):
+            ewa.Cloud(points[-7:]).surfels()
+        with self.assertRaises(ewa.NumericError):
+            ewa.Camera.frame(ewa.Cloud(points[-7:]))
+        self.assertEqual(len(ewa.Cloud(np.zeros((0, 3)))), 0)
+
+    def test_changes_leave_what_others_see(self) -> None:
+        cloud = ewa.Cloud(self.points, intensity=np.arange(1000.0))
+        before, estimated = cloud["intensity"], cloud.estimate()
+        cloud["intensity"] = np.zeros(1000)
+        cloud["extra"] = np.ones((1000, 2), np.float32)
+        del cloud["position"]
+        self.assertEqual(cloud.keys(), ["intensity", "extra"])
+        np.testing.assert_array_equal(before, np.arange(1000.0))
+        np.testing.assert_array_equal(estimated["position"], self.points)
+        moved = estimated.transform([[0, -1, 0, 5], [1, 0, 0, 0], [0, 0, 1, 0]])
+        np.testing.assert_array_equal(estimated["position"], self.points)
+        np.testing.assert_allclose(moved["position"] + moved.origin, self.points[:, [1, 0, 2]] * [-1, 1, 1] + [5, 0, 0])
+        with self.assertRaises(KeyError):
+            cloud["normal"]
+        with self.assertRaises(ewa.ArgumentError):
+            cloud["short"] = np.zeros(999)
+
+    def test_choices(self) -> None:
+        cloud = ewa.Cloud(self.points, classification=(np.arange(1000) % 3).astype(np.uint8))
+        self.assertEqual(len(cloud.filter("classification=1")), 333)
+        inside = (np.abs(self.points) <= 1).all(1)
+        self.assertEqual(len(cloud.crop((-1, -1, -1), (1, 1, 1))), inside.sum())
+        np.testing.assert_array_equal(cloud.select(inside)["position"], self.points[inside])
+        np.testing.assert_array_equal(cloud.select([5, 2, 2])["position"], self.points[[5, 2, 2]])
+        np.testing.assert_array_equal(cloud.scalar("y"), self.points[:, 1])
+        wrong: list[Any] = [[1000], [-1], [0.5], np.ones(999, bool), [[1]]]
+        for points in wrong:
+            with self.subTest(str(points)[:20]), self.assertRaises(ewa.ArgumentError):
+                cloud.select(points)
+        for text in ("nothing=1", "classification", "z<"):
+            with self.assertRaises(ewa.ArgumentError):
+                cloud.filter(text)
+        with self.assertRaises(ewa.ArgumentError):
+            cloud.thin(voxel=-1)
+
+    def test_files_keep_arrays(self) -> None:
+        cloud = ewa.Cloud(self.points, intensity=np.arange(1000, dtype=np.uint16),
+                          colors=np.full((1000, 3), 7, np.uint8))
+        cloud.save(self.path("scan.ply"))
+        again = ewa.read(self.path("scan.ply"))
+        for name in ("position", "intensity", "color"):
+            self.assertEqual(cloud[name].dtype, again[name].dtype)
+            np.testing.assert_array_equal(cloud[name], again[name])
+        with open(self.path("bad.ply"), "wb") as file:
+            file.write(b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nend_header\n1\n")
+        with self.assertRaises(ewa.FormatError) as caught:
+            ewa.read(self.path("bad.ply"))
+        self.assertIn("bad.ply", str(caught.exception))
+        self.assertEqual(caught.exception.status, "EWA_ERROR_FORMAT")
+        with self.assertRaises(ewa.FileError):
+            ewa.read(self.path("none.ply"))
+        for path in ("-", "", "a\0b"):
+            with self.assertRaises(ewa.ArgumentError):
+                ewa.read(path)
+        with self.assertRaises(TypeError):
+            ewa.read(3)  # type: ignore[arg-type]
+
+    def test_notes_hold_zeros(self) -> None:
+        cloud = ewa.generate("plane", 500)
+        cloud.save(self.path("a.las"))
+        read = ewa.read(self.path("a.las"))
+        notes = read.notes
+        self.assertEqual(read.estimate().notes, notes)
+
+
+class Meshes(Case):
+    def test_triangles(self) -> None:
+        corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
+        faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+        mesh = ewa.Mesh(corners, faces, colors=np.tile([1, 0, 0, 1], (4, 1)).astype(np.float32))
+        self.assertTrue(mesh.closed)
+        cloud = mesh.sample(point_count=2000)
+        self.assertEqual(set(map(tuple, cloud["color"])), {(255, 0, 0)})
+        np.testing.assert_array_equal(mesh.vertices, corners)
+        wrong: list[Any] = [[[0, 1, 4]], [[0, 1, -1]], [[0.0, 1, 2]], [[0, 1]], [0, 1, 2]]
+        for triangles in wrong:
+            with self.assertRaises(ewa.ArgumentError):
+                ewa.Mesh(corners, triangles)
+        with self.assertRaises(ewa.NumericError):
+            ewa.Mesh(np.zeros((3, 3)), [[0, 1, 2]]).sample()
+        with self.assertRaises(ewa.FormatError):
+            ewa.generate("plane", 100).save(self.path("a.ply"))
+            ewa.read_mesh(self.path("a.ply"))
+
+
+class _Points:
+    """Stands for open3d.geometry.PointCloud."""
+
+    def __init__(self) -> None:
+        self.points = np.random.default_rng(2).random((50, 3))
+        self.colors = np.full((50, 3), 0.5)
+
+    def has_normals(self) -> bool:
+        return False
+
+    def has_colors(self) -> bool:
+        return True
+
+
+class Adapters(Case):
+    def test_objects_that_look_like_others(self) -> None:
+        points = _Points()
+        cloud = ewa.from_open3d(points)
+        self.assertTrue(np.shares_memory(cloud["position"], points.points))
+        self.assertEqual(set(cloud["color"].ravel()), {128})
+        data = types.SimpleNamespace(points=points.points.astype(np.float32), point_data={
+            "RGB": np.zeros((50, 3), np.uint8), "Normals": np.ones((50, 3), np.float32), "id": np.arange(50),
+            "tensor": np.zeros((50, 9))})
+        self.assertEqual(ewa.from_pyvista(data).keys(), ["position", "normal", "color", "id"])
+        tri = types.SimpleNamespace(vertices=np.eye(3), faces=np.array([[0, 1, 2]]))
+        self.assertGreater(len(ewa.from_trimesh(tri)), 1000)
+        with self.assertRaises(ewa.ArgumentError):
+            ewa.as_cloud(types.SimpleNamespace())
+
+    def test_laspy(self) -> None:
+        try:
+            import laspy  # type: ignore[import-not-found]
+        except ImportError:
+            self.skipTest("laspy is not installed")
+        ewa.generate("terrain", 500).save(self.path("a.las"))
+        cloud = ewa.as_cloud(laspy.read(self.path("a.las")))
+        np.testing.assert_allclose(cloud["position"], ewa.read(self.path("a.las")).scalar("x")[:, None] * 0
+                                   + cloud["position"])
+        np.testing.assert_allclose(cloud.scalar("x"), ewa.read(self.path("a.las")).scalar("x"), atol=1e-9)
+        self.assertEqual(cloud["color"].dtype, np.uint16)
+
+    def test_packages_that_are_installed(self) -> None:
+        found = 0
+        points = np.random.default_rng(2).random((50, 3))
+        try:
+            import open3d  # type: ignore[import-not-found]
+
+            cloud = open3d.geometry.PointCloud(open3d.utility.Vector3dVector(points))
+            np.testing.assert_array_equal(ewa.as_cloud(cloud)["position"], points)
+            found += 1
+        except ImportError:
+            pass
+        try:
+            import trimesh  # type: ignore[import-not-found]
+
+            np.testing.assert_array_equal(ewa.as_cloud(trimesh.PointCloud(points))["position"], points)
+            self.assertGreater(len(ewa.as_cloud(trimesh.creation.box())), 1000)
+            found += 1
+        except ImportError:
+            pass
+        try:
+            import pyvista  # type: ignore[import-not-found]
+
+            np.testing.assert_array_equal(ewa.as_cloud(pyvista.PolyData(points))["position"], points)
+            found += 1
+        except ImportError:
+            pass
+        if not found:
+            self.skipTest("none of open3d, trimesh, pyvista is installed")
+
+
+if __name__ == "__main__":
+    unittest.main()
