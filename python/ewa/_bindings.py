@@ -33,6 +33,9 @@ EWA_POSITION = 'position'
 EWA_RADIUS = 'radius'
 EWA_TANGENT_U = 'tangent_u'
 EWA_TANGENT_V = 'tangent_v'
+EWA_MOST_RANKS = 1048576
+EWA_ALL_RANKS = 4294967295
+EWA_MAX_SH_DEGREE = 4
 EWA_VISIBLE_POSITIVE = 1
 EWA_VISIBLE_NEGATIVE = 2
 EWA_VISIBLE_INVALID = 255
@@ -118,6 +121,17 @@ class ewa_text_anchor(IntEnum):
     EWA_TEXT_LEFT_TOP = 6
     EWA_TEXT_CENTER_TOP = 7
     EWA_TEXT_RIGHT_TOP = 8
+
+
+class ewa_gaussian_format(IntEnum):
+    EWA_GAUSSIANS_NONE = 0
+    EWA_GAUSSIANS_PLY = 1
+    EWA_GAUSSIANS_PACKED_PLY = 2
+    EWA_GAUSSIANS_SPLAT = 3
+    EWA_GAUSSIANS_SPZ = 4
+    EWA_GAUSSIANS_GLTF = 5
+    EWA_GAUSSIANS_KSPLAT = 6
+    EWA_GAUSSIANS_SOG = 7
 
 
 class ewa_backend_kind(IntEnum):
@@ -465,20 +479,27 @@ class ewa_coordinate_grid(c.Structure):
     ]
 
 
+class ewa_parcel(c.Structure):
+    data: int | None
+    size_bytes: int
+    _fields_ = [
+        ("data", c.c_void_p),
+        ("size_bytes", c.c_size_t),
+    ]
+
+
 class ewa_exchange(c.Structure):
     user: int | None
     rank: int
     rank_count: int
-    gather: Any
-    take_largest: Any
-    add: Any
+    picture_rank: int
+    swap: Any
     _fields_ = [
         ("user", c.c_void_p),
         ("rank", c.c_uint32),
         ("rank_count", c.c_uint32),
-        ("gather", c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p)),
-        ("take_largest", c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_void_p, c.c_size_t)),
-        ("add", c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_void_p, c.c_size_t)),
+        ("picture_rank", c.c_uint32),
+        ("swap", c.CFUNCTYPE(c.c_int, c.c_void_p, c.POINTER(ewa_parcel), c.POINTER(ewa_parcel))),
     ]
 
 
@@ -551,6 +572,59 @@ class ewa_text_style(c.Structure):
         ("halo_px", c.c_double),
         ("halo_rgba", c.c_uint8 * 4),
         ("anchor", c.c_int),
+    ]
+
+
+class ewa_gaussians(c.Structure):
+    context: int | None
+    count: int
+    sh_degree: int
+    flat: bool
+    antialiased: bool
+    origin: c.Array[c.c_double]
+    centers: int | None
+    scales: int | None
+    rotations: int | None
+    opacities: int | None
+    harmonics: int | None
+    _fields_ = [
+        ("context", c.c_void_p),
+        ("count", c.c_uint32),
+        ("sh_degree", c.c_uint32),
+        ("flat", c.c_bool),
+        ("antialiased", c.c_bool),
+        ("origin", c.c_double * 3),
+        ("centers", c.c_void_p),
+        ("scales", c.c_void_p),
+        ("rotations", c.c_void_p),
+        ("opacities", c.c_void_p),
+        ("harmonics", c.c_void_p),
+    ]
+
+
+class ewa_gaussian_facts(c.Structure):
+    format: int
+    version: int
+    filtered: bool
+    up_world: c.Array[c.c_double]
+    size_bytes: int
+    _fields_ = [
+        ("format", c.c_int),
+        ("version", c.c_uint32),
+        ("filtered", c.c_bool),
+        ("up_world", c.c_double * 3),
+        ("size_bytes", c.c_uint64),
+    ]
+
+
+class ewa_gaussians_save_options(c.Structure):
+    struct_size: int
+    sh_degree: int
+    spz_version: int
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("sh_degree", c.c_uint32),
+        ("spz_version", c.c_uint32),
     ]
 
 
@@ -858,12 +932,16 @@ class ewa_lod_options(c.Structure):
     error: float
     memory_bytes: int
     load_s: float
+    share: int
+    share_count: int
     _fields_ = [
         ("struct_size", c.c_size_t),
         ("spacing_px", c.c_double),
         ("error", c.c_double),
         ("memory_bytes", c.c_uint64),
         ("load_s", c.c_double),
+        ("share", c.c_uint32),
+        ("share_count", c.c_uint32),
     ]
 
 
@@ -1714,6 +1792,7 @@ class ewa_warp_options(c.Structure):
 TABLES = (
     "ewa_acquire_options_table",
     "ewa_furniture_options_table",
+    "ewa_gaussians_save_options_table",
     "ewa_cloud_load_options_table",
     "ewa_cloud_save_options_table",
     "ewa_image_save_options_table",
@@ -1788,6 +1867,8 @@ class Functions:
     ewa_cloud_set_origin: Callable[..., None]
     ewa_cloud_transform: Callable[..., int]
     ewa_grid_world: Callable[..., float]
+    ewa_exchange_add: Callable[..., int]
+    ewa_exchange_gather: Callable[..., int]
     ewa_renderer_create_joint: Callable[..., int]
     ewa_draw_line: Callable[..., None]
     ewa_draw_rectangle: Callable[..., None]
@@ -1795,6 +1876,18 @@ class Functions:
     ewa_furniture_draw: Callable[..., int]
     ewa_furniture_options_init: Callable[..., None]
     ewa_text_width_px: Callable[..., float]
+    ewa_gaussians_create: Callable[..., int]
+    ewa_gaussians_free: Callable[..., None]
+    ewa_gaussians_measure: Callable[..., int]
+    ewa_gaussians_to_cloud: Callable[..., int]
+    ewa_gaussians_transform: Callable[..., int]
+    ewa_gaussian_format_name: Callable[..., bytes | None]
+    ewa_gaussians_format_of: Callable[..., int]
+    ewa_gaussians_load: Callable[..., int]
+    ewa_gaussians_load_memory: Callable[..., int]
+    ewa_gaussians_probe: Callable[..., int]
+    ewa_gaussians_save: Callable[..., int]
+    ewa_gaussians_save_options_init: Callable[..., None]
     ewa_gpu_class_name: Callable[..., bytes | None]
     ewa_gpu_describe: Callable[..., int]
     ewa_renderer_create_on: Callable[..., int]
@@ -2043,6 +2136,8 @@ class Functions:
         self.ewa_cloud_set_origin = bind("ewa_cloud_set_origin", None, c.c_void_p, c.c_void_p)
         self.ewa_cloud_transform = bind("ewa_cloud_transform", c.c_int, c.c_void_p, c.c_void_p)
         self.ewa_grid_world = bind("ewa_grid_world", c.c_double, c.POINTER(ewa_coordinate_grid), c.c_uint32, c.c_double)
+        self.ewa_exchange_add = bind("ewa_exchange_add", c.c_int, c.c_void_p, c.POINTER(ewa_exchange), c.c_void_p, c.c_size_t)
+        self.ewa_exchange_gather = bind("ewa_exchange_gather", c.c_int, c.c_void_p, c.POINTER(ewa_exchange), c.c_void_p, c.c_size_t, c.c_void_p)
         self.ewa_renderer_create_joint = bind("ewa_renderer_create_joint", c.c_int, c.c_void_p, c.POINTER(ewa_exchange), c.c_void_p)
         self.ewa_draw_line = bind("ewa_draw_line", None, c.POINTER(ewa_canvas), c.c_double, c.c_double, c.c_double, c.c_double, c.c_double, c.c_void_p)
         self.ewa_draw_rectangle = bind("ewa_draw_rectangle", None, c.POINTER(ewa_canvas), c.c_double, c.c_double, c.c_double, c.c_double, c.c_void_p)
@@ -2050,6 +2145,18 @@ class Functions:
         self.ewa_furniture_draw = bind("ewa_furniture_draw", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_furniture_options), c.POINTER(ewa_canvas))
         self.ewa_furniture_options_init = bind("ewa_furniture_options_init", None, c.POINTER(ewa_furniture_options), c.c_size_t)
         self.ewa_text_width_px = bind("ewa_text_width_px", c.c_double, c.c_char_p, c.c_double)
+        self.ewa_gaussians_create = bind("ewa_gaussians_create", c.c_int, c.c_void_p, c.c_uint32, c.c_uint32, c.POINTER(ewa_gaussians))
+        self.ewa_gaussians_free = bind("ewa_gaussians_free", None, c.POINTER(ewa_gaussians))
+        self.ewa_gaussians_measure = bind("ewa_gaussians_measure", c.c_int, c.POINTER(ewa_gaussians), c.POINTER(ewa_bounds))
+        self.ewa_gaussians_to_cloud = bind("ewa_gaussians_to_cloud", c.c_int, c.POINTER(ewa_gaussians), c.c_void_p)
+        self.ewa_gaussians_transform = bind("ewa_gaussians_transform", c.c_int, c.POINTER(ewa_gaussians), c.c_void_p)
+        self.ewa_gaussian_format_name = bind("ewa_gaussian_format_name", c.c_char_p, c.c_int)
+        self.ewa_gaussians_format_of = bind("ewa_gaussians_format_of", c.c_int, c.c_char_p)
+        self.ewa_gaussians_load = bind("ewa_gaussians_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_gaussians), c.POINTER(ewa_gaussian_facts))
+        self.ewa_gaussians_load_memory = bind("ewa_gaussians_load_memory", c.c_int, c.c_void_p, c.c_void_p, c.c_size_t, c.c_char_p, c.c_char_p, c.POINTER(ewa_gaussians), c.POINTER(ewa_gaussian_facts))
+        self.ewa_gaussians_probe = bind("ewa_gaussians_probe", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p)
+        self.ewa_gaussians_save = bind("ewa_gaussians_save", c.c_int, c.POINTER(ewa_gaussians), c.c_char_p, c.POINTER(ewa_gaussians_save_options))
+        self.ewa_gaussians_save_options_init = bind("ewa_gaussians_save_options_init", None, c.POINTER(ewa_gaussians_save_options), c.c_size_t)
         self.ewa_gpu_class_name = bind("ewa_gpu_class_name", c.c_char_p, c.c_int)
         self.ewa_gpu_describe = bind("ewa_gpu_describe", c.c_int, c.c_void_p, c.POINTER(ewa_gpu_info))
         self.ewa_renderer_create_on = bind("ewa_renderer_create_on", c.c_int, c.c_void_p, c.c_int, c.c_void_p)

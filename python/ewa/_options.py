@@ -176,6 +176,10 @@ class LodOptions(TypedDict, total=False):
     memory_bytes: int
     #: time for reading cubes; what is missing then is drawn coarser; 0: as long as it takes; [0, 1e15], s, default 0
     load_s: float
+    #: part that a rank draws of what a renderer of several ranks shows; [0, 1048576], default 0
+    share: int
+    #: of so many; 0: no parts; [0, 1048576], default 0
+    share_count: int
 
 
 class MeshSampleOptions(TypedDict, total=False):
@@ -369,6 +373,15 @@ class VolumeSaveOptions(TypedDict, total=False):
     plain: bool
 
 
+class GaussiansSaveOptions(TypedDict, total=False):
+    """Members of ewa_gaussians_save_options."""
+
+    #: highest degree of the spherical harmonics that are kept; .splat: 0; [0, 4], default 4
+    sh_degree: int
+    #: of .spz: 2 and 3 are gzip, 3 has finer quaternions, 4 is zstd; [2, 4], default 3
+    spz_version: int
+
+
 class VoxelsOptions(TypedDict, total=False):
     """Members of ewa_voxels_options."""
 
@@ -414,6 +427,7 @@ __all__ = [
     "EstimateOptions",
     "FeatureOptions",
     "FurnitureOptions",
+    "GaussiansSaveOptions",
     "GenerateOptions",
     "ImageSaveOptions",
     "LodBuildOptions",
