@@ -3,7 +3,6 @@
 //
 // Colours from an attribute.
 #include "color_by.h"
-#include "rank.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -58,7 +57,7 @@ static bool find_range(cli_session *session, const scalar *from, const option_bo
             count += isfinite(numbers[count]) ? 1 : 0;
         }
         const double place = range->values[end] / 100 * ((double)count - 1);
-        ends[end] = count ? rank_select(numbers, count, (size_t)(place + 0.5)) : 0;
+        ends[end] = count ? ewa_rank_select(numbers, count, (size_t)(place + 0.5)) : 0;
     }
     free(numbers);
     return true;

@@ -3,7 +3,6 @@
 //
 // Title, axes, scale bar and colour bar over the pictures of a command.
 #include "furnish.h"
-#include "framing.h"
 #include "pattern.h"
 
 #include <math.h>
@@ -60,11 +59,14 @@ bool furnish_make(cli_session *session, const furnish_arguments *arguments, cons
     const option_vector *target = &frames->view.target;
     memcpy(made->middle_world, target->values, sizeof made->middle_world);
     if (!arguments->scale_bar || target->count || !cloud) return true;
-    cloud_framing framing;
-    const bool done = framing_make(session, cloud, 1, &framing);
-    if (done) memcpy(made->middle_world, framing.middle_world, sizeof made->middle_world);
-    framing_free(&framing);
-    return done;
+    ewa_framing *framing = NULL;
+    ewa_framing_info info;
+    const ewa_status status = ewa_framing_create(cloud, 1, &framing);
+    if (status != EWA_OK) return session_failed(session, status) == EXIT_DONE;
+    ewa_framing_describe(framing, &info);
+    memcpy(made->middle_world, info.middle_world, sizeof made->middle_world);
+    ewa_framing_destroy(&framing);
+    return true;
 }
 
 ewa_status furnish_draw(cli_session *session, const furnishing *made, const ewa_camera *camera,

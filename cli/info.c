@@ -66,7 +66,7 @@ typedef struct cloud_facts {
     ewa_spacing spacing;
     point_shape shape;
     cloud_faults faults;
-    upright view; ///< by default; for a cloud with a finite point
+    ewa_upright view; ///< by default; for a cloud with a finite point
     ewa_model_format format;
     bool is_mesh; ///< the points are vertices of:
     mesh_facts mesh;
@@ -275,8 +275,8 @@ static void print_text(cli_session *session, const char *path, const ewa_cloud *
         printf("  spacing     %.4g (5 %%: %.4g, 95 %%: %.4g)\n", facts->spacing.median_world,
                facts->spacing.low_world, facts->spacing.high_world);
     if (facts->bounds.finite_count) {
-        char text[160];
-        upright_describe(&facts->view, sizeof text, text);
+        char text[EWA_UPRIGHT_TEXT_BYTES];
+        ewa_upright_describe(&facts->view, text);
         printf("  up          %s\n", text);
     }
     if (facts->gaussians.count) info_gaussians_print(&facts->gaussians);
@@ -333,7 +333,7 @@ static void print_json(cli_session *session, json_writer *json, const char *path
         up_world[facts->view.axis] = facts->view.reversed ? -1 : 1;
         json_vector(json, "up", 3, up_world);
         json_text(json, "up_because", facts->view.why);
-        json_text(json, "view", upright_place(&facts->view));
+        json_text(json, "view", ewa_upright_place(&facts->view));
     }
     if (facts->gaussians.count) info_gaussians_write(json, &facts->gaussians);
     json_object(json, "spacing");

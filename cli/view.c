@@ -4,8 +4,6 @@
 // Where the camera stands: options, default views, framing.
 #include "view.h"
 #include "camera_input.h"
-#include "framing.h"
-#include "upright.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -78,47 +76,21 @@ bool view_is_placed(const view_arguments *arguments) {
            arguments->azimuth_deg != 0 || arguments->elevation_deg != 0;
 }
 
-/// Direction from the eye to the middle for a named view with y (1) or z (2) up; `reversed`: with that axis
-/// down, turned about x.
-static void view_direction(int view, int up_axis, bool reversed, double direction[3]) {
-    // Written for z up, from the front at -y; y up is the same turned about x. The last is isometric.
-    static const double directions[][3] = {{0, 1, 0},  {0, -1, 0}, {1, 0, 0},  {-1, 0, 0},
-                                           {0, 0, -1}, {0, 0, 1},  {-1, 1, -1}};
-    const double *d = directions[view];
-    direction[0] = d[0];
-    direction[1] = up_axis == 2 ? d[1] : d[2];
-    direction[2] = up_axis == 2 ? d[2] : -d[1];
-    for (int c = 1; c < 3 && reversed; c++) direction[c] = -direction[c];
-}
-
-/// Carries a direction, seen as that of a camera that looks at the origin, by --azimuth and --elevation. Its
-/// up goes along, so that nothing flips at the poles.
-static void turn_direction(const view_arguments *arguments, const double axis_world[3], double direction[3],
-                           double up_world[3]) {
-    static const double origin[3] = {0, 0, 0};
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    ewa_camera_look_at(&camera, origin, direction, up_world);
-    ewa_camera_orbit(&camera, origin, axis_world, arguments->azimuth_deg);
-    const double *m = camera.world_to_camera, right[3] = {m[0], m[1], m[2]};
-    ewa_camera_orbit(&camera, origin, right, -arguments->elevation_deg);
-    for (int c = 0; c < 3; c++) {
-        up_world[c] = -m[4 + c];
-        direction[c] = m[8 + c];
-    }
-}
-
 /// What is up and how it is looked at, as far as the options do not say.
-static upright choose_upright(const view_arguments *arguments, const cloud_framing *framing) {
+static ewa_upright choose_upright(const view_arguments *arguments, const ewa_framing *framing) {
     const common_arguments *common = &arguments->common;
     const option_vector *up = &arguments->up;
-    if (!up->count && !arguments->up_axis)
-        return upright_choose(framing->count, (const double(*)[3])framing->offsets, framing->middle_world,
-                              upright_convention(common->operand_count, common->operands));
-    const double *low = framing->box.low_world, *high = framing->box.high_world;
+    if (!up->count && !arguments->up_axis) {
+        ewa_upright chosen;
+        ewa_framing_choose(framing, ewa_up_convention_of(common->operand_count, common->operands), &chosen);
+        return chosen;
+    }
+    ewa_framing_info info;
+    ewa_framing_describe(framing, &info);
+    const double *low = info.box.low_world, *high = info.box.high_world;
     const double extent[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
     const int axis = !up->count ? arguments->up_axis : fabs(up->values[2]) > fabs(up->values[1]) ? 2 : 1;
-    return (upright){.axis = axis, .view = upright_view(extent, axis), .why = "as it was asked for"};
+    return (ewa_upright){.axis = axis, .view = ewa_upright_view(extent, axis), .why = "as it was asked for"};
 }
 
 /// What the directions of a view come from.
@@ -131,38 +103,38 @@ typedef struct view_frame {
 
 /// The up vector of the picture, the axis of a turntable and, for a camera without --eye, the direction in
 /// which it looks.
-static void choose_direction(cli_session *session, const view_arguments *arguments,
-                             const cloud_framing *framing, view_frame *frame) {
-    const upright chosen = choose_upright(arguments, framing);
-    const int view = arguments->view >= 0 ? arguments->view : (int)chosen.view;
+static ewa_status choose_direction(cli_session *session, const view_arguments *arguments,
+                                   const ewa_framing *framing, view_frame *frame) {
+    ewa_upright chosen = choose_upright(arguments, framing);
+    const option_vector *up = &arguments->up;
+    const bool turned = arguments->azimuth_deg != 0 || arguments->elevation_deg != 0;
+    chosen.from_origin = chosen.from_origin && arguments->view < 0 && !turned;
+    if (arguments->view >= 0) chosen.view = (ewa_named_view)arguments->view;
+    char text[EWA_UPRIGHT_TEXT_BYTES];
+    ewa_upright_describe(&chosen, text);
+    if (!arguments->camera_path) session_say(session, "up: %s", text);
+    frame->from_origin = chosen.from_origin;
+    ewa_upright_look(&chosen, frame->direction, frame->up_world);
     for (int c = 0; c < 3; c++) {
         const double sign = chosen.reversed ? -1 : 1;
-        frame->up_world[c] = arguments->up.count ? arguments->up.values[c] : c == chosen.axis ? sign : 0;
+        frame->axis_world[c] = up->count ? up->values[c] : c == chosen.axis ? sign : 0;
     }
-    memcpy(frame->axis_world, frame->up_world, sizeof frame->axis_world);
-    const bool turned = arguments->azimuth_deg != 0 || arguments->elevation_deg != 0;
-    frame->from_origin = chosen.from_origin && arguments->view < 0 && !turned;
-    upright told = chosen;
-    told.view = (named_view)view;
-    told.from_origin = frame->from_origin;
-    char text[160];
-    upright_describe(&told, sizeof text, text);
-    if (!arguments->camera_path) session_say(session, "up: %s", text);
-    view_direction(view, chosen.axis, chosen.reversed, frame->direction);
-    if ((view == VIEW_TOP || view == VIEW_BOTTOM) && !arguments->up.count)
-        // Seen from above, the back is up in the picture; from below, the front.
-        view_direction(view == VIEW_TOP ? VIEW_FRONT : VIEW_BACK, chosen.axis, chosen.reversed,
-                       frame->up_world);
-    if (turned) turn_direction(arguments, frame->axis_world, frame->direction, frame->up_world);
+    if (up->count) memcpy(frame->up_world, up->values, sizeof frame->up_world);
+    return !turned ? EWA_OK
+                   : ewa_upright_turn(frame->axis_world, arguments->azimuth_deg, arguments->elevation_deg,
+                                      frame->direction, frame->up_world);
 }
 
-bool view_default(cli_session *session, const char *path, const ewa_cloud *cloud, upright *chosen) {
-    cloud_framing framing;
+bool view_default(cli_session *session, const char *path, const ewa_cloud *cloud, ewa_upright *chosen) {
     const view_arguments arguments = {.common = {.operands = &path, .operand_count = 1}, .view = -1};
-    const bool done = framing_make(session, cloud, 1, &framing);
-    if (done) *chosen = choose_upright(&arguments, &framing);
-    framing_free(&framing);
-    return done;
+    ewa_framing *framing = NULL;
+    const ewa_status status = ewa_framing_create(cloud, 1, &framing);
+    if (status == EWA_OK)
+        *chosen = choose_upright(&arguments, framing);
+    else
+        session_failed(session, status);
+    ewa_framing_destroy(&framing);
+    return status == EWA_OK;
 }
 
 void view_resize(ewa_camera *camera, const option_size *size) {
@@ -234,38 +206,39 @@ static ewa_status aim_at(ewa_camera *camera, const double direction[3], const do
 /// Places a camera whose picture and projection are set. With `turn`, whose pivot is set, the cloud is framed
 /// in all its turns.
 static ewa_status place_camera(cli_session *session, const view_arguments *arguments,
-                               const cloud_framing *framing, ewa_camera *camera, view_turn *turn) {
+                               const ewa_framing *framing, ewa_camera *camera, view_turn *turn) {
     view_frame frame;
-    choose_direction(session, arguments, framing, &frame);
+    ewa_framing_info info;
+    ewa_framing_describe(framing, &info);
+    ewa_status status = choose_direction(session, arguments, framing, &frame);
+    if (status != EWA_OK) return status;
     const double *direction = frame.direction, *up_world = frame.up_world;
     if (turn) memcpy(turn->axis_world, frame.axis_world, sizeof turn->axis_world);
     const option_vector *eye = &arguments->eye, *target = &arguments->target;
     if (eye->count) {
-        const double *target_world = target->count ? target->values : framing->middle_world;
-        const ewa_status status = ewa_camera_look_at(camera, eye->values, target_world, up_world);
+        const double *target_world = target->count ? target->values : info.middle_world;
+        status = ewa_camera_look_at(camera, eye->values, target_world, up_world);
         if (status != EWA_OK)
             session_fail(session, "--eye: %g,%g,%g is also where the camera looks", eye->values[0],
                          eye->values[1], eye->values[2]);
         return status;
     }
-    if (framing->trimmed)
+    if (info.trimmed)
         session_note(session,
                      "a few points lie far off and are left outside the picture; --eye decides otherwise");
-    ewa_status status;
     if (turn) {
-        cloud_framing solid;
-        if (!framing_revolve(session, framing, turn->pivot_world, frame.axis_world, direction, &solid))
-            return EWA_ERROR_MEMORY;
-        status = framing_fit(&solid, direction, up_world, camera);
-        framing_free(&solid);
+        ewa_framing *solid = NULL;
+        status = ewa_framing_revolve(framing, turn->pivot_world, frame.axis_world, direction, &solid);
+        if (status == EWA_OK) status = ewa_framing_fit(solid, direction, up_world, camera);
+        ewa_framing_destroy(&solid);
     } else if (frame.from_origin && !target->count && !(arguments->fov_deg > 0) &&
                !(arguments->ortho_height > 0)) {
         static const double origin[3] = {0, 0, 0};
-        return framing_zoom(framing, origin, up_world, camera);
+        return ewa_framing_zoom(framing, origin, up_world, camera);
     } else {
-        status = framing_fit(framing, direction, up_world, camera);
+        status = ewa_framing_fit(framing, direction, up_world, camera);
         if (status == EWA_OK && target->count)
-            status = aim_at(camera, direction, framing->middle_world, target->values, up_world);
+            status = aim_at(camera, direction, info.middle_world, target->values, up_world);
     }
     if (status == EWA_OK && arguments->ortho_height > 0)
         status = ewa_camera_set_ortho(camera, arguments->ortho_height);
@@ -277,28 +250,27 @@ bool view_make(cli_session *session, const view_arguments *arguments, const ewa_
     ewa_camera_init(camera);
     if (arguments->camera_path && !load_camera(session, arguments, camera)) return false;
     if (arguments->camera_path && !turn) return true;
-    cloud_framing framing;
-    bool done = framing_make(session, cloud, radius_scale, &framing);
-    if (done && turn)
-        memcpy(turn->pivot_world, arguments->target.count ? arguments->target.values : framing.middle_world,
+    ewa_framing *framing = NULL;
+    ewa_status status = ewa_framing_create(cloud, radius_scale, &framing);
+    if (status != EWA_OK) return session_failed(session, status) == EXIT_DONE;
+    if (turn) {
+        ewa_framing_info info;
+        ewa_framing_describe(framing, &info);
+        memcpy(turn->pivot_world, arguments->target.count ? arguments->target.values : info.middle_world,
                sizeof turn->pivot_world);
-    if (done && arguments->camera_path) {
-        view_frame frame;
-        choose_direction(session, arguments, &framing, &frame);
-        memcpy(turn->axis_world, frame.axis_world, sizeof turn->axis_world);
-    } else if (done) {
-        ewa_status status = set_lens(arguments, camera);
-        if (status == EWA_OK) status = place_camera(session, arguments, &framing, camera, turn);
-        done = status == EWA_OK;
-        if (status == EWA_ERROR_NUMERIC && !session->reported)
-            session_fail(session,
-                         "no camera can be placed: the coordinates, from %g,%g,%g to %g,%g,%g, or the "
-                         "numbers of its options are too large",
-                         framing.box.low_world[0], framing.box.low_world[1], framing.box.low_world[2],
-                         framing.box.high_world[0], framing.box.high_world[1], framing.box.high_world[2]);
-        else if (!done)
-            session_failed(session, status);
     }
-    framing_free(&framing);
-    return done;
+    if (arguments->camera_path) {
+        view_frame frame;
+        status = choose_direction(session, arguments, framing, &frame);
+        memcpy(turn->axis_world, frame.axis_world, sizeof turn->axis_world);
+    } else {
+        status = set_lens(arguments, camera);
+        if (status == EWA_OK) status = place_camera(session, arguments, framing, camera, turn);
+    }
+    if (status == EWA_ERROR_NUMERIC && !session->reported)
+        session_fail(session, "no camera can be placed: the numbers of its options are too large");
+    else if (status != EWA_OK)
+        session_failed(session, status);
+    ewa_framing_destroy(&framing);
+    return status == EWA_OK;
 }

@@ -6,7 +6,6 @@
 #define EWA_CLI_VIEW_H
 
 #include "session.h"
-#include "upright.h"
 
 /// Options of the camera, first in the arguments of a command.
 typedef struct view_arguments {
@@ -38,7 +37,7 @@ bool view_is_placed(const view_arguments *arguments);
 
 /// Chooses how a cloud of a file, which has a finite point, is looked at without any option. Returns false
 /// after reporting.
-bool view_default(cli_session *session, const char *path, const ewa_cloud *cloud, upright *chosen);
+bool view_default(cli_session *session, const char *path, const ewa_cloud *cloud, ewa_upright *chosen);
 
 /// What a turntable turns about.
 typedef struct view_turn {

@@ -5,7 +5,6 @@
 #include "volume_scene.h"
 #include "faults.h"
 #include "inputs.h"
-#include "upright.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -157,8 +156,8 @@ static int choose_view(const ewa_volume *volume) {
     const double *m = volume->index_to_world + thin;
     const double x = fabs(m[0]), y = fabs(m[4]), z = fabs(m[8]);
     if (single_count < 2 && width > SLICE_RATIO * thickness)
-        return z >= x && z >= y ? VIEW_BOTTOM : x > y ? VIEW_LEFT : VIEW_FRONT;
-    return volume->anatomical ? VIEW_FRONT : VIEW_ISO;
+        return z >= x && z >= y ? EWA_VIEW_BOTTOM : x > y ? EWA_VIEW_LEFT : EWA_VIEW_FRONT;
+    return volume->anatomical ? EWA_VIEW_FRONT : EWA_VIEW_ISO;
 }
 
 bool volume_scene_load(cli_session *session, const volume_input_arguments *input,
@@ -224,7 +223,7 @@ bool volume_scene_frame(cli_session *session, const frames_arguments *arguments,
     view_arguments *view = &chosen.view;
     view->up_axis = 2;
     const bool turned = view->azimuth_deg != 0 || view->elevation_deg != 0 || view->up.count;
-    if (view->view < 0) view->view = turned ? VIEW_FRONT : scene->view;
+    if (view->view < 0) view->view = turned ? EWA_VIEW_FRONT : scene->view;
     const bool done = frames_make(session, &chosen, cloud, 1, frames);
     ewa_cloud_destroy(&cloud);
     return done;

@@ -4,7 +4,6 @@
 // What the viewer asks of the program.
 #include "window_services.h"
 #include "color_by.h"
-#include "framing.h"
 #include "inputs.h"
 #include "lod_input.h"
 #include "resident.h"
@@ -380,12 +379,12 @@ static bool place(void *user, size_t count, const viewer_content *const *content
     view_arguments arguments = place_arguments(own, count, paths, view, camera);
     if (count == 1 && contents[0]->voxels && !arguments.up.count) { // scanners' volumes stand on z
         arguments.up_axis = 2;
-        if (arguments.view < 0 && !view_is_placed(&arguments)) arguments.view = VIEW_ISO;
+        if (arguments.view < 0 && !view_is_placed(&arguments)) arguments.view = EWA_VIEW_ISO;
     }
     ewa_cloud *joined = count > 1 ? join_samples(session, count, contents) : NULL;
     if (count > 1 && !joined) return false;
     const ewa_cloud *cloud = joined ? joined : outline_of(contents[0]);
-    upright chosen = {.axis = arguments.up_axis};
+    ewa_upright chosen = {.axis = arguments.up_axis};
     bool done = view_make(session, &arguments, cloud, 1, camera, NULL);
     if (done && arguments.up.count)
         memcpy(up_world, arguments.up.values, 3 * sizeof *up_world);

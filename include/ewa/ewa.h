@@ -10,6 +10,7 @@
 #include "ewa/camera.h"
 #include "ewa/cloud.h"
 #include "ewa/cluster.h"
+#include "ewa/framing.h"
 #include "ewa/furniture.h"
 #include "ewa/gaussian.h"
 #include "ewa/gaussian_io.h"

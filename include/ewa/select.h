@@ -36,6 +36,11 @@ EWA_API ewa_status ewa_cloud_find_scalar(const ewa_cloud *cloud, const char *wor
 /// thread.
 EWA_API void ewa_scalar_read(const ewa_scalar *scalar, uint64_t first, uint64_t count, double *numbers);
 
+/// Returns the number that would be at place `rank` in [0, count) if `numbers`, of which none is NaN, were sorted:
+/// a median, a percentile. Shuffles and overwrites them; takes time in proportion to `count`, whatever they are.
+/// Any thread.
+EWA_API double ewa_rank_select(double *numbers, size_t count, size_t rank);
+
 enum { EWA_FILTER_TERMS = 16, EWA_FILTER_RANGES = 32 };
 
 /// Numbers from low to high, both of them among these unless the range is open there.

@@ -35,6 +35,7 @@ EWA_TANGENT_U = 'tangent_u'
 EWA_TANGENT_V = 'tangent_v'
 EWA_MOST_RANKS = 1048576
 EWA_ALL_RANKS = 4294967295
+EWA_UPRIGHT_TEXT_BYTES = 160
 EWA_MAX_SH_DEGREE = 4
 EWA_VISIBLE_POSITIVE = 1
 EWA_VISIBLE_NEGATIVE = 2
@@ -103,6 +104,23 @@ class ewa_texture_fit(IntEnum):
 class ewa_projection(IntEnum):
     EWA_PERSPECTIVE = 0
     EWA_ORTHOGRAPHIC = 1
+
+
+class ewa_named_view(IntEnum):
+    EWA_VIEW_FRONT = 0
+    EWA_VIEW_BACK = 1
+    EWA_VIEW_LEFT = 2
+    EWA_VIEW_RIGHT = 3
+    EWA_VIEW_TOP = 4
+    EWA_VIEW_BOTTOM = 5
+    EWA_VIEW_ISO = 6
+
+
+class ewa_up_convention(IntEnum):
+    EWA_UP_ANY = 0
+    EWA_UP_Y_USUAL = 1
+    EWA_UP_Z_USUAL = 2
+    EWA_UP_Y_REQUIRED = 3
 
 
 class ewa_ink(IntEnum):
@@ -500,6 +518,34 @@ class ewa_exchange(c.Structure):
         ("rank_count", c.c_uint32),
         ("picture_rank", c.c_uint32),
         ("swap", c.CFUNCTYPE(c.c_int, c.c_void_p, c.POINTER(ewa_parcel), c.POINTER(ewa_parcel))),
+    ]
+
+
+class ewa_framing_info(c.Structure):
+    box: ewa_bounds
+    middle_world: c.Array[c.c_double]
+    sample_count: int
+    trimmed: bool
+    _fields_ = [
+        ("box", ewa_bounds),
+        ("middle_world", c.c_double * 3),
+        ("sample_count", c.c_uint64),
+        ("trimmed", c.c_bool),
+    ]
+
+
+class ewa_upright(c.Structure):
+    axis: int
+    reversed: bool
+    view: int
+    from_origin: bool
+    why: bytes | None
+    _fields_ = [
+        ("axis", c.c_int),
+        ("reversed", c.c_bool),
+        ("view", c.c_int),
+        ("from_origin", c.c_bool),
+        ("why", c.c_char_p),
     ]
 
 
@@ -1870,6 +1916,19 @@ class Functions:
     ewa_exchange_add: Callable[..., int]
     ewa_exchange_gather: Callable[..., int]
     ewa_renderer_create_joint: Callable[..., int]
+    ewa_framing_choose: Callable[..., None]
+    ewa_framing_create: Callable[..., int]
+    ewa_framing_describe: Callable[..., None]
+    ewa_framing_destroy: Callable[..., None]
+    ewa_framing_fit: Callable[..., int]
+    ewa_framing_revolve: Callable[..., int]
+    ewa_framing_zoom: Callable[..., int]
+    ewa_up_convention_of: Callable[..., int]
+    ewa_upright_describe: Callable[..., None]
+    ewa_upright_look: Callable[..., None]
+    ewa_upright_place: Callable[..., bytes | None]
+    ewa_upright_turn: Callable[..., int]
+    ewa_upright_view: Callable[..., int]
     ewa_draw_line: Callable[..., None]
     ewa_draw_rectangle: Callable[..., None]
     ewa_draw_text: Callable[..., None]
@@ -2057,6 +2116,7 @@ class Functions:
     ewa_polygon_load: Callable[..., int]
     ewa_polygon_mark: Callable[..., int]
     ewa_polygon_read: Callable[..., int]
+    ewa_rank_select: Callable[..., float]
     ewa_scalar_read: Callable[..., None]
     ewa_environment_create: Callable[..., int]
     ewa_environment_destroy: Callable[..., None]
@@ -2139,6 +2199,19 @@ class Functions:
         self.ewa_exchange_add = bind("ewa_exchange_add", c.c_int, c.c_void_p, c.POINTER(ewa_exchange), c.c_void_p, c.c_size_t)
         self.ewa_exchange_gather = bind("ewa_exchange_gather", c.c_int, c.c_void_p, c.POINTER(ewa_exchange), c.c_void_p, c.c_size_t, c.c_void_p)
         self.ewa_renderer_create_joint = bind("ewa_renderer_create_joint", c.c_int, c.c_void_p, c.POINTER(ewa_exchange), c.c_void_p)
+        self.ewa_framing_choose = bind("ewa_framing_choose", None, c.c_void_p, c.c_int, c.POINTER(ewa_upright))
+        self.ewa_framing_create = bind("ewa_framing_create", c.c_int, c.c_void_p, c.c_double, c.c_void_p)
+        self.ewa_framing_describe = bind("ewa_framing_describe", None, c.c_void_p, c.POINTER(ewa_framing_info))
+        self.ewa_framing_destroy = bind("ewa_framing_destroy", None, c.c_void_p)
+        self.ewa_framing_fit = bind("ewa_framing_fit", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera))
+        self.ewa_framing_revolve = bind("ewa_framing_revolve", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p)
+        self.ewa_framing_zoom = bind("ewa_framing_zoom", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera))
+        self.ewa_up_convention_of = bind("ewa_up_convention_of", c.c_int, c.c_size_t, c.c_void_p)
+        self.ewa_upright_describe = bind("ewa_upright_describe", None, c.POINTER(ewa_upright), c.c_void_p)
+        self.ewa_upright_look = bind("ewa_upright_look", None, c.POINTER(ewa_upright), c.c_void_p, c.c_void_p)
+        self.ewa_upright_place = bind("ewa_upright_place", c.c_char_p, c.POINTER(ewa_upright))
+        self.ewa_upright_turn = bind("ewa_upright_turn", c.c_int, c.c_void_p, c.c_double, c.c_double, c.c_void_p, c.c_void_p)
+        self.ewa_upright_view = bind("ewa_upright_view", c.c_int, c.c_void_p, c.c_int)
         self.ewa_draw_line = bind("ewa_draw_line", None, c.POINTER(ewa_canvas), c.c_double, c.c_double, c.c_double, c.c_double, c.c_double, c.c_void_p)
         self.ewa_draw_rectangle = bind("ewa_draw_rectangle", None, c.POINTER(ewa_canvas), c.c_double, c.c_double, c.c_double, c.c_double, c.c_void_p)
         self.ewa_draw_text = bind("ewa_draw_text", None, c.POINTER(ewa_canvas), c.c_char_p, c.c_double, c.c_double, c.POINTER(ewa_text_style))
@@ -2326,6 +2399,7 @@ class Functions:
         self.ewa_polygon_load = bind("ewa_polygon_load", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p)
         self.ewa_polygon_mark = bind("ewa_polygon_mark", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p)
         self.ewa_polygon_read = bind("ewa_polygon_read", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p, c.c_size_t, c.c_void_p)
+        self.ewa_rank_select = bind("ewa_rank_select", c.c_double, c.c_void_p, c.c_size_t, c.c_size_t)
         self.ewa_scalar_read = bind("ewa_scalar_read", None, c.POINTER(ewa_scalar), c.c_uint64, c.c_uint64, c.c_void_p)
         self.ewa_environment_create = bind("ewa_environment_create", c.c_int, c.POINTER(ewa_image), c.c_void_p)
         self.ewa_environment_destroy = bind("ewa_environment_destroy", None, c.c_void_p)

@@ -66,7 +66,7 @@ class Cloud:
     """
 
     _handle: Handle | None
-    _convention = ""  # what is up in files of its kind, see _upright.py
+    _convention = 0  # what is up in files of its kind, of ewa_up_convention
 
     def __init__(self, positions: Any, *, normals: Any = None, colors: Any = None, radius: Any = None,
                  origin: Sequence[float] | None = None, copy: bool | None = None, context: Context | None = None,

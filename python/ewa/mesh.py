@@ -13,6 +13,7 @@ from . import _bindings as b
 from ._arrays import Array, as_contiguous, export
 from ._context import Context, Core, Handle, Pin, core_of
 from ._errors import ArgumentError, ClosedError, FormatError
+from ._framing import convention_of
 from ._library import functions as lib
 from ._struct import fill, initialised, path_bytes
 from .camera import PathLike
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
 
 # A mesh is drawn from at least so many points, and from so many per triangle.
 _MESH_POINTS, _MESH_POINTS_PER_TRIANGLE = 200000, 4
-_CONVENTIONS = {".gltf": "Y", ".glb": "Y", ".obj": "y", ".stl": "z"}
 
 
 class Mesh:
@@ -186,8 +186,8 @@ class _Model:
         return cloud
 
     @property
-    def convention(self) -> str:
-        return _CONVENTIONS.get(os.path.splitext(os.fsdecode(self.path))[1].lower(), "")
+    def convention(self) -> int:
+        return convention_of([self.path])
 
 
 def _load(core: Core, path: PathLike, wanted: int, keep_going: bool, attributes: Sequence[str] | None,
@@ -227,8 +227,10 @@ def read(path: PathLike, *more: PathLike, filter: str | Sequence[str] | None = N
     FileError, FormatError, OutOfMemory
     """
     if more:
-        return merge([read(one, filter=filter, vertices=vertices, keep_going=keep_going, attributes=attributes,
-                           columns=columns, context=context) for one in (path, *more)])
+        merged = merge([read(one, filter=filter, vertices=vertices, keep_going=keep_going, attributes=attributes,
+                             columns=columns, context=context) for one in (path, *more)])
+        merged._convention = convention_of([path, *more])
+        return merged
     core = core_of(context)
     if is_folder(core, path):
         cloud = Octree(path, context=context).read()

@@ -3,9 +3,8 @@
 //
 // What is measured of some points to tell how they stand. Everything is counts, least and greatest numbers,
 // so that the order of the points does not matter.
-#include "upright_measure.h"
-
-#include "rank.h"
+#include "framing/upright_measure.h"
+#include "framing/framing.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -36,13 +35,13 @@ static size_t class_of(double place, size_t count) {
     return place < (double)count ? (size_t)place : count - 1;
 }
 
-void measure_extent(point_cloud_sample *points) {
+void ewa_measure_extent(point_cloud_sample *points) {
     for (int c = 0; c < 3; c++) {
         points->low[c] = INFINITY;
         points->high[c] = -INFINITY;
     }
     for (size_t i = 0; i < points->count; i++) {
-        for (int c = 0; c < 3; c++) rank_widen(&points->low[c], &points->high[c], points->offsets[i][c]);
+        for (int c = 0; c < 3; c++) widen(&points->low[c], &points->high[c], points->offsets[i][c]);
     }
     for (int c = 0; c < 3; c++) points->extent[c] = points->count ? points->high[c] - points->low[c] : 0;
 }
@@ -78,7 +77,7 @@ static size_t cell_of(const depth_grid *grid, int axis, double place) {
 
 static void put_in_grid(depth_grid *grid, double x, double y, double depth) {
     const size_t column = cell_of(grid, 0, x), row = cell_of(grid, 1, y);
-    rank_widen(&grid->nearest[row][column], &grid->farthest[row][column], depth);
+    widen(&grid->nearest[row][column], &grid->farthest[row][column], depth);
     grid->counts[row][column]++;
 }
 
@@ -97,7 +96,7 @@ static double layered_share(const depth_grid *grid, bool relative) {
     return several ? (double)layered / several : 0;
 }
 
-double measure_layers(const point_cloud_sample *points, int axis) {
+double ewa_measure_layers(const point_cloud_sample *points, int axis) {
     const int x = axis == 0 ? 1 : 0, y = axis == 2 ? 1 : 2;
     const double low[2] = {points->low[x], points->low[y]}, high[2] = {points->high[x], points->high[y]};
     if (!(fmax(high[0] - low[0], high[1] - low[1]) > 0)) return 0;
@@ -142,14 +141,14 @@ static bool slopes_of(const point_cloud_sample *points, size_t index, double sig
     return *depth > 0;
 }
 
-bool measure_range(const point_cloud_sample *points, double sign, double most_slope, range_facts *facts) {
+bool ewa_measure_range(const point_cloud_sample *points, double sign, double most_slope, range_facts *facts) {
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY}, slopes[2], depth;
     if (points->count < FEW_POINTS) return false;
     for (size_t i = 0; i < points->count; i++) {
         if (!slopes_of(points, i, sign, slopes, &depth) || fabs(slopes[0]) > most_slope ||
             fabs(slopes[1]) > most_slope)
             return false;
-        for (int c = 0; c < 2; c++) rank_widen(&low[c], &high[c], slopes[c]);
+        for (int c = 0; c < 2; c++) widen(&low[c], &high[c], slopes[c]);
     }
     if (!(low[0] < high[0] && low[1] < high[1])) return false;
     depth_grid grid;
@@ -283,7 +282,7 @@ static double base_height(const point_cloud_sample *points, int axis) {
     return low + extent * (double)step / (HEIGHTS - 1);
 }
 
-void measure_base(const point_cloud_sample *points, int axis, base_facts *facts) {
+void ewa_measure_base(const point_cloud_sample *points, int axis, base_facts *facts) {
     *facts = (base_facts){.share = 0};
     const int x = axis == 0 ? 1 : 0, y = axis == 2 ? 1 : 2;
     const double size = fmax(points->extent[0], fmax(points->extent[1], points->extent[2]));

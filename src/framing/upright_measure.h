@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // What is measured of some points to tell how they stand: sheets, range images, bases.
-#ifndef EWA_CLI_UPRIGHT_MEASURE_H
-#define EWA_CLI_UPRIGHT_MEASURE_H
+#ifndef EWA_SRC_FRAMING_UPRIGHT_MEASURE_H
+#define EWA_SRC_FRAMING_UPRIGHT_MEASURE_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -17,10 +17,10 @@ typedef struct point_cloud_sample {
 } point_cloud_sample;
 
 /// Sets low, high and extent.
-void measure_extent(point_cloud_sample *points);
+void ewa_measure_extent(point_cloud_sample *points);
 
 /// Share of the places across an axis where one point lies well behind another; 0 for a sheet.
-double measure_layers(const point_cloud_sample *points, int axis);
+double ewa_measure_layers(const point_cloud_sample *points, int axis);
 
 /// The lowest points along an axis.
 typedef struct base_facts {
@@ -28,7 +28,7 @@ typedef struct base_facts {
     bool stable;  ///< the middle of all that is seen is above them, and not at their rim
 } base_facts;
 
-void measure_base(const point_cloud_sample *points, int axis, base_facts *facts);
+void ewa_measure_base(const point_cloud_sample *points, int axis, base_facts *facts);
 
 /// Points as an eye at the origin sees them that looks along +z or -z.
 typedef struct range_facts {
@@ -39,6 +39,6 @@ typedef struct range_facts {
 
 /// Measures along z (`sign` 1) or -z (-1). Returns false when not all points lie before the eye within a
 /// slope of the axis, or are too few to tell.
-bool measure_range(const point_cloud_sample *points, double sign, double most_slope, range_facts *facts);
+bool ewa_measure_range(const point_cloud_sample *points, double sign, double most_slope, range_facts *facts);
 
 #endif

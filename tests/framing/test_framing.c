@@ -2,11 +2,25 @@
 // SPDX-License-Identifier: MIT
 //
 // What the camera that frames a cloud shows: all discs, the room around them, nothing of what lies far off.
-#include "check_session.h"
-#include "cli/framing.h"
+#include "check.h"
+#include "framing/framing.h"
 
 #include <math.h>
 #include <stdbool.h>
+
+static ewa_context *context;
+
+static int begin(void **state) {
+    (void)state;
+    context = check_context(1, NULL);
+    return 0;
+}
+
+static int finish(void **state) {
+    (void)state;
+    ewa_context_destroy(&context);
+    return 0;
+}
 
 /// A point, its radius and the way that its disc faces.
 typedef struct disc {
@@ -17,7 +31,7 @@ static ewa_cloud *make_cloud(const disc *discs, uint32_t count) {
     ewa_cloud *cloud = NULL;
     double *position = NULL;
     float *radius = NULL, *normal = NULL;
-    assert_int_equal(ewa_cloud_create(session.context, count, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, (void **)&position), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, (void **)&radius), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, (void **)&normal), EWA_OK);
@@ -44,10 +58,10 @@ static ewa_camera make_lens(void) {
 static ewa_camera fit(const ewa_cloud *cloud, double radius_scale, const double direction[3]) {
     const double up[3] = {0, direction[1] == 0, direction[1] != 0};
     ewa_camera camera = make_lens();
-    cloud_framing framing;
-    assert_true(framing_make(&session, cloud, radius_scale, &framing));
-    assert_int_equal(framing_fit(&framing, direction, up, &camera), EWA_OK);
-    framing_free(&framing);
+    ewa_framing *framing = NULL;
+    assert_int_equal(ewa_framing_create(cloud, radius_scale, &framing), EWA_OK);
+    assert_int_equal(ewa_framing_fit(framing, direction, up, &camera), EWA_OK);
+    ewa_framing_destroy(&framing);
     return camera;
 }
 
@@ -176,7 +190,7 @@ static void test_axes(void **state) {
     ewa_cloud *cloud = NULL;
     double *position = NULL;
     float *u = NULL, *v = NULL;
-    assert_int_equal(ewa_cloud_create(session.context, 2, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_create(context, 2, &cloud), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, (void **)&position), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_TANGENT_U, EWA_F32, 3, (void **)&u), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_TANGENT_V, EWA_F32, 3, (void **)&v), EWA_OK);
@@ -184,12 +198,12 @@ static void test_axes(void **state) {
     // Support 3 sigma: 0.6 along v; the sum of two that are almost the same is as long as their root of two.
     memcpy(u, (float[6]){0, 0.05f, 0, 0.1f, 0.01f, 0}, 6 * sizeof *u);
     memcpy(v, (float[6]){0.2f, 0, 0, 0.1f, -0.01f, 0}, 6 * sizeof *v);
-    cloud_framing framing;
-    assert_true(framing_make(&session, cloud, 1, &framing));
-    assert_int_equal(framing.count, 2);
-    assert_float_equal(framing.rims_world[0], 0.6, 1e-6);
-    assert_float_equal(framing.rims_world[1], 0.3 * sqrt(2), 1e-6);
-    framing_free(&framing);
+    ewa_framing *framing = NULL;
+    assert_int_equal(ewa_framing_create(cloud, 1, &framing), EWA_OK);
+    assert_int_equal(framing->count, 2);
+    assert_float_equal(framing->rims_world[0], 0.6, 1e-6);
+    assert_float_equal(framing->rims_world[1], 0.3 * sqrt(2), 1e-6);
+    ewa_framing_destroy(&framing);
     ewa_cloud_destroy(&cloud);
 }
 
@@ -201,12 +215,12 @@ static void test_no_radius(void **state) {
                           {{0, 1, 0}, -1, {0, 0, 1}},
                           {{1, 1, 0}, 0.1, {0, 0, 1}}};
     ewa_cloud *cloud = make_cloud(discs, 4);
-    cloud_framing framing;
-    assert_true(framing_make(&session, cloud, 2, &framing));
+    ewa_framing *framing = NULL;
+    assert_int_equal(ewa_framing_create(cloud, 2, &framing), EWA_OK);
     double sum = 0;
-    for (size_t i = 0; i < framing.count; i++) sum += framing.rims_world[i];
+    for (size_t i = 0; i < framing->count; i++) sum += framing->rims_world[i];
     assert_float_equal(sum, 0.2, 1e-7);
-    framing_free(&framing);
+    ewa_framing_destroy(&framing);
     ewa_cloud_destroy(&cloud);
 }
 
@@ -219,15 +233,15 @@ static void test_zoom(void **state) {
                           {{1.5, 0, -6}, 0.55, {0, 0, 1}},
                           {{0, -0.5, -4}, 0.2, {0, 0, 1}}};
     ewa_cloud *cloud = make_cloud(discs, 4);
-    cloud_framing framing;
+    ewa_framing *framing = NULL;
     ewa_camera camera = make_lens();
-    assert_true(framing_make(&session, cloud, 1, &framing));
-    assert_int_equal(framing_zoom(&framing, origin, up, &camera), EWA_OK);
+    assert_int_equal(ewa_framing_create(cloud, 1, &framing), EWA_OK);
+    assert_int_equal(ewa_framing_zoom(framing, origin, up, &camera), EWA_OK);
     double box[4];
     rims_box(&camera, discs, 4, box);
     // The aim is good to a hundredth of the width; the other side is exact.
     assert_true(fabs(box[0] - 32) < 8 && fabs(box[2] - 768) < 3 && box[1] > 24 && box[3] < 576);
-    framing_free(&framing);
+    ewa_framing_destroy(&framing);
     ewa_cloud_destroy(&cloud);
 }
 
@@ -249,16 +263,17 @@ static void test_far_points(void **state) {
             if (i < cases[k].far) discs[i] = (disc){{cases[k].place, 0, 0}, 0.02, {0, 0, 1}};
         }
         ewa_cloud *cloud = make_cloud(discs, COUNT);
-        cloud_framing framing;
-        assert_true(framing_make(&session, cloud, 1, &framing));
-        assert_int_equal(framing.trimmed, cases[k].trimmed);
+        ewa_framing *framing = NULL;
+        assert_int_equal(ewa_framing_create(cloud, 1, &framing), EWA_OK);
+        assert_int_equal(framing->trimmed, cases[k].trimmed);
         // What is left outside is not the object's own rim, and takes its discs along.
-        if (framing.trimmed) {
-            assert_int_equal(framing.count, COUNT - cases[k].far);
-            assert_true(framing.box.high_world[0] > 1.04 && framing.box.high_world[0] < 1.14);
-            for (size_t i = 0; i < framing.count; i++) assert_float_equal(framing.rims_world[i], 0.01, 1e-8);
+        if (framing->trimmed) {
+            assert_int_equal(framing->count, COUNT - cases[k].far);
+            assert_true(framing->box.high_world[0] > 1.04 && framing->box.high_world[0] < 1.14);
+            for (size_t i = 0; i < framing->count; i++)
+                assert_float_equal(framing->rims_world[i], 0.01, 1e-8);
         }
-        framing_free(&framing);
+        ewa_framing_destroy(&framing);
         ewa_cloud_destroy(&cloud);
     }
 }
@@ -271,21 +286,21 @@ static void test_revolve(void **state) {
         {{1, 0, 0}, 0.1, {0, 0, 1}}, {{3, 4, 1}, 0.2, {0, 0, 1}}, {{0, 2, 3}, 0.15, {1, 0, 0}}};
     const double pivot[3] = {1, 1, 0}, reaches[] = {1, sqrt(13), sqrt(2)};
     ewa_cloud *cloud = make_cloud(discs, 3);
-    cloud_framing framing, solid;
-    assert_true(framing_make(&session, cloud, 1, &framing));
+    ewa_framing *framing = NULL, *solid = NULL;
+    assert_int_equal(ewa_framing_create(cloud, 1, &framing), EWA_OK);
     for (size_t d = 0; d < 3; d++) {
-        assert_true(framing_revolve(&session, &framing, pivot, axis, directions[d], &solid));
+        assert_int_equal(ewa_framing_revolve(framing, pivot, axis, directions[d], &solid), EWA_OK);
         for (int i = 0; i < 3; i++) {
             // Of the corners about as high: how far they reach each way, and with which rim.
             double least = INFINITY, greatest = 0, rim = INFINITY, below = INFINITY, above = INFINITY;
             for (int k = 0; k < 1000; k++) {
                 const double x = cos(k * 0.00628318530717959), y = sin(k * 0.00628318530717959);
                 double reach = 0;
-                for (size_t p = 0; p < solid.count; p++) {
-                    const double *o = solid.offsets[p], up = o[2] + pivot[2] - discs[i].place[2];
+                for (size_t p = 0; p < solid->count; p++) {
+                    const double *o = solid->offsets[p], up = o[2] + pivot[2] - discs[i].place[2];
                     if (fabs(up) > 0.02) continue;
                     reach = fmax(reach, x * o[0] + y * o[1]);
-                    rim = fmin(rim, solid.rims_world[p]);
+                    rim = fmin(rim, solid->rims_world[p]);
                     below = fmin(below, up <= 1e-12 ? -up : INFINITY);
                     above = fmin(above, up >= -1e-12 ? up : INFINITY);
                 }
@@ -297,10 +312,131 @@ static void test_revolve(void **state) {
             // The slice begins below the point and ends above it.
             assert_true(below < 0.0118 && above < 0.0118);
         }
-        framing_free(&solid);
+        ewa_framing_destroy(&solid);
     }
-    framing_free(&framing);
+    ewa_framing_destroy(&framing);
     ewa_cloud_destroy(&cloud);
+}
+
+/// What a caller may know of a framing, which outlives its cloud.
+static void test_info(void **state) {
+    (void)state;
+    const disc discs[] = {
+        {{-1, 0, 2}, 0.1, {0, 0, 1}}, {{3, 4, 1}, 0.1, {0, 0, 1}}, {{0, 2, 3}, 0.1, {1, 0, 0}}};
+    ewa_cloud *cloud = make_cloud(discs, 3);
+    ewa_framing *framing = NULL;
+    ewa_framing_info info;
+    assert_int_equal(ewa_framing_create(cloud, 1, &framing), EWA_OK);
+    ewa_cloud_destroy(&cloud);
+    ewa_framing_describe(framing, &info);
+    static const double low[3] = {-1, 0, 1}, high[3] = {3, 4, 3}, middle[3] = {1, 2, 2};
+    assert_memory_equal(info.box.low_world, low, sizeof low);
+    assert_memory_equal(info.box.high_world, high, sizeof high);
+    assert_memory_equal(info.middle_world, middle, sizeof middle);
+    assert_int_equal(info.box.finite_count, 3);
+    assert_int_equal(info.sample_count, 3);
+    assert_false(info.trimmed);
+    ewa_framing_destroy(&framing);
+    assert_null(framing);
+    ewa_framing_destroy(&framing);
+    ewa_framing_destroy(NULL);
+}
+
+static void expect_failure(ewa_status status, ewa_status expected, check_log *log, const char *part,
+                           int line) {
+    if (status != expected || !strstr(log->text, part))
+        fail_msg("line %d: %d, %s", line, (int)status, log->text);
+    log->text[0] = 0;
+}
+
+/// What cannot be framed says why, and leaves cameras as they were.
+static void test_failures(void **state) {
+    (void)state;
+    static const double zero[3] = {0, 0, 0}, up[3] = {0, 1, 0};
+    check_log log = {.count = 0};
+    ewa_context *own = check_context(1, &log), *others = context;
+    context = own;
+    const disc none[] = {{{NAN, 0, 0}, 0.1, {0, 0, 1}}},
+               huge[] = {{{-1e300, 0, 0}, 0.1, {0, 0, 1}}, {{1e300, 1, 0}, 0.1, {0, 0, 1}}},
+               some[] = {{{0, 0, -4}, 0.1, {0, 0, 1}}, {{1, 1, -5}, 0.1, {0, 0, 1}}};
+    ewa_cloud *empty = NULL, *lost = make_cloud(none, 1), *far = make_cloud(huge, 2),
+              *cloud = make_cloud(some, 2);
+    assert_int_equal(ewa_cloud_create(own, 5, &empty), EWA_OK);
+    ewa_framing *framing = NULL, *solid = NULL;
+    expect_failure(ewa_framing_create(empty, 1, &framing), EWA_ERROR_ARGUMENT, &log, "position", __LINE__);
+    expect_failure(ewa_framing_create(lost, 1, &framing), EWA_ERROR_NUMERIC, &log, "no point has finite",
+                   __LINE__);
+    expect_failure(ewa_framing_create(cloud, -1, &framing), EWA_ERROR_ARGUMENT, &log, "radius_scale is -1",
+                   __LINE__);
+    expect_failure(ewa_framing_create(cloud, INFINITY, &framing), EWA_ERROR_ARGUMENT, &log,
+                   "radius_scale is inf", __LINE__);
+    assert_int_equal(ewa_framing_create(cloud, 1, NULL), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_framing_create(NULL, 1, &framing), EWA_ERROR_ARGUMENT);
+    assert_null(framing);
+    ewa_camera camera = make_lens();
+    const ewa_camera before = camera;
+    assert_int_equal(ewa_framing_create(far, 1, &framing), EWA_OK);
+    expect_failure(ewa_framing_fit(framing, AHEAD, up, &camera), EWA_ERROR_NUMERIC, &log,
+                   "no camera can be placed: the coordinates, from -1e+300,0,0 to 1e+300,1,0", __LINE__);
+    ewa_framing_destroy(&framing);
+    assert_int_equal(ewa_framing_create(cloud, 1, &framing), EWA_OK);
+    expect_failure(ewa_framing_fit(framing, zero, up, &camera), EWA_ERROR_NUMERIC, &log, "direction 0,0,0",
+                   __LINE__);
+    static const double behind[3] = {0, 0, -1e9};
+    static const double within[3] = {0.5, 0.5, -4.5}; // in the middle of it
+    expect_failure(ewa_framing_zoom(framing, within, up, &camera), EWA_ERROR_NUMERIC, &log,
+                   "no camera can be placed", __LINE__);
+    expect_failure(ewa_framing_revolve(framing, zero, zero, behind, &solid), EWA_ERROR_ARGUMENT, &log,
+                   "axis 0,0,0", __LINE__);
+    assert_null(solid);
+    assert_int_equal(ewa_framing_fit(NULL, AHEAD, up, &camera), EWA_ERROR_ARGUMENT);
+    assert_memory_equal(&camera, &before, sizeof camera);
+    camera.projection = EWA_ORTHOGRAPHIC;
+    assert_int_equal(ewa_framing_zoom(framing, zero, up, &camera), EWA_ERROR_ARGUMENT);
+    ewa_framing_destroy(&framing);
+    ewa_cloud *const clouds[] = {empty, lost, far, cloud};
+    for (size_t i = 0; i < sizeof clouds / sizeof clouds[0]; i++) {
+        ewa_cloud *one = clouds[i];
+        ewa_cloud_destroy(&one);
+    }
+    context = others;
+    ewa_context_destroy(&own);
+}
+
+/// Whichever allocation fails, all memory is given back.
+static void test_memory(void **state) {
+    (void)state;
+    check_memory memory = {.calls_left = -1};
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.thread_count = 1;
+    options.allocator = check_allocator(&memory);
+    ewa_context *own = NULL, *others = context;
+    assert_int_equal(ewa_context_create(&options, &own), EWA_OK);
+    context = own;
+    static const double axis[3] = {0, 0, 1};
+    const disc some[] = {{{0, 0, -4}, 0.1, {0, 0, 1}}, {{1, 1, -5}, 0.1, {0, 0, 1}}};
+    ewa_cloud *cloud = make_cloud(some, 2);
+    const int64_t held_bytes = memory.held_bytes;
+    int failed = 0;
+    for (long calls = 0;; calls++) {
+        ewa_framing *framing = NULL, *solid = NULL;
+        memory.calls_left = calls;
+        ewa_status status = ewa_framing_create(cloud, 1, &framing);
+        if (status == EWA_OK) status = ewa_framing_revolve(framing, axis, axis, AHEAD, &solid);
+        if (status != EWA_OK) assert_true(status == EWA_ERROR_MEMORY && !solid);
+        ewa_framing_destroy(&solid);
+        ewa_framing_destroy(&framing);
+        assert_int_equal(memory.held_bytes, held_bytes);
+        if (status == EWA_OK) break;
+        failed++;
+    }
+    assert_true(failed >= 9);
+    memory.calls_left = -1;
+    ewa_cloud_destroy(&cloud);
+    context = others;
+    ewa_context_destroy(&own);
+    assert_int_equal(memory.held_bytes, 0);
 }
 
 int main(void) {
@@ -309,6 +445,8 @@ int main(void) {
         cmocka_unit_test(test_giant_disc), cmocka_unit_test(test_axes),
         cmocka_unit_test(test_no_radius),  cmocka_unit_test(test_zoom),
         cmocka_unit_test(test_far_points), cmocka_unit_test(test_revolve),
+        cmocka_unit_test(test_info),       cmocka_unit_test(test_failures),
+        cmocka_unit_test(test_memory),
     };
-    return cmocka_run_group_tests(tests, session_begin, session_finish);
+    return cmocka_run_group_tests(tests, begin, finish);
 }

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Some points of a cloud, the same ones in whatever order the file has them: those of the least hashes.
-#include "sampling.h"
+#include "framing/sampling.h"
+#include "base/base.h"
+#include "cloud/cloud.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -75,13 +77,15 @@ static void collect(const ewa_cloud *cloud, collection *all) {
     if (all->crowded) compact(all);
 }
 
-bool sampling_choose(const ewa_cloud *cloud, size_t wanted, point_sample *sample) {
-    *sample = (point_sample){.count = 0};
+ewa_status ewa_sample_choose(const ewa_cloud *cloud, size_t wanted, point_sample *sample) {
+    ewa_context *context = ewa_cloud_context(cloud);
     const uint64_t point_count = ewa_cloud_point_count(cloud);
     const bool some = point_count > wanted;
     const size_t room = some ? 2 * wanted : (size_t)point_count;
-    collection all = {.points = malloc(room * sizeof *all.points), .capacity = room, .limit = UINT64_MAX};
-    sample->indices = malloc(room * sizeof *sample->indices);
+    *sample = (point_sample){.room = room};
+    collection all = {
+        .points = ewa_allocate(context, room, sizeof *all.points), .capacity = room, .limit = UINT64_MAX};
+    sample->indices = ewa_allocate(context, room, sizeof *sample->indices);
     const bool done = all.points && sample->indices;
     if (done && some) all.limit = (uint64_t)(0x1p63 * ((double)wanted / (double)point_count)) * 2;
     if (done) collect(cloud, &all);
@@ -92,6 +96,11 @@ bool sampling_choose(const ewa_cloud *cloud, size_t wanted, point_sample *sample
     }
     for (size_t i = 0; done && i < all.count; i++) sample->indices[i] = all.points[i].index;
     sample->count = done ? all.count : 0;
-    free(all.points);
-    return done;
+    ewa_release(context, all.points, room, sizeof *all.points);
+    return done ? EWA_OK : EWA_ERROR_MEMORY;
+}
+
+void ewa_sample_free(const ewa_cloud *cloud, point_sample *sample) {
+    ewa_release(ewa_cloud_context(cloud), sample->indices, sample->room, sizeof *sample->indices);
+    *sample = (point_sample){.count = 0};
 }

@@ -8,8 +8,8 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "cli/upright.h"
-#include "cli/upright_measure.h"
+#include "framing/upright.h"
+#include "framing/upright_measure.h"
 
 enum { MOST_POINTS = 1 << 17 };
 
@@ -57,22 +57,23 @@ static point_cloud_sample measured(double middle_world[3]) {
     point_cloud_sample points = {.count = made.count, .offsets = (const double(*)[3])made.points};
     for (int c = 0; c < 3; c++) middle_world[c] = 0;
     points.middle_world = middle_world;
-    measure_extent(&points);
+    ewa_measure_extent(&points);
     return points;
 }
 
 /// Checks what is chosen for the shape, moved by `middle`, and a part of the reason.
-static void expect_at(const double middle[3], up_convention convention, int axis, named_view view,
+static void expect_at(const double middle[3], ewa_up_convention convention, int axis, ewa_named_view view,
                       const char *why, int line) {
-    const upright chosen = upright_choose(made.count, (const double(*)[3])made.points, middle, convention);
+    const ewa_upright chosen =
+        ewa_upright_choose(made.count, (const double(*)[3])made.points, middle, convention);
     if (chosen.axis != axis || chosen.view != view || !strstr(chosen.why, why))
         fail_msg("line %d: axis %d, view %d, %s", line, chosen.axis, (int)chosen.view, chosen.why);
 }
 
 static const double AT_ORIGIN[3] = {0, 0, 0};
 
-static upright chosen_at_origin(up_convention convention) {
-    return upright_choose(made.count, (const double(*)[3])made.points, AT_ORIGIN, convention);
+static ewa_upright chosen_at_origin(ewa_up_convention convention) {
+    return ewa_upright_choose(made.count, (const double(*)[3])made.points, AT_ORIGIN, convention);
 }
 
 #define EXPECT(convention, axis, view, why) expect_at(AT_ORIGIN, convention, axis, view, why, __LINE__)
@@ -82,16 +83,16 @@ static void test_planes(void **state) {
     (void)state;
     start();
     add_block(0, 1.85e-4, -1, 1, -1, 1, 5000);
-    EXPECT(UP_ANY, 1, VIEW_RIGHT, "plane");
+    EXPECT(EWA_UP_ANY, 1, EWA_VIEW_RIGHT, "plane");
     start();
     add_block(0, 2.2e-4, -1, 1, -1, 1, 5000);
-    EXPECT(UP_ANY, 1, VIEW_ISO, "nothing speaks");
+    EXPECT(EWA_UP_ANY, 1, EWA_VIEW_ISO, "nothing speaks");
     start();
     add_block(-1, 1, 0, 2.2e-4, 0, 0, 5000);
-    EXPECT(UP_ANY, 2, VIEW_TOP, "plane");
+    EXPECT(EWA_UP_ANY, 2, EWA_VIEW_TOP, "plane");
     start();
     add_block(-1, 1, 0, 1.85e-4, 0, 0, 5000);
-    const upright line = chosen_at_origin(UP_ANY);
+    const ewa_upright line = chosen_at_origin(EWA_UP_ANY);
     assert_null(strstr(line.why, "plane"));
 }
 
@@ -102,11 +103,11 @@ static void test_maps(void **state) {
         const double size = tower ? 3.2 : 2.8;
         start();
         add_block(-1, 1, -1, 1, 0, size, 20000);
-        const named_view view = tower ? VIEW_FRONT : VIEW_ISO;
-        expect_at((double[3]){112 * size, 0, 0}, UP_Y_USUAL, 2, view, "map", __LINE__);
-        expect_at((double[3]){0, -112 * size, 0}, UP_Y_USUAL, 2, view, "map", __LINE__);
-        expect_at((double[3]){90 * size, -90 * size, 1e4}, UP_Y_USUAL, 1, tower ? VIEW_ISO : VIEW_FRONT,
-                  "files", __LINE__);
+        const ewa_named_view view = tower ? EWA_VIEW_FRONT : EWA_VIEW_ISO;
+        expect_at((double[3]){112 * size, 0, 0}, EWA_UP_Y_USUAL, 2, view, "map", __LINE__);
+        expect_at((double[3]){0, -112 * size, 0}, EWA_UP_Y_USUAL, 2, view, "map", __LINE__);
+        expect_at((double[3]){90 * size, -90 * size, 1e4}, EWA_UP_Y_USUAL, 1,
+                  tower ? EWA_VIEW_ISO : EWA_VIEW_FRONT, "files", __LINE__);
     }
 }
 
@@ -120,13 +121,13 @@ static void test_ground(void **state) {
             const double x = between(-1, 1), z = between(-1, 1);
             add(x, 0.5 * height * sin(3 * x) * cos(2 * z), z);
         }
-        assert_int_equal(strstr(chosen_at_origin(UP_ANY).why, "ground") != NULL, within);
+        assert_int_equal(strstr(chosen_at_origin(EWA_UP_ANY).why, "ground") != NULL, within);
         start();
         for (int i = 0; i < 60000; i++) {
             const double x = between(-1, 1), z = between(-1, 1);
             add(x, i % 2 && x < (within ? 0.54 : 0.66) - 1 ? 0.4 : 0, z);
         }
-        assert_int_equal(strstr(chosen_at_origin(UP_ANY).why, "ground") != NULL, within);
+        assert_int_equal(strstr(chosen_at_origin(EWA_UP_ANY).why, "ground") != NULL, within);
     }
 }
 
@@ -147,18 +148,18 @@ static void test_pixels(void **state) {
     (void)state;
     for (int within = 0; within < 2; within++) {
         make_pixels(80, 60, within ? 0.93 : 1.08, 0.5, 20);
-        upright chosen = chosen_at_origin(UP_ANY);
+        ewa_upright chosen = chosen_at_origin(EWA_UP_ANY);
         assert_int_equal(chosen.from_origin, within);
         make_pixels(80, 60, 0.5, within ? 0.93 : 1.08, 20);
-        chosen = chosen_at_origin(UP_ANY);
+        chosen = chosen_at_origin(EWA_UP_ANY);
         assert_int_equal(chosen.from_origin, within);
         make_pixels(20, 20, 0.5, 0.5, within ? 11 : 9);
-        chosen = chosen_at_origin(UP_ANY);
+        chosen = chosen_at_origin(EWA_UP_ANY);
         assert_int_equal(chosen.from_origin, within);
         make_pixels(30, within ? 4 : 3, 0.5, 0.5, 20); // 120 points, 90: too few to tell
-        assert_int_equal(chosen_at_origin(UP_ANY).from_origin, within);
+        assert_int_equal(chosen_at_origin(EWA_UP_ANY).from_origin, within);
         make_pixels(400, 20, 0.5, within ? 0.0275 : 0.0225, 20);
-        chosen = chosen_at_origin(UP_ANY);
+        chosen = chosen_at_origin(EWA_UP_ANY);
         assert_non_null(strstr(chosen.why, "by its pixels"));
         assert_int_equal(chosen.from_origin, within);
     }
@@ -182,10 +183,10 @@ static void test_camera_views(void **state) {
     (void)state;
     for (int within = 0; within < 2; within++) {
         make_view(within ? 0.135 : 0.165, 0);
-        upright chosen = chosen_at_origin(UP_ANY);
+        ewa_upright chosen = chosen_at_origin(EWA_UP_ANY);
         assert_int_equal(chosen.from_origin, within);
         make_view(within ? 0.27 : 0.33, 100);
-        chosen = chosen_at_origin(UP_ANY);
+        chosen = chosen_at_origin(EWA_UP_ANY);
         assert_int_equal(chosen.from_origin, within);
         // What the camera looks past: x from -0.09 or -0.11 of its width on.
         make_view(0, 0);
@@ -198,7 +199,7 @@ static void test_camera_views(void **state) {
             memcpy(made.points[kept++], made.points[i], sizeof made.points[i]);
         }
         made.count = kept;
-        chosen = chosen_at_origin(UP_ANY);
+        chosen = chosen_at_origin(EWA_UP_ANY);
         assert_int_equal(chosen.from_origin, within);
     }
 }
@@ -215,7 +216,7 @@ static double share_of(int axis, bool *stable) {
     double middle[3];
     const point_cloud_sample points = measured(middle);
     base_facts facts;
-    measure_base(&points, axis, &facts);
+    ewa_measure_base(&points, axis, &facts);
     if (stable) *stable = facts.stable;
     return facts.share;
 }
@@ -227,13 +228,13 @@ static void test_base_shares(void **state) {
         make_footed(large ? 0.22 : 0.18);
         assert_float_equal(share_of(1, NULL), large ? 0.22 : 0.18, 0.005);
         assert_true(share_of(2, NULL) < 0.05);
-        EXPECT(UP_ANY, 1, VIEW_ISO, large ? "base" : "nothing speaks");
+        EXPECT(EWA_UP_ANY, 1, EWA_VIEW_ISO, large ? "base" : "nothing speaks");
         make_footed(large ? 0.33 : 0.27);
         if (large)
-            EXPECT(UP_Z_USUAL, 1, VIEW_ISO, "base");
+            EXPECT(EWA_UP_Z_USUAL, 1, EWA_VIEW_ISO, "base");
         else
-            EXPECT(UP_Z_USUAL, 2, VIEW_FRONT, "files");
-        EXPECT(UP_ANY, 1, VIEW_ISO, "base");
+            EXPECT(EWA_UP_Z_USUAL, 2, EWA_VIEW_FRONT, "files");
+        EXPECT(EWA_UP_ANY, 1, EWA_VIEW_ISO, "base");
     }
 }
 
@@ -257,19 +258,19 @@ static void test_boxes(void **state) {
         assert_float_equal(share_of(1, NULL), large ? 0.55 : 0.45, 0.03);
         assert_true(share_of(2, NULL) > 0.98);
         if (large)
-            EXPECT(UP_ANY, 1, VIEW_FRONT, "nothing speaks");
+            EXPECT(EWA_UP_ANY, 1, EWA_VIEW_FRONT, "nothing speaks");
         else
-            EXPECT(UP_ANY, 2, VIEW_FRONT, "base");
+            EXPECT(EWA_UP_ANY, 2, EWA_VIEW_FRONT, "base");
         make_prism(large ? 0.66 : 0.54, 0.3);
         if (large)
-            EXPECT(UP_ANY, 2, VIEW_ISO, "flat lies");
+            EXPECT(EWA_UP_ANY, 2, EWA_VIEW_ISO, "flat lies");
         else
-            EXPECT(UP_ANY, 1, VIEW_FRONT, "nothing speaks");
+            EXPECT(EWA_UP_ANY, 1, EWA_VIEW_FRONT, "nothing speaks");
         make_prism(1, large ? 0.86 : 0.74);
         if (large)
-            EXPECT(UP_ANY, 1, VIEW_FRONT, "nothing speaks");
+            EXPECT(EWA_UP_ANY, 1, EWA_VIEW_FRONT, "nothing speaks");
         else
-            EXPECT(UP_ANY, 2, VIEW_ISO, "flat lies");
+            EXPECT(EWA_UP_ANY, 2, EWA_VIEW_ISO, "flat lies");
     }
 }
 
@@ -278,31 +279,31 @@ static void test_tall(void **state) {
     (void)state;
     start();
     add_diamond(0, 0.5, 0.92, 0.4);
-    EXPECT(UP_ANY, 1, VIEW_FRONT, "nothing speaks");
+    EXPECT(EWA_UP_ANY, 1, EWA_VIEW_FRONT, "nothing speaks");
     start();
     add_diamond(0, 0.5, 1.08, 0.4);
-    EXPECT(UP_ANY, 2, VIEW_ISO, "long");
+    EXPECT(EWA_UP_ANY, 2, EWA_VIEW_ISO, "long");
     start();
     add_diamond(0, 0.4, 0.5, 1.08);
-    EXPECT(UP_Z_USUAL, 1, VIEW_ISO, "long");
+    EXPECT(EWA_UP_Z_USUAL, 1, EWA_VIEW_ISO, "long");
     // With a base that is too small against the usual axis it lies no more.
     start();
     add_diamond(1.08, 0.5, 1.08, 0.4);
     add_block(-0.2, 0.2, -0.03, 0.01, -0.15, 0.15, 3000);
-    EXPECT(UP_ANY, 1, VIEW_FRONT, "base");
+    EXPECT(EWA_UP_ANY, 1, EWA_VIEW_FRONT, "base");
 }
 
 /// From the front; iso where it is lower than 0.4 of its width, or 1.5 times as deep as wide and not higher.
 static void test_views(void **state) {
     (void)state;
-    assert_int_equal(upright_view((double[3]){1, 0.37, 1.2}, 1), VIEW_ISO);
-    assert_int_equal(upright_view((double[3]){1, 0.43, 1.2}, 1), VIEW_FRONT);
-    assert_int_equal(upright_view((double[3]){1, 1.2, 0.37}, 2), VIEW_ISO);
-    assert_int_equal(upright_view((double[3]){1, 1.2, 0.43}, 2), VIEW_FRONT);
-    assert_int_equal(upright_view((double[3]){1, 0.9, 1.4}, 1), VIEW_FRONT);
-    assert_int_equal(upright_view((double[3]){1, 0.9, 1.6}, 1), VIEW_ISO);
-    assert_int_equal(upright_view((double[3]){1, 1.5, 1.6}, 1), VIEW_ISO);
-    assert_int_equal(upright_view((double[3]){1, 1.7, 1.6}, 1), VIEW_FRONT);
+    assert_int_equal(ewa_upright_view((double[3]){1, 0.37, 1.2}, 1), EWA_VIEW_ISO);
+    assert_int_equal(ewa_upright_view((double[3]){1, 0.43, 1.2}, 1), EWA_VIEW_FRONT);
+    assert_int_equal(ewa_upright_view((double[3]){1, 1.2, 0.37}, 2), EWA_VIEW_ISO);
+    assert_int_equal(ewa_upright_view((double[3]){1, 1.2, 0.43}, 2), EWA_VIEW_FRONT);
+    assert_int_equal(ewa_upright_view((double[3]){1, 0.9, 1.4}, 1), EWA_VIEW_FRONT);
+    assert_int_equal(ewa_upright_view((double[3]){1, 0.9, 1.6}, 1), EWA_VIEW_ISO);
+    assert_int_equal(ewa_upright_view((double[3]){1, 1.5, 1.6}, 1), EWA_VIEW_ISO);
+    assert_int_equal(ewa_upright_view((double[3]){1, 1.7, 1.6}, 1), EWA_VIEW_FRONT);
 }
 
 /// A floor with a peak in its middle, and a roof over a share of it: an open sheet has no base.
@@ -315,7 +316,7 @@ static void test_open_sheets(void **state) {
             const double x = between(-1, 1), z = between(-1, 1), r = sqrt(x * x + z * z);
             add(x, i % 2 && x < 2 * roof / 0.9 - 1 && fabs(z) < 0.9 ? 0.5 : fmax(0, 1.5 * (0.6 - r)), z);
         }
-        EXPECT(UP_ANY, 1, VIEW_FRONT, closed ? "base" : "nothing speaks");
+        EXPECT(EWA_UP_ANY, 1, EWA_VIEW_FRONT, closed ? "base" : "nothing speaks");
     }
 }
 
@@ -352,7 +353,7 @@ static void test_stable(void **state) {
         add_diamond(0.7, 0.5, 0.5, 1);
         add_block(foot, foot + 0.28, 0, 0.02, -0.5, 0.5, 5000);
         assert_true(share_of(1, NULL) > 0.25);
-        EXPECT(UP_ANY, 1, VIEW_ISO, under ? "base" : "nothing speaks");
+        EXPECT(EWA_UP_ANY, 1, EWA_VIEW_ISO, under ? "base" : "nothing speaks");
     }
 }
 
@@ -378,15 +379,122 @@ static void test_layers(void **state) {
             add(between(0, 1), i % 2 ? (apart ? 3.3 : 2.7) / 64 : 0, between(0, 1));
         double middle[3];
         const point_cloud_sample points = measured(middle);
-        assert_float_equal(measure_layers(&points, 1), apart, 0.01);
+        assert_float_equal(ewa_measure_layers(&points, 1), apart, 0.01);
         // Few points have larger cells, of 8 points: 1000 points 11 by 11.
         start();
         for (int i = 0; i < 992; i++) add(between(0, 1), i % 2 ? (apart ? 0.29 : 0.255) : 0, between(0, 1));
         add_block(0, 1, 0, 0, 0, 1, 0);
         double also[3];
         const point_cloud_sample few = measured(also);
-        assert_float_equal(measure_layers(&few, 1), apart, 0.05);
+        assert_float_equal(ewa_measure_layers(&few, 1), apart, 0.05);
     }
+}
+
+/// The convention that all names share, by their suffixes in any case.
+static void test_conventions(void **state) {
+    (void)state;
+    static const struct {
+        size_t count;
+        const char *paths[3];
+        ewa_up_convention convention;
+    } cases[] = {{1, {"a.ply"}, EWA_UP_ANY},
+                 {1, {"folder/a.OBJ"}, EWA_UP_Y_USUAL},
+                 {2, {"a.glb", "b.gltf"}, EWA_UP_Y_REQUIRED},
+                 {3, {"a.stl", "b.stl", "c.STL"}, EWA_UP_Z_USUAL},
+                 {3, {"a.stl", "b.stl", "c.obj"}, EWA_UP_ANY},
+                 {2, {"a.stl", "b.ply"}, EWA_UP_ANY},
+                 {2, {"a.ply", "b.stl"}, EWA_UP_ANY},
+                 {1, {"stl"}, EWA_UP_ANY},
+                 {0, {NULL}, EWA_UP_ANY}};
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++)
+        assert_int_equal(ewa_up_convention_of(cases[k].count, cases[k].paths), cases[k].convention);
+}
+
+static void expect_look(int axis, bool reversed, ewa_named_view view, const double direction[3],
+                        const double up[3], int line) {
+    const ewa_upright upright = {.axis = axis, .reversed = reversed, .view = view, .why = ""};
+    double ahead[3], above[3];
+    ewa_upright_look(&upright, ahead, above);
+    for (int c = 0; c < 3; c++)
+        if (ahead[c] != direction[c] || above[c] != up[c])
+            fail_msg("line %d: (%g, %g, %g), up (%g, %g, %g)", line, ahead[0], ahead[1], ahead[2], above[0],
+                     above[1], above[2]);
+}
+
+#define V(x, y, z) ((const double[3]){x, y, z})
+
+/// Where each side is, with y, z and -y up.
+static void test_looks(void **state) {
+    (void)state;
+    expect_look(2, false, EWA_VIEW_FRONT, V(0, 1, 0), V(0, 0, 1), __LINE__);
+    expect_look(2, false, EWA_VIEW_BACK, V(0, -1, 0), V(0, 0, 1), __LINE__);
+    expect_look(2, false, EWA_VIEW_LEFT, V(1, 0, 0), V(0, 0, 1), __LINE__);
+    expect_look(2, false, EWA_VIEW_RIGHT, V(-1, 0, 0), V(0, 0, 1), __LINE__);
+    expect_look(2, false, EWA_VIEW_TOP, V(0, 0, -1), V(0, 1, 0), __LINE__);
+    expect_look(2, false, EWA_VIEW_BOTTOM, V(0, 0, 1), V(0, -1, 0), __LINE__);
+    expect_look(2, false, EWA_VIEW_ISO, V(-1, 1, -1), V(0, 0, 1), __LINE__);
+    expect_look(1, false, EWA_VIEW_FRONT, V(0, 0, -1), V(0, 1, 0), __LINE__);
+    expect_look(1, false, EWA_VIEW_TOP, V(0, -1, 0), V(0, 0, -1), __LINE__);
+    expect_look(1, false, EWA_VIEW_ISO, V(-1, -1, -1), V(0, 1, 0), __LINE__);
+    expect_look(1, true, EWA_VIEW_FRONT, V(0, 0, 1), V(0, -1, 0), __LINE__);
+    expect_look(1, true, EWA_VIEW_TOP, V(0, 1, 0), V(0, 0, 1), __LINE__);
+}
+
+/// The eye goes counter-clockwise about the axis, then up; over a pole up turns along.
+static void test_turns(void **state) {
+    (void)state;
+    const double *axis = V(0, 0, 1);
+    double ahead[3] = {0, 1, 0}, up[3] = {0, 0, 1};
+    assert_int_equal(ewa_upright_turn(axis, 90, 0, ahead, up), EWA_OK); // the eye from -y to +x
+    assert_true(fabs(ahead[0] + 1) < 1e-12 && fabs(ahead[1]) < 1e-12 && fabs(up[2] - 1) < 1e-12);
+    assert_int_equal(ewa_upright_turn(axis, 0, 30, ahead, up), EWA_OK);
+    assert_true(fabs(ahead[2] + 0.5) < 1e-12 && fabs(up[2] - sqrt(0.75)) < 1e-12);
+    assert_int_equal(ewa_upright_turn(axis, 0, 90, ahead, up), EWA_OK);
+    assert_true(ahead[2] < 0 && up[2] < -0.49);
+    double kept[3] = {0, 1, 0}, above[3] = {0, 0, 1};
+    assert_int_equal(ewa_upright_turn(V(0, 0, 0), 1, 0, kept, above), EWA_ERROR_NUMERIC);
+    assert_int_equal(ewa_upright_turn(V(0, 0, 1), NAN, 0, kept, above), EWA_ERROR_NUMERIC);
+    assert_int_equal(ewa_upright_turn(NULL, 1, 0, kept, above), EWA_ERROR_ARGUMENT);
+    assert_true(kept[1] == 1 && above[2] == 1);
+}
+
+/// The words that a program prints.
+static void test_words(void **state) {
+    (void)state;
+    char text[EWA_UPRIGHT_TEXT_BYTES];
+    ewa_upright upright = {.axis = 2, .view = EWA_VIEW_ISO, .why = "map coordinates"};
+    ewa_upright_describe(&upright, text);
+    assert_string_equal(text, "z (map coordinates), seen from iso");
+    upright = (ewa_upright){.axis = 1, .reversed = true, .from_origin = true, .why = "so"};
+    ewa_upright_describe(&upright, text);
+    assert_string_equal(text, "-y (so), seen from the origin");
+    assert_string_equal(ewa_upright_place(&upright), "the origin");
+}
+
+/// What a cloud's framing chooses is what its points choose; in another order too.
+static void test_of_cloud(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    make_footed(0.33);
+    const ewa_upright direct = chosen_at_origin(EWA_UP_Z_USUAL);
+    for (int order = 0; order < 2; order++) {
+        ewa_cloud *cloud = NULL;
+        double *position = NULL;
+        ewa_framing *framing = NULL;
+        ewa_upright chosen;
+        assert_int_equal(ewa_cloud_create(context, made.count, &cloud), EWA_OK);
+        assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, (void **)&position), EWA_OK);
+        for (size_t i = 0; i < made.count; i++)
+            memcpy(position + 3 * i, made.points[order ? made.count - 1 - i : i], sizeof made.points[0]);
+        assert_int_equal(ewa_framing_create(cloud, 1, &framing), EWA_OK);
+        ewa_cloud_destroy(&cloud);
+        ewa_framing_choose(framing, EWA_UP_Z_USUAL, &chosen);
+        assert_int_equal(chosen.axis, direct.axis);
+        assert_int_equal(chosen.view, direct.view);
+        assert_ptr_equal(chosen.why, direct.why);
+        ewa_framing_destroy(&framing);
+    }
+    ewa_context_destroy(&context);
 }
 
 int main(void) {
@@ -397,7 +505,9 @@ int main(void) {
         cmocka_unit_test(test_boxes),        cmocka_unit_test(test_tall),
         cmocka_unit_test(test_views),        cmocka_unit_test(test_open_sheets),
         cmocka_unit_test(test_stable),       cmocka_unit_test(test_base_height),
-        cmocka_unit_test(test_layers),
+        cmocka_unit_test(test_layers),       cmocka_unit_test(test_conventions),
+        cmocka_unit_test(test_looks),        cmocka_unit_test(test_turns),
+        cmocka_unit_test(test_words),        cmocka_unit_test(test_of_cloud),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: MIT
 //
 // Getting the whole of a cloud into a picture, as large as it goes.
-#include "framing.h"
-#include "rank.h"
-#include "sampling.h"
+#include "framing/framing.h"
+#include "base/base.h"
+#include "cloud/cloud.h"
+#include "ewa/render.h"
+#include "ewa/select.h"
+#include "framing/sampling.h"
+#include "framing/upright.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { SAMPLES = 1 << 16 };
@@ -26,7 +29,7 @@ static const double MARGIN = 0.04;
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-static double diagonal(const ewa_bounds *box) {
+double ewa_framing_diagonal(const ewa_bounds *box) {
     double squared = 0;
     for (int c = 0; c < 3; c++) {
         const double extent = box->high_world[c] - box->low_world[c];
@@ -41,9 +44,9 @@ static void trim_box(double (*points)[3], size_t count, double *numbers, ewa_bou
     const size_t skipped = (size_t)(FAR_SHARE * (double)count);
     for (int c = 0; c < 3; c++) {
         for (size_t i = 0; i < count; i++) numbers[i] = points[i][c];
-        const double low = rank_select(numbers, count, skipped);
+        const double low = ewa_rank_select(numbers, count, skipped);
         for (size_t i = 0; i < count; i++) numbers[i] = points[i][c];
-        const double high = rank_select(numbers, count, count - 1 - skipped);
+        const double high = ewa_rank_select(numbers, count, count - 1 - skipped);
         // The rim that is cut off belongs to the object too: give some back.
         const double rim = 0.05 * (high - low);
         box->low_world[c] = low - rim;
@@ -83,7 +86,7 @@ static void read_rims(const ewa_cloud *cloud, const point_sample *sample, double
                               : 0;
         if (rims_world[i] > 0) numbers[count++] = rims_world[i];
     }
-    const double most = count ? RIM_RATIO * rank_select(numbers, count, count / 2) : 0;
+    const double most = count ? RIM_RATIO * ewa_rank_select(numbers, count, count / 2) : 0;
     for (size_t i = 0; i < sample->count; i++)
         if (rims_world[i] > most) rims_world[i] = most;
 }
@@ -101,13 +104,14 @@ static void read_points(const ewa_cloud *cloud, const point_sample *sample, doub
 
 /// Fills a framing from a sample; `numbers` has room for as many.
 static void frame_sample(const ewa_cloud *cloud, const point_sample *sample, double radius_scale,
-                         double *numbers, cloud_framing *framing) {
+                         double *numbers, ewa_framing *framing) {
     double(*points)[3] = framing->offsets;
     const size_t count = sample->count;
     read_points(cloud, sample, points);
     ewa_bounds inner;
     if (count) trim_box(points, count, numbers, &inner);
-    if (count && diagonal(&inner) > 0 && diagonal(&framing->box) > FAR_RATIO * diagonal(&inner)) {
+    if (count && ewa_framing_diagonal(&inner) > 0 &&
+        ewa_framing_diagonal(&framing->box) > FAR_RATIO * ewa_framing_diagonal(&inner)) {
         framing->trimmed = true;
         for (int c = 0; c < 3; c++) {
             framing->box.low_world[c] = fmax(framing->box.low_world[c], inner.low_world[c]);
@@ -126,45 +130,83 @@ static void frame_sample(const ewa_cloud *cloud, const point_sample *sample, dou
     }
 }
 
-bool framing_make(cli_session *session, const ewa_cloud *cloud, double radius_scale, cloud_framing *framing) {
-    *framing = (cloud_framing){.count = 0};
-    const ewa_status status = ewa_cloud_measure(cloud, &framing->box);
-    if (status != EWA_OK) {
-        session_failed(session, status);
-        return false;
-    }
-    if (framing->box.finite_count == 0) {
-        session_fail(session, "no point has finite coordinates");
-        return false;
-    }
-    point_sample sample;
-    double *numbers = NULL;
-    bool done = sampling_choose(cloud, SAMPLES, &sample);
-    if (done) {
-        framing->offsets = malloc((sample.count + 1) * sizeof *framing->offsets);
-        framing->rims_world = malloc((sample.count + 1) * sizeof *framing->rims_world);
-        numbers = malloc((sample.count + 1) * sizeof *numbers);
-        done = framing->offsets && framing->rims_world && numbers;
-    }
-    if (done)
-        frame_sample(cloud, &sample, radius_scale, numbers, framing);
-    else
-        session_fail(session, "out of memory");
-    free(numbers);
-    free(sample.indices);
-    return done;
+ewa_status ewa_framing_make(ewa_context *context, size_t room, ewa_framing **framing) {
+    *framing = ewa_allocate_zeroed(context, 1, sizeof **framing);
+    if (!*framing) return EWA_ERROR_MEMORY;
+    **framing = (ewa_framing){
+        .context = context,
+        .offsets = ewa_allocate(context, room, sizeof *(*framing)->offsets),
+        .rims_world = ewa_allocate(context, room, sizeof *(*framing)->rims_world),
+        .room = room,
+    };
+    if ((*framing)->offsets && (*framing)->rims_world) return EWA_OK;
+    ewa_framing_destroy(framing);
+    return EWA_ERROR_MEMORY;
 }
 
-void framing_free(cloud_framing *framing) {
-    free(framing->offsets);
-    free(framing->rims_world);
-    *framing = (cloud_framing){.count = 0};
+void ewa_framing_destroy(ewa_framing **framing) {
+    if (!framing || !*framing) return;
+    ewa_framing *own = *framing;
+    ewa_release(own->context, own->offsets, own->room, sizeof *own->offsets);
+    ewa_release(own->context, own->rims_world, own->room, sizeof *own->rims_world);
+    ewa_release(own->context, own, 1, sizeof *own);
+    *framing = NULL;
+}
+
+ewa_status ewa_framing_create(const ewa_cloud *cloud, double radius_scale, ewa_framing **framing) {
+    if (framing) *framing = NULL;
+    if (!cloud || !framing) return EWA_ERROR_ARGUMENT;
+    ewa_context *context = ewa_cloud_context(cloud);
+    if (!(radius_scale >= 0) || !isfinite(radius_scale))
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "framing: radius_scale is %g, allowed is [0, inf)",
+                        radius_scale);
+    ewa_bounds box;
+    ewa_status status = ewa_cloud_measure(cloud, &box);
+    if (status != EWA_OK) return status;
+    if (box.finite_count == 0) return ewa_fail(context, EWA_ERROR_NUMERIC, "no point has finite coordinates");
+    point_sample sample;
+    status = ewa_sample_choose(cloud, SAMPLES, &sample);
+    double *numbers = NULL;
+    if (status == EWA_OK) status = ewa_framing_make(context, sample.count, framing);
+    if (status == EWA_OK) numbers = ewa_allocate(context, sample.count, sizeof *numbers);
+    if (numbers) {
+        (*framing)->box = box;
+        frame_sample(cloud, &sample, radius_scale, numbers, *framing);
+    } else {
+        ewa_framing_destroy(framing);
+        status = EWA_ERROR_MEMORY;
+    }
+    ewa_release(context, numbers, sample.count, sizeof *numbers);
+    ewa_sample_free(cloud, &sample);
+    return status;
+}
+
+void ewa_framing_describe(const ewa_framing *framing, ewa_framing_info *info) {
+    *info =
+        (ewa_framing_info){.box = framing->box, .sample_count = framing->count, .trimmed = framing->trimmed};
+    memcpy(info->middle_world, framing->middle_world, sizeof info->middle_world);
+}
+
+void ewa_framing_choose(const ewa_framing *framing, ewa_up_convention convention, ewa_upright *upright) {
+    *upright = ewa_upright_choose(framing->count, (const double(*)[3])framing->offsets, framing->middle_world,
+                                  convention);
+}
+
+/// Says that nothing can be placed along `direction_world`.
+static ewa_status fail_to_place(const ewa_framing *framing, ewa_status status,
+                                const double direction_world[3]) {
+    const double *low = framing->box.low_world, *high = framing->box.high_world, *d = direction_world;
+    return ewa_fail(
+        framing->context, status,
+        "no camera can be placed: the coordinates, from %g,%g,%g to %g,%g,%g, are too large, or the "
+        "direction %g,%g,%g is none",
+        low[0], low[1], low[2], high[0], high[1], high[2], d[0], d[1], d[2]);
 }
 
 /// For one direction of the picture, `axis` (0: across, 1: down): where the camera has to stand, sideways and
 /// in depth, so that every point is between two planes of slope `slope` through it. The nearest such place in
 /// `*depth`.
-static double fit_axis(const cloud_framing *framing, const double *rotation, int axis, double slope,
+static double fit_axis(const ewa_framing *framing, const double *rotation, int axis, double slope,
                        double *depth) {
     const double slanted = sqrt(1 + slope * slope);
     double above = -INFINITY, below = -INFINITY;
@@ -182,14 +224,15 @@ static double fit_axis(const cloud_framing *framing, const double *rotation, int
     return 0.5 * (above - below);
 }
 
-ewa_status framing_fit(const cloud_framing *framing, const double direction_world[3],
-                       const double up_world[3], ewa_camera *camera) {
+ewa_status ewa_framing_fit(const ewa_framing *framing, const double direction_world[3],
+                           const double up_world[3], ewa_camera *camera) {
+    if (!framing || !direction_world || !up_world || !camera) return EWA_ERROR_ARGUMENT;
     const ewa_status status = ewa_camera_frame(camera, &framing->box, direction_world, up_world, MARGIN);
     // Without extent there is nothing to fit; the library's framing of a box of size 1 stays.
-    bool flat = diagonal(&framing->box) == 0;
+    bool flat = ewa_framing_diagonal(&framing->box) == 0;
     for (size_t i = 0; flat && i < framing->count; i++) flat = framing->rims_world[i] == 0;
-    if (status != EWA_OK || framing->count == 0 || flat || camera->projection != EWA_PERSPECTIVE)
-        return status;
+    if (status != EWA_OK) return fail_to_place(framing, status, direction_world);
+    if (framing->count == 0 || flat || camera->projection != EWA_PERSPECTIVE) return EWA_OK;
     double *m = camera->world_to_camera;
     const double inside = 1 - 2 * MARGIN;
     double depth = INFINITY, place[3];
@@ -203,16 +246,19 @@ ewa_status framing_fit(const cloud_framing *framing, const double direction_worl
     return EWA_OK;
 }
 
-ewa_status framing_zoom(const cloud_framing *framing, const double eye_world[3], const double up_world[3],
-                        ewa_camera *camera) {
+ewa_status ewa_framing_zoom(const ewa_framing *framing, const double eye_world[3], const double up_world[3],
+                            ewa_camera *camera) {
+    if (!framing || !eye_world || !up_world || !camera || camera->projection != EWA_PERSPECTIVE)
+        return EWA_ERROR_ARGUMENT;
+    ewa_camera placed = *camera;
     // Where the points are seen from the eye: their picture's middle becomes the direction of the view.
     double target_world[3], low[2], high[2];
     memcpy(target_world, framing->middle_world, sizeof target_world);
-    ewa_status status = ewa_camera_look_at(camera, eye_world, target_world, up_world);
+    ewa_status status = ewa_camera_look_at(&placed, eye_world, target_world, up_world);
     for (int round = 0; status == EWA_OK && round < 2; round++) {
         low[0] = low[1] = INFINITY;
         high[0] = high[1] = -INFINITY;
-        const double *m = camera->world_to_camera;
+        const double *m = placed.world_to_camera;
         for (size_t i = 0; i < framing->count; i++) {
             double p[3];
             for (int r = 0; r < 3; r++) {
@@ -230,108 +276,18 @@ ewa_status framing_zoom(const cloud_framing *framing, const double eye_world[3],
         for (int c = 0; c < 3; c++)
             target_world[c] = eye_world[c] + m[8 + c] + 0.5 * (low[0] + high[0]) * m[c] +
                               0.5 * (low[1] + high[1]) * m[4 + c];
-        status = ewa_camera_look_at(camera, eye_world, target_world, up_world);
+        status = ewa_camera_look_at(&placed, eye_world, target_world, up_world);
     }
-    if (status != EWA_OK) return status;
+    if (status != EWA_OK) return fail_to_place(framing, status, target_world);
     const double inside = 1 - 2 * MARGIN, across = fmax(-low[0], high[0]), down = fmax(-low[1], high[1]);
     const double focal_px = 0.5 * inside * fmin(camera->width_px / across, camera->height_px / down);
-    if (!(focal_px > 0) || !isfinite(focal_px)) return EWA_ERROR_NUMERIC;
-    camera->fx_px = camera->fy_px = focal_px;
+    if (!(focal_px > 0) || !isfinite(focal_px))
+        return ewa_fail(framing->context, EWA_ERROR_NUMERIC,
+                        "no lens at %g,%g,%g shows what is from %g,%g,%g to %g,%g,%g", eye_world[0],
+                        eye_world[1], eye_world[2], framing->box.low_world[0], framing->box.low_world[1],
+                        framing->box.low_world[2], framing->box.high_world[0], framing->box.high_world[1],
+                        framing->box.high_world[2]);
+    placed.fx_px = placed.fy_px = focal_px;
+    *camera = placed;
     return EWA_OK;
-}
-
-/// Slices of a body of revolution along its axis, and corners of the polygon that stands for a circle.
-enum { SLICES = 256, CORNERS = 64 };
-
-/// Cosine and sine of a step from corner to corner; how far out a corner must be for its polygon to hold the
-/// circle.
-static const double STEP_COSINE = 0.99518472667219693, STEP_SINE = 0.098017140329560604,
-                    OUTSIDE = 1.0012059964150579;
-
-/// Makes `v` perpendicular to the unit vector `axis` and scales it to length 1; false when nothing is left.
-static bool make_perpendicular(const double axis[3], double v[3]) {
-    const double along = dot(axis, v), length = sqrt(dot(v, v));
-    for (int c = 0; c < 3; c++) v[c] -= along * axis[c];
-    const double left = sqrt(dot(v, v));
-    for (int c = 0; c < 3; c++) v[c] /= left;
-    return left > 1e-6 * length;
-}
-
-/// Largest distance from the axis and largest rim of the points in each slice of [low, high] along it; -1: no
-/// point.
-static void measure_slices(const cloud_framing *framing, const double shift[3], const double axis[3],
-                           double low, double high, double reach[SLICES], double rims_world[SLICES]) {
-    for (int k = 0; k < SLICES; k++) reach[k] = rims_world[k] = -1;
-    for (size_t i = 0; i < framing->count; i++) {
-        double p[3];
-        for (int c = 0; c < 3; c++) p[c] = framing->offsets[i][c] + shift[c];
-        const double height = dot(axis, p);
-        // Rounded otherwise than the ends: where these are next to each other it may be far beyond them.
-        const double place = high > low ? (height - low) / (high - low) * (SLICES - 1) : 0;
-        const int slice = place > 0 ? (place < SLICES - 1 ? (int)place : SLICES - 1) : 0;
-        for (int c = 0; c < 3; c++) p[c] -= height * axis[c];
-        reach[slice] = fmax(reach[slice], sqrt(dot(p, p)));
-        rims_world[slice] = fmax(rims_world[slice], framing->rims_world[i]);
-    }
-}
-
-bool framing_revolve(cli_session *session, const cloud_framing *framing, const double pivot_world[3],
-                     const double axis_world[3], const double direction_world[3], cloud_framing *solid) {
-    *solid = (cloud_framing){.count = 0};
-    double axis[3], shift[3], ahead[3], low = INFINITY, high = -INFINITY;
-    const double length = sqrt(dot(axis_world, axis_world));
-    for (int c = 0; c < 3; c++) {
-        axis[c] = axis_world[c] / length;
-        solid->middle_world[c] = pivot_world[c];
-        shift[c] = framing->middle_world[c] - pivot_world[c];
-        ahead[c] = direction_world[c];
-    }
-    // The corners lie evenly about the camera's direction, so that it is aimed at the axis. Seen along the
-    // axis any direction will do.
-    for (int k = 0; !make_perpendicular(axis, ahead) && k < 3; k++)
-        for (int c = 0; c < 3; c++) ahead[c] = c == k;
-    const double side[3] = {axis[1] * ahead[2] - axis[2] * ahead[1], axis[2] * ahead[0] - axis[0] * ahead[2],
-                            axis[0] * ahead[1] - axis[1] * ahead[0]};
-    if (framing->count == 0) { // no sample is finite: the ball around the box
-        const double reach = 0.5 * diagonal(&framing->box) + sqrt(dot(shift, shift));
-        for (int c = 0; c < 3; c++) {
-            solid->box.low_world[c] = pivot_world[c] - reach;
-            solid->box.high_world[c] = pivot_world[c] + reach;
-        }
-        return true;
-    }
-    for (size_t i = 0; i < framing->count; i++) {
-        const double height = dot(axis, framing->offsets[i]) + dot(axis, shift);
-        rank_widen(&low, &high, height);
-    }
-    solid->offsets = malloc(2 * SLICES * CORNERS * sizeof *solid->offsets);
-    solid->rims_world = malloc(2 * SLICES * CORNERS * sizeof *solid->rims_world);
-    if (!solid->offsets || !solid->rims_world) {
-        session_fail(session, "out of memory");
-        return false;
-    }
-    double reach[SLICES], rims_world[SLICES];
-    measure_slices(framing, shift, axis, low, high, reach, rims_world);
-    ewa_bounds *box = &solid->box;
-    *box = (ewa_bounds){.low_world = {INFINITY, INFINITY, INFINITY},
-                        .high_world = {-INFINITY, -INFINITY, -INFINITY}};
-    for (int k = 0; k < 2 * SLICES; k++) {
-        if (reach[k / 2] < 0) continue;
-        // Both faces of the slice.
-        const double height = low + (high - low) * fmin(1, (double)(k / 2 + k % 2) / (SLICES - 1));
-        double x = OUTSIDE * reach[k / 2], y = 0;
-        for (int corner = 0; corner < CORNERS; corner++) {
-            solid->rims_world[solid->count] = rims_world[k / 2];
-            double *p = solid->offsets[solid->count++];
-            for (int c = 0; c < 3; c++) {
-                p[c] = height * axis[c] + x * ahead[c] + y * side[c];
-                rank_widen(&box->low_world[c], &box->high_world[c], pivot_world[c] + p[c]);
-            }
-            const double turned = STEP_COSINE * x - STEP_SINE * y;
-            y = STEP_SINE * x + STEP_COSINE * y;
-            x = turned;
-        }
-    }
-    box->finite_count = framing->box.finite_count;
-    return true;
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Numbers by their rank: medians, percentiles.
-#include "rank.h"
+#include "ewa/select.h"
 
 #include <stdint.h>
 #include <string.h>
@@ -15,7 +15,7 @@ static uint64_t ordered_bits(double number) {
 }
 
 // Digit by digit from the top, only what shares the digits so far stays. Linear whatever the numbers.
-double rank_select(double *numbers, size_t count, size_t rank) {
+double ewa_rank_select(double *numbers, size_t count, size_t rank) {
     enum { DIGIT_BITS = 11, BUCKETS = 1 << DIGIT_BITS };
     for (int shift = 64; count > 1 && shift > 0;) {
         const int low = shift > DIGIT_BITS ? shift - DIGIT_BITS : 0;
