@@ -8,10 +8,17 @@ typedef struct triple {
     double x, y, z;
 } triple;
 
+static triple make(double x, double y, double z) { return (triple){x, y, z}; }
+
 /// Three numbers by way of floats, side by side, where the vectorizer of straight code of GCC 12.2 forgets the floats.
-__attribute__((noinline)) static triple round_stored(float *to, triple from) {
-    to[0] = (float)from.x, to[1] = (float)from.y, to[2] = (float)from.z;
-    return (triple){(double)to[0], (double)to[1], (double)to[2]};
+/// Seen from outside, so that it is compiled for any numbers.
+triple round_stored(float *to, triple from);
+
+__attribute__((noinline)) triple round_stored(float *to, triple from) {
+    to[0] = (float)from.x;
+    to[1] = (float)from.y;
+    to[2] = (float)from.z;
+    return make((double)to[0], (double)to[1], (double)to[2]);
 }
 
 /// A product that is rounded before the sum.
