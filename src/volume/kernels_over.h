@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The compositor `over` of a block of 4x4 pixels, front to back: the voxels' and the trained Gaussians' (docs/math.md
+// section 12). A block's channels are premultiplied red, green, blue, what shows of all behind, and depth.
+#ifndef EWA_SRC_VOLUME_KERNELS_OVER_H
+#define EWA_SRC_VOLUME_KERNELS_OVER_H
+
+#include "wide/wide.h"
+
+/// The share of a Gaussian in depth around z that lies in front of a surface: nearly its own, for a `width` of 3/4
+/// sqrt(8 pi) standard deviations.
+static ALWAYS_INLINE wf share_ahead(wf surface, wf z, wf width) {
+    const wf one = wf_set(1);
+    const wf u = wf_fma(wf_sub(surface, z), wf_div(one, width), wf_set(0.5f));
+    const wf t = wf_min(wf_max(u, wf_set(0)), one);
+    return wf_mul(wf_mul(t, t), wf_fma(wf_set(-2), t, wf_set(3)));
+}
+
+/// Composites a colour behind a block's pixels; `weight` is what it takes of all that shows there, z where it is.
+static ALWAYS_INLINE void put_behind(float *pixels, wf weight, const wf color[3], wf z, bool with_depth) {
+    const wf through = wf_load(pixels + 48);
+    for (int c = 0; c < 3; c++) wf_store(pixels + 16 * c, wf_fma(weight, color[c], wf_load(pixels + 16 * c)));
+    wf rest = wf_sub(through, weight);
+    rest = wf_keep(wf_lt(wf_set(0x1p-90f), rest), rest); // the same as 0, and fast
+    wf_store(pixels + 48, rest);
+    if (with_depth) {
+        const wf half = wf_set(0.5f);
+        const wm passes = wm_and(wf_lt(half, through), wf_le(rest, half));
+        wf_store(pixels + 64, wf_select(passes, z, wf_load(pixels + 64)));
+    }
+}
+
+#endif
