@@ -4,10 +4,10 @@
 // Part of gaussian_body.h: a tile's splats onto its pixels, in every pixel by the depth at which its ray passes the
 // greatest density (docs/math.md section 12).
 //
-// A block of 4x4 pixels takes its splats by the least depth that any pixel sees them at. They become layers, which wait
-// until no splat to come can be in front of them, in an order of their own for every pixel: a new one moves forward
-// past those behind it, as a whole where all pixels agree, which most do, else pixel by pixel. What waits is as much as
-// overlaps in depth, and nothing is ever dropped.
+// A block of 4x4 pixels takes its splats by the least depth that any pixel of the picture sees them at. They become
+// layers, which wait, by the least depth in the block's pixels, until no splat to come can be in front of them. Then they
+// are put in order, in one of its own for every pixel: a layer moves forward past those behind it, as a whole where all
+// pixels agree, which most do, else pixel by pixel. What waits is as much as overlaps in depth; nothing is ever dropped.
 #ifndef EWA_SRC_VOLUME_GAUSSIAN_DRAW_H
 #define EWA_SRC_VOLUME_GAUSSIAN_DRAW_H
 
@@ -135,55 +135,126 @@ static ALWAYS_INLINE void composite(const ewa_gaussian_view *view, const ewa_gau
     const wf weight = wf_keep(active, wf_mul(wf_load(block->pixels + 48), wf_load(layer->alpha)));
     const wf color[3] = {color_of(records, layer, 0), color_of(records, layer, 1),
                          color_of(records, layer, 2)};
-    put_behind(block->pixels, weight, color, wf_load(layer->z), view->with_depth);
-    block->alive &= wm_bits(wf_le(wf_set(view->least_transmittance), wf_load(block->pixels + 48)));
+    const wf through = wf_load(block->pixels + 48), rest = wf_sub(through, weight);
+    add_light(block->pixels, weight, color);
+    wf_store(block->pixels + 48, rest);
+    if (view->with_depth) note_depth(block->pixels, through, rest, wf_load(layer->z));
+    block->alive &= wm_bits(wf_le(wf_set(view->least_transmittance), rest));
 }
 
-/// Says of every pixel which splat it has.
-static ALWAYS_INLINE void spread_colors(ewa_gaussian_layer *layer) {
-    if (layer->mixed) return;
-    wi_store(layer->colors, wi_set(layer->colors[0]));
-    layer->mixed = true;
-}
-
-/// Exchanges two layers in some pixels.
-static ALWAYS_INLINE void exchange(wm mask, ewa_gaussian_layer *a, ewa_gaussian_layer *b) {
-    const wf za = wf_load(a->z), zb = wf_load(b->z), pa = wf_load(a->alpha), pb = wf_load(b->alpha);
-    wf_store(a->z, wf_select(mask, zb, za)), wf_store(b->z, wf_select(mask, za, zb));
-    wf_store(a->alpha, wf_select(mask, pb, pa)), wf_store(b->alpha, wf_select(mask, pa, pb));
-    spread_colors(a), spread_colors(b);
-    const wf ca = wf_of_bits(wi_load(a->colors)), cb = wf_of_bits(wi_load(b->colors));
-    wi_store(a->colors, wi_of_bits(wf_select(mask, cb, ca)));
-    wi_store(b->colors, wi_of_bits(wf_select(mask, ca, cb)));
-}
-
-/// Puts the new layer at `end` of the order to where it belongs; from `begin` on are those that wait. Returns the steps
-/// that this took.
-static ALWAYS_INLINE uint32_t sort_in(ewa_gaussian_layer *layers, uint32_t *order, uint32_t begin,
-                                      uint32_t end) {
-    uint32_t at = end;
+/// Puts a layer to where it belongs among those that wait, from `begin` to `end`. Returns the steps that this took.
+///
+/// A pixel that a layer is not in has the depth of one before there, so that depths never fall from layer to layer.
+static ALWAYS_INLINE uint32_t sort_in(ewa_gaussian_layer *layers, uint32_t *order, uint32_t begin, uint32_t end,
+                                      uint32_t number) {
+    uint32_t at = end, hole = number, active = layers[number].active;
+    bool mixed = false;
+    wf z = wf_load(layers[number].z), alpha = wf_load(layers[number].alpha);
+    wi colors = wi_load(layers[number].colors);
     for (; at > begin; at--) {
-        ewa_gaussian_layer *moving = &layers[order[at]], *before = &layers[order[at - 1]];
-        const wf z = wf_load(moving->z), z_before = wf_load(before->z);
-        const wm own = wm_of_bits(moving->active);
-        // Pixels that it is not in are held to the order.
-        if (at == end) wf_store(moving->z, wf_select(own, z, z_before));
-        const uint32_t ahead = wm_bits(wm_and(own, wf_lt(z, z_before)));
+        ewa_gaussian_layer *before = &layers[order[at - 1]];
+        const wf z_before = wf_load(before->z);
+        const wm own = wm_of_bits(active), behind = wm_and(own, wf_lt(z, z_before));
+        z = wf_select(own, z, z_before);
+        const uint32_t ahead = wm_bits(behind);
         if (!ahead) break;
-        if (moving->active & before->active & ~ahead) {
-            exchange(wm_of_bits(ahead), moving, before);
-            // What moved on lies in `before` now.
-            const uint32_t stayed = before->active;
-            before->active = (moving->active & ahead) | (stayed & ~ahead);
-            moving->active = (stayed & ahead) | (moving->active & ~ahead);
-        } else {
-            wf_store(before->z, wf_select(own, wf_max(z, z_before), z_before));
-            wf_store(moving->z, wf_select(own, z, z_before));
-            const uint32_t swap = order[at];
-            order[at] = order[at - 1], order[at - 1] = swap;
+        if (!(active & before->active & ~ahead)) { // as a whole
+            wf_store(before->z, wf_max(z, z_before));
+            order[at] = order[at - 1];
+            continue;
         }
+        // Pixel by pixel: one layer stays here, the other one moves on.
+        ewa_gaussian_layer *stays = &layers[hole];
+        const wf alpha_before = wf_load(before->alpha), colors_before = wf_of_bits(wi_load(before->colors));
+        wf_store(stays->z, wf_max(z, z_before));
+        wf_store(stays->alpha, wf_select(behind, alpha_before, alpha));
+        wi_store(stays->colors, wi_of_bits(wf_select(behind, colors_before, wf_of_bits(colors))));
+        stays->active = (before->active & ahead) | (active & ~ahead);
+        stays->mixed = true;
+        z = wf_min(z, z_before);
+        alpha = wf_select(behind, alpha, alpha_before);
+        colors = wi_of_bits(wf_select(behind, wf_of_bits(colors), colors_before));
+        active = (active & ahead) | (before->active & ~ahead);
+        mixed = true;
+        const uint32_t next = order[at - 1];
+        order[at] = hole;
+        hole = next;
     }
+    ewa_gaussian_layer *to = &layers[hole];
+    wf_store(to->z, z);
+    wf_store(to->alpha, alpha);
+    wi_store(to->colors, colors);
+    to->active = active;
+    to->mixed |= mixed;
+    order[at] = hole;
     return end - at;
+}
+
+/// Least of sixteen numbers.
+static ALWAYS_INLINE float least_of(wf a) {
+    typedef float four __attribute__((vector_size(16)));
+    typedef int32_t mask __attribute__((vector_size(16)));
+    float lanes[16];
+    four part[4];
+    wf_store(lanes, a);
+    __builtin_memcpy(part, lanes, sizeof part);
+    for (int half = 2; half; half /= 2)
+        for (int i = 0; i < half; i++) {
+            const mask less = part[i] < part[i + half];
+            part[i] = (four)((less & (mask)part[i]) | (~less & (mask)part[i + half]));
+        }
+    const float low = part[0][0] < part[0][1] ? part[0][0] : part[0][1];
+    const float high = part[0][2] < part[0][3] ? part[0][2] : part[0][3];
+    return low < high ? low : high;
+}
+
+/// A key that sorts as depths do, ties by the number.
+static ALWAYS_INLINE uint64_t depth_key(float z, uint32_t number) {
+    int32_t bits;
+    __builtin_memcpy(&bits, &z, sizeof bits);
+    return (uint64_t)((uint32_t)bits ^ (bits < 0 ? 0xffffffffu : 0x80000000u)) << 32 | number;
+}
+
+/// Adds a key to a heap whose least one is the first.
+static ALWAYS_INLINE void push_key(uint64_t *heap, uint32_t count, uint64_t key) {
+    uint32_t at = count;
+    for (; at && heap[(at - 1) / 2] > key; at = (at - 1) / 2) heap[at] = heap[(at - 1) / 2];
+    heap[at] = key;
+}
+
+/// Takes the least key of `count` away.
+static ALWAYS_INLINE uint64_t pop_key(uint64_t *heap, uint32_t count) {
+    const uint64_t least = heap[0], last = heap[count - 1];
+    uint32_t at = 0;
+    for (uint32_t next = 1; next < count - 1; next = 2 * at + 1) {
+        next += next + 1 < count - 1 && heap[next + 1] < heap[next];
+        if (heap[next] >= last) break;
+        heap[at] = heap[next], at = next;
+    }
+    heap[at] = last;
+    return least;
+}
+
+/// A block's layers: those whose turn has not come, in a heap by the least depth in any pixel; those that are in order,
+/// order[begin] to order[end - 1]. Layers are free from `made_count` on, and those in `free`.
+typedef struct block_layers {
+    uint32_t waiting, begin, end, free_count, made_count;
+} block_layers;
+
+/// Puts those layers in order that are before `bound` and composites what none to come can be in front of.
+static ALWAYS_INLINE void advance(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, uint64_t bound,
+                                  block_layers *l, block_state *block) {
+    while (l->waiting && tile->heap[0] <= bound && block->alive) {
+        const uint32_t number = tile->slots[(uint32_t)pop_key(tile->heap, l->waiting--)];
+        const wf least = wf_set(tile->layers[number].least);
+        for (; l->begin < l->end; l->begin++) {
+            const ewa_gaussian_layer *first = &tile->layers[tile->order[l->begin]];
+            if (wm_bits(wf_lt(least, wf_load(first->z))) & first->active & block->alive) break;
+            composite(view, tile, first, block);
+            tile->free[l->free_count++] = tile->order[l->begin];
+        }
+        tile->moved_count += sort_in(tile->layers, tile->order, l->begin, l->end++, number);
+    }
 }
 
 static ALWAYS_INLINE void draw_splats(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, uint32_t count,
@@ -192,35 +263,31 @@ static ALWAYS_INLINE void draw_splats(const ewa_gaussian_view *view, ewa_gaussia
     const wf steps_x = wf_repeat4((const float[4]){0.5f, 1.5f, 2.5f, 3.5f});
     const wf steps_y = wf_spread4((const float[4]){0.5f, 1.5f, 2.5f, 3.5f});
     const wf x = wf_add(wf_set(x_px), steps_x), y = wf_add(wf_set(y_px), steps_y);
-    uint32_t begin = 0, end = 0, free_count = 0, made_count = 0;
-    ewa_gaussian_layer *layers = tile->layers;
-    uint32_t *order = tile->order;
-    for (uint32_t i = 0; i < count && block->alive; i++) {
+    block_layers l = {0};
+    for (uint32_t i = 0; i < count; i++) {
         const float *record = tile->records[tile->block_ids[i]];
-        const wf bound = wf_set(record[RECORD_LOW]);
-        for (; begin < end; begin++) {
-            const ewa_gaussian_layer *first = &layers[order[begin]];
-            if (wm_bits(wf_lt(bound, wf_load(first->z))) & first->active & block->alive) break;
-            composite(view, tile, first, block);
-            tile->free[free_count++] = order[begin];
-        }
-        const uint32_t number = free_count ? tile->free[free_count - 1] : made_count;
-        ewa_gaussian_layer *layer = &layers[number];
+        advance(view, tile, depth_key(record[RECORD_LOW], 0), &l, block);
+        if (!block->alive) break;
+        const uint32_t number = l.free_count ? tile->free[l.free_count - 1] : l.made_count;
+        ewa_gaussian_layer *layer = &tile->layers[number];
         tile->block_count++;
         if (!meet_splat(view, record, x, y, trained, orthographic, block->surface, layer)) continue;
         layer->active &= block->alive;
         if (!layer->active) continue;
-        layer->colors[0] = (int32_t)(tile->block_ids[i] * RECORD_FLOATS + RECORD_COLOR);
+        wi_store(layer->colors, wi_set((int32_t)(tile->block_ids[i] * RECORD_FLOATS + RECORD_COLOR)));
         layer->mixed = false;
-        if (free_count)
-            free_count--;
+        layer->least =
+            least_of(wf_select(wm_of_bits(layer->active), wf_load(layer->z), wf_set(__builtin_inff())));
+        if (l.free_count)
+            l.free_count--;
         else
-            made_count++;
-        order[end] = number;
-        tile->moved_count += sort_in(layers, order, begin, end);
-        end++;
+            l.made_count++;
+        tile->slots[i] = number;
+        push_key(tile->heap, l.waiting++, depth_key(layer->least, i));
     }
-    for (; begin < end && block->alive; begin++) composite(view, tile, &layers[order[begin]], block);
+    advance(view, tile, UINT64_MAX, &l, block);
+    for (; l.begin < l.end && block->alive; l.begin++)
+        composite(view, tile, &tile->layers[tile->order[l.begin]], block);
 }
 
 /// Ids of a row of blocks to those of its column.

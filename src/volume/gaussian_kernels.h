@@ -72,8 +72,9 @@ typedef struct ewa_gaussian_found {
 /// A splat's alpha and depth in the pixels of a block, or those of several splats, each in some pixels.
 typedef struct ewa_gaussian_layer {
     _Alignas(64) float z[16], alpha[16];
-    int32_t colors[16]; ///< where they begin in the records; where not `mixed`, only the first one holds
+    int32_t colors[16]; ///< where they begin in the records; the same everywhere where not `mixed`
     uint32_t active;    ///< pixels that it is in; in the others z is that of the layer before
+    float least;     ///< of z where it is active, when it is made
     bool mixed;
 } ewa_gaussian_layer;
 
@@ -88,7 +89,9 @@ typedef struct ewa_gaussian_tile {
     uint32_t *row_ids;      ///< of splats in a row of blocks
     uint8_t *row_marks;     ///< theirs
     uint32_t *block_ids;    ///< of splats in a block
-    uint32_t *order, *free; ///< of layers
+    uint64_t *heap;         ///< of layers that wait: depth, then place in the block's list
+    uint32_t *slots;        ///< layers by that place
+    uint32_t *order, *free; ///< layers in order; of no use now
     ewa_gaussian_layer *layers;
     const float *surface_depth; ///< of the picture, NULL: none
     uint64_t block_count, moved_count;

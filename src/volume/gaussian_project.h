@@ -161,7 +161,8 @@ static ALWAYS_INLINE wf set_ellipse(const ewa_gaussian_view *view, const splat_l
     record[RECORD_REACH] = wf_mul(cutoff, wf_sqrt(w22));
     lower[0] = wf_sqrt(w11), lower[1] = wf_div(v[1], lower[0]), lower[2] = wf_sqrt(wf_div(filtered, w11));
     record[RECORD_TOUCH] = wf_mul(cutoff, lower[1]);
-    map[0] = map[2] = one, map[1] = wf_set(0);
+    const wf fall = wf_div(h2, filtered);
+    map[0] = wf_fnma(fall, w22, one), map[2] = wf_fnma(fall, w11, one), map[1] = wf_mul(fall, v[1]);
     if (!view->trained) {
         const wf v11 = wf_max(v[0], tiny), l0 = wf_sqrt(v11), l1 = wf_div(v[1], l0),
                  l2 = wf_sqrt(wf_div(area, v11));
@@ -187,7 +188,7 @@ static ALWAYS_INLINE void set_rays(const ewa_gaussian_view *view, const splat_la
             at = wf_mul(length, s->inverse);
         }
         record[RECORD_G + 3 * k] = wf_fma(x, map[0], wf_mul(y, map[1]));
-        record[RECORD_G + 3 * k + 1] = wf_mul(y, map[2]);
+        record[RECORD_G + 3 * k + 1] = wf_fma(y, map[2], view->trained ? wf_mul(x, map[1]) : wf_set(0));
         record[RECORD_G + 3 * k + 2] = wf_fma(x, shift[0], wf_fma(y, shift[1], at));
     }
 }

@@ -17,18 +17,16 @@ static ALWAYS_INLINE wf share_ahead(wf surface, wf z, wf width) {
     return wf_mul(wf_mul(t, t), wf_fma(wf_set(-2), t, wf_set(3)));
 }
 
-/// Composites a colour behind a block's pixels; `weight` is what it takes of all that shows there, z where it is.
-static ALWAYS_INLINE void put_behind(float *pixels, wf weight, const wf color[3], wf z, bool with_depth) {
-    const wf through = wf_load(pixels + 48);
+/// Adds a colour to a block's pixels; `weight` is what of it shows.
+static ALWAYS_INLINE void add_light(float *pixels, wf weight, const wf color[3]) {
     for (int c = 0; c < 3; c++) wf_store(pixels + 16 * c, wf_fma(weight, color[c], wf_load(pixels + 16 * c)));
-    wf rest = wf_sub(through, weight);
-    rest = wf_keep(wf_lt(wf_set(0x1p-90f), rest), rest); // the same as 0, and fast
-    wf_store(pixels + 48, rest);
-    if (with_depth) {
-        const wf half = wf_set(0.5f);
-        const wm passes = wm_and(wf_lt(half, through), wf_le(rest, half));
-        wf_store(pixels + 64, wf_select(passes, z, wf_load(pixels + 64)));
-    }
+}
+
+/// Notes the depth z where what shows of all behind it falls from `through` to `rest`, past a half.
+static ALWAYS_INLINE void note_depth(float *pixels, wf through, wf rest, wf z) {
+    const wf half = wf_set(0.5f);
+    const wm passes = wm_and(wf_lt(half, through), wf_le(rest, half));
+    wf_store(pixels + 64, wf_select(passes, z, wf_load(pixels + 64)));
 }
 
 #endif

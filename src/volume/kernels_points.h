@@ -33,7 +33,12 @@ static ALWAYS_INLINE wf share_in_front(const ewa_volume_view *view, const float 
 /// Composites `weight`, the light that is absorbed, of a colour behind a block's pixels.
 static ALWAYS_INLINE void absorb(const ewa_volume_view *view, float *pixels, wf weight, const wf color[3],
                                  wf z) {
-    put_behind(pixels, weight, color, z, view->with_depth);
+    const wf through = wf_load(pixels + 48);
+    add_light(pixels, weight, color);
+    wf rest = wf_sub(through, weight);
+    rest = wf_keep(wf_lt(wf_set(0x1p-90f), rest), rest); // the same as 0, and fast
+    wf_store(pixels + 48, rest);
+    if (view->with_depth) note_depth(pixels, through, rest, z);
 }
 
 /// Hides a cell in which nothing more would show.
