@@ -26,8 +26,7 @@ typedef struct splat {
     double color[3]; ///< display values
     bool near;       ///< ray by ray
     double center_px[2], conic[3], reach_px[2];
-    double
-        unfilter[3]; ///< exact: from offsets in the filtered ellipse to those in the true one, lower triangle
+    double unfilter[2][2]; ///< from offsets in the filtered ellipse to those in the true one
 } splat;
 
 /// A Gaussian in a pixel.
@@ -167,10 +166,16 @@ static void set_ellipse(const reference *work, const ewa_mat3 *covariance, splat
     made->conic[0] = w[2] / filtered, made->conic[1] = -w[1] / filtered, made->conic[2] = w[0] / filtered;
     made->reach_px[0] = sqrt(made->cutoff2 * w[0]), made->reach_px[1] = sqrt(made->cutoff2 * w[2]);
     if (work->camera.keep) made->alpha *= sqrt(fmax(area / filtered, EWA_GAUSSIAN_LEAST_KEPT));
+    if (work->camera.trained) { // V V'^-1: the mean place of what the filter gathers there
+        made->unfilter[0][0] = 1 - h2 * w[2] / filtered, made->unfilter[0][1] = h2 * w[1] / filtered;
+        made->unfilter[1][0] = made->unfilter[0][1], made->unfilter[1][1] = 1 - h2 * w[0] / filtered;
+        return;
+    }
     cholesky(v, l);
     cholesky(w, m);
-    made->unfilter[0] = l[0] / m[0], made->unfilter[2] = l[2] / m[2];
-    made->unfilter[1] = (l[1] - made->unfilter[2] * m[1]) / m[0];
+    made->unfilter[0][0] = l[0] / m[0], made->unfilter[0][1] = 0;
+    made->unfilter[1][1] = l[2] / m[2];
+    made->unfilter[1][0] = (l[1] - made->unfilter[1][1] * m[1]) / m[0];
 }
 
 static bool make_splat(const reference *work, uint32_t number, splat *made) {
@@ -225,19 +230,12 @@ static passage pass(const reference *work, const splat *at, double x_px, double 
 /// Alpha and depth of a Gaussian at a pixel's centre; false outside of it.
 static bool meet(const reference *work, const splat *at, uint32_t x, uint32_t y, hit *made) {
     const double x_px = x + 0.5, y_px = y + 0.5, dx = x_px - at->center_px[0], dy = y_px - at->center_px[1];
-    passage by;
-    double m2;
-    if (work->camera.trained) {
+    const double true_x = at->center_px[0] + at->unfilter[0][0] * dx + at->unfilter[0][1] * dy;
+    const double true_y = at->center_px[1] + at->unfilter[1][0] * dx + at->unfilter[1][1] * dy;
+    const passage by = at->near ? pass(work, at, x_px, y_px) : pass(work, at, true_x, true_y);
+    double m2 = by.distance2;
+    if (work->camera.trained)
         m2 = at->conic[0] * dx * dx + 2 * at->conic[1] * dx * dy + at->conic[2] * dy * dy;
-        by = pass(work, at, x_px, y_px);
-    } else if (at->near) {
-        by = pass(work, at, x_px, y_px);
-        m2 = by.distance2;
-    } else {
-        by = pass(work, at, at->center_px[0] + at->unfilter[0] * dx,
-                  at->center_px[1] + at->unfilter[1] * dx + at->unfilter[2] * dy);
-        m2 = by.distance2;
-    }
     if (m2 >= at->cutoff2 || (!work->camera.trained && by.z <= 0)) return false;
     double alpha = at->alpha * exp(-m2 / 2);
     if (work->camera.keep && alpha < work->options.least_alpha) return false;

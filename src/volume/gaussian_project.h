@@ -87,9 +87,9 @@ static ALWAYS_INLINE wm place_splats(const ewa_gaussian_view *view, const ewa_sp
     return wm_and(shows, wf_lt(wf_set(view->near), depth));
 }
 
-/// The true ellipse in pixels: V, and how far its centre lies from the projected one.
-static ALWAYS_INLINE void true_ellipse(const ewa_gaussian_view *view, const splat_lanes *s, wf v[3],
-                                       wf shift[2]) {
+/// The true ellipse in pixels: V, and how far its centre lies from the projected one. Returns |V|, a sum of squares over
+/// pairs of axes, so that it holds for flat splats that are seen from the edge.
+static ALWAYS_INLINE wf true_ellipse(const ewa_gaussian_view *view, const splat_lanes *s, wf v[3], wf shift[2]) {
     const wf zero = wf_set(0);
     wf x = s->x, y = s->y, cutoff2 = s->cutoff2;
     if (view->trained) {
@@ -99,25 +99,37 @@ static ALWAYS_INLINE void true_ellipse(const ewa_gaussian_view *view, const spla
     }
     if (view->orthographic) x = y = zero;
     // Sheared axes, which lay the centre onto the camera's axis.
-    wf sums[5] = {zero, zero, zero, zero, zero}, depth2 = zero;
+    wf sums[5] = {zero, zero, zero, zero, zero}, depth2 = zero, tx[4], ty[4];
     for (int i = 0; i < 3; i++) {
         const wf tz = wf_mul(s->scales[i], s->axes[i][2]);
-        const wf tx = wf_mul(s->scales[i], wf_fnma(x, s->axes[i][2], s->axes[i][0]));
-        const wf ty = wf_mul(s->scales[i], wf_fnma(y, s->axes[i][2], s->axes[i][1]));
-        sums[0] = wf_fma(tx, tx, sums[0]);
-        sums[1] = wf_fma(tx, ty, sums[1]);
-        sums[2] = wf_fma(ty, ty, sums[2]);
-        sums[3] = wf_fma(tx, tz, sums[3]);
-        sums[4] = wf_fma(ty, tz, sums[4]);
+        tx[i] = wf_mul(s->scales[i], wf_fnma(x, s->axes[i][2], s->axes[i][0]));
+        ty[i] = wf_mul(s->scales[i], wf_fnma(y, s->axes[i][2], s->axes[i][1]));
+        sums[0] = wf_fma(tx[i], tx[i], sums[0]);
+        sums[1] = wf_fma(tx[i], ty[i], sums[1]);
+        sums[2] = wf_fma(ty[i], ty[i], sums[2]);
+        sums[3] = wf_fma(tx[i], tz, sums[3]);
+        sums[4] = wf_fma(ty[i], tz, sums[4]);
         depth2 = wf_fma(tz, tz, depth2);
     }
     wf k = wf_set(1);
-    if (!view->orthographic) k = wf_div(k, wf_fnma(cutoff2, depth2, wf_mul(s->place[2], s->place[2])));
+    if (!view->orthographic)
+        k = wf_div(k, wf_fnma(cutoff2, depth2, wf_mul(s->place[2], s->place[2])));
     wide_project(sums, k, cutoff2, v, shift);
+    // V / k is the Gram matrix of four: the sheared axes, and F sqrt(k) (Sigma13, Sigma23).
+    const wf far = wf_sqrt(wf_max(wf_mul(cutoff2, k), zero));
+    tx[3] = wf_mul(far, sums[3]), ty[3] = wf_mul(far, sums[4]);
+    wf area = zero;
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < i; j++) {
+            const wf minor = wf_fnma(tx[j], ty[i], wf_mul(tx[i], ty[j]));
+            area = wf_fma(minor, minor, area);
+        }
     const wf fx = wf_set(view->fx_px), fy = wf_set(view->fy_px);
     v[0] = wf_mul(v[0], wf_mul(fx, fx)), v[1] = wf_mul(v[1], wf_mul(fx, fy)),
     v[2] = wf_mul(v[2], wf_mul(fy, fy));
     shift[0] = wf_mul(shift[0], fx), shift[1] = wf_mul(shift[1], fy);
+    const wf scale = wf_mul(k, wf_mul(fx, fy));
+    return wf_mul(area, wf_mul(scale, scale));
 }
 
 /// Rays in standard deviations: g(d) = rows[k] d, turned so that the third points to the centre; returns how far that
@@ -147,11 +159,10 @@ static ALWAYS_INLINE wf ray_rows(const ewa_gaussian_view *view, const splat_lane
 
 /// Sets the ellipse's part of records: lower triangles L of V and M of V', of which `map` becomes L M^-1 where pixels look
 /// up at the same place of the true ellipse, else 1. Returns what the filter leaves of the height.
-static ALWAYS_INLINE wf set_ellipse(const ewa_gaussian_view *view, const splat_lanes *s, const wf v[3],
+static ALWAYS_INLINE wf set_ellipse(const ewa_gaussian_view *view, const splat_lanes *s, const wf v[3], wf area,
                                     wf record[], wf lower[3], wf map[3]) {
     const wf h2 = wf_set(view->prefilter_px2), tiny = wf_set(1e-12f), one = wf_set(1);
     const wf w11 = wf_max(wf_add(v[0], h2), tiny), w22 = wf_max(wf_add(v[2], h2), tiny);
-    const wf area = wf_max(wf_fnma(v[1], v[1], wf_mul(v[0], v[2])), wf_set(0));
     const wf filtered = wf_max(wf_fma(h2, wf_add(wf_add(v[0], v[2]), h2), area), wf_set(1e-24f));
     const wf root = wf_sqrt(wf_div(w22, filtered)), cutoff = wf_sqrt(s->cutoff2);
     record[RECORD_AX] = root;
@@ -334,8 +345,8 @@ static void project(const ewa_gaussian_view *view, const ewa_splat_packet *packe
     wm near = wf_lt(zero, zero);
     if (!view->trained) near = wf_le(s.place[2], wf_mul(wf_set((float)EWA_GAUSSIAN_NEAR), s.depth_reach));
     wf record[RECORD_FLOATS], v[3], shift[2], lower[3], map[3], rows[3][3], tiles[4];
-    true_ellipse(view, &s, v, shift);
-    const wf kept = set_ellipse(view, &s, v, record, lower, map);
+    const wf area = true_ellipse(view, &s, v, shift);
+    const wf kept = set_ellipse(view, &s, v, area, record, lower, map);
     record[RECORD_X] = wf_fma(s.x, wf_set(view->fx_px), wf_add(shift[0], wf_set(view->cx_px)));
     record[RECORD_Y] = wf_fma(s.y, wf_set(view->fy_px), wf_add(shift[1], wf_set(view->cy_px)));
     // The box, in pixels from the picture's edge.
