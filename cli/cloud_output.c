@@ -35,7 +35,10 @@ bool cloud_output_check(const output_arguments *output, char message[OPTION_ERRO
         return false;
     }
     if (output->path)
-        return output_check_suffix("output", output->path, ".ply|.las|.laz|.pcd|.xyz|.txt|.asc|.pts|.csv|-",
+        return output_check_suffix("output", output->path,
+                                   output->gaussians
+                                       ? ".ply|.las|.laz|.pcd|.xyz|.txt|.asc|.pts|.csv|.splat|.spz|-"
+                                       : ".ply|.las|.laz|.pcd|.xyz|.txt|.asc|.pts|.csv|-",
                                    message);
     snprintf(message, OPTION_ERROR_BYTES, "no output; say -o FILE");
     return false;

@@ -12,6 +12,7 @@ typedef struct output_arguments {
     common_arguments common; // first
     const char *path;
     bool ascii, big_endian;
+    bool gaussians; ///< files of Gaussians may be written too
 } output_arguments;
 
 /// The options of output_arguments.

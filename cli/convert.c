@@ -5,6 +5,8 @@
 #include "choosing.h"
 #include "cloud_output.h"
 #include "commands.h"
+#include "convert_gaussians.h"
+#include "gaussian_files.h"
 #include "inputs.h"
 #include "lod_input.h"
 #include "passing.h"
@@ -25,6 +27,7 @@ typedef struct convert_arguments {
     double subsample;          ///< 0: all points; under 1: a share; else a count
     int refit;                 ///< REFIT_*
     ewa_refit_options options; ///< but for the goal
+    ewa_gaussians_save_options gaussians;
 } convert_arguments;
 
 #define AT(member) offsetof(convert_arguments, member)
@@ -70,10 +73,17 @@ static const cli_option change_table[] = {
      .help = "standard deviations at which kernels end, as for ewa render, where colours are made"},
 };
 
+static const cli_option gaussian_table[] = {
+    {"sh-degree", OPTION_OF(ewa_gaussians_save_options, AT(gaussians), sh_degree)},
+    {"spz-version", OPTION_OF(ewa_gaussians_save_options, AT(gaussians), spz_version)},
+};
+
 static void set_defaults(void *data) {
     convert_arguments *arguments = data;
     procedure_set_defaults(&arguments->procedure);
     ewa_refit_options_init(&arguments->options, sizeof arguments->options);
+    ewa_gaussians_save_options_init(&arguments->gaussians, sizeof arguments->gaussians);
+    arguments->procedure.output.gaussians = true;
     arguments->default_color = (option_color){{GREY_SRGB / 255.0, GREY_SRGB / 255.0, GREY_SRGB / 255.0, 1}};
 }
 
@@ -133,24 +143,32 @@ static bool subsample(cli_session *session, ewa_cloud **cloud, double wanted) {
     return done;
 }
 
-/// Applies --scale, then --transform, then --translate.
-static bool move(cli_session *session, ewa_cloud *cloud, const convert_arguments *arguments) {
-    double matrix[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    ewa_status status = EWA_OK;
+enum { MOST_MAPS = 3 };
+
+/// The maps of --scale, then --transform, then --translate; returns how many there are.
+static uint32_t list_maps(const convert_arguments *arguments, double maps[MOST_MAPS][16]) {
+    uint32_t count = 0;
+    memset(maps, 0, MOST_MAPS * sizeof maps[0]);
+    for (int m = 0; m < MOST_MAPS; m++)
+        for (int c = 0; c < 4; c++) maps[m][5 * c] = 1;
     if (arguments->scale.count) {
         const double *s = arguments->scale.values;
-        for (int c = 0; c < 3; c++) matrix[5 * c] = s[arguments->scale.count == 3 ? c : 0];
-        status = ewa_cloud_transform(cloud, matrix);
+        for (int c = 0; c < 3; c++) maps[count][5 * c] = s[arguments->scale.count == 3 ? c : 0];
+        count++;
     }
-    if (status == EWA_OK && arguments->transform.count)
-        status = ewa_cloud_transform(cloud, arguments->transform.values);
-    if (status == EWA_OK && arguments->translate.count) {
-        for (int c = 0; c < 3; c++) {
-            matrix[5 * c] = 1;
-            matrix[4 * c + 3] = arguments->translate.values[c];
-        }
-        status = ewa_cloud_transform(cloud, matrix);
+    if (arguments->transform.count) memcpy(maps[count++], arguments->transform.values, sizeof maps[0]);
+    if (arguments->translate.count) {
+        for (int c = 0; c < 3; c++) maps[count][4 * c + 3] = arguments->translate.values[c];
+        count++;
     }
+    return count;
+}
+
+static bool move(cli_session *session, ewa_cloud *cloud, const convert_arguments *arguments) {
+    double maps[MOST_MAPS][16];
+    const uint32_t count = list_maps(arguments, maps);
+    ewa_status status = EWA_OK;
+    for (uint32_t m = 0; m < count && status == EWA_OK; m++) status = ewa_cloud_transform(cloud, maps[m]);
     if (status != EWA_OK) session_failed(session, status);
     return status == EWA_OK;
 }
@@ -287,6 +305,52 @@ static ewa_cloud *make(cli_session *session, const convert_job *job, ewa_element
     return cloud;
 }
 
+/// Whether a file is read and written as Gaussians, not as points with numbers: where only these are written, where
+/// points do not say what is read, and where more than centres moves.
+static bool is_of_gaussians(cli_session *session, const convert_arguments *arguments) {
+    const output_arguments *output = &arguments->procedure.output;
+    if (convert_gaussians_is_named(output->path)) return true;
+    if (output->common.operand_count != 1 || ewa_gaussians_format_of(output->path) != EWA_GAUSSIANS_PLY)
+        return false;
+    const ewa_gaussian_format format = gaussian_files_format(session, output->common.operands[0]);
+    return format > EWA_GAUSSIANS_PLY ||
+           (format == EWA_GAUSSIANS_PLY && (arguments->scale.count || arguments->transform.count));
+}
+
+/// Converts Gaussians, for which most changes are not made. False after reporting.
+static bool convert_set(cli_session *session, const convert_arguments *arguments) {
+    const output_arguments *output = &arguments->procedure.output;
+    const struct {
+        const char *name;
+        bool given;
+    } others[] = {{"crop", arguments->crop.count},
+                  {"crop-polygon", arguments->outline},
+                  {"voxel", arguments->voxel > 0},
+                  {"min-distance", arguments->distance > 0},
+                  {"subsample", arguments->subsample > 0},
+                  {"refit-colors", arguments->refit != REFIT_OFF},
+                  {"procedure", arguments->procedure.procedure},
+                  {"filter", session->filter},
+                  {"ascii", output->ascii},
+                  {"big-endian", output->big_endian}};
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
+        if (others[i].given) {
+            session_fail(session,
+                         "--%s: Gaussians are converted as a whole; --scale, --transform and --translate "
+                         "move them",
+                         others[i].name);
+            return false;
+        }
+    if (output->common.operand_count != 1) {
+        session_fail(session, "Gaussians of several files are not merged");
+        return false;
+    }
+    double maps[MOST_MAPS][16];
+    const uint32_t count = list_maps(arguments, maps);
+    return convert_gaussians(session, output->common.operands[0], output->path, &arguments->gaussians,
+                             (const double(*)[16])maps, count);
+}
+
 /// Reads, changes and writes, a file alone piece by piece where that can be. False after reporting.
 static bool convert(cli_session *session, const convert_job *job) {
     const output_arguments *output = &job->arguments->procedure.output;
@@ -310,6 +374,8 @@ static int run(const void *data) {
     cli_session session;
     if (!session_start(&session, &arguments->procedure.output.common))
         return session_end(&session, EXIT_FAILED);
+    if (is_of_gaussians(&session, arguments))
+        return session_end(&session, convert_set(&session, arguments) ? EXIT_DONE : EXIT_FAILED);
     convert_job job = {.arguments = arguments};
     if (arguments->outline) job.polygon = choose_outline(&session, arguments->outline);
     const bool done = (!arguments->outline || job.polygon) && convert(&session, &job);
@@ -318,6 +384,7 @@ static int run(const void *data) {
 }
 
 static const option_group change_options = OPTION_GROUP("Changes, in this order", change_table);
+static const option_group gaussian_options = OPTION_GROUP("Files of Gaussians", gaussian_table);
 const cli_command convert_command = {
     .name = "convert",
     .operands = "IN... -o OUT",
@@ -329,17 +396,20 @@ const cli_command convert_command = {
         "kept only where all have them. Of one mesh the faces are kept, of PLY all else too; they are "
         "dropped, which a message says, when some of their vertices are left out. Normals, radii and axes "
         "follow --scale and --transform. Moved clouds are "
-        "written with double coordinates.",
+        "written with double coordinates. Gaussians become others by the suffix (.ply, .splat, .spz), and "
+        "move "
+        "with their axes and colours; points with the columns of 3DGS that go to PLY keep every bit.",
     .examples = "ewa convert scan.ply -o scan_text.ply --ascii\n"
                 "ewa convert a.ply b.ply -o both.ply --subsample 1000000\n"
                 "ewa convert scan.laz -o ground.laz --filter classification=ground --min-distance 0.5\n"
                 "ewa convert scan.las -o plot.las --crop-polygon plot.geojson --voxel 0.1\n"
                 "ewa convert scan.ply -o sharp.ply --refit-colors fit\n"
+                "ewa convert scene.ply -o scene.spz\n"
                 "ewa convert mm.ply -o m.ply --scale 0.001 --crop -1,-1,0,1,1,2\n",
     .low_operands = 1,
     .high_operands = 4096,
     .groups = (const option_group *const[]){&cloud_output_options, &cloud_input_options, &change_options,
-                                            &procedure_options, NULL},
+                                            &procedure_options, &gaussian_options, NULL},
     .arguments_bytes = sizeof(convert_arguments),
     .set_defaults = set_defaults,
     .check = check,

@@ -211,6 +211,7 @@ static const ewa_option_table *const tables[] = {&ewa_acquire_options_table,
                                                  &ewa_volume_load_options_table,
                                                  &ewa_volume_options_table,
                                                  &ewa_volume_save_options_table,
+                                                 &ewa_gaussians_save_options_table,
                                                  &ewa_voxels_options_table,
                                                  &ewa_warp_options_table};
 

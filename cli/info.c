@@ -6,8 +6,10 @@
 #include "choosing.h"
 #include "commands.h"
 #include "faults.h"
+#include "gaussian_files.h"
 #include "import.h"
 #include "info_facts.h"
+#include "info_gaussians.h"
 #include "info_lod.h"
 #include "info_mesh.h"
 #include "info_volume.h"
@@ -71,6 +73,7 @@ typedef struct cloud_facts {
     const ewa_lod *lod;         ///< NULL: no octree
     uint64_t lod_sampled_count; ///< the points stand for those of an octree; 0: they are all
     ewa_lod_info tree;
+    gaussians_told gaussians; ///< count 0: the points are none
 } cloud_facts;
 
 static void measure_component(const ewa_attribute *attribute, uint64_t count, uint32_t component,
@@ -163,6 +166,9 @@ static bool gather(cli_session *session, const char *path, const ewa_model *mode
     if (lod) ewa_lod_describe(lod, &facts->tree);
     if (sampled) facts->lod_sampled_count = facts->point_count;
     if (facts->is_mesh && !info_mesh_gather(session, model, &facts->mesh)) return false;
+    if (model->format == EWA_MODEL_PLY && gaussian_files_format(session, path) == EWA_GAUSSIANS_PLY &&
+        !info_gaussians_gather(session, path, &facts->gaussians))
+        return false;
     ewa_status status = ewa_cloud_measure(cloud, &facts->bounds);
     facts->sampled_count = facts->point_count < SPACING_SAMPLES ? facts->point_count : SPACING_SAMPLES;
     if (status == EWA_OK && facts->bounds.finite_count > 1)
@@ -273,12 +279,7 @@ static void print_text(cli_session *session, const char *path, const ewa_cloud *
         upright_describe(&facts->view, sizeof text, text);
         printf("  up          %s\n", text);
     }
-    const gaussian_facts gaussians = screening_find_gaussians(cloud);
-    if (gaussians.dimensions) {
-        char text[128];
-        screening_describe_gaussians(&gaussians, sizeof text, text);
-        printf("  holds       %s\n", text);
-    }
+    if (facts->gaussians.count) info_gaussians_print(&facts->gaussians);
     printf("  attributes\n");
     const ewa_attribute *attribute;
     for (uint32_t k = 0; (attribute = ewa_cloud_attribute_at(cloud, k)); k++) {
@@ -334,14 +335,7 @@ static void print_json(cli_session *session, json_writer *json, const char *path
         json_text(json, "up_because", facts->view.why);
         json_text(json, "view", upright_place(&facts->view));
     }
-    const gaussian_facts gaussians = screening_find_gaussians(cloud);
-    if (gaussians.dimensions) {
-        json_object(json, "gaussians");
-        json_count(json, "dimensions", gaussians.dimensions);
-        json_count(json, "sh_degree", gaussians.sh_degree);
-        json_flag(json, "filtered", gaussians.filtered);
-        json_close(json, '}');
-    }
+    if (facts->gaussians.count) info_gaussians_write(json, &facts->gaussians);
     json_object(json, "spacing");
     json_number(json, "median", facts->spacing.median_world);
     json_number(json, "mean", facts->spacing.mean_world);
@@ -426,6 +420,11 @@ static int run(const void *data) {
                 exit_status = EXIT_FAILED;
             continue;
         }
+        const ewa_gaussian_format gaussians = gaussian_files_format(&session, path);
+        if (gaussians > EWA_GAUSSIANS_PLY) {
+            if (!info_gaussians(&session, path, arguments->json ? &json : NULL)) exit_status = EXIT_FAILED;
+            continue;
+        }
         ewa_model model;
         cloud_facts facts;
         ewa_lod *lod = NULL;
@@ -467,7 +466,9 @@ const cli_command info_command = {
     .details =
         "A file that has faces is a mesh: faces, area, whether it is closed, materials; then its vertices. "
         "Of an octree (COPC, EPT) the tree is told; of one with more than 4 million points, ranges and "
-        "problems are those of a sample. Problems are counted, not judged: the exit status is 0 when the "
+        "problems are those of a sample. Of Gaussians (PLY, compressed PLY, splat, SPZ, glTF, ksplat, SOG) "
+        "the form, sizes and opacities are told. Problems are counted, not judged: the exit status is 0 when "
+        "the "
         "files could be read. Volumes "
         "are told by their suffix (.nrrd, .nhdr, .nii, .mha, .mhd, .vti, .vtk, .raw, and .gz of "
         "these) or by --dims.",

@@ -3,6 +3,7 @@
 //
 // Files of points or triangles: the one place where the program decides which of them a file holds.
 #include "model_input.h"
+#include "gaussian_files.h"
 #include "import.h"
 #include "lod_input.h"
 #include "screening.h"
@@ -24,7 +25,13 @@ bool model_input_load(cli_session *session, const char *path, uint32_t wanted, e
         return false;
     }
     const double started_s = clock_now_s();
-    if (import_is_named(path)) {
+    const ewa_gaussian_format gaussians = gaussian_files_format(session, path);
+    session->subject = path;
+    // As PLY, and as glTF, they are points to begin with.
+    if (gaussians > EWA_GAUSSIANS_PLY && gaussians != EWA_GAUSSIANS_GLTF) {
+        model->points = gaussian_files_load_surfels(session, path);
+        if (!model->points) return false;
+    } else if (import_is_named(path)) {
         if (!import_load(session, path, wanted, model)) return false;
     } else if (lod_input_is_folder(session, path)) {
         model->points = lod_input_read(session, path, NULL);

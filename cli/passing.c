@@ -3,6 +3,7 @@
 //
 // Files of points passed through piece by piece.
 #include "passing.h"
+#include "gaussian_files.h"
 #include "import.h"
 #include "lod_input.h"
 #include "screening.h"
@@ -18,6 +19,7 @@ static const uint64_t PIECE_POINTS = 1 << 19;
 static bool is_possible(cli_session *session, const char *path, ewa_model_format *format) {
     if (strcmp(path, "-") == 0 || strncmp(path, "/dev/", 5) == 0 || volume_input_is_named(path) ||
         import_is_named(path) || lod_input_is_folder(session, path) ||
+        gaussian_files_format(session, path) > EWA_GAUSSIANS_PLY ||
         ewa_model_probe(session->context, path, format) != EWA_OK)
         return false;
     return *format == EWA_MODEL_PLY || *format >= EWA_MODEL_LAS;

@@ -21,6 +21,9 @@ static const double DEGREE_M = 111320;
 /// is 0.01 degrees wide and 10 m high.
 static const double DEGREES_HEIGHT_RATIO = 200;
 
+/// The harmonic that is the same in all directions.
+static const double SH_CONSTANT = 0.28209479177387814;
+
 gaussian_facts screening_find_gaussians(const ewa_cloud *cloud) {
     static const char *const needed[] = {"f_dc_0",  "f_dc_1", "f_dc_2", "opacity", "scale_0",
                                          "scale_1", "rot_0",  "rot_1",  "rot_2",   "rot_3"};
@@ -41,6 +44,27 @@ gaussian_facts screening_find_gaussians(const ewa_cloud *cloud) {
 void screening_describe_gaussians(const gaussian_facts *facts, size_t text_bytes, char *text) {
     snprintf(text, text_bytes, "%uD Gaussians%s, spherical harmonics of degree %u", facts->dimensions,
              facts->filtered ? " with 3D filters (Mip-Splatting)" : "", facts->sh_degree);
+}
+
+bool screening_color_gaussians(cli_session *session, ewa_cloud *cloud) {
+    static const char *const names[] = {"f_dc_0", "f_dc_1", "f_dc_2"};
+    uint8_t *colors = NULL;
+    if (ewa_cloud_find(cloud, EWA_COLOR) || !screening_find_gaussians(cloud).dimensions) return true;
+    const ewa_status status = ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, (void **)&colors);
+    if (status != EWA_OK) {
+        session_failed(session, status);
+        return false;
+    }
+    for (int c = 0; c < 3; c++) {
+        const ewa_attribute *attribute = ewa_cloud_find(cloud, names[c]);
+        for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
+            float coefficient;
+            ewa_attribute_read_f32(attribute, i, 1, &coefficient);
+            const double color = 255 * (0.5 + SH_CONSTANT * (double)coefficient);
+            colors[3 * i + (uint64_t)c] = (uint8_t)(color > 0 ? fmin(color, 255) + 0.5 : 0);
+        }
+    }
+    return true;
 }
 
 bool screening_admit(cli_session *session, const char *path, const ewa_cloud *cloud) {

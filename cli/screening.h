@@ -20,6 +20,9 @@ gaussian_facts screening_find_gaussians(const ewa_cloud *cloud);
 /// Writes what a scene is, such as "3D Gaussians, spherical harmonics of degree 3".
 void screening_describe_gaussians(const gaussian_facts *facts, size_t text_bytes, char *text);
 
+/// Gives the centres of Gaussians that have no colours those that no direction changes. False after reporting.
+bool screening_color_gaussians(cli_session *session, ewa_cloud *cloud);
+
 /// Whether a cloud without radii may be made into surfels: false after reporting that it holds Gaussians.
 bool screening_admit(cli_session *session, const char *path, const ewa_cloud *cloud);
 

@@ -54,6 +54,10 @@ static ewa_cloud *make(cli_session *session, const void *data) {
     const char *path = arguments->output.common.operands[0];
     ewa_cloud *cloud = input_load(session, path);
     if (!cloud) return NULL;
+    if (!screening_color_gaussians(session, cloud)) {
+        ewa_cloud_destroy(&cloud);
+        return NULL;
+    }
     if (arguments->options.keep_normals) screening_drop_zero_normals(session, path, cloud);
     ewa_estimate_options options = arguments->options;
     if (arguments->viewpoint.count) options.orientation = EWA_ORIENT_VIEWPOINT;

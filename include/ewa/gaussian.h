@@ -26,13 +26,13 @@ typedef struct ewa_gaussians {
     uint32_t count;
     uint32_t sh_degree; ///< L, [0, EWA_MAX_SH_DEGREE]
     bool flat;          ///< 2D Gaussians: the third scale is 0, the third axis is the normal
-    bool antialiased;   ///< trained with a pixel filter that keeps what a Gaussian adds, not one that thickens
-    double origin[3];   ///< world units; centres are relative to it
-    float *centers;     ///< 3 per Gaussian, world units
-    float *scales;      ///< 3 per Gaussian, standard deviations, world units, finite, >= 0
-    float *rotations;   ///< 4 per Gaussian, unit quaternion w x y z, from the axes to the world
-    float *opacities;   ///< 1 per Gaussian, [0, 1]
-    float *harmonics;   ///< (L + 1)^2 coefficients of red green blue per Gaussian; order and signs as in 3DGS
+    bool antialiased; ///< trained with a pixel filter that keeps what a Gaussian adds, not one that thickens
+    double origin[3]; ///< world units; centres are relative to it
+    float *centers;   ///< 3 per Gaussian, world units
+    float *scales;    ///< 3 per Gaussian, standard deviations, world units, finite, >= 0
+    float *rotations; ///< 4 per Gaussian, unit quaternion w x y z, from the axes to the world
+    float *opacities; ///< 1 per Gaussian, [0, 1]
+    float *harmonics; ///< (L + 1)^2 coefficients of red green blue per Gaussian; order and signs as in 3DGS
 } ewa_gaussians;
 
 /// Makes a set with everything zero; the caller frees it with ewa_gaussians_free(). Errors (set zeroed):
@@ -46,6 +46,19 @@ EWA_API void ewa_gaussians_free(ewa_gaussians *gaussians);
 
 /// Measures the box around the centres, in world units, origin included. Errors: EWA_ERROR_ARGUMENT.
 EWA_API ewa_status ewa_gaussians_measure(const ewa_gaussians *gaussians, ewa_bounds *bounds);
+
+/// Maps space: centres, axes and the directions of the colours. `world_to_world` is row-major, acts on column
+/// vectors, its last row is 0 0 0 1; its linear part becomes scales and a turn, after a mirroring of the second
+/// axis where it mirrors, by which the colours go. The translation goes into the origin. Errors:
+/// EWA_ERROR_ARGUMENT, EWA_ERROR_NUMERIC (no inverse, a number that is not finite; the set is then as before).
+EWA_API ewa_status ewa_gaussians_transform(ewa_gaussians *gaussians, const double world_to_world[16]);
+
+/// Makes surfels of a set, for which 2D Gaussians are meant: "position", float, with the set's origin,
+/// "tangent_u" and "tangent_v" along the two longest axes, one standard deviation long, "normal" along the
+/// shortest, "color" in linear light, that of the constant harmonic, clamped to [0, 1], with the opacity as
+/// alpha. The caller owns `*cloud`, which is NULL after a failure. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT,
+/// EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_gaussians_to_cloud(const ewa_gaussians *gaussians, ewa_cloud **cloud);
 
 #ifdef __cplusplus
 }

@@ -44,8 +44,8 @@ EWA_API ewa_status ewa_gaussians_probe(ewa_context *context, const char *path, e
 
 /// Reads a file of Gaussians, the format by content; "-" reads standard input. Numbers are what the set says:
 /// scales are standard deviations and opacities shares, whatever the file stores. Axes are the file's, but for
-/// SPZ, whose right-up-back becomes the right-down-front of 3DGS, with its colours. Centres in doubles get an
-/// origin, in floats the origin 0. `facts` may be NULL. The caller frees the set; it is zeroed after a failure.
+/// SPZ that names its own, which become the right-down-front of 3DGS. Centres in doubles get an origin, in
+/// floats the origin 0. `facts` may be NULL. The caller frees the set; it is zeroed after a failure.
 ///
 /// Errors, with the Gaussian and the reason: EWA_ERROR_IO, EWA_ERROR_FORMAT (also a quaternion of zeros, a
 /// number that is not finite, no Gaussians), EWA_ERROR_UNSUPPORTED (no Gaussians of a known form, versions,
@@ -58,6 +58,28 @@ EWA_API ewa_status ewa_gaussians_load(ewa_context *context, const char *path, ew
 EWA_API ewa_status ewa_gaussians_load_memory(ewa_context *context, const void *bytes, size_t size_bytes,
                                              const char *name, const char *path, ewa_gaussians *gaussians,
                                              ewa_gaussian_facts *facts);
+
+/// Returns the format that ewa_gaussians_save() writes to a path, by its suffix: .ply, .splat, .spz, "-": PLY;
+/// EWA_GAUSSIANS_NONE: none.
+EWA_API ewa_gaussian_format ewa_gaussians_format_of(const char *path);
+
+/// How Gaussians are written. Fill with ewa_gaussians_save_options_init().
+typedef struct ewa_gaussians_save_options {
+    size_t struct_size;
+    uint32_t sh_degree;   ///< highest one of the harmonics that are kept, [0, 4]; default 4; .splat: 0
+    uint32_t spz_version; ///< [2, 4]; default 3: quaternions of 32 bits, gzip; 4: zstd
+} ewa_gaussians_save_options;
+
+EWA_API extern const ewa_option_table ewa_gaussians_save_options_table;
+EWA_API void ewa_gaussians_save_options_init(ewa_gaussians_save_options *options, size_t struct_size);
+
+/// Writes a set, the format by suffix; docs/files.md says what each keeps. Axes stay as they are. What a format
+/// cannot keep, such as harmonics in .splat, is said in a warning. The same set gives the same file on every
+/// machine. `options` may be NULL. Errors: EWA_ERROR_ARGUMENT (no Gaussians, a number that is none),
+/// EWA_ERROR_UNSUPPORTED (suffix), EWA_ERROR_LIMIT (coordinates beyond the 24 bits of SPZ), EWA_ERROR_IO,
+/// EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_gaussians_save(const ewa_gaussians *gaussians, const char *path,
+                                      const ewa_gaussians_save_options *options);
 
 #ifdef __cplusplus
 }

@@ -113,11 +113,11 @@ static void test_gaussians(void **state) {
         snprintf(text + strlen(text), sizeof text - strlen(text), columns, rest, kinds[i].third,
                  kinds[i].filter);
         snprintf(text + strlen(text), sizeof text - strlen(text), END);
-        const int count =
-            6 + 3 + kinds[i].rest + 1 + 2 + (kinds[i].third[0] != 0) + 4 + (kinds[i].filter[0] != 0);
+        const int turn = 6 + 3 + kinds[i].rest + 1 + 2 + (kinds[i].third[0] != 0),
+                  count = turn + 4 + (kinds[i].filter[0] != 0);
         for (int p = 0; p < 2; p++)
             for (int c = 0; c < count; c++)
-                snprintf(text + strlen(text), sizeof text - strlen(text), "%d%s", c < 3 ? p + c : 0,
+                snprintf(text + strlen(text), sizeof text - strlen(text), "%d%s", c < 3 ? p + c : c == turn,
                          c + 1 < count ? " " : "\n");
         scratch_text("gauss.ply", text);
         run_fails(1, "gauss.ply: ", "ewa render gauss.ply -o a.png");
@@ -135,8 +135,8 @@ static void test_gaussians(void **state) {
                  "ply\nformat ascii 1.0\nelement chunk 1\nproperty float min_x\nelement vertex 1\n"
                  "property uint packed_position\nproperty uint packed_rotation\n"
                  "property uint packed_scale\nproperty uint packed_color\nend_header\n0\n1 2 3 4\n");
-    run_fails(1, "packed.ply: holds 3D Gaussians|compressed", "ewa render packed.ply -o a.png");
-    run_fails(1, "packed.ply: holds 3D Gaussians|compressed", "ewa info packed.ply");
+    run_fails(1, "packed.ply: packed Gaussians without a property min_y", "ewa render packed.ply -o a.png");
+    run_fails(1, "packed.ply: packed Gaussians without a property min_y", "ewa info packed.ply");
 }
 
 /// Normals that are all zero are none, and estimated; surfels of them are drawn.

@@ -139,7 +139,7 @@ ewa_status ewa_ply_columns_map(const ewa_ply_source *source, const ewa_ply_heade
             find_scalar(header, element, "packed_rotation"))
             return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED,
                             "%s: holds 3D Gaussians in PlayCanvas's compressed form (packed_position), which "
-                            "is not read",
+                            "is no cloud: ewa_gaussians_load() reads it",
                             source->name);
         const char *missing = "x";
         for (uint32_t c = 3; c-- > 0;)

@@ -9,6 +9,9 @@
 #include "base/base.h"
 #include "ewa/gaussian_io.h"
 
+#include <math.h>
+#include <string.h>
+
 /// The first harmonic, constant: a colour is 0.5 + this times the first coefficients.
 #define EWA_SH_CONSTANT 0.28209479177387814
 
@@ -35,13 +38,20 @@ typedef struct ewa_gaussian_reader {
 } ewa_gaussian_reader;
 
 /// The formats, in the order in which they are asked. Each lives in a file of its own.
-extern const ewa_gaussian_reader ewa_gaussians_ply;
+extern const ewa_gaussian_reader ewa_gaussians_ply, ewa_gaussians_packed_ply, ewa_gaussians_spz,
+    ewa_gaussians_splat, ewa_gaussians_ksplat, ewa_gaussians_gltf, ewa_gaussians_sog;
 
 /// Makes a set for `count` Gaussians that the file says it has, of which each takes `least_bytes` of the
 /// `left_bytes` that are there. Errors: EWA_ERROR_FORMAT (there are fewer bytes, or no Gaussians),
 /// EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
 ewa_status ewa_gaussians_make(const ewa_gaussian_source *source, uint64_t count, uint64_t least_bytes,
                               uint64_t left_bytes, uint32_t sh_degree, ewa_gaussians *gaussians);
+
+/// Decodes Gaussians [first, end) of a file into a set; any thread.
+typedef void ewa_gaussian_decode(void *data, uint32_t first, uint32_t end);
+
+/// Has all Gaussians decoded, on all workers.
+void ewa_gaussians_decode(ewa_context *context, uint32_t count, ewa_gaussian_decode *decode, void *data);
 
 /// Coefficients of each colour.
 static inline uint32_t ewa_sh_count(uint32_t sh_degree) { return (sh_degree + 1) * (sh_degree + 1); }
@@ -57,6 +67,42 @@ typedef struct ewa_gaussian_form {
 /// EWA_ERROR_FORMAT, with the first Gaussian that is wrong.
 ewa_status ewa_gaussians_settle(const ewa_gaussian_source *source, const ewa_gaussian_form *form,
                                 ewa_gaussians *gaussians);
+
+/// The coefficient of the constant harmonic that gives a colour in [0, 1].
+static inline float ewa_sh_of_color(double color) { return (float)((color - 0.5) / EWA_SH_CONSTANT); }
+
+/// Fills a unit quaternion w x y z whose component `largest` was left out, which is >= 0, from the three others
+/// in their order.
+void ewa_quaternion_complete(const double others[3], uint32_t largest, float rotation[4]);
+
+/// Numbers of files, lowest byte first.
+static inline uint32_t ewa_file_u16(const uint8_t *bytes) {
+    return (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8;
+}
+static inline uint32_t ewa_file_u32(const uint8_t *bytes) {
+    return ewa_file_u16(bytes) | ewa_file_u16(bytes + 2) << 16;
+}
+static inline float ewa_file_f32(const uint8_t *bytes) {
+    const uint32_t bits = ewa_file_u32(bytes);
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/// A half float.
+static inline float ewa_file_f16(const uint8_t *bytes) {
+    const uint32_t bits = ewa_file_u16(bytes), exponent = bits >> 10 & 31, mantissa = bits & 1023;
+    float value;
+    if (exponent == 31)
+        value = mantissa ? NAN : INFINITY;
+    else
+        value =
+            exponent ? ldexpf((float)(1024 + mantissa), (int)exponent - 25) : ldexpf((float)mantissa, -24);
+    return bits >> 15 ? -value : value;
+}
+
+/// Makes 2D Gaussians of a set that is said to hold such, whatever its third scales.
+void ewa_gaussians_flatten(ewa_gaussians *gaussians);
 
 /// Gives centres in doubles, 3 per Gaussian, an origin amid them and makes floats of them.
 void ewa_gaussians_place(const double *centers_world, ewa_gaussians *gaussians);

@@ -7,7 +7,9 @@
 
 #include <string.h>
 
-static const ewa_gaussian_reader *const readers[] = {&ewa_gaussians_ply};
+static const ewa_gaussian_reader *const readers[] = {
+    &ewa_gaussians_ply, &ewa_gaussians_packed_ply, &ewa_gaussians_spz,  &ewa_gaussians_gltf,
+    &ewa_gaussians_sog, &ewa_gaussians_ksplat,     &ewa_gaussians_splat};
 
 const char *ewa_gaussian_format_name(ewa_gaussian_format format) {
     static const char *const names[] = {"unknown", "3DGS PLY", "compressed PLY", "splat",
@@ -19,21 +21,6 @@ static const ewa_gaussian_reader *find_reader(const ewa_gaussian_source *source)
     for (size_t i = 0; i < sizeof readers / sizeof readers[0]; i++)
         if (source->size_bytes && readers[i]->probe(source)) return readers[i];
     return NULL;
-}
-
-ewa_status ewa_gaussians_make(const ewa_gaussian_source *source, uint64_t count, uint64_t least_bytes,
-                              uint64_t left_bytes, uint32_t sh_degree, ewa_gaussians *gaussians) {
-    if (count == 0)
-        return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: there are no Gaussians", source->name);
-    if (least_bytes && count > left_bytes / least_bytes)
-        return ewa_fail(source->context, EWA_ERROR_FORMAT,
-                        "%s: %llu Gaussians take at least %llu bytes each, but %llu bytes are left",
-                        source->name, (unsigned long long)count, (unsigned long long)least_bytes,
-                        (unsigned long long)left_bytes);
-    if (count > UINT32_MAX)
-        return ewa_fail(source->context, EWA_ERROR_LIMIT, "%s: %llu Gaussians are over the limit of %u",
-                        source->name, (unsigned long long)count, UINT32_MAX);
-    return ewa_gaussians_create(source->context, (uint32_t)count, sh_degree, gaussians);
 }
 
 static ewa_status load(const ewa_gaussian_source *source, ewa_gaussians *gaussians,

@@ -41,7 +41,8 @@ static uint32_t find_row(const ewa_ply_header *header, const ewa_ply_element *el
     return count;
 }
 
-bool ewa_gaussians_ply_is_plain(const ewa_ply_header *header) {
+/// Whether the vertices have the columns of 3DGS or 2DGS.
+static bool is_plain(const ewa_ply_header *header) {
     const ewa_ply_element *vertices = ewa_ply_vertices(header);
     uint32_t found[4];
     return vertices && find_row(header, vertices, "f_dc", 3, found) == 3 &&
@@ -174,10 +175,11 @@ static ewa_status read_plain(const ewa_gaussian_source *source, const ewa_ply_so
 
 /// What the comments of a header say.
 typedef struct header_words {
-    bool antialiased, plain; ///< by "SplatRenderMode"
-    char up;                 ///< by "Vertical axis": 'x', 'y', 'z'; 0
+    bool antialiased, plain, flat;
+    char up; ///< 'x', 'y', 'z'; 0
 } header_words;
 
+/// "SplatRenderMode: mip" of Brush, "antialiased 1" of Postshot, "Vertical axis: z" of several; the last one counts.
 static void take_comment(void *user, const char *line) {
     header_words *words = user;
     ewa_cursor cursor = {line, line + strlen(line), 1};
@@ -185,7 +187,11 @@ static void take_comment(void *user, const char *line) {
     const ewa_text first = ewa_cursor_word(&cursor), second = ewa_cursor_word(&cursor);
     if (ewa_text_is_any_case(first, "SplatRenderMode:")) {
         words->antialiased = ewa_text_is_any_case(second, "mip");
-        words->plain = !words->antialiased;
+        words->plain = ewa_text_is_any_case(second, "default");
+        words->flat = ewa_text_is_any_case(second, "2dgs");
+    } else if (ewa_text_is_any_case(first, "antialiased")) {
+        words->antialiased = ewa_text_is(second, "1");
+        words->plain = ewa_text_is(second, "0");
     } else if (ewa_text_is_any_case(first, "vertical") && ewa_text_is_any_case(second, "axis:")) {
         const ewa_text axis = ewa_cursor_word(&cursor);
         const char letter = axis.length == 1 ? (char)(axis.chars[0] | ' ') : 0;
@@ -198,12 +204,13 @@ static ewa_status read_with(const ewa_gaussian_source *source, ewa_ply_header *h
     const ewa_ply_source ply = {source->context, source->name, source->bytes, source->size_bytes};
     ewa_status status = ewa_ply_header_read(&ply, header);
     if (status != EWA_OK) return status;
-    status = read_plain(source, &ply, header, set, facts);
-    if (status != EWA_OK) return status;
     header_words words = {.up = 0};
     ewa_ply_header_lines(&ply, header, take_comment, &words);
+    status = read_plain(source, &ply, header, set, facts);
+    if (status != EWA_OK) return status;
     if (words.antialiased || words.plain) set->antialiased = words.antialiased;
     if (words.up) facts->up_world[words.up - 'x'] = 1;
+    if (words.flat) ewa_gaussians_flatten(set);
     return EWA_OK;
 }
 
@@ -214,15 +221,17 @@ static ewa_status read_ply(const ewa_gaussian_source *source, ewa_gaussians *set
     return status;
 }
 
-static bool is_ply(const ewa_gaussian_source *source) {
+bool ewa_gaussians_ply_probe(const ewa_gaussian_source *source, bool (*fits)(const ewa_ply_header *header)) {
     if (source->size_bytes < 4 || memcmp(source->bytes, "ply", 3) != 0) return false;
     ewa_ply_header *header = ewa_allocate(source->context, 1, sizeof *header);
     if (!header) return false;
     // Nobody wants to be told here what is wrong with files of other readers.
     const ewa_ply_source ply = {NULL, source->name, source->bytes, source->size_bytes};
-    const bool found = ewa_ply_header_read(&ply, header) == EWA_OK && ewa_gaussians_ply_is_plain(header);
+    const bool found = ewa_ply_header_read(&ply, header) == EWA_OK && fits(header);
     ewa_release(source->context, header, 1, sizeof *header);
     return found;
 }
 
-const ewa_gaussian_reader ewa_gaussians_ply = {EWA_GAUSSIANS_PLY, is_ply, read_ply};
+static bool probe(const ewa_gaussian_source *source) { return ewa_gaussians_ply_probe(source, is_plain); }
+
+const ewa_gaussian_reader ewa_gaussians_ply = {EWA_GAUSSIANS_PLY, probe, read_ply};

@@ -23,6 +23,50 @@ typedef enum fault {
     FAULT_HARMONICS,
 } fault;
 
+ewa_status ewa_gaussians_make(const ewa_gaussian_source *source, uint64_t count, uint64_t least_bytes,
+                              uint64_t left_bytes, uint32_t sh_degree, ewa_gaussians *gaussians) {
+    if (count == 0)
+        return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: there are no Gaussians", source->name);
+    if (least_bytes && count > left_bytes / least_bytes)
+        return ewa_fail(source->context, EWA_ERROR_FORMAT,
+                        "%s: %llu Gaussians take at least %llu bytes each, but %llu bytes are left",
+                        source->name, (unsigned long long)count, (unsigned long long)least_bytes,
+                        (unsigned long long)left_bytes);
+    if (count > UINT32_MAX)
+        return ewa_fail(source->context, EWA_ERROR_LIMIT, "%s: %llu Gaussians are over the limit of %u",
+                        source->name, (unsigned long long)count, UINT32_MAX);
+    return ewa_gaussians_create(source->context, (uint32_t)count, sh_degree, gaussians);
+}
+
+typedef struct decode_job {
+    uint32_t count;
+    ewa_gaussian_decode *decode;
+    void *data;
+} decode_job;
+
+static void decode_piece(void *data, uint32_t piece, uint32_t worker) {
+    (void)worker;
+    const decode_job *job = data;
+    job->decode(job->data, (uint32_t)ewa_split(job->count, PIECES, piece),
+                (uint32_t)ewa_split(job->count, PIECES, piece + 1));
+}
+
+void ewa_gaussians_decode(ewa_context *context, uint32_t count, ewa_gaussian_decode *decode, void *data) {
+    decode_job job = {count, decode, data};
+    ewa_parallel(context, decode_piece, &job, PIECES);
+}
+
+void ewa_quaternion_complete(const double others[3], uint32_t largest, float rotation[4]) {
+    double rest = 1;
+    for (uint32_t k = 0, from = 0; k < 4; k++) {
+        if (k == largest) continue;
+        rotation[k] = (float)others[from];
+        rest -= others[from] * others[from];
+        from++;
+    }
+    rotation[largest] = (float)sqrt(fmax(rest, 0));
+}
+
 typedef struct settle_job {
     ewa_gaussians *set;
     const ewa_gaussian_form *form;
@@ -127,4 +171,9 @@ void ewa_gaussians_place(const double *centers_world, ewa_gaussians *gaussians) 
         for (int k = 0; k < 3; k++)
             gaussians->centers[3 * (size_t)i + (size_t)k] =
                 (float)(centers_world[3 * (size_t)i + (size_t)k] - gaussians->origin[k]);
+}
+
+void ewa_gaussians_flatten(ewa_gaussians *gaussians) {
+    gaussians->flat = true;
+    for (size_t i = 0; i < gaussians->count; i++) gaussians->scales[3 * i + 2] = 0;
 }

@@ -53,3 +53,29 @@ ewa_status ewa_webp_decode(ewa_context *context, const char *name, const uint8_t
     if (status != EWA_OK) ewa_image_free(image);
     return status;
 }
+
+ewa_status ewa_webp_decode_codes(ewa_context *context, const char *name, const uint8_t *bytes,
+                                 size_t size_bytes, uint32_t *width_px, uint32_t *height_px, uint8_t **codes,
+                                 size_t *code_bytes) {
+    *codes = NULL;
+    *code_bytes = 0;
+    WebPBitstreamFeatures facts;
+    if (WebPGetFeatures(bytes, size_bytes, &facts) != VP8_STATUS_OK || facts.width <= 0 || facts.height <= 0)
+        return ewa_fail(context, EWA_ERROR_FORMAT, "%s: WebP: the header is broken", name);
+    if (facts.has_animation) return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: WebP: an animation", name);
+    const size_t row_bytes = 4 * (size_t)facts.width, all_bytes = row_bytes * (size_t)facts.height;
+    if (all_bytes > ewa_context_limits(context)->max_memory_bytes)
+        return ewa_fail(context, EWA_ERROR_LIMIT, "%s: WebP of %d x %d pixels is over max_memory_bytes", name,
+                        facts.width, facts.height);
+    uint8_t *made = ewa_allocate(context, all_bytes, 1);
+    if (!made) return EWA_ERROR_MEMORY;
+    if (!WebPDecodeRGBAInto(bytes, size_bytes, made, all_bytes, (int)row_bytes)) {
+        ewa_release(context, made, all_bytes, 1);
+        return ewa_fail(context, EWA_ERROR_FORMAT, "%s: WebP: the data are broken or cut short", name);
+    }
+    *width_px = (uint32_t)facts.width;
+    *height_px = (uint32_t)facts.height;
+    *codes = made;
+    *code_bytes = all_bytes;
+    return EWA_OK;
+}

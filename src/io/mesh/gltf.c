@@ -24,13 +24,8 @@ enum {
     FAN = 6, // modes of primitives
 };
 
-/// Where a node puts its mesh: three rows of an affine map on column vectors.
-typedef struct placement {
-    double m[3][4];
-} placement;
-
-static placement multiply(const placement *a, const placement *b) {
-    placement made;
+static gltf_placement multiply(const gltf_placement *a, const gltf_placement *b) {
+    gltf_placement made;
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 4; c++) {
             made.m[r][c] = c == 3 ? a->m[r][3] : 0;
@@ -40,7 +35,7 @@ static placement multiply(const placement *a, const placement *b) {
 }
 
 /// Cofactors of the linear part, which carry normals but for their sign; returns the determinant.
-static double cofactors(const placement *at, double cofactor[3][3]) {
+static double cofactors(const gltf_placement *at, double cofactor[3][3]) {
     const double(*m)[4] = at->m;
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++) {
@@ -50,7 +45,7 @@ static double cofactors(const placement *at, double cofactor[3][3]) {
     return m[0][0] * cofactor[0][0] + m[0][1] * cofactor[0][1] + m[0][2] * cofactor[0][2];
 }
 
-static ewa_status read_placement(const gltf *g, uint64_t index, placement *own) {
+static ewa_status read_placement(const gltf *g, uint64_t index, gltf_placement *own) {
     const cJSON *node = g->nodes.items[index];
     double matrix[16], t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
     if (ewa_gltf_member(node, "matrix")) {
@@ -87,21 +82,26 @@ typedef struct primitive {
     bool mirrored;
 } primitive;
 
+ewa_status ewa_gltf_read_attribute(gltf *g, uint64_t mesh, const cJSON *attributes, uint64_t wanted_count,
+                                   const char *name, uint32_t low, uint32_t high, gltf_array *array) {
+    uint64_t accessor;
+    *array = (gltf_array){0};
+    if (!ewa_gltf_member(attributes, name)) return EWA_OK;
+    if (!ewa_gltf_count(attributes, name, 0, &accessor))
+        return ewa_gltf_fail(g, "meshes", mesh, "the number of an accessor is wrong");
+    const ewa_status status = ewa_gltf_read_accessor(g, accessor, low, high, array);
+    if (status != EWA_OK || !wanted_count || array->count == wanted_count) return status;
+    ewa_gltf_free_array(g, array);
+    return ewa_gltf_fail(g, "meshes", mesh, "a primitive has attributes of different lengths");
+}
+
 /// Reads an attribute of as many items as there are vertices; `array` is empty when it is not there.
 static ewa_status read_attribute(gltf *g, const primitive *p, const char *name, uint32_t low, uint32_t high,
                                  gltf_array *array) {
-    uint64_t accessor;
-    *array = (gltf_array){0};
-    if (!ewa_gltf_member(p->attributes, name)) return EWA_OK;
-    if (!ewa_gltf_count(p->attributes, name, 0, &accessor))
-        return ewa_gltf_fail(g, "meshes", p->mesh, "the number of an accessor is wrong");
-    const ewa_status status = ewa_gltf_read_accessor(g, accessor, low, high, array);
-    if (status != EWA_OK || !p->count || array->count == p->count) return status;
-    ewa_gltf_free_array(g, array);
-    return ewa_gltf_fail(g, "meshes", p->mesh, "a primitive has attributes of different lengths");
+    return ewa_gltf_read_attribute(g, p->mesh, p->attributes, p->count, name, low, high, array);
 }
 
-static ewa_status add_positions(gltf *g, primitive *p, const placement *at) {
+static ewa_status add_positions(gltf *g, primitive *p, const gltf_placement *at) {
     gltf_array array;
     ewa_status status = read_attribute(g, p, "POSITION", 3, 3, &array);
     p->count = array.count;
@@ -157,7 +157,7 @@ static ewa_status add_texcoords(gltf *g, primitive *p, uint64_t set) {
     return status;
 }
 
-static ewa_status add_normals(gltf *g, primitive *p, const placement *at) {
+static ewa_status add_normals(gltf *g, primitive *p, const gltf_placement *at) {
     gltf_array array;
     double cofactor[3][3];
     const double sign = cofactors(at, cofactor) < 0 ? -1 : 1;
@@ -201,7 +201,7 @@ static ewa_status add_triangles(gltf *g, const primitive *p, uint64_t mode) {
     return status;
 }
 
-static ewa_status add_primitive(gltf *g, uint64_t mesh, const cJSON *item, const placement *at) {
+static ewa_status add_primitive(gltf *g, uint64_t mesh, const cJSON *item, const gltf_placement *at) {
     primitive p = {.mesh = mesh, .attributes = ewa_gltf_member(item, "attributes")};
     uint64_t mode, material, indices, set = 0;
     ewa_status status = ewa_gltf_spend(g, PRIMITIVE_ITEMS); // many nodes may have one mesh
@@ -230,21 +230,21 @@ static ewa_status add_primitive(gltf *g, uint64_t mesh, const cJSON *item, const
     return status;
 }
 
-static ewa_status add_node(gltf *g, uint64_t index, const placement *above, uint32_t depth) {
+static ewa_status add_node(gltf *g, uint64_t index, const gltf_placement *above, uint32_t depth) {
     if (index >= g->nodes.count) return ewa_gltf_fail(g, "nodes", index, "there is no such one");
     if (g->visited[index]) return ewa_gltf_fail(g, "nodes", index, "it hangs at two places of the tree");
     if (depth > MAX_DEPTH) return ewa_gltf_fail(g, "nodes", index, "the tree is over 256 nodes deep");
     g->visited[index] = true;
     const cJSON *node = g->nodes.items[index], *item;
-    placement own;
+    gltf_placement own;
     uint64_t mesh, child;
     ewa_status status = read_placement(g, index, &own);
     if (status != EWA_OK) return status;
-    const placement at = multiply(above, &own);
+    const gltf_placement at = multiply(above, &own);
     if (!ewa_gltf_count(node, "mesh", UINT64_MAX, &mesh) || (mesh != UINT64_MAX && mesh >= g->meshes.count))
         return ewa_gltf_fail(g, "nodes", index, "there is no such mesh");
     if (mesh != UINT64_MAX) cJSON_ArrayForEach(item, ewa_gltf_member(g->meshes.items[mesh], "primitives")) {
-            status = add_primitive(g, mesh, item, &at);
+            status = g->take(g, mesh, item, &at);
             if (status != EWA_OK) return status;
         }
     cJSON_ArrayForEach(item, ewa_gltf_member(node, "children")) {
@@ -259,7 +259,7 @@ static ewa_status add_node(gltf *g, uint64_t index, const placement *above, uint
 
 /// The nodes of the scene; without scenes, those that are nobody's child.
 static ewa_status add_scene(gltf *g) {
-    static const placement identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+    static const gltf_placement identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
     const cJSON *scenes = ewa_gltf_member(g->root, "scenes"), *item;
     uint64_t number;
     ewa_status status = EWA_OK;
@@ -306,14 +306,16 @@ static ewa_status open_table(const gltf *g, const char *name, gltf_table *table)
 
 /// Extensions without which the file would be drawn wrongly.
 static ewa_status check_extensions(const gltf *g) {
-    static const char *const known[] = {"KHR_texture_transform", "KHR_mesh_quantization", "EXT_texture_webp",
-                                        "KHR_materials_pbrSpecularGlossiness", "KHR_lights_punctual"};
+    static const char *const known[] = {"KHR_texture_transform", "KHR_mesh_quantization",
+                                        "EXT_texture_webp",      "KHR_materials_pbrSpecularGlossiness",
+                                        "KHR_lights_punctual",   "KHR_gaussian_splatting"};
     const cJSON *item;
     char quote[EWA_QUOTE_BYTES];
     cJSON_ArrayForEach(item, ewa_gltf_member(g->root, "extensionsRequired")) {
         const char *name = cJSON_IsString(item) ? item->valuestring : "";
         // How light meets a material is not looked at.
-        bool found = strncmp(name, "KHR_materials_", 14) == 0;
+        bool found =
+            strncmp(name, "KHR_materials_", 14) == 0 || (g->extension && strcmp(name, g->extension) == 0);
         for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
             found = found || strcmp(name, known[i]) == 0;
         if (!found)
@@ -403,11 +405,15 @@ static ewa_status open_container(gltf *g, const uint8_t **json, size_t *json_byt
 }
 
 ewa_status ewa_mesh_read_gltf(ewa_mesh_build *build) {
+    build->float_positions = true; // unless a node moves them
+    return ewa_gltf_walk(build, add_primitive, NULL, NULL);
+}
+
+ewa_status ewa_gltf_walk(ewa_mesh_build *build, gltf_take *take, void *user, const char *extension) {
     const ewa_mesh_source *source = build->source;
-    gltf g = {.build = build};
+    gltf g = {.build = build, .take = take, .user = user, .extension = extension};
     g.items_left = FREE_ITEMS;
     ewa_gltf_grant(&g, source->size_bytes);
-    build->float_positions = true; // unless a node moves them
     const uint8_t *json = source->bytes;
     size_t json_bytes = source->size_bytes;
     ewa_status status = EWA_OK;

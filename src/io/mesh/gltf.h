@@ -26,8 +26,28 @@ typedef struct gltf_buffer {
     size_t decoded_room;
 } gltf_buffer;
 
-typedef struct gltf {
+/// Numbers of an accessor.
+typedef struct gltf_array {
+    double *numbers; ///< count * components
+    uint64_t count;
+    uint32_t components;
+} gltf_array;
+
+typedef struct gltf gltf;
+
+/// Where a node puts its mesh: three rows of an affine map on column vectors.
+typedef struct gltf_placement {
+    double m[3][4];
+} gltf_placement;
+
+/// Takes a primitive, item `item` of mesh `mesh`, of a node.
+typedef ewa_status gltf_take(gltf *g, uint64_t mesh, const cJSON *item, const gltf_placement *at);
+
+struct gltf {
     ewa_mesh_build *build;
+    gltf_take *take;
+    void *user;            ///< of `take`
+    const char *extension; ///< one more that may be required; or NULL
     cJSON *root;
     gltf_table nodes, meshes, accessors, views, buffers, materials, textures, images;
     gltf_buffer *opened;  ///< by buffer
@@ -38,7 +58,15 @@ typedef struct gltf {
     bool has_triangles;
     uint64_t items_granted; ///< vertices and corners that may be made of the file and its buffers
     uint64_t items_left;    ///< of these, by now
-} gltf;
+};
+
+/// Reads a file and has every primitive of its scene taken, which may require one more extension. Errors: EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED,
+/// EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_CANCELLED, and what `take` returns.
+ewa_status ewa_gltf_walk(ewa_mesh_build *build, gltf_take *take, void *user, const char *extension);
+
+/// Reads an attribute of `wanted_count` items (0: as many as there are); `array` is empty when it is not there.
+ewa_status ewa_gltf_read_attribute(gltf *g, uint64_t mesh, const cJSON *attributes, uint64_t wanted_count,
+                                   const char *name, uint32_t low, uint32_t high, gltf_array *array);
 
 /// Reports EWA_ERROR_FORMAT for item `index` of an array of the tree.
 ewa_status ewa_gltf_fail(const gltf *g, const char *array, uint64_t index, const char *what);
@@ -73,13 +101,6 @@ ewa_status ewa_gltf_decode_uri(const gltf *g, const char *array, uint64_t index,
 
 /// Copies a URI that is a path with %XX decoded; false when it is too long.
 bool ewa_gltf_path_of(const char *uri, char *path, size_t room);
-
-/// Numbers of an accessor.
-typedef struct gltf_array {
-    double *numbers; ///< count * components
-    uint64_t count;
-    uint32_t components;
-} gltf_array;
 
 /// Reads all numbers of an accessor with `low` to `high` components. Normalised integers are shares. Free
 /// with ewa_gltf_free_array().

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// ewa convert for Gaussians: to another form of them, moved.
+#ifndef EWA_CLI_CONVERT_GAUSSIANS_H
+#define EWA_CLI_CONVERT_GAUSSIANS_H
+
+#include "session.h"
+
+/// Whether a path is written in a form that only Gaussians have.
+bool convert_gaussians_is_named(const char *path);
+
+/// Reads, maps by `count` matrices, one after the other, and writes. False after reporting.
+bool convert_gaussians(cli_session *session, const char *from, const char *to,
+                       const ewa_gaussians_save_options *options, const double (*matrices)[16],
+                       uint32_t count);
+
+#endif

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Files of Gaussians out: the format by suffix, the set checked.
+#include "base/options.h"
+#include "io/gaussian/save.h"
+
+#include <strings.h>
+
+#define AT(member) offsetof(ewa_gaussians_save_options, member)
+
+static const ewa_option option_rows[] = {
+    {"sh_degree", EWA_OPTION_U32, AT(sh_degree), 0, EWA_MAX_SH_DEGREE, .initial = EWA_MAX_SH_DEGREE,
+     .help = "highest degree of the spherical harmonics that are kept; .splat: 0"},
+    {"spz_version", EWA_OPTION_U32, AT(spz_version), 2, 4, .initial = 3,
+     .help = "of .spz: 2 and 3 are gzip, 3 has finer quaternions, 4 is zstd"},
+};
+
+const ewa_option_table ewa_gaussians_save_options_table =
+    EWA_OPTION_TABLE(ewa_gaussians_save_options, option_rows);
+
+void ewa_gaussians_save_options_init(ewa_gaussians_save_options *options, size_t struct_size) {
+    ewa_options_init(&ewa_gaussians_save_options_table, options, struct_size);
+}
+
+static const struct {
+    const char *suffix;
+    ewa_gaussian_format format;
+    ewa_gaussian_write *write;
+} formats[] = {
+    {".ply", EWA_GAUSSIANS_PLY, ewa_gaussians_write_ply},
+    {".splat", EWA_GAUSSIANS_SPLAT, ewa_gaussians_write_splat},
+    {".spz", EWA_GAUSSIANS_SPZ, ewa_gaussians_write_spz},
+};
+enum { FORMAT_COUNT = sizeof formats / sizeof formats[0] };
+
+/// The row of `formats` for a path; FORMAT_COUNT: none.
+static size_t find_format(const char *path) {
+    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+    if (strcmp(path, "-") == 0) return 0;
+    size_t i = 0;
+    while (i < FORMAT_COUNT && !(dot && strcasecmp(dot, formats[i].suffix) == 0)) i++;
+    return i;
+}
+
+ewa_gaussian_format ewa_gaussians_format_of(const char *path) {
+    const size_t found = path ? find_format(path) : FORMAT_COUNT;
+    return found < FORMAT_COUNT ? formats[found].format : EWA_GAUSSIANS_NONE;
+}
+
+/// A set that a caller filled may hold anything.
+static ewa_status check_set(const ewa_gaussians *set) {
+    const uint32_t numbers = 3 * ewa_sh_count(set->sh_degree);
+    for (size_t i = 0; i < set->count; i++) {
+        double sum = (double)set->opacities[i];
+        bool fine = sum >= 0 && sum <= 1;
+        for (size_t k = 0; k < 3; k++) {
+            sum += 0 * ((double)set->centers[3 * i + k] + (double)set->scales[3 * i + k]);
+            fine &= set->scales[3 * i + k] >= 0;
+        }
+        for (size_t k = 0; k < 4; k++) sum += 0 * (double)set->rotations[4 * i + k];
+        for (size_t k = 0; k < numbers; k++) sum += 0 * (double)set->harmonics[i * numbers + k];
+        if (!fine || !isfinite(sum))
+            return ewa_fail(
+                set->context, EWA_ERROR_ARGUMENT,
+                "Gaussian %zu of %u has a number that is not finite, a scale below 0 or an opacity "
+                "that is not in [0, 1]",
+                i, set->count);
+    }
+    return EWA_OK;
+}
+
+ewa_status ewa_gaussians_save(const ewa_gaussians *gaussians, const char *path,
+                              const ewa_gaussians_save_options *options) {
+    if (!gaussians || !gaussians->context || !path) return EWA_ERROR_ARGUMENT;
+    ewa_context *context = gaussians->context;
+    ewa_gaussians_save_options chosen;
+    ewa_gaussians_save_options_init(&chosen, sizeof chosen);
+    ewa_status status = ewa_options_take(context, &ewa_gaussians_save_options_table, options, &chosen);
+    if (status != EWA_OK) return status;
+    const size_t format = find_format(path);
+    if (format == FORMAT_COUNT)
+        return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: Gaussians are written to .ply, .splat and .spz",
+                        path);
+    if (gaussians->count == 0 || gaussians->sh_degree > EWA_MAX_SH_DEGREE)
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: there are no Gaussians, or harmonics of degree %u",
+                        path, gaussians->sh_degree);
+    status = check_set(gaussians);
+    if (status != EWA_OK) return status;
+    ewa_gaussian_target target = {
+        .set = gaussians,
+        .name = path,
+        .sh_degree = chosen.sh_degree < gaussians->sh_degree ? chosen.sh_degree : gaussians->sh_degree,
+        .spz_version = chosen.spz_version,
+    };
+    status = ewa_writer_open(context, path, &target.writer);
+    if (status != EWA_OK) return status;
+    status = formats[format].write(&target);
+    if (status == EWA_OK) return ewa_writer_commit(&target.writer);
+    ewa_writer_abort(&target.writer);
+    return status;
+}

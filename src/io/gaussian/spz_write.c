@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Gaussians as SPZ: see spz.c for its numbers. Version 4 says that the axes are those of 3DGS, as the numbers are
+// written; the versions before have no place for it.
+#include "io/gaussian/save.h"
+#include "io/gaussian/spz.h"
+
+#include <libdeflate.h>
+#include <zstd.h>
+
+enum {
+    GZIP_LEVEL = 6,
+    ZSTD_LEVEL = 12,
+    FIXED_HALF = 1 << 23, ///< fixed-point numbers are below this
+    FRACTION_BITS = 12,   ///< at least, where coordinates allow it
+    MOST_FRACTION_BITS = 22,
+    BOX_STEPS = 1 << 18, ///< of the longest side of the box, where coordinates allow it
+    AXES_RIGHT_DOWN_FRONT = 6,
+    EXTENSION_BYTES = 12,
+    TABLE_ENTRY_BYTES = 16,
+};
+
+/// Finds how many bits of fraction coordinates get. Errors: EWA_ERROR_LIMIT.
+static ewa_status choose_fraction(const ewa_gaussian_target *target, uint32_t *bits) {
+    const ewa_gaussians *set = target->set;
+    ewa_bounds box;
+    double largest = 0, side = 0;
+    const ewa_status status = ewa_gaussians_measure(set, &box);
+    if (status != EWA_OK) return status;
+    for (int k = 0; k < 3; k++) {
+        largest = fmax(largest, fmax(fabs(box.low_world[k]), fabs(box.high_world[k])));
+        side = fmax(side, box.high_world[k] - box.low_world[k]);
+    }
+    if (!(largest < FIXED_HALF - 1))
+        return ewa_fail(
+            set->context, EWA_ERROR_LIMIT,
+            "%s: coordinates up to %.9g do not fit the 24 bits of SPZ; 'ewa convert --translate' moves "
+            "them",
+            target->name, largest);
+    *bits = FRACTION_BITS;
+    while (*bits < MOST_FRACTION_BITS && ldexp(side, (int)*bits) < BOX_STEPS) ++*bits;
+    while (*bits > 0 && !(ldexp(largest, (int)*bits) < FIXED_HALF - 1)) --*bits;
+    if (*bits < FRACTION_BITS)
+        ewa_report(set->context, EWA_SEVERITY_WARNING,
+                   "%s: coordinates up to %.9g leave SPZ steps of %.3g between places", target->name, largest,
+                   ldexp(1, -(int)*bits));
+    return EWA_OK;
+}
+
+/// Where the streams are being filled.
+typedef struct packing {
+    const ewa_gaussians *set;
+    ewa_spz_header header;
+    uint8_t *streams[EWA_SPZ_STREAMS];
+} packing;
+
+static void pack_center(const packing *p, size_t i) {
+    uint8_t *to = p->streams[EWA_SPZ_CENTERS] + 9 * i;
+    for (size_t k = 0; k < 3; k++) {
+        const double world = p->set->origin[k] + (double)p->set->centers[3 * i + k];
+        const int32_t fixed = (int32_t)floor(ldexp(world, (int)p->header.fraction_bits) + 0.5);
+        for (int b = 0; b < 3; b++) *to++ = (uint8_t)((uint32_t)fixed >> 8 * b);
+    }
+}
+
+static void pack_rotation(const packing *p, size_t i) {
+    const float *rotation = p->set->rotations + 4 * i;
+    double q[4]; // x y z w
+    uint32_t largest = 3;
+    for (uint32_t k = 0; k < 4; k++) q[k] = (double)rotation[(k + 1) % 4];
+    if (p->header.version == 2) {
+        uint8_t *to = p->streams[EWA_SPZ_ROTATIONS] + 3 * i;
+        for (uint32_t k = 0; k < 3; k++) to[k] = ewa_byte_of(127.5 + (q[3] < 0 ? -127.5 : 127.5) * q[k]);
+        return;
+    }
+    for (uint32_t k = 0; k < 4; k++)
+        if (fabs(q[k]) > fabs(q[largest])) largest = k;
+    uint32_t word = largest;
+    for (uint32_t k = 0; k < 4; k++) {
+        if (k == largest) continue;
+        const uint32_t size = (uint32_t)fmin(511 * fabs(q[k]) * sqrt(2) + 0.5, 511);
+        word = word << 10 | ((q[k] < 0) != (q[largest] < 0) ? 512u : 0u) | size;
+    }
+    ewa_put_u32(p->streams[EWA_SPZ_ROTATIONS] + 4 * i, word);
+}
+
+static void pack(void *data, uint32_t first, uint32_t end) {
+    const packing *p = data;
+    const ewa_gaussians *set = p->set;
+    const size_t rest = ewa_spz_stream_bytes(&p->header, EWA_SPZ_HARMONICS);
+    for (size_t i = first; i < end; i++) {
+        const float *harmonics = set->harmonics + i * 3 * ewa_sh_count(set->sh_degree);
+        pack_center(p, i);
+        pack_rotation(p, i);
+        for (size_t k = 0; k < 3; k++) {
+            p->streams[EWA_SPZ_SCALES][3 * i + k] =
+                ewa_byte_of(16 * (ewa_log_scale(set->scales[3 * i + k]) + 10));
+            p->streams[EWA_SPZ_COLORS][3 * i + k] =
+                ewa_byte_of(255 * (0.5 + EWA_SPZ_COLOR * (double)harmonics[k]));
+        }
+        p->streams[EWA_SPZ_OPACITIES][i] = ewa_byte_of(255 * (double)set->opacities[i]);
+        for (size_t k = 0; k < rest; k++)
+            p->streams[EWA_SPZ_HARMONICS][i * rest + k] = ewa_byte_of(128 + 128 * (double)harmonics[3 + k]);
+    }
+}
+
+static void put_head(const ewa_spz_header *header, uint8_t *to) {
+    to = ewa_put_u32(to, EWA_SPZ_MAGIC);
+    to = ewa_put_u32(to, header->version);
+    to = ewa_put_u32(to, header->count);
+    *to++ = (uint8_t)header->sh_degree;
+    *to++ = (uint8_t)header->fraction_bits;
+    *to++ = (uint8_t)header->flags;
+    *to++ = (uint8_t)header->stream_count;
+}
+
+/// Packs head and streams, which follow each other, as one gzip stream.
+static ewa_status put_gzip(const ewa_gaussian_target *target, const uint8_t *bytes, size_t size_bytes) {
+    ewa_context *context = target->set->context;
+    struct libdeflate_compressor *compressor = libdeflate_alloc_compressor(GZIP_LEVEL);
+    if (!compressor) return ewa_fail(context, EWA_ERROR_MEMORY, "no memory for the compressor");
+    const size_t bound_bytes = libdeflate_gzip_compress_bound(compressor, size_bytes);
+    uint8_t *packed = ewa_allocate(context, bound_bytes, 1);
+    ewa_status status = EWA_ERROR_MEMORY;
+    if (packed)
+        status = ewa_writer_put(target->writer, packed,
+                                libdeflate_gzip_compress(compressor, bytes, size_bytes, packed, bound_bytes));
+    ewa_release(context, packed, bound_bytes, 1);
+    libdeflate_free_compressor(compressor);
+    return status;
+}
+
+/// Packs every stream on its own behind a head that says how long each became.
+static ewa_status put_zstd(const ewa_gaussian_target *target, packing *p) {
+    ewa_context *context = target->set->context;
+    const uint32_t streams = p->header.sh_degree ? EWA_SPZ_STREAMS : EWA_SPZ_STREAMS - 1;
+    uint8_t head[EWA_SPZ_OPEN_BYTES + EXTENSION_BYTES + EWA_SPZ_STREAMS * TABLE_ENTRY_BYTES] = {0};
+    p->header.stream_count = streams;
+    p->header.flags |= EWA_SPZ_EXTENDED;
+    put_head(&p->header, head);
+    ewa_put_u32(head + EWA_SPZ_HEAD_BYTES, EWA_SPZ_OPEN_BYTES + EXTENSION_BYTES);
+    uint8_t *to = ewa_put_u32(head + EWA_SPZ_OPEN_BYTES, EWA_SPZ_AXES);
+    to = ewa_put_u32(ewa_put_u32(to, 4), AXES_RIGHT_DOWN_FRONT);
+    size_t room = 0, used = 0;
+    for (uint32_t k = 0; k < streams; k++)
+        room += ZSTD_compressBound((size_t)ewa_spz_stream_bytes(&p->header, k) * p->header.count);
+    uint8_t *packed = ewa_allocate(context, room, 1);
+    ewa_status status = packed ? EWA_OK : EWA_ERROR_MEMORY;
+    for (uint32_t k = 0; k < streams && status == EWA_OK; k++) {
+        const size_t whole = (size_t)ewa_spz_stream_bytes(&p->header, k) * p->header.count;
+        const size_t got = ZSTD_compress(packed + used, room - used, p->streams[k], whole, ZSTD_LEVEL);
+        if (ZSTD_isError(got)) {
+            status = ewa_fail(context, EWA_ERROR_MEMORY, "%s: %s", target->name, ZSTD_getErrorName(got));
+            break;
+        }
+        to = ewa_put_u64(ewa_put_u64(to, got), whole);
+        used += got;
+    }
+    if (status == EWA_OK) status = ewa_writer_put(target->writer, head, (size_t)(to - head));
+    if (status == EWA_OK) status = ewa_writer_put(target->writer, packed, used);
+    ewa_release(context, packed, room, 1);
+    return status;
+}
+
+ewa_status ewa_gaussians_write_spz(const ewa_gaussian_target *target) {
+    const ewa_gaussians *set = target->set;
+    packing p = {.set = set,
+                 .header = {.version = target->spz_version,
+                            .count = set->count,
+                            .sh_degree = target->sh_degree,
+                            .flags = set->antialiased ? EWA_SPZ_ANTIALIASED : 0}};
+    ewa_status status = choose_fraction(target, &p.header.fraction_bits);
+    if (status != EWA_OK) return status;
+    size_t size_bytes = EWA_SPZ_HEAD_BYTES;
+    for (uint32_t k = 0; k < EWA_SPZ_STREAMS; k++)
+        size_bytes += (size_t)ewa_spz_stream_bytes(&p.header, k) * set->count;
+    uint8_t *bytes = ewa_allocate(set->context, size_bytes, 1);
+    if (!bytes) return EWA_ERROR_MEMORY;
+    put_head(&p.header, bytes);
+    uint8_t *to = bytes + EWA_SPZ_HEAD_BYTES;
+    for (uint32_t k = 0; k < EWA_SPZ_STREAMS; k++) {
+        p.streams[k] = to;
+        to += (size_t)ewa_spz_stream_bytes(&p.header, k) * set->count;
+    }
+    ewa_gaussians_decode(set->context, set->count, pack, &p);
+    status = target->spz_version < 4 ? put_gzip(target, bytes, size_bytes) : put_zstd(target, &p);
+    ewa_release(set->context, bytes, size_bytes, 1);
+    if (status == EWA_OK && set->flat)
+        ewa_report(set->context, EWA_SEVERITY_WARNING,
+                   "%s: SPZ does not say that Gaussians are flat: their third scale is e^-10", target->name);
+    return status;
+}

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Files of Gaussians by the program: told of, turned into each other, moved; what cannot be is said.
+#include "run_ewa.h"
+
+#include <math.h>
+
+static const char head[] =
+    "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+    "property float z\nproperty float f_dc_0\nproperty float f_dc_1\nproperty float f_dc_2\n"
+    "%sproperty float opacity\nproperty float scale_0\nproperty float scale_1\n%s"
+    "property float rot_0\nproperty float rot_1\nproperty float rot_2\nproperty float rot_3\n"
+    "end_header\n%s";
+
+static int enter(void **state) {
+    (void)state;
+    static char text[4096], rest[1024];
+    rest[0] = 0;
+    for (int k = 0; k < 9; k++)
+        snprintf(rest + strlen(rest), sizeof rest - strlen(rest), "property float f_rest_%d\n", k);
+    const int status = scratch_enter("cli_gaussians");
+    snprintf(text, sizeof text, head, rest, "property float scale_2\n",
+             "1 2 3 0 .1 .2 .5 0 0 0 0 0 0 0 0 0 -2 -3 -4 1 0 0 0\n"
+             "4 5 6 1 .1 .2 .5 0 0 0 0 0 0 0 0 0 -2 -3 -4 0 1 0 0\n");
+    scratch_text("three.ply", text);
+    snprintf(text, sizeof text, head, "", "",
+             "1 2 3 0 .1 .2 0 -2 -3 1 0 0 0\n4 5 6 1 .1 .2 0 -2 -3 0 1 0 0\n");
+    scratch_text("two.ply", text);
+    snprintf(text, sizeof text, head, "", "",
+             "1 2 3 0 .1 .2 0 -2 -3 1 0 0 0\n4 5 6 1 .1 .2 0 -2 nan 0 1 0 0\n");
+    scratch_text("broken.ply", text);
+    return status;
+}
+
+static void said(const char *what) {
+    if (!strstr(last_run.out, what)) fail_msg("'%s' is not in:\n%s", what, last_run.out);
+}
+
+static void told(void **state) {
+    (void)state;
+    run_done("ewa info three.ply");
+    said("holds       3D Gaussians, spherical harmonics of degree 1");
+    said("with a filter that thickens");
+    said("sizes       median 0.04979"); // e^-3
+    said("opacities   median 0.5");
+    run_done("ewa info two.ply");
+    said("holds       2D Gaussians, spherical harmonics of degree 0");
+    run_done("ewa convert three.ply -o a.spz && ewa info a.spz");
+    said("format      SPZ, version 3");
+    said("gaussians   2");
+    said("low         1 2 3");
+    said("high        4 5 6");
+    run_done("ewa info a.spz --json");
+    said("\"format\": \"SPZ\"");
+    said("\"version\": 3");
+    said("\"sh_degree\": 1");
+    said("\"antialiased\": false");
+    run_done("ewa info three.ply --json");
+    said("\"median_opacity\": 0.5");
+    said("\"format\": \"3DGS PLY\"");
+}
+
+static void converted(void **state) {
+    (void)state;
+    run_done("ewa convert three.ply -o b.spz --spz-version 4 && ewa info b.spz");
+    said("version 4");
+    said("up          0 -1 0"); // named there
+    run_done("ewa convert three.ply -o b.spz --spz-version 2 --sh-degree 0 && ewa info b.spz");
+    said("version 2");
+    said("degree 0");
+    assert_int_equal(run("ewa convert three.ply -o b.splat"), 0);
+    assert_non_null(strstr(last_run.err, "degree 1 to 1"));
+    assert_int_equal(scratch_size("b.splat"), 64);
+    run_done("ewa convert b.splat -o c.ply && ewa info c.ply");
+    said("3D Gaussians, spherical harmonics of degree 0");
+    run_done("ewa convert a.spz -o c.ply && ewa info c.ply");
+    said("3D Gaussians, spherical harmonics of degree 1");
+    run_done("ewa convert two.ply -o d.splat && ewa convert d.splat -o - > e.ply && ewa info e.ply");
+    said("3D Gaussians"); // .splat does not say that they are flat
+    // As points: passed through with every column.
+    run_done("ewa convert three.ply -o f.ply && ewa info f.ply");
+    said("f_rest_8");
+    // Others become surfels for who wants points.
+    run_done("ewa convert a.spz -o g.ply --scale 1 && ewa surfels b.splat -o h.ply && ewa info h.ply");
+    said("tangent_u");
+    said("color");
+    // Centres alone keep their colours: 0.5 + 0.2821 of 0 and 1.
+    run_done("ewa surfels three.ply -o i.ply --keep-normals off && ewa info i.ply");
+    said("color                uchar  128 .. 199, 135 .. 135, 142 .. 142");
+}
+
+/// Scales follow, and where they are.
+static void moved(void **state) {
+    (void)state;
+    run_done("ewa convert three.ply -o m.ply --scale 2 --translate 0,0,1000000 && ewa info m.ply");
+    said("sizes       median 0.09957"); // 2 e^-3
+    said("low         2 4 1000006");
+    run_done("ewa convert two.ply -o n.ply --transform 0,-1,0,0,1,0,0,0,0,0,1,0,0,0,0,1 && ewa info n.ply");
+    said("2D Gaussians");
+    said("low         -5 1 3");
+}
+
+static void refused(void **state) {
+    (void)state;
+    const int before = scratch_count();
+    run_fails(1, "broken.ply: Gaussian 1 of 2: a scale is not finite", "ewa info broken.ply");
+    run_fails(1, "broken.ply: Gaussian 1 of 2: a scale is not finite", "ewa convert broken.ply -o x.spz");
+    run_fails(1, "--crop: Gaussians are converted as a whole",
+              "ewa convert three.ply -o x.spz --crop 0,0,0,1,1,1");
+    run_fails(1, "--ascii: Gaussians are converted as a whole", "ewa convert a.spz -o x.ply --ascii");
+    run_fails(1, "several files are not merged", "ewa convert three.ply two.ply -o x.spz");
+    run_fails(2, "output", "ewa surfels three.ply -o x.spz");
+    run_fails(2, "spz-version", "ewa convert three.ply -o x.spz --spz-version 5");
+    scratch_text("points.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                               "property float z\nend_header\n1 2 3\n");
+    run_fails(1, "points.ply: no Gaussians of a known form", "ewa convert points.ply -o x.spz");
+    run_fails(1, "missing.spz", "ewa convert missing.spz -o x.splat");
+    run_fails(1, "missing.spz", "ewa info missing.spz");
+    assert_int_equal(run("head -c 40 a.spz > cut.spz && ewa info cut.spz"), 1);
+    assert_non_null(strstr(last_run.err, "cut.spz: "));
+    assert_int_equal(scratch_count(), before + 2);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(told),
+        cmocka_unit_test(converted),
+        cmocka_unit_test(moved),
+        cmocka_unit_test(refused),
+    };
+    return cmocka_run_group_tests(tests, enter, NULL);
+}

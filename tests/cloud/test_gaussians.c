@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Sets of Gaussians: moved ones have the covariances and the colours that the map gives; surfels of them.
+#include "../check.h"
+
+#include "cloud/gaussian_turn.h"
+
+#include <math.h>
+
+enum { COUNT = 20 };
+
+static void fill(ewa_context *context, uint32_t sh_degree, check_random *random, ewa_gaussians *set) {
+    assert_int_equal(ewa_gaussians_create(context, COUNT, sh_degree, set), EWA_OK);
+    const uint32_t numbers = 3 * (sh_degree + 1) * (sh_degree + 1);
+    for (uint32_t i = 0; i < COUNT; i++) {
+        double norm2 = 0;
+        for (int k = 0; k < 4; k++) {
+            set->rotations[4 * i + (uint32_t)k] = (float)check_uniform(random, -1, 1);
+            norm2 += pow((double)set->rotations[4 * i + (uint32_t)k], 2);
+        }
+        for (uint32_t k = 0; k < 4; k++) set->rotations[4 * i + k] /= (float)sqrt(norm2);
+        for (uint32_t k = 0; k < 3; k++) {
+            set->centers[3 * i + k] = (float)check_uniform(random, -2, 2);
+            set->scales[3 * i + k] = (float)check_uniform(random, 0.01, 1);
+        }
+        set->opacities[i] = (float)check_uniform(random, 0, 1);
+        for (uint32_t k = 0; k < numbers; k++)
+            set->harmonics[i * numbers + k] = (float)check_uniform(random, -1, 1);
+    }
+    set->origin[0] = 10;
+}
+
+static void covariance(const ewa_gaussians *set, uint32_t i, double sigma[9]) {
+    const float *q = set->rotations + 4 * i;
+    const double w = (double)q[0], x = (double)q[1], y = (double)q[2], z = (double)q[3];
+    const double r[9] = {1 - 2 * (y * y + z * z), 2 * (x * y - w * z),     2 * (x * z + w * y),
+                         2 * (x * y + w * z),     1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
+                         2 * (x * z - w * y),     2 * (y * z + w * x),     1 - 2 * (x * x + y * y)};
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++) {
+            sigma[3 * a + b] = 0;
+            for (int k = 0; k < 3; k++)
+                sigma[3 * a + b] +=
+                    r[3 * a + k] * r[3 * b + k] * pow((double)set->scales[3 * i + (uint32_t)k], 2);
+        }
+}
+
+static double red_in(const ewa_gaussians *set, uint32_t i, const double direction[3]) {
+    double values[25], sum = 0;
+    const uint32_t count = (set->sh_degree + 1) * (set->sh_degree + 1);
+    ewa_sh_values(direction, set->sh_degree, values);
+    for (uint32_t k = 0; k < count; k++) sum += values[k] * (double)set->harmonics[3 * (i * count + k)];
+    return sum;
+}
+
+static void check_moved(const double m[16], const double turn[9], uint32_t sh_degree) {
+    ewa_context *context = check_context(1, NULL);
+    check_random random = {7};
+    ewa_gaussians before, after;
+    fill(context, sh_degree, &random, &before);
+    random.state = 7;
+    fill(context, sh_degree, &random, &after);
+    assert_int_equal(ewa_gaussians_transform(&after, m), EWA_OK);
+    for (uint32_t i = 0; i < COUNT; i++) {
+        double sigma[9], moved[9];
+        covariance(&before, i, sigma);
+        covariance(&after, i, moved);
+        for (int a = 0; a < 3; a++) {
+            double center = m[4 * a + 3];
+            for (int k = 0; k < 3; k++)
+                center += m[4 * a + k] * (before.origin[k] + (double)before.centers[3 * i + (uint32_t)k]);
+            assert_true(fabs(center - after.origin[a] - (double)after.centers[3 * i + (uint32_t)a]) < 1e-5);
+            for (int b = 0; b < 3; b++) {
+                double wanted = 0;
+                for (int k = 0; k < 3; k++)
+                    for (int l = 0; l < 3; l++) wanted += m[4 * a + k] * sigma[3 * k + l] * m[4 * b + l];
+                assert_true(fabs(wanted - moved[3 * a + b]) < 2e-5);
+            }
+        }
+        const double from[3] = {0.48, -0.6, 0.64};
+        double to[3];
+        for (int r = 0; r < 3; r++)
+            to[r] = turn[3 * r] * from[0] + turn[3 * r + 1] * from[1] + turn[3 * r + 2] * from[2];
+        assert_true(fabs(red_in(&before, i, from) - red_in(&after, i, to)) < 1e-5);
+    }
+    ewa_gaussians_free(&before);
+    ewa_gaussians_free(&after);
+    ewa_context_destroy(&context);
+}
+
+static void similar(void **state) {
+    (void)state;
+    // A turn about a slanted axis, twice as large.
+    const double turn[9] = {2.0 / 3,  -1.0 / 3, 2.0 / 3, 2.0 / 3, 2.0 / 3,
+                            -1.0 / 3, -1.0 / 3, 2.0 / 3, 2.0 / 3};
+    for (uint32_t degree = 0; degree <= 4; degree++) {
+        double m[16] = {0};
+        for (int r = 0; r < 3; r++)
+            for (int c = 0; c < 3; c++) m[4 * r + c] = 2 * turn[3 * r + c];
+        m[3] = 1, m[7] = -2, m[11] = 3, m[15] = 1;
+        check_moved(m, turn, degree);
+    }
+}
+
+static void mirrored(void **state) {
+    (void)state;
+    const double m[16] = {1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    check_moved(m, (const double[]){1, 0, 0, 0, -1, 0, 0, 0, 1}, 4);
+}
+
+static void stretched(void **state) {
+    (void)state;
+    const double m[16] = {2, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    check_moved(m, (const double[]){1, 0, 0, 0, 1, 0, 0, 0, 1}, 2);
+    const double sheared[16] = {1, 0.5, 0, 0, 0, 1, 0.25, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    check_moved(sheared, (const double[]){1, 0, 0, 0, 1, 0, 0, 0, 1}, 2);
+}
+
+/// Flat ones stay flat, with the third axis as the normal.
+static void flat(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    ewa_gaussians set;
+    assert_int_equal(ewa_gaussians_create(context, 1, 0, &set), EWA_OK);
+    set.flat = true;
+    set.scales[0] = 1, set.scales[1] = 2, set.rotations[0] = 1;
+    const double m[16] = {1, 0, 0, 0, 0, 1, 0.5, 0, 0, 0, 3, 0, 0, 0, 0, 1};
+    assert_int_equal(ewa_gaussians_transform(&set, m), EWA_OK);
+    assert_true(fabs((double)set.scales[0] - 1) < 1e-6 && fabs((double)set.scales[1] - 2) < 1e-6);
+    assert_true(set.scales[2] == 0 && fabs(fabs((double)set.rotations[0]) - 1) < 1e-6);
+    const double zero[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1};
+    assert_int_equal(ewa_gaussians_transform(&set, zero), EWA_ERROR_NUMERIC);
+    const double last[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1};
+    assert_int_equal(ewa_gaussians_transform(&set, last), EWA_ERROR_ARGUMENT);
+    ewa_gaussians_free(&set);
+    ewa_context_destroy(&context);
+}
+
+/// The shortest axis is the normal, wherever it is; colours are of the display, clouds hold light.
+static void surfels(void **state) {
+    (void)state;
+    static const float scales[3][3] = {{3, 2, 1}, {3, 1, 2}, {1, 3, 2}};
+    for (int shortest = 2, n = 0; shortest >= 0; shortest--, n++) {
+        ewa_context *context = check_context(1, NULL);
+        ewa_gaussians set;
+        assert_int_equal(ewa_gaussians_create(context, 1, 1, &set), EWA_OK);
+        memcpy(set.scales, scales[n], sizeof scales[n]);
+        // A quarter of a turn about z: x becomes y.
+        set.rotations[0] = set.rotations[3] = (float)sqrt(0.5);
+        set.opacities[0] = 0.25f;
+        set.harmonics[0] = (float)(0.5 / 0.28209479177387814); // white
+        set.harmonics[2] = -9;
+        set.origin[1] = 5;
+        ewa_cloud *cloud;
+        assert_int_equal(ewa_gaussians_to_cloud(&set, &cloud), EWA_OK);
+        static const char *const names[] = {EWA_TANGENT_U, EWA_TANGENT_V, EWA_NORMAL, EWA_COLOR};
+        float numbers[4][4];
+        for (int k = 0; k < 4; k++) ewa_attribute_read_f32(ewa_cloud_find(cloud, names[k]), 0, 1, numbers[k]);
+        static const int turned[3] = {1, 0, 2};
+        const int u = (shortest + 1) % 3, v = (shortest + 2) % 3;
+        assert_true(fabs(fabs((double)numbers[0][turned[u]]) - (double)set.scales[u]) < 1e-6);
+        assert_true(fabs(fabs((double)numbers[1][turned[v]]) - (double)set.scales[v]) < 1e-6);
+        assert_true(fabs(fabs((double)numbers[2][turned[shortest]]) - 1) < 1e-6);
+        double across = 0; // u x v along the normal
+        for (int k = 0; k < 3; k++)
+            across +=
+                (double)numbers[2][k] * ((double)numbers[0][(k + 1) % 3] * (double)numbers[1][(k + 2) % 3] -
+                                         (double)numbers[0][(k + 2) % 3] * (double)numbers[1][(k + 1) % 3]);
+        assert_true(across > 0);
+        assert_true(fabs((double)numbers[3][0] - 1) < 1e-6);
+        assert_true(fabs((double)numbers[3][1] - 0.21404114) < 1e-6 && numbers[3][2] == 0);
+        assert_true(numbers[3][3] == 0.25f);
+        double origin[3];
+        ewa_cloud_origin(cloud, origin);
+        assert_true(origin[1] == 5);
+        ewa_cloud_destroy(&cloud);
+        ewa_gaussians_free(&set);
+        ewa_context_destroy(&context);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(similar), cmocka_unit_test(mirrored), cmocka_unit_test(stretched),
+        cmocka_unit_test(flat),    cmocka_unit_test(surfels),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

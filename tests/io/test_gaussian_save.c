@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Gaussians that are written and read again: what each form keeps, and how exactly; what it cannot keep is said.
+#include "gaussian_sample.h"
+#include "scratch.h"
+
+#include <float.h>
+
+/// The sample as a set, of any degree.
+static void make_set(ewa_context *context, uint32_t sh_degree, ewa_gaussians *set) {
+    assert_int_equal(ewa_gaussians_create(context, SAMPLE_COUNT, sh_degree, set), EWA_OK);
+    const uint32_t coefficients = (sh_degree + 1) * (sh_degree + 1);
+    for (uint32_t i = 0; i < SAMPLE_COUNT; i++) {
+        for (uint32_t k = 0; k < 3; k++) {
+            set->centers[3 * i + k] = (float)sample_center(i, k);
+            set->scales[3 * i + k] = (float)sample_scale(i, k);
+            for (uint32_t n = 0; n < coefficients; n++)
+                set->harmonics[3 * (i * coefficients + n) + k] =
+                    (float)(n ? sample_rest(n, k) : sample_first(i));
+        }
+        for (uint32_t k = 0; k < 4; k++) set->rotations[4 * i + k] = (float)sample_turn(i, k);
+        set->opacities[i] = (float)sample_opacity(i);
+    }
+}
+
+/// Writes and reads again.
+static void pass(ewa_context *context, const ewa_gaussians *set, const char *name, uint32_t sh_degree,
+                 uint32_t spz_version, ewa_gaussians *read, ewa_gaussian_facts *facts) {
+    char path[512];
+    ewa_gaussians_save_options options;
+    ewa_gaussians_save_options_init(&options, sizeof options);
+    if (sh_degree < 4) options.sh_degree = sh_degree;
+    if (spz_version) options.spz_version = spz_version;
+    assert_int_equal(ewa_gaussians_save(set, scratch_path(name, path), &options), EWA_OK);
+    assert_int_equal(ewa_gaussians_load(context, path, read, facts), EWA_OK);
+}
+
+static void round_trips(void **state) {
+    (void)state;
+    static const struct {
+        const char *name;
+        uint32_t version, degree;
+        ewa_gaussian_format format;
+        sample_limits limits;
+    } cases[] = {{"a.ply", 0, 4, EWA_GAUSSIANS_PLY, {0, 1e-6, 1e-6, 1e-6, 0, 0}},
+                 {"a.ply", 0, 1, EWA_GAUSSIANS_PLY, {0, 1e-6, 1e-6, 1e-6, 0, 0}},
+                 {"a.splat", 0, 0, EWA_GAUSSIANS_SPLAT, {0, 0, 2e-4, 2e-3, 1e-2, 0}},
+                 {"a.spz", 2, 3, EWA_GAUSSIANS_SPZ, {4e-6, 4e-2, 2e-4, 2e-3, 2e-2, 1e-2}},
+                 {"a.spz", 0, 4, EWA_GAUSSIANS_SPZ, {4e-6, 4e-2, 2e-6, 2e-3, 2e-2, 1e-2}},
+                 {"a.spz", 4, 4, EWA_GAUSSIANS_SPZ, {4e-6, 4e-2, 2e-6, 2e-3, 2e-2, 1e-2}},
+                 {"a.spz", 4, 0, EWA_GAUSSIANS_SPZ, {4e-6, 4e-2, 2e-6, 2e-3, 2e-2, 1e-2}}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+        for (int antialiased = 0; antialiased < 2; antialiased++) {
+            ewa_context *context = check_context(2, NULL);
+            ewa_gaussians set, read;
+            ewa_gaussian_facts facts;
+            make_set(context, 4, &set);
+            set.antialiased = antialiased;
+            pass(context, &set, cases[i].name, cases[i].degree, cases[i].version, &read, &facts);
+            assert_int_equal(facts.format, cases[i].format);
+            if (facts.format == EWA_GAUSSIANS_SPZ)
+                assert_int_equal(facts.version, cases[i].version ? cases[i].version : 3);
+            assert_true(read.antialiased == (antialiased && cases[i].format != EWA_GAUSSIANS_SPLAT));
+            assert_false(read.flat);
+            sample_check(&read, cases[i].degree, &cases[i].limits);
+            ewa_gaussians_free(&set);
+            ewa_gaussians_free(&read);
+            ewa_context_destroy(&context);
+        }
+}
+
+/// Random turns come back, whichever component is the largest.
+static void turns(void **state) {
+    (void)state;
+    enum { TURNS = 500 };
+    static const struct {
+        const char *name;
+        uint32_t version;
+        double limit; ///< of 1 - the cosine of half the angle between
+    } cases[] = {
+        {"t.splat", 0, 2e-4}, {"t.spz", 2, 6e-3}, {"t.spz", 3, 4e-6}, {"t.spz", 4, 4e-6}, {"t.ply", 0, 1e-6}};
+    check_random random = {11};
+    ewa_context *context = check_context(1, NULL);
+    ewa_gaussians set, read;
+    assert_int_equal(ewa_gaussians_create(context, TURNS, 0, &set), EWA_OK);
+    for (uint32_t i = 0; i < TURNS; i++) {
+        double q[4], norm2 = 0;
+        for (int k = 0; k < 4; k++) {
+            q[k] = i < 4 ? k == (int)i : check_uniform(&random, -1, 1);
+            norm2 += q[k] * q[k];
+        }
+        for (uint32_t k = 0; k < 4; k++) set.rotations[4 * i + k] = (float)(q[k] / sqrt(norm2));
+        for (uint32_t k = 0; k < 3; k++) set.scales[3 * i + k] = 1;
+    }
+    for (size_t c = 0; c < sizeof cases / sizeof cases[0]; c++) {
+        pass(context, &set, cases[c].name, 0, cases[c].version, &read, NULL);
+        for (uint32_t i = 0; i < TURNS; i++) {
+            double cosine = 0;
+            for (uint32_t k = 0; k < 4; k++)
+                cosine += (double)set.rotations[4 * i + k] * (double)read.rotations[4 * i + k];
+            if (fabs(cosine) < 1 - cases[c].limit)
+                fail_msg("%s %u: turn %u comes back with %g", cases[c].name, cases[c].version, i,
+                         1 - fabs(cosine));
+        }
+        ewa_gaussians_free(&read);
+    }
+    ewa_gaussians_free(&set);
+    ewa_context_destroy(&context);
+}
+
+/// Flat ones, opacities of 0 and 1, scales of 0, places far away.
+static void corners(void **state) {
+    (void)state;
+    check_log log = {.count = 0};
+    ewa_context *context = check_context(1, &log);
+    ewa_gaussians set, read;
+    make_set(context, 0, &set);
+    set.flat = true;
+    for (int i = 0; i < 3; i++) set.scales[3 * i + 2] = 0;
+    set.opacities[0] = 0, set.opacities[1] = 1;
+    set.scales[0] = 0;
+    set.origin[0] = 4e6, set.origin[1] = 5e5;
+    pass(context, &set, "flat.ply", 4, 0, &read, NULL);
+    assert_true(read.flat && read.scales[2] == 0 && read.scales[0] < 1e-29f);
+    assert_true(read.opacities[0] < 1e-7f && read.opacities[1] == 1);
+    for (uint32_t i = 0; i < 9; i++)
+        assert_true(set.origin[i % 3] + (double)set.centers[i] ==
+                    read.origin[i % 3] + (double)read.centers[i]);
+    assert_int_equal(log.count, 0);
+    ewa_gaussians_free(&read);
+    pass(context, &set, "flat.spz", 4, 0, &read, NULL);
+    assert_true(!read.flat && log.count == 2); // that they are flat, and that steps are large
+    for (uint32_t i = 0; i < 9; i++)
+        assert_true(fabs(set.origin[i % 3] + (double)set.centers[i] - (double)read.centers[i]) <= 0.51);
+    ewa_gaussians_free(&read);
+    char path[512];
+    set.origin[0] = 1e7;
+    assert_int_equal(ewa_gaussians_save(&set, scratch_path("far.spz", path), NULL), EWA_ERROR_LIMIT);
+    assert_non_null(strstr(log.text, "24 bits"));
+    ewa_gaussians_free(&set);
+    ewa_context_destroy(&context);
+}
+
+/// What is lost is said, with numbers.
+static void losses(void **state) {
+    (void)state;
+    check_log log = {.count = 0};
+    ewa_context *context = check_context(1, &log);
+    ewa_gaussians set, read;
+    make_set(context, 2, &set);
+    pass(context, &set, "loss.splat", 4, 0, &read, NULL);
+    assert_int_equal(log.count, 1);
+    assert_non_null(strstr(log.text, "degree 1 to 2"));
+    ewa_gaussians_free(&read);
+    set.harmonics[0] = 9;
+    pass(context, &set, "loss.splat", 4, 0, &read, NULL);
+    assert_non_null(strstr(log.text, "colours of 1 Gaussians"));
+    ewa_gaussians_free(&read);
+    ewa_gaussians_free(&set);
+    ewa_context_destroy(&context);
+}
+
+static void refused(void **state) {
+    (void)state;
+    check_log log = {.count = 0};
+    ewa_context *context = check_context(1, &log);
+    ewa_gaussians set, none = {.context = context};
+    char path[512];
+    make_set(context, 0, &set);
+    assert_int_equal(ewa_gaussians_save(&set, scratch_path("a.las", path), NULL), EWA_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(log.text, ".ply, .splat and .spz"));
+    assert_int_equal(ewa_gaussians_save(&none, scratch_path("a.ply", path), NULL), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_gaussians_save(NULL, path, NULL), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_gaussians_save(&set, "/nowhere/at/all.spz", NULL), EWA_ERROR_IO);
+    ewa_gaussians_save_options options;
+    ewa_gaussians_save_options_init(&options, sizeof options);
+    options.spz_version = 5;
+    assert_int_equal(ewa_gaussians_save(&set, path, &options), EWA_ERROR_ARGUMENT);
+    float *const numbers[] = {&set.centers[4], &set.scales[4], &set.opacities[1], &set.harmonics[4],
+                              &set.rotations[4]};
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+        const float old = *numbers[i];
+        *numbers[i] = NAN;
+        assert_int_equal(ewa_gaussians_save(&set, path, NULL), EWA_ERROR_ARGUMENT);
+        assert_non_null(strstr(log.text, "Gaussian 1 of 3"));
+        *numbers[i] = old;
+    }
+    set.scales[4] = -1;
+    assert_int_equal(ewa_gaussians_save(&set, path, NULL), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_gaussians_format_of("x.SPZ"), EWA_GAUSSIANS_SPZ);
+    assert_int_equal(ewa_gaussians_format_of("x.spz/y"), EWA_GAUSSIANS_NONE);
+    assert_int_equal(ewa_gaussians_format_of("-"), EWA_GAUSSIANS_PLY);
+    ewa_gaussians_free(&set);
+    ewa_context_destroy(&context);
+}
+
+/// The same bytes for any number of threads.
+static void same_bytes(void **state) {
+    (void)state;
+    static const char *const names[] = {"s.ply", "s.splat", "s.spz"};
+    for (int n = 0; n < 3; n++) {
+        uint8_t *first = NULL;
+        size_t first_size = 0;
+        for (uint32_t threads = 1; threads < 4; threads++) {
+            ewa_context *context = check_context(threads, NULL);
+            ewa_gaussians set;
+            char path[512];
+            make_set(context, 3, &set);
+            assert_int_equal(ewa_gaussians_save(&set, scratch_path(names[n], path), NULL), EWA_OK);
+            size_t size;
+            uint8_t *bytes = scratch_read(path, &size);
+            if (first) {
+                assert_int_equal(size, first_size);
+                assert_memory_equal(bytes, first, size);
+                free(bytes);
+            } else {
+                first = bytes, first_size = size;
+            }
+            ewa_gaussians_free(&set);
+            ewa_context_destroy(&context);
+        }
+        free(first);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(round_trips), cmocka_unit_test(turns),   cmocka_unit_test(corners),
+        cmocka_unit_test(losses),      cmocka_unit_test(refused), cmocka_unit_test(same_bytes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
