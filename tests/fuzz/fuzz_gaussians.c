@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // Fuzz target: any bytes as a file of Gaussians, the form by their content; those of no form as .splat or .ksplat. What
-// is read is in order, can be made into surfels, and be written.
+// is read is in order, can be made into surfels, and be moved.
 #include "fuzz_mesh.h"
 
-static void check_set(ewa_context *context, ewa_gaussians *set) {
+static void check_set(ewa_gaussians *set) {
     const uint32_t numbers = 3 * (set->sh_degree + 1) * (set->sh_degree + 1);
     fuzz_require(set->count > 0 && set->sh_degree <= EWA_MAX_SH_DEGREE, "there are Gaussians");
     for (size_t i = 0; i < set->count; i++) {
@@ -25,7 +25,8 @@ static void check_set(ewa_context *context, ewa_gaussians *set) {
     const ewa_status status = ewa_gaussians_to_cloud(set, &cloud);
     fuzz_require((status == EWA_OK) == (cloud != NULL), "surfels on success only");
     ewa_cloud_destroy(&cloud);
-    (void)context;
+    static const double turn[16] = {0, -2, 0, 1, 1, 0, 0, 2, 0, 0.5, 1, 3, 0, 0, 0, 1};
+    fuzz_require(ewa_gaussians_transform(set, turn) == EWA_OK, "sets can be moved");
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
@@ -39,7 +40,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
             ewa_gaussians_load_memory(context, bytes, size_bytes, names[n], NULL, &set, &facts);
         fuzz_require((status == EWA_OK) == (errors == 0), "a message on failure only");
         fuzz_require((status == EWA_OK) == (set.centers != NULL), "a set on success only");
-        if (status == EWA_OK) check_set(context, &set);
+        if (status == EWA_OK) check_set(&set);
         ewa_gaussians_free(&set);
         ewa_context_destroy(&context);
     }

@@ -175,11 +175,11 @@ static ewa_status read_plain(const ewa_gaussian_source *source, const ewa_ply_so
 
 /// What the comments of a header say.
 typedef struct header_words {
-    bool antialiased, plain, flat;
-    char up; ///< 'x', 'y', 'z'; 0
+    bool antialiased, plain, flat, z_up;
 } header_words;
 
-/// "SplatRenderMode: mip" of Brush, "antialiased 1" of Postshot, "Vertical axis: z" of several; the last one counts.
+/// "SplatRenderMode: mip" of Brush, "antialiased 1" of Postshot, "Vertical Axis: z" of nerfstudio; the last one
+/// counts. Brush writes "Vertical axis: y" on whatever it trained with, mostly y down: that says nothing.
 static void take_comment(void *user, const char *line) {
     header_words *words = user;
     ewa_cursor cursor = {line, line + strlen(line), 1};
@@ -193,9 +193,7 @@ static void take_comment(void *user, const char *line) {
         words->antialiased = ewa_text_is(second, "1");
         words->plain = ewa_text_is(second, "0");
     } else if (ewa_text_is_any_case(first, "vertical") && ewa_text_is_any_case(second, "axis:")) {
-        const ewa_text axis = ewa_cursor_word(&cursor);
-        const char letter = axis.length == 1 ? (char)(axis.chars[0] | ' ') : 0;
-        if (letter >= 'x' && letter <= 'z') words->up = letter;
+        words->z_up = ewa_text_is_any_case(ewa_cursor_word(&cursor), "z");
     }
 }
 
@@ -204,12 +202,12 @@ static ewa_status read_with(const ewa_gaussian_source *source, ewa_ply_header *h
     const ewa_ply_source ply = {source->context, source->name, source->bytes, source->size_bytes};
     ewa_status status = ewa_ply_header_read(&ply, header);
     if (status != EWA_OK) return status;
-    header_words words = {.up = 0};
+    header_words words = {.z_up = false};
     ewa_ply_header_lines(&ply, header, take_comment, &words);
     status = read_plain(source, &ply, header, set, facts);
     if (status != EWA_OK) return status;
     if (words.antialiased || words.plain) set->antialiased = words.antialiased;
-    if (words.up) facts->up_world[words.up - 'x'] = 1;
+    facts->up_world[2] = words.z_up;
     if (words.flat) ewa_gaussians_flatten(set);
     return EWA_OK;
 }
