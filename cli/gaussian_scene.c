@@ -13,6 +13,9 @@ enum { CORNERS = 8 };
 /// Opacities from there on make a place worth showing.
 static const float SEEN = 0.1f;
 
+/// Standard deviations of a Gaussian that belong to what is framed.
+static const float REACH = 2;
+
 bool gaussian_scene_find(cli_session *session, const common_arguments *common,
                          const gaussian_arguments *arguments, gaussian_scene *scene) {
     scene->rest = *common;
@@ -58,14 +61,20 @@ static ewa_status make_outline(const ewa_gaussians *set, const ewa_cloud *others
     for (size_t i = 0; i < set->count; i++) count += is_shown(set, &scene->info.core, i);
     const uint64_t corners = box.finite_count || !count ? CORNERS : 0;
     if (!box.finite_count) box = scene->info.core;
-    void *data = NULL;
+    void *data = NULL, *reach = NULL;
     ewa_status status = ewa_cloud_create(set->context, count + corners, &scene->outline);
     if (status == EWA_OK) status = ewa_cloud_add(scene->outline, EWA_POSITION, EWA_F64, 3, &data);
+    if (status == EWA_OK) status = ewa_cloud_add(scene->outline, EWA_RADIUS, EWA_F32, 1, &reach);
     if (status != EWA_OK) return status;
     double *positions = data;
-    for (size_t i = 0; i < set->count; i++)
-        for (size_t k = 0; k < 3 && is_shown(set, &scene->info.core, i); k++)
-            *positions++ = set->origin[k] + (double)set->centers[3 * i + k];
+    float *radii = reach;
+    for (size_t i = 0; i < set->count; i++) {
+        if (!is_shown(set, &scene->info.core, i)) continue;
+        for (size_t k = 0; k < 3; k++) *positions++ = set->origin[k] + (double)set->centers[3 * i + k];
+        const float *scales = set->scales + 3 * i;
+        *radii++ = REACH * fmaxf(fmaxf(scales[0], scales[1]), scales[2]);
+    }
+    for (uint64_t i = 0; i < corners; i++) *radii++ = 0;
     for (uint64_t i = 0; i < corners; i++)
         for (int k = 0; k < 3; k++) *positions++ = i >> k & 1 ? box.high_world[k] : box.low_world[k];
     return EWA_OK;

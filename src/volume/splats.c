@@ -135,7 +135,8 @@ static double place_of(const ewa_splats *splats, uint32_t i, int axis) {
     return (double)splats->packets[i / LANES][EWA_SPLAT_PLACE + axis][i % LANES];
 }
 
-/// The place below which lies `share` of the opacities along an axis; looked for in ever smaller bins.
+/// The place below which lies `share` of the opacities along an axis, looked for in ever smaller bins: the end of the
+/// last one that is the outer one.
 static double quantile(const ewa_splats *splats, int axis, double low, double high, double share,
                        double *bins) {
     for (int round = 0; round < 3 && high > low; round++) {
@@ -147,15 +148,16 @@ static double quantile(const ewa_splats *splats, int axis, double low, double hi
             all += weight;
             if (at < 0)
                 before += weight;
-            else if (at < CORE_BINS)
-                bins[(int)at] += weight;
+            else if (at <= CORE_BINS)
+                bins[at < CORE_BINS ? (int)at : CORE_BINS - 1] += weight;
         }
         int bin = 0;
         for (; bin < CORE_BINS - 1 && before + bins[bin] < share * all; bin++) before += bins[bin];
         const double step = (high - low) / CORE_BINS;
-        low += bin * step, high = low + step;
+        low += bin * step;
+        if (bin < CORE_BINS - 1) high = low + step;
     }
-    return low;
+    return share < 0.5 ? low : high;
 }
 
 static ewa_status measure(ewa_splats *splats) {
