@@ -262,7 +262,8 @@ static bool make_lod_scene(cli_session *session, const render_arguments *argumen
     return done;
 }
 
-/// Makes the scene of Gaussians, and of the surfaces among them where there are further inputs. False after reporting.
+/// Makes the scene of Gaussians, and of the surfaces among them where there are further inputs. False after
+/// reporting.
 static bool make_gaussian_scene(cli_session *session, const render_arguments *arguments, render_scene *scene,
                                 render_report *report) {
     gaussian_scene *gaussians = &scene->gaussians;

@@ -7,8 +7,8 @@
 /// Share of what is behind that must come through to be told apart from rounding.
 static const float LEAST_THROUGH = 1e-3f;
 
-// A picture without the surfaces is past = front + (1 - alpha of front) * behind, of which front is what lies before
-// the surface.
+// A picture without the surfaces is past = front + (1 - alpha of front) * behind, of which front is what lies
+// before the surface.
 void within_fill_edges(within_planes *planes, const float background[4]) {
     const size_t pixel_count = (size_t)planes->surface.width_px * planes->surface.height_px;
     for (size_t i = 0; i < pixel_count; i++) {

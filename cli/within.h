@@ -7,8 +7,8 @@
 
 #include "ewa/ewa.h"
 
-/// Of the size of the last frame: the surfaces, all of what lets light through, what of it is before the surfaces, zeros.
-/// Zero-initialise.
+/// Of the size of the last frame: the surfaces, all of what lets light through, what of it is before the
+/// surfaces, zeros. Zero-initialise.
 typedef struct within_planes {
     ewa_image surface, surface_depth, past, front, nothing;
 } within_planes;
@@ -18,8 +18,8 @@ ewa_status within_make(ewa_context *context, const ewa_camera *camera, within_pl
 
 void within_free(within_planes *planes);
 
-/// Puts what is seen past the surfaces' edges behind them, or the background where no surface is: from `past` and
-/// `front`, which were drawn.
+/// Puts what is seen past the surfaces' edges behind them, or the background where no surface is: from `past`
+/// and `front`, which were drawn.
 void within_fill_edges(within_planes *planes, const float background[4]);
 
 #endif

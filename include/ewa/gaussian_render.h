@@ -34,8 +34,8 @@ typedef struct ewa_splats_info {
     bool antialiased; ///< as the set was
     size_t resident_bytes;
     ewa_bounds bounds; ///< of all centres
-    /// A box that far floaters do not widen, for framing: of the middle 96 % of the opacities times areas along
-    /// each axis.
+    /// A box that far floaters do not widen, for framing: of the middle 96 % of the opacities times areas
+    /// along each axis.
     ewa_bounds core;
 } ewa_splats_info;
 
@@ -62,7 +62,8 @@ typedef struct ewa_gaussian_options {
     double prefilter_px2; ///< variance of the pixel filter, px^2; [0, 16]; default 0.3
     double cutoff;        ///< F, standard deviations at which every Gaussian ends; [1, 6]; default 4
     double least_alpha;   ///< less of a Gaussian is not drawn; [1e-6, 0.5]; default 1/255
-    /// A pixel where less than this of what is behind would show gets nothing more; [0, 0.999999]; default 1/512
+    /// A pixel where less than this of what is behind would show gets nothing more; [0, 0.999999]; default
+    /// 1/512
     double least_transmittance;
     double
         near_world; ///< EWA_PROJECTION_TRAINED, perspective: centres nearer than that along the axis are not
@@ -70,10 +71,10 @@ typedef struct ewa_gaussian_options {
     uint32_t
         sh_degree; ///< harmonics beyond it are not used; [0, EWA_MAX_SH_DEGREE]; default EWA_MAX_SH_DEGREE
     float background[4]; ///< linear, [0, 1e15], straight alpha; default transparent black
-    /// Opaque surfaces among the Gaussians, as ewa_render() gives them (frame.depth and frame.rgba): planes of
-    /// the camera's size, borrowed during the call. What of a Gaussian lies behind surface_depth (camera-space
-    /// z) along a pixel's ray is not drawn, the rest over surface_rgba (linear, premultiplied), which then
-    /// replaces the background. Both NULL (default): none.
+    /// Opaque surfaces among the Gaussians, as ewa_render() gives them (frame.depth and frame.rgba): planes
+    /// of the camera's size, borrowed during the call. What of a Gaussian lies behind surface_depth
+    /// (camera-space z) along a pixel's ray is not drawn, the rest over surface_rgba (linear, premultiplied),
+    /// which then replaces the background. Both NULL (default): none.
     const float *surface_depth, *surface_rgba;
 } ewa_gaussian_options;
 
@@ -101,15 +102,14 @@ EWA_API ewa_status ewa_gaussian_renderer_create(ewa_context *context, ewa_gaussi
 /// Frees a renderer; sets `*renderer` to NULL; accepts NULL and a pointer to NULL.
 EWA_API void ewa_gaussian_renderer_destroy(ewa_gaussian_renderer **renderer);
 
-/// Draws Gaussians, front to back in every pixel: by the depth at which its ray passes the greatest density, so
-/// that nothing changes places at once as the camera moves. Colours are composited as display values, as in
-/// training; frame.rgba is linear as everywhere. Of the frame's planes rgba8, rgba, depth (where half of the
-/// light is gone; +infinity where that never happens) and coverage (alpha of the Gaussians alone) are written;
-/// normal must be NULL. The same bytes for every number of threads, every instruction set and every order of
-/// the set.
-/// `options` and `stats` may be NULL. Implements docs/math.md section 12, Gaussians; held by tests to a renderer
-/// in plain double precision. Errors: EWA_ERROR_ARGUMENT (camera, options, frame.normal), EWA_ERROR_MEMORY,
-/// EWA_CANCELLED.
+/// Draws Gaussians, front to back in every pixel: by the depth at which its ray passes the greatest density,
+/// so that nothing changes places at once as the camera moves. Colours are composited as display values, as
+/// in training; frame.rgba is linear as everywhere. Of the frame's planes rgba8, rgba, depth (where half of
+/// the light is gone; +infinity where that never happens) and coverage (alpha of the Gaussians alone) are
+/// written; normal must be NULL. The same bytes for every number of threads, every instruction set and every
+/// order of the set. `options` and `stats` may be NULL. Implements docs/math.md section 12, Gaussians; held
+/// by tests to a renderer in plain double precision. Errors: EWA_ERROR_ARGUMENT (camera, options,
+/// frame.normal), EWA_ERROR_MEMORY, EWA_CANCELLED.
 EWA_API ewa_status ewa_gaussian_render(ewa_gaussian_renderer *renderer, const ewa_splats *splats,
                                        const ewa_camera *camera, const ewa_gaussian_options *options,
                                        const ewa_frame *frame, ewa_gaussian_stats *stats);

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The reference renderer of trained Gaussians: every pixel's list in double precision, sorted, composited. It is
-// the definition of what ewa_gaussian_render() draws; docs/math.md section 12 is its specification.
+// The reference renderer of trained Gaussians: every pixel's list in double precision, sorted, composited. It
+// is the definition of what ewa_gaussian_render() draws; docs/math.md section 12 is its specification.
 //
-// Based on: B. Kerbl, G. Kopanas, T. Leimkuehler, G. Drettakis, "3D Gaussian Splatting for Real-Time Radiance Field
-// Rendering", 2023, section 4 and its program (the trained projection); L. Radl et al., "StopThePop", 2024 (order by the
-// depth of greatest density along a ray).
+// Based on: B. Kerbl, G. Kopanas, T. Leimkuehler, G. Drettakis, "3D Gaussian Splatting for Real-Time Radiance
+// Field Rendering", 2023, section 4 and its program (the trained projection); L. Radl et al., "StopThePop",
+// 2024 (order by the depth of greatest density along a ray).
 #include "reference/gaussian.h"
 #include "base/base.h"
 #include "image/srgb.h"

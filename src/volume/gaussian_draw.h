@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of gaussian_body.h: a tile's splats onto its pixels, in every pixel by the depth at which its ray passes the
-// greatest density (docs/math.md section 12).
+// Part of gaussian_body.h: a tile's splats onto its pixels, in every pixel by the depth at which its ray
+// passes the greatest density (docs/math.md section 12).
 //
-// A block of 4x4 pixels takes its splats by the least depth that any pixel of the picture sees them at. They become
-// layers, which wait, by the least depth in the block's pixels, until no splat to come can be in front of them. Then they
-// are put in order, in one of its own for every pixel: a layer moves forward past those behind it, as a whole where all
-// pixels agree, which most do, else pixel by pixel. What waits is as much as overlaps in depth; nothing is ever dropped.
+// A block of 4x4 pixels takes its splats by the least depth that any pixel of the picture sees them at. They
+// become layers, which wait, by the least depth in the block's pixels, until no splat to come can be in front
+// of them. Then they are put in order, in one of its own for every pixel: a layer moves forward past those
+// behind it, as a whole where all pixels agree, which most do, else pixel by pixel. What waits is as much as
+// overlaps in depth; nothing is ever dropped.
 #ifndef EWA_SRC_VOLUME_GAUSSIAN_DRAW_H
 #define EWA_SRC_VOLUME_GAUSSIAN_DRAW_H
 
@@ -28,8 +29,8 @@ static ALWAYS_INLINE void load_numbers(const ewa_gaussian_tile *tile, uint32_t f
     for (int i = 0; i < count; i++) numbers[i] = wf_load(lanes[i]);
 }
 
-/// Of the rows of pixels' centres from `top` to `bottom`: how far the ellipse reaches to the right of its centre; to the
-/// left for a mirrored one. `root` is 1 / AX, `lean` -AY / AX.
+/// Of the rows of pixels' centres from `top` to `bottom`: how far the ellipse reaches to the right of its
+/// centre; to the left for a mirrored one. `root` is 1 / AX, `lean` -AY / AX.
 static ALWAYS_INLINE wf side_of(wf top, wf bottom, wf touch, wf lean, wf by, wf limit, wf root) {
     const wf v = wf_min(wf_max(touch, top), bottom), down = wf_mul(by, v);
     return wf_fma(lean, v, wf_mul(root, wf_sqrt(wf_max(wf_fnma(down, down, limit), wf_set(0)))));
@@ -65,8 +66,8 @@ static void mark(ewa_gaussian_tile *tile) {
     }
 }
 
-/// A splat in the pixels of a block whose centres are (x, y): false where none shows it. Of what stands along a ray the
-/// share in front of the surface counts.
+/// A splat in the pixels of a block whose centres are (x, y): false where none shows it. Of what stands along
+/// a ray the share in front of the surface counts.
 static ALWAYS_INLINE bool meet_splat(const ewa_gaussian_view *view, const float *s, wf x, wf y, bool trained,
                                      bool orthographic, const float *surface, ewa_gaussian_layer *layer) {
     const wf u = wf_sub(x, wf_set(s[RECORD_X])), v = wf_sub(y, wf_set(s[RECORD_Y]));
@@ -142,11 +143,13 @@ static ALWAYS_INLINE void composite(const ewa_gaussian_view *view, const ewa_gau
     block->alive &= wm_bits(wf_le(wf_set(view->least_transmittance), rest));
 }
 
-/// Puts a layer to where it belongs among those that wait, from `begin` to `end`. Returns the steps that this took.
+/// Puts a layer to where it belongs among those that wait, from `begin` to `end`. Returns the steps that this
+/// took.
 ///
-/// A pixel that a layer is not in has the depth of one before there, so that depths never fall from layer to layer.
-static ALWAYS_INLINE uint32_t sort_in(ewa_gaussian_layer *layers, uint32_t *order, uint32_t begin, uint32_t end,
-                                      uint32_t number) {
+/// A pixel that a layer is not in has the depth of one before there, so that depths never fall from layer to
+/// layer.
+static ALWAYS_INLINE uint32_t sort_in(ewa_gaussian_layer *layers, uint32_t *order, uint32_t begin,
+                                      uint32_t end, uint32_t number) {
     uint32_t at = end, hole = number, active = layers[number].active;
     bool mixed = false;
     wf z = wf_load(layers[number].z), alpha = wf_load(layers[number].alpha);
@@ -235,8 +238,8 @@ static ALWAYS_INLINE uint64_t pop_key(uint64_t *heap, uint32_t count) {
     return least;
 }
 
-/// A block's layers: those whose turn has not come, in a heap by the least depth in any pixel; those that are in order,
-/// order[begin] to order[end - 1]. Layers are free from `made_count` on, and those in `free`.
+/// A block's layers: those whose turn has not come, in a heap by the least depth in any pixel; those that are
+/// in order, order[begin] to order[end - 1]. Layers are free from `made_count` on, and those in `free`.
 typedef struct block_layers {
     uint32_t waiting, begin, end, free_count, made_count;
 } block_layers;

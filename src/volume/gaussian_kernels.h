@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The hot loops of Gaussians: what goes in and out of them. One body (gaussian_body.h), one file per instruction
-// set, the same bytes from each. Formulas: docs/math.md section 12.
+// The hot loops of Gaussians: what goes in and out of them. One body (gaussian_body.h), one file per
+// instruction set, the same bytes from each. Formulas: docs/math.md section 12.
 //
-// `project` makes records of the splats of a packet that some pixel may show. Then, one tile at a time, `mark`
-// finds the blocks of 4x4 pixels that each of its splats touches, and `draw` composites them, block by block.
+// `project` makes records of the splats of a packet that some pixel may show. Then, one tile at a time,
+// `mark` finds the blocks of 4x4 pixels that each of its splats touches, and `draw` composites them, block by
+// block.
 #ifndef EWA_SRC_VOLUME_GAUSSIAN_KERNELS_H
 #define EWA_SRC_VOLUME_GAUSSIAN_KERNELS_H
 
@@ -20,7 +21,8 @@ enum {
 /// What pixels need of a splat. With the offset (u, v) of a pixel's centre from (X, Y):
 ///
 ///     ellipse, filtered   q^2 = (AX u + AY v)^2 + (BY v)^2, at most LIMIT
-///     ray                 g_k = Gk_X u + Gk_Y v + Gk, k = 1, 2, 3: its direction in the splat's standard deviations,
+///     ray                 g_k = Gk_X u + Gk_Y v + Gk, k = 1, 2, 3: its direction in the splat's standard
+/// deviations,
 ///                         turned so that the third points from the eye to the centre, which is LENGTH away
 ///     passes it at        m^2 = LENGTH^2 (g1^2 + g2^2) / (g1^2 + g2^2 + g3^2)
 ///     in the depth        z = LENGTH g3 / (g1^2 + g2^2 + g3^2)
@@ -74,7 +76,7 @@ typedef struct ewa_gaussian_layer {
     _Alignas(64) float z[16], alpha[16];
     int32_t colors[16]; ///< where they begin in the records; the same everywhere where not `mixed`
     uint32_t active;    ///< pixels that it is in; in the others z is that of the layer before
-    float least;     ///< of z where it is active, when it is made
+    float least;        ///< of z where it is active, when it is made
     bool mixed;
 } ewa_gaussian_layer;
 

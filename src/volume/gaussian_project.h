@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of gaussian_body.h: from sixteen splats to records of those that some pixel may show (docs/math.md sections 3, 4
-// and 12).
+// Part of gaussian_body.h: from sixteen splats to records of those that some pixel may show (docs/math.md
+// sections 3, 4 and 12).
 //
-// All about a splat's shape comes from its three axes, never from entries of its covariance, of which flat ones leave
-// nothing in single precision.
+// All about a splat's shape comes from its three axes, never from entries of its covariance, of which flat
+// ones leave nothing in single precision.
 //
-// Based on: Kerbl, Kopanas, Leimkuehler, Drettakis, "3D Gaussian Splatting for Real-Time Radiance Field Rendering",
-// 2023 (the trained projection, harmonics); Duff et al., "Building an Orthonormal Basis, Revisited", 2017.
+// Based on: Kerbl, Kopanas, Leimkuehler, Drettakis, "3D Gaussian Splatting for Real-Time Radiance Field
+// Rendering", 2023 (the trained projection, harmonics); Duff et al., "Building an Orthonormal Basis,
+// Revisited", 2017.
 #ifndef EWA_SRC_VOLUME_GAUSSIAN_PROJECT_H
 #define EWA_SRC_VOLUME_GAUSSIAN_PROJECT_H
 
@@ -87,9 +88,10 @@ static ALWAYS_INLINE wm place_splats(const ewa_gaussian_view *view, const ewa_sp
     return wm_and(shows, wf_lt(wf_set(view->near), depth));
 }
 
-/// The true ellipse in pixels: V, and how far its centre lies from the projected one. Returns |V|, a sum of squares over
-/// pairs of axes, so that it holds for flat splats that are seen from the edge.
-static ALWAYS_INLINE wf true_ellipse(const ewa_gaussian_view *view, const splat_lanes *s, wf v[3], wf shift[2]) {
+/// The true ellipse in pixels: V, and how far its centre lies from the projected one. Returns |V|, a sum of
+/// squares over pairs of axes, so that it holds for flat splats that are seen from the edge.
+static ALWAYS_INLINE wf true_ellipse(const ewa_gaussian_view *view, const splat_lanes *s, wf v[3],
+                                     wf shift[2]) {
     const wf zero = wf_set(0);
     wf x = s->x, y = s->y, cutoff2 = s->cutoff2;
     if (view->trained) {
@@ -112,8 +114,7 @@ static ALWAYS_INLINE wf true_ellipse(const ewa_gaussian_view *view, const splat_
         depth2 = wf_fma(tz, tz, depth2);
     }
     wf k = wf_set(1);
-    if (!view->orthographic)
-        k = wf_div(k, wf_fnma(cutoff2, depth2, wf_mul(s->place[2], s->place[2])));
+    if (!view->orthographic) k = wf_div(k, wf_fnma(cutoff2, depth2, wf_mul(s->place[2], s->place[2])));
     wide_project(sums, k, cutoff2, v, shift);
     // V / k is the Gram matrix of four: the sheared axes, and F sqrt(k) (Sigma13, Sigma23).
     const wf far = wf_sqrt(wf_max(wf_mul(cutoff2, k), zero));
@@ -132,8 +133,8 @@ static ALWAYS_INLINE wf true_ellipse(const ewa_gaussian_view *view, const splat_
     return wf_mul(area, wf_mul(scale, scale));
 }
 
-/// Rays in standard deviations: g(d) = rows[k] d, turned so that the third points to the centre; returns how far that
-/// is. Orthographic: the third points along the rays, and a unit of depth is as far.
+/// Rays in standard deviations: g(d) = rows[k] d, turned so that the third points to the centre; returns how
+/// far that is. Orthographic: the third points along the rays, and a unit of depth is as far.
 static ALWAYS_INLINE wf ray_rows(const ewa_gaussian_view *view, const splat_lanes *s, wf rows[3][3]) {
     wf to[3], inverse[3];
     for (int i = 0; i < 3; i++) {
@@ -157,10 +158,11 @@ static ALWAYS_INLINE wf ray_rows(const ewa_gaussian_view *view, const splat_lane
     return length;
 }
 
-/// Sets the ellipse's part of records: lower triangles L of V and M of V', of which `map` becomes L M^-1 where pixels look
-/// up at the same place of the true ellipse, else 1. Returns what the filter leaves of the height.
-static ALWAYS_INLINE wf set_ellipse(const ewa_gaussian_view *view, const splat_lanes *s, const wf v[3], wf area,
-                                    wf record[], wf lower[3], wf map[3]) {
+/// Sets the ellipse's part of records: lower triangles L of V and M of V', of which `map` becomes L M^-1
+/// where pixels look up at the same place of the true ellipse, else 1. Returns what the filter leaves of the
+/// height.
+static ALWAYS_INLINE wf set_ellipse(const ewa_gaussian_view *view, const splat_lanes *s, const wf v[3],
+                                    wf area, wf record[], wf lower[3], wf map[3]) {
     const wf h2 = wf_set(view->prefilter_px2), tiny = wf_set(1e-12f), one = wf_set(1);
     const wf w11 = wf_max(wf_add(v[0], h2), tiny), w22 = wf_max(wf_add(v[2], h2), tiny);
     const wf filtered = wf_max(wf_fma(h2, wf_add(wf_add(v[0], v[2]), h2), area), wf_set(1e-24f));
@@ -184,8 +186,8 @@ static ALWAYS_INLINE wf set_ellipse(const ewa_gaussian_view *view, const splat_l
     return view->keep ? wf_sqrt(wf_max(wf_div(area, filtered), wf_set((float)EWA_GAUSSIAN_LEAST_KEPT))) : one;
 }
 
-/// Sets the rays' part of records: over the offset from the ellipse's centre, which `shift` and `map` take to that from
-/// the projected one.
+/// Sets the rays' part of records: over the offset from the ellipse's centre, which `shift` and `map` take to
+/// that from the projected one.
 static ALWAYS_INLINE void set_rays(const ewa_gaussian_view *view, const splat_lanes *s, wf rows[3][3],
                                    const wf shift[2], const wf map[3], wf record[]) {
     const wf fx = wf_div(wf_set(1), wf_set(view->fx_px)), fy = wf_div(wf_set(1), wf_set(view->fy_px));
@@ -211,8 +213,8 @@ static ALWAYS_INLINE wf vary(const wf record[], int at, const wf lower[3]) {
     return wf_sqrt(wf_mul(record[RECORD_LIMIT], wf_fma(across, across, wf_mul(down, down))));
 }
 
-/// The depths that pixels of the ellipse see a splat at: z = length / (g3 + (g1^2 + g2^2) / g3) over the ranges of its
-/// functions, and within the splat's own depth range.
+/// The depths that pixels of the ellipse see a splat at: z = length / (g3 + (g1^2 + g2^2) / g3) over the
+/// ranges of its functions, and within the splat's own depth range.
 static ALWAYS_INLINE void set_depths(const ewa_gaussian_view *view, const splat_lanes *s, const wf lower[3],
                                      wf record[]) {
     const wf z = s->place[2], low = wf_sub(z, s->depth_reach), high = wf_add(z, s->depth_reach);

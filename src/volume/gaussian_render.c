@@ -68,8 +68,8 @@ void ewa_gaussian_renderer_destroy(ewa_gaussian_renderer **renderer) {
     ewa_context *context = old->context;
     for (uint32_t i = 0; old->scratch && i < old->worker_count; i++) {
         gaussian_scratch *s = &old->scratch[i];
-        ewa_buffer *const buffers[] = {&s->marks, &s->row_ids, &s->row_marks, &s->block_ids,
-                                       &s->order, &s->free,    &s->layers, &s->heap, &s->slots};
+        ewa_buffer *const buffers[] = {&s->marks, &s->row_ids, &s->row_marks, &s->block_ids, &s->order,
+                                       &s->free,  &s->layers,  &s->heap,      &s->slots};
         for (size_t b = 0; b < sizeof buffers / sizeof *buffers; b++) ewa_buffer_free(context, buffers[b]);
     }
     ewa_release(context, old->scratch, old->worker_count, sizeof *old->scratch);

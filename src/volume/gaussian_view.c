@@ -96,7 +96,8 @@ void ewa_gaussian_camera_make(ewa_gaussian_camera *made, const ewa_camera *camer
     made->fx_px = orthographic ? camera->fx_px * made->unit_camera : camera->fx_px;
     made->fy_px = orthographic ? camera->fy_px * made->unit_camera : camera->fy_px;
     made->near = orthographic ? -INFINITY : made->trained ? options->near_world / unit_world : 0;
-    // 1.3 times the field of view, and as much beyond the picture where it is not in the middle (3DGS, gsplat).
+    // 1.3 times the field of view, and as much beyond the picture where it is not in the middle (3DGS,
+    // gsplat).
     const double beyond_x = 0.15 * camera->width_px / camera->fx_px;
     const double beyond_y = 0.15 * camera->height_px / camera->fy_px;
     made->slopes[0] = -camera->cx_px / camera->fx_px - beyond_x;

@@ -10,7 +10,8 @@
 #include "homogeneous/vec.h"
 #include "volume/kernels.h"
 
-/// Perspective: Gaussians whose centres are nearer than that many of their depth half ranges are drawn ray by ray.
+/// Perspective: Gaussians whose centres are nearer than that many of their depth half ranges are drawn ray by
+/// ray.
 #define EWA_GAUSSIAN_NEAR 1.05
 
 /// No Gaussian takes more of the light (3DGS).

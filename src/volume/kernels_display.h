@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Premultiplied linear colours to premultiplied display values, and back: the sRGB curve of the straight colours, which
-// goes on above 1 (docs/math.md section 12).
+// Part of kernels_body.h and gaussian_body.h: premultiplied linear colours to premultiplied display values,
+// and back: the sRGB curve of the straight colours, which goes on above 1 (docs/math.md section 12).
 #ifndef EWA_SRC_VOLUME_KERNELS_DISPLAY_H
 #define EWA_SRC_VOLUME_KERNELS_DISPLAY_H
 

@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The compositor `over` of a block of 4x4 pixels, front to back: the voxels' and the trained Gaussians' (docs/math.md
-// section 12). A block's channels are premultiplied red, green, blue, what shows of all behind, and depth.
+// Part of kernels_body.h and gaussian_body.h: the compositor `over` of a block of 4x4 pixels, front to back:
+// the voxels' and the trained Gaussians' (docs/math.md section 12). A block's channels are premultiplied red,
+// green, blue, what shows of all behind, and depth.
 #ifndef EWA_SRC_VOLUME_KERNELS_OVER_H
 #define EWA_SRC_VOLUME_KERNELS_OVER_H
 
 #include "wide/wide.h"
 
-/// The share of a Gaussian in depth around z that lies in front of a surface: nearly its own, for a `width` of 3/4
-/// sqrt(8 pi) standard deviations.
+/// The share of a Gaussian in depth around z that lies in front of a surface: nearly its own, for a `width`
+/// of 3/4 sqrt(8 pi) standard deviations.
 static ALWAYS_INLINE wf share_ahead(wf surface, wf z, wf width) {
     const wf one = wf_set(1);
     const wf u = wf_fma(wf_sub(surface, z), wf_div(one, width), wf_set(0.5f));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// From a composited block of 4x4 pixels to those of the frame, over what is behind (docs/math.md sections 7
-// and 12).
+// Part of kernels_body.h and gaussian_body.h: from a composited block of 4x4 pixels to those of the frame,
+// over what is behind (docs/math.md sections 7 and 12).
 #ifndef EWA_SRC_VOLUME_KERNELS_PLANES_H
 #define EWA_SRC_VOLUME_KERNELS_PLANES_H
 

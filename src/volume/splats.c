@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// From a set of Gaussians to its resident form. Harmonics beyond degree 0 become integers of 16 bits, each Gaussian's
-// in a unit of its own: within 1/65534 of its largest coefficient.
+// From a set of Gaussians to its resident form. Harmonics beyond degree 0 become integers of 16 bits, each
+// Gaussian's in a unit of its own: within 1/65534 of its largest coefficient.
 #include "volume/splats.h"
 #include "base/base.h"
 #include "cloud/morton.h"
@@ -135,8 +135,8 @@ static double place_of(const ewa_splats *splats, uint32_t i, int axis) {
     return (double)splats->packets[i / LANES][EWA_SPLAT_PLACE + axis][i % LANES];
 }
 
-/// The place below which lies `share` of the opacities along an axis, looked for in ever smaller bins: the end of the
-/// last one that is the outer one.
+/// The place below which lies `share` of the opacities along an axis, looked for in ever smaller bins: the
+/// end of the last one that is the outer one.
 static double quantile(const ewa_splats *splats, int axis, double low, double high, double share,
                        double *bins) {
     for (int round = 0; round < 3 && high > low; round++) {

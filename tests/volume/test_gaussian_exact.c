@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The exact projection against integrals along rays, also where the affine map fails; and that turning the camera
-// changes nothing at once.
+// The exact projection against integrals along rays, also where the affine map fails; and that turning the
+// camera changes nothing at once.
 #include "volume/gaussian_scene.h"
 
 #include <math.h>
@@ -27,7 +27,8 @@ static double integrate(const double eye[3], const double direction[3], const do
     return sum * length / STEPS;
 }
 
-/// A Gaussian alone: its opacity times its integral along each ray, over that of the parallel ray through its centre.
+/// A Gaussian alone: its opacity times its integral along each ray, over that of the parallel ray through its
+/// centre.
 static ewa_image draw_integrals(ewa_context *context, const ewa_camera *camera, const double center[3],
                                 const double axes[3][3], const double scales[3], double opacity,
                                 double least) {
@@ -161,9 +162,9 @@ static double popped(const ewa_gaussians *set, double first_deg, bool by_centers
     return (double)count / (double)pixels;
 }
 
-/// Shields that cut each other while the camera turns about them through 90 degrees in steps of a quarter of a degree:
-/// what passes before what changes pixel by pixel. Sorted by centres whole shields do, and the largest change from
-/// frame to frame is several times as large.
+/// Shields that cut each other while the camera turns about them through 90 degrees in steps of a quarter of
+/// a degree: what passes before what changes pixel by pixel. Sorted by centres whole shields do, and the
+/// largest change from frame to frame is several times as large.
 static void test_popping(void **state) {
     (void)state;
     ewa_context *context = check_context(2, NULL);

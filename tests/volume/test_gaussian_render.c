@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Pictures of Gaussians: held to the reference, the same bytes however they are made, and what is known of them.
+// Pictures of Gaussians: held to the reference, the same bytes however they are made, and what is known of
+// them.
 #include "volume/gaussian_scene.h"
 
 #include <math.h>
