@@ -34,8 +34,8 @@ typedef struct ewa_splats_info {
     bool antialiased; ///< as the set was
     size_t resident_bytes;
     ewa_bounds bounds; ///< of all centres
-    /// A box that far floaters do not widen, for framing: of the middle 96 % of the opacities times areas
-    /// along each axis.
+    /// A box that far floaters do not widen, for framing: of the middle 96 % of the opacities along
+    /// each axis.
     ewa_bounds core;
 } ewa_splats_info;
 
@@ -65,11 +65,10 @@ typedef struct ewa_gaussian_options {
     /// A pixel where less than this of what is behind would show gets nothing more; [0, 0.999999]; default
     /// 1/512
     double least_transmittance;
-    double
-        near_world; ///< EWA_PROJECTION_TRAINED, perspective: centres nearer than that along the axis are not
-                    ///< drawn; [0, 1e15]; default 0.2
-    uint32_t
-        sh_degree; ///< harmonics beyond it are not used; [0, EWA_MAX_SH_DEGREE]; default EWA_MAX_SH_DEGREE
+    /// EWA_PROJECTION_TRAINED, perspective: centres nearer than that along the axis are not drawn; [0, 1e15];
+    /// default 0.2
+    double near_world;
+    uint32_t sh_degree;  ///< harmonics beyond it are not used; [0, EWA_MAX_SH_DEGREE]; default 4
     float background[4]; ///< linear, [0, 1e15], straight alpha; default transparent black
     /// Opaque surfaces among the Gaussians, as ewa_render() gives them (frame.depth and frame.rgba): planes
     /// of the camera's size, borrowed during the call. What of a Gaussian lies behind surface_depth

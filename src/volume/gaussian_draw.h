@@ -218,37 +218,25 @@ static ALWAYS_INLINE uint64_t depth_key(float z, uint32_t number) {
     return (uint64_t)((uint32_t)bits ^ (bits < 0 ? 0xffffffffu : 0x80000000u)) << 32 | number;
 }
 
-/// Adds a key to a heap whose least one is the first.
-static ALWAYS_INLINE void push_key(uint64_t *heap, uint32_t count, uint64_t key) {
-    uint32_t at = count;
-    for (; at && heap[(at - 1) / 2] > key; at = (at - 1) / 2) heap[at] = heap[(at - 1) / 2];
-    heap[at] = key;
-}
-
-/// Takes the least key of `count` away.
-static ALWAYS_INLINE uint64_t pop_key(uint64_t *heap, uint32_t count) {
-    const uint64_t least = heap[0], last = heap[count - 1];
-    uint32_t at = 0;
-    for (uint32_t next = 1; next < count - 1; next = 2 * at + 1) {
-        next += next + 1 < count - 1 && heap[next + 1] < heap[next];
-        if (heap[next] >= last) break;
-        heap[at] = heap[next], at = next;
-    }
-    heap[at] = last;
-    return least;
-}
-
-/// A block's layers: those whose turn has not come, in a heap by the least depth in any pixel; those that are
-/// in order, order[begin] to order[end - 1]. Layers are free from `made_count` on, and those in `free`.
+/// A block's layers: those whose turn has not come, keys[first_key] to keys[key_end - 1], by the least depth in
+/// any pixel; those that are in order, order[begin] to order[end - 1]. Layers are free from `made_count` on, and
+/// those in `free`.
 typedef struct block_layers {
-    uint32_t waiting, begin, end, free_count, made_count;
+    uint32_t first_key, key_end, begin, end, free_count, made_count;
 } block_layers;
+
+/// Adds a key to those that wait. Most come near the end: splats do by their least depths.
+static ALWAYS_INLINE void add_key(uint64_t *keys, block_layers *l, uint64_t key) {
+    uint32_t at = l->key_end++;
+    for (; at > l->first_key && keys[at - 1] > key; at--) keys[at] = keys[at - 1];
+    keys[at] = key;
+}
 
 /// Puts those layers in order that are before `bound` and composites what none to come can be in front of.
 static ALWAYS_INLINE void advance(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, uint64_t bound,
                                   block_layers *l, block_state *block) {
-    while (l->waiting && tile->heap[0] <= bound && block->alive) {
-        const uint32_t number = tile->slots[(uint32_t)pop_key(tile->heap, l->waiting--)];
+    while (l->first_key < l->key_end && tile->keys[l->first_key] <= bound && block->alive) {
+        const uint32_t number = tile->slots[(uint32_t)tile->keys[l->first_key++]];
         const wf least = wf_set(tile->layers[number].least);
         for (; l->begin < l->end; l->begin++) {
             const ewa_gaussian_layer *first = &tile->layers[tile->order[l->begin]];
@@ -286,7 +274,7 @@ static ALWAYS_INLINE void draw_splats(const ewa_gaussian_view *view, ewa_gaussia
         else
             l.made_count++;
         tile->slots[i] = number;
-        push_key(tile->heap, l.waiting++, depth_key(layer->least, i));
+        add_key(tile->keys, &l, depth_key(layer->least, i));
     }
     advance(view, tile, UINT64_MAX, &l, block);
     for (; l.begin < l.end && block->alive; l.begin++)

@@ -91,7 +91,7 @@ typedef struct ewa_gaussian_tile {
     uint32_t *row_ids;      ///< of splats in a row of blocks
     uint8_t *row_marks;     ///< theirs
     uint32_t *block_ids;    ///< of splats in a block
-    uint64_t *heap;         ///< of layers that wait: depth, then place in the block's list
+    uint64_t *keys;         ///< of layers that wait: depth, then place in the block's list
     uint32_t *slots;        ///< layers by that place
     uint32_t *order, *free; ///< layers in order; of no use now
     ewa_gaussian_layer *layers;

@@ -15,7 +15,7 @@
 
 /// What a worker needs; survives from frame to frame.
 typedef struct gaussian_scratch {
-    ewa_buffer marks, row_ids, row_marks, block_ids, heap, slots, order, free, layers;
+    ewa_buffer marks, row_ids, row_marks, block_ids, keys, slots, order, free, layers;
     uint64_t block_count, moved_count;
     double project_s, draw_s;
 } gaussian_scratch;
@@ -69,7 +69,7 @@ void ewa_gaussian_renderer_destroy(ewa_gaussian_renderer **renderer) {
     for (uint32_t i = 0; old->scratch && i < old->worker_count; i++) {
         gaussian_scratch *s = &old->scratch[i];
         ewa_buffer *const buffers[] = {&s->marks, &s->row_ids, &s->row_marks, &s->block_ids, &s->order,
-                                       &s->free,  &s->layers,  &s->heap,      &s->slots};
+                                       &s->free,  &s->layers,  &s->keys,      &s->slots};
         for (size_t b = 0; b < sizeof buffers / sizeof *buffers; b++) ewa_buffer_free(context, buffers[b]);
     }
     ewa_release(context, old->scratch, old->worker_count, sizeof *old->scratch);
@@ -210,7 +210,7 @@ static ewa_status reserve_scratch(ewa_context *context, gaussian_scratch *scratc
         {&scratch->row_ids, room + 1, sizeof(uint32_t)}, // one more is written, then overwritten
         {&scratch->row_marks, room + 1, 1},
         {&scratch->block_ids, room + 1, sizeof(uint32_t)},
-        {&scratch->heap, room, sizeof(uint64_t)},
+        {&scratch->keys, room, sizeof(uint64_t)},
         {&scratch->slots, room, sizeof(uint32_t)},
         {&scratch->order, room + 1, sizeof(uint32_t)},
         {&scratch->free, room, sizeof(uint32_t)},
@@ -244,7 +244,7 @@ static void draw_tile(void *data, uint32_t index, uint32_t worker) {
                               .row_ids = scratch->row_ids.data,
                               .row_marks = scratch->row_marks.data,
                               .block_ids = scratch->block_ids.data,
-                              .heap = scratch->heap.data,
+                              .keys = scratch->keys.data,
                               .slots = scratch->slots.data,
                               .order = scratch->order.data,
                               .free = scratch->free.data,
