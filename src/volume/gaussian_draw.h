@@ -335,7 +335,11 @@ static void draw(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, const e
                 draw_splats(view, tile, count, x_px, y_px, true, false, &block);
             else
                 draw_splats(view, tile, count, x_px, y_px, false, false, &block);
-            resolve_block(to, block.pixels, &at, view->unit_camera, true);
+            // Where nothing is drawn, what is behind stays as it is.
+            if (wm_bits(wf_lt(wf_load(block.pixels + 48), wf_set(1))))
+                resolve_block(to, block.pixels, &at, view->unit_camera, true);
+            else
+                resolve_block(to, block.pixels, &at, view->unit_camera, false);
         }
     }
 }
