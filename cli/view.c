@@ -9,6 +9,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const cli_option view_table[] = {
@@ -117,8 +118,11 @@ static upright choose_upright(const view_arguments *arguments, const cloud_frami
                               upright_convention(common->operand_count, common->operands));
     const double *low = framing->box.low_world, *high = framing->box.high_world;
     const double extent[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
-    const int axis = !up->count ? arguments->up_axis : fabs(up->values[2]) > fabs(up->values[1]) ? 2 : 1;
-    return (upright){.axis = axis, .view = upright_view(extent, axis), .why = "as it was asked for"};
+    const int axis = !up->count ? abs(arguments->up_axis) : fabs(up->values[2]) > fabs(up->values[1]) ? 2 : 1;
+    return (upright){.axis = axis,
+                     .reversed = !up->count && arguments->up_axis < 0,
+                     .view = upright_view(extent, axis),
+                     .why = up->count ? "as it was asked for" : "as files of this kind have it"};
 }
 
 /// What the directions of a view come from.
