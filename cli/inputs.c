@@ -4,6 +4,7 @@
 // Clouds from the files of the command line: loading, what is missing, merging.
 #include "inputs.h"
 #include "choosing.h"
+#include "gaussian_files.h"
 #include "model_input.h"
 #include "screening.h"
 
@@ -99,10 +100,17 @@ ewa_cloud *input_load_elements(cli_session *session, const char *path, ewa_eleme
     return cloud;
 }
 
-/// Loads the points that the filter takes of one file, maybe none; of a mesh, points on its faces.
+/// Loads the points that the filter takes of one file, maybe none; of a mesh, points on its faces; of Gaussians their discs.
 static ewa_cloud *load_or_sample(cli_session *session, const char *path, double cutoff, bool *sampled) {
     ewa_model model;
     ewa_cloud *cloud = NULL;
+    const ewa_gaussian_format gaussians = gaussian_files_format(session, path);
+    if (gaussians == EWA_GAUSSIANS_PLY || gaussians == EWA_GAUSSIANS_GLTF) {
+        *sampled = false;
+        cloud = gaussian_files_load_surfels(session, path);
+        if (cloud) filter_points(session, &cloud);
+        return cloud;
+    }
     if (model_input_load(session, path, EWA_MODEL_MESH, &model)) {
         cloud = model.points;
         model.points = NULL;

@@ -8,6 +8,7 @@
 #include "dividing.h"
 #include "frames.h"
 #include "furnish.h"
+#include "gaussian_scene.h"
 #include "inputs.h"
 #include "json.h"
 #include "light.h"
@@ -32,6 +33,7 @@ typedef struct render_arguments {
     section_arguments section;
     bool close_gaps;
     lod_arguments lod;
+    gaussian_arguments gaussians;
     const char *layers, *color_by;
     int colormap, backend;
     option_bounds range;
@@ -85,6 +87,8 @@ static const cli_option splat_table[] = {
 
 static const cli_option lod_table[] = {LOD_OPTIONS(AT(lod))};
 
+static const cli_option gaussian_table[] = {GAUSSIAN_OPTIONS(AT(gaussians))};
+
 static const cli_option section_table[] = {
     {"clip-box", OPTION_VECTOR, AT(section.box), "x0,y0,z0,x1,y1,z1",
      .help = "draw only what lies inside a box: its lower, then its upper corner, in the file's coordinates",
@@ -126,6 +130,7 @@ static void set_defaults(void *data) {
     ewa_surfels_options_init(&arguments->surfels, sizeof arguments->surfels);
     arguments->close_gaps = true;
     lod_input_set_defaults(&arguments->lod);
+    ewa_gaussian_options_init(&arguments->gaussians.options, sizeof arguments->gaussians.options);
     arguments->colormap = COLOR_BY_AUTO;
     arguments->background = (option_color){{1, 1, 1, 1}};
 }
@@ -187,6 +192,7 @@ typedef struct render_scene {
     ewa_surfels *surfels; ///< NULL: an octree
     ewa_lod *lod;         ///< NULL: surfels
     ewa_lod_options lod_options;
+    gaussian_scene gaussians; ///< path NULL: none
     color_scale scale;
     furnishing furniture;
 } render_scene;
@@ -263,10 +269,49 @@ static bool make_lod_scene(cli_session *session, const render_arguments *argumen
     return done;
 }
 
+/// Makes the scene of Gaussians, and of the surfaces among them where there are further inputs. False after
+/// reporting.
+static bool make_gaussian_scene(cli_session *session, const render_arguments *arguments, render_scene *scene,
+                                render_report *report) {
+    gaussian_scene *gaussians = &scene->gaussians;
+    const double started_s = clock_now_s();
+    const bool mixed = gaussians->rest.operand_count > 0;
+    ewa_cloud *cloud = NULL;
+    if (!mixed && arguments->color_by && !color_by_is_own(arguments->color_by)) {
+        session->subject = gaussians->path;
+        return session_fail(session,
+                            "--color-by: Gaussians have colours of their own; --surface draws them as "
+                            "surfels") == EXIT_DONE;
+    }
+    if (mixed)
+        cloud = inputs_as_surfels(session, &gaussians->rest, arguments->color_by, arguments->surfels.cutoff,
+                                  &report->estimate_s);
+    bool done = (!mixed || cloud) && gaussian_scene_load(session, cloud, gaussians);
+    report->load_s = clock_now_s() - started_s - report->estimate_s;
+    report->point_count = gaussians->info.splat_count + (cloud ? ewa_cloud_point_count(cloud) : 0);
+    if (cloud && arguments->color_by)
+        done = done && color_by(session, cloud, arguments->color_by, arguments->colormap, &arguments->range,
+                                &scene->scale);
+    frames_arguments frames = arguments->frames;
+    frames.view.up_axis = gaussians->up_axis;
+    session->subject = gaussians->path;
+    done = done && frames_make(session, &frames, gaussians->outline, 1, &scene->frames) &&
+           furnish_make(session, &arguments->furniture, &frames, &arguments->background, gaussians->outline,
+                        arguments->color_by, &scene->scale, &scene->furniture);
+    session->subject = mixed ? NULL : gaussians->path;
+    const resident_options options = {arguments->surfels, arguments->close_gaps,
+                                      arguments->light.render.point_size_px > 0};
+    done = done && (!cloud || resident_make(session, &options, &cloud, &scene->surfels, report));
+    ewa_cloud_destroy(&cloud);
+    return done;
+}
+
 /// Opens or loads what is to be drawn. False after reporting.
 static bool prepare(cli_session *session, const render_arguments *arguments, render_scene *scene,
                     render_report *report) {
     const common_arguments *common = &arguments->frames.view.common;
+    if (!gaussian_scene_find(session, common, &arguments->gaussians, &scene->gaussians)) return false;
+    if (scene->gaussians.path) return make_gaussian_scene(session, arguments, scene, report);
     if (!lod_input_choose(session, common, &arguments->lod, find_lod_clash(arguments), &scene->lod))
         return false;
     if (crew_shares_cloud(session->crew) && !scene->lod) {
@@ -290,8 +335,9 @@ static bool prepare(cli_session *session, const render_arguments *arguments, ren
 typedef struct surfel_painter {
     cli_session *session;
     ewa_renderer *renderer;
-    const render_scene *scene;
+    render_scene *scene;
     const ewa_render_options *options;
+    ewa_gaussian_options gaussians;
     render_report *report;
 } surfel_painter;
 
@@ -308,12 +354,32 @@ static ewa_status paint_lod(const surfel_painter *painter, const ewa_camera *cam
     return EWA_OK;
 }
 
+/// Draws the surfaces, where there are some, to planes of their own, then the Gaussians among them.
+static ewa_status paint_gaussians(const surfel_painter *painter, const ewa_camera *camera,
+                                  const ewa_frame *frame, ewa_render_stats *stats) {
+    gaussian_scene *gaussians = &painter->scene->gaussians;
+    *stats = (ewa_render_stats){.splat_count = 0};
+    if (!painter->scene->surfels)
+        return gaussian_scene_paint(gaussians, camera, &painter->gaussians, frame, stats);
+    ewa_render_options options = *painter->options;
+    memset(options.background, 0, sizeof options.background);
+    ewa_status status = within_make(painter->session->context, camera, &gaussians->planes);
+    const ewa_frame planes = {.rgba = gaussians->planes.surface.pixels,
+                              .depth = gaussians->planes.surface_depth.pixels};
+    if (status == EWA_OK)
+        status = ewa_render(painter->renderer, painter->scene->surfels, camera, &options, &planes, stats);
+    return status == EWA_OK ? gaussian_scene_paint_among(gaussians, camera, &painter->gaussians, frame, stats)
+                            : status;
+}
+
 static ewa_status paint(void *user, const ewa_camera *camera, const ewa_frame *frame,
                         ewa_render_stats *stats) {
     const surfel_painter *painter = user;
-    const ewa_status status = painter->scene->lod ? paint_lod(painter, camera, frame, stats)
-                                                  : ewa_render(painter->renderer, painter->scene->surfels,
-                                                               camera, painter->options, frame, stats);
+    const render_scene *scene = painter->scene;
+    const ewa_status status =
+        scene->gaussians.path ? paint_gaussians(painter, camera, frame, stats)
+        : scene->lod          ? paint_lod(painter, camera, frame, stats)
+                     : ewa_render(painter->renderer, scene->surfels, camera, painter->options, frame, stats);
     return status == EWA_OK ? furnish_draw(painter->session, &painter->scene->furniture, camera, frame)
                             : status;
 }
@@ -338,7 +404,7 @@ static bool make_renderer(cli_session *session, int backend, ewa_renderer **rend
 
 /// Draws and writes everything. False after reporting.
 static bool draw(cli_session *session, const render_arguments *arguments, const picture_paths *paths,
-                 const light_objects *lit_by, const render_scene *scene, render_report *report) {
+                 const light_objects *lit_by, render_scene *scene, render_report *report) {
     const bool many = frames_many(&arguments->frames);
     const ewa_render_options options = render_options(arguments, lit_by);
     const sequence_output output = {
@@ -351,7 +417,12 @@ static bool draw(cli_session *session, const render_arguments *arguments, const 
         .quality = arguments->frames.quality >= 0 ? (int)arguments->frames.quality : 75,
         .opaque = arguments->background.rgba[3] == 1,
     };
-    surfel_painter painting = {.session = session, .scene = scene, .options = &options, .report = report};
+    surfel_painter painting = {.session = session,
+                               .scene = scene,
+                               .options = &options,
+                               .gaussians = arguments->gaussians.options,
+                               .report = report};
+    memcpy(painting.gaussians.background, options.background, sizeof options.background);
     const frame_cameras *frames = &scene->frames;
     const bool saves_camera = arguments->save_camera_path && crew_leads(session->crew);
     const bool done = make_renderer(session, arguments->backend, &painting.renderer) &&
@@ -361,6 +432,18 @@ static bool draw(cli_session *session, const render_arguments *arguments, const 
     if (done) ewa_renderer_describe(painting.renderer, &report->renderer);
     ewa_renderer_destroy(&painting.renderer);
     return done;
+}
+
+/// Gaussians have no normals. False after reporting.
+static bool choose_planes(cli_session *session, const render_scene *scene, picture_paths *paths) {
+    if (!scene->gaussians.path) return true;
+    paths->no_normals = true;
+    if (!paths->normal[0]) return true;
+    session->subject = scene->gaussians.path;
+    session_fail(session,
+                 "--aov: Gaussians have no normals; depth and coverage they have, and as surfels, with "
+                 "--surface, normals");
+    return false;
 }
 
 static int run(const void *data) {
@@ -381,7 +464,7 @@ static int run(const void *data) {
                 dividing_choose(&session, &scene.frames);
     const bool idle = done && !frames->chosen_count && !arguments->save_camera_path && !arguments->stats_path;
     done = done && !idle && light_load(&session, &arguments->light, &lit_by) &&
-           prepare(&session, arguments, &scene, &report) &&
+           prepare(&session, arguments, &scene, &report) && choose_planes(&session, &scene, &paths) &&
            draw(&session, arguments, &paths, &lit_by, &scene, &report) &&
            (!arguments->stats_path || !crew_leads(session.crew) ||
             render_report_write(&session, common, many, frames, &report, arguments->stats_path));
@@ -400,6 +483,7 @@ static int run(const void *data) {
     frames_free(&scene.frames);
     ewa_surfels_destroy(&scene.surfels);
     ewa_lod_close(&scene.lod);
+    gaussian_scene_free(&scene.gaussians);
     light_free(&lit_by);
     return session_end(&session, ended);
 }
@@ -407,6 +491,7 @@ static int run(const void *data) {
 static const option_group output_options = OPTION_GROUP("Output", output_table);
 static const option_group splat_options = OPTION_GROUP("Splats", splat_table);
 static const option_group lod_options = OPTION_GROUP("Octrees", lod_table);
+static const option_group gaussian_options = OPTION_GROUP("Gaussians", gaussian_table);
 static const option_group section_options = OPTION_GROUP("Section", section_table);
 static const option_group look_options = OPTION_GROUP("Look", look_table);
 static const option_group furniture_options = OPTION_GROUP("Over the picture", furniture_table);
@@ -421,6 +506,12 @@ const cli_command render_command = {
         "faces (PLY, OBJ, STL, OFF, glTF), whatever its name, is a mesh: points are put onto its faces, "
         "'ewa sample' does it with options. Clouds that are no surface, such as the points of a curve, look "
         "best with --point-size.\n"
+        "\n"
+        "A file of trained Gaussians (3DGS, 2DGS and Mip-Splatting PLY, compressed PLY, .splat, SPZ, glTF, "
+        "...) is drawn as "
+        "such, with other inputs as surfaces among them. Without --up, y is down and z ahead, as the cameras "
+        "that took "
+        "the pictures have it, unless the file says otherwise.\n"
         "\n"
         "Without --camera and --eye the cloud is framed whole; when less than one point in a hundred "
         "lies so far off "
@@ -437,14 +528,16 @@ const cli_command render_command = {
         "ewa render tile.ply -o map.png --view top --color-by classification --color-bar --axes\n"
         "ewa render scan.ply -o scan.exr --camera camera.json --aov depth=depth.pfm,normal=normal.exr\n"
         "ewa render scan.ply -o turn.mp4 --turntable 120 --elevation 20\n"
+        "ewa render garden.spz -o garden.png --camera cameras.json --projection exact\n"
         "ewa render scan.ply -o fly_%04d.png --path keys.json --frames 300\n"
         "ewa render scan.ply -o turn_%04d.png --turntable 360 --frames 2/8 --skip-existing\n"
         "ewa render scan.ply -o floor.png --view top --clip-plane 0,0,-1,1.5\n",
     .low_operands = 1,
     .high_operands = 4096,
-    .groups = (const option_group *const[]){&output_options, &cloud_input_options, &view_options,
-                                            &frames_options, &splat_options, &lod_options, &section_options,
-                                            &light_options, &look_options, &furniture_options, NULL},
+    .groups =
+        (const option_group *const[]){&output_options, &cloud_input_options, &view_options, &frames_options,
+                                      &splat_options, &lod_options, &gaussian_options, &section_options,
+                                      &light_options, &look_options, &furniture_options, NULL},
     .arguments_bytes = sizeof(render_arguments),
     .set_defaults = set_defaults,
     .check = check,

@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const cli_option view_table[] = {
@@ -89,8 +90,11 @@ static ewa_upright choose_upright(const view_arguments *arguments, const ewa_fra
     ewa_framing_describe(framing, &info);
     const double *low = info.box.low_world, *high = info.box.high_world;
     const double extent[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
-    const int axis = !up->count ? arguments->up_axis : fabs(up->values[2]) > fabs(up->values[1]) ? 2 : 1;
-    return (ewa_upright){.axis = axis, .view = ewa_upright_view(extent, axis), .why = "as it was asked for"};
+    const int axis = !up->count ? abs(arguments->up_axis) : fabs(up->values[2]) > fabs(up->values[1]) ? 2 : 1;
+    return (ewa_upright){.axis = axis,
+                         .reversed = !up->count && arguments->up_axis < 0,
+                         .view = ewa_upright_view(extent, axis),
+                         .why = up->count ? "as it was asked for" : "as files of this kind have it"};
 }
 
 /// What the directions of a view come from.

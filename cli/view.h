@@ -16,7 +16,8 @@ typedef struct view_arguments {
     double fov_deg;      ///< 0: not given
     double ortho_height; ///< 0: perspective
     int view;            ///< index of a named view; -1: none given
-    int up_axis;         ///< 1 y, 2 z: which is up without --up; 0: by the cloud's shape; no option
+    int up_axis; ///< 1 y, 2 z, below 0 the negative one: which is up without --up; 0: by the cloud's shape;
+                 ///< no option
     double azimuth_deg, elevation_deg;
     option_size size;
 } view_arguments;

@@ -10,6 +10,7 @@
 #include "sequence.h"
 #include "video.h"
 #include "volume_scene.h"
+#include "within.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -29,9 +30,6 @@ typedef struct volume_arguments {
 #define VOLUME(member) OPTION_OF(ewa_volume_options, AT(scene.options), member)
 
 _Static_assert(offsetof(volume_arguments, light) == LIGHT_OFFSET, "light_check() and light_apply() say so");
-
-/// Share of what is behind that must come through the volume to be told apart from rounding.
-static const float LEAST_THROUGH = 1e-3f;
 
 static const cli_option output_table[] = {
     {"output", OPTION_OUTPUT, AT(output), "FILE",
@@ -137,56 +135,17 @@ typedef struct volume_painter {
     ewa_volume_stats stats; // counts and times summed over all frames
     ewa_renderer *surface_renderer;
     ewa_render_options surface_options;
-    /// Of the size of the last frame: the surfaces, all of the volume, what of it is before the surfaces,
-    /// zeros.
-    ewa_image surface, surface_depth, past, front, nothing;
+    within_planes planes;
 } volume_painter;
-
-/// Puts what is seen past the surfaces' antialiased edges behind them, or the background where no surface is.
-/// A picture of the volume alone is past = front + (1 - alpha of front) * behind, of which front is what lies
-/// before the surface.
-static void fill_edges(volume_painter *painter) {
-    const size_t pixel_count = (size_t)painter->surface.width_px * painter->surface.height_px;
-    const float *background = painter->options.background;
-    for (size_t i = 0; i < pixel_count; i++) {
-        float *surface = painter->surface.pixels + 4 * i;
-        const float *past = painter->past.pixels + 4 * i, *front = painter->front.pixels + 4 * i;
-        const float left = 1 - surface[3], through = 1 - front[3];
-        const bool nothing = surface[3] == 0;
-        for (int c = 0; c < 4 && left > 0; c++) {
-            const float plain = c < 3 ? background[c] * background[3] : background[3];
-            const float behind = through > LEAST_THROUGH ? (past[c] - front[c]) / through : 0;
-            surface[c] += left * (nothing ? plain : behind > 0 ? behind : 0);
-        }
-    }
-}
-
-static void free_planes(volume_painter *painter) {
-    ewa_image *const planes[] = {&painter->surface, &painter->surface_depth, &painter->past, &painter->front,
-                                 &painter->nothing};
-    for (size_t i = 0; i < sizeof planes / sizeof planes[0]; i++) ewa_image_free(planes[i]);
-}
-
-/// Makes the planes of the surfaces in the size of the camera's picture.
-static ewa_status make_planes(volume_painter *painter, const ewa_camera *camera) {
-    const uint32_t width = camera->width_px, height = camera->height_px;
-    if (painter->surface.width_px == width && painter->surface.height_px == height) return EWA_OK;
-    ewa_context *context = painter->session->context;
-    free_planes(painter);
-    ewa_status status = ewa_image_create(context, width, height, 1, &painter->surface_depth);
-    if (status == EWA_OK) status = ewa_image_create(context, width, height, 4, &painter->past);
-    if (status == EWA_OK) status = ewa_image_create(context, width, height, 4, &painter->front);
-    if (status == EWA_OK) status = ewa_image_create(context, width, height, 4, &painter->nothing);
-    if (status == EWA_OK) status = ewa_image_create(context, width, height, 4, &painter->surface);
-    return status;
-}
 
 /// Draws the surfaces within the volume to planes of their own.
 static ewa_status paint_surface(volume_painter *painter, const ewa_camera *camera, ewa_render_stats *stats) {
     painter->options.surface_rgba = painter->options.surface_depth = NULL;
-    ewa_status status = make_planes(painter, camera);
-    const ewa_frame frame = {.rgba = painter->surface.pixels, .depth = painter->surface_depth.pixels};
-    const ewa_frame past = {.rgba = painter->past.pixels}, front = {.rgba = painter->front.pixels};
+    ewa_status status = within_make(painter->session->context, camera, &painter->planes);
+    const ewa_frame frame = {.rgba = painter->planes.surface.pixels,
+                             .depth = painter->planes.surface_depth.pixels};
+    const ewa_frame past = {.rgba = painter->planes.past.pixels},
+                    front = {.rgba = painter->planes.front.pixels};
     if (status == EWA_OK)
         status = ewa_render(painter->surface_renderer, painter->scene->surfels, camera,
                             &painter->surface_options, &frame, stats);
@@ -194,12 +153,12 @@ static ewa_status paint_surface(volume_painter *painter, const ewa_camera *camer
         status = ewa_volume_render(painter->renderer, painter->scene->voxels, camera, &painter->options,
                                    &past, NULL);
     if (status != EWA_OK) return status;
-    painter->options.surface_rgba = painter->nothing.pixels;
-    painter->options.surface_depth = painter->surface_depth.pixels;
+    painter->options.surface_rgba = painter->planes.nothing.pixels;
+    painter->options.surface_depth = painter->planes.surface_depth.pixels;
     status =
         ewa_volume_render(painter->renderer, painter->scene->voxels, camera, &painter->options, &front, NULL);
-    fill_edges(painter);
-    painter->options.surface_rgba = painter->surface.pixels;
+    within_fill_edges(&painter->planes, painter->options.background);
+    painter->options.surface_rgba = painter->planes.surface.pixels;
     return status;
 }
 
@@ -254,7 +213,7 @@ static bool prepare_painter(const volume_arguments *arguments, volume_painter *p
 static void free_painter(volume_painter *painter) {
     ewa_volume_renderer_destroy(&painter->renderer);
     ewa_renderer_destroy(&painter->surface_renderer);
-    free_planes(painter);
+    within_free(&painter->planes);
 }
 
 /// Draws and writes everything, coarse first when asked for. False after reporting.

@@ -20,7 +20,7 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
 endif()
 
 foreach(body cloud/cells cloud/neighbours estimate/local homogeneous/clip_batch surface/pack surface/road texture/texture
-    volume/kernels warp/warp)
+    volume/gaussian volume/kernels warp/warp)
   foreach(set ${instruction_sets})
     string(TOUPPER ${set} SET)
     set(source ${PROJECT_BINARY_DIR}/kernels/${body}_${set}.c)

@@ -14,6 +14,7 @@
 #include "ewa/furniture.h"
 #include "ewa/gaussian.h"
 #include "ewa/gaussian_io.h"
+#include "ewa/gaussian_render.h"
 #include "ewa/gpu.h"
 #include "ewa/homogeneous.h"
 #include "ewa/image.h"

@@ -79,14 +79,13 @@ typedef struct ewa_framing_info {
     ewa_bounds box;         ///< of the points to show
     double middle_world[3]; ///< of the box
     uint64_t sample_count;  ///< points that are framed
-    bool
-        trimmed; ///< less than one point in a hundred lies so far off that the rest would be tiny: outside of the box
+    bool trimmed; ///< less than one point in a hundred, so far off that the rest would be tiny, is outside
 } ewa_framing_info;
 
 /// Measures a cloud whose radii are drawn times `radius_scale`, in [0, inf). Discs count as far as three times
 /// their median radius. The caller owns `*framing`, which is NULL after a failure and needs the cloud no more.
 /// Errors: EWA_ERROR_ARGUMENT (no positions), EWA_ERROR_NUMERIC (no point is finite), EWA_ERROR_MEMORY. One
-/// thread per context. Needs about 10 MiB meanwhile, 2 MiB then.
+/// thread per context. Needs up to 7 MiB meanwhile, 4 MiB then.
 EWA_API ewa_status ewa_framing_create(const ewa_cloud *cloud, double radius_scale, ewa_framing **framing);
 
 /// Frees a framing; sets `*framing` to NULL; accepts NULL and a pointer to NULL.

@@ -152,6 +152,17 @@ class ewa_gaussian_format(IntEnum):
     EWA_GAUSSIANS_SOG = 7
 
 
+class ewa_gaussian_filter(IntEnum):
+    EWA_FILTER_OF_SET = 0
+    EWA_FILTER_THICKEN = 1
+    EWA_FILTER_KEEP = 2
+
+
+class ewa_gaussian_projection(IntEnum):
+    EWA_PROJECTION_TRAINED = 0
+    EWA_PROJECTION_EXACT = 1
+
+
 class ewa_backend_kind(IntEnum):
     EWA_BACKEND_CPU = 0
     EWA_BACKEND_GL = 1
@@ -671,6 +682,77 @@ class ewa_gaussians_save_options(c.Structure):
         ("struct_size", c.c_size_t),
         ("sh_degree", c.c_uint32),
         ("spz_version", c.c_uint32),
+    ]
+
+
+class ewa_gaussian_options(c.Structure):
+    struct_size: int
+    projection: int
+    filter: int
+    prefilter_px2: float
+    cutoff: float
+    least_alpha: float
+    least_transmittance: float
+    near_world: float
+    sh_degree: int
+    background: c.Array[c.c_float]
+    surface_depth: int | None
+    surface_rgba: int | None
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("projection", c.c_int),
+        ("filter", c.c_int),
+        ("prefilter_px2", c.c_double),
+        ("cutoff", c.c_double),
+        ("least_alpha", c.c_double),
+        ("least_transmittance", c.c_double),
+        ("near_world", c.c_double),
+        ("sh_degree", c.c_uint32),
+        ("background", c.c_float * 4),
+        ("surface_depth", c.c_void_p),
+        ("surface_rgba", c.c_void_p),
+    ]
+
+
+class ewa_gaussian_stats(c.Structure):
+    splat_count: int
+    visible_count: int
+    near_count: int
+    tile_count: int
+    block_count: int
+    moved_count: int
+    project_s: float
+    bin_s: float
+    draw_s: float
+    total_s: float
+    _fields_ = [
+        ("splat_count", c.c_uint64),
+        ("visible_count", c.c_uint64),
+        ("near_count", c.c_uint64),
+        ("tile_count", c.c_uint64),
+        ("block_count", c.c_uint64),
+        ("moved_count", c.c_uint64),
+        ("project_s", c.c_double),
+        ("bin_s", c.c_double),
+        ("draw_s", c.c_double),
+        ("total_s", c.c_double),
+    ]
+
+
+class ewa_splats_info(c.Structure):
+    splat_count: int
+    sh_degree: int
+    antialiased: bool
+    resident_bytes: int
+    bounds: ewa_bounds
+    core: ewa_bounds
+    _fields_ = [
+        ("splat_count", c.c_uint32),
+        ("sh_degree", c.c_uint32),
+        ("antialiased", c.c_bool),
+        ("resident_bytes", c.c_size_t),
+        ("bounds", ewa_bounds),
+        ("core", ewa_bounds),
     ]
 
 
@@ -1839,6 +1921,7 @@ TABLES = (
     "ewa_acquire_options_table",
     "ewa_furniture_options_table",
     "ewa_gaussians_save_options_table",
+    "ewa_gaussian_options_table",
     "ewa_cloud_load_options_table",
     "ewa_cloud_save_options_table",
     "ewa_image_save_options_table",
@@ -1947,6 +2030,13 @@ class Functions:
     ewa_gaussians_probe: Callable[..., int]
     ewa_gaussians_save: Callable[..., int]
     ewa_gaussians_save_options_init: Callable[..., None]
+    ewa_gaussian_options_init: Callable[..., None]
+    ewa_gaussian_render: Callable[..., int]
+    ewa_gaussian_renderer_create: Callable[..., int]
+    ewa_gaussian_renderer_destroy: Callable[..., None]
+    ewa_splats_create: Callable[..., int]
+    ewa_splats_describe: Callable[..., None]
+    ewa_splats_destroy: Callable[..., None]
     ewa_gpu_class_name: Callable[..., bytes | None]
     ewa_gpu_describe: Callable[..., int]
     ewa_renderer_create_on: Callable[..., int]
@@ -2230,6 +2320,13 @@ class Functions:
         self.ewa_gaussians_probe = bind("ewa_gaussians_probe", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p)
         self.ewa_gaussians_save = bind("ewa_gaussians_save", c.c_int, c.POINTER(ewa_gaussians), c.c_char_p, c.POINTER(ewa_gaussians_save_options))
         self.ewa_gaussians_save_options_init = bind("ewa_gaussians_save_options_init", None, c.POINTER(ewa_gaussians_save_options), c.c_size_t)
+        self.ewa_gaussian_options_init = bind("ewa_gaussian_options_init", None, c.POINTER(ewa_gaussian_options), c.c_size_t)
+        self.ewa_gaussian_render = bind("ewa_gaussian_render", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_gaussian_options), c.POINTER(ewa_frame), c.POINTER(ewa_gaussian_stats))
+        self.ewa_gaussian_renderer_create = bind("ewa_gaussian_renderer_create", c.c_int, c.c_void_p, c.c_void_p)
+        self.ewa_gaussian_renderer_destroy = bind("ewa_gaussian_renderer_destroy", None, c.c_void_p)
+        self.ewa_splats_create = bind("ewa_splats_create", c.c_int, c.POINTER(ewa_gaussians), c.c_void_p)
+        self.ewa_splats_describe = bind("ewa_splats_describe", None, c.c_void_p, c.POINTER(ewa_splats_info))
+        self.ewa_splats_destroy = bind("ewa_splats_destroy", None, c.c_void_p)
         self.ewa_gpu_class_name = bind("ewa_gpu_class_name", c.c_char_p, c.c_int)
         self.ewa_gpu_describe = bind("ewa_gpu_describe", c.c_int, c.c_void_p, c.POINTER(ewa_gpu_info))
         self.ewa_renderer_create_on = bind("ewa_renderer_create_on", c.c_int, c.c_void_p, c.c_int, c.c_void_p)

@@ -339,6 +339,29 @@ class VolumeLoadOptions(TypedDict, total=False):
     spacing_world: Sequence[float]
 
 
+class GaussianOptions(TypedDict, total=False):
+    """Members of ewa_gaussian_options."""
+
+    #: how a Gaussian gets onto the screen: by the affine map at its centre, as in training, or by what each pixel's ray meets of it; trained|exact, default trained
+    projection: Literal["trained", "exact"] | int
+    #: what the pixel filter does to small Gaussians: what the file was trained with, nothing but thicken them, or lower them so that they add as much as before; file|thicken|keep, default file
+    filter: Literal["file", "thicken", "keep"] | int
+    #: variance of the pixel filter; [0, 16], px^2, default 0.3
+    prefilter_px2: float
+    #: standard deviations at which every Gaussian ends; [1, 6], default 4
+    cutoff: float
+    #: less of a Gaussian is not drawn; [1e-6, 0.5], default 0.00392156862745098
+    least_alpha: float
+    #: a pixel where less of what is behind would show gets nothing more; [0, 0.999999], default 0.001953125
+    least_transmittance: float
+    #: trained: Gaussians whose centres are nearer to the eye along its axis are not drawn; [0, 1e15], default 0.2
+    near_world: float
+    #: spherical harmonics beyond that degree are not used; [0, 4], default 4
+    sh_degree: int
+    #: linear light, straight alpha, which is at most 1; [0, 1e15], default 0
+    background: Sequence[float]
+
+
 class VolumeOptions(TypedDict, total=False):
     """Members of ewa_volume_options."""
 
@@ -427,6 +450,7 @@ __all__ = [
     "EstimateOptions",
     "FeatureOptions",
     "FurnitureOptions",
+    "GaussianOptions",
     "GaussiansSaveOptions",
     "GenerateOptions",
     "ImageSaveOptions",

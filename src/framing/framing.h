@@ -23,10 +23,4 @@ ewa_status ewa_framing_make(ewa_context *context, size_t room, ewa_framing **fra
 /// Length of a box' diagonal.
 double ewa_framing_diagonal(const ewa_bounds *box);
 
-/// Widens [*low, *high] so that it holds `number`, unless that is NaN. Inline, where fmin() and fmax() are calls.
-static inline void widen(double *low, double *high, double number) {
-    if (number < *low) *low = number;
-    if (number > *high) *high = number;
-}
-
 #endif

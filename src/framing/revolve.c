@@ -4,6 +4,7 @@
 // What a cloud covers while it turns about an axis: slices of a body of revolution, whose circles are polygons.
 #include "base/base.h"
 #include "framing/framing.h"
+#include "framing/widen.h"
 
 #include <math.h>
 

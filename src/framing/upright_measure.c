@@ -4,7 +4,7 @@
 // What is measured of some points to tell how they stand. Everything is counts, least and greatest numbers,
 // so that the order of the points does not matter.
 #include "framing/upright_measure.h"
-#include "framing/framing.h"
+#include "framing/widen.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -9,6 +9,7 @@
 #define EWA_SRC_VOLUME_KERNELS_POINTS_H
 
 #include "volume/kernels_append.h"
+#include "volume/kernels_over.h"
 
 /// 1 - exp(-t) for t >= 0, within 3e-7 of itself also where t is small: with t = ln 2 (n - f), n whole and f
 /// in [-1/2, 1/2], it is (1 - 2^-n) - 2^-n (2^f - 1).
@@ -24,28 +25,20 @@ static ALWAYS_INLINE wf absorbed(wf t) {
     return wf_fnma(scale, change, wf_sub(wf_set(1), scale));
 }
 
-/// The share of a voxel of depth z that lies in front of a block's opaque surfaces: nearly the Gaussian's.
+/// The share of a voxel of depth z that lies in front of a block's opaque surfaces.
 static ALWAYS_INLINE wf share_in_front(const ewa_volume_view *view, const float *surface, wf z) {
-    const wf reach = wf_set(2 * view->surface_reach), one = wf_set(1);
-    const wf u = wf_fma(wf_sub(wf_load(surface), z), wf_div(one, reach), wf_set(0.5f));
-    const wf t = wf_min(wf_max(u, wf_set(0)), one);
-    return wf_mul(wf_mul(t, t), wf_fma(wf_set(-2), t, wf_set(3)));
+    return share_ahead(wf_load(surface), z, wf_set(2 * view->surface_reach));
 }
 
-/// Composites optical depth `t` of a colour (`factor` times the light that is absorbed) behind a block's
-/// pixels.
+/// Composites `weight`, the light that is absorbed, of a colour behind a block's pixels.
 static ALWAYS_INLINE void absorb(const ewa_volume_view *view, float *pixels, wf weight, const wf color[3],
                                  wf z) {
     const wf through = wf_load(pixels + 48);
-    for (int c = 0; c < 3; c++) wf_store(pixels + 16 * c, wf_fma(weight, color[c], wf_load(pixels + 16 * c)));
+    add_light(pixels, weight, color);
     wf rest = wf_sub(through, weight);
     rest = wf_keep(wf_lt(wf_set(0x1p-90f), rest), rest); // the same as 0, and fast
     wf_store(pixels + 48, rest);
-    if (view->with_depth) {
-        const wf half = wf_set(0.5f);
-        const wm passes = wm_and(wf_lt(half, through), wf_le(rest, half));
-        wf_store(pixels + 64, wf_select(passes, z, wf_load(pixels + 64)));
-    }
+    if (view->with_depth) note_depth(pixels, through, rest, z);
 }
 
 /// Hides a cell in which nothing more would show.

@@ -30,6 +30,7 @@ static const ewa_option_table *const tables[] = {
     &ewa_texture_options_table,
     &ewa_volume_generate_options_table,
     &ewa_volume_load_options_table,
+    &ewa_gaussian_options_table,
     &ewa_volume_options_table,
     &ewa_volume_save_options_table,
     &ewa_gaussians_save_options_table,

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Pictures of trained Gaussians: their resident form, the renderer, and its double-precision reference.
+#ifndef EWA_GAUSSIAN_RENDER_H
+#define EWA_GAUSSIAN_RENDER_H
+
+#include "ewa/camera.h"
+#include "ewa/gaussian.h"
+#include "ewa/render.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// The resident form of a set of Gaussians, in an order of its own, so that the order of the set does not
+/// matter: about 150 bytes each with harmonics of degree 3. Immutable once made; any number of renderers of
+/// the same context may draw it.
+typedef struct ewa_splats ewa_splats;
+
+/// Makes Gaussians resident. Those that are not finite or have no opacity are left out; the shorter scales
+/// are made at least 1e-4 of the longest, so that flat Gaussians have a depth along every ray. The set is not
+/// needed afterwards. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT (more than 2^26), EWA_ERROR_MEMORY,
+/// EWA_CANCELLED.
+EWA_API ewa_status ewa_splats_create(const ewa_gaussians *gaussians, ewa_splats **splats);
+
+/// Frees splats; sets `*splats` to NULL; accepts NULL and a pointer to NULL.
+EWA_API void ewa_splats_destroy(ewa_splats **splats);
+
+/// Facts about splats.
+typedef struct ewa_splats_info {
+    uint32_t splat_count; ///< resident
+    uint32_t sh_degree;
+    bool antialiased; ///< as the set was
+    size_t resident_bytes;
+    ewa_bounds bounds; ///< of all centres
+    /// A box that far floaters do not widen, for framing: of the middle 96 % of the opacities along
+    /// each axis.
+    ewa_bounds core;
+} ewa_splats_info;
+
+EWA_API void ewa_splats_describe(const ewa_splats *splats, ewa_splats_info *info);
+
+/// How a Gaussian gets onto the screen (docs/math.md section 12).
+typedef enum ewa_gaussian_projection {
+    EWA_PROJECTION_TRAINED = 0, ///< the affine map at its centre, as in training (3DGS)
+    EWA_PROJECTION_EXACT = 1,   ///< what each pixel's ray meets of it, right at every angle
+} ewa_gaussian_projection;
+
+/// What the pixel filter does to a Gaussian's height.
+typedef enum ewa_gaussian_filter {
+    EWA_FILTER_OF_SET = 0,  ///< as the set was trained
+    EWA_FILTER_THICKEN = 1, ///< nothing: small Gaussians get more visible (3DGS)
+    EWA_FILTER_KEEP = 2,    ///< lowers it, so that the integral stays (Mip-Splatting, "antialiased")
+} ewa_gaussian_filter;
+
+/// How a picture of Gaussians is made. Fill with ewa_gaussian_options_init().
+typedef struct ewa_gaussian_options {
+    size_t struct_size;
+    ewa_gaussian_projection projection;
+    ewa_gaussian_filter filter;
+    double prefilter_px2; ///< variance of the pixel filter, px^2; [0, 16]; default 0.3
+    double cutoff;        ///< F, standard deviations at which every Gaussian ends; [1, 6]; default 4
+    double least_alpha;   ///< less of a Gaussian is not drawn; [1e-6, 0.5]; default 1/255
+    /// A pixel where less than this of what is behind would show gets nothing more; [0, 0.999999]; default
+    /// 1/512
+    double least_transmittance;
+    /// EWA_PROJECTION_TRAINED, perspective: centres nearer than that along the axis are not drawn; [0, 1e15];
+    /// default 0.2
+    double near_world;
+    uint32_t sh_degree;  ///< harmonics beyond it are not used; [0, EWA_MAX_SH_DEGREE]; default 4
+    float background[4]; ///< linear, [0, 1e15], straight alpha; default transparent black
+    /// Opaque surfaces among the Gaussians, as ewa_render() gives them (frame.depth and frame.rgba): planes
+    /// of the camera's size, borrowed during the call. What of a Gaussian lies behind surface_depth
+    /// (camera-space z) along a pixel's ray is not drawn, the rest over surface_rgba (linear, premultiplied),
+    /// which then replaces the background. Both NULL (default): none.
+    const float *surface_depth, *surface_rgba;
+} ewa_gaussian_options;
+
+EWA_API extern const ewa_option_table ewa_gaussian_options_table;
+EWA_API void ewa_gaussian_options_init(ewa_gaussian_options *options, size_t struct_size);
+
+/// What a frame took. Stage times are summed over workers, in seconds of thread time.
+typedef struct ewa_gaussian_stats {
+    uint64_t splat_count;   ///< resident
+    uint64_t visible_count; ///< of those: some pixel may show them
+    uint64_t near_count;    ///< of those: at the eye, drawn ray by ray
+    uint64_t tile_count;    ///< over all tiles: a splat in two counts twice
+    uint64_t block_count;   ///< over blocks of 4x4 pixels: what was evaluated
+    uint64_t moved_count;   ///< of those: steps by which they came in another order than their list's
+    double project_s, bin_s, draw_s;
+    double total_s; ///< wall clock of the call
+} ewa_gaussian_stats;
+
+/// A reusable object that owns all memory of a frame; nothing is allocated once it is warm.
+typedef struct ewa_gaussian_renderer ewa_gaussian_renderer;
+
+/// Makes a renderer; the caller owns it. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_gaussian_renderer_create(ewa_context *context, ewa_gaussian_renderer **renderer);
+
+/// Frees a renderer; sets `*renderer` to NULL; accepts NULL and a pointer to NULL.
+EWA_API void ewa_gaussian_renderer_destroy(ewa_gaussian_renderer **renderer);
+
+/// Draws Gaussians, front to back in every pixel: by the depth at which its ray passes the greatest density,
+/// so that nothing changes places at once as the camera moves. Colours are composited as display values, as
+/// in training; frame.rgba is linear as everywhere. Of the frame's planes rgba8, rgba, depth (where half of
+/// the light is gone; +infinity where that never happens) and coverage (alpha of the Gaussians alone) are
+/// written; normal must be NULL. The same bytes for every number of threads, every instruction set and every
+/// order of the set. `options` and `stats` may be NULL. Implements docs/math.md section 12, Gaussians; held
+/// by tests to a renderer in plain double precision. Errors: EWA_ERROR_ARGUMENT (camera, options,
+/// frame.normal), EWA_ERROR_MEMORY, EWA_CANCELLED.
+EWA_API ewa_status ewa_gaussian_render(ewa_gaussian_renderer *renderer, const ewa_splats *splats,
+                                       const ewa_camera *camera, const ewa_gaussian_options *options,
+                                       const ewa_frame *frame, ewa_gaussian_stats *stats);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,359 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The reference renderer of trained Gaussians: every pixel's list in double precision, sorted, composited. It
+// is the definition of what ewa_gaussian_render() draws; docs/math.md section 12 is its specification.
+//
+// Based on: B. Kerbl, G. Kopanas, T. Leimkuehler, G. Drettakis, "3D Gaussian Splatting for Real-Time Radiance
+// Field Rendering", 2023, section 4 and its program (the trained projection); L. Radl et al., "StopThePop",
+// 2024 (order by the depth of greatest density along a ray).
+#include "reference/gaussian.h"
+#include "base/base.h"
+#include "image/srgb.h"
+#include "math/ellipse.h"
+#include "volume/gaussian_view.h"
+#include "volume/splats.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/// A Gaussian on the screen.
+typedef struct splat {
+    uint32_t number;
+    ewa_vec3 place;   ///< camera space, world units
+    ewa_mat3 inverse; ///< of its covariance
+    double depth_reach, cutoff2, alpha;
+    double color[3]; ///< display values
+    bool near;       ///< ray by ray
+    double center_px[2], conic[3], reach_px[2];
+    double unfilter[2][2]; ///< from offsets in the filtered ellipse to those in the true one
+} splat;
+
+/// A Gaussian in a pixel.
+typedef struct hit {
+    uint32_t x, splat;
+    double z, key, alpha;
+} hit;
+
+typedef struct reference {
+    const ewa_gaussians *set;
+    ewa_gaussian_options options;
+    ewa_gaussian_camera camera;
+    uint32_t width_px, height_px;
+    ewa_gaussian_order order;
+    ewa_frame frame;
+    splat *splats;
+    uint32_t splat_count;
+    ewa_buffer hits;
+} reference;
+
+/// Real spherical harmonics along a unit direction, in the order and with the signs of 3DGS.
+static void harmonics_of(ewa_vec3 d, double y[25]) {
+    const double x = d.x, v = d.y, z = d.z, xx = x * x, yy = v * v, zz = z * z;
+    const double values[25] = {
+        0.28209479177387814,
+        -0.4886025119029199 * v,
+        0.4886025119029199 * z,
+        -0.4886025119029199 * x,
+        1.0925484305920792 * x * v,
+        -1.0925484305920792 * v * z,
+        0.31539156525252005 * (2 * zz - xx - yy),
+        -1.0925484305920792 * x * z,
+        0.5462742152960396 * (xx - yy),
+        -0.5900435899266435 * v * (3 * xx - yy),
+        2.890611442640554 * x * v * z,
+        -0.4570457994644658 * v * (4 * zz - xx - yy),
+        0.3731763325901154 * z * (2 * zz - 3 * xx - 3 * yy),
+        -0.4570457994644658 * x * (4 * zz - xx - yy),
+        1.445305721320277 * z * (xx - yy),
+        -0.5900435899266435 * x * (xx - 3 * yy),
+        2.5033429417967046 * x * v * (xx - yy),
+        -1.7701307697799304 * v * z * (3 * xx - yy),
+        0.9461746957575601 * x * v * (7 * zz - 1),
+        -0.6690465435572892 * v * z * (7 * zz - 3),
+        0.10578554691520431 * (zz * (35 * zz - 30) + 3),
+        -0.6690465435572892 * x * z * (7 * zz - 3),
+        0.47308734787878004 * (xx - yy) * (7 * zz - 1),
+        -1.7701307697799304 * x * z * (xx - 3 * yy),
+        0.6258357354491761 * (xx * (xx - 3 * yy) - yy * (3 * xx - yy)),
+    };
+    memcpy(y, values, sizeof values);
+}
+
+static ewa_vec3 load(const float v[3]) { return vec3_make((double)v[0], (double)v[1], (double)v[2]); }
+
+static void set_color(const reference *work, const float *center, splat *made) {
+    const ewa_gaussian_camera *camera = &work->camera;
+    ewa_vec3 direction = camera->orthographic ? camera->forward : vec3_sub(load(center), camera->eye);
+    vec3_normalize(&direction);
+    double y[25];
+    harmonics_of(direction, y);
+    const uint32_t degree = work->set->sh_degree, side = degree + 1;
+    const uint32_t used = work->options.sh_degree < degree ? work->options.sh_degree + 1 : side;
+    const float *from = work->set->harmonics + 3 * (size_t)(side * side) * made->number;
+    for (uint32_t c = 0; c < 3; c++) {
+        double sum = 0.5;
+        for (uint32_t k = 0; k < used * used; k++) sum += y[k] * (double)from[3 * k + c];
+        made->color[c] = fmax(sum, 0);
+    }
+}
+
+/// Axes in camera space, unit, and standard deviations along them.
+static void axes_of(const reference *work, uint32_t number, ewa_vec3 axes[3], double scales[3]) {
+    const float *s = work->set->scales + 3 * (size_t)number, *q = work->set->rotations + 4 * (size_t)number;
+    const double w = (double)q[0], x = (double)q[1], y = (double)q[2], z = (double)q[3];
+    const ewa_vec3 world[3] = {
+        {1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
+        {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
+        {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)},
+    };
+    const double longest = fmax(fmax((double)s[0], (double)s[1]), (double)s[2]);
+    const ewa_mat3 turn = mat3_transpose(&work->camera.turn);
+    for (int i = 0; i < 3; i++) {
+        axes[i] = vec3_mul_mat3(world[i], &turn);
+        scales[i] = fmax((double)s[i], EWA_SPLAT_LEAST_ASPECT * longest);
+    }
+}
+
+/// Sum of a'a weight over three vectors.
+static ewa_mat3 gram(const ewa_vec3 v[3], const double weights[3]) {
+    ewa_mat3 sum = {{{0}}};
+    for (int i = 0; i < 3; i++) {
+        double a[3];
+        vec3_store(v[i], a);
+        for (int row = 0; row < 3; row++)
+            for (int column = 0; column < 3; column++) sum.m[row][column] += weights[i] * a[row] * a[column];
+    }
+    return sum;
+}
+
+/// V in pixels and the ellipse's centre (docs/math.md section 3, sheared); `cutoff2` 0: the affine map.
+static void project(const reference *work, const ewa_mat3 *s, ewa_vec3 p, double cutoff2, double v[3],
+                    double center_px[2]) {
+    const ewa_gaussian_camera *c = &work->camera;
+    double shift[2] = {0, 0}, x = p.x, y = p.y;
+    if (c->orthographic) {
+        v[0] = s->m[0][0], v[1] = s->m[0][1], v[2] = s->m[1][1];
+    } else {
+        x /= p.z, y /= p.z;
+        const double cx = c->trained ? fmin(fmax(x, c->slopes[0]), c->slopes[1]) : x;
+        const double cy = c->trained ? fmin(fmax(y, c->slopes[2]), c->slopes[3]) : y;
+        const double s13 = s->m[0][2] - cx * s->m[2][2], s23 = s->m[1][2] - cy * s->m[2][2];
+        const double s11 = s->m[0][0] - 2 * cx * s->m[0][2] + cx * cx * s->m[2][2];
+        const double s12 = s->m[0][1] - cx * s->m[1][2] - cy * s->m[0][2] + cx * cy * s->m[2][2];
+        const double s22 = s->m[1][1] - 2 * cy * s->m[1][2] + cy * cy * s->m[2][2];
+        const double k = 1 / (p.z * p.z - cutoff2 * s->m[2][2]);
+        ewa_ellipse_project((const double[5]){s11, s12, s22, s13, s23}, k, cutoff2, v, shift);
+    }
+    v[0] *= c->fx_px * c->fx_px, v[1] *= c->fx_px * c->fy_px, v[2] *= c->fy_px * c->fy_px;
+    center_px[0] = c->fx_px * (x + shift[0]) + c->cx_px, center_px[1] = c->fy_px * (y + shift[1]) + c->cy_px;
+}
+
+/// Lower triangle L with L L' = V.
+static void cholesky(const double v[3], double l[3]) {
+    l[0] = sqrt(fmax(v[0], 1e-24));
+    l[1] = v[1] / l[0];
+    l[2] = sqrt(fmax(v[2] - l[1] * l[1], 0));
+}
+
+static void set_ellipse(const reference *work, const ewa_mat3 *covariance, splat *made) {
+    double v[3], l[3], m[3];
+    project(work, covariance, made->place, work->camera.trained ? 0 : made->cutoff2, v, made->center_px);
+    const double h2 = work->options.prefilter_px2;
+    const double w[3] = {fmax(v[0] + h2, 1e-12), v[1], fmax(v[2] + h2, 1e-12)};
+    const double area = fmax(v[0] * v[2] - v[1] * v[1], 0);
+    const double filtered = fmax(area + h2 * (v[0] + v[2] + h2), 1e-24);
+    made->conic[0] = w[2] / filtered, made->conic[1] = -w[1] / filtered, made->conic[2] = w[0] / filtered;
+    made->reach_px[0] = sqrt(made->cutoff2 * w[0]), made->reach_px[1] = sqrt(made->cutoff2 * w[2]);
+    if (work->camera.keep) made->alpha *= sqrt(fmax(area / filtered, EWA_GAUSSIAN_LEAST_KEPT));
+    if (work->camera.trained) { // V V'^-1: the mean place of what the filter gathers there
+        made->unfilter[0][0] = 1 - h2 * w[2] / filtered, made->unfilter[0][1] = h2 * w[1] / filtered;
+        made->unfilter[1][0] = made->unfilter[0][1], made->unfilter[1][1] = 1 - h2 * w[0] / filtered;
+        return;
+    }
+    cholesky(v, l);
+    cholesky(w, m);
+    made->unfilter[0][0] = l[0] / m[0], made->unfilter[0][1] = 0;
+    made->unfilter[1][1] = l[2] / m[2];
+    made->unfilter[1][0] = (l[1] - made->unfilter[1][1] * m[1]) / m[0];
+}
+
+static bool make_splat(const reference *work, uint32_t number, splat *made) {
+    const ewa_gaussian_camera *camera = &work->camera;
+    const float *center = work->set->centers + 3 * (size_t)number;
+    const double opacity = fmin((double)work->set->opacities[number], 1);
+    *made = (splat){.number = number, .alpha = opacity};
+    made->cutoff2 = 2 * log(opacity / work->options.least_alpha);
+    if (!(made->cutoff2 > 0)) return false;
+    made->cutoff2 = fmin(made->cutoff2, work->options.cutoff * work->options.cutoff);
+    const ewa_mat3 turn = mat3_transpose(&camera->turn);
+    made->place = vec3_add(vec3_mul_mat3(load(center), &turn), camera->origin);
+    ewa_vec3 axes[3];
+    double scales[3], variances[3], inverses[3];
+    axes_of(work, number, axes, scales);
+    for (int i = 0; i < 3; i++) variances[i] = scales[i] * scales[i], inverses[i] = 1 / variances[i];
+    const ewa_mat3 covariance = gram(axes, variances);
+    made->inverse = gram(axes, inverses);
+    made->depth_reach = sqrt(made->cutoff2 * covariance.m[2][2]);
+    if (!(made->place.z + (camera->trained ? 0 : made->depth_reach) > camera->near)) return false;
+    made->near = !camera->trained && made->place.z <= EWA_GAUSSIAN_NEAR * made->depth_reach;
+    if (made->near)
+        made->reach_px[0] = made->reach_px[1] = INFINITY;
+    else
+        set_ellipse(work, &covariance, made);
+    if (made->alpha < work->options.least_alpha) return false;
+    set_color(work, center, made);
+    return true;
+}
+
+/// How a ray passes a Gaussian.
+typedef struct passage {
+    double distance2; ///< Mahalanobis distance squared
+    double z;         ///< where the density is greatest
+    double deviation; ///< standard deviation along the ray, in depth
+} passage;
+
+/// The ray through a place on the screen.
+static passage pass(const reference *work, const splat *at, double x_px, double y_px) {
+    const ewa_gaussian_camera *c = &work->camera;
+    const double x = (x_px - c->cx_px) / c->fx_px, y = (y_px - c->cy_px) / c->fy_px;
+    const ewa_vec3 ray = c->orthographic ? vec3_make(0, 0, 1) : vec3_make(x, y, 1);
+    // From the Gaussian to the ray, at its own depth.
+    const ewa_vec3 from = c->orthographic ? vec3_make(x - at->place.x, y - at->place.y, 0)
+                                          : vec3_sub(vec3_scale(ray, at->place.z), at->place);
+    const double a = vec3_dot(ray, mat3_mul_vec3(&at->inverse, ray));
+    const double b = vec3_dot(ray, mat3_mul_vec3(&at->inverse, from));
+    const double d = vec3_dot(from, mat3_mul_vec3(&at->inverse, from));
+    return (passage){fmax(d - b * b / a, 0), at->place.z - b / a, 1 / sqrt(a)};
+}
+
+/// Alpha and depth of a Gaussian at a pixel's centre; false outside of it.
+static bool meet(const reference *work, const splat *at, uint32_t x, uint32_t y, hit *made) {
+    const double x_px = x + 0.5, y_px = y + 0.5, dx = x_px - at->center_px[0], dy = y_px - at->center_px[1];
+    const double true_x = at->center_px[0] + at->unfilter[0][0] * dx + at->unfilter[0][1] * dy;
+    const double true_y = at->center_px[1] + at->unfilter[1][0] * dx + at->unfilter[1][1] * dy;
+    const passage by = at->near ? pass(work, at, x_px, y_px) : pass(work, at, true_x, true_y);
+    double m2 = by.distance2;
+    if (work->camera.trained)
+        m2 = at->conic[0] * dx * dx + 2 * at->conic[1] * dx * dy + at->conic[2] * dy * dy;
+    if (m2 >= at->cutoff2 || (!work->camera.trained && by.z <= 0)) return false;
+    double alpha = at->alpha * exp(-m2 / 2);
+    if (work->camera.keep && alpha < work->options.least_alpha) return false;
+    alpha = fmin(alpha, EWA_GAUSSIAN_MOST_ALPHA);
+    const double z = fmin(fmax(by.z, at->place.z - at->depth_reach), at->place.z + at->depth_reach);
+    if (work->options.surface_depth) {
+        const double surface = (double)work->options.surface_depth[(size_t)y * work->width_px + x];
+        alpha *= 0.5 * erfc((z - surface / work->camera.unit_camera) / (by.deviation * sqrt(2)));
+    }
+    *made = (hit){.x = x, .splat = (uint32_t)(at - work->splats), .z = z, .alpha = alpha};
+    made->key = work->order == EWA_ORDER_RAYS ? z : at->place.z;
+    return true;
+}
+
+static int by_depth(const void *a, const void *b) {
+    const hit *s = a, *t = b;
+    if (s->x != t->x) return s->x < t->x ? -1 : 1;
+    if (s->key != t->key) return s->key < t->key ? -1 : 1;
+    return s->splat < t->splat ? -1 : s->splat > t->splat;
+}
+
+/// All that the pixels of a row see, pixel by pixel, front to back.
+static ewa_status gather_row(reference *work, uint32_t y, size_t *count) {
+    *count = 0;
+    const double middle = y + 0.5;
+    for (const splat *at = work->splats; at < work->splats + work->splat_count; at++) {
+        if (fabs(middle - at->center_px[1]) > at->reach_px[1]) continue;
+        const double left = fmax(0, ceil(at->center_px[0] - at->reach_px[0] - 0.5));
+        const double right = fmin(work->width_px, floor(at->center_px[0] + at->reach_px[0] - 0.5) + 1);
+        if (!(left < right)) continue;
+        const ewa_status status = ewa_buffer_grow(work->set->context, &work->hits, *count,
+                                                  *count + (size_t)(right - left), sizeof(hit));
+        if (status != EWA_OK) return status;
+        hit *hits = work->hits.data;
+        for (double x = left; x < right; x++) *count += meet(work, at, (uint32_t)x, y, &hits[*count]);
+    }
+    if (*count) qsort(work->hits.data, *count, sizeof(hit), by_depth);
+    return EWA_OK;
+}
+
+/// The sRGB curve and its inverse, going on above 1.
+static double display_of_linear(double x) {
+    return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055;
+}
+static double linear_of_display(double x) { return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4); }
+
+/// What is behind the Gaussians, premultiplied display values.
+static void behind(const reference *work, size_t index, double color[4]) {
+    const float *surface = work->options.surface_rgba, *background = work->options.background;
+    color[3] = (double)(surface ? surface[4 * index + 3] : background[3]);
+    for (size_t c = 0; c < 3; c++) {
+        const double straight = !surface       ? (double)background[c]
+                                : color[3] > 0 ? (double)surface[4 * index + c] / color[3]
+                                               : 0;
+        color[c] = display_of_linear(straight) * color[3];
+    }
+}
+
+static void write_pixel(const reference *work, size_t index, const hit *hits, size_t count) {
+    double color[3] = {0}, through = 1, depth = INFINITY, back[4];
+    for (size_t i = 0; i < count; i++) {
+        const double weight = through * hits[i].alpha;
+        for (int c = 0; c < 3; c++) color[c] += weight * work->splats[hits[i].splat].color[c];
+        if (through > 0.5 && through - weight <= 0.5) depth = hits[i].z * work->camera.unit_camera;
+        through -= weight;
+    }
+    behind(work, index, back);
+    const ewa_frame *frame = &work->frame;
+    const double alpha = 1 - through + through * back[3];
+    float linear[4] = {0, 0, 0, (float)alpha};
+    for (int c = 0; c < 3 && alpha > 0; c++)
+        linear[c] = (float)(linear_of_display((color[c] + through * back[c]) / alpha) * alpha);
+    if (frame->depth) frame->depth[index] = (float)depth;
+    if (frame->coverage) frame->coverage[index] = (float)(1 - through);
+    for (size_t c = 0; c < 4 && frame->rgba; c++) frame->rgba[4 * index + c] = linear[c];
+    for (size_t c = 0; c < 3 && frame->rgba8; c++)
+        frame->rgba8[4 * index + c] =
+            alpha > 0 ? ewa_srgb8_from_linear((float)((double)linear[c] / alpha)) : 0;
+    if (frame->rgba8) frame->rgba8[4 * index + 3] = (uint8_t)(255 * fmin(alpha, 1) + 0.5);
+}
+
+/// With `work` complete but for the memory.
+static ewa_status render(reference *work) {
+    ewa_context *context = work->set->context;
+    work->splats = ewa_allocate(context, work->set->count, sizeof *work->splats);
+    if (!work->splats) return EWA_ERROR_MEMORY;
+    for (uint32_t i = 0; i < work->set->count; i++)
+        work->splat_count += make_splat(work, i, &work->splats[work->splat_count]);
+    ewa_status status = EWA_OK;
+    for (uint32_t y = 0; y < work->height_px && status == EWA_OK; y++) {
+        size_t count = 0, first = 0;
+        status = ewa_progress(context, "reference", (double)y / work->height_px);
+        if (status == EWA_OK) status = gather_row(work, y, &count);
+        const hit *hits = work->hits.data;
+        for (uint32_t x = 0; x < work->width_px && status == EWA_OK; x++) {
+            size_t end = first;
+            while (end < count && hits[end].x == x) end++;
+            write_pixel(work, (size_t)y * work->width_px + x, hits + first, end - first);
+            first = end;
+        }
+    }
+    ewa_buffer_free(context, &work->hits);
+    ewa_release(context, work->splats, work->set->count, sizeof *work->splats);
+    return status;
+}
+
+ewa_status ewa_gaussian_render_reference(const ewa_gaussians *gaussians, const ewa_camera *camera,
+                                         const ewa_gaussian_options *options, ewa_gaussian_order order,
+                                         const ewa_frame *frame) {
+    if (!gaussians || !gaussians->context || !camera || !frame) return EWA_ERROR_ARGUMENT;
+    ewa_context *context = gaussians->context;
+    reference work = {.set = gaussians, .order = order, .frame = *frame};
+    ewa_status status = ewa_gaussian_options_choose(context, options, &work.options);
+    if (status == EWA_OK) status = ewa_camera_check(context, camera);
+    if (status == EWA_OK) status = ewa_gaussian_frame_check(context, frame);
+    if (status != EWA_OK) return status;
+    work.width_px = camera->width_px, work.height_px = camera->height_px;
+    ewa_gaussian_camera_make(&work.camera, camera, &work.options, gaussians->antialiased, 1,
+                             gaussians->origin);
+    return render(&work);
+}

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The hot loops of Gaussians: what goes in and out of them. One body (gaussian_body.h), one file per
+// instruction set, the same bytes from each. Formulas: docs/math.md section 12.
+//
+// `project` makes records of the splats of a packet that some pixel may show. Then, one tile at a time,
+// `mark` finds the blocks of 4x4 pixels that each of its splats touches, and `draw` composites them, block by
+// block.
+#ifndef EWA_SRC_VOLUME_GAUSSIAN_KERNELS_H
+#define EWA_SRC_VOLUME_GAUSSIAN_KERNELS_H
+
+#include "volume/kernels.h"
+#include "volume/splats.h"
+
+enum {
+    EWA_GAUSSIAN_TILE_PX = 32,
+    EWA_GAUSSIAN_ROW_BLOCKS = EWA_GAUSSIAN_TILE_PX / 4,
+};
+
+/// What pixels need of a splat. With the offset (u, v) of a pixel's centre from (X, Y):
+///
+///     ellipse, filtered   q^2 = (AX u + AY v)^2 + (BY v)^2, at most LIMIT
+///     ray                 g_k = Gk_X u + Gk_Y v + Gk, k = 1, 2, 3: its direction in the splat's standard
+/// deviations,
+///                         turned so that the third points from the eye to the centre, which is LENGTH away
+///     passes it at        m^2 = LENGTH^2 (g1^2 + g2^2) / (g1^2 + g2^2 + g3^2)
+///     in the depth        z = LENGTH g3 / (g1^2 + g2^2 + g3^2)
+///
+/// Orthographic: m^2 is g1^2 + g2^2, z is g3, LENGTH how many standard deviations a unit of depth is.
+enum {
+    RECORD_X,
+    RECORD_Y,
+    RECORD_AX,
+    RECORD_AY,
+    RECORD_BY,
+    RECORD_LIMIT,
+    RECORD_G,
+    RECORD_LENGTH = RECORD_G + 9,
+    RECORD_LOG2_ALPHA, ///< in the middle
+    RECORD_LOW,        ///< depths that pixels see it at
+    RECORD_HIGH,
+    RECORD_COLOR,                    ///< display values
+    RECORD_REACH = RECORD_COLOR + 3, ///< half of the ellipse's height
+    RECORD_TOUCH,                    ///< v where the ellipse is farthest to the right
+    RECORD_FLOATS,
+};
+
+typedef float ewa_gaussian_record[RECORD_FLOATS];
+
+/// Camera and options of a frame in single precision.
+typedef struct ewa_gaussian_view {
+    bool orthographic, trained, keep, with_depth, with_surface;
+    float fx_px, fy_px, cx_px, cy_px;
+    float width_px, height_px;
+    float last_column, last_row; ///< of the tiles
+    float turn[3][3];            ///< rows, acts on columns
+    float origin[3], eye[3], forward[3];
+    float slopes[4], near;
+    float cutoff2, prefilter_px2, log2_least, least_alpha, least_transmittance;
+    uint32_t harmonic_count; ///< that are stored beyond degree 0, three colours
+    uint32_t sh_degree;      ///< that are used
+    double unit_camera;
+} ewa_gaussian_view;
+
+/// Where the visible splats of some packets go; `count` of them are there.
+typedef struct ewa_gaussian_found {
+    ewa_gaussian_record *records;
+    uint32_t *keys;       ///< sort as RECORD_LOW does
+    int32_t *first, *end; ///< tiles, as in ewa_bin_items
+    uint32_t count, near_count;
+} ewa_gaussian_found;
+
+/// A splat's alpha and depth in the pixels of a block, or those of several splats, each in some pixels.
+typedef struct ewa_gaussian_layer {
+    _Alignas(64) float z[16], alpha[16];
+    int32_t colors[16]; ///< where they begin in the records; the same everywhere where not `mixed`
+    uint32_t active;    ///< pixels that it is in; in the others z is that of the layer before
+    float least;        ///< of z where it is active, when it is made
+    bool mixed;
+} ewa_gaussian_layer;
+
+/// A tile while it is drawn; room for `count` of everything, in whole sixteens.
+typedef struct ewa_gaussian_tile {
+    uint32_t x_px, y_px, width_px, height_px;
+    const ewa_gaussian_record *records;
+    const uint32_t *ids; ///< [count] records, by RECORD_LOW
+    uint32_t count;
+    uint8_t *marks;         ///< [row of blocks][room]: bit c: column c
+    size_t room;            ///< of a row of marks
+    uint32_t *row_ids;      ///< of splats in a row of blocks
+    uint8_t *row_marks;     ///< theirs
+    uint32_t *block_ids;    ///< of splats in a block
+    uint64_t *keys;         ///< of layers that wait: depth, then place in the block's list
+    uint32_t *slots;        ///< layers by that place
+    uint32_t *order, *free; ///< layers in order; of no use now
+    ewa_gaussian_layer *layers;
+    const float *surface_depth; ///< of the picture, NULL: none
+    uint64_t block_count, moved_count;
+} ewa_gaussian_tile;
+
+typedef struct ewa_gaussian_kernels {
+    /// Adds those splats of a packet that some pixel may show.
+    void (*project)(const ewa_gaussian_view *view, const ewa_splat_packet *packet,
+                    const int16_t (*harmonics)[EWA_SPLAT_LANES], ewa_gaussian_found *found);
+
+    /// Sets the marks of a tile's splats.
+    void (*mark)(ewa_gaussian_tile *tile);
+
+    /// Composites and writes the tile's pixels.
+    void (*draw)(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, const ewa_volume_target *to);
+} ewa_gaussian_kernels;
+
+EWA_DECLARE_VERSIONS(const ewa_gaussian_kernels, ewa_gaussian_kernels);
+
+#endif

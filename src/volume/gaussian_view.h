@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// A frame of Gaussians: options that came from outside, and camera and options in double precision, which the
+// renderer and its reference share.
+#ifndef EWA_SRC_VOLUME_GAUSSIAN_VIEW_H
+#define EWA_SRC_VOLUME_GAUSSIAN_VIEW_H
+
+#include "ewa/gaussian_render.h"
+#include "homogeneous/vec.h"
+#include "volume/kernels.h"
+
+/// Perspective: Gaussians whose centres are nearer than that many of their depth half ranges are drawn ray by
+/// ray.
+#define EWA_GAUSSIAN_NEAR 1.05
+
+/// No Gaussian takes more of the light (3DGS).
+#define EWA_GAUSSIAN_MOST_ALPHA 0.99
+
+/// What the filter leaves of a Gaussian's height is at least the root of that (Mip-Splatting).
+#define EWA_GAUSSIAN_LEAST_KEPT 2.5e-5
+
+/// Camera space in units of the splats, and what else a frame's Gaussians share.
+typedef struct ewa_gaussian_camera {
+    bool orthographic, trained, keep;
+    double fx_px, fy_px, cx_px, cy_px; ///< orthographic: pixels per unit
+    double unit_camera;                ///< a unit in camera space, as depth planes have it
+    ewa_mat3 turn;                     ///< column vectors of the world to camera space, a rotation
+    ewa_vec3 origin;                   ///< that of the splats in camera space
+    ewa_vec3 eye;                      ///< perspective: from the splats' origin, units, world axes
+    ewa_vec3 forward;                  ///< world axes
+    double slopes[4];                  ///< where the affine map's Jacobian is held: left, right, top, bottom
+    double near;                       ///< of centres, 0: none; orthographic: -infinity
+} ewa_gaussian_camera;
+
+/// Copies `given` (NULL: the defaults) to `chosen` after checking every member. Errors: EWA_ERROR_ARGUMENT.
+ewa_status ewa_gaussian_options_choose(ewa_context *context, const ewa_gaussian_options *given,
+                                       ewa_gaussian_options *chosen);
+
+/// Fails for a frame with planes that Gaussians do not have. Errors: EWA_ERROR_ARGUMENT.
+ewa_status ewa_gaussian_frame_check(ewa_context *context, const ewa_frame *frame);
+
+/// All arguments are checked ones.
+void ewa_gaussian_camera_make(ewa_gaussian_camera *made, const ewa_camera *camera,
+                              const ewa_gaussian_options *options, bool antialiased, double unit_world,
+                              const double origin_world[3]);
+
+void ewa_gaussian_target_set(ewa_volume_target *target, const ewa_camera *camera,
+                             const ewa_gaussian_options *options, const ewa_frame *frame);
+
+#endif

@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Pictures of Gaussians by the program: upright, among surfaces, as surfels, films; what cannot be is said.
+#include "check_pictures.h"
+
+static const char head[] =
+    "ply\nformat ascii 1.0\nelement vertex %d\nproperty float x\nproperty float y\n"
+    "property float z\nproperty float f_dc_0\nproperty float f_dc_1\nproperty float f_dc_2\n"
+    "property float opacity\nproperty float scale_0\nproperty float scale_1\n"
+    "property float scale_2\nproperty float rot_0\nproperty float rot_1\n"
+    "property float rot_2\nproperty float rot_3\nend_header\n%s";
+
+/// One of an upright pair: red above (y is down), blue below; with green ahead of both, or behind them.
+static int enter(void **state) {
+    (void)state;
+    char text[4096];
+    const int status = scratch_enter("cli_splats");
+    snprintf(text, sizeof text, head, 2,
+             "0 -1 0 1.7 -1.7 -1.7 9 -1.5 -1.5 -1.5 1 0 0 0\n0 1 0 -1.7 -1.7 1.7 9 -1.5 -1.5 -1.5 1 0 0 0\n");
+    scratch_text("pair.ply", text);
+    snprintf(text, sizeof text, head, 3,
+             "0 -1 0 1.7 -1.7 -1.7 9 -1.5 -1.5 -1.5 1 0 0 0\n0 1 0 -1.7 -1.7 1.7 9 -1.5 -1.5 -1.5 1 0 0 0\n"
+             "0 0 -2 -2 2 -2 9 0.7 0.7 -3 1 0 0 0\n");
+    scratch_text("veiled.ply", text);
+    // A wall of points between.
+    FILE *file = fopen(scratch_path("wall.ply"), "w");
+    assert_non_null(file);
+    fprintf(file,
+            "ply\nformat ascii 1.0\nelement vertex 10000\nproperty float x\nproperty float y\n"
+            "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n");
+    for (int i = 0; i < 10000; i++)
+        fprintf(file, "%g %g -1 255 255 0\n", 0.06 * (i % 100) - 3, 0.06 * (i / 100) - 3);
+    fclose(file);
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+    return status;
+}
+
+/// The colour at a share of the picture's width and height.
+static const float *pixel(const ewa_image *image, double x, double y) {
+    const size_t column = (size_t)(x * image->width_px), row = (size_t)(y * image->height_px);
+    return image->pixels + image->channel_count * (row * image->width_px + column);
+}
+
+static void check_upright(const char *name) {
+    ewa_image image = load(name);
+    const float *above = pixel(&image, 0.5, 0.2), *below = pixel(&image, 0.5, 0.8);
+    if (!(above[0] > 0.8f && above[2] < 0.1f)) fail_msg("%s: not red above", name);
+    if (!(below[2] > 0.8f && below[0] < 0.1f)) fail_msg("%s: not blue below", name);
+    ewa_image_free(&image);
+}
+
+static void upright(void **state) {
+    (void)state;
+    run_done("ewa render pair.ply -o trained.png --size 100x200");
+    check_upright("trained.png");
+    run_done("ewa render pair.ply -o exact.png --size 100x200 --projection exact --azimuth 30");
+    check_upright("exact.png");
+    run_done("ewa convert pair.ply -o pair.spz && ewa render pair.spz -o spz.png --size 100x200");
+    check_upright("spz.png");
+    run_done("ewa convert pair.ply -o pair.splat && ewa render pair.splat -o splat.png --size 100x200");
+    check_upright("splat.png");
+    run_done("ewa render pair.ply -o one.png --size 100x200 --threads 1 && "
+             "ewa render pair.ply -o three.png --size 100x200 --threads 3");
+    assert_true(scratch_same("one.png", "three.png") && scratch_same("one.png", "trained.png"));
+}
+
+/// What is ahead hides what is behind; a wall hides all of what is behind it.
+static void hidden(void **state) {
+    (void)state;
+    run_done("ewa render veiled.ply -o veiled.png --size 100x200");
+    ewa_image image = load("veiled.png");
+    assert_true(pixel(&image, 0.5, 0.3)[1] > 0.8f && pixel(&image, 0.5, 0.3)[0] < 0.3f);
+    ewa_image_free(&image);
+    run_done("ewa render veiled.ply wall.ply -o wall.png --size 100x200 --shading none");
+    image = load("wall.png"); // the veil is before the wall
+    assert_true(pixel(&image, 0.5, 0.5)[1] > 0.8f && pixel(&image, 0.5, 0.5)[0] < 0.3f);
+    ewa_image_free(&image);
+    run_done("ewa render wall.ply pair.ply -o behind.exr --size 100x200 --shading none");
+    image = load("behind.exr"); // yellow everywhere
+    const float *middle = pixel(&image, 0.5, 0.3);
+    assert_true(middle[0] > 0.9f && middle[1] > 0.9f && middle[2] < 0.1f);
+    ewa_image_free(&image);
+}
+
+static void surfaces(void **state) {
+    (void)state;
+    run_done(
+        "ewa render pair.ply -o surface.png --surface --shading none --size 100x200 --up 0,-1,0 --view back "
+        "--aov normal=normal.pfm");
+    ewa_image image = load("surface.png");
+    assert_true(pixel(&image, 0.5, 0.2)[0] > 0.8f);
+    ewa_image_free(&image);
+    run_done("ewa render pair.ply veiled.ply -o both.png --surface --size 50x50");
+}
+
+static void films(void **state) {
+    (void)state;
+    run_done("ewa render pair.ply -o turn_%%d.png --turntable 4 --size 60x120 --stats stats.json "
+             "--save-camera cameras.json");
+    for (int i = 0; i < 4; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "turn_%d.png", i);
+        check_upright(name);
+    }
+    run_done("ewa render pair.ply -o again.png --camera cameras.json --camera-index 2");
+    assert_true(scratch_same("again.png", "turn_2.png"));
+}
+
+static void refused(void **state) {
+    (void)state;
+    const int before = scratch_count();
+    run_fails(1, "veiled.ply: |of one file, and pair.ply has some",
+              "ewa render pair.ply veiled.ply -o x.png");
+    run_fails(1, "pair.ply: |no normals|--surface", "ewa render pair.ply -o x.png --aov normal=y.pfm");
+    run_fails(1, "pair.ply: |--color-by", "ewa render pair.ply -o x.png --color-by x");
+    run_fails(2, "projection", "ewa render pair.ply -o x.png --projection affine");
+    run_fails(1, "missing.ply", "ewa render pair.ply missing.ply -o x.png");
+    assert_int_equal(run("head -c 300 pair.ply > cut.ply; ewa render cut.ply -o x.png"), 1);
+    assert_int_equal(scratch_count(), before + 1);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(upright), cmocka_unit_test(hidden),  cmocka_unit_test(surfaces),
+        cmocka_unit_test(films),   cmocka_unit_test(refused),
+    };
+    return cmocka_run_group_tests(tests, enter, leave);
+}

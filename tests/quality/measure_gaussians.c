@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Prints the times of docs/gaussians.md: measure_gaussians FILE [COPIES [WIDTH HEIGHT [THREADS]]]. The file is seen
+// from +x, with y down; copies stand side by side and in rows, with harmonics of degree 3.
+#include "ewa/ewa.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ROUNDS = 21, DEGREE = 3, HARMONICS = 48 };
+
+static void check(ewa_status status) {
+    if (status == EWA_OK) return;
+    fprintf(stderr, "measure_gaussians: %s\n", ewa_status_name(status));
+    exit(1);
+}
+
+static void print_message(void *user, ewa_severity severity, const char *text) {
+    (void)user, (void)severity;
+    fprintf(stderr, "measure_gaussians: %s\n", text);
+}
+
+static int compare(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/// As many copies, 0.9 apart along z, four to a row; rows are 2 apart along x.
+static ewa_gaussians copy_set(const ewa_gaussians *one, uint32_t copies) {
+    ewa_gaussians all;
+    check(ewa_gaussians_create(one->context, one->count * copies, DEGREE, &all));
+    const size_t own = 3 * (size_t)(one->sh_degree + 1) * (one->sh_degree + 1);
+    uint64_t random = 1;
+    for (size_t i = 0; i < all.count; i++) {
+        const size_t from = i % one->count, copy = i / one->count;
+        memcpy(all.centers + 3 * i, one->centers + 3 * from, 3 * sizeof(float));
+        all.centers[3 * i] -= 2 * (float)(copy / 4);
+        all.centers[3 * i + 1] += 0.15f * (float)(copy / 4);
+        all.centers[3 * i + 2] += 0.9f * (float)(copy % 4);
+        memcpy(all.scales + 3 * i, one->scales + 3 * from, 3 * sizeof(float));
+        memcpy(all.rotations + 4 * i, one->rotations + 4 * from, 4 * sizeof(float));
+        all.opacities[i] = one->opacities[from];
+        for (size_t k = 0; k < HARMONICS; k++) {
+            random = random * 6364136223846793005u + 1442695040888963407u;
+            const float noise = (float)((int64_t)(random >> 40) % 1000 - 500) / 5000;
+            all.harmonics[HARMONICS * i + k] = k < own ? one->harmonics[own * from + k] : noise;
+        }
+    }
+    return all;
+}
+
+int main(int argc, char **argv) {
+    const uint32_t copies = argc > 2 ? (uint32_t)atoi(argv[2]) : 1;
+    ewa_context_options chosen;
+    ewa_context_options_init(&chosen, sizeof chosen);
+    chosen.message = print_message;
+    if (argc > 5) chosen.thread_count = (uint32_t)atoi(argv[5]);
+    ewa_context *context;
+    ewa_gaussians set;
+    if (argc < 2) return fprintf(stderr, "measure_gaussians FILE [COPIES [WIDTH HEIGHT [THREADS]]]\n"), 2;
+    check(ewa_context_create(&chosen, &context));
+    check(ewa_gaussians_load(context, argv[1], &set, NULL));
+    if (copies > 1) {
+        ewa_gaussians all = copy_set(&set, copies);
+        ewa_gaussians_free(&set);
+        set = all;
+    }
+    ewa_splats *splats;
+    ewa_splats_info info;
+    ewa_gaussian_renderer *renderer;
+    check(ewa_splats_create(&set, &splats));
+    check(ewa_gaussian_renderer_create(context, &renderer));
+    ewa_splats_describe(splats, &info);
+    ewa_camera camera;
+    ewa_camera_init(&camera);
+    camera.width_px = argc > 4 ? (uint32_t)atoi(argv[3]) : 800;
+    camera.height_px = argc > 4 ? (uint32_t)atoi(argv[4]) : 800;
+    check(ewa_camera_set_fov(&camera, 40));
+    check(ewa_camera_frame(&camera, &info.core, (const double[3]){-1, 0.1, 0.3}, (const double[3]){0, -1, 0},
+                           0.02));
+    uint8_t *rgba8 = malloc((size_t)camera.width_px * camera.height_px * 4);
+    if (!rgba8) return 1;
+    const ewa_frame frame = {.rgba8 = rgba8};
+    printf("%u Gaussians of degree %u, %.1f bytes each, %u x %u, %u threads\n", info.splat_count,
+           info.sh_degree, (double)info.resident_bytes / info.splat_count, camera.width_px, camera.height_px,
+           ewa_context_worker_count(context));
+    for (int exact = 0; exact < 2; exact++) {
+        ewa_gaussian_options options;
+        ewa_gaussian_options_init(&options, sizeof options);
+        options.projection = (ewa_gaussian_projection)exact;
+        ewa_gaussian_stats stats;
+        double times[ROUNDS];
+        for (int i = -2; i < ROUNDS; i++) {
+            check(ewa_gaussian_render(renderer, splats, &camera, &options, &frame, &stats));
+            if (i >= 0) times[i] = stats.total_s;
+        }
+        qsort(times, ROUNDS, sizeof *times, compare);
+        printf("%s: median %.1f ms, least %.1f ms; %llu in tiles, %llu in blocks, %llu steps; thread ms: "
+               "project %.1f, "
+               "bin %.1f, draw %.1f\n",
+               exact ? "exact  " : "trained", 1e3 * times[ROUNDS / 2], 1e3 * times[0],
+               (unsigned long long)stats.tile_count, (unsigned long long)stats.block_count,
+               (unsigned long long)stats.moved_count, 1e3 * stats.project_s, 1e3 * stats.bin_s,
+               1e3 * stats.draw_s);
+    }
+    free(rgba8);
+    ewa_gaussian_renderer_destroy(&renderer);
+    ewa_splats_destroy(&splats);
+    ewa_gaussians_free(&set);
+    ewa_context_destroy(&context);
+    return 0;
+}

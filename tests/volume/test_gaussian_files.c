@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Trained Gaussians of the data set against the reference.
+#include "volume/gaussian_scene.h"
+
+#include <math.h>
+
+static void test_scenes(void **state) {
+    (void)state;
+    static const char *const files[] = {"gaussians/guitar_3dgs.ply", "gaussians/pc_short_100_sh3.ply",
+                                        "gaussians/train_3_points.ply",
+                                        "gaussians/guitar_40k_2dgs_derived.ply"};
+    for (size_t f = 0; f < sizeof files / sizeof *files; f++) {
+        char path[1024];
+        if (!check_data(files[f], path, sizeof path)) continue;
+        ewa_context *context = check_context(0, NULL);
+        ewa_gaussians set;
+        assert_int_equal(ewa_gaussians_load(context, path, &set, NULL), EWA_OK);
+        ewa_splats *splats;
+        ewa_splats_info info;
+        assert_int_equal(ewa_splats_create(&set, &splats), EWA_OK);
+        ewa_splats_describe(splats, &info);
+        if (info.splat_count > 1000) assert_true(info.resident_bytes < 200 * (size_t)info.splat_count);
+        ewa_splats_destroy(&splats);
+        ewa_camera camera;
+        ewa_camera_init(&camera);
+        camera.width_px = 300, camera.height_px = 300;
+        assert_int_equal(ewa_camera_set_fov(&camera, 40), EWA_OK);
+        assert_int_equal(ewa_camera_frame(&camera, &info.core, (const double[3]){1, 0.2, 0.3},
+                                          (const double[3]){0, -1, 0}, 0.05),
+                         EWA_OK);
+        for (int exact = 0; exact < 2; exact++) {
+            ewa_gaussian_options options;
+            ewa_gaussian_options_init(&options, sizeof options);
+            options.projection = (ewa_gaussian_projection)exact;
+            options.near_world = 0; // the three points' scene is small
+            ewa_image fast = gaussians_draw(&set, &camera, &options, NULL);
+            ewa_image slow = gaussians_draw_reference(&set, &camera, &options, EWA_ORDER_RAYS);
+            const double decibels = gaussians_decibels(&fast, &slow);
+            print_message("%s, %s: %.1f dB\n", files[f], exact ? "exact" : "trained", decibels);
+            assert_true(decibels > 60);
+            ewa_image_free(&fast);
+            ewa_image_free(&slow);
+        }
+        ewa_gaussians_free(&set);
+        ewa_context_destroy(&context);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_scenes)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

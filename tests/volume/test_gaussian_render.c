@@ -1,0 +1,289 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Pictures of Gaussians: held to the reference, the same bytes however they are made, and what is known of
+// them.
+#include "volume/gaussian_scene.h"
+
+#include <math.h>
+
+static const double FRONT[3] = {0.3, 0.2, -1}, ROUND[4] = {1, 0, 0, 0};
+
+static ewa_gaussian_options options_of(ewa_gaussian_projection projection) {
+    ewa_gaussian_options options;
+    ewa_gaussian_options_init(&options, sizeof options);
+    options.projection = projection;
+    return options;
+}
+
+static void check_held(const ewa_gaussians *set, const ewa_camera *camera,
+                       const ewa_gaussian_options *options, const char *what) {
+    ewa_image fast = gaussians_draw(set, camera, options, NULL);
+    ewa_image slow = gaussians_draw_reference(set, camera, options, EWA_ORDER_RAYS);
+    const double decibels = gaussians_decibels(&fast, &slow);
+    print_message("%s: %.1f dB\n", what, decibels);
+    if (!(decibels > 60)) fail_msg("%s: %.1f dB from the reference", what, decibels);
+    double sum = 0;
+    for (size_t i = 0; i < (size_t)slow.width_px * slow.height_px; i++) sum += (double)slow.pixels[4 * i + 3];
+    assert_true(sum > 0.01 * slow.width_px * slow.height_px); // there is something
+    ewa_image_free(&fast);
+    ewa_image_free(&slow);
+}
+
+/// Both projections, all degrees, both filters, flat ones, orthographic, from within, under 130 degrees.
+static void test_reference(void **state) {
+    (void)state;
+    ewa_context *context = check_context(2, NULL);
+    for (uint32_t degree = 0; degree <= EWA_MAX_SH_DEGREE; degree++)
+        for (int exact = 0; exact < 2; exact++) {
+            ewa_gaussians set = gaussians_random(context, 1500, degree, 7 + degree);
+            set.origin[0] = 1e4, set.antialiased = degree == 1;
+            ewa_camera camera =
+                gaussians_camera(150, 110, degree == 2 ? 130 : 40, FRONT, degree == 3 ? 0.5 : 3);
+            for (int row = 0; row < 3; row++) // to where the set is
+                camera.world_to_camera[4 * row + 3] -= 1e4 * camera.world_to_camera[4 * row];
+            ewa_gaussian_options options = options_of(exact ? EWA_PROJECTION_EXACT : EWA_PROJECTION_TRAINED);
+            options.background[0] = 0.5f, options.background[3] = 0.75f;
+            if (degree == 4) {
+                camera.projection = EWA_ORTHOGRAPHIC;
+                camera.fx_px = camera.fy_px = 50;
+                for (size_t i = 0; i < set.count; i++) set.scales[3 * i + 2] = 0;
+            }
+            if (degree == 3) camera.cx_px -= 40; // not in the middle
+            char what[64];
+            snprintf(what, sizeof what, "degree %u, %s", degree, exact ? "exact" : "trained");
+            check_held(&set, &camera, &options, what);
+            ewa_gaussians_free(&set);
+        }
+    ewa_gaussians flat = gaussians_random(context, 1500, 0, 3);
+    for (size_t i = 0; i < flat.count; i++) flat.scales[3 * i + 2] = 0;
+    const ewa_camera camera = gaussians_camera(150, 110, 60, FRONT, 2);
+    for (int exact = 0; exact < 2; exact++) {
+        ewa_gaussian_options options = options_of(exact ? EWA_PROJECTION_EXACT : EWA_PROJECTION_TRAINED);
+        check_held(&flat, &camera, &options, exact ? "flat, exact" : "flat, trained");
+        options.prefilter_px2 = 0;
+        check_held(&flat, &camera, &options, "without a filter");
+    }
+    ewa_gaussians_free(&flat);
+    ewa_context_destroy(&context);
+}
+
+/// Threads, instruction sets, order of the set: nothing changes a byte.
+static void test_bytes(void **state) {
+    (void)state;
+    static const uint32_t masks[3] = {0, EWA_CPU_AVX2, EWA_CPU_ALL};
+    const ewa_camera camera = gaussians_camera(203, 131, 70, FRONT, 1.2);
+    for (int exact = 0; exact < 2; exact++) {
+        ewa_image first = {0};
+        for (int n = 0; n < 12; n++) {
+            ewa_context *context = check_context_of(n % 4 < 2 ? 1 : 5, masks[n / 4]);
+            ewa_gaussians set = gaussians_random(context, 4000, 3, 5);
+            // Some are at one place, some are twice there.
+            for (size_t i = 0; i < 300; i++) memcpy(set.centers + 3 * i, set.centers, 3 * sizeof(float));
+            for (size_t i = 0; n % 2 && i < set.count / 2; i++) { // the other way round
+                const size_t j = set.count - 1 - i;
+                float *const streams[5] = {set.centers, set.scales, set.rotations, set.opacities,
+                                           set.harmonics};
+                static const size_t counts[5] = {3, 3, 4, 1, 48};
+                for (int s = 0; s < 5; s++)
+                    for (size_t k = 0; k < counts[s]; k++) {
+                        const float swap = streams[s][counts[s] * i + k];
+                        streams[s][counts[s] * i + k] = streams[s][counts[s] * j + k];
+                        streams[s][counts[s] * j + k] = swap;
+                    }
+            }
+            const ewa_gaussian_options options = options_of((ewa_gaussian_projection)exact);
+            ewa_image image = gaussians_draw(&set, &camera, &options, NULL);
+            if (n == 0) assert_int_equal(ewa_image_create(context, 203, 131, 4, &first), EWA_OK);
+            const size_t bytes = 203 * 131 * 4 * sizeof(float);
+            if (n == 0) memcpy(first.pixels, image.pixels, bytes);
+            assert_memory_equal(first.pixels, image.pixels, bytes);
+            ewa_image_free(&image);
+            ewa_gaussians_free(&set);
+            if (n > 0) ewa_context_destroy(&context);
+        }
+        ewa_context *context = first.context;
+        ewa_image_free(&first);
+        ewa_context_destroy(&context);
+    }
+}
+
+/// A colour that all have is that of the picture, whatever is behind what.
+static void test_constant(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    ewa_gaussians set = gaussians_random(context, 3000, 0, 11);
+    for (size_t i = 0; i < set.count; i++)
+        for (size_t k = 0; k < 3; k++)
+            set.harmonics[3 * i + k] = (float)((0.2 + 0.3 * (double)k - 0.5) / 0.28209479177387814);
+    const ewa_camera camera = gaussians_camera(120, 90, 50, FRONT, 1.5);
+    ewa_gaussian_options options = options_of(EWA_PROJECTION_TRAINED);
+    ewa_image image = gaussians_draw(&set, &camera, &options, NULL);
+    for (size_t i = 0; i < 120 * 90; i++) {
+        const double alpha = (double)image.pixels[4 * i + 3];
+        assert_true(alpha >= 0 && alpha <= 1.000001);
+        for (size_t k = 0; k < 3 && alpha > 0.01; k++) {
+            const double display = 0.2 + 0.3 * (double)k;
+            const double linear = display <= 0.04045 ? display / 12.92 : pow((display + 0.055) / 1.055, 2.4);
+            if (fabs((double)image.pixels[4 * i + k] / alpha - linear) > 2e-5)
+                fail_msg("%g instead of %g", (double)image.pixels[4 * i + k] / alpha, linear);
+        }
+    }
+    ewa_image_free(&image);
+    ewa_gaussians_free(&set);
+    ewa_context_destroy(&context);
+}
+
+/// None, those without opacity, numbers that are none: the background.
+static void test_nothing(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    const ewa_camera camera = gaussians_camera(40, 30, 50, FRONT, 2);
+    ewa_gaussian_options options = options_of(EWA_PROJECTION_EXACT);
+    options.background[1] = options.background[3] = 1;
+    for (uint32_t count = 0; count < 3; count++) {
+        ewa_gaussians set = gaussians_random(context, 10 * count, 1, 2);
+        for (size_t i = 0; i < set.count; i++) {
+            if (count == 1) set.opacities[i] = 0;
+            if (count == 2) set.scales[3 * i] = i % 2 ? NAN : INFINITY;
+        }
+        ewa_gaussian_stats stats;
+        ewa_image image = gaussians_draw(&set, &camera, &options, &stats);
+        assert_int_equal(stats.splat_count, 0);
+        for (size_t i = 0; i < 40 * 30; i++) {
+            assert_true(image.pixels[4 * i] == 0 && image.pixels[4 * i + 3] == 1);
+            assert_true(fabsf(image.pixels[4 * i + 1] - 1) < 1e-6f);
+        }
+        ewa_image_free(&image);
+        ewa_gaussians_free(&set);
+    }
+    ewa_context_destroy(&context);
+}
+
+/// One that covers the picture: alpha is its opacity, to 0.99; depth is where half of the light is gone.
+static void test_one(void **state) {
+    (void)state;
+    static const double center[3] = {0, 0, 0}, scales[3] = {50, 50, 0.1}, color[3] = {1, 0.25, 0.5};
+    static const double front[3] = {0, 0, -1};
+    ewa_context *context = check_context(1, NULL);
+    const ewa_camera camera = gaussians_camera(64, 48, 30, front, 5);
+    for (int n = 0; n < 6; n++) {
+        const double opacity = n % 3 == 0 ? 0.3 : n % 3 == 1 ? 0.8 : 1;
+        ewa_gaussians set = gaussians_one(context, center, scales, ROUND, opacity, color);
+        const ewa_gaussian_options options = options_of((ewa_gaussian_projection)(n / 3));
+        ewa_splats *splats;
+        ewa_gaussian_renderer *renderer;
+        assert_int_equal(ewa_splats_create(&set, &splats), EWA_OK);
+        assert_int_equal(ewa_gaussian_renderer_create(context, &renderer), EWA_OK);
+        static float coverage[64 * 48], depth[64 * 48];
+        const ewa_frame frame = {.coverage = coverage, .depth = depth};
+        assert_int_equal(ewa_gaussian_render(renderer, splats, &camera, &options, &frame, NULL), EWA_OK);
+        for (size_t i = 0; i < 64 * 48; i++) {
+            assert_true(fabs((double)coverage[i] - fmin(opacity, 0.99)) < 2e-3);
+            assert_true(opacity < 0.5 ? isinf(depth[i]) : fabsf(depth[i] - 5) < 1e-3f);
+        }
+        float normal[3];
+        const ewa_frame wrong = {.normal = normal};
+        assert_int_equal(ewa_gaussian_render(renderer, splats, &camera, &options, &wrong, NULL),
+                         EWA_ERROR_ARGUMENT);
+        ewa_gaussian_renderer_destroy(&renderer);
+        ewa_splats_destroy(&splats);
+        ewa_gaussians_free(&set);
+    }
+    ewa_context_destroy(&context);
+}
+
+/// A surface in the middle of a Gaussian leaves half of it, one before it nothing, one behind it all.
+static void test_surface(void **state) {
+    (void)state;
+    enum { PIXELS = 64 * 48 };
+    static const double center[3] = {0, 0, 0}, scales[3] = {20, 20, 0.5}, color[3] = {1, 0, 0};
+    static const double front[3] = {0, 0, -1};
+    static const double depths[3] = {5, 2, 8}, wanted[3] = {0.4, 0, 0.8};
+    static float depth[PIXELS], rgba[4 * PIXELS];
+    ewa_context *context = check_context(1, NULL);
+    const ewa_camera camera = gaussians_camera(64, 48, 10, front, 5);
+    ewa_gaussians set = gaussians_one(context, center, scales, ROUND, 0.8, color);
+    for (int n = 0; n < 6; n++) {
+        for (size_t i = 0; i < PIXELS; i++) {
+            depth[i] = (float)depths[n % 3];
+            rgba[4 * i + 2] = rgba[4 * i + 3] = 1; // blue
+        }
+        ewa_gaussian_options options = options_of((ewa_gaussian_projection)(n / 3));
+        options.surface_depth = depth, options.surface_rgba = rgba;
+        ewa_image image = gaussians_draw(&set, &camera, &options, NULL);
+        const double red = wanted[n % 3];
+        const size_t middle = 4 * (24 * 64 + 32);
+        const double linear[2] = {red <= 0.04045 ? red / 12.92 : pow((red + 0.055) / 1.055, 2.4),
+                                  pow((1 - red + 0.055) / 1.055, 2.4)};
+        assert_true(fabs((double)image.pixels[middle] - linear[0]) < 0.005);
+        assert_true(fabs((double)image.pixels[middle + 2] - linear[1]) < 0.005);
+        ewa_image slow = gaussians_draw_reference(&set, &camera, &options, EWA_ORDER_RAYS);
+        assert_true(gaussians_decibels(&image, &slow) > 60);
+        ewa_image_free(&image);
+        ewa_image_free(&slow);
+    }
+    ewa_gaussians_free(&set);
+    ewa_context_destroy(&context);
+}
+
+/// Harmonics are orthonormal: means over directions of products of two, from the colours that they give.
+static void test_harmonics(void **state) {
+    (void)state;
+    enum { COUNT = 25, AROUND = 24, DOWN = 12 };
+    // Gauss-Legendre places and weights for polynomials up to degree 23.
+    static const double places[6] = {0.1252334085114689, 0.3678314989981802, 0.5873179542866175,
+                                     0.7699026741943047, 0.9041172563704749, 0.9815606342467192};
+    static const double weights[6] = {0.2491470458134028, 0.2334925365383548, 0.2031674267230659,
+                                      0.1600783285433462, 0.1069393259953184, 0.0471753363865118};
+    static double values[AROUND * DOWN][COUNT];
+    static const double center[3] = {0}, scales[3] = {0.1, 0.1, 0.1}, grey[3] = {0.5, 0.5, 0.5};
+    ewa_context *context = check_context(1, NULL);
+    for (size_t k = 0; k < COUNT; k += 3) {
+        ewa_gaussians one = gaussians_one(context, center, scales, ROUND, 0.99, grey), set;
+        assert_int_equal(ewa_gaussians_create(context, 1, 4, &set), EWA_OK);
+        memcpy(set.scales, one.scales, 3 * sizeof(float));
+        memcpy(set.rotations, one.rotations, 4 * sizeof(float));
+        set.opacities[0] = 0.99f;
+        for (size_t c = 0; c < 3 && k + c < COUNT; c++) set.harmonics[3 * (k + c) + c] = 0.25f;
+        ewa_splats *splats;
+        ewa_gaussian_renderer *renderer;
+        assert_int_equal(ewa_splats_create(&set, &splats), EWA_OK);
+        assert_int_equal(ewa_gaussian_renderer_create(context, &renderer), EWA_OK);
+        for (size_t n = 0; n < AROUND * DOWN; n++) {
+            const double z = n % DOWN < 6 ? places[n % DOWN] : -places[n % DOWN - 6];
+            const double angle = 6.283185307179586 * (double)(n / DOWN) / AROUND;
+            // Seen from -d, along d.
+            const double from[3] = {-sqrt(1 - z * z) * cos(angle), -sqrt(1 - z * z) * sin(angle), -z};
+            const ewa_camera camera = gaussians_camera(5, 5, 1, from, 3);
+            float rgba[100];
+            const ewa_frame frame = {.rgba = rgba};
+            assert_int_equal(ewa_gaussian_render(renderer, splats, &camera, NULL, &frame, NULL), EWA_OK);
+            for (size_t c = 0; c < 3 && k + c < COUNT; c++) {
+                const double linear = (double)(rgba[4 * 12 + c] / rgba[4 * 12 + 3]);
+                values[n][k + c] = (1.055 * pow(linear, 1 / 2.4) - 0.055 - 0.5) / 0.25;
+            }
+        }
+        ewa_gaussian_renderer_destroy(&renderer);
+        ewa_splats_destroy(&splats);
+        ewa_gaussians_free(&set);
+        ewa_gaussians_free(&one);
+    }
+    for (size_t i = 0; i < COUNT; i++)
+        for (size_t j = 0; j <= i; j++) {
+            double sum = 0;
+            for (size_t n = 0; n < AROUND * DOWN; n++)
+                sum += values[n][i] * values[n][j] * weights[n % DOWN % 6] * 6.283185307179586 / AROUND;
+            if (fabs(sum - (i == j)) > 1e-3) fail_msg("harmonics %zu and %zu: %g", i, j, sum);
+        }
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_reference), cmocka_unit_test(test_bytes), cmocka_unit_test(test_constant),
+        cmocka_unit_test(test_nothing),   cmocka_unit_test(test_one),   cmocka_unit_test(test_surface),
+        cmocka_unit_test(test_harmonics),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
