@@ -87,7 +87,7 @@ static int up_axis_of(const ewa_gaussian_facts *facts) {
     return up[1] > 0 ? 1 : -1;
 }
 
-bool gaussian_scene_load(cli_session *session, const ewa_cloud *others, gaussian_scene *scene) {
+bool gaussian_scene_read(cli_session *session, const ewa_cloud *others, gaussian_scene *scene) {
     ewa_gaussians set;
     ewa_gaussian_facts facts;
     if (!gaussian_files_load(session, scene->path, &set, &facts)) return false;
@@ -98,7 +98,13 @@ bool gaussian_scene_load(cli_session *session, const ewa_cloud *others, gaussian
         status = make_outline(&set, others, scene);
     }
     ewa_gaussians_free(&set);
-    if (status == EWA_OK) status = ewa_gaussian_renderer_create(session->context, &scene->renderer);
+    if (status != EWA_OK) session_failed(session, status);
+    return status == EWA_OK;
+}
+
+bool gaussian_scene_load(cli_session *session, const ewa_cloud *others, gaussian_scene *scene) {
+    if (!gaussian_scene_read(session, others, scene)) return false;
+    const ewa_status status = ewa_gaussian_renderer_create(session->context, &scene->renderer);
     if (status != EWA_OK) session_failed(session, status);
     return status == EWA_OK;
 }

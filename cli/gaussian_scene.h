@@ -46,6 +46,10 @@ bool gaussian_scene_find(cli_session *session, const common_arguments *common,
 /// Loads them; `others`, which may be NULL, is in the outline, too. Returns false after reporting.
 bool gaussian_scene_load(cli_session *session, const ewa_cloud *others, gaussian_scene *scene);
 
+/// Makes splats of a file, and an outline of where they are, with `others` (may be NULL); the rest of the scene is not
+/// needed. Returns false after reporting.
+bool gaussian_scene_read(cli_session *session, const ewa_cloud *others, gaussian_scene *scene);
+
 /// Draws them over the background.
 ewa_status gaussian_scene_paint(gaussian_scene *scene, const ewa_camera *camera,
                                 const ewa_gaussian_options *options, const ewa_frame *frame,

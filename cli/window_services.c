@@ -4,6 +4,8 @@
 // What the viewer asks of the program.
 #include "window_services.h"
 #include "color_by.h"
+#include "gaussian_files.h"
+#include "gaussian_scene.h"
 #include "inputs.h"
 #include "lod_input.h"
 #include "resident.h"
@@ -36,6 +38,7 @@ static void free_content(viewer_content *content) {
     file_session *file = content->keeper;
     ewa_surfels_destroy(&content->surfels);
     ewa_voxels_destroy(&content->voxels);
+    ewa_splats_destroy(&content->splats);
     ewa_cloud_destroy(&content->cloud);
     ewa_cloud_destroy(&content->outline);
     ewa_lod_close(&content->lod);
@@ -164,6 +167,20 @@ static bool load_volume(cli_session *session, const char *path, viewer_content *
     return done;
 }
 
+static bool load_gaussians(cli_session *session, const char *path, viewer_content *content) {
+    gaussian_scene scene = {.path = path};
+    const bool done = gaussian_scene_read(session, NULL, &scene);
+    if (done) {
+        content->splats = scene.splats;
+        content->outline = scene.outline;
+        content->up_axis = scene.up_axis;
+        scene.splats = NULL;
+        scene.outline = NULL;
+    }
+    gaussian_scene_free(&scene);
+    return done;
+}
+
 static resident_options surfels_options(const window_services *own, double radius_scale) {
     resident_options options = {own->surfels, own->close_gaps, false};
     options.surfels.level_count = LEVELS;
@@ -228,6 +245,8 @@ static bool load(void *user, const char *path, const viewer_news *news, viewer_c
     bool done = true;
     if (volume_input_is_named(path))
         done = load_volume(&file->session, path, content);
+    else if (gaussian_files_format(&file->session, path) != EWA_GAUSSIANS_NONE)
+        done = load_gaussians(&file->session, path, content);
     else if (!load_octree(own, file, path, content, &done))
         done = load_points(own, &file->session, path, news, content);
     file->session.subject = NULL;
@@ -381,10 +400,11 @@ static bool place(void *user, size_t count, const viewer_content *const *content
         arguments.up_axis = 2;
         if (arguments.view < 0 && !view_is_placed(&arguments)) arguments.view = EWA_VIEW_ISO;
     }
+    if (count == 1 && contents[0]->up_axis && !arguments.up.count) arguments.up_axis = contents[0]->up_axis;
     ewa_cloud *joined = count > 1 ? join_samples(session, count, contents) : NULL;
     if (count > 1 && !joined) return false;
     const ewa_cloud *cloud = joined ? joined : outline_of(contents[0]);
-    ewa_upright chosen = {.axis = arguments.up_axis};
+    ewa_upright chosen = {.axis = abs(arguments.up_axis), .reversed = arguments.up_axis < 0};
     bool done = view_make(session, &arguments, cloud, 1, camera, NULL);
     if (done && arguments.up.count)
         memcpy(up_world, arguments.up.values, 3 * sizeof *up_world);

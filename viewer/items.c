@@ -115,6 +115,10 @@ bool items_bounds(const viewer *v, double low_world[3], double high_world[3]) {
             ewa_voxels_info info;
             ewa_voxels_describe(item->content.voxels, &info);
             bounds = info.bounds;
+        } else if (item->content.splats) {
+            ewa_splats_info info;
+            ewa_splats_describe(item->content.splats, &info);
+            bounds = info.core;
         } else if (item->content.lod) {
             ewa_lod_info info;
             ewa_lod_describe(item->content.lod, &info);
@@ -224,12 +228,17 @@ void items_update(viewer *v) {
     }
 }
 
-/// Depth of the middle of a volume.
-static double voxels_depth(const ewa_camera *camera, const ewa_voxels *voxels) {
-    ewa_voxels_info info;
-    ewa_voxels_describe(voxels, &info);
+/// Depth of the middle of a volume or of Gaussians.
+static double veil_depth(const ewa_camera *camera, const paint_veil *veil) {
+    ewa_voxels_info voxels;
+    ewa_splats_info splats;
+    if (veil->voxels)
+        ewa_voxels_describe(veil->voxels, &voxels);
+    else
+        ewa_splats_describe(veil->splats, &splats);
+    const ewa_bounds *box = veil->voxels ? &voxels.bounds : &splats.core;
     double middle[3];
-    for (int c = 0; c < 3; c++) middle[c] = 0.5 * (info.bounds.low_world[c] + info.bounds.high_world[c]);
+    for (int c = 0; c < 3; c++) middle[c] = 0.5 * (box->low_world[c] + box->high_world[c]);
     return navigate_depth(camera, middle);
 }
 
@@ -243,13 +252,13 @@ void items_gather(const viewer *v, paint_scene *scene) {
                 scene->render.point_size_px = PREVIEW_POINT_PX;
         }
         if (item->content.lod) scene->lods[scene->lods_count++] = item->content.lod;
-        const ewa_voxels *voxels = item->content.voxels;
-        if (!voxels) continue;
-        uint32_t at = scene->voxels_count++;
-        const double depth = voxels_depth(&scene->camera, voxels);
-        for (; at > 0 && voxels_depth(&scene->camera, scene->voxels[at - 1]) < depth; at--)
-            scene->voxels[at] = scene->voxels[at - 1];
-        scene->voxels[at] = voxels;
+        const paint_veil veil = {item->content.voxels, item->content.splats};
+        if (!veil.voxels && !veil.splats) continue;
+        uint32_t at = scene->veils_count++;
+        const double depth = veil_depth(&scene->camera, &veil);
+        for (; at > 0 && veil_depth(&scene->camera, &scene->veils[at - 1]) < depth; at--)
+            scene->veils[at] = scene->veils[at - 1];
+        scene->veils[at] = veil;
     }
 }
 
@@ -261,6 +270,7 @@ bool viewer_item_get(const viewer *v, size_t index, viewer_item *item) {
     *item = (viewer_item){.path = from->path,
                           .visible = from->visible,
                           .volume = from->content.voxels != NULL,
+                          .gaussians = from->content.splats != NULL,
                           .mesh = from->content.mesh,
                           .coloring = from->coloring};
     memcpy(item->name, from->name, sizeof item->name);
@@ -274,6 +284,11 @@ bool viewer_item_get(const viewer *v, size_t index, viewer_item *item) {
         ewa_voxels_info info;
         ewa_voxels_describe(from->content.voxels, &info);
         item->count = info.voxel_count;
+    }
+    if (from->content.splats) {
+        ewa_splats_info info;
+        ewa_splats_describe(from->content.splats, &info);
+        item->count = info.splat_count;
     }
     return true;
 }

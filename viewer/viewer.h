@@ -24,15 +24,17 @@ enum {
 
 typedef struct viewer viewer;
 
-/// What a file gave. A cloud comes with its surfels, a volume with its voxels, an octree alone; all belong to
+/// What a file gave. A cloud comes with its surfels, a volume with its voxels, Gaussians with their splats, an octree alone; all belong to
 /// `context`, whose messages and progress must be for any thread where there is an octree.
 typedef struct viewer_content {
     ewa_context *context;
-    ewa_cloud *cloud;     ///< NULL: a volume
+    ewa_cloud *cloud;     ///< NULL: something else
     ewa_surfels *surfels; ///< of the cloud, with levels
-    ewa_voxels *voxels;   ///< NULL: a cloud
+    ewa_voxels *voxels;   ///< NULL: no volume
+    ewa_splats *splats;   ///< NULL: no Gaussians
     ewa_lod *lod;         ///< an octree, drawn from its levels, in place of a cloud and surfels; NULL: none
-    ewa_cloud *outline;   ///< of a volume or an octree: points where something can be seen
+    ewa_cloud *outline;   ///< of a volume, Gaussians or an octree: points where something can be seen
+    int up_axis;          ///< 1: y is up, 2: z; negative: down; 0: nothing says so
     bool mesh;            ///< the cloud was sampled from faces
     bool as_points;       ///< of a preview: its surfels have no size of their own
     void *keeper;         ///< the loader's own
@@ -196,8 +198,8 @@ bool viewer_setting_get(const viewer *viewer, const char *name, char text[EWA_OP
 typedef struct viewer_item {
     char name[VIEWER_NAME_BYTES];
     const char *path;
-    bool visible, volume, mesh;
-    uint64_t count; ///< of points or voxels
+    bool visible, volume, gaussians, mesh;
+    uint64_t count; ///< of points, voxels or Gaussians
     viewer_coloring coloring;
 } viewer_item;
 

@@ -52,6 +52,26 @@ static void write_text(const char *path, const char *text) {
 }
 
 /// The files that scripts name, in a folder of the build.
+/// A helix of Gaussians of all colours, around the middle.
+static void save_gaussians(ewa_context *context) {
+    ewa_gaussians set;
+    assert_int_equal(ewa_gaussians_create(context, 400, 0, &set), EWA_OK);
+    for (uint32_t i = 0; i < set.count; i++) {
+        // A square way round, so that no sine is asked for.
+        const float along = (float)(i % 100) / 25, side = along - (float)(int)along;
+        const float x[4] = {1, 1 - 2 * side, -1, 2 * side - 1}, y[4] = {2 * side - 1, 1, 1 - 2 * side, -1};
+        const int k = (int)along;
+        const float center[3] = {1.4f * x[k], (float)i / 100 - 2, 1.4f * y[k]};
+        memcpy(set.centers + 3 * (size_t)i, center, sizeof center);
+        for (int c = 0; c < 3; c++) set.scales[3 * (size_t)i + (size_t)c] = c == 1 ? 0.03f : 0.12f;
+        set.rotations[4 * (size_t)i] = 1;
+        set.opacities[i] = 0.8f;
+        for (int c = 0; c < 3; c++) set.harmonics[3 * (size_t)i + (size_t)c] = center[c];
+    }
+    assert_int_equal(ewa_gaussians_save(&set, "helix.splat", NULL), EWA_OK);
+    ewa_gaussians_free(&set);
+}
+
 static int make_files(void **state) {
     (void)state;
     char folder[1024];
@@ -94,6 +114,7 @@ static int make_files(void **state) {
     assert_int_equal(ewa_volume_generate(context, &volume_options, &volume), EWA_OK);
     assert_int_equal(ewa_volume_save(&volume, "ball.nrrd", NULL), EWA_OK);
     ewa_volume_free(&volume);
+    save_gaussians(context);
     ewa_context_destroy(&context);
     return 0;
 }

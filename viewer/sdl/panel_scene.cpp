@@ -160,8 +160,12 @@ bool item_row(panel_page *page, int index, const viewer_item *item, bool open_fi
     if (!*open) return true;
     char count[32];
     write_count(item->count, count);
-    ImGui::TextDisabled("%s %s", count, item->volume ? "voxels" : item->mesh ? "points on faces" : "points");
-    if (item->volume) return true;
+    ImGui::TextDisabled("%s %s", count,
+                        item->volume      ? "voxels"
+                        : item->gaussians ? "Gaussians"
+                        : item->mesh      ? "points on faces"
+                                          : "points");
+    if (item->volume || item->gaussians) return true;
     choose_colors(page, index, item);
     if (item->coloring.attribute[0])
         choose_map(page, index, item);
