@@ -278,6 +278,33 @@ static void test_pieces_and_keep(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
+static int compare_numbers(const void *a, const void *b) {
+    const double left = *(const double *)a, right = *(const double *)b;
+    return (left > right) - (left < right);
+}
+
+/// A number by its rank is that of the sorted ones, of any sign and size, equal ones among them.
+static void test_ranks(void **state) {
+    (void)state;
+    enum { MOST = 300 };
+    check_random random = {12};
+    for (size_t count = 1; count <= MOST; count += count < 10 ? 1 : 29) {
+        double numbers[MOST], sorted[MOST], shuffled[MOST];
+        for (size_t i = 0; i < count; i++) {
+            const double size = pow(10, check_uniform(&random, -300, 300));
+            numbers[i] =
+                i % 5 == 0 ? floor(check_uniform(&random, -3, 3)) : check_uniform(&random, -1, 1) * size;
+            if (i % 31 == 7) numbers[i] = i % 2 ? INFINITY : -INFINITY;
+        }
+        memcpy(sorted, numbers, sizeof sorted);
+        qsort(sorted, count, sizeof *sorted, compare_numbers);
+        for (size_t rank = 0; rank < count; rank++) {
+            memcpy(shuffled, numbers, sizeof shuffled);
+            assert_true(ewa_rank_select(shuffled, count, rank) == sorted[rank]);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_expressions),
@@ -286,6 +313,7 @@ int main(void) {
         cmocka_unit_test(test_names),
         cmocka_unit_test(test_grid),
         cmocka_unit_test(test_pieces_and_keep),
+        cmocka_unit_test(test_ranks),
     };
     return cmocka_run_group_tests(tests, enter, leave);
 }

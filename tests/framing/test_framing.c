@@ -386,6 +386,7 @@ static void test_failures(void **state) {
     static const double within[3] = {0.5, 0.5, -4.5}; // in the middle of it
     expect_failure(ewa_framing_zoom(framing, within, up, &camera), EWA_ERROR_NUMERIC, &log,
                    "no camera can be placed", __LINE__);
+    solid = framing;
     expect_failure(ewa_framing_revolve(framing, zero, zero, behind, &solid), EWA_ERROR_ARGUMENT, &log,
                    "axis 0,0,0", __LINE__);
     assert_null(solid);
