@@ -279,11 +279,45 @@ static void test_harmonics(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Whichever allocation fails, the calls say so and leave nothing behind.
+static void test_memory(void **state) {
+    (void)state;
+    const ewa_camera camera = gaussians_camera(40, 30, 50, FRONT, 2);
+    for (long n = 0;; n++) {
+        check_memory memory = {.calls_left = -1};
+        ewa_context_options chosen;
+        ewa_context_options_init(&chosen, sizeof chosen);
+        chosen.thread_count = 1;
+        chosen.allocator = check_allocator(&memory);
+        ewa_context *context;
+        assert_int_equal(ewa_context_create(&chosen, &context), EWA_OK);
+        ewa_gaussians set = gaussians_random(context, 50, 1, 4);
+        memory.calls_left = n;
+        ewa_splats *splats = NULL;
+        ewa_gaussian_renderer *renderer = NULL;
+        static float rgba[40 * 30 * 4];
+        const ewa_frame frame = {.rgba = rgba};
+        ewa_status status = ewa_splats_create(&set, &splats);
+        if (status == EWA_OK) status = ewa_gaussian_renderer_create(context, &renderer);
+        if (status == EWA_OK) status = ewa_gaussian_render(renderer, splats, &camera, NULL, &frame, NULL);
+        if (status == EWA_OK)
+            status = ewa_gaussian_render_reference(&set, &camera, NULL, EWA_ORDER_RAYS, &frame);
+        const bool failed = memory.calls_left < 0;
+        assert_int_equal(status, failed ? EWA_ERROR_MEMORY : EWA_OK);
+        ewa_gaussian_renderer_destroy(&renderer);
+        ewa_splats_destroy(&splats);
+        ewa_gaussians_free(&set);
+        ewa_context_destroy(&context);
+        assert_int_equal(memory.held_bytes, 0);
+        if (!failed) break;
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reference), cmocka_unit_test(test_bytes), cmocka_unit_test(test_constant),
-        cmocka_unit_test(test_nothing),   cmocka_unit_test(test_one),   cmocka_unit_test(test_surface),
-        cmocka_unit_test(test_harmonics),
+        cmocka_unit_test(test_reference), cmocka_unit_test(test_bytes),  cmocka_unit_test(test_constant),
+        cmocka_unit_test(test_nothing),   cmocka_unit_test(test_one),    cmocka_unit_test(test_surface),
+        cmocka_unit_test(test_harmonics), cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
