@@ -244,7 +244,11 @@ static ALWAYS_INLINE void advance(const ewa_gaussian_view *view, ewa_gaussian_ti
             composite(view, tile, first, block);
             tile->free[l->free_count++] = tile->order[l->begin];
         }
-        tile->moved_count += sort_in(tile->layers, tile->order, l->begin, l->end++, number);
+        tile->layers[number].active &= block->alive; // some pixels may have closed meanwhile
+        if (tile->layers[number].active)
+            tile->moved_count += sort_in(tile->layers, tile->order, l->begin, l->end++, number);
+        else
+            tile->free[l->free_count++] = number;
     }
 }
 

@@ -223,8 +223,8 @@ ewa_status ewa_splats_create(const ewa_gaussians *gaussians, ewa_splats **splats
     uint32_t *order = ewa_allocate(context, count, sizeof *order);
     ewa_splats *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     ewa_status status = order && made ? EWA_OK : EWA_ERROR_MEMORY;
+    if (made) made->context = context;
     if (status == EWA_OK) {
-        made->context = context;
         made->harmonic_count = 3 * ((gaussians->sh_degree + 1) * (gaussians->sh_degree + 1) - 1);
         made->info.sh_degree = gaussians->sh_degree;
         made->info.antialiased = gaussians->antialiased;

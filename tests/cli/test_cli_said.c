@@ -120,13 +120,10 @@ static void test_gaussians(void **state) {
                 snprintf(text + strlen(text), sizeof text - strlen(text), "%d%s", c < 3 ? p + c : c == turn,
                          c + 1 < count ? " " : "\n");
         scratch_text("gauss.ply", text);
-        run_fails(1, "gauss.ply: ", "ewa render gauss.ply -o a.png");
-        if (!strstr(last_run.err, kinds[i].said))
-            fail_msg("%s wanted, said: %s", kinds[i].said, last_run.err);
-        assert_null(strstr(last_run.err, "none of the"));
+        run_done("ewa render gauss.ply -o a.png --size 30x30");
         assert_int_equal(run("ewa info gauss.ply"), 0);
         assert_non_null(strstr(last_run.out, kinds[i].said + 2));
-        run_fails(1, "gauss.ply: |Gaussians", "ewa csg gauss.ply ball.ply --op union -o a.ply");
+        run_fails(1, "gauss.ply is not closed", "ewa csg gauss.ply ball.ply --op union -o a.ply");
         // Passed through, and made into surfels when asked for.
         run_done("ewa convert gauss.ply -o copy.ply && ewa info copy.ply");
         assert_non_null(strstr(last_run.out, kinds[i].said + 2));

@@ -62,6 +62,9 @@ static void upright(void **state) {
     check_upright("spz.png");
     run_done("ewa convert pair.ply -o pair.splat && ewa render pair.splat -o splat.png --size 100x200");
     check_upright("splat.png");
+    run_done("ewa convert pair.ply -o small.ply --scale 0.001 && ewa render small.ply -o small.png --size "
+             "100x200");
+    check_upright("small.png");
     run_done("ewa render pair.ply -o one.png --size 100x200 --threads 1 && "
              "ewa render pair.ply -o three.png --size 100x200 --threads 3");
     assert_true(scratch_same("one.png", "three.png") && scratch_same("one.png", "trained.png"));

@@ -78,8 +78,12 @@ static void test_bytes(void **state) {
         for (int n = 0; n < 12; n++) {
             ewa_context *context = check_context_of(n % 4 < 2 ? 1 : 5, masks[n / 4]);
             ewa_gaussians set = gaussians_random(context, 4000, 3, 5);
-            // Some are at one place, some are twice there.
-            for (size_t i = 0; i < 300; i++) memcpy(set.centers + 3 * i, set.centers, 3 * sizeof(float));
+            // Some are the same but for their colours: nothing but these tells which is in front.
+            for (size_t i = 1; i < 300; i++) {
+                memcpy(set.centers + 3 * i, set.centers, 3 * sizeof(float));
+                memcpy(set.scales + 3 * i, set.scales, 3 * sizeof(float));
+                memcpy(set.rotations + 4 * i, set.rotations, 4 * sizeof(float));
+            }
             for (size_t i = 0; n % 2 && i < set.count / 2; i++) { // the other way round
                 const size_t j = set.count - 1 - i;
                 float *const streams[5] = {set.centers, set.scales, set.rotations, set.opacities,
@@ -193,13 +197,13 @@ static void test_one(void **state) {
     ewa_context_destroy(&context);
 }
 
-/// A surface in the middle of a Gaussian leaves half of it, one before it nothing, one behind it all.
+/// A surface a standard deviation behind the middle of a Gaussian leaves 84 % of it, one before it nothing, one behind it all.
 static void test_surface(void **state) {
     (void)state;
     enum { PIXELS = 64 * 48 };
     static const double center[3] = {0, 0, 0}, scales[3] = {20, 20, 0.5}, color[3] = {1, 0, 0};
     static const double front[3] = {0, 0, -1};
-    static const double depths[3] = {5, 2, 8}, wanted[3] = {0.4, 0, 0.8};
+    static const double depths[3] = {5.5, 2, 8}, wanted[3] = {0.8 * 0.841345, 0, 0.8};
     static float depth[PIXELS], rgba[4 * PIXELS];
     ewa_context *context = check_context(1, NULL);
     const ewa_camera camera = gaussians_camera(64, 48, 10, front, 5);
@@ -216,10 +220,10 @@ static void test_surface(void **state) {
         const size_t middle = 4 * (24 * 64 + 32);
         const double linear[2] = {red <= 0.04045 ? red / 12.92 : pow((red + 0.055) / 1.055, 2.4),
                                   pow((1 - red + 0.055) / 1.055, 2.4)};
-        assert_true(fabs((double)image.pixels[middle] - linear[0]) < 0.005);
-        assert_true(fabs((double)image.pixels[middle + 2] - linear[1]) < 0.005);
+        assert_true(fabs((double)image.pixels[middle] - linear[0]) < 0.03); // the share is nearly that
+        assert_true(fabs((double)image.pixels[middle + 2] - linear[1]) < 0.03);
         ewa_image slow = gaussians_draw_reference(&set, &camera, &options, EWA_ORDER_RAYS);
-        assert_true(gaussians_decibels(&image, &slow) > 60);
+        assert_true(gaussians_decibels(&image, &slow) > (n % 3 ? 60 : 35));
         ewa_image_free(&image);
         ewa_image_free(&slow);
     }
@@ -279,11 +283,45 @@ static void test_harmonics(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Whichever allocation fails, the calls say so and leave nothing behind.
+static void test_memory(void **state) {
+    (void)state;
+    const ewa_camera camera = gaussians_camera(40, 30, 50, FRONT, 2);
+    for (long n = 0;; n++) {
+        check_memory memory = {.calls_left = -1};
+        ewa_context_options chosen;
+        ewa_context_options_init(&chosen, sizeof chosen);
+        chosen.thread_count = 1;
+        chosen.allocator = check_allocator(&memory);
+        ewa_context *context;
+        assert_int_equal(ewa_context_create(&chosen, &context), EWA_OK);
+        ewa_gaussians set = gaussians_random(context, 50, 1, 4);
+        memory.calls_left = n;
+        ewa_splats *splats = NULL;
+        ewa_gaussian_renderer *renderer = NULL;
+        static float rgba[40 * 30 * 4];
+        const ewa_frame frame = {.rgba = rgba};
+        ewa_status status = ewa_splats_create(&set, &splats);
+        if (status == EWA_OK) status = ewa_gaussian_renderer_create(context, &renderer);
+        if (status == EWA_OK) status = ewa_gaussian_render(renderer, splats, &camera, NULL, &frame, NULL);
+        if (status == EWA_OK)
+            status = ewa_gaussian_render_reference(&set, &camera, NULL, EWA_ORDER_RAYS, &frame);
+        const bool failed = memory.calls_left < 0;
+        assert_int_equal(status, failed ? EWA_ERROR_MEMORY : EWA_OK);
+        ewa_gaussian_renderer_destroy(&renderer);
+        ewa_splats_destroy(&splats);
+        ewa_gaussians_free(&set);
+        ewa_context_destroy(&context);
+        assert_int_equal(memory.held_bytes, 0);
+        if (!failed) break;
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reference), cmocka_unit_test(test_bytes), cmocka_unit_test(test_constant),
-        cmocka_unit_test(test_nothing),   cmocka_unit_test(test_one),   cmocka_unit_test(test_surface),
-        cmocka_unit_test(test_harmonics),
+        cmocka_unit_test(test_reference), cmocka_unit_test(test_bytes),  cmocka_unit_test(test_constant),
+        cmocka_unit_test(test_nothing),   cmocka_unit_test(test_one),    cmocka_unit_test(test_surface),
+        cmocka_unit_test(test_harmonics), cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
