@@ -5,6 +5,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "gaussian_files.h"
 
+#include <math.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -33,10 +34,18 @@ bool gaussian_files_load(cli_session *session, const char *path, ewa_gaussians *
     return true;
 }
 
+int gaussian_files_up_axis(const ewa_gaussian_facts *facts) {
+    const double *up = facts->up_world;
+    if (fabs(up[2]) > fabs(up[1])) return up[2] > 0 ? 2 : -2;
+    return up[1] > 0 ? 1 : -1;
+}
+
 ewa_cloud *gaussian_files_load_surfels(cli_session *session, const char *path) {
     ewa_gaussians set;
     ewa_cloud *cloud = NULL;
-    if (!gaussian_files_load(session, path, &set, NULL)) return NULL;
+    ewa_gaussian_facts facts;
+    if (!gaussian_files_load(session, path, &set, &facts)) return NULL;
+    session->up_axis = gaussian_files_up_axis(&facts);
     const ewa_status status = ewa_gaussians_to_cloud(&set, &cloud);
     ewa_gaussians_free(&set);
     if (status != EWA_OK) session_failed(session, status);

@@ -93,18 +93,11 @@ static ewa_status make_outline(const ewa_gaussians *set, const ewa_cloud *others
     return EWA_OK;
 }
 
-/// As a file says; else y down and z ahead, as the cameras that took the pictures have it.
-static int up_axis_of(const ewa_gaussian_facts *facts) {
-    const double *up = facts->up_world;
-    if (fabs(up[2]) > fabs(up[1])) return up[2] > 0 ? 2 : -2;
-    return up[1] > 0 ? 1 : -1;
-}
-
 bool gaussian_scene_read(cli_session *session, const ewa_cloud *others, gaussian_scene *scene) {
     ewa_gaussians set;
     ewa_gaussian_facts facts;
     if (!gaussian_files_load(session, scene->path, &set, &facts)) return false;
-    scene->up_axis = up_axis_of(&facts);
+    scene->up_axis = gaussian_files_up_axis(&facts);
     ewa_status status = ewa_splats_create(&set, &scene->splats);
     if (status == EWA_OK) {
         ewa_splats_describe(scene->splats, &scene->info);

@@ -209,10 +209,12 @@ static bool make_scene(cli_session *session, const render_arguments *arguments, 
     report->point_count = ewa_cloud_point_count(cloud);
     session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
     ewa_surfels **surfels = &scene->surfels;
+    frames_arguments frames = arguments->frames;
+    if (common->operand_count == 1) frames.view.up_axis = session->up_axis;
     bool done =
         (!by || color_by(session, cloud, by, arguments->colormap, &arguments->range, &scene->scale)) &&
-        frames_make(session, &arguments->frames, cloud, arguments->surfels.radius_scale, &scene->frames) &&
-        furnish_make(session, &arguments->furniture, &arguments->frames, &arguments->background, cloud, by,
+        frames_make(session, &frames, cloud, arguments->surfels.radius_scale, &scene->frames) &&
+        furnish_make(session, &arguments->furniture, &frames, &arguments->background, cloud, by,
                      &scene->scale, &scene->furniture);
     session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
     const resident_options options = {arguments->surfels, arguments->close_gaps,
