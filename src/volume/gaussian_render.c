@@ -9,6 +9,7 @@
 #include "volume/gaussian_kernels.h"
 #include "volume/gaussian_view.h"
 #include "volume/sort.h"
+#include "volume/view.h"
 
 #include <math.h>
 #include <string.h>
@@ -294,7 +295,7 @@ ewa_status ewa_gaussian_render(ewa_gaussian_renderer *renderer, const ewa_splats
                         .with_times = stats != NULL};
     set_view(&job.view, splats, camera, &chosen, &job.tiles);
     job.view.with_depth = frame->depth != NULL;
-    ewa_gaussian_target_set(&job.target, camera, &chosen, frame);
+    ewa_volume_target_set(&job.target, camera, frame, chosen.surface_rgba, chosen.background);
     for (uint32_t i = 0; i < renderer->worker_count; i++)
         renderer->scratch[i].project_s = renderer->scratch[i].draw_s = 0;
     status = project_all(&job);

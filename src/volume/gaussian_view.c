@@ -6,6 +6,7 @@
 #include "base/base.h"
 #include "base/options.h"
 #include "surface/options.h"
+#include "volume/options.h"
 
 #include <math.h>
 
@@ -47,11 +48,8 @@ ewa_status ewa_gaussian_options_choose(ewa_context *context, const ewa_gaussian_
     ewa_gaussian_options_init(chosen, sizeof *chosen);
     ewa_status status = ewa_options_take(context, &ewa_gaussian_options_table, given, chosen);
     if (status == EWA_OK) status = ewa_option_check_background(context, chosen->background);
-    if (status == EWA_OK && !chosen->surface_depth != !chosen->surface_rgba)
-        status = ewa_fail(context, EWA_ERROR_ARGUMENT, "options: %s without %s",
-                          chosen->surface_depth ? "surface_depth" : "surface_rgba",
-                          chosen->surface_depth ? "surface_rgba" : "surface_depth");
-    return status;
+    return status == EWA_OK ? ewa_volume_surface_check(context, chosen->surface_depth, chosen->surface_rgba)
+                            : status;
 }
 
 ewa_status ewa_gaussian_frame_check(ewa_context *context, const ewa_frame *frame) {
@@ -104,18 +102,4 @@ void ewa_gaussian_camera_make(ewa_gaussian_camera *made, const ewa_camera *camer
     made->slopes[1] = (camera->width_px - camera->cx_px) / camera->fx_px + beyond_x;
     made->slopes[2] = -camera->cy_px / camera->fy_px - beyond_y;
     made->slopes[3] = (camera->height_px - camera->cy_px) / camera->fy_px + beyond_y;
-}
-
-void ewa_gaussian_target_set(ewa_volume_target *target, const ewa_camera *camera,
-                             const ewa_gaussian_options *options, const ewa_frame *frame) {
-    *target = (ewa_volume_target){.width_px = camera->width_px,
-                                  .height_px = camera->height_px,
-                                  .surface_rgba = options->surface_rgba,
-                                  .rgba8 = frame->rgba8,
-                                  .rgba = frame->rgba,
-                                  .depth = frame->depth,
-                                  .coverage = frame->coverage};
-    for (int c = 0; c < 4; c++)
-        target->background[c] =
-            c < 3 ? options->background[c] * options->background[3] : options->background[3];
 }

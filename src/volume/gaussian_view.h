@@ -45,7 +45,4 @@ void ewa_gaussian_camera_make(ewa_gaussian_camera *made, const ewa_camera *camer
                               const ewa_gaussian_options *options, bool antialiased, double unit_world,
                               const double origin_world[3]);
 
-void ewa_gaussian_target_set(ewa_volume_target *target, const ewa_camera *camera,
-                             const ewa_gaussian_options *options, const ewa_frame *frame);
-
 #endif

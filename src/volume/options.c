@@ -69,6 +69,12 @@ ewa_status ewa_voxels_options_choose(ewa_context *context, const ewa_voxels_opti
     return ewa_options_take(context, &ewa_voxels_options_table, given, chosen);
 }
 
+ewa_status ewa_volume_surface_check(ewa_context *context, const float *depth, const float *rgba) {
+    if (!depth == !rgba) return EWA_OK;
+    return ewa_fail(context, EWA_ERROR_ARGUMENT, "options: %s without %s",
+                    depth ? "surface_depth" : "surface_rgba", depth ? "surface_rgba" : "surface_depth");
+}
+
 ewa_status ewa_volume_options_choose(ewa_context *context, const ewa_volume_options *given,
                                      ewa_volume_options *chosen) {
     ewa_volume_options_init(chosen, sizeof *chosen);
@@ -76,11 +82,8 @@ ewa_status ewa_volume_options_choose(ewa_context *context, const ewa_volume_opti
     if (status == EWA_OK) status = ewa_option_check_lights(context, chosen->lights, chosen->light_count);
     if (status == EWA_OK) status = ewa_material_check(context, "options", 0, &chosen->material);
     if (status == EWA_OK) status = ewa_option_check_background(context, chosen->background);
-    if (status == EWA_OK && !chosen->surface_depth != !chosen->surface_rgba)
-        status = ewa_fail(context, EWA_ERROR_ARGUMENT, "options: %s without %s",
-                          chosen->surface_depth ? "surface_depth" : "surface_rgba",
-                          chosen->surface_depth ? "surface_rgba" : "surface_depth");
-    return status;
+    return status == EWA_OK ? ewa_volume_surface_check(context, chosen->surface_depth, chosen->surface_rgba)
+                            : status;
 }
 
 ewa_status ewa_volume_frame_check(ewa_context *context, const ewa_frame *frame) {

@@ -17,6 +17,9 @@ ewa_status ewa_voxels_options_choose(ewa_context *context, const ewa_voxels_opti
 ewa_status ewa_volume_options_choose(ewa_context *context, const ewa_volume_options *given,
                                      ewa_volume_options *chosen);
 
+/// Fails where only one of the planes of surfaces is given. Errors: EWA_ERROR_ARGUMENT.
+ewa_status ewa_volume_surface_check(ewa_context *context, const float *depth, const float *rgba);
+
 /// Fails for a frame with planes that volumes do not have. Errors: EWA_ERROR_ARGUMENT.
 ewa_status ewa_volume_frame_check(ewa_context *context, const ewa_frame *frame);
 

@@ -107,7 +107,7 @@ ewa_status ewa_volume_render(ewa_volume_renderer *renderer, const ewa_voxels *vo
                           .scratch = renderer->scratch};
     ewa_volume_view_set(&job.view, &grid, &slices, voxels, camera, &chosen, &shading, &renderer->table);
     job.view.with_depth = frame->depth != NULL;
-    ewa_volume_target_set(&job.target, camera, &chosen, frame);
+    ewa_volume_target_set(&job.target, camera, frame, chosen.surface_rgba, chosen.background);
     status = ewa_volume_bins_fill(context, &renderer->bins, level, &grid, &slices, camera);
     if (status == EWA_OK)
         status = ewa_near_list_fill(context, &renderer->near, renderer->kernels, &job.view, level, &grid,

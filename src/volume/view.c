@@ -142,18 +142,16 @@ void ewa_volume_view_set(ewa_volume_view *view, const ewa_grid_view *grid, const
     view->table = table;
 }
 
-void ewa_volume_target_set(ewa_volume_target *target, const ewa_camera *camera,
-                           const ewa_volume_options *options, const ewa_frame *frame) {
+void ewa_volume_target_set(ewa_volume_target *target, const ewa_camera *camera, const ewa_frame *frame,
+                           const float *surface_rgba, const float background[4]) {
     *target = (ewa_volume_target){.width_px = camera->width_px,
                                   .height_px = camera->height_px,
-                                  .surface_rgba = options->surface_rgba,
+                                  .surface_rgba = surface_rgba,
                                   .rgba8 = frame->rgba8,
                                   .rgba = frame->rgba,
                                   .depth = frame->depth,
                                   .coverage = frame->coverage};
-    for (int c = 0; c < 4; c++)
-        target->background[c] =
-            c < 3 ? options->background[c] * options->background[3] : options->background[3];
+    for (int c = 0; c < 4; c++) target->background[c] = c < 3 ? background[c] * background[3] : background[3];
 }
 
 void ewa_point_filters_make(ewa_point_filter filters[EWA_FILTER_COUNT]) {
