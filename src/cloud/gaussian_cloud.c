@@ -51,7 +51,7 @@ ewa_status ewa_gaussians_to_cloud(const ewa_gaussians *gaussians, ewa_cloud **cl
     if (!gaussians || !gaussians->context || !cloud) return EWA_ERROR_ARGUMENT;
     *cloud = NULL;
     ewa_cloud *made = NULL;
-    surfel_streams to = {NULL};
+    surfel_streams to = {.tangent_u = NULL};
     ewa_status status = ewa_cloud_create(gaussians->context, gaussians->count, &made);
     if (status == EWA_OK) status = ewa_cloud_add(made, EWA_POSITION, EWA_F32, 3, (void **)&to.position);
     if (status == EWA_OK) status = ewa_cloud_add(made, EWA_NORMAL, EWA_F32, 3, (void **)&to.normal);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Sums of a tile as bytes. A number is what a low word has above its bias and 2^16 times a high one, which most blocks
-// do without (surface/road_sums.h).
+// Sums of a tile as bytes. A number is what a low word has above its bias and 2^16 times a high one
+// (surface/road_sums.h); of most blocks all fit 32 bits, else both words travel.
 #include "cluster/pack.h"
 
 #include <string.h>
@@ -54,27 +54,51 @@ static bool has_some(const ewa_joint_set *set, uint32_t row, uint32_t bit, uint3
     return set->of->visits[block] || (set->of->high_rows[row] & bit);
 }
 
+/// Writes plane `k` of a block as numbers of 32 bits; false where one does not fit.
+static bool write_short(const ewa_joint_set *set, uint32_t block, uint32_t k, bool has_high, uint32_t *to) {
+    const size_t at = plane_at(set, block, k);
+    int32_t low[LANES], high[LANES] = {0};
+    memcpy(low, set->of->planes + at, sizeof low);
+    if (has_high) memcpy(high, set->of->high + at, sizeof high);
+    bool fits = true;
+    for (int i = 0; i < LANES; i++) {
+        const int64_t number = (int64_t)high[i] * (1 << CARRY_SHIFT) + low[i] - BIAS_BITS;
+        fits &= number >= INT32_MIN && number <= INT32_MAX;
+        to[i] = (uint32_t)(int32_t)number;
+    }
+    return fits;
+}
+
+/// Writes a block's numbers, as short as they fit; returns where they end, and in `*both` whether words travel.
+static uint32_t *write_block(const ewa_joint_set *set, uint32_t block, bool has_high, uint32_t *to,
+                             bool *both) {
+    const uint32_t planes = plane_count(set);
+    *both = false;
+    for (uint32_t k = 0; k < planes && !*both; k++)
+        *both = !write_short(set, block, k, has_high, to + (size_t)k * LANES);
+    if (!*both) return to + (size_t)planes * LANES;
+    for (uint32_t k = 0; k < planes; k++, to += LANES)
+        memcpy(to, set->of->planes + plane_at(set, block, k), LANES * sizeof *to);
+    for (uint32_t k = 0; k < planes; k++, to += LANES)
+        memcpy(to, set->of->high + plane_at(set, block, k), LANES * sizeof *to);
+    return to;
+}
+
 size_t ewa_joint_pack(const ewa_joint_set *sets, uint32_t set_count, const ewa_tile *tile, void *to) {
     uint32_t *const start = to, *next = start + 1;
     const uint32_t columns = tile->blocks_per_row;
     for (uint32_t i = 0; i < set_count; i++) {
         const ewa_joint_set *set = &sets[i];
-        uint32_t *some = next, *high = some + tile->block_rows;
+        uint32_t *some = next, *long_rows = some + tile->block_rows;
         memset(some, 0, 2 * tile->block_rows * sizeof *some);
-        next = high + tile->block_rows;
+        next = long_rows + tile->block_rows;
         for (uint32_t block = 0; block < columns * tile->block_rows; block++) {
             const uint32_t row = block / columns, bit = 1u << block % columns;
             if (!has_some(set, row, bit, block)) continue;
             some[row] |= bit;
-            high[row] |= set->of->high_rows[row] & bit;
-            for (uint32_t k = 0; k < plane_count(set); k++) {
-                memcpy(next, set->of->planes + plane_at(set, block, k), LANES * sizeof *next);
-                next += LANES;
-            }
-            for (uint32_t k = 0; k < plane_count(set) && (high[row] & bit); k++) {
-                memcpy(next, set->of->high + plane_at(set, block, k), LANES * sizeof *next);
-                next += LANES;
-            }
+            bool both;
+            next = write_block(set, block, set->of->high_rows[row] & bit, next, &both);
+            if (both) long_rows[row] |= bit;
         }
     }
     const size_t bytes = (size_t)(next - start) * sizeof *next;
@@ -87,17 +111,18 @@ void ewa_joint_add(const ewa_joint_set *sets, uint32_t set_count, const ewa_tile
     const uint32_t *next = (const uint32_t *)packed + 1, columns = tile->blocks_per_row;
     for (uint32_t i = 0; i < set_count; i++) {
         const ewa_joint_set *set = &sets[i];
-        const uint32_t *some = next, *high = some + tile->block_rows;
-        next = high + tile->block_rows;
+        const uint32_t *some = next, *long_rows = some + tile->block_rows;
+        next = long_rows + tile->block_rows;
         for (uint32_t block = 0; block < columns * tile->block_rows; block++, totals += block_numbers(set)) {
             const uint32_t row = block / columns, bit = 1u << block % columns;
             if (!(some[row] & bit)) continue;
             const size_t count = (size_t)plane_count(set) * LANES;
             int64_t *sums = totals + 1;
+            const bool both = long_rows[row] & bit;
             totals[0] = 1;
-            for (size_t k = 0; k < count; k++) sums[k] += (int64_t)(int32_t)next[k] - BIAS_BITS;
+            for (size_t k = 0; k < count; k++) sums[k] += (int64_t)(int32_t)next[k] - (both ? BIAS_BITS : 0);
             next += count;
-            if (!(high[row] & bit)) continue;
+            if (!both) continue;
             for (size_t k = 0; k < count; k++) sums[k] += (int64_t)(int32_t)next[k] * (1 << CARRY_SHIFT);
             next += count;
         }

@@ -42,6 +42,11 @@ static ewa_status swap(void *user, const ewa_parcel *given, const ewa_parcel *ta
     return all->unequal ? EWA_ERROR_IO : EWA_OK;
 }
 
+uint64_t ranks_given_bytes(const ewa_exchange *exchange) {
+    const rank *of = exchange->user;
+    return of->all->bytes[of->number];
+}
+
 static void *run(void *data) {
     rank *of = data;
     const ewa_exchange exchange = {of, of->number, of->all->count, of->all->picture_rank, swap};
@@ -49,7 +54,7 @@ static void *run(void *data) {
     return NULL;
 }
 
-uint64_t ranks_run(uint32_t count, uint32_t picture_rank, ranks_work *work, void *data) {
+void ranks_run(uint32_t count, uint32_t picture_rank, ranks_work *work, void *data) {
     shared all = {.count = count, .picture_rank = picture_rank, .work = work, .data = data};
     rank ranks[RANKS_MOST];
     pthread_t threads[RANKS_MOST];
@@ -60,7 +65,4 @@ uint64_t ranks_run(uint32_t count, uint32_t picture_rank, ranks_work *work, void
     }
     for (uint32_t i = 0; i < count; i++) pthread_join(threads[i], NULL);
     pthread_barrier_destroy(&all.barrier);
-    uint64_t most = 0;
-    for (uint32_t i = 0; i < count; i++) most = all.bytes[i] > most ? all.bytes[i] : most;
-    return most;
 }

@@ -12,7 +12,10 @@ enum { RANKS_MOST = 8 };
 /// What a rank does; returns when it has nothing more to exchange.
 typedef void ranks_work(const ewa_exchange *exchange, void *data);
 
-/// Runs the ranks to their end; returns how many bytes the one that gave most has given to others.
-uint64_t ranks_run(uint32_t count, uint32_t picture_rank, ranks_work *work, void *data);
+/// How many bytes a rank has given to others so far.
+uint64_t ranks_given_bytes(const ewa_exchange *exchange);
+
+/// Runs the ranks to their end.
+void ranks_run(uint32_t count, uint32_t picture_rank, ranks_work *work, void *data);
 
 #endif

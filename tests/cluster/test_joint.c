@@ -68,6 +68,73 @@ static void test_bytes_of_one_process(void **state) {
     ewa_context_destroy(&context);
 }
 
+enum { MODEL_PX = 640 };
+
+/// What docs/cluster.md says that a rank gives of a picture of one surface, of which all blocks of shared tiles have
+/// something.
+static double modelled_bytes(const ewa_joint *joint) {
+    const ewa_joint_tiles *tiles = &joint->tiles;
+    const uint32_t own = joint->exchange.rank;
+    double bytes = 0;
+    for (uint32_t tile = 0; tile < tiles->tile_count; tile++) {
+        const ewa_tile_rect rect = ewa_tiles_rect(&joint->job.tiles, tile);
+        const double pixels = (double)rect.width_px * rect.height_px;
+        if (tiles->owners[tile] == own && own != joint->exchange.picture_rank) bytes += 4 * pixels;
+        if (tiles->busy_counts[tile] < 2) continue;
+        bytes += tiles->owners[tile] == own ? 4 * (tiles->busy_counts[tile] - 1) * pixels
+                                            : (4 + 4 * joint->job.channel_count) * pixels;
+    }
+    return bytes;
+}
+
+/// Draws one plane, seen from above, which both ranks have; says how many bytes this took, of those of the model.
+static void give_plane(const ewa_exchange *exchange, void *data) {
+    double *shares = data;
+    ewa_context *context = check_context(1, NULL);
+    ewa_generate_options plane;
+    ewa_generate_options_init(&plane, sizeof plane);
+    plane.object = EWA_OBJECT_PLANE;
+    plane.point_count = 40000;
+    ewa_cloud *cloud = NULL;
+    ewa_surfels *surfels = NULL;
+    ewa_renderer *renderer = NULL;
+    ewa_render_options options;
+    ewa_render_options_init(&options, sizeof options);
+    options.edge_layers = 1;
+    ewa_camera camera;
+    ewa_camera_init(&camera);
+    camera.width_px = camera.height_px = MODEL_PX;
+    picture into = picture_make(MODEL_PX, MODEL_PX);
+    const ewa_frame frame = {.rgba8 = into.frame.rgba8};
+    ewa_bounds box;
+    void *state = NULL;
+    bool done =
+        ewa_cloud_generate(context, &plane, &cloud) == EWA_OK && ewa_cloud_measure(cloud, &box) == EWA_OK &&
+        ewa_surfels_create(cloud, NULL, &surfels) == EWA_OK && ewa_camera_set_fov(&camera, 30) == EWA_OK &&
+        ewa_camera_frame(&camera, &box, (double[3]){0, 0, -1}, (double[3]){0, 1, 0}, 0) == EWA_OK &&
+        ewa_renderer_create_joint(context, exchange, &renderer) == EWA_OK &&
+        ewa_render(renderer, surfels, &camera, &options, &frame, NULL) == EWA_OK;
+    if (done) ewa_renderer_backend(renderer, &context, &state);
+    shares[exchange->rank] = done ? (double)ranks_given_bytes(exchange) / modelled_bytes(state) : -1;
+    picture_free(&into);
+    ewa_renderer_destroy(&renderer);
+    ewa_surfels_destroy(&surfels);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
+static void test_bytes_of_the_model(void **state) {
+    (void)state;
+    for (uint32_t count = 2; count <= 4; count++) {
+        double shares[RANKS_MOST] = {0};
+        ranks_run(count, 0, give_plane, shares);
+        for (uint32_t r = 0; r < count; r++) {
+            print_message("rank %u of %u: %.3f of the model\n", r, count, shares[r]);
+            assert_true(shares[r] > 0.97 && shares[r] < 1.03);
+        }
+    }
+}
+
 /// What a rank gathers and adds up.
 static void gather_and_add(const ewa_exchange *exchange, void *data) {
     enum { COUNT = 11 };
@@ -109,6 +176,7 @@ static void test_bad_exchanges(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bytes_of_one_process),
+        cmocka_unit_test(test_bytes_of_the_model),
         cmocka_unit_test(test_gather_and_add),
         cmocka_unit_test(test_bad_exchanges),
     };
