@@ -122,10 +122,16 @@ ewa_status ewa_file_map(ewa_context *context, const char *path, ewa_file *file) 
 }
 
 void ewa_file_unmap(ewa_context *context, ewa_file *file) {
-    if (file->mapped)
-        munmap((void *)(uintptr_t)file->bytes, file->capacity_bytes);
-    else
-        ewa_release(context, (void *)(uintptr_t)file->bytes, file->capacity_bytes, 1);
+    uint8_t *bytes = (uint8_t *)(uintptr_t)file->bytes;
+    if (!file->mapped) {
+        ewa_release(context, bytes, file->capacity_bytes, 1);
+    } else if (file->hole_end) {
+        munmap(bytes, file->hole_first);
+        if (file->capacity_bytes > file->hole_end)
+            munmap(bytes + file->hole_end, file->capacity_bytes - file->hole_end);
+    } else {
+        munmap(bytes, file->capacity_bytes);
+    }
     *file = (ewa_file){0};
 }
 
@@ -137,10 +143,11 @@ void ewa_file_passed(const uint8_t *bytes, uint64_t at_bytes) {
     if (whole_bytes) madvise((void *)(uintptr_t)bytes, whole_bytes, MADV_DONTNEED);
 }
 
-void ewa_file_give_up(const ewa_file *file, uint64_t from, uint64_t to) {
+void ewa_file_give_up(ewa_file *file, uint64_t from, uint64_t to) {
     const uint64_t page = page_bytes(), first = (from + page - 1) / page * page, end = to / page * page;
     if (!file->mapped || end <= first) return;
     munmap((void *)(uintptr_t)(file->bytes + first), end - first);
+    file->hole_first = first, file->hole_end = end;
 }
 
 int ewa_file_open_pieces(const char *path, uint64_t size_bytes) {

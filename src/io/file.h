@@ -13,8 +13,9 @@
 typedef struct ewa_file {
     const uint8_t *bytes;
     size_t size_bytes;
-    size_t capacity_bytes; ///< of the memory behind `bytes`
-    bool mapped;           ///< true: a view of the page cache, false: memory of the context's allocator
+    size_t capacity_bytes;       ///< of the memory behind `bytes`
+    bool mapped;                 ///< true: a view of the page cache, false: memory of the context's allocator
+    size_t hole_first, hole_end; ///< bytes that were given up, whose addresses may be others' now
 } ewa_file;
 
 /// Makes all bytes of a file readable: a regular file is mapped, anything else ("-": standard input, pipes)
@@ -31,8 +32,8 @@ bool ewa_file_map_descriptor(int descriptor, ewa_file *file);
 void ewa_file_passed(const uint8_t *bytes, uint64_t at_bytes);
 
 /// Gives up bytes [from, to) of a mapped file, which are not to be read any more, so that they take no room among
-/// addresses; ewa_file_piece_map() reads from them again.
-void ewa_file_give_up(const ewa_file *file, uint64_t from, uint64_t to);
+/// addresses; ewa_file_piece_map() reads from them again. Once for a file.
+void ewa_file_give_up(ewa_file *file, uint64_t from, uint64_t to);
 
 /// Opens a file again whose pieces are to be mapped; -1 where that cannot be, or it is not of that size.
 int ewa_file_open_pieces(const char *path, uint64_t size_bytes);
