@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Tests of src/io/file.c: what can be read, what cannot, and output that appears whole or not at all.
-#define _XOPEN_SOURCE 700 // mkdtemp
+#define _DEFAULT_SOURCE     // MAP_ANONYMOUS
+#define _XOPEN_SOURCE   700 // mkdtemp
 #include "check.h"
 #include "io/file.h"
 
@@ -10,6 +11,7 @@
 #include <fcntl.h>
 #include <pthread.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -290,15 +292,58 @@ static void test_standard_output(void **state) {
     assert_content(p, path, "one two");
 }
 
+/// What was given up of a mapped file belongs to whom the system gives its addresses, also when the file is closed.
+static void test_given_up(void **state) {
+    place *p = *state;
+    char path[128];
+    const size_t page = (size_t)sysconf(_SC_PAGESIZE), size_bytes = 64 * page;
+    uint8_t *bytes = malloc(size_bytes);
+    for (size_t i = 0; i < size_bytes; i++) bytes[i] = (uint8_t)(i / page + i % 7);
+    FILE *out = fopen(inside(p, "large", path), "wb");
+    assert_int_equal(fwrite(bytes, 1, size_bytes, out), size_bytes);
+    assert_int_equal(fclose(out), 0);
+    ewa_file file;
+    assert_int_equal(ewa_file_map(p->context, path, &file), EWA_OK);
+    ewa_file_give_up(&file, page + 1, 40 * page + 5);
+    assert_int_equal(file.bytes[page], bytes[page]);
+    assert_int_equal(file.bytes[40 * page], bytes[40 * page]);
+    // Somebody else's page in the hole; a system that puts it elsewhere has nothing to show.
+    void *wanted = (void *)(uintptr_t)(file.bytes + 10 * page);
+    uint8_t *other = mmap(wanted, page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    assert_ptr_not_equal(other, MAP_FAILED);
+    other[0] = 17;
+    const int descriptor = ewa_file_open_pieces(path, size_bytes);
+    assert_true(descriptor >= 0);
+    ewa_file piece;
+    const uint8_t *found = NULL;
+    assert_true(ewa_file_piece_map(descriptor, 5 * page + 3, 2 * page, &piece, &found));
+    assert_memory_equal(found, bytes + 5 * page + 3, 2 * page);
+    ewa_file_unmap(p->context, &piece);
+    assert_int_equal(ewa_file_open_pieces(path, size_bytes + 1), -1);
+    close(descriptor);
+    ewa_file_unmap(p->context, &file);
+    assert_int_equal(msync(other, page, MS_ASYNC), 0); // still there
+    assert_int_equal(other[0], 17);
+    munmap(other, page);
+    free(bytes);
+}
+
 int main(void) {
 #define CASE(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
     const struct CMUnitTest tests[] = {
-        CASE(test_regular_file_is_mapped),          CASE(test_unreadable_inputs),
-        CASE(test_pipe_is_read_to_its_end),         CASE(test_endless_input_meets_the_limit),
-        CASE(test_output_appears_on_commit),        CASE(test_large_and_small_pieces_keep_their_order),
-        CASE(test_abort_leaves_the_old_file),       CASE(test_replacing_keeps_permissions_and_links),
-        CASE(test_outputs_that_cannot_be),          CASE(test_full_device_fails_once),
-        CASE(test_vanished_folder_fails_at_commit), CASE(test_standard_output),
+        CASE(test_regular_file_is_mapped),
+        CASE(test_unreadable_inputs),
+        CASE(test_pipe_is_read_to_its_end),
+        CASE(test_endless_input_meets_the_limit),
+        CASE(test_output_appears_on_commit),
+        CASE(test_large_and_small_pieces_keep_their_order),
+        CASE(test_abort_leaves_the_old_file),
+        CASE(test_replacing_keeps_permissions_and_links),
+        CASE(test_outputs_that_cannot_be),
+        CASE(test_full_device_fails_once),
+        CASE(test_vanished_folder_fails_at_commit),
+        CASE(test_standard_output),
+        CASE(test_given_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
