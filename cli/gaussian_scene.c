@@ -13,9 +13,6 @@ enum { CORNERS = 8 };
 /// Opacities from there on make a place worth showing.
 static const float SEEN = 0.1f;
 
-/// Scenes in small units are not cut off by the distance that 3DGS has for its own: this share of the core's diagonal.
-static const double NEAR_SHARE = 0.02;
-
 /// Standard deviations of a Gaussian that belong to what is framed.
 static const float REACH = 2;
 
@@ -46,16 +43,6 @@ bool gaussian_scene_find(cli_session *session, const common_arguments *common,
     }
     session->subject = NULL;
     return true;
-}
-
-/// The diagonal of a box.
-static double size_of(const ewa_bounds *box) {
-    double squares = 0;
-    for (int k = 0; k < 3; k++) {
-        const double side = box->high_world[k] - box->low_world[k];
-        squares += side * side;
-    }
-    return sqrt(squares);
 }
 
 static bool is_shown(const ewa_gaussians *set, const ewa_bounds *core, size_t number) {
@@ -101,7 +88,6 @@ bool gaussian_scene_read(cli_session *session, const ewa_cloud *others, gaussian
     ewa_status status = ewa_splats_create(&set, &scene->splats);
     if (status == EWA_OK) {
         ewa_splats_describe(scene->splats, &scene->info);
-        scene->near_world = NEAR_SHARE * size_of(&scene->info.core);
         status = make_outline(&set, others, scene);
     }
     ewa_gaussians_free(&set);
@@ -121,7 +107,7 @@ ewa_status gaussian_scene_paint(gaussian_scene *scene, const ewa_camera *camera,
                                 ewa_render_stats *stats) {
     ewa_gaussian_stats drawn;
     ewa_gaussian_options nearer = *options;
-    if (nearer.near_world > scene->near_world) nearer.near_world = scene->near_world;
+    nearer.near_world = scene->info.near_world;
     const ewa_status status =
         ewa_gaussian_render(scene->renderer, scene->splats, camera, &nearer, frame, &drawn);
     if (status != EWA_OK) return status;
@@ -137,7 +123,7 @@ ewa_status gaussian_scene_paint_among(gaussian_scene *scene, const ewa_camera *c
                                       ewa_render_stats *stats) {
     within_planes *planes = &scene->planes;
     ewa_gaussian_options among = *options;
-    if (among.near_world > scene->near_world) among.near_world = scene->near_world;
+    among.near_world = scene->info.near_world;
     const ewa_frame past = {.rgba = planes->past.pixels}, front = {.rgba = planes->front.pixels};
     ewa_status status = ewa_gaussian_render(scene->renderer, scene->splats, camera, &among, &past, NULL);
     among.surface_depth = planes->surface_depth.pixels;

@@ -35,7 +35,6 @@ typedef struct gaussian_scene {
     ewa_splats_info info;
     ewa_cloud *outline; ///< where they are, but for far floaters
     int up_axis;        ///< as view_arguments have it
-    double near_world;  ///< of options, less where the scene is small
     ewa_gaussian_renderer *renderer;
     within_planes planes;
 } gaussian_scene;

@@ -111,7 +111,10 @@ static ewa_status draw_veil(paint_tools *tools, const paint_scene *scene, const 
     } else {
         ewa_gaussian_options options;
         ewa_gaussian_stats stats = {.total_s = 0};
+        ewa_splats_info info;
         ewa_gaussian_options_init(&options, sizeof options);
+        ewa_splats_describe(veil->splats, &info);
+        options.near_world = info.near_world;
         options.surface_depth = surface_depth;
         options.surface_rgba = surface_rgba;
         status = ewa_gaussian_render(tools->gaussian_renderer, veil->splats, &scene->camera, &options, frame,

@@ -37,6 +37,9 @@ typedef struct ewa_splats_info {
     /// A box that far floaters do not widen, for framing: of the middle 96 % of the opacities along
     /// each axis.
     ewa_bounds core;
+    /// What suits as ewa_gaussian_options.near_world: its default, which is of 3DGS' own scenes, or 2 % of the
+    /// core's diagonal where that is less, for scenes in other units.
+    double near_world;
 } ewa_splats_info;
 
 EWA_API void ewa_splats_describe(const ewa_splats *splats, ewa_splats_info *info);

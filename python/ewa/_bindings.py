@@ -746,6 +746,7 @@ class ewa_splats_info(c.Structure):
     resident_bytes: int
     bounds: ewa_bounds
     core: ewa_bounds
+    near_world: float
     _fields_ = [
         ("splat_count", c.c_uint32),
         ("sh_degree", c.c_uint32),
@@ -753,6 +754,7 @@ class ewa_splats_info(c.Structure):
         ("resident_bytes", c.c_size_t),
         ("bounds", ewa_bounds),
         ("core", ewa_bounds),
+        ("near_world", c.c_double),
     ]
 
 

@@ -7,6 +7,7 @@
 #include "base/options.h"
 #include "surface/options.h"
 #include "volume/options.h"
+#include "volume/splats.h"
 
 #include <math.h>
 
@@ -29,7 +30,7 @@ static const ewa_option rows[] = {
      .help = "less of a Gaussian is not drawn"},
     {"least_transmittance", EWA_OPTION_F64, OF(least_transmittance), 0, 0.999999, .initial = 1.0 / 512,
      .help = "a pixel where less of what is behind would show gets nothing more"},
-    {"near_world", EWA_OPTION_F64, OF(near_world), 0, 1e15, .initial = 0.2,
+    {"near_world", EWA_OPTION_F64, OF(near_world), 0, 1e15, .initial = EWA_GAUSSIAN_NEAR_WORLD,
      .help = "trained: Gaussians whose centres are nearer to the eye along its axis are not drawn"},
     {"sh_degree", EWA_OPTION_U32, OF(sh_degree), 0, EWA_MAX_SH_DEGREE, .initial = EWA_MAX_SH_DEGREE,
      .help = "spherical harmonics beyond that degree are not used"},

@@ -13,6 +13,9 @@
 
 enum { LANES = EWA_SPLAT_LANES, CORE_BINS = 1 << 14 };
 
+/// Of a core's diagonal: what may be left out before the eye.
+static const double NEAR_SHARE = 0.02;
+
 /// What lies outside of a core, at either end.
 static const double OUTSIDE_CORE = 0.02;
 
@@ -164,6 +167,7 @@ static ewa_status measure(ewa_splats *splats) {
     ewa_splats_info *info = &splats->info;
     double *bins = ewa_allocate(splats->context, CORE_BINS, sizeof *bins);
     if (!bins) return EWA_ERROR_MEMORY;
+    double squares = 0; // of the core's sides
     info->bounds.finite_count = info->core.finite_count = info->splat_count;
     for (int axis = 0; axis < 3 && info->splat_count; axis++) {
         double low = INFINITY, high = -INFINITY;
@@ -178,7 +182,9 @@ static ewa_status measure(ewa_splats *splats) {
         info->bounds.high_world[axis] = origin + unit * high;
         info->core.low_world[axis] = origin + unit * first,
         info->core.high_world[axis] = origin + unit * last;
+        squares += unit * unit * (last - first) * (last - first);
     }
+    info->near_world = fmin(EWA_GAUSSIAN_NEAR_WORLD, NEAR_SHARE * sqrt(squares));
     ewa_release(splats->context, bins, CORE_BINS, sizeof *bins);
     return EWA_OK;
 }

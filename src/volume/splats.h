@@ -7,6 +7,9 @@
 
 #include "ewa/gaussian_render.h"
 
+/// The distance from the eye that 3DGS leaves out, in the units of its scenes.
+#define EWA_GAUSSIAN_NEAR_WORLD 0.2
+
 enum {
     EWA_SPLAT_LANES = 16,
     EWA_SPLATS_MOST = 1 << 26,
