@@ -313,6 +313,13 @@ static bool prepare(cli_session *session, const render_arguments *arguments, ren
                     render_report *report) {
     const common_arguments *common = &arguments->frames.view.common;
     if (!gaussian_scene_find(session, common, &arguments->gaussians, &scene->gaussians)) return false;
+    if (scene->gaussians.path && crew_shares_cloud(session->crew)) {
+        session_fail(session,
+                     "%s: --split cloud: what Gaussians show depends on the order of depth, which sums of "
+                     "parts do not have; --split frames divides their films",
+                     scene->gaussians.path);
+        return false;
+    }
     if (scene->gaussians.path) return make_gaussian_scene(session, arguments, scene, report);
     if (!lod_input_choose(session, common, &arguments->lod, find_lod_clash(arguments), &scene->lod))
         return false;

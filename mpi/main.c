@@ -28,7 +28,9 @@ static const char usage[] =
     "                  has a part in memory. The default for one picture.\n"
     "  lod             each rank makes a part of the octree, then one joins them.\n"
     "\n"
-    "  --time-limit S  give up when a rank has not answered for S seconds; 0: never (the default)\n"
+    "  --time-limit S  give up when a rank has not answered for S seconds, loading and drawing included, and "
+    "the\n"
+    "                  frames by which one is done before another; 0: never (the default)\n"
     "\n"
     "docs/cluster.md says how to start it with Slurm, by TCP, on many machines.\n";
 

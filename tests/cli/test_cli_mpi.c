@@ -36,8 +36,8 @@ static void test_one_picture(void **state) {
         char look[2][256];
         for (int k = 0; k < 2; k++) // each writes planes of its own
             snprintf(look[k], sizeof look[k], looks[i], "ab"[k], "ab"[k]);
-        run_done("rm -f a.* b.* a_* b_*; ewa render %s.copc.laz --memory 64M --size 160x120 -o a.png %s", cloud,
-                 look[0]);
+        run_done("rm -f a.* b.* a_* b_*; ewa render %s.copc.laz --memory 64M --size 160x120 -o a.png %s",
+                 cloud, look[0]);
         run_done(
             "%s %d $EWA_MPI_PROGRAM render %s.copc.laz --memory 64M --size 160x120 -o b.png %s --threads 1",
             mpi, 2 + (int)i % 3, cloud, look[1]);
@@ -91,6 +91,14 @@ static void test_octree(void **state) {
 
 static void test_refusals(void **state) {
     (void)state;
+    // Gaussians with sizes, colours and turns of some kind: 32 bytes each.
+    uint8_t splats[4][32];
+    for (int i = 0; i < 4; i++) {
+        const float numbers[6] = {(float)i, 0, 1, 0.1f, 0.2f, 0.3f};
+        memcpy(splats[i], numbers, sizeof numbers);
+        memcpy(splats[i] + 24, (const uint8_t[8]){200, 100, 50, 255, 255, 128, 128, 128}, 8);
+    }
+    scratch_write("four.splat", splats, sizeof splats);
     static const struct {
         const char *words, *said;
     } wrong[] = {
@@ -103,6 +111,7 @@ static void test_refusals(void **state) {
         {"render torus.copc.laz --memory 64M -o x.png --backend gl", "leave out --backend"},
         {"render torus.copc.laz --memory 64M -o x.png --no-such", "no-such"},
         {"volume ball.nrrd -o x.png", "order of depth"},
+        {"render four.splat torus.ply -o x.png", "order of depth"},
         {"lod torus.ply -o x.copc.laz --subset 1/2", "by themselves"},
         {"info torus.ply", "one process"},
         {"fly", "no such command"},
