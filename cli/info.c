@@ -179,7 +179,9 @@ static bool gather(cli_session *session, const char *path, const ewa_model *mode
     }
     facts->shape = measure_shape(cloud, &facts->bounds);
     faults_count(cloud, &facts->faults);
-    if (facts->bounds.finite_count && !view_default(session, path, cloud, &facts->view)) return false;
+    const int up_axis = facts->gaussians.count ? gaussian_files_up_axis(&facts->gaussians.file) : 0;
+    if (facts->bounds.finite_count && !view_default(session, path, cloud, up_axis, &facts->view))
+        return false;
     return true;
 }
 

@@ -129,8 +129,10 @@ static ewa_status choose_direction(cli_session *session, const view_arguments *a
                                       frame->direction, frame->up_world);
 }
 
-bool view_default(cli_session *session, const char *path, const ewa_cloud *cloud, ewa_upright *chosen) {
-    const view_arguments arguments = {.common = {.operands = &path, .operand_count = 1}, .view = -1};
+bool view_default(cli_session *session, const char *path, const ewa_cloud *cloud, int up_axis,
+                  ewa_upright *chosen) {
+    const view_arguments arguments = {
+        .common = {.operands = &path, .operand_count = 1}, .view = -1, .up_axis = up_axis};
     ewa_framing *framing = NULL;
     const ewa_status status = ewa_framing_create(cloud, 1, &framing);
     if (status == EWA_OK)

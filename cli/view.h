@@ -38,7 +38,8 @@ bool view_is_placed(const view_arguments *arguments);
 
 /// Chooses how a cloud of a file, which has a finite point, is looked at without any option. Returns false
 /// after reporting.
-bool view_default(cli_session *session, const char *path, const ewa_cloud *cloud, ewa_upright *chosen);
+bool view_default(cli_session *session, const char *path, const ewa_cloud *cloud, int up_axis,
+                  ewa_upright *chosen);
 
 /// What a turntable turns about.
 typedef struct view_turn {

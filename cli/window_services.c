@@ -408,7 +408,7 @@ static bool place(void *user, size_t count, const viewer_content *const *content
     bool done = view_make(session, &arguments, cloud, 1, camera, NULL);
     if (done && arguments.up.count)
         memcpy(up_world, arguments.up.values, 3 * sizeof *up_world);
-    else if (done && (chosen.axis || view_default(session, paths[0], cloud, &chosen)))
+    else if (done && (chosen.axis || view_default(session, paths[0], cloud, 0, &chosen)))
         for (int c = 0; c < 3; c++) up_world[c] = c == chosen.axis ? (chosen.reversed ? -1 : 1) : 0;
     else
         done = false;
