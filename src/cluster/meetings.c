@@ -92,12 +92,6 @@ typedef struct told_tile {
     uint32_t open, rows[ROWS];
 } told_tile;
 
-static uint32_t count_blocks(const uint32_t rows[ROWS]) {
-    uint32_t count = 0;
-    for (int i = 0; i < ROWS; i++) count += (uint32_t)__builtin_popcount(rows[i]);
-    return count;
-}
-
 /// Where the passed keys of a meeting are.
 static const float *passed_of(ewa_joint *joint, uint32_t meeting, ewa_tile *tile) {
     ewa_joint_take(joint, meeting, 0, tile);
@@ -114,8 +108,8 @@ static ewa_status write_told(ewa_joint *joint, const bool *was_open) {
         const uint32_t m = tiles->parts[p].meeting;
         if (!was_open[m]) continue;
         const bool open = tiles->meetings[m].open;
-        const size_t more =
-            sizeof(told_tile) + (open ? count_blocks(kept[m].open_rows) * LANES * sizeof(float) : 0);
+        const size_t more = sizeof(told_tile) +
+                            (open ? ewa_joint_count_blocks(kept[m].open_rows) * LANES * sizeof(float) : 0);
         const ewa_status status = ewa_buffer_grow(joint->context, &joint->packed, bytes, bytes + more, 1);
         if (status != EWA_OK) return status;
         char *at = (char *)joint->packed.data + bytes;
@@ -153,7 +147,7 @@ static ewa_status read_told(ewa_joint *joint) {
             return ewa_fail(joint->context, EWA_ERROR_FORMAT, "render: rank %u says too little",
                             share->owner);
         memcpy(&told, from->data, sizeof told);
-        const size_t keys = told.open ? count_blocks(told.rows) * LANES * sizeof(float) : 0;
+        const size_t keys = told.open ? ewa_joint_count_blocks(told.rows) * LANES * sizeof(float) : 0;
         const ewa_tile_rect rect = ewa_tiles_rect(all, share->tile);
         const uint32_t columns = (rect.width_px + EWA_BLOCK_PX - 1) / EWA_BLOCK_PX;
         if (from->size_bytes - sizeof told < keys)

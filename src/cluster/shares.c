@@ -12,12 +12,6 @@
 
 enum { LANES = EWA_BLOCK_LANES, ROWS = EWA_MAX_TILE_BLOCKS, WAVE_SHARES = 8 };
 
-static uint32_t count_blocks(const uint32_t rows[ROWS]) {
-    uint32_t count = 0;
-    for (int i = 0; i < ROWS; i++) count += (uint32_t)__builtin_popcount(rows[i]);
-    return count;
-}
-
 /// Marks all blocks of a tile.
 static void mark_all(const ewa_tiles *tiles, uint32_t index, uint32_t rows[ROWS]) {
     const ewa_tile_rect rect = ewa_tiles_rect(tiles, index);
@@ -37,7 +31,7 @@ static ewa_status place_keys(ewa_joint *joint) {
         if (!tiles->shares[i].open) continue;
         if (!joint->surface) mark_all(&joint->job.tiles, tiles->shares[i].tile, joint->share_rows[i]);
         joint->active[joint->active_count++] = i;
-        blocks += count_blocks(joint->share_rows[i]);
+        blocks += ewa_joint_count_blocks(joint->share_rows[i]);
     }
     joint->share_places[tiles->share_count] = blocks;
     ewa_status status = ewa_buffer_reserve(joint->context, &joint->given_keys, blocks, LANES * sizeof(float));
@@ -49,7 +43,7 @@ static ewa_status place_keys(ewa_joint *joint) {
         const uint32_t m = tiles->parts[p].meeting;
         joint->part_places[p] = blocks;
         if (tiles->meetings[m].open && tiles->parts[p].rank != joint->exchange.rank)
-            blocks += count_blocks(kept[m].open_rows);
+            blocks += ewa_joint_count_blocks(kept[m].open_rows);
     }
     joint->part_places[tiles->part_count] = blocks;
     if (status == EWA_OK)
@@ -136,7 +130,7 @@ static void take_largest(void *data, uint32_t number, uint32_t worker) {
     if (!meeting->open) return;
     ewa_tile tile;
     ewa_joint_kept *kept = ewa_joint_take(joint, number, worker, &tile);
-    const size_t lanes = (size_t)count_blocks(kept->open_rows) * LANES;
+    const size_t lanes = (size_t)ewa_joint_count_blocks(kept->open_rows) * LANES;
     const uint32_t *parts = joint->tiles.order + meeting->first_part;
     const uint32_t part_count = meeting[1].first_part - meeting->first_part;
     float *largest = keys_of_part(joint, parts[0]);

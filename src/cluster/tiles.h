@@ -42,6 +42,13 @@ typedef struct ewa_joint_tiles {
     ewa_buffer busy, numbers, share_buffer, meeting_buffer, part_buffer;
 } ewa_joint_tiles;
 
+/// How many blocks some rows mark.
+static inline uint32_t ewa_joint_count_blocks(const uint32_t rows[EWA_MAX_TILE_BLOCKS]) {
+    uint32_t count = 0;
+    for (int i = 0; i < EWA_MAX_TILE_BLOCKS; i++) count += (uint32_t)__builtin_popcount(rows[i]);
+    return count;
+}
+
 /// Tells all ranks in which tiles this one has splats and settles who owns which: the same on all. Errors:
 /// EWA_ERROR_MEMORY, those of the exchange.
 ewa_status ewa_joint_tiles_settle(ewa_context *context, const ewa_exchange *exchange, const ewa_tile_job *job,
