@@ -4,6 +4,7 @@
 // Sets of Gaussians for tests, and pictures of them.
 #include "volume/gaussian_scene.h"
 #include "image/srgb.h"
+#include "volume/scene.h"
 
 #include <math.h>
 
@@ -49,16 +50,8 @@ ewa_gaussians gaussians_one(ewa_context *context, const double center[3], const 
 
 ewa_camera gaussians_camera(uint32_t width_px, uint32_t height_px, double fov_deg, const double direction[3],
                             double distance) {
-    static const double origin[3] = {0, 0, 0}, up[3] = {0, 1, 0};
-    const double length =
-        sqrt(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2]);
-    double eye[3];
-    for (int axis = 0; axis < 3; axis++) eye[axis] = direction[axis] / length * distance;
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = width_px, camera.height_px = height_px;
+    ewa_camera camera = scene_camera(width_px, height_px, direction, distance);
     assert_int_equal(ewa_camera_set_fov(&camera, fov_deg), EWA_OK);
-    assert_int_equal(ewa_camera_look_at(&camera, eye, origin, up), EWA_OK);
     return camera;
 }
 
