@@ -90,7 +90,7 @@ typedef struct ewa_gaussian_stats {
     uint64_t near_count;    ///< of those: at the eye, drawn ray by ray
     uint64_t tile_count;    ///< over all tiles: a splat in two counts twice
     uint64_t block_count;   ///< over blocks of 4x4 pixels: what was evaluated
-    uint64_t moved_count;   ///< of those: steps by which they came in another order than their list's
+    uint64_t sorted_count;  ///< of those: rows of keys that were sorted; again where only some pixels were due
     double project_s, bin_s, draw_s;
     double total_s; ///< wall clock of the call
 } ewa_gaussian_stats;

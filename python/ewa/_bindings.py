@@ -720,7 +720,7 @@ class ewa_gaussian_stats(c.Structure):
     near_count: int
     tile_count: int
     block_count: int
-    moved_count: int
+    sorted_count: int
     project_s: float
     bin_s: float
     draw_s: float
@@ -731,7 +731,7 @@ class ewa_gaussian_stats(c.Structure):
         ("near_count", c.c_uint64),
         ("tile_count", c.c_uint64),
         ("block_count", c.c_uint64),
-        ("moved_count", c.c_uint64),
+        ("sorted_count", c.c_uint64),
         ("project_s", c.c_double),
         ("bin_s", c.c_double),
         ("draw_s", c.c_double),

@@ -12,10 +12,11 @@
 #ifndef EWA_SRC_VOLUME_GAUSSIAN_DRAW_H
 #define EWA_SRC_VOLUME_GAUSSIAN_DRAW_H
 
-#include "volume/gaussian_kernels.h"
+#include "volume/gaussian_order.h"
 #include "volume/gaussian_view.h"
-#include "volume/kernels_over.h"
 #include "volume/kernels_planes.h"
+
+enum { SPLATS_AT_ONCE = 64 };
 
 /// Numbers of sixteen splats, some of their records' from `first` on.
 static ALWAYS_INLINE void load_numbers(const ewa_gaussian_tile *tile, uint32_t first, const int *fields,
@@ -69,7 +70,7 @@ static void mark(ewa_gaussian_tile *tile) {
 /// A splat in the pixels of a block whose centres are (x, y): false where none shows it. Of what stands along
 /// a ray the share in front of the surface counts.
 static ALWAYS_INLINE bool meet_splat(const ewa_gaussian_view *view, const float *s, wf x, wf y, bool trained,
-                                     bool orthographic, const float *surface, ewa_gaussian_layer *layer) {
+                                     bool orthographic, const float *surface, ewa_gaussian_met *met) {
     const wf u = wf_sub(x, wf_set(s[RECORD_X])), v = wf_sub(y, wf_set(s[RECORD_Y]));
     const wf limit = wf_set(s[RECORD_LIMIT]);
     wf m2 = wf_set(0), inverse;
@@ -106,150 +107,15 @@ static ALWAYS_INLINE bool meet_splat(const ewa_gaussian_view *view, const float 
     z = wf_min(wf_max(z, wf_set(s[RECORD_LOW])), wf_set(s[RECORD_HIGH]));
     wf alpha = wf_exp2(wf_fma(m2, wf_set(-0.721347520f), wf_set(s[RECORD_LOG2_ALPHA])));
     if (view->keep) inside = wm_and(inside, wf_le(wf_set(view->least_alpha), alpha));
-    layer->active = wm_bits(inside);
+    met->active = wm_bits(inside);
     alpha = wf_min(alpha, wf_set((float)EWA_GAUSSIAN_MOST_ALPHA));
     if (view->with_surface) { // 3/4 sqrt(8 pi)
         const wf width = wf_max(wf_mul(wf_set(3.75994241f), wf_sqrt(inverse)), wf_set(1e-30f));
         alpha = wf_mul(alpha, share_ahead(wf_load(surface), z, width));
     }
-    wf_store(layer->alpha, alpha);
-    wf_store(layer->z, z);
+    wf_store(met->alpha, alpha);
+    wf_store(met->z, wf_add(z, wf_set(0))); // of both zeros the one above
     return true;
-}
-
-/// A block while it is drawn.
-typedef struct block_state {
-    _Alignas(64) float pixels[EWA_VOLUME_CHANNELS * 16];
-    float surface[16];
-    uint32_t alive; ///< pixels in which more would show
-} block_state;
-
-static ALWAYS_INLINE wf color_of(const float *records, const ewa_gaussian_layer *layer, int channel) {
-    if (!layer->mixed) return wf_set(records[layer->colors[0] + channel]);
-    return wf_gather(records + channel, wi_load(layer->colors));
-}
-
-static ALWAYS_INLINE void composite(const ewa_gaussian_view *view, const ewa_gaussian_tile *tile,
-                                    const ewa_gaussian_layer *layer, block_state *block) {
-    const float *records = (const float *)tile->records;
-    const wm active = wm_of_bits(layer->active & block->alive);
-    const wf weight = wf_keep(active, wf_mul(wf_load(block->pixels + 48), wf_load(layer->alpha)));
-    const wf color[3] = {color_of(records, layer, 0), color_of(records, layer, 1),
-                         color_of(records, layer, 2)};
-    const wf through = wf_load(block->pixels + 48), rest = wf_sub(through, weight);
-    add_light(block->pixels, weight, color);
-    wf_store(block->pixels + 48, rest);
-    if (view->with_depth) note_depth(block->pixels, through, rest, wf_load(layer->z));
-    block->alive &= wm_bits(wf_le(wf_set(view->least_transmittance), rest));
-}
-
-/// Puts a layer to where it belongs among those that wait, from `begin` to `end`. Returns the steps that this
-/// took.
-///
-/// A pixel that a layer is not in has the depth of one before there, so that depths never fall from layer to
-/// layer.
-static ALWAYS_INLINE uint32_t sort_in(ewa_gaussian_layer *layers, uint32_t *order, uint32_t begin,
-                                      uint32_t end, uint32_t number) {
-    uint32_t at = end, hole = number, active = layers[number].active;
-    bool mixed = false;
-    wf z = wf_load(layers[number].z), alpha = wf_load(layers[number].alpha);
-    wi colors = wi_load(layers[number].colors);
-    for (; at > begin; at--) {
-        ewa_gaussian_layer *before = &layers[order[at - 1]];
-        const wf z_before = wf_load(before->z);
-        const wm own = wm_of_bits(active), behind = wm_and(own, wf_lt(z, z_before));
-        z = wf_select(own, z, z_before);
-        const uint32_t ahead = wm_bits(behind);
-        if (!ahead) break;
-        if (!(active & before->active & ~ahead)) { // as a whole
-            wf_store(before->z, wf_max(z, z_before));
-            order[at] = order[at - 1];
-            continue;
-        }
-        // Pixel by pixel: one layer stays here, the other one moves on.
-        ewa_gaussian_layer *stays = &layers[hole];
-        const wf alpha_before = wf_load(before->alpha), colors_before = wf_of_bits(wi_load(before->colors));
-        wf_store(stays->z, wf_max(z, z_before));
-        wf_store(stays->alpha, wf_select(behind, alpha_before, alpha));
-        wi_store(stays->colors, wi_of_bits(wf_select(behind, colors_before, wf_of_bits(colors))));
-        stays->active = (before->active & ahead) | (active & ~ahead);
-        stays->mixed = true;
-        z = wf_min(z, z_before);
-        alpha = wf_select(behind, alpha, alpha_before);
-        colors = wi_of_bits(wf_select(behind, wf_of_bits(colors), colors_before));
-        active = (active & ahead) | (before->active & ~ahead);
-        mixed = true;
-        const uint32_t next = order[at - 1];
-        order[at] = hole;
-        hole = next;
-    }
-    ewa_gaussian_layer *to = &layers[hole];
-    wf_store(to->z, z);
-    wf_store(to->alpha, alpha);
-    wi_store(to->colors, colors);
-    to->active = active;
-    to->mixed |= mixed;
-    order[at] = hole;
-    return end - at;
-}
-
-/// Least of sixteen numbers.
-static ALWAYS_INLINE float least_of(wf a) {
-    typedef float four __attribute__((vector_size(16)));
-    typedef int32_t mask __attribute__((vector_size(16)));
-    float lanes[16];
-    four part[4];
-    wf_store(lanes, a);
-    __builtin_memcpy(part, lanes, sizeof part);
-    for (int half = 2; half; half /= 2)
-        for (int i = 0; i < half; i++) {
-            const mask less = part[i] < part[i + half];
-            part[i] = (four)((less & (mask)part[i]) | (~less & (mask)part[i + half]));
-        }
-    const float low = part[0][0] < part[0][1] ? part[0][0] : part[0][1];
-    const float high = part[0][2] < part[0][3] ? part[0][2] : part[0][3];
-    return low < high ? low : high;
-}
-
-/// A key that sorts as depths do, ties by the number.
-static ALWAYS_INLINE uint64_t depth_key(float z, uint32_t number) {
-    int32_t bits;
-    __builtin_memcpy(&bits, &z, sizeof bits);
-    return (uint64_t)((uint32_t)bits ^ (bits < 0 ? 0xffffffffu : 0x80000000u)) << 32 | number;
-}
-
-/// A block's layers: those whose turn has not come, keys[first_key] to keys[key_end - 1], by the least depth in
-/// any pixel; those that are in order, order[begin] to order[end - 1]. Layers are free from `made_count` on, and
-/// those in `free`.
-typedef struct block_layers {
-    uint32_t first_key, key_end, begin, end, free_count, made_count;
-} block_layers;
-
-/// Adds a key to those that wait. Most come near the end: splats do by their least depths.
-static ALWAYS_INLINE void add_key(uint64_t *keys, block_layers *l, uint64_t key) {
-    uint32_t at = l->key_end++;
-    for (; at > l->first_key && keys[at - 1] > key; at--) keys[at] = keys[at - 1];
-    keys[at] = key;
-}
-
-/// Puts those layers in order that are before `bound` and composites what none to come can be in front of.
-static ALWAYS_INLINE void advance(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, uint64_t bound,
-                                  block_layers *l, block_state *block) {
-    while (l->first_key < l->key_end && tile->keys[l->first_key] <= bound && block->alive) {
-        const uint32_t number = tile->slots[(uint32_t)tile->keys[l->first_key++]];
-        const wf least = wf_set(tile->layers[number].least);
-        for (; l->begin < l->end; l->begin++) {
-            const ewa_gaussian_layer *first = &tile->layers[tile->order[l->begin]];
-            if (wm_bits(wf_lt(least, wf_load(first->z))) & first->active & block->alive) break;
-            composite(view, tile, first, block);
-            tile->free[l->free_count++] = tile->order[l->begin];
-        }
-        tile->layers[number].active &= block->alive; // some pixels may have closed meanwhile
-        if (tile->layers[number].active)
-            tile->moved_count += sort_in(tile->layers, tile->order, l->begin, l->end++, number);
-        else
-            tile->free[l->free_count++] = number;
-    }
 }
 
 static ALWAYS_INLINE void draw_splats(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, uint32_t count,
@@ -258,31 +124,25 @@ static ALWAYS_INLINE void draw_splats(const ewa_gaussian_view *view, ewa_gaussia
     const wf steps_x = wf_repeat4((const float[4]){0.5f, 1.5f, 2.5f, 3.5f});
     const wf steps_y = wf_spread4((const float[4]){0.5f, 1.5f, 2.5f, 3.5f});
     const wf x = wf_add(wf_set(x_px), steps_x), y = wf_add(wf_set(y_px), steps_y);
-    block_layers l = {0};
+    uint32_t come = 0;
     for (uint32_t i = 0; i < count; i++) {
-        const float *record = tile->records[tile->block_ids[i]];
-        advance(view, tile, depth_key(record[RECORD_LOW], 0), &l, block);
-        if (!block->alive) break;
-        const uint32_t number = l.free_count ? tile->free[l.free_count - 1] : l.made_count;
-        ewa_gaussian_layer *layer = &tile->layers[number];
+        const uint32_t id = tile->block_ids[i];
+        const float *record = tile->records[id];
+        if (come == SPLATS_AT_ONCE) {
+            advance(view, tile, record[RECORD_LOW], block);
+            if (!block->alive) return;
+            come = 0;
+        }
+        ewa_gaussian_met *met = next_met(tile, block);
         tile->block_count++;
-        if (!meet_splat(view, record, x, y, trained, orthographic, block->surface, layer)) continue;
-        layer->active &= block->alive;
-        if (!layer->active) continue;
-        wi_store(layer->colors, wi_set((int32_t)(tile->block_ids[i] * RECORD_FLOATS + RECORD_COLOR)));
-        layer->mixed = false;
-        layer->least =
-            least_of(wf_select(wm_of_bits(layer->active), wf_load(layer->z), wf_set(__builtin_inff())));
-        if (l.free_count)
-            l.free_count--;
-        else
-            l.made_count++;
-        tile->slots[i] = number;
-        add_key(tile->keys, &l, depth_key(layer->least, i));
+        if (!meet_splat(view, record, x, y, trained, orthographic, block->surface, met)) continue;
+        met->active &= block->alive;
+        if (!met->active) continue;
+        met->id = id;
+        keep_met(tile, block);
+        come++;
     }
-    advance(view, tile, UINT64_MAX, &l, block);
-    for (; l.begin < l.end && block->alive; l.begin++)
-        composite(view, tile, &tile->layers[tile->order[l.begin]], block);
+    advance(view, tile, __builtin_inff(), block);
 }
 
 /// Ids of a row of blocks to those of its column.
@@ -330,6 +190,7 @@ static void draw(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, const e
             const uint32_t count = gather_block(tile, row_count, column);
             clear_block(block.pixels);
             block.alive = 0;
+            block.waiting_count = block.free_count = block.made_count = 0;
             for (uint32_t y = 0; y < at.height; y++) block.alive |= ((1u << at.width) - 1) << 4 * y;
             if (view->with_surface) load_surface(view, tile, to->width_px, &at, block.surface);
             const float x_px = (float)at.x, y_px = (float)at.y;

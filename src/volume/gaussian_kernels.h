@@ -16,6 +16,8 @@
 enum {
     EWA_GAUSSIAN_TILE_PX = 32,
     EWA_GAUSSIAN_ROW_BLOCKS = EWA_GAUSSIAN_TILE_PX / 4,
+    EWA_GAUSSIAN_SORT_BITS = 8,
+    EWA_GAUSSIAN_SORTED = 1 << EWA_GAUSSIAN_SORT_BITS, ///< splats of a block at once
 };
 
 /// What pixels need of a splat. With the offset (u, v) of a pixel's centre from (X, Y):
@@ -71,14 +73,19 @@ typedef struct ewa_gaussian_found {
     uint32_t count, near_count;
 } ewa_gaussian_found;
 
-/// A splat's alpha and depth in the pixels of a block, or those of several splats, each in some pixels.
-typedef struct ewa_gaussian_layer {
+/// What the pixels of a block show of a splat.
+typedef struct ewa_gaussian_met {
     _Alignas(64) float z[16], alpha[16];
-    int32_t colors[16]; ///< where they begin in the records; the same everywhere where not `mixed`
-    uint32_t active;    ///< pixels that it is in; in the others z is that of the layer before
-    float least;        ///< of z where it is active, when it is made
-    bool mixed;
-} ewa_gaussian_layer;
+    uint32_t active; ///< pixels that show it and have not composited it
+    uint32_t id;     ///< record
+} ewa_gaussian_met;
+
+/// Where splats are sorted, a row for each.
+typedef struct ewa_gaussian_desk {
+    _Alignas(64) int32_t keys[EWA_GAUSSIAN_SORTED][16]; ///< depth and row
+    float alphas[EWA_GAUSSIAN_SORTED][16], colors[3][EWA_GAUSSIAN_SORTED];
+    uint32_t chosen[EWA_GAUSSIAN_SORTED];
+} ewa_gaussian_desk;
 
 /// A tile while it is drawn; room for `count` of everything, in whole sixteens.
 typedef struct ewa_gaussian_tile {
@@ -86,17 +93,16 @@ typedef struct ewa_gaussian_tile {
     const ewa_gaussian_record *records;
     const uint32_t *ids; ///< [count] records, by RECORD_LOW
     uint32_t count;
-    uint8_t *marks;         ///< [row of blocks][room]: bit c: column c
-    size_t room;            ///< of a row of marks
-    uint32_t *row_ids;      ///< of splats in a row of blocks
-    uint8_t *row_marks;     ///< theirs
-    uint32_t *block_ids;    ///< of splats in a block
-    uint64_t *keys;         ///< of layers that wait: depth, then place in the block's list
-    uint32_t *slots;        ///< layers by that place
-    uint32_t *order, *free; ///< layers in order; of no use now
-    ewa_gaussian_layer *layers;
+    uint8_t *marks;           ///< [row of blocks][room]: bit c: column c
+    size_t room;              ///< of a row of marks
+    uint32_t *row_ids;        ///< of splats in a row of blocks
+    uint8_t *row_marks;       ///< theirs
+    uint32_t *block_ids;      ///< of splats in a block
+    ewa_gaussian_met *met;    ///< splats that some pixel of a block shows
+    uint32_t *waiting, *free; ///< of those: that wait; of no use now
+    ewa_gaussian_desk *desk;
     const float *surface_depth; ///< of the picture, NULL: none
-    uint64_t block_count, moved_count;
+    uint64_t block_count, sorted_count;
 } ewa_gaussian_tile;
 
 typedef struct ewa_gaussian_kernels {

@@ -16,8 +16,8 @@
 
 /// What a worker needs; survives from frame to frame.
 typedef struct gaussian_scratch {
-    ewa_buffer marks, row_ids, row_marks, block_ids, keys, slots, order, free, layers;
-    uint64_t block_count, moved_count;
+    ewa_buffer marks, row_ids, row_marks, block_ids, met, waiting, free, desk;
+    uint64_t block_count, sorted_count;
     double project_s, draw_s;
 } gaussian_scratch;
 
@@ -69,8 +69,8 @@ void ewa_gaussian_renderer_destroy(ewa_gaussian_renderer **renderer) {
     ewa_context *context = old->context;
     for (uint32_t i = 0; old->scratch && i < old->worker_count; i++) {
         gaussian_scratch *s = &old->scratch[i];
-        ewa_buffer *const buffers[] = {&s->marks, &s->row_ids, &s->row_marks, &s->block_ids, &s->order,
-                                       &s->free,  &s->layers,  &s->keys,      &s->slots};
+        ewa_buffer *const buffers[] = {&s->marks, &s->row_ids, &s->row_marks, &s->block_ids,
+                                       &s->met,   &s->waiting, &s->free,      &s->desk};
         for (size_t b = 0; b < sizeof buffers / sizeof *buffers; b++) ewa_buffer_free(context, buffers[b]);
     }
     ewa_release(context, old->scratch, old->worker_count, sizeof *old->scratch);
@@ -211,18 +211,17 @@ static ewa_status reserve_scratch(ewa_context *context, gaussian_scratch *scratc
         {&scratch->row_ids, room + 1, sizeof(uint32_t)}, // one more is written, then overwritten
         {&scratch->row_marks, room + 1, 1},
         {&scratch->block_ids, room + 1, sizeof(uint32_t)},
-        {&scratch->keys, room, sizeof(uint64_t)},
-        {&scratch->slots, room, sizeof(uint32_t)},
-        {&scratch->order, room + 1, sizeof(uint32_t)},
-        {&scratch->free, room, sizeof(uint32_t)},
-        {&scratch->layers, room + 1, sizeof(ewa_gaussian_layer)},
+        {&scratch->met, room + 1, sizeof(ewa_gaussian_met)},
+        {&scratch->waiting, room, sizeof(uint32_t)},
+        {&scratch->free, room + 1, sizeof(uint32_t)},
+        {&scratch->desk, 1, sizeof(ewa_gaussian_desk)},
     };
     for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
         const ewa_status status =
             ewa_buffer_reserve(context, wanted[i].buffer, wanted[i].count, wanted[i].size_bytes);
         if (status != EWA_OK) return status;
     }
-    scratch->block_count = scratch->moved_count = 0;
+    scratch->block_count = scratch->sorted_count = 0;
     return EWA_OK;
 }
 
@@ -245,16 +244,15 @@ static void draw_tile(void *data, uint32_t index, uint32_t worker) {
                               .row_ids = scratch->row_ids.data,
                               .row_marks = scratch->row_marks.data,
                               .block_ids = scratch->block_ids.data,
-                              .keys = scratch->keys.data,
-                              .slots = scratch->slots.data,
-                              .order = scratch->order.data,
+                              .met = scratch->met.data,
+                              .waiting = scratch->waiting.data,
                               .free = scratch->free.data,
-                              .layers = scratch->layers.data,
+                              .desk = scratch->desk.data,
                               .surface_depth = job->surface_depth};
     renderer->kernels->mark(&tile);
     renderer->kernels->draw(&job->view, &tile, &job->target);
     scratch->block_count += tile.block_count;
-    scratch->moved_count += tile.moved_count;
+    scratch->sorted_count += tile.sorted_count;
     take_time(job, &last_s, &scratch->draw_s);
 }
 
@@ -268,7 +266,7 @@ static void gather_stats(const gaussian_job *job, double start_s, double bin_s, 
     for (uint32_t i = 0; i < renderer->worker_count; i++) {
         const gaussian_scratch *s = &renderer->scratch[i];
         stats->block_count += s->block_count;
-        stats->moved_count += s->moved_count;
+        stats->sorted_count += s->sorted_count;
         stats->project_s += s->project_s;
         stats->draw_s += s->draw_s;
     }

@@ -23,11 +23,11 @@ static ALWAYS_INLINE void add_light(float *pixels, wf weight, const wf color[3])
     for (int c = 0; c < 3; c++) wf_store(pixels + 16 * c, wf_fma(weight, color[c], wf_load(pixels + 16 * c)));
 }
 
-/// Notes the depth z where what shows of all behind it falls from `through` to `rest`, past a half.
-static ALWAYS_INLINE void note_depth(float *pixels, wf through, wf rest, wf z) {
+/// The depth of a pixel after something at z: z where what shows of all behind it falls from `through` to
+/// `rest`, past a half.
+static ALWAYS_INLINE wf note_depth(wf depth, wf through, wf rest, wf z) {
     const wf half = wf_set(0.5f);
-    const wm passes = wm_and(wf_lt(half, through), wf_le(rest, half));
-    wf_store(pixels + 64, wf_select(passes, z, wf_load(pixels + 64)));
+    return wf_select(wm_and(wf_lt(half, through), wf_le(rest, half)), z, depth);
 }
 
 #endif

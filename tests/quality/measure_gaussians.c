@@ -97,12 +97,12 @@ int main(int argc, char **argv) {
             if (i >= 0) times[i] = stats.total_s;
         }
         qsort(times, ROUNDS, sizeof *times, compare);
-        printf("%s: median %.1f ms, least %.1f ms; %llu in tiles, %llu in blocks, %llu steps; thread ms: "
+        printf("%s: median %.1f ms, least %.1f ms; %llu in tiles, %llu in blocks, %llu sorted; thread ms: "
                "project %.1f, "
                "bin %.1f, draw %.1f\n",
                exact ? "exact  " : "trained", 1e3 * times[ROUNDS / 2], 1e3 * times[0],
                (unsigned long long)stats.tile_count, (unsigned long long)stats.block_count,
-               (unsigned long long)stats.moved_count, 1e3 * stats.project_s, 1e3 * stats.bin_s,
+               (unsigned long long)stats.sorted_count, 1e3 * stats.project_s, 1e3 * stats.bin_s,
                1e3 * stats.draw_s);
     }
     free(rgba8);

@@ -68,6 +68,43 @@ static void test_reference(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// More faint ones behind each other than are sorted at once: over many octaves of depth, at one depth.
+static void test_crowd(void **state) {
+    (void)state;
+    ewa_context *context = check_context(2, NULL);
+    for (int many = 0; many < 2; many++)
+        for (int flat = 0; flat < 2; flat++) {
+            ewa_gaussians set = gaussians_random(context, many ? 3000 : 150, 0, 21);
+            check_random random = {4};
+            for (size_t i = 0; i < set.count; i++) {
+                const double depth =
+                    flat ? check_uniform(&random, -3, 3) : exp(check_uniform(&random, -3, 7));
+                const bool tied = i % 3 == 0;
+                const double at[3] = {0.1 * depth * check_uniform(&random, -1, 1),
+                                      0.1 * depth * check_uniform(&random, -1, 1),
+                                      tied ? 2 : depth}; // from the eye, at z = -1
+                for (size_t k = 0; k < 3; k++) {
+                    set.centers[3 * i + k] = (float)(flat && k < 2 ? at[k] / depth : at[k] - (k == 2));
+                    set.scales[3 * i + k] = (float)(tied || flat ? 0.1 : 0.05 * depth);
+                    if (tied) set.harmonics[3 * i + k] = 1;
+                }
+                set.opacities[i] = 0.01f;
+            }
+            ewa_camera camera = gaussians_camera(24, 20, 20, (const double[3]){0, 0, -1}, 1);
+            if (flat) {
+                camera.projection = EWA_ORTHOGRAPHIC;
+                camera.fx_px = camera.fy_px = 80;
+            }
+            ewa_gaussian_options options = options_of(EWA_PROJECTION_EXACT);
+            options.least_alpha = 1e-4, options.least_transmittance = 0;
+            char what[64];
+            snprintf(what, sizeof what, "%u, %s", set.count, flat ? "orthographic" : "perspective");
+            check_held(&set, &camera, &options, what);
+            ewa_gaussians_free(&set);
+        }
+    ewa_context_destroy(&context);
+}
+
 /// Threads, instruction sets, order of the set: nothing changes a byte.
 static void test_bytes(void **state) {
     (void)state;
@@ -319,9 +356,9 @@ static void test_memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reference), cmocka_unit_test(test_bytes),  cmocka_unit_test(test_constant),
-        cmocka_unit_test(test_nothing),   cmocka_unit_test(test_one),    cmocka_unit_test(test_surface),
-        cmocka_unit_test(test_harmonics), cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_reference), cmocka_unit_test(test_crowd),     cmocka_unit_test(test_bytes),
+        cmocka_unit_test(test_constant),  cmocka_unit_test(test_nothing),   cmocka_unit_test(test_one),
+        cmocka_unit_test(test_surface),   cmocka_unit_test(test_harmonics), cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

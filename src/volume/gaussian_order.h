@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Part of gaussian_body.h: the splats of a block of 4x4 pixels in the order of every pixel, by the depth at
+// which its ray passes the greatest density (docs/math.md section 12).
+//
+// A splat that some pixels show waits until the least depth of those to come is behind it in some of them.
+// What can be composited then is sorted for all sixteen pixels at once, by a network of the least and the
+// greater of two keys, Batcher's; a key is a depth and the splat's place, so that ties are as the splats came.
+// Nothing is ever dropped.
+//
+// Based on: K. E. Batcher, "Sorting Networks and Their Applications", 1968 (the merge exchange, for any count).
+#ifndef EWA_SRC_VOLUME_GAUSSIAN_ORDER_H
+#define EWA_SRC_VOLUME_GAUSSIAN_ORDER_H
+
+#include "volume/gaussian_kernels.h"
+#include "volume/kernels_over.h"
+
+/// A block while it is drawn.
+typedef struct block_state {
+    _Alignas(64) float pixels[EWA_VOLUME_CHANNELS * 16];
+    float surface[16];
+    uint32_t alive;         ///< pixels in which more would show
+    uint32_t waiting_count; ///< splats that wait, in the order in which they came
+    uint32_t free_count, made_count;
+} block_state;
+
+/// Keys of pixels that do not show a splat, or not yet: greater than all others, +infinity as a float.
+static const int32_t NO_KEY = 0x7f800000;
+
+/// How far apart the codes of depths that are sorted at once may lie.
+static const int64_t CODE_SPAN = 0x7f800000 >> EWA_GAUSSIAN_SORT_BITS;
+
+/// Integers that sort as depths do; +0 for both zeros.
+static ALWAYS_INLINE wi flip_code(wi bits) {
+    const wi flip = wi_and(wi_sar(bits, 31), wi_set(INT32_MAX));
+    return wi_sub(wi_or(bits, flip), wi_and(bits, flip));
+}
+
+static ALWAYS_INLINE int64_t depth_code(float z) {
+    int32_t bits;
+    __builtin_memcpy(&bits, &z, sizeof bits);
+    return bits ^ (bits >> 31 & INT32_MAX);
+}
+
+static ALWAYS_INLINE float depth_of_code(int64_t code) {
+    const int32_t own = (int32_t)code, bits = own ^ (own >> 31 & INT32_MAX);
+    float z;
+    __builtin_memcpy(&z, &bits, sizeof z);
+    return z;
+}
+
+/// Least of sixteen numbers.
+static ALWAYS_INLINE float least_of(wf a) {
+    typedef float four __attribute__((vector_size(16)));
+    typedef int32_t mask __attribute__((vector_size(16)));
+    float lanes[16];
+    four part[4];
+    wf_store(lanes, a);
+    __builtin_memcpy(part, lanes, sizeof part);
+    for (int half = 2; half; half /= 2)
+        for (int i = 0; i < half; i++) {
+            const mask less = part[i] < part[i + half];
+            part[i] = (four)((less & (mask)part[i]) | (~less & (mask)part[i + half]));
+        }
+    const float low = part[0][0] < part[0][1] ? part[0][0] : part[0][1];
+    const float high = part[0][2] < part[0][3] ? part[0][2] : part[0][3];
+    return low < high ? low : high;
+}
+
+/// A place for a splat that comes; it counts once it is kept.
+static ALWAYS_INLINE ewa_gaussian_met *next_met(const ewa_gaussian_tile *tile, const block_state *block) {
+    return &tile->met[block->free_count ? tile->free[block->free_count - 1] : block->made_count];
+}
+
+static ALWAYS_INLINE void keep_met(ewa_gaussian_tile *tile, block_state *block) {
+    tile->waiting[block->waiting_count++] =
+        block->free_count ? tile->free[--block->free_count] : block->made_count++;
+}
+
+/// Lists the first of those that wait and show in some pixel up to a depth, as many as are sorted at once;
+/// returns how many there are in all. `least` gets the least of their depths.
+static ALWAYS_INLINE uint32_t choose(const ewa_gaussian_tile *tile, const block_state *block, float top,
+                                     float *least) {
+    const wf bound = wf_set(top), infinite = wf_set(__builtin_inff());
+    wf low = infinite;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < block->waiting_count; i++) {
+        const uint32_t number = tile->waiting[i];
+        const wf z = wf_load(tile->met[number].z);
+        const wm shows = wm_and(wm_of_bits(tile->met[number].active & block->alive), wf_le(z, bound));
+        low = wf_min(low, wf_select(shows, z, infinite));
+        if (count < EWA_GAUSSIAN_SORTED) tile->desk->chosen[count] = number;
+        count += wm_bits(shows) != 0;
+    }
+    *least = least_of(low);
+    return count;
+}
+
+/// Lays out the keys of those chosen, in the pixels that show them up to a depth, where they wait no longer;
+/// rows of none up to the next four.
+static ALWAYS_INLINE void lay_out(ewa_gaussian_tile *tile, const block_state *block, uint32_t count,
+                                  float top, int64_t low_code) {
+    ewa_gaussian_desk *desk = tile->desk;
+    const wf bound = wf_set(top);
+    const wi low = wi_set((int32_t)low_code);
+    for (uint32_t i = 0; i < count; i++) {
+        ewa_gaussian_met *met = &tile->met[desk->chosen[i]];
+        const wf z = wf_load(met->z);
+        const wm shows = wm_and(wm_of_bits(met->active & block->alive), wf_le(z, bound));
+        const wi place = wi_sub(flip_code(wi_of_bits(z)), low);
+        const wi key = wi_or(wi_shl(place, EWA_GAUSSIAN_SORT_BITS), wi_set((int32_t)i));
+        wi_store(desk->keys[i], wi_of_bits(wf_select(shows, wf_of_bits(key), wf_of_bits(wi_set(NO_KEY)))));
+        wf_store(desk->alphas[i], wf_load(met->alpha));
+        for (int c = 0; c < 3; c++) desk->colors[c][i] = tile->records[met->id][RECORD_COLOR + c];
+        met->active &= ~wm_bits(shows);
+    }
+    for (uint32_t i = count; i & 3; i++) wi_store(desk->keys[i], wi_set(NO_KEY));
+}
+
+static ALWAYS_INLINE void exchange(wi *a, wi *b) {
+    const wi low = wi_min(*a, *b);
+    *b = wi_max(*a, *b);
+    *a = low;
+}
+
+/// Sorts each four rows.
+static ALWAYS_INLINE void sort_fours(int32_t keys[][16], uint32_t count) {
+    for (uint32_t i = 0; i < count; i += 4) {
+        wi a = wi_load(keys[i]), b = wi_load(keys[i + 1]), c = wi_load(keys[i + 2]), d = wi_load(keys[i + 3]);
+        exchange(&a, &b), exchange(&c, &d), exchange(&a, &c), exchange(&b, &d), exchange(&b, &c);
+        wi_store(keys[i], a), wi_store(keys[i + 1], b), wi_store(keys[i + 2], c), wi_store(keys[i + 3], d);
+    }
+}
+
+/// The last two steps of a merge of the rows from `first` to `end`, two apart and neighbours.
+static ALWAYS_INLINE void merge_last(int32_t keys[][16], uint32_t first, uint32_t end) {
+    wi before = wi_load(keys[first + 1]);
+    uint32_t i = first + 2;
+    for (; i + 4 <= end; i += 4) {
+        wi a = wi_load(keys[i]), b = wi_load(keys[i + 1]), c = wi_load(keys[i + 2]), d = wi_load(keys[i + 3]);
+        exchange(&a, &c), exchange(&b, &d), exchange(&before, &a), exchange(&b, &c);
+        wi_store(keys[i - 1], before), wi_store(keys[i], a), wi_store(keys[i + 1], b),
+            wi_store(keys[i + 2], c);
+        before = d;
+    }
+    wi a = wi_load(keys[i]);
+    exchange(&before, &a);
+    wi_store(keys[i - 1], before), wi_store(keys[i], a);
+}
+
+/// Sorts rows in every column; `count` is a multiple of four.
+static ALWAYS_INLINE void sort_rows(int32_t keys[][16], uint32_t count) {
+    sort_fours(keys, count);
+    for (uint32_t half = 4; half < count; half *= 2) {
+        for (uint32_t step = half; step > 2; step /= 2)
+            for (uint32_t j = step & (half - 1); j + step < count; j += 2 * step) {
+                if (((j + step) & (2 * half - 1)) == 0) continue;
+                const uint32_t end = count - step < j + step ? count - step : j + step;
+                for (uint32_t i = j; i < end; i++) {
+                    wi a = wi_load(keys[i]), b = wi_load(keys[i + step]);
+                    exchange(&a, &b);
+                    wi_store(keys[i], a), wi_store(keys[i + step], b);
+                }
+            }
+        for (uint32_t first = 0; first < count; first += 2 * half)
+            merge_last(keys, first, first + 2 * half < count ? first + 2 * half : count);
+    }
+}
+
+static ALWAYS_INLINE void composite_rows(const ewa_gaussian_view *view, const ewa_gaussian_desk *desk,
+                                         uint32_t count, int64_t low_code, block_state *block) {
+    static const int32_t lanes[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    const wi lane = wi_load(lanes), low = wi_set((int32_t)low_code), all = wi_set(EWA_GAUSSIAN_SORTED - 1);
+    const wf none = wf_of_bits(wi_set(NO_KEY)), least = wf_set(view->least_transmittance);
+    wm alive = wm_of_bits(block->alive);
+    wf light[3], through = wf_load(block->pixels + 48), depth = wf_load(block->pixels + 64);
+    for (int c = 0; c < 3; c++) light[c] = wf_load(block->pixels + 16 * c);
+    for (uint32_t i = 0; i < count; i++) {
+        const wi key = wi_load(desk->keys[i]), at = wi_and(key, all);
+        const wm shows = wm_and(alive, wf_lt(wf_of_bits(key), none));
+        if (!wm_bits(shows)) break;
+        const wf alpha = wf_gather(desk->alphas[0], wi_or(wi_shl(at, 4), lane));
+        const wf weight = wf_keep(shows, wf_mul(through, alpha)), rest = wf_sub(through, weight);
+        for (int c = 0; c < 3; c++) light[c] = wf_fma(weight, wf_gather(desk->colors[c], at), light[c]);
+        if (view->with_depth) {
+            const wf z = wf_of_bits(flip_code(wi_add(low, wi_sar(key, EWA_GAUSSIAN_SORT_BITS))));
+            depth = note_depth(depth, through, rest, z);
+        }
+        through = rest;
+        alive = wm_and(alive, wf_le(least, rest));
+    }
+    for (int c = 0; c < 3; c++) wf_store(block->pixels + 16 * c, light[c]);
+    wf_store(block->pixels + 48, through);
+    wf_store(block->pixels + 64, depth);
+    block->alive = wm_bits(alive);
+}
+
+/// Composites what waits up to a depth, at which nothing to come can be in front of it.
+static void advance(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, float bound, block_state *block) {
+    for (bool more = true; more && block->alive;) {
+        float least, top = bound;
+        uint32_t count = choose(tile, block, top, &least);
+        if (!count) break;
+        const int64_t low = depth_code(least);
+        if (depth_code(top) >= low + CODE_SPAN) {
+            top = depth_of_code(low + CODE_SPAN - 1);
+            count = choose(tile, block, top, &least);
+        }
+        while (count > EWA_GAUSSIAN_SORTED && top > least) {
+            top = depth_of_code(low + (depth_code(top) - low) / 2);
+            count = choose(tile, block, top, &least);
+        }
+        more = top < bound || count > EWA_GAUSSIAN_SORTED; // these at one depth: as they came
+        if (count > EWA_GAUSSIAN_SORTED) count = EWA_GAUSSIAN_SORTED;
+        lay_out(tile, block, count, top, low);
+        sort_rows(tile->desk->keys, (count + 3) & ~3u);
+        composite_rows(view, tile->desk, count, low, block);
+        tile->sorted_count += count;
+    }
+    if (!block->alive) return;
+    uint32_t left = 0;
+    for (uint32_t i = 0; i < block->waiting_count; i++) {
+        const uint32_t number = tile->waiting[i];
+        const bool waits = tile->met[number].active & block->alive;
+        tile->waiting[left] = tile->free[block->free_count] = number; // no branches: they are anybody's guess
+        left += waits;
+        block->free_count += !waits;
+    }
+    block->waiting_count = left;
+}
+
+#endif
