@@ -21,6 +21,7 @@
 #include "ewa/io.h"
 #include "ewa/lod.h"
 #include "ewa/mesh.h"
+#include "ewa/mixture.h"
 #include "ewa/model.h"
 #include "ewa/options.h"
 #include "ewa/prepare.h"

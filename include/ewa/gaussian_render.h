@@ -73,10 +73,10 @@ typedef struct ewa_gaussian_options {
     double near_world;
     uint32_t sh_degree;  ///< harmonics beyond it are not used; [0, EWA_MAX_SH_DEGREE]; default 4
     float background[4]; ///< linear, [0, 1e15], straight alpha; default transparent black
-    /// Opaque surfaces among the Gaussians, as ewa_render() gives them (frame.depth and frame.rgba): planes
-    /// of the camera's size, borrowed during the call. What of a Gaussian lies behind surface_depth
-    /// (camera-space z) along a pixel's ray is not drawn, the rest over surface_rgba (linear, premultiplied),
-    /// which then replaces the background. Both NULL (default): none.
+    /// Opaque surfaces among the Gaussians, as ewa_render() gives them (frame.depth and frame.rgba over nothing):
+    /// planes of the camera's size, borrowed during the call. What of a Gaussian lies behind surface_depth
+    /// (camera-space z) along a pixel's ray is not drawn over surface_rgba (linear, premultiplied), but in that part of
+    /// a pixel that its alpha leaves free, over the background. Both NULL (default): none.
     const float *surface_depth, *surface_rgba;
 } ewa_gaussian_options;
 
@@ -90,7 +90,7 @@ typedef struct ewa_gaussian_stats {
     uint64_t near_count;    ///< of those: at the eye, drawn ray by ray
     uint64_t tile_count;    ///< over all tiles: a splat in two counts twice
     uint64_t block_count;   ///< over blocks of 4x4 pixels: what was evaluated
-    uint64_t sorted_count;  ///< of those: rows of keys that were sorted; again where only some pixels were due
+    uint64_t sorted_count; ///< of those: rows of keys that were sorted; again where only some pixels were due
     double project_s, bin_s, draw_s;
     double total_s; ///< wall clock of the call
 } ewa_gaussian_stats;

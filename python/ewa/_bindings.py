@@ -45,6 +45,7 @@ EWA_POINTS_UNKNOWN = 18446744073709551615
 EWA_MESH_COLORS = 1
 EWA_MESH_TEXCOORDS = 2
 EWA_MESH_NORMALS = 4
+EWA_MAX_MIXED_VOLUMES = 64
 EWA_MODEL_MESH = 1
 EWA_MODEL_POINTS = 2
 EWA_MODEL_ELEMENTS = 4
@@ -1196,6 +1197,95 @@ class ewa_mesh_sample_options(c.Structure):
     ]
 
 
+class ewa_light(c.Structure):
+    direction_world: c.Array[c.c_double]
+    color: c.Array[c.c_float]
+    _fields_ = [
+        ("direction_world", c.c_double * 3),
+        ("color", c.c_float * 3),
+    ]
+
+
+class ewa_material(c.Structure):
+    ambient: float
+    diffuse: float
+    specular: float
+    shininess: float
+    reflection: float
+    _fields_ = [
+        ("ambient", c.c_float),
+        ("diffuse", c.c_float),
+        ("specular", c.c_float),
+        ("shininess", c.c_float),
+        ("reflection", c.c_float),
+    ]
+
+
+class ewa_volume_options(c.Structure):
+    struct_size: int
+    method: int
+    index: int
+    sigma: float
+    cutoff: float
+    prefilter_px: float
+    point_threshold_px: float
+    depth_unit: float
+    level: int
+    density_scale: float
+    least_transmittance: float
+    shading: int
+    lights: c.Array[ewa_light]
+    light_count: int
+    material: ewa_material
+    background: c.Array[c.c_float]
+    surface_depth: int | None
+    surface_rgba: int | None
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("method", c.c_int),
+        ("index", c.c_int),
+        ("sigma", c.c_double),
+        ("cutoff", c.c_double),
+        ("prefilter_px", c.c_double),
+        ("point_threshold_px", c.c_double),
+        ("depth_unit", c.c_double),
+        ("level", c.c_uint32),
+        ("density_scale", c.c_double),
+        ("least_transmittance", c.c_double),
+        ("shading", c.c_int),
+        ("lights", ewa_light * 8),
+        ("light_count", c.c_uint32),
+        ("material", ewa_material),
+        ("background", c.c_float * 4),
+        ("surface_depth", c.c_void_p),
+        ("surface_rgba", c.c_void_p),
+    ]
+
+
+class ewa_mixed_volume(c.Structure):
+    renderer: int | None
+    voxels: int | None
+    options: Any
+    _fields_ = [
+        ("renderer", c.c_void_p),
+        ("voxels", c.c_void_p),
+        ("options", c.POINTER(ewa_volume_options)),
+    ]
+
+
+class ewa_mixture(c.Structure):
+    splats: int | None
+    splats_count: int
+    volume_count: int
+    volumes: Any
+    _fields_ = [
+        ("splats", c.c_void_p),
+        ("splats_count", c.c_uint32),
+        ("volume_count", c.c_uint32),
+        ("volumes", c.POINTER(ewa_mixed_volume)),
+    ]
+
+
 class ewa_model(c.Structure):
     format: int
     lost_count: int
@@ -1447,30 +1537,6 @@ class ewa_frame(c.Structure):
         ("depth", c.c_void_p),
         ("normal", c.c_void_p),
         ("coverage", c.c_void_p),
-    ]
-
-
-class ewa_light(c.Structure):
-    direction_world: c.Array[c.c_double]
-    color: c.Array[c.c_float]
-    _fields_ = [
-        ("direction_world", c.c_double * 3),
-        ("color", c.c_float * 3),
-    ]
-
-
-class ewa_material(c.Structure):
-    ambient: float
-    diffuse: float
-    specular: float
-    shininess: float
-    reflection: float
-    _fields_ = [
-        ("ambient", c.c_float),
-        ("diffuse", c.c_float),
-        ("specular", c.c_float),
-        ("shininess", c.c_float),
-        ("reflection", c.c_float),
     ]
 
 
@@ -1750,47 +1816,6 @@ class ewa_volume_facts(c.Structure):
         ("spacing_world", c.c_double * 3),
         ("low_world", c.c_double * 3),
         ("high_world", c.c_double * 3),
-    ]
-
-
-class ewa_volume_options(c.Structure):
-    struct_size: int
-    method: int
-    index: int
-    sigma: float
-    cutoff: float
-    prefilter_px: float
-    point_threshold_px: float
-    depth_unit: float
-    level: int
-    density_scale: float
-    least_transmittance: float
-    shading: int
-    lights: c.Array[ewa_light]
-    light_count: int
-    material: ewa_material
-    background: c.Array[c.c_float]
-    surface_depth: int | None
-    surface_rgba: int | None
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("method", c.c_int),
-        ("index", c.c_int),
-        ("sigma", c.c_double),
-        ("cutoff", c.c_double),
-        ("prefilter_px", c.c_double),
-        ("point_threshold_px", c.c_double),
-        ("depth_unit", c.c_double),
-        ("level", c.c_uint32),
-        ("density_scale", c.c_double),
-        ("least_transmittance", c.c_double),
-        ("shading", c.c_int),
-        ("lights", ewa_light * 8),
-        ("light_count", c.c_uint32),
-        ("material", ewa_material),
-        ("background", c.c_float * 4),
-        ("surface_depth", c.c_void_p),
-        ("surface_rgba", c.c_void_p),
     ]
 
 
@@ -2154,6 +2179,7 @@ class Functions:
     ewa_mesh_sample: Callable[..., int]
     ewa_mesh_sample_options_init: Callable[..., None]
     ewa_mesh_set_picture: Callable[..., int]
+    ewa_mixture_render: Callable[..., int]
     ewa_model_format_name: Callable[..., bytes | None]
     ewa_model_free: Callable[..., None]
     ewa_model_load: Callable[..., int]
@@ -2444,6 +2470,7 @@ class Functions:
         self.ewa_mesh_sample = bind("ewa_mesh_sample", c.c_int, c.POINTER(ewa_mesh), c.POINTER(ewa_mesh_sample_options), c.c_void_p)
         self.ewa_mesh_sample_options_init = bind("ewa_mesh_sample_options_init", None, c.POINTER(ewa_mesh_sample_options), c.c_size_t)
         self.ewa_mesh_set_picture = bind("ewa_mesh_set_picture", c.c_int, c.POINTER(ewa_mesh), c.POINTER(ewa_image))
+        self.ewa_mixture_render = bind("ewa_mixture_render", c.c_int, c.c_void_p, c.POINTER(ewa_mixture), c.POINTER(ewa_camera), c.POINTER(ewa_gaussian_options), c.POINTER(ewa_frame), c.POINTER(ewa_gaussian_stats))
         self.ewa_model_format_name = bind("ewa_model_format_name", c.c_char_p, c.c_int)
         self.ewa_model_free = bind("ewa_model_free", None, c.POINTER(ewa_model))
         self.ewa_model_load = bind("ewa_model_load", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.POINTER(ewa_cloud_load_options), c.POINTER(ewa_model))

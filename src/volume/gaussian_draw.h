@@ -118,9 +118,68 @@ static ALWAYS_INLINE bool meet_splat(const ewa_gaussian_view *view, const float 
     return true;
 }
 
+/// The layers of volumes in a block: what of each comes next, and the nearest of these.
+typedef struct layer_feed {
+    uint32_t next[EWA_MAX_MIXED_VOLUMES];
+    uint32_t nearest;
+    float z; ///< +infinity: none is left
+} layer_feed;
+
+static ALWAYS_INLINE const ewa_volume_layers *layers_of(const ewa_gaussian_tile *tile, uint32_t volume,
+                                                        bool everything) {
+    return everything ? tile->volumes[volume].all : tile->volumes[volume].ahead;
+}
+
+static void find_nearest_layer(const ewa_gaussian_tile *tile, bool everything, layer_feed *feed) {
+    feed->z = __builtin_inff();
+    for (uint32_t v = 0; v < tile->volume_count; v++) {
+        if (feed->next[v] == EWA_NO_LAYER) continue;
+        const ewa_volume_layer *layer = &layers_of(tile, v, everything)->layers[feed->next[v]];
+        const float z =
+            (float)((double)layer->z * tile->volumes[v].unit) + 0.0f; // of both zeros the one above
+        if (z < feed->z) feed->z = z, feed->nearest = v;
+    }
+}
+
+static void start_feed(const ewa_gaussian_tile *tile, uint32_t row, uint32_t column, bool everything,
+                       layer_feed *feed) {
+    const uint32_t block = (tile->first_row + row) * EWA_VOLUME_ROW_BLOCKS + tile->first_column + column;
+    for (uint32_t v = 0; v < tile->volume_count; v++)
+        feed->next[v] = layers_of(tile, v, everything)->first[block];
+    find_nearest_layer(tile, everything, feed);
+}
+
+/// Adds the layers up to a depth to what waits; `come` counts what came since some of that was composited. False:
+/// nothing more would show.
+static bool add_layers(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, bool everything, float bound,
+                       layer_feed *feed, uint32_t *come, block_state *block) {
+    while (feed->z <= bound) {
+        if (*come == SPLATS_AT_ONCE) {
+            advance(view, tile, feed->z, block);
+            if (!block->alive) return false;
+            *come = 0;
+        }
+        const ewa_volume_layer *layer =
+            &layers_of(tile, feed->nearest, everything)->layers[feed->next[feed->nearest]];
+        ewa_gaussian_met *met = next_met(tile, block);
+        const wf alpha = wf_load(layer->alpha);
+        met->active = block->alive & wm_bits(wf_lt(wf_set(0), alpha));
+        if (met->active) {
+            wf_store(met->z, wf_set(feed->z));
+            wf_store(met->alpha, alpha);
+            met->layer = layer;
+            keep_met(tile, block);
+            ++*come;
+        }
+        feed->next[feed->nearest] = layer->next;
+        find_nearest_layer(tile, everything, feed);
+    }
+    return true;
+}
+
 static ALWAYS_INLINE void draw_splats(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, uint32_t count,
                                       float x_px, float y_px, bool trained, bool orthographic,
-                                      block_state *block) {
+                                      bool everything, layer_feed *feed, block_state *block) {
     const wf steps_x = wf_repeat4((const float[4]){0.5f, 1.5f, 2.5f, 3.5f});
     const wf steps_y = wf_spread4((const float[4]){0.5f, 1.5f, 2.5f, 3.5f});
     const wf x = wf_add(wf_set(x_px), steps_x), y = wf_add(wf_set(y_px), steps_y);
@@ -128,6 +187,9 @@ static ALWAYS_INLINE void draw_splats(const ewa_gaussian_view *view, ewa_gaussia
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t id = tile->block_ids[i];
         const float *record = tile->records[id];
+        if (feed->z <= record[RECORD_LOW] &&
+            !add_layers(view, tile, everything, record[RECORD_LOW], feed, &come, block))
+            return;
         if (come == SPLATS_AT_ONCE) {
             advance(view, tile, record[RECORD_LOW], block);
             if (!block->alive) return;
@@ -139,10 +201,12 @@ static ALWAYS_INLINE void draw_splats(const ewa_gaussian_view *view, ewa_gaussia
         met->active &= block->alive;
         if (!met->active) continue;
         met->id = id;
+        met->layer = NULL;
         keep_met(tile, block);
         come++;
     }
-    advance(view, tile, __builtin_inff(), block);
+    if (add_layers(view, tile, everything, __FLT_MAX__, feed, &come, block))
+        advance(view, tile, __builtin_inff(), block);
 }
 
 /// Ids of a row of blocks to those of its column.
@@ -166,21 +230,106 @@ static uint32_t gather_row(ewa_gaussian_tile *tile, uint32_t row) {
     return found;
 }
 
-/// Depths of the surfaces in a block, in units of the splats; +infinity outside of the picture.
-static void load_surface(const ewa_gaussian_view *view, const ewa_gaussian_tile *tile, uint32_t width_px,
-                         const block_place *at, float *surface) {
+/// Depths of the surfaces in a block, in units of the splats; +infinity outside of the picture, and where all that
+/// lies behind counts, too.
+static ALWAYS_INLINE void load_surface(const ewa_gaussian_view *view, const ewa_gaussian_tile *tile,
+                                       uint32_t width_px, const block_place *at, bool everything,
+                                       float *surface) {
     for (uint32_t i = 0; i < 16; i++) {
         const uint32_t x = i % 4, y = i / 4;
         surface[i] = __builtin_inff();
-        if (x < at->width && y < at->height)
+        if (view->with_surface && !everything && x < at->width && y < at->height)
             surface[i] = (float)((double)tile->surface_depth[(size_t)(at->y + y) * width_px + at->x + x] /
                                  view->unit_camera);
     }
 }
 
+/// Composites a block: what lies in front of the surfaces, or everything.
+static void composite_block(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, uint32_t count,
+                            uint32_t row, uint32_t column, const block_place *at, uint32_t width_px,
+                            bool everything, block_state *block) {
+    const float x_px = (float)at->x, y_px = (float)at->y;
+    layer_feed feed;
+    start_feed(tile, row, column, everything, &feed);
+    clear_block(block->pixels);
+    for (int c = 0; c < 4; c++) wf_store(block->linear + 16 * c, wf_set(0));
+    block->alive = 0;
+    block->waiting_count = block->free_count = block->made_count = 0;
+    for (uint32_t y = 0; y < at->height; y++) block->alive |= ((1u << at->width) - 1) << 4 * y;
+    load_surface(view, tile, width_px, at, everything, block->surface);
+    if (view->orthographic)
+        draw_splats(view, tile, count, x_px, y_px, true, true, everything, &feed, block);
+    else if (view->trained)
+        draw_splats(view, tile, count, x_px, y_px, true, false, everything, &feed, block);
+    else
+        draw_splats(view, tile, count, x_px, y_px, false, false, everything, &feed, block);
+}
+
+/// A block over what is behind it, linear and premultiplied: voxels are mixed with that, then the Gaussians with the
+/// display values of the mean. Where nothing is drawn, what is behind stays as it is.
+static ALWAYS_INLINE void lay_block_over(const ewa_gaussian_tile *tile, const block_state *block,
+                                         const wf behind[4], wf out[4]) {
+    const wf through = wf_load(block->pixels + 48), one = wf_set(1);
+    if (!tile->volume_count) {
+        lay_over(block->pixels, behind, wm_bits(wf_lt(through, one)) != 0, out);
+        return;
+    }
+    wf under[4];
+    for (int c = 0; c < 4; c++) under[c] = wf_fma(through, behind[c], wf_load(block->linear + 16 * c));
+    const wf own = wf_max(wf_sub(wf_sub(one, through), wf_load(block->linear + 48)), wf_set(0));
+    const wm some = wf_lt(wf_set(1e-7f), own); // more than rounding
+    for (int c = 0; c < 4; c++) out[c] = under[c];
+    if (!wm_bits(some)) return;
+    wf mixed[4] = {under[0], under[1], under[2], under[3]};
+    premultiplied_to_display(mixed);
+    for (int c = 0; c < 4; c++) mixed[c] = wf_add(mixed[c], c < 3 ? wf_load(block->pixels + 16 * c) : own);
+    premultiplied_to_linear(mixed);
+    for (int c = 0; c < 4; c++) out[c] = wf_select(some, mixed[c], under[c]);
+}
+
+/// Draws a block with a surface in it: the part of a pixel that the surface covers shows what lies in front of it,
+/// over its colour, the rest all there is, over the background.
+static ALWAYS_INLINE void resolve_with_surface(const ewa_gaussian_view *view, ewa_gaussian_tile *tile,
+                                               uint32_t count, uint32_t row, uint32_t column,
+                                               const block_place *at, const ewa_volume_target *to,
+                                               block_state *block) {
+    const wf zero = wf_set(0), one = wf_set(1), half = wf_set(0.5f), infinite = wf_set(__builtin_inff());
+    wf surface[4], background[4], past[4], covered[4], out[4];
+    load_behind(to, tile->surface_rgba, at, surface);
+    load_behind(to, NULL, at, background);
+    const wf cover = surface[3], inverse = straighten(cover);
+    load_surface(view, tile, to->width_px, at, false, block->surface);
+    // Where the surface leaves a part of a pixel free, what is behind it counts, too.
+    const wm edge = wm_and(wf_lt(cover, one), wf_lt(wf_load(block->surface), infinite));
+    const bool twice = wm_bits(edge) != 0;
+    wf past_opacity = zero, past_depth = infinite;
+    if (twice) {
+        composite_block(view, tile, count, row, column, at, to->width_px, true, block);
+        lay_block_over(tile, block, background, past);
+        past_opacity = wf_sub(one, wf_load(block->pixels + 48));
+        past_depth = wf_load(block->pixels + 64);
+    }
+    composite_block(view, tile, count, row, column, at, to->width_px, false, block);
+    wf opacity = wf_sub(one, wf_load(block->pixels + 48)), depth = wf_load(block->pixels + 64);
+    if (!twice) {
+        lay_block_over(tile, block, background, past);
+        past_opacity = opacity, past_depth = depth;
+    }
+    for (int c = 0; c < 3; c++) surface[c] = wf_mul(surface[c], inverse);
+    surface[3] = one;
+    lay_block_over(tile, block, surface, covered);
+    const wm whole = wf_le(one, cover), none = wf_le(cover, zero);
+    for (int c = 0; c < 4; c++) {
+        out[c] = wf_fma(cover, wf_sub(covered[c], past[c]), past[c]);
+        out[c] = wf_select(whole, covered[c], wf_select(none, past[c], out[c]));
+    }
+    opacity = wf_select(whole, opacity, wf_fma(cover, wf_sub(opacity, past_opacity), past_opacity));
+    depth = wf_select(wf_lt(cover, half), past_depth, depth);
+    store_pixels(to, at, out, opacity, depth, view->unit_camera);
+}
+
 static void draw(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, const ewa_volume_target *to) {
     block_state block;
-    for (int i = 0; i < 16; i++) block.surface[i] = __builtin_inff();
     for (uint32_t row = 0; 4 * row < tile->height_px; row++) {
         const uint32_t row_count = gather_row(tile, row);
         for (uint32_t column = 0; 4 * column < tile->width_px; column++) {
@@ -188,23 +337,16 @@ static void draw(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, const e
                 place_block((int32_t)tile->x_px, (int32_t)tile->y_px, (int32_t)tile->width_px,
                             (int32_t)tile->height_px, row, column);
             const uint32_t count = gather_block(tile, row_count, column);
-            clear_block(block.pixels);
-            block.alive = 0;
-            block.waiting_count = block.free_count = block.made_count = 0;
-            for (uint32_t y = 0; y < at.height; y++) block.alive |= ((1u << at.width) - 1) << 4 * y;
-            if (view->with_surface) load_surface(view, tile, to->width_px, &at, block.surface);
-            const float x_px = (float)at.x, y_px = (float)at.y;
-            if (view->orthographic)
-                draw_splats(view, tile, count, x_px, y_px, true, true, &block);
-            else if (view->trained)
-                draw_splats(view, tile, count, x_px, y_px, true, false, &block);
-            else
-                draw_splats(view, tile, count, x_px, y_px, false, false, &block);
-            // Where nothing is drawn, what is behind stays as it is.
-            if (wm_bits(wf_lt(wf_load(block.pixels + 48), wf_set(1))))
-                resolve_block(to, block.pixels, &at, view->unit_camera, true);
-            else
-                resolve_block(to, block.pixels, &at, view->unit_camera, false);
+            if (view->with_surface) {
+                resolve_with_surface(view, tile, count, row, column, &at, to, &block);
+                continue;
+            }
+            wf behind[4], out[4];
+            composite_block(view, tile, count, row, column, &at, to->width_px, false, &block);
+            load_behind(to, NULL, &at, behind);
+            lay_block_over(tile, &block, behind, out);
+            store_pixels(to, &at, out, wf_sub(wf_set(1), wf_load(block.pixels + 48)),
+                         wf_load(block.pixels + 64), view->unit_camera);
         }
     }
 }

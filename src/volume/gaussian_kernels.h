@@ -10,7 +10,8 @@
 #ifndef EWA_SRC_VOLUME_GAUSSIAN_KERNELS_H
 #define EWA_SRC_VOLUME_GAUSSIAN_KERNELS_H
 
-#include "volume/kernels.h"
+#include "ewa/mixture.h"
+#include "volume/layers.h"
 #include "volume/splats.h"
 
 enum {
@@ -62,6 +63,7 @@ typedef struct ewa_gaussian_view {
     float cutoff2, prefilter_px2, log2_least, least_alpha, least_transmittance;
     uint32_t harmonic_count; ///< that are stored beyond degree 0, three colours
     uint32_t sh_degree;      ///< that are used
+    float set_unit;          ///< of the packets, in units of the view: a power of two
     double unit_camera;
 } ewa_gaussian_view;
 
@@ -76,8 +78,9 @@ typedef struct ewa_gaussian_found {
 /// What the pixels of a block show of a splat.
 typedef struct ewa_gaussian_met {
     _Alignas(64) float z[16], alpha[16];
-    uint32_t active; ///< pixels that show it and have not composited it
-    uint32_t id;     ///< record
+    uint32_t active;               ///< pixels that show it and have not composited it
+    uint32_t id;                   ///< record, of a splat
+    const ewa_volume_layer *layer; ///< of a volume; NULL: a splat
 } ewa_gaussian_met;
 
 /// Where splats are sorted, a row for each.
@@ -85,7 +88,16 @@ typedef struct ewa_gaussian_desk {
     _Alignas(64) int32_t keys[EWA_GAUSSIAN_SORTED][16]; ///< depth and row
     float alphas[EWA_GAUSSIAN_SORTED][16], colors[3][EWA_GAUSSIAN_SORTED];
     uint32_t chosen[EWA_GAUSSIAN_SORTED];
+    float linear[EWA_GAUSSIAN_SORTED];              ///< 1: a layer of a volume; where there are some
+    float layer_colors[3][EWA_GAUSSIAN_SORTED][16]; ///< theirs
 } ewa_gaussian_desk;
+
+/// The layers of a volume in the part of the picture that a tile belongs to.
+typedef struct ewa_gaussian_volume {
+    const ewa_volume_layers *ahead,
+        *all;    ///< of what lies in front of the surfaces; where there are none: the same
+    double unit; ///< of their depths, in units of the view
+} ewa_gaussian_volume;
 
 /// A tile while it is drawn; room for `count` of everything, in whole sixteens.
 typedef struct ewa_gaussian_tile {
@@ -101,7 +113,10 @@ typedef struct ewa_gaussian_tile {
     ewa_gaussian_met *met;    ///< splats that some pixel of a block shows
     uint32_t *waiting, *free; ///< of those: that wait; of no use now
     ewa_gaussian_desk *desk;
-    const float *surface_depth; ///< of the picture, NULL: none
+    const float *surface_depth, *surface_rgba; ///< of the picture, NULL: none
+    const ewa_gaussian_volume *volumes;
+    uint32_t volume_count;
+    uint32_t first_row, first_column; ///< of its blocks, in the volumes' tiles
     uint64_t block_count, sorted_count;
 } ewa_gaussian_tile;
 

@@ -20,6 +20,7 @@
 typedef struct block_state {
     _Alignas(64) float pixels[EWA_VOLUME_CHANNELS * 16];
     float surface[16];
+    float linear[4 * 16];   ///< of volumes: premultiplied light and alpha, beside those of `pixels`
     uint32_t alive;         ///< pixels in which more would show
     uint32_t waiting_count; ///< splats that wait, in the order in which they came
     uint32_t free_count, made_count;
@@ -112,7 +113,11 @@ static ALWAYS_INLINE void lay_out(ewa_gaussian_tile *tile, const block_state *bl
         const wi key = wi_or(wi_shl(place, EWA_GAUSSIAN_SORT_BITS), wi_set((int32_t)i));
         wi_store(desk->keys[i], wi_of_bits(wf_select(shows, wf_of_bits(key), wf_of_bits(wi_set(NO_KEY)))));
         wf_store(desk->alphas[i], wf_load(met->alpha));
-        for (int c = 0; c < 3; c++) desk->colors[c][i] = tile->records[met->id][RECORD_COLOR + c];
+        if (tile->volume_count) desk->linear[i] = met->layer != NULL;
+        for (int c = 0; c < 3; c++)
+            desk->colors[c][i] = met->layer ? 0 : tile->records[met->id][RECORD_COLOR + c];
+        for (int c = 0; c < 3 && met->layer; c++)
+            wf_store(desk->layer_colors[c][i], wf_load(met->layer->color[c]));
         met->active &= ~wm_bits(shows);
     }
     for (uint32_t i = count; i & 3; i++) wi_store(desk->keys[i], wi_set(NO_KEY));
@@ -169,20 +174,34 @@ static ALWAYS_INLINE void sort_rows(int32_t keys[][16], uint32_t count) {
 }
 
 static ALWAYS_INLINE void composite_rows(const ewa_gaussian_view *view, const ewa_gaussian_desk *desk,
-                                         uint32_t count, int64_t low_code, block_state *block) {
+                                         uint32_t count, int64_t low_code, bool mixed, block_state *block) {
     static const int32_t lanes[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     const wi lane = wi_load(lanes), low = wi_set((int32_t)low_code), all = wi_set(EWA_GAUSSIAN_SORTED - 1);
     const wf none = wf_of_bits(wi_set(NO_KEY)), least = wf_set(view->least_transmittance);
     wm alive = wm_of_bits(block->alive);
     wf light[3], through = wf_load(block->pixels + 48), depth = wf_load(block->pixels + 64);
+    wf linear[4];
     for (int c = 0; c < 3; c++) light[c] = wf_load(block->pixels + 16 * c);
+    for (int c = 0; c < 4 && mixed; c++) linear[c] = wf_load(block->linear + 16 * c);
     for (uint32_t i = 0; i < count; i++) {
         const wi key = wi_load(desk->keys[i]), at = wi_and(key, all);
         const wm shows = wm_and(alive, wf_lt(wf_of_bits(key), none));
         if (!wm_bits(shows)) break;
-        const wf alpha = wf_gather(desk->alphas[0], wi_or(wi_shl(at, 4), lane));
+        const wi pixel = wi_or(wi_shl(at, 4), lane);
+        const wf alpha = wf_gather(desk->alphas[0], pixel);
         const wf weight = wf_keep(shows, wf_mul(through, alpha)), rest = wf_sub(through, weight);
-        for (int c = 0; c < 3; c++) light[c] = wf_fma(weight, wf_gather(desk->colors[c], at), light[c]);
+        wf own = weight;
+        if (mixed) {
+            const wm layer = wm_and(shows, wf_lt(wf_set(0), wf_gather(desk->linear, at)));
+            const wf taken = wf_keep(layer, weight);
+            for (int c = 0; c < 3; c++) {
+                const wf color = wf_keep(layer, wf_gather(desk->layer_colors[c][0], pixel));
+                linear[c] = wf_fma(taken, color, linear[c]);
+            }
+            linear[3] = wf_add(linear[3], taken);
+            own = wf_sub(weight, taken);
+        }
+        for (int c = 0; c < 3; c++) light[c] = wf_fma(own, wf_gather(desk->colors[c], at), light[c]);
         if (view->with_depth) {
             const wf z = wf_of_bits(flip_code(wi_add(low, wi_sar(key, EWA_GAUSSIAN_SORT_BITS))));
             depth = note_depth(depth, through, rest, z);
@@ -191,6 +210,7 @@ static ALWAYS_INLINE void composite_rows(const ewa_gaussian_view *view, const ew
         alive = wm_and(alive, wf_le(least, rest));
     }
     for (int c = 0; c < 3; c++) wf_store(block->pixels + 16 * c, light[c]);
+    for (int c = 0; c < 4 && mixed; c++) wf_store(block->linear + 16 * c, linear[c]);
     wf_store(block->pixels + 48, through);
     wf_store(block->pixels + 64, depth);
     block->alive = wm_bits(alive);
@@ -215,7 +235,10 @@ static void advance(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, floa
         if (count > EWA_GAUSSIAN_SORTED) count = EWA_GAUSSIAN_SORTED;
         lay_out(tile, block, count, top, low);
         sort_rows(tile->desk->keys, (count + 3) & ~3u);
-        composite_rows(view, tile->desk, count, low, block);
+        if (tile->volume_count)
+            composite_rows(view, tile->desk, count, low, true, block);
+        else
+            composite_rows(view, tile->desk, count, low, false, block);
         tile->sorted_count += count;
     }
     if (!block->alive) return;

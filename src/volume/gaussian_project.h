@@ -55,11 +55,12 @@ static ALWAYS_INLINE wm place_splats(const ewa_gaussian_view *view, const ewa_sp
                                      splat_lanes *s) {
     wf center[3], world[3][3], q[4], offset[3];
     const wf opacity = wf_load((*packet)[EWA_SPLAT_OPACITY]);
-    for (int i = 0; i < 3; i++) center[i] = wf_load((*packet)[EWA_SPLAT_PLACE + i]);
+    const wf unit = wf_set(view->set_unit);
+    for (int i = 0; i < 3; i++) center[i] = wf_mul(unit, wf_load((*packet)[EWA_SPLAT_PLACE + i]));
     for (int i = 0; i < 4; i++) q[i] = wf_load((*packet)[EWA_SPLAT_ROTATION + i]);
     for (int i = 0; i < 3; i++) {
         s->place[i] = wf_add(turn_row(view->turn[i], center), wf_set(view->origin[i]));
-        s->scales[i] = wf_max(wf_load((*packet)[EWA_SPLAT_SCALE + i]), wf_set(1e-12f));
+        s->scales[i] = wf_max(wf_mul(unit, wf_load((*packet)[EWA_SPLAT_SCALE + i])), wf_set(1e-12f));
         offset[i] = wf_sub(center[i], wf_set(view->eye[i]));
     }
     quaternion_axes(q, world);

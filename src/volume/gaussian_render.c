@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The renderer of Gaussians: an object whose memory survives, and the order of a frame's stages. Reference:
-// src/reference/gaussian.c.
+// The renderer of Gaussians, and of volumes among them: an object whose memory survives, and the order of a
+// frame's stages. Reference: src/reference/gaussian.c.
 #include "base/base.h"
 #include "road/bin.h"
 #include "road/tiles.h"
 #include "volume/gaussian_kernels.h"
 #include "volume/gaussian_view.h"
+#include "volume/options.h"
+#include "volume/render.h"
 #include "volume/sort.h"
-#include "volume/view.h"
 
 #include <math.h>
 #include <string.h>
@@ -17,6 +18,7 @@
 /// What a worker needs; survives from frame to frame.
 typedef struct gaussian_scratch {
     ewa_buffer marks, row_ids, row_marks, block_ids, met, waiting, free, desk;
+    ewa_status status; ///< of its last tile
     uint64_t block_count, sorted_count;
     double project_s, draw_s;
 } gaussian_scratch;
@@ -25,25 +27,34 @@ struct ewa_gaussian_renderer {
     ewa_context *context;
     const ewa_gaussian_kernels *kernels;
     uint32_t worker_count;
-    ewa_buffer records, keys, corners, parts, order;
+    ewa_buffer records, keys, corners, views, parts, order, volumes;
     ewa_bin_lists by_tile;
     gaussian_scratch *scratch; ///< one per worker
 };
 
 enum { PACKETS_PER_PART = 256, PART_ROOM = PACKETS_PER_PART * EWA_SPLAT_LANES };
 
+/// Some packets of a set, and which of their splats are visible.
+typedef struct gaussian_part {
+    const ewa_splats *splats;
+    const ewa_gaussian_view *view;
+    uint32_t first_packet;
+    ewa_gaussian_found found;
+} gaussian_part;
+
 /// A frame; nothing of it changes while its tiles are drawn, but the workers' scratches.
 typedef struct gaussian_job {
     ewa_gaussian_renderer *renderer;
-    const ewa_splats *splats;
-    ewa_gaussian_view view;
+    const ewa_mixture *mixture;
+    ewa_gaussian_view view; ///< what those of the sets share
     ewa_volume_target target;
-    ewa_tiles tiles;
-    const float *surface_depth;
+    ewa_tiles tiles, areas; ///< `areas`: the tiles of the volumes, or the same
+    const float *surface_depth, *surface_rgba;
     bool with_times;
     uint32_t part_count, visible_count;
-    ewa_gaussian_found *parts;
+    gaussian_part *parts;
     uint32_t *ids; ///< [visible_count] front to back
+    ewa_volume_frame *volumes;
 } gaussian_job;
 
 ewa_status ewa_gaussian_renderer_create(ewa_context *context, ewa_gaussian_renderer **renderer) {
@@ -74,7 +85,8 @@ void ewa_gaussian_renderer_destroy(ewa_gaussian_renderer **renderer) {
         for (size_t b = 0; b < sizeof buffers / sizeof *buffers; b++) ewa_buffer_free(context, buffers[b]);
     }
     ewa_release(context, old->scratch, old->worker_count, sizeof *old->scratch);
-    ewa_buffer *const buffers[] = {&old->records, &old->keys, &old->corners, &old->parts, &old->order};
+    ewa_buffer *const buffers[] = {&old->records, &old->keys,  &old->corners, &old->views,
+                                   &old->parts,   &old->order, &old->volumes};
     for (size_t b = 0; b < sizeof buffers / sizeof *buffers; b++) ewa_buffer_free(context, buffers[b]);
     ewa_bin_lists_free(context, &old->by_tile);
     ewa_release(context, old, 1, sizeof *old);
@@ -85,12 +97,21 @@ static void store3(ewa_vec3 from, float to[3]) {
     to[0] = (float)from.x, to[1] = (float)from.y, to[2] = (float)from.z;
 }
 
-static void set_view(ewa_gaussian_view *view, const ewa_splats *splats, const ewa_camera *camera,
-                     const ewa_gaussian_options *options, const ewa_tiles *tiles) {
+/// The unit of all sets: the largest of theirs.
+static double choose_unit(const ewa_mixture *mixture) {
+    double unit = 0;
+    for (uint32_t i = 0; i < mixture->splats_count; i++) unit = fmax(unit, mixture->splats[i]->unit_world);
+    return unit > 0 ? unit : 1;
+}
+
+/// The view of a set; NULL: of none.
+static void set_view(ewa_gaussian_view *view, const ewa_splats *splats, double unit_world,
+                     const ewa_camera *camera, const ewa_gaussian_options *options, const ewa_tiles *tiles) {
+    static const double nowhere[3] = {0, 0, 0};
     ewa_gaussian_camera c;
-    ewa_gaussian_camera_make(&c, camera, options, splats->info.antialiased, splats->unit_world,
-                             splats->origin_world);
-    const uint32_t degree = splats->info.sh_degree;
+    ewa_gaussian_camera_make(&c, camera, options, splats && splats->info.antialiased, unit_world,
+                             splats ? splats->origin_world : nowhere);
+    const uint32_t degree = splats ? splats->info.sh_degree : 0;
     *view = (ewa_gaussian_view){.orthographic = c.orthographic,
                                 .trained = c.trained,
                                 .keep = c.keep,
@@ -109,14 +130,34 @@ static void set_view(ewa_gaussian_view *view, const ewa_splats *splats, const ew
                                 .log2_least = (float)log2(options->least_alpha),
                                 .least_alpha = (float)options->least_alpha,
                                 .least_transmittance = (float)options->least_transmittance,
-                                .harmonic_count = splats->harmonic_count,
+                                .harmonic_count = splats ? splats->harmonic_count : 0,
                                 .sh_degree = options->sh_degree < degree ? options->sh_degree : degree,
+                                .set_unit = splats ? (float)(splats->unit_world / unit_world) : 1,
                                 .unit_camera = c.unit_camera};
     for (int row = 0; row < 3; row++) store3(mat3_row(&c.turn, row), view->turn[row]);
     store3(c.origin, view->origin);
     store3(c.eye, view->eye);
     store3(c.forward, view->forward);
     for (int i = 0; i < 4; i++) view->slopes[i] = (float)c.slopes[i];
+}
+
+/// The views of all sets, and what they share.
+static ewa_status set_views(gaussian_job *job, const ewa_camera *camera, const ewa_gaussian_options *options,
+                            bool with_depth) {
+    const ewa_mixture *mixture = job->mixture;
+    const double unit = choose_unit(mixture);
+    ewa_buffer *room = &job->renderer->views;
+    const ewa_status status =
+        ewa_buffer_reserve(job->renderer->context, room, mixture->splats_count, sizeof(ewa_gaussian_view));
+    if (status != EWA_OK) return status;
+    ewa_gaussian_view *views = room->data;
+    set_view(&job->view, NULL, unit, camera, options, &job->tiles);
+    for (uint32_t i = 0; i < mixture->splats_count; i++) {
+        set_view(&views[i], mixture->splats[i], unit, camera, options, &job->tiles);
+        job->view.keep |= views[i].keep; // of what none keeps nothing is that faint
+    }
+    job->view.with_depth = with_depth;
+    return EWA_OK;
 }
 
 /// Adds to a stage's time what went by since `*last_s`.
@@ -130,40 +171,53 @@ static void take_time(const gaussian_job *job, double *last_s, double *stage_s) 
 /// The visible splats of some packets.
 static void project_part(void *data, uint32_t index, uint32_t worker) {
     const gaussian_job *job = data;
-    const ewa_splats *splats = job->splats;
+    gaussian_part *part = &job->parts[index];
+    const ewa_splats *splats = part->splats;
     double last_s = job->with_times ? ewa_now_s() : 0;
-    const uint32_t first = index * PACKETS_PER_PART;
-    uint32_t end = first + PACKETS_PER_PART;
+    uint32_t end = part->first_packet + PACKETS_PER_PART;
     if (end > splats->packet_count) end = splats->packet_count;
-    for (uint32_t p = first; p < end; p++)
-        job->renderer->kernels->project(&job->view, (const ewa_splat_packet *)&splats->packets[p],
+    for (uint32_t p = part->first_packet; p < end; p++)
+        job->renderer->kernels->project(part->view, (const ewa_splat_packet *)&splats->packets[p],
                                         (const int16_t(*)[EWA_SPLAT_LANES]) &
                                             splats->harmonics[(size_t)p * splats->harmonic_count],
-                                        &job->parts[index]);
+                                        &part->found);
     take_time(job, &last_s, &job->renderer->scratch[worker].project_s);
 }
 
 /// Finds what is visible, each part in its own room.
 static ewa_status project_all(gaussian_job *job) {
     ewa_gaussian_renderer *renderer = job->renderer;
+    const ewa_mixture *mixture = job->mixture;
     ewa_context *context = renderer->context;
-    job->part_count = (job->splats->packet_count + PACKETS_PER_PART - 1) / PACKETS_PER_PART;
+    uint64_t part_count = 0;
+    for (uint32_t i = 0; i < mixture->splats_count; i++)
+        part_count += (mixture->splats[i]->packet_count + PACKETS_PER_PART - 1) / PACKETS_PER_PART;
+    if (part_count > EWA_SPLATS_MOST / PART_ROOM)
+        return ewa_fail(context, EWA_ERROR_LIMIT, "gaussians: the sets have more than %d together",
+                        EWA_SPLATS_MOST);
+    job->part_count = (uint32_t)part_count;
     const size_t room = (size_t)job->part_count * PART_ROOM;
     ewa_status status = ewa_buffer_reserve(context, &renderer->records, room, sizeof(ewa_gaussian_record));
     if (status == EWA_OK) status = ewa_buffer_reserve(context, &renderer->keys, room, sizeof(uint32_t));
     if (status == EWA_OK) status = ewa_buffer_reserve(context, &renderer->corners, 2 * room, sizeof(int32_t));
     if (status == EWA_OK)
-        status = ewa_buffer_reserve(context, &renderer->parts, job->part_count, sizeof(ewa_gaussian_found));
+        status = ewa_buffer_reserve(context, &renderer->parts, job->part_count, sizeof(gaussian_part));
     if (status != EWA_OK) return status;
     job->parts = renderer->parts.data;
-    for (uint32_t i = 0; i < job->part_count; i++) {
-        const size_t first = (size_t)i * PART_ROOM;
-        int32_t *corners = renderer->corners.data;
-        job->parts[i] = (ewa_gaussian_found){.records = (ewa_gaussian_record *)renderer->records.data + first,
-                                             .keys = (uint32_t *)renderer->keys.data + first,
-                                             .first = corners + first,
-                                             .end = corners + room + first};
-    }
+    gaussian_part *part = job->parts;
+    for (uint32_t set = 0; set < mixture->splats_count; set++)
+        for (uint32_t packet = 0; packet < mixture->splats[set]->packet_count; packet += PACKETS_PER_PART) {
+            const size_t first = (size_t)(part - job->parts) * PART_ROOM;
+            int32_t *corners = renderer->corners.data;
+            *part++ =
+                (gaussian_part){.splats = mixture->splats[set],
+                                .view = (const ewa_gaussian_view *)renderer->views.data + set,
+                                .first_packet = packet,
+                                .found = {.records = (ewa_gaussian_record *)renderer->records.data + first,
+                                          .keys = (uint32_t *)renderer->keys.data + first,
+                                          .first = corners + first,
+                                          .end = corners + room + first}};
+        }
     return ewa_parallel_stoppable(context, "gaussians", project_part, job, job->part_count);
 }
 
@@ -171,15 +225,15 @@ static ewa_status project_all(gaussian_job *job) {
 static ewa_status sort_all(gaussian_job *job) {
     ewa_gaussian_renderer *renderer = job->renderer;
     job->visible_count = 0;
-    for (uint32_t i = 0; i < job->part_count; i++) job->visible_count += job->parts[i].count;
+    for (uint32_t i = 0; i < job->part_count; i++) job->visible_count += job->parts[i].found.count;
     const size_t room = job->visible_count;
     const ewa_status status =
         ewa_buffer_reserve(renderer->context, &renderer->order, 4 * room, sizeof(uint32_t));
     if (status != EWA_OK) return status;
     uint32_t *numbers = renderer->order.data, *keys = numbers + 2 * room, count = 0;
     for (uint32_t i = 0; i < job->part_count; i++) {
-        memcpy(keys + count, job->parts[i].keys, job->parts[i].count * sizeof *keys);
-        for (uint32_t k = 0; k < job->parts[i].count; k++) numbers[count++] = i * PART_ROOM + k;
+        memcpy(keys + count, job->parts[i].found.keys, job->parts[i].found.count * sizeof *keys);
+        for (uint32_t k = 0; k < job->parts[i].found.count; k++) numbers[count++] = i * PART_ROOM + k;
     }
     job->ids = ewa_sort_by_keys(numbers, keys, count, room);
     return EWA_OK;
@@ -202,7 +256,8 @@ static uint32_t find_tiles(const void *data, uint32_t worker, uint32_t first, ui
 }
 
 static ewa_status reserve_scratch(ewa_context *context, gaussian_scratch *scratch, size_t most) {
-    const size_t room = (most + 15) / 16 * 16;
+    // Layers of volumes that wait: fewer than come at once.
+    const size_t room = (most + 15) / 16 * 16 + EWA_GAUSSIAN_SORTED;
     const struct {
         ewa_buffer *buffer;
         size_t count, size_bytes;
@@ -225,11 +280,10 @@ static ewa_status reserve_scratch(ewa_context *context, gaussian_scratch *scratc
     return EWA_OK;
 }
 
-static void draw_tile(void *data, uint32_t index, uint32_t worker) {
-    const gaussian_job *job = data;
+static void draw_tile(const gaussian_job *job, uint32_t index, uint32_t worker,
+                      const ewa_gaussian_volume *volumes) {
     const ewa_gaussian_renderer *renderer = job->renderer;
     gaussian_scratch *scratch = &job->renderer->scratch[worker];
-    double last_s = job->with_times ? ewa_now_s() : 0;
     const ewa_tile_rect place = ewa_tiles_rect(&job->tiles, index);
     const uint64_t first = renderer->by_tile.starts[index];
     ewa_gaussian_tile tile = {.x_px = place.x_px,
@@ -248,20 +302,74 @@ static void draw_tile(void *data, uint32_t index, uint32_t worker) {
                               .waiting = scratch->waiting.data,
                               .free = scratch->free.data,
                               .desk = scratch->desk.data,
-                              .surface_depth = job->surface_depth};
+                              .surface_depth = job->surface_depth,
+                              .surface_rgba = job->surface_rgba,
+                              .volumes = volumes,
+                              .volume_count = job->mixture->volume_count,
+                              .first_row = place.y_px % EWA_VOLUME_TILE_PX / 4,
+                              .first_column = place.x_px % EWA_VOLUME_TILE_PX / 4};
     renderer->kernels->mark(&tile);
     renderer->kernels->draw(&job->view, &tile, &job->target);
     scratch->block_count += tile.block_count;
     scratch->sorted_count += tile.sorted_count;
+}
+
+/// Whether surfaces leave a part of some pixel free, so that what is behind them shows.
+static bool has_edges(const gaussian_job *job, const ewa_tile_rect *area) {
+    if (!job->surface_depth) return false;
+    for (uint32_t y = area->y_px; y < area->y_px + area->height_px; y++)
+        for (uint32_t x = area->x_px; x < area->x_px + area->width_px; x++) {
+            const size_t pixel = (size_t)y * job->target.width_px + x;
+            if (job->surface_depth[pixel] < INFINITY && job->surface_rgba[4 * pixel + 3] < 1) return true;
+        }
+    return false;
+}
+
+/// Makes the layers of the volumes in an area.
+static ewa_status make_layers(const gaussian_job *job, uint32_t index, uint32_t worker,
+                              ewa_gaussian_volume *volumes) {
+    ewa_context *context = job->renderer->context;
+    const ewa_tile_rect area = ewa_tiles_rect(&job->areas, index);
+    const bool edges = has_edges(job, &area);
+    ewa_status status = EWA_OK;
+    for (uint32_t v = 0; v < job->mixture->volume_count && status == EWA_OK; v++) {
+        const ewa_volume_frame *frame = &job->volumes[v];
+        volumes[v].unit = frame->grid.unit_camera / job->view.unit_camera;
+        status = ewa_volume_tile_layers(context, &frame->job, index, worker, false, &volumes[v].ahead);
+        volumes[v].all = volumes[v].ahead;
+        if (edges && status == EWA_OK)
+            status = ewa_volume_tile_layers(context, &frame->job, index, worker, true, &volumes[v].all);
+    }
+    return status;
+}
+
+/// Draws an area: the tiles of Gaussians in a tile of volumes, or one.
+static void draw_area(void *data, uint32_t index, uint32_t worker) {
+    const gaussian_job *job = data;
+    gaussian_scratch *scratch = &job->renderer->scratch[worker];
+    double last_s = job->with_times ? ewa_now_s() : 0;
+    if (!job->mixture->volume_count) {
+        draw_tile(job, index, worker, NULL);
+    } else if (scratch->status == EWA_OK) {
+        enum { SIDE = EWA_VOLUME_TILE_PX / EWA_GAUSSIAN_TILE_PX };
+        ewa_gaussian_volume volumes[EWA_MAX_MIXED_VOLUMES];
+        scratch->status = make_layers(job, index, worker, volumes);
+        const uint32_t top = SIDE * (index / job->areas.columns), left = SIDE * (index % job->areas.columns);
+        for (uint32_t row = top; row < top + SIDE && row < job->tiles.rows; row++)
+            for (uint32_t column = left; column < left + SIDE && column < job->tiles.columns; column++)
+                if (scratch->status == EWA_OK)
+                    draw_tile(job, row * job->tiles.columns + column, worker, volumes);
+    }
     take_time(job, &last_s, &scratch->draw_s);
 }
 
 static void gather_stats(const gaussian_job *job, double start_s, double bin_s, ewa_gaussian_stats *stats) {
     const ewa_gaussian_renderer *renderer = job->renderer;
-    *stats = (ewa_gaussian_stats){.splat_count = job->splats->info.splat_count,
-                                  .visible_count = job->visible_count,
-                                  .bin_s = bin_s * renderer->worker_count};
-    for (uint32_t i = 0; i < job->part_count; i++) stats->near_count += job->parts[i].near_count;
+    *stats =
+        (ewa_gaussian_stats){.visible_count = job->visible_count, .bin_s = bin_s * renderer->worker_count};
+    for (uint32_t i = 0; i < job->mixture->splats_count; i++)
+        stats->splat_count += job->mixture->splats[i]->info.splat_count;
+    for (uint32_t i = 0; i < job->part_count; i++) stats->near_count += job->parts[i].found.near_count;
     stats->tile_count = renderer->by_tile.starts[ewa_tiles_count(&job->tiles)];
     for (uint32_t i = 0; i < renderer->worker_count; i++) {
         const gaussian_scratch *s = &renderer->scratch[i];
@@ -273,40 +381,115 @@ static void gather_stats(const gaussian_job *job, double start_s, double bin_s, 
     stats->total_s = ewa_now_s() - start_s;
 }
 
-ewa_status ewa_gaussian_render(ewa_gaussian_renderer *renderer, const ewa_splats *splats,
-                               const ewa_camera *camera, const ewa_gaussian_options *options,
-                               const ewa_frame *frame, ewa_gaussian_stats *stats) {
-    if (!renderer || !splats || !camera || !frame) return EWA_ERROR_ARGUMENT;
+/// Checks what a mixture is made of, and its volumes' options.
+static ewa_status check_mixture(ewa_context *context, const ewa_mixture *mixture,
+                                ewa_volume_options chosen[EWA_MAX_MIXED_VOLUMES]) {
+    const uint32_t count = mixture->volume_count;
+    if (count > EWA_MAX_MIXED_VOLUMES)
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "mixture: %u volumes, at most %d", count,
+                        EWA_MAX_MIXED_VOLUMES);
+    if ((count && !mixture->volumes) || (mixture->splats_count && !mixture->splats))
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "mixture: %u sets and %u volumes, and no list of them",
+                        mixture->splats_count, count);
+    for (uint32_t i = 0; i < mixture->splats_count; i++)
+        if (!mixture->splats[i]) return ewa_fail(context, EWA_ERROR_ARGUMENT, "mixture: set %u is NULL", i);
+    for (uint32_t i = 0; i < count; i++) {
+        const ewa_mixed_volume *volume = &mixture->volumes[i];
+        if (!volume->renderer || !volume->voxels)
+            return ewa_fail(context, EWA_ERROR_ARGUMENT, "mixture: volume %u has no renderer or no voxels",
+                            i);
+        for (uint32_t k = 0; k < i; k++)
+            if (mixture->volumes[k].renderer == volume->renderer)
+                return ewa_fail(context, EWA_ERROR_ARGUMENT,
+                                "mixture: volumes %u and %u have the same renderer", k, i);
+        ewa_status status = ewa_volume_options_choose(context, volume->options, &chosen[i]);
+        if (status == EWA_OK) status = ewa_volume_level_check(context, volume->voxels, &chosen[i]);
+        if (status != EWA_OK) return status;
+    }
+    return EWA_OK;
+}
+
+/// Sets up the frames of the volumes.
+static ewa_status make_volumes(gaussian_job *job, const ewa_camera *camera,
+                               ewa_volume_options chosen[EWA_MAX_MIXED_VOLUMES]) {
+    const uint32_t count = job->mixture->volume_count;
+    ewa_buffer *room = &job->renderer->volumes;
+    ewa_status status = ewa_buffer_reserve(job->renderer->context, room, count, sizeof(ewa_volume_frame));
+    job->volumes = room->data;
+    for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
+        const ewa_mixed_volume *volume = &job->mixture->volumes[i];
+        chosen[i].surface_depth = job->surface_depth;
+        chosen[i].surface_rgba = job->surface_rgba;
+        status = ewa_volume_frame_make(volume->renderer, volume->voxels, camera, &chosen[i], false,
+                                       &job->volumes[i]);
+        job->volumes[i].job.target = job->target;
+    }
+    return status;
+}
+
+/// Draws a frame of checked arguments.
+static ewa_status draw_frame(gaussian_job *job, ewa_gaussian_stats *stats) {
+    ewa_gaussian_renderer *renderer = job->renderer;
     ewa_context *context = renderer->context;
     const double start_s = ewa_now_s();
-    ewa_gaussian_options chosen;
-    ewa_status status = ewa_gaussian_options_choose(context, options, &chosen);
-    if (status == EWA_OK) status = ewa_camera_check(context, camera);
-    if (status == EWA_OK) status = ewa_gaussian_frame_check(context, frame);
-    if (status == EWA_OK) status = ewa_progress(context, "gaussians", 0);
-    if (status != EWA_OK) return status;
-
-    gaussian_job job = {.renderer = renderer,
-                        .splats = splats,
-                        .tiles = ewa_tiles_make(camera->width_px, camera->height_px, EWA_GAUSSIAN_TILE_PX),
-                        .surface_depth = chosen.surface_depth,
-                        .with_times = stats != NULL};
-    set_view(&job.view, splats, camera, &chosen, &job.tiles);
-    job.view.with_depth = frame->depth != NULL;
-    ewa_volume_target_set(&job.target, camera, frame, chosen.surface_rgba, chosen.background);
-    for (uint32_t i = 0; i < renderer->worker_count; i++)
-        renderer->scratch[i].project_s = renderer->scratch[i].draw_s = 0;
-    status = project_all(&job);
+    for (uint32_t i = 0; i < renderer->worker_count; i++) {
+        gaussian_scratch *scratch = &renderer->scratch[i];
+        scratch->project_s = scratch->draw_s = 0;
+        scratch->status = EWA_OK;
+    }
+    ewa_status status = project_all(job);
     const double projected_s = ewa_now_s();
-    if (status == EWA_OK) status = sort_all(&job);
+    if (status == EWA_OK) status = sort_all(job);
     if (status == EWA_OK)
-        status = ewa_bin_lists_fill(context, &renderer->by_tile, job.tiles.columns, job.tiles.rows,
-                                    job.visible_count, find_tiles, &job);
+        status = ewa_bin_lists_fill(context, &renderer->by_tile, job->tiles.columns, job->tiles.rows,
+                                    job->visible_count, find_tiles, job);
     const double binned_s = ewa_now_s();
     for (uint32_t i = 0; i < renderer->worker_count && status == EWA_OK; i++)
         status = reserve_scratch(context, &renderer->scratch[i], renderer->by_tile.largest);
     if (status == EWA_OK)
-        status = ewa_parallel_stoppable(context, "gaussians", draw_tile, &job, ewa_tiles_count(&job.tiles));
-    if (status == EWA_OK && stats) gather_stats(&job, start_s, binned_s - projected_s, stats);
+        status = ewa_parallel_stoppable(context, "gaussians", draw_area, job, ewa_tiles_count(&job->areas));
+    for (uint32_t i = 0; i < renderer->worker_count && status == EWA_OK; i++)
+        status = renderer->scratch[i].status;
+    if (status == EWA_OK && stats) gather_stats(job, start_s, binned_s - projected_s, stats);
     return status;
+}
+
+ewa_status ewa_mixture_render(ewa_gaussian_renderer *renderer, const ewa_mixture *mixture,
+                              const ewa_camera *camera, const ewa_gaussian_options *options,
+                              const ewa_frame *frame, ewa_gaussian_stats *stats) {
+    if (!renderer || !mixture || !camera || !frame) return EWA_ERROR_ARGUMENT;
+    ewa_context *context = renderer->context;
+    const double start_s = ewa_now_s();
+    ewa_gaussian_options chosen;
+    ewa_volume_options volumes[EWA_MAX_MIXED_VOLUMES];
+    ewa_status status = ewa_gaussian_options_choose(context, options, &chosen);
+    if (status == EWA_OK) status = ewa_camera_check(context, camera);
+    if (status == EWA_OK) status = ewa_gaussian_frame_check(context, frame);
+    if (status == EWA_OK) status = check_mixture(context, mixture, volumes);
+    if (status == EWA_OK) status = ewa_progress(context, "gaussians", 0);
+    if (status != EWA_OK) return status;
+
+    gaussian_job job = {.renderer = renderer,
+                        .mixture = mixture,
+                        .tiles = ewa_tiles_make(camera->width_px, camera->height_px, EWA_GAUSSIAN_TILE_PX),
+                        .surface_depth = chosen.surface_depth,
+                        .surface_rgba = chosen.surface_rgba,
+                        .with_times = stats != NULL};
+    job.areas = mixture->volume_count
+                    ? ewa_tiles_make(camera->width_px, camera->height_px, EWA_VOLUME_TILE_PX)
+                    : job.tiles;
+    ewa_volume_target_set(&job.target, camera, frame, NULL, chosen.background);
+    status = set_views(&job, camera, &chosen, frame->depth != NULL);
+    if (status == EWA_OK) status = make_volumes(&job, camera, volumes);
+    if (status == EWA_OK) status = draw_frame(&job, stats);
+    if (status == EWA_OK && stats) stats->total_s = ewa_now_s() - start_s;
+    return status;
+}
+
+ewa_status ewa_gaussian_render(ewa_gaussian_renderer *renderer, const ewa_splats *splats,
+                               const ewa_camera *camera, const ewa_gaussian_options *options,
+                               const ewa_frame *frame, ewa_gaussian_stats *stats) {
+    if (!splats) return EWA_ERROR_ARGUMENT;
+    return ewa_mixture_render(renderer, &(ewa_mixture){.splats = &splats, .splats_count = 1}, camera, options,
+                              frame, stats);
 }

@@ -178,6 +178,8 @@ typedef struct ewa_volume_target {
     float *rgba, *depth, *coverage;
 } ewa_volume_target;
 
+struct ewa_volume_layers;
+
 typedef struct ewa_volume_kernels {
 
     /// Projects the voxels of a block and queues those that would show in the tile; a full queue is shaded,
@@ -208,6 +210,9 @@ typedef struct ewa_volume_kernels {
 
     /// Empties the pixels.
     void (*clear)(ewa_volume_tile *tile);
+
+    /// Adds what the pixels have got since the last call to the layers, at depth `z`; there is room.
+    void (*take_layers)(const ewa_volume_tile *tile, float z, struct ewa_volume_layers *layers);
 
     /// Writes the pixels over the background or the surfaces.
     void (*resolve)(const ewa_volume_view *view, const ewa_volume_tile *tile, const ewa_volume_target *to);

@@ -20,7 +20,12 @@ static void resolve(const ewa_volume_view *view, const ewa_volume_tile *tile, co
             const size_t block = (size_t)row * EWA_VOLUME_ROW_BLOCKS + column;
             const block_place at =
                 place_block(tile->x_px, tile->y_px, tile->width_px, tile->height_px, row, column);
-            resolve_block(to, tile->pixels + block * EWA_VOLUME_CHANNELS * 16, &at, view->unit_camera, false);
+            const float *pixels = tile->pixels + block * EWA_VOLUME_CHANNELS * 16;
+            wf behind[4], out[4];
+            load_behind(to, to->surface_rgba, &at, behind);
+            lay_over(pixels, behind, false, out);
+            store_pixels(to, &at, out, wf_sub(wf_set(1), wf_load(pixels + 48)), wf_load(pixels + 64),
+                         view->unit_camera);
         }
 }
 

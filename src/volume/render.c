@@ -3,9 +3,9 @@
 //
 // The renderer of volumes: an object whose memory survives, and the order of a frame's stages. Reference:
 // src/reference/volume.c.
+#include "volume/render.h"
 #include "base/base.h"
 #include "volume/options.h"
-#include "volume/tile.h"
 
 struct ewa_volume_renderer {
     ewa_context *context;
@@ -72,6 +72,43 @@ static void gather_stats(const ewa_volume_renderer *renderer, const ewa_voxel_le
     stats->total_s = ewa_now_s() - start_s;
 }
 
+ewa_status ewa_volume_level_check(ewa_context *context, const ewa_voxels *voxels,
+                                  const ewa_volume_options *options) {
+    if (options->level < voxels->level_count) return EWA_OK;
+    return ewa_fail(context, EWA_ERROR_ARGUMENT, "volume: level is %u, the voxels have %u levels",
+                    options->level, voxels->level_count);
+}
+
+ewa_status ewa_volume_frame_make(ewa_volume_renderer *renderer, const ewa_voxels *voxels,
+                                 const ewa_camera *camera, const ewa_volume_options *options, bool with_times,
+                                 ewa_volume_frame *frame) {
+    ewa_context *context = renderer->context;
+    const ewa_voxel_level *level = &voxels->levels[options->level];
+    ewa_grid_view_make(&frame->grid, level->index_to_world, voxels->info.spacing_world, camera, options);
+    ewa_volume_slices_make(&frame->slices, level, &frame->grid, options);
+    ewa_volume_shading_make(options, &frame->shading);
+    frame->job = (ewa_volume_job){.kernels = renderer->kernels,
+                                  .level = level,
+                                  .bins = &renderer->bins,
+                                  .near = &renderer->near,
+                                  .grid = &frame->grid,
+                                  .slices = &frame->slices,
+                                  .filters = (const ewa_point_filter *)renderer->filters,
+                                  .surface_depth = options->surface_depth,
+                                  .with_times = with_times,
+                                  .scratch = renderer->scratch};
+    ewa_volume_view_set(&frame->job.view, &frame->grid, &frame->slices, voxels, camera, options,
+                        &frame->shading, &renderer->table);
+    ewa_status status =
+        ewa_volume_bins_fill(context, &renderer->bins, level, &frame->grid, &frame->slices, camera);
+    if (status == EWA_OK)
+        status = ewa_near_list_fill(context, &renderer->near, renderer->kernels, &frame->job.view, level,
+                                    &frame->grid, &renderer->bins, camera);
+    for (uint32_t i = 0; i < renderer->worker_count && status == EWA_OK; i++)
+        status = ewa_volume_scratch_reserve(context, &renderer->scratch[i], &frame->job);
+    return status;
+}
+
 ewa_status ewa_volume_render(ewa_volume_renderer *renderer, const ewa_voxels *voxels,
                              const ewa_camera *camera, const ewa_volume_options *options,
                              const ewa_frame *frame, ewa_volume_stats *stats) {
@@ -82,42 +119,19 @@ ewa_status ewa_volume_render(ewa_volume_renderer *renderer, const ewa_voxels *vo
     ewa_status status = ewa_volume_options_choose(context, options, &chosen);
     if (status == EWA_OK) status = ewa_camera_check(context, camera);
     if (status == EWA_OK) status = ewa_volume_frame_check(context, frame);
-    if (status == EWA_OK && chosen.level >= voxels->level_count)
-        status = ewa_fail(context, EWA_ERROR_ARGUMENT, "volume: level is %u, the voxels have %u levels",
-                          chosen.level, voxels->level_count);
+    if (status == EWA_OK) status = ewa_volume_level_check(context, voxels, &chosen);
     if (status == EWA_OK) status = ewa_progress(context, "volume", 0);
     if (status != EWA_OK) return status;
 
-    const ewa_voxel_level *level = &voxels->levels[chosen.level];
-    ewa_grid_view grid;
-    ewa_volume_slices slices;
-    ewa_shading_setup shading;
-    ewa_grid_view_make(&grid, level->index_to_world, voxels->info.spacing_world, camera, &chosen);
-    ewa_volume_slices_make(&slices, level, &grid, &chosen);
-    ewa_volume_shading_make(&chosen, &shading);
-    ewa_volume_job job = {.kernels = renderer->kernels,
-                          .level = level,
-                          .bins = &renderer->bins,
-                          .near = &renderer->near,
-                          .grid = &grid,
-                          .slices = &slices,
-                          .filters = (const ewa_point_filter *)renderer->filters,
-                          .surface_depth = chosen.surface_depth,
-                          .with_times = stats != NULL,
-                          .scratch = renderer->scratch};
-    ewa_volume_view_set(&job.view, &grid, &slices, voxels, camera, &chosen, &shading, &renderer->table);
-    job.view.with_depth = frame->depth != NULL;
-    ewa_volume_target_set(&job.target, camera, frame, chosen.surface_rgba, chosen.background);
-    status = ewa_volume_bins_fill(context, &renderer->bins, level, &grid, &slices, camera);
-    if (status == EWA_OK)
-        status = ewa_near_list_fill(context, &renderer->near, renderer->kernels, &job.view, level, &grid,
-                                    &renderer->bins, camera);
-    const double binned_s = ewa_now_s();
-    for (uint32_t i = 0; i < renderer->worker_count && status == EWA_OK; i++)
-        status = ewa_volume_scratch_reserve(context, &renderer->scratch[i], &job);
+    ewa_volume_frame drawn;
+    status = ewa_volume_frame_make(renderer, voxels, camera, &chosen, stats != NULL, &drawn);
     if (status != EWA_OK) return status;
-    status = ewa_parallel_stoppable(context, "volume", ewa_volume_tile_draw, &job,
+    ewa_volume_job *job = &drawn.job;
+    job->view.with_depth = frame->depth != NULL;
+    ewa_volume_target_set(&job->target, camera, frame, chosen.surface_rgba, chosen.background);
+    const double binned_s = ewa_now_s();
+    status = ewa_parallel_stoppable(context, "volume", ewa_volume_tile_draw, job,
                                     ewa_tiles_count(&renderer->bins.tiles));
-    if (status == EWA_OK && stats) gather_stats(renderer, level, start_s, binned_s, stats);
+    if (status == EWA_OK && stats) gather_stats(renderer, job->level, start_s, binned_s, stats);
     return status;
 }

@@ -65,6 +65,8 @@ void ewa_volume_scratch_free(ewa_context *context, ewa_volume_scratch *scratch) 
                                    &scratch->free,   &scratch->order,   &scratch->keys,    &scratch->near,
                                    &scratch->queue};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++) ewa_buffer_free(context, buffers[i]);
+    ewa_buffer_free(context, &scratch->lists);
+    for (int i = 0; i < 2; i++) ewa_buffer_free(context, &scratch->layers[i]);
 }
 
 /// A tile's own copy of the surfaces' depths; +infinity outside of the picture.
@@ -216,22 +218,42 @@ static void take_time(const ewa_volume_job *job, double *last_s, double *stage_s
     *last_s = now_s;
 }
 
-void ewa_volume_tile_draw(void *data, uint32_t index, uint32_t worker) {
-    const ewa_volume_job *job = data;
+/// What takes the tile's layers while it is composited.
+typedef struct layer_taker {
+    ewa_context *context;
+    ewa_buffer *room;
+    ewa_volume_layers *layers;
+} layer_taker;
+
+/// Takes what the pixels have got; `taker` NULL: nothing does.
+static ewa_status take_layers(const ewa_volume_job *job, const ewa_volume_tile *tile, double z,
+                              const layer_taker *taker) {
+    if (!taker) return EWA_OK;
+    const size_t count = taker->layers->count;
+    const ewa_status status = ewa_buffer_grow(taker->context, taker->room, count,
+                                              count + EWA_VOLUME_TILE_BLOCKS, sizeof(ewa_volume_layer));
+    if (status != EWA_OK) return status;
+    taker->layers->layers = taker->room->data;
+    job->kernels->take_layers(tile, (float)z, taker->layers);
+    return EWA_OK;
+}
+
+/// Composites a tile that is set up, front to back.
+static ewa_status composite_tile(const ewa_volume_job *job, ewa_volume_scratch *scratch,
+                                 ewa_volume_tile *tile, uint32_t index, double *last_s,
+                                 const layer_taker *taker) {
     const ewa_volume_bins *bins = job->bins;
-    ewa_volume_scratch *scratch = &job->scratch[worker];
-    ewa_volume_tile tile;
-    double last_s = job->with_times ? ewa_now_s() : 0;
-    start_tile(job, scratch, index, &tile);
     uint64_t next = bins->by_tile.starts[index];
     const uint64_t end = bins->by_tile.starts[index + 1];
     int32_t last_slice = -1;
+    ewa_status status = EWA_OK;
     if (job->near->count) {
-        take_time(job, &last_s, &scratch->setup_s);
-        draw_near(job, scratch, &tile);
-        take_time(job, &last_s, &scratch->splats_s);
+        take_time(job, last_s, &scratch->setup_s);
+        draw_near(job, scratch, tile);
+        take_time(job, last_s, &scratch->splats_s);
+        status = take_layers(job, tile, fmax(job->slices->start, 0), taker);
     }
-    for (int32_t slice = 0; slice < (int32_t)job->slices->count; slice++) {
+    for (int32_t slice = 0; slice < (int32_t)job->slices->count && status == EWA_OK; slice++) {
         if (slice > last_slice) { // nothing in flight
             if (next == end) break;
             slice = bins->views[bins->by_tile.ids[next]].slice_first;
@@ -239,26 +261,60 @@ void ewa_volume_tile_draw(void *data, uint32_t index, uint32_t worker) {
         for (; next < end && bins->views[bins->by_tile.ids[next]].slice_first <= slice; next++) {
             const ewa_block_view *view = &bins->views[bins->by_tile.ids[next]];
             if (view->slice_last > last_slice) last_slice = view->slice_last;
-            scratch->hidden_count += add_block(job, &tile, view);
+            scratch->hidden_count += add_block(job, tile, view);
         }
-        job->kernels->flush(&job->view, &tile);
-        take_time(job, &last_s, &scratch->setup_s);
-        ewa_volume_bucket *bucket = &tile.ring[(uint32_t)slice & tile.ring_mask];
+        job->kernels->flush(&job->view, tile);
+        take_time(job, last_s, &scratch->setup_s);
+        ewa_volume_bucket *bucket = &tile->ring[(uint32_t)slice & tile->ring_mask];
         if (bucket->page_count == 0) continue;
         const double z = ewa_slice_middle(job->slices, (uint32_t)slice);
-        if (job->surface_depth) hide_behind_surface(job, &tile, (float)(z - job->slices->unit));
+        if (job->surface_depth) hide_behind_surface(job, tile, (float)(z - job->slices->unit));
         if (slice < job->view.point_slice) {
-            draw_splats(job, scratch, &tile, bucket);
-            take_time(job, &last_s, &scratch->splats_s);
+            draw_splats(job, scratch, tile, bucket);
+            take_time(job, last_s, &scratch->splats_s);
         } else {
-            draw_points(job, scratch, &tile, bucket, z);
-            take_time(job, &last_s, &scratch->points_s);
+            draw_points(job, scratch, tile, bucket, z);
+            take_time(job, last_s, &scratch->points_s);
         }
-        empty_bucket(&tile, bucket);
-        if (tile.visible_count == 0) break;
+        empty_bucket(tile, bucket);
+        status = take_layers(job, tile, z, taker);
+        if (tile->visible_count == 0) break;
     }
     for (; next < end; next++)
         scratch->hidden_count += job->level->blocks[bins->views[bins->by_tile.ids[next]].block].count;
+    return status;
+}
+
+void ewa_volume_tile_draw(void *data, uint32_t index, uint32_t worker) {
+    const ewa_volume_job *job = data;
+    ewa_volume_scratch *scratch = &job->scratch[worker];
+    ewa_volume_tile tile;
+    double last_s = job->with_times ? ewa_now_s() : 0;
+    start_tile(job, scratch, index, &tile);
+    (void)composite_tile(job, scratch, &tile, index, &last_s, NULL); // only layers need memory
     job->kernels->resolve(&job->view, &tile, &job->target);
     take_time(job, &last_s, &scratch->resolve_s);
+}
+
+ewa_status ewa_volume_tile_layers(ewa_context *context, const ewa_volume_job *job, uint32_t index,
+                                  uint32_t worker, bool everything, const ewa_volume_layers **layers) {
+    ewa_volume_scratch *scratch = &job->scratch[worker];
+    ewa_status status = ewa_buffer_reserve(context, &scratch->lists, 2, sizeof(ewa_volume_layers));
+    if (status != EWA_OK) return status;
+    ewa_volume_layers *lists = (ewa_volume_layers *)scratch->lists.data + everything;
+    lists->count = 0;
+    for (uint32_t block = 0; block < EWA_VOLUME_TILE_BLOCKS; block++) {
+        lists->first[block] = EWA_NO_LAYER;
+        memset(lists->before[block], 0, 3 * sizeof lists->before[block][0]);
+        for (int i = 0; i < 16; i++) lists->before[block][3][i] = 1;
+    }
+    ewa_volume_tile tile;
+    double last_s = job->with_times ? ewa_now_s() : 0;
+    start_tile(job, scratch, index, &tile);
+    for (size_t i = 0; everything && job->surface_depth && i < EWA_VOLUME_TILE_BLOCKS * (size_t)16; i++)
+        tile.surface[i] = INFINITY;
+    const layer_taker taker = {context, &scratch->layers[everything], lists};
+    status = composite_tile(job, scratch, &tile, index, &last_s, &taker);
+    *layers = lists;
+    return status;
 }

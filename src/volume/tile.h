@@ -5,11 +5,13 @@
 #ifndef EWA_SRC_VOLUME_TILE_H
 #define EWA_SRC_VOLUME_TILE_H
 
+#include "volume/layers.h"
 #include "volume/near.h"
 
 /// What a worker needs; survives from frame to frame. Zero-initialise.
 typedef struct ewa_volume_scratch {
     ewa_buffer sums, pixels, surface, ring, colors, windows, splats, next, free, order, keys, near, queue;
+    ewa_buffer layers[2], lists; ///< of ewa_volume_tile_layers()
     uint64_t hidden_count, splat_count, point_count;
     double setup_s, points_s, splats_s, resolve_s;
 } ewa_volume_scratch;
@@ -35,6 +37,11 @@ ewa_status ewa_volume_scratch_reserve(ewa_context *context, ewa_volume_scratch *
                                       const ewa_volume_job *job);
 
 void ewa_volume_scratch_free(ewa_context *context, ewa_volume_scratch *scratch);
+
+/// Tile `index` as layers: of what lies in front of the surfaces, or of everything. `layers` stay as they are until the
+/// next call with the same `everything`. Errors: EWA_ERROR_MEMORY.
+ewa_status ewa_volume_tile_layers(ewa_context *context, const ewa_volume_job *job, uint32_t index,
+                                  uint32_t worker, bool everything, const ewa_volume_layers **layers);
 
 /// Draws tile `index` of an ewa_volume_job (an ewa_task).
 void ewa_volume_tile_draw(void *job, uint32_t index, uint32_t worker);

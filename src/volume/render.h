@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// A frame of a volume before its tiles are drawn.
+#ifndef EWA_SRC_VOLUME_RENDER_H
+#define EWA_SRC_VOLUME_RENDER_H
+
+#include "volume/tile.h"
+
+/// A frame; points into itself: it stays where it is.
+typedef struct ewa_volume_frame {
+    ewa_grid_view grid;
+    ewa_volume_slices slices;
+    ewa_shading_setup shading;
+    ewa_volume_job job;
+} ewa_volume_frame;
+
+/// Fails for a level that the voxels do not have. Errors: EWA_ERROR_ARGUMENT.
+ewa_status ewa_volume_level_check(ewa_context *context, const ewa_voxels *voxels,
+                                  const ewa_volume_options *options);
+
+/// Sets up a frame of checked arguments, but for its target; memory is the renderer's. Errors: EWA_ERROR_MEMORY,
+/// EWA_CANCELLED.
+ewa_status ewa_volume_frame_make(ewa_volume_renderer *renderer, const ewa_voxels *voxels,
+                                 const ewa_camera *camera, const ewa_volume_options *options, bool with_times,
+                                 ewa_volume_frame *frame);
+
+#endif
