@@ -8,11 +8,11 @@
 #include "dividing.h"
 #include "frames.h"
 #include "furnish.h"
-#include "gaussian_scene.h"
 #include "inputs.h"
 #include "json.h"
 #include "light.h"
 #include "lod_input.h"
+#include "mixture_scene.h"
 #include "picture.h"
 #include "render_report.h"
 #include "resident.h"
@@ -33,7 +33,7 @@ typedef struct render_arguments {
     section_arguments section;
     bool close_gaps;
     lod_arguments lod;
-    gaussian_arguments gaussians;
+    mixture_arguments mixture;
     const char *layers, *color_by;
     int colormap, backend;
     option_bounds range;
@@ -87,7 +87,9 @@ static const cli_option splat_table[] = {
 
 static const cli_option lod_table[] = {LOD_OPTIONS(AT(lod))};
 
-static const cli_option gaussian_table[] = {GAUSSIAN_OPTIONS(AT(gaussians))};
+static const cli_option gaussian_table[] = {GAUSSIAN_OPTIONS(AT(mixture))};
+
+static const cli_option volume_table[] = {MIXED_VOLUME_OPTIONS(AT(mixture))};
 
 static const cli_option section_table[] = {
     {"clip-box", OPTION_VECTOR, AT(section.box), "x0,y0,z0,x1,y1,z1",
@@ -130,7 +132,7 @@ static void set_defaults(void *data) {
     ewa_surfels_options_init(&arguments->surfels, sizeof arguments->surfels);
     arguments->close_gaps = true;
     lod_input_set_defaults(&arguments->lod);
-    ewa_gaussian_options_init(&arguments->gaussians.options, sizeof arguments->gaussians.options);
+    mixture_set_defaults(&arguments->mixture);
     arguments->colormap = COLOR_BY_AUTO;
     arguments->background = (option_color){{1, 1, 1, 1}};
 }
@@ -192,7 +194,7 @@ typedef struct render_scene {
     ewa_surfels *surfels; ///< NULL: an octree
     ewa_lod *lod;         ///< NULL: surfels
     ewa_lod_options lod_options;
-    gaussian_scene gaussians; ///< path NULL: none
+    mixture_scene mixture; ///< of all that lets light through
     color_scale scale;
     furnishing furniture;
 } render_scene;
@@ -271,36 +273,47 @@ static bool make_lod_scene(cli_session *session, const render_arguments *argumen
     return done;
 }
 
-/// Makes the scene of Gaussians, and of the surfaces among them where there are further inputs. False after
-/// reporting.
-static bool make_gaussian_scene(cli_session *session, const render_arguments *arguments, render_scene *scene,
-                                render_report *report) {
-    gaussian_scene *gaussians = &scene->gaussians;
+/// Makes the scene of what lets light through, and of the surfaces among it where there are further inputs. False
+/// after reporting.
+static bool make_mixture_scene(cli_session *session, const render_arguments *arguments, render_scene *scene,
+                               render_report *report) {
+    mixture_scene *mixture = &scene->mixture;
     const double started_s = clock_now_s();
-    const bool mixed = gaussians->rest.operand_count > 0;
+    const bool among = mixture->rest.operand_count > 0;
+    const size_t others = mixture->splats_count + (size_t)mixture->volume_count - 1 + among;
+    const char *subject = others ? NULL : mixture_scene_path(mixture);
     ewa_cloud *cloud = NULL;
-    if (!mixed && arguments->color_by && !color_by_is_own(arguments->color_by)) {
-        session->subject = gaussians->path;
+    if (!among && arguments->color_by && !color_by_is_own(arguments->color_by)) {
+        session->subject = subject;
         return session_fail(session,
-                            "--color-by: Gaussians have colours of their own; --surface draws them as "
-                            "surfels") == EXIT_DONE;
+                            "--color-by: Gaussians and volumes have colours of their own; --surface draws "
+                            "Gaussians as surfels") == EXIT_DONE;
     }
-    if (mixed)
-        cloud = inputs_as_surfels(session, &gaussians->rest, arguments->color_by, arguments->surfels.cutoff,
+    if (arguments->section.box.count || arguments->section.planes.count) {
+        session->subject = subject;
+        return session_fail(session,
+                            "--clip-box and --clip-plane cut surfaces, not what lets light through; --surface "
+                            "draws Gaussians as surfels") == EXIT_DONE;
+    }
+    if (among)
+        cloud = inputs_as_surfels(session, &mixture->rest, arguments->color_by, arguments->surfels.cutoff,
                                   &report->estimate_s);
-    bool done = (!mixed || cloud) && gaussian_scene_load(session, cloud, gaussians);
+    bool done = (!among || cloud) &&
+                mixture_scene_load(session, &arguments->mixture, &arguments->light, cloud, mixture);
     report->load_s = clock_now_s() - started_s - report->estimate_s;
-    report->point_count = gaussians->info.splat_count + (cloud ? ewa_cloud_point_count(cloud) : 0);
+    report->point_count = cloud ? ewa_cloud_point_count(cloud) : 0;
+    for (uint32_t i = 0; i < mixture->splats_count && done; i++)
+        report->point_count += mixture->sets[i].info.splat_count;
     if (cloud && arguments->color_by)
         done = done && color_by(session, cloud, arguments->color_by, arguments->colormap, &arguments->range,
                                 &scene->scale);
     frames_arguments frames = arguments->frames;
-    frames.view.up_axis = gaussians->up_axis;
-    session->subject = gaussians->path;
-    done = done && frames_make(session, &frames, gaussians->outline, 1, &scene->frames) &&
-           furnish_make(session, &arguments->furniture, &frames, &arguments->background, gaussians->outline,
+    frames.view.up_axis = mixture->up_axis;
+    session->subject = subject;
+    done = done && frames_make(session, &frames, mixture->outline, 1, &scene->frames) &&
+           furnish_make(session, &arguments->furniture, &frames, &arguments->background, mixture->outline,
                         arguments->color_by, &scene->scale, &scene->furniture);
-    session->subject = mixed ? NULL : gaussians->path;
+    session->subject = subject;
     const resident_options options = {arguments->surfels, arguments->close_gaps,
                                       arguments->light.render.point_size_px > 0};
     done = done && (!cloud || resident_make(session, &options, &cloud, &scene->surfels, report));
@@ -312,15 +325,16 @@ static bool make_gaussian_scene(cli_session *session, const render_arguments *ar
 static bool prepare(cli_session *session, const render_arguments *arguments, render_scene *scene,
                     render_report *report) {
     const common_arguments *common = &arguments->frames.view.common;
-    if (!gaussian_scene_find(session, common, &arguments->gaussians, &scene->gaussians)) return false;
-    if (scene->gaussians.path && crew_shares_cloud(session->crew)) {
-        session_fail(session,
-                     "%s: --split cloud: what Gaussians show depends on the order of depth, which sums of "
-                     "parts do not have; --split frames divides their films",
-                     scene->gaussians.path);
+    if (!mixture_scene_find(session, common, &arguments->mixture, &scene->mixture)) return false;
+    if (mixture_scene_some(&scene->mixture) && crew_shares_cloud(session->crew)) {
+        session_fail(
+            session,
+            "%s: --split cloud: what Gaussians and volumes show depends on the order of depth, which "
+            "sums of parts do not have; --split frames divides their films",
+            mixture_scene_path(&scene->mixture));
         return false;
     }
-    if (scene->gaussians.path) return make_gaussian_scene(session, arguments, scene, report);
+    if (mixture_scene_some(&scene->mixture)) return make_mixture_scene(session, arguments, scene, report);
     if (!lod_input_choose(session, common, &arguments->lod, find_lod_clash(arguments), &scene->lod))
         return false;
     if (crew_shares_cloud(session->crew) && !scene->lod) {
@@ -346,7 +360,7 @@ typedef struct surfel_painter {
     ewa_renderer *renderer;
     render_scene *scene;
     const ewa_render_options *options;
-    ewa_gaussian_options gaussians;
+    const ewa_gaussian_options *gaussians;
     render_report *report;
 } surfel_painter;
 
@@ -363,32 +377,17 @@ static ewa_status paint_lod(const surfel_painter *painter, const ewa_camera *cam
     return EWA_OK;
 }
 
-/// Draws the surfaces, where there are some, to planes of their own, then the Gaussians among them.
-static ewa_status paint_gaussians(const surfel_painter *painter, const ewa_camera *camera,
-                                  const ewa_frame *frame, ewa_render_stats *stats) {
-    gaussian_scene *gaussians = &painter->scene->gaussians;
-    *stats = (ewa_render_stats){.splat_count = 0};
-    if (!painter->scene->surfels)
-        return gaussian_scene_paint(gaussians, camera, &painter->gaussians, frame, stats);
-    ewa_render_options options = *painter->options;
-    memset(options.background, 0, sizeof options.background);
-    ewa_status status = within_make(painter->session->context, camera, &gaussians->planes);
-    const ewa_frame planes = {.rgba = gaussians->planes.surface.pixels,
-                              .depth = gaussians->planes.surface_depth.pixels};
-    if (status == EWA_OK)
-        status = ewa_render(painter->renderer, painter->scene->surfels, camera, &options, &planes, stats);
-    return status == EWA_OK ? gaussian_scene_paint_among(gaussians, camera, &painter->gaussians, frame, stats)
-                            : status;
-}
-
 static ewa_status paint(void *user, const ewa_camera *camera, const ewa_frame *frame,
                         ewa_render_stats *stats) {
     const surfel_painter *painter = user;
-    const render_scene *scene = painter->scene;
+    render_scene *scene = painter->scene;
+    const ewa_render_options *options = painter->options;
     const ewa_status status =
-        scene->gaussians.path ? paint_gaussians(painter, camera, frame, stats)
-        : scene->lod          ? paint_lod(painter, camera, frame, stats)
-                     : ewa_render(painter->renderer, scene->surfels, camera, painter->options, frame, stats);
+        mixture_scene_some(&scene->mixture)
+            ? mixture_scene_paint(&scene->mixture, painter->renderer, scene->surfels, camera, options,
+                                  painter->gaussians, frame, stats)
+        : scene->lod ? paint_lod(painter, camera, frame, stats)
+                     : ewa_render(painter->renderer, scene->surfels, camera, options, frame, stats);
     return status == EWA_OK ? furnish_draw(painter->session, &painter->scene->furniture, camera, frame)
                             : status;
 }
@@ -429,9 +428,8 @@ static bool draw(cli_session *session, const render_arguments *arguments, const 
     surfel_painter painting = {.session = session,
                                .scene = scene,
                                .options = &options,
-                               .gaussians = arguments->gaussians.options,
+                               .gaussians = &arguments->mixture.gaussians,
                                .report = report};
-    memcpy(painting.gaussians.background, options.background, sizeof options.background);
     const frame_cameras *frames = &scene->frames;
     const bool saves_camera = arguments->save_camera_path && crew_leads(session->crew);
     const bool done = make_renderer(session, arguments->backend, &painting.renderer) &&
@@ -443,15 +441,16 @@ static bool draw(cli_session *session, const render_arguments *arguments, const 
     return done;
 }
 
-/// Gaussians have no normals. False after reporting.
+/// Gaussians and volumes have no normals. False after reporting.
 static bool choose_planes(cli_session *session, const render_scene *scene, picture_paths *paths) {
-    if (!scene->gaussians.path) return true;
+    if (!mixture_scene_some(&scene->mixture)) return true;
     paths->no_normals = true;
     if (!paths->normal[0]) return true;
-    session->subject = scene->gaussians.path;
-    session_fail(session,
-                 "--aov: Gaussians have no normals; depth and coverage they have, and as surfels, with "
-                 "--surface, normals");
+    session->subject = mixture_scene_path(&scene->mixture);
+    session_fail(
+        session,
+        "--aov: Gaussians and volumes have no normals; depth and coverage they have, and Gaussians as "
+        "surfels, with --surface, normals");
     return false;
 }
 
@@ -492,7 +491,7 @@ static int run(const void *data) {
     frames_free(&scene.frames);
     ewa_surfels_destroy(&scene.surfels);
     ewa_lod_close(&scene.lod);
-    gaussian_scene_free(&scene.gaussians);
+    mixture_scene_free(&scene.mixture);
     light_free(&lit_by);
     return session_end(&session, ended);
 }
@@ -501,6 +500,7 @@ static const option_group output_options = OPTION_GROUP("Output", output_table);
 static const option_group splat_options = OPTION_GROUP("Splats", splat_table);
 static const option_group lod_options = OPTION_GROUP("Octrees", lod_table);
 static const option_group gaussian_options = OPTION_GROUP("Gaussians", gaussian_table);
+static const option_group volume_options = OPTION_GROUP("Volumes", volume_table);
 static const option_group section_options = OPTION_GROUP("Section", section_table);
 static const option_group look_options = OPTION_GROUP("Look", look_table);
 static const option_group furniture_options = OPTION_GROUP("Over the picture", furniture_table);
@@ -518,7 +518,9 @@ const cli_command render_command = {
         "\n"
         "A file of trained Gaussians (3DGS, 2DGS and Mip-Splatting PLY, compressed PLY, .splat, SPZ, glTF, "
         "...) is drawn as "
-        "such, with other inputs as surfaces among them. Without --up, y is down and z ahead, as the cameras "
+        "such, with other inputs as surfaces among them; so are volumes beside other inputs, all in one "
+        "order of "
+        "depth. Without --up, y is down and z ahead, as the cameras "
         "that took "
         "the pictures have it, unless the file says otherwise.\n"
         "\n"
@@ -537,16 +539,17 @@ const cli_command render_command = {
         "ewa render tile.ply -o map.png --view top --color-by classification --color-bar --axes\n"
         "ewa render scan.ply -o scan.exr --camera camera.json --aov depth=depth.pfm,normal=normal.exr\n"
         "ewa render scan.ply -o turn.mp4 --turntable 120 --elevation 20\n"
+        "ewa render scan.ply guitar.ply head.nrrd -o all.png --transfer bone\n"
         "ewa render garden.spz -o garden.png --camera cameras.json --projection exact\n"
         "ewa render scan.ply -o fly_%04d.png --path keys.json --frames 300\n"
         "ewa render scan.ply -o turn_%04d.png --turntable 360 --frames 2/8 --skip-existing\n"
         "ewa render scan.ply -o floor.png --view top --clip-plane 0,0,-1,1.5\n",
     .low_operands = 1,
     .high_operands = 4096,
-    .groups =
-        (const option_group *const[]){&output_options, &cloud_input_options, &view_options, &frames_options,
-                                      &splat_options, &lod_options, &gaussian_options, &section_options,
-                                      &light_options, &look_options, &furniture_options, NULL},
+    .groups = (const option_group *const[]){&output_options, &cloud_input_options, &view_options,
+                                            &frames_options, &splat_options, &lod_options, &gaussian_options,
+                                            &volume_options, &section_options, &light_options, &look_options,
+                                            &furniture_options, NULL},
     .arguments_bytes = sizeof(render_arguments),
     .set_defaults = set_defaults,
     .check = check,

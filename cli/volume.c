@@ -7,10 +7,10 @@
 #include "furnish.h"
 #include "json.h"
 #include "light.h"
+#include "mixture_scene.h"
 #include "sequence.h"
 #include "video.h"
 #include "volume_scene.h"
-#include "within.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -135,31 +135,26 @@ typedef struct volume_painter {
     ewa_volume_stats stats; // counts and times summed over all frames
     ewa_renderer *surface_renderer;
     ewa_render_options surface_options;
-    within_planes planes;
+    ewa_gaussian_renderer *mixture_renderer;
+    ewa_image surface_rgba, surface_depth;
 } volume_painter;
 
-/// Draws the surfaces within the volume to planes of their own.
-static ewa_status paint_surface(volume_painter *painter, const ewa_camera *camera, ewa_render_stats *stats) {
-    painter->options.surface_rgba = painter->options.surface_depth = NULL;
-    ewa_status status = within_make(painter->session->context, camera, &painter->planes);
-    const ewa_frame frame = {.rgba = painter->planes.surface.pixels,
-                             .depth = painter->planes.surface_depth.pixels};
-    const ewa_frame past = {.rgba = painter->planes.past.pixels},
-                    front = {.rgba = painter->planes.front.pixels};
-    if (status == EWA_OK)
-        status = ewa_render(painter->surface_renderer, painter->scene->surfels, camera,
-                            &painter->surface_options, &frame, stats);
-    if (status == EWA_OK)
-        status = ewa_volume_render(painter->renderer, painter->scene->voxels, camera, &painter->options,
-                                   &past, NULL);
-    if (status != EWA_OK) return status;
-    painter->options.surface_rgba = painter->planes.nothing.pixels;
-    painter->options.surface_depth = painter->planes.surface_depth.pixels;
-    status =
-        ewa_volume_render(painter->renderer, painter->scene->voxels, camera, &painter->options, &front, NULL);
-    within_fill_edges(&painter->planes, painter->options.background);
-    painter->options.surface_rgba = painter->planes.surface.pixels;
-    return status;
+/// Draws the volume and the surfaces within.
+static ewa_status paint_among(volume_painter *painter, const ewa_camera *camera, const ewa_frame *frame,
+                              ewa_volume_stats *drawn, ewa_render_stats *surface) {
+    ewa_gaussian_options options;
+    ewa_gaussian_options_init(&options, sizeof options);
+    memcpy(options.background, painter->options.background, sizeof options.background);
+    ewa_status status = mixture_paint_surface(painter->session->context, painter->surface_renderer,
+                                              painter->scene->surfels, camera, &painter->surface_options,
+                                              &painter->surface_rgba, &painter->surface_depth, surface);
+    options.surface_rgba = painter->surface_rgba.pixels;
+    options.surface_depth = painter->surface_depth.pixels;
+    const ewa_mixed_volume volume = {painter->renderer, painter->scene->voxels, &painter->options, drawn};
+    const ewa_mixture mixture = {.volumes = &volume, .volume_count = 1};
+    return status == EWA_OK
+               ? ewa_mixture_render(painter->mixture_renderer, &mixture, camera, &options, frame, NULL)
+               : status;
 }
 
 static ewa_status paint(void *user, const ewa_camera *camera, const ewa_frame *frame,
@@ -167,10 +162,10 @@ static ewa_status paint(void *user, const ewa_camera *camera, const ewa_frame *f
     volume_painter *painter = user;
     ewa_volume_stats drawn = {.voxel_count = 0};
     ewa_render_stats surface = {.splat_count = 0};
-    ewa_status status = painter->scene->surfels ? paint_surface(painter, camera, &surface) : EWA_OK;
-    if (status == EWA_OK)
-        status = ewa_volume_render(painter->renderer, painter->scene->voxels, camera, &painter->options,
-                                   frame, &drawn);
+    const ewa_status status = painter->scene->surfels
+                                  ? paint_among(painter, camera, frame, &drawn, &surface)
+                                  : ewa_volume_render(painter->renderer, painter->scene->voxels, camera,
+                                                      &painter->options, frame, &drawn);
     *stats = (ewa_render_stats){.splat_count = drawn.voxel_count + surface.splat_count,
                                 .culled_count = drawn.culled_count + surface.culled_count,
                                 .drawn_count = drawn.splat_count + drawn.point_count + surface.drawn_count,
@@ -206,6 +201,8 @@ static bool prepare_painter(const volume_arguments *arguments, volume_painter *p
     ewa_status status = ewa_volume_renderer_create(painter->session->context, &painter->renderer);
     if (status == EWA_OK && painter->scene->surfels)
         status = ewa_renderer_create(painter->session->context, &painter->surface_renderer);
+    if (status == EWA_OK && painter->scene->surfels)
+        status = ewa_gaussian_renderer_create(painter->session->context, &painter->mixture_renderer);
     if (status != EWA_OK) session_failed(painter->session, status);
     return status == EWA_OK;
 }
@@ -213,7 +210,9 @@ static bool prepare_painter(const volume_arguments *arguments, volume_painter *p
 static void free_painter(volume_painter *painter) {
     ewa_volume_renderer_destroy(&painter->renderer);
     ewa_renderer_destroy(&painter->surface_renderer);
-    within_free(&painter->planes);
+    ewa_gaussian_renderer_destroy(&painter->mixture_renderer);
+    ewa_image_free(&painter->surface_rgba);
+    ewa_image_free(&painter->surface_depth);
 }
 
 /// Draws and writes everything, coarse first when asked for. False after reporting.

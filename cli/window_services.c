@@ -168,8 +168,8 @@ static bool load_volume(cli_session *session, const char *path, viewer_content *
 }
 
 static bool load_gaussians(cli_session *session, const char *path, viewer_content *content) {
-    gaussian_scene scene = {.path = path};
-    const bool done = gaussian_scene_read(session, NULL, &scene);
+    gaussian_scene scene = {.path = NULL};
+    const bool done = gaussian_scene_load(session, path, &scene);
     if (done) {
         content->splats = scene.splats;
         content->outline = scene.outline;

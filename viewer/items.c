@@ -228,20 +228,6 @@ void items_update(viewer *v) {
     }
 }
 
-/// Depth of the middle of a volume or of Gaussians.
-static double veil_depth(const ewa_camera *camera, const paint_veil *veil) {
-    ewa_voxels_info voxels;
-    ewa_splats_info splats;
-    if (veil->voxels)
-        ewa_voxels_describe(veil->voxels, &voxels);
-    else
-        ewa_splats_describe(veil->splats, &splats);
-    const ewa_bounds *box = veil->voxels ? &voxels.bounds : &splats.core;
-    double middle[3];
-    for (int c = 0; c < 3; c++) middle[c] = 0.5 * (box->low_world[c] + box->high_world[c]);
-    return navigate_depth(camera, middle);
-}
-
 void items_gather(const viewer *v, paint_scene *scene) {
     for (size_t i = 0; i < v->item_count; i++) {
         const scene_item *item = &v->items[i];
@@ -252,13 +238,8 @@ void items_gather(const viewer *v, paint_scene *scene) {
                 scene->render.point_size_px = PREVIEW_POINT_PX;
         }
         if (item->content.lod) scene->lods[scene->lods_count++] = item->content.lod;
-        const paint_veil veil = {item->content.voxels, item->content.splats};
-        if (!veil.voxels && !veil.splats) continue;
-        uint32_t at = scene->veils_count++;
-        const double depth = veil_depth(&scene->camera, &veil);
-        for (; at > 0 && veil_depth(&scene->camera, &scene->veils[at - 1]) < depth; at--)
-            scene->veils[at] = scene->veils[at - 1];
-        scene->veils[at] = veil;
+        if (item->content.voxels) scene->voxels[scene->voxels_count++] = item->content.voxels;
+        if (item->content.splats) scene->splats[scene->splats_count++] = item->content.splats;
     }
 }
 

@@ -4,6 +4,7 @@
 // The thread that draws.
 #include "painter.h"
 #include "surfaces.h"
+#include "veils.h"
 
 #include <stdatomic.h>
 #include <stdio.h>
@@ -56,7 +57,6 @@ ewa_status paint_tools_make(uint32_t thread_count, uint32_t cpu_mask, ewa_backen
     options.message_level = EWA_SEVERITY_ERROR;
     ewa_status status = ewa_context_create(&options, &tools->context);
     if (status == EWA_OK) status = ewa_renderer_create_on(tools->context, backend, &tools->renderer);
-    if (status == EWA_OK) status = ewa_volume_renderer_create(tools->context, &tools->volume_renderer);
     if (status == EWA_OK) status = ewa_gaussian_renderer_create(tools->context, &tools->gaussian_renderer);
     if (status != EWA_OK) paint_tools_free(tools);
     return status;
@@ -64,12 +64,10 @@ ewa_status paint_tools_make(uint32_t thread_count, uint32_t cpu_mask, ewa_backen
 
 void paint_tools_free(paint_tools *tools) {
     ewa_renderer_destroy(&tools->renderer);
-    ewa_volume_renderer_destroy(&tools->volume_renderer);
-    ewa_gaussian_renderer_destroy(&tools->gaussian_renderer);
-    free(tools->rgba[0]);
-    free(tools->rgba[1]);
+    free(tools->rgba);
     free(tools->depth);
     surfaces_free(tools);
+    veils_free(tools);
     ewa_context_destroy(&tools->context);
     *tools = (paint_tools){.context = NULL};
 }
@@ -78,82 +76,44 @@ void paint_tools_free(paint_tools *tools) {
 static ewa_status reserve(paint_tools *tools, const ewa_camera *camera) {
     const size_t count = (size_t)camera->width_px * camera->height_px;
     if (count <= tools->capacity_px) return EWA_OK;
-    for (int k = 0; k < 2; k++) free(tools->rgba[k]);
+    free(tools->rgba);
     free(tools->depth);
-    for (int k = 0; k < 2; k++) tools->rgba[k] = malloc(4 * count * sizeof(float));
+    tools->rgba = malloc(4 * count * sizeof(float));
     tools->depth = malloc(count * sizeof(float));
-    const bool done = tools->rgba[0] && tools->rgba[1] && tools->depth;
+    const bool done = tools->rgba && tools->depth;
     tools->capacity_px = done ? count : 0;
     return done ? EWA_OK : EWA_ERROR_MEMORY;
 }
 
-/// The finest level that voxels have and that is wanted.
-static uint32_t voxels_level(const paint_scene *scene, const ewa_voxels *voxels) {
-    ewa_voxels_info info;
-    ewa_voxels_describe(voxels, &info);
-    return scene->voxels_level < info.level_count ? scene->voxels_level : info.level_count - 1;
-}
-
-/// Draws a veil, over surfaces where there are some.
-static ewa_status draw_veil(paint_tools *tools, const paint_scene *scene, const paint_veil *veil,
-                            const float *surface_depth, const float *surface_rgba, const ewa_frame *frame,
-                            double *took_s) {
-    ewa_status status;
-    if (veil->voxels) {
-        ewa_volume_options options = scene->volume;
-        ewa_volume_stats stats = {.total_s = 0};
-        options.surface_depth = surface_depth;
-        options.surface_rgba = surface_rgba;
-        options.level = voxels_level(scene, veil->voxels);
-        status =
-            ewa_volume_render(tools->volume_renderer, veil->voxels, &scene->camera, &options, frame, &stats);
-        *took_s += stats.total_s;
-    } else {
-        ewa_gaussian_options options;
-        ewa_gaussian_stats stats = {.total_s = 0};
-        ewa_splats_info info;
-        ewa_gaussian_options_init(&options, sizeof options);
-        ewa_splats_describe(veil->splats, &info);
-        options.near_world = info.near_world;
-        options.surface_depth = surface_depth;
-        options.surface_rgba = surface_rgba;
-        status = ewa_gaussian_render(tools->gaussian_renderer, veil->splats, &scene->camera, &options, frame,
-                                     &stats);
-        *took_s += stats.total_s;
-    }
-    return status;
-}
-
 ewa_status paint_scene_draw(paint_tools *tools, const paint_scene *scene, uint8_t *rgba8,
                             paint_stats *stats) {
-    if (!scene->veils_count) return surfaces_draw(tools, scene, &(ewa_frame){.rgba8 = rgba8}, stats);
+    const ewa_frame frame = {.rgba8 = rgba8};
+    if (!veils_some(scene)) return surfaces_draw(tools, scene, &frame, stats);
     paint_stats own;
     if (!stats) stats = &own;
+    *stats = (paint_stats){.missing_count = 0};
+    if (!scene->surfels_count && !scene->lods_count)
+        return veils_draw(tools, scene, NULL, NULL, &frame, &stats->render.total_s);
+    paint_scene bare = *scene; // what is seen past the surfaces is not known yet
+    memset(bare.render.background, 0, sizeof bare.render.background);
     ewa_status status = reserve(tools, &scene->camera);
     if (status == EWA_OK)
-        status =
-            surfaces_draw(tools, scene, &(ewa_frame){.rgba = tools->rgba[0], .depth = tools->depth}, stats);
-    for (uint32_t i = 0; i < scene->veils_count && status == EWA_OK; i++) {
-        const bool last = i + 1 == scene->veils_count;
-        const ewa_frame frame = {.rgba8 = last ? rgba8 : NULL,
-                                 .rgba = last ? NULL : tools->rgba[(i + 1) % 2]};
-        status = draw_veil(tools, scene, &scene->veils[i], tools->depth, tools->rgba[i % 2], &frame,
-                           &stats->render.total_s);
-    }
+        status = surfaces_draw(tools, &bare, &(ewa_frame){.rgba = tools->rgba, .depth = tools->depth}, stats);
+    if (status == EWA_OK)
+        status = veils_draw(tools, scene, tools->depth, tools->rgba, &frame, &stats->render.total_s);
     return status;
 }
 
 ewa_status paint_scene_depth(paint_tools *tools, const paint_scene *scene, float *depth) {
     ewa_status status = surfaces_draw(tools, scene, &(ewa_frame){.depth = depth}, NULL);
-    if (scene->veils_count && status == EWA_OK) status = reserve(tools, &scene->camera);
+    if (!veils_some(scene) || status != EWA_OK) return status;
     const size_t count = (size_t)scene->camera.width_px * scene->camera.height_px;
-    for (uint32_t i = 0; i < scene->veils_count && status == EWA_OK; i++) {
-        double took_s = 0;
-        status = draw_veil(tools, scene, &scene->veils[i], NULL, NULL, &(ewa_frame){.depth = tools->depth},
-                           &took_s);
-        for (size_t k = 0; k < count && status == EWA_OK; k++)
-            if (tools->depth[k] < depth[k]) depth[k] = tools->depth[k];
-    }
+    double took_s = 0;
+    status = reserve(tools, &scene->camera);
+    if (status == EWA_OK)
+        status = veils_draw(tools, scene, NULL, NULL, &(ewa_frame){.depth = tools->depth}, &took_s);
+    for (size_t k = 0; k < count && status == EWA_OK; k++)
+        if (tools->depth[k] < depth[k]) depth[k] = tools->depth[k];
     return status;
 }
 

@@ -11,19 +11,14 @@
 
 enum { PAINT_TEXT_BYTES = 512 };
 
-/// What lets light through: one of both.
-typedef struct paint_veil {
-    const ewa_voxels *voxels;
-    const ewa_splats *splats;
-} paint_veil;
-
 /// What a picture shows. What it points to is borrowed until the painter is at rest.
 typedef struct paint_scene {
     ewa_camera camera;
     ewa_render_options render;
-    uint32_t surfels_count, veils_count, lods_count;
+    uint32_t surfels_count, splats_count, voxels_count, lods_count;
     const ewa_surfels *surfels[VIEWER_MAX_ITEMS];
-    paint_veil veils[VIEWER_MAX_ITEMS]; ///< the farthest first
+    const ewa_splats *splats[VIEWER_MAX_ITEMS];
+    const ewa_voxels *voxels[VIEWER_MAX_ITEMS];
     ewa_lod *lods[VIEWER_MAX_ITEMS];
     ewa_lod_options lod_options;
     pthread_mutex_t *lods_lock; ///< held while one of them is used
@@ -65,9 +60,9 @@ typedef struct paint_layer {
 typedef struct paint_tools {
     ewa_context *context;
     ewa_renderer *renderer;
-    ewa_volume_renderer *volume_renderer;
+    ewa_volume_renderer *volume_renderers[VIEWER_MAX_ITEMS]; ///< NULL: not used yet
     ewa_gaussian_renderer *gaussian_renderer;
-    float *rgba[2], *depth;
+    float *rgba, *depth;
     size_t capacity_px;
     paint_layer layers[2];
     char message[PAINT_TEXT_BYTES]; ///< the last error's
@@ -76,7 +71,7 @@ typedef struct paint_tools {
 ewa_status paint_tools_make(uint32_t thread_count, uint32_t cpu_mask, ewa_backend_kind backend,
                             ewa_progress_callback *progress, void *user, paint_tools *tools);
 void paint_tools_free(paint_tools *tools);
-/// Draws a scene here and now into the camera's picture; volumes and Gaussians over the surfaces, each up to their depth.
+/// Draws a scene here and now into the camera's picture; volumes and Gaussians over the surfaces, up to their depth.
 /// `stats` may be NULL.
 ewa_status paint_scene_draw(paint_tools *tools, const paint_scene *scene, uint8_t *rgba8, paint_stats *stats);
 /// The depths (camera-space z) of what is seen, volumes and Gaussians included; +infinity where nothing is.

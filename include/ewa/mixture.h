@@ -22,6 +22,7 @@ typedef struct ewa_mixed_volume {
     const ewa_voxels *voxels;
     /// How it is drawn, NULL: the defaults. Its background and its surfaces are not used: those of the mixture are.
     const ewa_volume_options *options;
+    ewa_volume_stats *stats; ///< what it took, written; NULL: not wanted
 } ewa_mixed_volume;
 
 /// What is drawn together; borrowed during the call.

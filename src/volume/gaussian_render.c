@@ -420,8 +420,8 @@ static ewa_status make_volumes(gaussian_job *job, const ewa_camera *camera,
         const ewa_mixed_volume *volume = &job->mixture->volumes[i];
         chosen[i].surface_depth = job->surface_depth;
         chosen[i].surface_rgba = job->surface_rgba;
-        status = ewa_volume_frame_make(volume->renderer, volume->voxels, camera, &chosen[i], false,
-                                       &job->volumes[i]);
+        status = ewa_volume_frame_make(volume->renderer, volume->voxels, camera, &chosen[i],
+                                       volume->stats != NULL, &job->volumes[i]);
         job->volumes[i].job.target = job->target;
     }
     return status;
@@ -451,6 +451,10 @@ static ewa_status draw_frame(gaussian_job *job, ewa_gaussian_stats *stats) {
     for (uint32_t i = 0; i < renderer->worker_count && status == EWA_OK; i++)
         status = renderer->scratch[i].status;
     if (status == EWA_OK && stats) gather_stats(job, start_s, binned_s - projected_s, stats);
+    for (uint32_t i = 0; i < job->mixture->volume_count && status == EWA_OK; i++) {
+        const ewa_mixed_volume *volume = &job->mixture->volumes[i];
+        if (volume->stats) ewa_volume_frame_measure(volume->renderer, &job->volumes[i], volume->stats);
+    }
     return status;
 }
 

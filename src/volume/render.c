@@ -51,12 +51,12 @@ void ewa_volume_renderer_destroy(ewa_volume_renderer **renderer) {
     *renderer = NULL;
 }
 
-static void gather_stats(const ewa_volume_renderer *renderer, const ewa_voxel_level *level, double start_s,
-                         double binned_s, ewa_volume_stats *stats) {
-    *stats = (ewa_volume_stats){.voxel_count = level->voxel_count,
+void ewa_volume_frame_measure(const ewa_volume_renderer *renderer, const ewa_volume_frame *frame,
+                              ewa_volume_stats *stats) {
+    *stats = (ewa_volume_stats){.voxel_count = frame->job.level->voxel_count,
                                 .culled_count = renderer->bins.culled_voxel_count,
                                 .near_count = renderer->near.count,
-                                .bin_s = (binned_s - start_s) * renderer->worker_count};
+                                .bin_s = (frame->binned_s - frame->start_s) * renderer->worker_count};
     for (uint32_t i = 0; i < renderer->worker_count; i++) {
         const ewa_volume_scratch *s = &renderer->scratch[i];
         stats->hidden_count += s->hidden_count;
@@ -69,7 +69,7 @@ static void gather_stats(const ewa_volume_renderer *renderer, const ewa_voxel_le
     }
     const uint64_t drawn = stats->splat_count + stats->point_count;
     if (drawn) stats->point_share = (double)stats->point_count / (double)drawn;
-    stats->total_s = ewa_now_s() - start_s;
+    stats->total_s = ewa_now_s() - frame->start_s;
 }
 
 ewa_status ewa_volume_level_check(ewa_context *context, const ewa_voxels *voxels,
@@ -84,6 +84,7 @@ ewa_status ewa_volume_frame_make(ewa_volume_renderer *renderer, const ewa_voxels
                                  ewa_volume_frame *frame) {
     ewa_context *context = renderer->context;
     const ewa_voxel_level *level = &voxels->levels[options->level];
+    frame->start_s = ewa_now_s();
     ewa_grid_view_make(&frame->grid, level->index_to_world, voxels->info.spacing_world, camera, options);
     ewa_volume_slices_make(&frame->slices, level, &frame->grid, options);
     ewa_volume_shading_make(options, &frame->shading);
@@ -106,6 +107,7 @@ ewa_status ewa_volume_frame_make(ewa_volume_renderer *renderer, const ewa_voxels
                                     &frame->grid, &renderer->bins, camera);
     for (uint32_t i = 0; i < renderer->worker_count && status == EWA_OK; i++)
         status = ewa_volume_scratch_reserve(context, &renderer->scratch[i], &frame->job);
+    frame->binned_s = ewa_now_s();
     return status;
 }
 
@@ -114,7 +116,6 @@ ewa_status ewa_volume_render(ewa_volume_renderer *renderer, const ewa_voxels *vo
                              const ewa_frame *frame, ewa_volume_stats *stats) {
     if (!renderer || !voxels || !camera || !frame) return EWA_ERROR_ARGUMENT;
     ewa_context *context = renderer->context;
-    const double start_s = ewa_now_s();
     ewa_volume_options chosen;
     ewa_status status = ewa_volume_options_choose(context, options, &chosen);
     if (status == EWA_OK) status = ewa_camera_check(context, camera);
@@ -129,9 +130,8 @@ ewa_status ewa_volume_render(ewa_volume_renderer *renderer, const ewa_voxels *vo
     ewa_volume_job *job = &drawn.job;
     job->view.with_depth = frame->depth != NULL;
     ewa_volume_target_set(&job->target, camera, frame, chosen.surface_rgba, chosen.background);
-    const double binned_s = ewa_now_s();
     status = ewa_parallel_stoppable(context, "volume", ewa_volume_tile_draw, job,
                                     ewa_tiles_count(&renderer->bins.tiles));
-    if (status == EWA_OK && stats) gather_stats(renderer, job->level, start_s, binned_s, stats);
+    if (status == EWA_OK && stats) ewa_volume_frame_measure(renderer, &drawn, stats);
     return status;
 }

@@ -13,6 +13,7 @@ typedef struct ewa_volume_frame {
     ewa_volume_slices slices;
     ewa_shading_setup shading;
     ewa_volume_job job;
+    double start_s, binned_s;
 } ewa_volume_frame;
 
 /// Fails for a level that the voxels do not have. Errors: EWA_ERROR_ARGUMENT.
@@ -24,5 +25,9 @@ ewa_status ewa_volume_level_check(ewa_context *context, const ewa_voxels *voxels
 ewa_status ewa_volume_frame_make(ewa_volume_renderer *renderer, const ewa_voxels *voxels,
                                  const ewa_camera *camera, const ewa_volume_options *options, bool with_times,
                                  ewa_volume_frame *frame);
+
+/// What a frame that was drawn took, up to now.
+void ewa_volume_frame_measure(const ewa_volume_renderer *renderer, const ewa_volume_frame *frame,
+                              ewa_volume_stats *stats);
 
 #endif

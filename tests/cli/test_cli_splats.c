@@ -4,6 +4,8 @@
 // Pictures of Gaussians by the program: upright, among surfaces, as surfels, films; what cannot be is said.
 #include "check_pictures.h"
 
+#include <math.h>
+
 static const char head[] =
     "ply\nformat ascii 1.0\nelement vertex %d\nproperty float x\nproperty float y\n"
     "property float z\nproperty float f_dc_0\nproperty float f_dc_1\nproperty float f_dc_2\n"
@@ -88,6 +90,45 @@ static void hidden(void **state) {
     ewa_image_free(&image);
 }
 
+/// Several sets, volumes and surfaces are in one order of depth, in whichever order they are named.
+static void together(void **state) {
+    (void)state;
+    run_done("ewa generate ball -o ball.nrrd --extent 3 && ewa generate sphere -o sphere.ply --extent 0.8");
+    run_done("ewa render pair.ply ball.nrrd -o ball.png --size 100x200 --shading none");
+    ewa_image image = load("ball.png"); // between red and blue, neither
+    const float *middle = pixel(&image, 0.5, 0.5);
+    assert_true(fabsf(middle[0] - 1) + fabsf(middle[1] - 1) + fabsf(middle[2] - 1) > 0.05f);
+    ewa_image_free(&image);
+    check_upright("ball.png");
+    run_done("ewa render veiled.ply ball.nrrd sphere.ply -o all.png --size 100x200 && "
+             "ewa render sphere.ply ball.nrrd veiled.ply -o turned.png --size 100x200");
+    assert_true(scratch_same("all.png", "turned.png"));
+    image = load("all.png"); // the veil is before all
+    assert_true(pixel(&image, 0.5, 0.5)[1] > 0.8f && pixel(&image, 0.5, 0.5)[0] < 0.3f);
+    ewa_image_free(&image);
+    run_done("ewa render pair.ply veiled.ply -o sets.png --size 100x200");
+    image = load("sets.png");
+    assert_true(pixel(&image, 0.5, 0.3)[1] > 0.8f && pixel(&image, 0.5, 0.3)[0] < 0.3f);
+    ewa_image_free(&image);
+    run_done("ewa render ball.nrrd sphere.ply -o inside.exr --size 60x60 --transfer fog --aov depth=z.pfm "
+             "--background 0,0,0 --stats stats.json");
+    run_done("ewa render ball.nrrd ball.nrrd -o twice.exr --size 60x60 --transfer fog --background 0,0,0 && "
+             "ewa render ball.nrrd sphere.ply -o denser.exr --size 60x60 --transfer fog --opacity-scale 9 "
+             "--background 0,0,0");
+    ewa_image thin = load("inside.exr"), dense = load("denser.exr");
+    float apart = 0;
+    for (size_t i = 0; i < 60 * 60; i++)
+        apart =
+            fmaxf(apart, fabsf(thin.pixels[thin.channel_count * i] - dense.pixels[dense.channel_count * i]));
+    assert_true(apart > 0.05f);
+    ewa_image_free(&thin);
+    ewa_image_free(&dense);
+    run_fails(1, "ball.nrrd: a volume|ewa volume ball.nrrd", "ewa render ball.nrrd -o x.png");
+    run_fails(1, "ball.nrrd: |no normals", "ewa render ball.nrrd sphere.ply -o x.png --aov normal=y.pfm");
+    run_fails(1, "none.nrrd", "ewa render none.nrrd sphere.ply -o x.png");
+    run_fails(1, "none.json", "ewa render ball.nrrd sphere.ply -o x.png --transfer none.json");
+}
+
 static void surfaces(void **state) {
     (void)state;
     run_done(
@@ -115,10 +156,10 @@ static void films(void **state) {
 static void refused(void **state) {
     (void)state;
     const int before = scratch_count();
-    run_fails(1, "veiled.ply: |of one file, and pair.ply has some",
-              "ewa render pair.ply veiled.ply -o x.png");
     run_fails(1, "pair.ply: |no normals|--surface", "ewa render pair.ply -o x.png --aov normal=y.pfm");
     run_fails(1, "pair.ply: |--color-by", "ewa render pair.ply -o x.png --color-by x");
+    run_fails(1, "pair.ply: |--clip-plane", "ewa render pair.ply -o x.png --clip-plane 0,1,0,0");
+    run_done("ewa render pair.ply -o cut.png --clip-plane 0,1,0,0 --surface && rm cut.png");
     run_fails(2, "projection", "ewa render pair.ply -o x.png --projection affine");
     run_fails(1, "missing.ply", "ewa render pair.ply missing.ply -o x.png");
     assert_int_equal(run("head -c 300 pair.ply > cut.ply; ewa render cut.ply -o x.png"), 1);
@@ -127,8 +168,8 @@ static void refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(upright), cmocka_unit_test(hidden),  cmocka_unit_test(surfaces),
-        cmocka_unit_test(films),   cmocka_unit_test(refused),
+        cmocka_unit_test(upright),  cmocka_unit_test(hidden), cmocka_unit_test(together),
+        cmocka_unit_test(surfaces), cmocka_unit_test(films),  cmocka_unit_test(refused),
     };
     return cmocka_run_group_tests(tests, enter, leave);
 }

@@ -69,14 +69,15 @@ static const double SHEET_COLOR[3] = {0.1, 0.4, 0.9}, SHEET_OPACITY = 0.6;
 
 /// A sheet across the picture, thin and flat, at a depth from the middle.
 static void add_sheet(cast *c, double z) {
-    ewa_gaussians set = gaussians_one(c->context, (const double[3]){0, 0, z},
-                                      (const double[3]){5000, 5000, 0.005}, ROUND, SHEET_OPACITY, SHEET_COLOR);
+    ewa_gaussians set =
+        gaussians_one(c->context, (const double[3]){0, 0, z}, (const double[3]){5000, 5000, 0.005}, ROUND,
+                      SHEET_OPACITY, SHEET_COLOR);
     add_set(c, &set);
 }
 
 static ewa_mixture mixture_of(cast *c) {
     for (uint32_t i = 0; i < c->volume_count; i++)
-        c->volumes[i] = (ewa_mixed_volume){c->volume_renderers[i], c->voxels[i], &c->volume_options};
+        c->volumes[i] = (ewa_mixed_volume){c->volume_renderers[i], c->voxels[i], &c->volume_options, NULL};
     return (ewa_mixture){(const ewa_splats *const *)c->splats, c->splats_count, c->volume_count, c->volumes};
 }
 
@@ -360,11 +361,12 @@ static void test_bad(void **state) {
     static float rgba[4 * PIXELS];
     static ewa_mixed_volume many[EWA_MAX_MIXED_VOLUMES + 1];
     const ewa_frame frame = {.rgba = rgba};
-    const ewa_mixed_volume twice[2] = {{c.volume_renderers[0], c.voxels[0], NULL},
-                                       {c.volume_renderers[0], c.voxels[0], NULL}};
+    const ewa_mixed_volume twice[2] = {{c.volume_renderers[0], c.voxels[0], NULL, NULL},
+                                       {c.volume_renderers[0], c.voxels[0], NULL, NULL}};
     ewa_volume_options coarse = c.volume_options;
     coarse.level = 3;
-    const ewa_mixed_volume level = {c.volume_renderers[0], c.voxels[0], &coarse}, empty = {NULL, NULL, NULL};
+    const ewa_mixed_volume level = {c.volume_renderers[0], c.voxels[0], &coarse, NULL},
+                           empty = {NULL, NULL, NULL, NULL};
     const ewa_splats *nothing = NULL;
     const ewa_mixture wrong[] = {{NULL, 0, 2, twice},
                                  {NULL, 0, 1, &level},
