@@ -60,6 +60,13 @@ EWA_API ewa_status ewa_gaussians_transform(ewa_gaussians *gaussians, const doubl
 /// EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_gaussians_to_cloud(const ewa_gaussians *gaussians, ewa_cloud **cloud);
 
+/// Makes the points that a camera has to have in its picture (ewa_framing_create()): the centres within `core`
+/// (ewa_splats_info.core) with an opacity of at least 0.1, "position", double, world units, and "radius", two of
+/// their longest standard deviations; the corners of the core where there are none. The caller owns `*cloud`, which is
+/// NULL after a failure. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_gaussians_outline(const ewa_gaussians *gaussians, const ewa_bounds *core,
+                                         ewa_cloud **cloud);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1262,14 +1262,47 @@ class ewa_volume_options(c.Structure):
     ]
 
 
+class ewa_volume_stats(c.Structure):
+    voxel_count: int
+    culled_count: int
+    near_count: int
+    hidden_count: int
+    splat_count: int
+    point_count: int
+    point_share: float
+    bin_s: float
+    setup_s: float
+    points_s: float
+    splats_s: float
+    resolve_s: float
+    total_s: float
+    _fields_ = [
+        ("voxel_count", c.c_uint64),
+        ("culled_count", c.c_uint64),
+        ("near_count", c.c_uint64),
+        ("hidden_count", c.c_uint64),
+        ("splat_count", c.c_uint64),
+        ("point_count", c.c_uint64),
+        ("point_share", c.c_double),
+        ("bin_s", c.c_double),
+        ("setup_s", c.c_double),
+        ("points_s", c.c_double),
+        ("splats_s", c.c_double),
+        ("resolve_s", c.c_double),
+        ("total_s", c.c_double),
+    ]
+
+
 class ewa_mixed_volume(c.Structure):
     renderer: int | None
     voxels: int | None
     options: Any
+    stats: Any
     _fields_ = [
         ("renderer", c.c_void_p),
         ("voxels", c.c_void_p),
         ("options", c.POINTER(ewa_volume_options)),
+        ("stats", c.POINTER(ewa_volume_stats)),
     ]
 
 
@@ -1819,37 +1852,6 @@ class ewa_volume_facts(c.Structure):
     ]
 
 
-class ewa_volume_stats(c.Structure):
-    voxel_count: int
-    culled_count: int
-    near_count: int
-    hidden_count: int
-    splat_count: int
-    point_count: int
-    point_share: float
-    bin_s: float
-    setup_s: float
-    points_s: float
-    splats_s: float
-    resolve_s: float
-    total_s: float
-    _fields_ = [
-        ("voxel_count", c.c_uint64),
-        ("culled_count", c.c_uint64),
-        ("near_count", c.c_uint64),
-        ("hidden_count", c.c_uint64),
-        ("splat_count", c.c_uint64),
-        ("point_count", c.c_uint64),
-        ("point_share", c.c_double),
-        ("bin_s", c.c_double),
-        ("setup_s", c.c_double),
-        ("points_s", c.c_double),
-        ("splats_s", c.c_double),
-        ("resolve_s", c.c_double),
-        ("total_s", c.c_double),
-    ]
-
-
 class ewa_voxels_info(c.Structure):
     voxel_count: int
     occupied_count: int
@@ -2048,6 +2050,7 @@ class Functions:
     ewa_gaussians_create: Callable[..., int]
     ewa_gaussians_free: Callable[..., None]
     ewa_gaussians_measure: Callable[..., int]
+    ewa_gaussians_outline: Callable[..., int]
     ewa_gaussians_to_cloud: Callable[..., int]
     ewa_gaussians_transform: Callable[..., int]
     ewa_gaussian_format_name: Callable[..., bytes | None]
@@ -2339,6 +2342,7 @@ class Functions:
         self.ewa_gaussians_create = bind("ewa_gaussians_create", c.c_int, c.c_void_p, c.c_uint32, c.c_uint32, c.POINTER(ewa_gaussians))
         self.ewa_gaussians_free = bind("ewa_gaussians_free", None, c.POINTER(ewa_gaussians))
         self.ewa_gaussians_measure = bind("ewa_gaussians_measure", c.c_int, c.POINTER(ewa_gaussians), c.POINTER(ewa_bounds))
+        self.ewa_gaussians_outline = bind("ewa_gaussians_outline", c.c_int, c.POINTER(ewa_gaussians), c.POINTER(ewa_bounds), c.c_void_p)
         self.ewa_gaussians_to_cloud = bind("ewa_gaussians_to_cloud", c.c_int, c.POINTER(ewa_gaussians), c.c_void_p)
         self.ewa_gaussians_transform = bind("ewa_gaussians_transform", c.c_int, c.POINTER(ewa_gaussians), c.c_void_p)
         self.ewa_gaussian_format_name = bind("ewa_gaussian_format_name", c.c_char_p, c.c_int)

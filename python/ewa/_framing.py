@@ -26,11 +26,14 @@ def convention_of(paths: Sequence[PathLike]) -> int:
     return int(lib.ewa_up_convention_of(len(paths), names))
 
 
+UPS = {"y": [0.0, 1.0, 0.0], "z": [0.0, 0.0, 1.0], "-y": [0.0, -1.0, 0.0], "-z": [0.0, 0.0, -1.0]}
+
+
 def _up(up: Any) -> list[float] | None:
     if isinstance(up, str):
-        if up not in ("y", "z"):
-            raise ArgumentError(f"up: '{up}' is neither 'y' nor 'z', nor 3 numbers")
-        return [0.0, 1.0, 0.0] if up == "y" else [0.0, 0.0, 1.0]
+        if up not in UPS:
+            raise ArgumentError(f"up: '{up}' is none of {', '.join(UPS)}, nor 3 numbers")
+        return UPS[up]
     return None if up is None else list(numbers(up, 3, "up"))
 
 
@@ -57,6 +60,7 @@ def frame(camera: b.ewa_camera, what: Any, view: Any, up: Any, azimuth: float, e
     """Place a camera whose picture and projection are set."""
     cloud = _as_cloud(what)
     core, asked, place = cloud._core, _up(up), ctypes.byref(camera)
+    hangs = isinstance(up, str) and up.startswith("-")
     direction = None if view is None or isinstance(view, str) else numbers(view, 3, "view")
     if isinstance(view, str) and view not in VIEWS:
         raise ArgumentError(f"view: '{view}' is none of {', '.join(VIEWS)}, nor 3 numbers")
@@ -69,6 +73,7 @@ def frame(camera: b.ewa_camera, what: Any, view: Any, up: Any, azimuth: float, e
         core.value(lib.ewa_framing_describe, framing, ctypes.byref(info))
         extent = (ctypes.c_double * 3)(*[info.box.high_world[c] - info.box.low_world[c] for c in range(3)])
         chosen.axis = 2 if abs(asked[2]) > abs(asked[1]) else 1
+        chosen.reversed = hangs  # then the sides are those of what hangs, too
         chosen.view = lib.ewa_upright_view(extent, chosen.axis)
     if isinstance(view, str):
         chosen.view = VIEWS.index(view)
@@ -79,7 +84,7 @@ def frame(camera: b.ewa_camera, what: Any, view: Any, up: Any, azimuth: float, e
     lib.ewa_upright_look(ctypes.byref(chosen), looked, up_world)
     if direction is not None:
         looked = direction
-    if asked is not None or direction is not None:
+    if (asked is not None and not hangs) or direction is not None:
         up_world = (ctypes.c_double * 3)(*axis)
     if azimuth != 0 or elevation != 0:
         status = lib.ewa_upright_turn(axis, azimuth, elevation, looked, up_world)

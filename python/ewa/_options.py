@@ -358,8 +358,6 @@ class GaussianOptions(TypedDict, total=False):
     near_world: float
     #: spherical harmonics beyond that degree are not used; [0, 4], default 4
     sh_degree: int
-    #: linear light, straight alpha, which is at most 1; [0, 1e15], default 0
-    background: Sequence[float]
 
 
 class VolumeOptions(TypedDict, total=False):
@@ -436,6 +434,7 @@ OWN: dict[str, frozenset[str]] = {
     "ewa_render_options": frozenset(['background', 'layers', 'light_count', 'material_count', 'section_count']),
     "ewa_volume_options": frozenset(['background', 'light_count']),
     "ewa_texture_options": frozenset(['background']),
+    "ewa_gaussian_options": frozenset(['background']),
     "ewa_generate_options": frozenset(['object', 'point_count']),
     "ewa_volume_generate_options": frozenset(['object']),
     "ewa_procedure_options": frozenset(['procedure']),

@@ -142,8 +142,9 @@ class Camera:
             What is to be seen; an array: the lower and the upper corner of a box.
         view : {"front", "back", "left", "right", "top", "bottom", "iso"} or array_like of shape (3,), optional
             Side from which it is seen, or the direction of the view. Default: by the shape.
-        up : {"y", "z"} or array_like of shape (3,), optional
-            What points up in the picture. Default: chosen by the points, as the program does.
+        up : {"y", "z", "-y", "-z"} or array_like of shape (3,), optional
+            What points up in the picture. Default: chosen by the points, as the program does. With a minus the sides
+            are those of what hangs upside down, as Gaussians do whose y points down.
         azimuth, elevation : float, optional
             Degrees by which the camera is carried about the up axis from there, then raised.
         radius_scale : float, optional

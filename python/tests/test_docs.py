@@ -41,7 +41,7 @@ class Examples(Case):
     def test_page(self) -> None:
         self.make_files()
         blocks = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.S)
-        self.assertEqual(len(blocks), 10)
+        self.assertEqual(len(blocks), 11)
         before = os.getcwd()
         self.addCleanup(os.chdir, before)
         os.chdir(os.path.dirname(self.path("x")))
@@ -51,7 +51,7 @@ class Examples(Case):
                 exec(compile(block, f"docs/python.md, example {i + 1}", "exec"), {})
         made = {name for name in os.listdir(".") if os.path.getsize(name) > 500}
         self.assertLessEqual({"scan.png", "ellipses.ply", "map.png", "ground.csv", "solids.png", "ring.png",
-                              "vessels.png", "floor.exr"}, made)
+                              "vessels.png", "floor.exr", "gaussians.png"}, made)
 
     def test_notebook_page(self) -> None:
         done = subprocess.run([sys.executable, str(ROOT / "tools" / "notebook.py"), "--check"], capture_output=True,

@@ -234,6 +234,39 @@ class SameBytes(Case):
         ewa.warp(source, shift=(0.1, 0, 0.2)).save(self.path("ours.png"))
         self.same("ours.png", "theirs.png")
 
+    def gaussians(self, count: int = 400, degree: int = 2) -> ewa.Gaussians:
+        random = np.random.default_rng(5)
+        rotations = random.normal(size=(count, 4))
+        rotations /= np.linalg.norm(rotations, axis=1, keepdims=True)
+        return ewa.Gaussians(random.uniform(-1, 1, (count, 3)), random.uniform(0.02, 0.2, (count, 3)), rotations,
+                             random.uniform(0.1, 1, count),
+                             random.normal(scale=0.5, size=(count, (degree + 1) ** 2, 3)))
+
+    def test_render_gaussians(self) -> None:
+        self.gaussians().save(self.path("set.ply"))
+        for projection in ("trained", "exact"):
+            self.run_program("render", "set.ply", "-o", "theirs.png", "--projection", projection)
+            gaussians = ewa.read_gaussians(self.path("set.ply"))
+            ewa.render_gaussians(gaussians, projection=projection).save(self.path("ours.png"))
+            self.same("ours.png", "theirs.png")
+
+    def test_render_mixture(self) -> None:
+        self.gaussians().save(self.path("set.spz"))
+        self.gaussians(100, 0).save(self.path("other.splat"))
+        self.generate("ring.ply", "torus", 20000)
+        self.run_program("generate", "ball", "-o", "ball.nrrd", "--dims", "24", "--extent", "3")
+        camera = ewa.Camera.look_at((3, -2, -4), (0, 0, 0), up=(0, -1, 0), size=(300, 200), fov=40)
+        camera.save(self.path("camera.json"))
+        self.run_program("render", "set.spz", "other.splat", "ball.nrrd", "ring.ply", "-o", "theirs.png", "--camera",
+                         "camera.json", "--transfer", "fog", "--shading", "phong")
+        ring = ewa.render(ewa.read(self.path("ring.ply")), camera, background="transparent", shading="phong",
+                          planes=("rgba", "depth"))
+        fog = ewa.Voxels(ewa.read_volume(self.path("ball.nrrd")), "fog", level_count=1)
+        fog._flat = False  # the program was told to shade
+        sets = [ewa.read_gaussians(self.path(name)) for name in ("set.spz", "other.splat")]
+        ewa.render_gaussians(sets, camera, volumes=fog, surfaces=ring).save(self.path("ours.png"))
+        self.same("ours.png", "theirs.png")
+
     def test_texture(self) -> None:
         ewa.save_image(self.path("photo.png"), np.random.default_rng(4).random((48, 64, 3)).astype(np.float32))
         self.run_program("texture", "photo.png", "-o", "theirs.exr", "--corners", "8,4,60,1,63,47,2,40")

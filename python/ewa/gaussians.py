@@ -1,0 +1,362 @@
+# SPDX-FileCopyrightText: 2026 The ewa authors
+# SPDX-License-Identifier: MIT
+"""Trained Gaussians: sets of them, and pictures of all that lets light through, in one order of depth."""
+from __future__ import annotations
+
+import ctypes
+from typing import TYPE_CHECKING, Any, Iterable, Sequence
+
+import numpy as np
+
+from . import _bindings as b
+from ._arrays import Array, as_contiguous, export
+from ._context import Context, Core, Handle, Pin, core_of
+from ._errors import ArgumentError, ClosedError
+from ._library import functions as lib
+from ._struct import fill, initialised, numbers, path_bytes
+from .camera import Camera, PathLike
+from .cloud import Cloud, merge
+from .image import Color, Image
+from .rendering import new_frame
+from .shade import Light, set_background, set_lights
+from .volume import Voxels
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._options import GaussianOptions, GaussiansSaveOptions
+
+
+class Gaussians:
+    """A set of trained Gaussians with their colours by direction.
+
+    Arrays of float32 that are C-contiguous are borrowed, others are converted.
+
+    Parameters
+    ----------
+    centers : array_like, shape (n, 3)
+        World units, from `origin` on.
+    scales : array_like, shape (n, 3)
+        Standard deviations, world units, >= 0: not their logarithms, which files have.
+    rotations : array_like, shape (n, 4)
+        Unit quaternions w, x, y, z, from the axes to the world.
+    opacities : array_like, shape (n,)
+        In [0, 1], not the logits of files.
+    harmonics : array_like, shape (n, (L + 1)**2, 3)
+        Coefficients of red, green, blue for L in [0, 4], in the order and with the signs of 3DGS.
+    origin : array_like, shape (3,), optional
+        float64, world units. Default 0.
+    antialiased : bool, optional
+        Trained with a pixel filter that keeps what a Gaussian adds (Mip-Splatting).
+
+    Raises
+    ------
+    ArgumentError
+    """
+
+    _handle: Handle | None
+    _up: str = "-y"
+
+    def __init__(self, centers: Any, scales: Any, rotations: Any, opacities: Any, harmonics: Any, *,
+                 origin: Any = None, antialiased: bool = False, context: Context | None = None) -> None:
+        core = core_of(context)
+        given = {"centers": as_contiguous(centers, np.float32, (None, 3), "centers"),
+                 "scales": as_contiguous(scales, np.float32, (None, 3), "scales"),
+                 "rotations": as_contiguous(rotations, np.float32, (None, 4), "rotations"),
+                 "opacities": as_contiguous(opacities, np.float32, (None,), "opacities"),
+                 "harmonics": as_contiguous(harmonics, np.float32, (None, None, 3), "harmonics")}
+        count = len(given["centers"])
+        for name, array in given.items():
+            if len(array) != count:
+                raise ArgumentError(f"{name}: {len(array)} of them for {count} centers")
+        degrees = {(degree + 1) ** 2: degree for degree in range(b.EWA_MAX_SH_DEGREE + 1)}
+        if given["harmonics"].shape[1] not in degrees:
+            raise ArgumentError(f"harmonics: {given['harmonics'].shape[1]} for each; "
+                                f"{', '.join(map(str, degrees))} are")
+        if count >= 2**32:
+            raise ArgumentError(f"centers: {count} of them, at most {2**32 - 1}")
+        self._set = b.ewa_gaussians(
+            context=core.address, count=count, sh_degree=degrees[given["harmonics"].shape[1]],
+            flat=bool(count) and not given["scales"][:, 2].any(), antialiased=bool(antialiased),
+            origin=tuple(numbers((0, 0, 0) if origin is None else origin, 3, "origin")),
+            **{name: array.ctypes.data for name, array in given.items()})
+        self._handle = Handle(core, None, lib.ewa_gaussians_free, "the Gaussians",
+                              tuple(Pin(array, name) for name, array in given.items()))
+
+    @staticmethod
+    def _read(core: Core, path: PathLike) -> Gaussians:
+        gaussians = Gaussians.__new__(Gaussians)
+        held, facts = b.ewa_gaussians(), b.ewa_gaussian_facts()
+
+        def create(*given: Any) -> int:
+            status: int = lib.ewa_gaussians_load(*given[:-1], ctypes.byref(held), ctypes.byref(facts))
+            if held.centers:
+                given[-1]._obj.value = ctypes.addressof(held)
+            return status
+
+        def free(_: Any) -> None:
+            lib.ewa_gaussians_free(ctypes.byref(held))
+
+        gaussians._set = held
+        gaussians._handle = core.make(create, core.address, path_bytes(path), destroy=free, what="the Gaussians")
+        up = facts.up_world
+        if abs(up[2]) > abs(up[1]):
+            gaussians._up = "z" if up[2] > 0 else "-z"
+        elif up[1] > 0:
+            gaussians._up = "y"
+        return gaussians
+
+    @property
+    def _h(self) -> Handle:
+        if self._handle is None or self._handle.core.closed:
+            raise ClosedError("the Gaussians are closed")
+        return self._handle
+
+    def _bound(self, function: Any) -> Any:
+        """A function with the set as its first argument, for a call in which it cannot go away."""
+        handle = self._h
+
+        def checked(*given: Any) -> int:
+            if handle.address is None and not handle.keep:
+                raise ClosedError("the Gaussians are closed")
+            for pin in handle.keep:
+                pin.check()
+            status: int = function(ctypes.byref(self._set), *given)
+            return status
+
+        return checked
+
+    def __len__(self) -> int:
+        return int(self._set.count) if self._handle is not None else 0
+
+    @property
+    def sh_degree(self) -> int:
+        """Degree of the harmonics."""
+        return int(self._set.sh_degree)
+
+    @property
+    def flat(self) -> bool:
+        """Whether these are 2D Gaussians."""
+        return bool(self._set.flat)
+
+    @property
+    def antialiased(self) -> bool:
+        """Whether they were trained with a pixel filter that keeps what a Gaussian adds."""
+        return bool(self._set.antialiased)
+
+    @property
+    def origin(self) -> Array:
+        """What centres are relative to; float64, shape (3,)."""
+        return np.array(self._set.origin)
+
+    def _stream(self, name: str, shape: tuple[int, ...]) -> Array:
+        return export(self._h, getattr(self._set, name), (len(self), *shape), np.dtype(np.float32))
+
+    @property
+    def centers(self) -> Array:
+        """float32, shape (n, 3), read-only, world units from the origin on."""
+        return self._stream("centers", (3,))
+
+    @property
+    def scales(self) -> Array:
+        """Standard deviations; float32, shape (n, 3), read-only."""
+        return self._stream("scales", (3,))
+
+    @property
+    def rotations(self) -> Array:
+        """Quaternions w, x, y, z; float32, shape (n, 4), read-only."""
+        return self._stream("rotations", (4,))
+
+    @property
+    def opacities(self) -> Array:
+        """float32, shape (n,), read-only."""
+        return self._stream("opacities", ())
+
+    @property
+    def harmonics(self) -> Array:
+        """float32, shape (n, (sh_degree + 1)**2, 3), read-only."""
+        return self._stream("harmonics", ((self.sh_degree + 1) ** 2, 3))
+
+    def save(self, path: PathLike, **options: Unpack[GaussiansSaveOptions]) -> None:
+        """Write .ply (as 3DGS), .splat or .spz.
+
+        Parameters
+        ----------
+        **options
+            Members of ``ewa_gaussians_save_options``: ``sh_degree``, ``spz_version``.
+
+        Raises
+        ------
+        FileError, ArgumentError, FormatError
+        """
+        made = initialised(b.ewa_gaussians_save_options, lib.ewa_gaussians_save_options_init)
+        fill(made, "ewa_gaussians_save_options", dict(options))
+        self._h.core.call(self._bound(lib.ewa_gaussians_save), path_bytes(path), ctypes.byref(made))
+
+    def to_cloud(self) -> Cloud:
+        """Return surfels: the two longest axes, the normal across them, the constant colour."""
+        return Cloud._made(self._h.core, self._bound(lib.ewa_gaussians_to_cloud))
+
+    def close(self) -> None:
+        """Free the set; later use raises ClosedError."""
+        self._handle = None
+
+    def __repr__(self) -> str:
+        if self._handle is None:
+            return "<ewa.Gaussians, closed>"
+        return f"<ewa.Gaussians, {len(self)} of degree {self.sh_degree}{', flat' if self.flat else ''}>"
+
+
+def read_gaussians(path: PathLike, *, context: Context | None = None) -> Gaussians:
+    """Read Gaussians of 3DGS, 2DGS, Mip-Splatting (PLY), compressed PLY, .splat, SPZ, glTF, .ksplat or SOG.
+
+    Raises
+    ------
+    FileError, FormatError, OutOfMemory
+    """
+    return Gaussians._read(core_of(context), path)
+
+
+class Splats:
+    """The resident form of a set of Gaussians, which is what is drawn; the set is not needed afterwards.
+
+    Parameters
+    ----------
+    gaussians : Gaussians
+
+    Raises
+    ------
+    ArgumentError, OutOfMemory
+    """
+
+    def __init__(self, gaussians: Gaussians) -> None:
+        if not isinstance(gaussians, Gaussians):
+            raise TypeError(f"gaussians: an ewa.Gaussians, not {type(gaussians).__name__}")
+        self._core = gaussians._h.core
+        self._handle = self._core.make(gaussians._bound(lib.ewa_splats_create), destroy=lib.ewa_splats_destroy,
+                                       what="the splats")
+        self._info = b.ewa_splats_info()
+        self._core.value(lib.ewa_splats_describe, self._handle, ctypes.byref(self._info))
+        self._up = gaussians._up
+        self._outline = Cloud._made(self._core, gaussians._bound(lib.ewa_gaussians_outline),
+                                    ctypes.byref(self._info.core))
+
+    def __len__(self) -> int:
+        return int(self._info.splat_count)
+
+    @property
+    def resident_bytes(self) -> int:
+        """Memory that they take."""
+        return int(self._info.resident_bytes)
+
+    @property
+    def core(self) -> Array:
+        """Box of the middle 96 % of the opacities, which far floaters do not widen; float64, shape (2, 3)."""
+        return np.array([self._info.core.low_world, self._info.core.high_world])
+
+    def outline(self) -> Cloud:
+        """Return points that a camera has to have in its picture."""
+        return self._outline
+
+
+def _listed(what: Any, kinds: tuple[type, ...], label: str) -> list[Any]:
+    found = list(what) if isinstance(what, (list, tuple)) else [what]
+    for item in found:
+        if not isinstance(item, kinds):
+            raise TypeError(f"{label}: {' or '.join('ewa.' + kind.__name__ for kind in kinds)}, "
+                            f"not {type(item).__name__}")
+    return found
+
+
+def _renderer(core: Core, name: str, create: Any, destroy: Any) -> Handle:
+    renderer = core.renderers.get(name)
+    if renderer is None or renderer.address is None:
+        renderer = core.make(create, core.address, destroy=destroy, what="the renderer")
+        core.renderers[name] = renderer
+    return renderer
+
+
+def render_gaussians(gaussians: Gaussians | Splats | Sequence[Gaussians | Splats], camera: Camera | None = None, *,
+                     volumes: Voxels | Sequence[Voxels] = (), size: Sequence[int] | None = None,
+                     planes: str | Iterable[str] = ("rgba8",), background: Color = "white",
+                     lights: Sequence[Light] | None = None, surfaces: Image | None = None, out: Image | None = None,
+                     **options: Unpack[GaussianOptions]) -> Image:
+    """Draw Gaussians, and volumes among them, in one order of depth for every pixel.
+
+    Parameters
+    ----------
+    gaussians : Gaussians or Splats, or a list of these
+        Splats, where they are drawn more than once. An empty list: volumes alone.
+    camera : Camera, optional
+        Default: that of ``ewa render``, which has all but far floaters in its picture.
+    volumes : Voxels or a list of these, optional
+        Lit by `lights`, but for those of the presets gray and fog.
+    size, planes, background, out
+        As of :func:`render`; there are no normals.
+    surfaces : Image, optional
+        With the planes rgba (over nothing: background="transparent") and depth, of the same size: what stands
+        among them, opaque, with what is seen past its edges.
+    **options
+        Members of ``ewa_gaussian_options``: ``projection`` ("trained", "exact"), ``filter``, ``prefilter_px2``,
+        ``cutoff``, ``least_alpha``, ``least_transmittance``, ``near_world``, ``sh_degree``.
+
+    Raises
+    ------
+    ArgumentError, OutOfMemory, ClosedError
+    """
+    sets = [item if isinstance(item, Splats) else Splats(item)
+            for item in _listed(gaussians, (Gaussians, Splats), "gaussians")]
+    among = _listed(volumes, (Voxels,), "volumes")
+    if not sets and not among:
+        raise ArgumentError("gaussians: none, and no volumes")
+    core = (sets or among)[0]._core
+    if any(item._core is not core for item in [*sets, *among]):
+        raise ArgumentError("gaussians, volumes: of different contexts")
+    made = initialised(b.ewa_gaussian_options, lib.ewa_gaussian_options_init)
+    made.near_world = min([made.near_world, *(item._info.near_world for item in sets)])
+    fill(made, "ewa_gaussian_options", dict(options))
+    opaque = set_background(made, background)
+    if camera is None:
+        outlines = [item.outline() for item in [*sets, *among]]
+        outline = outlines[0] if len(outlines) == 1 else merge(
+            [Cloud(cloud["position"], radius=cloud["radius"] if "radius" in cloud else np.zeros(len(cloud), np.float32))
+             for cloud in outlines])
+        camera = Camera.frame(outline, None, sets[0]._up if sets else "z", size=size or (1280, 720))
+    if size is not None and tuple(size) != camera.size:
+        camera = camera.resized(*size)
+    keep = None
+    if surfaces is not None:
+        width, height = camera.size
+        depth, rgba = surfaces.depth, surfaces.rgba
+        if depth is None or rgba is None or depth.shape != (height, width) or rgba.shape != (height, width, 4):
+            raise ArgumentError(f"surfaces: planes depth and rgba of {width} x {height} pixels are needed")
+        keep = np.ascontiguousarray(depth, np.float32), np.ascontiguousarray(rgba, np.float32)
+        made.surface_depth, made.surface_rgba = keep[0].ctypes.data, keep[1].ctypes.data
+    image = Image(camera, opaque)
+    frame = new_frame(image, camera.size, planes, out, without=("normal",))
+    stats = b.ewa_gaussian_stats()
+    renderer = _renderer(core, "gaussians", lib.ewa_gaussian_renderer_create, lib.ewa_gaussian_renderer_destroy)
+    volume_renderers = [_renderer(core, f"volume {i}" if i else "volume", lib.ewa_volume_renderer_create,
+                                  lib.ewa_volume_renderer_destroy) for i in range(len(among))]
+    volume_options = [initialised(b.ewa_volume_options, lib.ewa_volume_options_init) for _ in among]
+    for voxels, own in zip(among, volume_options):
+        own.shading = b.ewa_shading.EWA_SHADING_NONE if voxels._flat else b.ewa_shading.EWA_SHADING_PHONG
+        set_lights(own, lights)
+
+    def draw(address: Any, *rest: Any) -> int:
+        listed = (ctypes.c_void_p * max(len(sets), 1))(*[core.resolve(item._handle) for item in sets])
+        mixed = (b.ewa_mixed_volume * max(len(among), 1))()
+        for i, voxels in enumerate(among):
+            mixed[i].renderer = core.resolve(volume_renderers[i])
+            mixed[i].voxels = core.resolve(voxels._handle)
+            mixed[i].options = ctypes.pointer(volume_options[i])
+        mixture = b.ewa_mixture(splats=ctypes.addressof(listed), splats_count=len(sets), volume_count=len(among),
+                                volumes=ctypes.cast(mixed, ctypes.POINTER(b.ewa_mixed_volume)))
+        status: int = lib.ewa_mixture_render(address, ctypes.byref(mixture), *rest)
+        return status
+
+    core.call(draw, renderer, ctypes.byref(camera._struct), ctypes.byref(made), ctypes.byref(frame),
+              ctypes.byref(stats))
+    del keep
+    image._stats = stats
+    return image
