@@ -180,6 +180,8 @@ ewa_status mixture_scene_paint(mixture_scene *scene, ewa_renderer *renderer, con
                                ewa_render_stats *stats) {
     ewa_gaussian_options among = *gaussians;
     memcpy(among.background, options->background, sizeof among.background);
+    memcpy(among.section_planes, options->section_planes, sizeof among.section_planes);
+    among.section_count = options->section_count;
     if (scene->splats_count) among.near_world = scene->near_world;
     *stats = (ewa_render_stats){.splat_count = 0};
     ewa_status status = EWA_OK;

@@ -7,9 +7,9 @@
 
 #include <stdio.h>
 
+#include "crew.h"
 #include "ewa/options.h"
 #include "ewa/select.h"
-#include "crew.h"
 #include "part.h"
 
 /// What the value of an option is, and the type of the member that it fills.

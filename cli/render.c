@@ -91,15 +91,7 @@ static const cli_option gaussian_table[] = {GAUSSIAN_OPTIONS(AT(mixture))};
 
 static const cli_option volume_table[] = {MIXED_VOLUME_OPTIONS(AT(mixture))};
 
-static const cli_option section_table[] = {
-    {"clip-box", OPTION_VECTOR, AT(section.box), "x0,y0,z0,x1,y1,z1",
-     .help = "draw only what lies inside a box: its lower, then its upper corner, in the file's coordinates",
-     .low = 6, .high = 6},
-    {"clip-plane", OPTION_VECTORS, AT(section.planes), "a,b,c,d",
-     .help = "draw only what fulfils a x + b y + c z + d >= 0; may be given up to 8 times, beside --clip-box "
-             "twice",
-     .low = 4, .high = 4},
-};
+static const cli_option section_table[] = {SECTION_OPTIONS(AT(section))};
 
 static const cli_option look_table[] = {
     {"background", OPTION_COLOR, AT(background), "r,g,b[,a]",
@@ -183,7 +175,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
 static ewa_render_options render_options(const render_arguments *arguments, const light_objects *lit_by) {
     ewa_render_options options = light_apply(&arguments->light, lit_by);
     read_layers(arguments, &options.layers);
-    section_apply(&arguments->section, &options);
+    section_fill(&arguments->section, options.section_planes, &options.section_count);
     option_color_linear(&arguments->background, options.background);
     return options;
 }
@@ -288,12 +280,6 @@ static bool make_mixture_scene(cli_session *session, const render_arguments *arg
         return session_fail(session,
                             "--color-by: Gaussians and volumes have colours of their own; --surface draws "
                             "Gaussians as surfels") == EXIT_DONE;
-    }
-    if (arguments->section.box.count || arguments->section.planes.count) {
-        session->subject = subject;
-        return session_fail(session,
-                            "--clip-box and --clip-plane cut surfaces, not what lets light through; --surface "
-                            "draws Gaussians as surfels") == EXIT_DONE;
     }
     if (among)
         cloud = inputs_as_surfels(session, &mixture->rest, arguments->color_by, arguments->surfels.cutoff,

@@ -24,16 +24,15 @@ bool section_check(const section_arguments *arguments, char message[OPTION_ERROR
     return options_fine(wrong, message);
 }
 
-void section_apply(const section_arguments *arguments, ewa_render_options *options) {
-    options->section_count = 0;
+void section_fill(const section_arguments *arguments, double planes[][4], uint32_t *count) {
+    *count = 0;
     for (int side = 0; arguments->box.count && side < BOX_PLANES; side++) {
-        double *plane = options->section_planes[options->section_count++];
+        double *plane = planes[(*count)++];
         const int axis = side / 2, inward = side % 2 ? -1 : 1;
-        memset(plane, 0, sizeof options->section_planes[0]);
+        memset(plane, 0, 4 * sizeof *plane);
         plane[axis] = inward;
         plane[3] = -inward * arguments->box.values[axis + 3 * (side % 2)];
     }
     for (uint32_t i = 0; i < arguments->planes.count; i++)
-        memcpy(options->section_planes[options->section_count++], arguments->planes.each[i].values,
-               sizeof options->section_planes[0]);
+        memcpy(planes[(*count)++], arguments->planes.each[i].values, sizeof planes[0]);
 }

@@ -129,12 +129,11 @@ ewa_context *session_context(cli_session *session, uint32_t thread_count, uint32
 }
 
 bool session_start(cli_session *session, const common_arguments *common) {
-    *session = (cli_session){.quiet = common->quiet,
-                             .verbose = common->verbose,
-                             .crew = common->crew,
-                             .started_s = clock_now_s()};
+    *session = (cli_session){
+        .quiet = common->quiet, .verbose = common->verbose, .crew = common->crew, .started_s = clock_now_s()};
     session->progress =
-        crew_leads(session->crew) && (common->progress == 1 || (common->progress == -1 && !common->quiet && isatty(STDERR_FILENO)));
+        crew_leads(session->crew) &&
+        (common->progress == 1 || (common->progress == -1 && !common->quiet && isatty(STDERR_FILENO)));
     struct sigaction action = {.sa_handler = catch_signal, .sa_flags = (int)SA_RESETHAND};
     sigemptyset(&action.sa_mask);
     // Whoever started us to ignore an interrupt, as shells do in the background, is obeyed.

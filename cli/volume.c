@@ -8,6 +8,7 @@
 #include "json.h"
 #include "light.h"
 #include "mixture_scene.h"
+#include "section.h"
 #include "sequence.h"
 #include "video.h"
 #include "volume_scene.h"
@@ -23,6 +24,7 @@ typedef struct volume_arguments {
     const char *output, *aov, *save_camera_path, *stats_path;
     bool progressive;
     option_color background;
+    section_arguments section;
     furnish_arguments furniture;
 } volume_arguments;
 
@@ -75,6 +77,8 @@ static const cli_option voxel_table[] = {
      .help = "a point cloud or mesh that stands in the volume, opaque, in the same world"},
 };
 
+static const cli_option section_table[] = {SECTION_OPTIONS(AT(section))};
+
 static const cli_option look_table[] = {
     {"shading", OPTION_CHOICE, LIGHT_OFFSET + offsetof(light_arguments, shading), NULL, "none|lambert|phong",
      .help = "light, by the gradient: none gives the bare colours, lambert matt matter, phong highlights",
@@ -119,7 +123,8 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     else if (gradient->count && !(gradient->values[0] >= 0 && gradient->values[1] >= gradient->values[0]))
         wrong = "--gradient: two numbers >= 0, the second not below the first";
     if (!options_fine(wrong, message)) return false;
-    return volume_input_check(&arguments->input, message) && light_check(&arguments->light, message) &&
+    return volume_input_check(&arguments->input, message) && section_check(&arguments->section, message) &&
+           light_check(&arguments->light, message) &&
            frames_check(&arguments->frames, arguments->output, arguments->background.rgba[3] == 1, message) &&
            parse_paths(arguments, &paths, message) &&
            furnish_check(&arguments->furniture, arguments->output, message);
@@ -145,6 +150,8 @@ static ewa_status paint_among(volume_painter *painter, const ewa_camera *camera,
     ewa_gaussian_options options;
     ewa_gaussian_options_init(&options, sizeof options);
     memcpy(options.background, painter->options.background, sizeof options.background);
+    memcpy(options.section_planes, painter->options.section_planes, sizeof options.section_planes);
+    options.section_count = painter->options.section_count;
     ewa_status status = mixture_paint_surface(painter->session->context, painter->surface_renderer,
                                               painter->scene->surfels, camera, &painter->surface_options,
                                               &painter->surface_rgba, &painter->surface_depth, surface);
@@ -193,6 +200,8 @@ static bool prepare_painter(const volume_arguments *arguments, volume_painter *p
     *surface = light_apply(&arguments->light, &nothing);
     *options = arguments->scene.options;
     option_color_linear(&arguments->background, options->background);
+    section_fill(&arguments->section, options->section_planes, &options->section_count);
+    section_fill(&arguments->section, surface->section_planes, &surface->section_count);
     options->shading = arguments->light.shading >= 0 ? (ewa_shading)arguments->light.shading
                        : painter->scene->flat        ? EWA_SHADING_NONE
                                                      : EWA_SHADING_PHONG;
@@ -334,6 +343,7 @@ static int run(const void *data) {
 static const option_group output_options = OPTION_GROUP("Output", output_table);
 static const option_group input_options = OPTION_GROUP("Raw volumes", input_table);
 static const option_group voxel_options = OPTION_GROUP("Voxels", voxel_table);
+static const option_group section_options = OPTION_GROUP("Section", section_table);
 static const option_group look_options = OPTION_GROUP("Look", look_table);
 static const option_group furniture_options = OPTION_GROUP("Over the picture", furniture_table);
 const cli_command volume_command = {
@@ -357,7 +367,8 @@ const cli_command volume_command = {
     .low_operands = 1,
     .high_operands = 1,
     .groups = (const option_group *const[]){&output_options, &input_options, &view_options, &frames_options,
-                                            &voxel_options, &look_options, &furniture_options, NULL},
+                                            &voxel_options, &section_options, &look_options,
+                                            &furniture_options, NULL},
     .arguments_bytes = sizeof(volume_arguments),
     .set_defaults = set_defaults,
     .check = check,

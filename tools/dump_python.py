@@ -39,8 +39,8 @@ LIMITS = {"UINT64_MAX": 2**64 - 1, "UINT32_MAX": 2**32 - 1, "UINT16_MAX": 2**16 
 # Members that the package sets by arguments of its own.
 OWN = {
     "ewa_render_options": {"background", "layers", "light_count", "material_count", "section_count"},
-    "ewa_volume_options": {"background", "light_count"}, "ewa_texture_options": {"background"},
-    "ewa_gaussian_options": {"background"},
+    "ewa_volume_options": {"background", "light_count", "section_count"}, "ewa_texture_options": {"background"},
+    "ewa_gaussian_options": {"background", "section_count"},
     "ewa_generate_options": {"object", "point_count"}, "ewa_volume_generate_options": {"object"},
     "ewa_procedure_options": {"procedure"}, "ewa_furniture_options": {"category_count"},
 }

@@ -35,6 +35,8 @@ static ewa_status draw_volume(paint_tools *tools, const paint_scene *scene, cons
     ewa_volume_stats stats = {.total_s = 0};
     options.level = voxels_level(scene, scene->voxels[0]);
     memcpy(options.background, scene->render.background, sizeof options.background);
+    memcpy(options.section_planes, scene->render.section_planes, sizeof options.section_planes);
+    options.section_count = scene->render.section_count;
     const ewa_status status = ewa_volume_render(tools->volume_renderers[0], scene->voxels[0], &scene->camera,
                                                 &options, frame, &stats);
     *took_s += stats.total_s;
@@ -63,6 +65,8 @@ ewa_status veils_draw(paint_tools *tools, const paint_scene *scene, const float 
         options.near_world = fmin(options.near_world, info.near_world);
     }
     memcpy(options.background, scene->render.background, sizeof options.background);
+    memcpy(options.section_planes, scene->render.section_planes, sizeof options.section_planes);
+    options.section_count = scene->render.section_count;
     options.surface_depth = surface_depth;
     options.surface_rgba = surface_rgba;
     const ewa_mixture mixture = {scene->splats, scene->splats_count, scene->voxels_count, mixed};

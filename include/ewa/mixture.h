@@ -20,7 +20,8 @@ enum { EWA_MAX_MIXED_VOLUMES = 64 };
 typedef struct ewa_mixed_volume {
     ewa_volume_renderer *renderer; ///< of the same context; each volume of a mixture has one of its own
     const ewa_voxels *voxels;
-    /// How it is drawn, NULL: the defaults. Its background and its surfaces are not used: those of the mixture are.
+    /// How it is drawn, NULL: the defaults. Its background, its surfaces and its section planes are not used: those
+    /// of the mixture are.
     const ewa_volume_options *options;
     ewa_volume_stats *stats; ///< what it took, written; NULL: not wanted
 } ewa_mixed_volume;
@@ -38,7 +39,7 @@ typedef struct ewa_mixture {
 /// mixed linearly: voxels with each other and with what is behind all; the Gaussians' colours, which are display
 /// values, with the display values of that mean. So a mixture of one set is that set's picture
 /// (ewa_gaussian_render(), the same bytes), and one of one volume that of the volume, but for rounding.
-/// `options` (NULL: the defaults) are those of the Gaussians, and their background and surfaces are the
+/// `options` (NULL: the defaults) are those of the Gaussians, and their background, surfaces and sections are the
 /// picture's; planes as in ewa_gaussian_render(). The same bytes for every number of threads and every
 /// instruction set; of volumes and sets that share a depth those named first are in front. `stats` (may be NULL)
 /// counts Gaussians. Implements docs/math.md section 12, mixtures. Errors: EWA_ERROR_ARGUMENT (camera, options,

@@ -699,6 +699,8 @@ class ewa_gaussian_options(c.Structure):
     background: c.Array[c.c_float]
     surface_depth: int | None
     surface_rgba: int | None
+    section_planes: c.Array[Any]
+    section_count: int
     _fields_ = [
         ("struct_size", c.c_size_t),
         ("projection", c.c_int),
@@ -712,6 +714,8 @@ class ewa_gaussian_options(c.Structure):
         ("background", c.c_float * 4),
         ("surface_depth", c.c_void_p),
         ("surface_rgba", c.c_void_p),
+        ("section_planes", (c.c_double * 4) * 8),
+        ("section_count", c.c_uint32),
     ]
 
 
@@ -1240,6 +1244,8 @@ class ewa_volume_options(c.Structure):
     background: c.Array[c.c_float]
     surface_depth: int | None
     surface_rgba: int | None
+    section_planes: c.Array[Any]
+    section_count: int
     _fields_ = [
         ("struct_size", c.c_size_t),
         ("method", c.c_int),
@@ -1259,6 +1265,8 @@ class ewa_volume_options(c.Structure):
         ("background", c.c_float * 4),
         ("surface_depth", c.c_void_p),
         ("surface_rgba", c.c_void_p),
+        ("section_planes", (c.c_double * 4) * 8),
+        ("section_count", c.c_uint32),
     ]
 
 

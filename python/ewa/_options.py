@@ -432,9 +432,9 @@ class WarpOptions(TypedDict, total=False):
 #: Members that are no keyword arguments: the package sets them by arguments of its own.
 OWN: dict[str, frozenset[str]] = {
     "ewa_render_options": frozenset(['background', 'layers', 'light_count', 'material_count', 'section_count']),
-    "ewa_volume_options": frozenset(['background', 'light_count']),
+    "ewa_volume_options": frozenset(['background', 'light_count', 'section_count']),
     "ewa_texture_options": frozenset(['background']),
-    "ewa_gaussian_options": frozenset(['background']),
+    "ewa_gaussian_options": frozenset(['background', 'section_count']),
     "ewa_generate_options": frozenset(['object', 'point_count']),
     "ewa_volume_generate_options": frozenset(['object']),
     "ewa_procedure_options": frozenset(['procedure']),

@@ -18,7 +18,7 @@ from .camera import Camera, PathLike
 from .cloud import Cloud, merge
 from .image import Color, Image
 from .rendering import new_frame
-from .shade import Light, set_background, set_lights
+from .shade import Light, set_background, set_lights, set_section
 from .volume import Voxels
 
 if TYPE_CHECKING:
@@ -279,7 +279,8 @@ def _renderer(core: Core, name: str, create: Any, destroy: Any) -> Handle:
 def render_gaussians(gaussians: Gaussians | Splats | Sequence[Gaussians | Splats], camera: Camera | None = None, *,
                      volumes: Voxels | Sequence[Voxels] = (), size: Sequence[int] | None = None,
                      planes: str | Iterable[str] = ("rgba8",), background: Color = "white",
-                     lights: Sequence[Light] | None = None, surfaces: Image | None = None, out: Image | None = None,
+                     lights: Sequence[Light] | None = None, surfaces: Image | None = None, section_box: Any = None,
+                     section_planes: Sequence[Sequence[float]] | None = None, out: Image | None = None,
                      **options: Unpack[GaussianOptions]) -> Image:
     """Draw Gaussians, and volumes among them, in one order of depth for every pixel.
 
@@ -296,6 +297,8 @@ def render_gaussians(gaussians: Gaussians | Splats | Sequence[Gaussians | Splats
     surfaces : Image, optional
         With the planes rgba (over nothing: background="transparent") and depth, of the same size: what stands
         among them, opaque, with what is seen past its edges.
+    section_box, section_planes
+        As of :func:`render`.
     **options
         Members of ``ewa_gaussian_options``: ``projection`` ("trained", "exact"), ``filter``, ``prefilter_px2``,
         ``cutoff``, ``least_alpha``, ``least_transmittance``, ``near_world``, ``sh_degree``.
@@ -315,6 +318,7 @@ def render_gaussians(gaussians: Gaussians | Splats | Sequence[Gaussians | Splats
     made = initialised(b.ewa_gaussian_options, lib.ewa_gaussian_options_init)
     made.near_world = min([made.near_world, *(item._info.near_world for item in sets)])
     fill(made, "ewa_gaussian_options", dict(options))
+    set_section(made, section_box, section_planes)
     opaque = set_background(made, background)
     if camera is None:
         outlines = [item.outline() for item in [*sets, *among]]

@@ -75,7 +75,7 @@ def set_materials(options: b.ewa_render_options, materials: Materials | None) ->
     return table
 
 
-def set_section(options: b.ewa_render_options, box: Any, planes: Sequence[Sequence[float]] | None) -> None:
+def set_section(options: Any, box: Any, planes: Sequence[Sequence[float]] | None) -> None:
     """Fill `section_planes`, those of a box first, as the program does."""
     all_planes: list[Sequence[float]] = []
     if box is not None:

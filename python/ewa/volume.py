@@ -19,7 +19,7 @@ from .camera import Camera, PathLike
 from .cloud import Cloud
 from .image import Color, Image
 from .rendering import new_frame
-from .shade import Light, set_background, set_lights
+from .shade import Light, set_background, set_lights, set_section
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -364,7 +364,8 @@ def default_view(volume: Volume) -> str:
 def render_volume(volume: Volume | Voxels, camera: Camera | None = None, *, transfer: Transfer | str = "auto",
                   size: Sequence[int] | None = None, planes: str | Iterable[str] = ("rgba8",),
                   background: Color = "black", lights: Sequence[Light] | None = None,
-                  surfaces: Image | None = None, out: Image | None = None,
+                  surfaces: Image | None = None, section_box: Any = None,
+                  section_planes: Sequence[Sequence[float]] | None = None, out: Image | None = None,
                   **options: Unpack[VolumeOptions]) -> Image:
     """Draw a volume.
 
@@ -380,6 +381,8 @@ def render_volume(volume: Volume | Voxels, camera: Camera | None = None, *, tran
     lights : sequence, optional
     surfaces : Image, optional
         With the planes rgba and depth, of the same size: what stands in the volume, opaque.
+    section_box, section_planes
+        As of :func:`render`.
     **options
         Members of ``ewa_volume_options``: ``method``, ``index``, ``sigma``, ``cutoff``, ``prefilter_px``,
         ``point_threshold_px``, ``depth_unit``, ``level``, ``density_scale``, ``least_transmittance``, ``shading``.
@@ -394,6 +397,7 @@ def render_volume(volume: Volume | Voxels, camera: Camera | None = None, *, tran
     made.shading = b.ewa_shading.EWA_SHADING_NONE if voxels._flat else b.ewa_shading.EWA_SHADING_PHONG
     fill(made, "ewa_volume_options", dict(options))
     set_lights(made, lights)
+    set_section(made, section_box, section_planes)
     opaque = set_background(made, background)
     if camera is None:
         outline = voxels.outline(made.sigma * made.cutoff)

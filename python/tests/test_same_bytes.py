@@ -258,13 +258,14 @@ class SameBytes(Case):
         camera = ewa.Camera.look_at((3, -2, -4), (0, 0, 0), up=(0, -1, 0), size=(300, 200), fov=40)
         camera.save(self.path("camera.json"))
         self.run_program("render", "set.spz", "other.splat", "ball.nrrd", "ring.ply", "-o", "theirs.png", "--camera",
-                         "camera.json", "--transfer", "fog", "--shading", "phong")
+                         "camera.json", "--transfer", "fog", "--shading", "phong", "--clip-plane", "1,0,0.5,0.3")
+        cut = [(1, 0, 0.5, 0.3)]
         ring = ewa.render(ewa.read(self.path("ring.ply")), camera, background="transparent", shading="phong",
-                          planes=("rgba", "depth"))
+                          planes=("rgba", "depth"), section_planes=cut)
         fog = ewa.Voxels(ewa.read_volume(self.path("ball.nrrd")), "fog", level_count=1)
         fog._flat = False  # the program was told to shade
         sets = [ewa.read_gaussians(self.path(name)) for name in ("set.spz", "other.splat")]
-        ewa.render_gaussians(sets, camera, volumes=fog, surfaces=ring).save(self.path("ours.png"))
+        ewa.render_gaussians(sets, camera, volumes=fog, surfaces=ring, section_planes=cut).save(self.path("ours.png"))
         self.same("ours.png", "theirs.png")
 
     def test_texture(self) -> None:

@@ -12,6 +12,7 @@
 #include "image/srgb.h"
 #include "math/ellipse.h"
 #include "volume/gaussian_view.h"
+#include "volume/section.h"
 #include "volume/splats.h"
 
 #include <stdlib.h>
@@ -33,6 +34,7 @@ typedef struct splat {
 typedef struct hit {
     uint32_t x, splat;
     double z, key, alpha;
+    double ahead; ///< of alpha: in front of the surface
 } hit;
 
 typedef struct reference {
@@ -45,6 +47,7 @@ typedef struct reference {
     splat *splats;
     uint32_t splat_count;
     ewa_buffer hits;
+    ewa_ray_sections sections;
 } reference;
 
 /// Real spherical harmonics along a unit direction, in the order and with the signs of 3DGS.
@@ -227,6 +230,12 @@ static passage pass(const reference *work, const splat *at, double x_px, double 
     return (passage){fmax(d - b * b / a, 0), at->place.z - b / a, 1 / sqrt(a)};
 }
 
+/// The share of a Gaussian of a standard deviation around z that lies between two camera-space depths.
+static double share_between(const reference *work, double z, double deviation, double enter, double leave) {
+    const double unit = work->camera.unit_camera, root = deviation * sqrt(2);
+    return fmax(0.5 * erfc((z - leave / unit) / root) - 0.5 * erfc((z - enter / unit) / root), 0);
+}
+
 /// Alpha and depth of a Gaussian at a pixel's centre; false outside of it.
 static bool meet(const reference *work, const splat *at, uint32_t x, uint32_t y, hit *made) {
     const double x_px = x + 0.5, y_px = y + 0.5, dx = x_px - at->center_px[0], dy = y_px - at->center_px[1];
@@ -241,11 +250,14 @@ static bool meet(const reference *work, const splat *at, uint32_t x, uint32_t y,
     if (work->camera.keep && alpha < work->options.least_alpha) return false;
     alpha = fmin(alpha, EWA_GAUSSIAN_MOST_ALPHA);
     const double z = fmin(fmax(by.z, at->place.z - at->depth_reach), at->place.z + at->depth_reach);
-    if (work->options.surface_depth) {
-        const double surface = (double)work->options.surface_depth[(size_t)y * work->width_px + x];
-        alpha *= 0.5 * erfc((z - surface / work->camera.unit_camera) / (by.deviation * sqrt(2)));
-    }
-    *made = (hit){.x = x, .splat = (uint32_t)(at - work->splats), .z = z, .alpha = alpha};
+    double enter, leave, surface = INFINITY;
+    ewa_ray_sections_range(&work->sections, x_px, y_px, &enter, &leave);
+    if (work->options.surface_depth)
+        surface = (double)work->options.surface_depth[(size_t)y * work->width_px + x];
+    const double all = share_between(work, z, by.deviation, enter, leave);
+    const double ahead = share_between(work, z, by.deviation, enter, fmin(leave, surface));
+    *made = (hit){
+        .x = x, .splat = (uint32_t)(at - work->splats), .z = z, .alpha = alpha * all, .ahead = alpha * ahead};
     made->key = work->order == EWA_ORDER_RAYS ? z : at->place.z;
     return true;
 }
@@ -282,38 +294,56 @@ static double display_of_linear(double x) {
 }
 static double linear_of_display(double x) { return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4); }
 
-/// What is behind the Gaussians, premultiplied display values.
-static void behind(const reference *work, size_t index, double color[4]) {
-    const float *surface = work->options.surface_rgba, *background = work->options.background;
-    color[3] = (double)(surface ? surface[4 * index + 3] : background[3]);
-    for (size_t c = 0; c < 3; c++) {
-        const double straight = !surface       ? (double)background[c]
-                                : color[3] > 0 ? (double)surface[4 * index + c] / color[3]
-                                               : 0;
-        color[c] = display_of_linear(straight) * color[3];
+/// What a pixel, or a part of one, shows: premultiplied linear colour, how much the Gaussians take of the light, and
+/// where half of it is gone.
+typedef struct shown {
+    double color[4], coverage, depth;
+} shown;
+
+/// Composites a pixel's list over a straight linear colour; `ahead`: what lies in front of the surface.
+static shown composite(const reference *work, const hit *hits, size_t count, bool ahead,
+                       const double back[4]) {
+    double color[3] = {0}, through = 1;
+    shown made = {.depth = INFINITY};
+    for (size_t i = 0; i < count; i++) {
+        const double weight = through * (ahead ? hits[i].ahead : hits[i].alpha);
+        for (int c = 0; c < 3; c++) color[c] += weight * work->splats[hits[i].splat].color[c];
+        if (through > 0.5 && through - weight <= 0.5) made.depth = hits[i].z * work->camera.unit_camera;
+        through -= weight;
     }
+    made.coverage = 1 - through;
+    made.color[3] = 1 - through + through * back[3];
+    for (int c = 0; c < 3 && made.color[3] > 0; c++) {
+        const double behind = display_of_linear(back[c]) * back[3];
+        made.color[c] = linear_of_display((color[c] + through * behind) / made.color[3]) * made.color[3];
+    }
+    return made;
 }
 
 static void write_pixel(const reference *work, size_t index, const hit *hits, size_t count) {
-    double color[3] = {0}, through = 1, depth = INFINITY, back[4];
-    for (size_t i = 0; i < count; i++) {
-        const double weight = through * hits[i].alpha;
-        for (int c = 0; c < 3; c++) color[c] += weight * work->splats[hits[i].splat].color[c];
-        if (through > 0.5 && through - weight <= 0.5) depth = hits[i].z * work->camera.unit_camera;
-        through -= weight;
+    const float *background = work->options.background;
+    const double behind[4] = {(double)background[0], (double)background[1], (double)background[2],
+                              (double)background[3]};
+    shown out = composite(work, hits, count, false, behind);
+    if (work->options.surface_rgba) {
+        // The part that the surface covers, and the rest.
+        const float *surface = work->options.surface_rgba + 4 * index;
+        const double cover = (double)surface[3];
+        const double own[4] = {cover > 0 ? (double)surface[0] / cover : 0,
+                               cover > 0 ? (double)surface[1] / cover : 0,
+                               cover > 0 ? (double)surface[2] / cover : 0, 1};
+        const shown covered = composite(work, hits, count, true, own);
+        for (int c = 0; c < 4; c++) out.color[c] += cover * (covered.color[c] - out.color[c]);
+        out.coverage += cover * (covered.coverage - out.coverage);
+        if (cover >= 0.5) out.depth = covered.depth;
     }
-    behind(work, index, back);
     const ewa_frame *frame = &work->frame;
-    const double alpha = 1 - through + through * back[3];
-    float linear[4] = {0, 0, 0, (float)alpha};
-    for (int c = 0; c < 3 && alpha > 0; c++)
-        linear[c] = (float)(linear_of_display((color[c] + through * back[c]) / alpha) * alpha);
-    if (frame->depth) frame->depth[index] = (float)depth;
-    if (frame->coverage) frame->coverage[index] = (float)(1 - through);
-    for (size_t c = 0; c < 4 && frame->rgba; c++) frame->rgba[4 * index + c] = linear[c];
+    const double alpha = out.color[3];
+    if (frame->depth) frame->depth[index] = (float)out.depth;
+    if (frame->coverage) frame->coverage[index] = (float)out.coverage;
+    for (size_t c = 0; c < 4 && frame->rgba; c++) frame->rgba[4 * index + c] = (float)out.color[c];
     for (size_t c = 0; c < 3 && frame->rgba8; c++)
-        frame->rgba8[4 * index + c] =
-            alpha > 0 ? ewa_srgb8_from_linear((float)((double)linear[c] / alpha)) : 0;
+        frame->rgba8[4 * index + c] = alpha > 0 ? ewa_srgb8_from_linear((float)(out.color[c] / alpha)) : 0;
     if (frame->rgba8) frame->rgba8[4 * index + 3] = (uint8_t)(255 * fmin(alpha, 1) + 0.5);
 }
 
@@ -353,6 +383,8 @@ ewa_status ewa_gaussian_render_reference(const ewa_gaussians *gaussians, const e
     if (status == EWA_OK) status = ewa_gaussian_frame_check(context, frame);
     if (status != EWA_OK) return status;
     work.width_px = camera->width_px, work.height_px = camera->height_px;
+    ewa_ray_sections_make(&work.sections, camera, (const double(*)[4])work.options.section_planes,
+                          work.options.section_count);
     ewa_gaussian_camera_make(&work.camera, camera, &work.options, gaussians->antialiased, 1,
                              gaussians->origin);
     return render(&work);

@@ -16,6 +16,7 @@
 #include "volume/footprint.h"
 #include "volume/geometry.h"
 #include "volume/options.h"
+#include "volume/section.h"
 #include "volume/view.h"
 
 #include <stdlib.h>
@@ -55,6 +56,7 @@ typedef struct reference {
     pixel *pixels;
     uint32_t band_count;
     ewa_frame frame;
+    ewa_ray_sections sections;
 } reference;
 
 static ewa_vec3 shade(const reference *work, const ewa_voxel *voxel, ewa_vec3 place) {
@@ -199,11 +201,16 @@ static double optical_depth(const reference *work, const splat *at, double x_px,
     return at->extinction * grid->splat_peak * by.length * at->attenuation * exp(-by.distance2 / 2);
 }
 
-/// The share of a voxel that lies in front of the surface.
+/// The share of a voxel that lies in front of the surface, and within the section planes.
 static double share_in_front(const reference *work, size_t index, double z) {
-    if (!work->options.surface_depth) return 1;
-    const double behind = (double)work->options.surface_depth[index] / work->grid.unit_camera - z;
-    return 0.5 * erfc(-behind / (work->grid.depth_sigma * sqrt(2)));
+    if (!work->options.surface_depth && !work->sections.count) return 1;
+    const double unit = work->grid.unit_camera, root = work->grid.depth_sigma * sqrt(2);
+    const uint32_t width = work->camera.width_px;
+    double enter, leave;
+    ewa_ray_sections_range(&work->sections, (double)(index % width) + 0.5, (double)(index / width) + 0.5,
+                           &enter, &leave);
+    if (work->options.surface_depth) leave = fmin(leave, (double)work->options.surface_depth[index]);
+    return fmax(0.5 * erfc((z - leave / unit) / root) - 0.5 * erfc((z - enter / unit) / root), 0);
 }
 
 static void composite(const reference *work, const splat *at, uint32_t y_begin, uint32_t y_end) {
@@ -327,6 +334,8 @@ ewa_status ewa_volume_render_reference(const ewa_volume *volume, const ewa_trans
     if (status != EWA_OK) return status;
     ewa_grid_view_make(&work.grid, volume->index_to_world, work.classifier.spacing_world, camera,
                        &work.options);
+    ewa_ray_sections_make(&work.sections, camera, (const double(*)[4])work.options.section_planes,
+                          work.options.section_count);
     ewa_volume_shading_make(&work.options, &work.shading);
     work.depth_unit = ewa_volume_depth_unit(&work.grid, &work.options);
     work.first_far_unit = ewa_volume_first_far_unit(&work.grid, work.depth_unit);

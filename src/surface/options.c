@@ -113,9 +113,9 @@ static ewa_status check_materials(ewa_context *context, const ewa_render_options
     return status;
 }
 
-static ewa_status check_sections(ewa_context *context, const ewa_render_options *options) {
-    for (uint32_t i = 0; i < options->section_count; i++) {
-        const double *p = options->section_planes[i];
+ewa_status ewa_option_check_sections(ewa_context *context, const double planes[][4], uint32_t count) {
+    for (uint32_t i = 0; i < count; i++) {
+        const double *p = planes[i];
         const char *wrong = p[0] == 0 && p[1] == 0 && p[2] == 0 ? "no normal" : NULL;
         for (int k = 0; k < 4; k++)
             if (!isfinite(p[k])) wrong = "not finite";
@@ -130,7 +130,9 @@ static ewa_status check_together(ewa_context *context, const ewa_render_options 
     ewa_status status = ewa_option_check_lights(context, options->lights, options->light_count);
     if (status == EWA_OK) status = check_materials(context, options);
     if (status == EWA_OK) status = ewa_option_check_background(context, options->background);
-    if (status == EWA_OK) status = check_sections(context, options);
+    if (status == EWA_OK)
+        status = ewa_option_check_sections(context, (const double(*)[4])options->section_planes,
+                                           options->section_count);
     const double *up = options->environment_up;
     if (status == EWA_OK && up[0] == 0 && up[1] == 0 && up[2] == 0)
         status = ewa_fail(context, EWA_ERROR_ARGUMENT, "options: environment_up is 0, 0, 0: no direction");

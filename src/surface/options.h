@@ -22,4 +22,7 @@ ewa_status ewa_option_check_lights(ewa_context *context, const ewa_light *lights
 /// Fails for a background whose alpha is above 1.
 ewa_status ewa_option_check_background(ewa_context *context, const float background[4]);
 
+/// Fails for section planes that are not finite or have no normal.
+ewa_status ewa_option_check_sections(ewa_context *context, const double planes[][4], uint32_t count);
+
 #endif

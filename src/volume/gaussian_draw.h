@@ -70,7 +70,7 @@ static void mark(ewa_gaussian_tile *tile) {
 /// A splat in the pixels of a block whose centres are (x, y): false where none shows it. Of what stands along
 /// a ray the share in front of the surface counts.
 static ALWAYS_INLINE bool meet_splat(const ewa_gaussian_view *view, const float *s, wf x, wf y, bool trained,
-                                     bool orthographic, const float *surface, ewa_gaussian_met *met) {
+                                     bool orthographic, const block_state *block, ewa_gaussian_met *met) {
     const wf u = wf_sub(x, wf_set(s[RECORD_X])), v = wf_sub(y, wf_set(s[RECORD_Y]));
     const wf limit = wf_set(s[RECORD_LIMIT]);
     wf m2 = wf_set(0), inverse;
@@ -109,9 +109,12 @@ static ALWAYS_INLINE bool meet_splat(const ewa_gaussian_view *view, const float 
     if (view->keep) inside = wm_and(inside, wf_le(wf_set(view->least_alpha), alpha));
     met->active = wm_bits(inside);
     alpha = wf_min(alpha, wf_set((float)EWA_GAUSSIAN_MOST_ALPHA));
-    if (view->with_surface) { // 3/4 sqrt(8 pi)
+    if (view->with_surface || view->with_sections) { // 3/4 sqrt(8 pi)
         const wf width = wf_max(wf_mul(wf_set(3.75994241f), wf_sqrt(inverse)), wf_set(1e-30f));
-        alpha = wf_mul(alpha, share_ahead(wf_load(surface), z, width));
+        wf share = share_ahead(wf_load(block->surface), z, width);
+        if (view->with_sections)
+            share = wf_max(wf_sub(share, share_ahead(wf_load(block->enter), z, width)), wf_set(0));
+        alpha = wf_mul(alpha, share);
     }
     wf_store(met->alpha, alpha);
     wf_store(met->z, wf_add(z, wf_set(0))); // of both zeros the one above
@@ -197,7 +200,7 @@ static ALWAYS_INLINE void draw_splats(const ewa_gaussian_view *view, ewa_gaussia
         }
         ewa_gaussian_met *met = next_met(tile, block);
         tile->block_count++;
-        if (!meet_splat(view, record, x, y, trained, orthographic, block->surface, met)) continue;
+        if (!meet_splat(view, record, x, y, trained, orthographic, block, met)) continue;
         met->active &= block->alive;
         if (!met->active) continue;
         met->id = id;
@@ -230,17 +233,25 @@ static uint32_t gather_row(ewa_gaussian_tile *tile, uint32_t row) {
     return found;
 }
 
-/// Depths of the surfaces in a block, in units of the splats; +infinity outside of the picture, and where all that
-/// lies behind counts, too.
-static ALWAYS_INLINE void load_surface(const ewa_gaussian_view *view, const ewa_gaussian_tile *tile,
-                                       uint32_t width_px, const block_place *at, bool everything,
-                                       float *surface) {
+/// Where the rays of a block's pixels end, in units of the splats, at the surfaces unless everything counts or where
+/// section planes leave nothing, and where these begin; +infinity outside of the picture.
+static ALWAYS_INLINE void set_bounds(const ewa_gaussian_view *view, const ewa_gaussian_tile *tile,
+                                     uint32_t width_px, const block_place *at, bool everything,
+                                     block_state *block) {
     for (uint32_t i = 0; i < 16; i++) {
         const uint32_t x = i % 4, y = i / 4;
-        surface[i] = __builtin_inff();
-        if (view->with_surface && !everything && x < at->width && y < at->height)
-            surface[i] = (float)((double)tile->surface_depth[(size_t)(at->y + y) * width_px + at->x + x] /
-                                 view->unit_camera);
+        const bool inside = x < at->width && y < at->height;
+        double end = __builtin_inf();
+        if (inside && view->with_surface && !everything)
+            end = (double)tile->surface_depth[(size_t)(at->y + y) * width_px + at->x + x] / view->unit_camera;
+        if (view->with_sections) {
+            double enter, leave;
+            ewa_ray_sections_range(tile->sections, at->x + x + 0.5, at->y + y + 0.5, &enter, &leave);
+            block->enter[i] = (float)(enter / view->unit_camera);
+            leave /= view->unit_camera;
+            end = leave < end ? leave : end;
+        }
+        block->surface[i] = (float)end;
     }
 }
 
@@ -256,7 +267,7 @@ static void composite_block(const ewa_gaussian_view *view, ewa_gaussian_tile *ti
     block->alive = 0;
     block->waiting_count = block->free_count = block->made_count = 0;
     for (uint32_t y = 0; y < at->height; y++) block->alive |= ((1u << at->width) - 1) << 4 * y;
-    load_surface(view, tile, width_px, at, everything, block->surface);
+    set_bounds(view, tile, width_px, at, everything, block);
     if (view->orthographic)
         draw_splats(view, tile, count, x_px, y_px, true, true, everything, &feed, block);
     else if (view->trained)
@@ -298,9 +309,14 @@ static ALWAYS_INLINE void resolve_with_surface(const ewa_gaussian_view *view, ew
     load_behind(to, tile->surface_rgba, at, surface);
     load_behind(to, NULL, at, background);
     const wf cover = surface[3], inverse = straighten(cover);
-    load_surface(view, tile, to->width_px, at, false, block->surface);
+    float depths[16];
+    for (uint32_t i = 0; i < 16; i++) {
+        const bool inside = i % 4 < at->width && i / 4 < at->height;
+        depths[i] = inside ? tile->surface_depth[(size_t)(at->y + i / 4) * to->width_px + at->x + i % 4]
+                           : __builtin_inff();
+    }
     // Where the surface leaves a part of a pixel free, what is behind it counts, too.
-    const wm edge = wm_and(wf_lt(cover, one), wf_lt(wf_load(block->surface), infinite));
+    const wm edge = wm_and(wf_lt(cover, one), wf_lt(wf_load(depths), infinite));
     const bool twice = wm_bits(edge) != 0;
     wf past_opacity = zero, past_depth = infinite;
     if (twice) {

@@ -12,6 +12,7 @@
 
 #include "ewa/mixture.h"
 #include "volume/layers.h"
+#include "volume/section.h"
 #include "volume/splats.h"
 
 enum {
@@ -53,7 +54,9 @@ typedef float ewa_gaussian_record[RECORD_FLOATS];
 
 /// Camera and options of a frame in single precision.
 typedef struct ewa_gaussian_view {
-    bool orthographic, trained, keep, with_depth, with_surface;
+    bool orthographic, trained, keep, with_depth;
+    bool with_surface;  ///< planes of opaque surfaces
+    bool with_sections; ///< section planes
     float fx_px, fy_px, cx_px, cy_px;
     float width_px, height_px;
     float last_column, last_row; ///< of the tiles
@@ -114,6 +117,7 @@ typedef struct ewa_gaussian_tile {
     uint32_t *waiting, *free; ///< of those: that wait; of no use now
     ewa_gaussian_desk *desk;
     const float *surface_depth, *surface_rgba; ///< of the picture, NULL: none
+    const ewa_ray_sections *sections;
     const ewa_gaussian_volume *volumes;
     uint32_t volume_count;
     uint32_t first_row, first_column; ///< of its blocks, in the volumes' tiles

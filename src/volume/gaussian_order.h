@@ -19,7 +19,8 @@
 /// A block while it is drawn.
 typedef struct block_state {
     _Alignas(64) float pixels[EWA_VOLUME_CHANNELS * 16];
-    float surface[16];
+    float surface[16];      ///< where pixels' rays end
+    float enter[16];        ///< where section planes begin them
     float linear[4 * 16];   ///< of volumes: premultiplied light and alpha, beside those of `pixels`
     uint32_t alive;         ///< pixels in which more would show
     uint32_t waiting_count; ///< splats that wait, in the order in which they came

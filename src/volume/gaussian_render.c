@@ -50,6 +50,7 @@ typedef struct gaussian_job {
     ewa_volume_target target;
     ewa_tiles tiles, areas; ///< `areas`: the tiles of the volumes, or the same
     const float *surface_depth, *surface_rgba;
+    ewa_ray_sections sections;
     bool with_times;
     uint32_t part_count, visible_count;
     gaussian_part *parts;
@@ -116,6 +117,7 @@ static void set_view(ewa_gaussian_view *view, const ewa_splats *splats, double u
                                 .trained = c.trained,
                                 .keep = c.keep,
                                 .with_surface = options->surface_depth != NULL,
+                                .with_sections = options->section_count > 0,
                                 .fx_px = (float)c.fx_px,
                                 .fy_px = (float)c.fy_px,
                                 .cx_px = (float)c.cx_px,
@@ -304,6 +306,7 @@ static void draw_tile(const gaussian_job *job, uint32_t index, uint32_t worker,
                               .desk = scratch->desk.data,
                               .surface_depth = job->surface_depth,
                               .surface_rgba = job->surface_rgba,
+                              .sections = &job->sections,
                               .volumes = volumes,
                               .volume_count = job->mixture->volume_count,
                               .first_row = place.y_px % EWA_VOLUME_TILE_PX / 4,
@@ -411,6 +414,7 @@ static ewa_status check_mixture(ewa_context *context, const ewa_mixture *mixture
 
 /// Sets up the frames of the volumes.
 static ewa_status make_volumes(gaussian_job *job, const ewa_camera *camera,
+                               const ewa_gaussian_options *options,
                                ewa_volume_options chosen[EWA_MAX_MIXED_VOLUMES]) {
     const uint32_t count = job->mixture->volume_count;
     ewa_buffer *room = &job->renderer->volumes;
@@ -420,6 +424,8 @@ static ewa_status make_volumes(gaussian_job *job, const ewa_camera *camera,
         const ewa_mixed_volume *volume = &job->mixture->volumes[i];
         chosen[i].surface_depth = job->surface_depth;
         chosen[i].surface_rgba = job->surface_rgba;
+        memcpy(chosen[i].section_planes, options->section_planes, sizeof options->section_planes);
+        chosen[i].section_count = options->section_count;
         status = ewa_volume_frame_make(volume->renderer, volume->voxels, camera, &chosen[i],
                                        volume->stats != NULL, &job->volumes[i]);
         job->volumes[i].job.target = job->target;
@@ -483,8 +489,10 @@ ewa_status ewa_mixture_render(ewa_gaussian_renderer *renderer, const ewa_mixture
                     ? ewa_tiles_make(camera->width_px, camera->height_px, EWA_VOLUME_TILE_PX)
                     : job.tiles;
     ewa_volume_target_set(&job.target, camera, frame, NULL, chosen.background);
+    ewa_ray_sections_make(&job.sections, camera, (const double(*)[4])chosen.section_planes,
+                          chosen.section_count);
     status = set_views(&job, camera, &chosen, frame->depth != NULL);
-    if (status == EWA_OK) status = make_volumes(&job, camera, volumes);
+    if (status == EWA_OK) status = make_volumes(&job, camera, &chosen, volumes);
     if (status == EWA_OK) status = draw_frame(&job, stats);
     if (status == EWA_OK && stats) stats->total_s = ewa_now_s() - start_s;
     return status;

@@ -36,6 +36,8 @@ static const ewa_option rows[] = {
      .help = "spherical harmonics beyond that degree are not used"},
     {"background", EWA_OPTION_F32, OF(background), 0, 1e15, .count = 4,
      .help = "linear light, straight alpha, which is at most 1"},
+    {"section_count", EWA_OPTION_U32, OF(section_count), 0, EWA_MAX_SECTION_PLANES,
+     .help = "how many section planes there are"},
 };
 
 const ewa_option_table ewa_gaussian_options_table = EWA_OPTION_TABLE(ewa_gaussian_options, rows);
@@ -49,6 +51,9 @@ ewa_status ewa_gaussian_options_choose(ewa_context *context, const ewa_gaussian_
     ewa_gaussian_options_init(chosen, sizeof *chosen);
     ewa_status status = ewa_options_take(context, &ewa_gaussian_options_table, given, chosen);
     if (status == EWA_OK) status = ewa_option_check_background(context, chosen->background);
+    if (status == EWA_OK)
+        status = ewa_option_check_sections(context, (const double(*)[4])chosen->section_planes,
+                                           chosen->section_count);
     return status == EWA_OK ? ewa_volume_surface_check(context, chosen->surface_depth, chosen->surface_rgba)
                             : status;
 }

@@ -108,7 +108,7 @@ typedef struct ewa_volume_queue {
 
 /// Camera, grid and options of a frame in single precision.
 typedef struct ewa_volume_view {
-    bool orthographic, exact, lit, highlights, with_depth, with_surface, has_near;
+    bool orthographic, exact, lit, highlights, with_depth, with_surface, with_sections, has_near;
     float fx_px, fy_px, cx_px, cy_px;
     float axes[3][3];          ///< steps along i, j, k in camera space
     float to_deviations[3][3]; ///< row vectors of camera space to standard deviations along i, j, k
@@ -149,7 +149,8 @@ typedef struct ewa_volume_tile {
     int32_t x_px, y_px, width_px, height_px;
     float *sums;    ///< of a slice, in strips: [column / 4][row][column % 4]: r, g, b, optical depth
     float *pixels;  ///< [block][EWA_VOLUME_CHANNELS][16]
-    float *surface; ///< [block][16] depths of opaque surfaces
+    float *surface; ///< [block][16] depths of opaque surfaces, and where section planes end what is left
+    float *enter;   ///< [block][16] where section planes begin it
     uint8_t touched[EWA_SUMS_CELL_ROOM]; ///< [ewa_sums_cell()]: 1 where the sums may have something in them
     uint8_t hidden[EWA_SUMS_CELL_ROOM];  ///< 1 where nothing more would show, as in the margin
     uint32_t cell_count, visible_count;  ///< of cells within the picture; of those that are not hidden

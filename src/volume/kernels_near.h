@@ -111,7 +111,7 @@ static void draw_near(const ewa_volume_view *view, ewa_volume_tile *tile, const 
                 const wf z = wf_set(at->z > 0 ? at->z : 0);
                 wf depth = wf_keep(inside, wf_min(wf_mul(whole, ahead), wf_set(1e12f)));
                 if (view->with_surface)
-                    depth = wf_mul(depth, share_in_front(view, tile->surface + 16 * block, wf_set(at->z)));
+                    depth = wf_mul(depth, share_in_front(view, tile, block, wf_set(at->z)));
                 const wf color[3] = {wf_set(at->color[0]), wf_set(at->color[1]), wf_set(at->color[2])};
                 absorb(view, pixels, wf_mul(wf_load(pixels + 48), absorbed(depth)), color, z);
                 hide_saturated(view, tile, cell, pixels);

@@ -25,9 +25,13 @@ static ALWAYS_INLINE wf absorbed(wf t) {
     return wf_fnma(scale, change, wf_sub(wf_set(1), scale));
 }
 
-/// The share of a voxel of depth z that lies in front of a block's opaque surfaces.
-static ALWAYS_INLINE wf share_in_front(const ewa_volume_view *view, const float *surface, wf z) {
-    return share_ahead(wf_load(surface), z, wf_set(2 * view->surface_reach));
+/// The share of a voxel of depth z that lies in front of a block's opaque surfaces, and within the section planes.
+static ALWAYS_INLINE wf share_in_front(const ewa_volume_view *view, const ewa_volume_tile *tile, size_t block,
+                                       wf z) {
+    const wf width = wf_set(2 * view->surface_reach);
+    const wf share = share_ahead(wf_load(tile->surface + 16 * block), z, width);
+    if (!view->with_sections) return share;
+    return wf_max(wf_sub(share, share_ahead(wf_load(tile->enter + 16 * block), z, width)), wf_set(0));
 }
 
 /// Composites `weight`, the light that is absorbed, of a colour behind a block's pixels.
@@ -96,7 +100,7 @@ static ALWAYS_INLINE void composite_cell(const ewa_volume_view *view, ewa_volume
     wf sum[4];
     w_load4(sums, 16, sum);
     wf t = sum[3];
-    if (view->with_surface) t = wf_mul(t, share_in_front(view, tile->surface + 16 * block, depth));
+    if (view->with_surface) t = wf_mul(t, share_in_front(view, tile, block, depth));
     const wf weight = wf_mul(wf_load(pixels + 48), absorbed(t));
     const wm some = wf_lt(wf_set(1e-30f), sum[3]);
     // The weight goes to the mean colour of what was summed.

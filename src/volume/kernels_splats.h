@@ -211,7 +211,7 @@ static ALWAYS_INLINE void draw_splat(const ewa_volume_view *view, ewa_volume_til
             }
             const size_t block = (size_t)row * EWA_VOLUME_ROW_BLOCKS + column;
             wf t = wf_keep(inside, wf_mul(peak, wf_exp2(wf_mul(exponent, d2))));
-            if (view->with_surface) t = wf_mul(t, share_in_front(view, tile->surface + 16 * block, z));
+            if (view->with_surface) t = wf_mul(t, share_in_front(view, tile, block, z));
             float *pixels = tile->pixels + block * EWA_VOLUME_CHANNELS * 16;
             absorb(view, pixels, wf_mul(wf_load(pixels + 48), absorbed(t)), color, z);
             hide_saturated(view, tile, cell, pixels);

@@ -49,6 +49,8 @@ static const ewa_option volume_rows[] = {
      .help = "how many lights there are; 0: a headlight"},
     {"background", EWA_OPTION_F32, OF_VOLUME(background), 0, 1e15, .count = 4,
      .help = "linear light, straight alpha, which is at most 1"},
+    {"section_count", EWA_OPTION_U32, OF_VOLUME(section_count), 0, EWA_MAX_SECTION_PLANES,
+     .help = "how many section planes there are"},
 };
 
 const ewa_option_table ewa_volume_options_table = EWA_OPTION_TABLE(ewa_volume_options, volume_rows);
@@ -82,6 +84,9 @@ ewa_status ewa_volume_options_choose(ewa_context *context, const ewa_volume_opti
     if (status == EWA_OK) status = ewa_option_check_lights(context, chosen->lights, chosen->light_count);
     if (status == EWA_OK) status = ewa_material_check(context, "options", 0, &chosen->material);
     if (status == EWA_OK) status = ewa_option_check_background(context, chosen->background);
+    if (status == EWA_OK)
+        status = ewa_option_check_sections(context, (const double(*)[4])chosen->section_planes,
+                                           chosen->section_count);
     return status == EWA_OK ? ewa_volume_surface_check(context, chosen->surface_depth, chosen->surface_rgba)
                             : status;
 }

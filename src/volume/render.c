@@ -98,6 +98,8 @@ ewa_status ewa_volume_frame_make(ewa_volume_renderer *renderer, const ewa_voxels
                                   .surface_depth = options->surface_depth,
                                   .with_times = with_times,
                                   .scratch = renderer->scratch};
+    ewa_ray_sections_make(&frame->job.sections, camera, (const double(*)[4])options->section_planes,
+                          options->section_count);
     ewa_volume_view_set(&frame->job.view, &frame->grid, &frame->slices, voxels, camera, options,
                         &frame->shading, &renderer->table);
     ewa_status status =

@@ -34,7 +34,8 @@ ewa_status ewa_volume_scratch_reserve(ewa_context *context, ewa_volume_scratch *
     } wanted[] = {
         {&scratch->sums, (size_t)EWA_SUMS_ROW_BLOCKS * EWA_SUMS_STRIP, sizeof(float)},
         {&scratch->pixels, block_floats * EWA_VOLUME_CHANNELS, sizeof(float)},
-        {&scratch->surface, job->surface_depth ? block_floats : 0, sizeof(float)},
+        {&scratch->surface, job->view.with_surface ? block_floats : 0, sizeof(float)},
+        {&scratch->enter, job->view.with_sections ? block_floats : 0, sizeof(float)},
         {&scratch->ring, ring_size(job->bins), sizeof(ewa_volume_bucket)},
         {&scratch->colors, pages, EWA_PAGE_RECORDS * sizeof(float[4])},
         {&scratch->windows, pages, EWA_PAGE_RECORDS * sizeof(int32_t)},
@@ -63,27 +64,37 @@ void ewa_volume_scratch_free(ewa_context *context, ewa_volume_scratch *scratch) 
     ewa_buffer *const buffers[] = {&scratch->sums,   &scratch->pixels,  &scratch->surface, &scratch->ring,
                                    &scratch->colors, &scratch->windows, &scratch->splats,  &scratch->next,
                                    &scratch->free,   &scratch->order,   &scratch->keys,    &scratch->near,
-                                   &scratch->queue};
+                                   &scratch->queue,  &scratch->enter};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++) ewa_buffer_free(context, buffers[i]);
     ewa_buffer_free(context, &scratch->lists);
     for (int i = 0; i < 2; i++) ewa_buffer_free(context, &scratch->layers[i]);
 }
 
-/// A tile's own copy of the surfaces' depths; +infinity outside of the picture.
-static void copy_surface(const ewa_volume_job *job, ewa_volume_tile *tile) {
+/// Where the rays of a tile's pixels end, at the surfaces unless everything counts or where section planes leave
+/// nothing, and where these begin; +infinity outside of the picture.
+static void set_bounds(const ewa_volume_job *job, ewa_volume_tile *tile, bool everything) {
+    const double unit = job->grid->unit_camera;
     for (uint32_t row = 0; row < EWA_VOLUME_TILE_PX; row++)
         for (uint32_t column = 0; column < EWA_VOLUME_TILE_PX; column++) {
             const size_t block = (size_t)(row / 4) * EWA_VOLUME_ROW_BLOCKS + column / 4;
+            const size_t at = 16 * block + 4 * (row % 4) + column % 4;
             const uint32_t x = (uint32_t)tile->x_px + column, y = (uint32_t)tile->y_px + row;
             const bool inside = x < job->target.width_px && y < job->target.height_px;
-            const float z = inside ? job->surface_depth[(size_t)y * job->target.width_px + x] : INFINITY;
-            tile->surface[16 * block + 4 * (row % 4) + column % 4] =
-                (float)((double)z / job->grid->unit_camera);
+            const size_t pixel = (size_t)y * job->target.width_px + x;
+            double end = INFINITY;
+            if (inside && job->surface_depth && !everything) end = (double)job->surface_depth[pixel] / unit;
+            if (job->sections.count) {
+                double enter, leave;
+                ewa_ray_sections_range(&job->sections, x + 0.5, y + 0.5, &enter, &leave);
+                tile->enter[at] = (float)(enter / unit);
+                end = fmin(end, leave / unit);
+            }
+            tile->surface[at] = (float)end;
         }
 }
 
 static void start_tile(const ewa_volume_job *job, ewa_volume_scratch *scratch, uint32_t index,
-                       ewa_volume_tile *tile) {
+                       bool everything, ewa_volume_tile *tile) {
     const ewa_tile_rect place = ewa_tiles_rect(&job->bins->tiles, index);
     *tile = (ewa_volume_tile){
         .x_px = (int32_t)place.x_px,
@@ -93,6 +104,7 @@ static void start_tile(const ewa_volume_job *job, ewa_volume_scratch *scratch, u
         .sums = scratch->sums.data,
         .pixels = scratch->pixels.data,
         .surface = scratch->surface.data,
+        .enter = scratch->enter.data,
         .ring = scratch->ring.data,
         .ring_mask = ring_size(job->bins) - 1,
         .pages = {.colors = scratch->colors.data,
@@ -109,7 +121,7 @@ static void start_tile(const ewa_volume_job *job, ewa_volume_scratch *scratch, u
     for (uint32_t i = 0; i < tile->pages.free_count; i++)
         tile->pages.free[i] = tile->pages.free_count - 1 - i; // the first ones first: they stay in the cache
     job->kernels->clear(tile);
-    if (job->surface_depth) copy_surface(job, tile);
+    if (job->view.with_surface) set_bounds(job, tile, everything);
     // What lies outside of the picture needs nothing more.
     memset(tile->hidden, 1, sizeof tile->hidden);
     for (uint32_t row = 0; 4 * row < place.height_px; row++)
@@ -268,7 +280,7 @@ static ewa_status composite_tile(const ewa_volume_job *job, ewa_volume_scratch *
         ewa_volume_bucket *bucket = &tile->ring[(uint32_t)slice & tile->ring_mask];
         if (bucket->page_count == 0) continue;
         const double z = ewa_slice_middle(job->slices, (uint32_t)slice);
-        if (job->surface_depth) hide_behind_surface(job, tile, (float)(z - job->slices->unit));
+        if (job->view.with_surface) hide_behind_surface(job, tile, (float)(z - job->slices->unit));
         if (slice < job->view.point_slice) {
             draw_splats(job, scratch, tile, bucket);
             take_time(job, last_s, &scratch->splats_s);
@@ -290,7 +302,7 @@ void ewa_volume_tile_draw(void *data, uint32_t index, uint32_t worker) {
     ewa_volume_scratch *scratch = &job->scratch[worker];
     ewa_volume_tile tile;
     double last_s = job->with_times ? ewa_now_s() : 0;
-    start_tile(job, scratch, index, &tile);
+    start_tile(job, scratch, index, false, &tile);
     (void)composite_tile(job, scratch, &tile, index, &last_s, NULL); // only layers need memory
     job->kernels->resolve(&job->view, &tile, &job->target);
     take_time(job, &last_s, &scratch->resolve_s);
@@ -310,9 +322,7 @@ ewa_status ewa_volume_tile_layers(ewa_context *context, const ewa_volume_job *jo
     }
     ewa_volume_tile tile;
     double last_s = job->with_times ? ewa_now_s() : 0;
-    start_tile(job, scratch, index, &tile);
-    for (size_t i = 0; everything && job->surface_depth && i < EWA_VOLUME_TILE_BLOCKS * (size_t)16; i++)
-        tile.surface[i] = INFINITY;
+    start_tile(job, scratch, index, everything, &tile);
     const layer_taker taker = {context, &scratch->layers[everything], lists};
     status = composite_tile(job, scratch, &tile, index, &last_s, &taker);
     *layers = lists;

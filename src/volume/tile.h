@@ -7,10 +7,12 @@
 
 #include "volume/layers.h"
 #include "volume/near.h"
+#include "volume/section.h"
 
 /// What a worker needs; survives from frame to frame. Zero-initialise.
 typedef struct ewa_volume_scratch {
-    ewa_buffer sums, pixels, surface, ring, colors, windows, splats, next, free, order, keys, near, queue;
+    ewa_buffer sums, pixels, surface, enter, ring, colors, windows, splats, next, free, order, keys, near,
+        queue;
     ewa_buffer layers[2], lists; ///< of ewa_volume_tile_layers()
     uint64_t hidden_count, splat_count, point_count;
     double setup_s, points_s, splats_s, resolve_s;
@@ -25,7 +27,8 @@ typedef struct ewa_volume_job {
     const ewa_grid_view *grid;
     const ewa_volume_slices *slices;
     const ewa_point_filter *filters;
-    const float *surface_depth;
+    const float *surface_depth; ///< NULL: none
+    ewa_ray_sections sections;
     ewa_volume_view view;
     ewa_volume_target target;
     bool with_times;

@@ -112,7 +112,8 @@ void ewa_volume_view_set(ewa_volume_view *view, const ewa_grid_view *grid, const
     memset(view, 0, sizeof *view);
     view->orthographic = grid->orthographic;
     view->exact = options->index == EWA_INDEX_EXACT;
-    view->with_surface = options->surface_depth != NULL;
+    view->with_sections = options->section_count > 0;
+    view->with_surface = options->surface_depth || view->with_sections;
     view->fx_px = (float)grid->fx_px, view->fy_px = (float)grid->fy_px;
     view->cx_px = (float)grid->cx_px, view->cy_px = (float)grid->cy_px;
     for (int i = 0; i < 3; i++)

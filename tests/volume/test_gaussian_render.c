@@ -269,6 +269,78 @@ static void test_surface(void **state) {
 }
 
 /// Harmonics are orthonormal: means over directions of products of two, from the colours that they give.
+/// Section planes cut along every ray; also with edges of surfaces, whose share of a pixel is what the reference has.
+static void test_sections(void **state) {
+    (void)state;
+    enum { PIXELS = 150 * 110 };
+    static float depth[PIXELS], rgba[4 * PIXELS];
+    static const double planes[3][4] = {{0, 2, 0, 0.4}, {-3, 0, 1, 1}, {0.1, 0.2, 1, 0.1}};
+    ewa_context *context = check_context(2, NULL);
+    ewa_gaussians set = gaussians_random(context, 1500, 0, 7);
+    set.origin[1] = 100;
+    for (int n = 0; n < 8; n++) {
+        ewa_camera camera = gaussians_camera(150, 110, n % 4 == 3 ? 110 : 40, FRONT, n % 4 == 3 ? 0.5 : 3);
+        for (int row = 0; row < 3; row++) // to where the set is, in a space twice as large
+            camera.world_to_camera[4 * row + 3] -= 100 * camera.world_to_camera[4 * row + 1];
+        for (int i = 0; i < 12; i++) camera.world_to_camera[i] *= 2;
+        if (n % 4 == 2) {
+            camera.projection = EWA_ORTHOGRAPHIC;
+            camera.fx_px = camera.fy_px = 20;
+        }
+        ewa_gaussian_options options = options_of((ewa_gaussian_projection)(n % 2));
+        ewa_image whole = gaussians_draw(&set, &camera, &options, NULL);
+        for (uint32_t i = 0; i < 3; i++) {
+            memcpy(options.section_planes[i], planes[i], sizeof planes[i]);
+            options.section_planes[i][3] -= 100 * planes[i][1];
+        }
+        options.section_count = 2 + (uint32_t)(n % 2);
+        if (n >= 4) {
+            for (size_t i = 0; i < PIXELS; i++) {
+                const float cover = (float)(i % 7) / 6;
+                depth[i] = i % 7 ? 6 : INFINITY;
+                for (size_t k = 0; k < 4; k++) rgba[4 * i + k] = cover * (k == 1 ? 0.5f : 1);
+            }
+            options.surface_depth = depth, options.surface_rgba = rgba;
+        }
+        options.background[2] = options.background[3] = 1;
+        ewa_image cut = gaussians_draw(&set, &camera, &options, NULL);
+        ewa_image slow = gaussians_draw_reference(&set, &camera, &options, EWA_ORDER_RAYS);
+        const double decibels = gaussians_decibels(&cut, &slow), changed = gaussians_decibels(&cut, &whole);
+        print_message("sections, %d: %.1f dB, the whole: %.1f dB\n", n, decibels, changed);
+        assert_true(decibels > 45 && changed < 30);
+        ewa_image_free(&whole);
+        ewa_image_free(&cut);
+        ewa_image_free(&slow);
+    }
+    ewa_gaussians_free(&set);
+    // A plane that every pixel lies on one side of: all, or nothing.
+    const ewa_camera camera = gaussians_camera(64, 48, 30, (const double[3]){0, 0, -1}, 5);
+    ewa_gaussians sheet = gaussians_one(context, (const double[3]){0, 0, 0}, (const double[3]){50, 50, 0.01},
+                                        ROUND, 0.8, (const double[3]){1, 1, 1});
+    for (int n = 0; n < 3; n++) {
+        ewa_gaussian_options options = options_of(EWA_PROJECTION_TRAINED);
+        options.section_count = 1;
+        options.section_planes[0][n == 0 ? 0 : 2] = n == 2 ? -1 : 1;
+        if (n) options.section_planes[0][3] = n == 1 ? -1 : 1;
+        ewa_image cut = gaussians_draw(&sheet, &camera, &options, NULL);
+        const float left = cut.pixels[4 * (24 * 64 + 10) + 3], right = cut.pixels[4 * (24 * 64 + 50) + 3];
+        if (n == 0) assert_true(fminf(left, right) == 0 && fabsf(fmaxf(left, right) - 0.8f) < 1e-2f);
+        if (n == 1) assert_true(left == 0 && right == 0);
+        if (n == 2) assert_true(fabsf(left - 0.8f) < 1e-2f && fabsf(right - 0.8f) < 1e-2f);
+        ewa_image_free(&cut);
+    }
+    ewa_gaussian_options wrong = options_of(EWA_PROJECTION_TRAINED);
+    wrong.section_count = 1;
+    ewa_image none;
+    assert_int_equal(ewa_image_create(context, 64, 48, 4, &none), EWA_OK);
+    const ewa_frame frame = {.rgba = none.pixels};
+    assert_int_equal(ewa_gaussian_render_reference(&sheet, &camera, &wrong, EWA_ORDER_RAYS, &frame),
+                     EWA_ERROR_ARGUMENT);
+    ewa_image_free(&none);
+    ewa_gaussians_free(&sheet);
+    ewa_context_destroy(&context);
+}
+
 static void test_harmonics(void **state) {
     (void)state;
     enum { COUNT = 25, AROUND = 24, DOWN = 12 };
@@ -356,9 +428,10 @@ static void test_memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reference), cmocka_unit_test(test_crowd),     cmocka_unit_test(test_bytes),
-        cmocka_unit_test(test_constant),  cmocka_unit_test(test_nothing),   cmocka_unit_test(test_one),
-        cmocka_unit_test(test_surface),   cmocka_unit_test(test_harmonics), cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_reference), cmocka_unit_test(test_crowd),    cmocka_unit_test(test_bytes),
+        cmocka_unit_test(test_constant),  cmocka_unit_test(test_nothing),  cmocka_unit_test(test_one),
+        cmocka_unit_test(test_surface),   cmocka_unit_test(test_sections), cmocka_unit_test(test_harmonics),
+        cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -124,7 +124,11 @@ static void test_alone(void **state) {
         const ewa_camera camera = camera_of(n);
         cast c = start_on(context);
         add_ball(&c, -20, 20, 2);
+        c.options.section_count = (uint32_t)(n % 2); // the volume's own are not used
+        c.options.section_planes[0][0] = 1, c.options.section_planes[0][2] = -0.5;
         ewa_image mixed = draw_cast(&c, &camera);
+        memcpy(c.volume_options.section_planes, c.options.section_planes, sizeof c.options.section_planes);
+        c.volume_options.section_count = c.options.section_count;
         ewa_image plain = scene_draw(context, c.voxels[0], &camera, &c.volume_options);
         const double apart = largest_difference(&mixed, &plain);
         print_message("a volume alone, %d: %.2g\n", n, apart);

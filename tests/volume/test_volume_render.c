@@ -272,6 +272,53 @@ static void test_surface_in_fog(void **state) {
 }
 
 /// Coarser levels are the same fog in fewer voxels.
+/// What section planes leave of fog keeps the light off as far as it reaches; the rest is as the reference has it.
+static void test_sections(void **state) {
+    (void)state;
+    static const uint32_t dims[3] = {64, 64, 40};
+    static const double direction[3] = {0, 0, -1};
+    enum { SIDE = 64 };
+    const double kappa = 0.07;
+    ewa_context *context = check_context(2, NULL);
+    ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
+    const ewa_transfer transfer = scene_linear(1, 1, 1, (float)kappa);
+    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    for (int method = EWA_VOLUME_HYBRID; method <= EWA_VOLUME_POINTS; method++)
+        for (double low = -15.2; low < 10; low += 6.1) {
+            const double distance = method == EWA_VOLUME_POINTS ? 140 : 60;
+            const ewa_camera camera = scene_camera(SIDE, SIDE, direction, distance);
+            ewa_volume_options options = defaults();
+            options.method = (ewa_volume_method)method;
+            options.section_count = 2; // from low to 13 along z, the eye being below
+            options.section_planes[0][2] = 2, options.section_planes[0][3] = -2 * low;
+            options.section_planes[1][2] = -1, options.section_planes[1][3] = 13;
+            ewa_image image = scene_draw(context, voxels, &camera, &options);
+            const double through = 1 - (double)image.pixels[4 * (SIDE / 2 * SIDE + SIDE / 2) + 3];
+            const double truth = exp(-kappa * (13 - low));
+            if (fabs(through - truth) > 0.01)
+                print_message("%d, from %g: %g, not %g\n", method, low, through, truth);
+            assert_true(fabs(through - truth) < 0.01);
+            ewa_image_free(&image);
+        }
+    const ewa_camera aside = scene_camera(SIDE, SIDE, (const double[3]){1, 0.4, -0.7}, 80);
+    ewa_volume_options options = defaults();
+    options.method = EWA_VOLUME_SPLATS;
+    options.section_count = 1;
+    options.section_planes[0][0] = 1, options.section_planes[0][1] = -0.5, options.section_planes[0][3] = 4;
+    ewa_image fast = scene_draw(context, voxels, &aside, &options);
+    ewa_image slow = scene_draw_reference(&volume, &transfer, &aside, &options);
+    double largest = 0;
+    for (size_t i = 0; i < 4 * SIDE * SIDE; i++)
+        largest = fmax(largest, fabs((double)fast.pixels[i] - (double)slow.pixels[i]));
+    print_message("sections: %.2g from the reference\n", largest);
+    assert_true(largest < 0.01);
+    ewa_image_free(&fast);
+    ewa_image_free(&slow);
+    ewa_voxels_destroy(&voxels);
+    ewa_volume_free(&volume);
+    ewa_context_destroy(&context);
+}
+
 static void test_levels(void **state) {
     (void)state;
     static const uint32_t dims[3] = {50, 50, 50};
@@ -309,6 +356,7 @@ int main(void) {
         cmocka_unit_test(test_culling_changes_nothing),
         cmocka_unit_test(test_stops_between_tiles),
         cmocka_unit_test(test_surface_in_fog),
+        cmocka_unit_test(test_sections),
         cmocka_unit_test(test_levels),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
