@@ -11,13 +11,14 @@ import numpy as np
 from . import _bindings as b
 from ._arrays import Array, as_contiguous, export
 from ._context import Context, Core, Handle, Pin, core_of
-from ._errors import ArgumentError, ClosedError
+from ._errors import ArgumentError
+from ._held import Held
 from ._library import functions as lib
 from ._struct import fill, initialised, numbers, path_bytes
 from .camera import Camera, PathLike
 from .cloud import Cloud, merge
 from .image import Color, Image
-from .rendering import new_frame
+from .rendering import new_frame, renderer_of, set_surfaces
 from .shade import Light, set_background, set_lights, set_section
 from .volume import Voxels
 
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
     from ._options import GaussianOptions, GaussiansSaveOptions
 
 
-class Gaussians:
+class Gaussians(Held):
     """A set of trained Gaussians with their colours by direction.
 
     Arrays of float32 that are C-contiguous are borrowed, others are converted.
@@ -54,7 +55,7 @@ class Gaussians:
     ArgumentError
     """
 
-    _handle: Handle | None
+    _what = "the Gaussians"
     _up: str = "-y"
 
     def __init__(self, centers: Any, scales: Any, rotations: Any, opacities: Any, harmonics: Any, *,
@@ -75,7 +76,7 @@ class Gaussians:
                                 f"{', '.join(map(str, degrees))} are")
         if count >= 2**32:
             raise ArgumentError(f"centers: {count} of them, at most {2**32 - 1}")
-        self._set = b.ewa_gaussians(
+        self._struct = b.ewa_gaussians(
             context=core.address, count=count, sh_degree=degrees[given["harmonics"].shape[1]],
             flat=bool(count) and not given["scales"][:, 2].any(), antialiased=bool(antialiased),
             origin=tuple(numbers((0, 0, 0) if origin is None else origin, 3, "origin")),
@@ -86,19 +87,9 @@ class Gaussians:
     @staticmethod
     def _read(core: Core, path: PathLike) -> Gaussians:
         gaussians = Gaussians.__new__(Gaussians)
-        held, facts = b.ewa_gaussians(), b.ewa_gaussian_facts()
-
-        def create(*given: Any) -> int:
-            status: int = lib.ewa_gaussians_load(*given[:-1], ctypes.byref(held), ctypes.byref(facts))
-            if held.centers:
-                given[-1]._obj.value = ctypes.addressof(held)
-            return status
-
-        def free(_: Any) -> None:
-            lib.ewa_gaussians_free(ctypes.byref(held))
-
-        gaussians._set = held
-        gaussians._handle = core.make(create, core.address, path_bytes(path), destroy=free, what="the Gaussians")
+        struct, facts = b.ewa_gaussians(), b.ewa_gaussian_facts()
+        gaussians._fill(core, struct, "centers", lib.ewa_gaussians_load, lib.ewa_gaussians_free, core.address,
+                        path_bytes(path), ctypes.byref(struct), ctypes.byref(facts))
         up = facts.up_world
         if abs(up[2]) > abs(up[1]):
             gaussians._up = "z" if up[2] > 0 else "-z"
@@ -106,51 +97,31 @@ class Gaussians:
             gaussians._up = "y"
         return gaussians
 
-    @property
-    def _h(self) -> Handle:
-        if self._handle is None or self._handle.core.closed:
-            raise ClosedError("the Gaussians are closed")
-        return self._handle
-
-    def _bound(self, function: Any) -> Any:
-        """A function with the set as its first argument, for a call in which it cannot go away."""
-        handle = self._h
-
-        def checked(*given: Any) -> int:
-            if handle.address is None and not handle.keep:
-                raise ClosedError("the Gaussians are closed")
-            for pin in handle.keep:
-                pin.check()
-            status: int = function(ctypes.byref(self._set), *given)
-            return status
-
-        return checked
-
     def __len__(self) -> int:
-        return int(self._set.count) if self._handle is not None else 0
+        return int(self._struct.count) if self._handle is not None else 0
 
     @property
     def sh_degree(self) -> int:
         """Degree of the harmonics."""
-        return int(self._set.sh_degree)
+        return int(self._struct.sh_degree)
 
     @property
     def flat(self) -> bool:
         """Whether these are 2D Gaussians."""
-        return bool(self._set.flat)
+        return bool(self._struct.flat)
 
     @property
     def antialiased(self) -> bool:
         """Whether they were trained with a pixel filter that keeps what a Gaussian adds."""
-        return bool(self._set.antialiased)
+        return bool(self._struct.antialiased)
 
     @property
     def origin(self) -> Array:
         """What centres are relative to; float64, shape (3,)."""
-        return np.array(self._set.origin)
+        return np.array(self._struct.origin)
 
     def _stream(self, name: str, shape: tuple[int, ...]) -> Array:
-        return export(self._h, getattr(self._set, name), (len(self), *shape), np.dtype(np.float32))
+        return export(self._h, getattr(self._struct, name), (len(self), *shape), np.dtype(np.float32))
 
     @property
     def centers(self) -> Array:
@@ -191,15 +162,11 @@ class Gaussians:
         """
         made = initialised(b.ewa_gaussians_save_options, lib.ewa_gaussians_save_options_init)
         fill(made, "ewa_gaussians_save_options", dict(options))
-        self._h.core.call(self._bound(lib.ewa_gaussians_save), path_bytes(path), ctypes.byref(made))
+        self._call(lib.ewa_gaussians_save, path_bytes(path), ctypes.byref(made))
 
     def to_cloud(self) -> Cloud:
         """Return surfels: the two longest axes, the normal across them, the constant colour."""
         return Cloud._made(self._h.core, self._bound(lib.ewa_gaussians_to_cloud))
-
-    def close(self) -> None:
-        """Free the set; later use raises ClosedError."""
-        self._handle = None
 
     def __repr__(self) -> str:
         if self._handle is None:
@@ -268,14 +235,6 @@ def _listed(what: Any, kinds: tuple[type, ...], label: str) -> list[Any]:
     return found
 
 
-def _renderer(core: Core, name: str, create: Any, destroy: Any) -> Handle:
-    renderer = core.renderers.get(name)
-    if renderer is None or renderer.address is None:
-        renderer = core.make(create, core.address, destroy=destroy, what="the renderer")
-        core.renderers[name] = renderer
-    return renderer
-
-
 def render_gaussians(gaussians: Gaussians | Splats | Sequence[Gaussians | Splats], camera: Camera | None = None, *,
                      volumes: Voxels | Sequence[Voxels] = (), size: Sequence[int] | None = None,
                      planes: str | Iterable[str] = ("rgba8",), background: Color = "white",
@@ -328,19 +287,12 @@ def render_gaussians(gaussians: Gaussians | Splats | Sequence[Gaussians | Splats
         camera = Camera.frame(outline, None, sets[0]._up if sets else "z", size=size or (1280, 720))
     if size is not None and tuple(size) != camera.size:
         camera = camera.resized(*size)
-    keep = None
-    if surfaces is not None:
-        width, height = camera.size
-        depth, rgba = surfaces.depth, surfaces.rgba
-        if depth is None or rgba is None or depth.shape != (height, width) or rgba.shape != (height, width, 4):
-            raise ArgumentError(f"surfaces: planes depth and rgba of {width} x {height} pixels are needed")
-        keep = np.ascontiguousarray(depth, np.float32), np.ascontiguousarray(rgba, np.float32)
-        made.surface_depth, made.surface_rgba = keep[0].ctypes.data, keep[1].ctypes.data
+    keep = set_surfaces(made, surfaces, camera.size)
     image = Image(camera, opaque)
     frame = new_frame(image, camera.size, planes, out, without=("normal",))
     stats = b.ewa_gaussian_stats()
-    renderer = _renderer(core, "gaussians", lib.ewa_gaussian_renderer_create, lib.ewa_gaussian_renderer_destroy)
-    volume_renderers = [_renderer(core, f"volume {i}" if i else "volume", lib.ewa_volume_renderer_create,
+    renderer = renderer_of(core, "gaussians", lib.ewa_gaussian_renderer_create, lib.ewa_gaussian_renderer_destroy)
+    volume_renderers = [renderer_of(core, f"volume {i}" if i else "volume", lib.ewa_volume_renderer_create,
                                   lib.ewa_volume_renderer_destroy) for i in range(len(among))]
     volume_options = [initialised(b.ewa_volume_options, lib.ewa_volume_options_init) for _ in among]
     for voxels, own in zip(among, volume_options):

@@ -60,6 +60,28 @@ def new_frame(image: Image, size: tuple[int, int], planes: str | Iterable[str], 
     return frame
 
 
+def renderer_of(core: Core, name: str, create: Any, destroy: Any) -> Handle:
+    """The context's own renderer of a kind."""
+    renderer = core.renderers.get(name)
+    if renderer is None or renderer.address is None:
+        renderer = core.make(create, core.address, destroy=destroy, what="the renderer")
+        core.renderers[name] = renderer
+    return renderer
+
+
+def set_surfaces(made: Any, surfaces: Image | None, size: tuple[int, int]) -> Any:
+    """Fill in the planes of opaque surfaces; returns what has to live as long as they are used."""
+    if surfaces is None:
+        return None
+    width, height = size
+    depth, rgba = surfaces.depth, surfaces.rgba
+    if depth is None or rgba is None or depth.shape != (height, width) or rgba.shape != (height, width, 4):
+        raise ArgumentError(f"surfaces: planes depth and rgba of {width} x {height} pixels are needed")
+    keep = np.ascontiguousarray(depth, np.float32), np.ascontiguousarray(rgba, np.float32)
+    made.surface_depth, made.surface_rgba = keep[0].ctypes.data, keep[1].ctypes.data
+    return keep
+
+
 def options_of(options: dict[str, Any], lights: Sequence[Light] | None, materials: Materials | None,
                environment: Environment | Any, background: Color | None, layers: int | str | None,
                section_box: Any, section_planes: Sequence[Sequence[float]] | None, core: Core,

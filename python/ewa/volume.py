@@ -13,12 +13,13 @@ from . import _bindings as b
 from ._arrays import DTYPE_OF, TYPE_OF, Array, as_numbers, export
 from ._context import Context, Core, Handle, Pin, core_of
 from ._errors import ArgumentError, ClosedError
+from ._held import Held
 from ._library import functions as lib
 from ._struct import fill, initialised, numbers, path_bytes
 from .camera import Camera, PathLike
 from .cloud import Cloud
 from .image import Color, Image
-from .rendering import new_frame
+from .rendering import new_frame, renderer_of, set_surfaces
 from .shade import Light, set_background, set_lights, set_section
 
 if TYPE_CHECKING:
@@ -31,7 +32,7 @@ _VOXELS = tuple(DTYPE_OF[kind] for kind in (_T.EWA_U8, _T.EWA_I8, _T.EWA_U16, _T
 _SLICE_RATIO = 8.0  # how many times as wide as thick a volume is when it is a slice
 
 
-class Volume:
+class Volume(Held):
     """Numbers on a regular grid.
 
     Parameters
@@ -49,7 +50,7 @@ class Volume:
     ArgumentError
     """
 
-    _handle: Handle | None
+    _what = "the volume"
 
     def __init__(self, voxels: Any, *, spacing: float | Sequence[float] = 1.0, index_to_world: Any = None,
                  context: Context | None = None) -> None:
@@ -70,60 +71,26 @@ class Volume:
             matrix = [0.0] * 12
             for c in range(3):
                 matrix[5 * c], matrix[4 * c + 3] = steps[c], -0.5 * steps[c] * (dims[c] - 1)
-        self._volume = b.ewa_volume(context=core.address, dims=dims, type=TYPE_OF[array.dtype],
+        self._struct = b.ewa_volume(context=core.address, dims=dims, type=TYPE_OF[array.dtype],
                                     voxels=array.ctypes.data, index_to_world=tuple(matrix))
         self._handle = Handle(core, None, lib.ewa_volume_free, "the volume", (Pin(array, "voxels"),))
 
     @staticmethod
     def _made(core: Core, function: Any, *arguments: Any) -> Volume:
         volume = Volume.__new__(Volume)
-        held = b.ewa_volume()
-
-        def create(*given: Any) -> int:
-            status: int = function(*given[:-1], ctypes.byref(held))
-            if held.voxels:
-                given[-1]._obj.value = ctypes.addressof(held)
-            return status
-
-        def free(_: Any) -> None:
-            lib.ewa_volume_free(ctypes.byref(held))
-
-        volume._volume = held
-        volume._handle = core.make(create, *arguments, destroy=free, what="the volume")
+        struct = b.ewa_volume()
+        volume._fill(core, struct, "voxels", function, lib.ewa_volume_free, *arguments, ctypes.byref(struct))
         return volume
-
-    @property
-    def _h(self) -> Handle:
-        if self._handle is None or self._handle.core.closed:
-            raise ClosedError("the volume is closed")
-        return self._handle
-
-    def _call(self, function: Any, *arguments: Any) -> None:
-        self._h.core.call(self._bound(function), *arguments)
-
-    def _bound(self, function: Any) -> Any:
-        """A function with the volume as its first argument, for a call in which it cannot go away."""
-        handle = self._h
-
-        def checked(*given: Any) -> int:
-            if handle.address is None and not handle.keep:
-                raise ClosedError("the volume is closed")
-            for pin in handle.keep:
-                pin.check()
-            status: int = function(ctypes.byref(self._volume), *given)
-            return status
-
-        return checked
 
     @property
     def voxels(self) -> Array:
         """The numbers; shape (nz, ny, nx), read-only."""
-        return export(self._h, self._volume.voxels, tuple(self._volume.dims)[::-1], DTYPE_OF[self._volume.type])
+        return export(self._h, self._struct.voxels, tuple(self._struct.dims)[::-1], DTYPE_OF[self._struct.type])
 
     @property
     def index_to_world(self) -> Array:
         """float64, shape (3, 4)."""
-        return np.array(self._volume.index_to_world).reshape(3, 4)
+        return np.array(self._struct.index_to_world).reshape(3, 4)
 
     def _facts(self) -> b.ewa_volume_facts:
         facts = b.ewa_volume_facts()
@@ -147,15 +114,11 @@ class Volume:
         fill(made, "ewa_volume_save_options", {"plain": plain})
         self._call(lib.ewa_volume_save, path_bytes(path), ctypes.byref(made))
 
-    def close(self) -> None:
-        """Free the volume; later use raises ClosedError."""
-        self._handle = None
-
     def __repr__(self) -> str:
         if self._handle is None:
             return "<ewa.Volume, closed>"
-        nx, ny, nz = self._volume.dims
-        return f"<ewa.Volume {nx}x{ny}x{nz}, {DTYPE_OF[self._volume.type]}>"
+        nx, ny, nz = self._struct.dims
+        return f"<ewa.Volume {nx}x{ny}x{nz}, {DTYPE_OF[self._struct.type]}>"
 
 
 def read_volume(path: PathLike, *, dims: Sequence[int] | None = None, dtype: Any = None, big_endian: bool = False,
@@ -343,7 +306,7 @@ class Voxels:
 
 def default_view(volume: Volume) -> str:
     """The view of the program: a patient from the front, a slice where it is no line, anything else from a corner."""
-    struct = volume._volume
+    struct = volume._struct
     thickness, width, thin, single_count = math.inf, math.inf, 0, 0
     m = struct.index_to_world
     for axis in range(3):
@@ -406,23 +369,12 @@ def render_volume(volume: Volume | Voxels, camera: Camera | None = None, *, tran
         camera = Camera.frame(outline, default_view(voxels._volume), "z", size=size or (1280, 720))
     if size is not None and tuple(size) != camera.size:
         camera = camera.resized(*size)
-    keep = None
-    if surfaces is not None:
-        width, height = camera.size
-        depth, rgba = surfaces.depth, surfaces.rgba
-        if depth is None or rgba is None or depth.shape != (height, width) or rgba.shape != (height, width, 4):
-            raise ArgumentError(f"surfaces: planes depth and rgba of {width} x {height} pixels are needed")
-        keep = np.ascontiguousarray(depth, np.float32), np.ascontiguousarray(rgba, np.float32)
-        made.surface_depth, made.surface_rgba = keep[0].ctypes.data, keep[1].ctypes.data
+    keep = set_surfaces(made, surfaces, camera.size)
     image = Image(camera, opaque)
     frame = new_frame(image, camera.size, planes, out, without=("normal",))
     stats = b.ewa_volume_stats()
     core = voxels._core
-    renderer = core.renderers.get("volume")
-    if renderer is None or renderer.address is None:
-        renderer = core.make(lib.ewa_volume_renderer_create, core.address, destroy=lib.ewa_volume_renderer_destroy,
-                             what="the renderer")
-        core.renderers["volume"] = renderer
+    renderer = renderer_of(core, "volume", lib.ewa_volume_renderer_create, lib.ewa_volume_renderer_destroy)
     core.call(lib.ewa_volume_render, renderer, voxels._handle, ctypes.byref(camera._struct), ctypes.byref(made),
               ctypes.byref(frame), ctypes.byref(stats))
     del keep
