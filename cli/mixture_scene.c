@@ -66,15 +66,18 @@ static void add_outline(const ewa_cloud *from, uint64_t *at, double *positions, 
     *at += count;
 }
 
-/// Puts the outlines of all together, and the corners of a box around the surfaces.
+/// Puts the outlines of all together, and the corners of a box around the surfaces, or of any where there is nothing.
 static ewa_status make_outline(ewa_context *context, const ewa_cloud *others, mixture_scene *scene) {
+    static const ewa_bounds any = {.low_world = {-1, -1, -1}, .high_world = {1, 1, 1}};
     ewa_bounds box = {.finite_count = 0};
     if (others) ewa_cloud_measure(others, &box);
-    const uint64_t corners = box.finite_count ? CORNERS : 0;
-    uint64_t count = corners, at = 0;
+    uint64_t count = 0, at = 0;
     for (uint32_t i = 0; i < scene->splats_count; i++) count += ewa_cloud_point_count(scene->sets[i].outline);
     for (uint32_t i = 0; i < scene->volume_count; i++)
         count += ewa_cloud_point_count(scene->volumes[i].outline);
+    const uint64_t corners = box.finite_count || !count ? CORNERS : 0;
+    if (!box.finite_count) box = any;
+    count += corners;
     void *positions = NULL, *radii = NULL;
     ewa_status status = ewa_cloud_create(context, count, &scene->outline);
     if (status == EWA_OK) status = ewa_cloud_add(scene->outline, EWA_POSITION, EWA_F64, 3, &positions);

@@ -17,6 +17,8 @@ static uint32_t voxels_level(const paint_scene *scene, const ewa_voxels *voxels)
 /// Each volume of a picture has a renderer of its own.
 static ewa_status make_renderers(paint_tools *tools, uint32_t count) {
     ewa_status status = EWA_OK;
+    for (uint32_t i = count; i < VIEWER_MAX_ITEMS; i++) // of what is shown no longer
+        ewa_volume_renderer_destroy(&tools->volume_renderers[i]);
     for (uint32_t i = 0; i < count && status == EWA_OK; i++)
         if (!tools->volume_renderers[i])
             status = ewa_volume_renderer_create(tools->context, &tools->volume_renderers[i]);

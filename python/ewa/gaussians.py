@@ -280,7 +280,8 @@ def render_gaussians(gaussians: Gaussians | Splats | Sequence[Gaussians | Splats
     set_section(made, section_box, section_planes)
     opaque = set_background(made, background)
     if camera is None:
-        outlines = [item.outline() for item in [*sets, *among]]
+        outlines = [outline for outline in (item.outline() for item in [*sets, *among]) if len(outline)]
+        outlines = outlines or [Cloud(np.array([[-1.0] * 3, [1.0] * 3]))]
         outline = outlines[0] if len(outlines) == 1 else merge(
             [Cloud(cloud["position"], radius=cloud["radius"] if "radius" in cloud else np.zeros(len(cloud), np.float32))
              for cloud in outlines])

@@ -12,3 +12,15 @@ void ewa_parallel_allocating(ewa_context *context, ewa_task *task, void *data, u
     }
     for (uint32_t i = 0; i < count; i++) task(data, i, 0);
 }
+
+ewa_status ewa_parallel_allocating_stoppable(ewa_context *context, const char *stage, ewa_task *task,
+                                             void *data, uint32_t count) {
+    if (context->options.allocator.allocate == ewa_allocate_default)
+        return ewa_parallel_stoppable(context, stage, task, data, count);
+    ewa_status status = EWA_OK;
+    for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
+        task(data, i, 0);
+        status = ewa_progress(context, stage, (i + 1.0) / count);
+    }
+    return status;
+}

@@ -11,4 +11,8 @@
 /// called the library only, so that with one the tasks run one after the other, on worker 0.
 void ewa_parallel_allocating(ewa_context *context, ewa_task *task, void *data, uint32_t count);
 
+/// The same as ewa_parallel_stoppable(). Errors: EWA_CANCELLED.
+ewa_status ewa_parallel_allocating_stoppable(ewa_context *context, const char *stage, ewa_task *task,
+                                             void *data, uint32_t count);
+
 #endif

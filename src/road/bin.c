@@ -123,7 +123,7 @@ static ewa_status start(ewa_context *context, const ewa_bin_request *request, ui
     const uint64_t bin_count = (uint64_t)columns * rows;
     const size_t stride =
         ((size_t)request->candidate_count + EWA_BIN_ALIGNMENT - 1) / EWA_BIN_ALIGNMENT * EWA_BIN_ALIGNMENT;
-    ewa_status status = ewa_buffer_reserve(context, &lists->item_buffer, 3 * stride, sizeof(int32_t));
+    ewa_status status = ewa_buffer_reserve(context, &lists->item_buffer, 3 * stride + 1, sizeof(int32_t));
     if (status == EWA_OK)
         status = ewa_buffer_reserve(context, &lists->count_buffer, (bin_count + 1) * parts, sizeof(uint64_t));
     if (status == EWA_OK)

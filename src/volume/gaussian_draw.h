@@ -16,8 +16,6 @@
 #include "volume/gaussian_view.h"
 #include "volume/kernels_planes.h"
 
-enum { SPLATS_AT_ONCE = 64 };
-
 /// Numbers of sixteen splats, some of their records' from `first` on.
 static ALWAYS_INLINE void load_numbers(const ewa_gaussian_tile *tile, uint32_t first, const int *fields,
                                        int count, wf numbers[]) {
@@ -152,15 +150,13 @@ static void start_feed(const ewa_gaussian_tile *tile, uint32_t row, uint32_t col
     find_nearest_layer(tile, everything, feed);
 }
 
-/// Adds the layers up to a depth to what waits; `come` counts what came since some of that was composited. False:
-/// nothing more would show.
+/// Adds the layers up to a depth to what waits. False: nothing more would show.
 static bool add_layers(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, bool everything, float bound,
-                       layer_feed *feed, uint32_t *come, block_state *block) {
+                       layer_feed *feed, block_state *block) {
     while (feed->z <= bound) {
-        if (*come == SPLATS_AT_ONCE) {
+        if (block->come >= block->at_once) {
             advance(view, tile, feed->z, block);
             if (!block->alive) return false;
-            *come = 0;
         }
         const ewa_volume_layer *layer =
             &layers_of(tile, feed->nearest, everything)->layers[feed->next[feed->nearest]];
@@ -172,7 +168,6 @@ static bool add_layers(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, b
             wf_store(met->alpha, alpha);
             met->layer = layer;
             keep_met(tile, block);
-            ++*come;
         }
         feed->next[feed->nearest] = layer->next;
         find_nearest_layer(tile, everything, feed);
@@ -186,17 +181,15 @@ static ALWAYS_INLINE void draw_splats(const ewa_gaussian_view *view, ewa_gaussia
     const wf steps_x = wf_repeat4((const float[4]){0.5f, 1.5f, 2.5f, 3.5f});
     const wf steps_y = wf_spread4((const float[4]){0.5f, 1.5f, 2.5f, 3.5f});
     const wf x = wf_add(wf_set(x_px), steps_x), y = wf_add(wf_set(y_px), steps_y);
-    uint32_t come = 0;
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t id = tile->block_ids[i];
         const float *record = tile->records[id];
         if (feed->z <= record[RECORD_LOW] &&
-            !add_layers(view, tile, everything, record[RECORD_LOW], feed, &come, block))
+            !add_layers(view, tile, everything, record[RECORD_LOW], feed, block))
             return;
-        if (come == SPLATS_AT_ONCE) {
+        if (block->come >= block->at_once) {
             advance(view, tile, record[RECORD_LOW], block);
             if (!block->alive) return;
-            come = 0;
         }
         ewa_gaussian_met *met = next_met(tile, block);
         tile->block_count++;
@@ -206,9 +199,8 @@ static ALWAYS_INLINE void draw_splats(const ewa_gaussian_view *view, ewa_gaussia
         met->id = id;
         met->layer = NULL;
         keep_met(tile, block);
-        come++;
     }
-    if (add_layers(view, tile, everything, __FLT_MAX__, feed, &come, block))
+    if (add_layers(view, tile, everything, __FLT_MAX__, feed, block))
         advance(view, tile, __builtin_inff(), block);
 }
 
@@ -265,7 +257,8 @@ static void composite_block(const ewa_gaussian_view *view, ewa_gaussian_tile *ti
     clear_block(block->pixels);
     for (int c = 0; c < 4; c++) wf_store(block->linear + 16 * c, wf_set(0));
     block->alive = 0;
-    block->waiting_count = block->free_count = block->made_count = 0;
+    block->waiting_count = block->free_count = block->made_count = block->come = 0;
+    block->at_once = EWA_GAUSSIAN_AT_ONCE;
     for (uint32_t y = 0; y < at->height; y++) block->alive |= ((1u << at->width) - 1) << 4 * y;
     set_bounds(view, tile, width_px, at, everything, block);
     if (view->orthographic)

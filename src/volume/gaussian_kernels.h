@@ -20,6 +20,8 @@ enum {
     EWA_GAUSSIAN_ROW_BLOCKS = EWA_GAUSSIAN_TILE_PX / 4,
     EWA_GAUSSIAN_SORT_BITS = 8,
     EWA_GAUSSIAN_SORTED = 1 << EWA_GAUSSIAN_SORT_BITS, ///< splats of a block at once
+    EWA_GAUSSIAN_AT_ONCE = 64,        ///< splats that come before some are composited, at least
+    EWA_GAUSSIAN_MOST_AT_ONCE = 1024, ///< and at most
 };
 
 /// What pixels need of a splat. With the offset (u, v) of a pixel's centre from (X, Y):

@@ -25,6 +25,7 @@ typedef struct block_state {
     uint32_t alive;         ///< pixels in which more would show
     uint32_t waiting_count; ///< splats that wait, in the order in which they came
     uint32_t free_count, made_count;
+    uint32_t come, at_once; ///< splats since some were composited, and how many come before that
 } block_state;
 
 /// Keys of pixels that do not show a splat, or not yet: greater than all others, +infinity as a float.
@@ -78,6 +79,7 @@ static ALWAYS_INLINE ewa_gaussian_met *next_met(const ewa_gaussian_tile *tile, c
 static ALWAYS_INLINE void keep_met(ewa_gaussian_tile *tile, block_state *block) {
     tile->waiting[block->waiting_count++] =
         block->free_count ? tile->free[--block->free_count] : block->made_count++;
+    block->come++;
 }
 
 /// Lists the first of those that wait and show in some pixel up to a depth, as many as are sorted at once;
@@ -225,7 +227,7 @@ static void advance(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, floa
         if (!count) break;
         const int64_t low = depth_code(least);
         if (depth_code(top) >= low + CODE_SPAN) {
-            top = depth_of_code(low + CODE_SPAN - 1);
+            top = depth_of_code(low + CODE_SPAN - 2); // not -0 for a span that ends at +0
             count = choose(tile, block, top, &least);
         }
         while (count > EWA_GAUSSIAN_SORTED && top > least) {
@@ -252,6 +254,11 @@ static void advance(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, floa
         block->free_count += !waits;
     }
     block->waiting_count = left;
+    // Where much waits, more comes before it is looked through again.
+    block->come = 0;
+    block->at_once = left / 2 < EWA_GAUSSIAN_AT_ONCE        ? EWA_GAUSSIAN_AT_ONCE
+                     : left / 2 < EWA_GAUSSIAN_MOST_AT_ONCE ? left / 2
+                                                            : EWA_GAUSSIAN_MOST_AT_ONCE;
 }
 
 #endif

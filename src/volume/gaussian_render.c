@@ -3,7 +3,7 @@
 //
 // The renderer of Gaussians, and of volumes among them: an object whose memory survives, and the order of a
 // frame's stages. Reference: src/reference/gaussian.c.
-#include "base/base.h"
+#include "base/allocating.h"
 #include "road/bin.h"
 #include "road/tiles.h"
 #include "volume/gaussian_kernels.h"
@@ -98,10 +98,15 @@ static void store3(ewa_vec3 from, float to[3]) {
     to[0] = (float)from.x, to[1] = (float)from.y, to[2] = (float)from.z;
 }
 
-/// The unit of all sets: the largest of theirs.
+/// The unit of all sets: the largest of theirs; without sets a power of two from the volumes' spacings up.
 static double choose_unit(const ewa_mixture *mixture) {
     double unit = 0;
     for (uint32_t i = 0; i < mixture->splats_count; i++) unit = fmax(unit, mixture->splats[i]->unit_world);
+    for (uint32_t i = 0; i < mixture->volume_count && !mixture->splats_count; i++) {
+        int exponent;
+        frexp(mixture->volumes[i].voxels->info.spacing_world, &exponent);
+        unit = fmax(unit, ldexp(1, exponent));
+    }
     return unit > 0 ? unit : 1;
 }
 
@@ -191,12 +196,14 @@ static ewa_status project_all(gaussian_job *job) {
     ewa_gaussian_renderer *renderer = job->renderer;
     const ewa_mixture *mixture = job->mixture;
     ewa_context *context = renderer->context;
-    uint64_t part_count = 0;
-    for (uint32_t i = 0; i < mixture->splats_count; i++)
+    uint64_t part_count = 0, splat_count = 0;
+    for (uint32_t i = 0; i < mixture->splats_count; i++) {
         part_count += (mixture->splats[i]->packet_count + PACKETS_PER_PART - 1) / PACKETS_PER_PART;
-    if (part_count > EWA_SPLATS_MOST / PART_ROOM)
-        return ewa_fail(context, EWA_ERROR_LIMIT, "gaussians: the sets have more than %d together",
-                        EWA_SPLATS_MOST);
+        splat_count += mixture->splats[i]->info.splat_count;
+    }
+    if (splat_count > EWA_SPLATS_MOST || part_count > INT32_MAX / PART_ROOM)
+        return ewa_fail(context, EWA_ERROR_LIMIT, "gaussians: %llu in %u sets, more than %d together",
+                        (unsigned long long)splat_count, mixture->splats_count, EWA_SPLATS_MOST);
     job->part_count = (uint32_t)part_count;
     const size_t room = (size_t)job->part_count * PART_ROOM;
     ewa_status status = ewa_buffer_reserve(context, &renderer->records, room, sizeof(ewa_gaussian_record));
@@ -230,7 +237,7 @@ static ewa_status sort_all(gaussian_job *job) {
     for (uint32_t i = 0; i < job->part_count; i++) job->visible_count += job->parts[i].found.count;
     const size_t room = job->visible_count;
     const ewa_status status =
-        ewa_buffer_reserve(renderer->context, &renderer->order, 4 * room, sizeof(uint32_t));
+        ewa_buffer_reserve(renderer->context, &renderer->order, 4 * room + 1, sizeof(uint32_t));
     if (status != EWA_OK) return status;
     uint32_t *numbers = renderer->order.data, *keys = numbers + 2 * room, count = 0;
     for (uint32_t i = 0; i < job->part_count; i++) {
@@ -258,8 +265,8 @@ static uint32_t find_tiles(const void *data, uint32_t worker, uint32_t first, ui
 }
 
 static ewa_status reserve_scratch(ewa_context *context, gaussian_scratch *scratch, size_t most) {
-    // Layers of volumes that wait: fewer than come at once.
-    const size_t room = (most + 15) / 16 * 16 + EWA_GAUSSIAN_SORTED;
+    // Layers of volumes that wait: no more than come at once.
+    const size_t room = (most + 15) / 16 * 16 + EWA_GAUSSIAN_MOST_AT_ONCE;
     const struct {
         ewa_buffer *buffer;
         size_t count, size_bytes;
@@ -293,7 +300,7 @@ static void draw_tile(const gaussian_job *job, uint32_t index, uint32_t worker,
                               .width_px = place.width_px,
                               .height_px = place.height_px,
                               .records = (const ewa_gaussian_record *)renderer->records.data,
-                              .ids = renderer->by_tile.ids + first,
+                              .ids = renderer->by_tile.ids ? renderer->by_tile.ids + first : NULL,
                               .count = (uint32_t)(renderer->by_tile.starts[index + 1] - first),
                               .marks = scratch->marks.data,
                               .room = (size_t)(renderer->by_tile.largest + 15) / 16 * 16,
@@ -401,6 +408,9 @@ static ewa_status check_mixture(ewa_context *context, const ewa_mixture *mixture
         if (!volume->renderer || !volume->voxels)
             return ewa_fail(context, EWA_ERROR_ARGUMENT, "mixture: volume %u has no renderer or no voxels",
                             i);
+        if (ewa_volume_renderer_context(volume->renderer) != context)
+            return ewa_fail(context, EWA_ERROR_ARGUMENT,
+                            "mixture: the renderer of volume %u is of another context", i);
         for (uint32_t k = 0; k < i; k++)
             if (mixture->volumes[k].renderer == volume->renderer)
                 return ewa_fail(context, EWA_ERROR_ARGUMENT,
@@ -433,6 +443,16 @@ static ewa_status make_volumes(gaussian_job *job, const ewa_camera *camera,
     return status;
 }
 
+/// Draws the areas. Layers of volumes need memory while they are made, which an allocator of the caller's gives to
+/// the calling thread only.
+static ewa_status draw_areas(gaussian_job *job) {
+    ewa_context *context = job->renderer->context;
+    const uint32_t count = ewa_tiles_count(&job->areas);
+    return job->mixture->volume_count
+               ? ewa_parallel_allocating_stoppable(context, "gaussians", draw_area, job, count)
+               : ewa_parallel_stoppable(context, "gaussians", draw_area, job, count);
+}
+
 /// Draws a frame of checked arguments.
 static ewa_status draw_frame(gaussian_job *job, ewa_gaussian_stats *stats) {
     ewa_gaussian_renderer *renderer = job->renderer;
@@ -452,8 +472,7 @@ static ewa_status draw_frame(gaussian_job *job, ewa_gaussian_stats *stats) {
     const double binned_s = ewa_now_s();
     for (uint32_t i = 0; i < renderer->worker_count && status == EWA_OK; i++)
         status = reserve_scratch(context, &renderer->scratch[i], renderer->by_tile.largest);
-    if (status == EWA_OK)
-        status = ewa_parallel_stoppable(context, "gaussians", draw_area, job, ewa_tiles_count(&job->areas));
+    if (status == EWA_OK) status = draw_areas(job);
     for (uint32_t i = 0; i < renderer->worker_count && status == EWA_OK; i++)
         status = renderer->scratch[i].status;
     if (status == EWA_OK && stats) gather_stats(job, start_s, binned_s - projected_s, stats);

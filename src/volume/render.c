@@ -72,6 +72,10 @@ void ewa_volume_frame_measure(const ewa_volume_renderer *renderer, const ewa_vol
     stats->total_s = ewa_now_s() - frame->start_s;
 }
 
+const ewa_context *ewa_volume_renderer_context(const ewa_volume_renderer *renderer) {
+    return renderer->context;
+}
+
 ewa_status ewa_volume_level_check(ewa_context *context, const ewa_voxels *voxels,
                                   const ewa_volume_options *options) {
     if (options->level < voxels->level_count) return EWA_OK;

@@ -16,6 +16,9 @@ typedef struct ewa_volume_frame {
     double start_s, binned_s;
 } ewa_volume_frame;
 
+/// The context that a renderer is of.
+const ewa_context *ewa_volume_renderer_context(const ewa_volume_renderer *renderer);
+
 /// Fails for a level that the voxels do not have. Errors: EWA_ERROR_ARGUMENT.
 ewa_status ewa_volume_level_check(ewa_context *context, const ewa_voxels *voxels,
                                   const ewa_volume_options *options);

@@ -184,7 +184,8 @@ static ewa_status measure(ewa_splats *splats) {
         info->core.high_world[axis] = origin + unit * last;
         squares += unit * unit * (last - first) * (last - first);
     }
-    info->near_world = fmin(EWA_GAUSSIAN_NEAR_WORLD, NEAR_SHARE * sqrt(squares));
+    const double near = NEAR_SHARE * sqrt(squares);
+    info->near_world = near > 0 ? fmin(EWA_GAUSSIAN_NEAR_WORLD, near) : EWA_GAUSSIAN_NEAR_WORLD;
     ewa_release(splats->context, bins, CORE_BINS, sizeof *bins);
     return EWA_OK;
 }

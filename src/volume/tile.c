@@ -324,7 +324,10 @@ ewa_status ewa_volume_tile_layers(ewa_context *context, const ewa_volume_job *jo
     double last_s = job->with_times ? ewa_now_s() : 0;
     start_tile(job, scratch, index, everything, &tile);
     const layer_taker taker = {context, &scratch->layers[everything], lists};
+    const uint64_t counts[3] = {scratch->hidden_count, scratch->splat_count, scratch->point_count};
     status = composite_tile(job, scratch, &tile, index, &last_s, &taker);
+    if (everything) // the same voxels once more
+        scratch->hidden_count = counts[0], scratch->splat_count = counts[1], scratch->point_count = counts[2];
     *layers = lists;
     return status;
 }

@@ -7,6 +7,9 @@
 #include "volume/scene.h"
 
 #include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdlib.h>
 
 enum { WIDTH = 150, HEIGHT = 70, PIXELS = WIDTH * HEIGHT };
 
@@ -382,6 +385,13 @@ static void test_bad(void **state) {
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
         assert_int_equal(ewa_mixture_render(c.renderer, &wrong[i], &camera, NULL, &frame, NULL),
                          EWA_ERROR_ARGUMENT);
+    ewa_context *elsewhere = check_context(4, NULL);
+    ewa_gaussian_renderer *foreign;
+    assert_int_equal(ewa_gaussian_renderer_create(elsewhere, &foreign), EWA_OK);
+    const ewa_mixture here = mixture_of(&c);
+    assert_int_equal(ewa_mixture_render(foreign, &here, &camera, NULL, &frame, NULL), EWA_ERROR_ARGUMENT);
+    ewa_gaussian_renderer_destroy(&foreign);
+    ewa_context_destroy(&elsewhere);
     assert_int_equal(ewa_mixture_render(c.renderer, NULL, &camera, NULL, &frame, NULL), EWA_ERROR_ARGUMENT);
     end(&c);
     ewa_context_destroy(&context);
@@ -417,11 +427,87 @@ static void test_memory(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// An allocator that is asked by the thread that calls the library only.
+typedef struct own_thread {
+    pthread_t caller;
+    atomic_uint strange_count;
+} own_thread;
+
+static void *give(void *user, size_t size_bytes) {
+    own_thread *own = user;
+    if (!pthread_equal(pthread_self(), own->caller)) atomic_fetch_add(&own->strange_count, 1);
+    return aligned_alloc(64, (size_bytes + 63) / 64 * 64);
+}
+
+static void take(void *user, void *memory, size_t size_bytes) {
+    own_thread *own = user;
+    (void)size_bytes;
+    if (!pthread_equal(pthread_self(), own->caller)) atomic_fetch_add(&own->strange_count, 1);
+    free(memory);
+}
+
+static void test_allocator(void **state) {
+    (void)state;
+    own_thread own = {.caller = pthread_self()};
+    ewa_context_options chosen;
+    ewa_context_options_init(&chosen, sizeof chosen);
+    chosen.thread_count = 4;
+    chosen.allocator = (ewa_allocator){.user = &own, .allocate = give, .release = take};
+    ewa_context *context;
+    assert_int_equal(ewa_context_create(&chosen, &context), EWA_OK);
+    const ewa_camera camera = scene_camera(WIDTH, HEIGHT, SLANTED, 3);
+    cast c = start_on(context);
+    add_ball(&c, -20, 20, 1);
+    add_sheet(&c, 0);
+    ewa_image image = draw_cast(&c, &camera);
+    ewa_image_free(&image);
+    end(&c);
+    ewa_context_destroy(&context);
+    assert_int_equal(own.strange_count, 0);
+}
+
+/// A world of any scale, whose camera makes up for it; no sets and one beside a volume.
+static void test_scales(void **state) {
+    (void)state;
+    ewa_context *context = check_context(2, NULL);
+    ewa_image first = {0};
+    for (int n = 0; n < 3; n++) {
+        const int exponent = n == 0 ? 0 : n == 1 ? 200 : -200;
+        static const uint32_t dims[3] = {24, 24, 24};
+        const cut at = {-20, 20};
+        ewa_volume volume = scene_volume(context, dims, (const double[3]){1, 1, 1}, cut_ball, &at);
+        for (int i = 0; i < 12; i++)
+            volume.index_to_world[i] = ldexp(0.1 * volume.index_to_world[i], exponent);
+        ewa_transfer transfer = scene_linear(0.9f, 0.3f, 0.1f, 1);
+        transfer.unit_length_world = ldexp(1, exponent);
+        cast c = start_on(context);
+        c.voxels[0] = scene_voxels(&volume, &transfer);
+        c.volume_count = 1;
+        assert_int_equal(ewa_volume_renderer_create(context, &c.volume_renderers[0]), EWA_OK);
+        ewa_camera camera = scene_camera(WIDTH, HEIGHT, SLANTED, 3);
+        for (int row = 0; row < 3; row++)
+            for (int column = 0; column < 3; column++)
+                camera.world_to_camera[4 * row + column] =
+                    ldexp(camera.world_to_camera[4 * row + column], -exponent);
+        ewa_image image = draw_cast(&c, &camera);
+        if (n == 0)
+            first = image;
+        else
+            assert_true(largest_difference(&first, &image) < 1e-4);
+        if (n) ewa_image_free(&image);
+        ewa_volume_free(&volume);
+        end(&c);
+    }
+    ewa_image_free(&first);
+    ewa_context_destroy(&context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_alone), cmocka_unit_test(test_between), cmocka_unit_test(test_halves),
-        cmocka_unit_test(test_edges), cmocka_unit_test(test_depth),   cmocka_unit_test(test_bytes),
-        cmocka_unit_test(test_bad),   cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_alone),  cmocka_unit_test(test_between), cmocka_unit_test(test_halves),
+        cmocka_unit_test(test_edges),  cmocka_unit_test(test_depth),   cmocka_unit_test(test_bytes),
+        cmocka_unit_test(test_bad),    cmocka_unit_test(test_memory),  cmocka_unit_test(test_allocator),
+        cmocka_unit_test(test_scales),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
