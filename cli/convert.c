@@ -323,8 +323,7 @@ static bool convert_set(cli_session *session, const convert_arguments *arguments
     const struct {
         const char *name;
         bool given;
-    } others[] = {{"crop", arguments->crop.count},
-                  {"crop-polygon", arguments->outline},
+    } others[] = {{"crop-polygon", arguments->outline},
                   {"voxel", arguments->voxel > 0},
                   {"min-distance", arguments->distance > 0},
                   {"subsample", arguments->subsample > 0},
@@ -336,8 +335,8 @@ static bool convert_set(cli_session *session, const convert_arguments *arguments
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
         if (others[i].given) {
             session_fail(session,
-                         "--%s: Gaussians are converted as a whole; --scale, --transform and --translate "
-                         "move them",
+                         "--%s: Gaussians are not changed that way; --crop leaves those in a box, --scale, "
+                         "--transform and --translate move them",
                          others[i].name);
             return false;
         }
@@ -348,7 +347,8 @@ static bool convert_set(cli_session *session, const convert_arguments *arguments
     double maps[MOST_MAPS][16];
     const uint32_t count = list_maps(arguments, maps);
     return convert_gaussians(session, output->common.operands[0], output->path, &arguments->gaussians,
-                             (const double(*)[16])maps, count);
+                             arguments->crop.count ? arguments->crop.values : NULL, (const double(*)[16])maps,
+                             count);
 }
 
 /// Reads, changes and writes, a file alone piece by piece where that can be. False after reporting.

@@ -99,6 +99,12 @@ static void moved(void **state) {
     run_done("ewa convert two.ply -o n.ply --transform 0,-1,0,0,1,0,0,0,0,0,1,0,0,0,0,1 && ewa info n.ply");
     said("2D Gaussians");
     said("low         -5 1 3");
+    // What is in a box, before it is moved.
+    run_done("ewa convert two.ply -o c.ply --crop 9,9,9,3,4,5 --scale 2 && ewa info c.ply");
+    said("points      1\n");
+    said("low         8 10 12");
+    run_done("ewa convert three.ply -o c.spz --crop 0,0,0,2,3,4 && ewa info c.spz");
+    said("degree 1");
 }
 
 static void refused(void **state) {
@@ -106,9 +112,9 @@ static void refused(void **state) {
     const int before = scratch_count();
     run_fails(1, "broken.ply: Gaussian 1 of 2: a scale is not finite", "ewa info broken.ply");
     run_fails(1, "broken.ply: Gaussian 1 of 2: a scale is not finite", "ewa convert broken.ply -o x.spz");
-    run_fails(1, "--crop: Gaussians are converted as a whole",
+    run_fails(1, "three.ply: no Gaussian has its centre in the box",
               "ewa convert three.ply -o x.spz --crop 0,0,0,1,1,1");
-    run_fails(1, "--ascii: Gaussians are converted as a whole", "ewa convert a.spz -o x.ply --ascii");
+    run_fails(1, "--ascii: Gaussians are not changed that way", "ewa convert a.spz -o x.ply --ascii");
     run_fails(1, "several files are not merged", "ewa convert three.ply two.ply -o x.spz");
     run_fails(2, "output", "ewa surfels three.ply -o x.spz");
     run_fails(2, "spz-version", "ewa convert three.ply -o x.spz --spz-version 5");
