@@ -265,6 +265,24 @@ static bool make_lod_scene(cli_session *session, const render_arguments *argumen
     return done;
 }
 
+/// Says which options of surfaces are given where there are none.
+static void warn_of_surface_options(cli_session *session, const render_arguments *arguments,
+                                    const mixture_scene *mixture) {
+    const light_arguments *light = &arguments->light;
+    const struct {
+        const char *name;
+        bool given;
+    } options[] = {{"opacity", light->render.opacity < 1},
+                   {"layers", arguments->layers},
+                   {"point-size", light->render.point_size_px > 0},
+                   {"shading", light->shading > EWA_SHADING_NONE && !mixture->volume_count}};
+    for (size_t i = 0; i < sizeof options / sizeof options[0]; i++)
+        if (options[i].given)
+            session_warn(session,
+                         "--%s is for surfaces, and there are none; --surface draws Gaussians as surfels",
+                         options[i].name);
+}
+
 /// Makes the scene of what lets light through, and of the surfaces among it where there are further inputs. False
 /// after reporting.
 static bool make_mixture_scene(cli_session *session, const render_arguments *arguments, render_scene *scene,
@@ -281,6 +299,7 @@ static bool make_mixture_scene(cli_session *session, const render_arguments *arg
                             "--color-by: Gaussians and volumes have colours of their own; --surface draws "
                             "Gaussians as surfels") == EXIT_DONE;
     }
+    if (!among) warn_of_surface_options(session, arguments, mixture);
     if (among)
         cloud = inputs_as_surfels(session, &mixture->rest, arguments->color_by, arguments->surfels.cutoff,
                                   &report->estimate_s);

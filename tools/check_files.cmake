@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 #
 # Fails for sources without the two SPDX lines and a head comment, and for sources of more than 1,500 lines; names
-# those of more than 600.
+# those of more than 600. Fails for packages of others and for files of more than 1 MiB beside the sources.
 #
 # cmake -DROOT=folder -P check_files.cmake
 file(GLOB_RECURSE files RELATIVE "${ROOT}" "${ROOT}/include/*.h" "${ROOT}/src/*.[ch]" "${ROOT}/cli/*.[ch]"
@@ -20,6 +20,18 @@ foreach(path IN LISTS files)
     string(APPEND wrong "${path}: ${lines} lines\n")
   elseif(lines GREATER 600)
     message(STATUS "${path}: ${lines} lines")
+  endif()
+endforeach()
+file(GLOB strays RELATIVE "${ROOT}" "${ROOT}/*" "${ROOT}/python/*" "${ROOT}/docs/*" "${ROOT}/docs/gallery/*")
+foreach(path IN LISTS strays)
+  if(IS_DIRECTORY "${ROOT}/${path}")
+    continue()
+  endif()
+  file(SIZE "${ROOT}/${path}" size_bytes)
+  if(path MATCHES "\\.(whl|zip|tar|gz|tgz|deb|so|a)$")
+    string(APPEND wrong "${path}: a package or a library\n")
+  elseif(size_bytes GREATER 1048576)
+    string(APPEND wrong "${path}: ${size_bytes} bytes\n")
   endif()
 endforeach()
 if(wrong)

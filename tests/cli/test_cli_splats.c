@@ -172,6 +172,11 @@ static void refused(void **state) {
     const int before = scratch_count();
     run_fails(1, "pair.ply: |no normals|--surface", "ewa render pair.ply -o x.png --aov normal=y.pfm");
     run_fails(1, "pair.ply: |--color-by", "ewa render pair.ply -o x.png --color-by x");
+    assert_int_equal(run("ewa render pair.ply -o lit.png --size 20x20 --shading phong --opacity 0.5"), 0);
+    assert_non_null(strstr(last_run.err, "--opacity is for surfaces, and there are none"));
+    assert_non_null(strstr(last_run.err, "--shading is for surfaces"));
+    run_done("ewa render pair.ply wall.ply -o lit.png --size 20x20 --shading phong && rm lit.png");
+    assert_null(strstr(last_run.err, "is for surfaces"));
     run_fails(2, "projection", "ewa render pair.ply -o x.png --projection affine");
     run_fails(1, "missing.ply", "ewa render pair.ply missing.ply -o x.png");
     assert_int_equal(run("head -c 300 pair.ply > cut.ply; ewa render cut.ply -o x.png"), 1);

@@ -234,22 +234,40 @@ static void test_stops_between_tiles(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Even fog, 40 units deep, that a camera looks into along z.
+enum { SIDE = 64 };
+static const double ALONG[3] = {0, 0, -1}, KAPPA = 0.07;
+
+typedef struct fog {
+    ewa_context *context;
+    ewa_volume volume;
+    ewa_transfer transfer;
+    ewa_voxels *voxels;
+} fog;
+
+static fog make_fog(void) {
+    static const uint32_t dims[3] = {64, 64, 40};
+    fog f = {.context = check_context(2, NULL), .transfer = scene_linear(1, 1, 1, (float)KAPPA)};
+    f.volume = scene_volume(f.context, dims, UNIT, scene_ones, NULL);
+    f.voxels = scene_voxels(&f.volume, &f.transfer);
+    return f;
+}
+
+static void free_fog(fog *f) {
+    ewa_voxels_destroy(&f->voxels);
+    ewa_volume_free(&f->volume);
+    ewa_context_destroy(&f->context);
+}
+
 /// A plane in homogeneous fog: exp(-kappa d) of it is seen through d of fog.
 static void test_surface_in_fog(void **state) {
     (void)state;
-    static const uint32_t dims[3] = {64, 64, 40};
-    static const double direction[3] = {0, 0, -1};
-    enum { SIDE = 64 };
-    const double kappa = 0.07;
-    ewa_context *context = check_context(2, NULL);
-    ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
-    const ewa_transfer transfer = scene_linear(1, 1, 1, (float)kappa);
-    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    fog f = make_fog();
     float depth[SIDE * SIDE], rgba[4 * SIDE * SIDE];
     for (int method = EWA_VOLUME_HYBRID; method <= EWA_VOLUME_POINTS; method++)
         for (double d = 3.5; d < 40; d += 7.3) {
             const double distance = method == EWA_VOLUME_POINTS ? 140 : 60;
-            const ewa_camera camera = scene_camera(SIDE, SIDE, direction, distance);
+            const ewa_camera camera = scene_camera(SIDE, SIDE, ALONG, distance);
             for (int i = 0; i < SIDE * SIDE; i++) {
                 depth[i] = (float)(distance - 20 + d);
                 rgba[4 * i] = 0, rgba[4 * i + 1] = 1, rgba[4 * i + 2] = 0, rgba[4 * i + 3] = 1;
@@ -257,44 +275,35 @@ static void test_surface_in_fog(void **state) {
             ewa_volume_options options = defaults();
             options.method = (ewa_volume_method)method;
             options.surface_depth = depth, options.surface_rgba = rgba;
-            ewa_image image = scene_draw(context, voxels, &camera, &options);
+            ewa_image image = scene_draw(f.context, f.voxels, &camera, &options);
             const float *middle = image.pixels + 4 * (SIDE / 2 * SIDE + SIDE / 2);
-            const double through = 1 - (double)middle[0], truth = exp(-kappa * d);
+            const double through = 1 - (double)middle[0], truth = exp(-KAPPA * d);
             if (fabs(through - truth) > 0.01)
                 print_message("%d, %g: %g, not %g\n", method, d, through, truth);
             assert_true(fabs(through - truth) < 0.01);
             assert_true(fabsf(middle[1] - 1) < 1e-5f && fabsf(middle[3] - 1) < 1e-5f);
             ewa_image_free(&image);
         }
-    ewa_voxels_destroy(&voxels);
-    ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
+    free_fog(&f);
 }
 
 /// Coarser levels are the same fog in fewer voxels.
 /// What section planes leave of fog keeps the light off as far as it reaches; the rest is as the reference has it.
 static void test_sections(void **state) {
     (void)state;
-    static const uint32_t dims[3] = {64, 64, 40};
-    static const double direction[3] = {0, 0, -1};
-    enum { SIDE = 64 };
-    const double kappa = 0.07;
-    ewa_context *context = check_context(2, NULL);
-    ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
-    const ewa_transfer transfer = scene_linear(1, 1, 1, (float)kappa);
-    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    fog f = make_fog();
     for (int method = EWA_VOLUME_HYBRID; method <= EWA_VOLUME_POINTS; method++)
         for (double low = -15.2; low < 10; low += 6.1) {
             const double distance = method == EWA_VOLUME_POINTS ? 140 : 60;
-            const ewa_camera camera = scene_camera(SIDE, SIDE, direction, distance);
+            const ewa_camera camera = scene_camera(SIDE, SIDE, ALONG, distance);
             ewa_volume_options options = defaults();
             options.method = (ewa_volume_method)method;
             options.section_count = 2; // from low to 13 along z, the eye being below
             options.section_planes[0][2] = 2, options.section_planes[0][3] = -2 * low;
             options.section_planes[1][2] = -1, options.section_planes[1][3] = 13;
-            ewa_image image = scene_draw(context, voxels, &camera, &options);
+            ewa_image image = scene_draw(f.context, f.voxels, &camera, &options);
             const double through = 1 - (double)image.pixels[4 * (SIDE / 2 * SIDE + SIDE / 2) + 3];
-            const double truth = exp(-kappa * (13 - low));
+            const double truth = exp(-KAPPA * (13 - low));
             if (fabs(through - truth) > 0.01)
                 print_message("%d, from %g: %g, not %g\n", method, low, through, truth);
             assert_true(fabs(through - truth) < 0.01);
@@ -305,8 +314,8 @@ static void test_sections(void **state) {
     options.method = EWA_VOLUME_SPLATS;
     options.section_count = 1;
     options.section_planes[0][0] = 1, options.section_planes[0][1] = -0.5, options.section_planes[0][3] = 4;
-    ewa_image fast = scene_draw(context, voxels, &aside, &options);
-    ewa_image slow = scene_draw_reference(&volume, &transfer, &aside, &options);
+    ewa_image fast = scene_draw(f.context, f.voxels, &aside, &options);
+    ewa_image slow = scene_draw_reference(&f.volume, &f.transfer, &aside, &options);
     double largest = 0;
     for (size_t i = 0; i < 4 * SIDE * SIDE; i++)
         largest = fmax(largest, fabs((double)fast.pixels[i] - (double)slow.pixels[i]));
@@ -314,9 +323,7 @@ static void test_sections(void **state) {
     assert_true(largest < 0.01);
     ewa_image_free(&fast);
     ewa_image_free(&slow);
-    ewa_voxels_destroy(&voxels);
-    ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
+    free_fog(&f);
 }
 
 static void test_levels(void **state) {
