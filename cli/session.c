@@ -117,7 +117,7 @@ ewa_context *session_context(cli_session *session, uint32_t thread_count, uint32
     options.message_user = session;
     options.message_level = session->quiet     ? EWA_SEVERITY_ERROR
                             : session->verbose ? EWA_SEVERITY_INFO
-                                               : EWA_SEVERITY_WARNING;
+                                               : EWA_SEVERITY_NOTE;
     options.progress = on_progress;
     options.progress_user = session;
     ewa_context *context = NULL;
@@ -185,7 +185,7 @@ void session_note(cli_session *session, const char *format, ...) {
     if (session->quiet) return;
     va_list arguments;
     va_start(arguments, format);
-    print_formatted(session, EWA_SEVERITY_INFO, format, arguments);
+    print_formatted(session, EWA_SEVERITY_NOTE, format, arguments);
     va_end(arguments);
 }
 

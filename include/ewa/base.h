@@ -44,9 +44,10 @@ EWA_API const char *ewa_version(void);
 
 typedef enum ewa_severity {
     EWA_SEVERITY_ERROR = 0,
-    EWA_SEVERITY_WARNING = 1,
-    EWA_SEVERITY_INFO = 2,
-    EWA_SEVERITY_DEBUG = 3,
+    EWA_SEVERITY_WARNING = 1, ///< something of the input is not used, or not as it seems
+    EWA_SEVERITY_NOTE = 2,    ///< what may surprise or help
+    EWA_SEVERITY_INFO = 3,
+    EWA_SEVERITY_DEBUG = 4,
 } ewa_severity;
 
 /// Instruction sets that the hot loops may use; AND them with what the CPU has.

@@ -226,6 +226,9 @@ EWA_API ewa_status ewa_depth_load_memory(ewa_context *context, const void *bytes
 EWA_API ewa_status ewa_materials_load(ewa_context *context, const char *path,
                                       ewa_material materials[EWA_MAX_MATERIALS], uint32_t *count);
 
+/// Whether a name has a suffix of volumes, which is how they are told from other files. Any thread.
+EWA_API bool ewa_volume_is_named(const char *path);
+
 /// What a volume file does not say itself. Fill with ewa_volume_load_options_init().
 typedef struct ewa_volume_load_options {
     size_t struct_size;

@@ -277,7 +277,7 @@ def _report(status: int, messages: list[tuple[int, str]]) -> None:
         if severity == b.ewa_severity.EWA_SEVERITY_WARNING:
             warnings.warn(text, EwaWarning, stacklevel=_depth())
         elif severity > b.ewa_severity.EWA_SEVERITY_WARNING:
-            _log.log(logging.INFO if severity == b.ewa_severity.EWA_SEVERITY_INFO else logging.DEBUG, "%s", text)
+            _log.log(logging.INFO if severity <= b.ewa_severity.EWA_SEVERITY_INFO else logging.DEBUG, "%s", text)
     if status:
         raise make(status, "; ".join(errors))
 

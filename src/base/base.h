@@ -42,6 +42,10 @@ ewa_status ewa_fail(ewa_context *context, ewa_status status, const char *format,
 /// While `soft`, ewa_fail() reports warnings: what fails is left out, and the call goes on. In pairs, which nest.
 void ewa_failures_soften(ewa_context *context, bool soft);
 
+/// Sets what messages are about, such as a file, which they then begin with unless they do already; borrowed; NULL: none.
+/// Returns what it was before, to be set again.
+const char *ewa_context_about(ewa_context *context, const char *subject);
+
 /// Reports a message of another severity; formats nothing when nobody listens at that level.
 void ewa_report(ewa_context *context, ewa_severity severity, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

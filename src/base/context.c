@@ -77,7 +77,7 @@ static const ewa_option option_rows[] = {
      .help = "workers of the built-in pool; 0: one per processor"},
     {"cpu_mask", EWA_OPTION_U32, AT(cpu_mask), 0, UINT32_MAX, .initial = EWA_CPU_ALL,
      .help = "bits of instruction sets that may be used"},
-    {"message_level", EWA_OPTION_CHOICE, AT(message_level), .words = "error|warning|info|debug",
+    {"message_level", EWA_OPTION_CHOICE, AT(message_level), .words = "error|warning|note|info|debug",
      .initial = EWA_SEVERITY_WARNING, .help = "most detailed messages to report"},
 };
 

@@ -16,6 +16,7 @@ struct ewa_context {
     uint32_t cpu_features;
     int soft_failures, hushed_failures; ///< how many ask for it
     atomic_uint_fast64_t serial;        ///< the last that ewa_serial_next() has given
+    const char *subject;                ///< what messages are about; NULL: they say so themselves
 };
 
 /// While `hushed`, ewa_fail() reports at EWA_SEVERITY_DEBUG: what fails is not missed. In pairs, which nest.

@@ -84,7 +84,20 @@ static void report(ewa_context *context, ewa_severity severity, const char *form
     if (!options->message || severity > options->message_level) return;
     char text[MESSAGE_BYTES];
     vsnprintf(text, sizeof text, format, arguments);
-    options->message(options->message_user, severity, text);
+    const char *subject = context->subject;
+    if (!subject || strncmp(text, subject, strlen(subject)) == 0) {
+        options->message(options->message_user, severity, text);
+        return;
+    }
+    char about[2 * MESSAGE_BYTES];
+    snprintf(about, sizeof about, "%s: %s", subject, text);
+    options->message(options->message_user, severity, about);
+}
+
+const char *ewa_context_about(ewa_context *context, const char *subject) {
+    const char *before = context->subject;
+    context->subject = subject;
+    return before;
 }
 
 ewa_status ewa_fail(ewa_context *context, ewa_status status, const char *format, ...) {

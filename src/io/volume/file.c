@@ -14,6 +14,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 #define AT(member) offsetof(ewa_volume_load_options, member)
@@ -33,6 +34,18 @@ const ewa_option_table ewa_volume_load_options_table = EWA_OPTION_TABLE(ewa_volu
 void ewa_volume_load_options_init(ewa_volume_load_options *options, size_t struct_size) {
     ewa_options_init(&ewa_volume_load_options_table, options, struct_size);
     if (options && struct_size >= AT(type) + sizeof options->type) options->type = -1;
+}
+
+bool ewa_volume_is_named(const char *path) {
+    static const char *const suffixes[] = {".nrrd", ".nhdr",   ".nii", ".nii.gz", ".mha",
+                                           ".mhd",  ".raw",    ".vti", ".vtk",    ".raw.gz",
+                                           ".img",  ".img.gz", ".hdr", ".hdr.gz"};
+    const size_t length = strlen(path);
+    for (size_t i = 0; i < sizeof suffixes / sizeof suffixes[0]; i++) {
+        const size_t suffix = strlen(suffixes[i]);
+        if (length > suffix && strcasecmp(path + length - suffix, suffixes[i]) == 0) return true;
+    }
+    return false;
 }
 
 static ewa_status parse(const ewa_volume_input *in, const ewa_volume_load_options *options,

@@ -1,0 +1,353 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The scene: everything that a picture shows, from any files and objects, with what belongs to each and to the
+// whole; and its pictures. What is shown is decided here and nowhere else: program, viewer, Python and ranks hand
+// over files, options and a camera, and get the same bytes. docs/scene.md.
+//
+// The words are those of ANARI and OSPRay: a scene (their world) has instances of assets; a renderer draws a frame
+// of it by a camera. An asset is immutable and shared, so that a scene is made anew cheaply when an instance changes.
+#ifndef EWA_SCENE_H
+#define EWA_SCENE_H
+
+#include "ewa/cluster.h"
+#include "ewa/coloring.h"
+#include "ewa/framing.h"
+#include "ewa/gpu.h"
+#include "ewa/lod.h"
+#include "ewa/mixture.h"
+#include "ewa/model.h"
+#include "ewa/select.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// What an asset is.
+typedef enum ewa_asset_kind {
+    EWA_ASSET_POINTS = 0,    ///< a cloud, drawn as a surface
+    EWA_ASSET_MESH = 1,      ///< points on the faces of a mesh, drawn as a surface
+    EWA_ASSET_SURFELS = 2,   ///< a surface that is resident already
+    EWA_ASSET_OCTREE = 3,    ///< points of a file that stay there, drawn as a surface from the levels of an octree
+    EWA_ASSET_GAUSSIANS = 4, ///< trained Gaussians
+    EWA_ASSET_VOLUME = 5,    ///< voxels under a transfer function
+} ewa_asset_kind;
+
+/// Whether octrees (COPC, EPT) are drawn from their levels.
+typedef enum ewa_octree_levels {
+    EWA_OCTREE_AUTO = 0,   ///< those of more than EWA_OCTREE_WHOLE_POINTS points are, unless all are needed: by a filter or columns
+    EWA_OCTREE_ALWAYS = 1, ///< whatever their size
+    EWA_OCTREE_NEVER = 2,  ///< they are read whole, as any other file
+} ewa_octree_levels;
+
+enum {
+    EWA_OCTREE_WHOLE_POINTS = 4000000,  ///< octrees of more are drawn from their levels
+    EWA_OCTREE_SAMPLE_POINTS = 400000, ///< of an octree stand for the whole where a camera is placed
+    EWA_SCENE_MAX_INSTANCES = 65536,
+};
+
+/// Reads a file that the library does not: fills `model` and sets `*taken` for a file that is its own, leaves both for
+/// all others. On the thread that loads. Returns EWA_OK or, after reporting, an error.
+typedef ewa_status ewa_asset_import(void *user, ewa_context *context, const char *path, ewa_model *model, bool *taken);
+
+/// How something becomes an asset. Fill with ewa_asset_options_init().
+typedef struct ewa_asset_options {
+    size_t struct_size;
+    const ewa_cloud_load_options *load; ///< of files of points, borrowed during the call; default NULL: its defaults
+    const ewa_filter *filter;           ///< which points are taken, borrowed during the call; default NULL: all
+    /// Where its coordinates lie in the scene: row-major, acts on columns, affine and invertible, last row 0 0 0 1;
+    /// default: where they are. Octrees that are drawn from their levels stay where they are: EWA_ERROR_UNSUPPORTED.
+    double to_world[16];
+    bool gaussians_as_surfels; ///< trained Gaussians become a surface, in their constant colours; default false
+    ewa_octree_levels levels;  ///< default EWA_OCTREE_AUTO
+    double cutoff;             ///< F that axes of a mesh's points are made for; (0, 4]; default 3
+    /// Of volumes: a file of a transfer function or the name of a preset, borrowed during the call; default NULL, as
+    /// "auto": ewa_transfer_automatic().
+    const char *transfer;
+    uint32_t voxel_level_count; ///< of volumes: ewa_voxels_options.level_count; [1, EWA_MAX_VOLUME_LEVELS]; default 1
+    double reach_steps;      ///< of volumes: how far a voxel's footprint counts in the outline, steps of the grid; default 1.8
+    ewa_asset_import *import; ///< for files that the library does not read; default NULL: none
+    void *import_user;
+} ewa_asset_options;
+
+EWA_API extern const ewa_option_table ewa_asset_options_table;
+EWA_API void ewa_asset_options_init(ewa_asset_options *options, size_t struct_size);
+
+/// Objects that become an asset: exactly one of the pointers before `outline` is set. All are borrowed until `release`
+/// is called, but for those that are converted, which are needed during the call only.
+typedef struct ewa_asset_source {
+    const char *name;              ///< for messages and descriptions; copied; NULL: the kind's name
+    const ewa_cloud *cloud;        ///< with or without normals and radii; its streams are borrowed
+    const ewa_surfels *surfels;    ///< borrowed
+    ewa_lod *lod;                  ///< borrowed; one thread at a time may use it
+    const ewa_splats *splats;      ///< borrowed
+    const ewa_voxels *voxels;      ///< borrowed
+    const ewa_mesh *mesh;          ///< converted: points on its faces
+    const ewa_gaussians *gaussians; ///< converted
+    const ewa_volume *volume;      ///< converted
+    const ewa_cloud *outline;      ///< of splats and voxels: places where something can be seen; borrowed
+    double up_world[3];            ///< what is up, where something says so; zeros: nothing does
+    bool flat;                     ///< of voxels: they look best without light
+    void (*release)(void *user);   ///< called when the asset is gone, also after a failure; NULL: nobody asks
+    void *user;
+} ewa_asset_source;
+
+/// What can be drawn: immutable once made, counted references. May be shared by scenes of any contexts, by one thread
+/// at a time.
+typedef struct ewa_asset ewa_asset;
+
+/// Facts about an asset.
+typedef struct ewa_asset_info {
+    ewa_asset_kind kind;
+    const char *name;      ///< stays as long as the asset
+    uint64_t count;        ///< points, surfels, Gaussians or voxels
+    ewa_bounds bounds;     ///< of their centres; of Gaussians without far floaters
+    const ewa_cloud *cloud; ///< of points and meshes, while they are kept (ewa_scene_options.keep_points); else NULL
+    ewa_lod *lod;           ///< of an octree; else NULL
+    const ewa_surfels *surfels; ///< of what was resident; else NULL
+    const ewa_splats *splats;   ///< of Gaussians; else NULL
+    const ewa_voxels *voxels;   ///< of a volume; else NULL
+    double up_world[3];     ///< what is up, as the file says; zeros: it does not
+    double load_s;          ///< what loading took
+    bool drawable;          ///< points have normals and radii, or axes, of their own
+} ewa_asset_info;
+
+/// Loads a file of any kind: points, meshes, octrees, Gaussians, volumes. The kind goes by content, of volumes by the
+/// suffix. Messages begin with the path. The caller releases `*asset`, which is NULL after a failure. `options` may be
+/// NULL. Errors: those of the readers (ewa_model_load(), ewa_gaussians_load(), ewa_volume_load(), ewa_lod_open()),
+/// EWA_ERROR_ARGUMENT (to_world), EWA_ERROR_FORMAT (no points, no finite voxel), EWA_ERROR_UNSUPPORTED.
+EWA_API ewa_status ewa_asset_load(ewa_context *context, const char *path, const ewa_asset_options *options,
+                                  ewa_asset **asset);
+
+/// Makes an asset of objects in memory. As ewa_asset_load().
+EWA_API ewa_status ewa_asset_create(ewa_context *context, const ewa_asset_source *source,
+                                    const ewa_asset_options *options, ewa_asset **asset);
+
+/// Counts one more reference; returns the asset.
+EWA_API ewa_asset *ewa_asset_retain(ewa_asset *asset);
+
+/// Gives one reference back, with the last one the asset; sets `*asset` to NULL; accepts NULL and a pointer to NULL.
+EWA_API void ewa_asset_release(ewa_asset **asset);
+
+EWA_API void ewa_asset_describe(const ewa_asset *asset, ewa_asset_info *info);
+
+/// What is up in a scene.
+typedef enum ewa_scene_up {
+    EWA_UP_AUTO = 0, ///< as the files say, else as what they show stands (ewa_framing_choose())
+    EWA_UP_Y = 1,
+    EWA_UP_Z = 2,
+    EWA_UP_MINUS_Y = 3, ///< y down and z ahead, as cameras have it
+    EWA_UP_MINUS_Z = 4,
+} ewa_scene_up;
+
+/// How a scene is made and drawn; what is documented here is the default of every door. Fill with
+/// ewa_scene_options_init().
+typedef struct ewa_scene_options {
+    size_t struct_size;
+    ewa_scene_up up;
+    /// Measures radii anew where those of files leave gaps between the surfels: a median below 1 spacing; default true
+    bool close_gaps;
+    bool keep_points;            ///< clouds stay in memory beside their surfels, for picks and changes; default true
+    bool shade_volumes;          ///< volumes get the light that suits their transfer function, whatever
+                                 ///< `volumes.shading` is: none for "fog" and "gray", else Phong; default true
+    ewa_surfels_options surfels; ///< of all surfaces
+    ewa_lod_options lod;         ///< of all octrees together
+    ewa_render_options render;   ///< of the picture; `background` (default: opaque white), sections and lights are those
+                                 ///< of Gaussians and volumes, too; `opacity` and `layers` are of surfaces
+    ewa_gaussian_options gaussians; ///< of Gaussians; `near_world` 0 (default): as suits them
+    ewa_volume_options volumes;     ///< of volumes; `level`: of those that have as many
+} ewa_scene_options;
+
+EWA_API extern const ewa_option_table ewa_scene_options_table;
+EWA_API void ewa_scene_options_init(ewa_scene_options *options, size_t struct_size);
+
+/// An asset in a scene. Fill with ewa_instance_init().
+typedef struct ewa_instance {
+    size_t struct_size;
+    bool visible;         ///< default true
+    double opacity;       ///< of a surface's points, times their own; [0, 1]; default 1
+    double radius_scale;  ///< of a surface's radii, beside that of all; (0, 100]; default 1
+    uint32_t material;    ///< of all points of a surface; [0, 255]; EWA_MATERIAL_OWN (default): as each says
+    ewa_coloring coloring; ///< of a surface's points; default: their own colours
+} ewa_instance;
+
+#define EWA_MATERIAL_OWN UINT32_MAX
+
+EWA_API extern const ewa_option_table ewa_instance_table;
+EWA_API void ewa_instance_init(ewa_instance *instance, size_t struct_size);
+
+/// A scene: instances of assets in an order that changes no pixel.
+typedef struct ewa_scene ewa_scene;
+
+/// Makes an empty scene. `options` may be NULL. The caller destroys `*scene`. Errors: EWA_ERROR_ARGUMENT,
+/// EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_scene_create(ewa_context *context, const ewa_scene_options *options, ewa_scene **scene);
+EWA_API void ewa_scene_destroy(ewa_scene **scene);
+
+/// Makes a scene of the same instances and options, which shares all that has been made for them: to be changed while
+/// the other one is drawn. Errors: EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_scene_copy(const ewa_scene *scene, ewa_scene **copy);
+
+/// Adds an asset, of which the scene holds a reference. `instance` may be NULL. Its number, from 0 on, is the count of
+/// instances before. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT (EWA_SCENE_MAX_INSTANCES), EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_scene_add(ewa_scene *scene, ewa_asset *asset, const ewa_instance *instance);
+
+/// Takes instance `index` out; those behind it move up. Errors: EWA_ERROR_ARGUMENT.
+EWA_API ewa_status ewa_scene_remove(ewa_scene *scene, uint32_t index);
+
+EWA_API uint32_t ewa_scene_count(const ewa_scene *scene);
+
+/// Returns the asset of instance `index`, borrowed; NULL: there is none.
+EWA_API ewa_asset *ewa_scene_asset(const ewa_scene *scene, uint32_t index);
+
+/// Reads and changes how instance `index` is shown. Errors: EWA_ERROR_ARGUMENT.
+EWA_API ewa_status ewa_scene_get(const ewa_scene *scene, uint32_t index, ewa_instance *instance);
+EWA_API ewa_status ewa_scene_set(ewa_scene *scene, uint32_t index, const ewa_instance *instance);
+
+/// Reads and changes the options. Errors: EWA_ERROR_ARGUMENT.
+EWA_API void ewa_scene_get_options(const ewa_scene *scene, ewa_scene_options *options);
+EWA_API ewa_status ewa_scene_set_options(ewa_scene *scene, const ewa_scene_options *options);
+
+/// Makes what surfels need and points lack. Clouds that lack it and overlap or touch, whether visible or not, are
+/// estimated together, as if they were one file, which an info message says. Called by what needs it. Errors: those of
+/// ewa_cloud_estimate(); EWA_ERROR_UNSUPPORTED (columns of Gaussians without what Gaussians need).
+EWA_API ewa_status ewa_scene_complete(ewa_scene *scene);
+
+/// Makes everything resident that is visible: all clouds and meshes become one set of surfels, as if they were one
+/// file, coloured and measured as the instances say. Called by ewa_scene_draw() and ewa_scene_pick(). Without
+/// keep_points the clouds are gone afterwards, and instances of points can no longer change. Errors: those of
+/// ewa_surfels_create() and ewa_scene_complete(); EWA_ERROR_ARGUMENT (an attribute that is not there; nothing can be
+/// drawn of any cloud).
+EWA_API ewa_status ewa_scene_commit(ewa_scene *scene);
+
+/// What a scene is, and what making it took.
+typedef struct ewa_scene_info {
+    uint32_t instance_count, visible_count;
+    uint64_t point_count;      ///< points, Gaussians and points of octrees that are visible
+    bool surfaces, octrees, gaussians, volumes; ///< some are visible
+    ewa_surfels_info surfels;  ///< of the committed surfaces; zeros: none
+    const ewa_surfels *resident; ///< those surfels, borrowed until the scene changes; NULL: none
+    uint64_t estimated_count;  ///< points that got normals or radii
+    double load_s, estimate_s, surfels_s; ///< wall clock, of all assets and of this scene
+} ewa_scene_info;
+
+EWA_API void ewa_scene_describe(const ewa_scene *scene, ewa_scene_info *info);
+
+/// Measures the box of all visible centres. Never fails: finite_count 0 where there is nothing.
+EWA_API void ewa_scene_bounds(const ewa_scene *scene, ewa_bounds *bounds);
+
+/// Returns what the colours of instance `index` mean, borrowed until the scene changes; NULL: they are the points' own,
+/// or the scene is not committed.
+EWA_API const ewa_legend *ewa_scene_legend(const ewa_scene *scene, uint32_t index);
+
+/// How a camera is placed where no file says. Fill with ewa_view_options_init().
+typedef struct ewa_view_options {
+    size_t struct_size;
+    uint32_t width_px, height_px;  ///< of the picture; [1, 65536]; default 1280, 720
+    double fov_deg;                ///< vertical field of view; (0, 180), or 0 (default): 30, but for what a camera at the
+                                   ///< origin took, which is seen from there as wide as it is
+    double ortho_height_world;     ///< an orthographic camera that shows so much; 0 (default): perspective
+    int32_t view;                  ///< ewa_named_view; -1 (default): as suits what is seen
+    double up_world[3];            ///< up in the picture; zeros (default): the scene's
+    bool has_eye, has_target;      ///< whether the next two are given; default false
+    double eye_world[3];           ///< default: so that all is in the picture
+    double target_world[3];        ///< default: the middle
+    double azimuth_deg;            ///< carries the camera about the up axis; [-360, 360]; default 0
+    double elevation_deg;          ///< then raises it; [-180, 180]; default 0
+    bool turntable;                ///< all must be in the picture in every turn about the axis; default false
+} ewa_view_options;
+
+EWA_API extern const ewa_option_table ewa_view_options_table;
+EWA_API void ewa_view_options_init(ewa_view_options *options, size_t struct_size);
+
+/// What was chosen for a camera.
+typedef struct ewa_view_info {
+    ewa_upright upright;    ///< what is up, from where it is seen, and why
+    double up_world[3];     ///< unit axis that is up, of turntables and of those who walk about
+    double pivot_world[3];  ///< the middle, or the target
+    bool trimmed;           ///< a few points far off are left outside
+} ewa_view_info;
+
+/// Places a camera at all that is visible. `camera` may be NULL: only what is up and where the middle is. `options` and
+/// `info` may be NULL. Errors: EWA_ERROR_ARGUMENT (options, nothing is visible), EWA_ERROR_NUMERIC (numbers too large;
+/// the eye is the target), those of ewa_scene_complete().
+EWA_API ewa_status ewa_scene_place_camera(ewa_scene *scene, const ewa_view_options *options, ewa_camera *camera,
+                                          ewa_view_info *info);
+
+/// What draws scenes: the memory of frames, of one context.
+typedef struct ewa_scene_renderer ewa_scene_renderer;
+
+/// Makes a renderer on a back end; with `exchange`, one of all ranks (ewa_renderer_create_joint(), on processors), which
+/// each have the whole scene: octrees are shared by their cubes, and what lets light through is drawn by the rank that
+/// gets the picture. `exchange` may be NULL. The caller destroys it. Errors: those of ewa_renderer_create_on() and
+/// ewa_renderer_create_joint().
+EWA_API ewa_status ewa_scene_renderer_create(ewa_context *context, ewa_backend_kind backend,
+                                             const ewa_exchange *exchange, ewa_scene_renderer **renderer);
+EWA_API void ewa_scene_renderer_destroy(ewa_scene_renderer **renderer);
+
+/// Returns the renderer of surfaces within, borrowed.
+EWA_API ewa_renderer *ewa_scene_renderer_surfaces(ewa_scene_renderer *renderer);
+
+/// What a frame took.
+typedef struct ewa_scene_stats {
+    ewa_render_stats render;   ///< surfaces, and what of Gaussians and volumes is counted alike: splats, culled, drawn
+    ewa_lod_stats lod;         ///< of octrees; zeros without
+    double total_s;            ///< wall clock
+} ewa_scene_stats;
+
+/// Draws a frame of everything: surfaces of points, meshes, octrees and resident surfels meet and blend as one;
+/// Gaussians and volumes lie among them in one order of depth. All planes of the frame are of all of it. The scene is
+/// committed first where it is not. `options` (may be NULL: the scene's) are used for what belongs to drawing: lod,
+/// render, gaussians, volumes, shade_volumes. The same bytes for every number of threads, every instruction set, every
+/// order of the instances and every number of ranks. `stats` may be NULL. Errors: those of ewa_scene_commit(),
+/// ewa_lod_scene_render() and ewa_mixture_render().
+EWA_API ewa_status ewa_scene_draw(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa_camera *camera,
+                                  const ewa_scene_options *options, const ewa_frame *frame, ewa_scene_stats *stats);
+
+/// What is seen at a place of the picture.
+typedef struct ewa_scene_hit {
+    bool hit;              ///< something is there
+    double depth;          ///< camera-space z, world units
+    double place_world[3]; ///< on what is seen
+    bool has_point;        ///< a point of a cloud, a mesh or an octree is near
+    uint32_t instance;     ///< whose it is
+    uint64_t point;        ///< its number in the asset's cloud; of an octree 0
+    double point_world[3];
+    ewa_cloud *points;     ///< of an octree: the points around, the first of which is it; the caller destroys it; else NULL
+} ewa_scene_hit;
+
+/// Finds what is seen at (x, y), pixels, or within `reach_px`, [0, 32], the nearest to it on the screen: the depth that
+/// the frame's plane has there, and the point that is nearest to it in space, if it is within `reach_world`. Points that
+/// sections leave out are none. `options` as for ewa_scene_draw(). Errors: as ewa_scene_draw().
+EWA_API ewa_status ewa_scene_pick(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa_camera *camera,
+                                  const ewa_scene_options *options, double x_px, double y_px, double reach_px,
+                                  double reach_world, ewa_scene_hit *hit);
+
+/// Writes what a scene is as JSON text, UTF-8, ended by a zero, without the places of files: `*text` is the caller's, to
+/// be freed with ewa_text_free(). Errors: EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_scene_describe_json(ewa_scene *scene, char **text);
+EWA_API void ewa_text_free(ewa_context *context, char **text);
+
+
+/// Says whether a regular file is the text of a scene, by its content. Reports nothing.
+EWA_API bool ewa_scene_probe(ewa_context *context, const char *path);
+
+/// Opens a scene file (docs/scene.md): loads what it names, relative to its folder, below which it must lie, and adds
+/// it to `scene`, whose options become those of the file where it says something. A file may name further scene files,
+/// eight deep. `options` (may be NULL) are those of every asset where the file says nothing. `camera` is filled when the
+/// file has one, and `*has_camera` set; both may be NULL. After a failure the scene is as it was. Errors, with the file
+/// and the place: EWA_ERROR_FORMAT (text, members, numbers that are not finite, a singular map), EWA_ERROR_IO,
+/// EWA_ERROR_LIMIT (a circle, too deep), those of ewa_asset_load(). A warning says which files have other coordinate
+/// reference systems than the first.
+EWA_API ewa_status ewa_scene_open(ewa_scene *scene, const char *path, const ewa_asset_options *options,
+                                  ewa_camera *camera, bool *has_camera);
+
+/// Writes a scene file: the options that are no defaults and every instance, whose assets must be of files; names are
+/// relative to the file's folder where they lie below it. `camera` may be NULL: none. Errors: EWA_ERROR_UNSUPPORTED (an
+/// asset that is of no file), EWA_ERROR_IO, EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_scene_save(const ewa_scene *scene, const ewa_camera *camera, const char *path);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

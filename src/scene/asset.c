@@ -1,0 +1,350 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Assets: what can be drawn, from files of any kind and from objects in memory. The one place where it is decided what
+// a file is.
+#include "scene/asset.h"
+#include "base/base.h"
+#include "base/options.h"
+
+#include <math.h>
+#include <string.h>
+#include <sys/stat.h>
+
+static const double IDENTITY[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+#define AT(member) offsetof(ewa_asset_options, member)
+
+static const ewa_option option_rows[] = {
+    {"to_world", EWA_OPTION_F64, AT(to_world), -INFINITY, INFINITY, EWA_OPTION_ABOVE | EWA_OPTION_BELOW, 16,
+     .initials = IDENTITY, .help = "where coordinates lie in the scene: a matrix, row by row"},
+    {"gaussians_as_surfels", EWA_OPTION_BOOL, AT(gaussians_as_surfels),
+     .help = "draw trained Gaussians as opaque surfels, in their constant colours"},
+    {"levels", EWA_OPTION_CHOICE, AT(levels), .words = "auto|always|never",
+     .help = "draw octrees (COPC, EPT) from their levels; auto: those of more than 4000000 points"},
+    {"cutoff", EWA_OPTION_F64, AT(cutoff), 0, 4, EWA_OPTION_ABOVE, .initial = 3,
+     .help = "standard deviations at which kernels of a mesh's points end"},
+    {"voxel_level_count", EWA_OPTION_U32, AT(voxel_level_count), 1, EWA_MAX_VOLUME_LEVELS, .initial = 1,
+     .help = "levels of detail of volumes"},
+    {"reach_steps", EWA_OPTION_F64, AT(reach_steps), 0, 64, .initial = 1.8,
+     .help = "how far a voxel's footprint counts in the picture's frame, steps of the grid"},
+};
+
+const ewa_option_table ewa_asset_options_table = EWA_OPTION_TABLE(ewa_asset_options, option_rows);
+
+void ewa_asset_options_init(ewa_asset_options *options, size_t struct_size) {
+    ewa_options_init(&ewa_asset_options_table, options, struct_size);
+}
+
+/// Copies a text; NULL stays NULL.
+static ewa_status copy_text(ewa_context *context, const char *text, char **copy, size_t *bytes) {
+    *copy = NULL;
+    if (!text) return EWA_OK;
+    *bytes = strlen(text) + 1;
+    *copy = ewa_allocate(context, *bytes, 1);
+    if (!*copy) return EWA_ERROR_MEMORY;
+    memcpy(*copy, text, *bytes);
+    return EWA_OK;
+}
+
+/// Makes an asset of nothing yet.
+static ewa_status make(ewa_context *context, const char *name, const ewa_asset_options *options, ewa_asset **made) {
+    ewa_asset *asset = ewa_allocate_zeroed(context, 1, sizeof *asset);
+    if (!asset) return EWA_ERROR_MEMORY;
+    asset->context = context;
+    atomic_init(&asset->references, 1);
+    asset->view = -1;
+    asset->levels = options->levels;
+    asset->gaussians_as_surfels = options->gaussians_as_surfels;
+    memcpy(asset->to_world, options->to_world, sizeof asset->to_world);
+    ewa_status status = copy_text(context, name, &asset->name, &asset->name_bytes);
+    if (status == EWA_OK)
+        status = copy_text(context, options->transfer, &asset->transfer, &asset->transfer_bytes);
+    if (options->filter) asset->filter = *options->filter;
+    *made = asset;
+    if (status != EWA_OK) ewa_asset_release(made);
+    return status;
+}
+
+ewa_asset *ewa_asset_retain(ewa_asset *asset) {
+    atomic_fetch_add(&asset->references, 1);
+    return asset;
+}
+
+void ewa_asset_release(ewa_asset **given) {
+    ewa_asset *asset = given ? *given : NULL;
+    if (!asset) return;
+    *given = NULL;
+    if (atomic_fetch_sub(&asset->references, 1) > 1) return;
+    ewa_cloud_destroy(&asset->cloud);
+    ewa_cloud_destroy(&asset->outline);
+    if (asset->owns_parts) {
+        ewa_lod_close(&asset->lod);
+        ewa_splats_destroy(&asset->splats);
+        ewa_voxels_destroy(&asset->voxels);
+    }
+    if (asset->source.release) asset->source.release(asset->source.user);
+    ewa_release(asset->context, asset->name, asset->name_bytes, 1);
+    ewa_release(asset->context, asset->transfer, asset->transfer_bytes, 1);
+    ewa_release(asset->context, asset, 1, sizeof *asset);
+}
+
+void ewa_asset_describe(const ewa_asset *asset, ewa_asset_info *info) {
+    *info = (ewa_asset_info){.kind = asset->kind,
+                             .name = asset->name,
+                             .count = asset->count,
+                             .bounds = asset->bounds,
+                             .cloud = asset->cloud,
+                             .lod = asset->lod,
+                             .surfels = asset->surfels,
+                             .splats = asset->splats,
+                             .voxels = asset->voxels,
+                             .load_s = asset->load_s,
+                             .drawable = asset->drawable};
+    memcpy(info->up_world, asset->up_world, sizeof info->up_world);
+}
+
+static bool is_regular(const char *path) {
+    struct stat facts;
+    return strcmp(path, "-") != 0 && stat(path, &facts) == 0 && S_ISREG(facts.st_mode);
+}
+
+/// Whether a path is a folder of EPT, or its "ept.json", which cannot be read otherwise.
+static bool is_octree_folder(ewa_context *context, const char *path) {
+    struct stat facts;
+    const char *slash = strrchr(path, '/');
+    const bool folder = stat(path, &facts) == 0 && S_ISDIR(facts.st_mode);
+    return (folder || strcmp(slash ? slash + 1 : path, "ept.json") == 0) && ewa_lod_probe(context, path);
+}
+
+/// Opens an octree that is drawn from its levels; `*lod` is NULL where the file is none of these.
+static ewa_status open_octree(const ewa_asset_job *job, const char *path, ewa_lod **lod) {
+    const ewa_asset_options *options = job->options;
+    ewa_context *context = job->asset->context;
+    *lod = NULL;
+    if (options->levels == EWA_OCTREE_NEVER || strcmp(path, "-") == 0 || !ewa_lod_probe(context, path)) return EWA_OK;
+    const bool columns = options->load && (options->load->columns || options->load->attributes);
+    const char *needs_all = options->filter ? "a filter" : columns ? "a choice of columns" : NULL;
+    const bool keep_going = options->load && options->load->keep_going;
+    if (options->levels == EWA_OCTREE_AUTO && (needs_all || keep_going)) return EWA_OK;
+    if (needs_all)
+        return ewa_fail(context, EWA_ERROR_ARGUMENT,
+                        "%s needs all points of the octree, its levels do without; leave one of both out, or "
+                        "`ewa convert` what is wanted to a file of its own",
+                        needs_all);
+    const ewa_status status = ewa_lod_open(context, path, lod);
+    if (status != EWA_OK) return status;
+    ewa_lod_info info;
+    ewa_lod_describe(*lod, &info);
+    if (options->levels == EWA_OCTREE_AUTO && info.point_count <= EWA_OCTREE_WHOLE_POINTS) ewa_lod_close(lod);
+    return EWA_OK;
+}
+
+static ewa_status load_gaussians(const ewa_asset_job *job, const char *path) {
+    ewa_asset *asset = job->asset;
+    ewa_gaussians set;
+    ewa_gaussian_facts facts;
+    const double started_s = ewa_now_s();
+    ewa_status status = ewa_gaussians_load(asset->context, path, &set, &facts);
+    if (status != EWA_OK) return status;
+    ewa_report(asset->context, EWA_SEVERITY_INFO, "%u Gaussians read in %.3f s (%s)", set.count,
+               ewa_now_s() - started_s, ewa_gaussian_format_name(facts.format));
+    // Without a word of the file: y down and z ahead, as the cameras that took the pictures have it.
+    static const double usual[3] = {0, -1, 0};
+    const double *up = facts.up_world;
+    status = ewa_asset_take_gaussians(job, &set, up[0] || up[1] || up[2] ? up : usual);
+    ewa_gaussians_free(&set);
+    return status;
+}
+
+static ewa_status load_volume(const ewa_asset_job *job, const char *path) {
+    ewa_volume volume = {.context = NULL};
+    ewa_volume_load_options options;
+    ewa_volume_load_options_init(&options, sizeof options);
+    ewa_status status = ewa_volume_load(job->asset->context, path, &options, &volume);
+    if (status == EWA_OK) status = ewa_asset_take_volume(job, &volume);
+    ewa_volume_free(&volume);
+    return status;
+}
+
+/// Loads points or triangles, by the caller's reader where it takes the file.
+static ewa_status load_model(const ewa_asset_job *job, const char *path) {
+    const ewa_asset_options *options = job->options;
+    ewa_context *context = job->asset->context;
+    ewa_model model = {.points = NULL};
+    ewa_status status = EWA_OK;
+    const double started_s = ewa_now_s();
+    bool taken = false;
+    if (options->import) status = options->import(options->import_user, context, path, &model, &taken);
+    if (status == EWA_OK && !taken) {
+        if (is_octree_folder(context, path)) {
+            static const double low_world[3] = {-INFINITY, -INFINITY, -INFINITY},
+                                high_world[3] = {INFINITY, INFINITY, INFINITY};
+            ewa_lod *lod = NULL;
+            status = ewa_lod_open(context, path, &lod);
+            if (status == EWA_OK) status = ewa_lod_read(lod, low_world, high_world, 0, &model.points);
+            ewa_lod_close(&lod);
+        } else {
+            status = ewa_model_load(context, path, EWA_MODEL_MESH, options->load, &model);
+        }
+    }
+    if (status == EWA_OK && model.lost_count)
+        ewa_report(context, EWA_SEVERITY_NOTE, "%llu points are lost", (unsigned long long)model.lost_count);
+    if (status == EWA_OK)
+        ewa_report(context, EWA_SEVERITY_INFO, "%llu %s read in %.3f s",
+                   (unsigned long long)(model.face_count ? model.face_count : ewa_cloud_point_count(model.points)),
+                   model.face_count ? "faces" : "points", ewa_now_s() - started_s);
+    if (status == EWA_OK) status = ewa_asset_take_model(job, &model);
+    ewa_model_free(&model);
+    return status;
+}
+
+static ewa_status load(const ewa_asset_job *job, const char *path) {
+    ewa_context *context = job->asset->context;
+    if (ewa_volume_is_named(path)) return load_volume(job, path);
+    ewa_gaussian_format gaussians = EWA_GAUSSIANS_NONE;
+    // What is missing or cannot be opened is said by who reads it.
+    if (is_regular(path) && ewa_gaussians_probe(context, path, &gaussians) == EWA_OK && gaussians != EWA_GAUSSIANS_NONE)
+        return load_gaussians(job, path);
+    ewa_lod *lod;
+    const ewa_status status = open_octree(job, path, &lod);
+    if (status != EWA_OK) return status;
+    return lod ? ewa_asset_take_octree(job, lod) : load_model(job, path);
+}
+
+/// Takes options; what is wrong with the map is said.
+static ewa_status take_options(ewa_context *context, const ewa_asset_options *given, ewa_asset_options *options) {
+    ewa_asset_options_init(options, sizeof *options);
+    const ewa_status status = ewa_options_take(context, &ewa_asset_options_table, given, options);
+    const double *m = options->to_world;
+    if (status != EWA_OK) return status;
+    const double determinant = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
+                               m[2] * (m[4] * m[9] - m[5] * m[8]);
+    if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1 || !isfinite(determinant) || determinant == 0)
+        return ewa_fail(context, EWA_ERROR_ARGUMENT,
+                        "to_world: its last row must be 0 0 0 1, and its determinant, which is %g, neither zero nor "
+                        "infinite",
+                        determinant);
+    return EWA_OK;
+}
+
+ewa_status ewa_asset_load(ewa_context *context, const char *path, const ewa_asset_options *given, ewa_asset **made) {
+    if (!context || !path || !made) return EWA_ERROR_ARGUMENT;
+    *made = NULL;
+    ewa_asset_options options;
+    const char *before = ewa_context_about(context, path);
+    ewa_status status = take_options(context, given, &options);
+    ewa_asset *asset = NULL;
+    if (status == EWA_OK) status = make(context, path, &options, &asset);
+    const double started_s = ewa_now_s();
+    if (status == EWA_OK) {
+        asset->of_file = true;
+        asset->owns_parts = true;
+        status = load(&(ewa_asset_job){asset, &options}, path);
+        asset->load_s = ewa_now_s() - started_s;
+    }
+    ewa_context_about(context, before);
+    if (status != EWA_OK) ewa_asset_release(&asset);
+    *made = asset;
+    return status;
+}
+
+/// Borrows a cloud's streams.
+static ewa_status borrow_cloud(const ewa_asset_job *job, const ewa_cloud *cloud) {
+    ewa_cloud *view = NULL;
+    const bool moved = memcmp(job->options->to_world, IDENTITY, sizeof IDENTITY) != 0;
+    // A map changes the streams.
+    const ewa_status status =
+        moved ? ewa_cloud_merge(&cloud, 1, &view)
+              : ewa_cloud_view(job->asset->context, cloud, 0, ewa_cloud_point_count(cloud), &view);
+    return status == EWA_OK ? ewa_asset_take_cloud(job, view) : status;
+}
+
+/// Splats, voxels, surfels and octrees are where they are.
+static ewa_status refuse_map(const ewa_asset_job *job) {
+    if (memcmp(job->options->to_world, IDENTITY, sizeof IDENTITY) == 0) return EWA_OK;
+    return ewa_fail(job->asset->context, EWA_ERROR_UNSUPPORTED,
+                    "to_world: what is resident, or stays in its file, cannot be moved");
+}
+
+static ewa_status take_source(const ewa_asset_job *job, const ewa_asset_source *source) {
+    ewa_asset *asset = job->asset;
+    ewa_context *context = asset->context;
+    memcpy(asset->up_world, source->up_world, sizeof asset->up_world);
+    if (source->cloud) return borrow_cloud(job, source->cloud);
+    if (source->mesh) return ewa_asset_sample_mesh(job, source->mesh);
+    if (source->gaussians) {
+        ewa_gaussians set = *source->gaussians;
+        return ewa_asset_take_gaussians(job, &set, source->up_world);
+    }
+    if (source->volume) {
+        ewa_volume volume = *source->volume;
+        return ewa_asset_take_volume(job, &volume);
+    }
+    ewa_status status = refuse_map(job);
+    if (status != EWA_OK) return status;
+    if (source->lod) return ewa_asset_take_octree(job, source->lod);
+    if (source->surfels) {
+        ewa_surfels_info info;
+        ewa_surfels_describe(source->surfels, &info);
+        asset->kind = EWA_ASSET_SURFELS;
+        asset->surfels = source->surfels;
+        asset->count = info.point_count;
+        asset->bounds = info.bounds;
+        return ewa_asset_outline_surfels(context, source->surfels, &asset->outline);
+    }
+    if (!source->outline)
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: splats and voxels come with an outline", asset->name);
+    if (source->splats) {
+        ewa_splats_info info;
+        ewa_splats_describe(source->splats, &info);
+        asset->kind = EWA_ASSET_GAUSSIANS;
+        asset->splats = (ewa_splats *)source->splats; // never changed, and not its own
+        asset->count = info.splat_count;
+        asset->bounds = info.core;
+        asset->near_world = info.near_world;
+    } else {
+        ewa_voxels_info info;
+        ewa_voxels_describe(source->voxels, &info);
+        asset->kind = EWA_ASSET_VOLUME;
+        asset->voxels = (ewa_voxels *)source->voxels; // likewise
+        asset->count = info.voxel_count;
+        asset->bounds = info.bounds;
+        asset->flat = source->flat;
+    }
+    return ewa_cloud_view(context, source->outline, 0, ewa_cloud_point_count(source->outline), &asset->outline);
+}
+
+ewa_status ewa_asset_create(ewa_context *context, const ewa_asset_source *source, const ewa_asset_options *given,
+                            ewa_asset **made) {
+    if (!context || !source || !made) return EWA_ERROR_ARGUMENT;
+    *made = NULL;
+    const void *const objects[] = {source->cloud,  source->surfels, source->lod,       source->splats,
+                                   source->voxels, source->mesh,    source->gaussians, source->volume};
+    static const char *const names[] = {"points", "surfels", "octree",    "Gaussians",
+                                        "volume", "mesh",    "Gaussians", "volume"};
+    size_t count = 0, last = 0;
+    for (size_t i = 0; i < sizeof objects / sizeof objects[0]; i++)
+        if (objects[i]) count++, last = i;
+    ewa_asset_options options;
+    ewa_status status = take_options(context, given, &options);
+    if (status == EWA_OK && count != 1)
+        status = ewa_fail(context, EWA_ERROR_ARGUMENT, "an asset is of one object, not of %zu", count);
+    ewa_asset *asset = NULL;
+    if (status == EWA_OK) status = make(context, source->name ? source->name : names[last], &options, &asset);
+    if (status != EWA_OK) {
+        if (source->release) source->release(source->user);
+        return status;
+    }
+    asset->source = *source;
+    // What is converted becomes the asset's own.
+    asset->owns_parts = source->gaussians || source->volume;
+    const char *before = ewa_context_about(context, source->name);
+    const double started_s = ewa_now_s();
+    status = take_source(&(ewa_asset_job){asset, &options}, source);
+    asset->load_s = ewa_now_s() - started_s;
+    ewa_context_about(context, before);
+    if (status != EWA_OK) ewa_asset_release(&asset);
+    *made = asset;
+    return status;
+}

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// How assets are filled in, kind by kind.
+#ifndef EWA_SRC_SCENE_ASSET_H
+#define EWA_SRC_SCENE_ASSET_H
+
+#include "scene/scene.h"
+
+/// What an asset is filled in with; `options` are complete.
+typedef struct ewa_asset_job {
+    ewa_asset *asset;
+    const ewa_asset_options *options;
+} ewa_asset_job;
+
+/// Takes over a set of Gaussians, which is needed no more afterwards, as splats or as a cloud.
+ewa_status ewa_asset_take_gaussians(const ewa_asset_job *job, ewa_gaussians *set, const double up_world[3]);
+
+/// Takes over what a file of points or triangles holds.
+ewa_status ewa_asset_take_model(const ewa_asset_job *job, ewa_model *model);
+
+/// Makes points on the faces of a mesh.
+ewa_status ewa_asset_sample_mesh(const ewa_asset_job *job, const ewa_mesh *mesh);
+
+/// Takes over a cloud, which is the asset's own, by the filter and the map of the options. After a failure the asset
+/// still owns it.
+ewa_status ewa_asset_take_cloud(const ewa_asset_job *job, ewa_cloud *cloud);
+
+/// Makes voxels of a volume, whose axes may be changed.
+ewa_status ewa_asset_take_volume(const ewa_asset_job *job, ewa_volume *volume);
+
+/// Reads what of an octree stands for the whole.
+ewa_status ewa_asset_take_octree(const ewa_asset_job *job, ewa_lod *lod);
+
+/// Makes the outline of resident surfels: their places and radii.
+ewa_status ewa_asset_outline_surfels(ewa_context *context, const ewa_surfels *surfels, ewa_cloud **outline);
+
+#endif

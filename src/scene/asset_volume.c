@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Assets of volumes: the transfer function, voxels, from where they are seen.
+#include "base/base.h"
+#include "ewa/io.h"
+#include "scene/asset.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/// How many times as wide as thick a volume is when it is a slice or a picture.
+static const double SLICE_RATIO = 8;
+
+static bool is_preset(const char *word) {
+    const char *name;
+    for (uint32_t i = 0; (name = ewa_transfer_preset_name(i, NULL)); i++)
+        if (strcmp(name, word) == 0) return true;
+    return false;
+}
+
+/// Chooses the transfer function: from a file, a preset, or the histogram.
+static ewa_status choose_transfer(ewa_context *context, const char *word, const ewa_volume *volume,
+                                  ewa_transfer *transfer) {
+    const bool automatic = !word || strcmp(word, "auto") == 0;
+    ewa_volume_facts facts;
+    ewa_status status = ewa_volume_measure(volume, &facts);
+    if (status != EWA_OK) return status;
+    if (!facts.finite_count) return ewa_fail(context, EWA_ERROR_FORMAT, "no voxel is a finite number");
+    if (automatic) return ewa_transfer_automatic(volume, &facts, transfer);
+    if (is_preset(word)) return ewa_transfer_preset(volume, &facts, word, transfer);
+    const char *before = ewa_context_about(context, word);
+    status = ewa_transfer_load(context, word, transfer);
+    ewa_context_about(context, before);
+    if (status != EWA_ERROR_IO) return status;
+    char names[256] = "auto";
+    const char *name;
+    for (uint32_t i = 0; (name = ewa_transfer_preset_name(i, NULL)); i++) {
+        const size_t length = strlen(names);
+        snprintf(names + length, sizeof names - length, ", %s", name);
+    }
+    ewa_report(context, EWA_SEVERITY_NOTE, "the presets of transfer functions are %s", names);
+    return status;
+}
+
+/// A patient is seen from the front, a slice from where it is not a line (a picture upright), and what
+/// nothing is known of from a corner, which shows most of any shape.
+static int choose_view(const ewa_volume *volume) {
+    double thickness = INFINITY, width = INFINITY;
+    int thin = 0, single_count = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        const double *m = volume->index_to_world + axis;
+        const bool single = volume->dims[axis] == 1;
+        const double extent = single ? 0 : volume->dims[axis] * hypot(hypot(m[0], m[4]), m[8]);
+        single_count += single;
+        if (extent < thickness) {
+            width = thickness;
+            thickness = extent;
+            thin = axis;
+        } else if (extent < width) {
+            width = extent;
+        }
+    }
+    const double *m = volume->index_to_world + thin;
+    const double x = fabs(m[0]), y = fabs(m[4]), z = fabs(m[8]);
+    if (single_count < 2 && width > SLICE_RATIO * thickness)
+        return z >= x && z >= y ? EWA_VIEW_BOTTOM : x > y ? EWA_VIEW_LEFT : EWA_VIEW_FRONT;
+    return volume->anatomical ? EWA_VIEW_FRONT : EWA_VIEW_ISO;
+}
+
+
+/// Puts the map of an asset before the one of the voxels' indices.
+static void move(const double to_world[16], ewa_volume *volume) {
+    double moved[12];
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 4; c++) {
+            double sum = c == 3 ? to_world[4 * r + 3] : 0;
+            for (int k = 0; k < 3; k++) sum += to_world[4 * r + k] * volume->index_to_world[4 * k + c];
+            moved[4 * r + c] = sum;
+        }
+    memcpy(volume->index_to_world, moved, sizeof moved);
+}
+
+ewa_status ewa_asset_take_volume(const ewa_asset_job *job, ewa_volume *volume) {
+    ewa_asset *asset = job->asset;
+    ewa_context *context = asset->context;
+    const char *word = asset->transfer;
+    static const double up_world[3] = {0, 0, 1}; // scanners' volumes stand on z
+    asset->kind = EWA_ASSET_VOLUME;
+    asset->flat = word && (strcmp(word, "fog") == 0 || strcmp(word, "gray") == 0);
+    memcpy(asset->up_world, up_world, sizeof asset->up_world);
+    move(asset->to_world, volume);
+    ewa_transfer *transfer = ewa_allocate(context, 1, sizeof *transfer);
+    if (!transfer) return EWA_ERROR_MEMORY;
+    ewa_voxels_options options;
+    ewa_voxels_options_init(&options, sizeof options);
+    options.level_count = job->options->voxel_level_count;
+    ewa_status status = choose_transfer(context, word, volume, transfer);
+    if (status == EWA_OK) status = ewa_voxels_create(volume, transfer, &options, &asset->voxels);
+    if (status == EWA_OK) status = ewa_volume_outline(volume, transfer, job->options->reach_steps, &asset->outline);
+    ewa_release(context, transfer, 1, sizeof *transfer);
+    if (status != EWA_OK) return status;
+    ewa_voxels_info info;
+    ewa_voxels_describe(asset->voxels, &info);
+    if (!info.occupied_count)
+        ewa_report(context, EWA_SEVERITY_WARNING, "the transfer function leaves all voxels empty");
+    asset->count = info.voxel_count;
+    asset->bounds = info.bounds;
+    asset->view = choose_view(volume);
+    return EWA_OK;
+}

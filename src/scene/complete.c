@@ -1,0 +1,296 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What surfels need and points lack: normals and radii, estimated for clouds that overlap or touch as if they were one
+// file, so that tiles of one survey have no seams and scans of one place no two spacings.
+#include "base/base.h"
+#include "cloud/cloud.h"
+#include "scene/scene.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/// Boxes that are no farther from each other than so many spacings touch.
+static const double TOUCH_SPACINGS = 4;
+
+enum { NAMES_BYTES = 400 };
+
+void ewa_completed_release(ewa_completed **given) {
+    ewa_completed *completed = given ? *given : NULL;
+    if (!completed) return;
+    *given = NULL;
+    if (atomic_fetch_sub(&completed->references, 1) > 1) return;
+    ewa_context *context = completed->context;
+    for (uint32_t i = 0; i < completed->count; i++) {
+        if (completed->clouds) ewa_cloud_destroy(&completed->clouds[i]);
+        if (completed->assets) ewa_asset_release(&completed->assets[i]);
+    }
+    ewa_cloud_destroy(&completed->merged);
+    ewa_release(context, completed->clouds, completed->count, sizeof(ewa_cloud *));
+    ewa_release(context, completed->assets, completed->count, sizeof(ewa_asset *));
+    ewa_release(context, completed, 1, sizeof *completed);
+}
+
+/// A distance of the points as on a sheet of the box's size, or on a line.
+static double spacing_of(const ewa_bounds *box) {
+    double sides[2] = {0}; // the two longest
+    for (int c = 0; c < 3; c++) {
+        const double extent = box->high_world[c] - box->low_world[c];
+        sides[1] = fmax(sides[1], fmin(sides[0], extent));
+        sides[0] = fmax(sides[0], extent);
+    }
+    const double count = (double)box->finite_count;
+    return fmax(sqrt(sides[0] * sides[1] / count), sides[0] / count);
+}
+
+/// Whether two clouds that lack the same are to be estimated together.
+static bool belong_together(const ewa_asset *a, const ewa_asset *b) {
+    if ((ewa_cloud_find(a->cloud, EWA_NORMAL) != NULL) != (ewa_cloud_find(b->cloud, EWA_NORMAL) != NULL) ||
+        (ewa_cloud_find(a->cloud, EWA_RADIUS) != NULL) != (ewa_cloud_find(b->cloud, EWA_RADIUS) != NULL))
+        return false;
+    if (!a->bounds.finite_count || !b->bounds.finite_count) return false;
+    const double reach = TOUCH_SPACINGS * fmax(spacing_of(&a->bounds), spacing_of(&b->bounds));
+    for (int c = 0; c < 3; c++)
+        if (a->bounds.low_world[c] - reach > b->bounds.high_world[c] ||
+            b->bounds.low_world[c] - reach > a->bounds.high_world[c])
+            return false;
+    return true;
+}
+
+/// Marks all items that belong to the group of item `first`, directly or by others. Returns how many these are.
+static uint32_t mark_group(const ewa_scene *scene, uint32_t first, uint32_t *group_of) {
+    uint32_t count = 1, before = 0;
+    group_of[first] = first;
+    while (before != count) {
+        before = count;
+        for (uint32_t i = first + 1; i < scene->count; i++) {
+            const ewa_asset *asset = scene->items[i].asset;
+            if (group_of[i] != UINT32_MAX || !ewa_asset_is_points(asset) || asset->drawable) continue;
+            bool member = false;
+            for (uint32_t k = first; k < scene->count && !member; k++)
+                member = group_of[k] == first && k != i &&
+                         (scene->items[k].asset == asset || belong_together(scene->items[k].asset, asset));
+            if (!member) continue;
+            group_of[i] = first;
+            count++;
+        }
+    }
+    return count;
+}
+
+/// How many scanners a cloud knows the places of; 0: none, or not whose points are whose.
+static uint32_t scanner_count(const ewa_cloud *cloud) {
+    size_t bytes = 0;
+    const char *note = ewa_cloud_note(cloud, "scanners", &bytes);
+    const size_t count = note ? bytes / (3 * sizeof(double)) : 0;
+    const ewa_attribute *scan = ewa_cloud_find(cloud, "scan");
+    if (!count || bytes % (3 * sizeof(double)) || count > UINT16_MAX || (scan && scan->component_count != 1)) return 0;
+    return count > 1 && !scan ? 0 : (uint32_t)count;
+}
+
+/// Tells the merged points whose scanner saw them, if that is known of all.
+static ewa_status merge_scanners(const ewa_completed *group) {
+    uint32_t total = 0;
+    for (uint32_t i = 0; i < group->count; i++) {
+        const uint32_t own = scanner_count(group->assets[i]->cloud);
+        if (!own) return EWA_OK;
+        total += own;
+    }
+    double *places = ewa_allocate(group->context, total, 3 * sizeof *places);
+    void *data = NULL;
+    ewa_status status = places ? ewa_cloud_add(group->merged, "scan", EWA_F64, 1, &data) : EWA_ERROR_MEMORY;
+    double *scans = data;
+    uint32_t before = 0;
+    for (uint32_t i = 0; i < group->count && status == EWA_OK; i++) {
+        const ewa_cloud *cloud = group->assets[i]->cloud;
+        const ewa_attribute *scan = ewa_cloud_find(cloud, "scan");
+        const uint64_t count = ewa_cloud_point_count(cloud);
+        size_t bytes = 0;
+        memcpy(places + 3 * before, ewa_cloud_note(cloud, "scanners", &bytes),
+               scanner_count(cloud) * 3 * sizeof *places);
+        if (scan)
+            ewa_attribute_read_f64(scan, 0, count, scans);
+        else
+            memset(scans, 0, count * sizeof *scans);
+        for (uint64_t k = 0; k < count; k++) scans[k] += before;
+        scans += count;
+        before += scanner_count(cloud);
+    }
+    if (status == EWA_OK)
+        status = ewa_cloud_set_note(group->merged, "scanners", places, total * 3 * sizeof *places);
+    ewa_release(group->context, places, total, 3 * sizeof *places);
+    return status;
+}
+
+/// Whether all clouds of a group have an attribute.
+static bool all_have(const ewa_completed *group, const char *name) {
+    bool all = true;
+    for (uint32_t i = 0; i < group->count; i++) all = all && ewa_cloud_find(group->assets[i]->cloud, name);
+    return all;
+}
+
+/// Makes one cloud of the positions of several, and of what tells the sides of their normals.
+static ewa_status merge_positions(ewa_completed *group) {
+    static const char *const wanted[] = {EWA_POSITION, EWA_NORMAL, EWA_RADIUS, "return_number"};
+    ewa_status status = EWA_OK;
+    for (uint32_t i = 0; i < group->count && status == EWA_OK; i++) {
+        const ewa_cloud *from = group->assets[i]->cloud;
+        double origin_world[3];
+        ewa_cloud_origin(from, origin_world);
+        status = ewa_cloud_create(group->context, ewa_cloud_point_count(from), &group->clouds[i]);
+        if (status == EWA_OK) ewa_cloud_set_origin(group->clouds[i], origin_world);
+        for (size_t w = 0; w < sizeof wanted / sizeof wanted[0] && status == EWA_OK; w++) {
+            const ewa_attribute *a = ewa_cloud_find(from, wanted[w]);
+            if (a && all_have(group, wanted[w]))
+                status =
+                    ewa_cloud_borrow(group->clouds[i], a->name, a->type, a->component_count, a->data, a->stride_bytes);
+        }
+    }
+    if (status == EWA_OK)
+        status = ewa_cloud_merge((const ewa_cloud *const *)group->clouds, group->count, &group->merged);
+    for (uint32_t i = 0; i < group->count; i++) ewa_cloud_destroy(&group->clouds[i]);
+    return status == EWA_OK ? merge_scanners(group) : status;
+}
+
+/// Adds what was estimated of all to the view of one.
+static ewa_status borrow_estimated(const ewa_completed *group, uint64_t first, ewa_cloud *view) {
+    static const char *const estimated[] = {EWA_NORMAL, EWA_RADIUS};
+    ewa_status status = EWA_OK;
+    for (int i = 0; i < 2 && status == EWA_OK; i++) {
+        const ewa_attribute *a = ewa_cloud_find(group->merged, estimated[i]);
+        if (!a || ewa_cloud_find(view, estimated[i])) continue;
+        status = ewa_cloud_borrow(view, a->name, a->type, a->component_count,
+                                  (const char *)a->data + first * a->stride_bytes, a->stride_bytes);
+    }
+    return status;
+}
+
+/// Says what was estimated of which files.
+static void report(const ewa_completed *group, bool normals, uint32_t neighbour_count) {
+    char names[NAMES_BYTES] = "";
+    for (uint32_t i = 0; i < group->count; i++) {
+        const size_t length = strlen(names);
+        snprintf(names + length, sizeof names - length, "%s%s", i ? ", " : "", group->assets[i]->name);
+    }
+    ewa_report(group->context, group->count > 1 ? EWA_SEVERITY_NOTE : EWA_SEVERITY_INFO,
+               "%s: %sradii estimated%s from %u neighbours in %.3f s", names, normals ? "normals and " : "",
+               group->count > 1 ? " together" : "", neighbour_count, group->estimate_s);
+}
+
+/// Estimates what the clouds of a group lack.
+static ewa_status estimate(ewa_completed *group) {
+    ewa_estimate_options options;
+    ewa_estimate_options_init(&options, sizeof options);
+    const bool normals = !ewa_cloud_find(group->assets[0]->cloud, EWA_NORMAL);
+    const double started_s = ewa_now_s();
+    ewa_status status = group->count > 1 ? merge_positions(group) : EWA_OK;
+    const char *before = ewa_context_about(group->context, group->count > 1 ? NULL : group->assets[0]->name);
+    if (status == EWA_OK && group->count > 1) {
+        status = ewa_cloud_estimate(&group->merged, &options);
+        static const char *const spare[] = {EWA_POSITION, "scan", "return_number"};
+        for (size_t i = 0; i < sizeof spare / sizeof spare[0]; i++) ewa_cloud_remove(group->merged, spare[i]);
+    }
+    uint64_t first = 0;
+    for (uint32_t i = 0; i < group->count && status == EWA_OK; i++) {
+        const ewa_cloud *from = group->assets[i]->cloud;
+        const uint64_t count = ewa_cloud_point_count(from);
+        status = ewa_cloud_view(group->context, from, 0, count, &group->clouds[i]);
+        if (status == EWA_OK)
+            status = group->count > 1 ? borrow_estimated(group, first, group->clouds[i])
+                                      : ewa_cloud_estimate(&group->clouds[i], &options);
+        first += count;
+    }
+    ewa_context_about(group->context, before);
+    group->estimated_count = first;
+    group->estimate_s = ewa_now_s() - started_s;
+    if (status == EWA_OK) report(group, normals, options.neighbour_count);
+    return status;
+}
+
+/// Whether a group that was made before is of these items.
+static bool is_of(const ewa_completed *group, const ewa_scene *scene, uint32_t first, const uint32_t *group_of,
+                  uint32_t count) {
+    if (!group || group->count != count) return false;
+    uint32_t member = 0;
+    for (uint32_t i = first; i < scene->count; i++)
+        if (group_of[i] == first && group->assets[member++] != scene->items[i].asset) return false;
+    return true;
+}
+
+/// Makes a group of the marked items.
+static ewa_status make_group(ewa_scene *scene, uint32_t first, const uint32_t *group_of, uint32_t count,
+                             ewa_completed **made) {
+    ewa_context *context = scene->context;
+    ewa_completed *group = ewa_allocate_zeroed(context, 1, sizeof *group);
+    if (!group) return EWA_ERROR_MEMORY;
+    group->context = context;
+    group->count = count;
+    atomic_init(&group->references, 1);
+    group->assets = ewa_allocate_zeroed(context, count, sizeof *group->assets);
+    group->clouds = ewa_allocate_zeroed(context, count, sizeof *group->clouds);
+    ewa_status status = group->assets && group->clouds ? EWA_OK : EWA_ERROR_MEMORY;
+    uint32_t member = 0;
+    for (uint32_t i = first; i < scene->count && status == EWA_OK; i++)
+        if (group_of[i] == first) group->assets[member++] = ewa_asset_retain(scene->items[i].asset);
+    if (status == EWA_OK) status = estimate(group);
+    *made = group;
+    if (status != EWA_OK) ewa_completed_release(made);
+    return status;
+}
+
+/// Gives each marked item its place in a group.
+static void set_group(ewa_scene *scene, uint32_t first, const uint32_t *group_of, ewa_completed *group) {
+    uint32_t member = 0;
+    for (uint32_t i = first; i < scene->count; i++) {
+        if (group_of[i] != first) continue;
+        ewa_completed *old = scene->items[i].completed;
+        atomic_fetch_add(&group->references, 1);
+        scene->items[i].completed = group;
+        scene->items[i].member = member++;
+        ewa_completed_release(&old);
+    }
+}
+
+/// Warns of coordinate reference systems that are not that of the first file that has one.
+static void check_systems(const ewa_scene *scene) {
+    const char *first = NULL, *first_name = NULL;
+    for (uint32_t i = 0; i < scene->count; i++) {
+        const ewa_asset *asset = scene->items[i].asset;
+        const ewa_cloud *cloud = asset->cloud ? asset->cloud : asset->kind == EWA_ASSET_OCTREE ? asset->outline : NULL;
+        const char *system = cloud ? ewa_cloud_note(cloud, "crs", NULL) : NULL;
+        if (!system) continue;
+        if (!first) {
+            first = system, first_name = asset->name;
+        } else if (strcmp(first, system) != 0) {
+            ewa_report(scene->context, EWA_SEVERITY_WARNING,
+                       "%s: its coordinate reference system (%.60s) is not that of %s (%.60s): coordinates are taken "
+                       "as they are",
+                       asset->name, system, first_name, first);
+        }
+    }
+}
+
+ewa_status ewa_scene_complete_items(ewa_scene *scene) {
+    uint32_t *group_of = ewa_allocate(scene->context, scene->count, sizeof *group_of);
+    if (!group_of) return EWA_ERROR_MEMORY;
+    memset(group_of, 0xff, scene->count * sizeof *group_of);
+    ewa_status status = EWA_OK;
+    for (uint32_t i = 0; i < scene->count && status == EWA_OK; i++) {
+        const ewa_asset *asset = scene->items[i].asset;
+        if (group_of[i] != UINT32_MAX || !ewa_asset_is_points(asset) || asset->drawable || !asset->count) continue;
+        const uint32_t count = mark_group(scene, i, group_of);
+        ewa_completed *group = scene->items[i].completed;
+        if (is_of(group, scene, i, group_of, count)) {
+            atomic_fetch_add(&group->references, 1);
+        } else {
+            group = NULL;
+            status = make_group(scene, i, group_of, count, &group);
+        }
+        if (status == EWA_OK) set_group(scene, i, group_of, group);
+        ewa_completed_release(&group);
+    }
+    ewa_release(scene->context, group_of, scene->count, sizeof *group_of);
+    if (status == EWA_OK) check_systems(scene);
+    return status;
+}

@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What scenes and assets are made of, for the files of this room.
+//
+// What is dear is shared by counted references: assets, groups of clouds that were completed together, and the surfels
+// of everything that is visible. A copy of a scene shares them until one of the two changes.
+#ifndef EWA_SRC_SCENE_H
+#define EWA_SRC_SCENE_H
+
+#include "ewa/scene.h"
+
+#include <stdatomic.h>
+
+struct ewa_asset {
+    ewa_context *context;
+    atomic_uint_fast32_t references;
+    ewa_asset_kind kind;
+    char *name; ///< of a file: its path as it was given
+    size_t name_bytes;
+    bool of_file;
+    ewa_asset_source source; ///< of objects in memory, whose release() is called in the end
+
+    // What a scene file says of it.
+    double to_world[16];
+    ewa_filter filter; ///< of no terms: all points
+    char *transfer;    ///< NULL: automatic
+    size_t transfer_bytes;
+    ewa_octree_levels levels;
+    bool gaussians_as_surfels;
+
+    uint64_t count;
+    ewa_bounds bounds;
+    double up_world[3], load_s;
+
+    ewa_cloud *cloud; ///< of points and meshes; NULL: gone, or something else
+    bool drawable;    ///< it has normals and radii, or axes
+    ewa_lod *lod;
+    const ewa_surfels *surfels; ///< of another owner
+    ewa_splats *splats;
+    ewa_voxels *voxels;
+    bool owns_parts;    ///< the octree, the splats and the voxels are its own
+    ewa_cloud *outline; ///< of octrees, Gaussians, volumes and resident surfels: places to have in the picture, with
+                        ///< radii where there are some
+    double near_world;  ///< of Gaussians
+    bool flat;          ///< of volumes: best without light
+    int view;           ///< of volumes: the ewa_named_view that suits them; -1: none does
+};
+
+/// Clouds of which some lack normals or radii, completed together.
+typedef struct ewa_completed {
+    ewa_context *context;
+    atomic_uint_fast32_t references;
+    uint32_t count;
+    ewa_asset **assets; ///< retained, in the order of the scene
+    ewa_cloud **clouds; ///< of each asset: its streams and those that were estimated
+    ewa_cloud *merged;  ///< what was estimated, of several; NULL: of one
+    uint64_t estimated_count;
+    double estimate_s;
+} ewa_completed;
+
+/// An instance of a scene.
+typedef struct ewa_scene_item {
+    ewa_asset *asset; ///< retained
+    ewa_instance instance;
+    ewa_completed *completed; ///< retained; NULL: not yet, or not of points
+    uint32_t member;          ///< of its clouds
+} ewa_scene_item;
+
+/// What of an item decides how its points look as surfels.
+typedef struct ewa_surface_key {
+    const ewa_asset *asset;
+    const ewa_completed *completed; ///< NULL: the asset's cloud is complete
+    ewa_instance instance;
+    uint32_t member; ///< of the completed clouds
+} ewa_surface_key;
+
+/// The surfels of all visible clouds and meshes.
+typedef struct ewa_surface {
+    ewa_context *context;
+    atomic_uint_fast32_t references;
+    uint32_t count;
+    ewa_surface_key *keys; ///< what it was made of
+    ewa_surfels_options options;
+    bool close_gaps;
+    bool as_points; ///< drawn as discs of pixels: gaps do not matter
+    ewa_surfels *surfels;
+    ewa_surfels_info info;
+    uint32_t legend_count;
+    ewa_legend *legends;
+    uint32_t *legend_of; ///< of each key: of `legends`; UINT32_MAX: none
+    double surfels_s, estimate_s;
+} ewa_surface;
+
+struct ewa_scene {
+    ewa_context *context;
+    ewa_scene_options options;
+    ewa_scene_item *items;
+    uint32_t count, capacity;
+    bool complete, committed, points_gone;
+    ewa_surface *surface; ///< retained; NULL: none
+};
+
+/// Whether instances of an asset are part of the one surface of points.
+static inline bool ewa_asset_is_points(const ewa_asset *asset) {
+    return asset->kind == EWA_ASSET_POINTS || asset->kind == EWA_ASSET_MESH;
+}
+
+/// Makes a cloud over points [first, first + count) of another, whose streams stay where they are; with its origin,
+/// grid and notes.
+ewa_status ewa_cloud_view(ewa_context *context, const ewa_cloud *cloud, uint64_t first, uint64_t count,
+                          ewa_cloud **view);
+
+/// Gives clouds that become one the same kinds of colours, axes and materials, and leaves nothing that is not drawn.
+/// Discs become axes for kernels that end at `cutoff`.
+ewa_status ewa_clouds_make_alike(ewa_cloud *const *clouds, uint32_t count, double cutoff);
+
+/// Replaces a cloud's colours, or their absence, by linear floats with alpha, which all colours can become.
+ewa_status ewa_cloud_colors_to_linear(ewa_cloud *cloud);
+
+/// Gives the items of points what they lack (complete.c).
+ewa_status ewa_scene_complete_items(ewa_scene *scene);
+void ewa_completed_release(ewa_completed **completed);
+
+/// Makes the surfels of all visible items of points (surface.c).
+ewa_status ewa_surface_make(ewa_scene *scene, ewa_surface **surface);
+bool ewa_surface_is_of(const ewa_surface *surface, const ewa_scene *scene);
+void ewa_surface_release(ewa_surface **surface);
+
+/// Makes one cloud of all places, with radii, that a camera has to have in its picture (outline.c), maybe of a box
+/// where there is nothing; `*made`: it is the caller's to destroy.
+ewa_status ewa_scene_outline(ewa_scene *scene, const ewa_cloud **outline, bool *made);
+
+/// Whether two colourings give the same colours.
+bool ewa_colorings_agree(const ewa_coloring *a, const ewa_coloring *b);
+
+#endif

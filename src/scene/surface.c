@@ -1,0 +1,265 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The one surface of a scene: the surfels of all visible clouds and meshes, made of them as if they were one file, so
+// that what is added and what was merged before are the same bytes.
+#include "base/base.h"
+#include "cloud/cloud.h"
+#include "ewa/diagnosis.h"
+#include "scene/scene.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { GAP_POINTS = 1000 };
+
+/// Support radius in units of the spacing under which irregular points leave gaps.
+static const double GAP_RADIUS = 1;
+
+void ewa_surface_release(ewa_surface **given) {
+    ewa_surface *surface = given ? *given : NULL;
+    if (!surface) return;
+    *given = NULL;
+    if (atomic_fetch_sub(&surface->references, 1) > 1) return;
+    ewa_context *context = surface->context;
+    ewa_surfels_destroy(&surface->surfels);
+    for (uint32_t i = 0; surface->legends && i < surface->legend_count; i++) ewa_legend_free(&surface->legends[i]);
+    ewa_release(context, surface->legends, surface->count, sizeof *surface->legends);
+    ewa_release(context, surface->legend_of, surface->count, sizeof *surface->legend_of);
+    ewa_release(context, surface->keys, surface->count, sizeof *surface->keys);
+    ewa_release(context, surface, 1, sizeof *surface);
+}
+
+/// Whether an item's points are part of the surface.
+static bool is_shown(const ewa_scene_item *item) {
+    return item->instance.visible && ewa_asset_is_points(item->asset) && item->asset->count;
+}
+
+/// An order of the clouds that does not depend on that of the instances: by their places.
+static int compare_keys(const void *a, const void *b) {
+    const ewa_surface_key *p = a, *q = b;
+    const ewa_bounds *m = &p->asset->bounds, *n = &q->asset->bounds;
+    for (int c = 0; c < 3; c++) {
+        if (m->low_world[c] != n->low_world[c]) return m->low_world[c] < n->low_world[c] ? -1 : 1;
+        if (m->high_world[c] != n->high_world[c]) return m->high_world[c] < n->high_world[c] ? -1 : 1;
+    }
+    if (p->asset->count != q->asset->count) return p->asset->count < q->asset->count ? -1 : 1;
+    return strcmp(p->asset->name, q->asset->name);
+}
+
+static ewa_surface_key key_of(const ewa_scene_item *item) {
+    ewa_surface_key key = {item->asset, item->asset->drawable ? NULL : item->completed, item->instance, item->member};
+    return key;
+}
+
+/// Whether two keys give the same surfels.
+static bool keys_agree(const ewa_surface_key *a, const ewa_surface_key *b) {
+    const ewa_instance *m = &a->instance, *n = &b->instance;
+    return a->asset == b->asset && a->completed == b->completed && m->opacity == n->opacity &&
+           m->radius_scale == n->radius_scale && m->material == n->material &&
+           ewa_colorings_agree(&m->coloring, &n->coloring);
+}
+
+/// Lists what is shown, in the order in which it is merged; `*count` keys of `scene->count` that there is room for.
+static ewa_status list_keys(const ewa_scene *scene, ewa_surface_key **keys, uint32_t *count) {
+    *count = 0;
+    for (uint32_t i = 0; i < scene->count; i++) *count += is_shown(&scene->items[i]);
+    *keys = ewa_allocate_zeroed(scene->context, *count, sizeof **keys);
+    if (!*keys) return EWA_ERROR_MEMORY;
+    uint32_t at = 0;
+    for (uint32_t i = 0; i < scene->count; i++)
+        if (is_shown(&scene->items[i])) (*keys)[at++] = key_of(&scene->items[i]);
+    qsort(*keys, *count, sizeof **keys, compare_keys);
+    return EWA_OK;
+}
+
+bool ewa_surface_is_of(const ewa_surface *surface, const ewa_scene *scene) {
+    const ewa_scene_options *options = &scene->options;
+    const ewa_surfels_options *a = &options->surfels;
+    const ewa_surfels_options *b = surface ? &surface->options : NULL;
+    if (!surface || surface->close_gaps != options->close_gaps ||
+        surface->as_points != (options->render.point_size_px > 0) || a->cutoff != b->cutoff ||
+        a->radius_scale != b->radius_scale || a->level_count != b->level_count)
+        return false;
+    ewa_surface_key *keys = NULL;
+    uint32_t count;
+    bool agree = list_keys(scene, &keys, &count) == EWA_OK && count == surface->count;
+    for (uint32_t i = 0; agree && i < count; i++) agree = keys_agree(&keys[i], &surface->keys[i]);
+    ewa_release(scene->context, keys, count, sizeof *keys);
+    return agree;
+}
+
+/// The clouds that a surface is made of, changed as their instances say.
+typedef struct shown_clouds {
+    ewa_cloud **clouds; ///< [surface->count]
+    ewa_cloud **colored; ///< likewise: those of one colouring
+} shown_clouds;
+
+/// Multiplies numbers of some components by a factor.
+static ewa_status scale_stream(ewa_cloud *cloud, const char *name, uint32_t components, double factor) {
+    const ewa_attribute *found = ewa_cloud_find(cloud, name);
+    if (!found || found->component_count != components) return EWA_OK;
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    const ewa_attribute from = *found;
+    ewa_context *context = ewa_cloud_context(cloud);
+    float *scaled = ewa_allocate(context, count, components * sizeof *scaled);
+    if (!scaled) return EWA_ERROR_MEMORY;
+    ewa_attribute_read_f32(&from, 0, count, scaled);
+    for (uint64_t i = 0; i < count * components; i++) scaled[i] = (float)((double)scaled[i] * factor);
+    void *data = NULL;
+    const ewa_status status = ewa_cloud_add(cloud, name, EWA_F32, components, &data);
+    if (status == EWA_OK) memcpy(data, scaled, count * components * sizeof *scaled);
+    ewa_release(context, scaled, count, components * sizeof *scaled);
+    return status;
+}
+
+/// Changes radii, alpha and material as an instance says.
+static ewa_status apply_instance(const ewa_instance *instance, ewa_cloud *cloud) {
+    ewa_status status = EWA_OK;
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    if (instance->radius_scale != 1) {
+        status = scale_stream(cloud, EWA_RADIUS, 1, instance->radius_scale);
+        if (status == EWA_OK) status = scale_stream(cloud, EWA_TANGENT_U, 3, instance->radius_scale);
+        if (status == EWA_OK) status = scale_stream(cloud, EWA_TANGENT_V, 3, instance->radius_scale);
+    }
+    if (status == EWA_OK && instance->opacity < 1) {
+        status = ewa_cloud_colors_to_linear(cloud);
+        float *colors = status == EWA_OK ? ewa_cloud_find(cloud, EWA_COLOR)->data : NULL;
+        for (uint64_t i = 0; colors && i < count; i++) colors[4 * i + 3] *= (float)instance->opacity;
+    }
+    if (status == EWA_OK && instance->material != EWA_MATERIAL_OWN) {
+        void *data = NULL;
+        status = ewa_cloud_add(cloud, EWA_MATERIAL, EWA_U8, 1, &data);
+        if (status == EWA_OK) memset(data, (int)instance->material, count);
+    }
+    return status;
+}
+
+/// Colours the clouds, those of one colouring on one scale.
+static ewa_status apply_colorings(ewa_surface *surface, const shown_clouds *shown) {
+    ewa_status status = EWA_OK;
+    for (uint32_t i = 0; i < surface->count; i++) surface->legend_of[i] = UINT32_MAX;
+    for (uint32_t i = 0; i < surface->count && status == EWA_OK; i++) {
+        const ewa_coloring *coloring = &surface->keys[i].instance.coloring;
+        const bool own = ewa_coloring_is_own(coloring->attribute);
+        // Of the points' own colours, only "rgb" insists that there are some.
+        if (surface->legend_of[i] != UINT32_MAX || (own && !coloring->attribute[0] && !coloring->tinted)) continue;
+        uint32_t count = 0;
+        for (uint32_t k = i; k < surface->count; k++) {
+            if (!ewa_colorings_agree(coloring, &surface->keys[k].instance.coloring)) continue;
+            shown->colored[count++] = shown->clouds[k];
+            surface->legend_of[k] = surface->legend_count;
+        }
+        status = ewa_clouds_color(shown->colored, count, coloring, &surface->legends[surface->legend_count++]);
+    }
+    return status;
+}
+
+/// The discs' median support radius in units of the spacing 1 / sqrt(d) (d: density): from the unit coverage
+/// q = s^2 d (1 - exp(-F^2 / 2)) with s = radius / F. Before a radius scale that shrinks discs: whoever asks for it
+/// wants gaps.
+static double radius_in_spacings(const ewa_surface *surface) {
+    const double f = surface->options.cutoff, kernel = 1 - exp(-0.5 * f * f);
+    return f * sqrt(surface->info.unit_coverage / kernel) / fmin(surface->options.radius_scale, 1);
+}
+
+static ewa_status make_surfels(ewa_surface *surface, const ewa_cloud *cloud) {
+    const double started_s = ewa_now_s();
+    const ewa_status status = ewa_surfels_create(cloud, &surface->options, &surface->surfels);
+    surface->surfels_s += ewa_now_s() - started_s;
+    if (status == EWA_OK) ewa_surfels_describe(surface->surfels, &surface->info);
+    return status;
+}
+
+/// Measures the radii anew where those of files are so small that there are gaps between the discs; says so.
+static ewa_status close_gaps(ewa_surface *surface, ewa_cloud **cloud) {
+    const double radius = radius_in_spacings(surface);
+    const bool gaps = surface->info.point_count >= GAP_POINTS && radius < GAP_RADIUS;
+    if (surface->as_points || !gaps || !ewa_cloud_find(*cloud, EWA_RADIUS) || ewa_cloud_find(*cloud, EWA_TANGENT_U))
+        return EWA_OK;
+    if (!surface->close_gaps) {
+        ewa_report(surface->context, EWA_SEVERITY_NOTE,
+                   "the radii are %.2f of the points' spacing, which leaves gaps", radius);
+        return EWA_OK;
+    }
+    ewa_report(surface->context, EWA_SEVERITY_NOTE,
+               "the radii are %.2f of the points' spacing, which leaves gaps: larger ones are used "
+               "(--close-gaps off keeps the file's)",
+               radius);
+    ewa_estimate_options options;
+    ewa_estimate_options_init(&options, sizeof options);
+    options.cutoff = surface->options.cutoff;
+    options.keep_radii = false;
+    const double started_s = ewa_now_s();
+    ewa_surfels_destroy(&surface->surfels);
+    const ewa_status status = ewa_cloud_estimate(cloud, &options);
+    surface->estimate_s += ewa_now_s() - started_s;
+    return status == EWA_OK ? make_surfels(surface, *cloud) : status;
+}
+
+/// Makes surfels of the one cloud that the shown ones become.
+static ewa_status make_resident(ewa_surface *surface, ewa_cloud **cloud) {
+    ewa_status status = make_surfels(surface, *cloud);
+    if (status == EWA_OK) status = close_gaps(surface, cloud);
+    if (status == EWA_OK) status = ewa_cloud_report_faults(*cloud, &surface->info);
+    return status;
+}
+
+static ewa_status fill(ewa_scene *scene, ewa_surface *surface, const shown_clouds *shown) {
+    ewa_context *context = surface->context;
+    ewa_status status = EWA_OK;
+    for (uint32_t i = 0; i < surface->count && status == EWA_OK; i++) {
+        const ewa_surface_key *key = &surface->keys[i];
+        const ewa_cloud *cloud = key->completed ? key->completed->clouds[key->member] : key->asset->cloud;
+        status = ewa_cloud_view(context, cloud, 0, ewa_cloud_point_count(cloud), &shown->clouds[i]);
+    }
+    if (status == EWA_OK) status = apply_colorings(surface, shown);
+    for (uint32_t i = 0; i < surface->count && status == EWA_OK; i++)
+        status = apply_instance(&surface->keys[i].instance, shown->clouds[i]);
+    if (status != EWA_OK) return status;
+    if (surface->count == 1) {
+        const char *before = ewa_context_about(context, surface->keys[0].asset->name);
+        status = make_resident(surface, &shown->clouds[0]);
+        ewa_context_about(context, before);
+        return status;
+    }
+    ewa_cloud *merged = NULL;
+    status = ewa_clouds_make_alike(shown->clouds, surface->count, scene->options.surfels.cutoff);
+    if (status == EWA_OK)
+        status = ewa_cloud_merge((const ewa_cloud *const *)shown->clouds, surface->count, &merged);
+    if (status == EWA_OK) status = make_resident(surface, &merged);
+    ewa_cloud_destroy(&merged);
+    return status;
+}
+
+ewa_status ewa_surface_make(ewa_scene *scene, ewa_surface **made) {
+    ewa_context *context = scene->context;
+    *made = NULL;
+    ewa_surface *surface = ewa_allocate_zeroed(context, 1, sizeof *surface);
+    if (!surface) return EWA_ERROR_MEMORY;
+    surface->context = context;
+    atomic_init(&surface->references, 1);
+    surface->options = scene->options.surfels;
+    surface->close_gaps = scene->options.close_gaps;
+    surface->as_points = scene->options.render.point_size_px > 0;
+    ewa_status status = list_keys(scene, &surface->keys, &surface->count);
+    const uint32_t count = surface->count;
+    shown_clouds shown = {.clouds = NULL};
+    if (status == EWA_OK && count) {
+        surface->legends = ewa_allocate_zeroed(context, count, sizeof *surface->legends);
+        surface->legend_of = ewa_allocate_zeroed(context, count, sizeof *surface->legend_of);
+        shown.clouds = ewa_allocate_zeroed(context, count, sizeof *shown.clouds);
+        shown.colored = ewa_allocate_zeroed(context, count, sizeof *shown.colored);
+        const bool room = surface->legends && surface->legend_of && shown.clouds && shown.colored;
+        status = room ? fill(scene, surface, &shown) : EWA_ERROR_MEMORY;
+    }
+    for (uint32_t i = 0; shown.clouds && i < count; i++) ewa_cloud_destroy(&shown.clouds[i]);
+    ewa_release(context, shown.clouds, count, sizeof *shown.clouds);
+    ewa_release(context, shown.colored, count, sizeof *shown.colored);
+    if (status == EWA_OK)
+        *made = surface;
+    else
+        ewa_surface_release(&surface);
+    return status;
+}
