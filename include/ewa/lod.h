@@ -104,6 +104,17 @@ EWA_API ewa_status ewa_lod_render(ewa_lod *lod, ewa_renderer *renderer, const ew
                                   const ewa_render_options *options, const ewa_lod_options *lod_options,
                                   const ewa_frame *frame, ewa_lod_stats *stats);
 
+// interim
+typedef struct ewa_lod_scene {
+    ewa_lod *const *lods;
+    uint32_t lod_count;
+    uint32_t surfels_count;
+    const ewa_surfels *const *surfels;
+} ewa_lod_scene;
+EWA_API ewa_status ewa_lod_scene_render(const ewa_lod_scene *scene, ewa_renderer *renderer, const ewa_camera *camera,
+                                        const ewa_render_options *options, const ewa_lod_options *lod_options,
+                                        const ewa_frame *frame, ewa_lod_stats *stats);
+
 /// How an octree is made. Fill with ewa_lod_build_options_init().
 typedef struct ewa_lod_build_options {
     size_t struct_size;

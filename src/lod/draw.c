@@ -443,3 +443,16 @@ ewa_status ewa_lod_render(ewa_lod *lod, ewa_renderer *renderer, const ewa_camera
     if (stats) *stats = took;
     return status;
 }
+
+// interim
+ewa_status ewa_lod_scene_render(const ewa_lod_scene *scene, ewa_renderer *renderer, const ewa_camera *camera,
+                                const ewa_render_options *options, const ewa_lod_options *lod_options,
+                                const ewa_frame *frame, ewa_lod_stats *stats) {
+    *stats = (ewa_lod_stats){.cube_count = 0};
+    if (scene->lod_count == 1 && !scene->surfels_count)
+        return ewa_lod_render(scene->lods[0], renderer, camera, options, lod_options, frame, stats);
+    ewa_status status = ewa_render_begin(renderer, camera, options, frame);
+    for (uint32_t i = 0; i < scene->surfels_count && status == EWA_OK; i++)
+        status = ewa_render_add(renderer, scene->surfels[i]);
+    return status == EWA_OK ? ewa_render_finish(renderer, &stats->render) : status;
+}

@@ -6,6 +6,7 @@
 #include "scene/asset.h"
 #include "base/base.h"
 #include "base/options.h"
+#include "ewa/gaussian_io.h"
 
 #include <math.h>
 #include <string.h>

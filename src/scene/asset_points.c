@@ -3,6 +3,7 @@
 //
 // Assets of points: clouds, meshes that are sampled, Gaussians, octrees.
 #include "base/base.h"
+#include "ewa/prepare.h"
 #include "scene/asset.h"
 #include "scene/diagnose.h"
 

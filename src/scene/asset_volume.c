@@ -3,6 +3,7 @@
 //
 // Assets of volumes: the transfer function, voxels, from where they are seen.
 #include "base/base.h"
+#include "ewa/prepare.h"
 #include "ewa/io.h"
 #include "scene/asset.h"
 

@@ -5,6 +5,7 @@
 // file, so that tiles of one survey have no seams and scans of one place no two spacings.
 #include "base/base.h"
 #include "cloud/cloud.h"
+#include "ewa/prepare.h"
 #include "scene/scene.h"
 
 #include <math.h>

@@ -129,7 +129,7 @@ void ewa_surface_release(ewa_surface **surface);
 
 /// Makes one cloud of all places, with radii, that a camera has to have in its picture (outline.c), maybe of a box
 /// where there is nothing; `*made`: it is the caller's to destroy.
-ewa_status ewa_scene_outline(ewa_scene *scene, const ewa_cloud **outline, bool *made);
+ewa_status ewa_scene_outline(ewa_scene *scene, ewa_cloud **outline, bool *made);
 
 /// Whether two colourings give the same colours.
 bool ewa_colorings_agree(const ewa_coloring *a, const ewa_coloring *b);

@@ -5,6 +5,7 @@
 // that what is added and what was merged before are the same bytes.
 #include "base/base.h"
 #include "cloud/cloud.h"
+#include "ewa/prepare.h"
 #include "ewa/diagnosis.h"
 #include "scene/scene.h"
 

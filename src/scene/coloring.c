@@ -1,0 +1,294 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Colours of points that stand for a number, on one scale for all clouds that are coloured together.
+#include "ewa/coloring.h"
+#include "base/base.h"
+#include "base/options.h"
+#include "cloud/cloud.h"
+#include "ewa/select.h"
+#include "scene/scene.h"
+
+#include <math.h>
+#include <string.h>
+#include <strings.h>
+
+/// sRGB of numbers that have no colour.
+static const uint8_t GREY_SRGB = 128;
+
+/// Percentiles of the first and the last colour of strengths of light.
+static const double SIGNAL_PERCENT[2] = {2, 98};
+
+/// Codes of classes are below.
+enum { CLASS_COUNT = 1 << 16, BLOCK = 512 };
+
+#define AT(member) offsetof(ewa_coloring, member)
+
+static const ewa_option coloring_rows[] = {
+    {"map", EWA_OPTION_CHOICE, AT(map),
+     .words = "auto|viridis|turbo|gray|plasma|inferno|magma|cividis|coolwarm|classes",
+     .help = "colours of the numbers; auto: classes for whole numbers named classification, else viridis"},
+    {"ranged", EWA_OPTION_BOOL, AT(ranged), .help = "the range is given"},
+    {"percent", EWA_OPTION_BOOL, AT(percent), .count = 2, .help = "an end of the range is a percentile"},
+    {"range", EWA_OPTION_F64, AT(range), -INFINITY, INFINITY, EWA_OPTION_ABOVE | EWA_OPTION_BELOW, 2,
+     .help = "numbers of the first and the last colour"},
+    {"tinted", EWA_OPTION_BOOL, AT(tinted), .help = "all points have the colour tint"},
+    {"tint", EWA_OPTION_F64, AT(tint), 0, 1, .count = 3, .help = "sRGB"},
+};
+
+const ewa_option_table ewa_coloring_table = EWA_OPTION_TABLE(ewa_coloring, coloring_rows);
+
+void ewa_coloring_init(ewa_coloring *coloring, size_t struct_size) {
+    ewa_options_init(&ewa_coloring_table, coloring, struct_size);
+}
+
+bool ewa_coloring_is_own(const char *attribute) {
+    return !attribute[0] || strcmp(attribute, "rgb") == 0 || strcmp(attribute, EWA_COLOR) == 0;
+}
+
+bool ewa_colorings_agree(const ewa_coloring *a, const ewa_coloring *b) {
+    bool agree = strcmp(a->attribute, b->attribute) == 0 && a->map == b->map && a->ranged == b->ranged &&
+                 a->tinted == b->tinted;
+    for (int end = 0; end < 2 && a->ranged; end++)
+        agree = agree && a->percent[end] == b->percent[end] && a->range[end] == b->range[end];
+    for (int c = 0; c < 3 && a->tinted; c++) agree = agree && a->tint[c] == b->tint[c];
+    return agree;
+}
+
+void ewa_legend_free(ewa_legend *legend) {
+    if (!legend || !legend->context) return;
+    const size_t room = legend->category_count + (size_t)1;
+    ewa_release(legend->context, legend->categories, room, sizeof *legend->categories);
+    ewa_release(legend->context, legend->names, room, sizeof *legend->names);
+    *legend = (ewa_legend){.context = NULL};
+}
+
+/// The numbers of the clouds' points that colours stand for.
+typedef struct numbers {
+    ewa_context *context;
+    ewa_cloud *const *clouds;
+    ewa_scalar *scalars; ///< [count]
+    uint32_t count;
+} numbers;
+
+/// Calls a function with all numbers, block by block; false ends it.
+typedef bool take_block(void *user, uint32_t count, const double *block);
+
+static void each_block(const numbers *from, take_block *take, void *user) {
+    double block[BLOCK];
+    for (uint32_t k = 0; k < from->count; k++) {
+        const uint64_t count = ewa_cloud_point_count(from->clouds[k]);
+        for (uint64_t first = 0; first < count; first += BLOCK) {
+            const uint32_t in_block = count - first < BLOCK ? (uint32_t)(count - first) : BLOCK;
+            ewa_scalar_read(&from->scalars[k], first, in_block, block);
+            if (!take(user, in_block, block)) return;
+        }
+    }
+}
+
+/// Whether an attribute is a strength of light, of which a few mirrors give numbers far above all others.
+static bool is_signal(const char *name) {
+    static const char *const names[] = {"intensity", "nir", "amplitude", "reflectance"};
+    static const char before[] = "scalar_";
+    if (strncmp(name, before, sizeof before - 1) == 0) name += sizeof before - 1;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        if (strcasecmp(name, names[i]) == 0) return true;
+    return false;
+}
+
+/// The finite ones of some numbers.
+typedef struct finite_numbers {
+    double *numbers;
+    size_t count;
+} finite_numbers;
+
+static bool take_finite(void *user, uint32_t count, const double *block) {
+    finite_numbers *finite = user;
+    for (uint32_t i = 0; i < count; i++) {
+        finite->numbers[finite->count] = block[i];
+        finite->count += isfinite(block[i]) ? 1 : 0;
+    }
+    return true;
+}
+
+/// Finds the numbers of the first and the last colour.
+static ewa_status find_range(const numbers *from, const ewa_coloring *coloring, double ends[2]) {
+    bool percent[2] = {true, true};
+    const bool signal = is_signal(from->scalars[0].attribute.name);
+    ends[0] = signal ? SIGNAL_PERCENT[0] : 0;
+    ends[1] = signal ? SIGNAL_PERCENT[1] : 100;
+    if (coloring->ranged) {
+        memcpy(ends, coloring->range, sizeof coloring->range);
+        memcpy(percent, coloring->percent, sizeof percent);
+    }
+    if (!percent[0] && !percent[1]) return EWA_OK;
+    size_t total = 1;
+    for (uint32_t k = 0; k < from->count; k++) total += ewa_cloud_point_count(from->clouds[k]);
+    finite_numbers finite = {ewa_allocate(from->context, total, sizeof(double)), 0};
+    if (!finite.numbers) return EWA_ERROR_MEMORY;
+    each_block(from, take_finite, &finite);
+    for (int end = 0; end < 2; end++) {
+        if (!percent[end]) continue;
+        const double place = ends[end] / 100 * ((double)finite.count - 1);
+        ends[end] = finite.count ? ewa_rank_select(finite.numbers, finite.count, (size_t)(place + 0.5)) : 0;
+    }
+    ewa_release(from->context, finite.numbers, total, sizeof(double));
+    return EWA_OK;
+}
+
+/// Whether a number is the code of a class.
+static bool is_class(double number) { return number >= 0 && number < CLASS_COUNT && number == floor(number); }
+
+static bool mark_classes(void *user, uint32_t count, const double *block) {
+    bool *there = user;
+    for (uint32_t i = 0; i < count; i++)
+        if (is_class(block[i])) there[(uint32_t)block[i]] = true;
+    return true;
+}
+
+/// Lists the classes that there are, by code.
+static ewa_status list_classes(const numbers *from, ewa_legend *legend) {
+    bool *there = ewa_allocate_zeroed(from->context, CLASS_COUNT, sizeof *there);
+    if (!there) return EWA_ERROR_MEMORY;
+    each_block(from, mark_classes, there);
+    uint32_t count = 0;
+    for (uint32_t code = 0; code < CLASS_COUNT; code++) count += there[code];
+    legend->categories = ewa_allocate_zeroed(from->context, count + (size_t)1, sizeof *legend->categories);
+    legend->names = ewa_allocate_zeroed(from->context, count + (size_t)1, sizeof *legend->names);
+    legend->category_count = count;
+    const ewa_status status = legend->categories && legend->names ? EWA_OK : EWA_ERROR_MEMORY;
+    for (uint32_t code = 0, k = 0; status == EWA_OK && code < CLASS_COUNT; code++) {
+        if (!there[code]) continue;
+        ewa_class_name(code, legend->names[k]);
+        legend->categories[k] = (ewa_category){.value = code, .name = legend->names[k]};
+        ewa_class_color(code, legend->categories[k++].srgb);
+    }
+    ewa_release(from->context, there, CLASS_COUNT, sizeof *there);
+    return status;
+}
+
+static bool are_classes(void *user, uint32_t count, const double *block) {
+    bool *all = user;
+    for (uint32_t i = 0; i < count && *all; i++) *all = is_class(block[i]);
+    return *all;
+}
+
+/// Whether an attribute holds classes by its name and its numbers.
+static bool holds_classes(const numbers *from) {
+    static const char *const names[] = {"classification", "Classification", "scalar_classification",
+                                        "scalar_Classification"};
+    bool held = false;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        held = held || strcmp(from->scalars[0].attribute.name, names[i]) == 0;
+    if (held) each_block(from, are_classes, &held);
+    return held;
+}
+
+/// Chooses colours for the numbers; says which.
+static ewa_status choose_scale(const numbers *from, const ewa_coloring *coloring, ewa_legend *legend) {
+    const bool automatic = coloring->map == EWA_COLORING_AUTO;
+    const bool classes =
+        coloring->map == EWA_COLORING_CLASSES || (automatic && !coloring->ranged && holds_classes(from));
+    legend->colormap =
+        automatic || classes ? EWA_COLORMAP_VIRIDIS : (ewa_colormap)(coloring->map - EWA_COLORING_VIRIDIS);
+    const char *word = coloring->attribute;
+    const ewa_status status = classes ? list_classes(from, legend) : find_range(from, coloring, legend->range);
+    if (status != EWA_OK) return status;
+    if (classes)
+        ewa_report(from->context, EWA_SEVERITY_INFO, "%s has %u classes, drawn in the colours of classes%s", word,
+                   legend->category_count, automatic ? " (viridis shows the numbers)" : "");
+    else
+        ewa_report(from->context, EWA_SEVERITY_INFO, "colours: %s from %g to %g", word, legend->range[0],
+                   legend->range[1]);
+    return EWA_OK;
+}
+
+/// The colour of a number; false, and grey, when it has none.
+static bool find_color(const ewa_legend *legend, double number, uint8_t srgb[3]) {
+    const double extent = legend->range[1] - legend->range[0];
+    const bool has = legend->categories ? is_class(number) : isfinite(number);
+    if (!has)
+        memset(srgb, GREY_SRGB, 3);
+    else if (legend->categories)
+        ewa_class_color((uint32_t)number, srgb);
+    else
+        ewa_colormap_color(legend->colormap, extent != 0 ? (number - legend->range[0]) / extent : 0.5, srgb);
+    return has;
+}
+
+/// Colours one cloud by its numbers.
+static ewa_status color_cloud(const ewa_scalar *scalar, ewa_legend *legend, ewa_cloud *cloud) {
+    // Under a name of its own first: the colours themselves may be what is read.
+    static const char made[] = "ewa_color_by";
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    uint8_t(*colors)[3] = NULL;
+    void *data = NULL;
+    ewa_status status = ewa_cloud_add(cloud, made, EWA_U8, 3, (void **)&colors);
+    double block[BLOCK];
+    for (uint64_t first = 0; status == EWA_OK && first < count; first += BLOCK) {
+        const uint64_t in_block = count - first < BLOCK ? count - first : BLOCK;
+        ewa_scalar_read(scalar, first, in_block, block);
+        for (uint64_t i = 0; i < in_block; i++) legend->grey_count += !find_color(legend, block[i], colors[first + i]);
+    }
+    if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, &data);
+    if (status == EWA_OK) memcpy(data, colors, 3 * count);
+    ewa_cloud_remove(cloud, made);
+    return status;
+}
+
+/// Gives all points of a cloud one colour.
+static ewa_status tint_cloud(const double srgb[3], ewa_cloud *cloud) {
+    void *data = NULL;
+    const ewa_status status = ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, &data);
+    uint8_t *colors = data;
+    const uint64_t count = status == EWA_OK ? ewa_cloud_point_count(cloud) : 0;
+    for (uint64_t i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++) colors[3 * i + (uint64_t)c] = (uint8_t)(255 * srgb[c] + 0.5);
+    return status;
+}
+
+/// Colours by an attribute.
+static ewa_status color_by(const numbers *from, const ewa_coloring *coloring, ewa_legend *legend) {
+    ewa_status status = EWA_OK;
+    for (uint32_t k = 0; k < from->count && status == EWA_OK; k++)
+        status = ewa_cloud_find_scalar(from->clouds[k], coloring->attribute, &from->scalars[k]);
+    if (status != EWA_OK) return status;
+    legend->length = strcmp(from->scalars[0].attribute.name, EWA_POSITION) == 0;
+    status = choose_scale(from, coloring, legend);
+    uint64_t count = 0;
+    for (uint32_t k = 0; k < from->count && status == EWA_OK; k++) {
+        status = color_cloud(&from->scalars[k], legend, from->clouds[k]);
+        count += ewa_cloud_point_count(from->clouds[k]);
+    }
+    if (status == EWA_OK && legend->grey_count)
+        ewa_report(from->context, EWA_SEVERITY_WARNING,
+                   "%llu of %llu numbers of %s are %s; these points are drawn in grey",
+                   (unsigned long long)legend->grey_count, (unsigned long long)count, coloring->attribute,
+                   legend->categories ? "no classes" : "not finite");
+    return status;
+}
+
+ewa_status ewa_clouds_color(ewa_cloud *const *clouds, uint32_t count, const ewa_coloring *given, ewa_legend *legend) {
+    if (!clouds || !count || !legend) return EWA_ERROR_ARGUMENT;
+    *legend = (ewa_legend){.context = NULL};
+    ewa_context *context = ewa_cloud_context(clouds[0]);
+    ewa_coloring coloring;
+    ewa_coloring_init(&coloring, sizeof coloring);
+    ewa_status status = ewa_options_take(context, &ewa_coloring_table, given, &coloring);
+    if (status != EWA_OK) return status;
+    if (ewa_coloring_is_own(coloring.attribute)) {
+        bool colored = !coloring.attribute[0];
+        for (uint32_t k = 0; k < count; k++) colored = colored || ewa_cloud_find(clouds[k], EWA_COLOR);
+        if (!colored) return ewa_fail(context, EWA_ERROR_ARGUMENT, "colours: there are none");
+        for (uint32_t k = 0; k < count && status == EWA_OK && coloring.tinted; k++)
+            status = tint_cloud(coloring.tint, clouds[k]);
+        return status;
+    }
+    numbers from = {context, clouds, ewa_allocate_zeroed(context, count, sizeof *from.scalars), count};
+    if (!from.scalars) return EWA_ERROR_MEMORY;
+    legend->context = context;
+    status = color_by(&from, &coloring, legend);
+    ewa_release(context, from.scalars, count, sizeof *from.scalars);
+    if (status != EWA_OK) ewa_legend_free(legend);
+    return status;
+}

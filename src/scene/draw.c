@@ -1,0 +1,227 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Pictures of scenes: surfaces in one frame, what lets light through among them.
+#include "scene/draw.h"
+#include "base/base.h"
+#include "base/options.h"
+
+#include <math.h>
+#include <string.h>
+
+ewa_status ewa_scene_renderer_create(ewa_context *context, ewa_backend_kind backend, const ewa_exchange *exchange,
+                                     ewa_scene_renderer **made) {
+    if (!context || !made) return EWA_ERROR_ARGUMENT;
+    *made = NULL;
+    if (exchange && backend != EWA_BACKEND_CPU)
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "a frame of several ranks is drawn on processors");
+    ewa_scene_renderer *renderer = ewa_allocate_zeroed(context, 1, sizeof *renderer);
+    if (!renderer) return EWA_ERROR_MEMORY;
+    renderer->context = context;
+    if (exchange) renderer->exchange = *exchange;
+    const ewa_status status = exchange ? ewa_renderer_create_joint(context, exchange, &renderer->surfaces)
+                                       : ewa_renderer_create_on(context, backend, &renderer->surfaces);
+    *made = renderer;
+    if (status != EWA_OK) ewa_scene_renderer_destroy(made);
+    return status;
+}
+
+static void free_planes(ewa_scene_renderer *renderer) {
+    ewa_image_free(&renderer->rgba);
+    ewa_image_free(&renderer->depth);
+    ewa_image_free(&renderer->normal);
+    ewa_image_free(&renderer->coverage);
+}
+
+void ewa_scene_renderer_destroy(ewa_scene_renderer **given) {
+    ewa_scene_renderer *renderer = given ? *given : NULL;
+    if (!renderer) return;
+    *given = NULL;
+    ewa_context *context = renderer->context;
+    ewa_renderer_destroy(&renderer->surfaces);
+    ewa_gaussian_renderer_destroy(&renderer->gaussians);
+    for (uint32_t i = 0; i < EWA_MAX_MIXED_VOLUMES; i++) ewa_volume_renderer_destroy(&renderer->volumes[i]);
+    free_planes(renderer);
+    ewa_buffer_free(context, &renderer->surfels);
+    ewa_buffer_free(context, &renderer->lods);
+    ewa_buffer_free(context, &renderer->splats);
+    ewa_release(context, renderer, 1, sizeof *renderer);
+}
+
+ewa_renderer *ewa_scene_renderer_surfaces(ewa_scene_renderer *renderer) { return renderer->surfaces; }
+
+/// Lists what is visible.
+static ewa_status list_shown(const ewa_scene *scene, ewa_scene_renderer *renderer, ewa_scene_shown *shown) {
+    ewa_context *context = renderer->context;
+    *shown = (ewa_scene_shown){.near_world = INFINITY};
+    const size_t room = scene->count + (size_t)1;
+    ewa_status status = ewa_buffer_reserve(context, &renderer->surfels, room, sizeof(ewa_surfels *));
+    if (status == EWA_OK) status = ewa_buffer_reserve(context, &renderer->lods, room, sizeof(ewa_lod *));
+    if (status == EWA_OK) status = ewa_buffer_reserve(context, &renderer->splats, room, sizeof(ewa_splats *));
+    if (status != EWA_OK) return status;
+    shown->surfels = renderer->surfels.data;
+    shown->lods = renderer->lods.data;
+    shown->splats = renderer->splats.data;
+    if (scene->surface && scene->surface->surfels) shown->surfels[shown->surfels_count++] = scene->surface->surfels;
+    for (uint32_t i = 0; i < scene->count; i++) {
+        const ewa_asset *asset = scene->items[i].asset;
+        if (!scene->items[i].instance.visible) continue;
+        if (asset->surfels) shown->surfels[shown->surfels_count++] = asset->surfels;
+        if (asset->lod) shown->lods[shown->lod_count++] = asset->lod;
+        if (asset->splats) {
+            shown->splats[shown->splats_count++] = asset->splats;
+            shown->near_world = fmin(shown->near_world, asset->near_world);
+        }
+        if (!asset->voxels) continue;
+        if (shown->volume_count == EWA_MAX_MIXED_VOLUMES)
+            return ewa_fail(context, EWA_ERROR_LIMIT, "%s: a picture shows at most %d volumes", asset->name,
+                            EWA_MAX_MIXED_VOLUMES);
+        shown->volumes[shown->volume_count++] = asset;
+    }
+    return EWA_OK;
+}
+
+/// Draws all surfaces in one frame.
+static ewa_status draw_surfaces(ewa_scene_renderer *renderer, const ewa_scene_shown *shown, const ewa_camera *camera,
+                                const ewa_scene_options *options, const ewa_render_options *render,
+                                const ewa_frame *frame, ewa_scene_stats *stats) {
+    ewa_lod_options lod = options->lod;
+    if (renderer->exchange.swap) {
+        lod.share = renderer->exchange.rank;
+        lod.share_count = renderer->exchange.rank_count;
+    }
+    const ewa_lod_scene together = {shown->lods, shown->lod_count, shown->surfels_count,
+                                    (const ewa_surfels *const *)shown->surfels};
+    const ewa_status status =
+        ewa_lod_scene_render(&together, renderer->surfaces, camera, render, &lod, frame, &stats->lod);
+    stats->render = stats->lod.render;
+    return status;
+}
+
+/// Makes a plane of a picture's size.
+static ewa_status make_plane(ewa_context *context, const ewa_camera *camera, uint32_t channels, ewa_image *plane) {
+    if (plane->width_px == camera->width_px && plane->height_px == camera->height_px) return EWA_OK;
+    ewa_image_free(plane);
+    return ewa_image_create(context, camera->width_px, camera->height_px, channels, plane);
+}
+
+/// Draws the surfaces to planes of their own, over nothing, for what lies among them.
+static ewa_status draw_among(ewa_scene_renderer *renderer, const ewa_scene_shown *shown, const ewa_camera *camera,
+                             const ewa_scene_options *options, const ewa_frame *frame, ewa_gaussian_options *among,
+                             ewa_scene_stats *stats) {
+    ewa_context *context = renderer->context;
+    ewa_status status = make_plane(context, camera, 4, &renderer->rgba);
+    if (status == EWA_OK) status = make_plane(context, camera, 1, &renderer->depth);
+    if (status == EWA_OK) status = make_plane(context, camera, 1, &renderer->coverage);
+    if (status == EWA_OK && frame->normal) status = make_plane(context, camera, 3, &renderer->normal);
+    if (status != EWA_OK) return status;
+    ewa_render_options over_nothing = options->render;
+    memset(over_nothing.background, 0, sizeof over_nothing.background);
+    const ewa_frame planes = {.rgba = renderer->rgba.pixels,
+                              .depth = renderer->depth.pixels,
+                              .normal = frame->normal ? renderer->normal.pixels : NULL,
+                              .coverage = renderer->coverage.pixels};
+    among->surface_rgba = planes.rgba;
+    among->surface_depth = planes.depth;
+    among->surface_normal = planes.normal;
+    among->surface_coverage = planes.coverage;
+    return draw_surfaces(renderer, shown, camera, options, &over_nothing, &planes, stats);
+}
+
+/// How a volume is drawn.
+static ewa_volume_options volume_options(const ewa_scene_options *options, const ewa_asset *asset) {
+    ewa_volume_options own = options->volumes;
+    ewa_voxels_info info;
+    ewa_voxels_describe(asset->voxels, &info);
+    if (own.level >= info.level_count) own.level = info.level_count - 1;
+    if (options->shade_volumes) own.shading = asset->flat ? EWA_SHADING_NONE : EWA_SHADING_PHONG;
+    if (options->render.light_count) {
+        own.light_count = options->render.light_count;
+        memcpy(own.lights, options->render.lights, sizeof own.lights);
+    }
+    memcpy(own.background, options->render.background, sizeof own.background);
+    memcpy(own.section_planes, options->render.section_planes, sizeof own.section_planes);
+    own.section_count = options->render.section_count;
+    return own;
+}
+
+static void add_volume_stats(const ewa_volume_stats *volume, ewa_render_stats *stats) {
+    stats->splat_count += volume->voxel_count;
+    stats->culled_count += volume->culled_count;
+    stats->drawn_count += volume->splat_count + volume->point_count;
+}
+
+/// Draws what lets light through, among surfaces where there are some.
+static ewa_status draw_mixture(ewa_scene_renderer *renderer, const ewa_scene_shown *shown, const ewa_camera *camera,
+                               const ewa_scene_options *options, const ewa_gaussian_options *among,
+                               const ewa_frame *frame, ewa_scene_stats *stats) {
+    ewa_context *context = renderer->context;
+    ewa_volume_options volumes[EWA_MAX_MIXED_VOLUMES];
+    ewa_volume_stats took[EWA_MAX_MIXED_VOLUMES];
+    ewa_mixed_volume mixed[EWA_MAX_MIXED_VOLUMES];
+    ewa_status status = EWA_OK;
+    for (uint32_t i = 0; i < shown->volume_count && status == EWA_OK; i++) {
+        if (!renderer->volumes[i]) status = ewa_volume_renderer_create(context, &renderer->volumes[i]);
+        volumes[i] = volume_options(options, shown->volumes[i]);
+        mixed[i] = (ewa_mixed_volume){renderer->volumes[i], shown->volumes[i]->voxels, &volumes[i], &took[i]};
+    }
+    if (status != EWA_OK) return status;
+    if (shown->volume_count == 1 && !shown->splats_count && !among->surface_depth) {
+        status = ewa_volume_render(renderer->volumes[0], shown->volumes[0]->voxels, camera, &volumes[0], frame, &took[0]);
+        if (status == EWA_OK) add_volume_stats(&took[0], &stats->render);
+        return status;
+    }
+    if (!renderer->gaussians) status = ewa_gaussian_renderer_create(context, &renderer->gaussians);
+    const ewa_mixture mixture = {(const ewa_splats *const *)shown->splats, shown->splats_count, shown->volume_count,
+                                 mixed};
+    ewa_gaussian_stats drawn;
+    if (status == EWA_OK)
+        status = ewa_mixture_render(renderer->gaussians, &mixture, camera, among, frame, &drawn);
+    if (status != EWA_OK) return status;
+    stats->render.splat_count += drawn.splat_count;
+    stats->render.culled_count += drawn.splat_count - drawn.visible_count;
+    stats->render.drawn_count += drawn.visible_count;
+    for (uint32_t i = 0; i < shown->volume_count; i++) add_volume_stats(&took[i], &stats->render);
+    return EWA_OK;
+}
+
+/// The options of what lets light through, of the scene and its picture.
+static ewa_gaussian_options mixture_options(const ewa_scene_shown *shown, const ewa_scene_options *options) {
+    ewa_gaussian_options among = options->gaussians;
+    memcpy(among.background, options->render.background, sizeof among.background);
+    memcpy(among.section_planes, options->render.section_planes, sizeof among.section_planes);
+    among.section_count = options->render.section_count;
+    if (among.near_world == 0 && shown->splats_count) among.near_world = shown->near_world;
+    return among;
+}
+
+static ewa_status draw(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa_camera *camera,
+                       const ewa_scene_options *options, const ewa_frame *frame, ewa_scene_stats *stats) {
+    ewa_scene_shown shown;
+    ewa_status status = list_shown(scene, renderer, &shown);
+    if (status != EWA_OK) return status;
+    if (!shown.splats_count && !shown.volume_count)
+        return draw_surfaces(renderer, &shown, camera, options, &options->render, frame, stats);
+    ewa_gaussian_options among = mixture_options(&shown, options);
+    const ewa_exchange *exchange = &renderer->exchange;
+    if (shown.surfels_count || shown.lod_count)
+        status = draw_among(renderer, &shown, camera, options, frame, &among, stats);
+    const bool elsewhere =
+        exchange->swap && exchange->picture_rank != EWA_ALL_RANKS && exchange->picture_rank != exchange->rank;
+    return status == EWA_OK && !elsewhere ? draw_mixture(renderer, &shown, camera, options, &among, frame, stats)
+                                          : status;
+}
+
+ewa_status ewa_scene_draw(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa_camera *camera,
+                          const ewa_scene_options *options, const ewa_frame *frame, ewa_scene_stats *stats) {
+    if (!scene || !renderer || !camera || !frame) return EWA_ERROR_ARGUMENT;
+    const double started_s = ewa_now_s();
+    ewa_status status = ewa_scene_commit(scene);
+    ewa_scene_stats took = {.total_s = 0};
+    if (status == EWA_OK)
+        status = draw(scene, renderer, camera, options ? options : &scene->options, frame, &took);
+    took.total_s = ewa_now_s() - started_s;
+    took.render.total_s = took.total_s;
+    if (stats) *stats = took;
+    return status;
+}

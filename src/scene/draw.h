@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The memory of a scene's frames.
+#ifndef EWA_SRC_SCENE_DRAW_H
+#define EWA_SRC_SCENE_DRAW_H
+
+#include "base/base.h"
+#include "scene/scene.h"
+
+struct ewa_scene_renderer {
+    ewa_context *context;
+    ewa_exchange exchange; ///< swap NULL: one process
+    ewa_renderer *surfaces;
+    ewa_gaussian_renderer *gaussians; ///< NULL: not used yet
+    ewa_volume_renderer *volumes[EWA_MAX_MIXED_VOLUMES];
+    ewa_image rgba, depth, normal, coverage; ///< of surfaces among others, of the size of the last frame
+    ewa_buffer surfels, lods, splats;        ///< lists of what is visible
+};
+
+/// What of a scene is visible; the lists are the renderer's.
+typedef struct ewa_scene_shown {
+    const ewa_surfels **surfels;
+    ewa_lod **lods;
+    const ewa_splats **splats;
+    const ewa_asset *volumes[EWA_MAX_MIXED_VOLUMES];
+    uint32_t surfels_count, lod_count, splats_count, volume_count;
+    double near_world; ///< that suits the Gaussians
+} ewa_scene_shown;
+
+#endif

@@ -1,0 +1,326 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Scenes: instances, options, and when what is made of them has to be made anew.
+#include "scene/scene.h"
+#include "base/base.h"
+#include "base/options.h"
+#include "homogeneous/camera.h"
+
+#include <math.h>
+#include <string.h>
+
+#define AT(member) offsetof(ewa_scene_options, member)
+
+static const ewa_option scene_rows[] = {
+    {"up", EWA_OPTION_CHOICE, AT(up), .words = "auto|y|z|-y|-z", .help = "what is up; auto: as files and points say"},
+    {"close_gaps", EWA_OPTION_BOOL, AT(close_gaps), .initial = true,
+     .help = "measure the radii anew from the spacing where the file's leave gaps between the discs"},
+    {"keep_points", EWA_OPTION_BOOL, AT(keep_points), .initial = true,
+     .help = "clouds stay in memory beside their surfels, for picks and changes"},
+    {"shade_volumes", EWA_OPTION_BOOL, AT(shade_volumes), .initial = true,
+     .help = "volumes get the light that suits their transfer function"},
+};
+
+const ewa_option_table ewa_scene_options_table = EWA_OPTION_TABLE(ewa_scene_options, scene_rows);
+
+void ewa_scene_options_init(ewa_scene_options *options, size_t struct_size) {
+    ewa_options_init(&ewa_scene_options_table, options, struct_size);
+    if (!options || struct_size < sizeof *options) return;
+    ewa_surfels_options_init(&options->surfels, sizeof options->surfels);
+    ewa_lod_options_init(&options->lod, sizeof options->lod);
+    ewa_render_options_init(&options->render, sizeof options->render);
+    ewa_gaussian_options_init(&options->gaussians, sizeof options->gaussians);
+    ewa_volume_options_init(&options->volumes, sizeof options->volumes);
+    for (int c = 0; c < 4; c++) options->render.background[c] = 1;
+    options->gaussians.near_world = 0;
+}
+
+#undef AT
+#define AT(member) offsetof(ewa_instance, member)
+
+static const ewa_option instance_rows[] = {
+    {"visible", EWA_OPTION_BOOL, AT(visible), .initial = true, .help = "whether it is drawn"},
+    {"opacity", EWA_OPTION_F64, AT(opacity), 0, 1, .initial = 1, .help = "of its points, times their own"},
+    {"radius_scale", EWA_OPTION_F64, AT(radius_scale), 0, 100, EWA_OPTION_ABOVE, .initial = 1,
+     .help = "of its points' radii"},
+    {"material", EWA_OPTION_U32, AT(material), 0, UINT32_MAX, .initial = UINT32_MAX,
+     .help = "of all its points; 4294967295: as each says"},
+};
+
+const ewa_option_table ewa_instance_table = EWA_OPTION_TABLE(ewa_instance, instance_rows);
+
+void ewa_instance_init(ewa_instance *instance, size_t struct_size) {
+    ewa_options_init(&ewa_instance_table, instance, struct_size);
+    if (instance && struct_size >= sizeof *instance)
+        ewa_coloring_init(&instance->coloring, sizeof instance->coloring);
+}
+
+/// Takes options with all structs within.
+static ewa_status take_options(ewa_context *context, const ewa_scene_options *given, ewa_scene_options *options) {
+    ewa_scene_options_init(options, sizeof *options);
+    if (!given) return EWA_OK;
+    ewa_status status = ewa_options_take(context, &ewa_scene_options_table, given, options);
+    const struct {
+        const ewa_option_table *table;
+        const void *given;
+        void *taken;
+    } parts[] = {{&ewa_surfels_options_table, &given->surfels, &options->surfels},
+                 {&ewa_lod_options_table, &given->lod, &options->lod},
+                 {&ewa_render_options_table, &given->render, &options->render},
+                 {&ewa_gaussian_options_table, &given->gaussians, &options->gaussians},
+                 {&ewa_volume_options_table, &given->volumes, &options->volumes}};
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0] && status == EWA_OK; i++)
+        status = ewa_options_take(context, parts[i].table, parts[i].given, parts[i].taken);
+    return status;
+}
+
+ewa_status ewa_scene_create(ewa_context *context, const ewa_scene_options *options, ewa_scene **made) {
+    if (!context || !made) return EWA_ERROR_ARGUMENT;
+    *made = NULL;
+    ewa_scene *scene = ewa_allocate_zeroed(context, 1, sizeof *scene);
+    if (!scene) return EWA_ERROR_MEMORY;
+    scene->context = context;
+    const ewa_status status = take_options(context, options, &scene->options);
+    *made = scene;
+    if (status != EWA_OK) ewa_scene_destroy(made);
+    return status;
+}
+
+static void release_item(ewa_scene_item *item) {
+    ewa_completed_release(&item->completed);
+    ewa_asset_release(&item->asset);
+}
+
+void ewa_scene_destroy(ewa_scene **given) {
+    ewa_scene *scene = given ? *given : NULL;
+    if (!scene) return;
+    *given = NULL;
+    for (uint32_t i = 0; i < scene->count; i++) release_item(&scene->items[i]);
+    ewa_surface_release(&scene->surface);
+    ewa_release(scene->context, scene->items, scene->capacity, sizeof *scene->items);
+    ewa_release(scene->context, scene, 1, sizeof *scene);
+}
+
+/// Makes room for one more item.
+static ewa_status grow(ewa_scene *scene) {
+    if (scene->count < scene->capacity) return EWA_OK;
+    const uint32_t capacity = scene->capacity ? 2 * scene->capacity : 8;
+    ewa_scene_item *items = ewa_allocate_zeroed(scene->context, capacity, sizeof *items);
+    if (!items) return EWA_ERROR_MEMORY;
+    if (scene->count) memcpy(items, scene->items, scene->count * sizeof *items);
+    ewa_release(scene->context, scene->items, scene->capacity, sizeof *items);
+    scene->items = items;
+    scene->capacity = capacity;
+    return EWA_OK;
+}
+
+ewa_status ewa_scene_copy(const ewa_scene *scene, ewa_scene **copy) {
+    if (!scene || !copy) return EWA_ERROR_ARGUMENT;
+    ewa_status status = ewa_scene_create(scene->context, &scene->options, copy);
+    for (uint32_t i = 0; i < scene->count && status == EWA_OK; i++) {
+        status = grow(*copy);
+        if (status != EWA_OK) break;
+        ewa_scene_item *item = &(*copy)->items[(*copy)->count++];
+        *item = scene->items[i];
+        ewa_asset_retain(item->asset);
+        if (item->completed) atomic_fetch_add(&item->completed->references, 1);
+    }
+    if (status != EWA_OK) {
+        ewa_scene_destroy(copy);
+        return status;
+    }
+    (*copy)->complete = scene->complete;
+    (*copy)->committed = scene->committed;
+    (*copy)->points_gone = scene->points_gone;
+    (*copy)->surface = scene->surface;
+    if (scene->surface) atomic_fetch_add(&scene->surface->references, 1);
+    return EWA_OK;
+}
+
+/// Checks how an instance of an asset is to be shown.
+static ewa_status take_instance(const ewa_scene *scene, const ewa_asset *asset, const ewa_instance *given,
+                                ewa_instance *taken) {
+    ewa_context *context = scene->context;
+    ewa_instance_init(taken, sizeof *taken);
+    if (!given) return EWA_OK;
+    ewa_status status = ewa_options_take(context, &ewa_instance_table, given, taken);
+    if (status == EWA_OK)
+        status = ewa_options_take(context, &ewa_coloring_table, &given->coloring, &taken->coloring);
+    if (status != EWA_OK) return status;
+    if (taken->material != EWA_MATERIAL_OWN && taken->material >= EWA_MAX_MATERIALS)
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: material %u is beyond %d", asset->name, taken->material,
+                        EWA_MAX_MATERIALS - 1);
+    const bool plain = taken->opacity == 1 && taken->radius_scale == 1 && taken->material == EWA_MATERIAL_OWN &&
+                       ewa_coloring_is_own(taken->coloring.attribute) && !taken->coloring.tinted;
+    if (plain || ewa_asset_is_points(asset)) return EWA_OK;
+    static const char *const kinds[] = {"points",    "a mesh",         "resident surfels",
+                                        "an octree", "trained Gaussians", "a volume"};
+    return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
+                    "%s: opacity, radius scale, material and colouring are of points; this is %s, with colours of "
+                    "its own",
+                    asset->name, kinds[asset->kind]);
+}
+
+ewa_status ewa_scene_add(ewa_scene *scene, ewa_asset *asset, const ewa_instance *instance) {
+    if (!scene || !asset) return EWA_ERROR_ARGUMENT;
+    ewa_instance taken;
+    ewa_status status = take_instance(scene, asset, instance, &taken);
+    if (status == EWA_OK && scene->points_gone && ewa_asset_is_points(asset))
+        status = ewa_fail(scene->context, EWA_ERROR_ARGUMENT,
+                          "%s: the points of this scene are gone (keep_points), none can be added", asset->name);
+    if (status == EWA_OK && scene->count == EWA_SCENE_MAX_INSTANCES)
+        status = ewa_fail(scene->context, EWA_ERROR_LIMIT, "%s: the scene has %u instances already, its maximum",
+                          asset->name, scene->count);
+    if (status == EWA_OK) status = grow(scene);
+    if (status != EWA_OK) return status;
+    scene->items[scene->count++] = (ewa_scene_item){.asset = ewa_asset_retain(asset), .instance = taken};
+    scene->complete = scene->complete && (!ewa_asset_is_points(asset) || asset->drawable);
+    scene->committed = false;
+    return EWA_OK;
+}
+
+ewa_status ewa_scene_remove(ewa_scene *scene, uint32_t index) {
+    if (!scene || index >= scene->count) return EWA_ERROR_ARGUMENT;
+    const bool points = ewa_asset_is_points(scene->items[index].asset);
+    if (points && scene->points_gone)
+        return ewa_fail(scene->context, EWA_ERROR_ARGUMENT,
+                        "%s: the points of this scene are gone (keep_points), none can be taken out",
+                        scene->items[index].asset->name);
+    release_item(&scene->items[index]);
+    scene->count--;
+    memmove(&scene->items[index], &scene->items[index + 1], (scene->count - index) * sizeof *scene->items);
+    scene->complete = scene->complete && !points;
+    scene->committed = false;
+    return EWA_OK;
+}
+
+uint32_t ewa_scene_count(const ewa_scene *scene) { return scene->count; }
+
+ewa_asset *ewa_scene_asset(const ewa_scene *scene, uint32_t index) {
+    return index < scene->count ? scene->items[index].asset : NULL;
+}
+
+ewa_status ewa_scene_get(const ewa_scene *scene, uint32_t index, ewa_instance *instance) {
+    if (!scene || index >= scene->count || !instance) return EWA_ERROR_ARGUMENT;
+    *instance = scene->items[index].instance;
+    return EWA_OK;
+}
+
+ewa_status ewa_scene_set(ewa_scene *scene, uint32_t index, const ewa_instance *instance) {
+    if (!scene || index >= scene->count || !instance) return EWA_ERROR_ARGUMENT;
+    ewa_scene_item *item = &scene->items[index];
+    ewa_instance taken;
+    const ewa_status status = take_instance(scene, item->asset, instance, &taken);
+    if (status != EWA_OK) return status;
+    if (scene->points_gone && ewa_asset_is_points(item->asset))
+        return ewa_fail(scene->context, EWA_ERROR_ARGUMENT,
+                        "%s: the points of this scene are gone (keep_points), they stay as they are",
+                        item->asset->name);
+    item->instance = taken;
+    scene->committed = false;
+    return EWA_OK;
+}
+
+void ewa_scene_get_options(const ewa_scene *scene, ewa_scene_options *options) { *options = scene->options; }
+
+ewa_status ewa_scene_set_options(ewa_scene *scene, const ewa_scene_options *given) {
+    if (!scene || !given) return EWA_ERROR_ARGUMENT;
+    ewa_scene_options options;
+    const ewa_status status = take_options(scene->context, given, &options);
+    if (status != EWA_OK) return status;
+    scene->options = options;
+    scene->committed = scene->committed && (scene->points_gone || ewa_surface_is_of(scene->surface, scene));
+    return EWA_OK;
+}
+
+ewa_status ewa_scene_complete(ewa_scene *scene) {
+    if (!scene) return EWA_ERROR_ARGUMENT;
+    if (scene->complete || scene->points_gone) return EWA_OK;
+    const ewa_status status = ewa_scene_complete_items(scene);
+    scene->complete = status == EWA_OK;
+    return status;
+}
+
+/// Gives back the clouds, which nothing needs any more.
+static void drop_points(ewa_scene *scene) {
+    for (uint32_t i = 0; i < scene->count; i++) {
+        ewa_scene_item *item = &scene->items[i];
+        if (!ewa_asset_is_points(item->asset)) continue;
+        ewa_completed_release(&item->completed);
+    }
+    for (uint32_t i = 0; i < scene->count; i++) {
+        ewa_asset *asset = scene->items[i].asset;
+        if (ewa_asset_is_points(asset) && atomic_load(&asset->references) == 1) ewa_cloud_destroy(&asset->cloud);
+    }
+    scene->points_gone = true;
+}
+
+ewa_status ewa_scene_commit(ewa_scene *scene) {
+    if (!scene) return EWA_ERROR_ARGUMENT;
+    if (scene->committed) return EWA_OK;
+    ewa_status status = ewa_scene_complete(scene);
+    if (status != EWA_OK) return status;
+    if (!scene->points_gone && !ewa_surface_is_of(scene->surface, scene)) {
+        ewa_surface *surface = NULL;
+        status = ewa_surface_make(scene, &surface);
+        if (status != EWA_OK) return status;
+        ewa_surface_release(&scene->surface);
+        scene->surface = surface;
+    }
+    if (!scene->options.keep_points && !scene->points_gone) drop_points(scene);
+    scene->committed = true;
+    return EWA_OK;
+}
+
+void ewa_scene_describe(const ewa_scene *scene, ewa_scene_info *info) {
+    *info = (ewa_scene_info){.instance_count = scene->count};
+    for (uint32_t i = 0; i < scene->count; i++) {
+        const ewa_scene_item *item = &scene->items[i];
+        const ewa_asset *asset = item->asset;
+        info->load_s += asset->load_s;
+        // Of those that were completed together, the first tells.
+        if (item->completed && item->member == 0) {
+            info->estimate_s += item->completed->estimate_s;
+            info->estimated_count += item->completed->estimated_count;
+        }
+        if (!item->instance.visible) continue;
+        info->visible_count++;
+        info->point_count += asset->kind == EWA_ASSET_VOLUME ? 0 : asset->count;
+        info->octrees |= asset->kind == EWA_ASSET_OCTREE;
+        info->gaussians |= asset->kind == EWA_ASSET_GAUSSIANS;
+        info->volumes |= asset->kind == EWA_ASSET_VOLUME;
+        info->surfaces |= ewa_asset_is_points(asset) || asset->kind == EWA_ASSET_SURFELS || info->octrees;
+    }
+    if (!scene->surface) return;
+    info->surfels = scene->surface->info;
+    info->resident = scene->surface->surfels;
+    info->surfels_s = scene->surface->surfels_s;
+    info->estimate_s += scene->surface->estimate_s;
+}
+
+void ewa_scene_bounds(const ewa_scene *scene, ewa_bounds *bounds) {
+    *bounds = (ewa_bounds){.finite_count = 0};
+    for (int c = 0; c < 3; c++) bounds->low_world[c] = INFINITY, bounds->high_world[c] = -INFINITY;
+    for (uint32_t i = 0; i < scene->count; i++) {
+        const ewa_bounds *own = &scene->items[i].asset->bounds;
+        if (!scene->items[i].instance.visible || !own->finite_count || !(own->low_world[0] <= own->high_world[0]))
+            continue;
+        bounds->finite_count += own->finite_count;
+        for (int c = 0; c < 3; c++) {
+            bounds->low_world[c] = fmin(bounds->low_world[c], own->low_world[c]);
+            bounds->high_world[c] = fmax(bounds->high_world[c], own->high_world[c]);
+        }
+    }
+}
+
+const ewa_legend *ewa_scene_legend(const ewa_scene *scene, uint32_t index) {
+    const ewa_surface *surface = scene->surface;
+    if (index >= scene->count || !scene->committed || !surface) return NULL;
+    for (uint32_t i = 0; i < surface->count; i++) {
+        if (surface->keys[i].asset != scene->items[index].asset || surface->legend_of[i] == UINT32_MAX) continue;
+        const ewa_legend *legend = &surface->legends[surface->legend_of[i]];
+        return legend->context ? legend : NULL;
+    }
+    return NULL;
+}

@@ -1,0 +1,237 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Cameras where no file says: what is up in a scene, from where it is seen, all of it in the picture.
+#include "base/base.h"
+#include "base/options.h"
+#include "homogeneous/camera.h"
+#include "scene/scene.h"
+
+#include <math.h>
+#include <string.h>
+
+/// Where nobody says.
+static const double DEFAULT_FOV_DEG = 30;
+
+#define AT(member) offsetof(ewa_view_options, member)
+
+static const ewa_option view_rows[] = {
+    {"width_px", EWA_OPTION_U32, AT(width_px), 1, 65536, .initial = 1280, .unit = "px", .help = "of the picture"},
+    {"height_px", EWA_OPTION_U32, AT(height_px), 1, 65536, .initial = 720, .unit = "px", .help = "of the picture"},
+    {"fov_deg", EWA_OPTION_F64, AT(fov_deg), 0, 180, EWA_OPTION_BELOW, .unit = "deg",
+     .help = "vertical field of view; 0: 30, but for what a camera at the origin took"},
+    {"ortho_height_world", EWA_OPTION_F64, AT(ortho_height_world), 0, INFINITY, EWA_OPTION_BELOW, .unit = "world",
+     .help = "an orthographic camera that shows so much; 0: perspective"},
+    {"up_world", EWA_OPTION_F64, AT(up_world), -INFINITY, INFINITY, EWA_OPTION_ABOVE | EWA_OPTION_BELOW, 3,
+     .help = "up in the picture; zeros: the scene's"},
+    {"has_eye", EWA_OPTION_BOOL, AT(has_eye), .help = "the eye is given"},
+    {"has_target", EWA_OPTION_BOOL, AT(has_target), .help = "the target is given"},
+    {"eye_world", EWA_OPTION_F64, AT(eye_world), -INFINITY, INFINITY, EWA_OPTION_ABOVE | EWA_OPTION_BELOW, 3,
+     .help = "where the camera is"},
+    {"target_world", EWA_OPTION_F64, AT(target_world), -INFINITY, INFINITY, EWA_OPTION_ABOVE | EWA_OPTION_BELOW, 3,
+     .help = "what it looks at"},
+    {"azimuth_deg", EWA_OPTION_F64, AT(azimuth_deg), -360, 360, .unit = "deg",
+     .help = "carries the camera about the up axis"},
+    {"elevation_deg", EWA_OPTION_F64, AT(elevation_deg), -180, 180, .unit = "deg", .help = "then raises it"},
+    {"turntable", EWA_OPTION_BOOL, AT(turntable), .help = "all is in the picture in every turn about the axis"},
+};
+
+const ewa_option_table ewa_view_options_table = EWA_OPTION_TABLE(ewa_view_options, view_rows);
+
+void ewa_view_options_init(ewa_view_options *options, size_t struct_size) {
+    ewa_options_init(&ewa_view_options_table, options, struct_size);
+    if (options && struct_size >= sizeof *options) options->view = -1;
+}
+
+/// A camera that is being placed.
+typedef struct placement {
+    const ewa_scene *scene;
+    const ewa_view_options *options;
+    const ewa_framing *framing;
+    ewa_framing_info of;
+    ewa_upright upright;
+    double direction_world[3], up_world[3], axis_world[3];
+} placement;
+
+/// What is up by the options of the scene, else by the first file that says so: 1 y, 2 z, negative: down; 0: nothing.
+static int up_axis_of(const ewa_scene *scene) {
+    static const int axes[] = {0, 1, 2, -1, -2};
+    if (scene->options.up != EWA_UP_AUTO) return axes[scene->options.up];
+    // Gaussians first: what else there is was put to them.
+    for (int pass = 0; pass < 2; pass++)
+        for (uint32_t i = 0; i < scene->count; i++) {
+            const ewa_asset *asset = scene->items[i].asset;
+            const double *up = asset->up_world;
+            const bool said = up[0] != 0 || up[1] != 0 || up[2] != 0;
+            if (!scene->items[i].instance.visible || !said || (pass == 0) != (asset->kind != EWA_ASSET_VOLUME)) continue;
+            const int axis = fabs(up[2]) > fabs(up[1]) ? 2 : 1;
+            return up[axis] < 0 ? -axis : axis;
+        }
+    return 0;
+}
+
+/// The convention that all visible files share.
+static ewa_status find_convention(const ewa_scene *scene, ewa_up_convention *convention) {
+    const char **names = ewa_allocate(scene->context, scene->count, sizeof *names);
+    size_t count = 0;
+    if (!names) return EWA_ERROR_MEMORY;
+    for (uint32_t i = 0; i < scene->count; i++)
+        if (scene->items[i].instance.visible) names[count++] = scene->items[i].asset->name;
+    *convention = ewa_up_convention_of(count, names);
+    ewa_release(scene->context, names, scene->count, sizeof *names);
+    return EWA_OK;
+}
+
+/// The view that suits the only visible asset, if that is a volume; -1: none does.
+static int view_of_volume(const ewa_scene *scene) {
+    const ewa_asset *only = NULL;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < scene->count; i++)
+        if (scene->items[i].instance.visible) only = scene->items[i].asset, count++;
+    return count == 1 ? only->view : -1;
+}
+
+/// What is up and how it is looked at.
+static ewa_status choose_upright(placement *p) {
+    const double *up = p->options->up_world;
+    const bool given = up[0] != 0 || up[1] != 0 || up[2] != 0;
+    const int said = given ? (fabs(up[2]) > fabs(up[1]) ? 2 : 1) : up_axis_of(p->scene);
+    if (!said) {
+        ewa_up_convention convention;
+        const ewa_status status = find_convention(p->scene, &convention);
+        if (status == EWA_OK) ewa_framing_choose(p->framing, convention, &p->upright);
+        return status;
+    }
+    const double *low = p->of.box.low_world, *high = p->of.box.high_world;
+    const double extent[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
+    const int axis = said < 0 ? -said : said;
+    const bool asked = given || p->scene->options.up != EWA_UP_AUTO;
+    p->upright = (ewa_upright){.axis = axis,
+                               .reversed = said < 0,
+                               .view = ewa_upright_view(extent, axis),
+                               .why = asked ? "as it was asked for" : "as files of this kind have it"};
+    return EWA_OK;
+}
+
+/// The up vector of the picture, the axis of a turntable and the direction in which a camera without an eye looks.
+static ewa_status choose_direction(placement *p) {
+    const ewa_view_options *options = p->options;
+    ewa_status status = choose_upright(p);
+    if (status != EWA_OK) return status;
+    ewa_upright *chosen = &p->upright;
+    const double *up = options->up_world;
+    const bool given = up[0] != 0 || up[1] != 0 || up[2] != 0,
+               carried = options->azimuth_deg != 0 || options->elevation_deg != 0;
+    const int of_volume = view_of_volume(p->scene);
+    chosen->from_origin = chosen->from_origin && options->view < 0 && !carried;
+    if (options->view >= 0)
+        chosen->view = (ewa_named_view)options->view;
+    else if (of_volume >= 0)
+        chosen->view = carried || given ? EWA_VIEW_FRONT : (ewa_named_view)of_volume;
+    ewa_upright_look(chosen, p->direction_world, p->up_world);
+    for (int c = 0; c < 3; c++)
+        p->axis_world[c] = given ? up[c] : c == chosen->axis ? (chosen->reversed ? -1 : 1) : 0;
+    if (given) memcpy(p->up_world, up, sizeof p->up_world);
+    return !carried ? EWA_OK
+                    : ewa_upright_turn(p->axis_world, options->azimuth_deg, options->elevation_deg,
+                                       p->direction_world, p->up_world);
+}
+
+/// Moves the camera sideways so that it looks at the target from the same distance.
+static ewa_status aim(const placement *p, ewa_camera *camera) {
+    const double *direction = p->direction_world, *target_world = p->options->target_world;
+    double eye_world[3], aimed_world[3], distance = 0, length = 0;
+    ewa_camera_eye(camera, eye_world);
+    for (int c = 0; c < 3; c++) {
+        const double away = p->of.middle_world[c] - eye_world[c];
+        distance += away * away;
+        length += direction[c] * direction[c];
+    }
+    for (int c = 0; c < 3; c++) aimed_world[c] = target_world[c] - direction[c] * sqrt(distance / length);
+    return ewa_camera_look_at(camera, aimed_world, target_world, p->up_world);
+}
+
+/// Places a camera whose picture and projection are set.
+static ewa_status place(const placement *p, const double pivot_world[3], ewa_camera *camera) {
+    const ewa_view_options *options = p->options;
+    ewa_context *context = p->scene->context;
+    if (options->has_eye) {
+        const double *eye = options->eye_world,
+                     *target = options->has_target ? options->target_world : p->of.middle_world;
+        const ewa_status status = ewa_camera_look_at(camera, eye, target, p->up_world);
+        return status == EWA_OK ? EWA_OK
+                                : ewa_fail(context, status, "the eye %g,%g,%g is also where the camera looks", eye[0],
+                                           eye[1], eye[2]);
+    }
+    if (p->of.trimmed)
+        ewa_report(context, EWA_SEVERITY_NOTE,
+                   "a few points lie far off and are left outside the picture; --eye decides otherwise");
+    ewa_status status = EWA_OK;
+    if (options->turntable) {
+        ewa_framing *solid = NULL;
+        status = ewa_framing_revolve(p->framing, pivot_world, p->axis_world, p->direction_world, &solid);
+        if (status == EWA_OK) status = ewa_framing_fit(solid, p->direction_world, p->up_world, camera);
+        ewa_framing_destroy(&solid);
+    } else if (p->upright.from_origin && !options->has_target && !(options->fov_deg > 0) &&
+               !(options->ortho_height_world > 0)) {
+        static const double origin[3] = {0, 0, 0};
+        return ewa_framing_zoom(p->framing, origin, p->up_world, camera);
+    } else {
+        status = ewa_framing_fit(p->framing, p->direction_world, p->up_world, camera);
+        if (status == EWA_OK && options->has_target) status = aim(p, camera);
+    }
+    if (status == EWA_OK && options->ortho_height_world > 0)
+        status = ewa_camera_set_ortho(camera, options->ortho_height_world);
+    return status;
+}
+
+static ewa_status place_by_framing(placement *p, ewa_camera *camera, ewa_view_info *info) {
+    const ewa_view_options *options = p->options;
+    ewa_framing_describe(p->framing, &p->of);
+    ewa_status status = choose_direction(p);
+    if (status != EWA_OK) return status;
+    const double *axis = p->axis_world,
+                 length = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
+    *info = (ewa_view_info){.upright = p->upright, .trimmed = p->of.trimmed};
+    memcpy(info->pivot_world, options->has_target ? options->target_world : p->of.middle_world,
+           sizeof info->pivot_world);
+    for (int c = 0; c < 3; c++) info->up_world[c] = axis[c] / length;
+    if (!camera) return EWA_OK;
+    char text[EWA_UPRIGHT_TEXT_BYTES];
+    ewa_upright_describe(&p->upright, text);
+    ewa_report(p->scene->context, EWA_SEVERITY_INFO, "up: %s", text);
+    ewa_camera_init(camera);
+    camera->width_px = options->width_px;
+    camera->height_px = options->height_px;
+    status = options->ortho_height_world > 0
+                 ? ewa_camera_set_ortho(camera, options->ortho_height_world)
+                 : ewa_camera_set_fov(camera, options->fov_deg > 0 ? options->fov_deg : DEFAULT_FOV_DEG);
+    return status == EWA_OK ? place(p, info->pivot_world, camera) : status;
+}
+
+ewa_status ewa_scene_place_camera(ewa_scene *scene, const ewa_view_options *given, ewa_camera *camera,
+                                  ewa_view_info *info) {
+    if (!scene) return EWA_ERROR_ARGUMENT;
+    ewa_context *context = scene->context;
+    ewa_view_options options;
+    ewa_view_info own;
+    ewa_view_options_init(&options, sizeof options);
+    ewa_status status = ewa_options_take(context, &ewa_view_options_table, given, &options);
+    if (status == EWA_OK && options.view > EWA_VIEW_ISO)
+        status = ewa_fail(context, EWA_ERROR_ARGUMENT, "view: %d is none of the named ones", options.view);
+    if (status == EWA_OK) status = ewa_scene_complete(scene);
+    ewa_cloud *outline = NULL;
+    bool made = false;
+    if (status == EWA_OK) status = ewa_scene_outline(scene, &outline, &made);
+    ewa_framing *framing = NULL;
+    if (status == EWA_OK) status = ewa_framing_create(outline, 1, &framing);
+    if (status == EWA_OK) {
+        placement p = {.scene = scene, .options = &options, .framing = framing};
+        status = place_by_framing(&p, camera, info ? info : &own);
+        if (status == EWA_ERROR_NUMERIC && !(options.has_eye))
+            ewa_fail(context, status, "no camera can be placed: the numbers of its options are too large");
+    }
+    ewa_framing_destroy(&framing);
+    if (made) ewa_cloud_destroy(&outline);
+    return status;
+}
