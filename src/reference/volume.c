@@ -235,6 +235,25 @@ static void composite(const reference *work, const splat *at, uint32_t y_begin, 
         }
 }
 
+/// Depth, normal and coverage of voxels and surface together: the voxels' depth where they take half of the light in
+/// front of the surface, else the surface's.
+static void write_geometry(const reference *work, size_t index) {
+    const pixel *at = &work->pixels[index];
+    const ewa_volume_options *o = &work->options;
+    const ewa_frame *frame = &work->frame;
+    const double own = o->surface_depth ? (double)o->surface_depth[index] : INFINITY;
+    const double voxels = isinf(at->depth) ? INFINITY : at->depth * work->grid.unit_camera;
+    const double covered = o->surface_coverage ? (double)o->surface_coverage[index]
+                           : o->surface_rgba   ? (double)o->surface_rgba[4 * index + 3]
+                                               : 0;
+    if (frame->depth) frame->depth[index] = (float)fmin(voxels, own);
+    if (frame->coverage)
+        frame->coverage[index] = (float)(covered + (1 - at->through) * fmax(0, 1 - covered));
+    for (size_t c = 0; c < 3 && frame->normal; c++)
+        frame->normal[3 * index + c] =
+            o->surface_normal && own <= voxels ? o->surface_normal[3 * index + c] : 0;
+}
+
 static void write_pixel(const reference *work, size_t index) {
     const pixel *at = &work->pixels[index];
     const ewa_frame *frame = &work->frame;
@@ -246,9 +265,7 @@ static void write_pixel(const reference *work, size_t index) {
                                       : (double)background[3];
         out[c] = (c < 3 ? at->color[c] : 1 - at->through) + at->through * behind;
     }
-    if (frame->depth)
-        frame->depth[index] = isinf(at->depth) ? INFINITY : (float)(at->depth * work->grid.unit_camera);
-    if (frame->coverage) frame->coverage[index] = (float)(1 - at->through);
+    write_geometry(work, index);
     for (size_t c = 0; c < 4 && frame->rgba; c++) frame->rgba[4 * index + c] = (float)out[c];
     for (size_t c = 0; c < 3 && frame->rgba8; c++)
         frame->rgba8[4 * index + c] = out[3] > 0 ? ewa_srgb8_from_linear((float)(out[c] / out[3])) : 0;
@@ -329,7 +346,6 @@ ewa_status ewa_volume_render_reference(const ewa_volume *volume, const ewa_trans
     reference work = {.camera = *camera, .frame = *frame};
     ewa_status status = ewa_volume_options_choose(context, options, &work.options);
     if (status == EWA_OK) status = ewa_camera_check(context, camera);
-    if (status == EWA_OK) status = ewa_volume_frame_check(context, frame);
     if (status == EWA_OK) status = ewa_classifier_make(context, volume, transfer, &work.classifier);
     if (status != EWA_OK) return status;
     ewa_grid_view_make(&work.grid, volume->index_to_world, work.classifier.spacing_world, camera,
