@@ -8,13 +8,14 @@
 // Field Rendering", 2023, section 4 and its program (the trained projection); L. Radl et al., "StopThePop",
 // 2024 (order by the depth of greatest density along a ray).
 //
-// Nothing of src/volume is used here, which this judges: camera, section planes and limits are its own.
+// Nothing of src/volume is used here, which this judges: the camera and the limits are its own.
 #include "reference/gaussian.h"
 #include "base/base.h"
 #include "base/options.h"
 #include "homogeneous/vec.h"
 #include "image/srgb.h"
 #include "math/ellipse.h"
+#include "reference/section.h"
 #include "surface/options.h"
 
 #include <stdlib.h>
@@ -109,29 +110,6 @@ static view make_view(const ewa_camera *camera, const ewa_gaussian_options *opti
     made.slopes[2] = (-0.15 * height - camera->cy_px) / camera->fy_px;
     made.slopes[3] = (1.15 * height - camera->cy_px) / camera->fy_px;
     return made;
-}
-
-/// From which to which camera-space depth the ray through a place in the picture is within all section planes.
-static void cut_ray(const reference *work, double x_px, double y_px, double *enter, double *leave) {
-    const ewa_camera *c = &work->given;
-    const bool flat = c->projection == EWA_ORTHOGRAPHIC;
-    const double *m = c->world_to_camera, square = work->camera.scale * work->camera.scale;
-    const double x = (x_px - c->cx_px) / c->fx_px, y = (y_px - c->cy_px) / c->fy_px;
-    // The ray at depth z: start + z step in camera space; in the world times the transposed rows over their square.
-    const double start[3] = {flat ? x : 0, flat ? y : 0, 0}, step[3] = {flat ? 0 : x, flat ? 0 : y, 1};
-    *enter = -INFINITY, *leave = INFINITY;
-    for (uint32_t i = 0; i < work->options.section_count; i++) {
-        const double *plane = work->options.section_planes[i];
-        double at = plane[3], by = 0;
-        for (int row = 0; row < 3; row++) {
-            const double *r = m + 4 * row;
-            const double along = (plane[0] * r[0] + plane[1] * r[1] + plane[2] * r[2]) / square;
-            at += along * (start[row] - r[3]), by += along * step[row];
-        }
-        if (by > 0) *enter = fmax(*enter, -at / by);
-        if (by < 0) *leave = fmin(*leave, -at / by);
-        if (by == 0 && at < 0) *enter = INFINITY;
-    }
 }
 
 /// Real spherical harmonics along a unit direction, in the order and with the signs of 3DGS.
@@ -335,7 +313,8 @@ static bool meet(const reference *work, const splat *at, uint32_t x, uint32_t y,
     alpha = fmin(alpha, MOST_ALPHA);
     const double z = fmin(fmax(by.z, at->place.z - at->depth_reach), at->place.z + at->depth_reach);
     double enter, leave, surface = INFINITY;
-    cut_ray(work, x_px, y_px, &enter, &leave);
+    ewa_reference_cut_ray(&work->given, (const double(*)[4])work->options.section_planes,
+                          work->options.section_count, x_px, y_px, &enter, &leave);
     if (work->options.surface_depth)
         surface = (double)work->options.surface_depth[(size_t)y * work->width_px + x];
     const double all = share_between(work, z, by.deviation, enter, leave);
