@@ -3,6 +3,7 @@
 //
 // Depth, normal and coverage of pictures of Gaussians, volumes and surfaces together (docs/math.md section 12).
 #include "reference/volume.h"
+#include "surface/eye_dome.h"
 #include "volume/gaussian_scene.h"
 #include "volume/scene.h"
 
@@ -36,7 +37,8 @@ static size_t count_apart(const planes *a, const planes *b, const bool *left_out
 }
 
 /// A scan of a ball of radius 0.8, by ewa_render().
-static void draw_scan(ewa_context *context, const ewa_camera *camera, double opacity, planes *to) {
+static void draw_scan_by(ewa_context *context, const ewa_camera *camera, const ewa_render_options *how,
+                         planes *to) {
     ewa_generate_options options;
     ewa_generate_options_init(&options, sizeof options);
     options.object = EWA_OBJECT_SPHERE;
@@ -48,14 +50,18 @@ static void draw_scan(ewa_context *context, const ewa_camera *camera, double opa
     assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_OK);
     assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
     assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
-    ewa_render_options how;
-    ewa_render_options_init(&how, sizeof how);
-    how.opacity = opacity;
     const ewa_frame frame = frame_of(to);
-    assert_int_equal(ewa_render(renderer, surfels, camera, &how, &frame, NULL), EWA_OK);
+    assert_int_equal(ewa_render(renderer, surfels, camera, how, &frame, NULL), EWA_OK);
     ewa_renderer_destroy(&renderer);
     ewa_surfels_destroy(&surfels);
     ewa_cloud_destroy(&cloud);
+}
+
+static void draw_scan(ewa_context *context, const ewa_camera *camera, double opacity, planes *to) {
+    ewa_render_options how;
+    ewa_render_options_init(&how, sizeof how);
+    how.opacity = opacity;
+    draw_scan_by(context, camera, &how, to);
 }
 
 static ewa_gaussian_options options_over(const planes *surface) {
@@ -463,6 +469,47 @@ static void test_bytes(void **state) {
     }
 }
 
+/// Eye-dome lighting of a finished picture: of surfaces that of ewa_render(), to the byte; a sheet of Gaussians some way
+/// before a wall darkens the wall beside it.
+static void test_eye_dome(void **state) {
+    (void)state;
+    static planes whole, plain;
+    ewa_context *context = check_context(2, NULL);
+    ewa_render_options how;
+    ewa_render_options_init(&how, sizeof how);
+    const float background[4] = {0.2f, 0.5f, 0.9f, 0.75f};
+    for (int n = 0; n < 2; n++) {
+        ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, 40, SLANTED, 3);
+        if (n) camera.projection = EWA_ORTHOGRAPHIC, camera.fx_px = camera.fy_px = 25;
+        how.eye_dome = 0.7;
+        memcpy(how.background, background, sizeof background);
+        draw_scan_by(context, &camera, &how, &whole);
+        how.eye_dome = 0;
+        memset(how.background, 0, sizeof how.background);
+        draw_scan_by(context, &camera, &how, &plain);
+        const ewa_frame frame = frame_of(&plain);
+        assert_memory_not_equal(whole.rgba, plain.rgba, sizeof whole.rgba);
+        assert_int_equal(ewa_eye_dome_apply(context, &camera, 0.7, background, &frame), EWA_OK);
+        assert_memory_equal(whole.rgba, plain.rgba, sizeof whole.rgba);
+        assert_memory_equal(whole.rgba8, plain.rgba8, sizeof whole.rgba8);
+    }
+    const ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, 30, FRONT, 5);
+    make_ramp(&whole);
+    for (size_t i = 0; i < 4 * PIXELS; i++) whole.rgba[i] = 1;
+    ewa_gaussians set = gaussians_one(context, (const double[3]){0, 0, -1}, (const double[3]){0.3, 0.3, 0.01},
+                                      ROUND, 0.95, (const double[3]){1, 1, 1});
+    const ewa_gaussian_options options = options_over(&whole);
+    const ewa_frame frame = frame_of(&plain);
+    draw_set(&set, &camera, &options, &frame);
+    assert_int_equal(ewa_eye_dome_apply(context, &camera, 1, (const float[4]){0}, &frame), EWA_OK);
+    float least = 1;
+    for (size_t i = 0; i < PIXELS; i++) least = fminf(least, plain.rgba[4 * i]);
+    assert_true(least < 0.7f);
+    assert_true(fabsf(plain.rgba[0] - 1) < 1e-3f && fabsf(plain.rgba[4 * (35 * WIDTH + 45)] - 1) < 1e-2f);
+    ewa_gaussians_free(&set);
+    ewa_context_destroy(&context);
+}
+
 /// Planes of a surface that is not given.
 static void test_bad(void **state) {
     (void)state;
@@ -501,7 +548,7 @@ int main(void) {
         cmocka_unit_test(test_sheets),       cmocka_unit_test(test_fog),
         cmocka_unit_test(test_reference),    cmocka_unit_test(test_volume_reference),
         cmocka_unit_test(test_null),         cmocka_unit_test(test_bytes),
-        cmocka_unit_test(test_bad),
+        cmocka_unit_test(test_eye_dome),     cmocka_unit_test(test_bad),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
