@@ -83,6 +83,10 @@ typedef struct ewa_gaussian_options {
     /// left out; normals not all 0, of any length
     double section_planes[EWA_MAX_SECTION_PLANES][4];
     uint32_t section_count; ///< of `section_planes`; [0, EWA_MAX_SECTION_PLANES]; default 0
+    /// The surfaces' normals (3 per pixel) and coverage (1 per pixel), for frame.normal and frame.coverage, as
+    /// ewa_render() gives them: planes of the camera's size, borrowed during the call. NULL (default): normals are 0,
+    /// coverage is the alpha of surface_rgba. Without surface_depth: NULL
+    const float *surface_normal, *surface_coverage;
 } ewa_gaussian_options;
 
 EWA_API extern const ewa_option_table ewa_gaussian_options_table;
@@ -111,12 +115,13 @@ EWA_API void ewa_gaussian_renderer_destroy(ewa_gaussian_renderer **renderer);
 
 /// Draws Gaussians, front to back in every pixel: by the depth at which its ray passes the greatest density,
 /// so that nothing changes places at once as the camera moves. Colours are composited as display values, as
-/// in training; frame.rgba is linear as everywhere. Of the frame's planes rgba8, rgba, depth (where half of
-/// the light is gone; +infinity where that never happens) and coverage (alpha of the Gaussians alone) are
-/// written; normal must be NULL. The same bytes for every number of threads, every instruction set and every
-/// order of the set. `options` and `stats` may be NULL. Implements docs/math.md section 12, Gaussians; held
-/// by tests to a renderer in plain double precision. Errors: EWA_ERROR_ARGUMENT (camera, options,
-/// frame.normal), EWA_ERROR_MEMORY, EWA_CANCELLED.
+/// in training; frame.rgba is linear as everywhere. The other planes are of Gaussians and surfaces together:
+/// depth is where half of the light is gone, else that of the surface, else +infinity; normal is that of the
+/// surface where it gave the depth, else 0; coverage is c + a max(0, 1 - c), with the surface's c and the alpha a
+/// of the Gaussians. Where no Gaussian is, they are the surface's planes, to the byte. The same bytes for every
+/// number of threads, every instruction set and every order of the set. `options` and `stats` may be NULL.
+/// Implements docs/math.md section 12, Gaussians; held by tests to a renderer in plain double precision.
+/// Errors: EWA_ERROR_ARGUMENT (camera, options), EWA_ERROR_MEMORY, EWA_CANCELLED.
 EWA_API ewa_status ewa_gaussian_render(ewa_gaussian_renderer *renderer, const ewa_splats *splats,
                                        const ewa_camera *camera, const ewa_gaussian_options *options,
                                        const ewa_frame *frame, ewa_gaussian_stats *stats);

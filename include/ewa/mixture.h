@@ -44,7 +44,7 @@ typedef struct ewa_mixture {
 /// bytes for every number of threads and every instruction set; of volumes and sets that share a depth those
 /// named first are in front. `stats` (may be NULL) counts Gaussians. Implements docs/math.md section 12,
 /// mixtures. Errors: EWA_ERROR_ARGUMENT (camera, options, levels, more than EWA_MAX_MIXED_VOLUMES, a renderer
-/// twice or of another context, frame.normal), EWA_ERROR_LIMIT (more than 2^26 Gaussians together),
+/// twice or of another context), EWA_ERROR_LIMIT (more than 2^26 Gaussians together),
 /// EWA_ERROR_MEMORY, EWA_CANCELLED. Layers of volumes need memory while tiles are drawn: with an allocator of
 /// the caller's these are drawn by the calling thread alone.
 EWA_API ewa_status ewa_mixture_render(ewa_gaussian_renderer *renderer, const ewa_mixture *mixture,

@@ -107,6 +107,10 @@ typedef struct ewa_volume_options {
     /// left out; normals not all 0, of any length
     double section_planes[EWA_MAX_SECTION_PLANES][4];
     uint32_t section_count; ///< of `section_planes`; [0, EWA_MAX_SECTION_PLANES]; default 0
+    /// The surfaces' normals (3 per pixel) and coverage (1 per pixel), for frame.normal and frame.coverage, as
+    /// ewa_render() gives them: planes of the camera's size, borrowed during the call. NULL (default): normals are 0,
+    /// coverage is the alpha of surface_rgba. Without surface_depth: NULL
+    const float *surface_normal, *surface_coverage;
 } ewa_volume_options;
 
 EWA_API extern const ewa_option_table ewa_volume_options_table;
@@ -134,13 +138,12 @@ EWA_API ewa_status ewa_volume_renderer_create(ewa_context *context, ewa_volume_r
 /// Frees a renderer; sets `*renderer` to NULL; accepts NULL and a pointer to NULL.
 EWA_API void ewa_volume_renderer_destroy(ewa_volume_renderer **renderer);
 
-/// Draws voxels, front to back. Of the frame's planes rgba8, rgba, depth (where half of the light is gone;
-/// +infinity where that never happens) and coverage (alpha of the volume alone) are written; normal must be
-/// NULL. The same bytes for every number of threads and every instruction set. Voxels whose kernels reach a
-/// perspective camera's eye plane are drawn ray by ray, before all others.
+/// Draws voxels, front to back. The frame's depth, normal and coverage are of voxels and surfaces together, as
+/// those of ewa_gaussian_render(). The same bytes for every number of threads and every instruction set. Voxels
+/// whose kernels reach a perspective camera's eye plane are drawn ray by ray, before all others.
 /// `options` and `stats` may be NULL. Implements HFR section 4 and docs/math.md section 12; held by tests to a
 /// renderer in plain double precision. Errors: EWA_ERROR_ARGUMENT (camera, options, a level that the voxels do
-/// not have, frame.normal), EWA_ERROR_MEMORY, EWA_CANCELLED.
+/// not have), EWA_ERROR_MEMORY, EWA_CANCELLED.
 EWA_API ewa_status ewa_volume_render(ewa_volume_renderer *renderer, const ewa_voxels *voxels,
                                      const ewa_camera *camera, const ewa_volume_options *options,
                                      const ewa_frame *frame, ewa_volume_stats *stats);

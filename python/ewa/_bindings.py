@@ -701,6 +701,8 @@ class ewa_gaussian_options(c.Structure):
     surface_rgba: int | None
     section_planes: c.Array[Any]
     section_count: int
+    surface_normal: int | None
+    surface_coverage: int | None
     _fields_ = [
         ("struct_size", c.c_size_t),
         ("projection", c.c_int),
@@ -716,6 +718,8 @@ class ewa_gaussian_options(c.Structure):
         ("surface_rgba", c.c_void_p),
         ("section_planes", (c.c_double * 4) * 8),
         ("section_count", c.c_uint32),
+        ("surface_normal", c.c_void_p),
+        ("surface_coverage", c.c_void_p),
     ]
 
 
@@ -1246,6 +1250,8 @@ class ewa_volume_options(c.Structure):
     surface_rgba: int | None
     section_planes: c.Array[Any]
     section_count: int
+    surface_normal: int | None
+    surface_coverage: int | None
     _fields_ = [
         ("struct_size", c.c_size_t),
         ("method", c.c_int),
@@ -1267,6 +1273,8 @@ class ewa_volume_options(c.Structure):
         ("surface_rgba", c.c_void_p),
         ("section_planes", (c.c_double * 4) * 8),
         ("section_count", c.c_uint32),
+        ("surface_normal", c.c_void_p),
+        ("surface_coverage", c.c_void_p),
     ]
 
 

@@ -7,16 +7,44 @@
 // Based on: B. Kerbl, G. Kopanas, T. Leimkuehler, G. Drettakis, "3D Gaussian Splatting for Real-Time Radiance
 // Field Rendering", 2023, section 4 and its program (the trained projection); L. Radl et al., "StopThePop",
 // 2024 (order by the depth of greatest density along a ray).
+//
+// Nothing of src/volume is used here, which this judges: the camera and the limits are its own.
 #include "reference/gaussian.h"
 #include "base/base.h"
+#include "base/options.h"
+#include "homogeneous/vec.h"
 #include "image/srgb.h"
 #include "math/ellipse.h"
-#include "volume/gaussian_view.h"
-#include "volume/section.h"
-#include "volume/splats.h"
+#include "reference/section.h"
+#include "surface/options.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+/// A Gaussian whose centre is within so many of its depth half ranges of the eye's plane is met ray by ray.
+static const double NEAR_REACHES = 1.05;
+
+/// No Gaussian takes more of the light.
+static const double MOST_ALPHA = 0.99;
+
+/// What the filter leaves of a Gaussian's height is at least the root of that.
+static const double LEAST_KEPT = 2.5e-5;
+
+/// A shorter scale counts as at least that much of the longest one.
+static const double LEAST_ASPECT = 1e-4;
+
+/// Camera space in world units: turned and moved as the camera says, but not scaled.
+typedef struct view {
+    bool orthographic, trained, keep;
+    double fx_px, fy_px, cx_px, cy_px; ///< orthographic: pixels per world unit
+    double scale;                      ///< of camera space over world units
+    ewa_mat3 turn;                     ///< column vectors of the world to camera space
+    ewa_vec3 origin;                   ///< that of the set in camera space
+    ewa_vec3 eye;                      ///< perspective: from the set's origin, world axes
+    ewa_vec3 forward;                  ///< world axes
+    double slopes[4];                  ///< where the affine map's Jacobian is held: left, right, top, bottom
+    double near;                       ///< of centres
+} view;
 
 /// A Gaussian on the screen.
 typedef struct splat {
@@ -40,15 +68,49 @@ typedef struct hit {
 typedef struct reference {
     const ewa_gaussians *set;
     ewa_gaussian_options options;
-    ewa_gaussian_camera camera;
+    ewa_camera given;
+    view camera;
     uint32_t width_px, height_px;
     ewa_gaussian_order order;
     ewa_frame frame;
     splat *splats;
     uint32_t splat_count;
     ewa_buffer hits;
-    ewa_ray_sections sections;
 } reference;
+
+static view make_view(const ewa_camera *camera, const ewa_gaussian_options *options,
+                      const ewa_gaussians *set) {
+    const double *m = camera->world_to_camera;
+    view made = {.orthographic = camera->projection == EWA_ORTHOGRAPHIC,
+                 .keep = options->filter == EWA_FILTER_KEEP ||
+                         (options->filter == EWA_FILTER_OF_SET && set->antialiased),
+                 .scale = sqrt((m[0] * m[0] + m[1] * m[1] + m[2] * m[2] + m[4] * m[4] + m[5] * m[5] +
+                                m[6] * m[6] + m[8] * m[8] + m[9] * m[9] + m[10] * m[10]) /
+                               3),
+                 .fx_px = camera->fx_px,
+                 .fy_px = camera->fy_px,
+                 .cx_px = camera->cx_px,
+                 .cy_px = camera->cy_px};
+    made.trained = made.orthographic || options->projection == EWA_PROJECTION_TRAINED;
+    double origin[3];
+    for (int row = 0; row < 3; row++) {
+        const double *at = m + 4 * row, *o = set->origin;
+        for (int column = 0; column < 3; column++) made.turn.m[row][column] = at[column] / made.scale;
+        origin[row] = (at[0] * o[0] + at[1] * o[1] + at[2] * o[2] + at[3]) / made.scale;
+    }
+    made.origin = vec3_load(origin);
+    made.forward = vec3_load(made.turn.m[2]);
+    made.eye = vec3_scale(vec3_mul_mat3(made.origin, &made.turn), -1);
+    if (made.orthographic) made.fx_px *= made.scale, made.fy_px *= made.scale;
+    made.near = made.orthographic ? -INFINITY : made.trained ? options->near_world : 0;
+    // 0.15 of the picture beyond each of its edges.
+    const double width = camera->width_px, height = camera->height_px;
+    made.slopes[0] = (-0.15 * width - camera->cx_px) / camera->fx_px;
+    made.slopes[1] = (1.15 * width - camera->cx_px) / camera->fx_px;
+    made.slopes[2] = (-0.15 * height - camera->cy_px) / camera->fy_px;
+    made.slopes[3] = (1.15 * height - camera->cy_px) / camera->fy_px;
+    return made;
+}
 
 /// Real spherical harmonics along a unit direction, in the order and with the signs of 3DGS.
 static void harmonics_of(ewa_vec3 d, double y[25]) {
@@ -86,7 +148,7 @@ static void harmonics_of(ewa_vec3 d, double y[25]) {
 static ewa_vec3 load(const float v[3]) { return vec3_make((double)v[0], (double)v[1], (double)v[2]); }
 
 static void set_color(const reference *work, const float *center, splat *made) {
-    const ewa_gaussian_camera *camera = &work->camera;
+    const view *camera = &work->camera;
     ewa_vec3 direction = camera->orthographic ? camera->forward : vec3_sub(load(center), camera->eye);
     vec3_normalize(&direction);
     double y[25];
@@ -114,7 +176,7 @@ static void axes_of(const reference *work, uint32_t number, ewa_vec3 axes[3], do
     const ewa_mat3 turn = mat3_transpose(&work->camera.turn);
     for (int i = 0; i < 3; i++) {
         axes[i] = vec3_mul_mat3(world[i], &turn);
-        scales[i] = fmax((double)s[i], EWA_SPLAT_LEAST_ASPECT * longest);
+        scales[i] = fmax((double)s[i], LEAST_ASPECT * longest);
     }
 }
 
@@ -133,7 +195,7 @@ static ewa_mat3 gram(const ewa_vec3 v[3], const double weights[3]) {
 /// V in pixels and the ellipse's centre (docs/math.md section 3, sheared); `cutoff2` 0: the affine map.
 static void project(const reference *work, const ewa_mat3 *s, ewa_vec3 p, double cutoff2, double v[3],
                     double center_px[2]) {
-    const ewa_gaussian_camera *c = &work->camera;
+    const view *c = &work->camera;
     double shift[2] = {0, 0}, x = p.x, y = p.y;
     if (c->orthographic) {
         v[0] = s->m[0][0], v[1] = s->m[0][1], v[2] = s->m[1][1];
@@ -168,7 +230,7 @@ static void set_ellipse(const reference *work, const ewa_mat3 *covariance, splat
     const double filtered = fmax(area + h2 * (v[0] + v[2] + h2), 1e-24);
     made->conic[0] = w[2] / filtered, made->conic[1] = -w[1] / filtered, made->conic[2] = w[0] / filtered;
     made->reach_px[0] = sqrt(made->cutoff2 * w[0]), made->reach_px[1] = sqrt(made->cutoff2 * w[2]);
-    if (work->camera.keep) made->alpha *= sqrt(fmax(area / filtered, EWA_GAUSSIAN_LEAST_KEPT));
+    if (work->camera.keep) made->alpha *= sqrt(fmax(area / filtered, LEAST_KEPT));
     if (work->camera.trained) { // V V'^-1: the mean place of what the filter gathers there
         made->unfilter[0][0] = 1 - h2 * w[2] / filtered, made->unfilter[0][1] = h2 * w[1] / filtered;
         made->unfilter[1][0] = made->unfilter[0][1], made->unfilter[1][1] = 1 - h2 * w[0] / filtered;
@@ -182,7 +244,7 @@ static void set_ellipse(const reference *work, const ewa_mat3 *covariance, splat
 }
 
 static bool make_splat(const reference *work, uint32_t number, splat *made) {
-    const ewa_gaussian_camera *camera = &work->camera;
+    const view *camera = &work->camera;
     const float *center = work->set->centers + 3 * (size_t)number;
     const double opacity = fmin((double)work->set->opacities[number], 1);
     *made = (splat){.number = number, .alpha = opacity};
@@ -199,7 +261,7 @@ static bool make_splat(const reference *work, uint32_t number, splat *made) {
     made->inverse = gram(axes, inverses);
     made->depth_reach = sqrt(made->cutoff2 * covariance.m[2][2]);
     if (!(made->place.z + (camera->trained ? 0 : made->depth_reach) > camera->near)) return false;
-    made->near = !camera->trained && made->place.z <= EWA_GAUSSIAN_NEAR * made->depth_reach;
+    made->near = !camera->trained && made->place.z <= NEAR_REACHES * made->depth_reach;
     if (made->near)
         made->reach_px[0] = made->reach_px[1] = INFINITY;
     else
@@ -218,7 +280,7 @@ typedef struct passage {
 
 /// The ray through a place on the screen.
 static passage pass(const reference *work, const splat *at, double x_px, double y_px) {
-    const ewa_gaussian_camera *c = &work->camera;
+    const view *c = &work->camera;
     const double x = (x_px - c->cx_px) / c->fx_px, y = (y_px - c->cy_px) / c->fy_px;
     const ewa_vec3 ray = c->orthographic ? vec3_make(0, 0, 1) : vec3_make(x, y, 1);
     // From the Gaussian to the ray, at its own depth.
@@ -232,8 +294,8 @@ static passage pass(const reference *work, const splat *at, double x_px, double 
 
 /// The share of a Gaussian of a standard deviation around z that lies between two camera-space depths.
 static double share_between(const reference *work, double z, double deviation, double enter, double leave) {
-    const double unit = work->camera.unit_camera, root = deviation * sqrt(2);
-    return fmax(0.5 * erfc((z - leave / unit) / root) - 0.5 * erfc((z - enter / unit) / root), 0);
+    const double scale = work->camera.scale, root = deviation * sqrt(2);
+    return fmax(0.5 * erfc((z - leave / scale) / root) - 0.5 * erfc((z - enter / scale) / root), 0);
 }
 
 /// Alpha and depth of a Gaussian at a pixel's centre; false outside of it.
@@ -248,10 +310,11 @@ static bool meet(const reference *work, const splat *at, uint32_t x, uint32_t y,
     if (m2 >= at->cutoff2 || (!work->camera.trained && by.z <= 0)) return false;
     double alpha = at->alpha * exp(-m2 / 2);
     if (work->camera.keep && alpha < work->options.least_alpha) return false;
-    alpha = fmin(alpha, EWA_GAUSSIAN_MOST_ALPHA);
+    alpha = fmin(alpha, MOST_ALPHA);
     const double z = fmin(fmax(by.z, at->place.z - at->depth_reach), at->place.z + at->depth_reach);
     double enter, leave, surface = INFINITY;
-    ewa_ray_sections_range(&work->sections, x_px, y_px, &enter, &leave);
+    ewa_reference_cut_ray(&work->given, (const double(*)[4])work->options.section_planes,
+                          work->options.section_count, x_px, y_px, &enter, &leave);
     if (work->options.surface_depth)
         surface = (double)work->options.surface_depth[(size_t)y * work->width_px + x];
     const double all = share_between(work, z, by.deviation, enter, leave);
@@ -294,30 +357,57 @@ static double display_of_linear(double x) {
 }
 static double linear_of_display(double x) { return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4); }
 
-/// What a pixel, or a part of one, shows: premultiplied linear colour, how much the Gaussians take of the light, and
-/// where half of it is gone.
+/// What a pixel, or a part of one, shows: premultiplied linear colour, and how much the Gaussians take of the light.
 typedef struct shown {
-    double color[4], coverage, depth;
+    double color[4], opacity;
 } shown;
 
 /// Composites a pixel's list over a straight linear colour; `ahead`: what lies in front of the surface.
 static shown composite(const reference *work, const hit *hits, size_t count, bool ahead,
                        const double back[4]) {
     double color[3] = {0}, through = 1;
-    shown made = {.depth = INFINITY};
     for (size_t i = 0; i < count; i++) {
         const double weight = through * (ahead ? hits[i].ahead : hits[i].alpha);
         for (int c = 0; c < 3; c++) color[c] += weight * work->splats[hits[i].splat].color[c];
-        if (through > 0.5 && through - weight <= 0.5) made.depth = hits[i].z * work->camera.unit_camera;
         through -= weight;
     }
-    made.coverage = 1 - through;
+    shown made = {.opacity = 1 - through};
     made.color[3] = 1 - through + through * back[3];
     for (int c = 0; c < 3 && made.color[3] > 0; c++) {
         const double behind = display_of_linear(back[c]) * back[3];
         made.color[c] = linear_of_display((color[c] + through * behind) / made.color[3]) * made.color[3];
     }
     return made;
+}
+
+/// The depth at which half of the light is gone, in camera space: a Gaussian's in front of the surface, a Gaussian's
+/// behind it, of the light that it leaves, else the surface's own.
+static double find_depth(const reference *work, const hit *hits, size_t count, double own, double cover) {
+    double ahead = 1, all = 1, before = INFINITY, behind = INFINITY;
+    for (size_t i = 0; i < count; i++) {
+        const double z = hits[i].z * work->camera.scale;
+        const double ahead_rest = ahead * (1 - hits[i].ahead), rest = all * (1 - hits[i].alpha);
+        if (ahead > 0.5 && ahead_rest <= 0.5) before = z;
+        if ((1 - cover) * all > 0.5 && (1 - cover) * rest <= 0.5) behind = z;
+        ahead = ahead_rest, all = rest;
+    }
+    if (before < own) return before;
+    return own < behind && behind < INFINITY ? behind : own;
+}
+
+static void write_geometry(const reference *work, size_t index, const hit *hits, size_t count,
+                           double opacity) {
+    const ewa_gaussian_options *o = &work->options;
+    const ewa_frame *frame = &work->frame;
+    const double own = o->surface_depth ? (double)o->surface_depth[index] : INFINITY;
+    const double cover = o->surface_rgba ? (double)o->surface_rgba[4 * index + 3] : 0;
+    const double covered = o->surface_coverage ? (double)o->surface_coverage[index] : cover;
+    const double depth = find_depth(work, hits, count, own, cover);
+    if (frame->depth) frame->depth[index] = (float)depth;
+    if (frame->coverage) frame->coverage[index] = (float)(covered + opacity * fmax(0, 1 - covered));
+    for (size_t c = 0; c < 3 && frame->normal; c++)
+        frame->normal[3 * index + c] =
+            o->surface_normal && depth == own ? o->surface_normal[3 * index + c] : 0;
 }
 
 static void write_pixel(const reference *work, size_t index, const hit *hits, size_t count) {
@@ -334,13 +424,11 @@ static void write_pixel(const reference *work, size_t index, const hit *hits, si
                                cover > 0 ? (double)surface[2] / cover : 0, 1};
         const shown covered = composite(work, hits, count, true, own);
         for (int c = 0; c < 4; c++) out.color[c] += cover * (covered.color[c] - out.color[c]);
-        out.coverage += cover * (covered.coverage - out.coverage);
-        if (cover >= 0.5) out.depth = covered.depth;
+        out.opacity += cover * (covered.opacity - out.opacity);
     }
     const ewa_frame *frame = &work->frame;
     const double alpha = out.color[3];
-    if (frame->depth) frame->depth[index] = (float)out.depth;
-    if (frame->coverage) frame->coverage[index] = (float)out.coverage;
+    write_geometry(work, index, hits, count, out.opacity);
     for (size_t c = 0; c < 4 && frame->rgba; c++) frame->rgba[4 * index + c] = (float)out.color[c];
     for (size_t c = 0; c < 3 && frame->rgba8; c++)
         frame->rgba8[4 * index + c] = alpha > 0 ? ewa_srgb8_from_linear((float)(out.color[c] / alpha)) : 0;
@@ -377,15 +465,16 @@ ewa_status ewa_gaussian_render_reference(const ewa_gaussians *gaussians, const e
                                          const ewa_frame *frame) {
     if (!gaussians || !gaussians->context || !camera || !frame) return EWA_ERROR_ARGUMENT;
     ewa_context *context = gaussians->context;
-    reference work = {.set = gaussians, .order = order, .frame = *frame};
-    ewa_status status = ewa_gaussian_options_choose(context, options, &work.options);
+    reference work = {.set = gaussians, .order = order, .frame = *frame, .given = *camera};
+    ewa_gaussian_options_init(&work.options, sizeof work.options);
+    ewa_status status = ewa_options_take(context, &ewa_gaussian_options_table, options, &work.options);
+    if (status == EWA_OK) status = ewa_option_check_background(context, work.options.background);
+    if (status == EWA_OK)
+        status = ewa_option_check_sections(context, (const double(*)[4])work.options.section_planes,
+                                           work.options.section_count);
     if (status == EWA_OK) status = ewa_camera_check(context, camera);
-    if (status == EWA_OK) status = ewa_gaussian_frame_check(context, frame);
     if (status != EWA_OK) return status;
     work.width_px = camera->width_px, work.height_px = camera->height_px;
-    ewa_ray_sections_make(&work.sections, camera, (const double(*)[4])work.options.section_planes,
-                          work.options.section_count);
-    ewa_gaussian_camera_make(&work.camera, camera, &work.options, gaussians->antialiased, 1,
-                             gaussians->origin);
+    work.camera = make_view(camera, &work.options, gaussians);
     return render(&work);
 }

@@ -7,22 +7,46 @@
 //
 // Based on: X. Yuan, M. Nguyen, H. Xu, B. Chen, "Hybrid Forward Resampling and Volume Rendering", 2003,
 // section 4; L. Westover, "Footprint Evaluation for Volume Rendering", 1990 (splats composited one by one).
+//
+// Nothing of src/volume is used here, which this judges: the grid's view, depth units, classification and section
+// planes are its own.
 #include "reference/volume.h"
 #include "base/base.h"
+#include "base/options.h"
+#include "image/material.h"
 #include "image/srgb.h"
+#include "image/transfer.h"
 #include "math/ellipse.h"
+#include "reference/classify.h"
+#include "reference/section.h"
 #include "reference/shade.h"
-#include "volume/classify.h"
-#include "volume/footprint.h"
-#include "volume/geometry.h"
-#include "volume/options.h"
-#include "volume/section.h"
-#include "volume/view.h"
+#include "surface/options.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 enum { BANDS_PER_WORKER = 4 }; ///< pieces of the picture, so that uneven ones level out
+
+static const double PI = 3.14159265358979323846;
+
+/// Beyond so many units a voxel is not drawn.
+static const double FARTHEST = 1e17;
+
+/// The grid before the camera, in units of its shortest spacing.
+typedef struct view {
+    bool orthographic;
+    double fx_px, fy_px, cx_px, cy_px; ///< orthographic: pixels per unit
+    double unit_camera;                ///< a unit in camera space
+    ewa_mat3 axes;                     ///< rows: steps along i, j, k in camera space
+    ewa_vec3 origin;                   ///< voxel 0, 0, 0 in camera space
+    ewa_mat3 covariance, inverse;      ///< Sigma of every voxel, and Sigma^-1
+    double depth_sigma;                ///< sqrt(Sigma33)
+    double bend;                       ///< orthographic: by how much the order falls off the axis, 1 / length
+    double near;                       ///< perspective: how far a kernel reaches along the axis
+    double cutoff, cutoff2, prefilter2_px2;
+    double splat_peak; ///< G: optical depth through a voxel's middle per extinction and standard deviation
+    double depth_unit, first_far_unit;
+} view;
 
 /// A voxel on the screen.
 typedef struct splat {
@@ -30,7 +54,7 @@ typedef struct splat {
     ewa_vec3 place;  ///< camera space
     double unit;     ///< number of its depth unit
     bool near;       ///< at the eye: its kernel may reach behind it, where it is no ellipse on the screen
-    double distance; ///< of ewa_grid_distance()
+    double distance; ///< by which splats of a depth unit are sorted
     ewa_vec3 color;  ///< shaded
     double extinction;
     double center_px[2];
@@ -47,21 +71,73 @@ typedef struct pixel {
 typedef struct reference {
     ewa_volume_options options;
     ewa_camera camera;
-    ewa_grid_view grid;
-    ewa_classifier classifier;
+    const ewa_volume *volume;
+    const ewa_transfer *transfer;
+    view grid;
     ewa_shading_setup shading;
-    double depth_unit, first_far_unit;
     splat *splats;
     uint64_t splat_count;
     pixel *pixels;
     uint32_t band_count;
     ewa_frame frame;
-    ewa_ray_sections sections;
 } reference;
 
-static ewa_vec3 shade(const reference *work, const ewa_voxel *voxel, ewa_vec3 place) {
+/// The number of the depth unit that holds a depth; voxel 0, 0, 0 is in the middle of unit 0.
+static double unit_of(const view *grid, double z) {
+    return floor((z - grid->origin.z) / grid->depth_unit + 0.5);
+}
+
+static view make_view(const ewa_volume *volume, const ewa_camera *camera, const ewa_volume_options *options) {
+    const double *m = camera->world_to_camera, *g = volume->index_to_world;
+    const double spacing = ewa_reference_spacing(volume), sigma = options->sigma;
+    double squares = 0;
+    for (int i = 0; i < 11; i++) squares += i % 4 < 3 ? m[i] * m[i] : 0;
+    const double scale = sqrt(squares / 3);
+    view v = {.orthographic = camera->projection == EWA_ORTHOGRAPHIC,
+              .fx_px = camera->fx_px,
+              .fy_px = camera->fy_px,
+              .cx_px = camera->cx_px,
+              .cy_px = camera->cy_px,
+              .unit_camera = spacing * scale,
+              .cutoff = options->cutoff,
+              .cutoff2 = options->cutoff * options->cutoff,
+              .prefilter2_px2 = options->prefilter_px * options->prefilter_px};
+    if (v.orthographic) v.fx_px *= v.unit_camera, v.fy_px *= v.unit_camera;
+    double origin[3], shortest = INFINITY;
+    for (int row = 0; row < 3; row++) {
+        // Lengths over the spacing first: products might leave the range of doubles. The camera's scale last: voxels
+        // that are equally far away stay so.
+        const double *r = m + 4 * row;
+        for (int axis = 0; axis < 3; axis++)
+            v.axes.m[axis][row] =
+                (r[0] * (g[axis] / spacing) + r[1] * (g[4 + axis] / spacing) + r[2] * (g[8 + axis] / spacing)) *
+                (1 / scale);
+        origin[row] = (r[0] * (g[3] / spacing) + r[1] * (g[7] / spacing) + r[2] * (g[11] / spacing) +
+                       r[3] / spacing) *
+                      (1 / scale);
+    }
+    v.origin = vec3_load(origin);
+    for (int axis = 0; axis < 3; axis++) shortest = fmin(shortest, vec3_length(mat3_row(&v.axes, axis)));
+    // Sigma = sigma^2 A A', the axes being columns.
+    const ewa_mat3 columns = mat3_transpose(&v.axes), product = mat3_multiply(&columns, &v.axes);
+    v.covariance = mat3_scale(&product, sigma * sigma);
+    const ewa_mat3 adjugate = mat3_adjugate(&v.covariance);
+    v.inverse = mat3_scale(&adjugate, 1 / mat3_determinant(&v.covariance));
+    v.depth_sigma = sqrt(v.covariance.m[2][2]);
+    v.near = v.orthographic ? 0 : v.cutoff * v.depth_sigma;
+    v.bend = v.orthographic ? tan(20 * PI / 180) * v.fy_px / camera->height_px : 0;
+    // The root of Sigma's determinant is sigma^3 times a voxel's size.
+    v.splat_peak = 1 / (2 * PI * sigma * sigma * sigma * (1 - exp(-v.cutoff2 / 2)));
+    v.depth_unit = shortest * options->depth_unit;
+    // Units in front of it: rays that meet a kernel's rim may do so less than three standard deviations ahead.
+    v.first_far_unit =
+        v.orthographic ? -INFINITY : unit_of(&v, v.depth_sigma * sqrt(v.cutoff2 + 9)) + 1;
+    return v;
+}
+
+static ewa_vec3 shade(const reference *work, const ewa_reference_voxel *voxel, ewa_vec3 place) {
     const ewa_material *m = &work->shading.materials[0];
-    const ewa_vec3 color = vec3_load(voxel->color);
+    const ewa_vec3 color = voxel->color;
     if (!work->shading.lit) return color;
     if (vec3_length(voxel->normal_world) == 0)
         return vec3_scale(color, (double)m->ambient + (double)m->diffuse);
@@ -85,7 +161,7 @@ static ewa_vec3 shade(const reference *work, const ewa_voxel *voxel, ewa_vec3 pl
 }
 
 /// V in pixels and the ellipse's centre (docs/math.md section 3, sheared).
-static void project(const ewa_grid_view *grid, ewa_vec3 p, double v[3], double center_px[2]) {
+static void project(const view *grid, ewa_vec3 p, double v[3], double center_px[2]) {
     const ewa_mat3 *s = &grid->covariance;
     const double fx = grid->fx_px, fy = grid->fy_px;
     if (grid->orthographic) {
@@ -111,14 +187,15 @@ static void cholesky(const double v[3], double l[3]) {
     l[2] = sqrt(v[2] - l[1] * l[1]);
 }
 
-static bool make_splat(const reference *work, const ewa_voxel *voxel, ewa_vec3 place, splat *made) {
-    const ewa_grid_view *grid = &work->grid;
+static bool make_splat(const reference *work, const ewa_reference_voxel *voxel, ewa_vec3 place, splat *made) {
+    const view *grid = &work->grid;
     // Perspective: nothing of the kernel is ahead of the eye.
-    if ((!grid->orthographic && !(place.z > -grid->near)) || !(place.z < EWA_FARTHEST)) return false;
+    if ((!grid->orthographic && !(place.z > -grid->near)) || !(place.z < FARTHEST)) return false;
     made->place = place;
-    made->unit = ewa_volume_unit_of(grid, work->depth_unit, place.z);
-    made->near = made->unit < work->first_far_unit;
-    made->distance = ewa_grid_distance(grid, place);
+    made->unit = unit_of(grid, place.z);
+    made->near = made->unit < grid->first_far_unit;
+    made->distance = grid->orthographic ? place.z + grid->bend * (place.x * place.x + place.y * place.y)
+                                        : vec3_length(place);
     made->color = shade(work, voxel, place);
     made->extinction = voxel->extinction * work->options.density_scale;
     if (made->near) {
@@ -153,7 +230,7 @@ typedef struct passage {
 } passage;
 
 /// The ray through a place on the screen.
-static passage pass(const ewa_grid_view *grid, ewa_vec3 p, double x_px, double y_px) {
+static passage pass(const view *grid, ewa_vec3 p, double x_px, double y_px) {
     ewa_vec3 ray = vec3_make(0, 0, 1), from;
     if (grid->orthographic) {
         from =
@@ -174,7 +251,7 @@ static double share_below(double t) { return 0.5 * erfc(-t / sqrt(2)); }
 
 /// The optical depth of a voxel at the eye: what of its kernel lies ahead.
 static double optical_depth_near(const reference *work, const splat *at, double x_px, double y_px) {
-    const ewa_grid_view *grid = &work->grid;
+    const view *grid = &work->grid;
     const passage by = pass(grid, at->place, x_px, y_px);
     if (by.distance2 >= grid->cutoff2 || by.ahead <= -grid->cutoff) return 0;
     return at->extinction * grid->splat_peak * by.length * exp(-by.distance2 / 2) * share_below(by.ahead);
@@ -182,7 +259,7 @@ static double optical_depth_near(const reference *work, const splat *at, double 
 
 /// The optical depth of a voxel at a pixel's centre; 0 outside of its ellipse.
 static double optical_depth(const reference *work, const splat *at, double x_px, double y_px) {
-    const ewa_grid_view *grid = &work->grid;
+    const view *grid = &work->grid;
     if (at->near) return optical_depth_near(work, at, x_px, y_px);
     const double dx = x_px - at->center_px[0], dy = y_px - at->center_px[1];
     const double i2 = at->conic[0] * dx * dx + 2 * at->conic[1] * dx * dy + at->conic[2] * dy * dy;
@@ -195,7 +272,7 @@ static double optical_depth(const reference *work, const splat *at, double x_px,
     } else if (work->options.index == EWA_INDEX_TABLE) {
         const double c = vec3_dot(at->place, mat3_mul_vec3(&grid->inverse, at->place));
         by.length = vec3_length(at->place) / sqrt(c);
-        by.distance2 = grid->cutoff2 * ewa_footprint_index2(i2, grid->cutoff2 / c);
+        by.distance2 = grid->cutoff2 * i2 / (1 - (1 - i2) * grid->cutoff2 / c);
     }
     // All of the kernel is ahead, but for next to nothing.
     return at->extinction * grid->splat_peak * by.length * at->attenuation * exp(-by.distance2 / 2);
@@ -203,13 +280,14 @@ static double optical_depth(const reference *work, const splat *at, double x_px,
 
 /// The share of a voxel that lies in front of the surface, and within the section planes.
 static double share_in_front(const reference *work, size_t index, double z) {
-    if (!work->options.surface_depth && !work->sections.count) return 1;
+    const ewa_volume_options *o = &work->options;
+    if (!o->surface_depth && !o->section_count) return 1;
     const double unit = work->grid.unit_camera, root = work->grid.depth_sigma * sqrt(2);
     const uint32_t width = work->camera.width_px;
     double enter, leave;
-    ewa_ray_sections_range(&work->sections, (double)(index % width) + 0.5, (double)(index / width) + 0.5,
-                           &enter, &leave);
-    if (work->options.surface_depth) leave = fmin(leave, (double)work->options.surface_depth[index]);
+    ewa_reference_cut_ray(&work->camera, (const double(*)[4])o->section_planes, o->section_count,
+                          (double)(index % width) + 0.5, (double)(index / width) + 0.5, &enter, &leave);
+    if (o->surface_depth) leave = fmin(leave, (double)o->surface_depth[index]);
     return fmax(0.5 * erfc((z - leave / unit) / root) - 0.5 * erfc((z - enter / unit) / root), 0);
 }
 
@@ -235,6 +313,25 @@ static void composite(const reference *work, const splat *at, uint32_t y_begin, 
         }
 }
 
+/// Depth, normal and coverage of voxels and surface together: the voxels' depth where they take half of the light in
+/// front of the surface, else the surface's.
+static void write_geometry(const reference *work, size_t index) {
+    const pixel *at = &work->pixels[index];
+    const ewa_volume_options *o = &work->options;
+    const ewa_frame *frame = &work->frame;
+    const double own = o->surface_depth ? (double)o->surface_depth[index] : INFINITY;
+    const double voxels = isinf(at->depth) ? INFINITY : at->depth * work->grid.unit_camera;
+    const double covered = o->surface_coverage ? (double)o->surface_coverage[index]
+                           : o->surface_rgba   ? (double)o->surface_rgba[4 * index + 3]
+                                               : 0;
+    if (frame->depth) frame->depth[index] = (float)fmin(voxels, own);
+    if (frame->coverage)
+        frame->coverage[index] = (float)(covered + (1 - at->through) * fmax(0, 1 - covered));
+    for (size_t c = 0; c < 3 && frame->normal; c++)
+        frame->normal[3 * index + c] =
+            o->surface_normal && own <= voxels ? o->surface_normal[3 * index + c] : 0;
+}
+
 static void write_pixel(const reference *work, size_t index) {
     const pixel *at = &work->pixels[index];
     const ewa_frame *frame = &work->frame;
@@ -246,9 +343,7 @@ static void write_pixel(const reference *work, size_t index) {
                                       : (double)background[3];
         out[c] = (c < 3 ? at->color[c] : 1 - at->through) + at->through * behind;
     }
-    if (frame->depth)
-        frame->depth[index] = isinf(at->depth) ? INFINITY : (float)(at->depth * work->grid.unit_camera);
-    if (frame->coverage) frame->coverage[index] = (float)(1 - at->through);
+    write_geometry(work, index);
     for (size_t c = 0; c < 4 && frame->rgba; c++) frame->rgba[4 * index + c] = (float)out[c];
     for (size_t c = 0; c < 3 && frame->rgba8; c++)
         frame->rgba8[4 * index + c] = out[3] > 0 ? ewa_srgb8_from_linear((float)(out[c] / out[3])) : 0;
@@ -282,15 +377,17 @@ static int by_depth(const void *a, const void *b) {
 
 /// Counts the splats, or makes them when there is room.
 static uint64_t gather(const reference *work, splat *splats) {
-    const uint32_t *dims = work->classifier.volume->dims;
+    const uint32_t *dims = work->volume->dims;
+    const view *grid = &work->grid;
     uint64_t count = 0, number = 0;
     for (uint32_t k = 0; k < dims[2]; k++)
         for (uint32_t j = 0; j < dims[1]; j++)
             for (uint32_t i = 0; i < dims[0]; i++, number++) {
-                ewa_voxel voxel;
+                ewa_reference_voxel voxel;
                 splat made = {.number = number};
-                if (!ewa_classify(&work->classifier, i, j, k, splats != NULL, &voxel)) continue;
-                if (!make_splat(work, &voxel, ewa_grid_place(&work->grid, i, j, k), &made)) continue;
+                if (!ewa_reference_classify(work->volume, work->transfer, i, j, k, &voxel)) continue;
+                const ewa_vec3 steps = vec3_mul_mat3(vec3_make(i, j, k), &grid->axes);
+                if (!make_splat(work, &voxel, vec3_add(grid->origin, steps), &made)) continue;
                 if (splats) splats[count] = made;
                 count++;
             }
@@ -321,23 +418,52 @@ static ewa_status render(ewa_context *context, reference *work) {
     return status;
 }
 
+/// Lights and the one material, as ewa_render() takes them.
+static ewa_shading_setup make_shading(const ewa_volume_options *options) {
+    ewa_render_options render;
+    ewa_shading_setup made;
+    ewa_render_options_init(&render, sizeof render);
+    render.shading = options->shading;
+    memcpy(render.lights, options->lights, sizeof render.lights);
+    render.light_count = options->light_count;
+    render.materials = &options->material;
+    render.material_count = 1;
+    ewa_shading_setup_make(&render, &made);
+    made.materials[0] = options->material; // also without highlights
+    return made;
+}
+
+static ewa_status choose_options(ewa_context *context, const ewa_volume_options *given,
+                                 ewa_volume_options *chosen) {
+    ewa_volume_options_init(chosen, sizeof *chosen);
+    ewa_status status = ewa_options_take(context, &ewa_volume_options_table, given, chosen);
+    if (status == EWA_OK) status = ewa_option_check_lights(context, chosen->lights, chosen->light_count);
+    if (status == EWA_OK) status = ewa_material_check(context, "options", 0, &chosen->material);
+    if (status == EWA_OK) status = ewa_option_check_background(context, chosen->background);
+    if (status == EWA_OK)
+        status = ewa_option_check_sections(context, (const double(*)[4])chosen->section_planes,
+                                           chosen->section_count);
+    const bool first = chosen->surface_depth, second = chosen->surface_rgba;
+    const bool more = chosen->surface_normal || chosen->surface_coverage;
+    if (status == EWA_OK && (first != second || (more && !first)))
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "reference: planes of a surface that lack others");
+    return status;
+}
+
 ewa_status ewa_volume_render_reference(const ewa_volume *volume, const ewa_transfer *transfer,
                                        const ewa_camera *camera, const ewa_volume_options *options,
                                        const ewa_frame *frame) {
-    if (!volume || !volume->context || !transfer || !camera || !frame) return EWA_ERROR_ARGUMENT;
+    if (!volume || !volume->context || !volume->voxels || !transfer || !camera || !frame)
+        return EWA_ERROR_ARGUMENT;
     ewa_context *context = volume->context;
-    reference work = {.camera = *camera, .frame = *frame};
-    ewa_status status = ewa_volume_options_choose(context, options, &work.options);
+    reference work = {.camera = *camera, .frame = *frame, .volume = volume, .transfer = transfer};
+    ewa_status status = choose_options(context, options, &work.options);
     if (status == EWA_OK) status = ewa_camera_check(context, camera);
-    if (status == EWA_OK) status = ewa_volume_frame_check(context, frame);
-    if (status == EWA_OK) status = ewa_classifier_make(context, volume, transfer, &work.classifier);
+    if (status == EWA_OK) status = ewa_transfer_check(context, "transfer function", transfer);
+    if (status == EWA_OK && ewa_reference_spacing(volume) == 0)
+        status = ewa_fail(context, EWA_ERROR_ARGUMENT, "reference: index_to_world is not invertible");
     if (status != EWA_OK) return status;
-    ewa_grid_view_make(&work.grid, volume->index_to_world, work.classifier.spacing_world, camera,
-                       &work.options);
-    ewa_ray_sections_make(&work.sections, camera, (const double(*)[4])work.options.section_planes,
-                          work.options.section_count);
-    ewa_volume_shading_make(&work.options, &work.shading);
-    work.depth_unit = ewa_volume_depth_unit(&work.grid, &work.options);
-    work.first_far_unit = ewa_volume_first_far_unit(&work.grid, work.depth_unit);
+    work.grid = make_view(volume, camera, &work.options);
+    work.shading = make_shading(&work.options);
     return render(context, &work);
 }

@@ -7,29 +7,23 @@
 
 #include <string.h>
 
-ewa_status ewa_dome_pass_start(ewa_context *context, ewa_dome_pass *pass, const ewa_camera *camera,
-                               const ewa_frame *frame, ewa_render_options *options, ewa_frame *drawn) {
+/// Sets the pass up from `drawn`'s depth and rgba, which is over nothing, to the colours of `frame`; takes room for
+/// keys.
+static ewa_status set_dome(ewa_context *context, ewa_dome_pass *pass, const ewa_camera *camera, double strength,
+                           const float background[4], const ewa_frame *drawn, const ewa_frame *frame) {
     static const double LOG2_E = 1.44269504088896341;
-    const size_t width = camera->width_px, height = camera->height_px, pixel_count = width * height;
+    const size_t width = camera->width_px, height = camera->height_px;
     const size_t key_stride =
         (width + 2 * EWA_DOME_REACH + 2 * (EWA_BLOCK_LANES - 1)) / EWA_BLOCK_LANES * EWA_BLOCK_LANES;
-    ewa_status status =
+    const ewa_status status =
         ewa_buffer_reserve(context, &pass->keys, (height + 2 * EWA_DOME_REACH) * key_stride, sizeof(float));
-    if (status == EWA_OK && !frame->depth)
-        status = ewa_buffer_reserve(context, &pass->depth, pixel_count, sizeof(float));
-    if (status == EWA_OK && !frame->rgba)
-        status = ewa_buffer_reserve(context, &pass->surfaces, 4 * pixel_count, sizeof(float));
     if (status != EWA_OK) return status;
-    *drawn = *frame;
-    drawn->rgba8 = NULL;
-    if (!drawn->depth) drawn->depth = pass->depth.data;
-    if (!drawn->rgba) drawn->rgba = pass->surfaces.data;
     pass->dome = (ewa_eye_dome){
         .width_px = camera->width_px,
         .height_px = camera->height_px,
         .orthographic = camera->projection == EWA_ORTHOGRAPHIC,
         .inverse_height = (float)(camera->fy_px / camera->height_px),
-        .exponent = (float)(-LOG2_E * EWA_DOME_GAIN * options->eye_dome / EWA_DOME_PAIRS),
+        .exponent = (float)(-LOG2_E * EWA_DOME_GAIN * strength / EWA_DOME_PAIRS),
         .depth = drawn->depth,
         .surfaces = drawn->rgba,
         .keys = pass->keys.data,
@@ -37,12 +31,25 @@ ewa_status ewa_dome_pass_start(ewa_context *context, ewa_dome_pass *pass, const 
         .rgba8 = frame->rgba8,
         .rgba = frame->rgba,
     };
-    for (int c = 0; c < 4; c++) {
-        const float alpha = options->background[3];
-        pass->dome.background[c] = c < 3 ? options->background[c] * alpha : alpha;
-    }
-    memset(options->background, 0, sizeof options->background);
+    for (int c = 0; c < 4; c++) pass->dome.background[c] = c < 3 ? background[c] * background[3] : background[3];
     return EWA_OK;
+}
+
+ewa_status ewa_dome_pass_start(ewa_context *context, ewa_dome_pass *pass, const ewa_camera *camera,
+                               const ewa_frame *frame, ewa_render_options *options, ewa_frame *drawn) {
+    const size_t pixel_count = (size_t)camera->width_px * camera->height_px;
+    ewa_status status = EWA_OK;
+    if (!frame->depth) status = ewa_buffer_reserve(context, &pass->depth, pixel_count, sizeof(float));
+    if (status == EWA_OK && !frame->rgba)
+        status = ewa_buffer_reserve(context, &pass->surfaces, 4 * pixel_count, sizeof(float));
+    if (status != EWA_OK) return status;
+    *drawn = *frame;
+    drawn->rgba8 = NULL;
+    if (!drawn->depth) drawn->depth = pass->depth.data;
+    if (!drawn->rgba) drawn->rgba = pass->surfaces.data;
+    status = set_dome(context, pass, camera, options->eye_dome, options->background, drawn, frame);
+    memset(options->background, 0, sizeof options->background);
+    return status;
 }
 
 static void fill_keys(void *data, uint32_t row, uint32_t worker) {
@@ -66,4 +73,13 @@ void ewa_dome_pass_free(ewa_context *context, ewa_dome_pass *pass) {
     ewa_buffer_free(context, &pass->keys);
     ewa_buffer_free(context, &pass->depth);
     ewa_buffer_free(context, &pass->surfaces);
+}
+
+ewa_status ewa_eye_dome_apply(ewa_context *context, const ewa_camera *camera, double strength,
+                              const float background[4], const ewa_frame *frame) {
+    ewa_dome_pass pass = {.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_road_kernels)};
+    const ewa_status status = set_dome(context, &pass, camera, strength, background, frame, frame);
+    if (status == EWA_OK) ewa_dome_pass_finish(context, &pass);
+    ewa_dome_pass_free(context, &pass);
+    return status;
 }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Eye-dome lighting as a pass over the finished picture: where it comes from, and its memory.
+// Eye-dome lighting as a pass over the finished picture: where it comes from, and its memory. Part of a frame of
+// surfels, or by itself over a picture of other things.
 #ifndef EWA_SRC_SURFACE_EYE_DOME_H
 #define EWA_SRC_SURFACE_EYE_DOME_H
 
@@ -25,5 +26,12 @@ ewa_status ewa_dome_pass_start(ewa_context *context, ewa_dome_pass *pass, const 
 void ewa_dome_pass_finish(ewa_context *context, ewa_dome_pass *pass);
 
 void ewa_dome_pass_free(ewa_context *context, ewa_dome_pass *pass);
+
+/// The whole pass over a picture of anything that has depths: a frame's depth and rgba, which is over nothing.
+/// `strength` is as ewa_render_options.eye_dome, above 0; `background` is straight. Writes rgba and, unless NULL, rgba8
+/// of the frame, over the background: of a picture by ewa_render() the bytes that it gives with that lighting.
+/// Errors: EWA_ERROR_MEMORY.
+ewa_status ewa_eye_dome_apply(ewa_context *context, const ewa_camera *camera, double strength,
+                              const float background[4], const ewa_frame *frame);
 
 #endif

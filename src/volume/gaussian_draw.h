@@ -228,14 +228,14 @@ static uint32_t gather_row(ewa_gaussian_tile *tile, uint32_t row) {
 /// Where the rays of a block's pixels end, in units of the splats, at the surfaces unless everything counts or where
 /// section planes leave nothing, and where these begin; +infinity outside of the picture.
 static ALWAYS_INLINE void set_bounds(const ewa_gaussian_view *view, const ewa_gaussian_tile *tile,
-                                     uint32_t width_px, const block_place *at, bool everything,
+                                     const ewa_volume_target *to, const block_place *at, bool everything,
                                      block_state *block) {
     for (uint32_t i = 0; i < 16; i++) {
         const uint32_t x = i % 4, y = i / 4;
         const bool inside = x < at->width && y < at->height;
         double end = __builtin_inf();
         if (inside && view->with_surface && !everything)
-            end = (double)tile->surface_depth[(size_t)(at->y + y) * width_px + at->x + x] / view->unit_camera;
+            end = (double)to->surface.depth[(size_t)(at->y + y) * to->width_px + at->x + x] / view->unit_camera;
         if (view->with_sections) {
             double enter, leave;
             ewa_ray_sections_range(tile->sections, at->x + x + 0.5, at->y + y + 0.5, &enter, &leave);
@@ -247,20 +247,22 @@ static ALWAYS_INLINE void set_bounds(const ewa_gaussian_view *view, const ewa_ga
     }
 }
 
-/// Composites a block: what lies in front of the surfaces, or everything.
+/// Composites a block: what lies in front of the surfaces, or everything. `half`: what is left of the light where
+/// depth is noted.
 static void composite_block(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, uint32_t count,
-                            uint32_t row, uint32_t column, const block_place *at, uint32_t width_px,
-                            bool everything, block_state *block) {
+                            uint32_t row, uint32_t column, const block_place *at,
+                            const ewa_volume_target *to, bool everything, wf half, block_state *block) {
     const float x_px = (float)at->x, y_px = (float)at->y;
     layer_feed feed;
     start_feed(tile, row, column, everything, &feed);
     clear_block(block->pixels);
+    wf_store(block->half, half);
     for (int c = 0; c < 4; c++) wf_store(block->linear + 16 * c, wf_set(0));
     block->alive = 0;
     block->waiting_count = block->free_count = block->made_count = block->come = 0;
     block->at_once = EWA_GAUSSIAN_AT_ONCE;
     for (uint32_t y = 0; y < at->height; y++) block->alive |= ((1u << at->width) - 1) << 4 * y;
-    set_bounds(view, tile, width_px, at, everything, block);
+    set_bounds(view, tile, to, at, everything, block);
     if (view->orthographic)
         draw_splats(view, tile, count, x_px, y_px, true, true, everything, &feed, block);
     else if (view->trained)
@@ -299,13 +301,14 @@ static ALWAYS_INLINE void resolve_with_surface(const ewa_gaussian_view *view, ew
                                                block_state *block) {
     const wf zero = wf_set(0), one = wf_set(1), half = wf_set(0.5f), infinite = wf_set(__builtin_inff());
     wf surface[4], background[4], past[4], covered[4], out[4];
-    load_behind(to, tile->surface_rgba, at, surface);
+    load_behind(to, to->surface.rgba, at, surface);
     load_behind(to, NULL, at, background);
     const wf cover = surface[3], inverse = straighten(cover);
+    const wm whole = wf_le(one, cover), none = wf_le(cover, zero);
     float depths[16];
     for (uint32_t i = 0; i < 16; i++) {
         const bool inside = i % 4 < at->width && i / 4 < at->height;
-        depths[i] = inside ? tile->surface_depth[(size_t)(at->y + i / 4) * to->width_px + at->x + i % 4]
+        depths[i] = inside ? to->surface.depth[(size_t)(at->y + i / 4) * to->width_px + at->x + i % 4]
                            : __builtin_inff();
     }
     // Where the surface leaves a part of a pixel free, what is behind it counts, too.
@@ -313,28 +316,29 @@ static ALWAYS_INLINE void resolve_with_surface(const ewa_gaussian_view *view, ew
     const bool twice = wm_bits(edge) != 0;
     wf past_opacity = zero, past_depth = infinite;
     if (twice) {
-        composite_block(view, tile, count, row, column, at, to->width_px, true, block);
+        // Behind the surface half of the light is gone where that is gone of what it leaves.
+        const wf left = wf_select(whole, infinite, wf_div(half, wf_select(whole, one, wf_sub(one, cover))));
+        composite_block(view, tile, count, row, column, at, to, true, left, block);
         lay_block_over(tile, block, background, past);
         past_opacity = wf_sub(one, wf_load(block->pixels + 48));
         past_depth = wf_load(block->pixels + 64);
     }
-    composite_block(view, tile, count, row, column, at, to->width_px, false, block);
-    wf opacity = wf_sub(one, wf_load(block->pixels + 48)), depth = wf_load(block->pixels + 64);
+    composite_block(view, tile, count, row, column, at, to, false, half, block);
+    wf opacity = wf_sub(one, wf_load(block->pixels + 48));
     if (!twice) {
         lay_block_over(tile, block, background, past);
-        past_opacity = opacity, past_depth = depth;
+        past_opacity = opacity;
     }
     for (int c = 0; c < 3; c++) surface[c] = wf_mul(surface[c], inverse);
     surface[3] = one;
     lay_block_over(tile, block, surface, covered);
-    const wm whole = wf_le(one, cover), none = wf_le(cover, zero);
     for (int c = 0; c < 4; c++) {
         out[c] = wf_fma(cover, wf_sub(covered[c], past[c]), past[c]);
         out[c] = wf_select(whole, covered[c], wf_select(none, past[c], out[c]));
     }
     opacity = wf_select(whole, opacity, wf_fma(cover, wf_sub(opacity, past_opacity), past_opacity));
-    depth = wf_select(wf_lt(cover, half), past_depth, depth);
-    store_pixels(to, at, out, opacity, depth, view->unit_camera);
+    store_colors_of(to, at, out);
+    store_geometry(to, at, opacity, wf_load(block->pixels + 64), past_depth, view->unit_camera);
 }
 
 static void draw(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, const ewa_volume_target *to) {
@@ -351,11 +355,12 @@ static void draw(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, const e
                 continue;
             }
             wf behind[4], out[4];
-            composite_block(view, tile, count, row, column, &at, to->width_px, false, &block);
+            composite_block(view, tile, count, row, column, &at, to, false, wf_set(0.5f), &block);
             load_behind(to, NULL, &at, behind);
             lay_block_over(tile, &block, behind, out);
-            store_pixels(to, &at, out, wf_sub(wf_set(1), wf_load(block.pixels + 48)),
-                         wf_load(block.pixels + 64), view->unit_camera);
+            store_colors_of(to, &at, out);
+            store_geometry(to, &at, wf_sub(wf_set(1), wf_load(block.pixels + 48)),
+                           wf_load(block.pixels + 64), wf_set(__builtin_inff()), view->unit_camera);
         }
     }
 }

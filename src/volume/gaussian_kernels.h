@@ -27,13 +27,13 @@ enum {
 /// What pixels need of a splat. With the offset (u, v) of a pixel's centre from (X, Y):
 ///
 ///     ellipse, filtered   q^2 = (AX u + AY v)^2 + (BY v)^2, at most LIMIT
-///     ray                 g_k = Gk_X u + Gk_Y v + Gk, k = 1, 2, 3: its direction in the splat's standard
-/// deviations,
-///                         turned so that the third points from the eye to the centre, which is LENGTH away
+///     ray's direction     g_k = Gk_X u + Gk_Y v + Gk, for k = 1, 2, 3
 ///     passes it at        m^2 = LENGTH^2 (g1^2 + g2^2) / (g1^2 + g2^2 + g3^2)
 ///     in the depth        z = LENGTH g3 / (g1^2 + g2^2 + g3^2)
 ///
-/// Orthographic: m^2 is g1^2 + g2^2, z is g3, LENGTH how many standard deviations a unit of depth is.
+/// The direction is in the splat's standard deviations, turned so that the third axis points from the eye to the
+/// centre, which is LENGTH away. Orthographic: m^2 is g1^2 + g2^2, z is g3, LENGTH how many standard deviations a
+/// unit of depth is.
 enum {
     RECORD_X,
     RECORD_Y,
@@ -118,7 +118,6 @@ typedef struct ewa_gaussian_tile {
     ewa_gaussian_met *met;    ///< splats that some pixel of a block shows
     uint32_t *waiting, *free; ///< of those: that wait; of no use now
     ewa_gaussian_desk *desk;
-    const float *surface_depth, *surface_rgba; ///< of the picture, NULL: none
     const ewa_ray_sections *sections;
     const ewa_gaussian_volume *volumes;
     uint32_t volume_count;

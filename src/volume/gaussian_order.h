@@ -21,6 +21,7 @@ typedef struct block_state {
     _Alignas(64) float pixels[EWA_VOLUME_CHANNELS * 16];
     float surface[16];      ///< where pixels' rays end
     float enter[16];        ///< where section planes begin them
+    float half[16];         ///< what is left of the light where depth is noted
     float linear[4 * 16];   ///< of volumes: premultiplied light and alpha, beside those of `pixels`
     uint32_t alive;         ///< pixels in which more would show
     uint32_t waiting_count; ///< splats that wait, in the order in which they came
@@ -183,6 +184,7 @@ static ALWAYS_INLINE void composite_rows(const ewa_gaussian_view *view, const ew
     const wf none = wf_of_bits(wi_set(NO_KEY)), least = wf_set(view->least_transmittance);
     wm alive = wm_of_bits(block->alive);
     wf light[3], through = wf_load(block->pixels + 48), depth = wf_load(block->pixels + 64);
+    const wf half = wf_load(block->half);
     wf linear[4];
     for (int c = 0; c < 3; c++) light[c] = wf_load(block->pixels + 16 * c);
     for (int c = 0; c < 4 && mixed; c++) linear[c] = wf_load(block->linear + 16 * c);
@@ -207,7 +209,7 @@ static ALWAYS_INLINE void composite_rows(const ewa_gaussian_view *view, const ew
         for (int c = 0; c < 3; c++) light[c] = wf_fma(own, wf_gather(desk->colors[c], at), light[c]);
         if (view->with_depth) {
             const wf z = wf_of_bits(flip_code(wi_add(low, wi_sar(key, EWA_GAUSSIAN_SORT_BITS))));
-            depth = note_depth(depth, through, rest, z);
+            depth = note_depth(depth, half, through, rest, z);
         }
         through = rest;
         alive = wm_and(alive, wf_le(least, rest));

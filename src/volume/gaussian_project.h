@@ -33,7 +33,7 @@ static ALWAYS_INLINE wf dot(const wf a[3], const wf b[3]) {
     return wf_fma(a[0], b[0], wf_fma(a[1], b[1], wf_mul(a[2], b[2])));
 }
 
-/// A number's row of three times a column.
+/// A row of three numbers times sixteen columns of three.
 static ALWAYS_INLINE wf turn_row(const float row[3], const wf v[3]) {
     return wf_fma(wf_set(row[0]), v[0], wf_fma(wf_set(row[1]), v[1], wf_mul(wf_set(row[2]), v[2])));
 }

@@ -49,7 +49,6 @@ typedef struct gaussian_job {
     ewa_gaussian_view view; ///< what those of the sets share
     ewa_volume_target target;
     ewa_tiles tiles, areas; ///< `areas`: the tiles of the volumes, or the same
-    const float *surface_depth, *surface_rgba;
     ewa_ray_sections sections;
     bool with_times;
     uint32_t part_count, visible_count;
@@ -311,8 +310,6 @@ static void draw_tile(const gaussian_job *job, uint32_t index, uint32_t worker,
                               .waiting = scratch->waiting.data,
                               .free = scratch->free.data,
                               .desk = scratch->desk.data,
-                              .surface_depth = job->surface_depth,
-                              .surface_rgba = job->surface_rgba,
                               .sections = &job->sections,
                               .volumes = volumes,
                               .volume_count = job->mixture->volume_count,
@@ -326,11 +323,12 @@ static void draw_tile(const gaussian_job *job, uint32_t index, uint32_t worker,
 
 /// Whether surfaces leave a part of some pixel free, so that what is behind them shows.
 static bool has_edges(const gaussian_job *job, const ewa_tile_rect *area) {
-    if (!job->surface_depth) return false;
+    const ewa_surface_planes *surface = &job->target.surface;
+    if (!surface->depth) return false;
     for (uint32_t y = area->y_px; y < area->y_px + area->height_px; y++)
         for (uint32_t x = area->x_px; x < area->x_px + area->width_px; x++) {
             const size_t pixel = (size_t)y * job->target.width_px + x;
-            if (job->surface_depth[pixel] < INFINITY && job->surface_rgba[4 * pixel + 3] < 1) return true;
+            if (surface->depth[pixel] < INFINITY && surface->rgba[4 * pixel + 3] < 1) return true;
         }
     return false;
 }
@@ -432,8 +430,8 @@ static ewa_status make_volumes(gaussian_job *job, const ewa_camera *camera,
     job->volumes = room->data;
     for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
         const ewa_mixed_volume *volume = &job->mixture->volumes[i];
-        chosen[i].surface_depth = job->surface_depth;
-        chosen[i].surface_rgba = job->surface_rgba;
+        chosen[i].surface_depth = options->surface_depth;
+        chosen[i].surface_rgba = options->surface_rgba;
         memcpy(chosen[i].section_planes, options->section_planes, sizeof options->section_planes);
         chosen[i].section_count = options->section_count;
         status = ewa_volume_frame_make(volume->renderer, volume->voxels, camera, &chosen[i],
@@ -493,7 +491,6 @@ ewa_status ewa_mixture_render(ewa_gaussian_renderer *renderer, const ewa_mixture
     ewa_volume_options volumes[EWA_MAX_MIXED_VOLUMES];
     ewa_status status = ewa_gaussian_options_choose(context, options, &chosen);
     if (status == EWA_OK) status = ewa_camera_check(context, camera);
-    if (status == EWA_OK) status = ewa_gaussian_frame_check(context, frame);
     if (status == EWA_OK) status = check_mixture(context, mixture, volumes);
     if (status == EWA_OK) status = ewa_progress(context, "gaussians", 0);
     if (status != EWA_OK) return status;
@@ -501,16 +498,15 @@ ewa_status ewa_mixture_render(ewa_gaussian_renderer *renderer, const ewa_mixture
     gaussian_job job = {.renderer = renderer,
                         .mixture = mixture,
                         .tiles = ewa_tiles_make(camera->width_px, camera->height_px, EWA_GAUSSIAN_TILE_PX),
-                        .surface_depth = chosen.surface_depth,
-                        .surface_rgba = chosen.surface_rgba,
                         .with_times = stats != NULL};
     job.areas = mixture->volume_count
                     ? ewa_tiles_make(camera->width_px, camera->height_px, EWA_VOLUME_TILE_PX)
                     : job.tiles;
-    ewa_volume_target_set(&job.target, camera, frame, NULL, chosen.background);
+    const ewa_surface_planes surface = EWA_SURFACE_PLANES_OF(&chosen);
+    ewa_volume_target_set(&job.target, camera, frame, &surface, chosen.background);
     ewa_ray_sections_make(&job.sections, camera, (const double(*)[4])chosen.section_planes,
                           chosen.section_count);
-    status = set_views(&job, camera, &chosen, frame->depth != NULL);
+    status = set_views(&job, camera, &chosen, frame->depth || frame->normal);
     if (status == EWA_OK) status = make_volumes(&job, camera, &chosen, volumes);
     if (status == EWA_OK) status = draw_frame(&job, stats);
     if (status == EWA_OK && stats) stats->total_s = ewa_now_s() - start_s;

@@ -54,13 +54,8 @@ ewa_status ewa_gaussian_options_choose(ewa_context *context, const ewa_gaussian_
     if (status == EWA_OK)
         status = ewa_option_check_sections(context, (const double(*)[4])chosen->section_planes,
                                            chosen->section_count);
-    return status == EWA_OK ? ewa_volume_surface_check(context, chosen->surface_depth, chosen->surface_rgba)
-                            : status;
-}
-
-ewa_status ewa_gaussian_frame_check(ewa_context *context, const ewa_frame *frame) {
-    if (!frame->normal) return EWA_OK;
-    return ewa_fail(context, EWA_ERROR_ARGUMENT, "gaussians: they have no normals for frame.normal");
+    const ewa_surface_planes planes = EWA_SURFACE_PLANES_OF(chosen);
+    return status == EWA_OK ? ewa_surface_planes_check(context, &planes) : status;
 }
 
 /// Rotation and scale of the camera, and where the origin and the eye are.

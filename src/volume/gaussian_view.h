@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// A frame of Gaussians: options that came from outside, and camera and options in double precision, which the
-// renderer and its reference share.
+// A frame of Gaussians: options that came from outside, and camera and options in double precision.
 #ifndef EWA_SRC_VOLUME_GAUSSIAN_VIEW_H
 #define EWA_SRC_VOLUME_GAUSSIAN_VIEW_H
 
@@ -36,9 +35,6 @@ typedef struct ewa_gaussian_camera {
 /// Copies `given` (NULL: the defaults) to `chosen` after checking every member. Errors: EWA_ERROR_ARGUMENT.
 ewa_status ewa_gaussian_options_choose(ewa_context *context, const ewa_gaussian_options *given,
                                        ewa_gaussian_options *chosen);
-
-/// Fails for a frame with planes that Gaussians do not have. Errors: EWA_ERROR_ARGUMENT.
-ewa_status ewa_gaussian_frame_check(ewa_context *context, const ewa_frame *frame);
 
 /// All arguments are checked ones.
 void ewa_gaussian_camera_make(ewa_gaussian_camera *made, const ewa_camera *camera,

@@ -170,13 +170,26 @@ static inline void ewa_hide_cell(ewa_volume_tile *tile, uint32_t cell) {
     tile->hidden[cell] = 1;
 }
 
+/// Opaque surfaces, as ewa_render() gives them; all NULL: none.
+typedef struct ewa_surface_planes {
+    const float *depth, *rgba;
+    const float *normal, *coverage; ///< NULL: normals are 0, coverage is the alpha of `rgba`
+} ewa_surface_planes;
+
+/// Those of options.
+#define EWA_SURFACE_PLANES_OF(options)                                                                       \
+    {                                                                                                        \
+        (options)->surface_depth, (options)->surface_rgba, (options)->surface_normal,                        \
+            (options)->surface_coverage                                                                      \
+    }
+
 /// Where pixels go.
 typedef struct ewa_volume_target {
     uint32_t width_px, height_px;
     float background[4]; ///< premultiplied
-    const float *surface_rgba;
+    ewa_surface_planes surface;
     uint8_t *rgba8;
-    float *rgba, *depth, *coverage;
+    float *rgba, *depth, *normal, *coverage;
 } ewa_volume_target;
 
 struct ewa_volume_layers;

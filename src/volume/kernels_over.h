@@ -24,9 +24,8 @@ static ALWAYS_INLINE void add_light(float *pixels, wf weight, const wf color[3])
 }
 
 /// The depth of a pixel after something at z: z where what shows of all behind it falls from `through` to
-/// `rest`, past a half.
-static ALWAYS_INLINE wf note_depth(wf depth, wf through, wf rest, wf z) {
-    const wf half = wf_set(0.5f);
+/// `rest`, past `half` of the light.
+static ALWAYS_INLINE wf note_depth(wf depth, wf half, wf through, wf rest, wf z) {
     return wf_select(wm_and(wf_lt(half, through), wf_le(rest, half)), z, depth);
 }
 

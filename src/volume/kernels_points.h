@@ -42,7 +42,10 @@ static ALWAYS_INLINE void absorb(const ewa_volume_view *view, float *pixels, wf 
     wf rest = wf_sub(through, weight);
     rest = wf_keep(wf_lt(wf_set(0x1p-90f), rest), rest); // the same as 0, and fast
     wf_store(pixels + 48, rest);
-    if (view->with_depth) wf_store(pixels + 64, note_depth(wf_load(pixels + 64), through, rest, z));
+    if (view->with_depth) {
+        const wf depth = wf_load(pixels + 64);
+        wf_store(pixels + 64, note_depth(depth, wf_set(0.5f), through, rest, z));
+    }
 }
 
 /// Hides a cell in which nothing more would show.

@@ -22,10 +22,11 @@ static void resolve(const ewa_volume_view *view, const ewa_volume_tile *tile, co
                 place_block(tile->x_px, tile->y_px, tile->width_px, tile->height_px, row, column);
             const float *pixels = tile->pixels + block * EWA_VOLUME_CHANNELS * 16;
             wf behind[4], out[4];
-            load_behind(to, to->surface_rgba, &at, behind);
+            load_behind(to, to->surface.rgba, &at, behind);
             lay_over(pixels, behind, false, out);
-            store_pixels(to, &at, out, wf_sub(wf_set(1), wf_load(pixels + 48)), wf_load(pixels + 64),
-                         view->unit_camera);
+            store_colors_of(to, &at, out);
+            store_geometry(to, &at, wf_sub(wf_set(1), wf_load(pixels + 48)), wf_load(pixels + 64),
+                           wf_set(__builtin_inff()), view->unit_camera);
         }
 }
 

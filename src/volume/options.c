@@ -71,10 +71,14 @@ ewa_status ewa_voxels_options_choose(ewa_context *context, const ewa_voxels_opti
     return ewa_options_take(context, &ewa_voxels_options_table, given, chosen);
 }
 
-ewa_status ewa_volume_surface_check(ewa_context *context, const float *depth, const float *rgba) {
-    if (!depth == !rgba) return EWA_OK;
-    return ewa_fail(context, EWA_ERROR_ARGUMENT, "options: %s without %s",
-                    depth ? "surface_depth" : "surface_rgba", depth ? "surface_rgba" : "surface_depth");
+ewa_status ewa_surface_planes_check(ewa_context *context, const ewa_surface_planes *planes) {
+    if (!planes->depth != !planes->rgba)
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "options: %s without %s",
+                        planes->depth ? "surface_depth" : "surface_rgba",
+                        planes->depth ? "surface_rgba" : "surface_depth");
+    if (planes->depth || (!planes->normal && !planes->coverage)) return EWA_OK;
+    return ewa_fail(context, EWA_ERROR_ARGUMENT, "options: %s without surface_depth",
+                    planes->normal ? "surface_normal" : "surface_coverage");
 }
 
 ewa_status ewa_volume_options_choose(ewa_context *context, const ewa_volume_options *given,
@@ -87,13 +91,8 @@ ewa_status ewa_volume_options_choose(ewa_context *context, const ewa_volume_opti
     if (status == EWA_OK)
         status = ewa_option_check_sections(context, (const double(*)[4])chosen->section_planes,
                                            chosen->section_count);
-    return status == EWA_OK ? ewa_volume_surface_check(context, chosen->surface_depth, chosen->surface_rgba)
-                            : status;
-}
-
-ewa_status ewa_volume_frame_check(ewa_context *context, const ewa_frame *frame) {
-    if (!frame->normal) return EWA_OK;
-    return ewa_fail(context, EWA_ERROR_ARGUMENT, "volume: a volume has no normals for frame.normal");
+    const ewa_surface_planes planes = EWA_SURFACE_PLANES_OF(chosen);
+    return status == EWA_OK ? ewa_surface_planes_check(context, &planes) : status;
 }
 
 void ewa_volume_shading_make(const ewa_volume_options *options, ewa_shading_setup *setup) {

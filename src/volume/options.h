@@ -7,6 +7,7 @@
 
 #include "ewa/volume_render.h"
 #include "surface/shading.h"
+#include "volume/kernels.h"
 
 /// Copies `given` (NULL: the defaults) to `chosen` after checking every member.
 /// Errors: EWA_ERROR_ARGUMENT with a message that names the member, its value and its range.
@@ -17,11 +18,9 @@ ewa_status ewa_voxels_options_choose(ewa_context *context, const ewa_voxels_opti
 ewa_status ewa_volume_options_choose(ewa_context *context, const ewa_volume_options *given,
                                      ewa_volume_options *chosen);
 
-/// Fails where only one of the planes of surfaces is given. Errors: EWA_ERROR_ARGUMENT.
-ewa_status ewa_volume_surface_check(ewa_context *context, const float *depth, const float *rgba);
-
-/// Fails for a frame with planes that volumes do not have. Errors: EWA_ERROR_ARGUMENT.
-ewa_status ewa_volume_frame_check(ewa_context *context, const ewa_frame *frame);
+/// Fails for planes of surfaces that lack others: depth and rgba without each other, the rest without these.
+/// Errors: EWA_ERROR_ARGUMENT.
+ewa_status ewa_surface_planes_check(ewa_context *context, const ewa_surface_planes *planes);
 
 /// Lights and the one material of checked options.
 void ewa_volume_shading_make(const ewa_volume_options *options, ewa_shading_setup *setup);

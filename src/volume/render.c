@@ -125,7 +125,6 @@ ewa_status ewa_volume_render(ewa_volume_renderer *renderer, const ewa_voxels *vo
     ewa_volume_options chosen;
     ewa_status status = ewa_volume_options_choose(context, options, &chosen);
     if (status == EWA_OK) status = ewa_camera_check(context, camera);
-    if (status == EWA_OK) status = ewa_volume_frame_check(context, frame);
     if (status == EWA_OK) status = ewa_volume_level_check(context, voxels, &chosen);
     if (status == EWA_OK) status = ewa_progress(context, "volume", 0);
     if (status != EWA_OK) return status;
@@ -134,8 +133,9 @@ ewa_status ewa_volume_render(ewa_volume_renderer *renderer, const ewa_voxels *vo
     status = ewa_volume_frame_make(renderer, voxels, camera, &chosen, stats != NULL, &drawn);
     if (status != EWA_OK) return status;
     ewa_volume_job *job = &drawn.job;
-    job->view.with_depth = frame->depth != NULL;
-    ewa_volume_target_set(&job->target, camera, frame, chosen.surface_rgba, chosen.background);
+    job->view.with_depth = frame->depth || frame->normal;
+    const ewa_surface_planes surface = EWA_SURFACE_PLANES_OF(&chosen);
+    ewa_volume_target_set(&job->target, camera, frame, &surface, chosen.background);
     status = ewa_parallel_stoppable(context, "volume", ewa_volume_tile_draw, job,
                                     ewa_tiles_count(&renderer->bins.tiles));
     if (status == EWA_OK && stats) ewa_volume_frame_measure(renderer, &drawn, stats);

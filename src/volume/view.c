@@ -144,13 +144,14 @@ void ewa_volume_view_set(ewa_volume_view *view, const ewa_grid_view *grid, const
 }
 
 void ewa_volume_target_set(ewa_volume_target *target, const ewa_camera *camera, const ewa_frame *frame,
-                           const float *surface_rgba, const float background[4]) {
+                           const ewa_surface_planes *surface, const float background[4]) {
     *target = (ewa_volume_target){.width_px = camera->width_px,
                                   .height_px = camera->height_px,
-                                  .surface_rgba = surface_rgba,
+                                  .surface = *surface,
                                   .rgba8 = frame->rgba8,
                                   .rgba = frame->rgba,
                                   .depth = frame->depth,
+                                  .normal = frame->normal,
                                   .coverage = frame->coverage};
     for (int c = 0; c < 4; c++) target->background[c] = c < 3 ? background[c] * background[3] : background[3];
 }

@@ -43,9 +43,9 @@ void ewa_volume_view_set(ewa_volume_view *view, const ewa_grid_view *grid, const
                          const ewa_volume_options *options, const ewa_shading_setup *shading,
                          const ewa_footprint_table *table);
 
-/// Where the pixels of a frame go, and what is behind: surfaces (may be NULL), or a straight background.
+/// Where the pixels of a frame go, and what is behind: surfaces, and a straight background.
 void ewa_volume_target_set(ewa_volume_target *target, const ewa_camera *camera, const ewa_frame *frame,
-                           const float *surface_rgba, const float background[4]);
+                           const ewa_surface_planes *surface, const float background[4]);
 
 /// The middle of a slice, camera-space depth.
 static inline double ewa_slice_middle(const ewa_volume_slices *slices, uint32_t slice) {
