@@ -147,7 +147,8 @@ static bool measure_files(bench_run *bench) {
     bench_scene scene = {.name = slash ? slash + 1 : path};
     snprintf(scene.label, sizeof scene.label, "%.24s", scene.name);
     scene.cloud = inputs_as_surfels(&bench->session, &view->common, NULL, surfels.cutoff, &estimate_s);
-    const bool done = scene.cloud && view_make(&bench->session, view, scene.cloud, 1, &scene.camera, NULL) &&
+    const bool done = scene.cloud && view_make(&bench->session, view, &(view_subject){.cloud = scene.cloud, .radius_scale = 1},
+                                         &scene.camera, NULL) &&
                       measure_scene(bench, &scene);
     ewa_cloud_destroy(&scene.cloud);
     return done;

@@ -103,13 +103,13 @@ static bool allocate(cli_session *session, frame_cameras *frames) {
     return frames->cameras != NULL;
 }
 
-static bool make_turntable(cli_session *session, const frames_arguments *arguments, const ewa_cloud *cloud,
-                           double radius_scale, frame_cameras *frames) {
+static bool make_turntable(cli_session *session, const frames_arguments *arguments, const view_subject *subject,
+                           frame_cameras *frames) {
     const size_t count = frames->count;
     ewa_camera first;
     view_turn turn;
     if (!allocate(session, frames) ||
-        !view_make(session, &arguments->view, cloud, radius_scale, &first, &turn))
+        !view_make(session, &arguments->view, subject, &first, &turn))
         return false;
     ewa_status status = EWA_OK;
     for (size_t i = 0; i < count && status == EWA_OK; i++) {
@@ -225,12 +225,12 @@ bool frames_plan(cli_session *session, const frames_arguments *arguments, frames
     return true;
 }
 
-bool frames_make(cli_session *session, const frames_arguments *arguments, const ewa_cloud *cloud,
-                 double radius_scale, frame_cameras *frames) {
+bool frames_make(cli_session *session, const frames_arguments *arguments, const view_subject *subject,
+                 frame_cameras *frames) {
     if (arguments->path_file) return true; // the plan has them
-    if (arguments->turntable) return make_turntable(session, arguments, cloud, radius_scale, frames);
+    if (arguments->turntable) return make_turntable(session, arguments, subject, frames);
     return allocate(session, frames) &&
-           view_make(session, &arguments->view, cloud, radius_scale, frames->cameras, NULL);
+           view_make(session, &arguments->view, subject, frames->cameras, NULL);
 }
 
 void frames_free(frame_cameras *frames) {

@@ -48,10 +48,9 @@ typedef bool frames_exist(const void *user, size_t index);
 bool frames_plan(cli_session *session, const frames_arguments *arguments, frames_exist *exist,
                  const void *user, frame_cameras *frames);
 
-/// Makes the cameras that the options ask for, looking at a cloud whose radii are drawn times `radius_scale`;
-/// `frames` is planned. Returns false after reporting.
-bool frames_make(cli_session *session, const frames_arguments *arguments, const ewa_cloud *cloud,
-                 double radius_scale, frame_cameras *frames);
+/// Makes the cameras that the options ask for; `frames` is planned. Returns false after reporting.
+bool frames_make(cli_session *session, const frames_arguments *arguments, const view_subject *subject,
+                 frame_cameras *frames);
 void frames_free(frame_cameras *frames);
 
 /// Writes the cameras to a file: one, or a list when `many`. Returns false after reporting.

@@ -37,8 +37,7 @@ static ewa_ink steady_ink(const option_color *background) {
 }
 
 bool furnish_make(cli_session *session, const furnish_arguments *arguments, const frames_arguments *frames,
-                  const option_color *background, const ewa_cloud *cloud, const char *word,
-                  const color_scale *scale, furnishing *made) {
+                  const option_color *background, const view_subject *subject, furnishing *made) {
     made->any = has_any(arguments);
     ewa_furniture_options *options = &made->options;
     ewa_furniture_options_init(options, sizeof *options);
@@ -47,26 +46,22 @@ bool furnish_make(cli_session *session, const furnish_arguments *arguments, cons
     options->scale_bar = arguments->scale_bar;
     options->unit = arguments->unit;
     if (frames_many(frames)) options->ink = steady_ink(background);
-    if (arguments->color_bar) {
-        options->color_bar = true;
-        options->color_label = word;
-        options->color_unit = scale->length ? arguments->unit : NULL;
-        options->colormap = scale->colormap;
-        memcpy(options->range, scale->range, sizeof options->range);
-        options->categories = scale->categories;
-        options->category_count = scale->category_count;
-    }
     const option_vector *target = &frames->view.target;
     memcpy(made->middle_world, target->values, sizeof made->middle_world);
-    if (!arguments->scale_bar || target->count || !cloud) return true;
-    ewa_framing *framing = NULL;
-    ewa_framing_info info;
-    const ewa_status status = ewa_framing_create(cloud, 1, &framing);
-    if (status != EWA_OK) return session_failed(session, status) == EXIT_DONE;
-    ewa_framing_describe(framing, &info);
-    memcpy(made->middle_world, info.middle_world, sizeof made->middle_world);
-    ewa_framing_destroy(&framing);
-    return true;
+    if (!arguments->scale_bar || target->count || !subject) return true;
+    return view_middle(session, &frames->view, subject, made->middle_world);
+}
+
+void furnish_color_bar(const furnish_arguments *arguments, const char *word, const ewa_legend *legend,
+                       furnishing *made) {
+    ewa_furniture_options *options = &made->options;
+    options->color_bar = true;
+    options->color_label = word;
+    options->color_unit = legend->length ? arguments->unit : NULL;
+    options->colormap = legend->colormap;
+    memcpy(options->range, legend->range, sizeof options->range);
+    options->categories = legend->categories;
+    options->category_count = legend->category_count;
 }
 
 ewa_status furnish_draw(cli_session *session, const furnishing *made, const ewa_camera *camera,

@@ -5,7 +5,6 @@
 #ifndef EWA_CLI_FURNISH_H
 #define EWA_CLI_FURNISH_H
 
-#include "color_by.h"
 #include "frames.h"
 
 /// Options of the furniture.
@@ -41,13 +40,15 @@ typedef struct furnishing {
     double middle_world[3]; ///< where the scale bar of a perspective camera holds
 } furnishing;
 
-/// Prepares what the options ask for, for pictures of `cloud` (NULL: of what is about
-/// the origin) on a background. `word` is what --color-by was given,
-/// `scale` what came of it; both NULL without. Both, and the arguments, stay as long as the furnishing. Returns false
-/// after reporting.
+/// Prepares what the options ask for, for pictures of `subject` (NULL: of what is about the origin) on a background.
+/// The arguments stay as long as the furnishing. Returns false after reporting.
 bool furnish_make(cli_session *session, const furnish_arguments *arguments, const frames_arguments *frames,
-                  const option_color *background, const ewa_cloud *cloud, const char *word,
-                  const color_scale *scale, furnishing *made);
+                  const option_color *background, const view_subject *subject, furnishing *made);
+
+/// Says what the colour bar means: `word` is what --color-by was given, `legend` what came of it. Both stay as long as
+/// the furnishing.
+void furnish_color_bar(const furnish_arguments *arguments, const char *word, const ewa_legend *legend,
+                       furnishing *made);
 
 /// Draws it over a frame's 8-bit picture; the status of the library.
 ewa_status furnish_draw(cli_session *session, const furnishing *made, const ewa_camera *camera,

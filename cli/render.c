@@ -3,7 +3,6 @@
 //
 // ewa render: clouds to a picture.
 #include "backend.h"
-#include "color_by.h"
 #include "commands.h"
 #include "dividing.h"
 #include "frames.h"
@@ -12,18 +11,15 @@
 #include "json.h"
 #include "light.h"
 #include "lod_input.h"
-#include "mixture_scene.h"
 #include "picture.h"
 #include "render_report.h"
-#include "resident.h"
+#include "scene_input.h"
 #include "section.h"
 #include "sequence.h"
 #include "video.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 typedef struct render_arguments {
     frames_arguments frames; // first: it begins with the common arguments
@@ -33,7 +29,10 @@ typedef struct render_arguments {
     section_arguments section;
     bool close_gaps;
     lod_arguments lod;
-    mixture_arguments mixture;
+    ewa_gaussian_options gaussians;
+    ewa_volume_options volumes;
+    bool gaussians_as_surfels;
+    const char *transfer;
     const char *layers, *color_by;
     int colormap, backend;
     option_bounds range;
@@ -44,6 +43,7 @@ typedef struct render_arguments {
 #define AT(member)      offsetof(render_arguments, member)
 #define SURFELS(member) OPTION_OF(ewa_surfels_options, AT(surfels), member)
 #define RENDER(member)  OPTION_OF(ewa_render_options, AT(light.render), member)
+#define GAUSSIAN(member) OPTION_OF(ewa_gaussian_options, AT(gaussians), member)
 
 _Static_assert(offsetof(render_arguments, light) == LIGHT_OFFSET, "light_options says so");
 
@@ -87,9 +87,20 @@ static const cli_option splat_table[] = {
 
 static const cli_option lod_table[] = {LOD_OPTIONS(AT(lod))};
 
-static const cli_option gaussian_table[] = {GAUSSIAN_OPTIONS(AT(mixture))};
+static const cli_option gaussian_table[] = {
+    {"projection", GAUSSIAN(projection)},
+    {"gaussian-filter", GAUSSIAN(filter)},
+    {"sh-degree", GAUSSIAN(sh_degree)},
+    {"surface", OPTION_FLAG, AT(gaussians_as_surfels),
+     .help = "draw Gaussians as opaque surfels, with depth, normals and light, in their constant colours"},
+};
 
-static const cli_option volume_table[] = {MIXED_VOLUME_OPTIONS(AT(mixture))};
+static const cli_option volume_table[] = {
+    {"transfer", OPTION_TEXT, AT(transfer), "FILE|PRESET",
+     .help = "what values of volumes look like, as in 'ewa volume', whose --save-transfer writes such files",
+     .absent = "auto: by the surfaces between its materials"},
+    {"opacity-scale", OPTION_OF(ewa_volume_options, AT(volumes), density_scale)},
+};
 
 static const cli_option section_table[] = {SECTION_OPTIONS(AT(section))};
 
@@ -124,8 +135,9 @@ static void set_defaults(void *data) {
     ewa_surfels_options_init(&arguments->surfels, sizeof arguments->surfels);
     arguments->close_gaps = true;
     lod_input_set_defaults(&arguments->lod);
-    mixture_set_defaults(&arguments->mixture);
-    arguments->colormap = COLOR_BY_AUTO;
+    ewa_gaussian_options_init(&arguments->gaussians, sizeof arguments->gaussians);
+    ewa_volume_options_init(&arguments->volumes, sizeof arguments->volumes);
+    arguments->colormap = EWA_COLORING_AUTO - 1;
     arguments->background = (option_color){{1, 1, 1, 1}};
 }
 
@@ -161,9 +173,9 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         missing = "--layers needs --passes 3";
     else if (arguments->light.render.opacity < 1 && arguments->light.render.passes == 1)
         missing = "--opacity below 1 needs --passes 3";
-    else if (arguments->colormap == COLOR_BY_CLASSES && arguments->range.given)
+    else if (arguments->colormap == EWA_COLORING_CLASSES - 1 && arguments->range.given)
         missing = "--colormap classes takes no --range: each class has its own colour";
-    else if (arguments->furniture.color_bar && color_by_is_own(arguments->color_by))
+    else if (arguments->furniture.color_bar && (!arguments->color_by || ewa_coloring_is_own(arguments->color_by)))
         missing = "--color-bar has nothing to show for the file's own colours";
     if (!options_fine(missing, message)) return false;
     return light_check(&arguments->light, message) && section_check(&arguments->section, message) &&
@@ -183,91 +195,30 @@ static ewa_render_options render_options(const render_arguments *arguments, cons
 /// What all frames share.
 typedef struct render_scene {
     frame_cameras frames;
-    ewa_surfels *surfels; ///< NULL: an octree
-    ewa_lod *lod;         ///< NULL: surfels
-    ewa_lod_options lod_options;
-    mixture_scene mixture; ///< of all that lets light through
-    color_scale scale;
+    ewa_scene *scene;
+    bool octrees;
     furnishing furniture;
 } render_scene;
 
-/// Loads, colours, and makes surfels and the cameras; the clouds are gone afterwards. False after reporting.
-static bool make_scene(cli_session *session, const render_arguments *arguments, render_scene *scene,
-                       render_report *report) {
-    const common_arguments *common = &arguments->frames.view.common;
-    const double started_s = clock_now_s();
-    const char *by = arguments->color_by;
-    ewa_cloud *cloud = inputs_as_surfels(session, common, by, arguments->surfels.cutoff, &report->estimate_s);
-    if (!cloud) return false;
-    report->load_s = clock_now_s() - started_s - report->estimate_s;
-    report->point_count = ewa_cloud_point_count(cloud);
-    session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
-    ewa_surfels **surfels = &scene->surfels;
-    frames_arguments frames = arguments->frames;
-    if (common->operand_count == 1) frames.view.up_axis = session->up_axis;
-    bool done =
-        (!by || color_by(session, cloud, by, arguments->colormap, &arguments->range, &scene->scale)) &&
-        frames_make(session, &frames, cloud, arguments->surfels.radius_scale, &scene->frames) &&
-        furnish_make(session, &arguments->furniture, &frames, &arguments->background, cloud, by,
-                     &scene->scale, &scene->furniture);
-    session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
-    const resident_options options = {arguments->surfels, arguments->close_gaps,
-                                      arguments->light.render.point_size_px > 0};
-    done = done && resident_make(session, &options, &cloud, surfels, report);
-    ewa_cloud_destroy(&cloud);
-    if (!done) ewa_surfels_destroy(surfels);
-    return done;
-}
-
-/// Options that need all points of an octree, or change how it was made into surfels; NULL: none is given.
-static const char *find_lod_clash(const render_arguments *arguments) {
-    ewa_surfels_options surfels;
-    ewa_surfels_options_init(&surfels, sizeof surfels);
-    return arguments->color_by && !color_by_is_own(arguments->color_by) ? "--color-by"
-           : arguments->surfels.cutoff != surfels.cutoff                ? "--cutoff"
-           : arguments->surfels.radius_scale != surfels.radius_scale    ? "--radius-scale"
-                                                                        : NULL;
-}
-
-/// Makes the scene of an octree, of which a sample stands for the whole where that is looked at. False after
-/// reporting.
-static bool make_lod_scene(cli_session *session, const render_arguments *arguments, render_scene *scene,
-                           render_report *report) {
-    const double started_s = clock_now_s();
-    const char *path = arguments->frames.view.common.operands[0];
-    ewa_cloud *sample = lod_input_sample(session, scene->lod, path);
-    if (!sample || !input_complete(session, path, &sample, &report->estimate_s)) {
-        ewa_cloud_destroy(&sample);
-        return false;
-    }
-    scene->lod_options = lod_input_options(&arguments->lod);
-    if (crew_shares_cloud(session->crew)) {
-        scene->lod_options.share = session->crew->exchange.rank;
-        scene->lod_options.share_count = session->crew->exchange.rank_count;
-    }
-    ewa_lod_info info;
-    ewa_lod_describe(scene->lod, &info);
-    report->point_count = info.point_count;
-    report->from_lod = true;
-    if (!info.merged)
-        session_note(
-            session,
-            "%s has points at its levels only, none that stand for others: what is far away is drawn "
-            "by few of them; `ewa lod %s -o FILE.copc.laz` makes better levels",
-            path, path);
-    const bool done =
-        frames_make(session, &arguments->frames, sample, arguments->surfels.radius_scale, &scene->frames) &&
-        furnish_make(session, &arguments->furniture, &arguments->frames, &arguments->background, sample, NULL,
-                     &scene->scale, &scene->furniture);
-    session->subject = path;
-    ewa_cloud_destroy(&sample);
-    report->load_s = clock_now_s() - started_s - report->estimate_s;
-    return done;
+/// The scene's options as the program's say.
+static ewa_scene_options scene_options(const render_arguments *arguments, const ewa_render_options *render) {
+    ewa_scene_options options;
+    ewa_scene_options_init(&options, sizeof options);
+    options.close_gaps = arguments->close_gaps;
+    options.keep_points = false;
+    options.surfels = arguments->surfels;
+    options.lod = arguments->lod.options;
+    options.render = *render;
+    options.gaussians = arguments->gaussians;
+    options.gaussians.near_world = 0; // as suits them
+    options.volumes = arguments->volumes;
+    options.shade_volumes = arguments->light.shading < 0;
+    if (arguments->light.shading >= 0) options.volumes.shading = (ewa_shading)arguments->light.shading;
+    return options;
 }
 
 /// Says which options of surfaces are given where there are none.
-static void warn_of_surface_options(cli_session *session, const render_arguments *arguments,
-                                    const mixture_scene *mixture) {
+static void warn_of_surface_options(cli_session *session, const render_arguments *arguments, bool volumes) {
     const light_arguments *light = &arguments->light;
     const struct {
         const char *name;
@@ -275,151 +226,129 @@ static void warn_of_surface_options(cli_session *session, const render_arguments
     } options[] = {{"opacity", light->render.opacity < 1},
                    {"layers", arguments->layers},
                    {"point-size", light->render.point_size_px > 0},
-                   {"shading", light->shading > EWA_SHADING_NONE && !mixture->volume_count}};
+                   {"shading", light->shading > EWA_SHADING_NONE && !volumes}};
     for (size_t i = 0; i < sizeof options / sizeof options[0]; i++)
         if (options[i].given)
-            session_warn(session,
-                         "--%s is for surfaces, and there are none; --surface draws Gaussians as surfels",
+            session_warn(session, "--%s is for surfaces, and there are none; --surface draws Gaussians as surfels",
                          options[i].name);
 }
 
-/// Makes the scene of what lets light through, and of the surfaces among it where there are further inputs. False
-/// after reporting.
-static bool make_mixture_scene(cli_session *session, const render_arguments *arguments, render_scene *scene,
-                               render_report *report) {
-    mixture_scene *mixture = &scene->mixture;
-    const double started_s = clock_now_s();
-    const bool among = mixture->rest.operand_count > 0;
-    const size_t others = mixture->splats_count + (size_t)mixture->volume_count - 1 + among;
-    const char *subject = others ? NULL : mixture_scene_path(mixture);
-    ewa_cloud *cloud = NULL;
-    if (!among && arguments->color_by && !color_by_is_own(arguments->color_by)) {
-        session->subject = subject;
-        return session_fail(session,
-                            "--color-by: Gaussians and volumes have colours of their own; --surface draws "
-                            "Gaussians as surfels") == EXIT_DONE;
+/// Checks what cannot be asked of what there is. False after reporting.
+static bool check_scene(cli_session *session, const render_arguments *arguments, const ewa_scene *scene) {
+    ewa_scene_info info;
+    ewa_surfels_options surfels;
+    ewa_surfels_options_init(&surfels, sizeof surfels);
+    ewa_scene_describe(scene, &info);
+    const bool colored = arguments->color_by && !ewa_coloring_is_own(arguments->color_by);
+    const char *clash = colored                                                 ? "--color-by"
+                        : arguments->surfels.cutoff != surfels.cutoff             ? "--cutoff"
+                        : arguments->surfels.radius_scale != surfels.radius_scale ? "--radius-scale"
+                                                                                  : NULL;
+    if (info.octrees && clash) {
+        session_fail(session,
+                     "%s needs all points of an octree; --levels never reads them, or `ewa convert` what is wanted to a "
+                     "file of its own",
+                     clash);
+        return false;
     }
-    if (!among) warn_of_surface_options(session, arguments, mixture);
-    if (among)
-        cloud = inputs_as_surfels(session, &mixture->rest, arguments->color_by, arguments->surfels.cutoff,
-                                  &report->estimate_s);
-    bool done = (!among || cloud) &&
-                mixture_scene_load(session, &arguments->mixture, &arguments->light, cloud, mixture);
-    report->load_s = clock_now_s() - started_s - report->estimate_s;
-    report->point_count = cloud ? ewa_cloud_point_count(cloud) : 0;
-    for (uint32_t i = 0; i < mixture->splats_count && done; i++)
-        report->point_count += mixture->sets[i].info.splat_count;
-    if (cloud && arguments->color_by)
-        done = done && color_by(session, cloud, arguments->color_by, arguments->colormap, &arguments->range,
-                                &scene->scale);
-    frames_arguments frames = arguments->frames;
-    frames.view.up_axis = mixture->up_axis;
-    session->subject = subject;
-    done = done && frames_make(session, &frames, mixture->outline, 1, &scene->frames) &&
-           furnish_make(session, &arguments->furniture, &frames, &arguments->background, mixture->outline,
-                        arguments->color_by, &scene->scale, &scene->furniture);
-    session->subject = subject;
-    const resident_options options = {arguments->surfels, arguments->close_gaps,
-                                      arguments->light.render.point_size_px > 0};
-    done = done && (!cloud || resident_make(session, &options, &cloud, &scene->surfels, report));
-    ewa_cloud_destroy(&cloud);
-    return done;
+    if (colored && !info.surfaces) {
+        session_fail(session, "--color-by: Gaussians and volumes have colours of their own; --surface draws Gaussians "
+                              "as surfels");
+        return false;
+    }
+    if (!info.surfaces) warn_of_surface_options(session, arguments, info.volumes);
+    return true;
 }
 
-/// Opens or loads what is to be drawn. False after reporting.
-static bool prepare(cli_session *session, const render_arguments *arguments, render_scene *scene,
-                    render_report *report) {
+/// Loads what is to be drawn, places the cameras and makes all resident. False after reporting.
+static bool prepare(cli_session *session, const render_arguments *arguments, const ewa_render_options *render,
+                    render_scene *scene, render_report *report) {
     const common_arguments *common = &arguments->frames.view.common;
-    if (!mixture_scene_find(session, common, &arguments->mixture, &scene->mixture)) return false;
-    if (mixture_scene_some(&scene->mixture) && crew_shares_cloud(session->crew)) {
-        session_fail(
-            session,
-            "%s: --split cloud: what Gaussians and volumes show depends on the order of depth, which "
-            "sums of parts do not have; --split frames divides their films",
-            mixture_scene_path(&scene->mixture));
+    const ewa_scene_options options = scene_options(arguments, render);
+    ewa_asset_options assets = scene_input_asset_options(session);
+    assets.gaussians_as_surfels = arguments->gaussians_as_surfels;
+    assets.levels = lod_input_levels(&arguments->lod);
+    assets.cutoff = arguments->surfels.cutoff;
+    assets.transfer = arguments->transfer;
+    assets.reach_steps = arguments->volumes.sigma * arguments->volumes.cutoff;
+    ewa_coloring coloring;
+    scene_input_coloring(arguments->color_by, arguments->colormap, &arguments->range, &coloring);
+    ewa_status status = ewa_scene_create(session->context, &options, &scene->scene);
+    if (status != EWA_OK) return session_failed(session, status) == EXIT_DONE;
+    if (!scene_input_add(session, common, &assets, &coloring, scene->scene) ||
+        !check_scene(session, arguments, scene->scene))
         return false;
-    }
-    if (mixture_scene_some(&scene->mixture)) return make_mixture_scene(session, arguments, scene, report);
-    if (!lod_input_choose(session, common, &arguments->lod, find_lod_clash(arguments), &scene->lod))
+    const view_subject subject = {.scene = scene->scene};
+    session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
+    if (!frames_make(session, &arguments->frames, &subject, &scene->frames) ||
+        !furnish_make(session, &arguments->furniture, &arguments->frames, &arguments->background, &subject,
+                      &scene->furniture))
         return false;
-    if (crew_shares_cloud(session->crew) && !scene->lod) {
-        struct stat facts;
-        const char *path = common->operands[0];
-        if (stat(path, &facts) != 0)
-            session_fail(session, "%s: %s", path, strerror(errno));
-        else
-            session_fail(
-                session,
-                "--split cloud: what is shared is an octree that is drawn from its levels; `ewa-mpi lod "
-                "%s -o FILE.copc.laz` makes one, and --memory draws a small one so, too",
-                common->operands[0]);
-        return false;
-    }
-    return scene->lod ? make_lod_scene(session, arguments, scene, report)
-                      : make_scene(session, arguments, scene, report);
+    status = ewa_scene_commit(scene->scene);
+    if (status != EWA_OK) return session_failed(session, status) == EXIT_DONE;
+    ewa_scene_info info;
+    ewa_scene_describe(scene->scene, &info);
+    scene->octrees = info.octrees;
+    report->from_lod = info.octrees;
+    report->point_count = info.point_count;
+    report->load_s = info.load_s;
+    report->estimate_s = info.estimate_s;
+    report->surfels_s = info.surfels_s;
+    report->surfels = info.surfels;
+    const ewa_legend *legend = NULL;
+    for (uint32_t i = 0; i < info.instance_count && !legend; i++) legend = ewa_scene_legend(scene->scene, i);
+    if (arguments->furniture.color_bar && legend)
+        furnish_color_bar(&arguments->furniture, arguments->color_by, legend, &scene->furniture);
+    return true;
+}
+
+static bool make_scene(cli_session *session, const render_arguments *arguments, const light_objects *lit_by,
+                       render_scene *scene, render_report *report) {
+    const ewa_render_options render = render_options(arguments, lit_by);
+    return prepare(session, arguments, &render, scene, report);
 }
 
 /// What paint() works with.
-typedef struct surfel_painter {
+typedef struct scene_painter {
     cli_session *session;
-    ewa_renderer *renderer;
+    ewa_scene_renderer *renderer;
     render_scene *scene;
-    const ewa_render_options *options;
-    const ewa_gaussian_options *gaussians;
     render_report *report;
-} surfel_painter;
-
-/// Draws a frame of an octree, and adds what that took to the report.
-static ewa_status paint_lod(const surfel_painter *painter, const ewa_camera *camera, const ewa_frame *frame,
-                            ewa_render_stats *stats) {
-    const render_scene *scene = painter->scene;
-    ewa_lod_stats took;
-    const ewa_status status = ewa_lod_render(scene->lod, painter->renderer, camera, painter->options,
-                                             &scene->lod_options, frame, &took);
-    if (status != EWA_OK) return status;
-    *stats = took.render;
-    render_report_add_lod(painter->report, &took);
-    return EWA_OK;
-}
+} scene_painter;
 
 static ewa_status paint(void *user, const ewa_camera *camera, const ewa_frame *frame,
                         ewa_render_stats *stats) {
-    const surfel_painter *painter = user;
+    const scene_painter *painter = user;
     render_scene *scene = painter->scene;
-    const ewa_render_options *options = painter->options;
-    const ewa_status status =
-        mixture_scene_some(&scene->mixture)
-            ? mixture_scene_paint(&scene->mixture, painter->renderer, scene->surfels, camera, options,
-                                  painter->gaussians, frame, stats)
-        : scene->lod ? paint_lod(painter, camera, frame, stats)
-                     : ewa_render(painter->renderer, scene->surfels, camera, options, frame, stats);
-    return status == EWA_OK ? furnish_draw(painter->session, &painter->scene->furniture, camera, frame)
-                            : status;
+    ewa_scene_stats took;
+    const ewa_status status = ewa_scene_draw(scene->scene, painter->renderer, camera, NULL, frame, &took);
+    if (status != EWA_OK) return status;
+    *stats = took.render;
+    if (scene->octrees) render_report_add_lod(painter->report, &took.lod);
+    return furnish_draw(painter->session, &scene->furniture, camera, frame);
 }
 
 /// Makes the renderer that was asked for, or the one of all processes. False after reporting.
-static bool make_renderer(cli_session *session, int backend, ewa_renderer **renderer) {
+static bool make_renderer(cli_session *session, int backend, ewa_scene_renderer **renderer) {
     const char *subject = session->subject;
     session->subject = NULL; // a device is nothing of the file
     const bool joint = crew_shares_cloud(session->crew);
     ewa_status status = EWA_OK;
     if (joint && backend != EWA_BACKEND_CPU)
         session_fail(session, "--split cloud draws on processors: leave out --backend");
-    else if (joint)
-        status = ewa_renderer_create_joint(session->context, &session->crew->exchange, renderer);
     else
-        status = ewa_renderer_create_on(session->context, (ewa_backend_kind)backend, renderer);
+        status = ewa_scene_renderer_create(session->context, (ewa_backend_kind)backend,
+                                           joint ? &session->crew->exchange : NULL, renderer);
     if (status != EWA_OK) session_failed(session, status);
-    if (*renderer && !joint) backend_warn(session, backend, *renderer);
+    if (*renderer && !joint) backend_warn(session, backend, ewa_scene_renderer_surfaces(*renderer));
     session->subject = subject;
     return *renderer != NULL;
 }
 
 /// Draws and writes everything. False after reporting.
 static bool draw(cli_session *session, const render_arguments *arguments, const picture_paths *paths,
-                 const light_objects *lit_by, render_scene *scene, render_report *report) {
+                 render_scene *scene, render_report *report) {
     const bool many = frames_many(&arguments->frames);
-    const ewa_render_options options = render_options(arguments, lit_by);
     const sequence_output output = {
         .paths = paths,
         .numbered = many,
@@ -430,33 +359,16 @@ static bool draw(cli_session *session, const render_arguments *arguments, const 
         .quality = arguments->frames.quality >= 0 ? (int)arguments->frames.quality : 75,
         .opaque = arguments->background.rgba[3] == 1,
     };
-    surfel_painter painting = {.session = session,
-                               .scene = scene,
-                               .options = &options,
-                               .gaussians = &arguments->mixture.gaussians,
-                               .report = report};
+    scene_painter painting = {.session = session, .scene = scene, .report = report};
     const frame_cameras *frames = &scene->frames;
     const bool saves_camera = arguments->save_camera_path && crew_leads(session->crew);
     const bool done = make_renderer(session, arguments->backend, &painting.renderer) &&
                       sequence_draw(session, &output, frames, &(frame_painter){paint, &painting}, report) &&
                       (!saves_camera || frames_save(session, arguments->save_camera_path, frames, many));
     report->renderer.struct_size = sizeof report->renderer;
-    if (done) ewa_renderer_describe(painting.renderer, &report->renderer);
-    ewa_renderer_destroy(&painting.renderer);
+    if (done) ewa_renderer_describe(ewa_scene_renderer_surfaces(painting.renderer), &report->renderer);
+    ewa_scene_renderer_destroy(&painting.renderer);
     return done;
-}
-
-/// Gaussians and volumes have no normals. False after reporting.
-static bool choose_planes(cli_session *session, const render_scene *scene, picture_paths *paths) {
-    if (!mixture_scene_some(&scene->mixture)) return true;
-    paths->no_normals = true;
-    if (!paths->normal[0]) return true;
-    session->subject = mixture_scene_path(&scene->mixture);
-    session_fail(
-        session,
-        "--aov: Gaussians and volumes have no normals; depth and coverage they have, and Gaussians as "
-        "surfels, with --surface, normals");
-    return false;
 }
 
 static int run(const void *data) {
@@ -466,7 +378,7 @@ static int run(const void *data) {
     if (!session_start(&session, common)) return session_end(&session, EXIT_FAILED);
     picture_paths paths;
     char message[OPTION_ERROR_BYTES];
-    render_scene scene = {.surfels = NULL};
+    render_scene scene = {.scene = NULL};
     const frame_cameras *frames = &scene.frames;
     const bool many = frames_many(&arguments->frames);
     light_objects lit_by = {.material_count = 0};
@@ -477,8 +389,8 @@ static int run(const void *data) {
                 dividing_choose(&session, &scene.frames);
     const bool idle = done && !frames->chosen_count && !arguments->save_camera_path && !arguments->stats_path;
     done = done && !idle && light_load(&session, &arguments->light, &lit_by) &&
-           prepare(&session, arguments, &scene, &report) && choose_planes(&session, &scene, &paths) &&
-           draw(&session, arguments, &paths, &lit_by, &scene, &report) &&
+           make_scene(&session, arguments, &lit_by, &scene, &report) &&
+           draw(&session, arguments, &paths, &scene, &report) &&
            (!arguments->stats_path || !crew_leads(session.crew) ||
             render_report_write(&session, common, many, frames, &report, arguments->stats_path));
     if (done && !many)
@@ -492,11 +404,8 @@ static int run(const void *data) {
                     clock_now_s() - session.started_s);
     const int ended = done || idle ? EXIT_DONE : frames->beyond ? EXIT_USAGE : EXIT_FAILED;
     render_report_free(&report);
-    color_scale_free(&scene.scale);
     frames_free(&scene.frames);
-    ewa_surfels_destroy(&scene.surfels);
-    ewa_lod_close(&scene.lod);
-    mixture_scene_free(&scene.mixture);
+    ewa_scene_destroy(&scene.scene);
     light_free(&lit_by);
     return session_end(&session, ended);
 }

@@ -101,7 +101,7 @@ static bool make_camera(cli_session *session, const texture_arguments *arguments
         status = ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F64, 3, corners, sizeof corners[0]);
     bool done = status == EWA_OK;
     if (!done) session_failed(session, status);
-    done = done && view_make(session, &view, cloud, 1, camera, NULL);
+    done = done && view_make(session, &view, &(view_subject){.cloud = cloud, .radius_scale = 1}, camera, NULL);
     ewa_cloud_destroy(&cloud);
     return done;
 }

@@ -77,70 +77,63 @@ bool view_is_placed(const view_arguments *arguments) {
            arguments->azimuth_deg != 0 || arguments->elevation_deg != 0;
 }
 
-/// What is up and how it is looked at, as far as the options do not say.
-static ewa_upright choose_upright(const view_arguments *arguments, const ewa_framing *framing) {
-    const common_arguments *common = &arguments->common;
-    const option_vector *up = &arguments->up;
-    if (!up->count && !arguments->up_axis) {
-        ewa_upright chosen;
-        ewa_framing_choose(framing, ewa_up_convention_of(common->operand_count, common->operands), &chosen);
-        return chosen;
-    }
-    ewa_framing_info info;
-    ewa_framing_describe(framing, &info);
-    const double *low = info.box.low_world, *high = info.box.high_world;
-    const double extent[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
-    const int axis = !up->count ? abs(arguments->up_axis) : fabs(up->values[2]) > fabs(up->values[1]) ? 2 : 1;
-    return (ewa_upright){.axis = axis,
-                         .reversed = !up->count && arguments->up_axis < 0,
-                         .view = ewa_upright_view(extent, axis),
-                         .why = up->count ? "as it was asked for" : "as files of this kind have it"};
+/// What the library calls what is up.
+static ewa_scene_up up_of(int axis) {
+    return axis == 1 ? EWA_UP_Y : axis == 2 ? EWA_UP_Z : axis == -1 ? EWA_UP_MINUS_Y : axis == -2 ? EWA_UP_MINUS_Z : EWA_UP_AUTO;
 }
 
-/// What the directions of a view come from.
-typedef struct view_frame {
-    double direction[3];  ///< in which the camera looks
-    double up_world[3];   ///< of the picture
-    double axis_world[3]; ///< of a turntable
-    bool from_origin;     ///< the eye belongs at the origin
-} view_frame;
+/// The library's options of a camera.
+static ewa_view_options options_of(const view_arguments *arguments, bool turntable) {
+    ewa_view_options options;
+    ewa_view_options_init(&options, sizeof options);
+    options.width_px = arguments->size.width_px;
+    options.height_px = arguments->size.height_px;
+    options.fov_deg = arguments->fov_deg;
+    options.ortho_height_world = arguments->ortho_height;
+    options.view = arguments->view;
+    options.azimuth_deg = arguments->azimuth_deg;
+    options.elevation_deg = arguments->elevation_deg;
+    options.turntable = turntable;
+    options.has_eye = arguments->eye.count;
+    options.has_target = arguments->target.count;
+    if (arguments->up.count) memcpy(options.up_world, arguments->up.values, sizeof options.up_world);
+    memcpy(options.eye_world, arguments->eye.values, sizeof options.eye_world);
+    memcpy(options.target_world, arguments->target.values, sizeof options.target_world);
+    return options;
+}
 
-/// The up vector of the picture, the axis of a turntable and, for a camera without --eye, the direction in
-/// which it looks.
-static ewa_status choose_direction(cli_session *session, const view_arguments *arguments,
-                                   const ewa_framing *framing, view_frame *frame) {
-    ewa_upright chosen = choose_upright(arguments, framing);
-    const option_vector *up = &arguments->up;
-    const bool turned = arguments->azimuth_deg != 0 || arguments->elevation_deg != 0;
-    chosen.from_origin = chosen.from_origin && arguments->view < 0 && !turned;
-    if (arguments->view >= 0) chosen.view = (ewa_named_view)arguments->view;
-    char text[EWA_UPRIGHT_TEXT_BYTES];
-    ewa_upright_describe(&chosen, text);
-    if (!arguments->camera_path) session_say(session, "up: %s", text);
-    frame->from_origin = chosen.from_origin;
-    ewa_upright_look(&chosen, frame->direction, frame->up_world);
-    for (int c = 0; c < 3; c++) {
-        const double sign = chosen.reversed ? -1 : 1;
-        frame->axis_world[c] = up->count ? up->values[c] : c == chosen.axis ? sign : 0;
-    }
-    if (up->count) memcpy(frame->up_world, up->values, sizeof frame->up_world);
-    return !turned ? EWA_OK
-                   : ewa_upright_turn(frame->axis_world, arguments->azimuth_deg, arguments->elevation_deg,
-                                      frame->direction, frame->up_world);
+/// Has the library place a camera at what is looked at; `camera` NULL: only what is up and where the middle is.
+static bool place(cli_session *session, const view_arguments *arguments, const view_subject *subject, bool turntable,
+                  ewa_camera *camera, ewa_view_info *info) {
+    const common_arguments *common = &arguments->common;
+    const ewa_view_options options = options_of(arguments, turntable);
+    const ewa_status status =
+        subject->scene
+            ? ewa_scene_place_camera(subject->scene, &options, camera, info)
+            : ewa_cloud_place_camera(subject->cloud, subject->radius_scale,
+                                     ewa_up_convention_of(common->operand_count, common->operands),
+                                     up_of(subject->up_axis), &options, camera, info);
+    if (status != EWA_OK) session_failed(session, status);
+    return status == EWA_OK;
 }
 
 bool view_default(cli_session *session, const char *path, const ewa_cloud *cloud, int up_axis,
                   ewa_upright *chosen) {
-    const view_arguments arguments = {
-        .common = {.operands = &path, .operand_count = 1}, .view = -1, .up_axis = up_axis};
-    ewa_framing *framing = NULL;
-    const ewa_status status = ewa_framing_create(cloud, 1, &framing);
-    if (status == EWA_OK)
-        *chosen = choose_upright(&arguments, framing);
-    else
-        session_failed(session, status);
-    ewa_framing_destroy(&framing);
-    return status == EWA_OK;
+    view_arguments arguments = {.common = {.operands = &path, .operand_count = 1}};
+    const view_subject subject = {.cloud = cloud, .radius_scale = 1, .up_axis = up_axis};
+    ewa_view_info info;
+    view_set_defaults(&arguments);
+    if (!place(session, &arguments, &subject, false, NULL, &info)) return false;
+    *chosen = info.upright;
+    return true;
+}
+
+bool view_middle(cli_session *session, const view_arguments *arguments, const view_subject *subject,
+                 double middle_world[3]) {
+    ewa_view_info info;
+    if (!place(session, arguments, subject, false, NULL, &info)) return false;
+    memcpy(middle_world, info.pivot_world, sizeof info.pivot_world);
+    return true;
 }
 
 void view_resize(ewa_camera *camera, const option_size *size) {
@@ -196,87 +189,15 @@ static bool load_camera(cli_session *session, const view_arguments *arguments, e
     return status == EWA_OK;
 }
 
-/// Moves the camera sideways so that it looks at `target_world` from the same distance.
-static ewa_status aim_at(ewa_camera *camera, const double direction[3], const double middle_world[3],
-                         const double target_world[3], const double up_world[3]) {
-    double eye_world[3], aimed_world[3], distance = 0, length = 0;
-    ewa_camera_eye(camera, eye_world);
-    for (int c = 0; c < 3; c++) {
-        distance += (middle_world[c] - eye_world[c]) * (middle_world[c] - eye_world[c]);
-        length += direction[c] * direction[c];
-    }
-    for (int c = 0; c < 3; c++) aimed_world[c] = target_world[c] - direction[c] * sqrt(distance / length);
-    return ewa_camera_look_at(camera, aimed_world, target_world, up_world);
-}
-
-/// Places a camera whose picture and projection are set. With `turn`, whose pivot is set, the cloud is framed
-/// in all its turns.
-static ewa_status place_camera(cli_session *session, const view_arguments *arguments,
-                               const ewa_framing *framing, ewa_camera *camera, view_turn *turn) {
-    view_frame frame;
-    ewa_framing_info info;
-    ewa_framing_describe(framing, &info);
-    ewa_status status = choose_direction(session, arguments, framing, &frame);
-    if (status != EWA_OK) return status;
-    const double *direction = frame.direction, *up_world = frame.up_world;
-    if (turn) memcpy(turn->axis_world, frame.axis_world, sizeof turn->axis_world);
-    const option_vector *eye = &arguments->eye, *target = &arguments->target;
-    if (eye->count) {
-        const double *target_world = target->count ? target->values : info.middle_world;
-        status = ewa_camera_look_at(camera, eye->values, target_world, up_world);
-        if (status != EWA_OK)
-            session_fail(session, "--eye: %g,%g,%g is also where the camera looks", eye->values[0],
-                         eye->values[1], eye->values[2]);
-        return status;
-    }
-    if (info.trimmed)
-        session_note(session,
-                     "a few points lie far off and are left outside the picture; --eye decides otherwise");
-    if (turn) {
-        ewa_framing *solid = NULL;
-        status = ewa_framing_revolve(framing, turn->pivot_world, frame.axis_world, direction, &solid);
-        if (status == EWA_OK) status = ewa_framing_fit(solid, direction, up_world, camera);
-        ewa_framing_destroy(&solid);
-    } else if (frame.from_origin && !target->count && !(arguments->fov_deg > 0) &&
-               !(arguments->ortho_height > 0)) {
-        static const double origin[3] = {0, 0, 0};
-        return ewa_framing_zoom(framing, origin, up_world, camera);
-    } else {
-        status = ewa_framing_fit(framing, direction, up_world, camera);
-        if (status == EWA_OK && target->count)
-            status = aim_at(camera, direction, info.middle_world, target->values, up_world);
-    }
-    if (status == EWA_OK && arguments->ortho_height > 0)
-        status = ewa_camera_set_ortho(camera, arguments->ortho_height);
-    return status;
-}
-
-bool view_make(cli_session *session, const view_arguments *arguments, const ewa_cloud *cloud,
-               double radius_scale, ewa_camera *camera, view_turn *turn) {
+bool view_make(cli_session *session, const view_arguments *arguments, const view_subject *subject,
+               ewa_camera *camera, view_turn *turn) {
     ewa_camera_init(camera);
     if (arguments->camera_path && !load_camera(session, arguments, camera)) return false;
     if (arguments->camera_path && !turn) return true;
-    ewa_framing *framing = NULL;
-    ewa_status status = ewa_framing_create(cloud, radius_scale, &framing);
-    if (status != EWA_OK) return session_failed(session, status) == EXIT_DONE;
-    if (turn) {
-        ewa_framing_info info;
-        ewa_framing_describe(framing, &info);
-        memcpy(turn->pivot_world, arguments->target.count ? arguments->target.values : info.middle_world,
-               sizeof turn->pivot_world);
-    }
-    if (arguments->camera_path) {
-        view_frame frame;
-        status = choose_direction(session, arguments, framing, &frame);
-        memcpy(turn->axis_world, frame.axis_world, sizeof turn->axis_world);
-    } else {
-        status = set_lens(arguments, camera);
-        if (status == EWA_OK) status = place_camera(session, arguments, framing, camera, turn);
-    }
-    if (status == EWA_ERROR_NUMERIC && !session->reported)
-        session_fail(session, "no camera can be placed: the numbers of its options are too large");
-    else if (status != EWA_OK)
-        session_failed(session, status);
-    ewa_framing_destroy(&framing);
-    return status == EWA_OK;
+    ewa_view_info info;
+    if (!place(session, arguments, subject, turn != NULL, arguments->camera_path ? NULL : camera, &info)) return false;
+    if (!turn) return true;
+    memcpy(turn->pivot_world, info.pivot_world, sizeof turn->pivot_world);
+    memcpy(turn->axis_world, info.up_world, sizeof turn->axis_world);
+    return true;
 }

@@ -16,8 +16,6 @@ typedef struct view_arguments {
     double fov_deg;      ///< 0: not given
     double ortho_height; ///< 0: perspective
     int view;            ///< index of a named view; -1: none given
-    int up_axis; ///< 1 y, 2 z, below 0 the negative one: which is up without --up; 0: by the cloud's shape;
-                 ///< no option
     double azimuth_deg, elevation_deg;
     option_size size;
 } view_arguments;
@@ -41,16 +39,27 @@ bool view_is_placed(const view_arguments *arguments);
 bool view_default(cli_session *session, const char *path, const ewa_cloud *cloud, int up_axis,
                   ewa_upright *chosen);
 
+/// What a camera looks at: a scene, or one cloud.
+typedef struct view_subject {
+    ewa_scene *scene;       ///< NULL: the cloud
+    const ewa_cloud *cloud; ///< with at least one finite point
+    double radius_scale;    ///< that the cloud's radii are drawn times
+    int up_axis; ///< of the cloud's file: 1 y, 2 z, below 0 the negative one is up; 0: by the cloud's shape
+} view_subject;
+
+/// Finds the middle of what is looked at, or the target. Returns false after reporting.
+bool view_middle(cli_session *session, const view_arguments *arguments, const view_subject *subject,
+                 double middle_world[3]);
+
 /// What a turntable turns about.
 typedef struct view_turn {
     double pivot_world[3], axis_world[3];
 } view_turn;
 
-/// Makes the camera that the options ask for, looking at a cloud whose radii are drawn times `radius_scale`.
-/// With `turn`, which may be NULL, it is the first of a turntable: the cloud is framed so that all is in the
-/// picture whichever way it is turned. Returns false after reporting.
-bool view_make(cli_session *session, const view_arguments *arguments, const ewa_cloud *cloud,
-               double radius_scale, ewa_camera *camera, view_turn *turn);
+/// Makes the camera that the options ask for. With `turn`, which may be NULL, it is the first of a turntable: all is
+/// in the picture whichever way it is turned. Returns false after reporting.
+bool view_make(cli_session *session, const view_arguments *arguments, const view_subject *subject,
+               ewa_camera *camera, view_turn *turn);
 
 /// Makes the lens that the cameras of a file get if they are poses: a camera at the origin. Says so when the
 /// options have none. Returns false after reporting.

@@ -221,10 +221,9 @@ bool volume_scene_frame(cli_session *session, const frames_arguments *arguments,
     // Scanners' volumes stand on z, whatever their proportions.
     frames_arguments chosen = *arguments;
     view_arguments *view = &chosen.view;
-    view->up_axis = 2;
     const bool turned = view->azimuth_deg != 0 || view->elevation_deg != 0 || view->up.count;
     if (view->view < 0) view->view = turned ? EWA_VIEW_FRONT : scene->view;
-    const bool done = frames_make(session, &chosen, cloud, 1, frames);
+    const bool done = frames_make(session, &chosen, &(view_subject){.cloud = cloud, .radius_scale = 1, .up_axis = 2}, frames);
     ewa_cloud_destroy(&cloud);
     return done;
 }

@@ -69,7 +69,6 @@ int window_run(const void *data, int (*front)(const front_job *job)) {
     const window_arguments *arguments = data;
     const common_arguments *common = &arguments->view.common;
     window_services services;
-    const ewa_lod_options lod_options = lod_input_options(&arguments->lod);
     front_job job = {.paths = common->operands,
                      .path_count = common->operand_count,
                      .script_path = arguments->script_path,
@@ -81,10 +80,10 @@ int window_run(const void *data, int (*front)(const front_job *job)) {
                                  .width = arguments->view.size.width_px,
                                  .height = arguments->view.size.height_px,
                                  .scale = arguments->scale,
-                                 .lod = &lod_options,
+                                 .lod = &arguments->lod.options,
                                  .waits = arguments->script_path && !arguments->timings}};
     if (!window_services_make(&services, &arguments->view, &job.options.services)) return EXIT_FAILED;
-    services.whole = arguments->lod.options.error == 0;
+    services.levels = lod_input_levels(&arguments->lod);
     const int exit_status = front(&job);
     window_services_free(&services);
     return exit_status;

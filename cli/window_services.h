@@ -11,7 +11,7 @@
 /// What the services work with; it stays as long as the viewer.
 typedef struct window_services {
     const view_arguments *view; ///< the camera's options
-    bool whole;                 ///< octrees are loaded as any files
+    ewa_octree_levels levels;
     ewa_surfels_options surfels;
     bool close_gaps;
     uint32_t thread_count;

@@ -78,7 +78,6 @@ typedef struct ewa_gaussian_options {
     /// (camera-space z) along a pixel's ray is not drawn over surface_rgba (linear, premultiplied), but in that part of
     /// a pixel that its alpha leaves free, over the background. Both NULL (default): none.
     const float *surface_depth, *surface_rgba;
-    const float *surface_normal, *surface_coverage; // interim
     /// Section planes a, b, c, d in world space: what of a ray lies where a x + b y + c z + d < 0 for one of them is
     /// left out; normals not all 0, of any length
     double section_planes[EWA_MAX_SECTION_PLANES][4];

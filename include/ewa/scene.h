@@ -274,6 +274,12 @@ typedef struct ewa_view_info {
 EWA_API ewa_status ewa_scene_place_camera(ewa_scene *scene, const ewa_view_options *options, ewa_camera *camera,
                                           ewa_view_info *info);
 
+/// The same at one cloud, whose radii are drawn times `radius_scale`: `up` is what its file says, `convention` what the
+/// kind of its file does. Nothing is estimated. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_NUMERIC, EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_cloud_place_camera(const ewa_cloud *cloud, double radius_scale, ewa_up_convention convention,
+                                          ewa_scene_up up, const ewa_view_options *options, ewa_camera *camera,
+                                          ewa_view_info *info);
+
 /// What draws scenes: the memory of frames, of one context.
 typedef struct ewa_scene_renderer ewa_scene_renderer;
 

@@ -4,6 +4,7 @@
 // Cameras where no file says: what is up in a scene, from where it is seen, all of it in the picture.
 #include "base/base.h"
 #include "base/options.h"
+#include "cloud/cloud.h"
 #include "homogeneous/camera.h"
 #include "scene/scene.h"
 
@@ -45,19 +46,26 @@ void ewa_view_options_init(ewa_view_options *options, size_t struct_size) {
 
 /// A camera that is being placed.
 typedef struct placement {
-    const ewa_scene *scene;
+    ewa_context *context;
     const ewa_view_options *options;
     const ewa_framing *framing;
+    int up_axis;      ///< 1 y, 2 z, negative: down; 0: nothing says so
+    bool up_asked;    ///< somebody, and no file, says so
+    ewa_up_convention convention;
+    int suited_view;  ///< -1: none
     ewa_framing_info of;
     ewa_upright upright;
     double direction_world[3], up_world[3], axis_world[3];
 } placement;
 
-/// What is up by the options of the scene, else by the first file that says so: 1 y, 2 z, negative: down; 0: nothing.
-static int up_axis_of(const ewa_scene *scene) {
+static int axis_of(ewa_scene_up up) {
     static const int axes[] = {0, 1, 2, -1, -2};
-    if (scene->options.up != EWA_UP_AUTO) return axes[scene->options.up];
-    // Gaussians first: what else there is was put to them.
+    return axes[up];
+}
+
+/// What is up by the first visible file that says so: 1 y, 2 z, negative: down; 0: none does.
+static int up_axis_of(const ewa_scene *scene) {
+    // Volumes come last: what else there is was put to them.
     for (int pass = 0; pass < 2; pass++)
         for (uint32_t i = 0; i < scene->count; i++) {
             const ewa_asset *asset = scene->items[i].asset;
@@ -92,42 +100,37 @@ static int view_of_volume(const ewa_scene *scene) {
 }
 
 /// What is up and how it is looked at.
-static ewa_status choose_upright(placement *p) {
+static void choose_upright(placement *p) {
     const double *up = p->options->up_world;
     const bool given = up[0] != 0 || up[1] != 0 || up[2] != 0;
-    const int said = given ? (fabs(up[2]) > fabs(up[1]) ? 2 : 1) : up_axis_of(p->scene);
+    const int said = given ? (fabs(up[2]) > fabs(up[1]) ? 2 : 1) : p->up_axis;
     if (!said) {
-        ewa_up_convention convention;
-        const ewa_status status = find_convention(p->scene, &convention);
-        if (status == EWA_OK) ewa_framing_choose(p->framing, convention, &p->upright);
-        return status;
+        ewa_framing_choose(p->framing, p->convention, &p->upright);
+        return;
     }
     const double *low = p->of.box.low_world, *high = p->of.box.high_world;
     const double extent[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
     const int axis = said < 0 ? -said : said;
-    const bool asked = given || p->scene->options.up != EWA_UP_AUTO;
-    p->upright = (ewa_upright){.axis = axis,
-                               .reversed = said < 0,
-                               .view = ewa_upright_view(extent, axis),
-                               .why = asked ? "as it was asked for" : "as files of this kind have it"};
-    return EWA_OK;
+    p->upright =
+        (ewa_upright){.axis = axis,
+                      .reversed = said < 0,
+                      .view = ewa_upright_view(extent, axis),
+                      .why = given || p->up_asked ? "as it was asked for" : "as files of this kind have it"};
 }
 
 /// The up vector of the picture, the axis of a turntable and the direction in which a camera without an eye looks.
 static ewa_status choose_direction(placement *p) {
     const ewa_view_options *options = p->options;
-    ewa_status status = choose_upright(p);
-    if (status != EWA_OK) return status;
+    choose_upright(p);
     ewa_upright *chosen = &p->upright;
     const double *up = options->up_world;
     const bool given = up[0] != 0 || up[1] != 0 || up[2] != 0,
                carried = options->azimuth_deg != 0 || options->elevation_deg != 0;
-    const int of_volume = view_of_volume(p->scene);
     chosen->from_origin = chosen->from_origin && options->view < 0 && !carried;
     if (options->view >= 0)
         chosen->view = (ewa_named_view)options->view;
-    else if (of_volume >= 0)
-        chosen->view = carried || given ? EWA_VIEW_FRONT : (ewa_named_view)of_volume;
+    else if (p->suited_view >= 0)
+        chosen->view = carried || given ? EWA_VIEW_FRONT : (ewa_named_view)p->suited_view;
     ewa_upright_look(chosen, p->direction_world, p->up_world);
     for (int c = 0; c < 3; c++)
         p->axis_world[c] = given ? up[c] : c == chosen->axis ? (chosen->reversed ? -1 : 1) : 0;
@@ -154,7 +157,7 @@ static ewa_status aim(const placement *p, ewa_camera *camera) {
 /// Places a camera whose picture and projection are set.
 static ewa_status place(const placement *p, const double pivot_world[3], ewa_camera *camera) {
     const ewa_view_options *options = p->options;
-    ewa_context *context = p->scene->context;
+    ewa_context *context = p->context;
     if (options->has_eye) {
         const double *eye = options->eye_world,
                      *target = options->has_target ? options->target_world : p->of.middle_world;
@@ -199,7 +202,7 @@ static ewa_status place_by_framing(placement *p, ewa_camera *camera, ewa_view_in
     if (!camera) return EWA_OK;
     char text[EWA_UPRIGHT_TEXT_BYTES];
     ewa_upright_describe(&p->upright, text);
-    ewa_report(p->scene->context, EWA_SEVERITY_INFO, "up: %s", text);
+    ewa_report(p->context, EWA_SEVERITY_INFO, "up: %s", text);
     ewa_camera_init(camera);
     camera->width_px = options->width_px;
     camera->height_px = options->height_px;
@@ -209,29 +212,52 @@ static ewa_status place_by_framing(placement *p, ewa_camera *camera, ewa_view_in
     return status == EWA_OK ? place(p, info->pivot_world, camera) : status;
 }
 
-ewa_status ewa_scene_place_camera(ewa_scene *scene, const ewa_view_options *given, ewa_camera *camera,
+/// Measures an outline and places a camera at it.
+static ewa_status place_at(placement *p, const ewa_cloud *outline, double radius_scale, const ewa_view_options *given,
+                           ewa_camera *camera, ewa_view_info *info) {
+    ewa_view_options options;
+    ewa_view_options_init(&options, sizeof options);
+    ewa_status status = ewa_options_take(p->context, &ewa_view_options_table, given, &options);
+    if (status != EWA_OK) return status;
+    if (options.view > EWA_VIEW_ISO)
+        return ewa_fail(p->context, EWA_ERROR_ARGUMENT, "view: %d is none of the named ones", options.view);
+    ewa_framing *framing = NULL;
+    ewa_view_info own;
+    status = ewa_framing_create(outline, radius_scale, &framing);
+    p->options = &options;
+    p->framing = framing;
+    if (status == EWA_OK) status = place_by_framing(p, camera, info ? info : &own);
+    if (status == EWA_ERROR_NUMERIC && framing && !options.has_eye)
+        ewa_fail(p->context, status, "no camera can be placed: the numbers of its options are too large");
+    ewa_framing_destroy(&framing);
+    return status;
+}
+
+ewa_status ewa_cloud_place_camera(const ewa_cloud *cloud, double radius_scale, ewa_up_convention convention,
+                                  ewa_scene_up up, const ewa_view_options *options, ewa_camera *camera,
+                                  ewa_view_info *info) {
+    if (!cloud) return EWA_ERROR_ARGUMENT;
+    placement p = {.context = ewa_cloud_context(cloud),
+                   .up_axis = axis_of(up),
+                   .convention = convention,
+                   .suited_view = -1};
+    return place_at(&p, cloud, radius_scale, options, camera, info);
+}
+
+ewa_status ewa_scene_place_camera(ewa_scene *scene, const ewa_view_options *options, ewa_camera *camera,
                                   ewa_view_info *info) {
     if (!scene) return EWA_ERROR_ARGUMENT;
-    ewa_context *context = scene->context;
-    ewa_view_options options;
-    ewa_view_info own;
-    ewa_view_options_init(&options, sizeof options);
-    ewa_status status = ewa_options_take(context, &ewa_view_options_table, given, &options);
-    if (status == EWA_OK && options.view > EWA_VIEW_ISO)
-        status = ewa_fail(context, EWA_ERROR_ARGUMENT, "view: %d is none of the named ones", options.view);
-    if (status == EWA_OK) status = ewa_scene_complete(scene);
+    const int asked = axis_of(scene->options.up);
+    placement p = {.context = scene->context,
+                   .up_axis = asked ? asked : up_axis_of(scene),
+                   .up_asked = asked != 0,
+                   .suited_view = view_of_volume(scene)};
     ewa_cloud *outline = NULL;
     bool made = false;
+    ewa_status status = ewa_scene_complete(scene);
+    if (status == EWA_OK) status = find_convention(scene, &p.convention);
     if (status == EWA_OK) status = ewa_scene_outline(scene, &outline, &made);
-    ewa_framing *framing = NULL;
-    if (status == EWA_OK) status = ewa_framing_create(outline, 1, &framing);
-    if (status == EWA_OK) {
-        placement p = {.scene = scene, .options = &options, .framing = framing};
-        status = place_by_framing(&p, camera, info ? info : &own);
-        if (status == EWA_ERROR_NUMERIC && !(options.has_eye))
-            ewa_fail(context, status, "no camera can be placed: the numbers of its options are too large");
-    }
-    ewa_framing_destroy(&framing);
+    if (status == EWA_OK) status = place_at(&p, outline, 1, options, camera, info);
     if (made) ewa_cloud_destroy(&outline);
     return status;
 }
