@@ -5,7 +5,6 @@
 #include "cloud_output.h"
 #include "commands.h"
 #include "inputs.h"
-#include "screening.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -78,8 +77,8 @@ static ewa_status detect(cli_session *session, const features_arguments *argumen
 static ewa_cloud *make(cli_session *session, const void *data) {
     const features_arguments *arguments = data;
     ewa_cloud *cloud = input_load(session, arguments->output.common.operands[0]);
-    if (cloud && arguments->estimate.keep_normals)
-        screening_drop_zero_normals(session, arguments->output.common.operands[0], cloud);
+    session->subject = arguments->output.common.operands[0];
+    if (cloud && arguments->estimate.keep_normals) ewa_cloud_drop_zero_normals(cloud);
     const ewa_status status = cloud ? detect(session, arguments, &cloud) : EWA_OK;
     if (status != EWA_OK) {
         session_failed(session, status);

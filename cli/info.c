@@ -5,7 +5,6 @@
 #include "backend.h"
 #include "choosing.h"
 #include "commands.h"
-#include "faults.h"
 #include "gaussian_files.h"
 #include "import.h"
 #include "info_facts.h"
@@ -17,7 +16,6 @@
 #include "json.h"
 #include "lod_input.h"
 #include "model_input.h"
-#include "screening.h"
 #include "view.h"
 
 #include <float.h>
@@ -65,7 +63,7 @@ typedef struct cloud_facts {
     ewa_bounds bounds;
     ewa_spacing spacing;
     point_shape shape;
-    cloud_faults faults;
+    ewa_cloud_faults faults;
     ewa_upright view; ///< by default; for a cloud with a finite point
     ewa_model_format format;
     bool is_mesh; ///< the points are vertices of:
@@ -178,7 +176,7 @@ static bool gather(cli_session *session, const char *path, const ewa_model *mode
         return false;
     }
     facts->shape = measure_shape(cloud, &facts->bounds);
-    faults_count(cloud, &facts->faults);
+    ewa_cloud_count_faults(cloud, &facts->faults);
     const int up_axis = facts->gaussians.count ? gaussian_files_up_axis(&facts->gaussians.file) : 0;
     if (facts->bounds.finite_count && !view_default(session, path, cloud, up_axis, &facts->view))
         return false;
@@ -215,7 +213,7 @@ static size_t list_problems(const ewa_cloud *cloud, const cloud_facts *facts,
         snprintf(problems[count++], PROBLEM_BYTES,
                  "%" PRIu64 " of %" PRIu64 " points share their place with another",
                  facts->spacing.duplicate_count, facts->sampled_count);
-    if (!facts->is_mesh && screening_find_degrees(cloud, PROBLEM_BYTES, problems[count])) count++;
+    if (!facts->is_mesh && ewa_cloud_find_degrees(cloud, problems[count])) count++;
     if (facts->shape == SHAPE_POINT)
         snprintf(problems[count++], PROBLEM_BYTES, "%s",
                  facts->bounds.finite_count == 1 ? "there is one point only"
@@ -417,7 +415,7 @@ static int run(const void *data) {
     for (size_t i = 0; i < arguments->common.operand_count; i++) {
         const char *path = arguments->common.operands[i];
         session.reported = false;
-        if (arguments->volume.dims.count || volume_input_is_named(path)) {
+        if (arguments->volume.dims.count || ewa_volume_is_named(path)) {
             if (!info_volume(&session, &arguments->volume, path, arguments->json ? &json : NULL))
                 exit_status = EXIT_FAILED;
             continue;

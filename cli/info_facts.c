@@ -3,7 +3,6 @@
 //
 // What a file of points says beside its numbers, for ewa info.
 #include "info_facts.h"
-#include "color_by.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -90,7 +89,7 @@ void info_classes_count(const ewa_cloud *cloud, class_counts *classes) {
     *classes = (class_counts){.attribute = NULL};
     const ewa_attribute *attribute = NULL;
     for (uint32_t k = 0; (attribute = ewa_cloud_attribute_at(cloud, k)); k++)
-        if (attribute->component_count == 1 && color_by_names_classes(attribute->name)) break;
+        if (attribute->component_count == 1 && ewa_coloring_names_classes(attribute->name)) break;
     if (!attribute) return;
     const uint64_t count = ewa_cloud_point_count(cloud);
     double numbers[BLOCK_POINTS];

@@ -4,7 +4,6 @@
 // What the Gaussians of a file are, for ewa info.
 #include "info_gaussians.h"
 #include "gaussian_files.h"
-#include "screening.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -58,9 +57,9 @@ static double bytes_each(const gaussians_told *told) {
 }
 
 void info_gaussians_print(const gaussians_told *told) {
-    const gaussian_facts facts = {told->flat ? 2 : 3, told->sh_degree, told->file.filtered};
-    char text[128];
-    screening_describe_gaussians(&facts, sizeof text, text);
+    const ewa_gaussian_columns facts = {told->flat ? 2 : 3, told->sh_degree, told->file.filtered};
+    char text[EWA_DIAGNOSIS_TEXT_BYTES];
+    ewa_gaussian_columns_describe(&facts, text);
     printf("  holds       %s\n", text);
     printf("  trained     %s\n", told->antialiased ? "with a filter that keeps opacities (antialiased)"
                                                    : "with a filter that thickens (as 3DGS)");

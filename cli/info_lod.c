@@ -15,8 +15,8 @@ bool info_lod_open(cli_session *session, const char *path, ewa_lod **lod, ewa_cl
     if (!*lod) return !lod_input_is_folder(session, path); // of a file there may be more to tell
     ewa_lod_info info;
     ewa_lod_describe(*lod, &info);
-    if (info.point_count <= LOD_WHOLE_POINTS || session->filter || session->load.columns) return true;
-    const ewa_status status = ewa_lod_sample(*lod, LOD_SAMPLE_POINTS, sample);
+    if (info.point_count <= EWA_OCTREE_WHOLE_POINTS || session->filter || session->load.columns) return true;
+    const ewa_status status = ewa_lod_sample(*lod, EWA_OCTREE_SAMPLE_POINTS, sample);
     if (status != EWA_OK) session_failed(session, status);
     return status == EWA_OK;
 }

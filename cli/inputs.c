@@ -6,7 +6,6 @@
 #include "choosing.h"
 #include "gaussian_files.h"
 #include "model_input.h"
-#include "screening.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -371,8 +370,9 @@ ewa_cloud *inputs_merge(cli_session *session, const common_arguments *common, co
 
 bool input_complete(cli_session *session, const char *path, ewa_cloud **cloud, double *estimate_s) {
     if (cloud_is_drawable(*cloud)) return true;
-    if (!screening_admit(session, path, *cloud)) return false;
-    screening_drop_zero_normals(session, path, *cloud);
+    session->subject = path;
+    if (ewa_cloud_refuse_gaussians(*cloud) != EWA_OK) return false;
+    ewa_cloud_drop_zero_normals(*cloud);
     const bool has_normals = ewa_cloud_find(*cloud, EWA_NORMAL) != NULL;
     ewa_estimate_options options;
     ewa_estimate_options_init(&options, sizeof options);

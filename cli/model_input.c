@@ -6,7 +6,6 @@
 #include "gaussian_files.h"
 #include "import.h"
 #include "lod_input.h"
-#include "screening.h"
 #include "volume_input.h"
 
 #include <math.h>
@@ -20,7 +19,7 @@ static const double MESH_CUTOFF = 1e-3;
 bool model_input_load(cli_session *session, const char *path, uint32_t wanted, ewa_model *model) {
     *model = (ewa_model){.points = NULL};
     session->subject = path;
-    if (volume_input_is_named(path)) {
+    if (ewa_volume_is_named(path)) {
         session_fail(session, "%s: a volume; `ewa volume %s -o FILE.png` draws it", path, path);
         return false;
     }
@@ -58,8 +57,8 @@ bool model_input_load(cli_session *session, const char *path, uint32_t wanted, e
                     (unsigned long long)ewa_cloud_point_count(model->points), took_s);
     // The readers of meshes say so themselves.
     if (model->points && !model->face_count) {
-        screening_check_steps(session, path, model->points);
-        screening_check_degrees(session, path, model->points);
+        ewa_cloud_check_steps(model->points);
+        ewa_cloud_check_degrees(model->points);
     }
     return true;
 }

@@ -6,7 +6,6 @@
 #include "gaussian_files.h"
 #include "import.h"
 #include "lod_input.h"
-#include "screening.h"
 #include "volume_input.h"
 
 #include <math.h>
@@ -17,7 +16,7 @@ static const uint64_t PIECE_POINTS = 1 << 19;
 
 /// Whether a file holds points of a known format, which `*format` gets, and can be read twice.
 static bool is_possible(cli_session *session, const char *path, ewa_model_format *format) {
-    if (strcmp(path, "-") == 0 || strncmp(path, "/dev/", 5) == 0 || volume_input_is_named(path) ||
+    if (strcmp(path, "-") == 0 || strncmp(path, "/dev/", 5) == 0 || ewa_volume_is_named(path) ||
         import_is_named(path) || lod_input_is_folder(session, path) ||
         gaussian_files_format(session, path) > EWA_GAUSSIANS_PLY ||
         ewa_model_probe(session->context, path, format) != EWA_OK)
@@ -65,7 +64,7 @@ static bool each_piece(passage *p, ewa_status (*take)(passage *p, const ewa_clou
         status = ewa_cloud_reader_next(p->reader, PIECE_POINTS, &piece);
         if (status != EWA_OK || !piece) break;
         // What the file says, not what becomes of it.
-        if (!p->screened) screening_check_steps(p->session, p->path, piece);
+        if (!p->screened) ewa_cloud_check_steps(piece);
         p->screened = true;
         changed = p->change(p->session, p->arguments, &piece);
         if (changed && ewa_cloud_point_count(piece)) status = take(p, piece);

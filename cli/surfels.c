@@ -5,9 +5,9 @@
 #include "cloud_output.h"
 #include "commands.h"
 #include "inputs.h"
-#include "screening.h"
 
 #include <stdio.h>
+#include <math.h>
 #include <string.h>
 
 typedef struct surfels_arguments {
@@ -49,16 +49,42 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     return options_fine(problem, message);
 }
 
+/// The harmonic that is the same in all directions.
+static const double SH_CONSTANT = 0.28209479177387814;
+
+/// Gives the centres of Gaussians that have no colours those that no direction changes. False after reporting.
+static bool color_gaussians(cli_session *session, ewa_cloud *cloud) {
+    static const char *const names[] = {"f_dc_0", "f_dc_1", "f_dc_2"};
+    uint8_t *colors = NULL;
+    if (ewa_cloud_find(cloud, EWA_COLOR) || !ewa_cloud_find_gaussians(cloud).dimensions) return true;
+    const ewa_status status = ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, (void **)&colors);
+    if (status != EWA_OK) {
+        session_failed(session, status);
+        return false;
+    }
+    for (int c = 0; c < 3; c++) {
+        const ewa_attribute *attribute = ewa_cloud_find(cloud, names[c]);
+        for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
+            float coefficient;
+            ewa_attribute_read_f32(attribute, i, 1, &coefficient);
+            const double color = 255 * (0.5 + SH_CONSTANT * (double)coefficient);
+            colors[3 * i + (uint64_t)c] = (uint8_t)(color > 0 ? fmin(color, 255) + 0.5 : 0);
+        }
+    }
+    return true;
+}
+
 static ewa_cloud *make(cli_session *session, const void *data) {
     const surfels_arguments *arguments = data;
     const char *path = arguments->output.common.operands[0];
     ewa_cloud *cloud = input_load(session, path);
     if (!cloud) return NULL;
-    if (!screening_color_gaussians(session, cloud)) {
+    if (!color_gaussians(session, cloud)) {
         ewa_cloud_destroy(&cloud);
         return NULL;
     }
-    if (arguments->options.keep_normals) screening_drop_zero_normals(session, path, cloud);
+    session->subject = path;
+    if (arguments->options.keep_normals) ewa_cloud_drop_zero_normals(cloud);
     ewa_estimate_options options = arguments->options;
     if (arguments->viewpoint.count) options.orientation = EWA_ORIENT_VIEWPOINT;
     memcpy(options.viewpoint_world, arguments->viewpoint.values, sizeof options.viewpoint_world);

@@ -189,6 +189,13 @@ static bool load_camera(cli_session *session, const view_arguments *arguments, e
     return status == EWA_OK;
 }
 
+static view_turn turn_of(const ewa_view_info *info) {
+    view_turn turn;
+    memcpy(turn.pivot_world, info->pivot_world, sizeof turn.pivot_world);
+    memcpy(turn.axis_world, info->up_world, sizeof turn.axis_world);
+    return turn;
+}
+
 bool view_make(cli_session *session, const view_arguments *arguments, const view_subject *subject,
                ewa_camera *camera, view_turn *turn) {
     ewa_camera_init(camera);
@@ -196,8 +203,14 @@ bool view_make(cli_session *session, const view_arguments *arguments, const view
     if (arguments->camera_path && !turn) return true;
     ewa_view_info info;
     if (!place(session, arguments, subject, turn != NULL, arguments->camera_path ? NULL : camera, &info)) return false;
-    if (!turn) return true;
-    memcpy(turn->pivot_world, info.pivot_world, sizeof turn->pivot_world);
-    memcpy(turn->axis_world, info.up_world, sizeof turn->axis_world);
+    if (turn) *turn = turn_of(&info);
+    return true;
+}
+
+bool view_axis(cli_session *session, const view_arguments *arguments, const view_subject *subject,
+               view_turn *turn) {
+    ewa_view_info info;
+    if (!place(session, arguments, subject, false, NULL, &info)) return false;
+    *turn = turn_of(&info);
     return true;
 }

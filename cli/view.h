@@ -61,6 +61,10 @@ typedef struct view_turn {
 bool view_make(cli_session *session, const view_arguments *arguments, const view_subject *subject,
                ewa_camera *camera, view_turn *turn);
 
+/// Finds what a turntable would turn about. Returns false after reporting.
+bool view_axis(cli_session *session, const view_arguments *arguments, const view_subject *subject,
+               view_turn *turn);
+
 /// Makes the lens that the cameras of a file get if they are poses: a camera at the origin. Says so when the
 /// options have none. Returns false after reporting.
 bool view_load_lens(cli_session *session, const view_arguments *arguments, const char *path,

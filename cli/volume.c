@@ -7,7 +7,6 @@
 #include "furnish.h"
 #include "json.h"
 #include "light.h"
-#include "mixture_scene.h"
 #include "section.h"
 #include "sequence.h"
 #include "video.h"
@@ -144,6 +143,25 @@ typedef struct volume_painter {
     ewa_image surface_rgba, surface_depth;
 } volume_painter;
 
+/// Draws surfels to planes of their own, over nothing, for what lets light through.
+static ewa_status paint_surface(ewa_context *context, ewa_renderer *renderer, const ewa_surfels *surfels,
+                                const ewa_camera *camera, const ewa_render_options *options, ewa_image *rgba,
+                                ewa_image *depth, ewa_render_stats *stats) {
+    const uint32_t width = camera->width_px, height = camera->height_px;
+    ewa_status status = EWA_OK;
+    if (rgba->width_px != width || rgba->height_px != height) {
+        ewa_image_free(rgba);
+        ewa_image_free(depth);
+        status = ewa_image_create(context, width, height, 1, depth);
+        if (status == EWA_OK) status = ewa_image_create(context, width, height, 4, rgba);
+    }
+    if (status != EWA_OK) return status;
+    ewa_render_options over_nothing = *options;
+    memset(over_nothing.background, 0, sizeof over_nothing.background);
+    const ewa_frame frame = {.rgba = rgba->pixels, .depth = depth->pixels};
+    return ewa_render(renderer, surfels, camera, &over_nothing, &frame, stats);
+}
+
 /// Draws the volume and the surfaces within.
 static ewa_status paint_among(volume_painter *painter, const ewa_camera *camera, const ewa_frame *frame,
                               ewa_volume_stats *drawn, ewa_render_stats *surface) {
@@ -152,7 +170,7 @@ static ewa_status paint_among(volume_painter *painter, const ewa_camera *camera,
     memcpy(options.background, painter->options.background, sizeof options.background);
     memcpy(options.section_planes, painter->options.section_planes, sizeof options.section_planes);
     options.section_count = painter->options.section_count;
-    ewa_status status = mixture_paint_surface(painter->session->context, painter->surface_renderer,
+    ewa_status status = paint_surface(painter->session->context, painter->surface_renderer,
                                               painter->scene->surfels, camera, &painter->surface_options,
                                               &painter->surface_rgba, &painter->surface_depth, surface);
     options.surface_rgba = painter->surface_rgba.pixels;
@@ -323,7 +341,9 @@ static int run(const void *data) {
            volume_scene_frame(&session, &arguments->frames, &scene, &frames) &&
            prepare_painter(arguments, &painter) &&
            furnish_make(&session, &arguments->furniture, &arguments->frames, &arguments->background,
-                        ewa_cloud_point_count(scene.outline) ? scene.outline : NULL, NULL, NULL,
+                        ewa_cloud_point_count(scene.outline)
+                            ? &(view_subject){.cloud = scene.outline, .radius_scale = 1, .up_axis = 2}
+                            : NULL,
                         &painter.furniture) &&
            draw(arguments, &paths, &frames, &painter, &report) &&
            (!arguments->stats_path || !crew_leads(session.crew) ||

@@ -22,18 +22,6 @@ bool volume_input_check(const volume_input_arguments *arguments, char message[OP
     return options_fine(wrong, message);
 }
 
-bool volume_input_is_named(const char *path) {
-    static const char *const suffixes[] = {".nrrd", ".nhdr",   ".nii", ".nii.gz", ".mha",
-                                           ".mhd",  ".raw",    ".vti", ".vtk",    ".raw.gz",
-                                           ".img",  ".img.gz", ".hdr", ".hdr.gz"};
-    const size_t length = strlen(path);
-    for (size_t i = 0; i < sizeof suffixes / sizeof suffixes[0]; i++) {
-        const size_t suffix = strlen(suffixes[i]);
-        if (length > suffix && strcasecmp(path + length - suffix, suffixes[i]) == 0) return true;
-    }
-    return false;
-}
-
 bool volume_input_load(cli_session *session, const volume_input_arguments *arguments, const char *path,
                        ewa_volume *volume) {
     // In the order of the words of --type.

@@ -40,9 +40,6 @@ void volume_input_set_defaults(volume_input_arguments *arguments);
 /// What is wrong with the options together; see command.check.
 bool volume_input_check(const volume_input_arguments *arguments, char message[OPTION_ERROR_BYTES]);
 
-/// Whether a name has a suffix of volumes.
-bool volume_input_is_named(const char *path);
-
 /// Loads a volume. Returns false after reporting; free with ewa_volume_free() in any case.
 bool volume_input_load(cli_session *session, const volume_input_arguments *arguments, const char *path,
                        ewa_volume *volume);

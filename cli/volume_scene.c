@@ -3,7 +3,6 @@
 //
 // What a picture of a volume shows: the voxels under a transfer function, and surfaces within.
 #include "volume_scene.h"
-#include "faults.h"
 #include "inputs.h"
 
 #include <math.h>
@@ -109,7 +108,7 @@ static bool load_surfels(cli_session *session, const char *path, volume_scene *s
         ewa_surfels_info info;
         ewa_surfels_describe(scene->surfels, &info);
         session->subject = path;
-        done = faults_report(session, cloud, &info);
+        done = ewa_cloud_report_faults(cloud, &info) == EWA_OK;
     } else {
         session_failed(session, status);
     }

@@ -12,11 +12,10 @@
 typedef struct window_services {
     const view_arguments *view; ///< the camera's options
     ewa_octree_levels levels;
-    ewa_surfels_options surfels;
-    bool close_gaps;
     uint32_t thread_count;
-    cli_session session; ///< of the thread that places cameras
-    bool quiet;
+    cli_session session;       ///< of the thread that places cameras
+    cli_session loading;       ///< of the thread that loads and makes scenes
+    session_listener listener; ///< of its news
 } window_services;
 
 /// Makes the services; free them after the viewer. False after reporting.

@@ -73,7 +73,7 @@ static bool do_show(viewer *v, const char *rest) {
     if (!read_item(v, "show", word, &index) ||
         !read_switch(v, "show", rest, v->items[index].visible, &v->items[index].visible))
         return false;
-    viewer_change(v);
+    items_refresh(v);
     return true;
 }
 

@@ -13,10 +13,12 @@
 typedef struct scene_item {
     uint64_t id;
     char path[VIEWER_PATH_BYTES], name[VIEWER_NAME_BYTES];
-    viewer_content content; ///< empty until it is loaded or has a preview
-    bool loaded, preview, visible;
+    ewa_asset *asset;   ///< NULL until it is loaded
+    ewa_asset *preview; ///< shown until it is; NULL: none
+    bool as_points;     ///< of the preview: drawn as discs of pixels
+    bool loaded;        ///< it is in the scene
+    bool visible;
     viewer_coloring wish, coloring; ///< what is asked for, and what is shown
-    ewa_surfels *made;              ///< in place of the content's; NULL: none
 } scene_item;
 
 typedef enum navigation { NAVIGATION_TURNTABLE, NAVIGATION_TRACKBALL, NAVIGATION_FLY } navigation;
@@ -61,6 +63,9 @@ struct viewer {
 
     scene_item items[VIEWER_MAX_ITEMS];
     size_t item_count;
+    ewa_scene *scene; ///< of what is shown, in the probe's context, previews last
+    uint32_t scene_count;
+    uint64_t scene_items[VIEWER_MAX_ITEMS]; ///< of its first instances: the items' ids
     uint64_t next_id;
 
     viewer_settings settings;
@@ -124,14 +129,16 @@ bool items_open(viewer *v, const char *path);
 bool items_close(viewer *v, size_t index);
 /// Takes in what the loader has to report.
 void items_update(viewer *v);
-/// Orders surfels as the item's wish says.
+/// Orders a scene in which the item is as its wish says.
 void items_recolor(viewer *v, size_t index);
+/// Shows the items as they are now, when their scene is made.
+void items_refresh(viewer *v);
+/// Item of an instance of the scene; SIZE_MAX: none.
+size_t items_find_instance(const viewer *v, uint32_t instance);
 /// Fills in what is to be drawn; the camera and what goes with it are the caller's.
 void items_gather(const viewer *v, paint_scene *scene);
 /// Measures the box of all that is visible; false: there is nothing.
 bool items_bounds(const viewer *v, double low_world[3], double high_world[3]);
-/// Surfels of an item as they are shown; NULL: it is a volume, or not there yet.
-const ewa_surfels *item_surfels(const scene_item *item);
 /// Places the camera: a named view, or NULL for the best. `animate`: on the way there.
 bool items_place(viewer *v, const char *view, bool animate);
 /// Colours that item 0 can have, one after another.

@@ -24,15 +24,12 @@ static const char *file_name(const char *path) {
     return slash && slash[1] ? slash + 1 : path;
 }
 
-const ewa_surfels *item_surfels(const scene_item *item) {
-    return item->made ? item->made : item->content.surfels;
-}
-
 /// In waiting viewers, everything that was ordered is there afterwards.
 static void wait_if_asked(viewer *v) {
-    if (!v->waits) return;
-    loader_wait(v->loader);
-    items_update(v);
+    while (v->waits && loader_is_busy(v->loader)) {
+        loader_wait(v->loader);
+        items_update(v); // which may order a scene
+    }
 }
 
 bool items_open(viewer *v, const char *path) {
@@ -60,17 +57,80 @@ bool items_open(viewer *v, const char *path) {
     return v->item_count >= before;
 }
 
-/// Lets go of what an item shows.
-static void clear_item(viewer *v, scene_item *item) {
+size_t items_find_instance(const viewer *v, uint32_t instance) {
+    for (size_t i = 0; i < v->item_count && instance < v->scene_count; i++)
+        if (v->items[i].id == v->scene_items[instance]) return i;
+    return SIZE_MAX;
+}
+
+/// What of an item the scene shows.
+static ewa_instance instance_of(const scene_item *item, bool points) {
+    ewa_instance instance;
+    ewa_instance_init(&instance, sizeof instance);
+    instance.visible = item->visible;
+    if (!points) return instance;
+    const viewer_coloring *wish = &item->wish;
+    memcpy(instance.coloring.attribute, wish->attribute, sizeof instance.coloring.attribute);
+    instance.coloring.map = (ewa_coloring_map)(wish->colormap + 1);
+    instance.coloring.ranged = wish->ranged;
+    memcpy(instance.coloring.range, wish->range, sizeof instance.coloring.range);
+    instance.coloring.tinted = wish->tinted;
+    memcpy(instance.coloring.tint, wish->tint, sizeof instance.coloring.tint);
+    instance.opacity = wish->alpha;
+    instance.radius_scale = wish->radius_scale;
+    return instance;
+}
+
+static bool has_points(const ewa_asset *asset) {
+    ewa_asset_info info;
+    ewa_asset_describe(asset, &info);
+    return info.kind == EWA_ASSET_POINTS || info.kind == EWA_ASSET_MESH;
+}
+
+/// Orders a scene of the items as they are now.
+static void items_reorder(viewer *v) {
+    loader_scene of = {.count = 0};
+    for (size_t i = 0; i < v->item_count; i++) {
+        const scene_item *item = &v->items[i];
+        if (!item->asset) continue;
+        of.items[of.count] = item->id;
+        of.assets[of.count] = ewa_asset_retain(item->asset);
+        of.instances[of.count] = instance_of(item, has_points(item->asset));
+        of.colorings[of.count++] = item->wish;
+    }
+    if (!loader_make(v->loader, &of)) viewer_tell(v, "out of memory for the scene");
+}
+
+/// Shows another scene, and the previews of what is still being loaded.
+static void show(viewer *v, const ewa_scene *scene) {
+    ewa_scene *next = NULL;
+    ewa_status status = ewa_scene_copy(scene, v->probe.context, &next);
+    // Previews of the scene before are behind its items.
+    while (status == EWA_OK && ewa_scene_count(next) > v->scene_count)
+        status = ewa_scene_remove(next, ewa_scene_count(next) - 1);
+    for (size_t i = 0; i < v->item_count && status == EWA_OK; i++)
+        if (v->items[i].preview && v->items[i].visible) status = ewa_scene_add(next, v->items[i].preview, NULL);
+    if (status == EWA_OK) status = ewa_scene_commit(next);
+    if (status != EWA_OK) {
+        viewer_tell(v, "the scene cannot be shown: %s", ewa_status_name(status));
+        ewa_scene_destroy(&next);
+        return;
+    }
     painter_rest(v->painter);
-    ewa_surfels_destroy(&item->made);
-    viewer_content_free(&item->content);
-    item->preview = item->loaded = false;
+    ewa_scene_destroy(&v->scene);
+    v->scene = next;
     viewer_change(v);
 }
 
+void items_refresh(viewer *v) {
+    items_reorder(v);
+    show(v, v->scene);
+    wait_if_asked(v);
+}
+
 static void remove_item(viewer *v, size_t index) {
-    clear_item(v, &v->items[index]);
+    ewa_asset_release(&v->items[index].preview);
+    ewa_asset_release(&v->items[index].asset);
     memmove(&v->items[index], &v->items[index + 1], (v->item_count - index - 1) * sizeof v->items[0]);
     v->item_count--;
     pick_clear(v);
@@ -85,54 +145,36 @@ bool items_close(viewer *v, size_t index) {
     loader_forget(v->loader, id);
     items_update(v); // in which it may go by itself
     scene_item *item = find_item(v, id);
-    if (item) remove_item(v, (size_t)(item - v->items));
+    if (!item) return true;
+    const bool shown = item->asset != NULL;
+    remove_item(v, (size_t)(item - v->items));
+    if (shown) items_reorder(v);
+    show(v, v->scene);
+    wait_if_asked(v);
     return true;
 }
 
 void items_recolor(viewer *v, size_t index) {
     scene_item *item = &v->items[index];
-    if (item->loaded && item->content.lod) {
-        viewer_tell(v, "%s: an octree has the colours of its points", item->name);
+    if (!item->asset) return;
+    ewa_asset_info info;
+    ewa_asset_describe(item->asset, &info);
+    if (info.kind == EWA_ASSET_OCTREE) viewer_tell(v, "%s: an octree has the colours of its points", item->name);
+    if (!has_points(item->asset)) {
         item->wish = item->coloring;
+        return;
     }
-    if (!item->loaded || !item->content.cloud) return;
-    if (!loader_color(v->loader, item->id, &item->content, &item->wish))
-        viewer_tell(v, "%s: out of memory", item->name);
+    items_reorder(v);
     wait_if_asked(v);
 }
 
 bool items_bounds(const viewer *v, double low_world[3], double high_world[3]) {
-    bool any = false;
-    for (size_t i = 0; i < v->item_count; i++) {
-        const scene_item *item = &v->items[i];
-        if (!item->visible) continue;
-        ewa_bounds bounds = {.finite_count = 0};
-        if (item_surfels(item)) {
-            ewa_surfels_info info;
-            ewa_surfels_describe(item_surfels(item), &info);
-            bounds = info.bounds;
-        } else if (item->content.voxels) {
-            ewa_voxels_info info;
-            ewa_voxels_describe(item->content.voxels, &info);
-            bounds = info.bounds;
-        } else if (item->content.splats) {
-            ewa_splats_info info;
-            ewa_splats_describe(item->content.splats, &info);
-            bounds = info.core;
-        } else if (item->content.lod) {
-            ewa_lod_info info;
-            ewa_lod_describe(item->content.lod, &info);
-            bounds = info.bounds;
-            bounds.finite_count = info.point_count;
-        }
-        if (!bounds.finite_count || !(bounds.low_world[0] <= bounds.high_world[0])) continue;
-        for (int c = 0; c < 3; c++) {
-            low_world[c] = any ? fmin(low_world[c], bounds.low_world[c]) : bounds.low_world[c];
-            high_world[c] = any ? fmax(high_world[c], bounds.high_world[c]) : bounds.high_world[c];
-        }
-        any = true;
-    }
-    return any;
+    ewa_bounds bounds;
+    ewa_scene_bounds(v->scene, &bounds);
+    if (!bounds.finite_count) return false;
+    memcpy(low_world, bounds.low_world, sizeof bounds.low_world);
+    memcpy(high_world, bounds.high_world, sizeof bounds.high_world);
+    return true;
 }
 
 /// Sets what the size of the scene decides: how fast one flies, where the middle is.
@@ -147,22 +189,14 @@ static void measure(viewer *v, bool with_pivot) {
 }
 
 bool items_place(viewer *v, const char *view, bool animate) {
-    const viewer_content *contents[VIEWER_MAX_ITEMS];
-    const char *paths[VIEWER_MAX_ITEMS];
-    size_t count = 0;
-    for (size_t i = 0; i < v->item_count; i++) {
-        const scene_item *item = &v->items[i];
-        if (!item->visible || (!item->content.cloud && !item->content.outline)) continue;
-        contents[count] = &item->content;
-        paths[count++] = item->path;
-    }
-    if (!count) return false;
+    ewa_scene_info info;
+    ewa_scene_describe(v->scene, &info);
+    if (!info.visible_count) return false;
     ewa_camera camera;
     ewa_camera_init(&camera);
     camera.width_px = v->camera.width_px;
     camera.height_px = v->camera.height_px;
-    if (!v->services.place(v->services.user, count, contents, paths, view, &camera, v->up_world))
-        return false;
+    if (!v->services.place(v->services.user, v->scene, view, &camera, v->up_world)) return false;
     measure(v, true);
     const bool ortho = v->camera.projection == EWA_ORTHOGRAPHIC;
     if (ortho) navigate_set_ortho(&camera, true, v->pivot_world, 0);
@@ -174,48 +208,90 @@ bool items_place(viewer *v, const char *view, bool animate) {
     return true;
 }
 
-/// Takes in what was loaded; the first look at it is the program's.
-static void take_content(viewer *v, loader_note *note) {
-    scene_item *item = find_item(v, note->item);
-    if (!item) return;
-    clear_item(v, item);
-    item->content = note->content;
-    note->content = (viewer_content){.context = NULL};
-    item->preview = note->kind == LOADER_PREVIEW;
-    item->loaded = !item->preview;
+/// The first looks are the program's.
+static void look(viewer *v) {
     if (!v->placed) items_place(v, NULL, false);
     measure(v, false);
 }
 
-static void take_failure(viewer *v, const loader_note *note) {
+static void take_preview(viewer *v, loader_note *note) {
     scene_item *item = find_item(v, note->item);
-    if (!item) return;
-    if (item->loaded)
-        item->wish = item->coloring;
-    else
-        remove_item(v, (size_t)(item - v->items));
+    if (!item || item->asset) return;
+    ewa_asset_release(&item->preview);
+    item->preview = note->asset;
+    item->as_points = note->as_points;
+    note->asset = NULL;
+    show(v, v->scene);
+    look(v);
 }
 
-static void take_surfels(viewer *v, loader_note *note) {
+/// Takes in what was loaded; it is shown when the scene is made.
+static void take_asset(viewer *v, loader_note *note) {
     scene_item *item = find_item(v, note->item);
     if (!item) return;
-    painter_rest(v->painter);
-    ewa_surfels_destroy(&item->made);
-    item->made = note->surfels;
-    note->surfels = NULL;
-    item->coloring = note->coloring;
-    viewer_change(v);
+    item->asset = note->asset;
+    note->asset = NULL;
+    items_reorder(v);
+}
+
+/// Fills in what the colours of an item mean.
+static void take_legend(const ewa_legend *legend, viewer_coloring *coloring) {
+    coloring->class_count = 0;
+    if (!legend) return;
+    memcpy(coloring->range, legend->range, sizeof coloring->range);
+    for (uint32_t k = 0; k < legend->category_count && k < VIEWER_MAX_CLASSES; k++) {
+        viewer_class *to = &coloring->classes[coloring->class_count++];
+        to->value = legend->categories[k].value;
+        memcpy(to->srgb, legend->categories[k].srgb, sizeof to->srgb);
+        snprintf(to->name, sizeof to->name, "%s", legend->categories[k].name);
+    }
+}
+
+static void take_scene(viewer *v, loader_note *note) {
+    bool more = false;
+    v->scene_count = note->of.count;
+    memcpy(v->scene_items, note->of.items, sizeof v->scene_items);
+    for (uint32_t i = 0; i < note->of.count; i++) {
+        scene_item *item = find_item(v, note->of.items[i]);
+        if (!item) continue;
+        more = more || !item->loaded;
+        item->loaded = true;
+        item->coloring = note->of.colorings[i];
+        take_legend(ewa_scene_legend(note->scene, i), &item->coloring);
+        ewa_asset_release(&item->preview);
+    }
+    show(v, note->scene);
+    if (more) look(v);
+}
+
+/// What came to nothing goes, or is again as it was.
+static void take_failure(viewer *v, const loader_note *note) {
+    bool gone = false;
+    for (size_t i = v->item_count; i-- > 0;) {
+        scene_item *item = &v->items[i];
+        if (note->item && item->id != note->item) continue;
+        if (item->loaded) {
+            item->wish = item->coloring;
+        } else if (note->item || item->asset) {
+            remove_item(v, i);
+            gone = true;
+        }
+    }
+    if (gone) show(v, v->scene);
+    if (gone && !note->item) items_reorder(v);
 }
 
 void items_update(viewer *v) {
     for (loader_note *note; (note = loader_take(v->loader));) {
         switch (note->kind) {
         case LOADER_LOAD:
-        case LOADER_PREVIEW:
-            take_content(v, note);
+            take_asset(v, note);
             break;
-        case LOADER_COLOR:
-            take_surfels(v, note);
+        case LOADER_PREVIEW:
+            take_preview(v, note);
+            break;
+        case LOADER_SCENE:
+            take_scene(v, note);
             break;
         case LOADER_FAILED:
             take_failure(v, note);
@@ -229,18 +305,14 @@ void items_update(viewer *v) {
 }
 
 void items_gather(const viewer *v, paint_scene *scene) {
-    for (size_t i = 0; i < v->item_count; i++) {
-        const scene_item *item = &v->items[i];
-        if (!item->visible) continue;
-        if (item_surfels(item)) {
-            scene->surfels[scene->surfels_count++] = item_surfels(item);
-            if (item->content.as_points && scene->render.point_size_px == 0)
-                scene->render.point_size_px = PREVIEW_POINT_PX;
-        }
-        if (item->content.lod) scene->lods[scene->lods_count++] = item->content.lod;
-        if (item->content.voxels) scene->voxels[scene->voxels_count++] = item->content.voxels;
-        if (item->content.splats) scene->splats[scene->splats_count++] = item->content.splats;
-    }
+    ewa_scene_info info;
+    ewa_scene_describe(v->scene, &info);
+    scene->scene = v->scene;
+    scene->octrees = info.octrees;
+    for (size_t i = 0; i < v->item_count; i++)
+        if (v->items[i].preview && v->items[i].as_points && v->items[i].visible &&
+            scene->options.render.point_size_px == 0)
+            scene->options.render.point_size_px = PREVIEW_POINT_PX;
 }
 
 size_t viewer_item_count(const viewer *v) { return v->item_count; }
@@ -248,36 +320,26 @@ size_t viewer_item_count(const viewer *v) { return v->item_count; }
 bool viewer_item_get(const viewer *v, size_t index, viewer_item *item) {
     if (index >= v->item_count) return false;
     const scene_item *from = &v->items[index];
+    ewa_asset_info info = {.count = 0};
+    const ewa_asset *asset = from->asset ? from->asset : from->preview;
+    if (asset) ewa_asset_describe(asset, &info);
     *item = (viewer_item){.path = from->path,
                           .visible = from->visible,
-                          .volume = from->content.voxels != NULL,
-                          .gaussians = from->content.splats != NULL,
-                          .mesh = from->content.mesh,
+                          .volume = asset && info.kind == EWA_ASSET_VOLUME,
+                          .gaussians = asset && info.kind == EWA_ASSET_GAUSSIANS,
+                          .mesh = asset && info.kind == EWA_ASSET_MESH,
+                          .count = info.count,
                           .coloring = from->coloring};
     memcpy(item->name, from->name, sizeof item->name);
-    if (from->content.cloud) item->count = ewa_cloud_point_count(from->content.cloud);
-    if (from->content.lod) {
-        ewa_lod_info info;
-        ewa_lod_describe(from->content.lod, &info);
-        item->count = info.point_count;
-    }
-    if (from->content.voxels) {
-        ewa_voxels_info info;
-        ewa_voxels_describe(from->content.voxels, &info);
-        item->count = info.voxel_count;
-    }
-    if (from->content.splats) {
-        ewa_splats_info info;
-        ewa_splats_describe(from->content.splats, &info);
-        item->count = info.splat_count;
-    }
     return true;
 }
 
 const char *viewer_attribute_at(const viewer *v, size_t index, uint32_t wanted,
                                 char name[EWA_NAME_BYTES + 4]) {
-    if (index >= v->item_count || !v->items[index].content.cloud) return NULL;
-    const ewa_cloud *cloud = v->items[index].content.cloud;
+    ewa_asset_info info = {.cloud = NULL};
+    if (index < v->item_count && v->items[index].asset) ewa_asset_describe(v->items[index].asset, &info);
+    if (!info.cloud) return NULL;
+    const ewa_cloud *cloud = info.cloud;
     const ewa_attribute *attribute;
     for (uint32_t k = 0; (attribute = ewa_cloud_attribute_at(cloud, k)); k++) {
         if (wanted >= attribute->component_count) {

@@ -21,20 +21,21 @@ struct loader {
     bool quits;
     loader_note *orders, *reports; ///< the oldest first
     loader_note *current;          ///< the thread's own while it works
+    ewa_scene *last;               ///< the thread's own: what was made before, which others share
     char stage[64];
     double fraction;
 };
 
-void viewer_content_free(viewer_content *content) {
-    if (content->free) content->free(content);
-    *content = (viewer_content){.context = NULL};
+static void release_scene(loader_scene *of) {
+    for (uint32_t i = 0; i < of->count; i++) ewa_asset_release(&of->assets[i]);
+    of->count = 0;
 }
 
 void loader_note_free(loader_note *note) {
     if (!note) return;
-    const bool owned = note->kind == LOADER_LOAD || note->kind == LOADER_PREVIEW;
-    if (owned) viewer_content_free(&note->content);
-    ewa_surfels_destroy(&note->surfels);
+    ewa_asset_release(&note->asset);
+    release_scene(&note->of);
+    ewa_scene_destroy(&note->scene);
     free(note);
 }
 
@@ -63,6 +64,7 @@ static void report(loader *l, loader_note *note) {
 
 static bool on_progress(void *user, const char *stage, double fraction) {
     loader *l = user;
+    if (!pthread_equal(pthread_self(), l->thread)) return true; // an octree that is drawn
     pthread_mutex_lock(&l->lock);
     snprintf(l->stage, sizeof l->stage, "%s", stage);
     l->fraction = fraction;
@@ -76,41 +78,56 @@ static void on_message(void *user, ewa_severity severity, const char *text) {
     if (!note) return;
     note->kind = LOADER_MESSAGE;
     note->severity = severity;
-    note->item = l->current->item;
     snprintf(note->text, sizeof note->text, "%s", text);
     report(l, note);
 }
 
-static void on_preview(void *user, viewer_content *content) {
+static void on_preview(void *user, ewa_asset *asset, bool as_points) {
     loader *l = user;
     loader_note *note = calloc(1, sizeof *note);
     if (!note) {
-        viewer_content_free(content);
+        ewa_asset_release(&asset);
         return;
     }
     note->kind = LOADER_PREVIEW;
     note->item = l->current->item;
     memcpy(note->path, l->current->path, sizeof note->path);
-    note->content = *content;
-    *content = (viewer_content){.context = NULL};
+    note->asset = asset;
+    note->as_points = as_points;
     report(l, note);
+}
+
+/// Makes the scene of an order, with what it has in common with the last one.
+static bool make_scene(loader *l, ewa_context *context, loader_note *order) {
+    enum { LEVELS = 8 };
+    ewa_scene_options options;
+    ewa_scene_options_init(&options, sizeof options);
+    options.surfels.level_count = LEVELS;
+    ewa_scene *scene = NULL;
+    ewa_status status = ewa_scene_create(context, &options, &scene);
+    for (uint32_t i = 0; i < order->of.count && status == EWA_OK; i++)
+        status = ewa_scene_add(scene, order->of.assets[i], &order->of.instances[i]);
+    if (status == EWA_OK && l->last) ewa_scene_reuse(scene, l->last);
+    if (status == EWA_OK) status = ewa_scene_commit(scene);
+    ewa_scene *copy = NULL;
+    if (status == EWA_OK) status = ewa_scene_copy(scene, context, &copy);
+    if (status != EWA_OK) {
+        ewa_scene_destroy(&scene);
+        return false;
+    }
+    ewa_scene_destroy(&l->last);
+    l->last = copy;
+    order->scene = scene;
+    return true;
 }
 
 /// Carries out an order, which becomes its report.
 static void carry_out(loader *l, loader_note *order) {
     const viewer_news news = {l, on_progress, on_message, on_preview};
     const viewer_services *s = &l->services;
-    bool done;
-    if (order->kind == LOADER_LOAD) {
-        viewer_content content = {.context = NULL};
-        done = s->load(s->user, order->path, &news, &content);
-        if (done)
-            order->content = content;
-        else
-            viewer_content_free(&content);
-    } else {
-        done = s->color(s->user, &order->content, &news, &order->coloring, &order->surfels);
-    }
+    ewa_context *context = s->context(s->user, &news);
+    const bool done = context && (order->kind == LOADER_LOAD ? s->load(s->user, order->path, &news, &order->asset)
+                                                             : make_scene(l, context, order));
     if (!done) order->kind = LOADER_FAILED;
 }
 
@@ -164,13 +181,9 @@ void loader_destroy(loader **made) {
         pthread_mutex_unlock(&l->lock);
         pthread_join(l->thread, NULL);
     }
-    // Orders own nothing yet.
-    while (l->orders) {
-        loader_note *order = l->orders;
-        l->orders = order->next;
-        free(order);
-    }
+    free_list(&l->orders);
     free_list(&l->reports);
+    ewa_scene_destroy(&l->last);
     pthread_cond_destroy(&l->changed);
     pthread_mutex_destroy(&l->lock);
     free(l);
@@ -203,19 +216,20 @@ static void drop_orders(loader *l, uint64_t item) {
             continue;
         }
         *at = order->next;
-        free(order);
+        loader_note_free(order);
     }
 }
 
-bool loader_color(loader *l, uint64_t item, const viewer_content *content, const viewer_coloring *coloring) {
+bool loader_make(loader *l, loader_scene *of) {
     loader_note *order = calloc(1, sizeof *order);
-    if (!order) return false;
-    order->kind = LOADER_COLOR;
-    order->item = item;
-    order->content = *content;
-    order->coloring = *coloring;
+    if (!order) {
+        release_scene(of);
+        return false;
+    }
+    order->kind = LOADER_SCENE;
+    order->of = *of;
     pthread_mutex_lock(&l->lock);
-    drop_orders(l, item);
+    drop_orders(l, 0);
     pthread_mutex_unlock(&l->lock);
     post(l, order);
     return true;

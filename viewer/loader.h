@@ -8,22 +8,32 @@
 #include "viewer.h"
 
 typedef enum loader_kind {
-    LOADER_LOAD,    ///< order: a file; report: it is loaded, the content belongs to the receiver
-    LOADER_PREVIEW, ///< report: points of a file that is still being loaded, the receiver's
-    LOADER_COLOR,   ///< order: surfels coloured anew; report: they are made, the receiver's
+    LOADER_LOAD,    ///< order: a file; report: it is loaded, the asset is the receiver's
+    LOADER_PREVIEW, ///< report: something to look at of a file that is still being loaded, the receiver's
+    LOADER_SCENE,   ///< order: a scene of assets; report: it is made, the receiver's
     LOADER_FAILED,  ///< report: the order came to nothing; a message has said why
     LOADER_MESSAGE, ///< report: something to know
 } loader_kind;
+
+/// What a scene is ordered of; the assets are retained.
+typedef struct loader_scene {
+    uint32_t count;
+    uint64_t items[VIEWER_MAX_ITEMS];
+    ewa_asset *assets[VIEWER_MAX_ITEMS];
+    ewa_instance instances[VIEWER_MAX_ITEMS];
+    viewer_coloring colorings[VIEWER_MAX_ITEMS]; ///< the items' wishes
+} loader_scene;
 
 /// An order, or what came of one.
 typedef struct loader_note {
     struct loader_note *next;
     loader_kind kind;
-    uint64_t item; ///< whose order it is
+    uint64_t item; ///< whose order it is; 0: a scene's
     char path[VIEWER_PATH_BYTES];
-    viewer_content content; ///< of an order to colour: borrowed
-    viewer_coloring coloring;
-    ewa_surfels *surfels;
+    ewa_asset *asset;
+    bool as_points; ///< of a preview
+    loader_scene of;
+    ewa_scene *scene;
     ewa_severity severity;
     char text[VIEWER_TEXT_BYTES];
 } loader_note;
@@ -36,9 +46,8 @@ void loader_destroy(loader **loader);
 
 /// Orders come after those that wait; false: out of memory.
 bool loader_load(loader *loader, uint64_t item, const char *path);
-/// Orders surfels; one of the same item that waits is replaced.
-bool loader_color(loader *loader, uint64_t item, const viewer_content *content,
-                  const viewer_coloring *coloring);
+/// Orders a scene in place of one that waits; takes the references of `of` over, also when it returns false.
+bool loader_make(loader *loader, loader_scene *of);
 /// Gives up the load that is under way and all that wait.
 void loader_cancel(loader *loader);
 /// Forgets the orders of an item and waits until none is under way.
@@ -52,8 +61,5 @@ void loader_note_free(loader_note *note);
 /// Tells what is being loaded, how far it is and how many orders wait.
 void loader_tell(loader *loader, char path[VIEWER_PATH_BYTES], char stage[64], double *fraction,
                  uint32_t *waiting);
-
-/// Frees what a file gave.
-void viewer_content_free(viewer_content *content);
 
 #endif

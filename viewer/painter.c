@@ -3,8 +3,6 @@
 //
 // The thread that draws.
 #include "painter.h"
-#include "surfaces.h"
-#include "veils.h"
 
 #include <stdatomic.h>
 #include <stdio.h>
@@ -56,64 +54,25 @@ ewa_status paint_tools_make(uint32_t thread_count, uint32_t cpu_mask, ewa_backen
     options.message_user = tools;
     options.message_level = EWA_SEVERITY_ERROR;
     ewa_status status = ewa_context_create(&options, &tools->context);
-    if (status == EWA_OK) status = ewa_renderer_create_on(tools->context, backend, &tools->renderer);
-    if (status == EWA_OK) status = ewa_gaussian_renderer_create(tools->context, &tools->gaussian_renderer);
+    if (status == EWA_OK)
+        status = ewa_scene_renderer_create(tools->context, backend, NULL, &tools->renderer);
     if (status != EWA_OK) paint_tools_free(tools);
     return status;
 }
 
 void paint_tools_free(paint_tools *tools) {
-    ewa_renderer_destroy(&tools->renderer);
-    free(tools->rgba);
-    free(tools->depth);
-    surfaces_free(tools);
-    veils_free(tools);
+    ewa_scene_renderer_destroy(&tools->renderer);
     ewa_context_destroy(&tools->context);
     *tools = (paint_tools){.context = NULL};
 }
 
-/// Room for the planes between surfaces and volumes.
-static ewa_status reserve(paint_tools *tools, const ewa_camera *camera) {
-    const size_t count = (size_t)camera->width_px * camera->height_px;
-    if (count <= tools->capacity_px) return EWA_OK;
-    free(tools->rgba);
-    free(tools->depth);
-    tools->rgba = malloc(4 * count * sizeof(float));
-    tools->depth = malloc(count * sizeof(float));
-    const bool done = tools->rgba && tools->depth;
-    tools->capacity_px = done ? count : 0;
-    return done ? EWA_OK : EWA_ERROR_MEMORY;
-}
-
-ewa_status paint_scene_draw(paint_tools *tools, const paint_scene *scene, uint8_t *rgba8,
-                            paint_stats *stats) {
-    const ewa_frame frame = {.rgba8 = rgba8};
-    if (!veils_some(scene)) return surfaces_draw(tools, scene, &frame, stats);
-    paint_stats own;
-    if (!stats) stats = &own;
-    *stats = (paint_stats){.missing_count = 0};
-    if (!scene->surfels_count && !scene->lods_count)
-        return veils_draw(tools, scene, NULL, NULL, &frame, &stats->render.total_s);
-    paint_scene bare = *scene; // what is seen past the surfaces is not known yet
-    memset(bare.render.background, 0, sizeof bare.render.background);
-    ewa_status status = reserve(tools, &scene->camera);
-    if (status == EWA_OK)
-        status = surfaces_draw(tools, &bare, &(ewa_frame){.rgba = tools->rgba, .depth = tools->depth}, stats);
-    if (status == EWA_OK)
-        status = veils_draw(tools, scene, tools->depth, tools->rgba, &frame, &stats->render.total_s);
-    return status;
-}
-
-ewa_status paint_scene_depth(paint_tools *tools, const paint_scene *scene, float *depth) {
-    ewa_status status = surfaces_draw(tools, scene, &(ewa_frame){.depth = depth}, NULL);
-    if (!veils_some(scene) || status != EWA_OK) return status;
-    const size_t count = (size_t)scene->camera.width_px * scene->camera.height_px;
-    double took_s = 0;
-    status = reserve(tools, &scene->camera);
-    if (status == EWA_OK)
-        status = veils_draw(tools, scene, NULL, NULL, &(ewa_frame){.depth = tools->depth}, &took_s);
-    for (size_t k = 0; k < count && status == EWA_OK; k++)
-        if (tools->depth[k] < depth[k]) depth[k] = tools->depth[k];
+ewa_status paint_scene_draw(paint_tools *tools, const paint_scene *scene, const ewa_frame *frame, paint_stats *stats) {
+    ewa_scene_stats took = {.total_s = 0};
+    if (scene->octrees) pthread_mutex_lock(scene->lods_lock);
+    const ewa_status status =
+        ewa_scene_draw(scene->scene, tools->renderer, &scene->camera, &scene->options, frame, &took);
+    if (scene->octrees) pthread_mutex_unlock(scene->lods_lock);
+    if (stats) *stats = (paint_stats){took.render, took.lod.missing_count, took.lod.loaded_count};
     return status;
 }
 
@@ -128,7 +87,7 @@ static ewa_status draw_now(painter *p, paint_result *result) {
         if (!result->rgba8) return EWA_ERROR_MEMORY;
     }
     paint_stats stats = {.missing_count = 0};
-    const ewa_status status = paint_scene_draw(&p->tools, &p->now, result->rgba8, &stats);
+    const ewa_status status = paint_scene_draw(&p->tools, &p->now, &(ewa_frame){.rgba8 = result->rgba8}, &stats);
     result->width_px = camera->width_px;
     result->height_px = camera->height_px;
     result->level = stats.render.level;
@@ -162,7 +121,7 @@ static void *run(void *data) {
         if (status == EWA_OK) {
             result->ticket = ticket;
             result->drawn_count = ++p->drawn_count;
-            const bool full = !p->now.reduced && !result->level && !p->now.voxels_level && !p->now.coarse;
+            const bool full = !p->now.reduced && !result->level && !p->now.options.volumes.level && !p->now.coarse;
             result->whole = (p->whole || full) && !result->to_refine;
             result->camera = p->now.camera;
             p->newest = p->drawing;

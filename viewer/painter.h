@@ -14,18 +14,12 @@ enum { PAINT_TEXT_BYTES = 512 };
 /// What a picture shows. What it points to is borrowed until the painter is at rest.
 typedef struct paint_scene {
     ewa_camera camera;
-    ewa_render_options render;
-    uint32_t surfels_count, splats_count, voxels_count, lods_count;
-    const ewa_surfels *surfels[VIEWER_MAX_ITEMS];
-    const ewa_splats *splats[VIEWER_MAX_ITEMS];
-    const ewa_voxels *voxels[VIEWER_MAX_ITEMS];
-    ewa_lod *lods[VIEWER_MAX_ITEMS];
-    ewa_lod_options lod_options;
+    ewa_scene *scene;
+    ewa_scene_options options;
+    bool octrees;               ///< some are visible:
     pthread_mutex_t *lods_lock; ///< held while one of them is used
-    bool coarse;                ///< octrees are drawn coarser than they are to be in the end
-    ewa_volume_options volume;
-    uint32_t voxels_level; ///< of volumes
-    bool reduced;          ///< the picture is smaller than the window's
+    bool coarse;                ///< they are drawn coarser than they are to be in the end
+    bool reduced;               ///< the picture is smaller than the window's
 } paint_scene;
 
 /// What drawing took.
@@ -50,32 +44,18 @@ typedef struct paint_result {
         to_refine; ///< cubes of octrees are missing, and some were read: the same scene gets better when drawn again
 } paint_result;
 
-/// Surfaces that are put together with others.
-typedef struct paint_layer {
-    float *rgba, *depth;
-    size_t capacity_px;
-} paint_layer;
-
 /// What draws, of one thread.
 typedef struct paint_tools {
     ewa_context *context;
-    ewa_renderer *renderer;
-    ewa_volume_renderer *volume_renderers[VIEWER_MAX_ITEMS]; ///< NULL: not used yet
-    ewa_gaussian_renderer *gaussian_renderer;
-    float *rgba, *depth;
-    size_t capacity_px;
-    paint_layer layers[2];
+    ewa_scene_renderer *renderer;
     char message[PAINT_TEXT_BYTES]; ///< the last error's
 } paint_tools;
 
 ewa_status paint_tools_make(uint32_t thread_count, uint32_t cpu_mask, ewa_backend_kind backend,
                             ewa_progress_callback *progress, void *user, paint_tools *tools);
 void paint_tools_free(paint_tools *tools);
-/// Draws a scene here and now into the camera's picture; volumes and Gaussians over the surfaces, up to their depth.
-/// `stats` may be NULL.
-ewa_status paint_scene_draw(paint_tools *tools, const paint_scene *scene, uint8_t *rgba8, paint_stats *stats);
-/// The depths (camera-space z) of what is seen, volumes and Gaussians included; +infinity where nothing is.
-ewa_status paint_scene_depth(paint_tools *tools, const paint_scene *scene, float *depth);
+/// Draws a scene here and now into the planes of a frame. `stats` may be NULL.
+ewa_status paint_scene_draw(paint_tools *tools, const paint_scene *scene, const ewa_frame *frame, paint_stats *stats);
 
 typedef struct painter painter;
 

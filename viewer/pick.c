@@ -9,75 +9,15 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { BLOCK = 512, MOST_REACH_PX = 32, MANY_SPLATS = 2000000 };
+enum { MAX_REACH_PX = 32, MANY_SPLATS = 2000000 };
 
 /// See reach_of().
 static const double POINT_REACH = 40, POINT_SHARE = 0.01;
 
+/// Points of the window about a click.
+static const double PICK_REACH = 4;
+
 static const double PI = 3.14159265358979323846;
-
-/// The depths of a window of pixels about a place, its middle first; +infinity where nothing is. What is
-/// drawn there is what the picture shows: sections count. `coarse`: with fewer surfels where there are many.
-static double nearest_depth(viewer *v, double x_px, double y_px, int reach_px, bool coarse,
-                            double place_px[2]) {
-    enum { SIDE = 2 * MOST_REACH_PX + 1 };
-    float depth[SIDE * SIDE];
-    const int side = 2 * reach_px + 1, middle_x = (int)floor(x_px), middle_y = (int)floor(y_px);
-    paint_scene scene;
-    viewer_scene(v, &scene);
-    uint64_t count = 0;
-    for (uint32_t i = 0; i < scene.surfels_count; i++) {
-        ewa_surfels_info info;
-        ewa_surfels_describe(scene.surfels[i], &info);
-        count += info.point_count;
-    }
-    scene.render.level = coarse && count > MANY_SPLATS ? 2 : 0;
-    if (scene.lods_count && !v->waits) { // what draws them goes on afterwards
-        painter_hurry(v->painter);
-        v->posted_whole = false;
-    }
-    scene.render.shading = EWA_SHADING_NONE;
-    scene.render.eye_dome = 0;
-    scene.camera.cx_px -= middle_x - reach_px, scene.camera.cy_px -= middle_y - reach_px;
-    scene.camera.width_px = scene.camera.height_px = (uint32_t)side;
-    if (paint_scene_depth(&v->probe, &scene, depth) != EWA_OK) return INFINITY;
-    double found = INFINITY;
-    int nearest = 2 * side * side;
-    for (int y = 0; y < side; y++)
-        for (int x = 0; x < side; x++) {
-            const int dx = x - reach_px, dy = y - reach_px, away = dx * dx + dy * dy;
-            if (away >= nearest || away > reach_px * reach_px || !isfinite(depth[y * side + x])) continue;
-            nearest = away;
-            found = (double)depth[y * side + x];
-            place_px[0] = away ? middle_x + dx + 0.5 : x_px;
-            place_px[1] = away ? middle_y + dy + 0.5 : y_px;
-        }
-    return found;
-}
-
-static bool find_surface(viewer *v, double x, double y, double reach, bool coarse, double place_world[3]) {
-    const double most = fmin(reach * v->scale, MOST_REACH_PX), x_px = x * v->scale, y_px = y * v->scale;
-    const bool inside = x_px >= -most && y_px >= -most && x_px < v->camera.width_px + most &&
-                        y_px < v->camera.height_px + most;
-    double place_px[2];
-    const double depth = inside ? nearest_depth(v, x_px, y_px, (int)most, coarse, place_px) : INFINITY;
-    if (!isfinite(depth)) return false;
-    navigate_unproject(&v->camera, place_px[0], place_px[1], depth, place_world);
-    return true;
-}
-
-bool pick_surface(viewer *v, double x, double y, double reach, double place_world[3]) {
-    return find_surface(v, x, y, reach, true, place_world);
-}
-
-/// Whether a point is not cut away.
-static bool is_kept(const ewa_render_options *render, const double p[3]) {
-    for (uint32_t i = 0; i < render->section_count; i++) {
-        const double *plane = render->section_planes[i];
-        if (!(plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2] + plane[3] >= 0)) return false;
-    }
-    return true;
-}
 
 /// How far from a place of a surface its points may be: some of the window's points, or a share of the scene.
 static double reach_of(const viewer *v, const double place_world[3]) {
@@ -87,75 +27,30 @@ static double reach_of(const viewer *v, const double place_world[3]) {
     return fmax(POINT_REACH * v->scale * per_px / scale, POINT_SHARE * v->reach_world);
 }
 
-/// What a place is compared with.
-typedef struct search {
-    const ewa_render_options *render; ///< whose sections cut
-    const double *place_world;
-    double best; ///< square of the distance of what was found, or within which to look
-} search;
-
-/// The point of a cloud that is nearest to a place, and nearer than what was found; false: there is none.
-static bool find_in_cloud(search *s, const ewa_cloud *cloud, viewer_pick *pick) {
-    const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
-    const uint64_t count = ewa_cloud_point_count(cloud);
-    double origin[3], block[BLOCK][3];
-    bool found = false;
-    ewa_cloud_origin(cloud, origin);
-    for (uint64_t first = 0; first < count; first += BLOCK) {
-        const uint64_t in_block = count - first < BLOCK ? count - first : BLOCK;
-        ewa_attribute_read_f64(position, first, in_block, &block[0][0]);
-        for (uint64_t k = 0; k < in_block; k++) {
-            double p[3], away = 0;
-            for (int c = 0; c < 3; c++) {
-                p[c] = block[k][c] + origin[c];
-                away += (p[c] - s->place_world[c]) * (p[c] - s->place_world[c]);
-            }
-            if (!(away < s->best) || !is_kept(s->render, p)) continue;
-            s->best = away;
-            found = true;
-            pick->given = true;
-            pick->point = first + k;
-            memcpy(pick->place_world, p, sizeof p);
-        }
-    }
-    return found;
-}
-
-/// Reads the points of an octree about a place; NULL: it cannot.
-static ewa_cloud *read_about(const viewer *v, ewa_lod *lod, const double place_world[3], double reach) {
-    double low[3], high[3];
-    for (int c = 0; c < 3; c++) low[c] = place_world[c] - reach, high[c] = place_world[c] + reach;
-    ewa_cloud *cloud = NULL;
-    pthread_mutex_lock(v->lods_lock);
-    ewa_lod_read(lod, low, high, 0, &cloud);
-    pthread_mutex_unlock(v->lods_lock);
-    return cloud;
-}
-
-/// The point that is nearest to a place; false: there is none about there. `*read` gets the points of the octree
-/// that it belongs to, the caller's; NULL: it is of a cloud.
-static bool find_point(const viewer *v, const double place_world[3], viewer_pick *pick, ewa_cloud **read) {
+/// Finds what is seen at a place of the window, within `reach` of its points. What is drawn there is what the picture
+/// shows. `coarse`: with fewer surfels where there are many. `reach_world`: of its nearest point; 0: none is looked for.
+static bool find(viewer *v, double x, double y, double reach, bool coarse, double reach_world, ewa_scene_hit *hit) {
     paint_scene scene;
+    ewa_scene_info info;
     viewer_scene(v, &scene);
-    const double reach = reach_of(v, place_world);
-    search s = {&scene.render, place_world, reach * reach};
-    bool found = false;
-    *read = NULL;
-    for (size_t i = 0; i < v->item_count; i++) {
-        const scene_item *item = &v->items[i];
-        if (!item->visible || !item->loaded || (!item->content.cloud && !item->content.lod)) continue;
-        ewa_cloud *about = item->content.lod ? read_about(v, item->content.lod, place_world, reach) : NULL;
-        const ewa_cloud *cloud = about ? about : item->content.cloud;
-        if (!cloud || !find_in_cloud(&s, cloud, pick)) {
-            ewa_cloud_destroy(&about);
-            continue;
-        }
-        found = true;
-        pick->item = i;
-        ewa_cloud_destroy(read);
-        *read = about;
+    ewa_scene_describe(v->scene, &info);
+    scene.options.render.level = coarse && info.surfels.point_count > MANY_SPLATS ? 2 : 0;
+    if (scene.octrees && !v->waits) { // what draws them goes on afterwards
+        painter_hurry(v->painter);
+        v->posted_whole = false;
     }
-    return found;
+    if (scene.octrees) pthread_mutex_lock(v->lods_lock);
+    const ewa_status status = ewa_scene_pick(v->scene, v->probe.renderer, &scene.camera, &scene.options, x * v->scale,
+                                             y * v->scale, fmin(reach * v->scale, MAX_REACH_PX), reach_world, hit);
+    if (scene.octrees) pthread_mutex_unlock(v->lods_lock);
+    return status == EWA_OK && hit->hit;
+}
+
+bool pick_surface(viewer *v, double x, double y, double reach, double place_world[3]) {
+    ewa_scene_hit hit;
+    if (!find(v, x, y, reach, true, 0, &hit)) return false;
+    memcpy(place_world, hit.place_world, sizeof hit.place_world);
+    return true;
 }
 
 /// Adds to a text what fits.
@@ -183,7 +78,9 @@ static void write_number(char text[40], double number, bool is_float) {
 /// of which `read` holds some, have no numbers.
 static void describe(viewer *v, const viewer_pick *pick, const ewa_cloud *read) {
     const scene_item *item = &v->items[pick->item];
-    const ewa_cloud *cloud = read ? read : item->content.cloud;
+    ewa_asset_info info;
+    ewa_asset_describe(item->asset, &info);
+    const ewa_cloud *cloud = read ? read : info.cloud;
     char line[VIEWER_TEXT_BYTES], number[40];
     if (read)
         snprintf(number, sizeof number, "point");
@@ -243,19 +140,20 @@ static void copy_picked(viewer *v) {
 }
 
 bool pick_point(viewer *v, double x, double y, bool second) {
-    viewer_pick pick;
-    double place_world[3];
-    if (!find_surface(v, x, y, 4, false, place_world)) return false;
-    ewa_cloud *read = NULL;
-    if (!find_point(v, place_world, &pick, &read)) { // a volume: the place itself
+    ewa_scene_hit hit;
+    if (!find(v, x, y, PICK_REACH, false, 0, &hit)) return false;
+    if (!find(v, x, y, PICK_REACH, false, reach_of(v, hit.place_world), &hit)) return false;
+    viewer_pick pick = {true, hit.has_point ? items_find_instance(v, hit.instance) : SIZE_MAX, hit.point, {0}};
+    const double *place_world = hit.has_point ? hit.point_world : hit.place_world;
+    memcpy(pick.place_world, place_world, sizeof pick.place_world);
+    if (pick.item == SIZE_MAX) { // what has no points: the place itself
         snprintf(v->state.picked, sizeof v->state.picked, "at %.9g %.9g %.9g", place_world[0], place_world[1],
                  place_world[2]);
         viewer_say(v, "pick place at %.9g %.9g %.9g", place_world[0], place_world[1], place_world[2]);
-        pick = (viewer_pick){true, SIZE_MAX, 0, {place_world[0], place_world[1], place_world[2]}};
     } else {
-        describe(v, &pick, read);
+        describe(v, &pick, hit.points);
     }
-    ewa_cloud_destroy(&read);
+    ewa_cloud_destroy(&hit.points);
     second = second && v->picks[0].given;
     v->picks[second ? 1 : 0] = pick;
     if (second)

@@ -18,14 +18,13 @@ static bool save_picture(viewer *v, const char *path, uint32_t width_px, uint32_
     viewer_scene(v, &scene);
     const double larger = (double)height_px / scene.camera.height_px;
     navigate_resize(&scene.camera, width_px, height_px);
-    if (scene.render.point_size_px > 0) // the same look
-        scene.render.point_size_px = larger * scene.render.point_size_px < 1 ? 1
-                                     : larger * scene.render.point_size_px > 256
-                                         ? 256
-                                         : larger * scene.render.point_size_px;
-    for (int c = 0; c < 4 && transparent; c++) scene.render.background[c] = scene.volume.background[c] = 0;
+    ewa_render_options *render = &scene.options.render;
+    const double point_size_px = larger * render->point_size_px;
+    if (render->point_size_px > 0) // the same look
+        render->point_size_px = point_size_px < 1 ? 1 : point_size_px > 256 ? 256 : point_size_px;
+    for (int c = 0; c < 4 && transparent; c++) render->background[c] = 0;
     uint8_t *rgba8 = malloc(4 * (size_t)width_px * height_px);
-    ewa_status status = rgba8 ? paint_scene_draw(&v->probe, &scene, rgba8, NULL) : EWA_ERROR_MEMORY;
+    ewa_status status = rgba8 ? paint_scene_draw(&v->probe, &scene, &(ewa_frame){.rgba8 = rgba8}, NULL) : EWA_ERROR_MEMORY;
     if (status == EWA_OK) {
         overlay_draw(v, &scene.camera, rgba8);
         status = ewa_png_save(v->probe.context, path, width_px, height_px, 4, rgba8, 4 * (size_t)width_px);

@@ -95,6 +95,7 @@ ewa_status viewer_create(const viewer_options *options, viewer **made) {
     if (status == EWA_OK)
         status = paint_tools_make(options->thread_count, options->cpu_mask, EWA_BACKEND_CPU, NULL, NULL,
                                   &v->probe);
+    if (status == EWA_OK) status = ewa_scene_create(v->probe.context, NULL, &v->scene);
     if (status != EWA_OK) viewer_destroy(&v);
     *made = v;
     return status;
@@ -106,9 +107,10 @@ void viewer_destroy(viewer **made) {
     loader_destroy(&v->loader);
     painter_destroy(&v->painter);
     for (size_t i = 0; i < v->item_count; i++) {
-        ewa_surfels_destroy(&v->items[i].made);
-        viewer_content_free(&v->items[i].content);
+        ewa_asset_release(&v->items[i].preview);
+        ewa_asset_release(&v->items[i].asset);
     }
+    ewa_scene_destroy(&v->scene);
     paint_tools_free(&v->probe);
     if (v->lods_lock) pthread_mutex_destroy(v->lods_lock);
     free(v->lods_lock);
@@ -190,13 +192,13 @@ void viewer_handle(viewer *v, const viewer_event *event) {
 }
 
 void viewer_scene(const viewer *v, paint_scene *scene) {
-    *scene = (paint_scene){.camera = v->camera, .render = v->render, .lod_options = v->lod};
-    scene->lods_lock = v->lods_lock;
-    scene->lod_options.load_s = v->waits ? 0 : REFINE_S;
-    ewa_volume_options_init(&scene->volume, sizeof scene->volume);
-    memcpy(scene->volume.background, v->render.background, sizeof scene->volume.background);
-    scene->volume.density_scale = v->settings.volume_density;
-    cutaway_apply(v, &scene->render);
+    *scene = (paint_scene){.camera = v->camera, .lods_lock = v->lods_lock};
+    ewa_scene_options_init(&scene->options, sizeof scene->options);
+    scene->options.render = v->render;
+    scene->options.lod = v->lod;
+    scene->options.lod.load_s = v->waits ? 0 : REFINE_S;
+    scene->options.volumes.density_scale = v->settings.volume_density;
+    cutaway_apply(v, &scene->options.render);
     items_gather(v, scene);
 }
 
@@ -222,12 +224,13 @@ static void adapt(viewer *v, const paint_result *newest) {
 
 /// A scene that is drawn within the time of a frame.
 static void make_quick(const viewer *v, paint_scene *scene) {
-    scene->render.budget_s = 1e-3 * v->settings.budget_ms;
-    scene->voxels_level = 1;
-    if (scene->lods_count) {
+    ewa_scene_options *options = &scene->options;
+    options->render.budget_s = 1e-3 * v->settings.budget_ms;
+    options->volumes.level = 1;
+    if (scene->octrees) {
         scene->coarse = true;
-        scene->lod_options.load_s = 0.5 * scene->render.budget_s;
-        scene->lod_options.spacing_px = fmin(COARSER * scene->lod_options.spacing_px, MOST_SPACING_PX);
+        options->lod.load_s = 0.5 * options->render.budget_s;
+        options->lod.spacing_px = fmin(COARSER * options->lod.spacing_px, MOST_SPACING_PX);
     }
     const uint32_t least = least_reduction(v), divisor = v->reduction > least ? v->reduction : least;
     if (!v->settings.reduce || divisor == 1) return;

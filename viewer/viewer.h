@@ -24,23 +24,6 @@ enum {
 
 typedef struct viewer viewer;
 
-/// What a file gave. A cloud comes with its surfels, a volume with its voxels, Gaussians with their splats, an octree alone; all belong to
-/// `context`, whose messages and progress must be for any thread where there is an octree.
-typedef struct viewer_content {
-    ewa_context *context;
-    ewa_cloud *cloud;     ///< NULL: something else
-    ewa_surfels *surfels; ///< of the cloud, with levels
-    ewa_voxels *voxels;   ///< NULL: no volume
-    ewa_splats *splats;   ///< NULL: no Gaussians
-    ewa_lod *lod;         ///< an octree, drawn from its levels, in place of a cloud and surfels; NULL: none
-    ewa_cloud *outline;   ///< of a volume, Gaussians or an octree: points where something can be seen
-    int up_axis;          ///< 1: y is up, 2: z; negative: down; 0: nothing says so
-    bool mesh;            ///< the cloud was sampled from faces
-    bool as_points;       ///< of a preview: its surfels have no size of their own
-    void *keeper;         ///< the loader's own
-    void (*free)(struct viewer_content *content); ///< frees all of it
-} viewer_content;
-
 /// Where the news of a load goes; any of its calls may come on any thread.
 typedef struct viewer_news {
     void *user;
@@ -48,8 +31,9 @@ typedef struct viewer_news {
     bool (*progress)(void *user, const char *stage, double fraction);
     /// A warning, a note or an error, without a line feed.
     void (*message)(void *user, ewa_severity severity, const char *text);
-    /// Points to look at until the load is done; what is handed over belongs to the receiver.
-    void (*preview)(void *user, viewer_content *content);
+    /// Something to look at until the load is done, resident surfels: one reference, the receiver's. `as_points`: they
+    /// have no size of their own.
+    void (*preview)(void *user, ewa_asset *asset, bool as_points);
 } viewer_news;
 
 enum { VIEWER_MAX_CLASSES = 64, VIEWER_COLORMAP_AUTO = -1 };
@@ -67,7 +51,7 @@ typedef struct viewer_coloring {
     int colormap;         ///< ewa_colormap, or automatic (default): classes for classes, else viridis
     uint32_t class_count; ///< filled in: of `classes`; 0: colours go from the first number to the last
     viewer_class classes[VIEWER_MAX_CLASSES];
-    bool ranged;         ///< `range` is given; else it is filled with the 2nd and 98th percentile
+    bool ranged;         ///< `range` is given; else it is filled with that of ewa_coloring
     double range[2];     ///< numbers of the first and the last colour
     bool tinted;         ///< all points have the one colour `tint`, when no attribute is chosen
     double tint[3];      ///< sRGB, [0, 1]
@@ -80,15 +64,13 @@ void viewer_coloring_init(viewer_coloring *coloring);
 /// What the program does for the viewer, on the threads that are named. Calls may be NULL where it says so.
 typedef struct viewer_services {
     void *user;
-    /// Loads a file; on the loading thread. Returns false after telling `news` why.
-    bool (*load)(void *user, const char *path, const viewer_news *news, viewer_content *content);
-    /// Makes surfels of a cloud, coloured as is wished, and fills in the range; on the loading thread.
-    bool (*color)(void *user, const viewer_content *content, const viewer_news *news, viewer_coloring *wish,
-                  ewa_surfels **surfels);
+    /// Returns the loading thread's context, whose news go to `news` from now on; NULL after telling why.
+    ewa_context *(*context)(void *user, const viewer_news *news);
+    /// Loads a file in it; on the loading thread. Returns false after telling `news` why.
+    bool (*load)(void *user, const char *path, const viewer_news *news, ewa_asset **asset);
     /// Places a camera, whose picture's size is set, for a first look or for a named view ("front" ... "iso",
-    /// NULL: the best) at the contents together; on the calling thread.
-    bool (*place)(void *user, size_t count, const viewer_content *const *contents, const char *const *paths,
-                  const char *view, ewa_camera *camera, double up_world[3]);
+    /// NULL: the best) at all that is visible; on the calling thread.
+    bool (*place)(void *user, ewa_scene *scene, const char *view, ewa_camera *camera, double up_world[3]);
     /// Says a line to standard output (picks, measures) or, for messages, to standard error.
     void (*say)(void *user, bool message, const char *text);
     /// Whether the program was asked to end, by a signal. May be NULL.

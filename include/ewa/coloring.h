@@ -52,6 +52,9 @@ EWA_API void ewa_coloring_init(ewa_coloring *coloring, size_t struct_size);
 /// Whether a word means the points' own colours: empty, "rgb" or "color". Any thread.
 EWA_API bool ewa_coloring_is_own(const char *attribute);
 
+/// Whether an attribute of this name holds codes of classes, where it holds whole numbers. Any thread.
+EWA_API bool ewa_coloring_names_classes(const char *name);
+
 /// What colours mean; free with ewa_legend_free().
 typedef struct ewa_legend {
     ewa_context *context;

@@ -29,6 +29,10 @@ EWA_API ewa_gaussian_columns ewa_cloud_find_gaussians(const ewa_cloud *cloud);
 /// Writes what they are, such as "3D Gaussians, spherical harmonics of degree 3". Any thread.
 EWA_API void ewa_gaussian_columns_describe(const ewa_gaussian_columns *columns, char text[EWA_DIAGNOSIS_TEXT_BYTES]);
 
+/// Refuses the columns of Gaussians without normals and radii, which would be drawn as something else. Errors:
+/// EWA_ERROR_UNSUPPORTED.
+EWA_API ewa_status ewa_cloud_refuse_gaussians(const ewa_cloud *cloud);
+
 /// Whether coordinates are longitudes and latitudes in degrees, by the cloud's coordinate reference system or by how
 /// small its extent is beside its heights; writes what that means, and what helps. Any thread.
 EWA_API bool ewa_cloud_find_degrees(const ewa_cloud *cloud, char text[EWA_DIAGNOSIS_TEXT_BYTES]);

@@ -66,6 +66,9 @@ typedef struct ewa_asset_options {
     const char *transfer;
     uint32_t voxel_level_count; ///< of volumes: ewa_voxels_options.level_count; [1, EWA_MAX_VOLUME_LEVELS]; default 1
     double reach_steps;      ///< of volumes: how far a voxel's footprint counts in the outline, steps of the grid; default 1.8
+    /// Octrees get a context of their own, like the one that loads, so that they can be drawn while that loads other
+    /// files; default false
+    bool own_context;
     ewa_asset_import *import; ///< for files that the library does not read; default NULL: none
     void *import_user;
 } ewa_asset_options;
@@ -185,8 +188,11 @@ EWA_API ewa_status ewa_scene_create(ewa_context *context, const ewa_scene_option
 EWA_API void ewa_scene_destroy(ewa_scene **scene);
 
 /// Makes a scene of the same instances and options, which shares all that has been made for them: to be changed while
-/// the other one is drawn. Errors: EWA_ERROR_MEMORY.
-EWA_API ewa_status ewa_scene_copy(const ewa_scene *scene, ewa_scene **copy);
+/// the other one is drawn. `context`: of the copy, for the thread that uses it. Errors: EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_scene_copy(const ewa_scene *scene, ewa_context *context, ewa_scene **copy);
+
+/// Has a scene share what has been made for another one, as far as it is of the same assets, shown in the same way.
+EWA_API void ewa_scene_reuse(ewa_scene *scene, const ewa_scene *other);
 
 /// Adds an asset, of which the scene holds a reference. `instance` may be NULL. Its number, from 0 on, is the count of
 /// instances before. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT (EWA_SCENE_MAX_INSTANCES), EWA_ERROR_MEMORY.

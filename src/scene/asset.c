@@ -5,6 +5,7 @@
 // a file is.
 #include "scene/asset.h"
 #include "base/base.h"
+#include "base/context.h"
 #include "base/options.h"
 #include "ewa/gaussian_io.h"
 
@@ -23,6 +24,7 @@ static const ewa_option option_rows[] = {
      .help = "draw trained Gaussians as opaque surfels, in their constant colours"},
     {"levels", EWA_OPTION_CHOICE, AT(levels), .words = "auto|always|never",
      .help = "draw octrees (COPC, EPT) from their levels; auto: those of more than 4000000 points"},
+    {"own_context", EWA_OPTION_BOOL, AT(own_context), .help = "octrees get a context of their own"},
     {"cutoff", EWA_OPTION_F64, AT(cutoff), 0, 4, EWA_OPTION_ABOVE, .initial = 3,
      .help = "standard deviations at which kernels of a mesh's points end"},
     {"voxel_level_count", EWA_OPTION_U32, AT(voxel_level_count), 1, EWA_MAX_VOLUME_LEVELS, .initial = 1,
@@ -84,6 +86,7 @@ void ewa_asset_release(ewa_asset **given) {
         ewa_splats_destroy(&asset->splats);
         ewa_voxels_destroy(&asset->voxels);
     }
+    ewa_context_destroy(&asset->lod_context); // its clouds are gone by now
     if (asset->source.release) asset->source.release(asset->source.user);
     ewa_release(asset->context, asset->name, asset->name_bytes, 1);
     ewa_release(asset->context, asset->transfer, asset->transfer_bytes, 1);
@@ -133,7 +136,9 @@ static ewa_status open_octree(const ewa_asset_job *job, const char *path, ewa_lo
                         "%s needs all points of the octree, its levels do without; leave one of both out, or "
                         "`ewa convert` what is wanted to a file of its own",
                         needs_all);
-    const ewa_status status = ewa_lod_open(context, path, lod);
+    ewa_status status = EWA_OK;
+    if (options->own_context) status = ewa_context_create(&context->options, &job->asset->lod_context);
+    if (status == EWA_OK) status = ewa_lod_open(options->own_context ? job->asset->lod_context : context, path, lod);
     if (status != EWA_OK) return status;
     ewa_lod_info info;
     ewa_lod_describe(*lod, &info);

@@ -5,7 +5,7 @@
 #include "base/base.h"
 #include "ewa/prepare.h"
 #include "scene/asset.h"
-#include "scene/diagnose.h"
+#include "ewa/diagnosis.h"
 
 #include <math.h>
 #include <string.h>

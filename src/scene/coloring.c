@@ -173,13 +173,17 @@ static bool are_classes(void *user, uint32_t count, const double *block) {
     return *all;
 }
 
-/// Whether an attribute holds classes by its name and its numbers.
-static bool holds_classes(const numbers *from) {
+bool ewa_coloring_names_classes(const char *name) {
     static const char *const names[] = {"classification", "Classification", "scalar_classification",
                                         "scalar_Classification"};
-    bool held = false;
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        held = held || strcmp(from->scalars[0].attribute.name, names[i]) == 0;
+    bool named = false;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) named = named || strcmp(name, names[i]) == 0;
+    return named;
+}
+
+/// Whether an attribute holds classes by its name and its numbers.
+static bool holds_classes(const numbers *from) {
+    bool held = ewa_coloring_names_classes(from->scalars[0].attribute.name);
     if (held) each_block(from, are_classes, &held);
     return held;
 }

@@ -3,7 +3,7 @@
 //
 // What points turn out to be that nothing says: the columns of Gaussians, normals that are none, floats too coarse for
 // their coordinates, degrees, numbers that are none.
-#include "scene/diagnose.h"
+#include "ewa/diagnosis.h"
 #include "base/base.h"
 #include "cloud/cloud.h"
 

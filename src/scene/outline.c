@@ -131,9 +131,10 @@ ewa_status ewa_scene_outline(ewa_scene *scene, ewa_cloud **outline, bool *made) 
     // The framing reads radii and axes by itself, and as they are drawn where nothing scales them.
     const bool points = only && ewa_asset_is_points(only->asset);
     if (only && !resident && (!points || (scale == 1 && only->instance.radius_scale == 1))) {
-        *outline = places_of(only);
-        *made = false;
-        return EWA_OK;
+        ewa_cloud *places = places_of(only);
+        *made = ewa_cloud_context(places) != scene->context; // which is the one of this thread
+        *outline = places;
+        return *made ? ewa_cloud_view(scene->context, places, 0, ewa_cloud_point_count(places), outline) : EWA_OK;
     }
     if (!total) {
         status = make_box(scene->context, &cloud);

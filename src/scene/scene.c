@@ -115,9 +115,9 @@ static ewa_status grow(ewa_scene *scene) {
     return EWA_OK;
 }
 
-ewa_status ewa_scene_copy(const ewa_scene *scene, ewa_scene **copy) {
-    if (!scene || !copy) return EWA_ERROR_ARGUMENT;
-    ewa_status status = ewa_scene_create(scene->context, &scene->options, copy);
+ewa_status ewa_scene_copy(const ewa_scene *scene, ewa_context *context, ewa_scene **copy) {
+    if (!scene || !context || !copy) return EWA_ERROR_ARGUMENT;
+    ewa_status status = ewa_scene_create(context, &scene->options, copy);
     for (uint32_t i = 0; i < scene->count && status == EWA_OK; i++) {
         status = grow(*copy);
         if (status != EWA_OK) break;
@@ -136,6 +136,22 @@ ewa_status ewa_scene_copy(const ewa_scene *scene, ewa_scene **copy) {
     (*copy)->surface = scene->surface;
     if (scene->surface) atomic_fetch_add(&scene->surface->references, 1);
     return EWA_OK;
+}
+
+void ewa_scene_reuse(ewa_scene *scene, const ewa_scene *other) {
+    for (uint32_t i = 0; i < scene->count; i++) {
+        ewa_scene_item *item = &scene->items[i];
+        for (uint32_t k = 0; k < other->count && !item->completed; k++) {
+            const ewa_scene_item *from = &other->items[k];
+            if (from->asset != item->asset || !from->completed) continue;
+            atomic_fetch_add(&from->completed->references, 1);
+            item->completed = from->completed;
+            item->member = from->member;
+        }
+    }
+    if (scene->surface || !other->surface) return;
+    atomic_fetch_add(&other->surface->references, 1);
+    scene->surface = other->surface;
 }
 
 /// Checks how an instance of an asset is to be shown.

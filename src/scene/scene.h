@@ -36,6 +36,7 @@ struct ewa_asset {
     ewa_cloud *cloud; ///< of points and meshes; NULL: gone, or something else
     bool drawable;    ///< it has normals and radii, or axes
     ewa_lod *lod;
+    ewa_context *lod_context; ///< of its own; NULL: that of the asset
     const ewa_surfels *surfels; ///< of another owner
     ewa_splats *splats;
     ewa_voxels *voxels;
