@@ -12,6 +12,7 @@
 #include "homogeneous/vec.h"
 #include "lod/tree.h"
 #include "surface/hollow.h"
+#include "surface/packets.h"
 #include "surface/render.h"
 
 #include <math.h>
@@ -23,6 +24,7 @@ enum {
     BYTES_PER_SURFEL = 40,
     CROWD = 5000000, // surfels of a picture of which fewer fit in cache than a tile of the usual size has
     CROWDED_TILE_PX = 32,
+    MAX_SURFELS_SETS = 1024, // of a picture's sets, of one part of it
 };
 
 /// Share of the spacing, or of the error, at which parts begin to show.
@@ -56,6 +58,7 @@ void ewa_lod_options_init(ewa_lod_options *options, size_t struct_size) {
 
 /// A cube of the picture.
 typedef struct item {
+    ewa_lod *lod;
     uint32_t cube;
     double weight;
     bool hides;
@@ -65,7 +68,9 @@ typedef struct item {
 
 /// What is known while cubes are chosen.
 typedef struct chooser {
-    ewa_lod *lod;
+    const ewa_lod_scene *scene;
+    ewa_lod *home; ///< the first octree, which keeps the list
+    ewa_lod *lod;  ///< in which cubes are chosen
     const ewa_camera *camera;
     const ewa_lod_options *options;
     double scale; ///< camera units per world unit
@@ -134,13 +139,13 @@ static double share_of_parts(const chooser *c, const ewa_cube *cube, double spac
 }
 
 static void add_item(chooser *c, uint32_t cube, double weight, bool hides, const sight_of *s) {
-    ewa_buffer *buffer = &c->lod->items;
+    ewa_buffer *buffer = &c->home->items;
     c->status =
-        ewa_buffer_grow(c->lod->context, buffer, c->item_count, (size_t)c->item_count + 1, sizeof(item));
+        ewa_buffer_grow(c->home->context, buffer, c->item_count, (size_t)c->item_count + 1, sizeof(item));
     if (c->status != EWA_OK) return;
     c->items = buffer->data;
     c->items[c->item_count++] =
-        (item){cube, weight, hides, s->spacing_px, s->offset_px, s->first_row, s->end_row};
+        (item){c->lod, cube, weight, hides, s->spacing_px, s->offset_px, s->first_row, s->end_row};
 }
 
 /// Whether a cube can be drawn of what is in memory, by itself or by all of its parts that are seen.
@@ -170,7 +175,8 @@ static void choose(chooser *c, uint32_t index, double weight) {
         if (cube->parts[i] != EWA_NO_CUBE) choose(c, cube->parts[i], weight * share);
 }
 
-/// All cubes from the root to those that are wanted, for pictures that get finer.
+/// Lists each cube that the picture wants with all of its ancestors, so that they can be read from the coarsest on and
+/// every picture on the way shows all that is there.
 static void choose_ways(chooser *c, uint32_t index) {
     const ewa_cube *cube = &c->lod->cubes[index];
     const sight_of s = look_at(c, cube);
@@ -185,7 +191,10 @@ static ewa_status choose_cubes(chooser *c, bool loaded_only) {
     c->loaded_only = loaded_only;
     c->item_count = c->missing_count = 0;
     c->status = EWA_OK;
-    choose(c, 0, 1);
+    for (uint32_t i = 0; i < c->scene->lod_count; i++) {
+        c->lod = c->scene->lods[i];
+        choose(c, 0, 1);
+    }
     return c->status;
 }
 
@@ -194,7 +203,8 @@ static int compare_urgency(const void *a, const void *b) {
     const item *p = a, *q = b;
     const double of_p = fmin(p->spacing_px, 1e9) / (1 + 1e-3 * p->offset_px),
                  of_q = fmin(q->spacing_px, 1e9) / (1 + 1e-3 * q->offset_px);
-    return of_p > of_q ? -1 : of_p < of_q ? 1 : p->cube < q->cube ? -1 : p->cube > q->cube;
+    if (of_p != of_q) return of_p > of_q ? -1 : 1;
+    return p->cube < q->cube ? -1 : p->cube > q->cube;
 }
 
 /// Bytes of what is drawn of a cube, about where it is not in memory.
@@ -202,76 +212,115 @@ static uint64_t bytes_of(const ewa_cube *cube) {
     return cube->surfels ? cube->resident_bytes : cube->count * BYTES_PER_SURFEL + 4096;
 }
 
+/// Bytes that all octrees of a picture but one keep.
+static uint64_t bytes_beside(const ewa_lod_scene *scene, const ewa_lod *lod) {
+    uint64_t bytes = 0;
+    for (uint32_t i = 0; i < scene->lod_count; i++)
+        if (scene->lods[i] != lod) bytes += scene->lods[i]->resident_bytes + scene->lods[i]->cloud_bytes;
+    return bytes;
+}
+
+static uint64_t less(uint64_t a, uint64_t b) { return a > b ? a - b : 0; }
+
 /// Reads cubes for some time, the most urgent first.
 static ewa_status load_some(chooser *c, double until_s, ewa_lod_stats *stats) {
     enum { STEP = 8 };
-    ewa_lod *lod = c->lod;
     c->loaded_only = false;
     c->item_count = 0;
     c->status = EWA_OK;
-    choose_ways(c, 0);
+    for (uint32_t i = 0; i < c->scene->lod_count; i++) {
+        c->lod = c->scene->lods[i];
+        choose_ways(c, 0);
+    }
     if (c->status != EWA_OK) return c->status;
-    for (uint32_t i = 0; i < c->item_count; i++) lod->cubes[c->items[i].cube].last_frame = lod->frame;
+    for (uint32_t i = 0; i < c->item_count; i++)
+        c->items[i].lod->cubes[c->items[i].cube].last_frame = c->items[i].lod->frame;
     qsort(c->items, c->item_count, sizeof *c->items, compare_urgency);
     uint32_t step[STEP], count = 0;
     ewa_status status = EWA_OK;
+    ewa_lod *of_step = NULL;
     for (uint32_t i = 0; i < c->item_count && status == EWA_OK; i++) {
+        ewa_lod *lod = c->items[i].lod;
         const uint32_t cube = c->items[i].cube;
-        if (lod->cubes[cube].surfels) continue;
-        if (lod->resident_bytes + lod->cloud_bytes + bytes_of(&lod->cubes[cube]) > c->options->memory_bytes) {
-            ewa_tree_trim(lod, c->options->memory_bytes - bytes_of(&lod->cubes[cube]));
-            if (lod->resident_bytes + lod->cloud_bytes + bytes_of(&lod->cubes[cube]) >
-                c->options->memory_bytes)
-                break;
+        const uint64_t memory_bytes = less(c->options->memory_bytes, bytes_beside(c->scene, lod));
+        if (count && of_step != lod) {
+            status = ewa_tree_load(of_step, step, count, c->options->memory_bytes);
+            count = 0;
+            if (status != EWA_OK || ewa_now_s() > until_s) return status;
         }
+        if (lod->cubes[cube].surfels) continue;
+        if (lod->resident_bytes + lod->cloud_bytes + bytes_of(&lod->cubes[cube]) > memory_bytes) {
+            ewa_tree_trim(lod, less(memory_bytes, bytes_of(&lod->cubes[cube])));
+            if (lod->resident_bytes + lod->cloud_bytes + bytes_of(&lod->cubes[cube]) > memory_bytes) break;
+        }
+        of_step = lod;
         step[count++] = cube;
         stats->loaded_count++;
-        // The root alone, so that there is something to draw.
-        if (count < STEP && i > 0) continue;
-        status = ewa_tree_load(lod, step, count, c->options->memory_bytes);
+        // The roots alone, so that there is something to draw.
+        if (count < STEP && i >= c->scene->lod_count) continue;
+        status = ewa_tree_load(lod, step, count, memory_bytes);
         count = 0;
         if (ewa_now_s() > until_s) return status;
     }
-    if (status == EWA_OK && count) status = ewa_tree_load(lod, step, count, c->options->memory_bytes);
+    if (status == EWA_OK && count) status = ewa_tree_load(of_step, step, count, c->options->memory_bytes);
     return status;
 }
 
-/// Reads cubes that some items need, within the memory that there is.
-static ewa_status load_items(ewa_lod *lod, const item *items, uint32_t count, uint64_t memory_bytes,
-                             ewa_lod_stats *stats) {
+/// Reads the cubes of one octree that some items need, within the memory that there is; `all_bytes` is what all octrees
+/// need.
+static ewa_status load_items_of(ewa_lod *lod, const ewa_lod_scene *scene, const item *items, uint32_t count,
+                                uint64_t all_bytes, uint64_t memory_bytes, ewa_lod_stats *stats) {
     ewa_status status = ewa_buffer_reserve(lod->context, &lod->wanted, count, sizeof(uint32_t));
     uint32_t *wanted = lod->wanted.data, wanted_count = 0;
-    uint64_t wanted_bytes = 0;
-    for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
-        ewa_cube *cube = &lod->cubes[items[i].cube];
-        cube->last_frame = lod->frame;
-        if (cube->surfels) continue;
-        wanted[wanted_count++] = items[i].cube;
-        wanted_bytes += bytes_of(cube);
-    }
+    for (uint32_t i = 0; i < count && status == EWA_OK; i++)
+        if (items[i].lod == lod && !lod->cubes[items[i].cube].surfels) wanted[wanted_count++] = items[i].cube;
     stats->loaded_count += wanted_count;
-    if (status != EWA_OK || !wanted_count) return status;
-    ewa_tree_trim(lod, memory_bytes > wanted_bytes ? memory_bytes - wanted_bytes : 0);
-    return ewa_tree_load(lod, wanted, wanted_count, memory_bytes);
+    if (status != EWA_OK || !all_bytes) return status;
+    ewa_tree_trim(lod, less(memory_bytes, all_bytes + bytes_beside(scene, lod)));
+    return wanted_count ? ewa_tree_load(lod, wanted, wanted_count, memory_bytes) : EWA_OK;
+}
+
+/// Reads cubes that some items need, within the memory that there is.
+static ewa_status load_items(const ewa_lod_scene *scene, const item *items, uint32_t count, uint64_t memory_bytes,
+                             ewa_lod_stats *stats) {
+    uint64_t all_bytes = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        ewa_cube *cube = &items[i].lod->cubes[items[i].cube];
+        cube->last_frame = items[i].lod->frame;
+        if (!cube->surfels) all_bytes += bytes_of(cube);
+    }
+    ewa_status status = EWA_OK;
+    for (uint32_t i = 0; i < scene->lod_count && status == EWA_OK; i++)
+        status = load_items_of(scene->lods[i], scene, items, count, all_bytes, memory_bytes, stats);
+    return status;
+}
+
+/// What was wanted before may go.
+static void next_frame(const ewa_lod_scene *scene) {
+    for (uint32_t i = 0; i < scene->lod_count; i++) scene->lods[i]->frame++;
 }
 
 /// Draws the rows [first, end) of the picture; other cubes than those that touch them take part by what is known of them all
 /// together. `hollows` are those of all items, where there are several bands; else NULL.
-static ewa_status draw_rows(ewa_lod *lod, ewa_renderer *renderer, const ewa_camera *camera,
+static ewa_status draw_rows(const ewa_lod_scene *scene, ewa_renderer *renderer, const ewa_camera *camera,
                             const ewa_render_options *options, const ewa_frame *frame, const item *items,
                             uint32_t count, ewa_surfels *const *hollows, uint32_t first_row, uint32_t end_row,
                             ewa_render_stats *stats) {
     uint64_t surfel_count = 0;
-    for (uint32_t i = 0; i < count; i++) surfel_count += lod->cubes[items[i].cube].count;
+    for (uint32_t i = 0; i < count; i++) surfel_count += items[i].lod->cubes[items[i].cube].count;
+    for (uint32_t i = 0; i < scene->surfels_count; i++) surfel_count += scene->surfels[i]->count;
     ewa_renderer_set_tile(renderer, surfel_count > CROWD ? CROWDED_TILE_PX : 0);
     ewa_status status = ewa_render_begin(renderer, camera, options, frame);
     if (status == EWA_OK && hollows) status = ewa_render_set_rows(renderer, first_row, end_row);
     for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
         const bool touches = items[i].first_row < end_row && items[i].end_row > first_row;
-        const ewa_surfels *surfels = !hollows || touches ? lod->cubes[items[i].cube].surfels : hollows[i];
+        const ewa_surfels *surfels =
+            !hollows || touches ? items[i].lod->cubes[items[i].cube].surfels : hollows[i];
         const ewa_render_source how = {items[i].weight, items[i].hides};
         status = ewa_render_add_source(renderer, surfels, &how);
     }
+    for (uint32_t i = 0; i < scene->surfels_count && status == EWA_OK; i++)
+        status = ewa_render_add(renderer, scene->surfels[i]);
     return status == EWA_OK ? ewa_render_finish(renderer, stats) : status;
 }
 
@@ -288,45 +337,46 @@ static void add_stats(ewa_render_stats *sum, const ewa_render_stats *more) {
 }
 
 /// Bytes of the cubes that touch some rows.
-static uint64_t bytes_of_rows(const ewa_lod *lod, const item *items, uint32_t count, uint32_t first_row,
-                              uint32_t end_row) {
+static uint64_t bytes_of_rows(const item *items, uint32_t count, uint32_t first_row, uint32_t end_row) {
     uint64_t bytes = 0;
     for (uint32_t i = 0; i < count; i++)
         if (items[i].first_row < end_row && items[i].end_row > first_row)
-            bytes += bytes_of(&lod->cubes[items[i].cube]);
+            bytes += bytes_of(&items[i].lod->cubes[items[i].cube]);
     return bytes;
 }
 
 /// Learns what all cubes are like that a picture needs, however few of them fit in memory at a time.
-static ewa_status make_hollows(ewa_lod *lod, const item *items, uint32_t count, uint64_t memory_bytes,
-                               ewa_surfels **hollows, ewa_lod_stats *stats) {
+static ewa_status make_hollows(const ewa_lod_scene *scene, const item *items, uint32_t count,
+                               uint64_t memory_bytes, ewa_surfels **hollows, ewa_lod_stats *stats) {
     ewa_status status = EWA_OK;
     for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
-        lod->frame++; // what was looked at before may go
-        status = load_items(lod, &items[i], 1, memory_bytes, stats);
-        if (status == EWA_OK) status = ewa_surfels_hollow(lod->cubes[items[i].cube].surfels, &hollows[i]);
+        next_frame(scene);
+        status = load_items(scene, &items[i], 1, memory_bytes, stats);
+        if (status == EWA_OK)
+            status = ewa_surfels_hollow(items[i].lod->cubes[items[i].cube].surfels, &hollows[i]);
     }
     return status;
 }
 
 /// Draws a picture whose cubes do not fit in memory together.
-static ewa_status draw_bands(ewa_lod *lod, ewa_renderer *renderer, const ewa_camera *camera,
+static ewa_status draw_bands(const ewa_lod_scene *scene, ewa_renderer *renderer, const ewa_camera *camera,
                              const ewa_render_options *options, const ewa_frame *frame, const item *items,
                              uint32_t count, uint64_t memory_bytes, ewa_lod_stats *stats) {
-    ewa_surfels **hollows = ewa_allocate_zeroed(lod->context, count, sizeof *hollows);
-    item *touching = ewa_allocate(lod->context, count, sizeof *touching);
+    ewa_context *context = scene->lods[0]->context;
+    ewa_surfels **hollows = ewa_allocate_zeroed(context, count, sizeof *hollows);
+    item *touching = ewa_allocate(context, count, sizeof *touching);
     ewa_status status = hollows && touching ? EWA_OK : EWA_ERROR_MEMORY;
-    if (status == EWA_OK) status = make_hollows(lod, items, count, memory_bytes, hollows, stats);
+    if (status == EWA_OK) status = make_hollows(scene, items, count, memory_bytes, hollows, stats);
     for (uint32_t first = 0, end; first < camera->height_px && status == EWA_OK; first = end) {
         end = first + BAND_PX;
         while (end < camera->height_px &&
-               bytes_of_rows(lod, items, count, first, end + BAND_PX) <= memory_bytes)
+               bytes_of_rows(items, count, first, end + BAND_PX) <= memory_bytes)
             end += BAND_PX;
         if (end > camera->height_px) end = camera->height_px;
-        const uint64_t bytes = bytes_of_rows(lod, items, count, first, end);
+        const uint64_t bytes = bytes_of_rows(items, count, first, end);
         if (bytes > memory_bytes) {
             status = ewa_fail(
-                lod->context, EWA_ERROR_LIMIT,
+                context, EWA_ERROR_LIMIT,
                 "rows %u to %u of the picture need %llu bytes of cubes, more than the %llu that are allowed",
                 first, end, (unsigned long long)bytes, (unsigned long long)memory_bytes);
             break;
@@ -334,18 +384,18 @@ static ewa_status draw_bands(ewa_lod *lod, ewa_renderer *renderer, const ewa_cam
         uint32_t touching_count = 0;
         for (uint32_t i = 0; i < count; i++)
             if (items[i].first_row < end && items[i].end_row > first) touching[touching_count++] = items[i];
-        lod->frame++;
-        status = load_items(lod, touching, touching_count, memory_bytes, stats);
+        next_frame(scene);
+        status = load_items(scene, touching, touching_count, memory_bytes, stats);
         ewa_render_stats took = {0};
         if (status == EWA_OK)
             status =
-                draw_rows(lod, renderer, camera, options, frame, items, count, hollows, first, end, &took);
+                draw_rows(scene, renderer, camera, options, frame, items, count, hollows, first, end, &took);
         add_stats(&stats->render, &took);
         stats->band_count++;
     }
     for (uint32_t i = 0; hollows && i < count; i++) ewa_surfels_destroy(&hollows[i]);
-    ewa_release(lod->context, hollows, count, sizeof *hollows);
-    ewa_release(lod->context, touching, count, sizeof *touching);
+    ewa_release(context, hollows, count, sizeof *hollows);
+    ewa_release(context, touching, count, sizeof *touching);
     return status;
 }
 
@@ -354,12 +404,12 @@ static ewa_status draw_bands(ewa_lod *lod, ewa_renderer *renderer, const ewa_cam
 static ewa_status keep_share(chooser *c) {
     const ewa_lod_options *options = c->options;
     uint64_t all = 0, before = 0, bytes = 0;
-    for (uint32_t i = 0; i < c->item_count; i++) all += c->lod->cubes[c->items[i].cube].count;
+    for (uint32_t i = 0; i < c->item_count; i++) all += c->items[i].lod->cubes[c->items[i].cube].count;
     const uint64_t first = ewa_split(all, options->share_count, options->share),
                    end = ewa_split(all, options->share_count, options->share + 1);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < c->item_count; i++) {
-        const ewa_cube *cube = &c->lod->cubes[c->items[i].cube];
+        const ewa_cube *cube = &c->items[i].lod->cubes[c->items[i].cube];
         if (before >= first && before < end) {
             c->items[kept++] = c->items[i];
             bytes += bytes_of(cube);
@@ -368,7 +418,7 @@ static ewa_status keep_share(chooser *c) {
     }
     c->item_count = kept;
     if (bytes <= options->memory_bytes) return EWA_OK;
-    return ewa_fail(c->lod->context, EWA_ERROR_LIMIT,
+    return ewa_fail(c->home->context, EWA_ERROR_LIMIT,
                     "part %u of %u of the picture needs %llu bytes of cubes, more than the %llu that are "
                     "allowed: more ranks or more memory each",
                     options->share + 1, options->share_count, (unsigned long long)bytes,
@@ -379,13 +429,18 @@ static double scale_of(const ewa_camera *camera) {
     return vec3_length(vec3_load(&camera->world_to_camera[8]));
 }
 
-static ewa_status render(ewa_lod *lod, ewa_renderer *renderer, const ewa_camera *camera,
+static ewa_status render(const ewa_lod_scene *scene, ewa_renderer *renderer, const ewa_camera *camera,
                          const ewa_render_options *options, const ewa_lod_options *chosen,
                          const ewa_frame *frame, ewa_lod_stats *stats) {
     const double start_s = ewa_now_s();
     // Filters reach some pixels beyond a surfel.
-    chooser c = {.lod = lod, .camera = camera, .options = chosen, .scale = scale_of(camera), .margin_px = 16};
-    lod->frame++;
+    chooser c = {.scene = scene,
+                 .home = scene->lods[0],
+                 .camera = camera,
+                 .options = chosen,
+                 .scale = scale_of(camera),
+                 .margin_px = 16};
+    next_frame(scene);
     ewa_status status = EWA_OK;
     if (chosen->load_s > 0) {
         status = load_some(&c, start_s + chosen->load_s, stats);
@@ -399,60 +454,91 @@ static ewa_status render(ewa_lod *lod, ewa_renderer *renderer, const ewa_camera 
     stats->missing_count = c.missing_count;
     stats->cube_count = c.item_count;
     uint64_t bytes = 0;
-    for (uint32_t i = 0; i < c.item_count; i++) bytes += bytes_of(&lod->cubes[c.items[i].cube]);
+    for (uint32_t i = 0; i < c.item_count; i++) bytes += bytes_of(&c.items[i].lod->cubes[c.items[i].cube]);
     if (bytes <= chosen->memory_bytes || chosen->load_s > 0) {
         const double load_from_s = ewa_now_s();
-        status = load_items(lod, c.items, c.item_count, chosen->memory_bytes, stats);
+        status = load_items(scene, c.items, c.item_count, chosen->memory_bytes, stats);
         stats->load_s += ewa_now_s() - load_from_s;
         stats->band_count = 1;
         if (status == EWA_OK)
-            status = draw_rows(lod, renderer, camera, options, frame, c.items, c.item_count, NULL, 0,
+            status = draw_rows(scene, renderer, camera, options, frame, c.items, c.item_count, NULL, 0,
                                camera->height_px, &stats->render);
     } else {
-        status = draw_bands(lod, renderer, camera, options, frame, c.items, c.item_count,
-                            chosen->memory_bytes, stats);
+        status = draw_bands(scene, renderer, camera, options, frame, c.items, c.item_count, chosen->memory_bytes,
+                            stats);
     }
-    for (uint32_t i = 0; i < c.item_count; i++) {
-        const ewa_cube *cube = &lod->cubes[c.items[i].cube];
-        stats->surfel_count += cube->count;
+    for (uint32_t i = 0; i < c.item_count; i++)
+        stats->surfel_count += c.items[i].lod->cubes[c.items[i].cube].count;
+    for (uint32_t i = 0; i < scene->lod_count; i++)
+        stats->resident_bytes += scene->lods[i]->resident_bytes + scene->lods[i]->cloud_bytes;
+    return status;
+}
+
+/// Draws surfels alone; of several ranks the part of this one.
+static ewa_status render_surfels(const ewa_lod_scene *scene, ewa_renderer *renderer, const ewa_camera *camera,
+                                 const ewa_render_options *options, const ewa_frame *frame,
+                                 ewa_render_stats *stats) {
+    ewa_status status = ewa_render_begin(renderer, camera, options, frame);
+    for (uint32_t i = 0; i < scene->surfels_count && status == EWA_OK; i++)
+        status = ewa_render_add(renderer, scene->surfels[i]);
+    return status == EWA_OK ? ewa_render_finish(renderer, stats) : status;
+}
+
+/// Finds the context that messages go to, and what is wrong with the octrees.
+static ewa_status check_octrees(const ewa_lod_scene *scene, ewa_context **context) {
+    *context = scene->lod_count ? scene->lods[0]->context : NULL;
+    for (uint32_t i = 0; i < scene->lod_count; i++)
+        for (uint32_t k = 0; k < i; k++)
+            if (scene->lods[i] == scene->lods[k])
+                return ewa_fail(*context, EWA_ERROR_ARGUMENT, "octree %u of a picture is also its octree %u", k, i);
+    return EWA_OK;
+}
+
+ewa_status ewa_lod_scene_render(const ewa_lod_scene *scene, ewa_renderer *renderer, const ewa_camera *camera,
+                                const ewa_render_options *options, const ewa_lod_options *lod_options,
+                                const ewa_frame *frame, ewa_lod_stats *stats) {
+    if (!scene || !renderer || !camera || !frame) return EWA_ERROR_ARGUMENT;
+    ewa_context *context;
+    ewa_lod_options chosen;
+    ewa_lod_options_init(&chosen, sizeof chosen);
+    ewa_status status = check_octrees(scene, &context);
+    if (status == EWA_OK) status = ewa_options_take(context, &ewa_lod_options_table, lod_options, &chosen);
+    if (status == EWA_OK && context) status = ewa_camera_check(context, camera);
+    if (status != EWA_OK) return status;
+    if (chosen.share_count && (chosen.share >= chosen.share_count || chosen.load_s > 0))
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "lod: part %u of %u, or parts that a time limit makes",
+                        chosen.share, chosen.share_count);
+    ewa_lod_stats took = {.cube_count = 0};
+    // Surfels i are those of part i mod share_count; they are few.
+    ewa_lod_scene own = *scene;
+    const ewa_surfels *kept[MAX_SURFELS_SETS];
+    if (chosen.share_count) {
+        own.surfels = kept;
+        own.surfels_count = 0;
+        for (uint32_t i = chosen.share; i < scene->surfels_count; i += chosen.share_count) {
+            if (own.surfels_count == MAX_SURFELS_SETS)
+                return ewa_fail(context, EWA_ERROR_LIMIT, "lod: %u sets of surfels in %u parts",
+                                scene->surfels_count, chosen.share_count);
+            kept[own.surfels_count++] = scene->surfels[i];
+        }
     }
-    stats->resident_bytes = lod->resident_bytes + lod->cloud_bytes;
+    if (own.lod_count) {
+        ewa_render_options plain;
+        ewa_render_options_init(&plain, sizeof plain);
+        if (options) plain = *options;
+        plain.budget_s = 0;
+        status = render(&own, renderer, camera, &plain, &chosen, frame, &took);
+    } else {
+        status = render_surfels(&own, renderer, camera, options, frame, &took.render);
+    }
+    if (stats) *stats = took;
     return status;
 }
 
 ewa_status ewa_lod_render(ewa_lod *lod, ewa_renderer *renderer, const ewa_camera *camera,
                           const ewa_render_options *options, const ewa_lod_options *lod_options,
                           const ewa_frame *frame, ewa_lod_stats *stats) {
-    if (!lod || !renderer || !camera || !frame) return EWA_ERROR_ARGUMENT;
-    ewa_lod_options chosen;
-    ewa_lod_options_init(&chosen, sizeof chosen);
-    ewa_status status = ewa_options_take(lod->context, &ewa_lod_options_table, lod_options, &chosen);
-    if (status == EWA_OK) status = ewa_camera_check(lod->context, camera);
-    if (status != EWA_OK) return status;
-    if (chosen.share_count && (chosen.share >= chosen.share_count || chosen.load_s > 0))
-        return ewa_fail(lod->context, EWA_ERROR_ARGUMENT,
-                        "lod: part %u of %u, or parts that a time limit makes", chosen.share,
-                        chosen.share_count);
-    ewa_render_options plain;
-    ewa_render_options_init(&plain, sizeof plain);
-    if (options) plain = *options;
-    plain.level = 0;
-    plain.budget_s = 0;
-    ewa_lod_stats took = {.cube_count = 0};
-    status = render(lod, renderer, camera, &plain, &chosen, frame, &took);
-    if (stats) *stats = took;
-    return status;
-}
-
-// interim
-ewa_status ewa_lod_scene_render(const ewa_lod_scene *scene, ewa_renderer *renderer, const ewa_camera *camera,
-                                const ewa_render_options *options, const ewa_lod_options *lod_options,
-                                const ewa_frame *frame, ewa_lod_stats *stats) {
-    *stats = (ewa_lod_stats){.cube_count = 0};
-    if (scene->lod_count == 1 && !scene->surfels_count)
-        return ewa_lod_render(scene->lods[0], renderer, camera, options, lod_options, frame, stats);
-    ewa_status status = ewa_render_begin(renderer, camera, options, frame);
-    for (uint32_t i = 0; i < scene->surfels_count && status == EWA_OK; i++)
-        status = ewa_render_add(renderer, scene->surfels[i]);
-    return status == EWA_OK ? ewa_render_finish(renderer, &stats->render) : status;
+    if (!lod) return EWA_ERROR_ARGUMENT;
+    const ewa_lod_scene scene = {&lod, 1, 0, NULL};
+    return ewa_lod_scene_render(&scene, renderer, camera, options, lod_options, frame, stats);
 }
