@@ -63,7 +63,7 @@ typedef struct ewa_legend {
     bool length;              ///< the numbers are lengths of the world
     uint32_t category_count;  ///< classes in place of numbers; 0: none
     ewa_category *categories; ///< by code
-    char (*names)[EWA_CLASS_NAME_BYTES];
+    char *names; ///< their names, EWA_CLASS_NAME_BYTES each
     uint64_t grey_count; ///< points whose number has no colour: not finite, or no class where these are shown
 } ewa_legend;
 

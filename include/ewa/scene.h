@@ -335,30 +335,6 @@ EWA_API ewa_status ewa_scene_pick(ewa_scene *scene, ewa_scene_renderer *renderer
                                   const ewa_scene_options *options, double x_px, double y_px, double reach_px,
                                   double reach_world, ewa_scene_hit *hit);
 
-/// Writes what a scene is as JSON text, UTF-8, ended by a zero, without the places of files: `*text` is the caller's, to
-/// be freed with ewa_text_free(). Errors: EWA_ERROR_MEMORY.
-EWA_API ewa_status ewa_scene_describe_json(ewa_scene *scene, char **text);
-EWA_API void ewa_text_free(ewa_context *context, char **text);
-
-
-/// Says whether a regular file is the text of a scene, by its content. Reports nothing.
-EWA_API bool ewa_scene_probe(ewa_context *context, const char *path);
-
-/// Opens a scene file (docs/scene.md): loads what it names, relative to its folder, below which it must lie, and adds
-/// it to `scene`, whose options become those of the file where it says something. A file may name further scene files,
-/// eight deep. `options` (may be NULL) are those of every asset where the file says nothing. `camera` is filled when the
-/// file has one, and `*has_camera` set; both may be NULL. After a failure the scene is as it was. Errors, with the file
-/// and the place: EWA_ERROR_FORMAT (text, members, numbers that are not finite, a singular map), EWA_ERROR_IO,
-/// EWA_ERROR_LIMIT (a circle, too deep), those of ewa_asset_load(). A warning says which files have other coordinate
-/// reference systems than the first.
-EWA_API ewa_status ewa_scene_open(ewa_scene *scene, const char *path, const ewa_asset_options *options,
-                                  ewa_camera *camera, bool *has_camera);
-
-/// Writes a scene file: the options that are no defaults and every instance, whose assets must be of files; names are
-/// relative to the file's folder where they lie below it. `camera` may be NULL: none. Errors: EWA_ERROR_UNSUPPORTED (an
-/// asset that is of no file), EWA_ERROR_IO, EWA_ERROR_MEMORY.
-EWA_API ewa_status ewa_scene_save(const ewa_scene *scene, const ewa_camera *camera, const char *path);
-
 #ifdef __cplusplus
 }
 #endif

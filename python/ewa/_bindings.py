@@ -35,6 +35,8 @@ EWA_TANGENT_U = 'tangent_u'
 EWA_TANGENT_V = 'tangent_v'
 EWA_MOST_RANKS = 1048576
 EWA_ALL_RANKS = 4294967295
+EWA_SCALAR_NAME_BYTES = 68
+EWA_DIAGNOSIS_TEXT_BYTES = 400
 EWA_UPRIGHT_TEXT_BYTES = 160
 EWA_MAX_SH_DEGREE = 4
 EWA_VISIBLE_POSITIVE = 1
@@ -59,6 +61,10 @@ EWA_MAX_LEVELS = 8
 EWA_MAX_EDGE_LAYERS = 8
 EWA_MAX_SECTION_PLANES = 8
 EWA_LAYERS_EXACT = 4294967295
+EWA_OCTREE_WHOLE_POINTS = 4000000
+EWA_OCTREE_SAMPLE_POINTS = 400000
+EWA_SCENE_MAX_INSTANCES = 65536
+EWA_MATERIAL_OWN = 4294967295
 EWA_FILTER_TERMS = 16
 EWA_FILTER_RANGES = 32
 EWA_MAX_LIGHTS = 8
@@ -70,8 +76,9 @@ EWA_MAX_VOLUME_LEVELS = 4
 class ewa_severity(IntEnum):
     EWA_SEVERITY_ERROR = 0
     EWA_SEVERITY_WARNING = 1
-    EWA_SEVERITY_INFO = 2
-    EWA_SEVERITY_DEBUG = 3
+    EWA_SEVERITY_NOTE = 2
+    EWA_SEVERITY_INFO = 3
+    EWA_SEVERITY_DEBUG = 4
 
 
 class ewa_status(IntEnum):
@@ -105,6 +112,19 @@ class ewa_texture_fit(IntEnum):
 class ewa_projection(IntEnum):
     EWA_PERSPECTIVE = 0
     EWA_ORTHOGRAPHIC = 1
+
+
+class ewa_coloring_map(IntEnum):
+    EWA_COLORING_AUTO = 0
+    EWA_COLORING_VIRIDIS = 1
+    EWA_COLORING_TURBO = 2
+    EWA_COLORING_GRAY = 3
+    EWA_COLORING_PLASMA = 4
+    EWA_COLORING_INFERNO = 5
+    EWA_COLORING_MAGMA = 6
+    EWA_COLORING_CIVIDIS = 7
+    EWA_COLORING_COOLWARM = 8
+    EWA_COLORING_CLASSES = 9
 
 
 class ewa_named_view(IntEnum):
@@ -316,6 +336,29 @@ class ewa_texture_method(IntEnum):
     EWA_TEXTURE_BILINEAR = 3
 
 
+class ewa_asset_kind(IntEnum):
+    EWA_ASSET_POINTS = 0
+    EWA_ASSET_MESH = 1
+    EWA_ASSET_SURFELS = 2
+    EWA_ASSET_OCTREE = 3
+    EWA_ASSET_GAUSSIANS = 4
+    EWA_ASSET_VOLUME = 5
+
+
+class ewa_octree_levels(IntEnum):
+    EWA_OCTREE_AUTO = 0
+    EWA_OCTREE_ALWAYS = 1
+    EWA_OCTREE_NEVER = 2
+
+
+class ewa_scene_up(IntEnum):
+    EWA_UP_AUTO = 0
+    EWA_UP_Y = 1
+    EWA_UP_Z = 2
+    EWA_UP_MINUS_Y = 3
+    EWA_UP_MINUS_Z = 4
+
+
 class ewa_volume_index(IntEnum):
     EWA_INDEX_EXACT = 0
     EWA_INDEX_TABLE = 1
@@ -372,6 +415,79 @@ ewa_camera_callback = c.CFUNCTYPE(None, c.c_void_p, c.c_uint32, c.POINTER(ewa_ca
 
 
 ewa_line_callback = c.CFUNCTYPE(None, c.c_void_p, c.c_char_p)
+
+
+class ewa_image(c.Structure):
+    context: int | None
+    width_px: int
+    height_px: int
+    channel_count: int
+    pixels: int | None
+    _fields_ = [
+        ("context", c.c_void_p),
+        ("width_px", c.c_uint32),
+        ("height_px", c.c_uint32),
+        ("channel_count", c.c_uint32),
+        ("pixels", c.c_void_p),
+    ]
+
+
+class ewa_mesh_material(c.Structure):
+    base_color: c.Array[c.c_float]
+    texture: int
+    _fields_ = [
+        ("base_color", c.c_float * 4),
+        ("texture", c.c_uint32),
+    ]
+
+
+class ewa_mesh(c.Structure):
+    context: int | None
+    vertex_count: int
+    triangle_count: int
+    material_count: int
+    positions: int | None
+    normals: int | None
+    colors: int | None
+    texcoords: int | None
+    triangles: int | None
+    triangle_materials: int | None
+    materials: Any
+    textures: Any
+    _fields_ = [
+        ("context", c.c_void_p),
+        ("vertex_count", c.c_uint32),
+        ("triangle_count", c.c_uint32),
+        ("material_count", c.c_uint32),
+        ("positions", c.c_void_p),
+        ("normals", c.c_void_p),
+        ("colors", c.c_void_p),
+        ("texcoords", c.c_void_p),
+        ("triangles", c.c_void_p),
+        ("triangle_materials", c.c_void_p),
+        ("materials", c.POINTER(ewa_mesh_material)),
+        ("textures", c.POINTER(ewa_image)),
+    ]
+
+
+class ewa_model(c.Structure):
+    format: int
+    lost_count: int
+    face_count: int
+    mesh: ewa_mesh
+    points: int | None
+    elements: int | None
+    _fields_ = [
+        ("format", c.c_int),
+        ("lost_count", c.c_uint64),
+        ("face_count", c.c_uint64),
+        ("mesh", ewa_mesh),
+        ("points", c.c_void_p),
+        ("elements", c.c_void_p),
+    ]
+
+
+ewa_asset_import = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_void_p, c.c_char_p, c.POINTER(ewa_model), c.c_void_p)
 
 
 class ewa_allocator(c.Structure):
@@ -533,6 +649,85 @@ class ewa_exchange(c.Structure):
     ]
 
 
+class ewa_coloring(c.Structure):
+    struct_size: int
+    attribute: bytes
+    map: int
+    ranged: bool
+    percent: c.Array[c.c_bool]
+    range: c.Array[c.c_double]
+    tinted: bool
+    tint: c.Array[c.c_double]
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("attribute", c.c_char * 68),
+        ("map", c.c_int),
+        ("ranged", c.c_bool),
+        ("percent", c.c_bool * 2),
+        ("range", c.c_double * 2),
+        ("tinted", c.c_bool),
+        ("tint", c.c_double * 3),
+    ]
+
+
+class ewa_category(c.Structure):
+    value: float
+    name: bytes | None
+    srgb: c.Array[c.c_uint8]
+    _fields_ = [
+        ("value", c.c_double),
+        ("name", c.c_char_p),
+        ("srgb", c.c_uint8 * 3),
+    ]
+
+
+class ewa_legend(c.Structure):
+    context: int | None
+    colormap: int
+    range: c.Array[c.c_double]
+    length: bool
+    category_count: int
+    categories: Any
+    names: bytes | None
+    grey_count: int
+    _fields_ = [
+        ("context", c.c_void_p),
+        ("colormap", c.c_int),
+        ("range", c.c_double * 2),
+        ("length", c.c_bool),
+        ("category_count", c.c_uint32),
+        ("categories", c.POINTER(ewa_category)),
+        ("names", c.c_char_p),
+        ("grey_count", c.c_uint64),
+    ]
+
+
+class ewa_cloud_faults(c.Structure):
+    position_count: int
+    normal_count: int
+    radius_count: int
+    axis_count: int
+    color_count: int
+    _fields_ = [
+        ("position_count", c.c_uint64),
+        ("normal_count", c.c_uint64),
+        ("radius_count", c.c_uint64),
+        ("axis_count", c.c_uint64),
+        ("color_count", c.c_uint64),
+    ]
+
+
+class ewa_gaussian_columns(c.Structure):
+    dimensions: int
+    sh_degree: int
+    filtered: bool
+    _fields_ = [
+        ("dimensions", c.c_uint32),
+        ("sh_degree", c.c_uint32),
+        ("filtered", c.c_bool),
+    ]
+
+
 class ewa_framing_info(c.Structure):
     box: ewa_bounds
     middle_world: c.Array[c.c_double]
@@ -569,17 +764,6 @@ class ewa_canvas(c.Structure):
         ("rgba8", c.c_void_p),
         ("width_px", c.c_uint32),
         ("height_px", c.c_uint32),
-    ]
-
-
-class ewa_category(c.Structure):
-    value: float
-    name: bytes | None
-    srgb: c.Array[c.c_uint8]
-    _fields_ = [
-        ("value", c.c_double),
-        ("name", c.c_char_p),
-        ("srgb", c.c_uint8 * 3),
     ]
 
 
@@ -908,21 +1092,6 @@ class ewa_segment_part(c.Structure):
     ]
 
 
-class ewa_image(c.Structure):
-    context: int | None
-    width_px: int
-    height_px: int
-    channel_count: int
-    pixels: int | None
-    _fields_ = [
-        ("context", c.c_void_p),
-        ("width_px", c.c_uint32),
-        ("height_px", c.c_uint32),
-        ("channel_count", c.c_uint32),
-        ("pixels", c.c_void_p),
-    ]
-
-
 class ewa_cloud_load_options(c.Structure):
     struct_size: int
     keep_going: bool
@@ -1084,6 +1253,19 @@ class ewa_lod_options(c.Structure):
     ]
 
 
+class ewa_lod_scene(c.Structure):
+    lods: int | None
+    lod_count: int
+    surfels_count: int
+    surfels: int | None
+    _fields_ = [
+        ("lods", c.c_void_p),
+        ("lod_count", c.c_uint32),
+        ("surfels_count", c.c_uint32),
+        ("surfels", c.c_void_p),
+    ]
+
+
 class ewa_render_stats(c.Structure):
     splat_count: int
     culled_count: int
@@ -1135,44 +1317,6 @@ class ewa_lod_stats(c.Structure):
         ("resident_bytes", c.c_uint64),
         ("choose_s", c.c_double),
         ("load_s", c.c_double),
-    ]
-
-
-class ewa_mesh_material(c.Structure):
-    base_color: c.Array[c.c_float]
-    texture: int
-    _fields_ = [
-        ("base_color", c.c_float * 4),
-        ("texture", c.c_uint32),
-    ]
-
-
-class ewa_mesh(c.Structure):
-    context: int | None
-    vertex_count: int
-    triangle_count: int
-    material_count: int
-    positions: int | None
-    normals: int | None
-    colors: int | None
-    texcoords: int | None
-    triangles: int | None
-    triangle_materials: int | None
-    materials: Any
-    textures: Any
-    _fields_ = [
-        ("context", c.c_void_p),
-        ("vertex_count", c.c_uint32),
-        ("triangle_count", c.c_uint32),
-        ("material_count", c.c_uint32),
-        ("positions", c.c_void_p),
-        ("normals", c.c_void_p),
-        ("colors", c.c_void_p),
-        ("texcoords", c.c_void_p),
-        ("triangles", c.c_void_p),
-        ("triangle_materials", c.c_void_p),
-        ("materials", c.POINTER(ewa_mesh_material)),
-        ("textures", c.POINTER(ewa_image)),
     ]
 
 
@@ -1332,23 +1476,6 @@ class ewa_mixture(c.Structure):
         ("splats_count", c.c_uint32),
         ("volume_count", c.c_uint32),
         ("volumes", c.POINTER(ewa_mixed_volume)),
-    ]
-
-
-class ewa_model(c.Structure):
-    format: int
-    lost_count: int
-    face_count: int
-    mesh: ewa_mesh
-    points: int | None
-    elements: int | None
-    _fields_ = [
-        ("format", c.c_int),
-        ("lost_count", c.c_uint64),
-        ("face_count", c.c_uint64),
-        ("mesh", ewa_mesh),
-        ("points", c.c_void_p),
-        ("elements", c.c_void_p),
     ]
 
 
@@ -1754,6 +1881,35 @@ class ewa_texture_target(c.Structure):
     ]
 
 
+class ewa_asset_info(c.Structure):
+    kind: int
+    name: bytes | None
+    count: int
+    bounds: ewa_bounds
+    cloud: int | None
+    lod: int | None
+    surfels: int | None
+    splats: int | None
+    voxels: int | None
+    up_world: c.Array[c.c_double]
+    load_s: float
+    drawable: bool
+    _fields_ = [
+        ("kind", c.c_int),
+        ("name", c.c_char_p),
+        ("count", c.c_uint64),
+        ("bounds", ewa_bounds),
+        ("cloud", c.c_void_p),
+        ("lod", c.c_void_p),
+        ("surfels", c.c_void_p),
+        ("splats", c.c_void_p),
+        ("voxels", c.c_void_p),
+        ("up_world", c.c_double * 3),
+        ("load_s", c.c_double),
+        ("drawable", c.c_bool),
+    ]
+
+
 class ewa_filter_range(c.Structure):
     low: float
     high: float
@@ -1786,6 +1942,238 @@ class ewa_filter(c.Structure):
     _fields_ = [
         ("term_count", c.c_uint32),
         ("terms", ewa_filter_term * 16),
+    ]
+
+
+class ewa_asset_options(c.Structure):
+    struct_size: int
+    load: Any
+    filter: Any
+    to_world: c.Array[c.c_double]
+    gaussians_as_surfels: bool
+    levels: int
+    cutoff: float
+    transfer: bytes | None
+    voxel_level_count: int
+    reach_steps: float
+    own_context: bool
+    import: Any
+    import_user: int | None
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("load", c.POINTER(ewa_cloud_load_options)),
+        ("filter", c.POINTER(ewa_filter)),
+        ("to_world", c.c_double * 16),
+        ("gaussians_as_surfels", c.c_bool),
+        ("levels", c.c_int),
+        ("cutoff", c.c_double),
+        ("transfer", c.c_char_p),
+        ("voxel_level_count", c.c_uint32),
+        ("reach_steps", c.c_double),
+        ("own_context", c.c_bool),
+        ("import", ewa_asset_import),
+        ("import_user", c.c_void_p),
+    ]
+
+
+class ewa_volume(c.Structure):
+    context: int | None
+    dims: c.Array[c.c_uint32]
+    type: int
+    voxels: int | None
+    index_to_world: c.Array[c.c_double]
+    anatomical: bool
+    _fields_ = [
+        ("context", c.c_void_p),
+        ("dims", c.c_uint32 * 3),
+        ("type", c.c_int),
+        ("voxels", c.c_void_p),
+        ("index_to_world", c.c_double * 12),
+        ("anatomical", c.c_bool),
+    ]
+
+
+class ewa_asset_source(c.Structure):
+    name: bytes | None
+    cloud: int | None
+    surfels: int | None
+    lod: int | None
+    splats: int | None
+    voxels: int | None
+    mesh: Any
+    gaussians: Any
+    volume: Any
+    outline: int | None
+    up_world: c.Array[c.c_double]
+    flat: bool
+    release: Any
+    user: int | None
+    _fields_ = [
+        ("name", c.c_char_p),
+        ("cloud", c.c_void_p),
+        ("surfels", c.c_void_p),
+        ("lod", c.c_void_p),
+        ("splats", c.c_void_p),
+        ("voxels", c.c_void_p),
+        ("mesh", c.POINTER(ewa_mesh)),
+        ("gaussians", c.POINTER(ewa_gaussians)),
+        ("volume", c.POINTER(ewa_volume)),
+        ("outline", c.c_void_p),
+        ("up_world", c.c_double * 3),
+        ("flat", c.c_bool),
+        ("release", c.CFUNCTYPE(None, c.c_void_p)),
+        ("user", c.c_void_p),
+    ]
+
+
+class ewa_instance(c.Structure):
+    struct_size: int
+    visible: bool
+    opacity: float
+    radius_scale: float
+    material: int
+    coloring: ewa_coloring
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("visible", c.c_bool),
+        ("opacity", c.c_double),
+        ("radius_scale", c.c_double),
+        ("material", c.c_uint32),
+        ("coloring", ewa_coloring),
+    ]
+
+
+class ewa_scene_hit(c.Structure):
+    hit: bool
+    depth: float
+    place_world: c.Array[c.c_double]
+    has_point: bool
+    instance: int
+    point: int
+    point_world: c.Array[c.c_double]
+    points: int | None
+    _fields_ = [
+        ("hit", c.c_bool),
+        ("depth", c.c_double),
+        ("place_world", c.c_double * 3),
+        ("has_point", c.c_bool),
+        ("instance", c.c_uint32),
+        ("point", c.c_uint64),
+        ("point_world", c.c_double * 3),
+        ("points", c.c_void_p),
+    ]
+
+
+class ewa_scene_info(c.Structure):
+    instance_count: int
+    visible_count: int
+    point_count: int
+    surfaces: bool
+    octrees: bool
+    gaussians: bool
+    volumes: bool
+    surfels: ewa_surfels_info
+    resident: int | None
+    estimated_count: int
+    load_s: float
+    estimate_s: float
+    surfels_s: float
+    _fields_ = [
+        ("instance_count", c.c_uint32),
+        ("visible_count", c.c_uint32),
+        ("point_count", c.c_uint64),
+        ("surfaces", c.c_bool),
+        ("octrees", c.c_bool),
+        ("gaussians", c.c_bool),
+        ("volumes", c.c_bool),
+        ("surfels", ewa_surfels_info),
+        ("resident", c.c_void_p),
+        ("estimated_count", c.c_uint64),
+        ("load_s", c.c_double),
+        ("estimate_s", c.c_double),
+        ("surfels_s", c.c_double),
+    ]
+
+
+class ewa_scene_options(c.Structure):
+    struct_size: int
+    up: int
+    close_gaps: bool
+    keep_points: bool
+    shade_volumes: bool
+    surfels: ewa_surfels_options
+    lod: ewa_lod_options
+    render: ewa_render_options
+    gaussians: ewa_gaussian_options
+    volumes: ewa_volume_options
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("up", c.c_int),
+        ("close_gaps", c.c_bool),
+        ("keep_points", c.c_bool),
+        ("shade_volumes", c.c_bool),
+        ("surfels", ewa_surfels_options),
+        ("lod", ewa_lod_options),
+        ("render", ewa_render_options),
+        ("gaussians", ewa_gaussian_options),
+        ("volumes", ewa_volume_options),
+    ]
+
+
+class ewa_scene_stats(c.Structure):
+    render: ewa_render_stats
+    lod: ewa_lod_stats
+    total_s: float
+    _fields_ = [
+        ("render", ewa_render_stats),
+        ("lod", ewa_lod_stats),
+        ("total_s", c.c_double),
+    ]
+
+
+class ewa_view_info(c.Structure):
+    upright: ewa_upright
+    up_world: c.Array[c.c_double]
+    pivot_world: c.Array[c.c_double]
+    trimmed: bool
+    _fields_ = [
+        ("upright", ewa_upright),
+        ("up_world", c.c_double * 3),
+        ("pivot_world", c.c_double * 3),
+        ("trimmed", c.c_bool),
+    ]
+
+
+class ewa_view_options(c.Structure):
+    struct_size: int
+    width_px: int
+    height_px: int
+    fov_deg: float
+    ortho_height_world: float
+    view: int
+    up_world: c.Array[c.c_double]
+    has_eye: bool
+    has_target: bool
+    eye_world: c.Array[c.c_double]
+    target_world: c.Array[c.c_double]
+    azimuth_deg: float
+    elevation_deg: float
+    turntable: bool
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("width_px", c.c_uint32),
+        ("height_px", c.c_uint32),
+        ("fov_deg", c.c_double),
+        ("ortho_height_world", c.c_double),
+        ("view", c.c_int32),
+        ("up_world", c.c_double * 3),
+        ("has_eye", c.c_bool),
+        ("has_target", c.c_bool),
+        ("eye_world", c.c_double * 3),
+        ("target_world", c.c_double * 3),
+        ("azimuth_deg", c.c_double),
+        ("elevation_deg", c.c_double),
+        ("turntable", c.c_bool),
     ]
 
 
@@ -1825,23 +2213,6 @@ class ewa_transfer(c.Structure):
         ("unit_length_world", c.c_double),
         ("gradient_low", c.c_double),
         ("gradient_high", c.c_double),
-    ]
-
-
-class ewa_volume(c.Structure):
-    context: int | None
-    dims: c.Array[c.c_uint32]
-    type: int
-    voxels: int | None
-    index_to_world: c.Array[c.c_double]
-    anatomical: bool
-    _fields_ = [
-        ("context", c.c_void_p),
-        ("dims", c.c_uint32 * 3),
-        ("type", c.c_int),
-        ("voxels", c.c_void_p),
-        ("index_to_world", c.c_double * 12),
-        ("anatomical", c.c_bool),
     ]
 
 
@@ -1964,6 +2335,7 @@ class ewa_warp_options(c.Structure):
 #: Tables of options that the library exports.
 TABLES = (
     "ewa_acquire_options_table",
+    "ewa_coloring_table",
     "ewa_furniture_options_table",
     "ewa_gaussians_save_options_table",
     "ewa_gaussian_options_table",
@@ -1986,6 +2358,10 @@ TABLES = (
     "ewa_surfels_options_table",
     "ewa_render_options_table",
     "ewa_texture_options_table",
+    "ewa_asset_options_table",
+    "ewa_scene_options_table",
+    "ewa_instance_table",
+    "ewa_view_options_table",
     "ewa_material_table",
     "ewa_voxels_options_table",
     "ewa_volume_options_table",
@@ -2044,6 +2420,20 @@ class Functions:
     ewa_exchange_add: Callable[..., int]
     ewa_exchange_gather: Callable[..., int]
     ewa_renderer_create_joint: Callable[..., int]
+    ewa_clouds_color: Callable[..., int]
+    ewa_coloring_init: Callable[..., None]
+    ewa_coloring_is_own: Callable[..., bool]
+    ewa_coloring_names_classes: Callable[..., bool]
+    ewa_legend_free: Callable[..., None]
+    ewa_cloud_check_degrees: Callable[..., None]
+    ewa_cloud_check_steps: Callable[..., None]
+    ewa_cloud_count_faults: Callable[..., None]
+    ewa_cloud_drop_zero_normals: Callable[..., None]
+    ewa_cloud_find_degrees: Callable[..., bool]
+    ewa_cloud_find_gaussians: Callable[..., ewa_gaussian_columns]
+    ewa_cloud_refuse_gaussians: Callable[..., int]
+    ewa_cloud_report_faults: Callable[..., int]
+    ewa_gaussian_columns_describe: Callable[..., None]
     ewa_framing_choose: Callable[..., None]
     ewa_framing_create: Callable[..., int]
     ewa_framing_describe: Callable[..., None]
@@ -2175,6 +2565,7 @@ class Functions:
     ewa_png_save: Callable[..., int]
     ewa_transfer_load: Callable[..., int]
     ewa_transfer_save: Callable[..., int]
+    ewa_volume_is_named: Callable[..., bool]
     ewa_volume_load: Callable[..., int]
     ewa_volume_load_memory: Callable[..., int]
     ewa_volume_load_options_init: Callable[..., None]
@@ -2191,6 +2582,7 @@ class Functions:
     ewa_lod_read: Callable[..., int]
     ewa_lod_render: Callable[..., int]
     ewa_lod_sample: Callable[..., int]
+    ewa_lod_scene_render: Callable[..., int]
     ewa_mesh_create: Callable[..., int]
     ewa_mesh_free: Callable[..., None]
     ewa_mesh_is_closed: Callable[..., int]
@@ -2240,6 +2632,39 @@ class Functions:
     ewa_texture_map_from_camera: Callable[..., int]
     ewa_texture_map_from_corners: Callable[..., int]
     ewa_texture_options_init: Callable[..., None]
+    ewa_asset_create: Callable[..., int]
+    ewa_asset_describe: Callable[..., None]
+    ewa_asset_load: Callable[..., int]
+    ewa_asset_options_init: Callable[..., None]
+    ewa_asset_release: Callable[..., None]
+    ewa_asset_retain: Callable[..., int | None]
+    ewa_cloud_place_camera: Callable[..., int]
+    ewa_instance_init: Callable[..., None]
+    ewa_scene_add: Callable[..., int]
+    ewa_scene_asset: Callable[..., int | None]
+    ewa_scene_bounds: Callable[..., None]
+    ewa_scene_commit: Callable[..., int]
+    ewa_scene_complete: Callable[..., int]
+    ewa_scene_copy: Callable[..., int]
+    ewa_scene_count: Callable[..., int]
+    ewa_scene_create: Callable[..., int]
+    ewa_scene_describe: Callable[..., None]
+    ewa_scene_destroy: Callable[..., None]
+    ewa_scene_draw: Callable[..., int]
+    ewa_scene_get: Callable[..., int]
+    ewa_scene_get_options: Callable[..., None]
+    ewa_scene_legend: Callable[..., Any]
+    ewa_scene_options_init: Callable[..., None]
+    ewa_scene_pick: Callable[..., int]
+    ewa_scene_place_camera: Callable[..., int]
+    ewa_scene_remove: Callable[..., int]
+    ewa_scene_renderer_create: Callable[..., int]
+    ewa_scene_renderer_destroy: Callable[..., None]
+    ewa_scene_renderer_surfaces: Callable[..., int | None]
+    ewa_scene_reuse: Callable[..., None]
+    ewa_scene_set: Callable[..., int]
+    ewa_scene_set_options: Callable[..., int]
+    ewa_view_options_init: Callable[..., None]
     ewa_box_mark: Callable[..., int]
     ewa_cloud_find_scalar: Callable[..., int]
     ewa_cloud_keep: Callable[..., int]
@@ -2336,6 +2761,20 @@ class Functions:
         self.ewa_exchange_add = bind("ewa_exchange_add", c.c_int, c.c_void_p, c.POINTER(ewa_exchange), c.c_void_p, c.c_size_t)
         self.ewa_exchange_gather = bind("ewa_exchange_gather", c.c_int, c.c_void_p, c.POINTER(ewa_exchange), c.c_void_p, c.c_size_t, c.c_void_p)
         self.ewa_renderer_create_joint = bind("ewa_renderer_create_joint", c.c_int, c.c_void_p, c.POINTER(ewa_exchange), c.c_void_p)
+        self.ewa_clouds_color = bind("ewa_clouds_color", c.c_int, c.c_void_p, c.c_uint32, c.POINTER(ewa_coloring), c.POINTER(ewa_legend))
+        self.ewa_coloring_init = bind("ewa_coloring_init", None, c.POINTER(ewa_coloring), c.c_size_t)
+        self.ewa_coloring_is_own = bind("ewa_coloring_is_own", c.c_bool, c.c_char_p)
+        self.ewa_coloring_names_classes = bind("ewa_coloring_names_classes", c.c_bool, c.c_char_p)
+        self.ewa_legend_free = bind("ewa_legend_free", None, c.POINTER(ewa_legend))
+        self.ewa_cloud_check_degrees = bind("ewa_cloud_check_degrees", None, c.c_void_p)
+        self.ewa_cloud_check_steps = bind("ewa_cloud_check_steps", None, c.c_void_p)
+        self.ewa_cloud_count_faults = bind("ewa_cloud_count_faults", None, c.c_void_p, c.POINTER(ewa_cloud_faults))
+        self.ewa_cloud_drop_zero_normals = bind("ewa_cloud_drop_zero_normals", None, c.c_void_p)
+        self.ewa_cloud_find_degrees = bind("ewa_cloud_find_degrees", c.c_bool, c.c_void_p, c.c_void_p)
+        self.ewa_cloud_find_gaussians = bind("ewa_cloud_find_gaussians", ewa_gaussian_columns, c.c_void_p)
+        self.ewa_cloud_refuse_gaussians = bind("ewa_cloud_refuse_gaussians", c.c_int, c.c_void_p)
+        self.ewa_cloud_report_faults = bind("ewa_cloud_report_faults", c.c_int, c.c_void_p, c.POINTER(ewa_surfels_info))
+        self.ewa_gaussian_columns_describe = bind("ewa_gaussian_columns_describe", None, c.POINTER(ewa_gaussian_columns), c.c_void_p)
         self.ewa_framing_choose = bind("ewa_framing_choose", None, c.c_void_p, c.c_int, c.POINTER(ewa_upright))
         self.ewa_framing_create = bind("ewa_framing_create", c.c_int, c.c_void_p, c.c_double, c.c_void_p)
         self.ewa_framing_describe = bind("ewa_framing_describe", None, c.c_void_p, c.POINTER(ewa_framing_info))
@@ -2467,6 +2906,7 @@ class Functions:
         self.ewa_png_save = bind("ewa_png_save", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_void_p, c.c_size_t)
         self.ewa_transfer_load = bind("ewa_transfer_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_transfer))
         self.ewa_transfer_save = bind("ewa_transfer_save", c.c_int, c.c_void_p, c.POINTER(ewa_transfer), c.c_char_p)
+        self.ewa_volume_is_named = bind("ewa_volume_is_named", c.c_bool, c.c_char_p)
         self.ewa_volume_load = bind("ewa_volume_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_volume_load_options), c.POINTER(ewa_volume))
         self.ewa_volume_load_memory = bind("ewa_volume_load_memory", c.c_int, c.c_void_p, c.c_void_p, c.c_size_t, c.c_char_p, c.POINTER(ewa_volume_load_options), c.POINTER(ewa_volume))
         self.ewa_volume_load_options_init = bind("ewa_volume_load_options_init", None, c.POINTER(ewa_volume_load_options), c.c_size_t)
@@ -2483,6 +2923,7 @@ class Functions:
         self.ewa_lod_read = bind("ewa_lod_read", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p, c.c_double, c.c_void_p)
         self.ewa_lod_render = bind("ewa_lod_render", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_render_options), c.POINTER(ewa_lod_options), c.POINTER(ewa_frame), c.POINTER(ewa_lod_stats))
         self.ewa_lod_sample = bind("ewa_lod_sample", c.c_int, c.c_void_p, c.c_uint64, c.c_void_p)
+        self.ewa_lod_scene_render = bind("ewa_lod_scene_render", c.c_int, c.POINTER(ewa_lod_scene), c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_render_options), c.POINTER(ewa_lod_options), c.POINTER(ewa_frame), c.POINTER(ewa_lod_stats))
         self.ewa_mesh_create = bind("ewa_mesh_create", c.c_int, c.c_void_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_uint32, c.POINTER(ewa_mesh))
         self.ewa_mesh_free = bind("ewa_mesh_free", None, c.POINTER(ewa_mesh))
         self.ewa_mesh_is_closed = bind("ewa_mesh_is_closed", c.c_int, c.POINTER(ewa_mesh), c.c_void_p)
@@ -2532,6 +2973,39 @@ class Functions:
         self.ewa_texture_map_from_camera = bind("ewa_texture_map_from_camera", c.c_int, c.c_void_p, c.c_uint32, c.c_uint32, c.POINTER(ewa_camera), c.c_void_p, c.c_void_p, c.c_void_p, c.POINTER(ewa_mat3))
         self.ewa_texture_map_from_corners = bind("ewa_texture_map_from_corners", c.c_int, c.c_void_p, c.c_uint32, c.c_uint32, c.c_void_p, c.POINTER(ewa_mat3))
         self.ewa_texture_options_init = bind("ewa_texture_options_init", None, c.POINTER(ewa_texture_options), c.c_size_t)
+        self.ewa_asset_create = bind("ewa_asset_create", c.c_int, c.c_void_p, c.POINTER(ewa_asset_source), c.POINTER(ewa_asset_options), c.c_void_p)
+        self.ewa_asset_describe = bind("ewa_asset_describe", None, c.c_void_p, c.POINTER(ewa_asset_info))
+        self.ewa_asset_load = bind("ewa_asset_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_asset_options), c.c_void_p)
+        self.ewa_asset_options_init = bind("ewa_asset_options_init", None, c.POINTER(ewa_asset_options), c.c_size_t)
+        self.ewa_asset_release = bind("ewa_asset_release", None, c.c_void_p)
+        self.ewa_asset_retain = bind("ewa_asset_retain", c.c_void_p, c.c_void_p)
+        self.ewa_cloud_place_camera = bind("ewa_cloud_place_camera", c.c_int, c.c_void_p, c.c_double, c.c_int, c.c_int, c.POINTER(ewa_view_options), c.POINTER(ewa_camera), c.POINTER(ewa_view_info))
+        self.ewa_instance_init = bind("ewa_instance_init", None, c.POINTER(ewa_instance), c.c_size_t)
+        self.ewa_scene_add = bind("ewa_scene_add", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_instance))
+        self.ewa_scene_asset = bind("ewa_scene_asset", c.c_void_p, c.c_void_p, c.c_uint32)
+        self.ewa_scene_bounds = bind("ewa_scene_bounds", None, c.c_void_p, c.POINTER(ewa_bounds))
+        self.ewa_scene_commit = bind("ewa_scene_commit", c.c_int, c.c_void_p)
+        self.ewa_scene_complete = bind("ewa_scene_complete", c.c_int, c.c_void_p)
+        self.ewa_scene_copy = bind("ewa_scene_copy", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p)
+        self.ewa_scene_count = bind("ewa_scene_count", c.c_uint32, c.c_void_p)
+        self.ewa_scene_create = bind("ewa_scene_create", c.c_int, c.c_void_p, c.POINTER(ewa_scene_options), c.c_void_p)
+        self.ewa_scene_describe = bind("ewa_scene_describe", None, c.c_void_p, c.POINTER(ewa_scene_info))
+        self.ewa_scene_destroy = bind("ewa_scene_destroy", None, c.c_void_p)
+        self.ewa_scene_draw = bind("ewa_scene_draw", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_scene_options), c.POINTER(ewa_frame), c.POINTER(ewa_scene_stats))
+        self.ewa_scene_get = bind("ewa_scene_get", c.c_int, c.c_void_p, c.c_uint32, c.POINTER(ewa_instance))
+        self.ewa_scene_get_options = bind("ewa_scene_get_options", None, c.c_void_p, c.POINTER(ewa_scene_options))
+        self.ewa_scene_legend = bind("ewa_scene_legend", c.POINTER(ewa_legend), c.c_void_p, c.c_uint32)
+        self.ewa_scene_options_init = bind("ewa_scene_options_init", None, c.POINTER(ewa_scene_options), c.c_size_t)
+        self.ewa_scene_pick = bind("ewa_scene_pick", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_scene_options), c.c_double, c.c_double, c.c_double, c.c_double, c.POINTER(ewa_scene_hit))
+        self.ewa_scene_place_camera = bind("ewa_scene_place_camera", c.c_int, c.c_void_p, c.POINTER(ewa_view_options), c.POINTER(ewa_camera), c.POINTER(ewa_view_info))
+        self.ewa_scene_remove = bind("ewa_scene_remove", c.c_int, c.c_void_p, c.c_uint32)
+        self.ewa_scene_renderer_create = bind("ewa_scene_renderer_create", c.c_int, c.c_void_p, c.c_int, c.POINTER(ewa_exchange), c.c_void_p)
+        self.ewa_scene_renderer_destroy = bind("ewa_scene_renderer_destroy", None, c.c_void_p)
+        self.ewa_scene_renderer_surfaces = bind("ewa_scene_renderer_surfaces", c.c_void_p, c.c_void_p)
+        self.ewa_scene_reuse = bind("ewa_scene_reuse", None, c.c_void_p, c.c_void_p)
+        self.ewa_scene_set = bind("ewa_scene_set", c.c_int, c.c_void_p, c.c_uint32, c.POINTER(ewa_instance))
+        self.ewa_scene_set_options = bind("ewa_scene_set_options", c.c_int, c.c_void_p, c.POINTER(ewa_scene_options))
+        self.ewa_view_options_init = bind("ewa_view_options_init", None, c.POINTER(ewa_view_options), c.c_size_t)
         self.ewa_box_mark = bind("ewa_box_mark", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p)
         self.ewa_cloud_find_scalar = bind("ewa_cloud_find_scalar", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_scalar))
         self.ewa_cloud_keep = bind("ewa_cloud_keep", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p)

@@ -48,8 +48,8 @@ class ContextOptions(TypedDict, total=False):
     thread_count: int
     #: bits of instruction sets that may be used; [0, 4294967295], default 2147483647
     cpu_mask: int
-    #: most detailed messages to report; error|warning|info|debug, default warning
-    message_level: Literal["error", "warning", "info", "debug"] | int
+    #: most detailed messages to report; error|warning|note|info|debug, default warning
+    message_level: Literal["error", "warning", "note", "info", "debug"] | int
 
 
 class CsgOptions(TypedDict, total=False):

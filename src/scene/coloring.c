@@ -59,7 +59,7 @@ void ewa_legend_free(ewa_legend *legend) {
     if (!legend || !legend->context) return;
     const size_t room = legend->category_count + (size_t)1;
     ewa_release(legend->context, legend->categories, room, sizeof *legend->categories);
-    ewa_release(legend->context, legend->names, room, sizeof *legend->names);
+    ewa_release(legend->context, legend->names, room, EWA_CLASS_NAME_BYTES);
     *legend = (ewa_legend){.context = NULL};
 }
 
@@ -154,13 +154,14 @@ static ewa_status list_classes(const numbers *from, ewa_legend *legend) {
     uint32_t count = 0;
     for (uint32_t code = 0; code < CLASS_COUNT; code++) count += there[code];
     legend->categories = ewa_allocate_zeroed(from->context, count + (size_t)1, sizeof *legend->categories);
-    legend->names = ewa_allocate_zeroed(from->context, count + (size_t)1, sizeof *legend->names);
+    legend->names = ewa_allocate_zeroed(from->context, count + (size_t)1, EWA_CLASS_NAME_BYTES);
     legend->category_count = count;
     const ewa_status status = legend->categories && legend->names ? EWA_OK : EWA_ERROR_MEMORY;
     for (uint32_t code = 0, k = 0; status == EWA_OK && code < CLASS_COUNT; code++) {
         if (!there[code]) continue;
-        ewa_class_name(code, legend->names[k]);
-        legend->categories[k] = (ewa_category){.value = code, .name = legend->names[k]};
+        char *name = legend->names + (size_t)k * EWA_CLASS_NAME_BYTES;
+        ewa_class_name(code, name);
+        legend->categories[k] = (ewa_category){.value = code, .name = name};
         ewa_class_color(code, legend->categories[k++].srgb);
     }
     ewa_release(from->context, there, CLASS_COUNT, sizeof *there);

@@ -13,7 +13,8 @@ enum { CONTENTS_POINTS = 20000, CONTENTS_OCTREE_POINTS = 150000 };
 
 /// What the services are asked to do beside, and what they saw.
 typedef struct view_contents {
-    atomic_int loads, frees, colors;
+    atomic_int loads, frees;
+    ewa_context *context; ///< of the loading thread; to be destroyed after the viewer
     atomic_bool holds; ///< loads wait, with progress, until this is false
     char said[1024], message[1024], clipboard[4096];
     bool preview; ///< loads show one first
