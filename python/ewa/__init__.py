@@ -24,6 +24,7 @@ from .image import Image, read_depth, read_image, save_image
 from .mesh import Mesh, convert, read, read_mesh, sample
 from .octree import Octree, build_octree
 from .rendering import Renderer, render
+from .scene import Scene
 from .shade import Environment
 from .surfels import Surfels
 from .volume import Transfer, Volume, Voxels, generate_volume, read_volume, render_volume
@@ -34,7 +35,7 @@ __version__ = version()
 __all__ = [
     "ArgumentError", "Array", "Camera", "CameraPath", "Cancelled", "ClosedError", "Cloud", "Context", "DepthImage",
     "Environment", "Error", "EwaWarning", "FileError", "FormatError", "Gaussians", "Image", "Mesh", "NumericError",
-    "Octree", "OutOfMemory", "Renderer", "Splats", "Surfels", "Transfer", "Volume", "Voxels", "as_cloud",
+    "Octree", "OutOfMemory", "Renderer", "Scene", "Splats", "Surfels", "Transfer", "Volume", "Voxels", "as_cloud",
     "build_octree", "cameras", "convert", "csg", "default_context", "from_laspy", "from_open3d", "from_pyvista",
     "from_trimesh", "generate", "generate_volume", "merge", "progress", "read", "read_depth", "read_gaussians",
     "read_image", "read_mesh", "read_volume", "render", "render_gaussians", "render_volume", "sample",

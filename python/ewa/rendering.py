@@ -225,6 +225,16 @@ def render(scene: Scene, camera: Camera | None = None, *, size: Sequence[int] | 
     else:
         if options.get("point_size_px"):
             making.setdefault("close_gaps", False)
+        if not isinstance(scene, (Surfels, Cloud)) and any(isinstance(part, Cloud) for part in scene) and \
+                renderer is None and backend == "cpu":
+            from .scene import Scene
+
+            together = Scene(*scene, **making)
+            made_of = together.render(camera, size=size, planes=planes, background=background or "transparent",
+                                      lights=lights, materials=materials, environment=environment, layers=layers,
+                                      section_box=section_box, section_planes=section_planes, out=out, **options)
+            together.close()
+            return made_of
         if camera is None and isinstance(scene, Cloud):
             from .surfels import complete
 

@@ -5,6 +5,7 @@
 #include "scene/draw.h"
 #include "base/base.h"
 #include "base/options.h"
+#include "surface/eye_dome.h"
 
 #include <math.h>
 #include <string.h>
@@ -31,6 +32,8 @@ static void free_planes(ewa_scene_renderer *renderer) {
     ewa_image_free(&renderer->depth);
     ewa_image_free(&renderer->normal);
     ewa_image_free(&renderer->coverage);
+    ewa_image_free(&renderer->lit_rgba);
+    ewa_image_free(&renderer->lit_depth);
 }
 
 void ewa_scene_renderer_destroy(ewa_scene_renderer **given) {
@@ -117,6 +120,7 @@ static ewa_status draw_among(ewa_scene_renderer *renderer, const ewa_scene_shown
     if (status != EWA_OK) return status;
     ewa_render_options over_nothing = options->render;
     memset(over_nothing.background, 0, sizeof over_nothing.background);
+    over_nothing.eye_dome = 0; // of the whole picture, in the end
     const ewa_frame planes = {.rgba = renderer->rgba.pixels,
                               .depth = renderer->depth.pixels,
                               .normal = frame->normal ? renderer->normal.pixels : NULL,
@@ -195,6 +199,28 @@ static ewa_gaussian_options mixture_options(const ewa_scene_shown *shown, const 
     return among;
 }
 
+/// Draws what lets light through over nothing, and lights the whole picture by its depths.
+static ewa_status draw_lit(ewa_scene_renderer *renderer, const ewa_scene_shown *shown, const ewa_camera *camera,
+                           const ewa_scene_options *options, const ewa_gaussian_options *among, const ewa_frame *frame,
+                           ewa_scene_stats *stats) {
+    ewa_status status = make_plane(renderer->context, camera, 4, &renderer->lit_rgba);
+    if (status == EWA_OK) status = make_plane(renderer->context, camera, 1, &renderer->lit_depth);
+    if (status != EWA_OK) return status;
+    ewa_frame lit = *frame;
+    lit.rgba8 = NULL;
+    if (!lit.rgba) lit.rgba = renderer->lit_rgba.pixels;
+    if (!lit.depth) lit.depth = renderer->lit_depth.pixels;
+    ewa_gaussian_options over_nothing = *among;
+    ewa_scene_options bare = *options;
+    memset(over_nothing.background, 0, sizeof over_nothing.background);
+    memset(bare.render.background, 0, sizeof bare.render.background);
+    status = draw_mixture(renderer, shown, camera, &bare, &over_nothing, &lit, stats);
+    lit.rgba8 = frame->rgba8;
+    return status == EWA_OK ? ewa_eye_dome_apply(renderer->context, camera, options->render.eye_dome,
+                                                 options->render.background, &lit)
+                            : status;
+}
+
 static ewa_status draw(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa_camera *camera,
                        const ewa_scene_options *options, const ewa_frame *frame, ewa_scene_stats *stats) {
     ewa_scene_shown shown;
@@ -208,8 +234,10 @@ static ewa_status draw(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa
         status = draw_among(renderer, &shown, camera, options, frame, &among, stats);
     const bool elsewhere =
         exchange->swap && exchange->picture_rank != EWA_ALL_RANKS && exchange->picture_rank != exchange->rank;
-    return status == EWA_OK && !elsewhere ? draw_mixture(renderer, &shown, camera, options, &among, frame, stats)
-                                          : status;
+    if (status != EWA_OK || elsewhere) return status;
+    return options->render.eye_dome > 0 && (frame->rgba || frame->rgba8)
+               ? draw_lit(renderer, &shown, camera, options, &among, frame, stats)
+               : draw_mixture(renderer, &shown, camera, options, &among, frame, stats);
 }
 
 ewa_status ewa_scene_draw(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa_camera *camera,

@@ -15,6 +15,7 @@ struct ewa_scene_renderer {
     ewa_gaussian_renderer *gaussians; ///< NULL: not used yet
     ewa_volume_renderer *volumes[EWA_MAX_MIXED_VOLUMES];
     ewa_image rgba, depth, normal, coverage; ///< of surfaces among others, of the size of the last frame
+    ewa_image lit_rgba, lit_depth;           ///< of everything, before eye-dome lighting
     ewa_buffer surfels, lods, splats;        ///< lists of what is visible
 };
 

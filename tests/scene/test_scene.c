@@ -1,0 +1,324 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Scenes: what is added is what was merged before, whatever the order; tiles without normals are one file; every plane is
+// of everything; what is shared stays right; what cannot be is refused.
+#include "check.h"
+
+#include <math.h>
+
+enum { WIDTH = 96, HEIGHT = 72, PIXELS = WIDTH * HEIGHT, POINTS = 6000 };
+
+/// All planes of a picture.
+typedef struct planes {
+    uint8_t rgba8[4 * PIXELS];
+    float rgba[4 * PIXELS], depth[PIXELS], normal[3 * PIXELS], coverage[PIXELS];
+} planes;
+
+static planes first, second;
+
+static ewa_cloud *make_object(ewa_context *context, ewa_object object, double shift_world) {
+    ewa_generate_options options;
+    ewa_generate_options_init(&options, sizeof options);
+    options.object = object;
+    options.point_count = POINTS;
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_OK);
+    const double to_world[16] = {1, 0, 0, shift_world, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    assert_int_equal(ewa_cloud_transform(cloud, to_world), EWA_OK);
+    return cloud;
+}
+
+/// The points of a cloud for which `side` is true, positions alone.
+static ewa_cloud *bare_part(ewa_context *context, const ewa_cloud *from, bool (*side)(uint64_t, const double *)) {
+    const uint64_t count = ewa_cloud_point_count(from);
+    const ewa_attribute *position = ewa_cloud_find(from, EWA_POSITION);
+    uint64_t kept = 0, at = 0;
+    double p[3];
+    for (uint64_t i = 0; i < count; i++) {
+        ewa_attribute_read_f64(position, i, 1, p);
+        kept += side(i, p);
+    }
+    ewa_cloud *cloud = NULL;
+    void *data = NULL;
+    assert_int_equal(ewa_cloud_create(context, kept, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &data), EWA_OK);
+    for (uint64_t i = 0; i < count; i++) {
+        ewa_attribute_read_f64(position, i, 1, p);
+        if (side(i, p)) memcpy((double *)data + 3 * at++, p, sizeof p);
+    }
+    return cloud;
+}
+
+static void add_cloud(ewa_context *context, ewa_scene *scene, const ewa_cloud *cloud, const ewa_instance *instance) {
+    ewa_asset *asset = NULL;
+    assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.cloud = cloud}, NULL, &asset), EWA_OK);
+    assert_int_equal(ewa_scene_add(scene, asset, instance), EWA_OK);
+    ewa_asset_release(&asset);
+}
+
+static void draw(ewa_context *context, ewa_scene *scene, const ewa_camera *camera, planes *to) {
+    ewa_scene_renderer *renderer = NULL;
+    assert_int_equal(ewa_scene_renderer_create(context, EWA_BACKEND_CPU, NULL, &renderer), EWA_OK);
+    const ewa_frame frame = {to->rgba8, to->rgba, to->depth, to->normal, to->coverage};
+    assert_int_equal(ewa_scene_draw(scene, renderer, camera, NULL, &frame, NULL), EWA_OK);
+    ewa_scene_renderer_destroy(&renderer);
+}
+
+static ewa_scene *make_scene(ewa_context *context) {
+    ewa_scene *scene = NULL;
+    assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
+    return scene;
+}
+
+static ewa_camera place(ewa_scene *scene) {
+    ewa_view_options options;
+    ewa_view_options_init(&options, sizeof options);
+    options.width_px = WIDTH;
+    options.height_px = HEIGHT;
+    ewa_camera camera;
+    assert_int_equal(ewa_scene_place_camera(scene, &options, &camera, NULL), EWA_OK);
+    return camera;
+}
+
+static void test_added_is_merged(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    ewa_cloud *clouds[2] = {make_object(context, EWA_OBJECT_TORUS, 0), make_object(context, EWA_OBJECT_SPHERE, 1.25)};
+    ewa_cloud *merged = NULL;
+    assert_int_equal(ewa_cloud_merge((const ewa_cloud *const *)clouds, 2, &merged), EWA_OK);
+    ewa_scene *one = make_scene(context), *two = make_scene(context), *turned = make_scene(context);
+    add_cloud(context, one, merged, NULL);
+    for (int i = 0; i < 2; i++) {
+        add_cloud(context, two, clouds[i], NULL);
+        add_cloud(context, turned, clouds[1 - i], NULL);
+    }
+    const ewa_camera camera = place(one), again = place(two);
+    assert_memory_equal(&camera, &again, sizeof camera);
+    draw(context, one, &camera, &first);
+    draw(context, two, &camera, &second);
+    assert_memory_equal(&first, &second, sizeof first);
+    draw(context, turned, &camera, &second);
+    assert_memory_equal(&first, &second, sizeof first);
+    assert_true(isfinite(first.depth[PIXELS / 2 + WIDTH / 2]) || isfinite(first.depth[PIXELS / 2]));
+    ewa_scene_destroy(&one), ewa_scene_destroy(&two), ewa_scene_destroy(&turned);
+    ewa_cloud_destroy(&clouds[0]), ewa_cloud_destroy(&clouds[1]), ewa_cloud_destroy(&merged);
+    ewa_context_destroy(&context);
+}
+
+static bool all(uint64_t i, const double *p) { return (void)i, (void)p, true; }
+static bool left(uint64_t i, const double *p) { return (void)i, p[0] < 0; }
+static bool right(uint64_t i, const double *p) { return (void)i, p[0] >= 0; }
+static bool even(uint64_t i, const double *p) { return (void)p, i % 2 == 0; }
+static bool odd(uint64_t i, const double *p) { return (void)p, i % 2 == 1; }
+
+static double psnr(const planes *a, const planes *b) {
+    double sum = 0;
+    for (int i = 0; i < 4 * PIXELS; i++) {
+        const double d = (double)a->rgba[i] - (double)b->rgba[i];
+        sum += d * d;
+    }
+    return sum > 0 ? 10 * log10(4 * PIXELS / sum) : INFINITY;
+}
+
+/// Tiles and interleaved scans of one place are the picture of the one file.
+static void test_estimated_together(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    ewa_cloud *object = make_object(context, EWA_OBJECT_TORUS, 0);
+    ewa_cloud *whole = bare_part(context, object, all),
+              *parts[4] = {bare_part(context, object, left), bare_part(context, object, right),
+                           bare_part(context, object, even), bare_part(context, object, odd)};
+    ewa_scene *one = make_scene(context);
+    add_cloud(context, one, whole, NULL);
+    const ewa_camera camera = place(one);
+    draw(context, one, &camera, &first);
+    for (int k = 0; k < 4; k += 2) {
+        ewa_scene *two = make_scene(context);
+        add_cloud(context, two, parts[k], NULL);
+        add_cloud(context, two, parts[k + 1], NULL);
+        draw(context, two, &camera, &second);
+        assert_true(psnr(&first, &second) >= 90);
+        ewa_scene_info info;
+        ewa_scene_describe(two, &info);
+        assert_int_equal(info.estimated_count, POINTS == 0 ? 0 : ewa_cloud_point_count(whole));
+        ewa_scene_destroy(&two);
+    }
+    ewa_scene_destroy(&one);
+    for (int k = 0; k < 4; k++) ewa_cloud_destroy(&parts[k]);
+    ewa_cloud_destroy(&whole), ewa_cloud_destroy(&object);
+    ewa_context_destroy(&context);
+}
+
+/// Gaussians out of sight change none of the planes of a surface but where colours are rounded.
+static void test_planes_among_gaussians(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 0);
+    ewa_scene *scene = make_scene(context);
+    add_cloud(context, scene, cloud, NULL);
+    const ewa_camera camera = place(scene);
+    draw(context, scene, &camera, &first);
+    ewa_gaussians set;
+    assert_int_equal(ewa_gaussians_create(context, 1, 0, &set), EWA_OK);
+    for (int c = 0; c < 3; c++) set.centers[c] = 1000, set.scales[c] = 0.1f, set.harmonics[c] = 0;
+    set.rotations[0] = 1, set.rotations[1] = set.rotations[2] = set.rotations[3] = 0;
+    set.opacities[0] = 0.9f;
+    ewa_asset *asset = NULL;
+    assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.gaussians = &set}, NULL, &asset), EWA_OK);
+    assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
+    ewa_asset_release(&asset);
+    ewa_gaussians_free(&set);
+    draw(context, scene, &camera, &second);
+    assert_memory_equal(first.depth, second.depth, sizeof first.depth);
+    assert_memory_equal(first.normal, second.normal, sizeof first.normal);
+    assert_memory_equal(first.coverage, second.coverage, sizeof first.coverage);
+    ewa_scene_destroy(&scene);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
+/// A hidden instance is not drawn, a tint is one colour, and a copy goes its own way.
+static void test_instances(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    ewa_cloud *clouds[2] = {make_object(context, EWA_OBJECT_TORUS, 0), make_object(context, EWA_OBJECT_SPHERE, 1.25)};
+    ewa_scene *scene = make_scene(context), *alone = make_scene(context), *copy = NULL;
+    for (int i = 0; i < 2; i++) add_cloud(context, scene, clouds[i], NULL);
+    add_cloud(context, alone, clouds[0], NULL);
+    const ewa_camera camera = place(scene);
+    assert_int_equal(ewa_scene_commit(scene), EWA_OK);
+    assert_int_equal(ewa_scene_copy(scene, context, &copy), EWA_OK);
+    ewa_instance instance;
+    assert_int_equal(ewa_scene_get(copy, 1, &instance), EWA_OK);
+    instance.visible = false;
+    assert_int_equal(ewa_scene_set(copy, 1, &instance), EWA_OK);
+    draw(context, alone, &camera, &first);
+    draw(context, copy, &camera, &second);
+    assert_memory_equal(&first, &second, sizeof first);
+    draw(context, scene, &camera, &second);
+    assert_memory_not_equal(first.rgba8, second.rgba8, sizeof first.rgba8);
+    assert_int_equal(ewa_scene_get(copy, 0, &instance), EWA_OK);
+    instance.coloring.tinted = true;
+    instance.coloring.tint[0] = 1;
+    assert_int_equal(ewa_scene_set(copy, 0, &instance), EWA_OK);
+    draw(context, copy, &camera, &second);
+    int red = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        if (!(second.coverage[i] >= 1)) continue;
+        red += second.rgba8[4 * i] > 0;
+        assert_int_equal(second.rgba8[4 * i + 1], second.rgba8[4 * i + 2]);
+    }
+    assert_true(red > 100);
+    ewa_scene_destroy(&scene), ewa_scene_destroy(&alone), ewa_scene_destroy(&copy);
+    ewa_cloud_destroy(&clouds[0]), ewa_cloud_destroy(&clouds[1]);
+    ewa_context_destroy(&context);
+}
+
+/// A range is one for all clouds that are coloured alike, and percentiles are those of all their numbers.
+static void test_one_range(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    ewa_cloud *clouds[2];
+    for (int k = 0; k < 2; k++) {
+        void *data = NULL;
+        assert_int_equal(ewa_cloud_create(context, 51, &clouds[k]), EWA_OK);
+        assert_int_equal(ewa_cloud_add(clouds[k], EWA_POSITION, EWA_F64, 3, &data), EWA_OK);
+        memset(data, 0, 51 * 3 * sizeof(double));
+        assert_int_equal(ewa_cloud_add(clouds[k], "height", EWA_F64, 1, &data), EWA_OK);
+        for (int i = 0; i < 51; i++) ((double *)data)[i] = 2 * i + k; // 0 to 101, all of them
+    }
+    ewa_coloring coloring;
+    ewa_coloring_init(&coloring, sizeof coloring);
+    snprintf(coloring.attribute, sizeof coloring.attribute, "height");
+    ewa_legend legend;
+    assert_int_equal(ewa_clouds_color(clouds, 2, &coloring, &legend), EWA_OK);
+    assert_true(legend.range[0] == 0 && legend.range[1] == 101);
+    ewa_legend_free(&legend);
+    coloring.ranged = coloring.percent[0] = coloring.percent[1] = true;
+    coloring.range[0] = 10, coloring.range[1] = 50;
+    assert_int_equal(ewa_clouds_color(clouds, 2, &coloring, &legend), EWA_OK);
+    // Ranks 10.1 and 50.5 of 0 to 101, rounded to the nearest.
+    assert_true(legend.range[0] == 10 && legend.range[1] == 51);
+    ewa_legend_free(&legend);
+    ewa_cloud_destroy(&clouds[0]), ewa_cloud_destroy(&clouds[1]);
+    ewa_context_destroy(&context);
+}
+
+static void test_refused(void **state) {
+    (void)state;
+    check_log log = {.count = 0};
+    ewa_context *context = check_context(1, &log);
+    ewa_cloud *cloud = make_object(context, EWA_OBJECT_PLANE, 0);
+    ewa_scene *scene = make_scene(context);
+    ewa_asset_options options;
+    ewa_asset_options_init(&options, sizeof options);
+    ewa_asset *asset = NULL;
+    options.to_world[0] = 0;
+    assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.cloud = cloud}, &options, &asset),
+                     EWA_ERROR_ARGUMENT);
+    assert_non_null(strstr(log.text, "determinant"));
+    options.to_world[0] = NAN;
+    assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.cloud = cloud}, &options, &asset),
+                     EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.name = "x"}, NULL, &asset), EWA_ERROR_ARGUMENT);
+    assert_null(asset);
+    assert_int_equal(ewa_asset_load(context, "/nowhere/there.ply", NULL, &asset), EWA_ERROR_IO);
+    assert_non_null(strstr(log.text, "/nowhere/there.ply"));
+    add_cloud(context, scene, cloud, NULL);
+    ewa_instance instance;
+    ewa_instance_init(&instance, sizeof instance);
+    instance.opacity = 2;
+    assert_int_equal(ewa_scene_set(scene, 0, &instance), EWA_ERROR_ARGUMENT);
+    instance.opacity = 1;
+    snprintf(instance.coloring.attribute, sizeof instance.coloring.attribute, "nothing");
+    assert_int_equal(ewa_scene_set(scene, 0, &instance), EWA_OK);
+    assert_int_equal(ewa_scene_commit(scene), EWA_ERROR_ARGUMENT);
+    assert_non_null(strstr(log.text, "nothing"));
+    assert_int_equal(ewa_scene_remove(scene, 1), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_scene_remove(scene, 0), EWA_OK);
+    ewa_scene_destroy(&scene);
+    ewa_scene_destroy(&scene);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
+/// Picks find the point that is nearest to what is seen, and sections hide points.
+static void test_pick(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 0);
+    ewa_scene *scene = make_scene(context);
+    add_cloud(context, scene, cloud, NULL);
+    const ewa_camera camera = place(scene);
+    ewa_scene_renderer *renderer = NULL;
+    assert_int_equal(ewa_scene_renderer_create(context, EWA_BACKEND_CPU, NULL, &renderer), EWA_OK);
+    ewa_scene_hit hit;
+    assert_int_equal(ewa_scene_pick(scene, renderer, &camera, NULL, WIDTH / 2, HEIGHT / 2, 2, 0.2, &hit), EWA_OK);
+    assert_true(hit.hit && hit.has_point && hit.instance == 0);
+    double eye_world[3], p[3], away = 0, radius = 0;
+    ewa_camera_eye(&camera, eye_world);
+    ewa_attribute_read_f64(ewa_cloud_find(cloud, EWA_POSITION), hit.point, 1, p);
+    for (int c = 0; c < 3; c++) {
+        assert_true(p[c] == hit.point_world[c]);
+        away += (hit.place_world[c] - eye_world[c]) * (hit.place_world[c] - eye_world[c]);
+        radius += hit.place_world[c] * hit.place_world[c];
+    }
+    assert_true(fabs(sqrt(radius) - 1) < 0.02); // on the unit sphere, on the side of the eye
+    assert_true(sqrt(away) < sqrt(eye_world[0] * eye_world[0] + eye_world[1] * eye_world[1] +
+                                  eye_world[2] * eye_world[2]));
+    assert_int_equal(ewa_scene_pick(scene, renderer, &camera, NULL, 1, 1, 1, 0.2, &hit), EWA_OK);
+    assert_false(hit.hit);
+    ewa_scene_renderer_destroy(&renderer);
+    ewa_scene_destroy(&scene);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_added_is_merged), cmocka_unit_test(test_estimated_together),
+        cmocka_unit_test(test_planes_among_gaussians), cmocka_unit_test(test_instances),
+        cmocka_unit_test(test_one_range), cmocka_unit_test(test_refused), cmocka_unit_test(test_pick)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
