@@ -275,11 +275,10 @@ static bool prepare(cli_session *session, const render_arguments *arguments, con
     scene_input_coloring(arguments->color_by, arguments->colormap, &arguments->range, &coloring);
     ewa_status status = ewa_scene_create(session->context, &options, &scene->scene);
     if (status != EWA_OK) return session_failed(session, status) == EXIT_DONE;
-    if (!scene_input_add(session, common, &assets, &coloring, scene->scene) ||
-        !check_scene(session, arguments, scene->scene))
-        return false;
-    const view_subject subject = {.scene = scene->scene};
+    if (!scene_input_add(session, common, &assets, &coloring, scene->scene)) return false;
     session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
+    if (!check_scene(session, arguments, scene->scene)) return false;
+    const view_subject subject = {.scene = scene->scene};
     if (!frames_make(session, &arguments->frames, &subject, &scene->frames) ||
         !furnish_make(session, &arguments->furniture, &arguments->frames, &arguments->background, &subject,
                       &scene->furniture))

@@ -8,7 +8,7 @@
 #include <string.h>
 
 /// Has formats that the library does not read read by the helper program.
-static ewa_status import(void *user, ewa_context *context, const char *path, ewa_model *model, bool *taken) {
+static ewa_status read_rare(void *user, ewa_context *context, const char *path, ewa_model *model, bool *taken) {
     cli_session *session = user;
     (void)context;
     if (!import_is_named(path)) return EWA_OK;
@@ -22,8 +22,8 @@ ewa_asset_options scene_input_asset_options(cli_session *session) {
     ewa_asset_options_init(&options, sizeof options);
     options.load = &session->load;
     options.filter = session->filter;
-    options.import = import;
-    options.import_user = session;
+    options.reader = read_rare;
+    options.reader_user = session;
     return options;
 }
 

@@ -14,7 +14,7 @@ import sys
 
 
 def run(program, script, folder):
-    command = [program, "view", "--size", "320x240", "--script", str(script)]
+    command = [program, "view", "--size", "320x240", "--levels", "always", "--script", str(script)]
     return subprocess.run(command, cwd=folder, capture_output=True, text=True).stderr
 
 

@@ -48,7 +48,7 @@ enum {
 
 /// Reads a file that the library does not: fills `model` and sets `*taken` for a file that is its own, leaves both for
 /// all others. On the thread that loads. Returns EWA_OK or, after reporting, an error.
-typedef ewa_status ewa_asset_import(void *user, ewa_context *context, const char *path, ewa_model *model, bool *taken);
+typedef ewa_status ewa_asset_reader(void *user, ewa_context *context, const char *path, ewa_model *model, bool *taken);
 
 /// How something becomes an asset. Fill with ewa_asset_options_init().
 typedef struct ewa_asset_options {
@@ -69,8 +69,8 @@ typedef struct ewa_asset_options {
     /// Octrees get a context of their own, like the one that loads, so that they can be drawn while that loads other
     /// files; default false
     bool own_context;
-    ewa_asset_import *import; ///< for files that the library does not read; default NULL: none
-    void *import_user;
+    ewa_asset_reader *reader; ///< for files that the library does not read; default NULL: none
+    void *reader_user;
 } ewa_asset_options;
 
 EWA_API extern const ewa_option_table ewa_asset_options_table;

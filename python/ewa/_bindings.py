@@ -487,7 +487,7 @@ class ewa_model(c.Structure):
     ]
 
 
-ewa_asset_import = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_void_p, c.c_char_p, c.POINTER(ewa_model), c.c_void_p)
+ewa_asset_reader = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_void_p, c.c_char_p, c.POINTER(ewa_model), c.c_void_p)
 
 
 class ewa_allocator(c.Structure):
@@ -1957,8 +1957,8 @@ class ewa_asset_options(c.Structure):
     voxel_level_count: int
     reach_steps: float
     own_context: bool
-    import: Any
-    import_user: int | None
+    reader: Any
+    reader_user: int | None
     _fields_ = [
         ("struct_size", c.c_size_t),
         ("load", c.POINTER(ewa_cloud_load_options)),
@@ -1971,8 +1971,8 @@ class ewa_asset_options(c.Structure):
         ("voxel_level_count", c.c_uint32),
         ("reach_steps", c.c_double),
         ("own_context", c.c_bool),
-        ("import", ewa_asset_import),
-        ("import_user", c.c_void_p),
+        ("reader", ewa_asset_reader),
+        ("reader_user", c.c_void_p),
     ]
 
 

@@ -181,7 +181,7 @@ static ewa_status load_model(const ewa_asset_job *job, const char *path) {
     ewa_status status = EWA_OK;
     const double started_s = ewa_now_s();
     bool taken = false;
-    if (options->import) status = options->import(options->import_user, context, path, &model, &taken);
+    if (options->reader) status = options->reader(options->reader_user, context, path, &model, &taken);
     if (status == EWA_OK && !taken) {
         if (is_octree_folder(context, path)) {
             static const double low_world[3] = {-INFINITY, -INFINITY, -INFINITY},

@@ -5,7 +5,7 @@
 #ifndef EWA_SRC_SCENE_ASSET_H
 #define EWA_SRC_SCENE_ASSET_H
 
-#include "scene/scene.h"
+#include "scene/parts.h"
 
 /// What an asset is filled in with; `options` are complete.
 typedef struct ewa_asset_job {

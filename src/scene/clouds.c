@@ -4,7 +4,7 @@
 // Clouds that become one: views of their streams, and the same kinds of streams in all of them.
 #include "base/base.h"
 #include "cloud/cloud.h"
-#include "scene/scene.h"
+#include "scene/parts.h"
 
 #include <math.h>
 #include <string.h>

@@ -7,7 +7,7 @@
 #include "base/options.h"
 #include "cloud/cloud.h"
 #include "ewa/select.h"
-#include "scene/scene.h"
+#include "scene/parts.h"
 
 #include <math.h>
 #include <string.h>
@@ -126,9 +126,10 @@ static ewa_status find_range(const numbers *from, const ewa_coloring *coloring, 
     for (uint32_t k = 0; k < from->count; k++) total += ewa_cloud_point_count(from->clouds[k]);
     finite_numbers finite = {ewa_allocate(from->context, total, sizeof(double)), 0};
     if (!finite.numbers) return EWA_ERROR_MEMORY;
-    each_block(from, take_finite, &finite);
     for (int end = 0; end < 2; end++) {
         if (!percent[end]) continue;
+        finite.count = 0;
+        each_block(from, take_finite, &finite); // the choice of one leaves them in no order, some twice
         const double place = ends[end] / 100 * ((double)finite.count - 1);
         ends[end] = finite.count ? ewa_rank_select(finite.numbers, finite.count, (size_t)(place + 0.5)) : 0;
     }

@@ -6,7 +6,7 @@
 #include "base/base.h"
 #include "cloud/cloud.h"
 #include "ewa/prepare.h"
-#include "scene/scene.h"
+#include "scene/parts.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -6,7 +6,7 @@
 #define EWA_SRC_SCENE_DRAW_H
 
 #include "base/base.h"
-#include "scene/scene.h"
+#include "scene/parts.h"
 
 struct ewa_scene_renderer {
     ewa_context *context;

@@ -5,7 +5,7 @@
 #include "base/base.h"
 #include "cloud/cloud.h"
 #include "homogeneous/camera.h"
-#include "scene/scene.h"
+#include "scene/parts.h"
 
 #include <math.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Scenes: instances, options, and when what is made of them has to be made anew.
-#include "scene/scene.h"
+#include "scene/parts.h"
 #include "base/base.h"
 #include "base/options.h"
 #include "homogeneous/camera.h"

@@ -7,7 +7,7 @@
 #include "cloud/cloud.h"
 #include "ewa/prepare.h"
 #include "ewa/diagnosis.h"
-#include "scene/scene.h"
+#include "scene/parts.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -6,7 +6,7 @@
 #include "base/options.h"
 #include "cloud/cloud.h"
 #include "homogeneous/camera.h"
-#include "scene/scene.h"
+#include "scene/parts.h"
 
 #include <math.h>
 #include <string.h>

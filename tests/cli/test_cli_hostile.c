@@ -136,7 +136,7 @@ static void test_outputs(void **state) {
     run_fails(1, "c.json: ", "ewa render ball.ply -o a.png --camera c.json");
     scratch_text("c.json", "{\"width\": 10");
     run_fails(1, "c.json:", "ewa render ball.ply -o a.png --camera c.json");
-    run_fails(1, "--eye: 0,0,0 is also where the camera looks",
+    run_fails(1, "the eye 0,0,0 is also where the camera looks",
               "ewa render ball.ply -o a.png --eye 0,0,0 --target 0,0,0");
     assert_int_equal(scratch_count(), before + 1);
     if (access("/dev/full", W_OK) == 0)

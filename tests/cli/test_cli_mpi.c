@@ -36,15 +36,15 @@ static void test_one_picture(void **state) {
         char look[2][256];
         for (int k = 0; k < 2; k++) // each writes planes of its own
             snprintf(look[k], sizeof look[k], looks[i], "ab"[k], "ab"[k]);
-        run_done("rm -f a.* b.* a_* b_*; ewa render %s.copc.laz --memory 64M --size 160x120 -o a.png %s",
+        run_done("rm -f a.* b.* a_* b_*; ewa render %s.copc.laz --levels always --memory 64M --size 160x120 -o a.png %s",
                  cloud, look[0]);
         run_done(
-            "%s %d $EWA_MPI_PROGRAM render %s.copc.laz --memory 64M --size 160x120 -o b.png %s --threads 1",
+            "%s %d $EWA_MPI_PROGRAM render %s.copc.laz --levels always --memory 64M --size 160x120 -o b.png %s --threads 1",
             mpi, 2 + (int)i % 3, cloud, look[1]);
         assert_true(scratch_same("a.png", "b.png"));
         if (i == 1) assert_true(scratch_same("a_z.pfm", "b_z.pfm") && scratch_same("a_n.exr", "b_n.exr"));
     }
-    run_done("%s 2 $EWA_MPI_PROGRAM render torus.copc.laz --memory 64M --size 64x48 -o b.png --stats s.json",
+    run_done("%s 2 $EWA_MPI_PROGRAM render torus.copc.laz --levels always --memory 64M --size 64x48 -o b.png --stats s.json",
              mpi);
     assert_true(scratch_size("s.json") > 0);
 }
@@ -54,7 +54,7 @@ static void test_films(void **state) {
     static const char *const films[] = {
         "render torus.ply --turntable 5 --size 64x48 --color-by z",
         "volume ball.nrrd --turntable 5 --size 32x32",
-        "render torus.copc.laz --memory 64M --turntable 5 --size 64x48 --split cloud"};
+        "render torus.copc.laz --levels always --memory 64M --turntable 5 --size 64x48 --split cloud"};
     for (int k = 0; k < 3; k++) {
         char alone[256];
         snprintf(alone, sizeof alone, "%s", films[k]);
@@ -102,16 +102,14 @@ static void test_refusals(void **state) {
     static const struct {
         const char *words, *said;
     } wrong[] = {
-        {"render torus.ply -o x.png", "an octree"},
         {"render nowhere.copc.laz -o x.png", "No such file"},
         {"render torus.ply -o x.png --split frames", "--split cloud"},
         {"render torus.ply -o x.gif --turntable 3", "numbered files"},
         {"render torus.ply -o x.png --split both", "neither frames nor cloud"},
         {"render torus.ply -o x.png --time-limit -1", "number of seconds"},
-        {"render torus.copc.laz --memory 64M -o x.png --backend gl", "leave out --backend"},
-        {"render torus.copc.laz --memory 64M -o x.png --no-such", "no-such"},
+        {"render torus.copc.laz --levels always --memory 64M -o x.png --backend gl", "leave out --backend"},
+        {"render torus.copc.laz --levels always --memory 64M -o x.png --no-such", "no-such"},
         {"volume ball.nrrd -o x.png", "order of depth"},
-        {"render four.splat torus.ply -o x.png", "order of depth"},
         {"lod torus.ply -o x.copc.laz --subset 1/2", "by themselves"},
         {"info torus.ply", "one process"},
         {"fly", "no such command"},
@@ -129,7 +127,7 @@ static void test_refusals(void **state) {
 static void test_lost_ranks(void **state) {
     (void)state;
     run_done(
-        "rm -f [wp]_*; ewa render torus.copc.laz --memory 64M --turntable 400 --frames 0-0 --size 320x240 -o "
+        "rm -f [wp]_*; ewa render torus.copc.laz --levels always --memory 64M --turntable 400 --frames 0-0 --size 320x240 -o "
         "w_%%03d.png");
     static const char *const signals[] = {"KILL", "STOP"};
     for (int i = 0; i < 2; i++)
@@ -137,7 +135,7 @@ static void test_lost_ranks(void **state) {
             run_done("rm -f p_*");
             // The newest of the ranks is hit once the first frame is there.
             assert_int_not_equal(
-                run("%s 3 sh -c 'echo $$ >> pids; exec $EWA_MPI_PROGRAM render torus.copc.laz --memory 64M "
+                run("%s 3 sh -c 'echo $$ >> pids; exec $EWA_MPI_PROGRAM render torus.copc.laz --levels always --memory 64M "
                     "--turntable 400 --size "
                     "320x240 --threads 1 -o p_%%03d.png --time-limit 1 --split %s' & all=$!; while [ ! -e "
                     "p_000.png ]; do sleep 0.05; done; kill -%s $(tail -n 1 pids); date +%%s > hit; wait "

@@ -31,7 +31,7 @@ static const film films[] = {
      7},
     {"render torus.ply --path keys.json", 4},
     {"render torus.ply --path keys.json --frames 9 --loop", 9},
-    {"render torus.copc.laz --turntable 7 --size 96x72 --lod-spacing 2 --memory 64M", 7},
+    {"render torus.copc.laz --turntable 7 --size 96x72 --levels always --lod-spacing 2 --memory 64M", 7},
     {"volume ball.nrrd --turntable 5 --size 48x48", 5},
     {"volume ball.nrrd --path keys.json --frames 6", 6},
 };

@@ -148,6 +148,7 @@ static int run_script(const char *name, uint32_t cpu_mask, int64_t threads) {
                                  .scale = 1,
                                  .waits = true}};
     assert_true(window_services_make(&services, &view, &job.options.services));
+    services.levels = EWA_OCTREE_ALWAYS;
     const int exit_status = FRONT_RUN(&job);
     window_services_free(&services);
     return exit_status;

@@ -5,8 +5,8 @@
 //
 // What is dear is shared by counted references: assets, groups of clouds that were completed together, and the surfels
 // of everything that is visible. A copy of a scene shares them until one of the two changes.
-#ifndef EWA_SRC_SCENE_H
-#define EWA_SRC_SCENE_H
+#ifndef EWA_SRC_SCENE_PARTS_H
+#define EWA_SRC_SCENE_PARTS_H
 
 #include "ewa/scene.h"
 
