@@ -104,7 +104,7 @@ static void test_refusals(void **state) {
     } wrong[] = {
         {"render nowhere.copc.laz -o x.png", "No such file"},
         {"render torus.ply -o x.png --split frames", "--split cloud"},
-        {"render torus.ply -o x.gif --turntable 3", "numbered files"},
+        {"render torus.ply -o x.gif --turntable 3", "film"},
         {"render torus.ply -o x.png --split both", "neither frames nor cloud"},
         {"render torus.ply -o x.png --time-limit -1", "number of seconds"},
         {"render torus.copc.laz --levels always --memory 64M -o x.png --backend gl", "leave out --backend"},
