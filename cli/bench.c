@@ -146,7 +146,7 @@ static bool measure_files(bench_run *bench) {
     const char *path = view->common.operands[0], *slash = strrchr(path, '/');
     bench_scene scene = {.name = slash ? slash + 1 : path};
     snprintf(scene.label, sizeof scene.label, "%.24s", scene.name);
-    scene.cloud = inputs_as_surfels(&bench->session, &view->common, NULL, surfels.cutoff, &estimate_s);
+    scene.cloud = inputs_as_surfels(&bench->session, &view->common, surfels.cutoff, &estimate_s);
     const bool done = scene.cloud && view_make(&bench->session, view, &(view_subject){.cloud = scene.cloud, .radius_scale = 1},
                                          &scene.camera, NULL) &&
                       measure_scene(bench, &scene);

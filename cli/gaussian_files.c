@@ -45,7 +45,6 @@ ewa_cloud *gaussian_files_load_surfels(cli_session *session, const char *path) {
     ewa_cloud *cloud = NULL;
     ewa_gaussian_facts facts;
     if (!gaussian_files_load(session, path, &set, &facts)) return NULL;
-    session->up_axis = gaussian_files_up_axis(&facts);
     const ewa_status status = ewa_gaussians_to_cloud(&set, &cloud);
     ewa_gaussians_free(&set);
     if (status != EWA_OK) session_failed(session, status);

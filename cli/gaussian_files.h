@@ -19,7 +19,7 @@ bool gaussian_files_load(cli_session *session, const char *path, ewa_gaussians *
 /// it.
 int gaussian_files_up_axis(const ewa_gaussian_facts *facts);
 
-/// Loads a set as surfels in their constant colours, and notes in the session what is up; NULL after reporting.
+/// Loads a set as surfels in their constant colours; NULL after reporting.
 ewa_cloud *gaussian_files_load_surfels(cli_session *session, const char *path);
 
 #endif

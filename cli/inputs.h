@@ -35,19 +35,14 @@ ewa_cloud *input_as_surfels(cli_session *session, const char *path, double cutof
 /// [0, 1], beside others that have some, which a note says. NULL after reporting.
 ewa_cloud *inputs_merge(cli_session *session, const common_arguments *common, const double srgb[3]);
 
-/// Loads the operands as one cloud that can be drawn: what a surfel needs and a file lacks is estimated file
-/// by file, files without colours become grey beside others that have some. Of several files, only what is
-/// drawn is kept, and the attribute that `wanted` (may be NULL) names. Axes that are made of radii or of a
-/// mesh are for kernels that end at `cutoff` standard deviations. NULL after reporting. `*estimate_s` gets
-/// the time that the estimation took.
-ewa_cloud *inputs_as_surfels(cli_session *session, const common_arguments *common, const char *wanted,
-                             double cutoff, double *estimate_s);
+/// Loads the operands as one cloud that can be drawn: what a surfel needs and all or some files lack is estimated. Axes
+/// that are made of a mesh are for kernels that end at `cutoff` standard deviations. NULL after reporting. `*estimate_s`
+/// gets the time that the estimation took.
+ewa_cloud *inputs_as_surfels(cli_session *session, const common_arguments *common, double cutoff,
+                             double *estimate_s);
 
 /// Gives every point of a cloud one colour, sRGB in [0, 1].
 ewa_status cloud_set_color(ewa_cloud *cloud, const double srgb[3]);
-
-/// Replaces a cloud's colours, or their absence, by linear floats with alpha, which all colours can become.
-ewa_status colors_to_linear(ewa_cloud *cloud);
 
 /// Whether a cloud has all that a surfel needs.
 bool cloud_is_drawable(const ewa_cloud *cloud);

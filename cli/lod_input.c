@@ -37,17 +37,6 @@ ewa_lod *lod_input_open(cli_session *session, const char *path) {
     return lod;
 }
 
-ewa_cloud *lod_input_sample(cli_session *session, ewa_lod *lod, const char *path) {
-    ewa_cloud *cloud = NULL;
-    session->subject = path;
-    const ewa_status status = ewa_lod_sample(lod, EWA_OCTREE_SAMPLE_POINTS, &cloud);
-    if (status != EWA_OK) session_failed(session, status);
-    if (status != EWA_OK || ewa_cloud_point_count(cloud)) return cloud;
-    session_fail(session, "%s: the file has no points", path);
-    ewa_cloud_destroy(&cloud);
-    return NULL;
-}
-
 bool lod_input_serves(cli_session *session, const char *path, const double corners_world[6]) {
     if (!ewa_lod_probe(session->context, path)) return false;
     if (lod_input_is_folder(session, path)) return true;

@@ -43,9 +43,6 @@ bool lod_input_is_folder(cli_session *session, const char *path);
 /// Opens the octree at a path; NULL after reporting.
 ewa_lod *lod_input_open(cli_session *session, const char *path);
 
-/// Reads what the whole looks like, at least one point. NULL after reporting.
-ewa_cloud *lod_input_sample(cli_session *session, ewa_lod *lod, const char *path);
-
 /// Whether a box, corner low, corner high, is so small a part of the octree at a path that reading only the nodes
 /// that meet it is worth it; of a folder, which cannot be read otherwise, always. False where there is no octree.
 bool lod_input_serves(cli_session *session, const char *path, const double corners_world[6]);

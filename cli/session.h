@@ -24,7 +24,6 @@ typedef struct cli_session {
     const session_listener *listener; ///< NULL: the terminal
     const cli_crew *crew;             ///< NULL: this process alone
     const char *subject;              ///< the file that messages are about, or NULL
-    int up_axis; ///< what the last file of Gaussians has up, as view_arguments do; 0: none was read
     bool quiet, verbose;
     bool reported;     ///< an error was printed
     bool progress;     ///< a bar may be drawn

@@ -86,6 +86,7 @@ NEAR = [
     ("src/estimate", ["local", "estimate", "orient", "features", "feature_quality", "holes", "radii"]),
     ("src/texture", ["texture_kernels", "texture", "texture_maps", "cli_texture"]),
     ("src/warp", ["warp_kernels", "warp", "warp_nearest", "warp_pictures", "cli_warp"]),
+    ("src/scene", ["scene", "cli_render", "view_scripts"]),
     ("src/volume", ["voxels", "volume_points", "volume_plain", "planes", "volume_near", "volume_integrals", "volume_render",
                     "cli_volume"]),
     ("src/surface", PICTURES), ("src/surface", PICTURES),

@@ -187,6 +187,10 @@ static void test_instances(void **state) {
     for (int i = 0; i < 2; i++) add_cloud(context, scene, clouds[i], NULL);
     add_cloud(context, alone, clouds[0], NULL);
     const ewa_camera camera = place(scene);
+    ewa_bounds box;
+    ewa_scene_bounds(scene, &box); // of a torus about 0 and a unit sphere about 1.25
+    assert_true(fabs(box.low_world[0] + 1) < 0.05 && fabs(box.high_world[0] - 2.25) < 0.05);
+    assert_true(fabs(box.high_world[1] - 1) < 0.05 && fabs(box.high_world[2] - 1) < 0.05);
     assert_int_equal(ewa_scene_commit(scene), EWA_OK);
     assert_int_equal(ewa_scene_copy(scene, context, &copy), EWA_OK);
     ewa_instance instance;
@@ -290,7 +294,8 @@ static void test_pick(void **state) {
     ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 0);
     ewa_scene *scene = make_scene(context);
     add_cloud(context, scene, cloud, NULL);
-    const ewa_camera camera = place(scene);
+    ewa_camera camera = place(scene);
+    camera.world_to_camera[3] += 0.2; // off the middle
     ewa_scene_renderer *renderer = NULL;
     assert_int_equal(ewa_scene_renderer_create(context, EWA_BACKEND_CPU, NULL, &renderer), EWA_OK);
     ewa_scene_hit hit;
