@@ -309,6 +309,10 @@ static void test_pick(void **state) {
         away += (hit.place_world[c] - eye_world[c]) * (hit.place_world[c] - eye_world[c]);
         radius += hit.place_world[c] * hit.place_world[c];
     }
+    const double *m = camera.world_to_camera, *at = hit.place_world; // which is seen where it was asked for
+    const double x = m[0] * at[0] + m[1] * at[1] + m[2] * at[2] + m[3],
+                 z = m[8] * at[0] + m[9] * at[1] + m[10] * at[2] + m[11];
+    assert_true(fabs(camera.fx_px * x / z + camera.cx_px - WIDTH / 2) < 1e-6);
     assert_true(fabs(sqrt(radius) - 1) < 0.02); // on the unit sphere, on the side of the eye
     assert_true(sqrt(away) < sqrt(eye_world[0] * eye_world[0] + eye_world[1] * eye_world[1] +
                                   eye_world[2] * eye_world[2]));
