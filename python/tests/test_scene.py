@@ -1,0 +1,84 @@
+# SPDX-FileCopyrightText: 2026 The ewa authors
+# SPDX-License-Identifier: MIT
+"""One scene behind all doors: every pair and some triples of kinds, by program, viewer script and package, in all planes."""
+from __future__ import annotations
+
+import itertools
+import struct
+
+import numpy as np
+
+import ewa
+from common import Case
+
+MESH = """v -1 -1 -1
+v 1 -1 -1
+v 1 1 -1
+v -1 1 -1
+v 0 0 1
+f 4 3 2 1
+f 1 2 5
+f 2 3 5
+f 3 4 5
+f 4 1 5
+"""
+SIZE = (96, 72)
+
+
+class SameScene(Case):
+    def setUp(self) -> None:
+        super().setUp()
+        self.run_program("generate", "terrain", "-o", "bare.ply", "-n", "4000", "--positions-only")
+        self.run_program("generate", "sphere", "-o", "surfels.ply", "-n", "4000", "--extent", "1.5")
+        self.run_program("generate", "torus", "-o", "torus.ply", "-n", "9000")
+        self.run_program("lod", "torus.ply", "-o", "tree.copc.laz")
+        self.run_program("generate", "ball", "-o", "ball.nrrd", "--dims", "24")
+        with open(self.path("mesh.obj"), "w", encoding="ascii") as file:
+            file.write(MESH)
+        with open(self.path("four.splat"), "wb") as file:
+            for i in range(4):
+                file.write(struct.pack("<6f", 0.4 * i - 0.6, 0.1 * i, 1, 0.1, 0.2, 0.3))
+                file.write(bytes([200, 100, 50, 250, 255, 128, 128, 128]))
+        self.kinds = ["bare.ply", "surfels.ply", "mesh.obj", "tree.copc.laz", "four.splat", "ball.nrrd"]
+
+    def plane(self, name: str) -> np.ndarray:
+        with open(self.path(name), "rb") as file:
+            file.readline()
+            width, height = map(int, file.readline().split())
+            kind = "<f4" if float(file.readline()) < 0 else ">f4"
+            return np.frombuffer(file.read(), kind).reshape(height, width, -1)[::-1].squeeze()
+
+    def check(self, files: tuple[str, ...], camera: str | None) -> None:
+        size = f"{SIZE[0]}x{SIZE[1]}"
+        # Of a camera, only the program and the package take a file.
+        placed = ("--camera", camera) if camera else ("--size", size)
+        self.run_program("render", *files, "--levels", "always", *placed, "-o", "theirs.png",
+                         "--aov", "depth=z.pfm,normal=n.pfm,coverage=c.pfm")
+        with ewa.Context() as context:
+            scene = ewa.Scene(context=context)
+            for name in files:
+                scene.add(self.path(name), levels="always")
+            seen = ewa.cameras(self.path(camera))[0] if camera else None
+            image = scene.render(seen, size=SIZE, planes="all")
+            image.save(self.path("ours.png"))
+            self.assertEqual(self.bytes("ours.png"), self.bytes("theirs.png"))
+            for name, ours in (("z.pfm", image.depth), ("n.pfm", image.normal), ("c.pfm", image.coverage)):
+                np.testing.assert_array_equal(self.plane(name), ours, f"{files}: {name}")
+            scene.close()
+        if camera:
+            return
+        with open(self.path("script.txt"), "w", encoding="ascii") as file:
+            file.write(f"do shot window.png {size}\n")
+        self.run_program("view", *files, "--levels", "always", "--size", size, "--script", "script.txt")
+        ours, theirs = ewa.read_image(self.path("theirs.png")), ewa.read_image(self.path("window.png"))
+        np.testing.assert_array_equal(ours[..., :3], theirs[..., :3], f"{files}: the window")
+
+    def test_every_pair(self) -> None:
+        self.run_program("render", "torus.ply", "--size", f"{SIZE[0]}x{SIZE[1]}", "-o", "any.png", "--elevation", "20",
+                         "--save-camera", "camera.json")
+        triples = [("bare.ply", "tree.copc.laz", "four.splat"), ("surfels.ply", "mesh.obj", "ball.nrrd")]
+        for files in [*itertools.combinations_with_replacement(self.kinds, 2), *triples]:
+            files = files[:1] if len(set(files)) == 1 else files
+            with self.subTest(" ".join(files)):
+                self.check(files, None)
+                self.check(files, "camera.json")
