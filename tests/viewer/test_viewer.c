@@ -100,6 +100,7 @@ static void still_pictures_are_the_renderers(void **state) {
         ewa_cloud_destroy(&cloud);
         ewa_context_destroy(&context);
         viewer_destroy(&v);
+        ewa_context_destroy(&contents.context);
     }
 }
 
@@ -121,6 +122,7 @@ static void moving_ends_in_the_same_picture(void **state) {
     assert_memory_equal(picture.rgba8, first, 4 * PIXELS);
     free(first);
     viewer_destroy(&v);
+    ewa_context_destroy(&contents.context);
 }
 
 static void failing_loads_leave_the_scene(void **state) {
@@ -140,6 +142,7 @@ static void failing_loads_leave_the_scene(void **state) {
     assert_int_equal(contents.loads, 2);
     free(before);
     viewer_destroy(&v);
+    ewa_context_destroy(&contents.context);
     assert_int_equal(contents.frees, 1);
 }
 
@@ -167,6 +170,7 @@ static void dropped_files_queue(void **state) {
     assert_true(viewer_item_get(v, 2, &item));
     assert_true(item.volume);
     viewer_destroy(&v);
+    ewa_context_destroy(&contents.context);
     assert_int_equal(contents.frees, 3);
 }
 
@@ -186,6 +190,7 @@ static void cancelled_loads_come_to_nothing(void **state) {
     assert_int_equal(viewer_item_count(v), 1);
     assert_int_equal(contents.loads, 2); // the one that waited was never begun
     viewer_destroy(&v);
+    ewa_context_destroy(&contents.context);
 }
 
 static void previews_come_first(void **state) {
@@ -199,6 +204,7 @@ static void previews_come_first(void **state) {
     assert_int_equal(item.count, CONTENTS_POINTS);
     assert_int_equal(contents.frees, 1); // the preview's
     viewer_destroy(&v);
+    ewa_context_destroy(&contents.context);
     assert_int_equal(contents.frees, 2);
 }
 
@@ -224,6 +230,7 @@ static void picks_name_points_exactly(void **state) {
     handle(v, (viewer_event){.kind = VIEWER_RELEASE, .x = 3, .y = 3, .button = VIEWER_LEFT, .clicks = 1});
     assert_int_equal(contents.said[0], 0);
     viewer_destroy(&v);
+    ewa_context_destroy(&contents.context);
 }
 
 static void picks_respect_the_box(void **state) {
@@ -240,6 +247,7 @@ static void picks_respect_the_box(void **state) {
         sscanf(contents.said, "pick sphere point %llu at %lf %lf %lf", &point, &p[0], &p[1], &p[2]), 4);
     assert_true(p[1] > 0.5);
     viewer_destroy(&v);
+    ewa_context_destroy(&contents.context);
 }
 
 /// Beside the cut, where the nearest point of all may have been cut off.
@@ -263,6 +271,7 @@ static void picks_beside_the_box_are_inside(void **state) {
         assert_true(x >= 0);
     }
     viewer_destroy(&v);
+    ewa_context_destroy(&contents.context);
 }
 
 static void cameras_are_copied(void **state) {
@@ -283,6 +292,7 @@ static void cameras_are_copied(void **state) {
     snprintf(contents.clipboard, sizeof contents.clipboard, "no camera at all");
     assert_false(viewer_do(v, "camera paste"));
     viewer_destroy(&v);
+    ewa_context_destroy(&contents.context);
 }
 
 static void opening_more_never_moves_the_camera(void **state) {
@@ -298,6 +308,7 @@ static void opening_more_never_moves_the_camera(void **state) {
     viewer_get_camera(v, &after);
     assert_memory_equal(before.world_to_camera, after.world_to_camera, sizeof before.world_to_camera);
     viewer_destroy(&v);
+    ewa_context_destroy(&contents.context);
 }
 
 static void commands_refuse_what_is_wrong(void **state) {
@@ -352,6 +363,7 @@ static void commands_refuse_what_is_wrong(void **state) {
     assert_memory_equal(picture.rgba8, before, 4 * PIXELS);
     free(before);
     viewer_destroy(&v);
+    ewa_context_destroy(&contents.context);
 }
 
 static void hostile_events_do_no_harm(void **state) {
@@ -375,6 +387,7 @@ static void hostile_events_do_no_harm(void **state) {
         if (i % 20 == 0) viewer_frame(v, now_s(), &picture);
     }
     viewer_destroy(&v);
+    ewa_context_destroy(&contents.context);
 }
 
 static size_t count_descriptors(void) {
@@ -409,6 +422,7 @@ static void resizes_and_loads_leave_nothing_behind(void **state) {
     settle(v);
     assert_int_equal(count_descriptors(), descriptors);
     viewer_destroy(&v);
+    ewa_context_destroy(&contents.context);
     assert_true(contents.frees <= contents.loads && contents.frees >= contents.loads * 3 / 5);
 }
 
@@ -442,6 +456,7 @@ static void octrees_get_finer(void **state) {
         viewer_do(v, "close 0");
         settle(v);
         viewer_destroy(&v);
+        ewa_context_destroy(&contents.context);
         assert_int_equal(contents.loads, contents.frees);
     }
     assert_memory_equal(pictures[0], pictures[1], 4 * PIXELS);
