@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -67,6 +68,20 @@ bool child_find_helper(const char *folder, const char *name, char helper[PATH_MA
         if (made > 0 && made < PATH_MAX && access(helper, X_OK) == 0) return true;
     }
     return false;
+}
+
+int child_become(cli_session *session, const char *folder, const char *name, const char *absent,
+                 const common_arguments *common) {
+    char helper[PATH_MAX];
+    if (!child_find_helper(folder, name, helper)) return session_fail(session, "%s", absent);
+    const char **words = calloc(common->word_count + 2, sizeof *words);
+    if (!words) return session_fail(session, "out of memory");
+    words[0] = helper;
+    memcpy(words + 1, common->words, common->word_count * sizeof *words);
+    execv(helper, (char *const *)(uintptr_t)words);
+    const int error = errno;
+    free(words);
+    return session_fail(session, "%s: %s", helper, strerror(error));
 }
 
 bool child_pipe(int ends[2]) {

@@ -22,6 +22,11 @@ typedef struct child_process {
 /// installed.
 bool child_find_helper(const char *folder, const char *name, char helper[PATH_MAX]);
 
+/// Becomes a helper of this program, with the words of the command line that `common` has. Returns only when that
+/// fails, after reporting, which of a helper that is not there `absent` does: an exit status.
+int child_become(cli_session *session, const char *folder, const char *name, const char *absent,
+                 const common_arguments *common);
+
 /// A pipe that no child inherits but by `child_spawn`; false with errno.
 bool child_pipe(int ends[2]);
 

@@ -10,11 +10,6 @@
 #include "lod_input.h"
 #include "window_services.h"
 
-#include <errno.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -91,21 +86,11 @@ int window_run(const void *data, int (*front)(const front_job *job)) {
 
 /// Becomes the program that has windows. Returns only when it cannot.
 static int start_window(const common_arguments *common) {
-    char helper[PATH_MAX];
     cli_session session = {.quiet = false};
-    if (!child_find_helper("viewer/sdl", "ewa-view", helper))
-        return session_fail(&session,
-                            "view: the program ewa-view, which has the window, is not installed (it is "
-                            "built where SDL2 and Dear ImGui are found); 'ewa render' draws without");
-    char **words = calloc(common->word_count + 2, sizeof *words);
-    if (!words) return session_fail(&session, "out of memory");
-    words[0] = helper;
-    for (size_t i = 0; i < common->word_count; i++) {
-        words[i + 1] = strdup(common->words[i]);
-        if (!words[i + 1]) return session_fail(&session, "out of memory");
-    }
-    execv(helper, words);
-    return session_fail(&session, "%s: %s", helper, strerror(errno));
+    return child_become(&session, "viewer/sdl", "ewa-view",
+                        "view: the program ewa-view, which has the window, is not installed (it is "
+                        "built where SDL2 and Dear ImGui are found); 'ewa render' draws without",
+                        common);
 }
 
 static int run(const void *data) {

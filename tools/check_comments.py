@@ -5,7 +5,7 @@
 
     check_comments.py [ROOT]
 
-Read are the comments of include/, src/ and cli/. Fails, and lists, for
+Read are the comments of include/, src/, cli/, bench/ and viewer/. Fails, and lists, for
 
 - lists ("- ..."): lines of an item that are not indented under it, up to an empty line or the next item;
 - tables ("| ... |"): rows that do not begin and end with a bar, or have more or fewer columns than the row above;
@@ -56,7 +56,7 @@ def check(path, shown, found):
 
 def main():
     root = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).resolve().parent.parent).resolve()
-    files = sorted(path for room in ("include", "src", "cli", "viewer") for path in (root / room).rglob("*.[ch]"))
+    files = sorted(path for room in ("include", "src", "cli", "bench", "viewer") for path in (root / room).rglob("*.[ch]"))
     found = []
     for path in files:
         check(path, str(path.relative_to(root)), found)

@@ -23,7 +23,7 @@ foreach(row IN LISTS rows)
 endforeach()
 
 file(GLOB_RECURSE files RELATIVE "${ROOT}" "${ROOT}/include/*.h" "${ROOT}/src/*.[ch]" "${ROOT}/cli/*.[ch]"
-  "${ROOT}/examples/*.[ch]" "${ROOT}/viewer/*.[ch]")
+  "${ROOT}/bench/*.[ch]" "${ROOT}/examples/*.[ch]" "${ROOT}/viewer/*.[ch]")
 foreach(path IN LISTS files)
   string(REGEX MATCH "^((src|include)/)?([^/]+)/([^/]*)" _ ${path})
   set(inside "${CMAKE_MATCH_2}")

@@ -22,7 +22,7 @@ import sys
 from pathlib import Path
 
 LAW = "docs/math.md"
-CODE = ("src", "include", "cli", "viewer", "examples", "import", "mpi", "tests", "scenes")
+CODE = ("src", "include", "cli", "bench", "viewer", "examples", "import", "mpi", "tests", "scenes")
 
 # Options of other programs, by a word of the same paragraph.
 FOREIGN_OPTIONS = {

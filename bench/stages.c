@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // How long it takes what comes before and after a frame: files, normals and radii, surfels, PNG, clipping.
-#include "bench_stages.h"
+#include "bench/stages.h"
 
-#include "bench_clip.h"
-#include "bench_files.h"
+#include "bench/clip.h"
+#include "bench/files.h"
 
 #include <stdlib.h>
 #include <string.h>

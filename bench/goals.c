@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What the figures of ewa bench ought to be, and what others reach.
-#include "bench_goals.h"
+#include "bench/goals.h"
 
 #include <math.h>
 #include <string.h>

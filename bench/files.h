@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // How fast files of points are read and written, format by format.
-#ifndef EWA_CLI_BENCH_FILES_H
-#define EWA_CLI_BENCH_FILES_H
+#ifndef EWA_BENCH_FILES_H
+#define EWA_BENCH_FILES_H
 
-#include "bench_frames.h"
+#include "bench/frames.h"
 
 /// Returns the size of a file; 0 when it cannot be read.
 uint64_t bench_file_bytes(const char *path);

@@ -5,7 +5,7 @@
 //
 // Based on: Zwicker et al., "Surface Splatting", 2001, section 3: a disc of deviation s and unit normal n has
 // the covariance s^2 J (I - n n') J' on the screen, J the projection's Jacobian at its centre.
-#include "bench_cover.h"
+#include "bench/cover.h"
 
 #include <math.h>
 

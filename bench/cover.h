@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // How many pixels the splats of a cloud cover, and radii for a wanted number.
-#ifndef EWA_CLI_BENCH_COVER_H
-#define EWA_CLI_BENCH_COVER_H
+#ifndef EWA_BENCH_COVER_H
+#define EWA_BENCH_COVER_H
 
-#include "session.h"
+#include "cli/session.h"
 
 /// Pixels that the filtered ellipses of a cloud cover on average, from some thousand of its points. The cloud
 /// has positions, normals and radii; `prefilter_px` is the pixel filter's deviation.

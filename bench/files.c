@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // How fast files of points are read and written, format by format.
-#include "bench_files.h"
-#include "bench_report.h"
+#include "bench/files.h"
+#include "bench/report.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,29 +2,11 @@
 // SPDX-License-Identifier: MIT
 //
 // Scenes of a known amount of work.
-#ifndef EWA_CLI_BENCH_SCENE_H
-#define EWA_CLI_BENCH_SCENE_H
+#ifndef EWA_BENCH_SCENE_H
+#define EWA_BENCH_SCENE_H
 
-#include "session.h"
-
-/// Scenes that ewa bench makes, in the order in which it measures them.
-typedef enum bench_scene_kind {
-    BENCH_PLANE,  ///< a plane that fills the picture, everything visible
-    BENCH_COLOR,  ///< the same without normals in the pixels
-    BENCH_LARGE,  ///< the same with ten times the points
-    BENCH_HIDDEN, ///< three wavy sheets: in front, seen from behind, and hidden
-    BENCH_POINTS, ///< a plane of discs far below a pixel
-    BENCH_CULLED, ///< nothing to be seen: one sheet shows its back, another lies beside the picture
-    BENCH_CLOSED, ///< a sphere that hides two others
-    BENCH_SEEN,   ///< as many points on the side of the outer sphere that is seen
-    BENCH_PEER,   ///< sphere and torus with the radii that close them
-    BENCH_LAYERS, ///< the same without culling, drawn in several ways: what layers, edges and light cost
-    BENCH_PHONG,  ///< the plane with highlights from a light of one direction
-    BENCH_SCENE_COUNT
-} bench_scene_kind;
-
-/// The words for the kinds, as OPTION_SET takes them.
-#define BENCH_SCENES "plane|color|large|hidden|points|culled|closed|seen|peer|layers|phong"
+#include "cli/bench.h"
+#include "cli/session.h"
 
 enum { BENCH_VARIANTS = 3 };
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Scenes of a known amount of work.
-#include "bench_scene.h"
+#include "bench/scene.h"
 
-#include "bench_cover.h"
+#include "bench/cover.h"
 
 #include <math.h>
 #include <stdio.h>

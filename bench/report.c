@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // What ewa bench says: statistics of repeated measurements, goals beside them, a table and JSON.
-#include "bench_report.h"
+#include "bench/report.h"
 
-#include "backend.h"
-#include "bench_goals.h"
+#include "bench/goals.h"
+#include "cli/backend.h"
 
 #include <stdlib.h>
 
@@ -148,14 +148,14 @@ void bench_report_frames(const bench_sink *sink, const bench_frame_row *row) {
             json_number(sink->json, "times_faster_than_peer", ratio);
         }
     }
-    if (row->rival) {
-        const double ratio = row->rival_total.quartile / row->total.quartile;
-        fprintf(sink->text, "  %s %.2f ms: %.1f times faster", row->rival, 1e3 * row->rival_total.median,
-                ratio);
+    if (row->competitor) {
+        const double ratio = row->competitor_total.quartile / row->total.quartile;
+        fprintf(sink->text, "  %s %.2f ms: %.1f times faster", row->competitor,
+                1e3 * row->competitor_total.median, ratio);
         if (sink->json) {
-            json_text(sink->json, "against", row->rival);
-            json_number(sink->json, "against_median_ms", 1e3 * row->rival_total.median);
-            json_number(sink->json, "against_lower_quartile_ms", 1e3 * row->rival_total.quartile);
+            json_text(sink->json, "against", row->competitor);
+            json_number(sink->json, "against_median_ms", 1e3 * row->competitor_total.median);
+            json_number(sink->json, "against_lower_quartile_ms", 1e3 * row->competitor_total.quartile);
             json_number(sink->json, "times_faster_than_against", ratio);
         }
     }

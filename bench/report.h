@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT
 //
 // What ewa bench says: statistics of repeated measurements, goals beside them, a table and JSON.
-#ifndef EWA_CLI_BENCH_REPORT_H
-#define EWA_CLI_BENCH_REPORT_H
+#ifndef EWA_BENCH_REPORT_H
+#define EWA_BENCH_REPORT_H
 
-#include "bench_scene.h"
-#include "json.h"
+#include "bench/scene.h"
+#include "cli/json.h"
 
 /// Where the figures go.
 typedef struct bench_sink {
@@ -44,8 +44,8 @@ typedef struct bench_frame_row {
     double one_thread_s; ///< lower quartile of the same scene and instruction sets with one thread; 0: none
     double all_sets_s;   ///< the same with all instruction sets and as many threads; 0: none
     double first_way_s;  ///< the same drawn in the first of several ways; 0: none
-    const char *rival;   ///< another program that drew the same in turns; NULL: none
-    bench_sample rival_total;
+    const char *competitor; ///< another program that drew the same in turns; NULL: none
+    bench_sample competitor_total;
 } bench_frame_row;
 
 /// Prints the heads of the columns.

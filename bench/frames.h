@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // Frames of one scene, measured in turns for all numbers of threads and instruction sets.
-#ifndef EWA_CLI_BENCH_FRAMES_H
-#define EWA_CLI_BENCH_FRAMES_H
+#ifndef EWA_BENCH_FRAMES_H
+#define EWA_BENCH_FRAMES_H
 
-#include "bench_report.h"
+#include "bench/report.h"
 
 enum { BENCH_MAX_FRAMES = 1000, BENCH_MAX_SETS = 3 };
 

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // How fast segments are clipped.
-#ifndef EWA_CLI_BENCH_CLIP_H
-#define EWA_CLI_BENCH_CLIP_H
+#ifndef EWA_BENCH_CLIP_H
+#define EWA_BENCH_CLIP_H
 
-#include "session.h"
+#include "cli/session.h"
 
 /// Number of segments per call of what bench_clip() times.
 enum { BENCH_CLIP_SEGMENTS = 1 << 15 };

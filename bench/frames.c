@@ -5,9 +5,9 @@
 //
 // Machines are noisy: what is compared is measured in turns (A B A B), and the lower quartile is what ratios
 // are of.
-#include "bench_frames.h"
+#include "bench/frames.h"
 
-#include "bench_rival.h"
+#include "bench/competitor.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -42,8 +42,8 @@ typedef struct bench_lane {
     double total_s[BENCH_MAX_FRAMES];
     double stage_s[BENCH_FRAME_STAGES][BENCH_MAX_FRAMES]; // thread time
     ewa_render_stats last;
-    bench_rival rival; ///< where it draws the same
-    double rival_s[BENCH_MAX_FRAMES];
+    bench_competitor competitor; ///< where it draws the same
+    double competitor_s[BENCH_MAX_FRAMES];
 } bench_lane;
 
 ewa_status bench_borrow(ewa_context *context, const ewa_cloud *cloud, ewa_cloud **borrowed) {
@@ -76,7 +76,7 @@ static bool open_lane(cli_session *session, bench_lane *lane, const bench_sets *
 }
 
 static void close_lane(bench_lane *lane) {
-    bench_rival_drop(&lane->rival);
+    bench_competitor_drop(&lane->competitor);
     ewa_renderer_destroy(&lane->renderer);
     ewa_surfels_destroy(&lane->surfels);
     ewa_context_destroy(&lane->context);
@@ -102,11 +102,12 @@ static bool draw_frame(cli_session *session, bench_lane *lane, const ewa_camera 
         session_failed(session, status);
         return false;
     }
-    double rival_s = 0;
-    if (lane->rival.program && !bench_rival_draw(session, &lane->rival, &rival_s)) return false;
+    double competitor_s = 0;
+    if (lane->competitor.program && !bench_competitor_draw(session, &lane->competitor, &competitor_s))
+        return false;
     if (frame < 0) return true;
     lane->total_s[frame] = took_s;
-    lane->rival_s[frame] = rival_s;
+    lane->competitor_s[frame] = competitor_s;
     const double stages[BENCH_FRAME_STAGES] = {last->bin_s,        last->setup_s, last->visibility_s,
                                                last->accumulate_s, last->edge_s,  last->resolve_s};
     for (int k = 0; k < BENCH_FRAME_STAGES; k++) lane->stage_s[k][frame] = stages[k];
@@ -133,9 +134,9 @@ static void report(const bench_plan *plan, const bench_scene *scene, uint32_t pa
             row->stage_s[k] = bench_summarise(lane->stage_s[k], plan->frame_count).median;
         ewa_surfels_describe(lane->surfels, &row->info);
         ewa_renderer_describe(lane->renderer, &row->renderer);
-        if (lane->rival.program) {
-            row->rival = lane->rival.name;
-            row->rival_total = bench_summarise(lane->rival_s, plan->frame_count);
+        if (lane->competitor.program) {
+            row->competitor = lane->competitor.name;
+            row->competitor_total = bench_summarise(lane->competitor_s, plan->frame_count);
         }
     }
     for (size_t i = 0; i < lane_count; i++) {
@@ -170,7 +171,8 @@ bool bench_frames(cli_session *session, const bench_plan *plan, const bench_scen
             open_lane(session, &lanes[i], &plan->sets[count / plan->thread_counts],
                       plan->threads[count % plan->thread_counts], plan->backend, render->level, scene->cloud);
         if (done && plan->against && count < plan->thread_counts && i % way_count == 0)
-            done = bench_rival_start(session, plan->against, scene, plan->threads[count], &lanes[i].rival);
+            done = bench_competitor_start(session, plan->against, scene, plan->threads[count],
+                                          &lanes[i].competitor);
     }
     ewa_render_options options = *render;
     options.cull = scene->cull;
@@ -186,7 +188,7 @@ bool bench_frames(cli_session *session, const bench_plan *plan, const bench_scen
         for (size_t i = 0; done && i < lane_count; i++)
             done = draw_frame(session, &lanes[i], &scene->camera, &options, rgba8, frame);
     for (size_t i = 0; done && i < lane_count; i++)
-        if (lanes[i].rival.program) done = bench_rival_end(session, &lanes[i].rival);
+        if (lanes[i].competitor.program) done = bench_competitor_end(session, &lanes[i].competitor);
     if (done) report(plan, scene, render->passes, lanes, lane_count, sink);
     for (size_t i = 0; lanes && i < lane_count; i++) close_lane(&lanes[i]);
     free(lanes);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // How fast segments are clipped: random ones, most of which cross the view volume.
-#include "bench_clip.h"
+#include "bench/clip.h"
 
 #include <stdlib.h>
 

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // What the figures of ewa bench ought to be, and what others reach; docs/performance.md discusses both.
-#ifndef EWA_CLI_BENCH_GOALS_H
-#define EWA_CLI_BENCH_GOALS_H
+#ifndef EWA_BENCH_GOALS_H
+#define EWA_BENCH_GOALS_H
 
-#include "bench_report.h"
+#include "bench/report.h"
 
 /// A figure and its goals: at least the floor, if possible the target. Less is better where the target is
 /// less than the floor.

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // How long it takes what comes before and after a frame: files, normals and radii, surfels, PNG, clipping.
-#ifndef EWA_CLI_BENCH_STAGES_H
-#define EWA_CLI_BENCH_STAGES_H
+#ifndef EWA_BENCH_STAGES_H
+#define EWA_BENCH_STAGES_H
 
-#include "bench_frames.h"
+#include "bench/frames.h"
 
 /// Measures and reports the stages for the plan's numbers of threads, with a cloud of positions, normals and
 /// radii and a picture of the size of `camera`. Files go to a folder in TMPDIR that is removed afterwards.

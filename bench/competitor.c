@@ -3,7 +3,7 @@
 //
 // Another program that draws the bench's scenes, frame by frame in turns. The clock is this program's, so that
 // both are measured alike; the pipe between the two costs some ten microseconds.
-#include "bench_rival.h"
+#include "bench/competitor.h"
 
 #include <errno.h>
 #include <string.h>
@@ -12,13 +12,13 @@
 static const char SUBJECT[] = "--against";
 
 /// Reads one line, cut to `text_bytes`; false after reporting.
-static bool read_line(cli_session *session, bench_rival *rival, char *text, size_t text_bytes) {
+static bool read_line(cli_session *session, bench_competitor *other, char *text, size_t text_bytes) {
     size_t length = 0;
     for (;;) {
-        char part[BENCH_RIVAL_NAME_BYTES];
-        const ssize_t got = read(rival->child.output, part, sizeof part);
+        char part[BENCH_COMPETITOR_NAME_BYTES];
+        const ssize_t got = read(other->child.output, part, sizeof part);
         if (got < 0 && errno == EINTR && !session_interrupted()) continue;
-        if (got <= 0) return child_wait(session, &rival->child, SUBJECT, rival->program, true);
+        if (got <= 0) return child_wait(session, &other->child, SUBJECT, other->program, true);
         const char *end = memchr(part, '\n', (size_t)got);
         const size_t wanted = end ? (size_t)(end - part) : (size_t)got, room = text_bytes - 1 - length;
         memcpy(text + length, part, wanted < room ? wanted : room);
@@ -26,15 +26,15 @@ static bool read_line(cli_session *session, bench_rival *rival, char *text, size
         if (!end) continue;
         text[length] = 0;
         if (end + 1 == part + got) return true;
-        session_fail(session, "%s: %s says more than one line at a time", SUBJECT, rival->program);
+        session_fail(session, "%s: %s says more than one line at a time", SUBJECT, other->program);
         return false;
     }
 }
 
-bool bench_rival_start(cli_session *session, const char *program, const bench_scene *scene, uint32_t threads,
-                       bench_rival *rival) {
+bool bench_competitor_start(cli_session *session, const char *program, const bench_scene *scene,
+                            uint32_t threads, bench_competitor *other) {
     char folder[SESSION_FOLDER_BYTES], cloud[sizeof folder + 32], camera[sizeof folder + 32], count[16];
-    *rival = (bench_rival){.program = program};
+    *other = (bench_competitor){.program = program};
     if (!session_make_folder(session, folder)) return false;
     snprintf(cloud, sizeof cloud, "%s/cloud.ply", folder);
     snprintf(camera, sizeof camera, "%s/camera.json", folder);
@@ -45,31 +45,31 @@ bool bench_rival_start(cli_session *session, const char *program, const bench_sc
     if (!done) session_failed(session, status);
     if (done) {
         const char *const words[] = {program, cloud, camera, count, NULL};
-        const int error = child_start(program, words, true, &rival->child);
+        const int error = child_start(program, words, true, &other->child);
         done = error == 0;
         if (!done) session_fail(session, "%s: %s cannot be started: %s", SUBJECT, program, strerror(error));
     }
-    done = done && read_line(session, rival, rival->name, sizeof rival->name);
+    done = done && read_line(session, other, other->name, sizeof other->name);
     remove(cloud);
     remove(camera);
     rmdir(folder);
     return done;
 }
 
-bool bench_rival_draw(cli_session *session, bench_rival *rival, double *took_s) {
+bool bench_competitor_draw(cli_session *session, bench_competitor *other, double *took_s) {
     char answer[2];
     const double started_s = clock_now_s();
     ssize_t written;
-    do written = write(rival->child.input, "\n", 1);
+    do written = write(other->child.input, "\n", 1);
     while (written < 0 && errno == EINTR && !session_interrupted());
-    if (written != 1) return child_wait(session, &rival->child, SUBJECT, rival->program, true);
-    const bool done = read_line(session, rival, answer, sizeof answer);
+    if (written != 1) return child_wait(session, &other->child, SUBJECT, other->program, true);
+    const bool done = read_line(session, other, answer, sizeof answer);
     *took_s = clock_now_s() - started_s;
     return done;
 }
 
-bool bench_rival_end(cli_session *session, bench_rival *rival) {
-    return child_wait(session, &rival->child, SUBJECT, rival->program, false);
+bool bench_competitor_end(cli_session *session, bench_competitor *other) {
+    return child_wait(session, &other->child, SUBJECT, other->program, false);
 }
 
-void bench_rival_drop(bench_rival *rival) { child_drop(&rival->child); }
+void bench_competitor_drop(bench_competitor *other) { child_drop(&other->child); }
